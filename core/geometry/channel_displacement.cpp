@@ -1,0 +1,187 @@
+#include "core/geometry/channel_displacement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/tracking/outlier_rejection.h"
+
+namespace core {
+
+namespace {
+
+Vector2 axis_of(const Region& region) noexcept {
+  const double angle = region.axis_deg * std::numbers::pi / 180.0;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+std::vector<ScaleFactor::Point> scale_points(const std::vector<Region>& regions, const CameraModel& camera, const TrackFrame& keyframe) {
+  std::vector<ScaleFactor::Point> points;
+  for (const TrackPoint& p : keyframe.points) {
+    const Region& region = regions[p.region];
+    const Vector2 axis = axis_of(region);
+    points.push_back({camera.undistort({p.u_px, p.v_px}), p.region, axis.u, axis.v, region.both_axes});
+  }
+  return points;
+}
+
+}  // namespace
+
+ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const TrackFrame& keyframe)
+    : config_(std::move(config)), scale_(scale_points(config_.regions, config_.camera, keyframe)) {
+  if (!config_.camera.calibrated()) {  // the centre is all that is needed of it then
+    config_.camera.cx = 0.5 * (config_.readout.width_px - 1);
+    config_.camera.cy = 0.5 * (config_.readout.height_px - 1);
+  }
+  const std::size_t n = keyframe.points.size();
+  ranges_.resize(config_.regions.size());
+  for (std::size_t i = 0; i < n; ++i) {
+    RegionRange& range = ranges_[keyframe.points[i].region];
+    if (range.end == range.begin) range.begin = i;
+    range.end = i + 1;
+    keyframe_.push_back(config_.camera.undistort({keyframe.points[i].u_px, keyframe.points[i].v_px}));
+  }
+  position_ = motion_ = keyframe_;
+  seen_.assign(n, 0);
+  inlier_.assign(n, 0);
+  last_region_motion_.resize(config_.regions.size());
+  has_last_.assign(config_.regions.size(), 0);
+  make_channels();
+}
+
+void ChannelDisplacement::make_channels() {
+  for (std::size_t r = 0; r < config_.regions.size(); ++r) {
+    const Region& region = config_.regions[r];
+    if (region.role == RegionRole::kBackground) continue;
+    double delay_s = 0.0;
+    for (std::size_t i = ranges_[r].begin; i < ranges_[r].end; ++i) {
+      delay_s += config_.readout.delay_s(keyframe_[i].u, keyframe_[i].v) / static_cast<double>(ranges_[r].end - ranges_[r].begin);
+    }
+    ChannelInfo info{static_cast<std::uint16_t>(r), region.name, 1.0, 0.0, config_.paper_method ? 0.0 : delay_s,
+                     region.role == RegionRole::kBase};
+    if (!region.both_axes) {
+      const Vector2 axis = axis_of(region);
+      info.direction_u = axis.u;
+      info.direction_v = axis.v;
+      channels_.push_back(info);
+      continue;
+    }
+    info.name = region.name + ".u";
+    channels_.push_back(info);
+    info.name = region.name + ".v";
+    info.direction_u = 0.0;
+    info.direction_v = 1.0;
+    channels_.push_back(info);
+  }
+}
+
+DisplacementSample ChannelDisplacement::sample_prototype() const {
+  DisplacementSample sample;
+  sample.value_mm.assign(channels_.size(), 0.0);
+  sample.sigma_mm.assign(channels_.size(), 0.0);
+  sample.seen.assign(channels_.size(), 0);
+  sample.n_points.assign(channels_.size(), 0);
+  return sample;
+}
+
+void ChannelDisplacement::place_points(const TrackFrame& tracks) noexcept {
+  for (std::size_t i = 0; i < keyframe_.size(); ++i) {
+    const bool present = i < tracks.points.size() && tracks.points[i].seen && std::isfinite(tracks.points[i].u_px) &&
+                         std::isfinite(tracks.points[i].v_px);
+    seen_[i] = present ? 1 : 0;
+    if (present) position_[i] = config_.camera.undistort({tracks.points[i].u_px, tracks.points[i].v_px});
+  }
+}
+
+// Scale-corrected step since the keyframe in keyframe pixels: (p - c) / b - (p0 - c).
+Vector2 ChannelDisplacement::scaled_motion(std::size_t i, double magnification) const noexcept {
+  const double cx = config_.camera.cx;
+  const double cy = config_.camera.cy;
+  return {(position_[i].u - cx) / magnification - (keyframe_[i].u - cx),
+          (position_[i].v - cy) / magnification - (keyframe_[i].v - cy)};
+}
+
+void ChannelDisplacement::reject_outliers(double magnification) noexcept {
+  MlesacConfig mlesac;
+  mlesac.sigma_px = config_.inlier_sigma_px;
+  for (std::size_t i = 0; i < keyframe_.size(); ++i) motion_[i] = scaled_motion(i, magnification);
+  for (const RegionRange& range : ranges_) {
+    const std::size_t n = range.end - range.begin;
+    (void)mlesac_translation({motion_.data() + range.begin, n}, {seen_.data() + range.begin, n}, mlesac,
+                             {inlier_.data() + range.begin, n});
+  }
+}
+
+double ChannelDisplacement::estimate_scale() noexcept {
+  const double start = config_.adaptive_scale ? scale_.median_of_pairs(position_, seen_) : 1.0;
+  reject_outliers(start);
+  if (!config_.adaptive_scale) return 1.0;
+  const double b = config_.paper_method ? scale_.two_point(position_, inlier_) : scale_.least_squares(position_, inlier_);
+  reject_outliers(b);
+  return b;
+}
+
+// Paper Eqs. 7-8: line i is read t_r (i - 1) after the first, t_r = 1 / (f_s h); the shift it suffers is that times the
+// relative velocity, taken from successive frames. rho = 1: the readout is assumed to fill the whole frame time.
+void ChannelDisplacement::compensate_rolling_shutter() noexcept {
+  for (std::size_t r = 0; r < ranges_.size(); ++r) {
+    Vector2 mean;
+    double count = 0.0;
+    for (std::size_t i = ranges_[r].begin; i < ranges_[r].end; ++i) {
+      if (inlier_[i] == 0) continue;
+      mean.u += motion_[i].u;
+      mean.v += motion_[i].v;
+      count += 1.0;
+    }
+    if (count == 0.0) {
+      has_last_[r] = 0;
+      continue;
+    }
+    mean = {mean.u / count, mean.v / count};
+    if (has_last_[r] != 0) {
+      const Vector2 per_frame{mean.u - last_region_motion_[r].u, mean.v - last_region_motion_[r].v};
+      for (std::size_t i = ranges_[r].begin; i < ranges_[r].end; ++i) {
+        const double share = config_.readout.fraction(keyframe_[i].u, keyframe_[i].v);
+        motion_[i].u -= share * per_frame.u;
+        motion_[i].v -= share * per_frame.v;
+      }
+    }
+    last_region_motion_[r] = mean;
+    has_last_[r] = 1;
+  }
+}
+
+void ChannelDisplacement::average_channel(std::size_t channel, double magnification, const TrackFrame& tracks,
+                                          DisplacementSample& out) const noexcept {
+  const ChannelInfo& info = channels_[channel];
+  const RegionRange& range = ranges_[info.region];
+  double sum = 0.0;
+  double variance = 0.0;
+  std::uint16_t count = 0;
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    if (inlier_[i] == 0) continue;
+    sum += motion_[i].u * info.direction_u + motion_[i].v * info.direction_v;
+    variance += tracks.points[i].sigma_px * tracks.points[i].sigma_px;
+    ++count;
+  }
+  const bool enough = count >= config_.min_points;
+  const double s0 = config_.scale_mm_per_px;
+  out.seen[channel] = enough ? 1 : 0;
+  out.n_points[channel] = count;
+  out.value_mm[channel] = enough ? s0 * sum / count : 0.0;
+  out.sigma_mm[channel] = enough ? s0 / magnification * std::sqrt(variance) / count : 0.0;
+}
+
+void ChannelDisplacement::update(TrackFrame& tracks, DisplacementSample& out) noexcept {
+  out.sequence = tracks.sequence;
+  out.t_start_ns = tracks.t_start_ns;
+  out.gap_before = tracks.gap_before;
+  place_points(tracks);
+  const double magnification = estimate_scale();
+  for (std::size_t i = 0; i < keyframe_.size() && i < tracks.points.size(); ++i) tracks.points[i].inlier = inlier_[i] != 0;
+  if (config_.paper_method) compensate_rolling_shutter();
+  out.scale_mm_per_px = config_.scale_mm_per_px / magnification;
+  for (std::size_t c = 0; c < channels_.size(); ++c) average_channel(c, magnification, tracks, out);
+}
+
+}  // namespace core

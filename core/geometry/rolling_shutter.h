@@ -1,0 +1,28 @@
+#pragma once
+
+#include "core/types/frame.h"
+
+namespace core {
+
+// When a pixel is seen, relative to the start of exposure of row 0 (METHOD section 1): T_r v / h for a sensor read
+// downwards. `readout_s` is signed; up and left turn the sign, left and right run along u.
+struct ReadoutModel {
+  double readout_s = 0.0;
+  ReadoutDirection direction = ReadoutDirection::kDown;
+  int width_px = 1;
+  int height_px = 1;
+
+  // Position along the readout, 0 at row (column) 0, 1 at the last; negative directions run to -1.
+  [[nodiscard]] double fraction(double u_px, double v_px) const noexcept {
+    switch (direction) {
+      case ReadoutDirection::kDown: return v_px / height_px;
+      case ReadoutDirection::kUp: return -v_px / height_px;
+      case ReadoutDirection::kRight: return u_px / width_px;
+      case ReadoutDirection::kLeft: return -u_px / width_px;
+    }
+    return 0.0;
+  }
+  [[nodiscard]] double delay_s(double u_px, double v_px) const noexcept { return readout_s * fraction(u_px, v_px); }
+};
+
+}  // namespace core

@@ -1,0 +1,118 @@
+#include "core/identification/correlation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "core/spectrum/real_fft.h"
+
+namespace core {
+
+namespace {
+
+// A lag seen fewer times than this share of lag 0 has no usable average.
+constexpr double kLeastMaskShare = 1e-3;
+
+class PairTransform {
+ public:
+  explicit PairTransform(const CpsdSums& sums) : sums_(sums), fft_(sums.n_fft), bins_(static_cast<std::size_t>(sums.n_bins())) {
+    spectrum_.resize(bins_);
+  }
+
+  // Inverse transform of one pair's sum; gain per bin may be empty. out: n_fft circular lags.
+  void inverse(const std::vector<std::complex<double>>& sum, int pair, const std::vector<double>& gain, std::vector<double>& out) {
+    const auto pairs = static_cast<std::size_t>(sums_.n_pairs());
+    for (std::size_t k = 0; k < bins_; ++k) {
+      spectrum_[k] = sum[k * pairs + static_cast<std::size_t>(pair)] * (gain.empty() ? 1.0 : gain[k]);
+    }
+    out.resize(static_cast<std::size_t>(sums_.n_fft));
+    fft_.inverse(spectrum_, out);
+  }
+
+ private:
+  const CpsdSums& sums_;
+  RealFft fft_;
+  std::size_t bins_;
+  std::vector<std::complex<double>> spectrum_;
+};
+
+std::vector<double> difference_gain(int n_fft, int n_differences) {
+  std::vector<double> gain(static_cast<std::size_t>(n_fft / 2 + 1));
+  for (std::size_t k = 0; k < gain.size(); ++k) {
+    const double s = 2.0 * std::sin(std::numbers::pi * static_cast<double>(k) / n_fft);
+    gain[k] = std::pow(s * s, n_differences);
+  }
+  return gain;
+}
+
+std::size_t circular(int lag, int n_fft) { return static_cast<std::size_t>(lag >= 0 ? lag : n_fft + lag); }
+
+}  // namespace
+
+Correlations::Correlations(int n_channels, int max_lag) : n_channels_(n_channels), max_lag_(max_lag) {
+  const auto pairs = static_cast<std::size_t>(n_channels) * static_cast<std::size_t>(n_channels + 1) / 2;
+  divided_.assign(pairs * static_cast<std::size_t>(2 * max_lag + 1), 0.0);
+  undivided_ = divided_;
+}
+
+std::size_t Correlations::index(int i, int j, int lag) const noexcept {
+  if (i > j) {  // R_ij(lag) = R_ji(-lag)
+    std::swap(i, j);
+    lag = -lag;
+  }
+  const auto pair = static_cast<std::size_t>(CpsdSums::pair_index(i, j, n_channels_));
+  return pair * static_cast<std::size_t>(2 * max_lag_ + 1) + static_cast<std::size_t>(lag + max_lag_);
+}
+
+void Correlations::set(int i, int j, int lag, double divided, double undivided) noexcept {
+  divided_[index(i, j, lag)] = divided;
+  undivided_[index(i, j, lag)] = undivided;
+}
+
+const char* to_string(CorrelationStatus status) noexcept {
+  switch (status) {
+    case CorrelationStatus::kOk: return "ok";
+    case CorrelationStatus::kNoSegment: return "not one full segment yet";
+    case CorrelationStatus::kNotFinite: return "the spectra are not finite";
+    case CorrelationStatus::kNoPower: return "a channel has no motion or no samples at all";
+    case CorrelationStatus::kTooFewSamples: return "too many samples are missing: some lags were never seen";
+  }
+  return "";
+}
+
+CorrelationStatus compute_correlations(const CpsdSums& sums, int max_lag, int n_differences, Correlations& out) {
+  if (sums.n_segments == 0) return CorrelationStatus::kNoSegment;
+  const int n = sums.n_channels;
+  max_lag = std::min(max_lag, sums.n_fft / 2 - 1);
+  out = Correlations(n, max_lag);
+  PairTransform transform(sums);
+  const std::vector<double> gain = difference_gain(sums.n_fft, n_differences);
+  std::vector<double> data;
+  std::vector<double> mask;
+  std::vector<double> mask_at_0(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) {
+    transform.inverse(sums.mask_sum, CpsdSums::pair_index(i, i, n), {}, mask);
+    mask_at_0[static_cast<std::size_t>(i)] = mask[0];
+    if (!(mask[0] > 0.0)) return CorrelationStatus::kNoPower;
+  }
+  for (int i = 0; i < n; ++i) {
+    for (int j = i; j < n; ++j) {
+      const int pair = CpsdSums::pair_index(i, j, n);
+      transform.inverse(sums.data_sum, pair, gain, data);
+      transform.inverse(sums.mask_sum, pair, {}, mask);
+      // One positive scale per channel keeps the undivided estimate positive semidefinite under unequal losses.
+      const double scale = std::sqrt(mask_at_0[static_cast<std::size_t>(i)] * mask_at_0[static_cast<std::size_t>(j)]);
+      for (int lag = -max_lag; lag <= max_lag; ++lag) {
+        const std::size_t at = circular(lag, sums.n_fft);
+        if (!std::isfinite(data[at])) return CorrelationStatus::kNotFinite;
+        if (mask[at] < kLeastMaskShare * scale) return CorrelationStatus::kTooFewSamples;
+        out.set(i, j, lag, data[at] / mask[at], data[at] / scale);
+      }
+    }
+    if (!(out.undivided(i, i, 0) > 0.0)) return CorrelationStatus::kNoPower;
+  }
+  return CorrelationStatus::kOk;
+}
+
+}  // namespace core

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <cstdint>
+#include <vector>
+
+#include "core/identification/correlation.h"
+
+namespace core {
+
+enum class EraStatus : std::uint8_t { kOk, kTooFewLags, kRankDeficient };
+
+struct EraConfig {
+  int block_rows = 30;             // block rows and columns
+  int first_lag = 1;               // lags before it carry the sensor noise: 1 + number of differences
+  int max_order = 60;
+  std::vector<int> references;     // channel indices
+  // Canonical-variate weighting of the Hankel matrix, G = Lf^-1 H Lp^-T with the Cholesky factors of future and past
+  // covariance: scatter near the bound, weak modes appear, and the singular values are canonical correlations (METHOD
+  // section 5). false: the plain ERA of Juang & Pappa 1985.
+  bool canonical_variates = true;
+};
+
+// One factorisation for all orders: the realisation of order n is the leading n x n part.
+struct Realisation {
+  Eigen::VectorXd singular_values;  // canonical correlations, 0..1, when weighted
+  Eigen::MatrixXd a;                // max_order x max_order, in balanced coordinates
+  Eigen::MatrixXd c;                // n_channels x max_order, channel units
+};
+
+// A pole of the discrete system and its shape in channel units.
+struct DiscretePole {
+  std::complex<double> lambda;
+  std::vector<std::complex<double>> shape;
+};
+
+[[nodiscard]] EraStatus realise(const Correlations& correlations, const EraConfig& config, Realisation& out);
+
+// Poles in the upper half plane of the realisation of this order.
+[[nodiscard]] std::vector<DiscretePole> poles_of_order(const Realisation& realisation, int order);
+
+// The order at which canonical correlations fall below one half, rounded up to even.
+[[nodiscard]] int canonical_order(const Realisation& realisation, double threshold = 0.5);
+
+}  // namespace core

@@ -1,0 +1,81 @@
+#include "core/identification/folding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/identification/mac.h"
+
+namespace core {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+// Delays spread over less than this share of a frame leave the hypotheses' phases within 18 degrees of each other.
+constexpr double kLeastDelaySpanFrames = 0.05;
+
+struct Hypothesis {
+  int n = 0;
+  Complex s;
+  std::vector<Complex> shape;
+  double mpc = 0.0;
+};
+
+Hypothesis evaluate(Complex s_apparent, int n, const std::vector<Complex>& shape, const FoldingConfig& config) {
+  Hypothesis h{n, s_apparent + Complex(0.0, 2.0 * std::numbers::pi * n * config.rate_hz), shape, 0.0};
+  for (std::size_t c = 0; c < h.shape.size() && c < config.delay_s.size(); ++c) {
+    h.shape[c] *= std::exp(-h.s * config.delay_s[c]);
+  }
+  if (h.s.imag() < 0.0) {  // the conjugate pair's other member: positive frequency, conjugate shape
+    h.s = std::conj(h.s);
+    for (Complex& z : h.shape) z = std::conj(z);
+  }
+  h.mpc = mpc(h.shape);
+  return h;
+}
+
+}  // namespace
+
+bool folding_observable(const FoldingConfig& config) noexcept {
+  if (config.delay_s.size() < 3) return false;
+  const auto [low, high] = std::minmax_element(config.delay_s.begin(), config.delay_s.end());
+  return (*high - *low) * config.rate_hz >= kLeastDelaySpanFrames;
+}
+
+void normalise_shape(std::vector<Complex>& shape) noexcept {
+  Complex largest = 0.0;
+  for (const Complex& z : shape) {
+    if (std::norm(z) > std::norm(largest)) largest = z;
+  }
+  if (std::norm(largest) == 0.0) return;
+  for (Complex& z : shape) z = z == largest ? Complex(1.0, 0.0) : z / largest;
+}
+
+UnfoldedPole unfold(Complex lambda, const std::vector<Complex>& shape, const FoldingConfig& config) {
+  const Complex s_apparent = std::log(lambda) * config.rate_hz;
+  UnfoldedPole out;
+  out.apparent_hz = s_apparent.imag() / (2.0 * std::numbers::pi);
+  Hypothesis best = evaluate(s_apparent, 0, shape, config);
+  if (folding_observable(config) && config.max_frequency_hz > config.rate_hz / 2.0) {
+    double second = -1.0;
+    const int reach = static_cast<int>(std::ceil(config.max_frequency_hz / config.rate_hz)) + 1;
+    for (int n = -reach; n <= reach; ++n) {
+      if (n == 0 || std::abs(out.apparent_hz + n * config.rate_hz) > config.max_frequency_hz) continue;
+      Hypothesis other = evaluate(s_apparent, n, shape, config);
+      if (other.mpc > best.mpc) std::swap(best, other);
+      second = std::max(second, other.mpc);
+    }
+    if (second >= 0.0) {
+      out.fold_n = best.n;
+      out.fold_margin = best.mpc - second;
+    }
+  }
+  out.s = best.s;
+  out.mpc = best.mpc;
+  out.shape = std::move(best.shape);
+  normalise_shape(out.shape);
+  return out;
+}
+
+}  // namespace core

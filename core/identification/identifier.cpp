@@ -1,0 +1,122 @@
+#include "core/identification/identifier.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/identification/correlation.h"
+#include "core/identification/era.h"
+#include "core/identification/verdict.h"
+
+namespace core {
+
+namespace {
+
+constexpr int kMaxReferences = 6;
+constexpr int kOrders = 15;          // of the stabilisation diagram, two apart
+constexpr int kLeastBlockRows = 6;
+constexpr int kMostBlockRows = 40;
+// The weights are covariance matrices of block_rows * channels: with fewer samples per row than this they fit the noise
+// and every singular value comes out near 1.
+constexpr double kSamplesPerRow = 8.0;
+
+void copy_stream_facts(const CpsdSums& sums, ModalEstimate& estimate) {
+  estimate.n_samples = sums.n_samples;
+  estimate.n_segments = sums.n_segments;
+  estimate.n_missing = sums.n_missing;
+  estimate.rate_hz = sums.rate_hz;
+  estimate.duration_s = static_cast<double>(sums.n_samples) / sums.rate_hz;
+}
+
+std::vector<OrderPole> poles_of_orders(const Realisation& realisation, const std::vector<int>& orders, const FoldingConfig& folding) {
+  std::vector<OrderPole> poles;
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    for (const DiscretePole& pole : poles_of_order(realisation, orders[i])) {
+      poles.push_back({static_cast<int>(i), unfold(pole.lambda, pole.shape, folding)});
+    }
+  }
+  return poles;
+}
+
+}  // namespace
+
+Identifier::Identifier(IdentifierConfig config, std::vector<ChannelInfo> channels)
+    : config_(std::move(config)), channels_(std::move(channels)) {
+  if (channels_.empty()) throw std::invalid_argument("Identifier: no channel");
+  for (const int reference : config_.references) {
+    if (reference < 0 || reference >= static_cast<int>(channels_.size())) {
+      throw std::invalid_argument("Identifier: reference " + std::to_string(reference) + " is no channel");
+    }
+  }
+}
+
+std::vector<int> Identifier::choose_references() const {
+  if (!config_.references.empty()) return config_.references;
+  std::vector<int> structure;
+  for (std::size_t c = 0; c < channels_.size(); ++c) {
+    if (!channels_[c].is_base) structure.push_back(static_cast<int>(c));
+  }
+  if (structure.empty()) structure.push_back(0);
+  const auto n = static_cast<int>(structure.size());
+  if (n <= kMaxReferences) return structure;
+  std::vector<int> spread;  // evenly over the channels, both ends included
+  for (int k = 0; k < kMaxReferences; ++k) {
+    spread.push_back(structure[static_cast<std::size_t>(k * (n - 1) / (kMaxReferences - 1))]);
+  }
+  return spread;
+}
+
+int Identifier::choose_block_rows(const CpsdSums& sums) const noexcept {
+  if (config_.block_rows > 0) return config_.block_rows;
+  const double rows = static_cast<double>(sums.n_samples) / (kSamplesPerRow * static_cast<double>(channels_.size()));
+  return std::clamp(static_cast<int>(rows), kLeastBlockRows, kMostBlockRows);
+}
+
+ModalEstimate Identifier::identify(const CpsdSums& sums) const {
+  ModalEstimate estimate;
+  copy_stream_facts(sums, estimate);
+  EraConfig era;
+  era.block_rows = choose_block_rows(sums);
+  era.first_lag = 1 + config_.n_differences;
+  era.references = choose_references();
+  const int room = std::min<int>(static_cast<int>(era.references.size()), static_cast<int>(channels_.size())) * era.block_rows;
+  era.max_order = config_.max_order > 0 ? std::min(config_.max_order, room) : room;
+
+  Correlations correlations;
+  const CorrelationStatus status =
+      compute_correlations(sums, 2 * era.block_rows + era.first_lag, config_.n_differences, correlations);
+  if (status != CorrelationStatus::kOk) {
+    estimate.status = to_string(status);
+    return estimate;
+  }
+  Realisation realisation;
+  if (realise(correlations, era, realisation) != EraStatus::kOk) {
+    estimate.status = "the correlations carry no system: nothing moves, or the segment is too short";
+    return estimate;
+  }
+
+  const int n0 = std::max(2, canonical_order(realisation));
+  std::vector<int> orders;
+  for (int k = 0; k < kOrders && n0 + 2 * k <= realisation.a.rows(); ++k) orders.push_back(n0 + 2 * k);
+  estimate.model_order = n0;
+  FoldingConfig folding{sums.rate_hz, config_.max_frequency_hz, {}};
+  for (const ChannelInfo& channel : channels_) folding.delay_s.push_back(config_.undo_row_delays ? channel.row_delay_s : 0.0);
+
+  VerdictRules rules;
+  rules.min_mpc = config_.min_mpc;
+  rules.max_damping = config_.max_damping;
+  std::vector<Mode> modes;
+  const std::vector<OrderPole> poles = poles_of_orders(realisation, orders, folding);
+  for (const PoleCluster& cluster : cluster_poles(poles, static_cast<int>(orders.size()))) {
+    modes.push_back(judge(cluster, channels_, orders, rules));
+  }
+  reject_twins(modes);
+  std::sort(modes.begin(), modes.end(), [](const Mode& a, const Mode& b) { return a.frequency_hz < b.frequency_hz; });
+  for (Mode& mode : modes) {
+    (mode.verdict == Verdict::kStructural ? estimate.modes : estimate.rejected).push_back(std::move(mode));
+  }
+  estimate.status = "ok";
+  return estimate;
+}
+
+}  // namespace core

@@ -1,0 +1,124 @@
+#include "core/identification/stabilisation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include "core/identification/mac.h"
+
+namespace core {
+
+namespace {
+
+constexpr double kFrequencyTolerance = 0.015;  // relative
+constexpr double kMacTolerance = 0.3;
+
+double distance(const UnfoldedPole& a, const UnfoldedPole& b) noexcept {
+  const double mean_hz = 0.5 * (a.apparent_hz + b.apparent_hz);
+  const double df = std::abs(a.apparent_hz - b.apparent_hz) / (kFrequencyTolerance * mean_hz);
+  return df >= 1.0 ? 2.0 : df + (1.0 - mac(a.shape, b.shape)) / kMacTolerance;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Lance-Williams average linkage on a dense distance matrix; n is a few hundred.
+class AverageLinkage {
+ public:
+  explicit AverageLinkage(const std::vector<OrderPole>& poles) : n_(poles.size()), distance_(n_ * n_), members_(n_) {
+    for (std::size_t i = 0; i < n_; ++i) {
+      members_[i] = {i};
+      for (std::size_t j = 0; j < n_; ++j) distance_[i * n_ + j] = distance(poles[i].pole, poles[j].pole);
+    }
+  }
+
+  [[nodiscard]] std::vector<std::vector<std::size_t>> cut(double limit) {
+    for (;;) {
+      const auto [i, j, nearest] = nearest_pair();
+      if (!(nearest < limit)) break;
+      merge(i, j);
+    }
+    std::vector<std::vector<std::size_t>> clusters;
+    for (auto& members : members_) {
+      if (!members.empty()) clusters.push_back(members);
+    }
+    return clusters;
+  }
+
+ private:
+  struct Pair {
+    std::size_t i, j;
+    double distance;
+  };
+
+  [[nodiscard]] Pair nearest_pair() const {
+    Pair best{0, 0, std::numeric_limits<double>::infinity()};
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (members_[i].empty()) continue;
+      for (std::size_t j = i + 1; j < n_; ++j) {
+        if (!members_[j].empty() && distance_[i * n_ + j] < best.distance) best = {i, j, distance_[i * n_ + j]};
+      }
+    }
+    return best;
+  }
+
+  void merge(std::size_t i, std::size_t j) {
+    const auto ni = static_cast<double>(members_[i].size());
+    const auto nj = static_cast<double>(members_[j].size());
+    for (std::size_t k = 0; k < n_; ++k) {
+      const double joined = (ni * distance_[i * n_ + k] + nj * distance_[j * n_ + k]) / (ni + nj);
+      distance_[i * n_ + k] = joined;
+      distance_[k * n_ + i] = joined;
+    }
+    members_[i].insert(members_[i].end(), members_[j].begin(), members_[j].end());
+    members_[j].clear();
+  }
+
+  std::size_t n_;
+  std::vector<double> distance_;
+  std::vector<std::vector<std::size_t>> members_;
+};
+
+PoleCluster summarise(const std::vector<OrderPole>& poles, const std::vector<std::size_t>& members, int n_orders) {
+  std::vector<double> frequencies, apparents, dampings;
+  std::set<int> orders;
+  for (const std::size_t m : members) {
+    frequencies.push_back(frequency_hz(poles[m].pole.s));
+    apparents.push_back(poles[m].pole.apparent_hz);
+    dampings.push_back(damping_ratio(poles[m].pole.s));
+    orders.insert(poles[m].i_order);
+  }
+  PoleCluster cluster;
+  cluster.frequency_hz = median(frequencies);
+  cluster.apparent_hz = median(apparents);
+  cluster.damping_ratio = median(dampings);
+  cluster.first_i_order = *orders.begin();
+  cluster.presence = static_cast<double>(orders.size()) / n_orders;
+  const auto off = [&](std::size_t m) {
+    const UnfoldedPole& pole = poles[m].pole;
+    return std::abs(pole.apparent_hz / cluster.apparent_hz - 1.0) + std::abs(damping_ratio(pole.s) - cluster.damping_ratio);
+  };
+  const auto nearest = std::min_element(members.begin(), members.end(), [&](auto a, auto b) { return off(a) < off(b); });
+  cluster.representative = poles[*nearest].pole;
+  return cluster;
+}
+
+}  // namespace
+
+double damping_ratio(std::complex<double> s) noexcept { return -s.real() / std::abs(s); }
+double frequency_hz(std::complex<double> s) noexcept { return std::abs(s) / (2.0 * std::numbers::pi); }
+
+std::vector<PoleCluster> cluster_poles(const std::vector<OrderPole>& poles, int n_orders) {
+  std::vector<PoleCluster> clusters;
+  for (const auto& members : AverageLinkage(poles).cut(1.0)) clusters.push_back(summarise(poles, members, n_orders));
+  std::sort(clusters.begin(), clusters.end(),
+            [](const PoleCluster& a, const PoleCluster& b) { return a.apparent_hz < b.apparent_hz; });
+  return clusters;
+}
+
+}  // namespace core

@@ -1,0 +1,100 @@
+#include "core/identification/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "core/identification/mac.h"
+
+namespace core {
+
+namespace {
+
+// Slightly negative damping is the scatter of a nearly undamped mode, not an unstable structure.
+constexpr double kLeastDamping = -0.002;
+constexpr double kTwinMac = 0.9;
+constexpr double kTwinFrequency = 0.06;  // relative
+
+template <class... Args>
+std::string text(const char* format, Args... args) {
+  char buffer[200];
+  std::snprintf(buffer, sizeof buffer, format, args...);
+  return buffer;
+}
+
+double base_share(const Mode& mode, const std::vector<ChannelInfo>& channels) {
+  double share = 0.0;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    if (channels[c].is_base) share = std::max(share, std::abs(mode.shape[c]));
+  }
+  return share;
+}
+
+// Camera translation moves all channels of one axis alike; a lone channel tells nothing.
+double uniform_mac(const Mode& mode, const std::vector<ChannelInfo>& channels) {
+  if (channels.size() < 2) return 0.0;
+  std::vector<std::complex<double>> uniform(channels.size());
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    uniform[c] = channels[c].direction_u * channels.front().direction_u + channels[c].direction_v * channels.front().direction_v;
+  }
+  return mac(uniform, mode.shape);
+}
+
+void set(Mode& mode, Verdict verdict, std::string reason) {
+  mode.verdict = verdict;
+  mode.reason = std::move(reason);
+}
+
+void decide(Mode& mode, const PoleCluster& cluster, const std::vector<ChannelInfo>& channels, const std::vector<int>& orders,
+            const VerdictRules& rules) {
+  const double uniform = uniform_mac(mode, channels);
+  const double base = base_share(mode, channels);
+  const int first_order = orders[static_cast<std::size_t>(cluster.first_i_order)];
+  if (mode.damping_ratio < kLeastDamping || mode.damping_ratio > rules.max_damping) {
+    set(mode, Verdict::kNumerical, text("damping %.2f %% outside 0 .. %.0f %%", 100.0 * mode.damping_ratio, 100.0 * rules.max_damping));
+  } else if (uniform > rules.max_uniform_mac) {
+    set(mode, Verdict::kCameraMotion, text("all channels move alike (MAC %.3f with a translation of the camera)", uniform));
+  } else if (base > rules.max_base_share) {
+    set(mode, Verdict::kInputPeak, text("the base moves %.2f of the largest channel: motion of the base or the camera", base));
+  } else if (cluster.presence < rules.min_presence || cluster.first_i_order > rules.last_first_i_order) {
+    set(mode, Verdict::kNumerical, text("found in %.0f %% of the orders, first at order %d", 100.0 * cluster.presence, first_order));
+  } else if (mode.mpc < rules.min_mpc) {
+    set(mode, Verdict::kNumerical, text("components not in phase: MPC %.2f < %.2f", mode.mpc, rules.min_mpc));
+  } else if (mode.fold_n && (*mode.fold_margin < rules.least_fold_margin || mode.mpc < rules.least_certain_mpc)) {
+    set(mode, Verdict::kAmbiguous, text("a mode, but its true frequency is open: fold margin %.2f, MPC %.2f", *mode.fold_margin, mode.mpc));
+  } else {
+    set(mode, Verdict::kStructural, text("found in %.0f %% of the orders from order %d on, MPC %.3f", 100.0 * cluster.presence, first_order, mode.mpc));
+  }
+}
+
+}  // namespace
+
+Mode judge(const PoleCluster& cluster, const std::vector<ChannelInfo>& channels, const std::vector<int>& orders,
+           const VerdictRules& rules) {
+  Mode mode;
+  mode.frequency_hz = cluster.frequency_hz;
+  mode.apparent_hz = cluster.apparent_hz;
+  mode.damping_ratio = cluster.damping_ratio;
+  mode.fold_n = cluster.representative.fold_n;
+  mode.fold_margin = cluster.representative.fold_margin;
+  mode.shape = cluster.representative.shape;
+  mode.mpc = cluster.representative.mpc;
+  mode.presence = cluster.presence;
+  decide(mode, cluster, channels, orders, rules);
+  return mode;
+}
+
+void reject_twins(std::vector<Mode>& modes) {
+  for (Mode& a : modes) {
+    for (Mode& b : modes) {
+      if (&a == &b || a.verdict != Verdict::kStructural || b.verdict != Verdict::kStructural) continue;
+      const bool near = std::abs(a.frequency_hz - b.frequency_hz) < kTwinFrequency * std::max(a.frequency_hz, b.frequency_hz);
+      if (!near || mac(a.shape, b.shape) <= kTwinMac) continue;
+      Mode& weaker = a.presence < b.presence || (a.presence == b.presence && a.mpc < b.mpc) ? a : b;
+      const Mode& stronger = &weaker == &a ? b : a;
+      set(weaker, Verdict::kNumerical, text("twin of %.4f Hz with the same shape (amplitude dependent?)", stronger.frequency_hz));
+    }
+  }
+}
+
+}  // namespace core

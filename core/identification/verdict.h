@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "core/identification/stabilisation.h"
+#include "core/types/displacement.h"
+#include "core/types/modal_estimate.h"
+
+namespace core {
+
+// What a cluster is measured against before it may be called a mode of the structure.
+struct VerdictRules {
+  double min_mpc = 0.8;
+  double max_damping = 0.15;
+  double min_presence = 0.85;        // of the orders
+  int last_first_i_order = 1;        // present from the canonical order or the next one on
+  double max_base_share = 0.1;       // |shape at the base| / largest
+  double max_uniform_mac = 0.98;     // MAC with all channels moving alike: the camera's own translation
+  double least_certain_mpc = 0.85;   // a folded frequency is certain from here on ...
+  double least_fold_margin = 0.3;    // ... and with this lead over the next hypothesis
+};
+
+// A cluster as a mode with its verdict and the reason in words.
+[[nodiscard]] Mode judge(const PoleCluster& cluster, const std::vector<ChannelInfo>& channels, const std::vector<int>& orders,
+                         const VerdictRules& rules);
+
+// Of two structural modes with MAC > 0.9 within 6 % the one found in fewer orders is a twin (often an amplitude
+// dependence of the same mode): it becomes numerical, and its reason says so.
+void reject_twins(std::vector<Mode>& modes);
+
+}  // namespace core

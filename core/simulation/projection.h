@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/simulation/scene.h"
+
+namespace core::simulation {
+
+// Where the camera is and how it is turned. `attitude` takes camera axes to world axes; identity looks along +Z.
+struct CameraPose {
+  double x_mm = 0.0, y_mm = 0.0, z_mm = 0.0;
+  Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();
+};
+
+struct ImagePoint {
+  double u_px = 0.0, v_px = 0.0;
+};
+
+struct PlanePoint {
+  double x_mm = 0.0, y_mm = 0.0;
+};
+
+// Turned first about X (pitch), then Y (yaw), then Z (roll).
+[[nodiscard]] Eigen::Matrix3d attitude(double pitch_rad, double yaw_rad, double roll_rad);
+
+// Full perspective projection of a world point, and its inverse on the plane Z = depth_mm.
+[[nodiscard]] ImagePoint project(const CameraParameters& camera, const CameraPose& pose, double x_mm, double y_mm,
+                                 double z_mm) noexcept;
+[[nodiscard]] PlanePoint back_project(const CameraParameters& camera, const CameraPose& pose, ImagePoint image,
+                                      double depth_mm) noexcept;
+
+}  // namespace core::simulation

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "core/simulation/scene.h"
+
+namespace core::simulation {
+
+// A grey-level function of the plane, defined everywhere and evaluated exactly: a cubic B-spline with independent
+// Gaussian coefficients, periodic over n x n cells. Nothing is resampled, so shifts carry no error of ours.
+class Texture {
+ public:
+  // One cell of a row y = const, value = p[0] + s (p[1] + s (p[2] + s p[3])), 0 <= s < 1 across the cell.
+  struct Cell {
+    float p[4];
+  };
+
+  // cells: power of two. Coefficients come from the stream (seed, name, index).
+  Texture(const TextureParameters& texture, int cells, std::uint64_t seed, std::string_view name,
+          std::uint64_t index = 0);
+
+  [[nodiscard]] double pitch_mm() const noexcept { return pitch_mm_; }
+  [[nodiscard]] double value(double x_mm, double y_mm) const noexcept;
+  // Cells first .. first + count - 1 of the row at y; cell c spans x = c pitch .. (c + 1) pitch.
+  void row(double y_mm, std::int64_t first, std::int64_t count, Cell* cells) const noexcept;
+
+ private:
+  [[nodiscard]] const float* coefficients(std::int64_t row) const noexcept;
+
+  double pitch_mm_;
+  std::int64_t n_;
+  std::vector<float> coefficient_;  // n x n, grey levels around the mean, which is added on evaluation
+  double mean_;
+};
+
+}  // namespace core::simulation

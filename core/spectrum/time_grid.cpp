@@ -1,0 +1,27 @@
+#include "core/spectrum/time_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace core {
+
+TimeGrid::Placement TimeGrid::place(std::int64_t t_ns) noexcept {
+  if (!started_) {
+    started_ = true;
+    t0_ns_ = t_ns;
+    return {true, 0, 0};
+  }
+  const double position = static_cast<double>(t_ns - t0_ns_) * 1e-9 * rate_hz_;
+  const double nearest = std::nearbyint(position);
+  const auto cell = static_cast<std::int64_t>(nearest);
+  if (cell <= last_cell_) {
+    ++n_refused_;
+    return {};
+  }
+  worst_jitter_cells_ = std::max(worst_jitter_cells_, std::abs(position - nearest));
+  const auto n_missing = static_cast<std::uint64_t>(cell - last_cell_ - 1);
+  last_cell_ = cell;
+  return {true, static_cast<std::uint64_t>(cell), n_missing};
+}
+
+}  // namespace core

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+namespace core {
+
+// Puts time-stamped samples onto the uniform grid that spectra need: cell = round((t - t0) * rate). A sample that does
+// not fall one cell after its predecessor tells of lost samples (cells to be masked) or of a surplus one. Stamps that
+// jitter by less than half a cell keep their order; how much they jitter is measured and stated, not repaired.
+class TimeGrid {
+ public:
+  struct Placement {
+    bool accepted = false;             // false: the cell is already taken (repeated or backward stamp)
+    std::uint64_t cell = 0;            // counted from the first sample
+    std::uint64_t n_missing_before = 0;  // cells skipped between the previous sample and this one
+  };
+
+  explicit TimeGrid(double rate_hz) noexcept : rate_hz_(rate_hz) {}
+
+  [[nodiscard]] Placement place(std::int64_t t_ns) noexcept;
+  [[nodiscard]] std::uint64_t n_refused() const noexcept { return n_refused_; }
+  [[nodiscard]] double worst_jitter_cells() const noexcept { return worst_jitter_cells_; }
+
+ private:
+  double rate_hz_;
+  bool started_ = false;
+  std::int64_t t0_ns_ = 0;
+  std::int64_t last_cell_ = 0;
+  std::uint64_t n_refused_ = 0;
+  double worst_jitter_cells_ = 0.0;
+};
+
+}  // namespace core

@@ -1,0 +1,151 @@
+#include "core/spectrum/welch_cpsd.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace core {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+void check(const WelchConfig& config) {
+  if (config.n_channels < 1) throw std::invalid_argument("WelchCpsd: no channel");
+  if (config.segment < 4) throw std::invalid_argument("WelchCpsd: segment of " + std::to_string(config.segment) + " samples; at least 4");
+  if (!(config.overlap >= 0.0 && config.overlap < 1.0)) throw std::invalid_argument("WelchCpsd: overlap must lie in 0 .. 1");
+  if (!(config.rate_hz > 0.0)) throw std::invalid_argument("WelchCpsd: rate must be positive");
+}
+
+int padded_length(int segment) { return next_power_of_two(2 * segment); }
+
+}  // namespace
+
+CpsdSums WelchCpsd::empty_sums(const WelchConfig& config) {
+  check(config);
+  CpsdSums sums;
+  sums.n_channels = config.n_channels;
+  sums.n_fft = padded_length(config.segment);
+  sums.rate_hz = config.rate_hz;
+  for (const double w : make_window(config.window, config.segment)) sums.window_power += w * w;
+  const auto size = static_cast<std::size_t>(sums.n_bins()) * static_cast<std::size_t>(sums.n_pairs());
+  sums.data_sum.assign(size, 0.0);
+  sums.mask_sum.assign(size, 0.0);
+  return sums;
+}
+
+WelchCpsd::WelchCpsd(const WelchConfig& config)
+    : config_(config), fft_(padded_length(config.segment)), sums_(empty_sums(config)) {
+  hop_ = std::max(1, config.segment - static_cast<int>(std::floor(config.segment * config.overlap)));
+  window_ = make_window(config.window, config.segment);
+  const auto samples = static_cast<std::size_t>(config.n_channels) * static_cast<std::size_t>(config.segment);
+  value_.assign(samples, 0.0);
+  seen_.assign(samples, 0);
+  padded_.assign(static_cast<std::size_t>(fft_.size()), 0.0);
+  const auto bins = static_cast<std::size_t>(config.n_channels) * static_cast<std::size_t>(fft_.n_bins());
+  data_.assign(bins, 0.0);
+  mask_.assign(bins, 0.0);
+}
+
+bool WelchCpsd::push(std::span<const double> value, std::span<const std::uint8_t> seen) noexcept {
+  const auto n_channels = static_cast<std::size_t>(config_.n_channels);
+  const auto segment = static_cast<std::size_t>(config_.segment);
+  assert(value.size() == n_channels && seen.size() == n_channels);
+  for (std::size_t c = 0; c < n_channels; ++c) {
+    const bool valid = seen[c] != 0 && std::isfinite(value[c]);
+    const std::size_t at = c * segment + static_cast<std::size_t>(n_filled_);
+    value_[at] = valid ? value[c] : 0.0;
+    seen_[at] = valid ? 1 : 0;
+    if (!valid) ++sums_.n_missing;
+  }
+  return advance();
+}
+
+bool WelchCpsd::push_missing() noexcept {
+  const auto segment = static_cast<std::size_t>(config_.segment);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(config_.n_channels); ++c) {
+    const std::size_t at = c * segment + static_cast<std::size_t>(n_filled_);
+    value_[at] = 0.0;
+    seen_[at] = 0;
+    ++sums_.n_missing;
+  }
+  return advance();
+}
+
+bool WelchCpsd::advance() noexcept {
+  ++sums_.n_samples;
+  ++n_filled_;
+  ++n_new_;
+  if (n_filled_ < config_.segment) return false;
+  accumulate_segment();
+  const auto segment = static_cast<std::ptrdiff_t>(config_.segment);
+  for (std::ptrdiff_t c = 0; c < config_.n_channels; ++c) {
+    std::copy(value_.begin() + c * segment + hop_, value_.begin() + (c + 1) * segment, value_.begin() + c * segment);
+    std::copy(seen_.begin() + c * segment + hop_, seen_.begin() + (c + 1) * segment, seen_.begin() + c * segment);
+  }
+  n_filled_ -= hop_;
+  return true;
+}
+
+void WelchCpsd::flush() noexcept {
+  if (n_new_ == 0) return;
+  const auto segment = static_cast<std::ptrdiff_t>(config_.segment);
+  for (std::ptrdiff_t c = 0; c < config_.n_channels; ++c) {
+    std::fill(value_.begin() + c * segment + n_filled_, value_.begin() + (c + 1) * segment, 0.0);
+    std::fill(seen_.begin() + c * segment + n_filled_, seen_.begin() + (c + 1) * segment, std::uint8_t{0});
+  }
+  accumulate_segment();
+}
+
+void WelchCpsd::accumulate_segment() noexcept {
+  for (int c = 0; c < config_.n_channels; ++c) transform_channel(c);
+  add_products();
+  ++sums_.n_segments;
+  n_new_ = 0;
+}
+
+void WelchCpsd::transform_channel(int channel) noexcept {
+  const auto segment = static_cast<std::size_t>(config_.segment);
+  const auto bins = static_cast<std::size_t>(fft_.n_bins());
+  const auto c = static_cast<std::size_t>(channel);
+  const std::span<const double> value(value_.data() + c * segment, segment);
+  const std::span<const std::uint8_t> seen(seen_.data() + c * segment, segment);
+
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::size_t t = 0; t < segment; ++t) {
+    sum += value[t];  // 0 where missing
+    count += seen[t];
+  }
+  const double mean = count > 0.0 ? sum / count : 0.0;
+  std::fill(padded_.begin(), padded_.end(), 0.0);
+  for (std::size_t t = 0; t < segment; ++t) padded_[t] = seen[t] != 0 ? (value[t] - mean) * window_[t] : 0.0;
+  fft_.forward(padded_, {data_.data() + c * bins, bins});
+  for (std::size_t t = 0; t < segment; ++t) padded_[t] = seen[t] != 0 ? window_[t] : 0.0;
+  fft_.forward(padded_, {mask_.data() + c * bins, bins});
+}
+
+void WelchCpsd::add_products() noexcept {
+  const int n = config_.n_channels;
+  const auto bins = static_cast<std::size_t>(fft_.n_bins());
+  const auto pairs = static_cast<std::size_t>(sums_.n_pairs());
+  const auto add = [&](const std::vector<Complex>& spectra, std::vector<Complex>& sum) noexcept {
+    std::size_t pair = 0;
+    for (int i = 0; i < n; ++i) {
+      const Complex* a = spectra.data() + static_cast<std::size_t>(i) * bins;
+      for (int j = i; j < n; ++j, ++pair) {
+        const Complex* b = spectra.data() + static_cast<std::size_t>(j) * bins;
+        for (std::size_t k = 0; k < bins; ++k) {
+          sum[k * pairs + pair] += Complex(a[k].real() * b[k].real() + a[k].imag() * b[k].imag(),
+                                           a[k].imag() * b[k].real() - a[k].real() * b[k].imag());
+        }
+      }
+    }
+  };
+  add(data_, sums_.data_sum);
+  add(mask_, sums_.mask_sum);
+}
+
+}  // namespace core

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <complex>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/spectrum/real_fft.h"
+#include "core/spectrum/window.h"
+#include "core/types/cpsd.h"
+
+namespace core {
+
+struct WelchConfig {
+  int n_channels = 1;
+  int segment = 512;       // samples
+  double overlap = 0.5;    // 0 <= overlap < 1
+  WindowKind window = WindowKind::kHann;
+  double rate_hz = 1.0;
+};
+
+// Streaming Welch estimate of the cross-power spectra of all channels (Welch 1967), fixed memory.
+// Segments are detrended by their mean, windowed, zero-padded to a power of two >= 2 * segment so that correlations up
+// to one segment do not wrap around. A mask (1 seen, 0 missing) is windowed and transformed beside the data:
+//   R_ij(lag) = IFFT(sum X_i conj(X_j)) / IFFT(sum M_i conj(M_j))
+// is then unbiased, window and random losses alike (METHOD section 4). One thread; nothing allocates after construction.
+class WelchCpsd {
+ public:
+  explicit WelchCpsd(const WelchConfig& config);  // throws std::invalid_argument
+
+  // One grid cell of all channels. Returns true when this sample completed a segment (a "hop").
+  bool push(std::span<const double> value, std::span<const std::uint8_t> seen) noexcept;
+  bool push_missing() noexcept;
+  // The end of the record: what lies beyond the last full segment enters as a segment whose rest is masked.
+  void flush() noexcept;
+
+  [[nodiscard]] const CpsdSums& sums() const noexcept { return sums_; }
+  [[nodiscard]] std::uint64_t n_hops() const noexcept { return sums_.n_segments; }
+  [[nodiscard]] int hop() const noexcept { return hop_; }
+  [[nodiscard]] static CpsdSums empty_sums(const WelchConfig& config);  // sized as sums() will be
+
+ private:
+  bool advance() noexcept;
+  void accumulate_segment() noexcept;
+  void transform_channel(int channel) noexcept;
+  void add_products() noexcept;
+
+  WelchConfig config_;
+  int hop_;
+  std::vector<double> window_;
+  RealFft fft_;
+  CpsdSums sums_;
+  int n_filled_ = 0;                        // samples in the segment being gathered
+  int n_new_ = 0;                           // of them, not yet part of any accumulated segment
+  std::vector<double> value_;               // channels x segment
+  std::vector<std::uint8_t> seen_;          // channels x segment
+  std::vector<double> padded_;              // n_fft
+  std::vector<std::complex<double>> data_;  // channels x bins
+  std::vector<std::complex<double>> mask_;  // channels x bins
+};
+
+}  // namespace core

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace core {
+
+enum class WindowKind : std::uint8_t { kHann, kHamming, kBoxcar };
+
+[[nodiscard]] inline std::optional<WindowKind> window_kind(std::string_view name) noexcept {
+  if (name == "hann") return WindowKind::kHann;
+  if (name == "hamming") return WindowKind::kHamming;
+  if (name == "boxcar") return WindowKind::kBoxcar;
+  return std::nullopt;
+}
+
+// Periodic ("DFT-even") windows, as scipy.signal.get_window gives them.
+[[nodiscard]] inline std::vector<double> make_window(WindowKind kind, int n) {
+  std::vector<double> window(static_cast<std::size_t>(n), 1.0);
+  if (kind == WindowKind::kBoxcar) return window;
+  const double a0 = kind == WindowKind::kHann ? 0.5 : 0.54;
+  for (int t = 0; t < n; ++t) {
+    window[static_cast<std::size_t>(t)] = a0 - (1.0 - a0) * std::cos(2.0 * std::numbers::pi * t / n);
+  }
+  return window;
+}
+
+}  // namespace core

@@ -1,0 +1,75 @@
+#include "core/tracking/outlier_rejection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace core {
+
+namespace {
+
+double squared_distance(const Vector2& a, const Vector2& b) noexcept {
+  return (a.u - b.u) * (a.u - b.u) + (a.v - b.v) * (a.v - b.v);
+}
+
+// Log-likelihood of all valid points under one hypothesis, with the inlier share that explains them best.
+double log_likelihood(std::span<const Vector2> motion, std::span<const std::uint8_t> valid, const Vector2& centre,
+                      const MlesacConfig& config) noexcept {
+  const double inverse_2s2 = 0.5 / (config.sigma_px * config.sigma_px);
+  const double peak = inverse_2s2 / std::numbers::pi;
+  const double outlier = 1.0 / (config.spread_px * config.spread_px);
+  double share = 0.5;
+  double sum = 0.0;
+  for (int iteration = 0; iteration < config.mixing_iterations; ++iteration) {
+    double inlier_weight = 0.0;
+    double n = 0.0;
+    sum = 0.0;
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+      if (valid[i] == 0) continue;
+      const double in = share * peak * std::exp(-squared_distance(motion[i], centre) * inverse_2s2);
+      const double total = in + (1.0 - share) * outlier;
+      inlier_weight += in / total;
+      sum += std::log(total);
+      n += 1.0;
+    }
+    share = std::min(0.99, std::max(0.01, inlier_weight / n));
+  }
+  return sum;
+}
+
+}  // namespace
+
+MlesacResult mlesac_translation(std::span<const Vector2> motion, std::span<const std::uint8_t> valid,
+                                const MlesacConfig& config, std::span<std::uint8_t> inlier) noexcept {
+  double best = -std::numeric_limits<double>::infinity();
+  Vector2 centre;
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    if (valid[i] == 0) continue;
+    const double likelihood = log_likelihood(motion, valid, motion[i], config);
+    if (likelihood > best) {
+      best = likelihood;
+      centre = motion[i];
+    }
+  }
+  MlesacResult result;
+  // The winner is itself a noisy point: judge the others about the mean of its followers, twice.
+  constexpr double kGateSigmas = 3.5;
+  const double gate = kGateSigmas * kGateSigmas * config.sigma_px * config.sigma_px * 2.0;
+  for (int pass = 0; pass < 2; ++pass) {
+    Vector2 sum;
+    result.n_inliers = 0;
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+      inlier[i] = valid[i] != 0 && squared_distance(motion[i], centre) < gate ? 1 : 0;
+      if (inlier[i] == 0) continue;
+      sum.u += motion[i].u;
+      sum.v += motion[i].v;
+      ++result.n_inliers;
+    }
+    if (result.n_inliers > 0) centre = {sum.u / result.n_inliers, sum.v / result.n_inliers};
+  }
+  result.motion = centre;
+  return result;
+}
+
+}  // namespace core

@@ -1,0 +1,80 @@
+#include "core/tracking/structure_tracker.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace core {
+
+namespace {
+
+std::string too_few_corners(const Region& region, std::size_t found, int wanted) {
+  char text[320];
+  std::snprintf(text, sizeof text,
+                "region '%s' (rect [%g, %g, %g, %g]) has %zu corners to track, at least %d are needed: is it black, saturated, "
+                "blurred or flat? Move or enlarge the rectangle, or lower tracking.corner_quality or tracking.min_distance_px",
+                region.name.c_str(), region.u_px, region.v_px, region.width_px, region.height_px, found, wanted);
+  return text;
+}
+
+}  // namespace
+
+std::string StructureTracker::seed(const Frame& frame) {
+  const cv::Mat gray = gray_view(frame);
+  std::vector<cv::Point2f> points;
+  region_of_point_.clear();
+  for (std::size_t r = 0; r < config_.regions.size(); ++r) {
+    const std::vector<cv::Point2f> corners = seed_points(gray, config_.regions[r], config_.seed);
+    if (static_cast<int>(corners.size()) < config_.min_points) {
+      return too_few_corners(config_.regions[r], corners.size(), config_.min_points);
+    }
+    points.insert(points.end(), corners.begin(), corners.end());
+    region_of_point_.insert(region_of_point_.end(), corners.size(), static_cast<std::uint16_t>(r));
+  }
+  klt_.set_keyframe(gray, points);
+  predicted_ = points;
+  region_offset_.assign(config_.regions.size(), cv::Point2f(0.0F, 0.0F));
+  tracked_.resize(points.size());
+  return {};
+}
+
+bool StructureTracker::track(const Frame& frame, TrackFrame& out) noexcept {
+  out.sequence = frame.sequence;
+  out.t_start_ns = frame.t_start_ns;
+  out.gap_before = frame.gap_before;
+  const bool worked = klt_.track(gray_view(frame), predicted_, tracked_);
+  for (std::size_t i = 0; i < out.points.size() && i < tracked_.size(); ++i) {
+    TrackPoint& point = out.points[i];
+    point.id = static_cast<std::uint32_t>(i);
+    point.region = region_of_point_[i];
+    point.u_px = static_cast<double>(tracked_[i].position.x);
+    point.v_px = static_cast<double>(tracked_[i].position.y);
+    point.sigma_px = tracked_[i].sigma_px;
+    point.seen = worked && tracked_[i].seen;
+    point.inlier = false;
+  }
+  return worked;
+}
+
+void StructureTracker::learn(const TrackFrame& judged) noexcept {
+  const std::vector<cv::Point2f>& keyframe = klt_.keyframe_points();
+  const std::size_t n = std::min(judged.points.size(), keyframe.size());
+  for (std::size_t begin = 0; begin < n;) {
+    const std::uint16_t region = region_of_point_[begin];
+    std::size_t end = begin;
+    cv::Point2f sum(0.0F, 0.0F);
+    int count = 0;
+    for (; end < n && region_of_point_[end] == region; ++end) {
+      if (!judged.points[end].inlier) continue;
+      sum += tracked_[end].position - keyframe[end];
+      ++count;
+    }
+    // A region without inliers is expected where it was last seen.
+    if (count > 0) region_offset_[region] = sum * (1.0F / static_cast<float>(count));
+    for (std::size_t i = begin; i < end; ++i) {
+      predicted_[i] = judged.points[i].inlier ? tracked_[i].position : keyframe[i] + region_offset_[region];
+    }
+    begin = end;
+  }
+}
+
+}  // namespace core

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+#include "core/tracking/klt_tracker.h"
+#include "core/tracking/point_seeder.h"
+#include "core/types/frame.h"
+#include "core/types/region.h"
+#include "core/types/track.h"
+
+namespace core {
+
+struct StructureTrackerConfig {
+  SeedConfig seed;
+  KltConfig klt;
+  std::vector<Region> regions;
+  int min_points = 3;  // a region that seeds fewer is an error
+};
+
+// All points of all regions through the frames: seeds them in the first frame (the keyframe), tracks them against it,
+// and predicts where to look from what the outlier rejection made of the previous frame.
+// One thread: seed() once, then track() per frame followed by learn().
+class StructureTracker {
+ public:
+  explicit StructureTracker(StructureTrackerConfig config) : config_(std::move(config)), klt_(config_.klt) {}
+
+  // Returns an empty text, or which region lies where and has too little texture, and what to try.
+  [[nodiscard]] std::string seed(const Frame& frame);
+  [[nodiscard]] std::size_t n_points() const noexcept { return region_of_point_.size(); }
+
+  // Fills `out.points` (sized n_points() beforehand). False: the tracker itself failed; no point is seen.
+  [[nodiscard]] bool track(const Frame& frame, TrackFrame& out) noexcept;
+  // The same frame after outlier rejection set `inlier`: an outlier is looked for with its region next time.
+  void learn(const TrackFrame& judged) noexcept;
+
+ private:
+  StructureTrackerConfig config_;
+  KltTracker klt_;
+  std::vector<std::uint16_t> region_of_point_;
+  std::vector<cv::Point2f> predicted_;
+  std::vector<cv::Point2f> region_offset_;  // mean motion of each region's inliers since the keyframe
+  std::vector<KltPoint> tracked_;
+};
+
+// The pixels of a frame as an OpenCV image, not copied.
+[[nodiscard]] inline cv::Mat gray_view(const Frame& frame) {
+  return {frame.height_px, frame.width_px, CV_8UC1, const_cast<std::uint8_t*>(frame.pixels.data())};
+}
+
+}  // namespace core

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace core {
+
+enum class RegionRole : std::uint8_t { kStructure, kBase, kBackground };
+
+// A rectangle of the first image whose points move together: a floor, a deck panel, a wall behind.
+struct Region {
+  std::string name;
+  double u_px = 0.0, v_px = 0.0, width_px = 0.0, height_px = 0.0;  // top-left corner and size
+  RegionRole role = RegionRole::kStructure;
+  // Axis of the displacement in the image: angle from +u towards +v (down). `both` gives two channels, u and v.
+  double axis_deg = 0.0;
+  bool both_axes = false;
+};
+
+}  // namespace core

@@ -1,0 +1,60 @@
+#include "drivers/camera/camera_factory.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "core/simulation/scene.h"
+#include "drivers/camera/file_camera.h"
+#include "drivers/camera/line_timing.h"
+#include "drivers/camera/synthetic_camera.h"
+
+namespace drivers {
+
+namespace {
+
+std::unique_ptr<Camera> make_file_camera(const CameraOptions& options) {
+  return std::make_unique<FileCamera>(FileCameraConfig{.source = options.source,
+                                                       .rate_hz = options.rate_hz,
+                                                       .realtime = options.realtime,
+                                                       .readout_ms = options.readout_ms,
+                                                       .readout_direction = options.readout_direction,
+                                                       .exposure_ms = options.exposure_ms});
+}
+
+std::unique_ptr<Camera> make_synthetic_camera(const CameraOptions& options) {
+  const LineTiming timing = checked_line_timing(options.readout_ms, options.exposure_ms);
+  if (options.readout_direction != core::ReadoutDirection::kDown) {
+    throw std::invalid_argument("camera.readout_direction: the synthetic camera reads its rows down only");
+  }
+  SyntheticCameraConfig config{core::simulation::make_paper_scene(options.synthetic_seed, options.synthetic_duration_s),
+                               options.realtime};
+  core::simulation::CameraParameters& camera = config.scene.camera;
+  if (options.rate_hz != 0.0) camera.rate_hz = options.rate_hz;
+  if (timing.readout_ns != 0) camera.readout_s = static_cast<double>(timing.readout_ns) * 1e-9;
+  if (timing.exposure_ns != 0) camera.exposure_s = static_cast<double>(timing.exposure_ns) * 1e-9;
+  return std::make_unique<SyntheticCamera>(config);
+}
+
+[[noreturn]] void refuse(const char* driver) {
+  throw DeviceMissing(fmt::format(
+      "camera.driver = {}: this build has no such driver: use 'file' (a recording) or 'synthetic' instead", driver));
+}
+
+}  // namespace
+
+std::unique_ptr<Camera> make_camera(const CameraOptions& options) {
+  switch (options.kind) {
+    case CameraKind::kFile:
+      return make_file_camera(options);
+    case CameraKind::kSynthetic:
+      return make_synthetic_camera(options);
+    case CameraKind::kV4l2:
+      refuse("v4l2");
+    case CameraKind::kLibcamera:
+      refuse("libcamera");
+  }
+  throw std::invalid_argument("camera.driver: unknown kind");
+}
+
+}  // namespace drivers

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+
+#include "core/simulation/renderer.h"
+#include "core/simulation/scene.h"
+#include "drivers/camera/camera.h"
+#include "drivers/camera/stream_pacer.h"
+
+namespace drivers {
+
+struct SyntheticCameraConfig {
+  core::simulation::Scene scene;
+  bool realtime = false;
+};
+
+// A simulated camera in front of a simulated structure. Frames are rendered inside `capture`, from the scene alone:
+// the same scene gives the same pixels. Frame k begins its exposure at k / rate. Ends after scene.n_frames().
+class SyntheticCamera final : public Camera {
+ public:
+  explicit SyntheticCamera(const SyntheticCameraConfig& config);
+
+  [[nodiscard]] core::CameraInfo info() const override { return info_; }
+  void start() override;
+  CaptureStatus capture(core::Frame& out, std::chrono::milliseconds timeout) noexcept override;
+  void stop() noexcept override;
+  [[nodiscard]] std::string fault() const override { return fault_; }
+
+ private:
+  CaptureStatus fail(std::string text) noexcept;
+
+  core::simulation::Scene scene_;
+  core::simulation::Renderer renderer_;
+  core::simulation::Renderer::Scratch scratch_;
+  core::CameraInfo info_;
+  StreamPacer pacer_;
+  std::uint64_t next_frame_ = 0;
+  std::string fault_;
+  std::atomic<bool> stopped_{true};  // written by start and stop, read by capture; a flag alone, nothing rides on it
+};
+
+}  // namespace drivers

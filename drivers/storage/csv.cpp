@@ -1,0 +1,180 @@
+#include "drivers/storage/csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+#include "drivers/storage/csv_lines.h"
+#include "drivers/storage/text_file.h"
+
+namespace drivers {
+namespace {
+
+constexpr std::string_view kTracksHeader = "frame,t_s,point,region,u_px,v_px,sigma_px";
+constexpr double kMaxPixel = 1e6;
+
+class TracksReader {
+ public:
+  explicit TracksReader(const std::string& path) : lines_(path) { out_.camera.description = path; }
+
+  [[nodiscard]] TracksFile read() {
+    read_header();
+    std::string_view line;
+    while (lines_.next(line)) {
+      if (line.empty()) continue;
+      read_row(line);
+    }
+    if (out_.frames.empty()) lines_.fail("no track in the file; was the run stopped before its first frame?");
+    return std::move(out_);
+  }
+
+ private:
+  void read_header() {
+    std::string_view line;
+    while (lines_.next(line)) {
+      if (line == kTracksHeader) return require_complete_header();
+      std::string key, value;
+      if (!line.starts_with('#')) break;
+      if (split_comment(line, key, value)) set_comment(key, value);
+    }
+    lines_.fail(fmt::format("expected the header `{}`", kTracksHeader));
+  }
+
+  void require_complete_header() const {
+    const core::CameraInfo& camera = out_.camera;
+    if (camera.width_px == 0 || camera.height_px == 0)
+      lines_.fail("no comment `# image_size_px: WIDTH x HEIGHT` above");
+    if (camera.rate_hz == 0.0) lines_.fail("no comment `# rate_hz: RATE` above");
+  }
+
+  void set_comment(const std::string& key, const std::string& value) {
+    core::CameraInfo& camera = out_.camera;
+    if (key == "image_size_px") return set_image_size(value);
+    if (key == "rate_hz") camera.rate_hz = comment_number(key, value, 1e-6, 1e9);
+    if (key == "readout_ms") camera.readout_ns = std::llround(comment_number(key, value, -1e6, 1e6) * 1e6);
+    if (key == "exposure_ms") camera.exposure_ns = std::llround(comment_number(key, value, 0.0, 1e6) * 1e6);
+    if (key == "frame_count" && value != "unknown") {
+      camera.frame_count = static_cast<std::uint64_t>(comment_number(key, value, 0.0, 1e15));
+    }
+    if (key == "readout_direction") set_direction(value);
+    if (key == "regions") set_regions(value);
+  }
+
+  [[nodiscard]] double comment_number(const std::string& key, const std::string& value, double low, double high) const {
+    const auto number = parse_number(value);
+    if (!number || *number < low || *number > high) {
+      lines_.fail(fmt::format("{}: `{}` is refused: allowed {} .. {}", key, printable(value), low, high));
+    }
+    return *number;
+  }
+
+  void set_image_size(const std::string& value) {
+    const std::size_t by = value.find(" x ");
+    if (by == std::string::npos)
+      lines_.fail(fmt::format("image_size_px: `{}` is not WIDTH x HEIGHT", printable(value)));
+    out_.camera.width_px = static_cast<int>(comment_number("image width", value.substr(0, by), 1, 1e5));
+    out_.camera.height_px = static_cast<int>(comment_number("image height", value.substr(by + 3), 1, 1e5));
+  }
+
+  void set_direction(const std::string& value) {
+    using core::ReadoutDirection;
+    if (value == "down")
+      out_.camera.readout_direction = ReadoutDirection::kDown;
+    else if (value == "up")
+      out_.camera.readout_direction = ReadoutDirection::kUp;
+    else if (value == "left")
+      out_.camera.readout_direction = ReadoutDirection::kLeft;
+    else if (value == "right")
+      out_.camera.readout_direction = ReadoutDirection::kRight;
+    else
+      lines_.fail(
+          fmt::format("readout_direction: `{}` is refused: allowed down | up | left | right", printable(value)));
+  }
+
+  void set_regions(const std::string& value) {
+    split_cells(value, cells_);
+    for (const std::string_view name : cells_) region_index(name);
+  }
+
+  std::uint16_t region_index(std::string_view name) {
+    if (name.empty() || name.size() > 64) lines_.fail("the region name is empty or longer than 64 characters");
+    const auto [found, is_new] = region_of_.try_emplace(std::string(name), out_.region_names.size());
+    if (is_new) {
+      if (out_.region_names.size() > 4096) lines_.fail("more than 4096 regions; is a column shifted?");
+      out_.region_names.emplace_back(name);
+    }
+    return static_cast<std::uint16_t>(found->second);
+  }
+
+  [[nodiscard]] double cell_number(std::size_t i, const char* name, double low, double high) const {
+    const auto number = parse_number(cells_[i]);
+    if (!number || *number < low || *number > high) {
+      lines_.fail(fmt::format("{}: `{}` is refused: allowed {} .. {}", name, printable(cells_[i]), low, high));
+    }
+    return *number;
+  }
+
+  void read_row(std::string_view line) {
+    split_cells(line, cells_);
+    if (cells_.size() != 7) lines_.fail(fmt::format("{} cells instead of 7; is the file cut off?", cells_.size()));
+    const auto sequence = parse_unsigned(cells_[0]);
+    if (!sequence) lines_.fail(fmt::format("frame: `{}` is no frame number", printable(cells_[0])));
+    std::int64_t t_ns = 0;
+    if (!parse_seconds_ns(cells_[1], t_ns))
+      lines_.fail(fmt::format("t_s: `{}` is no time in seconds", printable(cells_[1])));
+    open_frame(*sequence, t_ns);
+    core::TrackPoint point;
+    const auto id = parse_unsigned(cells_[2]);
+    if (!id || *id > std::numeric_limits<std::uint32_t>::max()) {
+      lines_.fail(fmt::format("point: `{}` is no point number", printable(cells_[2])));
+    }
+    point.id = static_cast<std::uint32_t>(*id);
+    point.region = region_index(cells_[3]);
+    point.u_px = cell_number(4, "u_px", -kMaxPixel, kMaxPixel);
+    point.v_px = cell_number(5, "v_px", -kMaxPixel, kMaxPixel);
+    point.sigma_px = cell_number(6, "sigma_px", 0.0, kMaxPixel);
+    point.seen = point.inlier = true;
+    // Where each point was last seen: a second line for it in the same frame is found without searching the frame.
+    const auto [last, is_new] = last_frame_of_.try_emplace(point.id, *sequence);
+    if (!is_new && std::exchange(last->second, *sequence) == *sequence) {
+      lines_.fail(fmt::format("point {} appears twice in frame {}", point.id, *sequence));
+    }
+    out_.frames.back().points.push_back(point);
+  }
+
+  void open_frame(std::uint64_t sequence, std::int64_t t_ns) {
+    if (!out_.frames.empty()) {
+      const core::TrackFrame& last = out_.frames.back();
+      if (sequence == last.sequence) {
+        if (t_ns != last.t_start_ns) lines_.fail(fmt::format("frame {} has two times", sequence));
+        return;
+      }
+      if (sequence < last.sequence)
+        lines_.fail(fmt::format("frame {} follows frame {}: it goes back", sequence, last.sequence));
+      if (t_ns <= last.t_start_ns) lines_.fail(fmt::format("frame {}: its time does not lie after the last", sequence));
+    }
+    const bool gap = !out_.frames.empty() && sequence != out_.frames.back().sequence + 1;
+    core::TrackFrame& frame = out_.frames.emplace_back();
+    frame.sequence = sequence;
+    frame.t_start_ns = t_ns;
+    frame.gap_before = gap;
+  }
+
+  CsvLines lines_;
+  TracksFile out_;
+  std::vector<std::string_view> cells_;
+  std::unordered_map<std::string, std::size_t> region_of_;
+  std::unordered_map<std::uint32_t, std::uint64_t> last_frame_of_;
+};
+
+}  // namespace
+
+TracksFile read_tracks_csv(const std::string& path) { return TracksReader(path).read(); }
+
+}  // namespace drivers

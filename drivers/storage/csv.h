@@ -1,0 +1,34 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/types/frame.h"
+#include "core/types/track.h"
+
+namespace drivers {
+
+// Content of a tracks.csv. `frames` in order, only seen points; a TrackFrame's sequence is the file's `frame`, and
+// gap_before is set where frame numbers jump (also where a frame had no point left).
+struct TracksFile {
+  core::CameraInfo camera;                // from the header comments; description = the file's name
+  std::vector<std::string> region_names;  // TrackPoint::region is an index into these
+  std::vector<core::TrackFrame> frames;
+};
+
+// A table of numbers under one line of column names. `#` lines before it are comments; "# key: value" is kept.
+struct SeriesFile {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns;  // one per name, equally long; NaN where a cell is empty or "nan"
+  std::map<std::string, std::string> comments;
+
+  [[nodiscard]] int column(const std::string& name) const noexcept;  // -1 = not there
+};
+
+// Both throw FileError "FILE:LINE: ..." on what they cannot take for exactly that: ragged rows, text for a number,
+// over-long lines, NUL bytes, no header, frames or times that go back.
+[[nodiscard]] TracksFile read_tracks_csv(const std::string& path);
+[[nodiscard]] SeriesFile read_series_csv(const std::string& path);
+
+}  // namespace drivers

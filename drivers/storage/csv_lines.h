@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace drivers {
+
+// The lines of a CSV file, one at a time, in bounded memory.
+class CsvLines {
+ public:
+  static constexpr std::size_t kMaxLineBytes = 1U << 16U;
+
+  explicit CsvLines(const std::string& path);
+
+  // The next line without its end, valid until the next call; false at the end of the file.
+  [[nodiscard]] bool next(std::string_view& line);
+  [[noreturn]] void fail(const std::string& what) const;  // throws FileError "PATH:LINE: what"
+
+ private:
+  struct Closer {
+    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+  };
+  bool refill();
+
+  std::string path_;
+  std::unique_ptr<std::FILE, Closer> file_;
+  std::vector<char> block_;
+  std::size_t begin_ = 0, end_ = 0;  // unread part of block_
+  std::size_t line_number_ = 0;
+};
+
+// Splits at commas, trims spaces; reuses `cells`. The views live as long as `line`.
+void split_cells(std::string_view line, std::vector<std::string_view>& cells);
+
+// "# key: value" -> true. Other comments give false.
+[[nodiscard]] bool split_comment(std::string_view line, std::string& key, std::string& value);
+
+// Decimal seconds to whole nanoseconds without passing through a double: 9 decimals come back exactly. False = no such
+// number.
+[[nodiscard]] bool parse_seconds_ns(std::string_view cell, std::int64_t& out_ns) noexcept;
+
+}  // namespace drivers

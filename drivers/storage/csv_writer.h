@@ -1,0 +1,52 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace drivers {
+
+// A text file written in large blocks under the name "<path>.partial" and renamed to `path` by commit(). After the
+// first failed write (disk full) it takes no more and keeps the reason; what reached the disk stays as *.partial.
+class CsvWriter {
+ public:
+  // Removes an older `path`: after a crash nothing stands there that looks like this run's result. Throws FileError.
+  explicit CsvWriter(std::string path);
+  ~CsvWriter();
+  CsvWriter(const CsvWriter&) = delete;
+  CsvWriter& operator=(const CsvWriter&) = delete;
+
+  // Append here, then call end_line().
+  [[nodiscard]] fmt::memory_buffer& buffer() noexcept { return buffer_; }
+  // Hands the block to the system when it is large enough. False = the file has failed, now or earlier.
+  bool end_line() noexcept { return buffer_.size() < kBlockBytes ? error_ == 0 : flush(); }
+
+  [[nodiscard]] int error() const noexcept { return error_; }  // errno of the first failure, 0 = none
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+
+  // Writes the rest, brings it to the disk, renames. Throws FileError with the reason.
+  void commit();
+
+ private:
+  static constexpr std::size_t kBlockBytes = 1U << 18U;
+  bool flush() noexcept;
+  void close_file() noexcept;
+
+  std::string path_, partial_path_;
+  fmt::memory_buffer buffer_;
+  int descriptor_ = -1;
+  int error_ = 0;
+};
+
+// Appends `value` with a fixed number of decimals, 0..9, rounded half away from zero. Ten times as fast as printf.
+// False and nothing appended: not finite, or 9e8 and beyond.
+bool append_fixed(fmt::memory_buffer& out, double value, int n_decimals);
+// Nanoseconds as seconds with 9 decimals, exactly.
+void append_seconds(fmt::memory_buffer& out, std::int64_t t_ns);
+inline void append_text(fmt::memory_buffer& out, std::string_view text) {
+  out.append(text.data(), text.data() + text.size());
+}
+
+}  // namespace drivers

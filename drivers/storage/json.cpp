@@ -1,0 +1,100 @@
+#include "drivers/storage/json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "drivers/storage/csv_writer.h"
+#include "drivers/storage/text_file.h"
+
+namespace drivers {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr int kMaxDepth = 32;
+
+class JsonPrinter {
+ public:
+  [[nodiscard]] JsonText print(const Json& value) {
+    append(value, 0);
+    out_.text += '\n';
+    return std::move(out_);
+  }
+
+ private:
+  void append(const Json& value, std::size_t level) {
+    if (value.is_object()) return append_object(value, level);
+    if (value.is_array()) return append_array(value, level);
+    if (!value.is_number_float()) {
+      // Texts from outside may hold broken UTF-8, which strict writing would throw at.
+      out_.text += value.dump(-1, ' ', false, Json::error_handler_t::replace);
+      return;
+    }
+    const double number = value.get<double>();
+    if (std::isfinite(number)) {
+      fmt::format_to(std::back_inserter(out_.text), "{}", number == 0.0 ? 0.0 : number);  // no "-0"
+    } else {
+      out_.text += "null";
+      ++out_.n_not_finite;
+    }
+  }
+
+  void new_line(std::size_t level) { out_.text.append("\n").append(2 * level, ' '); }
+
+  void append_object(const Json& value, std::size_t level) {
+    out_.text += '{';
+    const char* separator = "";
+    for (const auto& [key, item] : value.items()) {
+      out_.text += separator;
+      separator = ",";
+      new_line(level + 1);
+      out_.text += Json(key).dump(-1, ' ', false, Json::error_handler_t::replace) + ": ";
+      append(item, level + 1);
+    }
+    if (!value.empty()) new_line(level);
+    out_.text += '}';
+  }
+
+  void append_array(const Json& value, std::size_t level) {
+    const bool one_line = std::all_of(value.begin(), value.end(), [](const Json& item) { return item.is_number(); });
+    out_.text += '[';
+    const char* separator = "";
+    for (const Json& item : value) {
+      out_.text += separator;
+      separator = one_line ? ", " : ",";
+      if (!one_line) new_line(level + 1);
+      append(item, level + 1);
+    }
+    if (!one_line) new_line(level);
+    out_.text += ']';
+  }
+
+  JsonText out_;
+};
+
+}  // namespace
+
+JsonText to_json_text(const Json& value) { return JsonPrinter().print(value); }
+
+Json read_json_file(const std::string& path, std::size_t max_bytes) {
+  const std::string text = read_text_file(path, max_bytes);
+  const auto limit_depth = [&](int depth, Json::parse_event_t, Json&) {
+    if (depth > kMaxDepth) throw FileError(fmt::format("{}: is nested deeper than {}", path, kMaxDepth));
+    return true;
+  };
+  try {
+    return Json::parse(text, limit_depth);
+  } catch (const nlohmann::json::exception& error) {
+    throw FileError(fmt::format("{}: is no valid JSON: {}", path, printable(error.what(), 200)));
+  }
+}
+
+void write_file_atomically(const std::string& path, const std::string& text) {
+  CsvWriter writer(path);
+  writer.buffer().append(text);
+  writer.commit();
+}
+
+}  // namespace drivers

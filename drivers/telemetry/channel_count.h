@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+
+namespace drivers {
+
+// What a receiver knows about the messages of one LCM channel, from their sequence numbers.
+struct ChannelCount {
+  std::uint64_t received = 0;      // decoded messages of the stream followed
+  std::uint64_t gaps = 0;          // messages missing between those received
+  std::uint64_t out_of_order = 0;  // late or repeated ones; a late one also stays counted in `gaps`
+  std::uint64_t restarts = 0;      // the sender began again
+  std::uint64_t undecodable = 0;
+  std::uint64_t foreign = 0;       // of another stream_id on the same channel; not looked at further
+  std::int64_t first_sequence = -1, last_sequence = -1;  // -1 = none yet
+  std::int64_t last_utc_ns = 0;    // the sender's clock
+  std::int64_t received_at_ns = 0;  // our clock
+
+  // False for a message that is older than what is already known.
+  bool note(std::int64_t sequence, std::int64_t utc_ns, std::int64_t now_ns) noexcept {
+    ++received;
+    received_at_ns = now_ns;
+    if (last_sequence < 0) {
+      first_sequence = sequence;
+    } else if (sequence > last_sequence) {
+      gaps += static_cast<std::uint64_t>(sequence - last_sequence - 1);
+    } else if (utc_ns > last_utc_ns) {
+      // Sent later, yet numbered lower: a new run. What it lost before we heard it is not known, so it is no gap.
+      ++restarts;
+    } else {
+      ++out_of_order;
+      return false;
+    }
+    last_sequence = sequence;
+    last_utc_ns = utc_ns;
+    return true;
+  }
+};
+
+}  // namespace drivers

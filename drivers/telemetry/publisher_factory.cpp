@@ -1,0 +1,26 @@
+#include "drivers/telemetry/publisher_factory.h"
+
+#include <stdexcept>
+
+#ifdef HOVERMODAL_WITH_LCM
+#include "drivers/telemetry/lcm_publisher.h"
+#endif
+
+namespace drivers {
+
+std::unique_ptr<Publisher> make_publisher(const LcmOptions& options, std::string* warning) {
+  if (warning != nullptr) warning->clear();
+  if (options.url.empty() && options.log_file.empty()) return std::make_unique<NullPublisher>();
+#ifdef HOVERMODAL_WITH_LCM
+  auto publisher = std::make_unique<LcmPublisher>(options);
+  if (warning != nullptr) *warning = publisher->warning();
+  return publisher;
+#else
+  throw std::runtime_error(
+      "telemetry to \"" + (options.url.empty() ? options.log_file : options.url) +
+      "\": this build has no LCM. Install liblcm-dev, liblcm-bin and libglib2.0-dev and configure again with "
+      "-DWITH_LCM=ON, or leave telemetry.lcm_url and telemetry.log_file empty.");
+#endif
+}
+
+}  // namespace drivers

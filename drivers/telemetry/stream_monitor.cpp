@@ -1,0 +1,115 @@
+#include "drivers/telemetry/stream_monitor.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "drivers/telemetry/decode.h"
+#include "hovermodal/spectrum_t.hpp"
+#include "hovermodal/tracks_t.hpp"
+
+namespace drivers {
+
+StreamMonitor::StreamMonitor(const std::string& channel_prefix)
+    : names_{channel_prefix + "_MODAL", channel_prefix + "_DISPLACEMENT", channel_prefix + "_SPECTRUM",
+             channel_prefix + "_TRACKS", channel_prefix + "_HEALTH"} {}
+
+void StreamMonitor::receive(std::string_view lcm_channel, const void* data, std::size_t n_bytes,
+                            std::int64_t now_ns) noexcept {
+  const auto found = std::find(names_.begin(), names_.end(), lcm_channel);
+  if (found == names_.end()) return;
+  const auto topic = static_cast<Topic>(found - names_.begin());
+  try {
+    dispatch(topic, data, n_bytes, now_ns);
+  } catch (...) {  // out of memory: the message is lost to us
+    ++counts_[topic].undecodable;
+  }
+}
+
+void StreamMonitor::dispatch(Topic topic, const void* data, std::size_t n_bytes, std::int64_t now_ns) {
+  switch (topic) {
+    case kModal:
+      if (auto m = open<hovermodal::modal_estimate_t>(topic, data, n_bytes, now_ns)) take(std::move(*m));
+      break;
+    case kDisplacement:
+      if (const auto m = open<hovermodal::displacement_t>(topic, data, n_bytes, now_ns)) take(*m);
+      break;
+    case kHealth:
+      if (auto m = open<hovermodal::health_t>(topic, data, n_bytes, now_ns)) take(std::move(*m), now_ns);
+      break;
+    case kSpectrum: static_cast<void>(open<hovermodal::spectrum_t>(topic, data, n_bytes, now_ns)); break;
+    case kTracks: static_cast<void>(open<hovermodal::tracks_t>(topic, data, n_bytes, now_ns)); break;
+    case kTopics: break;
+  }
+}
+
+// Decodes and counts. Empty when there is nothing to take: undecodable, of another stream, or older than what is known.
+template <class Message>
+std::optional<Message> StreamMonitor::open(Topic topic, const void* data, std::size_t n_bytes, std::int64_t now_ns) {
+  ChannelCount& count = counts_[topic];
+  auto message = decode_message<Message>(data, n_bytes);
+  if (!message || message->sequence < 0) {
+    ++count.undecodable;
+    return std::nullopt;
+  }
+  if (!is_following_) {
+    is_following_ = true;
+    stream_id_ = message->stream_id;
+  } else if (message->stream_id != stream_id_) {
+    ++count.foreign;
+    return std::nullopt;
+  }
+  last_received_ns_ = now_ns;
+  if (!count.note(message->sequence, message->utc_ns, now_ns)) return std::nullopt;
+  config_hash_ = message->config_hash;
+  // A spectrum counts its time from the first sample: not the clock of the others.
+  if (topic != kSpectrum) stream_time_ns_ = message->stream_time_ns;
+  return message;
+}
+
+void StreamMonitor::take(hovermodal::modal_estimate_t message) {
+  const bool is_same = estimate_ && estimate_->number == message.number && estimate_->n_parts == message.n_parts &&
+                       estimate_->stream_time_ns == message.stream_time_ns;  // a new run begins at number 0 again
+  if (!is_same) {
+    parts_.clear();
+    n_modes_ = 0;
+  }
+  std::vector<hovermodal::mode_t> modes = std::move(message.modes);
+  message.modes.clear();
+  message.n_modes = 0;
+  if (n_modes_ + modes.size() > kMaxModes) modes.resize(kMaxModes - n_modes_);
+  const std::size_t n_added = modes.size();
+  if (parts_.emplace(message.part, std::move(modes)).second) n_modes_ += n_added;
+  estimate_ = std::move(message);
+}
+
+void StreamMonitor::take(const hovermodal::displacement_t& message) {
+  const std::size_t n = std::min(message.value_mm.size(), kMaxChannels);
+  if (history_.size() != n) history_.assign(n, {});
+  for (std::size_t i = 0; i < n; ++i) {
+    history_[i].push_back(message.value_mm[i]);
+    if (history_[i].size() > kHistory) history_[i].pop_front();
+  }
+}
+
+void StreamMonitor::take(hovermodal::health_t message, std::int64_t now_ns) {
+  const std::string_view state = message.state;
+  is_finished_ = state.substr(0, 8) == "finished" || state.substr(0, 5) == "fault";
+  if (is_finished_) finished_at_ns_ = now_ns;
+  health_ = std::move(message);
+}
+
+std::vector<const hovermodal::mode_t*> StreamMonitor::modes() const {
+  std::vector<const hovermodal::mode_t*> out;
+  for (const auto& [part, modes] : parts_) {
+    for (const auto& mode : modes) out.push_back(&mode);
+  }
+  return out;
+}
+
+std::string StreamMonitor::channel_name(std::size_t i_channel) const {
+  if (estimate_ && i_channel < estimate_->channel_names.size()) return estimate_->channel_names[i_channel];
+  if (health_ && i_channel < health_->channels.size()) return health_->channels[i_channel].name;
+  return "channel " + std::to_string(i_channel);
+}
+
+}  // namespace drivers

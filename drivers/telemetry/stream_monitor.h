@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "drivers/telemetry/channel_count.h"
+#include "hovermodal/displacement_t.hpp"
+#include "hovermodal/health_t.hpp"
+#include "hovermodal/modal_estimate_t.hpp"
+
+namespace drivers {
+
+// What a listener knows from LCM messages alone: the newest of everything, and what was lost on the way. It follows the
+// first stream_id it hears. Takes any bytes: what does not decode is counted and changes nothing else. One thread.
+class StreamMonitor {
+ public:
+  enum Topic : std::size_t { kModal, kDisplacement, kSpectrum, kTracks, kHealth, kTopics };
+  static constexpr std::size_t kHistory = 1024;       // displacement samples kept per channel
+  static constexpr std::size_t kMaxChannels = 256;    // more than that in one message are ignored
+  static constexpr std::size_t kMaxModes = 1024;      // of one estimate, all parts
+
+  explicit StreamMonitor(const std::string& channel_prefix);
+
+  // `now_ns` on any monotonic clock of the caller's. Channels that are none of ours are ignored.
+  void receive(std::string_view lcm_channel, const void* data, std::size_t n_bytes, std::int64_t now_ns) noexcept;
+
+  [[nodiscard]] const std::string& lcm_channel(Topic topic) const noexcept { return names_[topic]; }
+  [[nodiscard]] const ChannelCount& count(Topic topic) const noexcept { return counts_[topic]; }
+  [[nodiscard]] const std::string& stream_id() const noexcept { return stream_id_; }  // empty = nothing heard
+  [[nodiscard]] std::int64_t config_hash() const noexcept { return config_hash_; }
+  [[nodiscard]] std::int64_t stream_time_ns() const noexcept { return stream_time_ns_; }
+  [[nodiscard]] std::int64_t last_received_ns() const noexcept { return last_received_ns_; }  // caller's clock
+
+  [[nodiscard]] const std::optional<hovermodal::health_t>& health() const noexcept { return health_; }
+  [[nodiscard]] bool is_finished() const noexcept { return is_finished_; }  // a health with a final state was heard
+  [[nodiscard]] std::int64_t finished_at_ns() const noexcept { return finished_at_ns_; }
+
+  // The newest estimate: its head (of the part heard last) and all modes of the parts heard so far, in order.
+  [[nodiscard]] const std::optional<hovermodal::modal_estimate_t>& estimate() const noexcept { return estimate_; }
+  [[nodiscard]] std::vector<const hovermodal::mode_t*> modes() const;
+  [[nodiscard]] int parts_heard() const noexcept { return static_cast<int>(parts_.size()); }
+
+  [[nodiscard]] std::size_t n_channels() const noexcept { return history_.size(); }
+  [[nodiscard]] std::string channel_name(std::size_t i_channel) const;
+  [[nodiscard]] const std::deque<float>& history_mm(std::size_t i_channel) const { return history_[i_channel]; }
+
+ private:
+  template <class Message>
+  std::optional<Message> open(Topic topic, const void* data, std::size_t n_bytes, std::int64_t now_ns);
+  void take(hovermodal::modal_estimate_t message);
+  void take(const hovermodal::displacement_t& message);
+  void take(hovermodal::health_t message, std::int64_t now_ns);
+  void dispatch(Topic topic, const void* data, std::size_t n_bytes, std::int64_t now_ns);
+
+  std::array<std::string, kTopics> names_;
+  std::array<ChannelCount, kTopics> counts_{};
+  std::string stream_id_;
+  bool is_following_ = false;
+  std::int64_t config_hash_ = 0, stream_time_ns_ = 0, last_received_ns_ = 0, finished_at_ns_ = 0;
+  bool is_finished_ = false;
+  std::optional<hovermodal::health_t> health_;
+  std::optional<hovermodal::modal_estimate_t> estimate_;  // its own `modes` moved into parts_
+  std::map<std::int16_t, std::vector<hovermodal::mode_t>> parts_;
+  std::size_t n_modes_ = 0;
+  std::vector<std::deque<float>> history_;  // NaN where not seen
+};
+
+}  // namespace drivers

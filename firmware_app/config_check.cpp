@@ -1,0 +1,142 @@
+#include "firmware_app/config_check.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "drivers/storage/text_file.h"
+
+namespace app {
+namespace {
+
+class Checker {
+ public:
+  Checker(const AppConfig& config, const KeyOrigins& origins, const std::string& file_name)
+      : config_(config), origins_(origins), file_name_(file_name) {}
+
+  void check() const {
+    check_camera();
+    check_regions();
+    check_references();
+    check_scale();
+    check_calibration();
+    if (config_.tracking.min_points > config_.tracking.points_per_region) {
+      refuse("tracking.min_points", std::to_string(config_.tracking.min_points),
+             fmt::format("1 .. {} (tracking.points_per_region)", config_.tracking.points_per_region),
+             "write a smaller number");
+    }
+  }
+
+ private:
+  [[nodiscard]] bool is_written(const std::string& key) const { return origins_.contains(key); }
+
+  [[noreturn]] void refuse(const std::string& key, const std::string& value, const std::string& allowed,
+                           const std::string& remedy) const {
+    const auto origin = origins_.find(key);
+    throw ConfigError(fmt::format("{}: {}: {} is refused: allowed {}; {}",
+                                  origin == origins_.end() ? file_name_ : origin->second, key, value, allowed, remedy));
+  }
+  void require(const std::string& key, const std::string& because, const std::string& remedy) const {
+    if (!is_written(key)) refuse(key, "nothing", because, remedy);
+  }
+
+  void check_camera() const {
+    const CameraDriver driver = config_.camera.driver;
+    const bool needs_source = driver == CameraDriver::kFile || driver == CameraDriver::kV4l2;
+    if (needs_source && config_.camera.source.empty()) {
+      refuse("camera.source", is_written("camera.source") ? "an empty text" : "nothing",
+             driver == CameraDriver::kFile ? "a video or image folder" : "a device such as /dev/video0",
+             "set it, or use `driver: synthetic` to try without a camera");
+    }
+  }
+
+  void check_regions() const {
+    if (config_.regions.empty()) {
+      refuse("regions", "no region", "1 or more", "add e.g. `regions: [{name: roof, rect: [100, 100, 200, 80]}]`");
+    }
+    for (std::size_t i = 0; i < config_.regions.size(); ++i) {
+      require(fmt::format("regions.{}.name", i), "1 .. 32 letters, digits, _ - .", "give every region a name");
+      require(fmt::format("regions.{}.rect", i), "[x, y, w, h]", "give every region a rectangle");
+    }
+    // Channels get their names from regions: "a" with both axes gives a.u and a.v, which no other region may be called.
+    std::vector<std::string> taken;
+    for (std::size_t i = 0; i < config_.regions.size(); ++i) {
+      const core::Region& region = config_.regions[i];
+      std::vector<std::string> names = channel_names(region);
+      if (region.both_axes) names.push_back(region.name);
+      for (std::string& name : names) {
+        if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
+          refuse(fmt::format("regions.{}.name", i), region.name, "names that no other region or channel has",
+                 fmt::format("`{}` is taken already; rename one", name));
+        }
+        taken.push_back(std::move(name));
+      }
+    }
+    const auto measured = [](const core::Region& region) { return region.role != core::RegionRole::kBackground; };
+    if (std::none_of(config_.regions.begin(), config_.regions.end(), measured)) {
+      refuse("regions", "only role background", "1 or more regions with role structure or base",
+             "declare what vibrates");
+    }
+  }
+
+  [[nodiscard]] static std::vector<std::string> channel_names(const core::Region& region) {
+    if (!region.both_axes) return {region.name};
+    return {region.name + ".u", region.name + ".v"};
+  }
+
+  void check_references() const {
+    std::vector<std::string> channels;
+    for (const core::Region& region : config_.regions) {
+      if (region.role == core::RegionRole::kBackground) continue;
+      for (std::string& name : channel_names(region)) channels.push_back(std::move(name));
+    }
+    for (const std::string& reference : config_.identification.references) {
+      if (std::find(channels.begin(), channels.end(), reference) == channels.end()) {
+        refuse("identification.references", reference, fmt::format("{}", fmt::join(channels, " | ")),
+               "name channels, or write []");
+      }
+    }
+  }
+
+  void check_scale() const {
+    const std::vector<std::string> keys{"scale.known_length_mm", "scale.from", "scale.to"};
+    const bool any = std::any_of(keys.begin(), keys.end(), [&](const std::string& key) { return is_written(key); });
+    for (const std::string& key : keys) {
+      if (any)
+        require(key, "known_length_mm, from and to together", "write all three, or none to get displacements in px");
+    }
+    if (any && config_.scale.from_px == config_.scale.to_px) {
+      refuse("scale.to", fmt::format("[{}]", fmt::join(config_.scale.to_px, ", ")), "a point other than scale.from",
+             "the known length needs two ends");
+    }
+  }
+
+  void check_calibration() const {
+    const std::vector<std::string> inline_keys{"fx", "fy", "cx", "cy"};
+    const auto written = [&](const std::string& name) { return is_written("calibration." + name); };
+    const bool any = std::any_of(inline_keys.begin(), inline_keys.end(), written) || written("distortion");
+    if (any && !config_.calibration.file.empty()) {
+      refuse("calibration.file", drivers::printable(config_.calibration.file), "a file, or fx fy cx cy, not both",
+             "remove one of them");
+    }
+    for (const std::string& name : inline_keys) {
+      if (any) require("calibration." + name, "fx, fy, cx and cy together", "write all four, or none");
+    }
+  }
+
+  const AppConfig& config_;
+  const KeyOrigins& origins_;
+  const std::string& file_name_;
+};
+
+}  // namespace
+
+void check_config(const AppConfig& config, const KeyOrigins& origins, const std::string& file_name) {
+  Checker(config, origins, file_name).check();
+}
+
+}  // namespace app

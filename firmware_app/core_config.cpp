@@ -1,0 +1,102 @@
+#include "firmware_app/core_config.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "drivers/storage/calibration_file.h"
+
+namespace app {
+
+namespace {
+
+core::CameraModel camera_model(const AppConfig& config, const core::CameraInfo& camera) {
+  const CalibrationConfig& inline_values = config.calibration;
+  core::CameraModel model{inline_values.fx, inline_values.fy, inline_values.cx, inline_values.cy, inline_values.distortion};
+  if (inline_values.file.empty()) return model;
+  const drivers::Calibration file = drivers::read_calibration(inline_values.file);
+  if (file.width_px != 0 && (file.width_px != camera.width_px || file.height_px != camera.height_px)) {
+    throw ConfigError(fmt::format("calibration.file: {} is for {} x {} px, the camera gives {} x {} px: calibrate this mode of the camera",
+                                  inline_values.file, file.width_px, file.height_px, camera.width_px, camera.height_px));
+  }
+  model = {file.fx, file.fy, file.cx, file.cy, {}};
+  std::copy_n(file.distortion.begin(), std::min<std::size_t>(file.distortion.size(), 5), model.distortion.begin());
+  return model;
+}
+
+double scale_mm_per_px(const ScaleConfig& scale, const core::CameraModel& camera) {
+  if (scale.known_length_mm <= 0.0) return 1.0;
+  const core::Vector2 from = camera.undistort({scale.from_px[0], scale.from_px[1]});
+  const core::Vector2 to = camera.undistort({scale.to_px[0], scale.to_px[1]});
+  return scale.known_length_mm / std::hypot(to.u - from.u, to.v - from.v);
+}
+
+}  // namespace
+
+core::StructureTrackerConfig tracker_config(const AppConfig& config) {
+  const TrackingConfig& t = config.tracking;
+  core::StructureTrackerConfig tracker;
+  tracker.regions = config.regions;
+  tracker.min_points = t.min_points;
+  tracker.seed = {t.points_per_region, t.min_distance_px, t.corner_quality, t.window_px};
+  tracker.klt = {t.window_px, t.pyramid_levels, t.max_iterations, t.epsilon_px, t.forward_backward_px};
+  return tracker;
+}
+
+core::ChannelDisplacementConfig displacement_config(const AppConfig& config, const core::CameraInfo& camera) {
+  core::ChannelDisplacementConfig out;
+  out.regions = config.regions;
+  out.camera = camera_model(config, camera);
+  out.readout = {static_cast<double>(camera.readout_ns) * 1e-9, camera.readout_direction, camera.width_px, camera.height_px};
+  out.rate_hz = camera.rate_hz;
+  out.scale_mm_per_px = scale_mm_per_px(config.scale, out.camera);
+  out.adaptive_scale = config.scale.adaptive;
+  out.paper_method = config.method == Method::kPaper;
+  out.inlier_sigma_px = config.tracking.inlier_sigma_px;
+  out.min_points = config.tracking.min_points;
+  return out;
+}
+
+core::WelchConfig welch_config(const AppConfig& config, int n_channels, double rate_hz) {
+  const core::WindowKind window = core::window_kind(config.spectrum.window).value_or(core::WindowKind::kHann);
+  return {n_channels, config.spectrum.segment, config.spectrum.overlap, window, rate_hz};
+}
+
+core::IdentifierConfig identifier_config(const AppConfig& config, const std::vector<core::ChannelInfo>& channels, double rate_hz) {
+  const IdentificationConfig& i = config.identification;
+  core::IdentifierConfig out;
+  for (const std::string& name : i.references) {
+    const auto found = std::find_if(channels.begin(), channels.end(), [&](const auto& c) { return c.name == name; });
+    if (found == channels.end()) throw ConfigError(fmt::format("identification.references: '{}' is no channel", name));
+    out.references.push_back(static_cast<int>(found - channels.begin()));
+  }
+  out.block_rows = i.block_rows;
+  out.max_order = i.max_order;
+  out.min_mpc = i.min_mpc;
+  out.max_damping = i.max_damping;
+  out.undo_row_delays = config.method == Method::kHovermodal;
+  out.max_frequency_hz = out.undo_row_delays ? i.max_frequency_hz : rate_hz / 2.0;
+  return out;
+}
+
+std::vector<std::string> region_names(const AppConfig& config) {
+  std::vector<std::string> names;
+  for (const core::Region& region : config.regions) names.push_back(region.name);
+  return names;
+}
+
+std::vector<std::string> corrections(const AppConfig& config, const core::CameraInfo& camera) {
+  std::vector<std::string> list;
+  const bool paper = config.method == Method::kPaper;
+  if (config.calibration.fx > 0.0 || !config.calibration.file.empty()) list.emplace_back("lens distortion (points undistorted)");
+  if (config.scale.adaptive) list.emplace_back(paper ? "scale per frame, two points (Eq. 6)" : "scale per frame, least squares over all points");
+  if (paper) {
+    list.emplace_back("rolling shutter from frame differences, readout = one frame (Eqs. 7-8)");
+  } else if (camera.readout_ns != 0) {
+    list.push_back(fmt::format("rolling shutter {} ms: row delays undone at each mode", static_cast<double>(camera.readout_ns) * 1e-6));
+  }
+  return list;
+}
+
+}  // namespace app

@@ -1,0 +1,48 @@
+#include "firmware_app/health.h"
+
+namespace app {
+
+namespace {
+
+std::uint64_t read(const std::atomic<std::uint64_t>& counter) noexcept { return counter.load(std::memory_order_relaxed); }
+
+core::StageHealth stage_health(const HealthCollector::Queue& queue) {
+  const rt::StageStats& stats = queue.stage->stats();
+  core::StageHealth health;
+  health.name = std::string(queue.stage->name());
+  health.n_in = read(stats.n_in);
+  health.n_out = read(stats.n_out);
+  health.n_dropped = read(stats.n_dropped);
+  health.busy_ns = read(stats.busy_ns);
+  health.worst_step_ns = read(stats.worst_step_ns);
+  health.queue_slots = static_cast<std::uint32_t>(queue.n_slots);
+  if (queue.depth) health.queue_depth = static_cast<std::uint32_t>(queue.depth());
+  return health;
+}
+
+}  // namespace
+
+core::Health HealthCollector::collect(const drivers::Publisher& publisher) const {
+  core::Health health;
+  health.rate_hz = rate_hz_;
+  health.t_stream_ns = spectrum_.t_stream_ns();
+  health.frames_in = read(capture_.stats().n_in);
+  health.frames_dropped = read(capture_.stats().n_dropped);
+  health.frames_missing = capture_.n_missing();
+  health.frames_processed = read(tracking_.stats().n_in);
+  health.points_tracked = tracking_.points_tracked();
+  health.points_total = tracking_.points_total();
+  health.samples_masked = spectrum_.n_masked();
+  health.snapshots_skipped = spectrum_.n_skipped();
+  health.messages_sent = publisher.messages_sent();
+  health.messages_failed = publisher.messages_failed();
+  health.state = "running";
+  health.warnings = warnings_;
+  for (const Queue& queue : queues_) {
+    health.stages.push_back(stage_health(queue));
+    if (queue.stage->name() == "identification") health.estimates = health.stages.back().n_out;
+  }
+  return health;
+}
+
+}  // namespace app

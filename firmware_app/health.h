@@ -1,0 +1,43 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/types/health.h"
+#include "firmware_app/stages/capture_stage.h"
+#include "firmware_app/stages/publish_stage.h"
+#include "firmware_app/stages/spectrum_stage.h"
+#include "firmware_app/stages/tracking_stage.h"
+#include "rt/stage.h"
+
+namespace app {
+
+// Gathers every stage's counters into one status record. Any thread may collect; the counters are atomics.
+class HealthCollector {
+ public:
+  struct Queue {
+    const rt::Stage* stage = nullptr;
+    std::function<std::size_t()> depth;  // of the ring it reads; empty = none
+    std::size_t n_slots = 0;
+  };
+
+  HealthCollector(double rate_hz, const CaptureStage& capture, const TrackingStage& tracking, const SpectrumStage& spectrum)
+      : rate_hz_(rate_hz), capture_(capture), tracking_(tracking), spectrum_(spectrum) {}
+
+  // Set-up only.
+  void watch(Queue queue) { queues_.push_back(std::move(queue)); }
+  void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
+
+  [[nodiscard]] core::Health collect(const drivers::Publisher& publisher) const;
+
+ private:
+  double rate_hz_;
+  const CaptureStage& capture_;
+  const TrackingStage& tracking_;
+  const SpectrumStage& spectrum_;
+  std::vector<Queue> queues_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace app

@@ -1,0 +1,113 @@
+#include "firmware_app/pipeline_setup.h"
+
+#include <fmt/core.h>
+
+#include <system_error>
+#include <utility>
+
+#include "drivers/camera/camera_factory.h"
+#include "drivers/telemetry/publisher_factory.h"
+#include "firmware_app/config_image.h"
+#include "firmware_app/core_config.h"
+
+namespace app {
+
+namespace {
+
+constexpr std::chrono::seconds kFirstFrameTimeout{10};
+
+core::CameraInfo checked_info(const drivers::Camera& camera, const AppConfig& config) {
+  core::CameraInfo info = camera.info();
+  check_against_image(config, info.width_px, info.height_px);
+  const auto segment = static_cast<std::uint64_t>(config.spectrum.segment);
+  if (info.frame_count != 0 && info.frame_count < segment) {
+    throw ConfigError(fmt::format(
+        "spectrum.segment: {} frames in {} are fewer than one segment of {}: film at least {:.1f} s at {:g} fps, or set spectrum.segment to {} or less",
+        info.frame_count, config.camera.source, segment, static_cast<double>(segment) / info.rate_hz, info.rate_hz, info.frame_count));
+  }
+  return info;
+}
+
+core::Frame take_first_frame(drivers::Camera& camera, const core::CameraInfo& info) {
+  core::Frame frame;
+  frame.width_px = info.width_px;
+  frame.height_px = info.height_px;
+  frame.pixels.resize(static_cast<std::size_t>(info.width_px) * static_cast<std::size_t>(info.height_px));
+  camera.start();
+  if (camera.capture(frame, kFirstFrameTimeout) != drivers::CaptureStatus::kFrame) {
+    const std::string why = camera.fault();
+    throw std::runtime_error(fmt::format("{}: no first frame within {} s{}{}", info.description, kFirstFrameTimeout.count(),
+                                         why.empty() ? "" : ": ", why));
+  }
+  return frame;
+}
+
+core::StructureTracker seeded_tracker(const AppConfig& config, const core::Frame& first) {
+  core::StructureTracker tracker(tracker_config(config));
+  if (const std::string refused = tracker.seed(first); !refused.empty()) throw ConfigError("regions: " + refused);
+  return tracker;
+}
+
+// The seeds as the first frame's tracks: the tracker finds each point where it was put.
+core::TrackFrame track_keyframe(core::StructureTracker& tracker, const core::Frame& first) {
+  core::TrackFrame keyframe;
+  keyframe.points.resize(tracker.n_points());
+  (void)tracker.track(first, keyframe);
+  return keyframe;
+}
+
+}  // namespace
+
+Source::Source(std::unique_ptr<drivers::Camera> opened, const AppConfig& config)
+    : camera(std::move(opened)),
+      info(checked_info(*camera, config)),
+      first_frame(take_first_frame(*camera, info)),
+      tracker(seeded_tracker(config, first_frame)),
+      keyframe(track_keyframe(tracker, first_frame)),
+      displacement(displacement_config(config, info), keyframe) {}
+
+std::unique_ptr<drivers::Camera> open_camera(const AppConfig& config) {
+  const CameraConfig& c = config.camera;
+  drivers::CameraOptions options;
+  options.kind = static_cast<drivers::CameraKind>(c.driver);
+  options.source = c.source;
+  options.rate_hz = c.rate_hz;
+  options.realtime = c.pace == Pace::kRealtime;
+  options.readout_ms = c.readout_ms;
+  options.readout_direction = c.readout_direction;
+  options.exposure_ms = c.exposure_ms;
+  options.synthetic_duration_s = c.synthetic_duration_s;
+  options.synthetic_seed = c.synthetic_seed;
+  return drivers::make_camera(options);
+}
+
+std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config) {
+  const TelemetryConfig& t = config.telemetry;
+  return drivers::make_publisher({t.lcm_url, t.channel_prefix, t.log_file, {t.stream_id, config.hash}});
+}
+
+std::unique_ptr<RunReport> open_report(const AppConfig& config, const Source& source) {
+  if (config.report.directory.empty()) return nullptr;
+  return std::make_unique<RunReport>(config.report.directory, config, source.info, source.channels(), region_names(config));
+}
+
+FrameRecord record_prototype(const Source& source) { return {source.keyframe, source.displacement.sample_prototype()}; }
+
+void refuse_or_warn(const RtConfig& config, const std::string& refused, HealthCollector& health) {
+  if (config.required) throw RealTimeRefused(refused + " (rt.required is true)");
+  health.warn(refused);
+}
+
+void start_runner(rt::StageRunner& runner, const RtConfig& config, HealthCollector& health) {
+  try {
+    runner.start();
+  } catch (const std::system_error& e) {
+    if (runner.config().fifo_priority == 0) throw;
+    refuse_or_warn(config, fmt::format("{}: priority {} refused ({}): grant CAP_SYS_NICE or raise RLIMIT_RTPRIO", runner.config().name,
+                                       runner.config().fifo_priority, e.code().message()), health);
+    runner.drop_priority();
+    runner.start();
+  }
+}
+
+}  // namespace app

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/geometry/channel_displacement.h"
+#include "core/tracking/structure_tracker.h"
+#include "core/types/frame.h"
+#include "drivers/camera/camera.h"
+#include "drivers/telemetry/publisher.h"
+#include "firmware_app/config.h"
+#include "firmware_app/health.h"
+#include "firmware_app/report/run_report.h"
+#include "firmware_app/stages/items.h"
+#include "rt/stage_runner.h"
+
+namespace app {
+
+// The beginning of the data flow, once the first frame is there: everything behind it can then be sized.
+struct Source {
+  // Starts the camera, takes one frame, seeds the points. Throws ConfigError when configuration and source do not fit,
+  // std::runtime_error when no frame comes.
+  Source(std::unique_ptr<drivers::Camera> opened, const AppConfig& config);
+
+  [[nodiscard]] const std::vector<core::ChannelInfo>& channels() const noexcept { return displacement.channels(); }
+
+  std::unique_ptr<drivers::Camera> camera;
+  core::CameraInfo info;
+  core::Frame first_frame;
+  core::StructureTracker tracker;
+  core::TrackFrame keyframe;
+  core::ChannelDisplacement displacement;
+};
+
+[[nodiscard]] std::unique_ptr<drivers::Camera> open_camera(const AppConfig& config);
+[[nodiscard]] std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config);
+[[nodiscard]] std::unique_ptr<RunReport> open_report(const AppConfig& config, const Source& source);  // null: none wanted
+[[nodiscard]] FrameRecord record_prototype(const Source& source);
+
+// A real-time setting that the system refuses: an error when rt.required, else a warning in every status record.
+void refuse_or_warn(const RtConfig& config, const std::string& refused, HealthCollector& health);
+void start_runner(rt::StageRunner& runner, const RtConfig& config, HealthCollector& health);
+
+// Thrown by the two above (exit code 4).
+class RealTimeRefused : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace app

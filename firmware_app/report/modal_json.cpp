@@ -1,0 +1,96 @@
+#include "firmware_app/report/modal_json.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <complex>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "drivers/storage/json.h"
+
+namespace app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+// 0 stands for "not known" in these fields.
+Json positive_or_null(double value) { return value == 0.0 ? Json(nullptr) : Json(value); }
+
+std::string channel_name(const std::vector<std::string>& names, std::size_t i) {
+  return i < names.size() ? names[i] : fmt::format("channel_{}", i);
+}
+
+Json shape_json(const core::Mode& mode, const std::vector<std::string>& names) {
+  if (mode.shape.empty()) return nullptr;
+  Json shape = Json::object();
+  for (std::size_t i = 0; i < mode.shape.size(); ++i) {
+    shape[channel_name(names, i)] = {mode.shape[i].real(), mode.shape[i].imag()};
+  }
+  return shape;
+}
+
+Json shape_std_json(const core::Mode& mode, const std::vector<std::string>& names) {
+  if (mode.shape_std.empty()) return nullptr;
+  Json shape_std = Json::object();
+  for (std::size_t i = 0; i < mode.shape_std.size(); ++i) shape_std[channel_name(names, i)] = mode.shape_std[i];
+  return shape_std;
+}
+
+Json mode_json(const core::Mode& mode, const std::vector<std::string>& names) {
+  Json out = Json::object();
+  out["frequency_hz"] = mode.frequency_hz;
+  out["frequency_std_hz"] = or_null(mode.frequency_std_hz);
+  out["apparent_hz"] = mode.apparent_hz;
+  out["fold_n"] = or_null(mode.fold_n);
+  out["fold_margin"] = or_null(mode.fold_margin);
+  out["damping_ratio"] = mode.damping_ratio;
+  out["damping_std"] = or_null(mode.damping_std);
+  out["shape"] = shape_json(mode, names);
+  out["shape_std"] = shape_std_json(mode, names);
+  out["mpc"] = mode.mpc;
+  out["verdict"] = core::to_string(mode.verdict);
+  out["reason"] = mode.reason;
+  return out;
+}
+
+Json modes_json(const std::vector<core::Mode>& modes, const std::vector<std::string>& names) {
+  Json out = Json::array();
+  for (const core::Mode& mode : modes) out.push_back(mode_json(mode, names));
+  return out;
+}
+
+Json losses_json(const core::Health& losses) {
+  return {{"frames_in", losses.frames_in},           {"frames_processed", losses.frames_processed},
+          {"frames_dropped", losses.frames_dropped}, {"frames_missing", losses.frames_missing},
+          {"samples_masked", losses.samples_masked}, {"snapshots_skipped", losses.snapshots_skipped}};
+}
+
+}  // namespace
+
+std::string_view to_text(Method method) noexcept { return method == Method::kPaper ? "paper" : "hovermodal"; }
+
+std::string modal_json(const ModalReport& report, std::size_t* n_not_finite) {
+  const core::ModalEstimate& estimate = report.estimate;
+  Json out = Json::object();
+  out["version"] = 1;
+  out["method"] = report.method;
+  out["rate_hz"] = positive_or_null(estimate.rate_hz);
+  out["duration_s"] = estimate.duration_s;
+  out["samples"] = estimate.n_samples;
+  out["segments"] = estimate.n_segments;
+  out["modes"] = modes_json(estimate.modes, report.channel_names);
+  out["rejected"] = modes_json(estimate.rejected, report.channel_names);
+  out["corrections"] = report.corrections;
+  out["losses"] = losses_json(report.losses);
+  drivers::JsonText text = drivers::to_json_text(out);
+  if (n_not_finite != nullptr) *n_not_finite = text.n_not_finite;
+  return std::move(text.text);
+}
+
+}  // namespace app

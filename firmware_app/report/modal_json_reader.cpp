@@ -1,0 +1,162 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "drivers/storage/json.h"
+#include "drivers/storage/text_file.h"
+#include "firmware_app/report/modal_json.h"
+
+namespace app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class ModalReader {
+ public:
+  explicit ModalReader(const std::string& path) : path_(path) {}
+
+  [[nodiscard]] ModalReport read() {
+    const Json root = drivers::read_json_file(path_);
+    if (!root.is_object() || !root.contains("modes")) refuse("modes", "is missing; is this a modal.json?");
+    if (count(root, "version") != 1) refuse("version", "is not 1; read it with the program that wrote it");
+    report_.method = text(root, "method");
+    core::ModalEstimate& estimate = report_.estimate;
+    estimate.rate_hz = optional_number(root, "rate_hz").value_or(0.0);
+    estimate.duration_s = optional_number(root, "duration_s").value_or(0.0);
+    estimate.n_samples = count(root, "samples");
+    estimate.n_segments = count(root, "segments");
+    estimate.final = true;
+    estimate.modes = modes(root, "modes");
+    estimate.rejected = modes(root, "rejected");
+    if (const Json* list = find(root, "corrections")) {
+      for (const Json& item : *list) report_.corrections.push_back(item.is_string() ? item.get<std::string>() : "");
+    }
+    if (const Json* losses = find(root, "losses")) read_losses(*losses);
+    return std::move(report_);
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& key, const std::string& what) const {
+    throw drivers::FileError(fmt::format("{}: {}: {}", path_, key, what));
+  }
+
+  // nullptr = missing or null.
+  [[nodiscard]] static const Json* find(const Json& object, const char* key) {
+    if (!object.is_object()) return nullptr;
+    const auto found = object.find(key);
+    return found == object.end() || found->is_null() ? nullptr : &*found;
+  }
+
+  [[nodiscard]] double finite(const Json& value, const std::string& key) const {
+    if (!value.is_number()) refuse(key, "is no number");
+    const double number = value.get<double>();
+    if (!std::isfinite(number)) refuse(key, "is not finite");
+    return number;
+  }
+
+  [[nodiscard]] std::optional<double> optional_number(const Json& object, const char* key) const {
+    const Json* value = find(object, key);
+    return value == nullptr ? std::nullopt : std::optional<double>(finite(*value, key));
+  }
+
+  [[nodiscard]] std::uint64_t count(const Json& object, const char* key) const {
+    const Json* value = find(object, key);
+    if (value == nullptr) return 0;
+    if (!value->is_number_unsigned()) refuse(key, "is no whole number, 0 or more");
+    return value->get<std::uint64_t>();
+  }
+
+  [[nodiscard]] std::string text(const Json& object, const char* key) const {
+    const Json* value = find(object, key);
+    if (value == nullptr) return {};
+    if (!value->is_string()) refuse(key, "is no text");
+    return value->get<std::string>();
+  }
+
+  [[nodiscard]] std::vector<core::Mode> modes(const Json& root, const char* key) {
+    std::vector<core::Mode> out;
+    const Json* list = find(root, key);
+    if (list == nullptr) return out;
+    if (!list->is_array()) refuse(key, "is no list");
+    for (const Json& item : *list) out.push_back(mode(item, fmt::format("{}[{}]", key, out.size())));
+    return out;
+  }
+
+  [[nodiscard]] core::Mode mode(const Json& item, const std::string& name) {
+    core::Mode out;
+    const auto frequency = optional_number(item, "frequency_hz");
+    if (!frequency) refuse(name + ".frequency_hz", "is missing");
+    out.frequency_hz = *frequency;
+    out.frequency_std_hz = optional_number(item, "frequency_std_hz");
+    out.apparent_hz = optional_number(item, "apparent_hz").value_or(out.frequency_hz);
+    if (const Json* fold = find(item, "fold_n")) {
+      const double n = finite(*fold, name + ".fold_n");
+      if (std::abs(n) > 1e6 || n != std::floor(n)) refuse(name + ".fold_n", "is no small whole number");
+      out.fold_n = static_cast<int>(n);
+    }
+    out.fold_margin = optional_number(item, "fold_margin");
+    out.damping_ratio = optional_number(item, "damping_ratio").value_or(0.0);
+    out.damping_std = optional_number(item, "damping_std");
+    out.mpc = optional_number(item, "mpc").value_or(0.0);
+    out.reason = text(item, "reason");
+    out.verdict = verdict(text(item, "verdict"), name);
+    read_shape(item, name, out);
+    return out;
+  }
+
+  [[nodiscard]] core::Verdict verdict(const std::string& name_of_verdict, const std::string& name) const {
+    using core::Verdict;
+    for (const Verdict verdict : {Verdict::kStructural, Verdict::kCameraMotion, Verdict::kInputPeak, Verdict::kHarmonic,
+                                  Verdict::kAmbiguous, Verdict::kNumerical}) {
+      if (name_of_verdict == core::to_string(verdict)) return verdict;
+    }
+    refuse(name + ".verdict", fmt::format("`{}` is unknown", drivers::printable(name_of_verdict)));
+  }
+
+  // The first shape fixes the channels; every other must have the same.
+  void read_shape(const Json& item, const std::string& name, core::Mode& out) {
+    const Json* shape = find(item, "shape");
+    if (shape == nullptr) return;
+    if (!shape->is_object() || shape->empty()) refuse(name + ".shape", "is no map of channels");
+    if (report_.channel_names.empty()) {
+      for (const auto& [channel, value] : shape->items()) report_.channel_names.push_back(channel);
+    }
+    if (shape->size() != report_.channel_names.size())
+      refuse(name + ".shape", "has other channels than the modes before");
+    const Json* shape_std = find(item, "shape_std");
+    for (const std::string& channel : report_.channel_names) {
+      const Json* value = find(*shape, channel.c_str());
+      if (value == nullptr || !value->is_array() || value->size() != 2) {
+        refuse(fmt::format("{}.shape.{}", name, drivers::printable(channel)), "is no [re, im]");
+      }
+      out.shape.emplace_back(finite((*value)[0], name + ".shape"), finite((*value)[1], name + ".shape"));
+      if (shape_std == nullptr) continue;
+      const auto channel_std = optional_number(*shape_std, channel.c_str());
+      if (!channel_std) refuse(fmt::format("{}.shape_std.{}", name, drivers::printable(channel)), "is missing");
+      out.shape_std.push_back(*channel_std);
+    }
+  }
+
+  void read_losses(const Json& losses) {
+    core::Health& out = report_.losses;
+    out.frames_in = count(losses, "frames_in");
+    out.frames_processed = count(losses, "frames_processed");
+    out.frames_dropped = count(losses, "frames_dropped");
+    out.frames_missing = count(losses, "frames_missing");
+    out.samples_masked = count(losses, "samples_masked");
+    out.snapshots_skipped = count(losses, "snapshots_skipped");
+  }
+
+  std::string path_;
+  ModalReport report_;
+};
+
+}  // namespace
+
+ModalReport read_modal_json(const std::string& path) { return ModalReader(path).read(); }
+
+}  // namespace app

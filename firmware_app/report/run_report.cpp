@@ -1,0 +1,192 @@
+#include "firmware_app/report/run_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <iterator>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "drivers/storage/json.h"
+#include "drivers/storage/text_file.h"
+#include "firmware_app/report/modal_json.h"
+
+namespace app {
+namespace {
+
+using drivers::append_fixed;
+using drivers::append_seconds;
+using drivers::append_text;
+
+// 1e-4 px and 1e-6 mm lie far below what any track resolves.
+constexpr int kPixelDecimals = 4;
+constexpr int kSigmaDecimals = 5;
+constexpr int kDisplacementDecimals = 6;
+
+std::string_view to_text(core::ReadoutDirection direction) {
+  switch (direction) {
+    case core::ReadoutDirection::kDown:
+      return "down";
+    case core::ReadoutDirection::kUp:
+      return "up";
+    case core::ReadoutDirection::kLeft:
+      return "left";
+    case core::ReadoutDirection::kRight:
+      return "right";
+  }
+  return "down";
+}
+
+void make_directory(const std::string& directory) {
+  if (directory.empty()) throw drivers::FileError("report.directory is empty; name a folder");
+  std::error_code error;
+  if (std::filesystem::exists(directory, error) && !std::filesystem::is_directory(directory, error)) {
+    throw drivers::FileError(fmt::format("{}: is a file, not a folder; name another folder for the report", directory));
+  }
+  std::filesystem::create_directories(directory, error);
+  if (error) {
+    throw drivers::FileError(
+        fmt::format("{}: cannot be made: {}; name a folder that may be written", directory, error.message()));
+  }
+}
+
+std::string in_directory(const std::string& directory, const char* name) {
+  return (std::filesystem::path(directory) / name).string();
+}
+
+template <class... Args>
+void append_line(fmt::memory_buffer& out, fmt::format_string<Args...> format, Args&&... args) {
+  fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
+  out.push_back('\n');
+}
+
+}  // namespace
+
+RunReport::RunReport(const std::string& directory, const AppConfig& config, const core::CameraInfo& camera,
+                     const std::vector<core::ChannelInfo>& channels, const std::vector<std::string>& region_names)
+    : directory_(directory), method_(app::to_text(config.method)), region_names_(region_names) {
+  make_directory(directory);
+  for (const core::ChannelInfo& channel : channels) channel_names_.push_back(channel.name);
+  for (const char* old : {"modal.json", "modal.json.partial", "tracks.csv"}) {
+    std::error_code ignored;  // opening the new file tells what matters
+    std::filesystem::remove(in_directory(directory, old), ignored);
+  }
+  displacements_.emplace(in_directory(directory, "displacements.csv"));
+  write_displacement_header(config, camera, channels);
+  if (!config.report.tracks) return;
+  tracks_.emplace(in_directory(directory, "tracks.csv"));
+  write_track_header(camera);
+}
+
+void RunReport::write_track_header(const core::CameraInfo& camera) {
+  fmt::memory_buffer& out = tracks_->buffer();
+  append_line(out, "# hovermodal tracks, version 1");
+  append_line(out, "# image_size_px: {} x {}", camera.width_px, camera.height_px);
+  append_line(out, "# rate_hz: {}", camera.rate_hz);
+  append_line(out, "# readout_ms: {}", static_cast<double>(camera.readout_ns) / 1e6);
+  append_line(out, "# readout_direction: {}", to_text(camera.readout_direction));
+  append_line(out, "# exposure_ms: {}", static_cast<double>(camera.exposure_ns) / 1e6);
+  append_line(out, "# frame_count: {}", camera.frame_count == 0 ? "unknown" : std::to_string(camera.frame_count));
+  append_line(out, "# regions: {}", fmt::join(region_names_, ","));
+  append_line(out, "frame,t_s,point,region,u_px,v_px,sigma_px");
+}
+
+void RunReport::write_displacement_header(const AppConfig& config, const core::CameraInfo& camera,
+                                          const std::vector<core::ChannelInfo>& channels) {
+  fmt::memory_buffer& out = displacements_->buffer();
+  append_line(out, "# hovermodal displacements, version 1");
+  append_line(out, "# unit: {}", config.scale.known_length_mm > 0.0 ? "mm" : "px");
+  append_line(out, "# rate_hz: {}", camera.rate_hz);
+  // A channel is seen this long after t_s.
+  for (const core::ChannelInfo& channel : channels)
+    append_line(out, "# row_delay_s.{}: {}", channel.name, channel.row_delay_s);
+  append_line(out, "frame,t_s,scale_mm_per_px{}{}", channels.empty() ? "" : ",", fmt::join(channel_names_, ","));
+}
+
+void RunReport::append_point(fmt::memory_buffer& out, const std::string& prefix, const core::TrackPoint& point) {
+  const std::size_t begin = out.size();
+  append_text(out, prefix);
+  append_text(out, fmt::format_int(point.id).c_str());
+  out.push_back(',');
+  append_text(out, point.region < region_names_.size() ? std::string_view(region_names_[point.region]) : "unknown");
+  out.push_back(',');
+  bool finite = append_fixed(out, point.u_px, kPixelDecimals);
+  out.push_back(',');
+  finite = append_fixed(out, point.v_px, kPixelDecimals) && finite;
+  out.push_back(',');
+  finite = append_fixed(out, point.sigma_px, kSigmaDecimals) && finite;
+  out.push_back('\n');
+  if (finite) return;
+  out.resize(begin);
+  ++n_not_finite_;
+}
+
+bool RunReport::add(const core::TrackFrame& frame) noexcept try {
+  if (!tracks_) return true;
+  if (tracks_->error() != 0) return ++n_items_lost_, false;
+  fmt::memory_buffer& out = tracks_->buffer();
+  fmt::memory_buffer prefix;
+  fmt::format_to(std::back_inserter(prefix), "{},", frame.sequence);
+  append_seconds(prefix, frame.t_start_ns);
+  prefix.push_back(',');
+  const std::string text(prefix.data(), prefix.size());
+  for (const core::TrackPoint& point : frame.points) {
+    if (point.seen) append_point(out, text, point);
+  }
+  return tracks_->end_line();
+} catch (const std::exception&) {  // out of memory
+  ++n_items_lost_;
+  return false;
+}
+
+bool RunReport::add(const core::DisplacementSample& sample) noexcept try {
+  if (displacements_->error() != 0) return ++n_items_lost_, false;
+  fmt::memory_buffer& out = displacements_->buffer();
+  fmt::format_to(std::back_inserter(out), "{},", sample.sequence);
+  append_seconds(out, sample.t_start_ns);
+  out.push_back(',');
+  if (std::isfinite(sample.scale_mm_per_px) && sample.scale_mm_per_px > 0.0) {
+    fmt::format_to(std::back_inserter(out), "{:.9g}", sample.scale_mm_per_px);
+  }
+  for (std::size_t i = 0; i < channel_names_.size(); ++i) {
+    out.push_back(',');
+    const bool seen = i < sample.seen.size() && i < sample.value_mm.size() && sample.seen[i] != 0;
+    if (seen && !append_fixed(out, sample.value_mm[i], kDisplacementDecimals)) ++n_not_finite_;
+  }
+  out.push_back('\n');
+  return displacements_->end_line();
+} catch (const std::exception&) {  // out of memory
+  ++n_items_lost_;
+  return false;
+}
+
+void RunReport::finish(const core::ModalEstimate& last, const core::Health& losses,
+                       const std::vector<std::string>& corrections) {
+  std::string failures;
+  const auto attempt = [&](const auto& write) {
+    try {
+      write();
+    } catch (const drivers::FileError& error) {
+      failures += fmt::format("{}{}", failures.empty() ? "" : "; ", error.what());
+    }
+  };
+  if (tracks_) attempt([&] { tracks_->commit(); });
+  attempt([&] { displacements_->commit(); });
+  attempt([&] {
+    std::size_t n_not_finite = 0;
+    const std::string text = modal_json({method_, channel_names_, last, corrections, losses}, &n_not_finite);
+    n_not_finite_ += n_not_finite;
+    drivers::write_file_atomically(in_directory(directory_, "modal.json"), text);
+  });
+  if (failures.empty()) return;
+  throw drivers::FileError(
+      fmt::format("the report is incomplete ({} frames and samples came after the fault): {}. Free space on the disk, "
+                  "or name another folder",
+                  n_items_lost_, failures));
+}
+
+}  // namespace app

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/types/displacement.h"
+#include "core/types/frame.h"
+#include "core/types/health.h"
+#include "core/types/modal_estimate.h"
+#include "core/types/track.h"
+#include "drivers/storage/csv_writer.h"
+#include "firmware_app/config.h"
+
+namespace app {
+
+// The files that a run leaves behind: tracks.csv and displacements.csv, written as it goes, and modal.json at the end.
+// Used by one thread. A file under way is called *.partial; only a complete one has its name.
+class RunReport {
+ public:
+  // Makes the folder, opens the CSV files, removes the results of an earlier run there. Throws drivers::FileError.
+  RunReport(const std::string& directory, const AppConfig& config, const core::CameraInfo& camera,
+            const std::vector<core::ChannelInfo>& channels, const std::vector<std::string>& region_names);
+
+  // One frame, one sample. False: a file has failed (disk full); the rest of it is lost, counted, and told by finish().
+  bool add(const core::TrackFrame& frame) noexcept;
+  bool add(const core::DisplacementSample& sample) noexcept;
+
+  // Completes the files and writes modal.json. Throws one drivers::FileError that names every file that failed; the
+  // others are complete.
+  void finish(const core::ModalEstimate& last, const core::Health& losses, const std::vector<std::string>& corrections);
+
+  // Frames and samples that came after a file had failed.
+  [[nodiscard]] std::uint64_t n_items_lost() const noexcept { return n_items_lost_; }
+  // Values that were NaN or infinite: left out of the CSV files, null in modal.json. A fault of ours, to be logged.
+  [[nodiscard]] std::uint64_t n_not_finite() const noexcept { return n_not_finite_; }
+
+ private:
+  void write_track_header(const core::CameraInfo& camera);
+  void write_displacement_header(const AppConfig& config, const core::CameraInfo& camera,
+                                 const std::vector<core::ChannelInfo>& channels);
+  void append_point(fmt::memory_buffer& out, const std::string& prefix, const core::TrackPoint& point);
+
+  std::string directory_;
+  std::string method_;
+  std::vector<std::string> channel_names_;
+  std::vector<std::string> region_names_;
+  std::optional<drivers::CsvWriter> tracks_;  // empty where the configuration wants no tracks
+  std::optional<drivers::CsvWriter> displacements_;
+  std::uint64_t n_items_lost_ = 0;
+  std::uint64_t n_not_finite_ = 0;
+};
+
+}  // namespace app

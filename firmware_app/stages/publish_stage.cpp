@@ -1,0 +1,84 @@
+#include "firmware_app/stages/publish_stage.h"
+
+#include <exception>
+#include <utility>
+
+#include "rt/clock.h"
+
+namespace app {
+
+namespace {
+constexpr std::int64_t kHealthPeriodNs = 1'000'000'000;
+}
+
+PublishStage::PublishStage(rt::RingReader<FrameRecord> records, rt::RingReader<IdentificationResult> results, Outlets outlets)
+    : records_(records), results_(results), outlets_(std::move(outlets)) {}
+
+rt::StepStatus PublishStage::step() noexcept {
+  publish_health_when_due();
+  if (const IdentificationResult* result = results_.front()) {
+    publish_result(*result);
+    results_.pop();
+    return rt::StepStatus::kWorked;
+  }
+  if (const FrameRecord* record = records_.front()) {
+    publish_record(*record);
+    records_.pop();
+    rt::StageStats::add(stats().n_in);
+    return rt::StepStatus::kWorked;
+  }
+  return records_.finished() && results_.finished() ? rt::StepStatus::kFinished : rt::StepStatus::kIdle;
+}
+
+void PublishStage::publish_record(const FrameRecord& record) noexcept {
+  const auto due = [this](int every) { return every > 0 && n_records_ % static_cast<std::uint64_t>(every) == 0; };
+  if (due(outlets_.telemetry.displacement_every)) (void)outlets_.publisher.publish(record.sample, outlets_.channels);
+  if (due(outlets_.telemetry.tracks_every)) (void)outlets_.publisher.publish(record.tracks);
+  if (outlets_.report != nullptr) {
+    // A failed file is counted by the report and told by its finish().
+    (void)outlets_.report->add(record.tracks);
+    (void)outlets_.report->add(record.sample);
+  }
+  ++n_records_;
+}
+
+void PublishStage::publish_result(const IdentificationResult& result) noexcept {
+  (void)outlets_.publisher.publish(result.estimate, outlets_.channels);
+  (void)outlets_.publisher.publish(result.sums, outlets_.channels);
+  try {
+    last_estimate_ = result.estimate;
+  } catch (...) {
+    fault_ = "out of memory for an estimate";
+  }
+  n_estimates_.store(n_estimates_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+  rt::StageStats::add(stats().n_out);
+}
+
+// By the wall clock, because it is for a person who watches; it enters no result.
+void PublishStage::publish_health_when_due() noexcept {
+  const std::int64_t now_ns = rt::monotonic_ns();
+  if (now_ns < next_health_ns_) return;
+  next_health_ns_ = now_ns + kHealthPeriodNs;
+  try {
+    (void)outlets_.publisher.publish(outlets_.health());
+  } catch (...) {  // out of memory: the next one is a second away
+  }
+}
+
+void PublishStage::finish() noexcept {
+  try {
+    core::Health health = outlets_.health();
+    try {
+      if (outlets_.report != nullptr) outlets_.report->finish(last_estimate_, health, outlets_.corrections);
+    } catch (const std::exception& e) {
+      fault_ = e.what();
+      health.state = "fault: " + fault_;
+    }
+    if (health.state.rfind("fault", 0) != 0) health.state = "finished";
+    (void)outlets_.publisher.publish(health);
+  } catch (const std::exception& e) {
+    fault_ = e.what();
+  }
+}
+
+}  // namespace app

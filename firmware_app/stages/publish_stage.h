@@ -1,0 +1,58 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/types/displacement.h"
+#include "core/types/health.h"
+#include "drivers/telemetry/publisher.h"
+#include "firmware_app/config.h"
+#include "firmware_app/report/run_report.h"
+#include "firmware_app/stages/items.h"
+#include "rt/spsc_ring.h"
+#include "rt/stage.h"
+
+namespace app {
+
+// records and estimates -> telemetry and the report's files. The one stage that may touch files and sockets.
+class PublishStage : public rt::Stage {
+ public:
+  struct Outlets {
+    drivers::Publisher& publisher;
+    RunReport* report = nullptr;                    // null: no report wanted
+    std::function<core::Health()> health;           // a status record of now
+    std::vector<core::ChannelInfo> channels;
+    std::vector<std::string> corrections;
+    TelemetryConfig telemetry;
+  };
+
+  PublishStage(rt::RingReader<FrameRecord> records, rt::RingReader<IdentificationResult> results, Outlets outlets);
+
+  [[nodiscard]] std::string_view name() const noexcept override { return "publish"; }
+  [[nodiscard]] rt::StepStatus step() noexcept override;
+  void finish() noexcept override;
+
+  // Any thread: estimates published so far. release after `last_estimate_` is complete; see last_estimate().
+  [[nodiscard]] std::uint64_t n_estimates() const noexcept { return n_estimates_.load(std::memory_order_acquire); }
+  // After the thread has ended.
+  [[nodiscard]] const core::ModalEstimate& last_estimate() const noexcept { return last_estimate_; }
+  [[nodiscard]] const std::string& fault() const noexcept { return fault_; }  // empty = none
+
+ private:
+  void publish_record(const FrameRecord& record) noexcept;
+  void publish_result(const IdentificationResult& result) noexcept;
+  void publish_health_when_due() noexcept;
+
+  rt::RingReader<FrameRecord> records_;
+  rt::RingReader<IdentificationResult> results_;
+  Outlets outlets_;
+  core::ModalEstimate last_estimate_;
+  std::string fault_;
+  std::uint64_t n_records_ = 0;
+  std::int64_t next_health_ns_ = 0;
+  std::atomic<std::uint64_t> n_estimates_{0};
+};
+
+}  // namespace app

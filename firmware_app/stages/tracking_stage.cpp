@@ -1,0 +1,53 @@
+#include "firmware_app/stages/tracking_stage.h"
+
+namespace app {
+
+TrackingStage::TrackingStage(rt::RingReader<core::Frame> frames, core::StructureTracker& tracker,
+                             core::ChannelDisplacement& channels, rt::RingWriter<core::DisplacementSample> samples,
+                             rt::RingWriter<FrameRecord> records, bool lossless)
+    : frames_(frames), tracker_(tracker), channels_(channels), samples_(samples), records_(records), lossless_(lossless) {
+  scratch_.tracks.points.resize(tracker.n_points());
+  scratch_.sample = channels.sample_prototype();
+}
+
+rt::StepStatus TrackingStage::step() noexcept {
+  const core::Frame* frame = frames_.front();
+  if (frame == nullptr) return frames_.finished() ? rt::StepStatus::kFinished : rt::StepStatus::kIdle;
+  core::DisplacementSample* sample = samples_.try_claim();
+  FrameRecord* record = records_.try_claim();
+  if (lossless_ && (sample == nullptr || record == nullptr)) return rt::StepStatus::kIdle;
+
+  measure(*frame);
+  frames_.pop();
+  rt::StageStats::add(stats().n_in);
+  if (sample != nullptr) {
+    *sample = scratch_.sample;  // same sizes: copies values, allocates nothing
+    sample->gap_before = sample->gap_before || gap_before_next_;
+    samples_.publish();
+    rt::StageStats::add(stats().n_out);
+  } else {
+    rt::StageStats::add(stats().n_dropped);
+  }
+  gap_before_next_ = sample == nullptr;
+  if (record != nullptr) {
+    *record = scratch_;
+    records_.publish();
+  }
+  return rt::StepStatus::kWorked;
+}
+
+void TrackingStage::measure(const core::Frame& frame) noexcept {
+  if (!tracker_.track(frame, scratch_.tracks)) n_failed_.store(n_failed_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  channels_.update(scratch_.tracks, scratch_.sample);
+  tracker_.learn(scratch_.tracks);
+  std::uint64_t n_tracked = 0;
+  for (const core::TrackPoint& point : scratch_.tracks.points) n_tracked += point.inlier ? 1U : 0U;
+  points_tracked_.store(n_tracked, std::memory_order_relaxed);
+}
+
+void TrackingStage::finish() noexcept {
+  samples_.close();
+  records_.close();
+}
+
+}  // namespace app

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <atomic>
+
+#include "core/geometry/channel_displacement.h"
+#include "core/tracking/structure_tracker.h"
+#include "core/types/frame.h"
+#include "firmware_app/stages/items.h"
+#include "rt/spsc_ring.h"
+#include "rt/stage.h"
+
+namespace app {
+
+// frame ring -> points -> displacement of every channel -> spectrum ring and publish ring.
+class TrackingStage : public rt::Stage {
+ public:
+  TrackingStage(rt::RingReader<core::Frame> frames, core::StructureTracker& tracker, core::ChannelDisplacement& channels,
+                rt::RingWriter<core::DisplacementSample> samples, rt::RingWriter<FrameRecord> records, bool lossless);
+
+  [[nodiscard]] std::string_view name() const noexcept override { return "tracking"; }
+  [[nodiscard]] rt::StepStatus step() noexcept override;
+  void finish() noexcept override;
+
+  // Any thread: of the newest frame.
+  [[nodiscard]] std::uint64_t points_tracked() const noexcept { return points_tracked_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::uint64_t points_total() const noexcept { return scratch_.tracks.points.size(); }
+  [[nodiscard]] std::uint64_t n_failed_frames() const noexcept { return n_failed_.load(std::memory_order_relaxed); }
+
+ private:
+  void measure(const core::Frame& frame) noexcept;
+
+  rt::RingReader<core::Frame> frames_;
+  core::StructureTracker& tracker_;
+  core::ChannelDisplacement& channels_;
+  rt::RingWriter<core::DisplacementSample> samples_;
+  rt::RingWriter<FrameRecord> records_;
+  bool lossless_;
+  FrameRecord scratch_;
+  bool gap_before_next_ = false;
+  std::atomic<std::uint64_t> points_tracked_{0};  // written here only; relaxed: a count on its own
+  std::atomic<std::uint64_t> n_failed_{0};
+};
+
+}  // namespace app

@@ -1,0 +1,130 @@
+#ifdef HOVERMODAL_WITH_LCM
+#include "drivers/telemetry/stream_monitor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "drivers/telemetry/encode.h"
+#include "tests/support/telemetry_samples.h"
+
+namespace {
+
+using drivers::StreamMonitor;
+using drivers::to_message;
+using drivers::to_messages;
+
+class StreamMonitorTest : public ::testing::Test {
+ protected:
+  template <class Message>
+  void send(StreamMonitor::Topic topic, Message message, std::int64_t sequence, std::int64_t utc_ns) {
+    message.sequence = sequence;
+    message.utc_ns = utc_ns;
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    monitor_.receive(monitor_.lcm_channel(topic), bytes.data(), bytes.size(), ++now_ns_);
+  }
+  void send_sample(std::int64_t sequence, std::int64_t utc_ns, const std::string& stream = "tower") {
+    send(StreamMonitor::kDisplacement, to_message(tests::sample_displacement(3, 1), {stream, 1}), sequence, utc_ns);
+  }
+  [[nodiscard]] const drivers::ChannelCount& samples() const { return monitor_.count(StreamMonitor::kDisplacement); }
+
+  StreamMonitor monitor_{"TEST"};
+  std::int64_t now_ns_ = 0;
+};
+
+TEST_F(StreamMonitorTest, CountsTheMessagesMissingBetweenThoseHeard) {
+  send_sample(5, 10);
+  send_sample(6, 20);
+  send_sample(10, 30);
+  EXPECT_EQ(samples().received, 3U);
+  EXPECT_EQ(samples().gaps, 3U);
+  EXPECT_EQ(samples().first_sequence, 5);
+  EXPECT_EQ(samples().last_sequence, 10);
+}
+
+TEST_F(StreamMonitorTest, TellsALateMessageFromARestart) {
+  send_sample(5, 50);
+  send_sample(4, 40);
+  EXPECT_EQ(samples().out_of_order, 1U);
+  EXPECT_EQ(monitor_.history_mm(0).size(), 1U);
+  send_sample(0, 60);
+  EXPECT_EQ(samples().restarts, 1U);
+  EXPECT_EQ(samples().gaps, 0U);
+  send_sample(1, 70);
+  EXPECT_EQ(samples().last_sequence, 1);
+}
+
+TEST_F(StreamMonitorTest, FollowsTheFirstStreamAndOnlyCountsOthers) {
+  send_sample(0, 10, "tower");
+  send_sample(7, 20, "bridge");
+  send_sample(1, 30, "tower");
+  EXPECT_EQ(samples().received, 2U);
+  EXPECT_EQ(samples().foreign, 1U);
+  EXPECT_EQ(samples().gaps, 0U);
+}
+
+TEST_F(StreamMonitorTest, CountsWhatDoesNotDecodeAndIgnoresOtherChannels) {
+  const std::string junk = "not a message";
+  monitor_.receive("TEST_MODAL", junk.data(), junk.size(), 1);
+  monitor_.receive("TEST_MODAL", junk.data(), 0, 1);
+  monitor_.receive("OTHER", junk.data(), junk.size(), 1);
+  EXPECT_EQ(monitor_.count(StreamMonitor::kModal).undecodable, 2U);
+  EXPECT_EQ(monitor_.stream_id(), "");
+  send_sample(-1, 10);
+  EXPECT_EQ(samples().undecodable, 1U);
+}
+
+TEST_F(StreamMonitorTest, ExtremeSequencesDoNotOverflow) {
+  send_sample(0, 1);
+  send_sample(std::numeric_limits<std::int64_t>::max(), 2);
+  EXPECT_EQ(samples().gaps, static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()) - 1);
+}
+
+TEST_F(StreamMonitorTest, PutsThePartsOfAnEstimateTogetherInOrder) {
+  const auto parts = to_messages(tests::sample_estimate(12, 10), tests::sample_channels(12), {"tower", 1});
+  ASSERT_GT(parts.size(), 1U);
+  for (std::size_t i = parts.size(); i-- > 0;) {
+    send(StreamMonitor::kModal, parts[i], static_cast<std::int64_t>(parts.size() - i), 100 - static_cast<int>(i));
+  }
+  const auto modes = monitor_.modes();
+  ASSERT_EQ(modes.size(), 10U);
+  EXPECT_EQ(monitor_.parts_heard(), static_cast<int>(parts.size()));
+  for (std::size_t i = 1; i < modes.size(); ++i) EXPECT_LT(modes[i - 1]->frequency_hz, modes[i]->frequency_hz);
+  EXPECT_EQ(monitor_.channel_name(11), "floor_12.u");
+}
+
+TEST_F(StreamMonitorTest, ANewEstimateReplacesAHalfHeardOne) {
+  send(StreamMonitor::kModal, to_messages(tests::sample_estimate(12, 10, 0), {}, {"tower", 1}).at(0), 0, 1);
+  send(StreamMonitor::kModal, to_messages(tests::sample_estimate(2, 1, 1), {}, {"tower", 1}).at(0), 5, 2);
+  EXPECT_EQ(monitor_.modes().size(), 1U);
+  EXPECT_EQ(monitor_.estimate()->number, 1);
+}
+
+TEST_F(StreamMonitorTest, NoticesTheEndOfAStreamAndItsRestart) {
+  const auto say = [&](const char* state, std::int64_t n) {
+    send(StreamMonitor::kHealth, to_message(tests::sample_health(state, 1), {}, {"tower", 1}), n, n + 1);
+  };
+  say("running", 0);
+  EXPECT_FALSE(monitor_.is_finished());
+  say("fault: camera gone", 1);
+  EXPECT_TRUE(monitor_.is_finished());
+  say("starting", 2);
+  EXPECT_FALSE(monitor_.is_finished());
+  say("finished", 3);
+  EXPECT_TRUE(monitor_.is_finished());
+}
+
+TEST_F(StreamMonitorTest, KeepsABoundedHistoryWithHolesWhereNotSeen) {
+  auto sample = tests::sample_displacement(2, 1);
+  sample.seen[1] = 0;
+  for (std::int64_t n = 0; n < 1500; ++n) {
+    send(StreamMonitor::kDisplacement, to_message(sample, {"tower", 1}), n, n + 1);
+  }
+  EXPECT_EQ(monitor_.history_mm(0).size(), StreamMonitor::kHistory);
+  EXPECT_TRUE(std::isnan(monitor_.history_mm(1).back()));
+}
+
+}  // namespace
+#endif

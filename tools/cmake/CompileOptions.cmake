@@ -1,0 +1,25 @@
+# hovermodal_options: what every target of ours is compiled with. Third-party headers come in as SYSTEM.
+add_library(hovermodal_options INTERFACE)
+target_compile_options(hovermodal_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wold-style-cast -Wdouble-promotion
+  -ffp-contract=off)  # the same bits on arm64 (fused multiply-add by default) and x86-64
+if(HOVERMODAL_WERROR)
+  target_compile_options(hovermodal_options INTERFACE -Werror)
+endif()
+if(HOVERMODAL_SANITIZE)
+  target_compile_options(hovermodal_options INTERFACE -fsanitize=${HOVERMODAL_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(hovermodal_options INTERFACE -fsanitize=${HOVERMODAL_SANITIZE})
+endif()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+# hovermodal_library(NAME PUBLIC_LINK ... PRIVATE_LINK ...): one static library per folder, all its sources.
+function(hovermodal_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC_LINK;PRIVATE_LINK" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(${name} PUBLIC ${ARG_PUBLIC_LINK} PRIVATE hovermodal_options ${ARG_PRIVATE_LINK})
+endfunction()

@@ -1,0 +1,27 @@
+# Everything comes from Debian packages (tools/setup.sh installs them); a build downloads nothing.
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc imgcodecs video videoio)
+find_package(yaml-cpp REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+
+# OpenCV's and yaml-cpp's Debian packages give plain variables or bare targets: wrap them, headers as SYSTEM.
+add_library(hovermodal_opencv INTERFACE)
+target_include_directories(hovermodal_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
+target_link_libraries(hovermodal_opencv INTERFACE opencv_core opencv_imgproc opencv_video)
+add_library(hovermodal_videoio INTERFACE)
+target_link_libraries(hovermodal_videoio INTERFACE hovermodal_opencv opencv_videoio opencv_imgcodecs)
+
+option(WITH_LCM "Publish over LCM" ON)
+if(WITH_LCM)
+  pkg_check_modules(LCM IMPORTED_TARGET lcm)
+  find_program(LCM_GEN_PROGRAM lcm-gen)
+  if(NOT LCM_FOUND OR NOT LCM_GEN_PROGRAM)
+    message(STATUS "LCM not found (liblcm-dev, liblcm-bin, libglib2.0-dev): built without telemetry")
+    set(WITH_LCM OFF)
+  endif()
+endif()

@@ -1,0 +1,5 @@
+#include "tools/hovermodal/commands.h"
+
+namespace tools {
+void add_compare(CLI::App&) {}
+}  // namespace tools

@@ -1,0 +1,5 @@
+#include "tools/hovermodal/commands.h"
+
+namespace tools {
+void add_identify(CLI::App&) {}
+}  // namespace tools

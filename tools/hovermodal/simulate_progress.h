@@ -1,0 +1,32 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace tools {
+
+// How far a long job is, on standard error: a line that rewrites itself on a terminal, a line each 10 % elsewhere.
+class Progress {
+ public:
+  Progress(std::string what, std::uint64_t total);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void update(std::uint64_t done);
+  [[nodiscard]] double elapsed_s() const;
+
+ private:
+  void print(std::uint64_t done);
+
+  using Clock = std::chrono::steady_clock;
+  std::string what_;
+  std::uint64_t total_;
+  bool terminal_;
+  bool line_open_ = false;
+  Clock::time_point start_ = Clock::now(), last_print_{};
+  std::uint64_t last_tenth_ = 0;
+};
+
+}  // namespace tools

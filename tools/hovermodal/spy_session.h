@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+namespace tools {
+
+struct SpyOptions {
+  std::string url = "udpm://239.255.76.67:7667?ttl=0";
+  std::string prefix = "HOVERMODAL";
+  bool once = false;
+  double seconds = 0.0;     // 0 = no limit
+  bool plain = false;
+  std::string count_file;   // empty = none
+};
+
+// Listens and shows until told to stop (SIGINT, SIGTERM, --once, --seconds, end of a log). Throws
+// std::invalid_argument for a wrong URL or prefix, std::runtime_error when nothing can be heard on the URL, when the
+// count file cannot be written, or when --once saw no end within --seconds.
+void run_spy(const SpyOptions& options);
+
+}  // namespace tools

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tools {
+
+// Pieces of a terminal line from data that came over the network: whatever it holds, the result has no control
+// characters and the width asked for. A column is one code point.
+
+enum class Charset { kUnicode, kAscii };
+
+// Control characters and malformed UTF-8 become '?'.
+[[nodiscard]] std::string printable(std::string_view text);
+
+// `printable`, cut or padded with spaces to exactly `columns`.
+[[nodiscard]] std::string fit(std::string_view text, std::size_t columns);
+
+// Fixed-point with `decimals`, "-" for NaN, few digits and an exponent for what does not fit.
+[[nodiscard]] std::string number(double value, int decimals);
+
+// The last `columns` values between their own smallest and largest; a space where not seen.
+[[nodiscard]] std::string sparkline(const std::deque<float>& values, std::size_t columns, Charset charset);
+
+// Root mean square about the mean of the last `n` values seen; NaN without any.
+[[nodiscard]] double rms(const std::deque<float>& values, std::size_t n);
+
+// A mode shape as sign and height per channel; "~" as sign where the component is more imaginary than real.
+[[nodiscard]] std::string shape_bars(const std::vector<float>& re, const std::vector<float>& im, std::size_t columns,
+                                     Charset charset);
+
+}  // namespace tools
