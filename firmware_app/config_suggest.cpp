@@ -53,7 +53,7 @@ std::string suggest_key(const std::string& path) {
     const std::size_t by_leaf = edit_distance(leaf(path), leaf(candidate)) * 2 + 1;
     std::size_t score = std::min(whole, by_leaf);
     // "rate" for rate_hz: forgotten endings are the commonest mistake.
-    if (path.size() > 2 && candidate.starts_with(path)) score = std::min<std::size_t>(score, 1);
+    if (path.size() > 2 && candidate.starts_with(path)) score = 0;
     if (score < best_score) best_score = score, best = candidate;
   }
   if (best_score <= std::max<std::size_t>(4, leaf(path).size()))

@@ -20,7 +20,8 @@ std::vector<ScaleFactor::Point> scale_points(const std::vector<Region>& regions,
   for (const TrackPoint& p : keyframe.points) {
     const Region& region = regions[p.region];
     const Vector2 axis = axis_of(region);
-    points.push_back({camera.undistort({p.u_px, p.v_px}), p.region, axis.u, axis.v, region.both_axes});
+    points.push_back({camera.undistort({p.u_px, p.v_px}), p.region, axis.u, axis.v, region.both_axes,
+                      region.role != RegionRole::kBackground});
   }
   return points;
 }

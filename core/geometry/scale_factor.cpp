@@ -30,6 +30,7 @@ void ScaleFactor::list_farthest_pairs() {
   std::vector<Pair> all;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     for (std::size_t j = i + 1; j < points_.size(); ++j) {
+      if (!points_[i].counts || !points_[j].counts) continue;
       all.push_back({i, j, {}, length(minus(points_[j].keyframe, points_[i].keyframe))});
     }
   }
@@ -46,6 +47,7 @@ void ScaleFactor::list_motion_free_pairs() {
     Pair within{i, i, {}, kLeastPairPx};
     Pair across{i, i, {}, kLeastPairPx};
     for (std::size_t j = 0; j < points_.size(); ++j) {
+      if (!points_[i].counts || !points_[j].counts) continue;
       const Vector2 step = minus(points_[j].keyframe, points_[i].keyframe);
       if (points_[j].region == points_[i].region) {
         if (length(step) > within.distance_px) within = {i, j, {step.u / length(step), step.v / length(step)}, length(step)};
@@ -104,7 +106,7 @@ double ScaleFactor::least_squares(std::span<const Vector2> position, std::span<c
     return !p.both_axes && std::abs(p.axis_u * points_.front().axis_v - p.axis_v * points_.front().axis_u) < 1e-6;
   };
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (usable[i] == 0) continue;
+    if (usable[i] == 0 || !points_[i].counts) continue;
     const Point& p = points_[i];
     centre_now_[p.region].u += position[i].u;
     centre_now_[p.region].v += position[i].v;
@@ -118,7 +120,7 @@ double ScaleFactor::least_squares(std::span<const Vector2> position, std::span<c
   }
   double numerator = 0.0, denominator = 0.0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (usable[i] == 0) continue;
+    if (usable[i] == 0 || !points_[i].counts) continue;
     const Point& p = points_[i];
     const double n = count_[p.region];
     const Vector2 now = minus(position[i], {centre_now_[p.region].u / n, centre_now_[p.region].v / n});

@@ -17,6 +17,7 @@ class ScaleFactor {
     std::uint16_t region = 0;
     double axis_u = 1.0, axis_v = 0.0;  // unit axis of the region's motion
     bool both_axes = false;             // it may move any way
+    bool counts = true;                 // false: at another distance (background), takes no part
   };
 
   explicit ScaleFactor(std::vector<Point> points);

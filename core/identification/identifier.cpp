@@ -14,11 +14,12 @@ namespace {
 
 constexpr int kMaxReferences = 6;
 constexpr int kOrders = 15;          // of the stabilisation diagram, two apart
+constexpr double kLeastPresence = 0.25;  // poles of fewer orders are the scatter of over-modelling, not worth a verdict
 constexpr int kLeastBlockRows = 6;
 constexpr int kMostBlockRows = 40;
 // The weights are covariance matrices of block_rows * channels: with fewer samples per row than this they fit the noise
 // and every singular value comes out near 1.
-constexpr double kSamplesPerRow = 8.0;
+constexpr double kSamplesPerRow = 16.0;
 
 void copy_stream_facts(const CpsdSums& sums, ModalEstimate& estimate) {
   estimate.n_samples = sums.n_samples;
@@ -108,7 +109,8 @@ ModalEstimate Identifier::identify(const CpsdSums& sums) const {
   std::vector<Mode> modes;
   const std::vector<OrderPole> poles = poles_of_orders(realisation, orders, folding);
   for (const PoleCluster& cluster : cluster_poles(poles, static_cast<int>(orders.size()))) {
-    modes.push_back(judge(cluster, channels_, orders, rules));
+    if (cluster.presence < kLeastPresence) continue;
+    modes.push_back(judge(cluster, base_response(sums, channels_, cluster.apparent_hz), channels_, orders, rules));
   }
   reject_twins(modes);
   std::sort(modes.begin(), modes.end(), [](const Mode& a, const Mode& b) { return a.frequency_hz < b.frequency_hz; });

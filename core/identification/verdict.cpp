@@ -45,8 +45,16 @@ void set(Mode& mode, Verdict verdict, std::string reason) {
   mode.reason = std::move(reason);
 }
 
-void decide(Mode& mode, const PoleCluster& cluster, const std::vector<ChannelInfo>& channels, const std::vector<int>& orders,
-            const VerdictRules& rules) {
+// The base moves with an input peak; with a mode it hardly does. In a short record the forced motion blurs that, and the
+// response function tells.
+bool moves_with_base(double base_share, const BaseResponse& response, const VerdictRules& rules) noexcept {
+  if (base_share <= rules.max_base_share) return false;
+  const bool answers = response.gain >= rules.least_base_gain && response.gain > response.gain_beside;
+  return base_share > rules.open_base_share || !answers;
+}
+
+void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response, const std::vector<ChannelInfo>& channels,
+            const std::vector<int>& orders, const VerdictRules& rules) {
   const double uniform = uniform_mac(mode, channels);
   const double base = base_share(mode, channels);
   const int first_order = orders[static_cast<std::size_t>(cluster.first_i_order)];
@@ -54,7 +62,7 @@ void decide(Mode& mode, const PoleCluster& cluster, const std::vector<ChannelInf
     set(mode, Verdict::kNumerical, text("damping %.2f %% outside 0 .. %.0f %%", 100.0 * mode.damping_ratio, 100.0 * rules.max_damping));
   } else if (uniform > rules.max_uniform_mac) {
     set(mode, Verdict::kCameraMotion, text("all channels move alike (MAC %.3f with a translation of the camera)", uniform));
-  } else if (base > rules.max_base_share) {
+  } else if (moves_with_base(base, response, rules)) {
     set(mode, Verdict::kInputPeak, text("the base moves %.2f of the largest channel: motion of the base or the camera", base));
   } else if (cluster.presence < rules.min_presence || cluster.first_i_order > rules.last_first_i_order) {
     set(mode, Verdict::kNumerical, text("found in %.0f %% of the orders, first at order %d", 100.0 * cluster.presence, first_order));
@@ -69,8 +77,8 @@ void decide(Mode& mode, const PoleCluster& cluster, const std::vector<ChannelInf
 
 }  // namespace
 
-Mode judge(const PoleCluster& cluster, const std::vector<ChannelInfo>& channels, const std::vector<int>& orders,
-           const VerdictRules& rules) {
+Mode judge(const PoleCluster& cluster, const BaseResponse& response, const std::vector<ChannelInfo>& channels,
+           const std::vector<int>& orders, const VerdictRules& rules) {
   Mode mode;
   mode.frequency_hz = cluster.frequency_hz;
   mode.apparent_hz = cluster.apparent_hz;
@@ -80,7 +88,7 @@ Mode judge(const PoleCluster& cluster, const std::vector<ChannelInfo>& channels,
   mode.shape = cluster.representative.shape;
   mode.mpc = cluster.representative.mpc;
   mode.presence = cluster.presence;
-  decide(mode, cluster, channels, orders, rules);
+  decide(mode, cluster, response, channels, orders, rules);
   return mode;
 }
 

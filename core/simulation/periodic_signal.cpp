@@ -55,7 +55,8 @@ std::size_t grid_size(double period_s, double rate_hz) {
 
 PeriodicSignal::PeriodicSignal(const std::vector<Complex>& amplitude, double period_s, std::size_t n_samples)
     : n_(n_samples), rate_hz_(static_cast<double>(n_samples) / period_s) {
-  if (2 * amplitude.size() > n_samples) throw std::invalid_argument("PeriodicSignal: grid too coarse for its harmonics");
+  if (2 * amplitude.size() > n_samples)
+    throw std::invalid_argument("PeriodicSignal: grid too coarse for its harmonics");
   std::vector<Complex> z(n_samples);
   for (std::size_t k = 0; k < amplitude.size(); ++k) z[k] = amplitude[k];
   inverse_fft(z);

@@ -20,7 +20,7 @@ ImagePoint project(const CameraParameters& camera, const CameraPose& pose, doubl
 PlanePoint back_project(const CameraParameters& camera, const CameraPose& pose, ImagePoint image,
                         double depth_mm) noexcept {
   const Eigen::Vector3d ray = pose.attitude * Eigen::Vector3d((image.u_px - camera.cx_px) / camera.alpha_px,
-                                                             (image.v_px - camera.cy_px) / camera.alpha_px, 1.0);
+                                                              (image.v_px - camera.cy_px) / camera.alpha_px, 1.0);
   const double length = (depth_mm - pose.z_mm) / ray.z();
   return {pose.x_mm + length * ray.x(), pose.y_mm + length * ray.y()};
 }

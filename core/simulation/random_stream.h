@@ -5,16 +5,16 @@
 
 namespace core::simulation {
 
-// Random numbers that depend on (seed, name, index) only: xoshiro256++ seeded through splitmix64. One stream per effect,
-// so that switching an effect off, or drawing more from it, leaves every other effect as it was. The arithmetic uses
-// nothing but IEEE add, multiply, divide and square root: the same bits on every platform and standard library.
+// Random numbers that depend on (seed, name, index) only: xoshiro256++ seeded through splitmix64. One stream per
+// effect, so that switching an effect off, or drawing more from it, leaves every other effect as it was. The arithmetic
+// uses nothing but IEEE add, multiply, divide and square root: the same bits on every platform and standard library.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::string_view name, std::uint64_t index = 0) noexcept;
 
-  std::uint64_t next() noexcept;    // 64 random bits
-  double uniform() noexcept;        // [0, 1)
-  double gaussian() noexcept;       // mean 0, variance 1
+  std::uint64_t next() noexcept;  // 64 random bits
+  double uniform() noexcept;      // [0, 1)
+  double gaussian() noexcept;     // mean 0, variance 1
 
  private:
   std::uint64_t state_[4];

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kFullWidth = 1920, kFullHeight = 1080;
 constexpr double kFullAlpha = 2100.0;
-constexpr double kPlatePitchPx = 2.75;       // content up to 0.2 cycles/px
+constexpr double kPlatePitchPx = 2.75;  // content up to 0.2 cycles/px
 constexpr double kBackgroundPitchPx = 7.0;
 
 void require(bool ok, const std::string& what, double value, const std::string& advice) {
@@ -52,7 +52,8 @@ void validate_texture(const TextureParameters& texture) {
 }
 
 void validate_hover(const HoverParameters& hover) {
-  for (const double rms : {hover.x_rms_mm, hover.y_rms_mm, hover.z_rms_mm}) require_range("drift (mm rms)", rms, 0.0, 1e4);
+  for (const double rms : {hover.x_rms_mm, hover.y_rms_mm, hover.z_rms_mm})
+    require_range("drift (mm rms)", rms, 0.0, 1e4);
   for (const double rms : {hover.pitch_rms_rad, hover.yaw_rms_rad, hover.roll_rms_rad}) {
     require_range("rotation (rad rms)", rms, 0.0, 0.1);
   }
@@ -87,9 +88,7 @@ std::uint64_t Scene::n_frames() const noexcept {
 }
 
 // The stack is centred on the optical axis; the base is lowest (Y down).
-double Scene::body_y_mm(int body) const noexcept {
-  return plates.storey_mm * (0.5 * structure.n_floors() - body);
-}
+double Scene::body_y_mm(int body) const noexcept { return plates.storey_mm * (0.5 * structure.n_floors() - body); }
 
 core::CameraInfo Scene::camera_info() const {
   core::CameraInfo info;

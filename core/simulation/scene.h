@@ -12,36 +12,36 @@ namespace core::simulation {
 
 struct CameraParameters {
   int width_px = 1920, height_px = 1080;
-  double alpha_px = 2100.0;            // focal length; square pixels, no distortion
+  double alpha_px = 2100.0;  // focal length; square pixels, no distortion
   double cx_px = 959.5, cy_px = 539.5;
   double rate_hz = 25.0;
-  double readout_s = 0.026;            // row v starts its exposure at frame / rate + readout v / height
+  double readout_s = 0.026;  // row v starts its exposure at frame / rate + readout v / height
   double exposure_s = 0.004;
-  double noise_sigma = 2.0;            // grey levels, white, before rounding to 8 bits
+  double noise_sigma = 2.0;  // grey levels, white, before rounding to 8 bits
 };
 
-// Shear building on a shaking table that moves along X. Masses are uniform, shapes those of the uniform fixed-free shear
-// chain, phi_r(i) = sin((2 r - 1) i pi / (2 n + 1)); frequencies are given, one per storey.
+// Shear building on a shaking table that moves along X. Masses are uniform, shapes those of the uniform fixed-free
+// shear chain, phi_r(i) = sin((2 r - 1) i pi / (2 n + 1)); frequencies are given, one per storey.
 struct StructureParameters {
   std::vector<double> frequency_hz;
   std::vector<double> damping_ratio;
   double band_low_hz = 0.5, band_high_hz = 20.0;  // of the white base acceleration
-  double roof_rms_mm = 4.0;            // relative to the base, over the clip; scales the input. 0 = at rest
+  double roof_rms_mm = 4.0;                       // relative to the base, over the clip; scales the input. 0 = at rest
 
   [[nodiscard]] int n_floors() const noexcept { return static_cast<int>(frequency_hz.size()); }
 };
 
 // Texture: cubic B-spline with independent Gaussian coefficients on a grid of this pitch.
 struct TextureParameters {
-  double pitch_mm = 2.62;              // content up to about 0.55 / pitch
+  double pitch_mm = 2.62;                    // content up to about 0.55 / pitch
   double mean = 128.0, contrast_rms = 25.0;  // grey levels
 };
 
 // Body 0 is the base plate on the table, body i the plate of floor i; each is a width x height face in one plane.
 struct PlateParameters {
   double width_mm = 300.0, height_mm = 50.0;
-  double storey_mm = 140.0;            // centre to centre
-  double depth_mm = 2000.0;            // stand-off
+  double storey_mm = 140.0;  // centre to centre
+  double depth_mm = 2000.0;  // stand-off
   TextureParameters texture;
 };
 
@@ -50,8 +50,8 @@ struct BackgroundParameters {
   TextureParameters texture{13.3, 120.0, 15.0};
 };
 
-// Drift of the camera: Gaussian, one-sided density ~ 1 / (1 + (f / corner)^order) up to limit_hz. With 0.318 Hz and order
-// 6, 98 % of the variance lies below 0.5 Hz.
+// Drift of the camera: Gaussian, one-sided density ~ 1 / (1 + (f / corner)^order) up to limit_hz. With 0.318 Hz and
+// order 6, 98 % of the variance lies below 0.5 Hz.
 struct HoverParameters {
   double x_rms_mm = 25.0, y_rms_mm = 8.0, z_rms_mm = 25.0;
   double pitch_rms_rad = 0.0, yaw_rms_rad = 0.0, roll_rms_rad = 0.0;  // about X, Y, Z

@@ -18,7 +18,8 @@ constexpr double kShortestScaling_s = 10.0;  // the rms of a shorter clip says m
 double record_period_s(const StructureParameters& structure, double duration_s) {
   double slowest_1_s = std::numeric_limits<double>::infinity();
   for (std::size_t r = 0; r < structure.frequency_hz.size(); ++r) {
-    slowest_1_s = std::min(slowest_1_s, 2.0 * std::numbers::pi * structure.frequency_hz[r] * structure.damping_ratio[r]);
+    slowest_1_s =
+        std::min(slowest_1_s, 2.0 * std::numbers::pi * structure.frequency_hz[r] * structure.damping_ratio[r]);
   }
   return std::max(1.5 * duration_s, duration_s + kTimeConstants / slowest_1_s);
 }

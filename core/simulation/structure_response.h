@@ -16,8 +16,8 @@ namespace core::simulation {
 // independent complex Gaussian per bin inside the band, divided by -w^2 for the base's displacement and multiplied by
 // each mode's transfer function for the floors. No integrator, no starting transient.
 // The bins make the record periodic; its correlation is the true one plus copies shifted by multiples of the period.
-// The period exceeds the duration by at least 12 time constants of the slowest mode, so within the clip the modal part of
-// those copies stays below exp(-12), and lags up to the duration are never repeated.
+// The period exceeds the duration by at least 12 time constants of the slowest mode, so within the clip the modal part
+// of those copies stays below exp(-12), and lags up to the duration are never repeated.
 class StructureResponse {
  public:
   // grid_rate_hz: of the interpolation grid; 200 keeps the interpolation error below 1e-5 of the roof's rms.

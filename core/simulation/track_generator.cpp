@@ -15,7 +15,8 @@ void validate(const TrackOptions& options) {
                                 "; give 1 to 10000");
   }
   if (!(options.noise_px >= 0.0 && options.noise_px <= 100.0)) {
-    throw std::invalid_argument("simulation: track noise is " + std::to_string(options.noise_px) + " px; give 0 to 100");
+    throw std::invalid_argument("simulation: track noise is " + std::to_string(options.noise_px) +
+                                " px; give 0 to 100");
   }
   if (!(options.loss_probability >= 0.0 && options.loss_probability <= 1.0)) {
     throw std::invalid_argument("simulation: loss probability is " + std::to_string(options.loss_probability) +
@@ -34,8 +35,8 @@ TrackGenerator::TrackGenerator(const Scene& scene, const TrackOptions& options)
     for (int i = 0; i < options.points_per_region; ++i) {
       const double u = region.u_px + region.width_px * stream.uniform();
       const double v = region.v_px + region.height_px * stream.uniform();
-      points_.push_back({regions_[r].body, static_cast<std::uint16_t>(r),
-                         motion_.material_point(regions_[r].body, {u, v}, 0.0)});
+      points_.push_back(
+          {regions_[r].body, static_cast<std::uint16_t>(r), motion_.material_point(regions_[r].body, {u, v}, 0.0)});
     }
   }
 }

@@ -14,8 +14,8 @@ struct TrackOptions {
   double loss_probability = 0.0;  // of a point in a frame
 };
 
-// What a perfect tracker with white noise would report: points fixed to the plates (and the background), each seen at the
-// time at which its own row is exposed. A frame is a function of (scene, options, number) alone.
+// What a perfect tracker with white noise would report: points fixed to the plates (and the background), each seen at
+// the time at which its own row is exposed. A frame is a function of (scene, options, number) alone.
 class TrackGenerator {
  public:
   TrackGenerator(const Scene& scene, const TrackOptions& options);  // throws std::invalid_argument

@@ -69,8 +69,8 @@ class VideoSource final : public FrameSource {
     if (!capture_.isOpened()) {
       throw std::runtime_error(
           fmt::format("{}: not a video that can be opened: an unknown format, or an MP4 whose index is missing because "
-                      "the recording "
-                      "was cut off; if ffplay shows it, convert it: ffmpeg -i IN -crf 12 OUT.mp4; else record it again",
+                      "the recording was cut off; if ffplay shows it, convert it: ffmpeg -i IN -crf 12 OUT.mp4; else "
+                      "record it again",
                       path));
     }
     const int codec_tag = static_cast<int>(capture_.get(cv::CAP_PROP_FOURCC));

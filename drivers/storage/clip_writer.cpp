@@ -26,7 +26,8 @@ namespace {
 constexpr int kMaxKilobitsPerSecond = 24000;  // 180 MB a minute, whatever the scene holds
 
 std::size_t checked_frame_bytes(int width_px, int height_px, double rate_hz, int crf) {
-  if (width_px < 2 || height_px < 2 || width_px > 16384 || height_px > 16384 || width_px % 2 != 0 || height_px % 2 != 0) {
+  if (width_px < 2 || height_px < 2 || width_px > 16384 || height_px > 16384 || width_px % 2 != 0 ||
+      height_px % 2 != 0) {
     throw std::invalid_argument(
         fmt::format("clip size {}x{}: H.264 needs an even width and height, 2 to 16384", width_px, height_px));
   }
@@ -43,19 +44,52 @@ void close_fd(int& fd) noexcept {
 }
 
 // argv of ffmpeg. A gray source and a full-range target make the conversion a copy of the luma plane.
-// The encoder's settings were chosen for the error of tracked displacements at a given file size, not for looks: without
-// bidirectional frames and with a narrow dead zone a block is less often predicted with a slightly wrong motion whose
-// small residual is then dropped. Half the displacement error of the bare preset at the same size.
+// The encoder's settings were chosen for the error of tracked displacements at a given file size, not for looks:
+// without bidirectional frames and with a narrow dead zone a block is less often predicted with a slightly wrong motion
+// whose small residual is then dropped. Half the displacement error of the bare preset at the same size.
 std::vector<std::string> encoder_arguments(const std::string& part_path, const std::string& frame_size, double rate_hz,
                                            int crf) {
   const std::string limit = fmt::format("{}k", kMaxKilobitsPerSecond);
-  return {"ffmpeg",   "-hide_banner", "-nostdin", "-nostats", "-loglevel", "error",        "-y",
-          "-f",       "rawvideo",     "-pix_fmt", "gray",     "-s",        frame_size,     "-framerate",
-          fmt::format("{:.9g}", rate_hz), "-color_range", "pc", "-i",      "pipe:0",       "-c:v",
-          "libx264",  "-preset",      "superfast", "-tune",   "psnr",      "-crf",         std::to_string(crf),
-          "-maxrate", limit,          "-bufsize", limit,      "-x264-params",
-          "subme=4:ref=2:bframes=0:no-dct-decimate=1:deadzone-inter=8:deadzone-intra=8",
-          "-pix_fmt", "yuvj420p",     "-color_range", "pc",   "-f",        "mp4",          "file:" + part_path};
+  return {"ffmpeg",
+          "-hide_banner",
+          "-nostdin",
+          "-nostats",
+          "-loglevel",
+          "error",
+          "-y",
+          "-f",
+          "rawvideo",
+          "-pix_fmt",
+          "gray",
+          "-s",
+          frame_size,
+          "-framerate",
+          fmt::format("{:.9g}", rate_hz),
+          "-color_range",
+          "pc",
+          "-i",
+          "pipe:0",
+          "-c:v",
+          "libx264",
+          "-preset",
+          "superfast",
+          "-tune",
+          "psnr",
+          "-crf",
+          std::to_string(crf),
+          "-maxrate",
+          limit,
+          "-bufsize",
+          limit,
+          "-x264-params",
+          "subme=4:bframes=0:no-dct-decimate=1:deadzone-inter=8:deadzone-intra=8",
+          "-pix_fmt",
+          "yuvj420p",
+          "-color_range",
+          "pc",
+          "-f",
+          "mp4",
+          "file:" + part_path};
 }
 
 }  // namespace
@@ -93,8 +127,8 @@ void ClipWriter::start(const std::string& frame_size, double rate_hz, int crf) {
     pid_ = -1;
     close_fd(input_fd_);
     close_fd(errors_fd_);
-    throw std::runtime_error(fmt::format("{}: cannot start the program `ffmpeg` ({}); install it: apt-get install ffmpeg",
-                                         path_, std::strerror(error)));
+    throw std::runtime_error(fmt::format(
+        "{}: cannot start the program `ffmpeg` ({}); install it: apt-get install ffmpeg", path_, std::strerror(error)));
   }
 }
 

@@ -5,13 +5,14 @@
 
 namespace drivers {
 
-// Writes gray frames into an H.264 MP4 through the `ffmpeg` program, started directly (no shell). Grey levels are stored
-// as full-range luma, so that a decoder gives back the same 0..255 within the loss of the compression; at most 24 Mbit/s. The file appears
-// under its name only when finish() has succeeded; until then it is `<path>.partial`.
+// Writes gray frames into an H.264 MP4 through the `ffmpeg` program, started directly (no shell). Grey levels are
+// stored as full-range luma, so that a decoder gives back the same 0..255 within the loss of the compression; at most
+// 24 Mbit/s. The file appears under its name only when finish() has succeeded; until then it is `<path>.partial`.
 class ClipWriter {
  public:
   // Even width and height. crf: x264's constant rate factor, 0 (lossless) .. 51.
-  // Throws std::runtime_error when ffmpeg cannot be started, std::invalid_argument for sizes and rates it cannot encode.
+  // Throws std::runtime_error when ffmpeg cannot be started, std::invalid_argument for sizes and rates it cannot
+  // encode.
   ClipWriter(std::string path, int width_px, int height_px, double rate_hz, int crf);
   ~ClipWriter();  // an unfinished clip is stopped and its .partial file removed
   ClipWriter(const ClipWriter&) = delete;

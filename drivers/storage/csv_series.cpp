@@ -15,6 +15,15 @@ namespace {
 
 bool is_nan_text(std::string_view cell) { return cell == "nan" || cell == "NaN" || cell == "NAN"; }
 
+bool is_text(std::string_view cell) {
+  try {
+    require_text(cell, "");
+    return true;
+  } catch (const FileError&) {
+    return false;
+  }
+}
+
 class SeriesReader {
  public:
   explicit SeriesReader(const std::string& path) : lines_(path) {}
@@ -47,7 +56,7 @@ class SeriesReader {
     for (std::string_view cell : cells_) {
       if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
       if (cell.empty() || cell.size() > 64) lines_.fail("a column's name is empty or longer than 64 characters");
-      require_text(cell, "column name");
+      if (!is_text(cell)) lines_.fail("a column's name is no UTF-8 text");
       if (out_.column(std::string(cell)) >= 0) lines_.fail(fmt::format("column `{}` appears twice", printable(cell)));
       out_.names.emplace_back(cell);
     }

@@ -11,10 +11,10 @@ struct ChannelCount {
   std::uint64_t out_of_order = 0;  // late or repeated ones; a late one also stays counted in `gaps`
   std::uint64_t restarts = 0;      // the sender began again
   std::uint64_t undecodable = 0;
-  std::uint64_t foreign = 0;       // of another stream_id on the same channel; not looked at further
+  std::uint64_t foreign = 0;  // of another stream_id on the same channel; not looked at further
   std::int64_t first_sequence = -1, last_sequence = -1;  // -1 = none yet
-  std::int64_t last_utc_ns = 0;    // the sender's clock
-  std::int64_t received_at_ns = 0;  // our clock
+  std::int64_t last_utc_ns = 0;                          // the sender's clock
+  std::int64_t received_at_ns = 0;                       // our clock
 
   // False for a message that is older than what is already known.
   bool note(std::int64_t sequence, std::int64_t utc_ns, std::int64_t now_ns) noexcept {

@@ -23,7 +23,8 @@ class LcmPublisher : public Publisher {
   ~LcmPublisher() override;
 
   bool publish(const core::ModalEstimate& estimate, const std::vector<core::ChannelInfo>& channels) noexcept override;
-  bool publish(const core::DisplacementSample& sample, const std::vector<core::ChannelInfo>& channels) noexcept override;
+  bool publish(const core::DisplacementSample& sample,
+               const std::vector<core::ChannelInfo>& channels) noexcept override;
   bool publish(const core::TrackFrame& tracks) noexcept override;
   bool publish(const core::CpsdSums& spectrum, const std::vector<core::ChannelInfo>& channels) noexcept override;
   bool publish(const core::Health& health) noexcept override;

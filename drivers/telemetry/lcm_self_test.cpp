@@ -136,9 +136,10 @@ SelfTest test_udpm(const UdpmUrl& url, const std::string& channel_prefix) {
   } while (!out.heard && std::chrono::steady_clock::now() < deadline);
   if (!out.heard) {
     out.message = !deaf.empty() ? deaf
-                                : fmt::format("a message sent to {}:{} did not come back within {} ms (a firewall, or "
-                                              "a route through an interface without multicast)",
-                                              url.group, url.port, kPatience.count());
+                                : fmt::format(
+                                      "a message sent to {}:{} did not come back within {} ms (a firewall, or "
+                                      "a route through an interface without multicast)",
+                                      url.group, url.port, kPatience.count());
   }
   return out;
 }

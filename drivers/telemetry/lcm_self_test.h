@@ -6,9 +6,9 @@ namespace drivers {
 
 // Whether a message sent to this URL comes back to this computer.
 struct SelfTest {
-  bool can_send = false;   // false: every message would be lost; there is no network way to the group
-  bool heard = false;      // false: nobody on this computer can listen (others may, with ttl >= 1)
-  std::string message;     // empty when heard; otherwise what failed and how to mend it
+  bool can_send = false;  // false: every message would be lost; there is no network way to the group
+  bool heard = false;     // false: nobody on this computer can listen (others may, with ttl >= 1)
+  std::string message;    // empty when heard; otherwise what failed and how to mend it
 };
 
 // Sends an LCM message on <prefix>_SELFTEST a few times and waits up to 500 ms for one to come back. It uses sockets of

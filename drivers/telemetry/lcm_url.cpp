@@ -95,8 +95,8 @@ void check_channel_prefix(const std::string& prefix) {
            c == '.' || c == '/';
   });
   if (prefix.empty() || prefix.size() > kMaxPrefixBytes || !is_plain) {
-    throw std::invalid_argument(fmt::format(
-        "LCM channel prefix \"{}\": expected 1 to {} letters, digits, or _ - . /", prefix, kMaxPrefixBytes));
+    throw std::invalid_argument(fmt::format("LCM channel prefix \"{}\": expected 1 to {} letters, digits, or _ - . /",
+                                            prefix, kMaxPrefixBytes));
   }
 }
 

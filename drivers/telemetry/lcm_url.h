@@ -9,9 +9,9 @@ inline constexpr const char* kDefaultLcmUrl = "udpm://239.255.76.67:7667?ttl=0";
 
 // The parts of udpm://GROUP:PORT?ttl=N&recv_buf_size=N.
 struct UdpmUrl {
-  std::string group;             // dotted multicast address
+  std::string group;  // dotted multicast address
   std::uint16_t port = 0;
-  int ttl = 0;                   // 0 = stays on this computer, 1 = reaches the local network
+  int ttl = 0;  // 0 = stays on this computer, 1 = reaches the local network
   bool has_recv_buf_size = false;
 };
 

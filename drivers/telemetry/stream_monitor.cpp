@@ -36,9 +36,14 @@ void StreamMonitor::dispatch(Topic topic, const void* data, std::size_t n_bytes,
     case kHealth:
       if (auto m = open<hovermodal::health_t>(topic, data, n_bytes, now_ns)) take(std::move(*m), now_ns);
       break;
-    case kSpectrum: static_cast<void>(open<hovermodal::spectrum_t>(topic, data, n_bytes, now_ns)); break;
-    case kTracks: static_cast<void>(open<hovermodal::tracks_t>(topic, data, n_bytes, now_ns)); break;
-    case kTopics: break;
+    case kSpectrum:
+      static_cast<void>(open<hovermodal::spectrum_t>(topic, data, n_bytes, now_ns));
+      break;
+    case kTracks:
+      static_cast<void>(open<hovermodal::tracks_t>(topic, data, n_bytes, now_ns));
+      break;
+    case kTopics:
+      break;
   }
 }
 

@@ -22,9 +22,9 @@ namespace drivers {
 class StreamMonitor {
  public:
   enum Topic : std::size_t { kModal, kDisplacement, kSpectrum, kTracks, kHealth, kTopics };
-  static constexpr std::size_t kHistory = 1024;       // displacement samples kept per channel
-  static constexpr std::size_t kMaxChannels = 256;    // more than that in one message are ignored
-  static constexpr std::size_t kMaxModes = 1024;      // of one estimate, all parts
+  static constexpr std::size_t kHistory = 1024;     // displacement samples kept per channel
+  static constexpr std::size_t kMaxChannels = 256;  // more than that in one message are ignored
+  static constexpr std::size_t kMaxModes = 1024;    // of one estimate, all parts
 
   explicit StreamMonitor(const std::string& channel_prefix);
 

@@ -33,9 +33,8 @@ struct Seed {
 
 template <class Message>
 Seed seed(StreamMonitor::Topic topic, const Message& message) {
-  return {topic, encoded(message), [](const Bytes& bytes) {
-            return drivers::decode_message<Message>(bytes.data(), bytes.size()).has_value();
-          }};
+  return {topic, encoded(message),
+          [](const Bytes& bytes) { return drivers::decode_message<Message>(bytes.data(), bytes.size()).has_value(); }};
 }
 
 std::vector<Seed> seeds() {

@@ -68,7 +68,7 @@ inline const std::string& private_loopback() {
 }  // namespace tests
 
 // At the top of a test that talks over LCM's udpm.
-#define SKIP_WITHOUT_PRIVATE_LOOPBACK()                                                                         \
-  if (const std::string why = tests::private_loopback(); !why.empty()) {                                       \
-    GTEST_SKIP() << "needs a private loopback network (root, or unprivileged user namespaces): " << why;        \
+#define SKIP_WITHOUT_PRIVATE_LOOPBACK()                                                                  \
+  if (const std::string why = tests::private_loopback(); !why.empty()) {                                 \
+    GTEST_SKIP() << "needs a private loopback network (root, or unprivileged user namespaces): " << why; \
   }

@@ -42,8 +42,8 @@ std::pair<int, int> parse_size(const std::string& text) {
   if (const auto named = kNamed.find(text); named != kNamed.end()) return named->second;
   const std::size_t cross = text.find('x');
   const auto width = drivers::parse_whole(std::string_view(text).substr(0, cross));
-  const auto height = cross == std::string::npos ? std::nullopt
-                                                 : drivers::parse_whole(std::string_view(text).substr(cross + 1));
+  const auto height =
+      cross == std::string::npos ? std::nullopt : drivers::parse_whole(std::string_view(text).substr(cross + 1));
   if (!width || !height || *width < 320 || *height < 180 || *width > 8192 || *height > 8192 || *width % 2 != 0 ||
       *height % 2 != 0) {
     throw std::invalid_argument(
@@ -108,7 +108,8 @@ void simulate(const Options& options) {
 }  // namespace
 
 void add_simulate(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("simulate", "Draw a shaken building as a hovering camera sees it, with its truth");
+  CLI::App* command =
+      app.add_subcommand("simulate", "Draw a shaken building as a hovering camera sees it, with its truth");
   const auto options = std::make_shared<Options>();
   command->add_option("--preset", options->preset, "Scene: paper (six storeys, 1080p at 25 fps, 2 m away)")
       ->check(CLI::IsMember({"paper"}))

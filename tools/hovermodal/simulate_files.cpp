@@ -29,26 +29,43 @@ Json scene_json(const Scene& scene) {
   const auto& [width_px, height_px, alpha_px, cx_px, cy_px, rate_hz, readout_s, exposure_s, noise_sigma] = scene.camera;
   const auto& plates = scene.plates;
   const auto& hover = scene.hover;
-  return {{"seed", scene.seed},
-          {"duration_s", scene.duration_s},
-          {"camera",
-           {{"width_px", width_px}, {"height_px", height_px}, {"alpha_px", alpha_px}, {"cx_px", cx_px}, {"cy_px", cy_px},
-            {"rate_hz", rate_hz}, {"readout_ms", 1e3 * readout_s}, {"readout_direction", "down"},
-            {"exposure_ms", 1e3 * exposure_s}, {"noise_sigma", noise_sigma}}},
-          {"structure",
-           {{"frequency_hz", scene.structure.frequency_hz}, {"damping_ratio", scene.structure.damping_ratio},
-            {"band_low_hz", scene.structure.band_low_hz}, {"band_high_hz", scene.structure.band_high_hz},
-            {"roof_rms_mm", scene.structure.roof_rms_mm}}},
-          {"plates",
-           {{"width_mm", plates.width_mm}, {"height_mm", plates.height_mm}, {"storey_mm", plates.storey_mm},
-            {"depth_mm", plates.depth_mm}, {"texture", texture_json(plates.texture)}}},
-          {"background",
-           {{"depth_mm", scene.background.depth_mm}, {"texture", texture_json(scene.background.texture)}}},
-          {"hover",
-           {{"x_rms_mm", hover.x_rms_mm}, {"y_rms_mm", hover.y_rms_mm}, {"z_rms_mm", hover.z_rms_mm},
-            {"pitch_rms_rad", hover.pitch_rms_rad}, {"yaw_rms_rad", hover.yaw_rms_rad},
-            {"roll_rms_rad", hover.roll_rms_rad}, {"corner_hz", hover.corner_hz}, {"order", hover.order},
-            {"limit_hz", hover.limit_hz}}}};
+  return {
+      {"seed", scene.seed},
+      {"duration_s", scene.duration_s},
+      {"camera",
+       {{"width_px", width_px},
+        {"height_px", height_px},
+        {"alpha_px", alpha_px},
+        {"cx_px", cx_px},
+        {"cy_px", cy_px},
+        {"rate_hz", rate_hz},
+        {"readout_ms", 1e3 * readout_s},
+        {"readout_direction", "down"},
+        {"exposure_ms", 1e3 * exposure_s},
+        {"noise_sigma", noise_sigma}}},
+      {"structure",
+       {{"frequency_hz", scene.structure.frequency_hz},
+        {"damping_ratio", scene.structure.damping_ratio},
+        {"band_low_hz", scene.structure.band_low_hz},
+        {"band_high_hz", scene.structure.band_high_hz},
+        {"roof_rms_mm", scene.structure.roof_rms_mm}}},
+      {"plates",
+       {{"width_mm", plates.width_mm},
+        {"height_mm", plates.height_mm},
+        {"storey_mm", plates.storey_mm},
+        {"depth_mm", plates.depth_mm},
+        {"texture", texture_json(plates.texture)}}},
+      {"background", {{"depth_mm", scene.background.depth_mm}, {"texture", texture_json(scene.background.texture)}}},
+      {"hover",
+       {{"x_rms_mm", hover.x_rms_mm},
+        {"y_rms_mm", hover.y_rms_mm},
+        {"z_rms_mm", hover.z_rms_mm},
+        {"pitch_rms_rad", hover.pitch_rms_rad},
+        {"yaw_rms_rad", hover.yaw_rms_rad},
+        {"roll_rms_rad", hover.roll_rms_rad},
+        {"corner_hz", hover.corner_hz},
+        {"order", hover.order},
+        {"limit_hz", hover.limit_hz}}}};
 }
 
 // In free vibration the table stands still, so absolute and relative shapes are the same and the base's component is 0.
@@ -78,8 +95,12 @@ Json rms_json(const SceneMotion& motion) {
   return {{"roof_relative_mm", motion.structure().roof_relative_rms_mm()},
           {"absolute_mm", std::move(absolute)},
           {"base_acceleration_mm_s2", motion.structure().base_acceleration_rms_mm_s2()},
-          {"hover_x_mm", hover[0]}, {"hover_y_mm", hover[1]}, {"hover_z_mm", hover[2]},
-          {"hover_pitch_rad", hover[3]}, {"hover_yaw_rad", hover[4]}, {"hover_roll_rad", hover[5]}};
+          {"hover_x_mm", hover[0]},
+          {"hover_y_mm", hover[1]},
+          {"hover_z_mm", hover[2]},
+          {"hover_pitch_rad", hover[3]},
+          {"hover_yaw_rad", hover[4]},
+          {"hover_roll_rad", hover[5]}};
 }
 
 std::string path_in(const std::filesystem::path& folder, const char* name) { return (folder / name).string(); }
@@ -104,8 +125,8 @@ void write_track_header(drivers::CsvWriter& csv, const SimulateJob& job,
          camera.height_px, camera.rate_hz);
   append(csv.buffer(), "# readout_ms: {}\n# readout_direction: down\n# exposure_ms: {}\n", 1e3 * camera.readout_s,
          1e3 * camera.exposure_s);
-  append(csv.buffer(), "# frame_count: {}\n# regions: {}\nframe,t_s,point,region,u_px,v_px,sigma_px", job.scene.n_frames(),
-         names);
+  append(csv.buffer(), "# frame_count: {}\n# regions: {}\nframe,t_s,point,region,u_px,v_px,sigma_px",
+         job.scene.n_frames(), names);
   end_line(csv);
 }
 
@@ -129,7 +150,8 @@ bool already_made(const std::filesystem::path& folder, const SimulateJob& job) {
   if (error || !std::filesystem::exists(folder / "truth_displacements.csv", error)) return false;
   try {
     const Json truth = drivers::read_json_file(path_in(folder, "truth.json"));
-    return truth.value("parameters", "") == parameter_line(job) && truth.value("product_bytes", std::uintmax_t{0}) == size;
+    return truth.value("parameters", "") == parameter_line(job) &&
+           truth.value("product_bytes", std::uintmax_t{0}) == size;
   } catch (const std::exception&) {
     return false;  // absent, or not ours: made anew
   }
@@ -196,7 +218,8 @@ void write_config(const std::filesystem::path& folder, const SimulateJob& job, c
                   const std::string& method) {
   const auto& camera = job.scene.camera;
   fmt::memory_buffer out;
-  append(out, "# Written by `hovermodal simulate`: the simulated camera and what a user would mark in the first frame.\n");
+  append(out,
+         "# Written by `hovermodal simulate`: the simulated camera and what a user would mark in the first frame.\n");
   if (job.tracks_only) append(out, "# No clip was drawn: the source is a file of tracks, for `hovermodal identify`.\n");
   const std::string source = std::filesystem::absolute(folder / job.product()).lexically_normal().string();
   append(out, "method: {}\ncamera:\n  driver: file\n  source: {}\n", method, Json(source).dump());

@@ -25,10 +25,11 @@ struct SimulateJob {
 [[nodiscard]] bool already_made(const std::filesystem::path& folder, const SimulateJob& job);
 
 // Each writes its file whole or throws std::runtime_error (drivers::FileError).
-void write_truth(const std::filesystem::path& folder, const SimulateJob& job, const core::simulation::SceneMotion& motion);
+void write_truth(const std::filesystem::path& folder, const SimulateJob& job,
+                 const core::simulation::SceneMotion& motion);
 void write_true_displacements(const std::filesystem::path& folder, const core::simulation::SceneMotion& motion);
 void write_tracks(const std::filesystem::path& folder, const SimulateJob& job);
-void write_config(const std::filesystem::path& folder, const SimulateJob& job, const core::simulation::SceneMotion& motion,
-                  const std::string& method);
+void write_config(const std::filesystem::path& folder, const SimulateJob& job,
+                  const core::simulation::SceneMotion& motion, const std::string& method);
 
 }  // namespace tools

@@ -20,8 +20,8 @@ double Progress::elapsed_s() const { return std::chrono::duration<double>(Clock:
 
 void Progress::update(std::uint64_t done) {
   const std::uint64_t tenth = 10 * done / total_;
-  const bool due = terminal_ ? Clock::now() - last_print_ > std::chrono::milliseconds(200) || done == total_
-                             : tenth > last_tenth_;
+  const bool due =
+      terminal_ ? Clock::now() - last_print_ > std::chrono::milliseconds(200) || done == total_ : tenth > last_tenth_;
   if (due) print(done);
   last_tenth_ = tenth;
 }

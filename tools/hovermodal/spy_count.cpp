@@ -20,10 +20,14 @@ std::optional<std::int64_t> sent(const StreamMonitor& monitor, const std::string
 }
 
 nlohmann::json channel_json(const drivers::ChannelCount& count, std::optional<std::int64_t> n_sent) {
-  nlohmann::json out{{"received", count.received},         {"gaps", count.gaps},
-                     {"out_of_order", count.out_of_order}, {"restarts", count.restarts},
-                     {"undecodable", count.undecodable},   {"foreign", count.foreign},
-                     {"first_sequence", nullptr},          {"last_sequence", nullptr},
+  nlohmann::json out{{"received", count.received},
+                     {"gaps", count.gaps},
+                     {"out_of_order", count.out_of_order},
+                     {"restarts", count.restarts},
+                     {"undecodable", count.undecodable},
+                     {"foreign", count.foreign},
+                     {"first_sequence", nullptr},
+                     {"last_sequence", nullptr},
                      {"sent", nullptr}};
   if (count.first_sequence >= 0) {
     out["first_sequence"] = count.first_sequence;

@@ -8,9 +8,9 @@ struct SpyOptions {
   std::string url = "udpm://239.255.76.67:7667?ttl=0";
   std::string prefix = "HOVERMODAL";
   bool once = false;
-  double seconds = 0.0;     // 0 = no limit
+  double seconds = 0.0;  // 0 = no limit
   bool plain = false;
-  std::string count_file;   // empty = none
+  std::string count_file;  // empty = none
 };
 
 // Listens and shows until told to stop (SIGINT, SIGTERM, --once, --seconds, end of a log). Throws

@@ -55,9 +55,9 @@ std::string modes_title(const StreamMonitor& monitor) {
 Lines head_lines(const StreamMonitor& monitor, const ViewOptions& options) {
   Lines out;
   const auto& h = monitor.health();
-  out.push_back(fmt::format("hovermodal spy   stream {}   config {:016x}   {}   last message {} s ago",
-                            fit(monitor.stream_id(), 16), static_cast<std::uint64_t>(monitor.config_hash()),
-                            h ? fit(h->state, 20) : "no health yet",
+  out.push_back(fmt::format("hovermodal spy  stream {}  config {:016x}  {}  heard {} s ago",
+                            fit(monitor.stream_id(), 14), static_cast<std::uint64_t>(monitor.config_hash()),
+                            h ? fit(h->state, 16) : "no health yet",
                             number(seconds(options.now_ns - monitor.last_received_ns()), 1)));
   if (!h) return out;
   out.push_back(fmt::format("t {} s  rate {} Hz  frames in {}  processed {}  dropped {}  missing {}  masked samples {}",
@@ -101,12 +101,12 @@ std::string sent_text(const StreamMonitor& monitor, const std::string& lcm_chann
 }
 
 Lines channel_table(const StreamMonitor& monitor) {
-  Lines out{"LCM channel        heard     sent   gaps    bad"};
+  Lines out{"LCM channel      heard    sent  gaps   bad"};
   for (std::size_t i = 0; i < StreamMonitor::kTopics; ++i) {
     const auto topic = static_cast<StreamMonitor::Topic>(i);
     const auto& count = monitor.count(topic);
     const std::string& name = monitor.lcm_channel(topic);
-    out.push_back(fmt::format("{} {:>8} {:>8} {:>6} {:>6}", fit(name.substr(name.rfind('_') + 1), 14), count.received,
+    out.push_back(fmt::format("{} {:>7} {:>7} {:>5} {:>5}", fit(name.substr(name.rfind('_') + 1), 14), count.received,
                               sent_text(monitor, name), count.gaps,
                               count.undecodable + count.foreign + count.out_of_order));
   }
@@ -114,11 +114,11 @@ Lines channel_table(const StreamMonitor& monitor) {
 }
 
 Lines stage_table(const StreamMonitor& monitor) {
-  Lines out{"stage               in      out dropped   queue worst ms"};
+  Lines out{"stage               in     out dropped   queue worst ms"};
   if (!monitor.health()) return out;
   for (const auto& stage : monitor.health()->stages) {
     if (out.size() > 6) break;
-    out.push_back(fmt::format("{} {:>8} {:>8} {:>7} {:>7} {:>8}", fit(stage.name, 13), stage.n_in, stage.n_out,
+    out.push_back(fmt::format("{} {:>7} {:>7} {:>7} {:>7} {:>8}", fit(stage.name, 14), stage.n_in, stage.n_out,
                               stage.n_dropped, fmt::format("{}/{}", stage.queue_depth, stage.queue_slots),
                               number(static_cast<double>(stage.worst_step_ns) * 1e-6, 1)));
   }
@@ -128,7 +128,7 @@ Lines stage_table(const StreamMonitor& monitor) {
 Lines side_by_side(const Lines& left, const Lines& right) {
   Lines out;
   for (std::size_t i = 0; i < std::max(left.size(), right.size()); ++i) {
-    out.push_back(fit(i < left.size() ? left[i] : "", kHalf - 4) + (i < right.size() ? right[i] : ""));
+    out.push_back(fit(i < left.size() ? left[i] : "", kHalf - 5) + (i < right.size() ? right[i] : ""));
   }
   return out;
 }
@@ -157,16 +157,18 @@ std::string render_status(const StreamMonitor& monitor, const ViewOptions&) {
     heard += count.received;
   }
   const auto& h = monitor.health();
-  return fmt::format("t {} s  {}  frames {} in, {} processed, {} dropped, {} missing; messages {} heard, {} lost, {} bad",
-                     number(seconds(monitor.stream_time_ns()), 2), h ? printable(h->state) : "no health yet",
-                     h ? h->frames_in : 0, h ? h->frames_processed : 0, h ? h->frames_dropped : 0,
-                     h ? h->frames_missing : 0, heard, gaps, bad);
+  return fmt::format(
+      "t {} s  {}  frames {} in, {} processed, {} dropped, {} missing; messages {} heard, {} lost, {} bad",
+      number(seconds(monitor.stream_time_ns()), 2), h ? printable(h->state) : "no health yet", h ? h->frames_in : 0,
+      h ? h->frames_processed : 0, h ? h->frames_dropped : 0, h ? h->frames_missing : 0, heard, gaps, bad);
 }
 
 Lines render_screen(const StreamMonitor& monitor, const ViewOptions& options) {
   Lines lines;
-  if (monitor.last_received_ns() == 0) lines.push_back("hovermodal spy   waiting for the first message");
-  else lines = head_lines(monitor, options);
+  if (monitor.last_received_ns() == 0)
+    lines.push_back("hovermodal spy   waiting for the first message");
+  else
+    lines = head_lines(monitor, options);
   Lines below = displacement_lines(monitor, options);
   append(below, side_by_side(channel_table(monitor), stage_table(monitor)));
   const std::size_t used = lines.size() + below.size() + 2;

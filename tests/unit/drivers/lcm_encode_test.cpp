@@ -176,7 +176,8 @@ TEST(LcmEncode, SpectrumBeforeTheFirstSegmentIsUnknownAndBrokenSumsAreRefused) {
 }
 
 TEST(LcmEncode, HealthCarriesCountersWarningsStagesAndChannels) {
-  const auto back = over_the_wire(to_message(tests::sample_health("running", 4), tests::sample_channels(12), kIdentity));
+  const auto back =
+      over_the_wire(to_message(tests::sample_health("running", 4), tests::sample_channels(12), kIdentity));
   ASSERT_TRUE(back);
   EXPECT_EQ(back->frames_in, 100);
   EXPECT_EQ(back->warnings.at(0), "real-time priority refused");

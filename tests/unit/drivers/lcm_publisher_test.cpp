@@ -26,9 +26,7 @@ TEST(PublisherFactory, GivesAPublisherOfNothingWhenNothingIsAskedFor) {
 }  // namespace
 
 #ifndef HOVERMODAL_WITH_LCM
-TEST(PublisherFactory, WithoutLcmSaysHowToGetIt) {
-  EXPECT_NE(refusal({}).find("liblcm-dev"), std::string::npos);
-}
+TEST(PublisherFactory, WithoutLcmSaysHowToGetIt) { EXPECT_NE(refusal({}).find("liblcm-dev"), std::string::npos); }
 #else
 
 #include <lcm/eventlog.h>

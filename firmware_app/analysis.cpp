@@ -1,0 +1,140 @@
+#include "firmware_app/analysis.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <stdexcept>
+
+#include "core/geometry/channel_displacement.h"
+#include "core/spectrum/time_grid.h"
+#include "core/spectrum/welch_cpsd.h"
+#include "drivers/storage/csv.h"
+#include "firmware_app/core_config.h"
+#include "firmware_app/report/run_report.h"
+
+namespace app {
+
+namespace {
+
+core::WelchConfig welch(const SpectrumConfig& spectrum, std::size_t n_channels, double rate_hz) {
+  const core::WindowKind window = core::window_kind(spectrum.window).value_or(core::WindowKind::kHann);
+  return {static_cast<int>(n_channels), spectrum.segment, spectrum.overlap, window, rate_hz};
+}
+
+// The points of a file by their place in its first frame, in the order of the configuration's regions.
+class PointPlaces {
+ public:
+  PointPlaces(const drivers::TracksFile& file, const AppConfig& config) {
+    for (std::size_t r = 0; r < config.regions.size(); ++r) {
+      for (const core::TrackPoint& point : file.frames.front().points) {
+        if (file.region_names[point.region] != config.regions[r].name) continue;
+        place_of_id_[point.id] = first_.points.size();
+        first_.points.push_back(point);
+        first_.points.back().region = static_cast<std::uint16_t>(r);
+      }
+    }
+    if (first_.points.empty()) throw std::invalid_argument("the tracks have no point in any region of the configuration");
+  }
+
+  [[nodiscard]] const core::TrackFrame& first() const noexcept { return first_; }
+
+  // All places of one frame; those without a line are not seen.
+  void spread(const core::TrackFrame& frame, core::TrackFrame& out) const {
+    out = first_;
+    out.sequence = frame.sequence;
+    out.t_start_ns = frame.t_start_ns;
+    out.gap_before = frame.gap_before;
+    for (core::TrackPoint& point : out.points) point.seen = false;
+    for (const core::TrackPoint& point : frame.points) {
+      const auto place = place_of_id_.find(point.id);
+      if (place == place_of_id_.end()) continue;
+      core::TrackPoint& target = out.points[place->second];
+      target.u_px = point.u_px;
+      target.v_px = point.v_px;
+      target.sigma_px = point.sigma_px;
+      target.seen = true;
+    }
+  }
+
+ private:
+  std::map<std::uint32_t, std::size_t> place_of_id_;
+  core::TrackFrame first_;
+};
+
+core::CameraInfo camera_of(const drivers::TracksFile& file, const AppConfig& config) {
+  core::CameraInfo camera = file.camera;
+  if (config.camera.rate_hz > 0.0) camera.rate_hz = config.camera.rate_hz;
+  // What the operator declares now overrides what the file was written with.
+  if (config.camera.readout_ms != 0.0) {
+    camera.readout_ns = static_cast<std::int64_t>(std::llround(config.camera.readout_ms * 1e6));
+    camera.readout_direction = config.camera.readout_direction;
+  }
+  if (!(camera.rate_hz > 0.0)) throw std::invalid_argument("the tracks do not say their rate: set camera.rate_hz");
+  return camera;
+}
+
+}  // namespace
+
+core::ModalEstimate identify_series(const ChannelSeries& series, const SpectrumConfig& spectrum, const core::IdentifierConfig& identifier) {
+  const std::size_t n_channels = series.channels.size();
+  const std::size_t n_samples = n_channels == 0 ? 0 : series.value.front().size();
+  if (n_samples < static_cast<std::size_t>(spectrum.segment)) {
+    throw std::invalid_argument(fmt::format("{} samples are fewer than one segment of {}: at least {:.1f} s at {:g} Hz, or a shorter segment",
+                                            n_samples, spectrum.segment, spectrum.segment / series.rate_hz, series.rate_hz));
+  }
+  core::WelchCpsd cpsd(welch(spectrum, n_channels, series.rate_hz));
+  std::vector<double> value(n_channels);
+  std::vector<std::uint8_t> seen(n_channels);
+  for (std::size_t t = 0; t < n_samples; ++t) {
+    for (std::size_t c = 0; c < n_channels; ++c) {
+      value[c] = series.value[c][t];
+      seen[c] = std::isfinite(value[c]) ? 1 : 0;
+    }
+    (void)cpsd.push(value, seen);
+  }
+  cpsd.flush();
+  core::ModalEstimate estimate = core::Identifier(identifier, series.channels).identify(cpsd.sums());
+  estimate.final = true;
+  return estimate;
+}
+
+TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_path, const std::string& report_directory) {
+  const drivers::TracksFile file = drivers::read_tracks_csv(tracks_path);
+  if (file.frames.empty()) throw std::invalid_argument(tracks_path + ": no frame");
+  const core::CameraInfo camera = camera_of(file, config);
+  const PointPlaces places(file, config);
+  core::ChannelDisplacement displacement(displacement_config(config, camera), places.first());
+
+  TracksResult result;
+  result.channels = displacement.channels();
+  std::unique_ptr<RunReport> report;
+  if (!report_directory.empty()) {
+    report = std::make_unique<RunReport>(report_directory, config, camera, result.channels, region_names(config));
+  }
+  core::WelchCpsd cpsd(welch_config(config, static_cast<int>(result.channels.size()), camera.rate_hz));
+  core::TimeGrid grid(camera.rate_hz);
+  core::DisplacementSample sample = displacement.sample_prototype();
+  core::TrackFrame tracks;
+  for (const core::TrackFrame& frame : file.frames) {
+    places.spread(frame, tracks);
+    displacement.update(tracks, sample);
+    const core::TimeGrid::Placement placement = grid.place(frame.t_start_ns);
+    ++result.losses.frames_in;
+    ++result.losses.frames_processed;
+    if (!placement.accepted) continue;
+    for (std::uint64_t k = 0; k < placement.n_missing_before; ++k) (void)cpsd.push_missing();
+    result.losses.frames_missing += placement.n_missing_before;
+    (void)cpsd.push(sample.value_mm, sample.seen);
+    if (report) (void)(report->add(tracks) && report->add(sample));
+  }
+  cpsd.flush();
+  result.losses.samples_masked = cpsd.sums().n_missing;
+  result.estimate = core::Identifier(identifier_config(config, result.channels, camera.rate_hz), result.channels).identify(cpsd.sums());
+  result.estimate.final = true;
+  if (report) report->finish(result.estimate, result.losses, corrections(config, camera));
+  return result;
+}
+
+}  // namespace app

@@ -1,0 +1,160 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "firmware_app/config_sections.h"
+
+namespace app {
+namespace {
+
+using A = AppConfig;
+using drivers::YamlNode;
+constexpr double kMaxImagePx = 100000.0;
+
+ConfigKey with_default(ConfigKey key, std::string text) {
+  key.default_text = std::move(text);
+  return key;
+}
+
+ConfigKey rect_key() {
+  NumberList list;
+  list.ranges = {{0, kMaxImagePx}, {0, kMaxImagePx}, {1, kMaxImagePx}, {1, kMaxImagePx}};
+  list.n_min = 4;
+  list.put = [](AppConfig& config, std::size_t i, const std::vector<double>& v) {
+    core::Region& region = config.regions[i];
+    region.u_px = v[0], region.v_px = v[1], region.width_px = v[2], region.height_px = v[3];
+  };
+  list.get = [](AppConfig& config, std::size_t i) {
+    const core::Region& region = config.regions[i];
+    return std::vector<double>{region.u_px, region.v_px, region.width_px, region.height_px};
+  };
+  return with_default(
+      numbers_key("regions[].rect", "px", std::move(list), "[x, y, w, h], x and y 0 .. 100000, w and h 1 .. 100000",
+                  "top-left corner and size in the first image"),
+      "none; must be given");
+}
+
+ConfigKey axis_key() {
+  ConfigKey key{"regions[].axis",
+                "one of, or number",
+                "degrees",
+                "u | v | both | -360 .. 360",
+                "u",
+                "direction of the displacement: u right, v down, both, or an angle from u towards v",
+                {},
+                {}};
+  key.set = [](AppConfig& config, std::size_t i, const YamlNode& node) -> std::optional<std::string> {
+    if (auto remedy = refuse_unless_scalar(node)) return remedy;
+    const auto angle = node.text == "u" || node.text == "both" ? 0.0
+                       : node.text == "v"                      ? 90.0
+                                          : (node.quoted ? std::nullopt : drivers::parse_number(node.text));
+    if (!angle || *angle < -360.0 || *angle > 360.0) return "write u, v, both, or an angle";
+    config.regions[i].axis_deg = *angle;
+    config.regions[i].both_axes = node.text == "both";
+    return std::nullopt;
+  };
+  key.canonical = [](AppConfig& config, std::size_t i) {
+    return config.regions[i].both_axes ? std::string("both") : fmt::format("{}", config.regions[i].axis_deg);
+  };
+  return key;
+}
+
+}  // namespace
+
+void add_camera_keys(std::vector<ConfigKey>& keys) {
+  using C = CameraConfig;
+  keys.push_back(choice_key<CameraDriver>("camera.driver", at(&A::camera, &C::driver),
+                                          {{"file", CameraDriver::kFile},
+                                           {"synthetic", CameraDriver::kSynthetic},
+                                           {"v4l2", CameraDriver::kV4l2},
+                                           {"libcamera", CameraDriver::kLibcamera}},
+                                          "where frames come from"));
+  keys.push_back(with_default(
+      text_key("camera.source", at(&A::camera, &C::source), {},
+               "file: a video or an image folder; v4l2: a device, e.g. /dev/video0; libcamera: a camera's name"),
+      "none; needed by file and v4l2"));
+  keys.push_back(with_default(number_key("camera.rate_hz", "Hz", at(&A::camera, &C::rate_hz), {1e-3, 1e6},
+                                         "frame rate; set it where a container states a wrong one"),
+                              "the source's own"));
+  keys.push_back(choice_key<Pace>("camera.pace", at(&A::camera, &C::pace),
+                                  {{"realtime", Pace::kRealtime}, {"as_fast_as_possible", Pace::kAsFastAsPossible}},
+                                  "file and synthetic: as a live camera would (frames may drop), or lossless"));
+  keys.push_back(
+      number_key("camera.readout_ms", "ms", at(&A::camera, &C::readout_ms), {-1000, 1000},
+                 "rolling shutter: first to last line along readout_direction; 0 = global shutter or unknown"));
+  using core::ReadoutDirection;
+  keys.push_back(
+      choice_key<ReadoutDirection>("camera.readout_direction", at(&A::camera, &C::readout_direction),
+                                   {{"down", ReadoutDirection::kDown},
+                                    {"up", ReadoutDirection::kUp},
+                                    {"left", ReadoutDirection::kLeft},
+                                    {"right", ReadoutDirection::kRight}},
+                                   "the way the lines are read, in the image as stored; rotation metadata turns it"));
+  keys.push_back(number_key("camera.exposure_ms", "ms", at(&A::camera, &C::exposure_ms), {0, 10000},
+                            "exposure time; 0 = unknown"));
+  keys.push_back(number_key("camera.synthetic.duration_s", "s", at(&A::camera, &C::synthetic_duration_s), {0.1, 21600},
+                            "length of the synthetic record"));
+  keys.push_back(seed_key("camera.synthetic.seed", at(&A::camera, &C::synthetic_seed),
+                          "seed of the synthetic record's motion and noise"));
+}
+
+void add_calibration_keys(std::vector<ConfigKey>& keys) {
+  using C = CalibrationConfig;
+  keys.push_back(with_default(text_key("calibration.file", at(&A::calibration, &C::file), {},
+                                       "Kalibr, OpenCV or ROS YAML; instead of the values below"),
+                              "none"));
+  const std::pair<const char*, double C::*> intrinsics[] = {
+      {"fx", &C::fx}, {"fy", &C::fy}, {"cx", &C::cx}, {"cy", &C::cy}};
+  for (const auto& [name, member] : intrinsics) {
+    const bool is_focal = name[0] == 'f';
+    keys.push_back(
+        with_default(number_key(std::string("calibration.") + name, "px", at(&A::calibration, member),
+                                is_focal ? NumberRange{1, 1e6} : NumberRange{-1e6, 1e6},
+                                is_focal ? "focal length; all four of fx fy cx cy, or none" : "principal point"),
+                     "none: points are not undistorted"));
+  }
+  NumberList distortion;
+  distortion.ranges.assign(5, NumberRange{-100, 100});
+  distortion.n_min = 4;
+  distortion.put = [](AppConfig& config, std::size_t, const std::vector<double>& values) {
+    config.calibration.distortion = {};
+    std::copy(values.begin(), values.end(), config.calibration.distortion.begin());
+  };
+  distortion.get = [](AppConfig& config, std::size_t) {
+    return std::vector<double>(config.calibration.distortion.begin(), config.calibration.distortion.end());
+  };
+  keys.push_back(numbers_key("calibration.distortion", "", std::move(distortion),
+                             "[k1, k2, p1, p2] or [k1, k2, p1, p2, k3], each -100 .. 100",
+                             "radial-tangential distortion"));
+}
+
+void add_region_keys(std::vector<ConfigKey>& keys) {
+  using core::RegionRole;
+  keys.push_back(with_default(text_key("regions[].name", at(&core::Region::name), {1, 32, true},
+                                       "name of the region; also of its channel (with axis both: NAME.u and NAME.v)"),
+                              "none; must be given"));
+  keys.push_back(rect_key());
+  keys.push_back(choice_key<RegionRole>(
+      "regions[].role", at(&core::Region::role),
+      {{"structure", RegionRole::kStructure}, {"base", RegionRole::kBase}, {"background", RegionRole::kBackground}},
+      "base: moves with the ground of the structure; background: does not move"));
+  keys.push_back(axis_key());
+}
+
+void add_scale_keys(std::vector<ConfigKey>& keys) {
+  using C = ScaleConfig;
+  keys.push_back(with_default(number_key("scale.known_length_mm", "mm", at(&A::scale, &C::known_length_mm), {1e-6, 1e9},
+                                         "true distance between the two points `from` and `to`"),
+                              "none: displacements in px"));
+  keys.push_back(with_default(pair_key("scale.from", "px", at(&A::scale, &C::from_px), {0, kMaxImagePx},
+                                       "one end of the known length in the first image"),
+                              "none"));
+  keys.push_back(
+      with_default(pair_key("scale.to", "px", at(&A::scale, &C::to_px), {0, kMaxImagePx}, "its other end"), "none"));
+  keys.push_back(
+      switch_key("scale.adaptive", at(&A::scale, &C::adaptive),
+                 "follow the distance to the structure in every frame; false: the camera stands on a tripod"));
+}
+
+}  // namespace app

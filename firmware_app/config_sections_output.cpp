@@ -1,0 +1,94 @@
+#include <string>
+
+#include "firmware_app/config_sections.h"
+
+namespace app {
+namespace {
+
+using A = AppConfig;
+
+}  // namespace
+
+void add_tracking_keys(std::vector<ConfigKey>& keys) {
+  using C = TrackingConfig;
+  const auto whole = [&](const char* name, const char* unit, int C::*member, NumberRange range, const char* meaning) {
+    keys.push_back(whole_key(std::string("tracking.") + name, unit, at(&A::tracking, member), range, meaning));
+  };
+  const auto number = [&](const char* name, const char* unit, double C::*member, NumberRange range,
+                          const char* meaning) {
+    keys.push_back(number_key(std::string("tracking.") + name, unit, at(&A::tracking, member), range, meaning));
+  };
+  whole("points_per_region", "", &C::points_per_region, {1, 1000}, "corners looked for in each region");
+  number("min_distance_px", "px", &C::min_distance_px, {1, 1000}, "between two corners");
+  number("corner_quality", "", &C::corner_quality, {1e-6, 1},
+         "Harris response relative to the region's strongest corner");
+  whole("window_px", "px", &C::window_px, {5, 101}, "side of the tracked patch");
+  whole("pyramid_levels", "", &C::pyramid_levels, {1, 10},
+        "image pyramid: each level doubles the motion that is followed");
+  whole("max_iterations", "", &C::max_iterations, {1, 1000}, "of the tracker per level");
+  number("epsilon_px", "px", &C::epsilon_px, {1e-6, 1}, "the tracker stops when a step is smaller");
+  number("forward_backward_px", "px", &C::forward_backward_px, {1e-3, 100},
+         "a point that misses its start by more on the way back is lost");
+  number("inlier_sigma_px", "px", &C::inlier_sigma_px, {1e-3, 100},
+         "spread of points that agree with their region's motion");
+  whole("min_points", "", &C::min_points, {1, 1000}, "a region with fewer agreeing points has no sample in that frame");
+}
+
+void add_analysis_keys(std::vector<ConfigKey>& keys) {
+  using S = SpectrumConfig;
+  keys.push_back(whole_key("spectrum.segment", "samples", at(&A::spectrum, &S::segment), {16, 1048576},
+                           "length of a Welch segment; the record must be at least this long"));
+  keys.push_back(
+      number_key("spectrum.overlap", "", at(&A::spectrum, &S::overlap), {0, 0.95}, "of neighbouring segments"));
+  keys.push_back(text_choice_key("spectrum.window", at(&A::spectrum, &S::window), {"hann", "hamming", "boxcar"},
+                                 "taper of a segment"));
+  using I = IdentificationConfig;
+  keys.push_back(
+      whole_key("identification.period", "hops", at(&A::identification, &I::period_hops), {1, 1000000},
+                "an estimate every so many hops (a hop is segment * (1 - overlap) samples), and one at the end"));
+  keys.push_back(texts_key("identification.references", at(&A::identification, &I::references), {1, 40, true},
+                           "reference channels of the correlations; [] = automatic"));
+  keys.push_back(whole_key("identification.block_rows", "", at(&A::identification, &I::block_rows), {2, 1000, true},
+                           "of the Hankel matrix; 0 = automatic"));
+  keys.push_back(whole_key("identification.max_order", "", at(&A::identification, &I::max_order), {2, 500, true},
+                           "highest model order; 0 = automatic"));
+  keys.push_back(number_key("identification.max_frequency_hz", "Hz", at(&A::identification, &I::max_frequency_hz),
+                            {1e-6, 1e6, true}, "poles above are not reported; 0 = half the frame rate"));
+  keys.push_back(number_key("identification.min_mpc", "", at(&A::identification, &I::min_mpc), {0, 1},
+                            "least phase collinearity (MPC) of a structural mode"));
+  keys.push_back(number_key("identification.max_damping", "", at(&A::identification, &I::max_damping), {1e-4, 1},
+                            "largest damping ratio of a structural mode"));
+}
+
+void add_output_keys(std::vector<ConfigKey>& keys) {
+  using T = TelemetryConfig;
+  keys.push_back(
+      text_key("telemetry.lcm_url", at(&A::telemetry, &T::lcm_url), {}, "where LCM messages go; \"\" = no telemetry"));
+  keys.push_back(text_key("telemetry.channel_prefix", at(&A::telemetry, &T::channel_prefix), {1, 32, true},
+                          "start of every LCM channel's name"));
+  keys.push_back(text_key("telemetry.stream_id", at(&A::telemetry, &T::stream_id), {1, 64, true},
+                          "names this service in every message"));
+  keys.push_back(text_key("telemetry.log_file", at(&A::telemetry, &T::log_file), {},
+                          "also write the messages to this LCM log; \"\" = none"));
+  keys.push_back(whole_key("telemetry.tracks_every", "frames", at(&A::telemetry, &T::tracks_every), {0, 1000000},
+                           "publish every n-th frame's tracks; 0 = never"));
+  keys.push_back(whole_key("telemetry.displacement_every", "frames", at(&A::telemetry, &T::displacement_every),
+                           {1, 1000000}, "publish every n-th displacement"));
+  keys.push_back(text_key("report.directory", at(&A::report, &ReportConfig::directory), {},
+                          "folder for modal.json and CSV files; \"\" = none; --report goes before"));
+  keys.push_back(
+      switch_key("report.tracks", at(&A::report, &ReportConfig::tracks), "also write tracks.csv (the largest file)"));
+  using R = RtConfig;
+  keys.push_back(switch_key("rt.required", at(&A::rt, &R::required),
+                            "refuse to run where priority or memory lock are denied (exit 4)"));
+  keys.push_back(whole_key("rt.priority", "", at(&A::rt, &R::priority), {0, 90},
+                           "SCHED_FIFO priority of capture, tracking, spectrum; 0 = ordinary threads"));
+  keys.push_back(
+      switch_key("rt.lock_memory", at(&A::rt, &R::lock_memory), "keep the service's memory from being paged out"));
+  keys.push_back(
+      whole_key("rt.frame_slots", "", at(&A::rt, &R::frame_slots), {2, 256}, "frames that may wait for tracking"));
+  keys.push_back(whole_key("rt.sample_slots", "", at(&A::rt, &R::sample_slots), {2, 65536},
+                           "samples that may wait for spectra and records"));
+}
+
+}  // namespace app

@@ -1,0 +1,233 @@
+#include "core/simulation/renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "core/simulation/track_generator.h"
+
+namespace core::simulation {
+namespace {
+
+struct Image {
+  int width_px, height_px;
+  std::vector<float> light;
+
+  Image(const Renderer& renderer, std::uint64_t frame)
+      : width_px(renderer.scene().camera.width_px),
+        height_px(renderer.scene().camera.height_px),
+        light(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)) {
+    renderer.render_light(frame, light.data());
+  }
+
+  [[nodiscard]] double pixel(int u, int v) const {
+    return static_cast<double>(
+        light[static_cast<std::size_t>(v) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(u)]);
+  }
+
+  // Twelve-point Lagrange interpolation: its own error on this texture lies below 1e-3 px.
+  [[nodiscard]] double at(double u, double v) const {
+    const int u0 = static_cast<int>(std::floor(u)) - 5, v0 = static_cast<int>(std::floor(v)) - 5;
+    double wu[12], wv[12], sum = 0.0;
+    for (int i = 0; i < 12; ++i) {
+      wu[i] = wv[i] = 1.0;
+      for (int j = 0; j < 12; ++j) {
+        if (j == i) continue;
+        wu[i] *= (u - u0 - j) / (i - j);
+        wv[i] *= (v - v0 - j) / (i - j);
+      }
+    }
+    for (int j = 0; j < 12; ++j) {
+      for (int i = 0; i < 12; ++i) sum += wu[i] * wv[j] * pixel(u0 + i, v0 + j);
+    }
+    return sum;
+  }
+};
+
+// Where the window of `a` centred on (u, v) is in `b`: least squares with a translation, started at `guess`.
+ImagePoint locate(const Image& a, const Image& b, ImagePoint centre, ImagePoint guess, int half_u, int half_v) {
+  const int u0 = static_cast<int>(std::lround(centre.u_px)), v0 = static_cast<int>(std::lround(centre.v_px));
+  double du = guess.u_px - centre.u_px, dv = guess.v_px - centre.v_px;
+  for (int round = 0; round < 6; ++round) {
+    double guu = 0, guv = 0, gvv = 0, bu = 0, bv = 0;
+    for (int v = v0 - half_v; v <= v0 + half_v; ++v) {
+      for (int u = u0 - half_u; u <= u0 + half_u; ++u) {
+        const double gu = (8 * (a.pixel(u + 1, v) - a.pixel(u - 1, v)) - a.pixel(u + 2, v) + a.pixel(u - 2, v)) / 12;
+        const double gv = (8 * (a.pixel(u, v + 1) - a.pixel(u, v - 1)) - a.pixel(u, v + 2) + a.pixel(u, v - 2)) / 12;
+        const double d = a.pixel(u, v) - b.at(u + du, v + dv);
+        guu += gu * gu, guv += gu * gv, gvv += gv * gv, bu += gu * d, bv += gv * d;
+      }
+    }
+    const double det = guu * gvv - guv * guv;
+    du += (gvv * bu - guv * bv) / det;
+    dv += (guu * bv - guv * bu) / det;
+  }
+  return {centre.u_px + du, centre.v_px + dv};
+}
+
+Scene still_scene() {
+  Scene scene = make_paper_scene(1, 2.0);
+  scene.structure.roof_rms_mm = 0.0;
+  scene.hover.x_rms_mm = scene.hover.y_rms_mm = scene.hover.z_rms_mm = 0.0;
+  return scene;
+}
+
+TEST(Renderer, ShiftsTheImageByExactlyTheProjectedMotion) {
+  const Scene scene = still_scene();
+  const Image still(Renderer(scene), 0);
+  for (const ImagePoint shift : {ImagePoint{0.25, 0.0}, ImagePoint{0.5, -0.4}, ImagePoint{-1.3, 0.75}}) {
+    Scene moved_scene = scene;
+    moved_scene.camera.cx_px += shift.u_px;
+    moved_scene.camera.cy_px += shift.v_px;
+    const Image moved(Renderer(moved_scene), 0);
+    for (const auto& [body, region] : tracking_regions(SceneMotion(scene))) {
+      const ImagePoint centre{std::round(region.u_px + region.width_px / 2),
+                              std::round(region.v_px + region.height_px / 2)};
+      const ImagePoint found = locate(still, moved, centre, centre, 10, 10);
+      EXPECT_NEAR(found.u_px - centre.u_px, shift.u_px, 0.005) << region.name;
+      EXPECT_NEAR(found.v_px - centre.v_px, shift.v_px, 0.005) << region.name;
+    }
+  }
+}
+
+// Pixels and tracks come from the same scene by different ways: drift, scale change, shaking and row times included.
+TEST(Renderer, AgreesWithTheTrackGenerator) {
+  const Scene scene = make_paper_scene(3, 20.0);
+  const Renderer renderer(scene);
+  const TrackGenerator tracks(scene, {6, 0.0, 0.0});
+  const Image first(renderer, 0);
+  core::TrackFrame start, later;
+  tracks.generate(0, start);
+  double sum2 = 0.0;
+  int n = 0;
+  for (const std::uint64_t frame : {std::uint64_t{1}, std::uint64_t{113}, std::uint64_t{499}}) {
+    const Image image(renderer, frame);
+    tracks.generate(frame, later);
+    for (std::size_t i = 0; i < start.points.size(); ++i) {
+      // Whole pixels, so that the window's centre is the point itself; the same material point in both frames.
+      const auto& region = tracks.regions()[start.points[i].region];
+      const ImagePoint centre{std::round(start.points[i].u_px), std::round(start.points[i].v_px)};
+      const PlanePoint material = tracks.motion().material_point(region.body, centre, 0.0);
+      const ImagePoint truth = tracks.motion().see(region.body, material, tracks.motion().frame_time_s(frame));
+      const ImagePoint found = locate(first, image, centre, truth, 9, 9);
+      EXPECT_NEAR(found.u_px, truth.u_px, 0.05) << region.region.name << " frame " << frame;
+      EXPECT_NEAR(found.v_px, truth.v_px, 0.05) << region.region.name << " frame " << frame;
+      sum2 += std::pow(found.u_px - truth.u_px, 2) + std::pow(found.v_px - truth.v_px, 2);
+      n += 2;
+    }
+  }
+  EXPECT_LT(std::sqrt(sum2 / n), 0.012);
+}
+
+TEST(Renderer, BlursLikeTheMeanOfManyInstants) {
+  Scene scene = make_paper_scene(1, 2.0);
+  set_image_size(scene, 480, 270);
+  scene.structure.roof_rms_mm = 12.0;  // three times the speed
+  scene.camera.readout_s = 0.0;
+  scene.camera.exposure_s = 0.02;
+  const Image blurred(Renderer(scene), 0);
+  scene.camera.exposure_s = 0.0;
+  scene.camera.rate_hz = 2000.0;
+  const Renderer sharp(scene);
+  constexpr int kInstants = 40;  // intervals of 0.5 ms over 20 ms, Simpson's rule
+  std::vector<double> mean(blurred.light.size());
+  for (std::uint64_t i = 0; i <= kInstants; ++i) {
+    const Image instant(sharp, i);
+    const double weight = (i == 0 || i == kInstants ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) / (3.0 * kInstants);
+    for (std::size_t p = 0; p < mean.size(); ++p) mean[p] += weight * static_cast<double>(instant.light[p]);
+  }
+  double sum2 = 0.0, blur2 = 0.0;
+  const Image first(sharp, kInstants / 2);
+  for (std::size_t p = 0; p < mean.size(); ++p) {
+    sum2 += std::pow(mean[p] - static_cast<double>(blurred.light[p]), 2);
+    blur2 += std::pow(mean[p] - static_cast<double>(first.light[p]), 2);
+  }
+  EXPECT_LT(sum2, 0.01 * blur2);  // what blur there is, is met to a tenth
+}
+
+TEST(Renderer, CoversPlateEdgesExactly) {
+  Scene scene = still_scene();
+  scene.plates.texture.contrast_rms = scene.background.texture.contrast_rms = 0.0;
+  scene.plates.texture.mean = 200.0;
+  scene.background.texture.mean = 100.0;
+  const double area_px = 7 * 300.0 * 50.0 * std::pow(scene.camera.alpha_px / 2000.0, 2);
+  for (const double shift : {0.0, 0.3, 0.77}) {
+    scene.camera.cx_px = 959.5 + shift;
+    scene.camera.cy_px = 539.5 - shift;
+    double excess = 0.0;
+    for (const float light : Image(Renderer(scene), 0).light) excess += static_cast<double>(light) - 100.0;
+    EXPECT_NEAR(excess / 100.0, area_px, 1e-3 * area_px / 50.0);
+  }
+}
+
+TEST(Renderer, AddsWhiteNoiseOfTheDeclaredSpread) {
+  Scene scene = make_paper_scene(1, 2.0);
+  set_image_size(scene, 960, 540);
+  scene.plates.texture.contrast_rms = 10.0;  // no grey level near black or white
+  const Renderer renderer(scene);
+  const Image light(renderer, 7);
+  std::vector<std::uint8_t> pixels(light.light.size());
+  renderer.render(7, pixels.data());
+  double sum = 0.0, sum2 = 0.0, neighbours = 0.0;
+  std::vector<double> noise(pixels.size());
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    noise[i] = pixels[i] - static_cast<double>(light.light[i]);
+    sum += noise[i], sum2 += noise[i] * noise[i];
+    if (i >= 960) neighbours += noise[i] * (noise[i - 1] + noise[i - 960]);
+  }
+  const double n = static_cast<double>(pixels.size());
+  EXPECT_NEAR(sum / n, 0.0, 0.02);
+  EXPECT_NEAR(sum2 / n, 4.0 + 1.0 / 12.0, 0.05);
+  EXPECT_NEAR(neighbours / sum2, 0.0, 0.02);
+}
+
+TEST(Renderer, DrawsNoiseThatFramesDoNotShare) {
+  const Scene scene = still_scene();
+  const Renderer renderer(scene);
+  std::vector<std::uint8_t> a(1920 * 1080), b(a.size());
+  renderer.render(1, a.data());
+  renderer.render(2, b.data());
+  double sum2 = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum2 += (a[i] - b[i]) * (a[i] - b[i]);
+  EXPECT_NEAR(sum2 / static_cast<double>(a.size()), 2.0 * (4.0 + 1.0 / 12.0), 0.1);
+}
+
+TEST(Renderer, GivesTheSameFrameToEveryThreadInAnyOrder) {
+  Scene scene = make_paper_scene(1, 2.0);
+  set_image_size(scene, 480, 270);
+  const Renderer renderer(scene), twin(scene);
+  std::vector<std::vector<std::uint8_t>> forward(8, std::vector<std::uint8_t>(480 * 270)), backward = forward;
+  std::thread other([&] {
+    auto scratch = twin.make_scratch();
+    for (std::uint64_t k = 8; k-- > 0;) twin.render(k, backward[k].data(), scratch);
+  });
+  for (std::uint64_t k = 0; k < 8; ++k) renderer.render(k, forward[k].data());
+  other.join();
+  EXPECT_EQ(forward, backward);
+  EXPECT_NE(forward[0], forward[1]);
+}
+
+TEST(Renderer, KeepsTheSceneWhenNoiseIsSwitchedOff) {
+  Scene scene = make_paper_scene(1, 2.0);
+  set_image_size(scene, 480, 270);
+  const Image noisy(Renderer(scene), 5);
+  scene.camera.noise_sigma = 0.0;
+  EXPECT_EQ(Image(Renderer(scene), 5).light, noisy.light);
+}
+
+TEST(Renderer, RefusesWhatItCannotDraw) {
+  Scene turning = make_paper_scene(1, 2.0);
+  turning.hover.roll_rms_rad = 1e-3;
+  EXPECT_THROW(Renderer{turning}, std::invalid_argument);
+  Scene too_fine = make_paper_scene(1, 2.0);
+  too_fine.plates.texture.pitch_mm = 1.0;
+  EXPECT_THROW(Renderer{too_fine}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace core::simulation

@@ -1,0 +1,154 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/videoio.hpp>
+#include <sstream>
+#include <string>
+
+#include "firmware_app/config.h"
+
+// `hovermodal simulate` as a user runs it.
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int exit_code;
+  std::string text;  // standard output and standard error
+};
+
+Outcome simulate(const std::string& arguments) {
+  const std::string command = std::string(HOVERMODAL_BIN_DIR) + "/hovermodal simulate " + arguments + " 2>&1";
+  std::FILE* pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) return {-1, "popen failed"};
+  std::string text;
+  char block[4096];
+  while (const std::size_t n = std::fread(block, 1, sizeof block, pipe)) text.append(block, n);
+  const int status = ::pclose(pipe);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
+}
+
+std::string read(const fs::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class Simulate : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / "hovermodal_simulate" /
+              testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] std::string out() const { return " --out " + (folder_ / "out").string(); }
+
+  fs::path folder_;
+};
+
+TEST_F(Simulate, WritesAClipWithItsTruthAndConfiguration) {
+  const Outcome outcome = simulate("--size 320x180 --duration 2 --seed 4 --method paper" + out());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  const fs::path made = folder_ / "out";
+
+  cv::VideoCapture capture((made / "clip.mp4").string());
+  ASSERT_TRUE(capture.isOpened());
+  EXPECT_EQ(capture.get(cv::CAP_PROP_FRAME_COUNT), 50.0);
+  EXPECT_EQ(capture.get(cv::CAP_PROP_FRAME_WIDTH), 320.0);
+
+  const auto truth = nlohmann::json::parse(read(made / "truth.json"));
+  ASSERT_EQ(truth.at("modes").size(), 6U);
+  EXPECT_DOUBLE_EQ(truth.at("modes")[0].at("frequency_hz").get<double>(), 1.657);
+  EXPECT_DOUBLE_EQ(truth.at("modes")[0].at("shape").at("floor6").get<double>(), 1.0);
+  EXPECT_EQ(truth.at("scene").at("seed").get<int>(), 4);
+
+  const app::AppConfig config = app::load_config((made / "config.yaml").string());
+  EXPECT_EQ(config.method, app::Method::kPaper);
+  EXPECT_EQ(fs::path(config.camera.source), fs::absolute(made / "clip.mp4"));
+  EXPECT_DOUBLE_EQ(config.camera.readout_ms, 26.0);
+  EXPECT_DOUBLE_EQ(config.scale.known_length_mm, 840.0);
+  EXPECT_EQ(config.regions.size(), 8U);
+}
+
+TEST_F(Simulate, WritesTracksAndTrueDisplacementsFrameByFrame) {
+  const Outcome outcome = simulate("--tracks-only --duration 2 --points 5 --track-noise-px 0" + out());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "clip.mp4"));
+  std::istringstream tracks(read(folder_ / "out" / "tracks.csv"));
+  std::string line;
+  int n = 0;
+  bool heading = false;
+  while (std::getline(tracks, line)) {
+    if (line.starts_with("#")) continue;
+    if (!heading) {
+      EXPECT_EQ(line, "frame,t_s,point,region,u_px,v_px,sigma_px");
+      heading = true;
+    } else {
+      ++n;
+    }
+  }
+  EXPECT_EQ(n, 50 * 5 * 8);
+  EXPECT_TRUE(line.starts_with("49,1.960000000,39,background,"));
+
+  std::istringstream truth(read(folder_ / "out" / "truth_displacements.csv"));
+  n = 0;
+  while (std::getline(truth, line)) n += line.starts_with("#") ? 0 : 1;
+  EXPECT_EQ(n, 51);
+}
+
+TEST_F(Simulate, IsAFunctionOfItsSeed) {
+  for (const char* name : {"a", "b", "c"}) {
+    const std::string seed = std::string(name) == "c" ? "9" : "8";
+    ASSERT_EQ(simulate("--tracks-only --duration 2 --seed " + seed + " --out " + (folder_ / name).string()).exit_code,
+              0);
+  }
+  EXPECT_EQ(read(folder_ / "a" / "tracks.csv"), read(folder_ / "b" / "tracks.csv"));
+  EXPECT_NE(read(folder_ / "a" / "tracks.csv"), read(folder_ / "c" / "tracks.csv"));
+}
+
+TEST_F(Simulate, ReusesWhatItHasAlreadyMade) {
+  ASSERT_EQ(simulate("--tracks-only --duration 2" + out()).exit_code, 0);
+  const auto made_at = fs::last_write_time(folder_ / "out" / "tracks.csv");
+  const Outcome again = simulate("--tracks-only --duration 2 --method paper" + out());
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_NE(again.text.find("already made"), std::string::npos) << again.text;
+  EXPECT_EQ(fs::last_write_time(folder_ / "out" / "tracks.csv"), made_at);
+  EXPECT_NE(read(folder_ / "out" / "config.yaml").find("method: paper"), std::string::npos);
+
+  EXPECT_EQ(simulate("--tracks-only --duration 2 --seed 2" + out()).text.find("already made"), std::string::npos);
+  EXPECT_EQ(simulate("--tracks-only --duration 2 --seed 2 --force" + out()).text.find("already made"),
+            std::string::npos);
+  std::ofstream(folder_ / "out" / "tracks.csv") << "cut short";
+  EXPECT_EQ(simulate("--tracks-only --duration 2 --seed 2" + out()).text.find("already made"), std::string::npos);
+}
+
+TEST_F(Simulate, RefusesBadUsageWithExitCode2) {
+  for (const char* arguments : {"--duration 0", "--duration nan", "--duration -5", "--duration inf", "--duration 0.001",
+                                "--size 64x64", "--size 321x181", "--size big", "--size x", "--size 99999x99999",
+                                "--crf 70", "--preset other", "--method other", "--seed -1", "--threads -2",
+                                "--tracks-only --track-noise-px nan", "--tracks-only --points 0"}) {
+    const Outcome outcome = simulate(std::string(arguments) + out());
+    EXPECT_EQ(outcome.exit_code, 2) << arguments << ": " << outcome.text;
+    EXPECT_FALSE(outcome.text.empty());
+  }
+  EXPECT_EQ(simulate("--duration 2").exit_code, 2);  // nowhere to write
+}
+
+TEST_F(Simulate, RefusesAFolderThatIsAFileOrCannotBeMade) {
+  std::ofstream(folder_ / "file") << "x";
+  const Outcome file = simulate("--tracks-only --duration 2 --out " + (folder_ / "file").string());
+  EXPECT_EQ(file.exit_code, 2);
+  EXPECT_NE(file.text.find("is a file"), std::string::npos) << file.text;
+  EXPECT_NE(simulate("--tracks-only --duration 2 --out /proc/hovermodal").exit_code, 0);
+}
+
+}  // namespace
