@@ -16,7 +16,9 @@ constexpr int kMaxReferences = 6;
 constexpr int kOrders = 15;          // of the stabilisation diagram, two apart
 constexpr double kLeastPresence = 0.25;  // poles of fewer orders are the scatter of over-modelling, not worth a verdict
 constexpr int kLeastBlockRows = 6;
-constexpr int kMostBlockRows = 40;
+// Rows of the Hankel matrix, all channels together: 40 block rows of 6 channels. Few channels take more block rows, which
+// is what separates close lines.
+constexpr int kMostRows = 240;
 // The weights are covariance matrices of block_rows * channels: with fewer samples per row than this they fit the noise
 // and every singular value comes out near 1.
 constexpr double kSamplesPerRow = 16.0;
@@ -69,8 +71,10 @@ std::vector<int> Identifier::choose_references() const {
 
 int Identifier::choose_block_rows(const CpsdSums& sums) const noexcept {
   if (config_.block_rows > 0) return config_.block_rows;
-  const double rows = static_cast<double>(sums.n_samples) / (kSamplesPerRow * static_cast<double>(channels_.size()));
-  return std::clamp(static_cast<int>(rows), kLeastBlockRows, kMostBlockRows);
+  const double rows = std::min<double>(kMostRows, static_cast<double>(sums.n_samples) / kSamplesPerRow);
+  // The weights keep the window's taper, the Hankel matrix does not: up to an eighth of a segment they agree.
+  const int longest = sums.n_fft / 16;
+  return std::clamp(static_cast<int>(rows) / static_cast<int>(channels_.size()), kLeastBlockRows, std::max(kLeastBlockRows, longest));
 }
 
 ModalEstimate Identifier::identify(const CpsdSums& sums) const {

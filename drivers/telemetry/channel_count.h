@@ -16,6 +16,9 @@ struct ChannelCount {
   std::int64_t last_utc_ns = 0;                          // the sender's clock
   std::int64_t received_at_ns = 0;                       // our clock
 
+  static constexpr int kLateUntilRestart = 8;
+  int late_in_a_row = 0;
+
   // False for a message that is older than what is already known.
   bool note(std::int64_t sequence, std::int64_t utc_ns, std::int64_t now_ns) noexcept {
     ++received;
@@ -24,13 +27,16 @@ struct ChannelCount {
       first_sequence = sequence;
     } else if (sequence > last_sequence) {
       gaps += static_cast<std::uint64_t>(sequence - last_sequence - 1);
-    } else if (utc_ns > last_utc_ns) {
+    } else if (utc_ns > last_utc_ns || late_in_a_row >= kLateUntilRestart) {
       // Sent later, yet numbered lower: a new run. What it lost before we heard it is not known, so it is no gap.
+      // Or nothing but late ones: what we took for the newest was wrong, and must not deafen us for good.
       ++restarts;
     } else {
       ++out_of_order;
+      ++late_in_a_row;
       return false;
     }
+    late_in_a_row = 0;
     last_sequence = sequence;
     last_utc_ns = utc_ns;
     return true;

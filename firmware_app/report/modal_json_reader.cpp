@@ -110,6 +110,7 @@ class ModalReader {
 
   [[nodiscard]] core::Verdict verdict(const std::string& name_of_verdict, const std::string& name) const {
     using core::Verdict;
+    if (name_of_verdict.empty()) return Verdict::kStructural;  // a truth.json, where nothing was judged
     for (const Verdict verdict : {Verdict::kStructural, Verdict::kCameraMotion, Verdict::kInputPeak, Verdict::kHarmonic,
                                   Verdict::kAmbiguous, Verdict::kNumerical}) {
       if (name_of_verdict == core::to_string(verdict)) return verdict;

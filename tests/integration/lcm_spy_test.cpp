@@ -144,6 +144,23 @@ TEST(LcmSpy, NetworkAndLogCarryTheSameMessages) {
   EXPECT_EQ(read_json(folder / "live.json"), read_json(folder / "log.json"));
 }
 
+hovermodal::health_t hostile_health(const char* state, std::int64_t sequence) {
+  auto evil = tests::sample_health(state, 1);
+  evil.warnings = {"\x1b[31mred\xff\xfe"};
+  evil.rate_hz = 1e300;
+  auto message = drivers::to_message(evil, tests::sample_channels(4), {"tower\x1b[2J", 1});
+  message.sequence = sequence;
+  message.utc_ns = sequence;
+  return message;
+}
+
+template <class Message>
+std::vector<std::uint8_t> encoded(const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
 TEST(LcmSpy, SurvivesHostileMessagesAndCountsThem) {
   SKIP_WITHOUT_PRIVATE_LOOPBACK();
   const auto count_file = test_folder() / "count.json";
@@ -151,25 +168,36 @@ TEST(LcmSpy, SurvivesHostileMessagesAndCountsThem) {
   ASSERT_TRUE(spy.wait_for("listening on")) << spy.output();
   const std::unique_ptr<lcm_t, decltype(&lcm_destroy)> lcm(lcm_create(kUrl), &lcm_destroy);
   ASSERT_TRUE(lcm);
-  auto evil = tests::sample_health("running \x1b[2J\x1b]0;owned\x07", 1);
-  evil.warnings = {"\x1b[31mred\xff\xfe"};
-  evil.rate_hz = 1e300;
-  auto message = drivers::to_message(evil, tests::sample_channels(4), {"tower\x1b[2J", 1});
-  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
-  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  const auto send = [&](const char* channel, const std::vector<std::uint8_t>& bytes) {
+    lcm_publish(lcm.get(), channel, bytes.data(), static_cast<unsigned>(bytes.size()));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
   std::mt19937 random(3);
-  lcm_publish(lcm.get(), "HOVERMODAL_HEALTH", bytes.data(), static_cast<unsigned>(bytes.size()));
+  const auto bytes = encoded(hostile_health("running \x1b[2J\x1b]0;owned\x07", 0));
+  send("HOVERMODAL_HEALTH", bytes);
   for (int i = 0; i < 300; ++i) {
     auto mutated = bytes;
     for (int k = 0; k < 4; ++k) mutated[8 + random() % (mutated.size() - 8)] = static_cast<std::uint8_t>(random());
-    lcm_publish(lcm.get(), "HOVERMODAL_HEALTH", mutated.data(), static_cast<unsigned>(mutated.size()));
-    lcm_publish(lcm.get(), "HOVERMODAL_MODAL", mutated.data(), static_cast<unsigned>(random() % mutated.size()));
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    send("HOVERMODAL_HEALTH", mutated);
+    send("HOVERMODAL_MODAL", {mutated.begin(), mutated.begin() + static_cast<std::ptrdiff_t>(random() % bytes.size())});
   }
-  spy.signal(SIGTERM);
+  // More than one: a mutated message may have claimed a sequence and a time far ahead.
+  for (int i = 1; i <= 20; ++i) send("HOVERMODAL_HEALTH", encoded(hostile_health("finished", i)));
   EXPECT_EQ(spy.wait_for_exit(), 0) << spy.output();
   EXPECT_EQ(spy.output().find('\x1b'), std::string::npos);
   EXPECT_EQ(read_json(count_file)["channels"]["HOVERMODAL_MODAL"]["undecodable"], 300);
+}
+
+TEST(LcmSpy, ASignalEndsItWellAndTheCountIsWritten) {
+  SKIP_WITHOUT_PRIVATE_LOOPBACK();
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const auto count_file = test_folder() / "count.json";
+    tests::ChildProcess spy({kSpy, "spy", "--once", "--plain", "--count", count_file.string()});
+    ASSERT_TRUE(spy.wait_for("listening on")) << spy.output();
+    spy.signal(signal);
+    EXPECT_EQ(spy.wait_for_exit(), 0) << spy.output();
+    EXPECT_FALSE(read_json(count_file)["complete"].get<bool>());
+  }
 }
 
 TEST(LcmSpy, OnceWithoutAnEndIsAFailureThatStillWritesItsCount) {

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -17,11 +18,12 @@ namespace {
 
 using Shape = std::vector<std::complex<double>>;
 
-struct Options {
-  std::string result, reference;
+// Table 1 of Yoon, Hoskere, Park & Spencer 2017: accelerometers (their reference) and camera on the drone.
+struct PaperMode {
+  double accelerometer_hz, drone_hz, mac_percent, error_percent;
 };
+constexpr std::array<PaperMode, 3> kPaperTable1{{{1.632, 1.649, 99.99, 1.04}, {5.054, 5.043, 99.86, 0.22}, {8.175, 8.170, 99.67, 0.06}}};
 
-// The mode of `report` that is meant by `wanted`: within 10 % in frequency, the best MAC.
 struct Match {
   const core::Mode* mode = nullptr;
   double mac = 0.0;
@@ -32,11 +34,13 @@ Shape shape_for(const app::ModalReport& report, const core::Mode& mode, const st
   Shape shape;
   for (const std::string& name : names) {
     const auto at = std::find(report.channel_names.begin(), report.channel_names.end(), name);
-    shape.push_back(at == report.channel_names.end() ? 0.0 : mode.shape[static_cast<std::size_t>(at - report.channel_names.begin())]);
+    const auto index = static_cast<std::size_t>(at - report.channel_names.begin());
+    shape.push_back(index < mode.shape.size() ? mode.shape[index] : 0.0);
   }
   return shape;
 }
 
+// The mode of `report` that is meant by `wanted`: of those within 10 % in frequency the one with the best MAC.
 Match find(const app::ModalReport& report, const core::Mode& wanted, const std::vector<std::string>& names, const Shape& wanted_shape) {
   Match best;
   for (const core::Mode& mode : report.estimate.modes) {
@@ -55,41 +59,71 @@ std::vector<std::string> common_channels(const app::ModalReport& a, const app::M
   return names;
 }
 
-// One line a mode: "mode 1: 1.6497 Hz, reference 1.6484 Hz, error 0.078 %, MAC 0.99991, ...".
-void print_against(const app::ModalReport& result, const app::ModalReport& reference, bool with_scatter) {
+// No method scatters less in a record of this length: sqrt(zeta / (2 pi f T)), relative.
+double scatter(const core::Mode& mode, double duration_s) {
+  const double waves = 2.0 * std::numbers::pi * mode.frequency_hz * duration_s;
+  return mode.damping_ratio > 0.0 && waves > 0.0 ? std::sqrt(mode.damping_ratio / waves) : 0.0;
+}
+
+std::string truth_columns(const app::ModalReport& truth, const core::Mode& found, double duration_s) {
+  for (const core::Mode& mode : truth.estimate.modes) {
+    if (std::abs(mode.frequency_hz / found.frequency_hz - 1.0) > 0.1) continue;
+    const double error = found.frequency_hz / mode.frequency_hz - 1.0;
+    return fmt::format("  {:8.3f} {:+8.3f} {:7.2f}", mode.frequency_hz, 100.0 * error, error / scatter(mode, duration_s));
+  }
+  return {};
+}
+
+void print_header(bool with_truth, bool with_paper) {
+  fmt::print("{:>4} {:>10} {:>10} {:>8} {:>8}", "mode", "found Hz", "ref. Hz", "error %", "MAC %");
+  if (with_truth) fmt::print("  {:>8} {:>8} {:>7}", "true Hz", "error %", "sigmas");
+  if (with_paper) fmt::print("   {:>33}", "paper: drone Hz  ref. Hz  error %  MAC %");
+  fmt::print("\n");
+}
+
+void print_table(const app::ModalReport& result, const app::ModalReport& reference, const app::ModalReport* truth, bool with_paper) {
   const std::vector<std::string> names = common_channels(result, reference);
-  int number = 0;
+  print_header(truth != nullptr, with_paper);
+  std::size_t number = 0;
   for (const core::Mode& wanted : reference.estimate.modes) {
-    ++number;
     const Match match = find(result, wanted, names, shape_for(reference, wanted, names));
+    const PaperMode* paper = with_paper && number < kPaperTable1.size() ? &kPaperTable1[number] : nullptr;
+    ++number;
     if (match.mode == nullptr) {
-      fmt::print("mode {} reference {:.4f} Hz not found\n", number, wanted.frequency_hz);
+      fmt::print("{:4} {:>10} {:10.4f}\n", number, "not found", wanted.frequency_hz);
       continue;
     }
-    const double error = match.mode->frequency_hz / wanted.frequency_hz - 1.0;
-    fmt::print("mode {} reference {:.4f} Hz found {:.4f} Hz error {:.4f} % MAC {:.5f}", number, wanted.frequency_hz,
-               match.mode->frequency_hz, 100.0 * error, match.mac);
-    if (with_scatter && wanted.damping_ratio > 0.0 && result.estimate.duration_s > 0.0) {
-      const double sigma = std::sqrt(wanted.damping_ratio / (2.0 * std::numbers::pi * wanted.frequency_hz * result.estimate.duration_s));
-      fmt::print(" sigmas {:.2f}", error / sigma);
+    fmt::print("{:4} {:10.4f} {:10.4f} {:+8.3f} {:8.3f}", number, match.mode->frequency_hz, wanted.frequency_hz,
+               100.0 * (match.mode->frequency_hz / wanted.frequency_hz - 1.0), 100.0 * match.mac);
+    if (truth != nullptr) fmt::print("{}", truth_columns(*truth, *match.mode, result.estimate.duration_s));
+    if (paper != nullptr) {
+      fmt::print("   {:14.3f} {:8.3f} {:8.2f} {:6.2f}", paper->drone_hz, paper->accelerometer_hz, paper->error_percent, paper->mac_percent);
     }
-    fmt::print(" damping {:.2f} % reference {:.2f} %\n", 100.0 * match.mode->damping_ratio, 100.0 * wanted.damping_ratio);
+    fmt::print("\n");
   }
 }
 
 }  // namespace
 
 void add_compare(CLI::App& app) {
+  struct Options {
+    std::string result, reference, truth;
+    bool paper = false;
+  };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "compare", "Frequencies and shapes of one modal.json against another, or against a simulation's truth.json\n"
-                 "  hovermodal compare --result out/modal.json --reference truth.json");
+                 "  hovermodal compare --result out/modal.json --reference out/truth.json");
   command->add_option("--result", options->result, "modal.json to judge")->required()->type_name("FILE");
   command->add_option("--reference", options->reference, "modal.json or truth.json to judge it by")->required()->type_name("FILE");
+  command->add_option("--truth", options->truth, "truth.json: adds the error in units of the smallest possible scatter")->type_name("FILE");
+  command->add_flag("--paper", options->paper, "Adds Table 1 of Yoon et al. 2017 beside it");
   command->callback([options] {
     const app::ModalReport result = app::read_modal_json(options->result);
     const app::ModalReport reference = app::read_modal_json(options->reference);
-    print_against(result, reference, true);
+    app::ModalReport truth;
+    if (!options->truth.empty()) truth = app::read_modal_json(options->truth);
+    print_table(result, reference, options->truth.empty() ? nullptr : &truth, options->paper);
   });
 }
 

@@ -114,7 +114,11 @@ void add_simulate(CLI::App& app) {
   command->add_option("--preset", options->preset, "Scene: paper (six storeys, 1080p at 25 fps, 2 m away)")
       ->check(CLI::IsMember({"paper"}))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "Everything random follows from it")->capture_default_str();
+  command->add_option("--seed", options->seed, "Everything random follows from it")
+      ->check([](const std::string& text) {  // a negative number would wrap
+        return drivers::parse_unsigned(text) ? "" : "give a whole number from 0";
+      })
+      ->capture_default_str();
   command->add_option("--duration", options->duration_s, "Length in seconds")->capture_default_str();
   command->add_option("--size", options->size, "1080p, 720p, 270p, ... or WIDTHxHEIGHT; the view stays the same")
       ->capture_default_str();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -9,7 +10,7 @@
 
 #include "drivers/storage/csv_writer.h"
 #include "drivers/storage/json.h"
-#include "drivers/storage/text_file.h"
+#include "firmware_app/config.h"
 #include "tools/hovermodal/simulate_progress.h"
 
 namespace tools {
@@ -239,6 +240,12 @@ void write_config(const std::filesystem::path& folder, const SimulateJob& job, c
   const auto to = motion.see(0, {0.0, job.scene.body_y_mm(0)}, 0.0);
   append(out, "scale:\n  known_length_mm: {}\n  from: [{:.2f}, {:.2f}]\n  to: [{:.2f}, {:.2f}]\n",
          job.scene.plates.storey_mm * roof, from.u_px, from.v_px, to.u_px, to.v_px);
+  // The default window would reach beyond the plates of a small image.
+  const double plate_px = job.scene.plates.height_mm * camera.alpha_px / job.scene.plates.depth_mm;
+  const int window_px = std::max(5, static_cast<int>(0.5 * plate_px / 2.0) * 2 + 1);
+  if (window_px < app::TrackingConfig{}.window_px) {
+    append(out, "tracking:\n  window_px: {}\n  min_distance_px: {}\n", window_px, std::max(2, window_px / 3));
+  }
   drivers::write_file_atomically(path_in(folder, "config.yaml"), fmt::to_string(out));
 }
 

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <functional>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -49,17 +50,22 @@ struct Image {
   }
 };
 
-// Where the window of `a` centred on (u, v) is in `b`: least squares with a translation, started at `guess`.
-ImagePoint locate(const Image& a, const Image& b, ImagePoint centre, ImagePoint guess, int half_u, int half_v) {
+// Maps a pixel of one image to where it should stand in another.
+using Warp = std::function<ImagePoint(ImagePoint)>;
+
+// By how much the pixels around `centre` of `a` miss, in `b`, the places that `warp` gives them: least squares with a
+// translation.
+ImagePoint misses(const Image& a, const Image& b, ImagePoint centre, const Warp& warp, int half_px) {
   const int u0 = static_cast<int>(std::lround(centre.u_px)), v0 = static_cast<int>(std::lround(centre.v_px));
-  double du = guess.u_px - centre.u_px, dv = guess.v_px - centre.v_px;
-  for (int round = 0; round < 6; ++round) {
+  double du = 0.0, dv = 0.0;
+  for (int round = 0; round < 4; ++round) {
     double guu = 0, guv = 0, gvv = 0, bu = 0, bv = 0;
-    for (int v = v0 - half_v; v <= v0 + half_v; ++v) {
-      for (int u = u0 - half_u; u <= u0 + half_u; ++u) {
+    for (int v = v0 - half_px; v <= v0 + half_px; ++v) {
+      for (int u = u0 - half_px; u <= u0 + half_px; ++u) {
         const double gu = (8 * (a.pixel(u + 1, v) - a.pixel(u - 1, v)) - a.pixel(u + 2, v) + a.pixel(u - 2, v)) / 12;
         const double gv = (8 * (a.pixel(u, v + 1) - a.pixel(u, v - 1)) - a.pixel(u, v + 2) + a.pixel(u, v - 2)) / 12;
-        const double d = a.pixel(u, v) - b.at(u + du, v + dv);
+        const ImagePoint there = warp({static_cast<double>(u), static_cast<double>(v)});
+        const double d = a.pixel(u, v) - b.at(there.u_px + du, there.v_px + dv);
         guu += gu * gu, guv += gu * gv, gvv += gv * gv, bu += gu * d, bv += gv * d;
       }
     }
@@ -67,7 +73,7 @@ ImagePoint locate(const Image& a, const Image& b, ImagePoint centre, ImagePoint 
     du += (gvv * bu - guv * bv) / det;
     dv += (guu * bv - guv * bu) / det;
   }
-  return {centre.u_px + du, centre.v_px + dv};
+  return {du, dv};
 }
 
 Scene still_scene() {
@@ -88,9 +94,10 @@ TEST(Renderer, ShiftsTheImageByExactlyTheProjectedMotion) {
     for (const auto& [body, region] : tracking_regions(SceneMotion(scene))) {
       const ImagePoint centre{std::round(region.u_px + region.width_px / 2),
                               std::round(region.v_px + region.height_px / 2)};
-      const ImagePoint found = locate(still, moved, centre, centre, 10, 10);
-      EXPECT_NEAR(found.u_px - centre.u_px, shift.u_px, 0.005) << region.name;
-      EXPECT_NEAR(found.v_px - centre.v_px, shift.v_px, 0.005) << region.name;
+      const Warp shifted = [&](ImagePoint p) { return ImagePoint{p.u_px + shift.u_px, p.v_px + shift.v_px}; };
+      const ImagePoint miss = misses(still, moved, centre, shifted, 10);
+      EXPECT_NEAR(miss.u_px, 0.0, 0.005) << region.name;
+      EXPECT_NEAR(miss.v_px, 0.0, 0.005) << region.name;
     }
   }
 }
@@ -109,19 +116,26 @@ TEST(Renderer, AgreesWithTheTrackGenerator) {
     const Image image(renderer, frame);
     tracks.generate(frame, later);
     for (std::size_t i = 0; i < start.points.size(); ++i) {
-      // Whole pixels, so that the window's centre is the point itself; the same material point in both frames.
-      const auto& region = tracks.regions()[start.points[i].region];
-      const ImagePoint centre{std::round(start.points[i].u_px), std::round(start.points[i].v_px)};
-      const PlanePoint material = tracks.motion().material_point(region.body, centre, 0.0);
-      const ImagePoint truth = tracks.motion().see(region.body, material, tracks.motion().frame_time_s(frame));
-      const ImagePoint found = locate(first, image, centre, truth, 9, 9);
-      EXPECT_NEAR(found.u_px, truth.u_px, 0.05) << region.region.name << " frame " << frame;
-      EXPECT_NEAR(found.v_px, truth.v_px, 0.05) << region.region.name << " frame " << frame;
-      sum2 += std::pow(found.u_px - truth.u_px, 2) + std::pow(found.v_px - truth.v_px, 2);
+      const int body = tracks.regions()[start.points[i].region].body;
+      const double t_s = tracks.motion().frame_time_s(frame);
+      const ImagePoint moved{later.points[i].u_px - start.points[i].u_px, later.points[i].v_px - start.points[i].v_px};
+      // The scale changes within the window too; about the point itself the warp is the generator's motion.
+      const double growth = (tracks.motion().depth_mm(body) - tracks.motion().hover().at(0.0).z_mm) /
+                            (tracks.motion().depth_mm(body) - tracks.motion().hover().at(t_s).z_mm);
+      const Warp warp = [&](ImagePoint p) -> ImagePoint {
+        return {p.u_px + moved.u_px + (growth - 1.0) * (p.u_px - start.points[i].u_px),
+                p.v_px + moved.v_px + (growth - 1.0) * (p.v_px - start.points[i].v_px)};
+      };
+      const ImagePoint miss = misses(first, image, {start.points[i].u_px, start.points[i].v_px}, warp, 9);
+      const std::string where =
+          tracks.regions()[start.points[i].region].region.name + " frame " + std::to_string(frame);
+      EXPECT_NEAR(miss.u_px, 0.0, 0.05) << where;
+      EXPECT_NEAR(miss.v_px, 0.0, 0.05) << where;
+      sum2 += miss.u_px * miss.u_px + miss.v_px * miss.v_px;
       n += 2;
     }
   }
-  EXPECT_LT(std::sqrt(sum2 / n), 0.012);
+  EXPECT_LT(std::sqrt(sum2 / n), 0.005);
 }
 
 TEST(Renderer, BlursLikeTheMeanOfManyInstants) {
@@ -141,13 +155,20 @@ TEST(Renderer, BlursLikeTheMeanOfManyInstants) {
     const double weight = (i == 0 || i == kInstants ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) / (3.0 * kInstants);
     for (std::size_t p = 0; p < mean.size(); ++p) mean[p] += weight * static_cast<double>(instant.light[p]);
   }
-  double sum2 = 0.0, blur2 = 0.0;
-  const Image first(sharp, kInstants / 2);
-  for (std::size_t p = 0; p < mean.size(); ++p) {
-    sum2 += std::pow(mean[p] - static_cast<double>(blurred.light[p]), 2);
-    blur2 += std::pow(mean[p] - static_cast<double>(first.light[p]), 2);
+  // Inside the plates: an edge is no smooth function of time.
+  double error2 = 0.0, blur2 = 0.0;
+  const Image middle(sharp, kInstants / 2);
+  for (const auto& [body, region] : tracking_regions(sharp.motion())) {
+    if (body == kBackgroundBody) continue;
+    for (int v = static_cast<int>(region.v_px); v < region.v_px + region.height_px; ++v) {
+      for (int u = static_cast<int>(region.u_px); u < region.u_px + region.width_px; ++u) {
+        const double mean_light = mean[static_cast<std::size_t>(v * blurred.width_px + u)];
+        error2 += std::pow(mean_light - blurred.pixel(u, v), 2);
+        blur2 += std::pow(mean_light - middle.pixel(u, v), 2);
+      }
+    }
   }
-  EXPECT_LT(sum2, 0.01 * blur2);  // what blur there is, is met to a tenth
+  EXPECT_LT(std::sqrt(error2), 0.03 * std::sqrt(blur2));
 }
 
 TEST(Renderer, CoversPlateEdgesExactly) {

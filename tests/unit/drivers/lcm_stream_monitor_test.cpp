@@ -56,6 +56,14 @@ TEST_F(StreamMonitorTest, TellsALateMessageFromARestart) {
   EXPECT_EQ(samples().last_sequence, 1);
 }
 
+TEST_F(StreamMonitorTest, OneWildMessageDoesNotDeafenForGood) {
+  send_sample(std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::max());
+  for (std::int64_t n = 0; n < 20; ++n) send_sample(n, n);
+  EXPECT_EQ(samples().restarts, 1U);
+  EXPECT_EQ(samples().last_sequence, 19);
+  EXPECT_EQ(samples().out_of_order, 8U);
+}
+
 TEST_F(StreamMonitorTest, FollowsTheFirstStreamAndOnlyCountsOthers) {
   send_sample(0, 10, "tower");
   send_sample(7, 20, "bridge");
