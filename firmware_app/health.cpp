@@ -41,6 +41,7 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
   for (const Queue& queue : queues_) {
     health.stages.push_back(stage_health(queue));
     if (queue.stage->name() == "identification") health.estimates = health.stages.back().n_out;
+    if (queue.stage->name() == "publish") health.stages.back().n_dropped += tracking_.n_records_lost();
   }
   return health;
 }

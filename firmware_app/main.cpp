@@ -20,6 +20,7 @@ int run(const app::AppConfig& config) {
   app::Pipeline pipeline(config);
   app::Progress progress(pipeline);
   pipeline.start();
+  for (const std::string& warning : pipeline.warnings()) spdlog::warn("{}", warning);
   while (pipeline.running()) {
     if (signals.stop_requested()) pipeline.request_stop();
     progress.tick();

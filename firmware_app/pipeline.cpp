@@ -59,7 +59,7 @@ struct Pipeline::Parts {
     return {&run_capture, &run_tracking, &run_spectrum, &run_identification, &run_publish};
   }
   [[nodiscard]] PublishStage::Outlets outlets() {
-    return {*out, report.get(), [this] { return status(); }, source.channels(), corrections(config, source.info), config.telemetry};
+    return {*out, report.get(), [this] { return status(); }, picture_drawer(config, source), source.channels(), corrections(config, source.info), config.telemetry};
   }
 
   // Who is nudged when an item arrives, and when a slot becomes free.
@@ -94,7 +94,13 @@ struct Pipeline::Parts {
   }
 };
 
-Pipeline::Pipeline(const AppConfig& config) : Pipeline(config, open_camera(config), open_publisher(config)) {}
+Pipeline::Pipeline(const AppConfig& config) {
+  std::unique_ptr<drivers::Camera> camera = open_camera(config);
+  std::string warning;
+  std::unique_ptr<drivers::Publisher> publisher = open_publisher(config, warning);
+  parts_ = std::make_unique<Parts>(config, std::move(camera), std::move(publisher));
+  if (!warning.empty()) parts_->health.warn(warning);
+}
 
 Pipeline::Pipeline(const AppConfig& config, std::unique_ptr<drivers::Camera> camera, std::unique_ptr<drivers::Publisher> publisher)
     : parts_(std::make_unique<Parts>(config, std::move(camera), std::move(publisher))) {}
@@ -136,7 +142,11 @@ Pipeline::Outcome Pipeline::join() {
   outcome.estimate = parts_->publish.last_estimate();
   outcome.health = parts_->status();
   outcome.fault = parts_->fault();
+  if (outcome.fault.empty()) outcome.health.state = "finished";
   if (outcome.fault.empty() && !parts_->source.camera->fault().empty()) outcome.notes.push_back(parts_->source.camera->fault());
+  if (std::string note = short_record(parts_->config, parts_->source.info, outcome.estimate); !note.empty()) {
+    outcome.notes.push_back(std::move(note));
+  }
   return outcome;
 }
 

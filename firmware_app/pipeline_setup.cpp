@@ -9,6 +9,7 @@
 #include "drivers/telemetry/publisher_factory.h"
 #include "firmware_app/config_image.h"
 #include "firmware_app/core_config.h"
+#include "firmware_app/report/pictures.h"
 
 namespace app {
 
@@ -81,14 +82,39 @@ std::unique_ptr<drivers::Camera> open_camera(const AppConfig& config) {
   return drivers::make_camera(options);
 }
 
-std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config) {
+std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config, std::string& warning) {
   const TelemetryConfig& t = config.telemetry;
-  return drivers::make_publisher({t.lcm_url, t.channel_prefix, t.log_file, {t.stream_id, config.hash}});
+  return drivers::make_publisher({t.lcm_url, t.channel_prefix, t.log_file, {t.stream_id, config.hash}}, &warning);
 }
 
 std::unique_ptr<RunReport> open_report(const AppConfig& config, const Source& source) {
   if (config.report.directory.empty()) return nullptr;
   return std::make_unique<RunReport>(config.report.directory, config, source.info, source.channels(), region_names(config));
+}
+
+std::string short_record(const AppConfig& config, const core::CameraInfo& info, const core::ModalEstimate& estimate) {
+  const auto segment = static_cast<std::uint64_t>(config.spectrum.segment);
+  if (estimate.n_samples >= segment) return {};
+  return fmt::format(
+      "the record holds {} samples, fewer than one segment of {}: its modes are a guess. Film at least {:.1f} s at {:g} fps, or lower "
+      "spectrum.segment",
+      estimate.n_samples, segment, static_cast<double>(segment) / info.rate_hz, info.rate_hz);
+}
+
+std::function<void(const core::ModalEstimate&, const core::CpsdSums&)> picture_drawer(const AppConfig& config, const Source& source) {
+  if (config.report.directory.empty()) return {};
+  return [&config, &source](const core::ModalEstimate& estimate, const core::CpsdSums& spectrum) {
+    PictureInputs inputs;
+    inputs.first_frame = &source.first_frame;
+    inputs.keyframe = &source.keyframe;
+    inputs.regions = config.regions;
+    inputs.channels = source.channels();
+    inputs.spectrum = &spectrum;
+    inputs.estimate = &estimate;
+    inputs.displacements_csv = config.report.directory + "/displacements.csv";
+    inputs.millimetres = config.scale.known_length_mm > 0.0;
+    (void)write_pictures(config.report.directory, inputs);
+  };
 }
 
 FrameRecord record_prototype(const Source& source) { return {source.keyframe, source.displacement.sample_prototype()}; }

@@ -41,6 +41,7 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
     if (range.end == range.begin) range.begin = i;
     range.end = i + 1;
     keyframe_.push_back(config_.camera.undistort({keyframe.points[i].u_px, keyframe.points[i].v_px}));
+    readout_share_.push_back(config_.readout.fraction(keyframe.points[i].u_px, keyframe.points[i].v_px));
   }
   position_ = motion_ = keyframe_;
   seen_.assign(n, 0);
@@ -56,7 +57,7 @@ void ChannelDisplacement::make_channels() {
     if (region.role == RegionRole::kBackground) continue;
     double delay_s = 0.0;
     for (std::size_t i = ranges_[r].begin; i < ranges_[r].end; ++i) {
-      delay_s += config_.readout.delay_s(keyframe_[i].u, keyframe_[i].v) / static_cast<double>(ranges_[r].end - ranges_[r].begin);
+      delay_s += config_.readout.readout_s * readout_share_[i] / static_cast<double>(ranges_[r].end - ranges_[r].begin);
     }
     ChannelInfo info{static_cast<std::uint16_t>(r), region.name, 1.0, 0.0, config_.paper_method ? 0.0 : delay_s,
                      region.role == RegionRole::kBase};
@@ -89,8 +90,9 @@ void ChannelDisplacement::place_points(const TrackFrame& tracks) noexcept {
   for (std::size_t i = 0; i < keyframe_.size(); ++i) {
     const bool present = i < tracks.points.size() && tracks.points[i].seen && std::isfinite(tracks.points[i].u_px) &&
                          std::isfinite(tracks.points[i].v_px);
-    seen_[i] = present ? 1 : 0;
     if (present) position_[i] = config_.camera.undistort({tracks.points[i].u_px, tracks.points[i].v_px});
+    // Far outside the image a lens model may have no inverse.
+    seen_[i] = present && std::isfinite(position_[i].u) && std::isfinite(position_[i].v) ? 1 : 0;
   }
 }
 
@@ -142,9 +144,8 @@ void ChannelDisplacement::compensate_rolling_shutter() noexcept {
     if (has_last_[r] != 0) {
       const Vector2 per_frame{mean.u - last_region_motion_[r].u, mean.v - last_region_motion_[r].v};
       for (std::size_t i = ranges_[r].begin; i < ranges_[r].end; ++i) {
-        const double share = config_.readout.fraction(keyframe_[i].u, keyframe_[i].v);
-        motion_[i].u -= share * per_frame.u;
-        motion_[i].v -= share * per_frame.v;
+        motion_[i].u -= readout_share_[i] * per_frame.u;
+        motion_[i].v -= readout_share_[i] * per_frame.v;
       }
     }
     last_region_motion_[r] = mean;
@@ -165,7 +166,7 @@ void ChannelDisplacement::average_channel(std::size_t channel, double magnificat
     variance += tracks.points[i].sigma_px * tracks.points[i].sigma_px;
     ++count;
   }
-  const bool enough = count >= config_.min_points;
+  const bool enough = count > 0 && count >= config_.min_points;
   const double s0 = config_.scale_mm_per_px;
   out.seen[channel] = enough ? 1 : 0;
   out.n_points[channel] = count;

@@ -57,6 +57,7 @@ class ChannelDisplacement {
   std::vector<ChannelInfo> channels_;
   std::vector<RegionRange> ranges_;          // per region
   std::vector<Vector2> keyframe_;            // undistorted px
+  std::vector<double> readout_share_;        // along the readout, of the raw row: rows are read as they lie on the sensor
   ScaleFactor scale_;
   std::vector<Vector2> position_, motion_;   // undistorted px; scale-corrected step since the keyframe, keyframe px
   std::vector<std::uint8_t> seen_, inlier_;

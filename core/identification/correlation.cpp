@@ -14,6 +14,9 @@ namespace {
 // A lag seen fewer times than this share of lag 0 has no usable average.
 constexpr double kLeastMaskShare = 1e-3;
 
+// mm^2. A constant channel leaves the rounding of its mean (1e-13 of a metre); no camera sees a nanometre.
+constexpr double kLeastPower = 1e-18;
+
 class PairTransform {
  public:
   explicit PairTransform(const CpsdSums& sums) : sums_(sums), fft_(sums.n_fft), bins_(static_cast<std::size_t>(sums.n_bins())) {
@@ -110,7 +113,7 @@ CorrelationStatus compute_correlations(const CpsdSums& sums, int max_lag, int n_
         out.set(i, j, lag, data[at] / mask[at], data[at] / scale);
       }
     }
-    if (!(out.undivided(i, i, 0) > 0.0)) return CorrelationStatus::kNoPower;
+    if (!(out.undivided(i, i, 0) > kLeastPower)) return CorrelationStatus::kNoPower;
   }
   return CorrelationStatus::kOk;
 }

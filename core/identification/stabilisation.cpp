@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "core/identification/mac.h"
@@ -84,14 +86,23 @@ class AverageLinkage {
   std::vector<std::vector<std::size_t>> members_;
 };
 
+// Orders may disagree about the fold. Frequency, damping and shape must belong to one answer: that of the most.
+std::vector<std::size_t> of_commonest_fold(const std::vector<OrderPole>& poles, const std::vector<std::size_t>& members) {
+  std::map<std::optional<int>, std::vector<std::size_t>> by_fold;
+  for (const std::size_t m : members) by_fold[poles[m].pole.fold_n].push_back(m);
+  return std::max_element(by_fold.begin(), by_fold.end(),
+                          [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); })->second;
+}
+
 PoleCluster summarise(const std::vector<OrderPole>& poles, const std::vector<std::size_t>& members, int n_orders) {
   std::vector<double> frequencies, apparents, dampings;
   std::set<int> orders;
-  for (const std::size_t m : members) {
+  for (const std::size_t m : members) orders.insert(poles[m].i_order);
+  const std::vector<std::size_t> agreeing = of_commonest_fold(poles, members);
+  for (const std::size_t m : agreeing) {
     frequencies.push_back(frequency_hz(poles[m].pole.s));
     apparents.push_back(poles[m].pole.apparent_hz);
     dampings.push_back(damping_ratio(poles[m].pole.s));
-    orders.insert(poles[m].i_order);
   }
   PoleCluster cluster;
   cluster.frequency_hz = median(frequencies);
@@ -103,7 +114,7 @@ PoleCluster summarise(const std::vector<OrderPole>& poles, const std::vector<std
     const UnfoldedPole& pole = poles[m].pole;
     return std::abs(pole.apparent_hz / cluster.apparent_hz - 1.0) + std::abs(damping_ratio(pole.s) - cluster.damping_ratio);
   };
-  const auto nearest = std::min_element(members.begin(), members.end(), [&](auto a, auto b) { return off(a) < off(b); });
+  const auto nearest = std::min_element(agreeing.begin(), agreeing.end(), [&](auto a, auto b) { return off(a) < off(b); });
   cluster.representative = poles[*nearest].pole;
   return cluster;
 }

@@ -11,7 +11,13 @@ TimeGrid::Placement TimeGrid::place(std::int64_t t_ns) noexcept {
     t0_ns_ = t_ns;
     return {true, 0, 0};
   }
-  const double position = static_cast<double>(t_ns - t0_ns_) * 1e-9 * rate_hz_;
+  if (t_ns < t0_ns_) {
+    ++n_refused_;
+    return {};
+  }
+  // Unsigned: the step between two stamps from the ends of int64 does not overflow.
+  const auto step_ns = static_cast<std::uint64_t>(t_ns) - static_cast<std::uint64_t>(t0_ns_);
+  const double position = static_cast<double>(step_ns) * 1e-9 * rate_hz_;
   const double nearest = std::nearbyint(position);
   const auto cell = static_cast<std::int64_t>(nearest);
   if (cell <= last_cell_) {

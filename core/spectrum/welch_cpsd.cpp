@@ -19,15 +19,17 @@ void check(const WelchConfig& config) {
   if (!(config.rate_hz > 0.0)) throw std::invalid_argument("WelchCpsd: rate must be positive");
 }
 
-int padded_length(int segment) { return next_power_of_two(2 * segment); }
+int padded_length(const WelchConfig& config) {
+  check(config);
+  return next_power_of_two(2 * config.segment);
+}
 
 }  // namespace
 
 CpsdSums WelchCpsd::empty_sums(const WelchConfig& config) {
-  check(config);
   CpsdSums sums;
   sums.n_channels = config.n_channels;
-  sums.n_fft = padded_length(config.segment);
+  sums.n_fft = padded_length(config);
   sums.rate_hz = config.rate_hz;
   for (const double w : make_window(config.window, config.segment)) sums.window_power += w * w;
   const auto size = static_cast<std::size_t>(sums.n_bins()) * static_cast<std::size_t>(sums.n_pairs());
@@ -37,7 +39,7 @@ CpsdSums WelchCpsd::empty_sums(const WelchConfig& config) {
 }
 
 WelchCpsd::WelchCpsd(const WelchConfig& config)
-    : config_(config), fft_(padded_length(config.segment)), sums_(empty_sums(config)) {
+    : config_(config), fft_(padded_length(config)), sums_(empty_sums(config)) {
   hop_ = std::max(1, config.segment - static_cast<int>(std::floor(config.segment * config.overlap)));
   window_ = make_window(config.window, config.segment);
   const auto samples = static_cast<std::size_t>(config.n_channels) * static_cast<std::size_t>(config.segment);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
@@ -12,6 +13,9 @@ namespace {
 
 // Below this the normal matrix of a patch has no second direction (OpenCV's minEigThreshold, per pixel and grey^2).
 constexpr double kLeastEigenvalue = 1e-4;
+
+// Above the full image, for points that are where they were expected to within some 6 px.
+constexpr int kNearLevels = 1;
 
 // Rounding to 8 bits alone leaves this mean absolute difference between two images of one texture.
 constexpr double kLeastResidual = 0.25;
@@ -39,57 +43,79 @@ KltTracker::KltTracker(const KltConfig& config)
 
 void KltTracker::set_keyframe(const cv::Mat& gray, const std::vector<cv::Point2f>& points) {
   keyframe_points_ = points;
-  cv::buildOpticalFlowPyramid(gray, keyframe_pyramid_, cv::Size(config_.window_px, config_.window_px), config_.pyramid_levels,
-                              true, cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
-  const std::size_t n = points.size();
-  forward_.resize(n);
-  backward_.resize(n);
-  forward_found_.resize(n);
-  backward_found_.resize(n);
-  residual_.resize(n);
-  backward_residual_.resize(n);
-  sigma_per_residual_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
+  keyframe_size_ = gray.size();
+  cv::buildOpticalFlowPyramid(gray, keyframe_pyramid_, cv::Size(config_.window_px, config_.window_px),
+                              config_.pyramid_levels, true, cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
+  sigma_per_residual_.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
     // Gaussian noise: standard deviation = mean absolute difference * sqrt(pi / 2).
     sigma_per_residual_[i] = std::sqrt(std::numbers::pi / 2.0) * texture_sigma(gray, points[i], config_.window_px);
+  }
+  near_.origin = points;
+  near_.index.resize(points.size());
+  std::iota(near_.index.begin(), near_.index.end(), std::size_t{0});
+  for (Pass* pass : {&near_, &far_}) {
+    for (auto* list : {&pass->origin, &pass->start, &pass->forward, &pass->backward}) list->reserve(points.size());
+    pass->index.reserve(points.size());
   }
 }
 
 bool KltTracker::track(const cv::Mat& gray, const std::vector<cv::Point2f>& predicted, std::vector<KltPoint>& out) noexcept {
-  out.resize(keyframe_points_.size());
-  if (keyframe_points_.empty()) return true;
   try {
-    const cv::Size window(config_.window_px, config_.window_px);
-    cv::buildOpticalFlowPyramid(gray, pyramid_, window, config_.pyramid_levels, true, cv::BORDER_REFLECT_101,
-                                cv::BORDER_CONSTANT, false);
-    std::copy(predicted.begin(), predicted.end(), forward_.begin());
-    cv::calcOpticalFlowPyrLK(keyframe_pyramid_, pyramid_, keyframe_points_, forward_, forward_found_, residual_, window,
-                             config_.pyramid_levels, criteria_, cv::OPTFLOW_USE_INITIAL_FLOW, kLeastEigenvalue);
-    check_backward(predicted);
+    out.resize(keyframe_points_.size());
+    if (keyframe_points_.empty()) return true;
+    // OpenCV never returns from the pyramid of an empty image.
+    if (gray.size() != keyframe_size_ || gray.type() != CV_8UC1) return false;
+    cv::buildOpticalFlowPyramid(gray, pyramid_, cv::Size(config_.window_px, config_.window_px), config_.pyramid_levels,
+                                true, cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
+    near_.start.assign(predicted.begin(), predicted.end());
+    run(near_, std::min(kNearLevels, config_.pyramid_levels));
+    report(near_, out);
+    gather_lost(predicted, out);
+    run(far_, config_.pyramid_levels);
+    report(far_, out);
   } catch (...) {  // cv::Exception or bad_alloc: the caller counts the frame as lost
     return false;
   }
-  report(out);
   return true;
+}
+
+void KltTracker::gather_lost(const std::vector<cv::Point2f>& predicted, const std::vector<KltPoint>& out) {
+  far_.origin.clear();
+  far_.start.clear();
+  far_.index.clear();
+  if (config_.pyramid_levels <= kNearLevels) return;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (out[i].seen) continue;
+    far_.origin.push_back(keyframe_points_[i]);
+    far_.start.push_back(predicted[i]);
+    far_.index.push_back(i);
+  }
 }
 
 // The way back starts as far from the keyframe point as the way there ended from its prediction: a point that slipped
 // onto a neighbour does not find home by being put there.
-void KltTracker::check_backward(const std::vector<cv::Point2f>& predicted) {
-  for (std::size_t i = 0; i < forward_.size(); ++i) backward_[i] = keyframe_points_[i] + (forward_[i] - predicted[i]);
-  cv::calcOpticalFlowPyrLK(pyramid_, keyframe_pyramid_, forward_, backward_, backward_found_, backward_residual_,
-                           cv::Size(config_.window_px, config_.window_px), config_.pyramid_levels, criteria_,
-                           cv::OPTFLOW_USE_INITIAL_FLOW, kLeastEigenvalue);
+void KltTracker::run(Pass& pass, int levels) {
+  if (pass.origin.empty()) return;
+  const cv::Size window(config_.window_px, config_.window_px);
+  pass.forward = pass.start;
+  cv::calcOpticalFlowPyrLK(keyframe_pyramid_, pyramid_, pass.origin, pass.forward, pass.forward_found, pass.residual, window,
+                           levels, criteria_, cv::OPTFLOW_USE_INITIAL_FLOW, kLeastEigenvalue);
+  pass.backward.resize(pass.origin.size());
+  for (std::size_t i = 0; i < pass.origin.size(); ++i) pass.backward[i] = pass.origin[i] + (pass.forward[i] - pass.start[i]);
+  cv::calcOpticalFlowPyrLK(pyramid_, keyframe_pyramid_, pass.forward, pass.backward, pass.backward_found,
+                           pass.backward_residual, window, levels, criteria_, cv::OPTFLOW_USE_INITIAL_FLOW, kLeastEigenvalue);
 }
 
-void KltTracker::report(std::vector<KltPoint>& out) const noexcept {
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const cv::Point2f miss = backward_[i] - keyframe_points_[i];
+void KltTracker::report(const Pass& pass, std::vector<KltPoint>& out) const noexcept {
+  for (std::size_t k = 0; k < pass.origin.size(); ++k) {
+    KltPoint& point = out[pass.index[k]];
+    const cv::Point2f miss = pass.backward[k] - pass.origin[k];
     const double miss_px = std::hypot(static_cast<double>(miss.x), static_cast<double>(miss.y));
-    out[i].position = forward_[i];
-    out[i].sigma_px = sigma_per_residual_[i] * std::max<double>(static_cast<double>(residual_[i]), kLeastResidual);
-    out[i].seen = forward_found_[i] != 0 && backward_found_[i] != 0 && miss_px <= config_.forward_backward_px &&
-                  std::isfinite(forward_[i].x) && std::isfinite(forward_[i].y);
+    point.position = pass.forward[k];
+    point.sigma_px = sigma_per_residual_[pass.index[k]] * std::max(static_cast<double>(pass.residual[k]), kLeastResidual);
+    point.seen = pass.forward_found[k] != 0 && pass.backward_found[k] != 0 && miss_px <= config_.forward_backward_px &&
+                 std::isfinite(pass.forward[k].x) && std::isfinite(pass.forward[k].y);
   }
 }
 

@@ -20,7 +20,9 @@ struct KltPoint {
 };
 
 // Pyramidal Lucas-Kanade tracking (Bouguet 2001, OpenCV's implementation) of points of a keyframe in later images:
-// always against the keyframe, never frame to frame, so errors do not add up to drift.
+// always against the keyframe, never frame to frame, so errors do not add up to drift. Points are first looked for near
+// their prediction, on the full image and the level above; only those not found there are looked for through the whole
+// pyramid, because its coarse windows also see what lies behind a plate and moves otherwise.
 // One thread. After the first image nothing of ours allocates; OpenCV's own routine does.
 class KltTracker {
  public:
@@ -29,22 +31,32 @@ class KltTracker {
   // The template image; `points` are tracked from now on.
   void set_keyframe(const cv::Mat& gray, const std::vector<cv::Point2f>& points);
 
-  // predicted: where each point is expected (same order as in set_keyframe). Returns false when OpenCV failed.
+  // predicted: where each point is expected (same order as in set_keyframe). Returns false when
+  // OpenCV failed or the image is not 8-bit of the keyframe's size; `out` then holds nothing.
   [[nodiscard]] bool track(const cv::Mat& gray, const std::vector<cv::Point2f>& predicted, std::vector<KltPoint>& out) noexcept;
 
   [[nodiscard]] const std::vector<cv::Point2f>& keyframe_points() const noexcept { return keyframe_points_; }
 
  private:
-  void check_backward(const std::vector<cv::Point2f>& predicted);
-  void report(std::vector<KltPoint>& out) const noexcept;
+  // Points under way: there, and back again.
+  struct Pass {
+    std::vector<cv::Point2f> origin, start, forward, backward;
+    std::vector<unsigned char> forward_found, backward_found;
+    std::vector<float> residual, backward_residual;  // mean absolute grey difference over the window
+    std::vector<std::size_t> index;                  // of the keyframe's points
+  };
+
+  void run(Pass& pass, int levels);
+  void report(const Pass& pass, std::vector<KltPoint>& out) const noexcept;
+  void gather_lost(const std::vector<cv::Point2f>& predicted, const std::vector<KltPoint>& out);
 
   KltConfig config_;
   cv::TermCriteria criteria_;
   std::vector<cv::Mat> keyframe_pyramid_, pyramid_;
-  std::vector<cv::Point2f> keyframe_points_, forward_, backward_;
-  std::vector<unsigned char> forward_found_, backward_found_;
-  std::vector<float> residual_, backward_residual_;  // mean absolute grey difference over the window
-  std::vector<double> sigma_per_residual_;           // px per grey level of that residual
+  cv::Size keyframe_size_;
+  std::vector<cv::Point2f> keyframe_points_;
+  Pass near_, far_;
+  std::vector<double> sigma_per_residual_;  // px per grey level of the residual
 };
 
 }  // namespace core

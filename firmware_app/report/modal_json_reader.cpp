@@ -131,15 +131,19 @@ class ModalReader {
     const Json* shape_std = find(item, "shape_std");
     for (const std::string& channel : report_.channel_names) {
       const Json* value = find(*shape, channel.c_str());
-      if (value == nullptr || !value->is_array() || value->size() != 2) {
-        refuse(fmt::format("{}.shape.{}", name, drivers::printable(channel)), "is no [re, im]");
-      }
-      out.shape.emplace_back(finite((*value)[0], name + ".shape"), finite((*value)[1], name + ".shape"));
+      out.shape.push_back(component(value, fmt::format("{}.shape.{}", name, drivers::printable(channel))));
       if (shape_std == nullptr) continue;
       const auto channel_std = optional_number(*shape_std, channel.c_str());
       if (!channel_std) refuse(fmt::format("{}.shape_std.{}", name, drivers::printable(channel)), "is missing");
       out.shape_std.push_back(*channel_std);
     }
+  }
+
+  // [re, im], or one number for a real component (truth.json).
+  [[nodiscard]] std::complex<double> component(const Json* value, const std::string& name) const {
+    if (value != nullptr && value->is_number()) return finite(*value, name);
+    if (value == nullptr || !value->is_array() || value->size() != 2) refuse(name, "is neither [re, im] nor a number");
+    return {finite((*value)[0], name), finite((*value)[1], name)};
   }
 
   void read_losses(const Json& losses) {

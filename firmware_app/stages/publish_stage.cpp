@@ -47,6 +47,7 @@ void PublishStage::publish_result(const IdentificationResult& result) noexcept {
   (void)outlets_.publisher.publish(result.sums, outlets_.channels);
   try {
     last_estimate_ = result.estimate;
+    last_sums_ = result.sums;
   } catch (...) {
     fault_ = "out of memory for an estimate";
   }
@@ -65,11 +66,16 @@ void PublishStage::publish_health_when_due() noexcept {
   }
 }
 
+void PublishStage::complete_report(const core::Health& health) {
+  if (outlets_.report != nullptr) outlets_.report->finish(last_estimate_, health, outlets_.corrections);
+  if (outlets_.draw) outlets_.draw(last_estimate_, last_sums_);
+}
+
 void PublishStage::finish() noexcept {
   try {
     core::Health health = outlets_.health();
     try {
-      if (outlets_.report != nullptr) outlets_.report->finish(last_estimate_, health, outlets_.corrections);
+      complete_report(health);
     } catch (const std::exception& e) {
       fault_ = e.what();
       health.state = "fault: " + fault_;

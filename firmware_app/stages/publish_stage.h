@@ -23,6 +23,8 @@ class PublishStage : public rt::Stage {
     drivers::Publisher& publisher;
     RunReport* report = nullptr;                    // null: no report wanted
     std::function<core::Health()> health;           // a status record of now
+    // Draws the run's pictures beside the report; throws drivers::FileError. Empty: none wanted.
+    std::function<void(const core::ModalEstimate&, const core::CpsdSums&)> draw;
     std::vector<core::ChannelInfo> channels;
     std::vector<std::string> corrections;
     TelemetryConfig telemetry;
@@ -44,11 +46,13 @@ class PublishStage : public rt::Stage {
   void publish_record(const FrameRecord& record) noexcept;
   void publish_result(const IdentificationResult& result) noexcept;
   void publish_health_when_due() noexcept;
+  void complete_report(const core::Health& health);
 
   rt::RingReader<FrameRecord> records_;
   rt::RingReader<IdentificationResult> results_;
   Outlets outlets_;
   core::ModalEstimate last_estimate_;
+  core::CpsdSums last_sums_;
   std::string fault_;
   std::uint64_t n_records_ = 0;
   std::int64_t next_health_ns_ = 0;

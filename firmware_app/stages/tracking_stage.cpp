@@ -32,6 +32,8 @@ rt::StepStatus TrackingStage::step() noexcept {
   if (record != nullptr) {
     *record = scratch_;
     records_.publish();
+  } else {
+    n_records_lost_.store(n_records_lost_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }
   return rt::StepStatus::kWorked;
 }

@@ -25,6 +25,8 @@ class TrackingStage : public rt::Stage {
   [[nodiscard]] std::uint64_t points_tracked() const noexcept { return points_tracked_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t points_total() const noexcept { return scratch_.tracks.points.size(); }
   [[nodiscard]] std::uint64_t n_failed_frames() const noexcept { return n_failed_.load(std::memory_order_relaxed); }
+  // Any thread: frames that publish never saw, because its ring was full.
+  [[nodiscard]] std::uint64_t n_records_lost() const noexcept { return n_records_lost_.load(std::memory_order_relaxed); }
 
  private:
   void measure(const core::Frame& frame) noexcept;
@@ -39,6 +41,7 @@ class TrackingStage : public rt::Stage {
   bool gap_before_next_ = false;
   std::atomic<std::uint64_t> points_tracked_{0};  // written here only; relaxed: a count on its own
   std::atomic<std::uint64_t> n_failed_{0};
+  std::atomic<std::uint64_t> n_records_lost_{0};
 };
 
 }  // namespace app

@@ -16,7 +16,7 @@ void play(std::uint32_t seed) {
   rt::RingReader<std::uint32_t> reader = ring.reader();
   std::deque<std::uint32_t> model;
   bool closed = false;
-  const std::uint32_t write_share = 1 + random() % 9;  // of ten: some runs fill up, others run dry
+  const std::uint64_t write_share = 1 + random() % 9;  // of ten: some runs fill up, others run dry
   for (int step = 0; step < 400; ++step) {
     if (random() % 10 < write_share && !closed) {
       std::uint32_t* slot = writer.try_claim();

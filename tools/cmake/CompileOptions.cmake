@@ -3,6 +3,9 @@ add_library(hovermodal_options INTERFACE)
 target_compile_options(hovermodal_options INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wold-style-cast -Wdouble-promotion
   -ffp-contract=off)  # the same bits on arm64 (fused multiply-add by default) and x86-64
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  target_compile_options(hovermodal_options INTERFACE -Wno-restrict)  # false alarms on std::string (GCC bug 105651)
+endif()
 if(HOVERMODAL_WERROR)
   target_compile_options(hovermodal_options INTERFACE -Werror)
 endif()

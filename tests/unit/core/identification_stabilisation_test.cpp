@@ -1,0 +1,110 @@
+#include "core/identification/stabilisation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace core {
+namespace {
+
+using Shape = std::vector<std::complex<double>>;
+
+OrderPole pole(int i_order, double hz, double zeta, Shape shape) {
+  OrderPole p;
+  p.i_order = i_order;
+  const double w = 2.0 * std::numbers::pi * hz;
+  p.pole.s = {-zeta * w, w * std::sqrt(1.0 - zeta * zeta)};
+  p.pole.apparent_hz = hz;
+  p.pole.shape = std::move(shape);
+  p.pole.mpc = 1.0;
+  return p;
+}
+
+const Shape kFirst{0.3, 0.7, 1.0};
+const Shape kSecond{1.0, 0.4, -0.8};
+
+TEST(Stabilisation, PutsPolesOfDifferentOrdersIntoOneColumn) {
+  std::vector<OrderPole> poles;
+  for (int i = 0; i < 10; ++i) {
+    poles.push_back(pole(i, 5.0 + 0.002 * i, 0.01, kSecond));
+    poles.push_back(pole(i, 2.0 - 0.001 * i, 0.02, kFirst));
+  }
+  const std::vector<PoleCluster> clusters = cluster_poles(poles, 10);
+  ASSERT_EQ(clusters.size(), 2U);
+  EXPECT_NEAR(clusters[0].frequency_hz, 2.0, 0.01);
+  EXPECT_NEAR(clusters[0].damping_ratio, 0.02, 1e-9);
+  EXPECT_NEAR(clusters[1].frequency_hz, 5.01, 0.01);
+  EXPECT_EQ(clusters[0].presence, 1.0);
+  EXPECT_EQ(clusters[0].first_i_order, 0);
+}
+
+TEST(Stabilisation, CountsTheOrdersInWhichAPoleWasFound) {
+  const std::vector<PoleCluster> clusters =
+      cluster_poles({pole(3, 2.0, 0.01, kFirst), pole(5, 2.0, 0.01, kFirst), pole(5, 2.001, 0.01, kFirst), pole(7, 2.0, 0.01, kFirst)}, 12);
+  ASSERT_EQ(clusters.size(), 1U);
+  EXPECT_EQ(clusters[0].presence, 3.0 / 12.0) << "two poles of one order count once";
+  EXPECT_EQ(clusters[0].first_i_order, 3);
+}
+
+TEST(Stabilisation, OneFrequencyWithTwoShapesIsTwoModes) {
+  std::vector<OrderPole> poles;
+  for (int i = 0; i < 6; ++i) {
+    poles.push_back(pole(i, 4.00, 0.01, kFirst));
+    poles.push_back(pole(i, 4.01, 0.01, kSecond));
+  }
+  EXPECT_EQ(cluster_poles(poles, 6).size(), 2U);
+}
+
+TEST(Stabilisation, OneShapeAtTwoFrequenciesIsTwoModes) {
+  std::vector<OrderPole> poles;
+  for (int i = 0; i < 6; ++i) {
+    poles.push_back(pole(i, 4.0, 0.01, kFirst));
+    poles.push_back(pole(i, 4.1, 0.01, kFirst));
+  }
+  EXPECT_EQ(cluster_poles(poles, 6).size(), 2U);
+}
+
+TEST(Stabilisation, TheMediansShrugOffOneStrayPole) {
+  std::vector<OrderPole> poles;
+  for (int i = 0; i < 9; ++i) poles.push_back(pole(i, 4.0, 0.01, kFirst));
+  poles.push_back(pole(9, 4.05, 0.05, kFirst));
+  const std::vector<PoleCluster> clusters = cluster_poles(poles, 10);
+  ASSERT_EQ(clusters.size(), 1U);
+  EXPECT_NEAR(clusters[0].frequency_hz, 4.0, 1e-9);
+  EXPECT_NEAR(damping_ratio(clusters[0].representative.s), 0.01, 1e-9);
+}
+
+// Orders that disagree about the fold must not be mixed: frequency, fold and shape belong to one answer.
+TEST(Stabilisation, FrequencyAndFoldBelongTogether) {
+  std::vector<OrderPole> poles;
+  for (int i = 0; i < 15; ++i) {
+    const bool folded = i % 2 == 0;  // 8 of 15
+    const double scatter = 0.003 * std::sin(1.0 + 2.0 * i);
+    OrderPole p = pole(i, 12.07 + scatter, 0.01, kFirst);
+    // The odd ones lie nearer to the median of all in everything but the fold.
+    if (folded) p.pole.s = pole(i, 12.93 - scatter, 0.0093 + 0.002 * std::sin(0.4 * i), kFirst).pole.s;
+    p.pole.fold_n = folded ? -1 : 0;
+    p.pole.fold_margin = 0.1;
+    poles.push_back(p);
+  }
+  const std::vector<PoleCluster> clusters = cluster_poles(poles, 15);
+  ASSERT_EQ(clusters.size(), 1U);
+  ASSERT_TRUE(clusters[0].representative.fold_n.has_value());
+  EXPECT_EQ(*clusters[0].representative.fold_n, -1);
+  EXPECT_NEAR(clusters[0].frequency_hz, 12.93, 0.004);
+  EXPECT_NEAR(frequency_hz(clusters[0].representative.s), clusters[0].frequency_hz, 0.008);
+  EXPECT_EQ(clusters[0].presence, 1.0) << "the pole is there in every order, whatever its fold";
+}
+
+TEST(Stabilisation, NoPolesGiveNoClusters) { EXPECT_TRUE(cluster_poles({}, 15).empty()); }
+
+TEST(PoleFacts, FrequencyAndDampingOfAContinuousPole) {
+  const std::complex<double> s = pole(0, 7.5, 0.03, {}).pole.s;
+  EXPECT_NEAR(frequency_hz(s), 7.5, 1e-12);
+  EXPECT_NEAR(damping_ratio(s), 0.03, 1e-12);
+  EXPECT_NEAR(damping_ratio(-std::conj(s)), -0.03, 1e-12);
+}
+
+}  // namespace
+}  // namespace core

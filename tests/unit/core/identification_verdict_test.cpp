@@ -1,0 +1,192 @@
+#include "core/identification/verdict.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace core {
+namespace {
+
+std::vector<ChannelInfo> channels() {
+  std::vector<ChannelInfo> list(4);
+  for (std::uint16_t c = 0; c < 4; ++c) {
+    list[c].region = c;
+    list[c].name = "floor" + std::to_string(c);
+  }
+  list[0].is_base = true;
+  return list;
+}
+
+const std::vector<int> kOrders{6, 8, 10, 12};
+
+// A flawless cluster; each test spoils one thing.
+PoleCluster flawless() {
+  PoleCluster cluster;
+  cluster.frequency_hz = cluster.apparent_hz = 3.0;
+  cluster.damping_ratio = 0.01;
+  cluster.presence = 1.0;
+  cluster.representative.mpc = 0.99;
+  cluster.representative.shape = {0.02, 0.4, 0.8, 1.0};
+  return cluster;
+}
+
+Mode judged(const PoleCluster& cluster, const BaseResponse& response = {}) {
+  return judge(cluster, response, channels(), kOrders, VerdictRules{});
+}
+
+TEST(Verdict, AFlawlessClusterIsStructural) {
+  const Mode mode = judged(flawless());
+  EXPECT_EQ(mode.verdict, Verdict::kStructural) << mode.reason;
+  EXPECT_EQ(mode.frequency_hz, 3.0);
+  EXPECT_EQ(mode.damping_ratio, 0.01);
+  EXPECT_EQ(mode.mpc, 0.99);
+  EXPECT_EQ(mode.presence, 1.0);
+  EXPECT_EQ(mode.shape.size(), 4U);
+  EXPECT_FALSE(mode.fold_n.has_value());
+  EXPECT_FALSE(mode.reason.empty());
+}
+
+TEST(Verdict, DampingOutsideItsLimitsIsNumerical) {
+  for (const double zeta : {-0.05, 0.3}) {
+    PoleCluster cluster = flawless();
+    cluster.damping_ratio = zeta;
+    const Mode mode = judged(cluster);
+    EXPECT_EQ(mode.verdict, Verdict::kNumerical);
+    EXPECT_NE(mode.reason.find("damping"), std::string::npos) << mode.reason;
+  }
+}
+
+TEST(Verdict, ScatterBelowZeroDampingIsForgiven) {
+  PoleCluster cluster = flawless();
+  cluster.damping_ratio = -0.001;
+  EXPECT_EQ(judged(cluster).verdict, Verdict::kStructural);
+}
+
+TEST(Verdict, AllChannelsAlikeAreTheCamera) {
+  PoleCluster cluster = flawless();
+  cluster.representative.shape = {0.97, 1.0, 0.99, 1.0};
+  EXPECT_EQ(judged(cluster).verdict, Verdict::kCameraMotion);
+}
+
+TEST(Verdict, CameraMotionFollowsTheAxesOfTheChannels) {
+  std::vector<ChannelInfo> turned = channels();
+  turned[2].direction_u = -1.0;  // this channel counts the other way: a translation shows negative
+  PoleCluster cluster = flawless();
+  cluster.representative.shape = {1.0, 1.0, -1.0, 1.0};
+  EXPECT_EQ(judge(cluster, {}, turned, kOrders, VerdictRules{}).verdict, Verdict::kCameraMotion);
+  EXPECT_NE(judged(cluster).verdict, Verdict::kCameraMotion);
+}
+
+TEST(Verdict, ALoneChannelIsNotCalledCameraMotion) {
+  PoleCluster cluster = flawless();
+  cluster.representative.shape = {1.0};
+  EXPECT_EQ(judge(cluster, {}, std::vector<ChannelInfo>(1), kOrders, VerdictRules{}).verdict, Verdict::kStructural);
+}
+
+TEST(Verdict, ABaseThatMovesAlongIsAnInputPeak) {
+  PoleCluster cluster = flawless();
+  cluster.representative.shape = {0.5, 0.4, 0.8, 1.0};
+  EXPECT_EQ(judged(cluster).verdict, Verdict::kInputPeak);
+  EXPECT_EQ(judged(cluster, {50.0, 5.0}).verdict, Verdict::kInputPeak) << "beyond doubt whatever the response says";
+}
+
+TEST(Verdict, ASmallBaseShareIsDecidedByTheAnswerToTheBase) {
+  PoleCluster cluster = flawless();
+  cluster.representative.shape = {0.2, 0.4, 0.8, 1.0};
+  EXPECT_EQ(judged(cluster, {10.0, 4.0}).verdict, Verdict::kStructural) << "a clear local maximum";
+  EXPECT_EQ(judged(cluster, {10.0, 12.0}).verdict, Verdict::kInputPeak) << "no maximum";
+  EXPECT_EQ(judged(cluster, {1.0, 0.5}).verdict, Verdict::kInputPeak) << "hardly an answer";
+}
+
+TEST(Verdict, APoleOfFewOrdersOrOfHighOrdersOnlyIsNumerical) {
+  PoleCluster rare = flawless();
+  rare.presence = 0.5;
+  EXPECT_EQ(judged(rare).verdict, Verdict::kNumerical);
+  PoleCluster late = flawless();
+  late.first_i_order = 3;
+  const Mode mode = judged(late);
+  EXPECT_EQ(mode.verdict, Verdict::kNumerical);
+  EXPECT_NE(mode.reason.find("order 12"), std::string::npos) << mode.reason;
+}
+
+TEST(Verdict, ComponentsOutOfPhaseAreNumerical) {
+  PoleCluster cluster = flawless();
+  cluster.representative.mpc = 0.5;
+  const Mode mode = judged(cluster);
+  EXPECT_EQ(mode.verdict, Verdict::kNumerical);
+  EXPECT_NE(mode.reason.find("MPC"), std::string::npos);
+}
+
+TEST(Verdict, AFoldWithoutAClearLeadIsAmbiguous) {
+  PoleCluster cluster = flawless();
+  cluster.representative.fold_n = -1;
+  cluster.representative.fold_margin = 0.6;
+  EXPECT_EQ(judged(cluster).verdict, Verdict::kStructural);
+  EXPECT_EQ(judged(cluster).fold_n, -1);
+  EXPECT_EQ(judged(cluster).fold_margin, 0.6);
+  cluster.representative.fold_margin = 0.05;
+  EXPECT_EQ(judged(cluster).verdict, Verdict::kAmbiguous);
+  cluster.representative.fold_margin = 0.6;
+  cluster.representative.mpc = 0.82;
+  EXPECT_EQ(judged(cluster).verdict, Verdict::kAmbiguous);
+}
+
+Mode structural(double hz, double presence, double mpc, std::vector<std::complex<double>> shape) {
+  Mode mode;
+  mode.verdict = Verdict::kStructural;
+  mode.frequency_hz = hz;
+  mode.presence = presence;
+  mode.mpc = mpc;
+  mode.shape = std::move(shape);
+  return mode;
+}
+
+TEST(Twins, TheOneOfFewerOrdersIsRejectedAndNamesTheOther) {
+  std::vector<Mode> modes{structural(3.00, 0.90, 0.999, {0.4, 1.0}), structural(3.10, 1.00, 0.95, {0.4, 1.0})};
+  reject_twins(modes);
+  EXPECT_EQ(modes[0].verdict, Verdict::kNumerical);
+  EXPECT_NE(modes[0].reason.find("3.1000"), std::string::npos) << modes[0].reason;
+  EXPECT_EQ(modes[1].verdict, Verdict::kStructural);
+}
+
+TEST(Twins, OfEqualPresenceTheLessCollinearIsRejected) {
+  std::vector<Mode> modes{structural(3.00, 1.0, 0.999, {0.4, 1.0}), structural(3.10, 1.0, 0.95, {0.4, 1.0})};
+  reject_twins(modes);
+  EXPECT_EQ(modes[0].verdict, Verdict::kStructural);
+  EXPECT_EQ(modes[1].verdict, Verdict::kNumerical);
+}
+
+TEST(Twins, AnotherShapeOrAnotherFrequencyIsNoTwin) {
+  std::vector<Mode> modes{structural(3.0, 1.0, 0.99, {0.4, 1.0}), structural(3.1, 0.9, 0.99, {1.0, -0.4}),
+                          structural(3.4, 0.9, 0.99, {0.4, 1.0})};
+  reject_twins(modes);
+  for (const Mode& mode : modes) EXPECT_EQ(mode.verdict, Verdict::kStructural) << mode.frequency_hz;
+}
+
+TEST(Twins, ARejectedPoleHasNoTwin) {
+  std::vector<Mode> modes{structural(3.0, 0.9, 0.99, {0.4, 1.0}), structural(3.1, 1.0, 0.99, {0.4, 1.0})};
+  modes[1].verdict = Verdict::kInputPeak;
+  reject_twins(modes);
+  EXPECT_EQ(modes[0].verdict, Verdict::kStructural);
+}
+
+TEST(Twins, OfTripletsOneIsLeft) {
+  std::vector<Mode> modes{structural(3.0, 0.9, 0.99, {0.4, 1.0}), structural(3.05, 1.0, 0.99, {0.4, 1.0}), structural(3.1, 0.95, 0.99, {0.4, 1.0})};
+  reject_twins(modes);
+  EXPECT_EQ(modes[1].verdict, Verdict::kStructural);
+  EXPECT_EQ(modes[0].verdict, Verdict::kNumerical);
+  EXPECT_EQ(modes[2].verdict, Verdict::kNumerical);
+}
+
+TEST(VerdictNames, AreThoseOfTheReport) {
+  EXPECT_STREQ(to_string(Verdict::kStructural), "structural");
+  EXPECT_STREQ(to_string(Verdict::kCameraMotion), "camera_motion");
+  EXPECT_STREQ(to_string(Verdict::kInputPeak), "input_peak");
+  EXPECT_STREQ(to_string(Verdict::kHarmonic), "harmonic");
+  EXPECT_STREQ(to_string(Verdict::kAmbiguous), "ambiguous");
+  EXPECT_STREQ(to_string(Verdict::kNumerical), "numerical");
+}
+
+}  // namespace
+}  // namespace core

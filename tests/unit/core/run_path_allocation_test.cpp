@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/geometry/channel_displacement.h"
+#include "core/spectrum/time_grid.h"
+#include "core/spectrum/welch_cpsd.h"
+#include "core/tracking/outlier_rejection.h"
+#include "tests/support/alloc_guard.h"
+
+namespace core {
+namespace {
+
+using test_support::AllocGuard;
+
+TEST(RunPathAllocation, WelchPushAndFlushAllocateNothing) {
+  WelchConfig config;
+  config.n_channels = 4;
+  config.segment = 48;
+  config.rate_hz = 25.0;
+  WelchCpsd welch(config);
+  CpsdSums snapshot = WelchCpsd::empty_sums(config);
+  std::vector<double> value(4);
+  const std::vector<std::uint8_t> seen(4, 1);
+  std::size_t n_calls = 0;
+  {
+    const AllocGuard guard;
+    for (int t = 0; t < 500; ++t) {
+      for (std::size_t c = 0; c < 4; ++c) value[c] = std::sin(0.3 * t + static_cast<double>(c));
+      const bool hop = t % 11 == 3 ? welch.push_missing() : welch.push(value, seen);
+      if (hop) snapshot = welch.sums();
+    }
+    welch.flush();
+    snapshot = welch.sums();
+    n_calls = guard.n_new() + guard.n_delete();
+  }
+  EXPECT_GT(snapshot.n_segments, 15U);
+  EXPECT_EQ(n_calls, 0U);
+}
+
+TEST(RunPathAllocation, TimeGridAllocatesNothing) {
+  TimeGrid grid(25.0);
+  std::size_t n_calls = 0;
+  {
+    const AllocGuard guard;
+    for (std::int64_t i = 0; i < 1000; ++i) (void)grid.place(i * 40'000'000 + (i % 7) * 1'000'000);
+    n_calls = guard.n_new() + guard.n_delete();
+  }
+  EXPECT_EQ(n_calls, 0U);
+}
+
+TrackFrame grid_of_points(std::uint16_t n_regions, int per_side) {
+  TrackFrame frame;
+  for (std::uint16_t r = 0; r < n_regions; ++r) {
+    for (int i = 0; i < per_side * per_side; ++i) {
+      TrackPoint point;
+      point.u_px = 200.0 + 20.0 * (i % per_side);
+      point.v_px = 50.0 + 100.0 * r + 20.0 * (i / per_side);
+      point.sigma_px = 0.03;
+      point.id = static_cast<std::uint32_t>(frame.points.size());
+      point.region = r;
+      point.seen = true;
+      frame.points.push_back(point);
+    }
+  }
+  return frame;
+}
+
+TEST(RunPathAllocation, ChannelDisplacementUpdateAllocatesNothing) {
+  for (const bool paper : {false, true}) {
+    ChannelDisplacementConfig config;
+    for (const char* name : {"base", "floor", "roof"}) config.regions.push_back({name, 0, 0, 1, 1, RegionRole::kStructure, 0.0, false});
+    config.readout = {0.02, ReadoutDirection::kDown, 640, 480};
+    config.rate_hz = 25.0;
+    config.paper_method = paper;
+    const TrackFrame keyframe = grid_of_points(3, 4);
+    ChannelDisplacement channels(config, keyframe);
+    TrackFrame tracks = keyframe;
+    DisplacementSample sample = channels.sample_prototype();
+    std::size_t n_calls = 0;
+    {
+      const AllocGuard guard;
+      for (int t = 0; t < 50; ++t) {
+        for (std::size_t i = 0; i < tracks.points.size(); ++i) {
+          tracks.points[i].u_px = keyframe.points[i].u_px + std::sin(0.5 * t + keyframe.points[i].region);
+          tracks.points[i].seen = (i + static_cast<std::size_t>(t)) % 9 != 0;
+        }
+        channels.update(tracks, sample);
+      }
+      n_calls = guard.n_new() + guard.n_delete();
+    }
+    EXPECT_EQ(sample.seen, std::vector<std::uint8_t>(3, 1));
+    EXPECT_EQ(n_calls, 0U) << "paper method " << paper;
+  }
+}
+
+}  // namespace
+}  // namespace core

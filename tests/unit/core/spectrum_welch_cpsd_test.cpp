@@ -1,0 +1,169 @@
+#include "core/spectrum/welch_cpsd.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+namespace core {
+namespace {
+
+WelchConfig config_of(int n_channels, int segment, double overlap) {
+  WelchConfig config;
+  config.n_channels = n_channels;
+  config.segment = segment;
+  config.overlap = overlap;
+  config.rate_hz = 25.0;
+  return config;
+}
+
+void push_noise(WelchCpsd& welch, int n_channels, int n, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> gaussian;
+  std::vector<double> value(static_cast<std::size_t>(n_channels));
+  const std::vector<std::uint8_t> seen(value.size(), 1);
+  for (int t = 0; t < n; ++t) {
+    for (double& v : value) v = gaussian(random);
+    welch.push(value, seen);
+  }
+}
+
+bool all_finite(const CpsdSums& sums) {
+  for (const auto& z : sums.data_sum) {
+    if (!std::isfinite(z.real()) || !std::isfinite(z.imag())) return false;
+  }
+  for (const auto& z : sums.mask_sum) {
+    if (!std::isfinite(z.real()) || !std::isfinite(z.imag())) return false;
+  }
+  return true;
+}
+
+TEST(WelchCpsd, TellsWhenASegmentIsComplete) {
+  WelchCpsd welch(config_of(1, 8, 0.5));
+  const std::vector<double> value{1.0};
+  const std::vector<std::uint8_t> seen{1};
+  std::vector<int> hops;
+  for (int t = 1; t <= 20; ++t) {
+    if (welch.push(value, seen)) hops.push_back(t);
+  }
+  EXPECT_EQ(hops, (std::vector<int>{8, 12, 16, 20}));
+  EXPECT_EQ(welch.n_hops(), 4U);
+  EXPECT_EQ(welch.sums().n_samples, 20U);
+  EXPECT_EQ(welch.hop(), 4);
+}
+
+TEST(WelchCpsd, CountsEveryMissingChannelSample) {
+  WelchCpsd welch(config_of(3, 8, 0.5));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  welch.push(std::vector<double>{1.0, 2.0, 3.0}, std::vector<std::uint8_t>{1, 0, 1});
+  welch.push(std::vector<double>{1.0, nan, 3.0}, std::vector<std::uint8_t>{1, 1, 1});
+  welch.push_missing();
+  EXPECT_EQ(welch.sums().n_missing, 5U);
+  EXPECT_EQ(welch.sums().n_samples, 3U);
+}
+
+// A sample marked as seen that is no number is a gap; a value under "not seen" is never looked at.
+TEST(WelchCpsd, NaNAndUnseenValuesChangeNothingButTheMask) {
+  WelchCpsd a(config_of(1, 16, 0.5));
+  WelchCpsd b(config_of(1, 16, 0.5));
+  for (int t = 0; t < 64; ++t) {
+    const bool lost = t % 5 == 2;
+    const double x = std::sin(0.7 * t);
+    a.push(std::vector<double>{lost ? std::numeric_limits<double>::infinity() : x}, std::vector<std::uint8_t>{1});
+    b.push(std::vector<double>{lost ? 1e300 : x}, std::vector<std::uint8_t>{static_cast<std::uint8_t>(lost ? 0 : 1)});
+  }
+  EXPECT_TRUE(all_finite(a.sums()));
+  EXPECT_EQ(a.sums().data_sum, b.sums().data_sum);
+  EXPECT_EQ(a.sums().mask_sum, b.sums().mask_sum);
+  EXPECT_EQ(a.sums().n_missing, b.sums().n_missing);
+}
+
+TEST(WelchCpsd, ARecordWithoutASampleStaysFinite) {
+  WelchCpsd welch(config_of(2, 16, 0.75));
+  for (int t = 0; t < 40; ++t) welch.push_missing();
+  welch.flush();
+  EXPECT_TRUE(all_finite(welch.sums()));
+  for (const auto& z : welch.sums().mask_sum) EXPECT_EQ(std::abs(z), 0.0);
+}
+
+TEST(WelchCpsd, FlushTakesTheRestOnceAndOnlyIfThereIsOne) {
+  WelchCpsd whole(config_of(1, 16, 0.5));
+  push_noise(whole, 1, 32, 1);
+  EXPECT_EQ(whole.n_hops(), 3U);
+  whole.flush();
+  EXPECT_EQ(whole.n_hops(), 3U) << "nothing new since the last segment";
+
+  WelchCpsd rest(config_of(1, 16, 0.5));
+  push_noise(rest, 1, 35, 1);
+  rest.flush();
+  EXPECT_EQ(rest.n_hops(), 4U);
+  rest.flush();
+  EXPECT_EQ(rest.n_hops(), 4U);
+
+  WelchCpsd empty(config_of(1, 16, 0.5));
+  empty.flush();
+  EXPECT_EQ(empty.n_hops(), 0U);
+}
+
+// What flush() adds is what a stream that ends in missing samples would have added.
+TEST(WelchCpsd, FlushEqualsARestThatWasMissing) {
+  WelchCpsd flushed(config_of(2, 16, 0.5));
+  WelchCpsd missing(config_of(2, 16, 0.5));
+  push_noise(flushed, 2, 37, 4);
+  push_noise(missing, 2, 37, 4);
+  flushed.flush();
+  for (int t = 37; t < 40; ++t) missing.push_missing();
+  EXPECT_EQ(flushed.sums().data_sum, missing.sums().data_sum);
+  EXPECT_EQ(flushed.sums().mask_sum, missing.sums().mask_sum);
+}
+
+TEST(WelchCpsd, ForgetsAConstant) {
+  WelchCpsd welch(config_of(1, 32, 0.5));
+  for (int t = 0; t < 100; ++t) {
+    welch.push(std::vector<double>{t % 7 == 0 ? 0.0 : 512.0}, std::vector<std::uint8_t>{static_cast<std::uint8_t>(t % 7 == 0 ? 0 : 1)});
+  }
+  for (const auto& z : welch.sums().data_sum) EXPECT_LT(std::abs(z), 1e-18);
+}
+
+TEST(WelchCpsd, EmptySumsHaveTheShapeOfRealOnes) {
+  const WelchConfig config = config_of(3, 20, 0.5);
+  WelchCpsd welch(config);
+  push_noise(welch, 3, 50, 2);
+  const CpsdSums empty = WelchCpsd::empty_sums(config);
+  EXPECT_EQ(empty.n_fft, 64);
+  EXPECT_EQ(empty.n_fft, welch.sums().n_fft);
+  EXPECT_EQ(empty.data_sum.size(), welch.sums().data_sum.size());
+  EXPECT_EQ(empty.mask_sum.size(), 33U * 6U);
+  EXPECT_EQ(empty.window_power, welch.sums().window_power);
+  EXPECT_EQ(empty.n_segments, 0U);
+}
+
+TEST(WelchCpsd, RefusesWhatCannotBeASpectrumAndSaysWhy) {
+  const auto refusal = [](const WelchConfig& config) -> std::string {
+    try {
+      WelchCpsd welch(config);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  WelchConfig no_rate = config_of(1, 8, 0.5);
+  no_rate.rate_hz = std::numeric_limits<double>::quiet_NaN();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(refusal(config_of(0, 8, 0.5)).find("channel"), std::string::npos);
+  for (const int segment : {-5, 0, 3}) EXPECT_NE(refusal(config_of(1, segment, 0.5)).find("segment"), std::string::npos) << refusal(config_of(1, segment, 0.5));
+  for (const double overlap : {-0.1, 1.0, nan}) EXPECT_NE(refusal(config_of(1, 8, overlap)).find("overlap"), std::string::npos);
+  EXPECT_NE(refusal(no_rate).find("rate"), std::string::npos);
+}
+
+TEST(CpsdSums, NumbersThePairsOfTheUpperTriangle) {
+  int expected = 0;
+  for (int i = 0; i < 5; ++i) {
+    for (int j = i; j < 5; ++j) EXPECT_EQ(CpsdSums::pair_index(i, j, 5), expected++);
+  }
+}
+
+}  // namespace
+}  // namespace core

@@ -1,0 +1,32 @@
+# Shared by the figure scripts: where things are, one line a figure, small statistics. Source it from the project's root.
+bin=build/release/bin
+data=${HOVERMODAL_DATA:-../shared/data}
+misses=0
+
+# line NUMBER ok|MISS|SKIP "measured" "bar" "what"
+line() {
+  printf '%s %s %s (bar: %s) %s\n' "$1" "$2" "$3" "$4" "$5"
+  [ "$2" != MISS ] || misses=$((misses + 1))
+}
+
+# judge NUMBER "measured" "bar" "what" AWK-CONDITION: ok when the condition holds, MISS when not or when it cannot be told.
+judge() {
+  if awk "BEGIN { exit !($5) }" 2>/dev/null; then line "$1" ok "$2" "$3" "$4"; else line "$1" MISS "$2" "$3" "$4"; fi
+}
+
+# Median and worst (largest) of the numbers on standard input, "nan nan" when there are none.
+median_and_worst() {
+  sort -g | awk '{ v[NR] = $1 } END { if (NR == 0) print "nan nan"; else print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2, v[NR] }'
+}
+
+# The run's own words only when it fails.
+quietly() {
+  local log
+  log=$(mktemp)
+  if ! "$@" >"$log" 2>&1; then
+    tail -n 20 "$log" >&2
+    rm -f "$log"
+    return 1
+  fi
+  rm -f "$log"
+}
