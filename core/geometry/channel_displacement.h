@@ -27,7 +27,7 @@ struct ChannelDisplacementConfig {
 //   d = S_i (p_i - c) - S_0 (p_0 - c), averaged over the region's inliers, along the region's axis; c = principal point.
 // Points are undistorted, per-frame scale is estimated from them, outliers are rejected per region by MLESAC.
 // `hovermodal` leaves the samples at the instants at which rows were read and states the delay of each channel
-// (METHOD section 4); `paper` moves them to row 0 with Eqs. 7-8. Background regions make no channel.
+// (ARCHITECTURE.md); `paper` moves them to row 0 with Eqs. 7-8. Background regions make no channel.
 // One thread; nothing allocates after construction.
 class ChannelDisplacement {
  public:

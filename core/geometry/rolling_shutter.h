@@ -4,7 +4,7 @@
 
 namespace core {
 
-// When a pixel is seen, relative to the start of exposure of row 0 (METHOD section 1): T_r v / h for a sensor read
+// When a pixel is seen, relative to the start of exposure of row 0 (ARCHITECTURE.md): T_r v / h for a sensor read
 // downwards. `readout_s` is signed; up and left turn the sign, left and right run along u.
 struct ReadoutModel {
   double readout_s = 0.0;

@@ -11,7 +11,7 @@ enum class CorrelationStatus : std::uint8_t { kOk, kNoSegment, kNotFinite, kNoPo
 
 // Correlation functions R_ij(lag) = E[x_i(t + lag) x_j(t)], lag -max_lag .. max_lag, of the d-times differenced channels
 // (NExT: James, Carne & Lauffer 1993).
-// `divided`: unbiased, by the mask's own correlation (METHOD section 4); what the realisation is made of.
+// `divided`: unbiased, by the mask's own correlation (ARCHITECTURE.md); what the realisation is made of.
 // `undivided`: the positive semidefinite estimate; what weights are made of. Equal to `divided` at lag 0.
 class Correlations {
  public:

@@ -13,7 +13,7 @@ namespace core {
 
 namespace {
 
-// Of unit-variance channels. Larger values cost the weakest mode, smaller ones let Cholesky fail (METHOD section 5).
+// Of unit-variance channels. Larger values cost the weakest mode, smaller ones let Cholesky fail (ARCHITECTURE.md).
 constexpr double kRidge = 1e-6;
 
 Eigen::VectorXd channel_scale(const Correlations& correlations) {

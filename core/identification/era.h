@@ -17,8 +17,8 @@ struct EraConfig {
   int max_order = 60;
   std::vector<int> references;     // channel indices
   // Canonical-variate weighting of the Hankel matrix, G = Lf^-1 H Lp^-T with the Cholesky factors of future and past
-  // covariance: scatter near the bound, weak modes appear, and the singular values are canonical correlations (METHOD
-  // section 5). false: the plain ERA of Juang & Pappa 1985.
+  // covariance: scatter near the bound, weak modes appear, and the singular values are canonical correlations
+  // (ARCHITECTURE.md). false: the plain ERA of Juang & Pappa 1985.
   bool canonical_variates = true;
 };
 

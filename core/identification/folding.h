@@ -7,7 +7,7 @@
 namespace core {
 
 // A pole seen at f_a in samples of rate f_s may be any signed frequency f_a + n f_s. Channels seen at different instants
-// (row delays) tell which: undoing the delays with the true pole makes the shape's phases collinear (METHOD section 5).
+// (row delays) tell which: undoing the delays with the true pole makes the shape's phases collinear (ARCHITECTURE.md).
 struct FoldingConfig {
   double rate_hz = 0.0;
   double max_frequency_hz = 0.0;      // |f_a + n f_s| beyond it are not considered

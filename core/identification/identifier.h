@@ -21,7 +21,7 @@ struct IdentifierConfig {
 };
 
 // From the sums of a spectrum to modes with a verdict each: NExT, canonical-variate ERA, a stabilisation over orders
-// (METHOD section 5). A pure function of its arguments: same sums, same bits.
+// (ARCHITECTURE.md). A pure function of its arguments: same sums, same bits.
 class Identifier {
  public:
   // Throws std::invalid_argument: a reference that is no channel, no channel at all.

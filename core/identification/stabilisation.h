@@ -22,7 +22,7 @@ struct PoleCluster {
   UnfoldedPole representative; // the member nearest the medians
 };
 
-// Average-linkage clustering on |df| / (0.015 f) + (1 - MAC) / 0.3, cut at 1 (METHOD section 5).
+// Average-linkage clustering on |df| / (0.015 f) + (1 - MAC) / 0.3, cut at 1 (ARCHITECTURE.md).
 [[nodiscard]] std::vector<PoleCluster> cluster_poles(const std::vector<OrderPole>& poles, int n_orders);
 
 [[nodiscard]] double damping_ratio(std::complex<double> s) noexcept;   // -Re s / |s|

@@ -23,7 +23,7 @@ struct WelchConfig {
 // Segments are detrended by their mean, windowed, zero-padded to a power of two >= 2 * segment so that correlations up
 // to one segment do not wrap around. A mask (1 seen, 0 missing) is windowed and transformed beside the data:
 //   R_ij(lag) = IFFT(sum X_i conj(X_j)) / IFFT(sum M_i conj(M_j))
-// is then unbiased, window and random losses alike (METHOD section 4). One thread; nothing allocates after construction.
+// is then unbiased, window and random losses alike (ARCHITECTURE.md). One thread; nothing allocates after construction.
 class WelchCpsd {
  public:
   explicit WelchCpsd(const WelchConfig& config);  // throws std::invalid_argument

@@ -15,7 +15,7 @@ struct KltConfig {
 
 struct KltPoint {
   cv::Point2f position;            // in the current image
-  double sigma_px = 0.0;           // standard deviation per axis, from the residual and the texture (METHOD section 2)
+  double sigma_px = 0.0;           // standard deviation per axis, from the residual and the texture (ARCHITECTURE.md)
   bool seen = false;
 };
 

@@ -8,7 +8,7 @@ namespace core {
 
 // Sums of a Welch estimate, not yet divided. bins x pairs; a pair (i <= j) stands at i * n - i (i - 1) / 2 + (j - i).
 // Bin k lies at k * rate_hz / n_fft. `mask_sum` is the same for the seen/missing masks: dividing the two inverse
-// transforms removes the window and the losses in one step (METHOD section 4).
+// transforms removes the window and the losses in one step (ARCHITECTURE.md).
 struct CpsdSums {
   int n_channels = 0;
   int n_fft = 0;

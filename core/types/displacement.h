@@ -12,7 +12,7 @@ struct ChannelInfo {
   std::string name;            // region name; "<region>.u" / "<region>.v" where a region has both axes
   double direction_u = 1.0;    // unit vector of the axis in the image
   double direction_v = 0.0;
-  double row_delay_s = 0.0;    // tau: the channel is seen this long after the frame's time stamp (METHOD section 4)
+  double row_delay_s = 0.0;    // tau: the channel is seen this long after the frame's time stamp (ARCHITECTURE.md)
   bool is_base = false;        // region role `base`: measured input, kept as an output
 };
 

@@ -62,7 +62,7 @@ struct SimulatedStructure {
     return welch.sums();
   }
 
-  // What no method beats (METHOD section 5): sqrt(zeta / (2 pi f T)) of the frequency.
+  // What no method beats (ARCHITECTURE.md): sqrt(zeta / (2 pi f T)) of the frequency.
   [[nodiscard]] double frequency_scatter_hz(std::size_t mode) const {
     const double f = scene.structure.frequency_hz[mode];
     return f * std::sqrt(scene.structure.damping_ratio[mode] / (2.0 * 3.14159265358979 * f * duration_s));

@@ -9,7 +9,7 @@ seeds=10 quick=no
 out=build/figures/main_job
 mkdir -p "$out"
 tools/setup.sh
-quietly tools/build.sh
+quietly tools/build.sh hovermodald hovermodal
 
 # errors_of TABLE: "|error %| MAC" of modes 1-3, "1000 0" for one that was not found.
 errors_of() {
@@ -203,6 +203,7 @@ while read -r report; do
   runs=$((runs + 1))
   awk '/"frames_in"|"frames_processed"|"frames_dropped"/ { key = $1; gsub(/[^0-9]/, "", $2); v[key] = $2 } END { exit v["\"frames_in\":"] != v["\"frames_processed\":"] + v["\"frames_dropped\":"] || v["\"frames_in\":"] == 0 }' "$report" || wrong=$((wrong + 1))
 done < <(find "$out" build/demo -name modal.json -path '*' -newer tools/figures/lib.sh | grep -v true_motion)
+quietly tools/build.sh integration_tests
 tests="not run" ran=0
 if log=$(ctest --test-dir build/release -L integration 2>&1); then tests=pass; else tests=fail; fi
 ran=$(echo "$log" | awk '/tests passed/ { print $NF }')

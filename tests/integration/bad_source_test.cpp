@@ -1,0 +1,175 @@
+#include "tests/support/bad_input.h"
+
+namespace {
+
+using namespace tests::bad_input;
+using tests::swaying_image;
+using tests::write_images;
+
+Input file_of(const fs::path& folder, const char* name, const std::string& bytes) {
+  test_support::write_text(folder / name, bytes);
+  return from(folder / name);
+}
+
+template <class Make>
+Input images(const fs::path& folder, Make make) {
+  write_images(folder / "images", kFrames, make);
+  return from(folder / "images");
+}
+
+Input level(const fs::path& folder, double grey) {
+  return images(folder, [&](int) { return cv::Mat(96, 128, CV_8UC1, cv::Scalar(grey)); });
+}
+
+template <class Time>
+Input stamped(const fs::path& folder, int n_stamps, Time time_s) {
+  Input input = clip(folder);
+  std::vector<double> times_s;
+  for (int i = 0; i < n_stamps; ++i) times_s.push_back(time_s(i));
+  test_support::write_timestamps(folder / "clip.timestamps.csv", times_s);
+  return input;
+}
+
+cv::Mat of_type(int frame, int type) {
+  cv::Mat image;
+  swaying_image(frame).convertTo(image, CV_MAT_DEPTH(type), CV_MAT_DEPTH(type) == CV_16U ? 257.0 : 1.0);
+  if (CV_MAT_CN(type) == 4) cv::cvtColor(image, image, cv::COLOR_GRAY2BGRA);
+  return image;
+}
+
+Input unreadable(const fs::path& folder) {
+  Input input = good(folder);
+  fs::permissions(input.source, fs::perms::none);
+  input.before = without_file_rights();
+  return input;
+}
+
+const std::vector<BadInput>& source_rows() {
+  static const std::vector<BadInput> rows{
+      {"Missing", [](const fs::path& f) { return from(f / "none.mp4"); },
+       3, {"none.mp4", "no such file"}},
+      {"Unreadable", unreadable, 1, {"clip.avi", "no permission"}},
+      {"Empty", [](const fs::path& f) { return file_of(f, "empty.mp4", ""); }, 1, {"empty.mp4", "0 bytes"}},
+      {"NotAVideo", [](const fs::path& f) { return file_of(f, "letter.mp4", std::string(5000, 'a')); }, 1, {"letter.mp4", "not a video"}},
+      {"CutHeader",
+       [](const fs::path& f) {
+         Input input = clip(f, kFrames, "clip.mp4");
+         fs::resize_file(input.source, 24);
+         return input;
+       },
+       1, {"clip.mp4"}},
+      {"CutBeforeItsIndex",
+       [](const fs::path& f) {
+         Input input = clip(f, kFrames, "clip.mp4");
+         test_support::keep_first_bytes(input.source, 0.5);
+         return input;
+       },
+       1, {"clip.mp4", "cut off"}},
+      // What decodes is worth having; the loss is told.
+      {"CutInTheMiddle",
+       [](const fs::path& f) {
+         Input input = clip(f);
+         test_support::keep_first_bytes(input.source, 0.6);
+         return input;
+       },
+       0, {"clip.avi", "promises 100 frames", "truncated"}},
+      {"CutShorterThanOneSegment",
+       [](const fs::path& f) {
+         Input input = clip(f);
+         test_support::keep_first_bytes(input.source, 0.25);
+         return input;
+       },
+       0, {"truncated", "fewer than one segment of 32", "1.3 s"}},
+      {"OnePixel", [](const fs::path& f) { return images(f, [](int) { return cv::Mat(1, 1, CV_8UC1, cv::Scalar(9)); }); }, 1, {"1 x 1", "32 x 32"}},
+      {"Black", [](const fs::path& f) { return level(f, 0); }, 2, {"roof", "0 corners", "black"}},
+      {"Saturated", [](const fs::path& f) { return level(f, 255); }, 2, {"roof", "0 corners", "saturated"}},
+      {"SixteenBitImages", [](const fs::path& f) { return images(f, [](int k) { return of_type(k, CV_16UC1); }); }, 1, {"frame_000.png", "16 bits", "8"}},
+      {"AlphaImages", [](const fs::path& f) { return images(f, [](int k) { return of_type(k, CV_8UC4); }); }, 1, {"frame_000.png", "alpha"}},
+      {"SixteenBitVideo",
+       [](const fs::path& f) {
+         return file_of(f, "deep.video", test_support::image_stream(".png", {of_type(0, CV_16UC1), of_type(1, CV_16UC1)}));
+       },
+       1, {"deep.video", "16 bit"}},
+      {"AlphaVideo",
+       [](const fs::path& f) {
+         return file_of(f, "glass.video", test_support::image_stream(".png", {of_type(0, CV_8UC4), of_type(1, CV_8UC4)}));
+       },
+       1, {"glass.video", "alpha"}},
+      {"FolderOfMixedSizes",
+       [](const fs::path& f) {
+         return images(f, [](int k) { return k == 60 ? swaying_image(k, 96, 128) : swaying_image(k); });
+       },
+       1, {"frame_060.png", "96 x 128"}},
+      {"EmptyFolder",
+       [](const fs::path& f) {
+         fs::create_directories(f / "images");
+         return from(f / "images");
+       },
+       1, {"images", "no image"}},
+      {"ShorterThanOneSegment", [](const fs::path& f) { return clip(f, 20); }, 2, {"20 frames", "segment", "1.3 s"}},
+  };
+  return rows;
+}
+
+const std::vector<BadInput>& time_rows() {
+  static const std::vector<BadInput> rows{
+      {"OneFramePerSecond",
+       [](const fs::path& f) {
+         Input input = clip(f);
+         input.camera = "rate_hz: 1";
+         return input;
+       },
+       0, {"100 frames in = 100 processed"}},
+      {"HundredThousandFramesPerSecond",
+       [](const fs::path& f) {
+         Input input = clip(f);
+         input.camera = "rate_hz: 1.0e+5";
+         return input;
+       },
+       0, {"100 frames in = 100 processed"}},
+      {"FewerStampsThanFrames", [](const fs::path& f) { return stamped(f, 60, [](int i) { return 0.04 * i; }); }, 1,
+       {"clip.timestamps.csv", "60 time stamps for 100 frames", "one line per frame"}},
+      {"RepeatedStamp", [](const fs::path& f) { return stamped(f, kFrames, [](int i) { return 0.04 * (i == 50 ? 49 : i); }); }, 1,
+       {"clip.timestamps.csv", "52"}},
+      {"BackwardStamp", [](const fs::path& f) { return stamped(f, kFrames, [](int i) { return 0.04 * (i == 50 ? 20 : i); }); }, 1,
+       {"clip.timestamps.csv", "52"}},
+      {"StampsThatAreNoNumbers",
+       [](const fs::path& f) {
+         Input input = clip(f);
+         test_support::write_text(f / "clip.timestamps.csv", "frame,t_s\n0,nan\n1,0.04\n");
+         return input;
+       },
+       1, {"clip.timestamps.csv", "nan"}},
+      {"RateZero",
+       [](const fs::path& f) {
+         Input input = good(f);
+         input.camera = "rate_hz: 0";
+         return input;
+       },
+       2, {"config.yaml:1", "camera.rate_hz", "0 is refused", "0.001"}},
+      {"RateNaN",
+       [](const fs::path& f) {
+         Input input = good(f);
+         input.camera = "rate_hz: .nan";
+         return input;
+       },
+       2, {"config.yaml:1", "camera.rate_hz", "nan"}},
+      {"RateNegative",
+       [](const fs::path& f) {
+         Input input = good(f);
+         input.camera = "rate_hz: -25";
+         return input;
+       },
+       2, {"camera.rate_hz", "-25"}},
+  };
+  return rows;
+}
+
+class BadSource : public ::testing::TestWithParam<BadInput> {};
+
+TEST_P(BadSource, EndsWithItsExitCodeAndSaysWhatToDo) { expect_as_told(GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(Pictures, BadSource, ::testing::ValuesIn(source_rows()), name_of);
+INSTANTIATE_TEST_SUITE_P(Times, BadSource, ::testing::ValuesIn(time_rows()), name_of);
+
+}  // namespace

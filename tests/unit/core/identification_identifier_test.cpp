@@ -1,0 +1,150 @@
+#include "core/identification/identifier.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "core/identification/mac.h"
+#include "tests/support/simulated_structure.h"
+
+namespace core {
+namespace {
+
+using test_support::SimulatedStructure;
+
+// The mode nearest to a true frequency, within a tenth of the gap to its neighbours; null when there is none.
+const Mode* find(const ModalEstimate& estimate, double frequency_hz) {
+  const Mode* nearest = nullptr;
+  for (const Mode& mode : estimate.modes) {
+    if (std::abs(mode.frequency_hz - frequency_hz) > 0.15) continue;
+    if (nearest == nullptr || std::abs(mode.frequency_hz - frequency_hz) < std::abs(nearest->frequency_hz - frequency_hz)) nearest = &mode;
+  }
+  return nearest;
+}
+
+std::size_t nearest_true_mode(const SimulatedStructure& structure, double frequency_hz) {
+  const std::vector<double>& truth = structure.scene.structure.frequency_hz;
+  std::size_t best = 0;
+  for (std::size_t r = 1; r < truth.size(); ++r) {
+    if (std::abs(truth[r] - frequency_hz) < std::abs(truth[best] - frequency_hz)) best = r;
+  }
+  return best;
+}
+
+double mac_with_truth(const Mode& mode, Eigen::Index true_mode) {
+  const Eigen::MatrixXd shapes = simulation::shear_chain_shapes(6);
+  const std::vector<std::complex<double>> truth(shapes.col(true_mode).begin(), shapes.col(true_mode).end());
+  return mac(truth, std::span(mode.shape).subspan(1));  // channel 0 is the base
+}
+
+TEST(Identifier, FindsTheModesOfASixStoreyFrameNearTheTheoreticalScatter) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    SCOPED_TRACE(seed);
+    SimulatedStructure structure;
+    structure.seed = seed;
+    const ModalEstimate estimate = Identifier({}, structure.channels()).identify(structure.spectra());
+    ASSERT_EQ(estimate.status, "ok");
+    EXPECT_NEAR(estimate.duration_s, 300.0, 1e-9);
+    for (const Mode& mode : estimate.modes) {  // nothing is called structural that is none
+      const std::size_t r = nearest_true_mode(structure, mode.frequency_hz);
+      EXPECT_LT(std::abs(mode.frequency_hz - structure.scene.structure.frequency_hz[r]), 3.0 * structure.frequency_scatter_hz(r)) << mode.frequency_hz;
+    }
+    for (std::size_t r = 0; r < 4; ++r) {  // the upper two are weak: whether they show is a matter of tuning
+      const Mode* mode = find(estimate, structure.scene.structure.frequency_hz[r]);
+      ASSERT_NE(mode, nullptr) << "mode " << r + 1;
+      EXPECT_LT(std::abs(mode->damping_ratio - 0.01), 3.0 * structure.damping_scatter(r)) << "mode " << r + 1;
+      EXPECT_GT(mac_with_truth(*mode, static_cast<Eigen::Index>(r)), 0.99) << "mode " << r + 1;
+      EXPECT_EQ(mode->shape.size(), 7U);
+    }
+  }
+}
+
+// The camera of the paper: 25 frames a second. Modes 5 and 6 lie above the Nyquist frequency, and row delays tell.
+TEST(Identifier, UnfoldsModesAboveHalfTheRateByTheirRowDelays) {
+  int n_found = 0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    SCOPED_TRACE(seed);
+    SimulatedStructure structure;
+    structure.seed = seed;
+    structure.rate_hz = 25.0;
+    structure.segment = 512;
+    structure.delay_step_s = 0.9 * 0.15 / 25.0;
+    IdentifierConfig config;
+    config.max_frequency_hz = 20.0;
+    const ModalEstimate estimate = Identifier(config, structure.channels()).identify(structure.spectra());
+    ASSERT_EQ(estimate.status, "ok");
+    for (const Mode& mode : estimate.modes) {
+      const std::size_t r = nearest_true_mode(structure, mode.frequency_hz);
+      EXPECT_LT(std::abs(mode.frequency_hz - structure.scene.structure.frequency_hz[r]), 3.0 * structure.frequency_scatter_hz(r)) << mode.frequency_hz;
+    }
+    const Mode* fifth = find(estimate, structure.scene.structure.frequency_hz[4]);
+    if (fifth == nullptr) continue;
+    ++n_found;
+    EXPECT_EQ(fifth->fold_n, -1);
+    EXPECT_NEAR(fifth->apparent_hz, 25.0 - structure.scene.structure.frequency_hz[4], 0.05);
+    EXPECT_GT(mac_with_truth(*fifth, 4), 0.95);
+  }
+  EXPECT_GE(n_found, 2);
+}
+
+TEST(Identifier, ShapesHaveALargestComponentOfOneAndModesRiseInFrequency) {
+  SimulatedStructure structure;
+  structure.duration_s = 120.0;
+  const ModalEstimate estimate = Identifier({}, structure.channels()).identify(structure.spectra());
+  ASSERT_GT(estimate.modes.size(), 2U);
+  double last_hz = 0.0;
+  for (const Mode& mode : estimate.modes) {
+    double largest = 0.0;
+    bool has_one = false;
+    for (const auto& z : mode.shape) {
+      largest = std::max(largest, std::abs(z));
+      has_one = has_one || z == std::complex<double>(1.0, 0.0);
+    }
+    EXPECT_TRUE(has_one);
+    EXPECT_LE(largest, 1.0 + 1e-12);
+    EXPECT_GE(mode.frequency_hz, last_hz);
+    last_hz = mode.frequency_hz;
+    EXPECT_EQ(mode.verdict, Verdict::kStructural);
+  }
+  for (const Mode& mode : estimate.rejected) EXPECT_NE(mode.verdict, Verdict::kStructural);
+}
+
+TEST(Identifier, GivesTheSameBitsAgain) {
+  SimulatedStructure structure;
+  structure.duration_s = 60.0;
+  const CpsdSums sums = structure.spectra();
+  const ModalEstimate a = Identifier({}, structure.channels()).identify(sums);
+  const ModalEstimate b = Identifier({}, structure.channels()).identify(sums);
+  ASSERT_EQ(a.modes.size(), b.modes.size());
+  ASSERT_GT(a.modes.size(), 0U);
+  for (std::size_t i = 0; i < a.modes.size(); ++i) {
+    EXPECT_EQ(a.modes[i].frequency_hz, b.modes[i].frequency_hz);
+    EXPECT_EQ(a.modes[i].damping_ratio, b.modes[i].damping_ratio);
+    EXPECT_EQ(a.modes[i].shape, b.modes[i].shape);
+  }
+}
+
+TEST(Identifier, TakesTheReferencesItIsGiven) {
+  SimulatedStructure structure;
+  structure.duration_s = 120.0;
+  const CpsdSums sums = structure.spectra();
+  IdentifierConfig config;
+  config.references = {2, 5};
+  const ModalEstimate estimate = Identifier(config, structure.channels()).identify(sums);
+  ASSERT_EQ(estimate.status, "ok");
+  EXPECT_NE(find(estimate, structure.scene.structure.frequency_hz[1]), nullptr);
+}
+
+TEST(Identifier, RefusesReferencesThatAreNoChannel) {
+  const std::vector<ChannelInfo> two(2);
+  IdentifierConfig config;
+  for (const int reference : {-1, 2}) {
+    config.references = {0, reference};
+    EXPECT_THROW(Identifier(config, two), std::invalid_argument) << reference;
+  }
+  EXPECT_THROW(Identifier({}, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace core
