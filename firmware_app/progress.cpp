@@ -65,6 +65,10 @@ bool Progress::finish(const Pipeline::Outcome& outcome) const {
                h.frames_in, h.frames_processed, h.frames_dropped, h.frames_missing, h.samples_masked, elapsed_s,
                static_cast<double>(h.frames_processed) / elapsed_s);
   for (const std::string& warning : h.warnings) spdlog::warn("{}", warning);
+  if (h.messages_failed > 0) {
+    spdlog::warn("{} telemetry messages failed, {} were sent: check the route of telemetry.lcm_url and the disk under telemetry.log_file",
+                 h.messages_failed, h.messages_sent);
+  }
   for (const std::string& note : outcome.notes) spdlog::warn("{}", note);
   spdlog::info("{} modes from {:.1f} s ({} segments){}", outcome.estimate.modes.size(), outcome.estimate.duration_s,
                outcome.estimate.n_segments, outcome.estimate.status == "ok" ? "" : ": " + outcome.estimate.status);

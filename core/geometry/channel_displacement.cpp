@@ -10,6 +10,9 @@ namespace core {
 
 namespace {
 
+// No point is better than this: rounding and the optics. It bounds the weights.
+constexpr double kLeastSigmaPx = 0.003;
+
 Vector2 axis_of(const Region& region) noexcept {
   const double angle = region.axis_deg * std::numbers::pi / 180.0;
   return {std::cos(angle), std::sin(angle)};
@@ -40,6 +43,8 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
     RegionRange& range = ranges_[keyframe.points[i].region];
     if (range.end == range.begin) range.begin = i;
     range.end = i + 1;
+    const double sigma_px = std::max(keyframe.points[i].sigma_px, kLeastSigmaPx);
+    weight_.push_back(1.0 / (sigma_px * sigma_px));
     keyframe_.push_back(config_.camera.undistort({keyframe.points[i].u_px, keyframe.points[i].v_px}));
     readout_share_.push_back(config_.readout.fraction(keyframe.points[i].u_px, keyframe.points[i].v_px));
   }
@@ -125,7 +130,8 @@ double ChannelDisplacement::estimate_scale() noexcept {
 }
 
 // Paper Eqs. 7-8: line i is read t_r (i - 1) after the first, t_r = 1 / (f_s h); the shift it suffers is that times the
-// relative velocity, taken from successive frames. rho = 1: the readout is assumed to fill the whole frame time.
+// relative velocity, taken from successive frames. rho = 1: the readout is assumed to fill the whole frame time. The
+// velocity is the region's own; one common velocity for the image loses more modes (tried on ten simulated records).
 void ChannelDisplacement::compensate_rolling_shutter() noexcept {
   for (std::size_t r = 0; r < ranges_.size(); ++r) {
     Vector2 mean;
@@ -158,20 +164,22 @@ void ChannelDisplacement::average_channel(std::size_t channel, double magnificat
   const ChannelInfo& info = channels_[channel];
   const RegionRange& range = ranges_[info.region];
   double sum = 0.0;
+  double weight = 0.0;
   double variance = 0.0;
   std::uint16_t count = 0;
   for (std::size_t i = range.begin; i < range.end; ++i) {
     if (inlier_[i] == 0) continue;
-    sum += motion_[i].u * info.direction_u + motion_[i].v * info.direction_v;
-    variance += tracks.points[i].sigma_px * tracks.points[i].sigma_px;
+    sum += weight_[i] * (motion_[i].u * info.direction_u + motion_[i].v * info.direction_v);
+    weight += weight_[i];
+    variance += weight_[i] * weight_[i] * tracks.points[i].sigma_px * tracks.points[i].sigma_px;
     ++count;
   }
-  const bool enough = count > 0 && count >= config_.min_points;
+  const bool enough = count >= config_.min_points;
   const double s0 = config_.scale_mm_per_px;
   out.seen[channel] = enough ? 1 : 0;
   out.n_points[channel] = count;
-  out.value_mm[channel] = enough ? s0 * sum / count : 0.0;
-  out.sigma_mm[channel] = enough ? s0 / magnification * std::sqrt(variance) / count : 0.0;
+  out.value_mm[channel] = enough ? s0 * sum / weight : 0.0;
+  out.sigma_mm[channel] = enough ? s0 / magnification * std::sqrt(variance) / weight : 0.0;
 }
 
 void ChannelDisplacement::update(TrackFrame& tracks, DisplacementSample& out) noexcept {

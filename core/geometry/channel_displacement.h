@@ -24,7 +24,7 @@ struct ChannelDisplacementConfig {
 };
 
 // From the points of one frame to the displacement of every channel relative to the keyframe (paper Eq. 4):
-//   d = S_i (p_i - c) - S_0 (p_0 - c), averaged over the region's inliers, along the region's axis; c = principal point.
+//   d = S_i (p_i - c) - S_0 (p_0 - c), weighted mean of the region's inliers, along the region's axis; c = principal point.
 // Points are undistorted, per-frame scale is estimated from them, outliers are rejected per region by MLESAC.
 // `hovermodal` leaves the samples at the instants at which rows were read and states the delay of each channel
 // (ARCHITECTURE.md); `paper` moves them to row 0 with Eqs. 7-8. Background regions make no channel.
@@ -57,6 +57,7 @@ class ChannelDisplacement {
   std::vector<ChannelInfo> channels_;
   std::vector<RegionRange> ranges_;          // per region
   std::vector<Vector2> keyframe_;            // undistorted px
+  std::vector<double> weight_;               // of a point in its channel: inverse variance by its texture, constant
   std::vector<double> readout_share_;        // along the readout, of the raw row: rows are read as they lie on the sensor
   ScaleFactor scale_;
   std::vector<Vector2> position_, motion_;   // undistorted px; scale-corrected step since the keyframe, keyframe px

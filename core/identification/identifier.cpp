@@ -112,7 +112,9 @@ ModalEstimate Identifier::identify(const CpsdSums& sums) const {
   rules.max_damping = config_.max_damping;
   std::vector<Mode> modes;
   const std::vector<OrderPole> poles = poles_of_orders(realisation, orders, folding);
-  for (const PoleCluster& cluster : cluster_poles(poles, static_cast<int>(orders.size()))) {
+  std::vector<PoleCluster> clusters = cluster_poles(poles, static_cast<int>(orders.size()));
+  join_split_lines(clusters, static_cast<int>(orders.size()));
+  for (const PoleCluster& cluster : clusters) {
     if (cluster.presence < kLeastPresence) continue;
     modes.push_back(judge(cluster, base_response(sums, channels_, cluster.apparent_hz), channels_, orders, rules));
   }

@@ -16,6 +16,8 @@ namespace {
 
 constexpr double kFrequencyTolerance = 0.015;  // relative
 constexpr double kMacTolerance = 0.3;
+constexpr double kSplitFrequency = 0.03;  // relative
+constexpr double kSplitMac = 0.95;
 
 double distance(const UnfoldedPole& a, const UnfoldedPole& b) noexcept {
   const double mean_hz = 0.5 * (a.apparent_hz + b.apparent_hz);
@@ -108,6 +110,7 @@ PoleCluster summarise(const std::vector<OrderPole>& poles, const std::vector<std
   cluster.frequency_hz = median(frequencies);
   cluster.apparent_hz = median(apparents);
   cluster.damping_ratio = median(dampings);
+  cluster.i_orders.assign(orders.begin(), orders.end());
   cluster.first_i_order = *orders.begin();
   cluster.presence = static_cast<double>(orders.size()) / n_orders;
   const auto off = [&](std::size_t m) {
@@ -120,6 +123,26 @@ PoleCluster summarise(const std::vector<OrderPole>& poles, const std::vector<std
 }
 
 }  // namespace
+
+void join_split_lines(std::vector<PoleCluster>& clusters, int n_orders) {
+  std::stable_sort(clusters.begin(), clusters.end(), [](const auto& a, const auto& b) { return a.presence > b.presence; });
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    PoleCluster& line = clusters[i];
+    const auto is_split = [&](const PoleCluster& other) {
+      return std::abs(other.apparent_hz / line.apparent_hz - 1.0) < kSplitFrequency &&
+             mac(other.representative.shape, line.representative.shape) > kSplitMac;
+    };
+    for (std::size_t j = clusters.size(); j-- > i + 1;) {
+      if (!is_split(clusters[j])) continue;
+      std::set<int> orders(line.i_orders.begin(), line.i_orders.end());
+      orders.insert(clusters[j].i_orders.begin(), clusters[j].i_orders.end());
+      line.i_orders.assign(orders.begin(), orders.end());
+      line.first_i_order = line.i_orders.front();
+      line.presence = static_cast<double>(orders.size()) / n_orders;
+      clusters.erase(clusters.begin() + static_cast<std::ptrdiff_t>(j));
+    }
+  }
+}
 
 double damping_ratio(std::complex<double> s) noexcept { return -s.real() / std::abs(s); }
 double frequency_hz(std::complex<double> s) noexcept { return std::abs(s) / (2.0 * std::numbers::pi); }

@@ -19,11 +19,16 @@ struct PoleCluster {
   double damping_ratio = 0.0;
   int first_i_order = 0;       // the lowest order in which it was found
   double presence = 0.0;       // share of the orders in which it was found
+  std::vector<int> i_orders;   // those orders, ascending
   UnfoldedPole representative; // the member nearest the medians
 };
 
 // Average-linkage clustering on |df| / (0.015 f) + (1 - MAC) / 0.3, cut at 1 (ARCHITECTURE.md).
 [[nodiscard]] std::vector<PoleCluster> cluster_poles(const std::vector<OrderPole>& poles, int n_orders);
+
+// A model with more states than the record supports splits one mode into two lines of one shape. The line found in more
+// orders takes the other's orders (MAC > 0.95 within 3 %), so that the split does not cost the mode its presence.
+void join_split_lines(std::vector<PoleCluster>& clusters, int n_orders);
 
 [[nodiscard]] double damping_ratio(std::complex<double> s) noexcept;   // -Re s / |s|
 [[nodiscard]] double frequency_hz(std::complex<double> s) noexcept;    // |s| / (2 pi)

@@ -25,7 +25,8 @@ nlohmann::json golden() {
 // One-sided density of a pair, scaled as scipy does.
 std::complex<double> density(const CpsdSums& sums, int bin, int pair) {
   const double sides = bin == 0 || bin == sums.n_fft / 2 ? 1.0 : 2.0;
-  const auto at = static_cast<std::size_t>(bin) * static_cast<std::size_t>(sums.n_pairs()) + static_cast<std::size_t>(pair);
+  const auto at =
+      static_cast<std::size_t>(bin) * static_cast<std::size_t>(sums.n_pairs()) + static_cast<std::size_t>(pair);
   return sides * sums.data_sum[at] / (sums.rate_hz * sums.window_power * static_cast<double>(sums.n_segments));
 }
 
@@ -51,7 +52,8 @@ TEST(WelchGolden, EqualsScipyCsd) {
   const nlohmann::json all = golden();
   ASSERT_EQ(all["cases"].size(), 10U);
   for (const nlohmann::json& item : all["cases"]) {
-    SCOPED_TRACE(item["window"].get<std::string>() + " " + item["segment"].dump() + " overlap " + item["overlap"].dump());
+    SCOPED_TRACE(item["window"].get<std::string>() + " " + item["segment"].dump() + " overlap " +
+                 item["overlap"].dump());
     const WelchCpsd welch = run(all, item);
     ASSERT_EQ(welch.sums().n_fft, item["n_fft"].get<int>());
     ASSERT_EQ(static_cast<int>(item["pairs"].size()), welch.sums().n_pairs());

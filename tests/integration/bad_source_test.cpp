@@ -37,6 +37,20 @@ cv::Mat of_type(int frame, int type) {
   return image;
 }
 
+// A PNG that claims to be this large; both numbers below 65536.
+Input claimed_size(const fs::path& folder, int width_px, int height_px) {
+  Input input = images(folder, [](int k) { return swaying_image(k); });
+  for (const auto& file : fs::directory_iterator(folder / "images")) {
+    std::string bytes = test_support::read_bytes(file.path());
+    const std::size_t header = bytes.find("IHDR") + 4;
+    for (const auto& [at, value] : {std::pair{header, width_px}, std::pair{header + 4, height_px}}) {
+      bytes.replace(at, 4, {'\0', '\0', static_cast<char>(value / 256), static_cast<char>(value % 256)});
+    }
+    test_support::write_text(file.path(), bytes);
+  }
+  return input;
+}
+
 Input unreadable(const fs::path& folder) {
   Input input = good(folder);
   fs::permissions(input.source, fs::perms::none);
@@ -46,25 +60,29 @@ Input unreadable(const fs::path& folder) {
 
 const std::vector<BadInput>& source_rows() {
   static const std::vector<BadInput> rows{
-      {"Missing", [](const fs::path& f) { return from(f / "none.mp4"); },
-       3, {"none.mp4", "no such file"}},
+      {"Missing", [](const fs::path& f) { return from(f / "none.mp4"); }, 3, {"none.mp4", "no such file"}},
       {"Unreadable", unreadable, 1, {"clip.avi", "no permission"}},
       {"Empty", [](const fs::path& f) { return file_of(f, "empty.mp4", ""); }, 1, {"empty.mp4", "0 bytes"}},
-      {"NotAVideo", [](const fs::path& f) { return file_of(f, "letter.mp4", std::string(5000, 'a')); }, 1, {"letter.mp4", "not a video"}},
+      {"NotAVideo",
+       [](const fs::path& f) { return file_of(f, "letter.mp4", std::string(5000, 'a')); },
+       1,
+       {"letter.mp4", "not a video"}},
       {"CutHeader",
        [](const fs::path& f) {
          Input input = clip(f, kFrames, "clip.mp4");
          fs::resize_file(input.source, 24);
          return input;
        },
-       1, {"clip.mp4"}},
+       1,
+       {"clip.mp4"}},
       {"CutBeforeItsIndex",
        [](const fs::path& f) {
          Input input = clip(f, kFrames, "clip.mp4");
          test_support::keep_first_bytes(input.source, 0.5);
          return input;
        },
-       1, {"clip.mp4", "cut off"}},
+       1,
+       {"clip.mp4", "cut off"}},
       // What decodes is worth having; the loss is told.
       {"CutInTheMiddle",
        [](const fs::path& f) {
@@ -72,40 +90,66 @@ const std::vector<BadInput>& source_rows() {
          test_support::keep_first_bytes(input.source, 0.6);
          return input;
        },
-       0, {"clip.avi", "promises 100 frames", "truncated"}},
+       0,
+       {"clip.avi", "promises 100 frames", "truncated"}},
       {"CutShorterThanOneSegment",
        [](const fs::path& f) {
          Input input = clip(f);
          test_support::keep_first_bytes(input.source, 0.25);
          return input;
        },
-       0, {"truncated", "fewer than one segment of 32", "1.3 s"}},
-      {"OnePixel", [](const fs::path& f) { return images(f, [](int) { return cv::Mat(1, 1, CV_8UC1, cv::Scalar(9)); }); }, 1, {"1 x 1", "32 x 32"}},
+       0,
+       {"truncated", "fewer than one segment of 32", "1.3 s"}},
+      {"OnePixel",
+       [](const fs::path& f) { return images(f, [](int) { return cv::Mat(1, 1, CV_8UC1, cv::Scalar(9)); }); },
+       1,
+       {"1 x 1", "32 x 32"}},
+      {"ZeroSize", [](const fs::path& f) { return claimed_size(f, 0, 0); }, 1, {"frame_000.png", "cannot be decoded"}},
+      {"ZeroHeight",
+       [](const fs::path& f) { return claimed_size(f, 128, 0); },
+       1,
+       {"frame_000.png", "cannot be decoded"}},
+      {"AbsurdSize",
+       [](const fs::path& f) { return claimed_size(f, 65535, 65535); },
+       1,
+       {"frame_000.png", "cannot be decoded"}},
       {"Black", [](const fs::path& f) { return level(f, 0); }, 2, {"roof", "0 corners", "black"}},
       {"Saturated", [](const fs::path& f) { return level(f, 255); }, 2, {"roof", "0 corners", "saturated"}},
-      {"SixteenBitImages", [](const fs::path& f) { return images(f, [](int k) { return of_type(k, CV_16UC1); }); }, 1, {"frame_000.png", "16 bits", "8"}},
-      {"AlphaImages", [](const fs::path& f) { return images(f, [](int k) { return of_type(k, CV_8UC4); }); }, 1, {"frame_000.png", "alpha"}},
+      {"SixteenBitImages",
+       [](const fs::path& f) { return images(f, [](int k) { return of_type(k, CV_16UC1); }); },
+       1,
+       {"frame_000.png", "16 bits"}},
+      {"AlphaImages",
+       [](const fs::path& f) { return images(f, [](int k) { return of_type(k, CV_8UC4); }); },
+       1,
+       {"frame_000.png", "alpha"}},
       {"SixteenBitVideo",
        [](const fs::path& f) {
-         return file_of(f, "deep.video", test_support::image_stream(".png", {of_type(0, CV_16UC1), of_type(1, CV_16UC1)}));
+         return file_of(f, "deep.video",
+                        test_support::image_stream(".png", {of_type(0, CV_16UC1), of_type(1, CV_16UC1)}));
        },
-       1, {"deep.video", "16 bit"}},
+       1,
+       {"deep.video", "16 bit"}},
       {"AlphaVideo",
        [](const fs::path& f) {
-         return file_of(f, "glass.video", test_support::image_stream(".png", {of_type(0, CV_8UC4), of_type(1, CV_8UC4)}));
+         return file_of(f, "glass.video",
+                        test_support::image_stream(".png", {of_type(0, CV_8UC4), of_type(1, CV_8UC4)}));
        },
-       1, {"glass.video", "alpha"}},
+       1,
+       {"glass.video", "alpha"}},
       {"FolderOfMixedSizes",
        [](const fs::path& f) {
          return images(f, [](int k) { return k == 60 ? swaying_image(k, 96, 128) : swaying_image(k); });
        },
-       1, {"frame_060.png", "96 x 128"}},
+       1,
+       {"frame_060.png", "96 x 128"}},
       {"EmptyFolder",
        [](const fs::path& f) {
          fs::create_directories(f / "images");
          return from(f / "images");
        },
-       1, {"images", "no image"}},
+       1,
+       {"images", "no image"}},
       {"ShorterThanOneSegment", [](const fs::path& f) { return clip(f, 20); }, 2, {"20 frames", "segment", "1.3 s"}},
   };
   return rows;
@@ -119,48 +163,60 @@ const std::vector<BadInput>& time_rows() {
          input.camera = "rate_hz: 1";
          return input;
        },
-       0, {"100 frames in = 100 processed"}},
+       0,
+       {"100 frames in = 100 processed"}},
       {"HundredThousandFramesPerSecond",
        [](const fs::path& f) {
          Input input = clip(f);
          input.camera = "rate_hz: 1.0e+5";
          return input;
        },
-       0, {"100 frames in = 100 processed"}},
-      {"FewerStampsThanFrames", [](const fs::path& f) { return stamped(f, 60, [](int i) { return 0.04 * i; }); }, 1,
+       0,
+       {"100 frames in = 100 processed"}},
+      {"FewerStampsThanFrames",
+       [](const fs::path& f) { return stamped(f, 60, [](int i) { return 0.04 * i; }); },
+       1,
        {"clip.timestamps.csv", "60 time stamps for 100 frames", "one line per frame"}},
-      {"RepeatedStamp", [](const fs::path& f) { return stamped(f, kFrames, [](int i) { return 0.04 * (i == 50 ? 49 : i); }); }, 1,
-       {"clip.timestamps.csv", "52"}},
-      {"BackwardStamp", [](const fs::path& f) { return stamped(f, kFrames, [](int i) { return 0.04 * (i == 50 ? 20 : i); }); }, 1,
-       {"clip.timestamps.csv", "52"}},
+      {"RepeatedStamp",
+       [](const fs::path& f) { return stamped(f, kFrames, [](int i) { return 0.04 * (i == 50 ? 49 : i); }); },
+       1,
+       {"clip.timestamps.csv:52"}},
+      {"BackwardStamp",
+       [](const fs::path& f) { return stamped(f, kFrames, [](int i) { return 0.04 * (i == 50 ? 20 : i); }); },
+       1,
+       {"clip.timestamps.csv:52"}},
       {"StampsThatAreNoNumbers",
        [](const fs::path& f) {
          Input input = clip(f);
          test_support::write_text(f / "clip.timestamps.csv", "frame,t_s\n0,nan\n1,0.04\n");
          return input;
        },
-       1, {"clip.timestamps.csv", "nan"}},
+       1,
+       {"clip.timestamps.csv", "nan"}},
       {"RateZero",
        [](const fs::path& f) {
          Input input = good(f);
          input.camera = "rate_hz: 0";
          return input;
        },
-       2, {"config.yaml:1", "camera.rate_hz", "0 is refused", "0.001"}},
+       2,
+       {"config.yaml:1", "camera.rate_hz", "0 is refused", "0.001"}},
       {"RateNaN",
        [](const fs::path& f) {
          Input input = good(f);
          input.camera = "rate_hz: .nan";
          return input;
        },
-       2, {"config.yaml:1", "camera.rate_hz", "nan"}},
+       2,
+       {"config.yaml:1", "camera.rate_hz", "nan"}},
       {"RateNegative",
        [](const fs::path& f) {
          Input input = good(f);
          input.camera = "rate_hz: -25";
          return input;
        },
-       2, {"camera.rate_hz", "-25"}},
+       2,
+       {"camera.rate_hz", "-25"}},
   };
   return rows;
 }

@@ -1,89 +1,29 @@
-#include "firmware_app/pipeline.h"
-
+// The whole way from frames to modes, in this process, over a scripted camera: what it finds, how often, how exactly.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
 #include <numbers>
-#include <random>
 
 #include "core/identification/mac.h"
 #include "core/simulation/structure_response.h"
-#include "tests/support/pipeline_run.h"
+#include "tests/support/pipeline_rig.h"
 
 namespace {
 
-using tests::CameraScript;
-using tests::Heard;
-using tests::runs_to_its_end;
-using tests::scene_clip;
 using ::testing::HasSubstr;
-
-constexpr std::uint64_t kShortClip = 150;
-constexpr std::size_t kChannels = 7;  // six floors and the base
-
-struct PublisherMood {
-  bool refuses = false;
-  std::chrono::microseconds pause{0};
-};
-
-app::AppConfig config_of(const tests::SceneClip& clip, const std::vector<std::string>& overrides) {
-  return app::parse_config(tests::scene_config(clip.motion), "scene", overrides);
-}
-
-// A pipeline over a scripted camera, and what its publisher was told.
-struct Rig {
-  explicit Rig(const CameraScript& script, const std::vector<std::string>& overrides = {"spectrum.segment=64"},
-               std::uint64_t n_drawn = kShortClip, PublisherMood mood = {})
-      : clip(scene_clip(n_drawn)), heard(std::make_shared<Heard>()) {
-    pipeline = std::make_unique<app::Pipeline>(
-        config_of(*clip, overrides), std::make_unique<tests::ScriptedCamera>(clip, script),
-        std::make_unique<tests::TellingPublisher>(heard, mood.refuses, mood.pause));
-  }
-
-  // Starts, waits for the end, and lets go of the pipeline, so that `heard` is complete.
-  app::Pipeline::Outcome run() {
-    pipeline->start();
-    return finish();
-  }
-  app::Pipeline::Outcome finish() {
-    EXPECT_TRUE(runs_to_its_end(*pipeline)) << "still running: " << pipeline->health().frames_processed << " frames";
-    app::Pipeline::Outcome outcome = pipeline->join();
-    tests::expect_accounted(outcome.health);
-    pipeline.reset();
-    for (const core::ModalEstimate& estimate : heard->estimates) tests::expect_finite(estimate);
-    EXPECT_EQ(heard->estimates.size(), outcome.health.estimates);
-    return outcome;
-  }
-
-  std::shared_ptr<const tests::SceneClip> clip;
-  std::shared_ptr<Heard> heard;
-  std::unique_ptr<app::Pipeline> pipeline;
-};
-
-CameraScript frames(std::uint64_t n) {
-  CameraScript script;
-  script.n_frames = n;
-  return script;
-}
-
-// Channel samples that the spectrum must have masked, from the samples that were published: all of them, where the
-// records ring lost none.
-std::uint64_t expected_masked(const Heard& heard) {
-  std::uint64_t masked = 0;
-  for (std::size_t i = 0; i < heard.samples.size(); ++i) {
-    const auto& seen = heard.samples[i].seen;
-    for (const std::uint8_t s : seen) masked += s == 0 ? 1U : 0U;
-    if (i > 0) masked += (heard.samples[i].sequence - heard.samples[i - 1].sequence - 1) * seen.size();
-  }
-  return masked;
-}
+using tests::CameraScript;
+using tests::frames;
+using tests::Heard;
+using tests::kShortClip;
+using tests::Rig;
 
 const core::Mode* nearest_mode(const core::ModalEstimate& estimate, double frequency_hz) {
   const core::Mode* best = nullptr;
   for (const core::Mode& mode : estimate.modes) {
-    if (best == nullptr || std::abs(mode.frequency_hz - frequency_hz) < std::abs(best->frequency_hz - frequency_hz)) best = &mode;
+    if (best == nullptr || std::abs(mode.frequency_hz - frequency_hz) < std::abs(best->frequency_hz - frequency_hz))
+      best = &mode;
   }
   return best;
 }
@@ -149,174 +89,6 @@ INSTANTIATE_TEST_SUITE_P(Rules, PipelinePeriod,
                                            PeriodCase{257, 64, 3, 0.75}, PeriodCase{192, 64, 3, 0.0},
                                            PeriodCase{64, 64, 1, 0.5}, PeriodCase{200, 64, 1000, 0.5}));
 
-TEST(Pipeline, OverloadDropsFramesCountsThemAndMasksTheGaps) {
-  CameraScript script = frames(400);
-  script.lossless = false;
-  script.frame_time = std::chrono::microseconds(100);
-  Rig rig(script, {"spectrum.segment=64", "rt.frame_slots=2"});
-  const auto outcome = rig.run();
-  EXPECT_EQ(outcome.fault, "");
-  EXPECT_EQ(outcome.health.frames_in, 400U);
-  EXPECT_GT(outcome.health.frames_dropped, 0U);
-  EXPECT_EQ(outcome.health.frames_missing, 0U);  // they reached us
-  ASSERT_EQ(rig.heard->samples.size(), outcome.health.frames_processed);
-  const auto expected = expected_masked(*rig.heard);
-  EXPECT_GT(expected, 0U);
-  EXPECT_EQ(outcome.health.samples_masked, expected);
-  EXPECT_EQ(outcome.estimate.n_samples, rig.heard->samples.back().sequence + 1);
-  for (std::size_t i = 1; i < rig.heard->samples.size(); ++i) {
-    const auto& [before, now] = std::pair{rig.heard->samples[i - 1], rig.heard->samples[i]};
-    EXPECT_EQ(now.gap_before, now.sequence != before.sequence + 1) << "frame " << now.sequence;
-  }
-  ASSERT_FALSE(rig.heard->health.empty());
-  const core::Health& last = rig.heard->health.back();
-  EXPECT_EQ(last.state, "finished");
-  EXPECT_EQ(last.frames_dropped, outcome.health.frames_dropped);
-  EXPECT_EQ(last.samples_masked, outcome.health.samples_masked);
-}
-
-TEST(Pipeline, ASlowPublisherCostsALiveSourceCountedRecordsAndNothingElse) {
-  CameraScript script = frames(200);
-  script.lossless = false;
-  script.frame_time = std::chrono::milliseconds(5);
-  Rig rig(script, {"spectrum.segment=64", "rt.sample_slots=2", "rt.frame_slots=256"}, kShortClip,
-          {false, std::chrono::milliseconds(40)});
-  const auto outcome = rig.run();
-  EXPECT_EQ(outcome.health.frames_processed, 200U);
-  EXPECT_LT(rig.heard->samples.size(), 200U);
-  EXPECT_EQ(outcome.estimate.n_samples, 200U);
-  const core::StageHealth& publish = outcome.health.stages.back();
-  EXPECT_EQ(publish.name, "publish");
-  EXPECT_EQ(publish.n_dropped, 200U - rig.heard->samples.size());
-}
-
-TEST(Pipeline, ASlowPublisherMakesAFileWait) {
-  Rig rig(frames(120), {"spectrum.segment=64", "rt.sample_slots=2", "rt.frame_slots=2"}, kShortClip,
-          {false, std::chrono::milliseconds(5)});
-  const auto outcome = rig.run();
-  EXPECT_EQ(outcome.health.frames_processed, 120U);
-  EXPECT_EQ(outcome.health.frames_dropped, 0U);
-  EXPECT_EQ(rig.heard->samples.size(), 120U);
-}
-
-TEST(Pipeline, ACameraFaultFlushesAllThatCameBefore) {
-  const auto folder = tests::own_folder();
-  CameraScript script = frames(300);
-  script.fault_at = 130;
-  Rig rig(script, {"spectrum.segment=64", "report.directory=" + folder.string()});
-  const auto outcome = rig.run();
-  EXPECT_THAT(outcome.fault, HasSubstr("the cable came off"));
-  EXPECT_EQ(outcome.health.frames_processed, 130U);
-  EXPECT_EQ(rig.heard->samples.size(), 130U);
-  EXPECT_EQ(outcome.estimate.n_samples, 130U);
-  EXPECT_TRUE(outcome.estimate.final);
-  ASSERT_FALSE(rig.heard->health.empty());
-  EXPECT_THAT(rig.heard->health.back().state, HasSubstr("the cable came off"));
-  for (const char* name : {"modal.json", "tracks.csv", "displacements.csv"}) {
-    EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
-  }
-  EXPECT_THAT(tests::file_text(folder / "displacements.csv"), HasSubstr("\n129,"));
-}
-
-TEST(Pipeline, ACameraThatFaultsOnItsFirstFrameIsRefusedAtSetUp) {
-  CameraScript script = frames(300);
-  script.fault_at = 0;
-  try {
-    Rig rig(script);
-    FAIL() << "accepted";
-  } catch (const std::runtime_error& e) {
-    EXPECT_THAT(e.what(), HasSubstr("the cable came off"));
-  }
-}
-
-TEST(Pipeline, AnEmptyStreamIsRefusedAtSetUp) {
-  CameraScript script = frames(0);
-  EXPECT_THROW(Rig{script}, std::runtime_error);
-}
-
-TEST(Pipeline, SitsOutACameraThatIsSilentForAWhile) {
-  CameraScript script = frames(150);
-  script.silent_before = 70;
-  script.n_timeouts = 40;
-  Rig rig(script);
-  const auto outcome = rig.run();
-  EXPECT_EQ(outcome.fault, "");
-  EXPECT_EQ(outcome.health.frames_processed, 150U);
-  EXPECT_EQ(outcome.health.frames_missing, 0U);
-}
-
-TEST(Pipeline, StopsWhileTheCameraIsSilent) {
-  CameraScript script = frames(150);
-  script.silent_before = 70;
-  script.n_timeouts = 1'000'000;
-  Rig rig(script);
-  rig.pipeline->start();
-  while (rig.pipeline->health().frames_processed < 70) {
-    ASSERT_TRUE(rig.pipeline->running());
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  rig.pipeline->request_stop();
-  EXPECT_EQ(rig.finish().health.frames_processed, 70U);
-}
-
-TEST(Pipeline, MasksWhatTheSourceSkipsAndCountsItAsMissing) {
-  CameraScript script = frames(300);
-  script.is_lost = [](std::uint64_t k) { return k % 11 == 5 || (k >= 100 && k < 120); };
-  std::uint64_t n_lost = 0;
-  for (std::uint64_t k = 0; k < 300; ++k) n_lost += script.is_lost(k) ? 1U : 0U;
-  Rig rig(script);
-  const auto outcome = rig.run();
-  EXPECT_EQ(outcome.health.frames_missing, n_lost);
-  EXPECT_EQ(outcome.health.frames_processed, 300 - n_lost);
-  EXPECT_EQ(outcome.health.samples_masked, expected_masked(*rig.heard));
-  EXPECT_GE(outcome.health.samples_masked, n_lost * kChannels);
-  EXPECT_EQ(outcome.estimate.n_samples, 300U);
-}
-
-TEST(Pipeline, SurvivesDarknessInTheMiddleAndSeesAgain) {
-  const auto folder = tests::own_folder();
-  CameraScript script = frames(150);
-  script.is_dark = [](std::uint64_t k) { return k >= 60 && k < 90; };
-  Rig rig(script, {"spectrum.segment=64", "report.directory=" + folder.string()});
-  const auto outcome = rig.run();
-  EXPECT_EQ(outcome.fault, "");
-  EXPECT_EQ(outcome.health.frames_processed, 150U);
-  EXPECT_GE(outcome.health.samples_masked, 30U * kChannels);
-  for (std::size_t c = 0; c < kChannels; ++c) {
-    EXPECT_EQ(rig.heard->samples[75].seen[c], 0);
-    EXPECT_EQ(rig.heard->samples[140].seen[c], 1);
-  }
-  for (const char* name : {"modal.json", "tracks.csv", "displacements.csv"}) {
-    const std::string text = tests::file_text(folder / name);
-    EXPECT_EQ(text.find("nan"), text.npos) << name;
-    EXPECT_EQ(text.find("inf,"), text.npos) << name;
-  }
-}
-
-TEST(Pipeline, DarknessToTheEndIsAnEstimateWithoutModesOrNaN) {
-  CameraScript script = frames(150);
-  script.is_dark = [](std::uint64_t k) { return k >= 1; };
-  Rig rig(script);
-  const auto outcome = rig.run();
-  EXPECT_EQ(outcome.fault, "");
-  EXPECT_TRUE(outcome.estimate.modes.empty());
-  EXPECT_NE(outcome.estimate.status, "ok");
-}
-
-TEST(Pipeline, RefusesRepeatedAndBackwardTimesAndCountsThem) {
-  CameraScript script = frames(150);
-  script.time_ns = [](std::uint64_t k) {
-    const std::uint64_t told = k == 50 ? 49 : k == 80 ? 20 : k;  // repeated, backward
-    return static_cast<std::int64_t>(told) * 40'000'000;
-  };
-  Rig rig(script);
-  const auto outcome = rig.run();
-  EXPECT_EQ(outcome.health.stages.at(2).name, "spectrum");
-  EXPECT_EQ(outcome.health.stages.at(2).n_dropped, 2U);
-  EXPECT_EQ(outcome.health.samples_masked, expected_masked(*rig.heard) + 2 * kChannels);
-  EXPECT_EQ(outcome.estimate.n_samples, 150U);
-}
-
 TEST(Pipeline, SaysHowLongARecordMustBeWhenTheSourceDidNotKnow) {
   CameraScript script = frames(40);
   script.knows_length = false;
@@ -334,59 +106,6 @@ TEST(Pipeline, RefusesARecordShorterThanOneSegment) {
     FAIL() << "accepted";
   } catch (const app::ConfigError& e) {
     EXPECT_THAT(e.what(), ::testing::AllOf(HasSubstr("spectrum.segment"), HasSubstr("2.6 s")));
-  }
-}
-
-TEST(Pipeline, StoppedBeforeItStartsItEndsEmptyAndComplete) {
-  const auto folder = tests::own_folder();
-  Rig rig(frames(150), {"spectrum.segment=64", "report.directory=" + folder.string()});
-  rig.pipeline->request_stop();
-  const auto outcome = rig.run();
-  EXPECT_EQ(outcome.fault, "");
-  EXPECT_EQ(outcome.health.frames_in, 0U);
-  EXPECT_TRUE(outcome.estimate.final);
-  EXPECT_TRUE(std::filesystem::exists(folder / "modal.json"));
-}
-
-TEST(Pipeline, StopsAtAnyMomentWithACompleteReport) {
-  std::mt19937_64 random(20170612);
-  for (int i = 0; i < 25; ++i) {
-    SCOPED_TRACE("run " + std::to_string(i));
-    const auto folder = tests::own_folder();
-    CameraScript script = frames(100'000);
-    script.lossless = i % 2 == 0;
-    script.frame_time = std::chrono::microseconds(i % 3 == 0 ? 0 : 500);
-    Rig rig(script, {"spectrum.segment=64", "identification.period=1", "report.directory=" + folder.string()});
-    rig.pipeline->start();
-    // Half of them within the first frames.
-    const auto wait_us = random() % (i % 2 == 0 ? 4000U : 300'000U);
-    std::this_thread::sleep_for(std::chrono::microseconds(i == 0 ? 0 : wait_us));
-    rig.pipeline->request_stop();
-    const auto outcome = rig.finish();
-    EXPECT_EQ(outcome.fault, "");
-    EXPECT_TRUE(outcome.estimate.final);
-    EXPECT_EQ(rig.heard->health.back().state, "finished");
-    for (const char* name : {"modal.json", "tracks.csv", "displacements.csv"}) {
-      EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
-    }
-    const std::string displacements = tests::file_text(folder / "displacements.csv");
-    const auto n_lines = static_cast<std::uint64_t>(std::count(displacements.begin(), displacements.end(), '\n'));
-    EXPECT_GE(n_lines, rig.heard->samples.size());
-    if (testing::Test::HasFailure()) break;
-  }
-}
-
-TEST(Pipeline, MayBeDestroyedAtAnyMomentWithoutJoin) {
-  std::mt19937_64 random(7);
-  { const Rig never_started(frames(150)); }
-  for (int i = 0; i < 12; ++i) {
-    CameraScript script = frames(100'000);
-    script.lossless = i % 2 == 0;
-    Rig rig(script);
-    rig.pipeline->start();
-    std::this_thread::sleep_for(std::chrono::microseconds(random() % 30'000U));
-    rig.pipeline.reset();
-    EXPECT_FALSE(rig.heard->health.empty());  // the last words were spoken
   }
 }
 
@@ -418,8 +137,9 @@ TEST(Pipeline, TheSameReplayTwiceGivesTheSameBits) {
   std::vector<std::shared_ptr<Heard>> heard;
   const auto folder = tests::own_folder();
   for (const char* name : {"first", "second"}) {
-    Rig rig(frames(400), {"spectrum.segment=64", "identification.period=2", "rt.frame_slots=" + std::to_string(2 + heard.size()),
-                          "report.directory=" + (folder / name).string()});
+    Rig rig(frames(400),
+            {"spectrum.segment=64", "identification.period=2", "rt.frame_slots=" + std::to_string(2 + heard.size()),
+             "report.directory=" + (folder / name).string()});
     heard.push_back(rig.heard);
     (void)rig.run();
   }

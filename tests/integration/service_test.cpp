@@ -15,12 +15,12 @@
 namespace {
 
 namespace fs = std::filesystem;
-using tests::own_folder;
-using tests::run_service;
-using tests::ServiceRun;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using tests::own_folder;
+using tests::run_service;
+using tests::ServiceRun;
 
 constexpr const char* kReportFiles[] = {"modal.json", "tracks.csv", "displacements.csv"};
 
@@ -41,7 +41,8 @@ void expect_complete_report(const fs::path& folder) {
   const auto modal = tests::json_of(folder / "modal.json");
   ASSERT_TRUE(modal.is_object());
   const auto& losses = modal["losses"];
-  EXPECT_EQ(losses["frames_in"].get<int>(), losses["frames_processed"].get<int>() + losses["frames_dropped"].get<int>());
+  EXPECT_EQ(losses["frames_in"].get<int>(),
+            losses["frames_processed"].get<int>() + losses["frames_dropped"].get<int>());
   const std::string displacements = tests::file_text(folder / "displacements.csv");
   EXPECT_EQ(displacements.empty() ? '?' : displacements.back(), '\n');
 }
@@ -56,8 +57,8 @@ TEST(Service, AnswersHelpAndVersionWithoutRunning) {
   EXPECT_THAT(version.output, HasSubstr("hovermodald 0."));
   const ServiceRun keys = run_service({"--help-config"});
   EXPECT_EQ(keys.code, 0);
-  for (const char* key : {"method", "source", "rate_hz", "readout_ms", "rect", "known_length_mm", "segment", "period", "lcm_url",
-                          "directory", "required"}) {
+  for (const char* key : {"method", "source", "rate_hz", "readout_ms", "rect", "known_length_mm", "segment", "period",
+                          "lcm_url", "directory", "required"}) {
     EXPECT_THAT(keys.output, HasSubstr(key));
   }
 }
@@ -112,8 +113,8 @@ TEST(Service, TheSameClipTwiceGivesTheSameBytes) {
 
 TEST(Service, LaterSettingsOverrideEarlierOnes) {
   const auto folder = own_folder();
-  const ServiceRun run = run_service(
-      clip_arguments({"--set", "spectrum.segment=256", "--set", "report.tracks=false", "--report", (folder / "a b: 1").string()}));
+  const ServiceRun run = run_service(clip_arguments(
+      {"--set", "spectrum.segment=256", "--set", "report.tracks=false", "--report", (folder / "a b: 1").string()}));
   EXPECT_EQ(run.code, 0) << run.output;
   EXPECT_EQ(tests::json_of(folder / "a b: 1" / "modal.json")["segments"], 4);
   EXPECT_FALSE(fs::exists(folder / "a b: 1" / "tracks.csv"));
@@ -124,7 +125,8 @@ class ServiceSignal : public ::testing::TestWithParam<int> {};
 TEST_P(ServiceSignal, EndsARunWellWithACompleteReport) {
   const auto folder = own_folder();
   std::vector<std::string> arguments{tests::kService};
-  for (const std::string& a : clip_arguments({"--set", "camera.pace=realtime", "--report", folder.string()})) arguments.push_back(a);
+  for (const std::string& a : clip_arguments({"--set", "camera.pace=realtime", "--report", folder.string()}))
+    arguments.push_back(a);
   tests::ChildProcess service(arguments);
   ASSERT_TRUE(service.wait_for("channel base")) << service.output();
   std::this_thread::sleep_for(std::chrono::milliseconds(800));
@@ -144,11 +146,11 @@ TEST(Service, AFaultInMidRunIsExitCode1AndFlushesWhatCameBefore) {
   const auto images = folder / "images";
   test_support::write_image_folder(images, {.n_frames = 60, .width_px = 128, .height_px = 96});
   test_support::write_text(images / "frame_40.png", "damaged");
-  tests::write_text_file(folder / "config.yaml",
-                         "camera: {source: '" + images.string() + "', rate_hz: 25}\n" +
-                             "regions: [{name: roof, rect: [20, 20, 80, 50]}]\n"
-                             "spectrum: {segment: 32}\ntelemetry: {lcm_url: ''}\n");
-  const ServiceRun run = run_service({"--config", (folder / "config.yaml").string(), "--report", (folder / "out").string()});
+  tests::write_text_file(folder / "config.yaml", "camera: {source: '" + images.string() + "', rate_hz: 25}\n" +
+                                                     "regions: [{name: roof, rect: [20, 20, 80, 50]}]\n"
+                                                     "spectrum: {segment: 32}\ntelemetry: {lcm_url: ''}\n");
+  const ServiceRun run =
+      run_service({"--config", (folder / "config.yaml").string(), "--report", (folder / "out").string()});
   EXPECT_EQ(run.code, 1) << run.output;
   EXPECT_THAT(run.output, AllOf(HasSubstr("frame_40.png"), HasSubstr("40 frames in = 40 processed")));
   expect_complete_report(folder / "out");
@@ -176,7 +178,8 @@ std::vector<std::string> without_realtime_rights() {
 }
 
 #define SKIP_WHEN_REALTIME_CANNOT_BE_REFUSED(before) \
-  if ((before).empty()) GTEST_SKIP() << "needs setpriv, prlimit and chrt (util-linux) and the right to drop CAP_SYS_NICE"
+  if ((before).empty())                              \
+  GTEST_SKIP() << "needs setpriv, prlimit and chrt (util-linux) and the right to drop CAP_SYS_NICE"
 
 TEST(Service, RefusedRealTimeIsExitCode4WhereItIsRequired) {
   const auto before = without_realtime_rights();

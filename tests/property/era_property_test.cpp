@@ -26,9 +26,10 @@ void recover(unsigned seed, bool canonical_variates) {
   const std::vector<DiscretePole> found = poles_of_order(realisation, 2 * n_modes);
   ASSERT_EQ(static_cast<int>(found.size()), n_modes);
   for (const RandomSystem::Pole& truth : system.poles) {
-    const auto nearest = std::min_element(found.begin(), found.end(), [&](const DiscretePole& a, const DiscretePole& b) {
-      return std::abs(a.lambda - truth.lambda) < std::abs(b.lambda - truth.lambda);
-    });
+    const auto nearest =
+        std::min_element(found.begin(), found.end(), [&](const DiscretePole& a, const DiscretePole& b) {
+          return std::abs(a.lambda - truth.lambda) < std::abs(b.lambda - truth.lambda);
+        });
     EXPECT_LT(std::abs(nearest->lambda - truth.lambda), 1e-6);
     EXPECT_GT(mac(nearest->shape, truth.shape), 1.0 - 1e-6);
   }

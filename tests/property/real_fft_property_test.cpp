@@ -48,7 +48,8 @@ TEST(RealFftProperty, IsLinear) {
     for (std::size_t t = 0; t < 256; ++t) sum[t] = 2.0 * a.x[t] - 3.0 * b.x[t];
     std::vector<std::complex<double>> spectrum(129);
     fft.forward(sum, spectrum);
-    for (std::size_t k = 0; k < 129; ++k) EXPECT_LT(std::abs(spectrum[k] - (2.0 * a.spectrum[k] - 3.0 * b.spectrum[k])), 1e-11);
+    for (std::size_t k = 0; k < 129; ++k)
+      EXPECT_LT(std::abs(spectrum[k] - (2.0 * a.spectrum[k] - 3.0 * b.spectrum[k])), 1e-11);
   }
 }
 

@@ -33,7 +33,8 @@ class AnalyticTexture {
   }
 
   // The image after the scene moved by (du, dv) px, with white noise of `noise` grey levels.
-  [[nodiscard]] cv::Mat image(int width, int height, double du, double dv, double noise = 0.0, unsigned noise_seed = 0) const {
+  [[nodiscard]] cv::Mat image(int width, int height, double du, double dv, double noise = 0.0,
+                              unsigned noise_seed = 0) const {
     cv::Mat gray(height, width, CV_8UC1);
     std::mt19937 random(noise_seed);
     std::normal_distribution<double> gaussian(0.0, 1.0);

@@ -31,9 +31,9 @@ struct Input {
   std::string source;
   std::string camera = "rate_hz: 25";
   std::string regions = kGoodRegions;
-  std::string rest;                      // further sections
+  std::string rest;  // further sections
   std::vector<std::string> arguments;
-  std::vector<std::string> before;       // a program that starts the service
+  std::vector<std::string> before;  // a program that starts the service
 };
 
 struct BadInput {
@@ -61,17 +61,20 @@ inline Input good(const fs::path& folder) { return clip(folder, 40); }
 // Root may read and write everything unless it gives that right up.
 inline std::vector<std::string> without_file_rights() {
   if (geteuid() != 0) return {};
-  return {"/usr/bin/setpriv", "--bounding-set=-dac_override,-dac_read_search", "--inh-caps=-dac_override,-dac_read_search"};
+  return {"/usr/bin/setpriv", "--bounding-set=-dac_override,-dac_read_search",
+          "--inh-caps=-dac_override,-dac_read_search"};
 }
 
 inline std::string configuration(const Input& input) {
-  return "camera: {source: '" + input.source + "', " + input.camera + "}\nregions: " + input.regions + "\n" + input.rest +
-         "spectrum: {segment: 32}\ntelemetry: {lcm_url: ''}\n";
+  return "camera: {source: '" + input.source + "', " + input.camera + "}\nregions: " + input.regions + "\n" +
+         input.rest + "spectrum: {segment: 32}\ntelemetry: {lcm_url: ''}\n";
 }
 
 inline bool has_word(const std::string& text, const std::string& word) {
   for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
-    const auto is_letter = [&](std::size_t i) { return i < text.size() && std::isalpha(static_cast<unsigned char>(text[i])) != 0; };
+    const auto is_letter = [&](std::size_t i) {
+      return i < text.size() && std::isalpha(static_cast<unsigned char>(text[i])) != 0;
+    };
     if (!is_letter(at + word.size()) && (at == 0 || !is_letter(at - 1))) return true;
   }
   return false;
@@ -83,7 +86,8 @@ inline void expect_no_nan(const fs::path& folder) {
     const auto extension = file.path().extension();
     if (extension != ".json" && extension != ".csv") continue;
     const std::string text = file_text(file.path());
-    for (const char* word : {"nan", "NaN", "inf", "Infinity"}) EXPECT_FALSE(has_word(text, word)) << file.path() << ": " << word;
+    for (const char* word : {"nan", "NaN", "inf", "Infinity"})
+      EXPECT_FALSE(has_word(text, word)) << file.path() << ": " << word;
     EXPECT_TRUE(extension == ".csv" || json_of(file.path()).is_object()) << file.path();
   }
 }
@@ -95,8 +99,10 @@ inline void expect_as_told(const BadInput& row) {
     if (program.front() == '/' && !fs::exists(program)) GTEST_SKIP() << "needs " << program << " (util-linux)";
   }
   write_text_file(folder / "config.yaml", configuration(input));
-  std::vector<std::string> arguments{"--config", (folder / "config.yaml").string(), "--report", (folder / "report").string()};
-  if (std::find(input.arguments.begin(), input.arguments.end(), "--report") != input.arguments.end()) arguments.resize(2);
+  std::vector<std::string> arguments{"--config", (folder / "config.yaml").string(), "--report",
+                                     (folder / "report").string()};
+  if (std::find(input.arguments.begin(), input.arguments.end(), "--report") != input.arguments.end())
+    arguments.resize(2);
   arguments.insert(arguments.end(), input.arguments.begin(), input.arguments.end());
   const ServiceRun run = run_service(arguments, input.before, 60);
   EXPECT_EQ(run.code, row.code) << run.output;

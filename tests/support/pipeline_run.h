@@ -77,9 +77,10 @@ inline bool runs_to_its_end(app::Pipeline& pipeline, std::chrono::seconds patien
 }
 
 inline bool is_finite(const core::Mode& mode) {
-  bool finite = std::isfinite(mode.frequency_hz) && std::isfinite(mode.apparent_hz) && std::isfinite(mode.damping_ratio) &&
-                std::isfinite(mode.mpc) && std::isfinite(mode.presence);
-  for (const std::complex<double>& x : mode.shape) finite = finite && std::isfinite(x.real()) && std::isfinite(x.imag());
+  bool finite = std::isfinite(mode.frequency_hz) && std::isfinite(mode.apparent_hz) &&
+                std::isfinite(mode.damping_ratio) && std::isfinite(mode.mpc) && std::isfinite(mode.presence);
+  for (const std::complex<double>& x : mode.shape)
+    finite = finite && std::isfinite(x.real()) && std::isfinite(x.imag());
   return finite;
 }
 

@@ -49,7 +49,8 @@ struct PlateView {
         for (int pass = 0; pass < 6; ++pass) {  // the row decides the time, and the time the row
           const double t = t_s + readout_s * v / kHeight;
           const double z_mm = kDepth * zoom(t);
-          const core::Vector2 raw = camera.distort({camera.cx + kAlpha * (x_mm + plate(r, t)) / z_mm, camera.cy + kAlpha * y_mm / z_mm});
+          const core::Vector2 raw =
+              camera.distort({camera.cx + kAlpha * (x_mm + plate(r, t)) / z_mm, camera.cy + kAlpha * y_mm / z_mm});
           point.u_px = raw.u;
           point.v_px = v = raw.v;
         }

@@ -16,8 +16,8 @@ namespace test_support {
 // One complex pole pair per mode; shapes are complex and random.
 struct RandomSystem {
   struct Pole {
-    std::complex<double> lambda;                // discrete, upper half plane
-    std::vector<std::complex<double>> shape;    // per channel
+    std::complex<double> lambda;              // discrete, upper half plane
+    std::vector<std::complex<double>> shape;  // per channel
   };
 
   std::vector<Pole> poles;  // by rising frequency
@@ -42,7 +42,8 @@ struct RandomSystem {
     for (int m = 0; m < n_modes; ++m) {
       // Eigenvector of the 2 x 2 block to lambda: (1, i).
       for (int c = 0; c < n_channels; ++c) {
-        poles[static_cast<std::size_t>(m)].shape.push_back(C(c, 2 * m) + std::complex<double>(0.0, 1.0) * C(c, 2 * m + 1));
+        poles[static_cast<std::size_t>(m)].shape.push_back(C(c, 2 * m) +
+                                                           std::complex<double>(0.0, 1.0) * C(c, 2 * m + 1));
       }
     }
     P = stationary_covariance(random);

@@ -18,15 +18,15 @@ namespace tests {
 
 // What a camera does to its user. Frames are counted at the source, lost ones included.
 struct CameraScript {
-  std::uint64_t n_frames = 0;                      // then the stream ends
-  bool lossless = true;                            // false: does not wait for us
+  std::uint64_t n_frames = 0;  // then the stream ends
+  bool lossless = true;        // false: does not wait for us
   bool knows_length = true;
-  std::optional<std::uint64_t> fault_at;           // this frame never comes
-  std::optional<std::uint64_t> silent_before;      // ... comes late: n_timeouts first
+  std::optional<std::uint64_t> fault_at;       // this frame never comes
+  std::optional<std::uint64_t> silent_before;  // ... comes late: n_timeouts first
   int n_timeouts = 0;
-  std::chrono::microseconds frame_time{0};         // slept in each capture
-  std::function<bool(std::uint64_t)> is_lost;      // the source skips it
-  std::function<bool(std::uint64_t)> is_dark;      // all pixels 0
+  std::chrono::microseconds frame_time{0};             // slept in each capture
+  std::function<bool(std::uint64_t)> is_lost;          // the source skips it
+  std::function<bool(std::uint64_t)> is_dark;          // all pixels 0
   std::function<std::int64_t(std::uint64_t)> time_ns;  // default: frame / rate
 };
 
@@ -76,8 +76,8 @@ class ScriptedCamera : public drivers::Camera {
       std::copy(pixels.begin(), pixels.end(), out.pixels.begin());
     }
     out.sequence = next_;
-    out.t_start_ns = script_.time_ns ? script_.time_ns(next_)
-                                     : std::llround(static_cast<double>(next_) / info_.rate_hz * 1e9);
+    out.t_start_ns =
+        script_.time_ns ? script_.time_ns(next_) : std::llround(static_cast<double>(next_) / info_.rate_hz * 1e9);
     out.exposure_ns = info_.exposure_ns;
     out.gap_before = gap;
     out.width_px = info_.width_px;

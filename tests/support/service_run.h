@@ -25,7 +25,8 @@ struct ServiceRun {
 };
 
 // hovermodald to its end; `before` is a program with arguments that starts it in its stead, e.g. prlimit.
-inline ServiceRun run_service(const std::vector<std::string>& arguments, std::vector<std::string> before = {}, int patience_s = 90) {
+inline ServiceRun run_service(const std::vector<std::string>& arguments, std::vector<std::string> before = {},
+                              int patience_s = 90) {
   before.emplace_back(kService);
   before.insert(before.end(), arguments.begin(), arguments.end());
   ChildProcess child(before);

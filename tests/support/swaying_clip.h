@@ -18,7 +18,8 @@ inline cv::Mat swaying_image(int frame, int width_px = 128, int height_px = 96) 
   random.fill(texture, cv::RNG::NORMAL, 0.0, 1.0);
   cv::GaussianBlur(texture, still, {}, 2.0);
   const double t_s = frame / 25.0;
-  const double u = 1.5 * std::sin(2.0 * std::numbers::pi * 3.0 * t_s) + 0.4 * std::sin(2.0 * std::numbers::pi * 1.1 * t_s);
+  const double u =
+      1.5 * std::sin(2.0 * std::numbers::pi * 3.0 * t_s) + 0.4 * std::sin(2.0 * std::numbers::pi * 1.1 * t_s);
   const cv::Matx23d shift(1.0, 0.0, u - 20.0, 0.0, 1.0, -20.0);
   cv::warpAffine(still, shifted, shift, {width_px, height_px}, cv::INTER_CUBIC);
   shifted.convertTo(image, CV_8UC1, 250.0, 128.0);
@@ -27,7 +28,8 @@ inline cv::Mat swaying_image(int frame, int width_px = 128, int height_px = 96) 
 
 inline void write_swaying_clip(const std::filesystem::path& path, int n_frames, double rate_hz = 25.0) {
   const std::string extension = path.extension().string();
-  const int codec = extension == ".mp4" ? cv::VideoWriter::fourcc('m', 'p', '4', 'v') : cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
+  const int codec =
+      extension == ".mp4" ? cv::VideoWriter::fourcc('m', 'p', '4', 'v') : cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
   cv::VideoWriter writer(path.string(), cv::CAP_FFMPEG, codec, rate_hz, {128, 96});
   if (!writer.isOpened()) throw std::runtime_error("cannot write " + path.string());
   for (int frame = 0; frame < n_frames; ++frame) {

@@ -81,20 +81,26 @@ void print_header(bool with_truth, bool with_paper) {
   fmt::print("\n");
 }
 
+// Modes are numbered by the truth where it is given, else by the reference.
 void print_table(const app::ModalReport& result, const app::ModalReport& reference, const app::ModalReport* truth, bool with_paper) {
   const std::vector<std::string> names = common_channels(result, reference);
   print_header(truth != nullptr, with_paper);
   std::size_t number = 0;
-  for (const core::Mode& wanted : reference.estimate.modes) {
-    const Match match = find(result, wanted, names, shape_for(reference, wanted, names));
+  for (const core::Mode& numbered : (truth != nullptr ? *truth : reference).estimate.modes) {
     const PaperMode* paper = with_paper && number < kPaperTable1.size() ? &kPaperTable1[number] : nullptr;
     ++number;
-    if (match.mode == nullptr) {
-      fmt::print("{:4} {:>10} {:10.4f}\n", number, "not found", wanted.frequency_hz);
+    const Shape true_shape = truth != nullptr ? shape_for(*truth, numbered, names) : shape_for(reference, numbered, names);
+    const core::Mode* wanted = truth != nullptr ? find(reference, numbered, names, true_shape).mode : &numbered;
+    const Match match = wanted != nullptr ? find(result, *wanted, names, shape_for(reference, *wanted, names))
+                                          : find(result, numbered, names, true_shape);
+    if (match.mode == nullptr || wanted == nullptr) {
+      const bool folded = numbered.frequency_hz > reference.estimate.rate_hz / 2.0;
+      fmt::print("{:4} {:>10} {:>10}\n", number, match.mode == nullptr ? (folded ? "folded" : "not found") : fmt::format("{:.4f}", match.mode->frequency_hz),
+                 wanted == nullptr ? "not found" : fmt::format("{:.4f}", wanted->frequency_hz));
       continue;
     }
-    fmt::print("{:4} {:10.4f} {:10.4f} {:+8.3f} {:8.3f}", number, match.mode->frequency_hz, wanted.frequency_hz,
-               100.0 * (match.mode->frequency_hz / wanted.frequency_hz - 1.0), 100.0 * match.mac);
+    fmt::print("{:4} {:10.4f} {:10.4f} {:+8.3f} {:8.3f}", number, match.mode->frequency_hz, wanted->frequency_hz,
+               100.0 * (match.mode->frequency_hz / wanted->frequency_hz - 1.0), 100.0 * match.mac);
     if (truth != nullptr) fmt::print("{}", truth_columns(*truth, *match.mode, result.estimate.duration_s));
     if (paper != nullptr) {
       fmt::print("   {:14.3f} {:8.3f} {:8.2f} {:6.2f}", paper->drone_hz, paper->accelerometer_hz, paper->error_percent, paper->mac_percent);

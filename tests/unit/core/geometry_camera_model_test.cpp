@@ -35,8 +35,10 @@ TEST(CameraModel, DistortsByBrownsFormula) {
 }
 
 TEST(CameraModel, UndistortUndoesDistort) {
-  const std::array<double, 5> lenses[] = {
-      {0.0, 0.0, 0.0, 0.0, 0.0}, {-0.35, 0.12, 0.001, -0.002, 0.0}, {0.2, -0.1, -0.001, 0.002, 0.05}, {-0.4, 0.2, 0.0, 0.0, -0.05}};
+  const std::array<double, 5> lenses[] = {{0.0, 0.0, 0.0, 0.0, 0.0},
+                                          {-0.35, 0.12, 0.001, -0.002, 0.0},
+                                          {0.2, -0.1, -0.001, 0.002, 0.05},
+                                          {-0.4, 0.2, 0.0, 0.0, -0.05}};
   for (const auto& lens : lenses) {
     const CameraModel model = camera(lens);
     for (double u = 0.0; u <= 1920.0; u += 240.0) {

@@ -16,7 +16,8 @@ using test_support::PlateView;
 double at_rest(std::size_t, double) { return 0.0; }
 double no_zoom(double) { return 1.0; }
 double sway(std::size_t r, double t) {
-  return 4.0 * static_cast<double>(r + 1) * (std::cos(2.0 * std::numbers::pi * 1.7 * t + static_cast<double>(r)) - std::cos(static_cast<double>(r)));
+  return 4.0 * static_cast<double>(r + 1) *
+         (std::cos(2.0 * std::numbers::pi * 1.7 * t + static_cast<double>(r)) - std::cos(static_cast<double>(r)));
 }
 double drift(double t) { return 1.0 + 0.02 * std::sin(2.0 * std::numbers::pi * 0.2 * t); }
 
@@ -67,7 +68,8 @@ TEST(ChannelDisplacement, StatesTheDelayOfEachRowAndLeavesTheSampleThere) {
     const double v_mean = 236.0 + 0.5 * (view.plate_y_mm[r] - 40.0 + 80.0 * 7.5 / 16.0);
     EXPECT_NEAR(measure.channels.channels()[r].row_delay_s, 0.03 * v_mean / 480.0, 1e-12);
   }
-  TrackFrame tracks = view.frame(0.48, [](std::size_t, double t) { return 50.0 * t; }, no_zoom);
+  TrackFrame tracks = view.frame(
+      0.48, [](std::size_t, double t) { return 50.0 * t; }, no_zoom);
   const DisplacementSample& sample = measure(tracks);
   for (std::size_t r = 0; r < 3; ++r) {
     // Not exact: rows of one plate are seen apart, and their shear reads as a trace of magnification.
@@ -110,7 +112,8 @@ TEST(ChannelDisplacement, OutliersAreMarkedAndLeftOut) {
   for (const std::size_t wild : {3U, 20U, 21U}) tracks.points[wild].u_px += 9.0;
   const DisplacementSample& sample = measure(tracks);
   for (std::size_t r = 0; r < 3; ++r) EXPECT_NEAR(sample.value_mm[r], sway(r, 0.2), 1e-9);
-  for (std::size_t i = 0; i < tracks.points.size(); ++i) EXPECT_EQ(tracks.points[i].inlier, i != 3 && i != 20 && i != 21) << i;
+  for (std::size_t i = 0; i < tracks.points.size(); ++i)
+    EXPECT_EQ(tracks.points[i].inlier, i != 3 && i != 20 && i != 21) << i;
 }
 
 TEST(ChannelDisplacement, AFrameWithoutAPointHasNoSampleAndNoNaN) {
@@ -171,7 +174,8 @@ TEST(ChannelDisplacement, WithoutAdaptiveScaleZoomIsTakenForMotion) {
   ChannelDisplacementConfig config = PlateView().config();
   config.adaptive_scale = false;
   Measured measure(config, PlateView().frame(0.0, at_rest, no_zoom));
-  TrackFrame tracks = PlateView().frame(0.04, [](std::size_t, double) { return 3.0; }, no_zoom);
+  TrackFrame tracks = PlateView().frame(
+      0.04, [](std::size_t, double) { return 3.0; }, no_zoom);
   EXPECT_NEAR(measure(tracks).value_mm[1], 3.0, 1e-9);
   EXPECT_EQ(measure.sample.scale_mm_per_px, 2.0);
 }
@@ -197,7 +201,8 @@ TEST(ChannelDisplacementPaper, MovesSamplesToRowZeroAssumingAFullFrameOfReadout)
       }
     }
   }
-  EXPECT_NEAR(begin_mm[2] - begin_mm[0], -30.0 / view.rate_hz * (600.0 / 2.0) / 480.0, 1e-6) << "the keyframe keeps its own delay";
+  EXPECT_NEAR(begin_mm[2] - begin_mm[0], -30.0 / view.rate_hz * (600.0 / 2.0) / 480.0, 1e-6)
+      << "the keyframe keeps its own delay";
 }
 
 // With half the readout the paper's assumption corrects twice too much; ours states the true delay.
@@ -217,7 +222,8 @@ TEST(ChannelDisplacementPaper, OvercorrectsWhenTheReadoutIsShorterThanTheFrame) 
     const double t = k / view.rate_hz;
     TrackFrame tracks = view.frame(t, wave, no_zoom);
     paper_error = std::max(paper_error, std::abs(paper(tracks).value_mm[2] - wave(2, t)));
-    ours_error = std::max(ours_error, std::abs(ours(tracks).value_mm[2] - wave(2, t + ours.channels.channels()[2].row_delay_s)));
+    ours_error =
+        std::max(ours_error, std::abs(ours(tracks).value_mm[2] - wave(2, t + ours.channels.channels()[2].row_delay_s)));
   }
   EXPECT_GT(paper_error, 0.5);
   EXPECT_LT(ours_error, 0.02) << "what is left is the spread of rows inside the region";

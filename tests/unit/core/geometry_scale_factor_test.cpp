@@ -26,7 +26,8 @@ std::vector<ScaleFactor::Point> floors_and_background() {
 }
 
 // The image after the floors moved by `floor_px` (keyframe px) along u and the camera magnified by b and shifted.
-std::vector<Vector2> seen(const std::vector<ScaleFactor::Point>& points, double b, double background_b, const double (&floor_px)[3]) {
+std::vector<Vector2> seen(const std::vector<ScaleFactor::Point>& points, double b, double background_b,
+                          const double (&floor_px)[3]) {
   std::vector<Vector2> position;
   for (const ScaleFactor::Point& p : points) {
     const double motion = p.region < 3 ? floor_px[p.region] : 0.0;

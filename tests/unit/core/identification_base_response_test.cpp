@@ -22,7 +22,8 @@ CpsdSums spectra(int base_channel, Gain gain, Power base_power) {
       for (int j = i; j < 3; ++j) {
         const double gi = i == base_channel ? 1.0 : gain(f) * (i == 2 ? 0.5 : 1.0);
         const double gj = j == base_channel ? 1.0 : gain(f) * (j == 2 ? 0.5 : 1.0);
-        sums.data_sum[static_cast<std::size_t>(k * sums.n_pairs() + CpsdSums::pair_index(i, j, 3))] = gi * gj * base_power(f);
+        sums.data_sum[static_cast<std::size_t>(k * sums.n_pairs() + CpsdSums::pair_index(i, j, 3))] =
+            gi * gj * base_power(f);
       }
     }
   }

@@ -14,13 +14,16 @@ Correlations numbered() {
   Correlations correlations(3, 12);
   for (int i = 0; i < 3; ++i) {
     for (int j = i; j < 3; ++j) {
-      for (int lag = -12; lag <= 12; ++lag) correlations.set(i, j, lag, 100.0 * i + 10.0 * j + lag / 8.0, -(100.0 * i + 10.0 * j + lag / 8.0));
+      for (int lag = -12; lag <= 12; ++lag)
+        correlations.set(i, j, lag, 100.0 * i + 10.0 * j + lag / 8.0, -(100.0 * i + 10.0 * j + lag / 8.0));
     }
   }
   return correlations;
 }
 
-double expected(int i, int j, int lag) { return i <= j ? 100.0 * i + 10.0 * j + lag / 8.0 : 100.0 * j + 10.0 * i - lag / 8.0; }
+double expected(int i, int j, int lag) {
+  return i <= j ? 100.0 * i + 10.0 * j + lag / 8.0 : 100.0 * j + 10.0 * i - lag / 8.0;
+}
 
 TEST(BlockHankel, HoldsLagsFromTheFirstOnOutputsByReferences) {
   const std::vector<int> references{2, 0};
@@ -51,7 +54,8 @@ TEST(BlockToeplitz, HoldsTheUndividedLagsInFutureAndPastOrder) {
         for (int i = 0; i < 2; ++i) {
           for (int j = 0; j < 2; ++j) {
             const int ci = channels[static_cast<std::size_t>(i)], cj = channels[static_cast<std::size_t>(j)];
-            EXPECT_DOUBLE_EQ(t(2 * a + i, 2 * b + j), -expected(ci, cj, past ? b - a : a - b) / (scale[ci] * scale[cj]));
+            EXPECT_DOUBLE_EQ(t(2 * a + i, 2 * b + j),
+                             -expected(ci, cj, past ? b - a : a - b) / (scale[ci] * scale[cj]));
           }
         }
       }

@@ -20,7 +20,8 @@ Record noise(int n_channels, int n, unsigned seed, double loss) {
   std::mt19937 random(seed);
   std::normal_distribution<double> gaussian;
   std::uniform_real_distribution<double> unit;
-  Record record{std::vector<std::vector<double>>(static_cast<std::size_t>(n_channels)), std::vector<std::vector<std::uint8_t>>(static_cast<std::size_t>(n_channels))};
+  Record record{std::vector<std::vector<double>>(static_cast<std::size_t>(n_channels)),
+                std::vector<std::vector<std::uint8_t>>(static_cast<std::size_t>(n_channels))};
   for (std::size_t c = 0; c < record.x.size(); ++c) {
     for (int t = 0; t < n; ++t) {
       record.x[c].push_back(gaussian(random));
@@ -73,7 +74,8 @@ TEST(Correlations, OfOneSegmentIsTheAverageOverSeenPairs) {
           sum += (record.x[i][later] - mean[i]) * (record.x[j][now] - mean[j]);
           count += 1.0;
         }
-        EXPECT_NEAR(correlations.divided(static_cast<int>(i), static_cast<int>(j), lag), sum / count, 1e-12) << i << j << " lag " << lag;
+        EXPECT_NEAR(correlations.divided(static_cast<int>(i), static_cast<int>(j), lag), sum / count, 1e-12)
+            << i << j << " lag " << lag;
       }
     }
   }
@@ -91,7 +93,8 @@ TEST(Correlations, AreMirroredBetweenThePairsOrders) {
 
 TEST(Correlations, DividedAndUndividedAgreeAtLagZeroOfAChannel) {
   Correlations correlations;
-  ASSERT_EQ(compute_correlations(welch(noise(2, 300, 5, 0.3), 64, WindowKind::kHann, 0.5), 10, 0, correlations), CorrelationStatus::kOk);
+  ASSERT_EQ(compute_correlations(welch(noise(2, 300, 5, 0.3), 64, WindowKind::kHann, 0.5), 10, 0, correlations),
+            CorrelationStatus::kOk);
   for (int c = 0; c < 2; ++c) EXPECT_DOUBLE_EQ(correlations.divided(c, c, 0), correlations.undivided(c, c, 0));
 }
 
@@ -103,7 +106,8 @@ TEST(Correlations, DifferencesOnTheSpectrumAreThoseOfTheUndividedLags) {
   ASSERT_EQ(compute_correlations(sums, 20, 1, differenced), CorrelationStatus::kOk);
   for (int lag = -20; lag <= 20; ++lag) {
     EXPECT_NEAR(differenced.undivided(0, 1, lag),
-                2.0 * plain.undivided(0, 1, lag) - plain.undivided(0, 1, lag - 1) - plain.undivided(0, 1, lag + 1), 1e-12);
+                2.0 * plain.undivided(0, 1, lag) - plain.undivided(0, 1, lag - 1) - plain.undivided(0, 1, lag + 1),
+                1e-12);
   }
 }
 
@@ -116,7 +120,8 @@ TEST(Correlations, NeverReachBeyondHalfTheTransform) {
 TEST(Correlations, SayWhyThereAreNone) {
   Correlations out;
   EXPECT_EQ(compute_correlations(welch(noise(1, 10, 1, 0.0), 16), 5, 0, out), CorrelationStatus::kNoSegment);
-  EXPECT_EQ(compute_correlations(welch(noise(2, 64, 1, 1.0), 16), 5, 0, out), CorrelationStatus::kNoPower) << "all missing";
+  EXPECT_EQ(compute_correlations(welch(noise(2, 64, 1, 1.0), 16), 5, 0, out), CorrelationStatus::kNoPower)
+      << "all missing";
 
   Record silent = noise(2, 64, 1, 0.0);
   silent.x[1].assign(64, 0.0);
@@ -124,11 +129,13 @@ TEST(Correlations, SayWhyThereAreNone) {
 
   Record constant = noise(2, 640, 1, 0.0);
   constant.x[1].assign(640, 123.456);  // detrending leaves its rounding
-  EXPECT_EQ(compute_correlations(welch(constant, 61, WindowKind::kHann, 0.5), 5, 1, out), CorrelationStatus::kNoPower) << "constant";
+  EXPECT_EQ(compute_correlations(welch(constant, 61, WindowKind::kHann, 0.5), 5, 1, out), CorrelationStatus::kNoPower)
+      << "constant";
 
   Record alternating = noise(1, 320, 1, 0.0);
   for (std::size_t t = 0; t < 320; ++t) alternating.seen[0][t] = t % 2 == 0 ? 1 : 0;
-  EXPECT_EQ(compute_correlations(welch(alternating, 32), 5, 0, out), CorrelationStatus::kTooFewSamples) << "odd lags never seen";
+  EXPECT_EQ(compute_correlations(welch(alternating, 32), 5, 0, out), CorrelationStatus::kTooFewSamples)
+      << "odd lags never seen";
 
   CpsdSums broken = welch(noise(1, 64, 1, 0.0), 16);
   broken.data_sum[3] = std::numeric_limits<double>::quiet_NaN();
@@ -136,7 +143,8 @@ TEST(Correlations, SayWhyThereAreNone) {
   broken.data_sum[3] = std::numeric_limits<double>::infinity();
   EXPECT_EQ(compute_correlations(broken, 5, 0, out), CorrelationStatus::kNotFinite);
 
-  for (const auto status : {CorrelationStatus::kNoSegment, CorrelationStatus::kNotFinite, CorrelationStatus::kNoPower, CorrelationStatus::kTooFewSamples}) {
+  for (const auto status : {CorrelationStatus::kNoSegment, CorrelationStatus::kNotFinite, CorrelationStatus::kNoPower,
+                            CorrelationStatus::kTooFewSamples}) {
     EXPECT_GT(std::string(to_string(status)).size(), 10U);
   }
 }

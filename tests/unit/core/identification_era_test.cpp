@@ -44,7 +44,8 @@ TEST(Era, ShapesAreInChannelUnits) {
   for (const DiscretePole& pole : poles_of_order(realisation, 4)) {
     for (const RandomSystem::Pole& truth : system.poles) {
       if (std::abs(pole.lambda - truth.lambda) > 1e-6) continue;
-      EXPECT_NEAR(std::abs(pole.shape[1] / pole.shape[0]), 1000.0 * std::abs(truth.shape[1] / truth.shape[0]), 1e-3 * 1000.0);
+      EXPECT_NEAR(std::abs(pole.shape[1] / pole.shape[0]), 1000.0 * std::abs(truth.shape[1] / truth.shape[0]),
+                  1e-3 * 1000.0);
     }
   }
 }

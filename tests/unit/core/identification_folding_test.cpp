@@ -18,7 +18,8 @@ const std::vector<Complex> kShape{0.3, 0.7, 1.0, -0.4, -0.9, 0.5};
 
 FoldingConfig seven_rows(double readout_s, double max_frequency_hz) {
   FoldingConfig config{kRate, max_frequency_hz, {}};
-  for (std::size_t c = 0; c < kShape.size(); ++c) config.delay_s.push_back(readout_s * (0.1 + 0.15 * static_cast<double>(c)));
+  for (std::size_t c = 0; c < kShape.size(); ++c)
+    config.delay_s.push_back(readout_s * (0.1 + 0.15 * static_cast<double>(c)));
   return config;
 }
 
@@ -45,7 +46,8 @@ TEST(Folding, RecoversEveryFold) {
   const struct {
     double true_hz, apparent_hz;
     int n;
-  } cases[] = {{3.0, 3.0, 0}, {12.93, 12.07, -1}, {14.34, 10.66, -1}, {27.0, 2.0, 1}, {36.0, 11.0, 1}, {40.0, 10.0, -2}, {55.0, 5.0, 2}};
+  } cases[] = {{3.0, 3.0, 0},   {12.93, 12.07, -1}, {14.34, 10.66, -1}, {27.0, 2.0, 1},
+               {36.0, 11.0, 1}, {40.0, 10.0, -2},   {55.0, 5.0, 2}};
   for (const auto& c : cases) {
     const Seen seen = observe(c.true_hz, config.delay_s);
     const UnfoldedPole pole = unfold(seen.lambda, seen.shape, config);

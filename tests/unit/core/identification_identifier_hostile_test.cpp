@@ -46,8 +46,8 @@ void expect_all_finite(const ModalEstimate& estimate) {
   EXPECT_TRUE(std::isfinite(estimate.duration_s) && std::isfinite(estimate.rate_hz));
   for (const auto* list : {&estimate.modes, &estimate.rejected}) {
     for (const Mode& mode : *list) {
-      EXPECT_TRUE(std::isfinite(mode.frequency_hz) && std::isfinite(mode.apparent_hz) && std::isfinite(mode.damping_ratio) &&
-                  std::isfinite(mode.mpc) && std::isfinite(mode.presence))
+      EXPECT_TRUE(std::isfinite(mode.frequency_hz) && std::isfinite(mode.apparent_hz) &&
+                  std::isfinite(mode.damping_ratio) && std::isfinite(mode.mpc) && std::isfinite(mode.presence))
           << mode.reason;
       EXPECT_TRUE(std::isfinite(mode.frequency_std_hz.value_or(0.0)) && std::isfinite(mode.damping_std.value_or(0.0)) &&
                   std::isfinite(mode.fold_margin.value_or(0.0)));
@@ -115,7 +115,8 @@ TEST(IdentifierHostile, WhiteNoiseHasNoStructuralMode) {
 }
 
 TEST(IdentifierHostile, OneChannel) {
-  const ModalEstimate estimate = identify(spectra({1, 3000, 256}, [](int, int t) { return noise(0, t) + std::sin(0.8 * t); }));
+  const ModalEstimate estimate =
+      identify(spectra({1, 3000, 256}, [](int, int t) { return noise(0, t) + std::sin(0.8 * t); }));
   EXPECT_EQ(estimate.status, "ok");
 }
 

@@ -18,7 +18,9 @@ const Mode* find(const ModalEstimate& estimate, double frequency_hz) {
   const Mode* nearest = nullptr;
   for (const Mode& mode : estimate.modes) {
     if (std::abs(mode.frequency_hz - frequency_hz) > 0.15) continue;
-    if (nearest == nullptr || std::abs(mode.frequency_hz - frequency_hz) < std::abs(nearest->frequency_hz - frequency_hz)) nearest = &mode;
+    if (nearest == nullptr ||
+        std::abs(mode.frequency_hz - frequency_hz) < std::abs(nearest->frequency_hz - frequency_hz))
+      nearest = &mode;
   }
   return nearest;
 }
@@ -48,7 +50,9 @@ TEST(Identifier, FindsTheModesOfASixStoreyFrameNearTheTheoreticalScatter) {
     EXPECT_NEAR(estimate.duration_s, 300.0, 1e-9);
     for (const Mode& mode : estimate.modes) {  // nothing is called structural that is none
       const std::size_t r = nearest_true_mode(structure, mode.frequency_hz);
-      EXPECT_LT(std::abs(mode.frequency_hz - structure.scene.structure.frequency_hz[r]), 3.0 * structure.frequency_scatter_hz(r)) << mode.frequency_hz;
+      EXPECT_LT(std::abs(mode.frequency_hz - structure.scene.structure.frequency_hz[r]),
+                3.0 * structure.frequency_scatter_hz(r))
+          << mode.frequency_hz;
     }
     for (std::size_t r = 0; r < 4; ++r) {  // the upper two are weak: whether they show is a matter of tuning
       const Mode* mode = find(estimate, structure.scene.structure.frequency_hz[r]);
@@ -76,7 +80,9 @@ TEST(Identifier, UnfoldsModesAboveHalfTheRateByTheirRowDelays) {
     ASSERT_EQ(estimate.status, "ok");
     for (const Mode& mode : estimate.modes) {
       const std::size_t r = nearest_true_mode(structure, mode.frequency_hz);
-      EXPECT_LT(std::abs(mode.frequency_hz - structure.scene.structure.frequency_hz[r]), 3.0 * structure.frequency_scatter_hz(r)) << mode.frequency_hz;
+      EXPECT_LT(std::abs(mode.frequency_hz - structure.scene.structure.frequency_hz[r]),
+                3.0 * structure.frequency_scatter_hz(r))
+          << mode.frequency_hz;
     }
     const Mode* fifth = find(estimate, structure.scene.structure.frequency_hz[4]);
     if (fifth == nullptr) continue;

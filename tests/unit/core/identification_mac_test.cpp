@@ -22,9 +22,7 @@ TEST(Mac, IsZeroForOrthogonalAndForZeroShapes) {
   EXPECT_EQ(mac(Shape{}, Shape{}), 0.0);
 }
 
-TEST(Mac, IsTheSquaredCosine) {
-  EXPECT_NEAR(mac(Shape{1.0, 0.0}, Shape{1.0, 1.0}), 0.5, 1e-15);
-}
+TEST(Mac, IsTheSquaredCosine) { EXPECT_NEAR(mac(Shape{1.0, 0.0}, Shape{1.0, 1.0}), 0.5, 1e-15); }
 
 TEST(Mpc, IsOneOnALineThroughTheOriginAtAnyAngle) {
   Shape shape{1.0, -0.4, 0.7};

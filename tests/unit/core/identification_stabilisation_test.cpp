@@ -40,8 +40,9 @@ TEST(Stabilisation, PutsPolesOfDifferentOrdersIntoOneColumn) {
 }
 
 TEST(Stabilisation, CountsTheOrdersInWhichAPoleWasFound) {
-  const std::vector<PoleCluster> clusters =
-      cluster_poles({pole(3, 2.0, 0.01, kFirst), pole(5, 2.0, 0.01, kFirst), pole(5, 2.001, 0.01, kFirst), pole(7, 2.0, 0.01, kFirst)}, 12);
+  const std::vector<PoleCluster> clusters = cluster_poles({pole(3, 2.0, 0.01, kFirst), pole(5, 2.0, 0.01, kFirst),
+                                                           pole(5, 2.001, 0.01, kFirst), pole(7, 2.0, 0.01, kFirst)},
+                                                          12);
   ASSERT_EQ(clusters.size(), 1U);
   EXPECT_EQ(clusters[0].presence, 3.0 / 12.0) << "two poles of one order count once";
   EXPECT_EQ(clusters[0].first_i_order, 3);

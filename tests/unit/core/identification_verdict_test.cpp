@@ -172,7 +172,8 @@ TEST(Twins, ARejectedPoleHasNoTwin) {
 }
 
 TEST(Twins, OfTripletsOneIsLeft) {
-  std::vector<Mode> modes{structural(3.0, 0.9, 0.99, {0.4, 1.0}), structural(3.05, 1.0, 0.99, {0.4, 1.0}), structural(3.1, 0.95, 0.99, {0.4, 1.0})};
+  std::vector<Mode> modes{structural(3.0, 0.9, 0.99, {0.4, 1.0}), structural(3.05, 1.0, 0.99, {0.4, 1.0}),
+                          structural(3.1, 0.95, 0.99, {0.4, 1.0})};
   reject_twins(modes);
   EXPECT_EQ(modes[1].verdict, Verdict::kStructural);
   EXPECT_EQ(modes[0].verdict, Verdict::kNumerical);

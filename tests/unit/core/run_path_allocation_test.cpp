@@ -70,7 +70,8 @@ TrackFrame grid_of_points(std::uint16_t n_regions, int per_side) {
 TEST(RunPathAllocation, ChannelDisplacementUpdateAllocatesNothing) {
   for (const bool paper : {false, true}) {
     ChannelDisplacementConfig config;
-    for (const char* name : {"base", "floor", "roof"}) config.regions.push_back({name, 0, 0, 1, 1, RegionRole::kStructure, 0.0, false});
+    for (const char* name : {"base", "floor", "roof"})
+      config.regions.push_back({name, 0, 0, 1, 1, RegionRole::kStructure, 0.0, false});
     config.readout = {0.02, ReadoutDirection::kDown, 640, 480};
     config.rate_hz = 25.0;
     config.paper_method = paper;

@@ -122,7 +122,8 @@ TEST(WelchCpsd, FlushEqualsARestThatWasMissing) {
 TEST(WelchCpsd, ForgetsAConstant) {
   WelchCpsd welch(config_of(1, 32, 0.5));
   for (int t = 0; t < 100; ++t) {
-    welch.push(std::vector<double>{t % 7 == 0 ? 0.0 : 512.0}, std::vector<std::uint8_t>{static_cast<std::uint8_t>(t % 7 == 0 ? 0 : 1)});
+    welch.push(std::vector<double>{t % 7 == 0 ? 0.0 : 512.0},
+               std::vector<std::uint8_t>{static_cast<std::uint8_t>(t % 7 == 0 ? 0 : 1)});
   }
   for (const auto& z : welch.sums().data_sum) EXPECT_LT(std::abs(z), 1e-18);
 }
@@ -153,8 +154,11 @@ TEST(WelchCpsd, RefusesWhatCannotBeASpectrumAndSaysWhy) {
   no_rate.rate_hz = std::numeric_limits<double>::quiet_NaN();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(refusal(config_of(0, 8, 0.5)).find("channel"), std::string::npos);
-  for (const int segment : {-5, 0, 3}) EXPECT_NE(refusal(config_of(1, segment, 0.5)).find("segment"), std::string::npos) << refusal(config_of(1, segment, 0.5));
-  for (const double overlap : {-0.1, 1.0, nan}) EXPECT_NE(refusal(config_of(1, 8, overlap)).find("overlap"), std::string::npos);
+  for (const int segment : {-5, 0, 3})
+    EXPECT_NE(refusal(config_of(1, segment, 0.5)).find("segment"), std::string::npos)
+        << refusal(config_of(1, segment, 0.5));
+  for (const double overlap : {-0.1, 1.0, nan})
+    EXPECT_NE(refusal(config_of(1, 8, overlap)).find("overlap"), std::string::npos);
   EXPECT_NE(refusal(no_rate).find("rate"), std::string::npos);
 }
 

@@ -7,7 +7,8 @@ namespace {
 
 TEST(Window, HannIsPeriodic) {
   const std::vector<double> w = make_window(WindowKind::kHann, 8);
-  const std::vector<double> expected{0.0, 0.14644660940672624, 0.5, 0.8535533905932737, 1.0, 0.8535533905932737, 0.5, 0.14644660940672624};
+  const std::vector<double> expected{0.0, 0.14644660940672624, 0.5, 0.8535533905932737,
+                                     1.0, 0.8535533905932737,  0.5, 0.14644660940672624};
   ASSERT_EQ(w.size(), 8U);
   for (std::size_t t = 0; t < 8; ++t) EXPECT_NEAR(w[t], expected[t], 1e-15);
 }

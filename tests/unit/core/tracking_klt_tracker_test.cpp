@@ -17,7 +17,8 @@ constexpr int kHeight = 180;
 std::vector<cv::Point2f> seed(const cv::Mat& gray, double border_px = 30.0) {
   SeedConfig config;
   config.points_per_region = 25;
-  const Region region{"r", border_px, border_px, kWidth - 2 * border_px, kHeight - 2 * border_px, RegionRole::kStructure, 0.0, false};
+  const Region region{
+      "r", border_px, border_px, kWidth - 2 * border_px, kHeight - 2 * border_px, RegionRole::kStructure, 0.0, false};
   return seed_points(gray, region, config);
 }
 
@@ -86,7 +87,8 @@ TEST(KltTracker, APointWhosePatchWasReplacedIsLostAndTheOthersAreNot) {
   Fixture f;
   cv::Mat image = f.texture.image(kWidth, kHeight, 0.4, 0.2);
   const cv::Point2f hidden = f.points[7];
-  const cv::Rect cover = cv::Rect(cvRound(hidden.x) - 16, cvRound(hidden.y) - 16, 33, 33) & cv::Rect(0, 0, kWidth, kHeight);
+  const cv::Rect cover =
+      cv::Rect(cvRound(hidden.x) - 16, cvRound(hidden.y) - 16, 33, 33) & cv::Rect(0, 0, kWidth, kHeight);
   AnalyticTexture(99).image(kWidth, kHeight, 0.0, 0.0)(cover).copyTo(image(cover));
   ASSERT_TRUE(f.tracker.track(image, f.points, f.out));
   EXPECT_FALSE(f.out[7].seen);
@@ -130,8 +132,8 @@ TEST(KltTracker, APointThatLeavesTheImageIsLost) {
 
 TEST(KltTracker, AnImageOfAnotherKindIsAFailureNotACrash) {
   Fixture f;
-  for (const cv::Mat& image : {cv::Mat(), cv::Mat(kHeight, kWidth, CV_32FC1, cv::Scalar(0)), f.keyframe(cv::Rect(0, 0, 200, 100)),
-                               cv::Mat(1, 1, CV_8UC1, cv::Scalar(0))}) {
+  for (const cv::Mat& image : {cv::Mat(), cv::Mat(kHeight, kWidth, CV_32FC1, cv::Scalar(0)),
+                               f.keyframe(cv::Rect(0, 0, 200, 100)), cv::Mat(1, 1, CV_8UC1, cv::Scalar(0))}) {
     EXPECT_FALSE(f.tracker.track(image, f.points, f.out));
   }
   EXPECT_TRUE(f.tracker.track(f.keyframe, f.points, f.out)) << "and the next good image is tracked again";

@@ -11,7 +11,9 @@ namespace {
 
 using test_support::AnalyticTexture;
 
-Region rect(double u, double v, double width, double height) { return {"r", u, v, width, height, RegionRole::kStructure, 0.0, false}; }
+Region rect(double u, double v, double width, double height) {
+  return {"r", u, v, width, height, RegionRole::kStructure, 0.0, false};
+}
 
 TEST(PointSeeder, KeepsToTheRegionTheCountAndTheDistance) {
   const cv::Mat gray = AnalyticTexture(1).image(320, 240, 0.0, 0.0);
@@ -52,7 +54,8 @@ TEST(PointSeeder, KeepsItsWindowInsideTheImage) {
 TEST(PointSeeder, FindsNothingWhereThereIsNothing) {
   const SeedConfig config;
   EXPECT_TRUE(seed_points(cv::Mat::zeros(200, 200, CV_8UC1), rect(20, 20, 100, 100), config).empty()) << "black";
-  EXPECT_TRUE(seed_points(cv::Mat(200, 200, CV_8UC1, cv::Scalar(255)), rect(20, 20, 100, 100), config).empty()) << "saturated";
+  EXPECT_TRUE(seed_points(cv::Mat(200, 200, CV_8UC1, cv::Scalar(255)), rect(20, 20, 100, 100), config).empty())
+      << "saturated";
   const cv::Mat gray = AnalyticTexture(3).image(200, 200, 0.0, 0.0);
   EXPECT_TRUE(seed_points(gray, rect(300, 300, 50, 50), config).empty()) << "outside";
   EXPECT_TRUE(seed_points(gray, rect(50, 50, 1, 1), config).empty()) << "smaller than a corner";

@@ -36,7 +36,8 @@ cv::Mat plates(double upper_du, double lower_du) {
 StructureTrackerConfig config() {
   StructureTrackerConfig c;
   c.seed.points_per_region = 10;
-  c.regions = {{"roof", 40, 15, 160, 70, RegionRole::kStructure, 0.0, false}, {"base", 40, 115, 160, 70, RegionRole::kBase, 0.0, false}};
+  c.regions = {{"roof", 40, 15, 160, 70, RegionRole::kStructure, 0.0, false},
+               {"base", 40, 115, 160, 70, RegionRole::kBase, 0.0, false}};
   return c;
 }
 

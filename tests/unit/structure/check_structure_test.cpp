@@ -35,14 +35,16 @@ class CheckStructure : public ::testing::Test {
     root_ = fs::path(::testing::TempDir()) / "check_structure" /
             ::testing::UnitTest::GetInstance()->current_test_info()->name();
     fs::remove_all(root_);
-    for (const char* header : {"core/types/frame.h", "core/closure/model.h", "core/simulation/scene.h", "rt/spsc_ring.h",
-                               "rt/clock.h", "rt/stage.h", "drivers/camera/camera.h", "firmware_app/pipeline.h",
-                               "firmware_app/stages/items.h", "tools/hovermodal/commands.h"}) {
+    for (const char* header :
+         {"core/types/frame.h", "core/closure/model.h", "core/simulation/scene.h", "rt/spsc_ring.h", "rt/clock.h",
+          "rt/stage.h", "drivers/camera/camera.h", "firmware_app/pipeline.h", "firmware_app/stages/items.h",
+          "tools/hovermodal/commands.h"}) {
       write(header, "#pragma once\n");
     }
     write("drivers/camera/synthetic_camera.cpp",
           "#include \"core/simulation/scene.h\"\n#include \"core/types/frame.h\"\n#include \"rt/clock.h\"\n");
-    write("tools/hovermodal/replay.cpp", "#include \"drivers/camera/camera.h\"\n#include \"firmware_app/pipeline.h\"\n");
+    write("tools/hovermodal/replay.cpp",
+          "#include \"drivers/camera/camera.h\"\n#include \"firmware_app/pipeline.h\"\n");
   }
 
   void write(const std::string& path, const std::string& text) {
@@ -119,9 +121,7 @@ TEST_F(CheckStructure, RefusesTheThreeHundredAndFirstLine) {
   expect_refused("core/types/long.cpp", text + "\n", 301);
 }
 
-TEST_F(CheckStructure, RefusesAnOpenEnd) {
-  expect_refused("rt/memory.cpp", std::string("\n// TO") + "DO: later\n", 2);
-}
+TEST_F(CheckStructure, RefusesAnOpenEnd) { expect_refused("rt/memory.cpp", std::string("\n// TO") + "DO: later\n", 2); }
 
 TEST_F(CheckStructure, RefusesAPathOfOneMachine) {
   expect_refused("tools/cmake/Flags.cmake", std::string("set(DATA /ho") + "me/someone/data)\n", 1);

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/support/pipeline_run.h"
+
+namespace tests {
+
+inline constexpr std::uint64_t kShortClip = 150;
+inline constexpr std::size_t kChannels = 7;  // six floors and the base
+
+struct PublisherMood {
+  bool refuses = false;
+  std::chrono::microseconds pause{0};
+};
+
+inline app::AppConfig config_of(const SceneClip& clip, const std::vector<std::string>& overrides) {
+  return app::parse_config(scene_config(clip.motion), "scene", overrides);
+}
+
+// A pipeline over a scripted camera, and what its publisher was told.
+struct Rig {
+  explicit Rig(const CameraScript& script, const std::vector<std::string>& overrides = {"spectrum.segment=64"},
+               std::uint64_t n_drawn = kShortClip, PublisherMood mood = {})
+      : clip(scene_clip(n_drawn)), heard(std::make_shared<Heard>()) {
+    pipeline =
+        std::make_unique<app::Pipeline>(config_of(*clip, overrides), std::make_unique<ScriptedCamera>(clip, script),
+                                        std::make_unique<TellingPublisher>(heard, mood.refuses, mood.pause));
+  }
+
+  // Starts, waits for the end, and lets go of the pipeline, so that `heard` is complete.
+  app::Pipeline::Outcome run() {
+    pipeline->start();
+    return finish();
+  }
+  app::Pipeline::Outcome finish() {
+    EXPECT_TRUE(runs_to_its_end(*pipeline)) << "still running: " << pipeline->health().frames_processed << " frames";
+    app::Pipeline::Outcome outcome = pipeline->join();
+    expect_accounted(outcome.health);
+    pipeline.reset();
+    for (const core::ModalEstimate& estimate : heard->estimates) expect_finite(estimate);
+    EXPECT_EQ(heard->estimates.size(), outcome.health.estimates);
+    return outcome;
+  }
+
+  std::shared_ptr<const SceneClip> clip;
+  std::shared_ptr<Heard> heard;
+  std::unique_ptr<app::Pipeline> pipeline;
+};
+
+inline CameraScript frames(std::uint64_t n) {
+  CameraScript script;
+  script.n_frames = n;
+  return script;
+}
+
+}  // namespace tests
