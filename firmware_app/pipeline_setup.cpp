@@ -111,7 +111,7 @@ std::function<void(const core::ModalEstimate&, const core::CpsdSums&)> picture_d
     inputs.channels = source.channels();
     inputs.spectrum = &spectrum;
     inputs.estimate = &estimate;
-    inputs.displacements_csv = config.report.directory + "/displacements.csv";
+    if (estimate.n_samples > 1) inputs.displacements_csv = config.report.directory + "/displacements.csv";
     inputs.millimetres = config.scale.known_length_mm > 0.0;
     (void)write_pictures(config.report.directory, inputs);
   };

@@ -43,7 +43,7 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
     RegionRange& range = ranges_[keyframe.points[i].region];
     if (range.end == range.begin) range.begin = i;
     range.end = i + 1;
-    const double sigma_px = std::max(keyframe.points[i].sigma_px, kLeastSigmaPx);
+    const double sigma_px = std::max(kLeastSigmaPx, keyframe.points[i].sigma_px);  // NaN gives the first
     weight_.push_back(1.0 / (sigma_px * sigma_px));
     keyframe_.push_back(config_.camera.undistort({keyframe.points[i].u_px, keyframe.points[i].v_px}));
     readout_share_.push_back(config_.readout.fraction(keyframe.points[i].u_px, keyframe.points[i].v_px));
@@ -60,10 +60,13 @@ void ChannelDisplacement::make_channels() {
   for (std::size_t r = 0; r < config_.regions.size(); ++r) {
     const Region& region = config_.regions[r];
     if (region.role == RegionRole::kBackground) continue;
-    double delay_s = 0.0;
+    double share = 0.0;  // the same weighted mean as the channel's
+    double weight = 0.0;
     for (std::size_t i = ranges_[r].begin; i < ranges_[r].end; ++i) {
-      delay_s += config_.readout.readout_s * readout_share_[i] / static_cast<double>(ranges_[r].end - ranges_[r].begin);
+      share += weight_[i] * readout_share_[i];
+      weight += weight_[i];
     }
+    const double delay_s = weight > 0.0 ? config_.readout.readout_s * share / weight : 0.0;
     ChannelInfo info{static_cast<std::uint16_t>(r), region.name, 1.0, 0.0, config_.paper_method ? 0.0 : delay_s,
                      region.role == RegionRole::kBase};
     if (!region.both_axes) {
@@ -174,7 +177,7 @@ void ChannelDisplacement::average_channel(std::size_t channel, double magnificat
     variance += weight_[i] * weight_[i] * tracks.points[i].sigma_px * tracks.points[i].sigma_px;
     ++count;
   }
-  const bool enough = count >= config_.min_points;
+  const bool enough = weight > 0.0 && count >= config_.min_points;
   const double s0 = config_.scale_mm_per_px;
   out.seen[channel] = enough ? 1 : 0;
   out.n_points[channel] = count;

@@ -44,8 +44,8 @@ std::vector<Centroids> read_centroids(const std::filesystem::path& path) {
 app::AppConfig config_around(const Centroids& dots, const std::filesystem::path& clip) {
   std::string text = fmt::format("camera: {{source: '{}', rate_hz: 20}}\nregions:\n", clip.string());
   for (std::size_t t = 0; t < kDots; ++t) {
-    text += fmt::format("  - {{name: t{:02}, rect: [{:.0f}, {:.0f}, 64, 64], role: {}, axis: both}}\n", t,
-                        dots[2 * t] - 32.0, dots[2 * t + 1] - 32.0, t < 7 ? "base" : "structure");
+    text += fmt::format("  - {{name: t{:02}, rect: [{:.0f}, {:.0f}, 44, 44], role: {}, axis: both}}\n", t,
+                        dots[2 * t] - 22.0, dots[2 * t + 1] - 22.0, t < 7 ? "base" : "structure");
   }
   text += "scale: {adaptive: false}\nspectrum: {segment: 64}\nidentification: {period: 1000}\n";
   return app::parse_config(text + "telemetry: {lcm_url: '', tracks_every: 1}\n", "knex");

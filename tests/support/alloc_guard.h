@@ -31,6 +31,12 @@ class AllocGuard {
   [[nodiscard]] std::size_t n_delete() const noexcept { return alloc_counts().n_delete; }
 };
 
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr bool kAllocationsCounted = false;
+#else
+inline constexpr bool kAllocationsCounted = true;
+#endif
+
 inline void* counted_allocate(std::size_t size, std::size_t alignment) {
   AllocCounts& counts = alloc_counts();
   if (counts.counting) ++counts.n_new;
@@ -48,6 +54,7 @@ inline void counted_free(void* memory) noexcept {
 
 }  // namespace test_support
 
+#ifndef __SANITIZE_ADDRESS__
 void* operator new(std::size_t size) { return test_support::counted_allocate(size, alignof(std::max_align_t)); }
 void* operator new[](std::size_t size) { return test_support::counted_allocate(size, alignof(std::max_align_t)); }
 void* operator new(std::size_t size, std::align_val_t alignment) {
@@ -64,3 +71,4 @@ void operator delete(void* memory, std::align_val_t) noexcept { test_support::co
 void operator delete[](void* memory, std::align_val_t) noexcept { test_support::counted_free(memory); }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { test_support::counted_free(memory); }
 void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { test_support::counted_free(memory); }
+#endif

@@ -89,6 +89,28 @@ TEST(ChannelDisplacement, TakesTheDelayFromTheRawRow) {
   EXPECT_NEAR(measure.channels.channels()[0].row_delay_s, 0.03 * v_sum / 16.0 / 480.0, 1e-12);
 }
 
+// A channel weighs its points by their texture, and its delay is the same mean of theirs.
+TEST(ChannelDisplacement, WeighsPointsByTextureInValueAndDelayAlike) {
+  PlateView view;
+  view.readout_s = 0.03;
+  const auto steady = [](std::size_t, double t) { return 100.0 * t; };
+  const auto with_weights = [](TrackFrame frame) {
+    for (std::size_t i = 0; i < frame.points.size(); ++i) frame.points[i].sigma_px = i % 16 < 4 ? 0.02 : 0.2;
+    return frame;
+  };
+  ChannelDisplacementConfig config = view.config();
+  config.adaptive_scale = false;
+  config.inlier_sigma_px = 1.0;
+  Measured measure(config, with_weights(view.frame(0.0, at_rest, no_zoom)));
+  const double plain_s = 0.03 * (236.0 + 0.5 * (-340.0 + 80.0 * 7.5 / 16.0)) / 480.0;
+  EXPECT_LT(measure.channels.channels()[0].row_delay_s, plain_s - 1e-4) << "the first rows weigh more";
+  TrackFrame tracks = with_weights(view.frame(0.2, steady, no_zoom));
+  const DisplacementSample& sample = measure(tracks);
+  for (std::size_t r = 0; r < 3; ++r) {
+    EXPECT_NEAR(sample.value_mm[r], 100.0 * (0.2 + measure.channels.channels()[r].row_delay_s), 1e-9);
+  }
+}
+
 TEST(ChannelDisplacement, LostPointsAreLeftOutAndTooFewAreNotSeen) {
   const PlateView view;
   Measured measure(view.config(), view.frame(0.0, sway, drift));

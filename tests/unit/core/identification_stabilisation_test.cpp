@@ -98,6 +98,25 @@ TEST(Stabilisation, FrequencyAndFoldBelongTogether) {
   EXPECT_EQ(clusters[0].presence, 1.0) << "the pole is there in every order, whatever its fold";
 }
 
+// A line that wanders a little with the order falls into two clusters; together they are one mode.
+TEST(Stabilisation, JoinsALineThatWasSplit) {
+  std::vector<OrderPole> poles;
+  for (int i = 0; i < 10; ++i) {
+    poles.push_back(pole(i, i < 6 ? 4.0 : 4.07, 0.01, kFirst));
+    poles.push_back(pole(i, 4.02, 0.01, kSecond));
+    poles.push_back(pole(i, 4.3, 0.01, kFirst));
+  }
+  std::vector<PoleCluster> clusters = cluster_poles(poles, 10);
+  ASSERT_EQ(clusters.size(), 4U);
+  join_split_lines(clusters, 10);
+  ASSERT_EQ(clusters.size(), 3U) << "neither another shape nor another frequency is joined";
+  for (const PoleCluster& cluster : clusters) {
+    EXPECT_EQ(cluster.presence, 1.0);
+    EXPECT_EQ(cluster.first_i_order, 0);
+    EXPECT_NE(cluster.frequency_hz, 4.07) << "the part of more orders gives the numbers";
+  }
+}
+
 TEST(Stabilisation, NoPolesGiveNoClusters) { EXPECT_TRUE(cluster_poles({}, 15).empty()); }
 
 TEST(PoleFacts, FrequencyAndDampingOfAContinuousPole) {
