@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <ostream>
 
 #include "core/identification/mac.h"
 #include "core/simulation/structure_response.h"
@@ -59,6 +60,10 @@ struct PeriodCase {
   int n_frames, segment, period;
   double overlap;
 };
+
+std::ostream& operator<<(std::ostream& out, const PeriodCase& c) {
+  return out << c.n_frames << " frames, segment " << c.segment << ", period " << c.period << ", overlap " << c.overlap;
+}
 
 class PipelinePeriod : public ::testing::TestWithParam<PeriodCase> {};
 

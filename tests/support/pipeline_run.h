@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <string>
@@ -50,12 +51,13 @@ class TellingPublisher : public MemoryPublisher {
   std::chrono::microseconds pause_;
 };
 
-// An empty folder of the running test's own.
+// An empty folder of the running test's own. Two builds may be tested at once.
 inline std::filesystem::path own_folder() {
+  static const std::string build = std::to_string(std::hash<std::string>{}(HOVERMODAL_BIN_DIR) % 1'000'000);
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
   std::string name = std::string(test->test_suite_name()) + "." + test->name();
   for (char& c : name) c = c == '/' ? '_' : c;
-  const auto folder = std::filesystem::path(::testing::TempDir()) / "hovermodal" / name;
+  const auto folder = std::filesystem::path(::testing::TempDir()) / ("hovermodal_" + build) / name;
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;
