@@ -18,11 +18,6 @@ namespace app {
 
 namespace {
 
-core::WelchConfig welch(const SpectrumConfig& spectrum, std::size_t n_channels, double rate_hz) {
-  const core::WindowKind window = core::window_kind(spectrum.window).value_or(core::WindowKind::kHann);
-  return {static_cast<int>(n_channels), spectrum.segment, spectrum.overlap, window, rate_hz};
-}
-
 // The points of a file by their place in its first frame, in the order of the configuration's regions.
 class PointPlaces {
  public:
@@ -35,7 +30,8 @@ class PointPlaces {
         first_.points.back().region = static_cast<std::uint16_t>(r);
       }
     }
-    if (first_.points.empty()) throw std::invalid_argument("the tracks have no point in any region of the configuration");
+    if (first_.points.empty())
+      throw std::invalid_argument("the tracks have no point in any region of the configuration");
   }
 
   [[nodiscard]] const core::TrackFrame& first() const noexcept { return first_; }
@@ -77,14 +73,16 @@ core::CameraInfo camera_of(const drivers::TracksFile& file, const AppConfig& con
 
 }  // namespace
 
-core::ModalEstimate identify_series(const ChannelSeries& series, const SpectrumConfig& spectrum, const core::IdentifierConfig& identifier) {
+core::ModalEstimate identify_series(const ChannelSeries& series, const SpectrumConfig& spectrum,
+                                    const core::IdentifierConfig& identifier) {
   const std::size_t n_channels = series.channels.size();
   const std::size_t n_samples = n_channels == 0 ? 0 : series.value.front().size();
   if (n_samples < static_cast<std::size_t>(spectrum.segment)) {
-    throw std::invalid_argument(fmt::format("{} samples are fewer than one segment of {}: at least {:.1f} s at {:g} Hz, or a shorter segment",
-                                            n_samples, spectrum.segment, spectrum.segment / series.rate_hz, series.rate_hz));
+    throw std::invalid_argument(
+        fmt::format("{} samples are fewer than one segment of {}: at least {:.1f} s at {:g} Hz, or a shorter segment",
+                    n_samples, spectrum.segment, spectrum.segment / series.rate_hz, series.rate_hz));
   }
-  core::WelchCpsd cpsd(welch(spectrum, n_channels, series.rate_hz));
+  core::WelchCpsd cpsd(welch_config(spectrum, n_channels, series.rate_hz));
   std::vector<double> value(n_channels);
   std::vector<std::uint8_t> seen(n_channels);
   for (std::size_t t = 0; t < n_samples; ++t) {
@@ -100,7 +98,8 @@ core::ModalEstimate identify_series(const ChannelSeries& series, const SpectrumC
   return estimate;
 }
 
-TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_path, const std::string& report_directory) {
+TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_path,
+                           const std::string& report_directory) {
   const drivers::TracksFile file = drivers::read_tracks_csv(tracks_path);
   if (file.frames.empty()) throw std::invalid_argument(tracks_path + ": no frame");
   const core::CameraInfo camera = camera_of(file, config);
@@ -113,7 +112,7 @@ TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_pa
   if (!report_directory.empty()) {
     report = std::make_unique<RunReport>(report_directory, config, camera, result.channels, region_names(config));
   }
-  core::WelchCpsd cpsd(welch_config(config, static_cast<int>(result.channels.size()), camera.rate_hz));
+  core::WelchCpsd cpsd(welch_config(config.spectrum, result.channels.size(), camera.rate_hz));
   core::TimeGrid grid(camera.rate_hz);
   core::DisplacementSample sample = displacement.sample_prototype();
   core::TrackFrame tracks;
@@ -131,7 +130,8 @@ TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_pa
   }
   cpsd.flush();
   result.losses.samples_masked = cpsd.sums().n_missing;
-  result.estimate = core::Identifier(identifier_config(config, result.channels, camera.rate_hz), result.channels).identify(cpsd.sums());
+  result.estimate = core::Identifier(identifier_config(config, result.channels, camera.rate_hz), result.channels)
+                        .identify(cpsd.sums());
   result.estimate.final = true;
   if (report) report->finish(result.estimate, result.losses, corrections(config, camera));
   return result;

@@ -32,6 +32,7 @@ struct TracksResult {
   core::Health losses;
   std::vector<core::ChannelInfo> channels;
 };
-[[nodiscard]] TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_path, const std::string& report_directory);
+[[nodiscard]] TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_path,
+                                         const std::string& report_directory);
 
 }  // namespace app

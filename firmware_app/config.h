@@ -17,10 +17,10 @@ enum class Pace : std::uint8_t { kRealtime, kAsFastAsPossible };
 
 struct CameraConfig {
   CameraDriver driver = CameraDriver::kFile;
-  std::string source;                  // file: video or image folder; synthetic: empty, or a scene's seed is below
-  double rate_hz = 0.0;                // 0 = take it from the source
+  std::string source;    // file: video or image folder; synthetic: empty, or a scene's seed is below
+  double rate_hz = 0.0;  // 0 = take it from the source
   Pace pace = Pace::kAsFastAsPossible;
-  double readout_ms = 0.0;             // signed
+  double readout_ms = 0.0;  // signed
   core::ReadoutDirection readout_direction = core::ReadoutDirection::kDown;
   double exposure_ms = 0.0;            // 0 = unknown
   double synthetic_duration_s = 30.0;  // synthetic driver only
@@ -28,42 +28,42 @@ struct CameraConfig {
 };
 
 struct CalibrationConfig {
-  std::string file;                    // Kalibr, OpenCV or ROS YAML; empty = the inline values
-  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;     // 0 = no calibration: points are not undistorted
-  std::array<double, 5> distortion{};  // k1 k2 p1 p2 k3
+  std::string file;                               // Kalibr, OpenCV or ROS YAML; empty = the inline values
+  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  // 0 = no calibration: points are not undistorted
+  std::array<double, 5> distortion{};             // k1 k2 p1 p2 k3
 };
 
 struct ScaleConfig {
-  double known_length_mm = 0.0;        // 0 = unknown: displacements are reported in px with scale 1 "mm"/px
+  double known_length_mm = 0.0;  // 0 = unknown: displacements are reported in px with scale 1 "mm"/px
   std::array<double, 2> from_px{}, to_px{};
-  bool adaptive = true;                // per-frame scale (Eq. 6); false: the camera keeps its distance (a tripod)
+  bool adaptive = true;  // per-frame scale (Eq. 6); false: the camera keeps its distance (a tripod)
 };
 
 struct TrackingConfig {
   int points_per_region = 30;
   double min_distance_px = 8.0;
-  double corner_quality = 0.01;        // Harris response relative to the region's strongest
+  double corner_quality = 0.01;  // Harris response relative to the region's strongest
   int window_px = 21;
   int pyramid_levels = 4;
   int max_iterations = 30;
   double epsilon_px = 0.003;
   double forward_backward_px = 0.5;
   double inlier_sigma_px = 0.3;
-  int min_points = 3;                  // a region with fewer inliers has no sample
+  int min_points = 3;  // a region with fewer inliers has no sample
 };
 
 struct SpectrumConfig {
-  int segment = 512;                   // samples
+  int segment = 512;  // samples
   double overlap = 0.5;
-  std::string window = "hann";         // hann | hamming | boxcar
+  std::string window = "hann";  // hann | hamming | boxcar
 };
 
 struct IdentificationConfig {
-  int period_hops = 4;                 // an estimate every so many hops, and one at the end
-  std::vector<std::string> references; // channel names; empty = automatic
-  int block_rows = 0;                  // 0 = automatic
-  int max_order = 0;                   // 0 = automatic
-  double max_frequency_hz = 0.0;       // 0 = rate / 2
+  int period_hops = 4;                  // an estimate every so many hops, and one at the end
+  std::vector<std::string> references;  // channel names; empty = automatic
+  int block_rows = 0;                   // 0 = automatic
+  int max_order = 0;                    // 0 = automatic
+  double max_frequency_hz = 0.0;        // 0 = rate / 2
   double min_mpc = 0.8;
   double max_damping = 0.15;
 };
@@ -72,19 +72,19 @@ struct TelemetryConfig {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";  // empty = no telemetry
   std::string channel_prefix = "HOVERMODAL";
   std::string stream_id = "hovermodal";
-  std::string log_file;                // also write an LCM event log; empty = none
-  int tracks_every = 25;               // publish the tracks of every n-th frame; 0 = never
+  std::string log_file;   // also write an LCM event log; empty = none
+  int tracks_every = 25;  // publish the tracks of every n-th frame; 0 = never
   int displacement_every = 1;
 };
 
 struct ReportConfig {
-  std::string directory;               // --report overrides; empty = none
-  bool tracks = true;                  // write tracks.csv (the largest file)
+  std::string directory;  // --report overrides; empty = none
+  bool tracks = true;     // write tracks.csv (the largest file)
 };
 
 struct RtConfig {
-  bool required = false;               // refuse to run without the priorities below
-  int priority = 0;                    // SCHED_FIFO priority of capture, tracking, spectrum; 0 = ordinary
+  bool required = false;  // refuse to run without the priorities below
+  int priority = 0;       // SCHED_FIFO priority of capture, tracking, spectrum; 0 = ordinary
   bool lock_memory = false;
   int frame_slots = 8;
   int sample_slots = 256;
@@ -102,7 +102,7 @@ struct AppConfig {
   TelemetryConfig telemetry;
   ReportConfig report;
   RtConfig rt;
-  std::uint64_t hash = 0;              // FNV-1a of the canonical text of everything above that changes results
+  std::uint64_t hash = 0;  // FNV-1a of the canonical text of everything above that changes results
 };
 
 // "FILE:LINE: section.key: VALUE is refused: allowed RANGE; remedy" (exit code 2).

@@ -13,12 +13,14 @@ namespace {
 
 core::CameraModel camera_model(const AppConfig& config, const core::CameraInfo& camera) {
   const CalibrationConfig& inline_values = config.calibration;
-  core::CameraModel model{inline_values.fx, inline_values.fy, inline_values.cx, inline_values.cy, inline_values.distortion};
+  core::CameraModel model{inline_values.fx, inline_values.fy, inline_values.cx, inline_values.cy,
+                          inline_values.distortion};
   if (inline_values.file.empty()) return model;
   const drivers::Calibration file = drivers::read_calibration(inline_values.file);
   if (file.width_px != 0 && (file.width_px != camera.width_px || file.height_px != camera.height_px)) {
-    throw ConfigError(fmt::format("calibration.file: {} is for {} x {} px, the camera gives {} x {} px: calibrate this mode of the camera",
-                                  inline_values.file, file.width_px, file.height_px, camera.width_px, camera.height_px));
+    throw ConfigError(fmt::format(
+        "calibration.file: {} is for {} x {} px, the camera gives {} x {} px: calibrate this mode of the camera",
+        inline_values.file, file.width_px, file.height_px, camera.width_px, camera.height_px));
   }
   model = {file.fx, file.fy, file.cx, file.cy, {}};
   std::copy_n(file.distortion.begin(), std::min<std::size_t>(file.distortion.size(), 5), model.distortion.begin());
@@ -48,7 +50,8 @@ core::ChannelDisplacementConfig displacement_config(const AppConfig& config, con
   core::ChannelDisplacementConfig out;
   out.regions = config.regions;
   out.camera = camera_model(config, camera);
-  out.readout = {static_cast<double>(camera.readout_ns) * 1e-9, camera.readout_direction, camera.width_px, camera.height_px};
+  out.readout = {static_cast<double>(camera.readout_ns) * 1e-9, camera.readout_direction, camera.width_px,
+                 camera.height_px};
   out.rate_hz = camera.rate_hz;
   out.scale_mm_per_px = scale_mm_per_px(config.scale, out.camera);
   out.adaptive_scale = config.scale.adaptive;
@@ -58,12 +61,13 @@ core::ChannelDisplacementConfig displacement_config(const AppConfig& config, con
   return out;
 }
 
-core::WelchConfig welch_config(const AppConfig& config, int n_channels, double rate_hz) {
-  const core::WindowKind window = core::window_kind(config.spectrum.window).value_or(core::WindowKind::kHann);
-  return {n_channels, config.spectrum.segment, config.spectrum.overlap, window, rate_hz};
+core::WelchConfig welch_config(const SpectrumConfig& spectrum, std::size_t n_channels, double rate_hz) {
+  const core::WindowKind window = core::window_kind(spectrum.window).value_or(core::WindowKind::kHann);
+  return {static_cast<int>(n_channels), spectrum.segment, spectrum.overlap, window, rate_hz};
 }
 
-core::IdentifierConfig identifier_config(const AppConfig& config, const std::vector<core::ChannelInfo>& channels, double rate_hz) {
+core::IdentifierConfig identifier_config(const AppConfig& config, const std::vector<core::ChannelInfo>& channels,
+                                         double rate_hz) {
   const IdentificationConfig& i = config.identification;
   core::IdentifierConfig out;
   for (const std::string& name : i.references) {
@@ -89,12 +93,15 @@ std::vector<std::string> region_names(const AppConfig& config) {
 std::vector<std::string> corrections(const AppConfig& config, const core::CameraInfo& camera) {
   std::vector<std::string> list;
   const bool paper = config.method == Method::kPaper;
-  if (config.calibration.fx > 0.0 || !config.calibration.file.empty()) list.emplace_back("lens distortion (points undistorted)");
-  if (config.scale.adaptive) list.emplace_back(paper ? "scale per frame, two points (Eq. 6)" : "scale per frame, least squares over all points");
+  if (config.calibration.fx > 0.0 || !config.calibration.file.empty())
+    list.emplace_back("lens distortion (points undistorted)");
+  if (config.scale.adaptive)
+    list.emplace_back(paper ? "scale per frame, two points (Eq. 6)" : "scale per frame, least squares over all points");
   if (paper) {
     list.emplace_back("rolling shutter from frame differences, readout = one frame (Eqs. 7-8)");
   } else if (camera.readout_ns != 0) {
-    list.push_back(fmt::format("rolling shutter {} ms: row delays undone at each mode", static_cast<double>(camera.readout_ns) * 1e-6));
+    list.push_back(fmt::format("rolling shutter {} ms: row delays undone at each mode",
+                               static_cast<double>(camera.readout_ns) * 1e-6));
   }
   return list;
 }

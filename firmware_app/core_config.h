@@ -15,11 +15,12 @@ namespace app {
 // a replay of tracks is the same chain.
 [[nodiscard]] core::StructureTrackerConfig tracker_config(const AppConfig& config);
 // Reads calibration.file when given; throws ConfigError / FileError, also when it does not fit the image.
-[[nodiscard]] core::ChannelDisplacementConfig displacement_config(const AppConfig& config, const core::CameraInfo& camera);
-[[nodiscard]] core::WelchConfig welch_config(const AppConfig& config, int n_channels, double rate_hz);
+[[nodiscard]] core::ChannelDisplacementConfig displacement_config(const AppConfig& config,
+                                                                  const core::CameraInfo& camera);
+[[nodiscard]] core::WelchConfig welch_config(const SpectrumConfig& spectrum, std::size_t n_channels, double rate_hz);
 // Throws ConfigError when identification.references names no channel.
-[[nodiscard]] core::IdentifierConfig identifier_config(const AppConfig& config, const std::vector<core::ChannelInfo>& channels,
-                                                       double rate_hz);
+[[nodiscard]] core::IdentifierConfig identifier_config(const AppConfig& config,
+                                                       const std::vector<core::ChannelInfo>& channels, double rate_hz);
 [[nodiscard]] std::vector<std::string> region_names(const AppConfig& config);
 // The corrections in force, in words, for modal.json.
 [[nodiscard]] std::vector<std::string> corrections(const AppConfig& config, const core::CameraInfo& camera);

@@ -1,10 +1,17 @@
 #include "firmware_app/health.h"
 
+#include <fmt/core.h>
+
 namespace app {
 
 namespace {
 
-std::uint64_t read(const std::atomic<std::uint64_t>& counter) noexcept { return counter.load(std::memory_order_relaxed); }
+// Below a twentieth of a frame the error is smaller than that of the tracks.
+constexpr double kJitterWorthAWord = 0.05;
+
+std::uint64_t read(const std::atomic<std::uint64_t>& counter) noexcept {
+  return counter.load(std::memory_order_relaxed);
+}
 
 core::StageHealth stage_health(const HealthCollector::Queue& queue) {
   const rt::StageStats& stats = queue.stage->stats();
@@ -38,6 +45,13 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
   health.messages_failed = publisher.messages_failed();
   health.state = "running";
   health.warnings = warnings_;
+  if (const std::uint64_t n = tracking_.n_failed_frames(); n > 0) {
+    health.warnings.push_back(fmt::format("the tracker itself failed on {} frames: they have no points", n));
+  }
+  if (const double jitter = spectrum_.worst_jitter_cells(); jitter > kJitterWorthAWord) {
+    health.warnings.push_back(fmt::format(
+        "time stamps stray by up to {:.2f} of a frame from even spacing; spectra take them as even", jitter));
+  }
   for (const Queue& queue : queues_) {
     health.stages.push_back(stage_health(queue));
     if (queue.stage->name() == "identification") health.estimates = health.stages.back().n_out;

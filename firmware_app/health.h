@@ -22,7 +22,8 @@ class HealthCollector {
     std::size_t n_slots = 0;
   };
 
-  HealthCollector(double rate_hz, const CaptureStage& capture, const TrackingStage& tracking, const SpectrumStage& spectrum)
+  HealthCollector(double rate_hz, const CaptureStage& capture, const TrackingStage& tracking,
+                  const SpectrumStage& spectrum)
       : rate_hz_(rate_hz), capture_(capture), tracking_(tracking), spectrum_(spectrum) {}
 
   // Set-up only.

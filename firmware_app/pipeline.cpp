@@ -21,7 +21,7 @@ struct Pipeline::Parts {
   }
 
   AppConfig config;
-  Source source;                                  // camera, its first frame, the points seeded in it, the channels
+  Source source;  // camera, its first frame, the points seeded in it, the channels
   std::unique_ptr<drivers::Publisher> out;
   std::unique_ptr<RunReport> report = open_report(config, source);
   core::Identifier identifier{identifier_config(config, source.channels(), source.info.rate_hz), source.channels()};
@@ -33,9 +33,10 @@ struct Pipeline::Parts {
 
   rt::SpscRing<core::DisplacementSample> samples{slots(config.rt.sample_slots), source.displacement.sample_prototype()};
   rt::SpscRing<FrameRecord> records{slots(config.rt.sample_slots), record_prototype(source)};
-  TrackingStage tracking{frames.reader(), source.tracker, source.displacement, samples.writer(), records.writer(), source.info.lossless};
+  TrackingStage tracking{frames.reader(),  source.tracker,   source.displacement,
+                         samples.writer(), records.writer(), source.info.lossless};
 
-  core::WelchConfig welch = welch_config(config, static_cast<int>(source.channels().size()), source.info.rate_hz);
+  core::WelchConfig welch = welch_config(config.spectrum, source.channels().size(), source.info.rate_hz);
   rt::TripleBuffer<SpectrumSnapshot> snapshots{SpectrumSnapshot{core::WelchCpsd::empty_sums(welch), 0, 0, false}};
   SpectrumStage spectrum{samples.reader(), welch, config.identification.period_hops, snapshots, source.info.lossless};
 
@@ -59,7 +60,13 @@ struct Pipeline::Parts {
     return {&run_capture, &run_tracking, &run_spectrum, &run_identification, &run_publish};
   }
   [[nodiscard]] PublishStage::Outlets outlets() {
-    return {*out, report.get(), [this] { return status(); }, picture_drawer(config, source), source.channels(), corrections(config, source.info), config.telemetry};
+    return {*out,
+            report.get(),
+            [this] { return status(); },
+            picture_drawer(config, source),
+            source.channels(),
+            corrections(config, source.info),
+            config.telemetry};
   }
 
   // Who is nudged when an item arrives, and when a slot becomes free.
@@ -102,7 +109,8 @@ Pipeline::Pipeline(const AppConfig& config) {
   if (!warning.empty()) parts_->health.warn(warning);
 }
 
-Pipeline::Pipeline(const AppConfig& config, std::unique_ptr<drivers::Camera> camera, std::unique_ptr<drivers::Publisher> publisher)
+Pipeline::Pipeline(const AppConfig& config, std::unique_ptr<drivers::Camera> camera,
+                   std::unique_ptr<drivers::Publisher> publisher)
     : parts_(std::make_unique<Parts>(config, std::move(camera), std::move(publisher))) {}
 
 Pipeline::~Pipeline() {
@@ -115,10 +123,12 @@ Pipeline::~Pipeline() {
 void Pipeline::start() {
   const RtConfig& rt_config = parts_->config.rt;
   if (rt_config.lock_memory) {
-    if (const std::string refused = rt::lock_memory(); !refused.empty()) refuse_or_warn(rt_config, refused, parts_->health);
+    if (const std::string refused = rt::lock_memory(); !refused.empty())
+      refuse_or_warn(rt_config, refused, parts_->health);
   }
   const auto runners = parts_->runners();
-  for (auto runner = runners.rbegin(); runner != runners.rend(); ++runner) start_runner(**runner, rt_config, parts_->health);
+  for (auto runner = runners.rbegin(); runner != runners.rend(); ++runner)
+    start_runner(**runner, rt_config, parts_->health);
 }
 
 void Pipeline::request_stop() noexcept { parts_->capture.request_stop(); }
@@ -143,7 +153,8 @@ Pipeline::Outcome Pipeline::join() {
   outcome.health = parts_->status();
   outcome.fault = parts_->fault();
   if (outcome.fault.empty()) outcome.health.state = "finished";
-  if (outcome.fault.empty() && !parts_->source.camera->fault().empty()) outcome.notes.push_back(parts_->source.camera->fault());
+  if (outcome.fault.empty() && !parts_->source.camera->fault().empty())
+    outcome.notes.push_back(parts_->source.camera->fault());
   if (std::string note = short_record(parts_->config, parts_->source.info, outcome.estimate); !note.empty()) {
     outcome.notes.push_back(std::move(note));
   }

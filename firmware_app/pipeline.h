@@ -25,16 +25,17 @@ namespace app {
 class Pipeline {
  public:
   struct Outcome {
-    core::ModalEstimate estimate;   // the last one
-    core::Health health;            // final counters
-    std::string fault;              // empty: done; else what went wrong (exit code 1)
-    std::vector<std::string> notes; // e.g. a truncated clip
+    core::ModalEstimate estimate;    // the last one
+    core::Health health;             // final counters
+    std::string fault;               // empty: done; else what went wrong (exit code 1)
+    std::vector<std::string> notes;  // e.g. a truncated clip
   };
 
   // Throws ConfigError (configuration does not fit the source), drivers::DeviceMissing, std::runtime_error.
   explicit Pipeline(const AppConfig& config);
   // The same with a camera and a publisher of the caller's: for tests.
-  Pipeline(const AppConfig& config, std::unique_ptr<drivers::Camera> camera, std::unique_ptr<drivers::Publisher> publisher);
+  Pipeline(const AppConfig& config, std::unique_ptr<drivers::Camera> camera,
+           std::unique_ptr<drivers::Publisher> publisher);
   ~Pipeline();
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;

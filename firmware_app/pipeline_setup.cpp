@@ -22,9 +22,11 @@ core::CameraInfo checked_info(const drivers::Camera& camera, const AppConfig& co
   check_against_image(config, info.width_px, info.height_px);
   const auto segment = static_cast<std::uint64_t>(config.spectrum.segment);
   if (info.frame_count != 0 && info.frame_count < segment) {
-    throw ConfigError(fmt::format(
-        "spectrum.segment: {} frames in {} are fewer than one segment of {}: film at least {:.1f} s at {:g} fps, or set spectrum.segment to {} or less",
-        info.frame_count, config.camera.source, segment, static_cast<double>(segment) / info.rate_hz, info.rate_hz, info.frame_count));
+    throw ConfigError(
+        fmt::format("spectrum.segment: {} frames in {} are fewer than one segment of {}: film at least {:.1f} s at "
+                    "{:g} fps, or set spectrum.segment to {} or less",
+                    info.frame_count, config.camera.source, segment, static_cast<double>(segment) / info.rate_hz,
+                    info.rate_hz, info.frame_count));
   }
   return info;
 }
@@ -37,8 +39,8 @@ core::Frame take_first_frame(drivers::Camera& camera, const core::CameraInfo& in
   camera.start();
   if (camera.capture(frame, kFirstFrameTimeout) != drivers::CaptureStatus::kFrame) {
     const std::string why = camera.fault();
-    throw std::runtime_error(fmt::format("{}: no first frame within {} s{}{}", info.description, kFirstFrameTimeout.count(),
-                                         why.empty() ? "" : ": ", why));
+    throw std::runtime_error(fmt::format("{}: no first frame within {} s{}{}", info.description,
+                                         kFirstFrameTimeout.count(), why.empty() ? "" : ": ", why));
   }
   return frame;
 }
@@ -89,19 +91,22 @@ std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config, std:
 
 std::unique_ptr<RunReport> open_report(const AppConfig& config, const Source& source) {
   if (config.report.directory.empty()) return nullptr;
-  return std::make_unique<RunReport>(config.report.directory, config, source.info, source.channels(), region_names(config));
+  return std::make_unique<RunReport>(config.report.directory, config, source.info, source.channels(),
+                                     region_names(config));
 }
 
 std::string short_record(const AppConfig& config, const core::CameraInfo& info, const core::ModalEstimate& estimate) {
   const auto segment = static_cast<std::uint64_t>(config.spectrum.segment);
   if (estimate.n_samples >= segment) return {};
   return fmt::format(
-      "the record holds {} samples, fewer than one segment of {}: its modes are a guess. Film at least {:.1f} s at {:g} fps, or lower "
+      "the record holds {} samples, fewer than one segment of {}: its modes are a guess. Film at least {:.1f} s at "
+      "{:g} fps, or lower "
       "spectrum.segment",
       estimate.n_samples, segment, static_cast<double>(segment) / info.rate_hz, info.rate_hz);
 }
 
-std::function<void(const core::ModalEstimate&, const core::CpsdSums&)> picture_drawer(const AppConfig& config, const Source& source) {
+std::function<void(const core::ModalEstimate&, const core::CpsdSums&)> picture_drawer(const AppConfig& config,
+                                                                                      const Source& source) {
   if (config.report.directory.empty()) return {};
   return [&config, &source](const core::ModalEstimate& estimate, const core::CpsdSums& spectrum) {
     PictureInputs inputs;
@@ -129,8 +134,10 @@ void start_runner(rt::StageRunner& runner, const RtConfig& config, HealthCollect
     runner.start();
   } catch (const std::system_error& e) {
     if (runner.config().fifo_priority == 0) throw;
-    refuse_or_warn(config, fmt::format("{}: priority {} refused ({}): grant CAP_SYS_NICE or raise RLIMIT_RTPRIO", runner.config().name,
-                                       runner.config().fifo_priority, e.code().message()), health);
+    refuse_or_warn(config,
+                   fmt::format("{}: priority {} refused ({}): grant CAP_SYS_NICE or raise RLIMIT_RTPRIO",
+                               runner.config().name, runner.config().fifo_priority, e.code().message()),
+                   health);
     runner.drop_priority();
     runner.start();
   }

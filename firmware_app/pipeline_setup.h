@@ -35,12 +35,14 @@ struct Source {
 
 [[nodiscard]] std::unique_ptr<drivers::Camera> open_camera(const AppConfig& config);
 [[nodiscard]] std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config, std::string& warning);
-[[nodiscard]] std::unique_ptr<RunReport> open_report(const AppConfig& config, const Source& source);  // null: none wanted
+[[nodiscard]] std::unique_ptr<RunReport> open_report(const AppConfig& config,
+                                                     const Source& source);  // null: none wanted
 // What to say of a record shorter than one segment, which a source of unknown length may turn out to be; else empty.
-[[nodiscard]] std::string short_record(const AppConfig& config, const core::CameraInfo& info, const core::ModalEstimate& estimate);
+[[nodiscard]] std::string short_record(const AppConfig& config, const core::CameraInfo& info,
+                                       const core::ModalEstimate& estimate);
 // What PublishStage::Outlets::draw calls; empty: no report wanted. `source` must outlive it.
-[[nodiscard]] std::function<void(const core::ModalEstimate&, const core::CpsdSums&)> picture_drawer(const AppConfig& config,
-                                                                                                    const Source& source);
+[[nodiscard]] std::function<void(const core::ModalEstimate&, const core::CpsdSums&)> picture_drawer(
+    const AppConfig& config, const Source& source);
 [[nodiscard]] FrameRecord record_prototype(const Source& source);
 
 // A real-time setting that the system refuses: an error when rt.required, else a warning in every status record.

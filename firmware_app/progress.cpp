@@ -20,7 +20,8 @@ void print_mode(const core::Mode& mode, const std::vector<core::ChannelInfo>& ch
     shape += fmt::format(" {}={:+.2f}", channels[c].name, mode.shape[c].real());
   }
   const std::string fold = mode.fold_n.value_or(0) != 0 ? fmt::format(" (seen at {:.3f} Hz)", mode.apparent_hz) : "";
-  spdlog::info("  {:9.4f} Hz{}  damping {:5.2f} %  MPC {:.3f} {}", mode.frequency_hz, fold, 100.0 * mode.damping_ratio, mode.mpc, shape);
+  spdlog::info("  {:9.4f} Hz{}  damping {:5.2f} %  MPC {:.3f} {}", mode.frequency_hz, fold, 100.0 * mode.damping_ratio,
+               mode.mpc, shape);
 }
 
 }  // namespace
@@ -39,10 +40,11 @@ bool SignalWatch::stop_requested() const noexcept { return sigtimedwait(&signals
 Progress::Progress(const Pipeline& pipeline)
     : pipeline_(pipeline), start_ns_(rt::monotonic_ns()), next_line_ns_(start_ns_ + kLinePeriodNs) {
   const core::CameraInfo& info = pipeline.camera_info();
-  spdlog::info("{}: {} x {} px, {:g} fps, readout {:g} ms", info.description, info.width_px, info.height_px, info.rate_hz,
-               static_cast<double>(info.readout_ns) * 1e-6);
+  spdlog::info("{}: {} x {} px, {:g} fps, readout {:g} ms", info.description, info.width_px, info.height_px,
+               info.rate_hz, static_cast<double>(info.readout_ns) * 1e-6);
   for (const core::ChannelInfo& channel : pipeline.channels()) {
-    spdlog::info("channel {}{}: seen {:.2f} ms after row 0", channel.name, channel.is_base ? " (base)" : "", 1e3 * channel.row_delay_s);
+    spdlog::info("channel {}{}: seen {:.2f} ms after row 0", channel.name, channel.is_base ? " (base)" : "",
+                 1e3 * channel.row_delay_s);
   }
 }
 
@@ -52,22 +54,29 @@ void Progress::tick() {
   next_line_ns_ = now_ns + kLinePeriodNs;
   const core::Health health = pipeline_.health();
   const std::uint64_t total = pipeline_.camera_info().frame_count;
-  const std::string share = total > 0 ? fmt::format(" of {} ({:.0f} %)", total, 100.0 * static_cast<double>(health.frames_processed) / static_cast<double>(total)) : "";
-  spdlog::info("frame {}{}, {:.1f} s of stream, {} of {} points, {} dropped, {} masked, {} estimates", health.frames_processed, share,
-               static_cast<double>(health.t_stream_ns) * 1e-9, health.points_tracked, health.points_total, health.frames_dropped,
-               health.samples_masked, health.estimates);
+  const std::string share =
+      total > 0 ? fmt::format(" of {} ({:.0f} %)", total,
+                              100.0 * static_cast<double>(health.frames_processed) / static_cast<double>(total))
+                : "";
+  spdlog::info("frame {}{}, {:.1f} s of stream, {} of {} points, {} dropped, {} masked, {} estimates",
+               health.frames_processed, share, static_cast<double>(health.t_stream_ns) * 1e-9, health.points_tracked,
+               health.points_total, health.frames_dropped, health.samples_masked, health.estimates);
 }
 
 bool Progress::finish(const Pipeline::Outcome& outcome) const {
   const core::Health& h = outcome.health;
   const double elapsed_s = static_cast<double>(rt::monotonic_ns() - start_ns_) * 1e-9;
-  spdlog::info("{} frames in = {} processed + {} dropped; {} missing at the source, {} channel samples masked; {:.1f} s, {:.1f} frames/s",
-               h.frames_in, h.frames_processed, h.frames_dropped, h.frames_missing, h.samples_masked, elapsed_s,
-               static_cast<double>(h.frames_processed) / elapsed_s);
+  spdlog::info(
+      "{} frames in = {} processed + {} dropped; {} missing at the source, {} channel samples masked; {:.1f} s, {:.1f} "
+      "frames/s",
+      h.frames_in, h.frames_processed, h.frames_dropped, h.frames_missing, h.samples_masked, elapsed_s,
+      static_cast<double>(h.frames_processed) / elapsed_s);
   for (const std::string& warning : h.warnings) spdlog::warn("{}", warning);
   if (h.messages_failed > 0) {
-    spdlog::warn("{} telemetry messages failed, {} were sent: check the route of telemetry.lcm_url and the disk under telemetry.log_file",
-                 h.messages_failed, h.messages_sent);
+    spdlog::warn(
+        "{} telemetry messages failed, {} were sent: check the route of telemetry.lcm_url and the disk under "
+        "telemetry.log_file",
+        h.messages_failed, h.messages_sent);
   }
   for (const std::string& note : outcome.notes) spdlog::warn("{}", note);
   spdlog::info("{} modes from {:.1f} s ({} segments){}", outcome.estimate.modes.size(), outcome.estimate.duration_s,

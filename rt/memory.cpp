@@ -9,7 +9,8 @@ namespace rt {
 
 std::string lock_memory() {
   if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return {};
-  return std::string("locking memory refused (") + std::strerror(errno) + "): grant CAP_IPC_LOCK or raise RLIMIT_MEMLOCK";
+  return std::string("locking memory refused (") + std::strerror(errno) +
+         "): grant CAP_IPC_LOCK or raise RLIMIT_MEMLOCK";
 }
 
 }  // namespace rt

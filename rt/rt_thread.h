@@ -8,9 +8,9 @@
 namespace rt {
 
 struct ThreadConfig {
-  std::string name;      // shown by top -H; at most 15 characters are kept
-  int fifo_priority = 0; // SCHED_FIFO 1..99; 0 = ordinary scheduling
-  int cpu = -1;          // pin to this CPU; -1 = any
+  std::string name;       // shown by top -H; at most 15 characters are kept
+  int fifo_priority = 0;  // SCHED_FIFO 1..99; 0 = ordinary scheduling
+  int cpu = -1;           // pin to this CPU; -1 = any
 };
 
 // A thread whose policy and affinity go into its attributes, so that a refusal is an error in the starting thread.

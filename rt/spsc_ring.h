@@ -47,14 +47,16 @@ class SpscRing {
   friend class RingWriter<T>;
   friend class RingReader<T>;
 
-  [[nodiscard]] T& slot(std::uint64_t index) noexcept { return slots_[static_cast<std::size_t>(index % slots_.size())]; }
+  [[nodiscard]] T& slot(std::uint64_t index) noexcept {
+    return slots_[static_cast<std::size_t>(index % slots_.size())];
+  }
 
   std::vector<T> slots_;
   Wakeup* reader_wakeup_ = nullptr;
   Wakeup* writer_wakeup_ = nullptr;
   // Release by the writer in publish(), acquire by the reader in front(): the slot's contents travel with it.
   alignas(kCacheLineBytes) std::atomic<std::uint64_t> write_index_{0};
-  std::atomic<bool> closed_{false};  // release in close(), acquire in finished(): after the last publish
+  std::atomic<bool> closed_{false};      // release in close(), acquire in finished(): after the last publish
   std::uint64_t cached_read_index_ = 0;  // writer's own
   // Release by the reader in pop(), acquire by the writer in try_claim(): the reader's last look at the slot is over.
   alignas(kCacheLineBytes) std::atomic<std::uint64_t> read_index_{0};

@@ -15,9 +15,9 @@ class Stage {
  public:
   virtual ~Stage() = default;
   [[nodiscard]] virtual std::string_view name() const noexcept = 0;
-  virtual void prepare() {}                 // before threads start: allocate, may throw
+  virtual void prepare() {}                              // before threads start: allocate, may throw
   [[nodiscard]] virtual StepStatus step() noexcept = 0;  // at most one item, bounded time
-  virtual void finish() noexcept {}         // after the last step, same thread: flush, close the outputs
+  virtual void finish() noexcept {}                      // after the last step, same thread: flush, close the outputs
 
   // Nudged by the rings around this stage; the runner waits on it after kIdle.
   [[nodiscard]] Wakeup& wakeup() noexcept { return wakeup_; }

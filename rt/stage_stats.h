@@ -13,7 +13,7 @@ struct alignas(kCacheLineBytes) StageStats {
   std::atomic<std::uint64_t> n_in{0};
   std::atomic<std::uint64_t> n_out{0};
   std::atomic<std::uint64_t> n_dropped{0};
-  std::atomic<std::uint64_t> busy_ns{0};        // sum over steps that worked
+  std::atomic<std::uint64_t> busy_ns{0};  // sum over steps that worked
   std::atomic<std::uint64_t> worst_step_ns{0};
 
   // Only the owning thread writes, so load and store need not be one operation.

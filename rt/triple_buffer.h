@@ -62,10 +62,10 @@ class TripleBuffer {
   std::array<T, 3> buffers_;
   Wakeup* reader_wakeup_ = nullptr;
   Wakeup* writer_wakeup_ = nullptr;
-  alignas(kCacheLineBytes) std::uint32_t back_ = 0;              // writer's own
+  alignas(kCacheLineBytes) std::uint32_t back_ = 0;                // writer's own
   alignas(kCacheLineBytes) std::atomic<std::uint32_t> middle_{1};  // partners: publish() and refresh()
   std::atomic<bool> closed_{false};
-  alignas(kCacheLineBytes) std::uint32_t front_ = 2;             // reader's own
+  alignas(kCacheLineBytes) std::uint32_t front_ = 2;  // reader's own
 };
 
 }  // namespace rt

@@ -18,7 +18,8 @@ Vector2 axis_of(const Region& region) noexcept {
   return {std::cos(angle), std::sin(angle)};
 }
 
-std::vector<ScaleFactor::Point> scale_points(const std::vector<Region>& regions, const CameraModel& camera, const TrackFrame& keyframe) {
+std::vector<ScaleFactor::Point> scale_points(const std::vector<Region>& regions, const CameraModel& camera,
+                                             const TrackFrame& keyframe) {
   std::vector<ScaleFactor::Point> points;
   for (const TrackPoint& p : keyframe.points) {
     const Region& region = regions[p.region];
@@ -67,7 +68,7 @@ void ChannelDisplacement::make_channels() {
       weight += weight_[i];
     }
     const double delay_s = weight > 0.0 ? config_.readout.readout_s * share / weight : 0.0;
-    ChannelInfo info{static_cast<std::uint16_t>(r), region.name, 1.0, 0.0, config_.paper_method ? 0.0 : delay_s,
+    ChannelInfo info{static_cast<std::uint16_t>(r),   region.name, 1.0, 0.0, config_.paper_method ? 0.0 : delay_s,
                      region.role == RegionRole::kBase};
     if (!region.both_axes) {
       const Vector2 axis = axis_of(region);
@@ -127,7 +128,8 @@ double ChannelDisplacement::estimate_scale() noexcept {
   const double start = config_.adaptive_scale ? scale_.median_of_pairs(position_, seen_) : 1.0;
   reject_outliers(start);
   if (!config_.adaptive_scale) return 1.0;
-  const double b = config_.paper_method ? scale_.two_point(position_, inlier_) : scale_.least_squares(position_, inlier_);
+  const double b =
+      config_.paper_method ? scale_.two_point(position_, inlier_) : scale_.least_squares(position_, inlier_);
   reject_outliers(b);
   return b;
 }
@@ -191,7 +193,8 @@ void ChannelDisplacement::update(TrackFrame& tracks, DisplacementSample& out) no
   out.gap_before = tracks.gap_before;
   place_points(tracks);
   const double magnification = estimate_scale();
-  for (std::size_t i = 0; i < keyframe_.size() && i < tracks.points.size(); ++i) tracks.points[i].inlier = inlier_[i] != 0;
+  for (std::size_t i = 0; i < keyframe_.size() && i < tracks.points.size(); ++i)
+    tracks.points[i].inlier = inlier_[i] != 0;
   if (config_.paper_method) compensate_rolling_shutter();
   out.scale_mm_per_px = config_.scale_mm_per_px / magnification;
   for (std::size_t c = 0; c < channels_.size(); ++c) average_channel(c, magnification, tracks, out);

@@ -16,15 +16,16 @@ struct ChannelDisplacementConfig {
   CameraModel camera;
   ReadoutModel readout;
   double rate_hz = 0.0;
-  double scale_mm_per_px = 1.0;      // S_0, of the keyframe
-  bool adaptive_scale = true;        // per-frame scale (paper Eq. 6)
-  bool paper_method = false;         // two-point scale; rolling shutter by Eqs. 7-8 on the samples, with rho = 1
+  double scale_mm_per_px = 1.0;  // S_0, of the keyframe
+  bool adaptive_scale = true;    // per-frame scale (paper Eq. 6)
+  bool paper_method = false;     // two-point scale; rolling shutter by Eqs. 7-8 on the samples, with rho = 1
   double inlier_sigma_px = 0.3;
-  int min_points = 3;                // fewer inliers: the channel has no sample in this frame
+  int min_points = 3;  // fewer inliers: the channel has no sample in this frame
 };
 
 // From the points of one frame to the displacement of every channel relative to the keyframe (paper Eq. 4):
-//   d = S_i (p_i - c) - S_0 (p_0 - c), weighted mean of the region's inliers, along the region's axis; c = principal point.
+//   d = S_i (p_i - c) - S_0 (p_0 - c), weighted mean of the region's inliers, along the region's axis; c = principal
+//   point.
 // Points are undistorted, per-frame scale is estimated from them, outliers are rejected per region by MLESAC.
 // `hovermodal` leaves the samples at the instants at which rows were read and states the delay of each channel
 // (ARCHITECTURE.md); `paper` moves them to row 0 with Eqs. 7-8. Background regions make no channel.
@@ -51,16 +52,17 @@ class ChannelDisplacement {
   void reject_outliers(double magnification) noexcept;
   void compensate_rolling_shutter() noexcept;
   [[nodiscard]] Vector2 scaled_motion(std::size_t point, double magnification) const noexcept;
-  void average_channel(std::size_t channel, double magnification, const TrackFrame& tracks, DisplacementSample& out) const noexcept;
+  void average_channel(std::size_t channel, double magnification, const TrackFrame& tracks,
+                       DisplacementSample& out) const noexcept;
 
   ChannelDisplacementConfig config_;
   std::vector<ChannelInfo> channels_;
-  std::vector<RegionRange> ranges_;          // per region
-  std::vector<Vector2> keyframe_;            // undistorted px
-  std::vector<double> weight_;               // of a point in its channel: inverse variance by its texture, constant
-  std::vector<double> readout_share_;        // along the readout, of the raw row: rows are read as they lie on the sensor
+  std::vector<RegionRange> ranges_;    // per region
+  std::vector<Vector2> keyframe_;      // undistorted px
+  std::vector<double> weight_;         // of a point in its channel: inverse variance by its texture, constant
+  std::vector<double> readout_share_;  // along the readout, of the raw row: rows are read as they lie on the sensor
   ScaleFactor scale_;
-  std::vector<Vector2> position_, motion_;   // undistorted px; scale-corrected step since the keyframe, keyframe px
+  std::vector<Vector2> position_, motion_;  // undistorted px; scale-corrected step since the keyframe, keyframe px
   std::vector<std::uint8_t> seen_, inlier_;
   std::vector<Vector2> last_region_motion_;  // paper mode: for V_rel
   std::vector<std::uint8_t> has_last_;

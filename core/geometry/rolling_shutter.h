@@ -15,10 +15,14 @@ struct ReadoutModel {
   // Position along the readout, 0 at row (column) 0, 1 at the last; negative directions run to -1.
   [[nodiscard]] double fraction(double u_px, double v_px) const noexcept {
     switch (direction) {
-      case ReadoutDirection::kDown: return v_px / height_px;
-      case ReadoutDirection::kUp: return -v_px / height_px;
-      case ReadoutDirection::kRight: return u_px / width_px;
-      case ReadoutDirection::kLeft: return -u_px / width_px;
+      case ReadoutDirection::kDown:
+        return v_px / height_px;
+      case ReadoutDirection::kUp:
+        return -v_px / height_px;
+      case ReadoutDirection::kRight:
+        return u_px / width_px;
+      case ReadoutDirection::kLeft:
+        return -u_px / width_px;
     }
     return 0.0;
   }

@@ -35,9 +35,11 @@ void ScaleFactor::list_farthest_pairs() {
     }
   }
   const std::size_t n = std::min(kFarthestPairs, all.size());
-  std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n), all.end(), [](const Pair& a, const Pair& b) {
-    return a.distance_px > b.distance_px || (a.distance_px == b.distance_px && (a.i < b.i || (a.i == b.i && a.j < b.j)));
-  });
+  std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n), all.end(),
+                    [](const Pair& a, const Pair& b) {
+                      return a.distance_px > b.distance_px ||
+                             (a.distance_px == b.distance_px && (a.i < b.i || (a.i == b.i && a.j < b.j)));
+                    });
   farthest_.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n));
 }
 
@@ -50,22 +52,25 @@ void ScaleFactor::list_motion_free_pairs() {
       if (!points_[i].counts || !points_[j].counts) continue;
       const Vector2 step = minus(points_[j].keyframe, points_[i].keyframe);
       if (points_[j].region == points_[i].region) {
-        if (length(step) > within.distance_px) within = {i, j, {step.u / length(step), step.v / length(step)}, length(step)};
+        if (length(step) > within.distance_px)
+          within = {i, j, {step.u / length(step), step.v / length(step)}, length(step)};
         continue;
       }
-      const bool parallel = std::abs(points_[i].axis_u * points_[j].axis_v - points_[i].axis_v * points_[j].axis_u) < 1e-6;
+      const bool parallel =
+          std::abs(points_[i].axis_u * points_[j].axis_v - points_[i].axis_v * points_[j].axis_u) < 1e-6;
       if (points_[i].both_axes || points_[j].both_axes || !parallel) continue;
       const Vector2 normal{-points_[i].axis_v, points_[i].axis_u};
       const double d = dot(step, normal);
-      if (std::abs(d) > across.distance_px) across = {i, j, {d > 0 ? normal.u : -normal.u, d > 0 ? normal.v : -normal.v}, std::abs(d)};
+      if (std::abs(d) > across.distance_px)
+        across = {i, j, {d > 0 ? normal.u : -normal.u, d > 0 ? normal.v : -normal.v}, std::abs(d)};
     }
     if (within.j != i) motion_free_.push_back(within);
     if (across.j != i) motion_free_.push_back(across);
   }
 }
 
-bool ScaleFactor::magnification(const Pair& pair, std::span<const Vector2> position, std::span<const std::uint8_t> usable,
-                                double& b) const noexcept {
+bool ScaleFactor::magnification(const Pair& pair, std::span<const Vector2> position,
+                                std::span<const std::uint8_t> usable, double& b) const noexcept {
   if (usable[pair.i] == 0 || usable[pair.j] == 0) return false;
   const Vector2 step = minus(position[pair.j], position[pair.i]);
   const bool plain = pair.direction.u == 0.0 && pair.direction.v == 0.0;

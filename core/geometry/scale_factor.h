@@ -8,12 +8,12 @@
 
 namespace core {
 
-// Magnification of the image against the keyframe, b = |p_i1 - p_i2| / |p_01 - p_02|; the paper's scale is S_i = S_0 / b
-// (Eq. 6). Structural motion is not magnification, so distances are taken where it cancels.
+// Magnification of the image against the keyframe, b = |p_i1 - p_i2| / |p_01 - p_02|; the paper's scale is S_i = S_0 /
+// b (Eq. 6). Structural motion is not magnification, so distances are taken where it cancels.
 class ScaleFactor {
  public:
   struct Point {
-    Vector2 keyframe;        // undistorted px
+    Vector2 keyframe;  // undistorted px
     std::uint16_t region = 0;
     double axis_u = 1.0, axis_v = 0.0;  // unit axis of the region's motion
     bool both_axes = false;             // it may move any way
@@ -22,12 +22,13 @@ class ScaleFactor {
 
   explicit ScaleFactor(std::vector<Point> points);
 
-  // The paper's: the two keyframe points farthest apart; while one of them is not seen, the next farthest of a fixed list.
-  // Keeps its last value when no listed pair is seen.
+  // The paper's: the two keyframe points farthest apart; while one of them is not seen, the next farthest of a fixed
+  // list. Keeps its last value when no listed pair is seen.
   [[nodiscard]] double two_point(std::span<const Vector2> position, std::span<const std::uint8_t> usable) noexcept;
 
   // Robust start: median over fixed pairs within regions and across the axes of motion.
-  [[nodiscard]] double median_of_pairs(std::span<const Vector2> position, std::span<const std::uint8_t> usable) noexcept;
+  [[nodiscard]] double median_of_pairs(std::span<const Vector2> position,
+                                       std::span<const std::uint8_t> usable) noexcept;
 
   // Least squares on all usable points: inside a region distances to its centre, across regions only the part
   // perpendicular to their axes of motion. Keeps its last value when nothing is seen.
@@ -36,8 +37,8 @@ class ScaleFactor {
  private:
   struct Pair {
     std::size_t i, j;
-    Vector2 direction;    // unit; the distance is measured along it
-    double distance_px;   // in the keyframe
+    Vector2 direction;   // unit; the distance is measured along it
+    double distance_px;  // in the keyframe
   };
 
   void list_farthest_pairs();
@@ -48,7 +49,7 @@ class ScaleFactor {
   std::vector<Point> points_;
   std::vector<Pair> farthest_;
   std::vector<Pair> motion_free_;
-  std::vector<double> ratios_;        // work space
+  std::vector<double> ratios_;  // work space
   std::size_t n_regions_ = 0;
   std::vector<Vector2> centre_now_, centre_keyframe_;  // per region, work space
   std::vector<double> count_;

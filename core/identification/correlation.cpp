@@ -19,12 +19,14 @@ constexpr double kLeastPower = 1e-18;
 
 class PairTransform {
  public:
-  explicit PairTransform(const CpsdSums& sums) : sums_(sums), fft_(sums.n_fft), bins_(static_cast<std::size_t>(sums.n_bins())) {
+  explicit PairTransform(const CpsdSums& sums)
+      : sums_(sums), fft_(sums.n_fft), bins_(static_cast<std::size_t>(sums.n_bins())) {
     spectrum_.resize(bins_);
   }
 
   // Inverse transform of one pair's sum; gain per bin may be empty. out: n_fft circular lags.
-  void inverse(const std::vector<std::complex<double>>& sum, int pair, const std::vector<double>& gain, std::vector<double>& out) {
+  void inverse(const std::vector<std::complex<double>>& sum, int pair, const std::vector<double>& gain,
+               std::vector<double>& out) {
     const auto pairs = static_cast<std::size_t>(sums_.n_pairs());
     for (std::size_t k = 0; k < bins_; ++k) {
       spectrum_[k] = sum[k * pairs + static_cast<std::size_t>(pair)] * (gain.empty() ? 1.0 : gain[k]);
@@ -75,11 +77,16 @@ void Correlations::set(int i, int j, int lag, double divided, double undivided) 
 
 const char* to_string(CorrelationStatus status) noexcept {
   switch (status) {
-    case CorrelationStatus::kOk: return "ok";
-    case CorrelationStatus::kNoSegment: return "not one full segment yet";
-    case CorrelationStatus::kNotFinite: return "the spectra are not finite";
-    case CorrelationStatus::kNoPower: return "a channel has no motion or no samples at all";
-    case CorrelationStatus::kTooFewSamples: return "too many samples are missing: some lags were never seen";
+    case CorrelationStatus::kOk:
+      return "ok";
+    case CorrelationStatus::kNoSegment:
+      return "not one full segment yet";
+    case CorrelationStatus::kNotFinite:
+      return "the spectra are not finite";
+    case CorrelationStatus::kNoPower:
+      return "a channel has no motion or no samples at all";
+    case CorrelationStatus::kTooFewSamples:
+      return "too many samples are missing: some lags were never seen";
   }
   return "";
 }

@@ -9,10 +9,10 @@ namespace core {
 
 enum class CorrelationStatus : std::uint8_t { kOk, kNoSegment, kNotFinite, kNoPower, kTooFewSamples };
 
-// Correlation functions R_ij(lag) = E[x_i(t + lag) x_j(t)], lag -max_lag .. max_lag, of the d-times differenced channels
-// (NExT: James, Carne & Lauffer 1993).
-// `divided`: unbiased, by the mask's own correlation (ARCHITECTURE.md); what the realisation is made of.
-// `undivided`: the positive semidefinite estimate; what weights are made of. Equal to `divided` at lag 0.
+// Correlation functions R_ij(lag) = E[x_i(t + lag) x_j(t)], lag -max_lag .. max_lag, of the d-times differenced
+// channels (NExT: James, Carne & Lauffer 1993). `divided`: unbiased, by the mask's own correlation (ARCHITECTURE.md);
+// what the realisation is made of. `undivided`: the positive semidefinite estimate; what weights are made of. Equal to
+// `divided` at lag 0.
 class Correlations {
  public:
   Correlations() = default;
@@ -29,13 +29,14 @@ class Correlations {
 
   int n_channels_ = 0;
   int max_lag_ = 0;
-  std::vector<double> divided_;    // pairs (i <= j) x (2 max_lag + 1)
+  std::vector<double> divided_;  // pairs (i <= j) x (2 max_lag + 1)
   std::vector<double> undivided_;
 };
 
 // Prewhitening by `n_differences` differences is done on the spectrum: |1 - exp(-i w)|^(2 d). It takes the hover drift,
 // which stands 40 dB above the modes, out of the ridge and the rounding; shapes and poles are untouched.
-[[nodiscard]] CorrelationStatus compute_correlations(const CpsdSums& sums, int max_lag, int n_differences, Correlations& out);
+[[nodiscard]] CorrelationStatus compute_correlations(const CpsdSums& sums, int max_lag, int n_differences,
+                                                     Correlations& out);
 
 [[nodiscard]] const char* to_string(CorrelationStatus status) noexcept;
 

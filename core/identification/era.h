@@ -12,10 +12,10 @@ namespace core {
 enum class EraStatus : std::uint8_t { kOk, kTooFewLags, kRankDeficient };
 
 struct EraConfig {
-  int block_rows = 30;             // block rows and columns
-  int first_lag = 1;               // lags before it carry the sensor noise: 1 + number of differences
+  int block_rows = 30;  // block rows and columns
+  int first_lag = 1;    // lags before it carry the sensor noise: 1 + number of differences
   int max_order = 60;
-  std::vector<int> references;     // channel indices
+  std::vector<int> references;  // channel indices
   // Canonical-variate weighting of the Hankel matrix, G = Lf^-1 H Lp^-T with the Cholesky factors of future and past
   // covariance: scatter near the bound, weak modes appear, and the singular values are canonical correlations
   // (ARCHITECTURE.md). false: the plain ERA of Juang & Pappa 1985.

@@ -6,21 +6,22 @@
 
 namespace core {
 
-// A pole seen at f_a in samples of rate f_s may be any signed frequency f_a + n f_s. Channels seen at different instants
-// (row delays) tell which: undoing the delays with the true pole makes the shape's phases collinear (ARCHITECTURE.md).
+// A pole seen at f_a in samples of rate f_s may be any signed frequency f_a + n f_s. Channels seen at different
+// instants (row delays) tell which: undoing the delays with the true pole makes the shape's phases collinear
+// (ARCHITECTURE.md).
 struct FoldingConfig {
   double rate_hz = 0.0;
-  double max_frequency_hz = 0.0;      // |f_a + n f_s| beyond it are not considered
-  std::vector<double> delay_s;        // per channel
+  double max_frequency_hz = 0.0;  // |f_a + n f_s| beyond it are not considered
+  std::vector<double> delay_s;    // per channel
 };
 
 struct UnfoldedPole {
-  std::complex<double> s;                       // continuous pole, rad/s, Im > 0
-  double apparent_hz = 0.0;                     // 0 .. f_s / 2
-  std::vector<std::complex<double>> shape;      // delays undone, largest component 1
+  std::complex<double> s;                   // continuous pole, rad/s, Im > 0
+  double apparent_hz = 0.0;                 // 0 .. f_s / 2
+  std::vector<std::complex<double>> shape;  // delays undone, largest component 1
   double mpc = 0.0;
-  std::optional<int> fold_n;                    // empty: cannot be told (fewer than three channels, or no delays)
-  std::optional<double> fold_margin;            // best MPC minus second best
+  std::optional<int> fold_n;          // empty: cannot be told (fewer than three channels, or no delays)
+  std::optional<double> fold_margin;  // best MPC minus second best
 };
 
 // lambda: discrete pole with Im > 0. shape: as observed.

@@ -13,11 +13,11 @@ namespace core {
 namespace {
 
 constexpr int kMaxReferences = 6;
-constexpr int kOrders = 15;          // of the stabilisation diagram, two apart
+constexpr int kOrders = 15;              // of the stabilisation diagram, two apart
 constexpr double kLeastPresence = 0.25;  // poles of fewer orders are the scatter of over-modelling, not worth a verdict
 constexpr int kLeastBlockRows = 6;
-// Rows of the Hankel matrix, all channels together: 40 block rows of 6 channels. Few channels take more block rows, which
-// is what separates close lines.
+// Rows of the Hankel matrix, all channels together: 40 block rows of 6 channels. Few channels take more block rows,
+// which is what separates close lines.
 constexpr int kMostRows = 240;
 // The weights are covariance matrices of block_rows * channels: with fewer samples per row than this they fit the noise
 // and every singular value comes out near 1.
@@ -31,7 +31,8 @@ void copy_stream_facts(const CpsdSums& sums, ModalEstimate& estimate) {
   estimate.duration_s = static_cast<double>(sums.n_samples) / sums.rate_hz;
 }
 
-std::vector<OrderPole> poles_of_orders(const Realisation& realisation, const std::vector<int>& orders, const FoldingConfig& folding) {
+std::vector<OrderPole> poles_of_orders(const Realisation& realisation, const std::vector<int>& orders,
+                                       const FoldingConfig& folding) {
   std::vector<OrderPole> poles;
   for (std::size_t i = 0; i < orders.size(); ++i) {
     for (const DiscretePole& pole : poles_of_order(realisation, orders[i])) {
@@ -74,7 +75,8 @@ int Identifier::choose_block_rows(const CpsdSums& sums) const noexcept {
   const double rows = std::min<double>(kMostRows, static_cast<double>(sums.n_samples) / kSamplesPerRow);
   // The weights keep the window's taper, the Hankel matrix does not: up to an eighth of a segment they agree.
   const int longest = sums.n_fft / 16;
-  return std::clamp(static_cast<int>(rows) / static_cast<int>(channels_.size()), kLeastBlockRows, std::max(kLeastBlockRows, longest));
+  return std::clamp(static_cast<int>(rows) / static_cast<int>(channels_.size()), kLeastBlockRows,
+                    std::max(kLeastBlockRows, longest));
 }
 
 ModalEstimate Identifier::identify(const CpsdSums& sums) const {
@@ -84,7 +86,8 @@ ModalEstimate Identifier::identify(const CpsdSums& sums) const {
   era.block_rows = choose_block_rows(sums);
   era.first_lag = 1 + config_.n_differences;
   era.references = choose_references();
-  const int room = std::min<int>(static_cast<int>(era.references.size()), static_cast<int>(channels_.size())) * era.block_rows;
+  const int room =
+      std::min<int>(static_cast<int>(era.references.size()), static_cast<int>(channels_.size())) * era.block_rows;
   era.max_order = config_.max_order > 0 ? std::min(config_.max_order, room) : room;
 
   Correlations correlations;
@@ -105,7 +108,8 @@ ModalEstimate Identifier::identify(const CpsdSums& sums) const {
   for (int k = 0; k < kOrders && n0 + 2 * k <= realisation.a.rows(); ++k) orders.push_back(n0 + 2 * k);
   estimate.model_order = n0;
   FoldingConfig folding{sums.rate_hz, config_.max_frequency_hz, {}};
-  for (const ChannelInfo& channel : channels_) folding.delay_s.push_back(config_.undo_row_delays ? channel.row_delay_s : 0.0);
+  for (const ChannelInfo& channel : channels_)
+    folding.delay_s.push_back(config_.undo_row_delays ? channel.row_delay_s : 0.0);
 
   VerdictRules rules;
   rules.min_mpc = config_.min_mpc;

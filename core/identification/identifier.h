@@ -10,14 +10,14 @@
 namespace core {
 
 struct IdentifierConfig {
-  std::vector<int> references;       // channel indices; empty = automatic
-  int block_rows = 0;                // 0 = automatic
-  int max_order = 0;                 // 0 = automatic
-  double max_frequency_hz = 0.0;     // true frequencies looked for; 0 = half the rate: nothing is unfolded
+  std::vector<int> references;    // channel indices; empty = automatic
+  int block_rows = 0;             // 0 = automatic
+  int max_order = 0;              // 0 = automatic
+  double max_frequency_hz = 0.0;  // true frequencies looked for; 0 = half the rate: nothing is unfolded
   double min_mpc = 0.8;
   double max_damping = 0.15;
-  int n_differences = 1;             // prewhitening; 0 for channels without drift
-  bool undo_row_delays = true;       // false: the samples were compensated before (paper mode)
+  int n_differences = 1;        // prewhitening; 0 for channels without drift
+  bool undo_row_delays = true;  // false: the samples were compensated before (paper mode)
 };
 
 // From the sums of a spectrum to modes with a verdict each: NExT, canonical-variate ERA, a stabilisation over orders

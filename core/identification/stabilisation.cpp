@@ -89,11 +89,13 @@ class AverageLinkage {
 };
 
 // Orders may disagree about the fold. Frequency, damping and shape must belong to one answer: that of the most.
-std::vector<std::size_t> of_commonest_fold(const std::vector<OrderPole>& poles, const std::vector<std::size_t>& members) {
+std::vector<std::size_t> of_commonest_fold(const std::vector<OrderPole>& poles,
+                                           const std::vector<std::size_t>& members) {
   std::map<std::optional<int>, std::vector<std::size_t>> by_fold;
   for (const std::size_t m : members) by_fold[poles[m].pole.fold_n].push_back(m);
   return std::max_element(by_fold.begin(), by_fold.end(),
-                          [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); })->second;
+                          [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); })
+      ->second;
 }
 
 PoleCluster summarise(const std::vector<OrderPole>& poles, const std::vector<std::size_t>& members, int n_orders) {
@@ -115,9 +117,11 @@ PoleCluster summarise(const std::vector<OrderPole>& poles, const std::vector<std
   cluster.presence = static_cast<double>(orders.size()) / n_orders;
   const auto off = [&](std::size_t m) {
     const UnfoldedPole& pole = poles[m].pole;
-    return std::abs(pole.apparent_hz / cluster.apparent_hz - 1.0) + std::abs(damping_ratio(pole.s) - cluster.damping_ratio);
+    return std::abs(pole.apparent_hz / cluster.apparent_hz - 1.0) +
+           std::abs(damping_ratio(pole.s) - cluster.damping_ratio);
   };
-  const auto nearest = std::min_element(agreeing.begin(), agreeing.end(), [&](auto a, auto b) { return off(a) < off(b); });
+  const auto nearest =
+      std::min_element(agreeing.begin(), agreeing.end(), [&](auto a, auto b) { return off(a) < off(b); });
   cluster.representative = poles[*nearest].pole;
   return cluster;
 }
@@ -125,7 +129,8 @@ PoleCluster summarise(const std::vector<OrderPole>& poles, const std::vector<std
 }  // namespace
 
 void join_split_lines(std::vector<PoleCluster>& clusters, int n_orders) {
-  std::stable_sort(clusters.begin(), clusters.end(), [](const auto& a, const auto& b) { return a.presence > b.presence; });
+  std::stable_sort(clusters.begin(), clusters.end(),
+                   [](const auto& a, const auto& b) { return a.presence > b.presence; });
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     PoleCluster& line = clusters[i];
     const auto is_split = [&](const PoleCluster& other) {

@@ -8,19 +8,19 @@ namespace core {
 
 // One pole of one model order.
 struct OrderPole {
-  int i_order = 0;       // index into the list of orders
+  int i_order = 0;  // index into the list of orders
   UnfoldedPole pole;
 };
 
 // Poles of different orders that are one mode: a vertical line of the stabilisation diagram.
 struct PoleCluster {
-  double frequency_hz = 0.0;   // medians over the members
+  double frequency_hz = 0.0;  // medians over the members
   double apparent_hz = 0.0;
   double damping_ratio = 0.0;
-  int first_i_order = 0;       // the lowest order in which it was found
-  double presence = 0.0;       // share of the orders in which it was found
-  std::vector<int> i_orders;   // those orders, ascending
-  UnfoldedPole representative; // the member nearest the medians
+  int first_i_order = 0;        // the lowest order in which it was found
+  double presence = 0.0;        // share of the orders in which it was found
+  std::vector<int> i_orders;    // those orders, ascending
+  UnfoldedPole representative;  // the member nearest the medians
 };
 
 // Average-linkage clustering on |df| / (0.015 f) + (1 - MAC) / 0.3, cut at 1 (ARCHITECTURE.md).
@@ -30,7 +30,7 @@ struct PoleCluster {
 // orders takes the other's orders (MAC > 0.95 within 3 %), so that the split does not cost the mode its presence.
 void join_split_lines(std::vector<PoleCluster>& clusters, int n_orders);
 
-[[nodiscard]] double damping_ratio(std::complex<double> s) noexcept;   // -Re s / |s|
-[[nodiscard]] double frequency_hz(std::complex<double> s) noexcept;    // |s| / (2 pi)
+[[nodiscard]] double damping_ratio(std::complex<double> s) noexcept;  // -Re s / |s|
+[[nodiscard]] double frequency_hz(std::complex<double> s) noexcept;   // |s| / (2 pi)
 
 }  // namespace core

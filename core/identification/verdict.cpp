@@ -35,7 +35,8 @@ double uniform_mac(const Mode& mode, const std::vector<ChannelInfo>& channels) {
   if (channels.size() < 2) return 0.0;
   std::vector<std::complex<double>> uniform(channels.size());
   for (std::size_t c = 0; c < channels.size(); ++c) {
-    uniform[c] = channels[c].direction_u * channels.front().direction_u + channels[c].direction_v * channels.front().direction_v;
+    uniform[c] =
+        channels[c].direction_u * channels.front().direction_u + channels[c].direction_v * channels.front().direction_v;
   }
   return mac(uniform, mode.shape);
 }
@@ -45,33 +46,40 @@ void set(Mode& mode, Verdict verdict, std::string reason) {
   mode.reason = std::move(reason);
 }
 
-// The base moves with an input peak; with a mode it hardly does. In a short record the forced motion blurs that, and the
-// response function tells.
+// The base moves with an input peak; with a mode it hardly does. In a short record the forced motion blurs that, and
+// the response function tells.
 bool moves_with_base(double base_share, const BaseResponse& response, const VerdictRules& rules) noexcept {
   if (base_share <= rules.max_base_share) return false;
   const bool answers = response.gain >= rules.least_base_gain && response.gain > response.gain_beside;
   return base_share > rules.open_base_share || !answers;
 }
 
-void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response, const std::vector<ChannelInfo>& channels,
-            const std::vector<int>& orders, const VerdictRules& rules) {
+void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response,
+            const std::vector<ChannelInfo>& channels, const std::vector<int>& orders, const VerdictRules& rules) {
   const double uniform = uniform_mac(mode, channels);
   const double base = base_share(mode, channels);
   const int first_order = orders[static_cast<std::size_t>(cluster.first_i_order)];
   if (mode.damping_ratio < kLeastDamping || mode.damping_ratio > rules.max_damping) {
-    set(mode, Verdict::kNumerical, text("damping %.2f %% outside 0 .. %.0f %%", 100.0 * mode.damping_ratio, 100.0 * rules.max_damping));
+    set(mode, Verdict::kNumerical,
+        text("damping %.2f %% outside 0 .. %.0f %%", 100.0 * mode.damping_ratio, 100.0 * rules.max_damping));
   } else if (uniform > rules.max_uniform_mac) {
-    set(mode, Verdict::kCameraMotion, text("all channels move alike (MAC %.3f with a translation of the camera)", uniform));
+    set(mode, Verdict::kCameraMotion,
+        text("all channels move alike (MAC %.3f with a translation of the camera)", uniform));
   } else if (moves_with_base(base, response, rules)) {
-    set(mode, Verdict::kInputPeak, text("the base moves %.2f of the largest channel: motion of the base or the camera", base));
+    set(mode, Verdict::kInputPeak,
+        text("the base moves %.2f of the largest channel: motion of the base or the camera", base));
   } else if (cluster.presence < rules.min_presence || cluster.first_i_order > rules.last_first_i_order) {
-    set(mode, Verdict::kNumerical, text("found in %.0f %% of the orders, first at order %d", 100.0 * cluster.presence, first_order));
+    set(mode, Verdict::kNumerical,
+        text("found in %.0f %% of the orders, first at order %d", 100.0 * cluster.presence, first_order));
   } else if (mode.mpc < rules.min_mpc) {
     set(mode, Verdict::kNumerical, text("components not in phase: MPC %.2f < %.2f", mode.mpc, rules.min_mpc));
   } else if (mode.fold_n && (*mode.fold_margin < rules.least_fold_margin || mode.mpc < rules.least_certain_mpc)) {
-    set(mode, Verdict::kAmbiguous, text("a mode, but its true frequency is open: fold margin %.2f, MPC %.2f", *mode.fold_margin, mode.mpc));
+    set(mode, Verdict::kAmbiguous,
+        text("a mode, but its true frequency is open: fold margin %.2f, MPC %.2f", *mode.fold_margin, mode.mpc));
   } else {
-    set(mode, Verdict::kStructural, text("found in %.0f %% of the orders from order %d on, MPC %.3f", 100.0 * cluster.presence, first_order, mode.mpc));
+    set(mode, Verdict::kStructural,
+        text("found in %.0f %% of the orders from order %d on, MPC %.3f", 100.0 * cluster.presence, first_order,
+             mode.mpc));
   }
 }
 
@@ -96,11 +104,13 @@ void reject_twins(std::vector<Mode>& modes) {
   for (Mode& a : modes) {
     for (Mode& b : modes) {
       if (&a == &b || a.verdict != Verdict::kStructural || b.verdict != Verdict::kStructural) continue;
-      const bool near = std::abs(a.frequency_hz - b.frequency_hz) < kTwinFrequency * std::max(a.frequency_hz, b.frequency_hz);
+      const bool near =
+          std::abs(a.frequency_hz - b.frequency_hz) < kTwinFrequency * std::max(a.frequency_hz, b.frequency_hz);
       if (!near || mac(a.shape, b.shape) <= kTwinMac) continue;
       Mode& weaker = a.presence < b.presence || (a.presence == b.presence && a.mpc < b.mpc) ? a : b;
       const Mode& stronger = &weaker == &a ? b : a;
-      set(weaker, Verdict::kNumerical, text("twin of %.4f Hz with the same shape (amplitude dependent?)", stronger.frequency_hz));
+      set(weaker, Verdict::kNumerical,
+          text("twin of %.4f Hz with the same shape (amplitude dependent?)", stronger.frequency_hz));
     }
   }
 }

@@ -13,19 +13,20 @@ namespace core {
 struct VerdictRules {
   double min_mpc = 0.8;
   double max_damping = 0.15;
-  double min_presence = 0.85;        // of the orders
-  int last_first_i_order = 1;        // present from the canonical order or the next one on
-  double max_base_share = 0.1;       // |shape at the base| / largest
-  double open_base_share = 0.3;      // up to here a clear answer of the structure to its base decides
-  double least_base_gain = 3.0;      // ... of at least this gain, and a local maximum
-  double max_uniform_mac = 0.98;     // MAC with all channels moving alike: the camera's own translation
-  double least_certain_mpc = 0.85;   // a folded frequency is certain from here on ...
-  double least_fold_margin = 0.3;    // ... and with this lead over the next hypothesis
+  double min_presence = 0.85;       // of the orders
+  int last_first_i_order = 1;       // present from the canonical order or the next one on
+  double max_base_share = 0.1;      // |shape at the base| / largest
+  double open_base_share = 0.3;     // up to here a clear answer of the structure to its base decides
+  double least_base_gain = 3.0;     // ... of at least this gain, and a local maximum
+  double max_uniform_mac = 0.98;    // MAC with all channels moving alike: the camera's own translation
+  double least_certain_mpc = 0.85;  // a folded frequency is certain from here on ...
+  double least_fold_margin = 0.3;   // ... and with this lead over the next hypothesis
 };
 
 // A cluster as a mode with its verdict and the reason in words.
-[[nodiscard]] Mode judge(const PoleCluster& cluster, const BaseResponse& response, const std::vector<ChannelInfo>& channels,
-                         const std::vector<int>& orders, const VerdictRules& rules);
+[[nodiscard]] Mode judge(const PoleCluster& cluster, const BaseResponse& response,
+                         const std::vector<ChannelInfo>& channels, const std::vector<int>& orders,
+                         const VerdictRules& rules);
 
 // Of two structural modes with MAC > 0.9 within 6 % the one found in fewer orders is a twin (often an amplitude
 // dependence of the same mode): it becomes numerical, and its reason says so.

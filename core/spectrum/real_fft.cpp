@@ -29,7 +29,8 @@ int next_power_of_two(int n) noexcept {
 }
 
 RealFft::RealFft(int n) : n_(n), half_(n / 2) {
-  if (n < 4 || (n & (n - 1)) != 0) throw std::invalid_argument("RealFft: length " + std::to_string(n) + " is not a power of two >= 4");
+  if (n < 4 || (n & (n - 1)) != 0)
+    throw std::invalid_argument("RealFft: length " + std::to_string(n) + " is not a power of two >= 4");
   const auto half = static_cast<std::size_t>(half_);
   for (int k = 0; k < half_ / 2; ++k) twiddle_half_.push_back(unit_root(k, half_));
   for (int k = 0; k <= half_; ++k) twiddle_full_.push_back(unit_root(k, n_));

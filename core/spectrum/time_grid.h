@@ -10,8 +10,8 @@ namespace core {
 class TimeGrid {
  public:
   struct Placement {
-    bool accepted = false;             // false: the cell is already taken (repeated or backward stamp)
-    std::uint64_t cell = 0;            // counted from the first sample
+    bool accepted = false;               // false: the cell is already taken (repeated or backward stamp)
+    std::uint64_t cell = 0;              // counted from the first sample
     std::uint64_t n_missing_before = 0;  // cells skipped between the previous sample and this one
   };
 

@@ -14,8 +14,10 @@ using Complex = std::complex<double>;
 
 void check(const WelchConfig& config) {
   if (config.n_channels < 1) throw std::invalid_argument("WelchCpsd: no channel");
-  if (config.segment < 4) throw std::invalid_argument("WelchCpsd: segment of " + std::to_string(config.segment) + " samples; at least 4");
-  if (!(config.overlap >= 0.0 && config.overlap < 1.0)) throw std::invalid_argument("WelchCpsd: overlap must lie in 0 .. 1");
+  if (config.segment < 4)
+    throw std::invalid_argument("WelchCpsd: segment of " + std::to_string(config.segment) + " samples; at least 4");
+  if (!(config.overlap >= 0.0 && config.overlap < 1.0))
+    throw std::invalid_argument("WelchCpsd: overlap must lie in 0 .. 1");
   if (!(config.rate_hz > 0.0)) throw std::invalid_argument("WelchCpsd: rate must be positive");
 }
 

@@ -13,8 +13,8 @@ namespace core {
 
 struct WelchConfig {
   int n_channels = 1;
-  int segment = 512;       // samples
-  double overlap = 0.5;    // 0 <= overlap < 1
+  int segment = 512;     // samples
+  double overlap = 0.5;  // 0 <= overlap < 1
   WindowKind window = WindowKind::kHann;
   double rate_hz = 1.0;
 };

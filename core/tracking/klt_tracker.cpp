@@ -60,7 +60,8 @@ void KltTracker::set_keyframe(const cv::Mat& gray, const std::vector<cv::Point2f
   }
 }
 
-bool KltTracker::track(const cv::Mat& gray, const std::vector<cv::Point2f>& predicted, std::vector<KltPoint>& out) noexcept {
+bool KltTracker::track(const cv::Mat& gray, const std::vector<cv::Point2f>& predicted,
+                       std::vector<KltPoint>& out) noexcept {
   try {
     out.resize(keyframe_points_.size());
     if (keyframe_points_.empty()) return true;
@@ -99,12 +100,14 @@ void KltTracker::run(Pass& pass, int levels) {
   if (pass.origin.empty()) return;
   const cv::Size window(config_.window_px, config_.window_px);
   pass.forward = pass.start;
-  cv::calcOpticalFlowPyrLK(keyframe_pyramid_, pyramid_, pass.origin, pass.forward, pass.forward_found, pass.residual, window,
-                           levels, criteria_, cv::OPTFLOW_USE_INITIAL_FLOW, kLeastEigenvalue);
+  cv::calcOpticalFlowPyrLK(keyframe_pyramid_, pyramid_, pass.origin, pass.forward, pass.forward_found, pass.residual,
+                           window, levels, criteria_, cv::OPTFLOW_USE_INITIAL_FLOW, kLeastEigenvalue);
   pass.backward.resize(pass.origin.size());
-  for (std::size_t i = 0; i < pass.origin.size(); ++i) pass.backward[i] = pass.origin[i] + (pass.forward[i] - pass.start[i]);
+  for (std::size_t i = 0; i < pass.origin.size(); ++i)
+    pass.backward[i] = pass.origin[i] + (pass.forward[i] - pass.start[i]);
   cv::calcOpticalFlowPyrLK(pyramid_, keyframe_pyramid_, pass.forward, pass.backward, pass.backward_found,
-                           pass.backward_residual, window, levels, criteria_, cv::OPTFLOW_USE_INITIAL_FLOW, kLeastEigenvalue);
+                           pass.backward_residual, window, levels, criteria_, cv::OPTFLOW_USE_INITIAL_FLOW,
+                           kLeastEigenvalue);
 }
 
 void KltTracker::report(const Pass& pass, std::vector<KltPoint>& out) const noexcept {
@@ -113,7 +116,8 @@ void KltTracker::report(const Pass& pass, std::vector<KltPoint>& out) const noex
     const cv::Point2f miss = pass.backward[k] - pass.origin[k];
     const double miss_px = std::hypot(static_cast<double>(miss.x), static_cast<double>(miss.y));
     point.position = pass.forward[k];
-    point.sigma_px = sigma_per_residual_[pass.index[k]] * std::max(static_cast<double>(pass.residual[k]), kLeastResidual);
+    point.sigma_px =
+        sigma_per_residual_[pass.index[k]] * std::max(static_cast<double>(pass.residual[k]), kLeastResidual);
     point.seen = pass.forward_found[k] != 0 && pass.backward_found[k] != 0 && miss_px <= config_.forward_backward_px &&
                  std::isfinite(pass.forward[k].x) && std::isfinite(pass.forward[k].y);
   }

@@ -7,15 +7,15 @@ namespace core {
 
 struct KltConfig {
   int window_px = 21;
-  int pyramid_levels = 4;          // above the full image
+  int pyramid_levels = 4;  // above the full image
   int max_iterations = 30;
-  double epsilon_px = 0.003;       // stop when a step is shorter
+  double epsilon_px = 0.003;         // stop when a step is shorter
   double forward_backward_px = 0.5;  // a point tracked there and back must return this near
 };
 
 struct KltPoint {
-  cv::Point2f position;            // in the current image
-  double sigma_px = 0.0;           // standard deviation per axis, from the residual and the texture (ARCHITECTURE.md)
+  cv::Point2f position;   // in the current image
+  double sigma_px = 0.0;  // standard deviation per axis, from the residual and the texture (ARCHITECTURE.md)
   bool seen = false;
 };
 
@@ -33,7 +33,8 @@ class KltTracker {
 
   // predicted: where each point is expected (same order as in set_keyframe). Returns false when
   // OpenCV failed or the image is not 8-bit of the keyframe's size; `out` then holds nothing.
-  [[nodiscard]] bool track(const cv::Mat& gray, const std::vector<cv::Point2f>& predicted, std::vector<KltPoint>& out) noexcept;
+  [[nodiscard]] bool track(const cv::Mat& gray, const std::vector<cv::Point2f>& predicted,
+                           std::vector<KltPoint>& out) noexcept;
 
   [[nodiscard]] const std::vector<cv::Point2f>& keyframe_points() const noexcept { return keyframe_points_; }
 

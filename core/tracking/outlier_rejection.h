@@ -8,13 +8,13 @@
 namespace core {
 
 struct MlesacConfig {
-  double sigma_px = 0.3;     // of an inlier about the common motion, per axis
-  double spread_px = 50.0;   // side of the square in which outliers lie evenly
-  int mixing_iterations = 3; // EM steps for the share of inliers
+  double sigma_px = 0.3;      // of an inlier about the common motion, per axis
+  double spread_px = 50.0;    // side of the square in which outliers lie evenly
+  int mixing_iterations = 3;  // EM steps for the share of inliers
 };
 
 struct MlesacResult {
-  Vector2 motion;            // mean of the inliers
+  Vector2 motion;  // mean of the inliers
   int n_inliers = 0;
 };
 

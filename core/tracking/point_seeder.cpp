@@ -15,7 +15,8 @@ constexpr double kLeastContrast = 2.0;  // grey levels, standard deviation
 std::vector<cv::Point2f> seed_points(const cv::Mat& gray, const Region& region, const SeedConfig& config) {
   const int margin = config.window_px / 2 + 2;
   const cv::Rect image(margin, margin, gray.cols - 2 * margin, gray.rows - 2 * margin);
-  const cv::Rect wanted(cvRound(region.u_px), cvRound(region.v_px), cvRound(region.width_px), cvRound(region.height_px));
+  const cv::Rect wanted(cvRound(region.u_px), cvRound(region.v_px), cvRound(region.width_px),
+                        cvRound(region.height_px));
   const cv::Rect usable = wanted & image;
   if (usable.width < 3 || usable.height < 3) return {};
   const cv::Mat patch = gray(usable);

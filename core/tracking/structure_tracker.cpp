@@ -9,10 +9,11 @@ namespace {
 
 std::string too_few_corners(const Region& region, std::size_t found, int wanted) {
   char text[320];
-  std::snprintf(text, sizeof text,
-                "region '%s' (rect [%g, %g, %g, %g]) has %zu corners to track, at least %d are needed: is it black, saturated, "
-                "blurred or flat? Move or enlarge the rectangle, or lower tracking.corner_quality or tracking.min_distance_px",
-                region.name.c_str(), region.u_px, region.v_px, region.width_px, region.height_px, found, wanted);
+  std::snprintf(
+      text, sizeof text,
+      "region '%s' (rect [%g, %g, %g, %g]) has %zu corners to track, at least %d are needed: is it black, saturated, "
+      "blurred or flat? Move or enlarge the rectangle, or lower tracking.corner_quality or tracking.min_distance_px",
+      region.name.c_str(), region.u_px, region.v_px, region.width_px, region.height_px, found, wanted);
   return text;
 }
 

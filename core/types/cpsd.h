@@ -14,9 +14,9 @@ struct CpsdSums {
   int n_fft = 0;
   double rate_hz = 0.0;
   std::uint64_t n_segments = 0;
-  std::uint64_t n_samples = 0;     // stream position: grid cells consumed, seen or missing
-  std::uint64_t n_missing = 0;     // channel samples masked out
-  double window_power = 0.0;       // sum of squared window values of one full segment
+  std::uint64_t n_samples = 0;                 // stream position: grid cells consumed, seen or missing
+  std::uint64_t n_missing = 0;                 // channel samples masked out
+  double window_power = 0.0;                   // sum of squared window values of one full segment
   std::vector<std::complex<double>> data_sum;  // mm^2
   std::vector<std::complex<double>> mask_sum;  // dimensionless
 

@@ -9,11 +9,11 @@ namespace core {
 // A channel is one region along one axis. What is fixed over the run stands here, once.
 struct ChannelInfo {
   std::uint16_t region = 0;
-  std::string name;            // region name; "<region>.u" / "<region>.v" where a region has both axes
-  double direction_u = 1.0;    // unit vector of the axis in the image
+  std::string name;          // region name; "<region>.u" / "<region>.v" where a region has both axes
+  double direction_u = 1.0;  // unit vector of the axis in the image
   double direction_v = 0.0;
-  double row_delay_s = 0.0;    // tau: the channel is seen this long after the frame's time stamp (ARCHITECTURE.md)
-  bool is_base = false;        // region role `base`: measured input, kept as an output
+  double row_delay_s = 0.0;  // tau: the channel is seen this long after the frame's time stamp (ARCHITECTURE.md)
+  bool is_base = false;      // region role `base`: measured input, kept as an output
 };
 
 // One sample of every channel, relative to the keyframe.
@@ -21,10 +21,10 @@ struct DisplacementSample {
   std::uint64_t sequence = 0;
   std::int64_t t_start_ns = 0;
   bool gap_before = false;
-  double scale_mm_per_px = 0.0;      // per-frame scale (paper Eq. 6)
-  std::vector<double> value_mm;      // n_channels; 0 where not seen
-  std::vector<double> sigma_mm;      // n_channels
-  std::vector<std::uint8_t> seen;    // n_channels; 1 = a sample
+  double scale_mm_per_px = 0.0;         // per-frame scale (paper Eq. 6)
+  std::vector<double> value_mm;         // n_channels; 0 where not seen
+  std::vector<double> sigma_mm;         // n_channels
+  std::vector<std::uint8_t> seen;       // n_channels; 1 = a sample
   std::vector<std::uint16_t> n_points;  // n_channels: inlier points behind the sample
 };
 

@@ -13,24 +13,24 @@ enum class ReadoutDirection : std::uint8_t { kDown, kUp, kLeft, kRight };
 struct CameraInfo {
   int width_px = 0;
   int height_px = 0;
-  double rate_hz = 0.0;                 // nominal frame rate; > 0
-  std::int64_t readout_ns = 0;          // first to last line along the direction; signed; 0 = global shutter or unknown
+  double rate_hz = 0.0;         // nominal frame rate; > 0
+  std::int64_t readout_ns = 0;  // first to last line along the direction; signed; 0 = global shutter or unknown
   ReadoutDirection readout_direction = ReadoutDirection::kDown;
-  std::int64_t exposure_ns = 0;         // 0 = unknown
-  std::uint64_t frame_count = 0;        // 0 = unknown (a live source)
-  bool lossless = false;                // the source waits for us (a file): a full ring is waited for, not dropped into
-  std::string description;              // for logs: device or file, codec, size
+  std::int64_t exposure_ns = 0;   // 0 = unknown
+  std::uint64_t frame_count = 0;  // 0 = unknown (a live source)
+  bool lossless = false;          // the source waits for us (a file): a full ring is waited for, not dropped into
+  std::string description;        // for logs: device or file, codec, size
 };
 
 // One gray image and when it was taken. A ring slot: `pixels` is sized once, at set-up, and reused.
 struct Frame {
-  std::uint64_t sequence = 0;           // frame number at the source; jumps where frames were lost
-  std::int64_t t_start_ns = 0;          // start of exposure of row 0 (stream time for files, CLOCK_MONOTONIC for devices)
-  std::int64_t exposure_ns = 0;         // 0 = unknown
-  bool gap_before = false;              // at least one frame is missing between this and the previous one
+  std::uint64_t sequence = 0;    // frame number at the source; jumps where frames were lost
+  std::int64_t t_start_ns = 0;   // start of exposure of row 0 (stream time for files, CLOCK_MONOTONIC for devices)
+  std::int64_t exposure_ns = 0;  // 0 = unknown
+  bool gap_before = false;       // at least one frame is missing between this and the previous one
   int width_px = 0;
   int height_px = 0;
-  std::vector<std::uint8_t> pixels;     // height x width, row-major, no padding
+  std::vector<std::uint8_t> pixels;  // height x width, row-major, no padding
 };
 
 }  // namespace core

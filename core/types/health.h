@@ -9,9 +9,9 @@ namespace core {
 // Counters of one stage since start. Latencies in nanoseconds from step begin to step end.
 struct StageHealth {
   std::string name;
-  std::uint64_t n_in = 0;        // items taken
-  std::uint64_t n_out = 0;       // items handed on
-  std::uint64_t n_dropped = 0;   // items lost here
+  std::uint64_t n_in = 0;       // items taken
+  std::uint64_t n_out = 0;      // items handed on
+  std::uint64_t n_dropped = 0;  // items lost here
   std::uint64_t busy_ns = 0;
   std::uint64_t worst_step_ns = 0;
   std::uint32_t queue_depth = 0, queue_slots = 0;  // of the ring it reads
@@ -19,19 +19,19 @@ struct StageHealth {
 
 // The whole service, once a second and at the end. Every loss has a name here.
 struct Health {
-  std::int64_t t_stream_ns = 0;          // stream time of the newest frame
-  double rate_hz = 0.0;                  // nominal
-  std::uint64_t frames_in = 0;           // frames_in = frames_processed + frames_dropped at the end of a run, exactly
+  std::int64_t t_stream_ns = 0;  // stream time of the newest frame
+  double rate_hz = 0.0;          // nominal
+  std::uint64_t frames_in = 0;   // frames_in = frames_processed + frames_dropped at the end of a run, exactly
   std::uint64_t frames_processed = 0;
-  std::uint64_t frames_dropped = 0;      // full ring
-  std::uint64_t frames_missing = 0;      // lost before us: sequence gaps at the source
+  std::uint64_t frames_dropped = 0;                    // full ring
+  std::uint64_t frames_missing = 0;                    // lost before us: sequence gaps at the source
   std::uint64_t points_tracked = 0, points_total = 0;  // of the newest frame
-  std::uint64_t samples_masked = 0;      // channel samples without a value
+  std::uint64_t samples_masked = 0;                    // channel samples without a value
   std::uint64_t estimates = 0;
   std::uint64_t messages_sent = 0, messages_failed = 0;
-  std::uint64_t snapshots_skipped = 0;   // due, but the previous one was not yet taken (live sources only)
-  std::string state;                     // "starting", "running", "finished", "fault: ..."
-  std::vector<std::string> warnings;     // e.g. real-time priority refused
+  std::uint64_t snapshots_skipped = 0;  // due, but the previous one was not yet taken (live sources only)
+  std::string state;                    // "starting", "running", "finished", "fault: ..."
+  std::vector<std::string> warnings;    // e.g. real-time priority refused
   std::vector<StageHealth> stages;
 };
 

@@ -14,35 +14,35 @@ enum class Verdict : std::uint8_t { kStructural, kCameraMotion, kInputPeak, kHar
 
 // One pole with its shape. What is not known yet is empty, never invented.
 struct Mode {
-  double frequency_hz = 0.0;                    // true frequency (after unfolding, where that was resolved)
+  double frequency_hz = 0.0;  // true frequency (after unfolding, where that was resolved)
   std::optional<double> frequency_std_hz;
-  double apparent_hz = 0.0;                     // where it stands in the sampled spectrum, 0 .. rate / 2
-  std::optional<int> fold_n;                    // true signed frequency = apparent + fold_n * rate
-  std::optional<double> fold_margin;            // MPC of the best hypothesis minus the second best
+  double apparent_hz = 0.0;           // where it stands in the sampled spectrum, 0 .. rate / 2
+  std::optional<int> fold_n;          // true signed frequency = apparent + fold_n * rate
+  std::optional<double> fold_margin;  // MPC of the best hypothesis minus the second best
   double damping_ratio = 0.0;
   std::optional<double> damping_std;
-  std::vector<std::complex<double>> shape;      // per channel; the largest component is 1 (real)
-  std::vector<double> shape_std;                // empty = unknown
-  double mpc = 0.0;                             // modal phase collinearity, 0..1
-  double presence = 0.0;                        // share of model orders in which the pole was found, 0..1
+  std::vector<std::complex<double>> shape;  // per channel; the largest component is 1 (real)
+  std::vector<double> shape_std;            // empty = unknown
+  double mpc = 0.0;                         // modal phase collinearity, 0..1
+  double presence = 0.0;                    // share of model orders in which the pole was found, 0..1
   Verdict verdict = Verdict::kNumerical;
   std::string reason;
 };
 
 // One answer of the identification: everything known at `n_samples` of stream time.
 struct ModalEstimate {
-  std::uint64_t number = 0;        // 0, 1, 2, ... over the run
-  std::uint64_t n_samples = 0;     // stream time in samples
+  std::uint64_t number = 0;     // 0, 1, 2, ... over the run
+  std::uint64_t n_samples = 0;  // stream time in samples
   std::uint64_t n_segments = 0;
   std::uint64_t n_missing = 0;
-  std::int64_t t_stream_ns = 0;    // time stamp of the last sample used
+  std::int64_t t_stream_ns = 0;  // time stamp of the last sample used
   double rate_hz = 0.0;
   double duration_s = 0.0;
-  int model_order = 0;             // order at which the canonical correlations fall off; 0 = unclear
-  bool final = false;              // the last of a run
-  std::string status;              // "ok", or why there are no modes
-  std::vector<Mode> modes;         // structural, by frequency
-  std::vector<Mode> rejected;      // every other pole, with its reason
+  int model_order = 0;         // order at which the canonical correlations fall off; 0 = unclear
+  bool final = false;          // the last of a run
+  std::string status;          // "ok", or why there are no modes
+  std::vector<Mode> modes;     // structural, by frequency
+  std::vector<Mode> rejected;  // every other pole, with its reason
 };
 
 }  // namespace core

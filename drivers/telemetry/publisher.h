@@ -14,20 +14,22 @@ namespace drivers {
 
 // What every message of a run says about its origin.
 struct StreamIdentity {
-  std::string stream_id;            // telemetry.stream_id
-  std::uint64_t config_hash = 0;    // of the configuration in force
+  std::string stream_id;          // telemetry.stream_id
+  std::uint64_t config_hash = 0;  // of the configuration in force
 };
 
 // Where results go. Called by the publish stage only. A failed send returns false and is counted by the caller.
 class Publisher {
  public:
   virtual ~Publisher() = default;
-  virtual bool publish(const core::ModalEstimate& estimate, const std::vector<core::ChannelInfo>& channels) noexcept = 0;
-  virtual bool publish(const core::DisplacementSample& sample, const std::vector<core::ChannelInfo>& channels) noexcept = 0;
+  virtual bool publish(const core::ModalEstimate& estimate,
+                       const std::vector<core::ChannelInfo>& channels) noexcept = 0;
+  virtual bool publish(const core::DisplacementSample& sample,
+                       const std::vector<core::ChannelInfo>& channels) noexcept = 0;
   virtual bool publish(const core::TrackFrame& tracks) noexcept = 0;
   virtual bool publish(const core::CpsdSums& spectrum, const std::vector<core::ChannelInfo>& channels) noexcept = 0;
   virtual bool publish(const core::Health& health) noexcept = 0;
-  [[nodiscard]] virtual std::uint64_t messages_sent() const noexcept = 0;    // datagrams
+  [[nodiscard]] virtual std::uint64_t messages_sent() const noexcept = 0;  // datagrams
   [[nodiscard]] virtual std::uint64_t messages_failed() const noexcept = 0;
 };
 

@@ -35,10 +35,14 @@ rt::StepStatus CaptureStage::deliver_next() noexcept {
   if (slot == nullptr && lossless_) return rt::StepStatus::kIdle;
   core::Frame& target = slot != nullptr ? *slot : spare_;
   switch (camera_.capture(target, kCaptureTimeout)) {
-    case drivers::CaptureStatus::kTimeout: return rt::StepStatus::kWorked;  // the wait was inside: look again at once
-    case drivers::CaptureStatus::kEndOfStream: return rt::StepStatus::kFinished;
-    case drivers::CaptureStatus::kFault: return rt::StepStatus::kFault;
-    case drivers::CaptureStatus::kFrame: break;
+    case drivers::CaptureStatus::kTimeout:
+      return rt::StepStatus::kWorked;  // the wait was inside: look again at once
+    case drivers::CaptureStatus::kEndOfStream:
+      return rt::StepStatus::kFinished;
+    case drivers::CaptureStatus::kFault:
+      return rt::StepStatus::kFault;
+    case drivers::CaptureStatus::kFrame:
+      break;
   }
   count(target);
   if (slot == nullptr) {
@@ -56,7 +60,8 @@ rt::StepStatus CaptureStage::deliver_next() noexcept {
 void CaptureStage::count(const core::Frame& frame) noexcept {
   rt::StageStats::add(stats().n_in);
   if (frame.sequence > last_sequence_ + 1) {
-    n_missing_.store(n_missing_.load(std::memory_order_relaxed) + frame.sequence - last_sequence_ - 1, std::memory_order_relaxed);
+    n_missing_.store(n_missing_.load(std::memory_order_relaxed) + frame.sequence - last_sequence_ - 1,
+                     std::memory_order_relaxed);
   }
   last_sequence_ = frame.sequence;
 }

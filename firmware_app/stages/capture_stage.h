@@ -10,8 +10,8 @@
 
 namespace app {
 
-// camera -> frame ring. A lossless source waits for a free slot; a live one drops the newest frame, counts it, and marks
-// the gap on the next.
+// camera -> frame ring. A lossless source waits for a free slot; a live one drops the newest frame, counts it, and
+// marks the gap on the next.
 class CaptureStage : public rt::Stage {
  public:
   // first: the frame that set-up has already taken from the camera; it goes first into the ring.
@@ -37,7 +37,7 @@ class CaptureStage : public rt::Stage {
   drivers::Camera& camera_;
   rt::RingWriter<core::Frame> frames_;
   core::Frame first_;
-  core::Frame spare_;            // where a frame goes that finds the ring full
+  core::Frame spare_;  // where a frame goes that finds the ring full
   bool lossless_;
   bool first_delivered_ = false;
   bool gap_before_next_ = false;

@@ -20,9 +20,9 @@ struct FrameRecord {
 // spectrum -> identification.
 struct SpectrumSnapshot {
   core::CpsdSums sums;
-  std::uint64_t number = 0;       // 0, 1, 2, ... in stream time
-  std::int64_t t_last_ns = 0;     // time stamp of the newest sample in the sums
-  bool final = false;             // the record has ended
+  std::uint64_t number = 0;    // 0, 1, 2, ... in stream time
+  std::int64_t t_last_ns = 0;  // time stamp of the newest sample in the sums
+  bool final = false;          // the record has ended
 };
 
 // identification -> publish.

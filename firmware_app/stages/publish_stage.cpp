@@ -11,7 +11,8 @@ namespace {
 constexpr std::int64_t kHealthPeriodNs = 1'000'000'000;
 }
 
-PublishStage::PublishStage(rt::RingReader<FrameRecord> records, rt::RingReader<IdentificationResult> results, Outlets outlets)
+PublishStage::PublishStage(rt::RingReader<FrameRecord> records, rt::RingReader<IdentificationResult> results,
+                           Outlets outlets)
     : records_(records), results_(results), outlets_(std::move(outlets)) {}
 
 rt::StepStatus PublishStage::step() noexcept {

@@ -21,8 +21,8 @@ class PublishStage : public rt::Stage {
  public:
   struct Outlets {
     drivers::Publisher& publisher;
-    RunReport* report = nullptr;                    // null: no report wanted
-    std::function<core::Health()> health;           // a status record of now
+    RunReport* report = nullptr;           // null: no report wanted
+    std::function<core::Health()> health;  // a status record of now
     // Draws the run's pictures beside the report; throws drivers::FileError. Empty: none wanted.
     std::function<void(const core::ModalEstimate&, const core::CpsdSums&)> draw;
     std::vector<core::ChannelInfo> channels;

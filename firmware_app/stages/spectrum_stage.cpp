@@ -25,9 +25,11 @@ rt::StepStatus SpectrumStage::step() noexcept {
     const core::TimeGrid::Placement placement = grid_.place(sample->t_start_ns);
     front_placed_ = true;
     front_refused_ = !placement.accepted;
+    worst_jitter_cells_.store(grid_.worst_jitter_cells(), std::memory_order_relaxed);
     // After a gap of more than two segments nothing of the old samples is left in the segment being gathered: more
     // masked cells would only add empty segments.
-    n_to_mask_ = std::min<std::uint64_t>(placement.n_missing_before, 2 * static_cast<std::uint64_t>(welch_.sums().n_fft));
+    n_to_mask_ =
+        std::min<std::uint64_t>(placement.n_missing_before, 2 * static_cast<std::uint64_t>(welch_.sums().n_fft));
     if (n_to_mask_ > 0) return rt::StepStatus::kWorked;
   }
   take(*sample);

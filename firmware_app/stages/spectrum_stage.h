@@ -26,6 +26,9 @@ class SpectrumStage : public rt::Stage {
   // Any thread.
   [[nodiscard]] std::uint64_t n_masked() const noexcept { return n_masked_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t n_skipped() const noexcept { return n_skipped_.load(std::memory_order_relaxed); }
+  [[nodiscard]] double worst_jitter_cells() const noexcept {
+    return worst_jitter_cells_.load(std::memory_order_relaxed);
+  }
   [[nodiscard]] std::int64_t t_stream_ns() const noexcept { return t_stream_ns_.load(std::memory_order_relaxed); }
 
  private:
@@ -41,16 +44,17 @@ class SpectrumStage : public rt::Stage {
   std::uint64_t period_hops_;
   rt::TripleBuffer<SpectrumSnapshot>& snapshots_;
   bool lossless_;
-  std::uint64_t n_to_mask_ = 0;          // grid cells still to be masked before the sample in front
-  bool front_placed_ = false;            // the sample in front has its cell
-  bool front_refused_ = false;           // ... and it is already taken
-  bool due_ = false;                     // a snapshot waits to be handed over
+  std::uint64_t n_to_mask_ = 0;  // grid cells still to be masked before the sample in front
+  bool front_placed_ = false;    // the sample in front has its cell
+  bool front_refused_ = false;   // ... and it is already taken
+  bool due_ = false;             // a snapshot waits to be handed over
   bool flushed_ = false;
   std::uint64_t n_snapshots_ = 0;
   // Written here only; relaxed: each is a number on its own.
   std::atomic<std::uint64_t> n_masked_{0};
   std::atomic<std::uint64_t> n_skipped_{0};
   std::atomic<std::int64_t> t_stream_ns_{0};
+  std::atomic<double> worst_jitter_cells_{0.0};
 };
 
 }  // namespace app

@@ -5,7 +5,12 @@ namespace app {
 TrackingStage::TrackingStage(rt::RingReader<core::Frame> frames, core::StructureTracker& tracker,
                              core::ChannelDisplacement& channels, rt::RingWriter<core::DisplacementSample> samples,
                              rt::RingWriter<FrameRecord> records, bool lossless)
-    : frames_(frames), tracker_(tracker), channels_(channels), samples_(samples), records_(records), lossless_(lossless) {
+    : frames_(frames),
+      tracker_(tracker),
+      channels_(channels),
+      samples_(samples),
+      records_(records),
+      lossless_(lossless) {
   scratch_.tracks.points.resize(tracker.n_points());
   scratch_.sample = channels.sample_prototype();
 }
@@ -39,7 +44,8 @@ rt::StepStatus TrackingStage::step() noexcept {
 }
 
 void TrackingStage::measure(const core::Frame& frame) noexcept {
-  if (!tracker_.track(frame, scratch_.tracks)) n_failed_.store(n_failed_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  if (!tracker_.track(frame, scratch_.tracks))
+    n_failed_.store(n_failed_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   channels_.update(scratch_.tracks, scratch_.sample);
   tracker_.learn(scratch_.tracks);
   std::uint64_t n_tracked = 0;

@@ -14,19 +14,24 @@ namespace app {
 // frame ring -> points -> displacement of every channel -> spectrum ring and publish ring.
 class TrackingStage : public rt::Stage {
  public:
-  TrackingStage(rt::RingReader<core::Frame> frames, core::StructureTracker& tracker, core::ChannelDisplacement& channels,
-                rt::RingWriter<core::DisplacementSample> samples, rt::RingWriter<FrameRecord> records, bool lossless);
+  TrackingStage(rt::RingReader<core::Frame> frames, core::StructureTracker& tracker,
+                core::ChannelDisplacement& channels, rt::RingWriter<core::DisplacementSample> samples,
+                rt::RingWriter<FrameRecord> records, bool lossless);
 
   [[nodiscard]] std::string_view name() const noexcept override { return "tracking"; }
   [[nodiscard]] rt::StepStatus step() noexcept override;
   void finish() noexcept override;
 
   // Any thread: of the newest frame.
-  [[nodiscard]] std::uint64_t points_tracked() const noexcept { return points_tracked_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::uint64_t points_tracked() const noexcept {
+    return points_tracked_.load(std::memory_order_relaxed);
+  }
   [[nodiscard]] std::uint64_t points_total() const noexcept { return scratch_.tracks.points.size(); }
   [[nodiscard]] std::uint64_t n_failed_frames() const noexcept { return n_failed_.load(std::memory_order_relaxed); }
   // Any thread: frames that publish never saw, because its ring was full.
-  [[nodiscard]] std::uint64_t n_records_lost() const noexcept { return n_records_lost_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::uint64_t n_records_lost() const noexcept {
+    return n_records_lost_.load(std::memory_order_relaxed);
+  }
 
  private:
   void measure(const core::Frame& frame) noexcept;

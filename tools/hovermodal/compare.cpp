@@ -1,6 +1,6 @@
 // hovermodal compare: one result against another, and both against the truth.
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
@@ -22,7 +22,8 @@ using Shape = std::vector<std::complex<double>>;
 struct PaperMode {
   double accelerometer_hz, drone_hz, mac_percent, error_percent;
 };
-constexpr std::array<PaperMode, 3> kPaperTable1{{{1.632, 1.649, 99.99, 1.04}, {5.054, 5.043, 99.86, 0.22}, {8.175, 8.170, 99.67, 0.06}}};
+constexpr std::array<PaperMode, 3> kPaperTable1{
+    {{1.632, 1.649, 99.99, 1.04}, {5.054, 5.043, 99.86, 0.22}, {8.175, 8.170, 99.67, 0.06}}};
 
 struct Match {
   const core::Mode* mode = nullptr;
@@ -41,7 +42,8 @@ Shape shape_for(const app::ModalReport& report, const core::Mode& mode, const st
 }
 
 // The mode of `report` that is meant by `wanted`: of those within 10 % in frequency the one with the best MAC.
-Match find(const app::ModalReport& report, const core::Mode& wanted, const std::vector<std::string>& names, const Shape& wanted_shape) {
+Match find(const app::ModalReport& report, const core::Mode& wanted, const std::vector<std::string>& names,
+           const Shape& wanted_shape) {
   Match best;
   for (const core::Mode& mode : report.estimate.modes) {
     if (std::abs(mode.frequency_hz / wanted.frequency_hz - 1.0) > 0.1) continue;
@@ -69,7 +71,8 @@ std::string truth_columns(const app::ModalReport& truth, const core::Mode& found
   for (const core::Mode& mode : truth.estimate.modes) {
     if (std::abs(mode.frequency_hz / found.frequency_hz - 1.0) > 0.1) continue;
     const double error = found.frequency_hz / mode.frequency_hz - 1.0;
-    return fmt::format("  {:8.3f} {:+8.3f} {:7.2f}", mode.frequency_hz, 100.0 * error, error / scatter(mode, duration_s));
+    return fmt::format("  {:8.3f} {:+8.3f} {:7.2f}", mode.frequency_hz, 100.0 * error,
+                       error / scatter(mode, duration_s));
   }
   return {};
 }
@@ -82,28 +85,33 @@ void print_header(bool with_truth, bool with_paper) {
 }
 
 // Modes are numbered by the truth where it is given, else by the reference.
-void print_table(const app::ModalReport& result, const app::ModalReport& reference, const app::ModalReport* truth, bool with_paper) {
+void print_table(const app::ModalReport& result, const app::ModalReport& reference, const app::ModalReport* truth,
+                 bool with_paper) {
   const std::vector<std::string> names = common_channels(result, reference);
   print_header(truth != nullptr, with_paper);
   std::size_t number = 0;
   for (const core::Mode& numbered : (truth != nullptr ? *truth : reference).estimate.modes) {
     const PaperMode* paper = with_paper && number < kPaperTable1.size() ? &kPaperTable1[number] : nullptr;
     ++number;
-    const Shape true_shape = truth != nullptr ? shape_for(*truth, numbered, names) : shape_for(reference, numbered, names);
+    const Shape true_shape =
+        truth != nullptr ? shape_for(*truth, numbered, names) : shape_for(reference, numbered, names);
     const core::Mode* wanted = truth != nullptr ? find(reference, numbered, names, true_shape).mode : &numbered;
     const Match match = wanted != nullptr ? find(result, *wanted, names, shape_for(reference, *wanted, names))
                                           : find(result, numbered, names, true_shape);
     if (match.mode == nullptr || wanted == nullptr) {
       const bool folded = numbered.frequency_hz > reference.estimate.rate_hz / 2.0;
-      fmt::print("{:4} {:>10} {:>10}\n", number, match.mode == nullptr ? (folded ? "folded" : "not found") : fmt::format("{:.4f}", match.mode->frequency_hz),
-                 wanted == nullptr ? "not found" : fmt::format("{:.4f}", wanted->frequency_hz));
+      fmt::print(
+          "{:4} {:>10} {:>10}\n", number,
+          match.mode == nullptr ? (folded ? "folded" : "not found") : fmt::format("{:.4f}", match.mode->frequency_hz),
+          wanted == nullptr ? "not found" : fmt::format("{:.4f}", wanted->frequency_hz));
       continue;
     }
     fmt::print("{:4} {:10.4f} {:10.4f} {:+8.3f} {:8.3f}", number, match.mode->frequency_hz, wanted->frequency_hz,
                100.0 * (match.mode->frequency_hz / wanted->frequency_hz - 1.0), 100.0 * match.mac);
     if (truth != nullptr) fmt::print("{}", truth_columns(*truth, *match.mode, result.estimate.duration_s));
     if (paper != nullptr) {
-      fmt::print("   {:14.3f} {:8.3f} {:8.2f} {:6.2f}", paper->drone_hz, paper->accelerometer_hz, paper->error_percent, paper->mac_percent);
+      fmt::print("   {:14.3f} {:8.3f} {:8.2f} {:6.2f}", paper->drone_hz, paper->accelerometer_hz, paper->error_percent,
+                 paper->mac_percent);
     }
     fmt::print("\n");
   }
@@ -118,11 +126,15 @@ void add_compare(CLI::App& app) {
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
-      "compare", "Frequencies and shapes of one modal.json against another, or against a simulation's truth.json\n"
-                 "  hovermodal compare --result out/modal.json --reference out/truth.json");
+      "compare",
+      "Frequencies and shapes of one modal.json against another, or against a simulation's truth.json\n"
+      "  hovermodal compare --result out/modal.json --reference out/truth.json");
   command->add_option("--result", options->result, "modal.json to judge")->required()->type_name("FILE");
-  command->add_option("--reference", options->reference, "modal.json or truth.json to judge it by")->required()->type_name("FILE");
-  command->add_option("--truth", options->truth, "truth.json: adds the error in units of the smallest possible scatter")->type_name("FILE");
+  command->add_option("--reference", options->reference, "modal.json or truth.json to judge it by")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--truth", options->truth, "truth.json: adds the error in units of the smallest possible scatter")
+      ->type_name("FILE");
   command->add_flag("--paper", options->paper, "Adds Table 1 of Yoon et al. 2017 beside it");
   command->callback([options] {
     const app::ModalReport result = app::read_modal_json(options->result);

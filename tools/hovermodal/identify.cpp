@@ -1,6 +1,6 @@
 // hovermodal identify: the service's spectra and identification on any time series.
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -23,14 +23,16 @@ namespace {
 struct IdentifyOptions {
   std::string series;
   double rate_hz = 0.0;
-  std::vector<std::string> channels;   // empty = all but the time
+  std::vector<std::string> channels;  // empty = all but the time
   std::vector<std::string> bases;
   app::SpectrumConfig spectrum;
   core::IdentifierConfig identifier;
   std::string report;
 };
 
-bool is_time(const std::string& name) { return name == "t_s" || name == "time" || name == "frame" || name == "scale_mm_per_px"; }
+bool is_time(const std::string& name) {
+  return name == "t_s" || name == "time" || name == "frame" || name == "scale_mm_per_px";
+}
 
 // Times, where the file has them, must agree with the rate: one source of truth.
 double rate_of(const drivers::SeriesFile& file, const IdentifyOptions& options) {
@@ -43,7 +45,8 @@ double rate_of(const drivers::SeriesFile& file, const IdentifyOptions& options) 
   if (t.size() < 2) throw std::invalid_argument(options.series + ": fewer than two samples");
   const double measured_hz = static_cast<double>(t.size() - 1) / (t.back() - t.front());
   if (options.rate_hz > 0.0 && std::abs(measured_hz / options.rate_hz - 1.0) > 0.01) {
-    throw std::invalid_argument(fmt::format("--rate {:g} disagrees with {}'s column t_s, {:.6g} Hz", options.rate_hz, options.series, measured_hz));
+    throw std::invalid_argument(fmt::format("--rate {:g} disagrees with {}'s column t_s, {:.6g} Hz", options.rate_hz,
+                                            options.series, measured_hz));
   }
   return options.rate_hz > 0.0 ? options.rate_hz : measured_hz;
 }
@@ -53,7 +56,9 @@ app::ChannelSeries load(const IdentifyOptions& options) {
   app::ChannelSeries series;
   series.rate_hz = rate_of(file, options);
   std::vector<std::string> names = options.channels;
-  if (names.empty()) std::copy_if(file.names.begin(), file.names.end(), std::back_inserter(names), [](const auto& n) { return !is_time(n); });
+  if (names.empty())
+    std::copy_if(file.names.begin(), file.names.end(), std::back_inserter(names),
+                 [](const auto& n) { return !is_time(n); });
   for (const std::string& name : names) {
     const int column = file.column(name);
     if (column < 0) throw std::invalid_argument(options.series + ": no column '" + name + "'");
@@ -87,18 +92,27 @@ void run(const IdentifyOptions& options) {
 
 void add_identify(CLI::App& app) {
   auto options = std::make_shared<IdentifyOptions>();
-  CLI::App* command = app.add_subcommand(
-      "identify", "Modes of any time series: displacements.csv of a run, simulated truth, accelerometers\n"
-                  "  hovermodal identify --series out/displacements.csv --base base");
-  command->add_option("--series", options->series, "CSV with one line of names; a column t_s gives the rate")->required()->type_name("FILE");
+  CLI::App* command =
+      app.add_subcommand("identify",
+                         "Modes of any time series: displacements.csv of a run, simulated truth, accelerometers\n"
+                         "  hovermodal identify --series out/displacements.csv --base base");
+  command->add_option("--series", options->series, "CSV with one line of names; a column t_s gives the rate")
+      ->required()
+      ->type_name("FILE");
   command->add_option("--rate", options->rate_hz, "Samples per second, when there is no column t_s")->type_name("HZ");
   command->add_option("--channels", options->channels, "Columns to use (default: all but times)")->type_name("NAME");
   command->add_option("--base", options->bases, "Columns that are the structure's base")->type_name("NAME");
   command->add_option("--segment", options->spectrum.segment, "Samples per Welch segment")->capture_default_str();
-  command->add_option("--block-rows", options->identifier.block_rows, "Block rows of the Hankel matrix, 0 = automatic")->capture_default_str();
-  command->add_option("--differences", options->identifier.n_differences, "Prewhitening differences (0 for accelerations)")->capture_default_str();
-  command->add_option("--max-frequency", options->identifier.max_frequency_hz,
-                      "Highest true frequency, Hz: above half the rate it is unfolded by the row delays (0 = half the rate)")->capture_default_str();
+  command->add_option("--block-rows", options->identifier.block_rows, "Block rows of the Hankel matrix, 0 = automatic")
+      ->capture_default_str();
+  command
+      ->add_option("--differences", options->identifier.n_differences, "Prewhitening differences (0 for accelerations)")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--max-frequency", options->identifier.max_frequency_hz,
+          "Highest true frequency, Hz: above half the rate it is unfolded by the row delays (0 = half the rate)")
+      ->capture_default_str();
   command->add_option("--report", options->report, "Folder for modal.json")->type_name("DIR");
   command->callback([options] { run(*options); });
 }

@@ -7,8 +7,9 @@
 #include "tools/hovermodal/commands.h"
 
 int main(int argc, char** argv) {
-  CLI::App app{"hovermodal: modes of vibration of a structure, seen from a hovering drone\n"
-               "The service itself is hovermodald; these are its companions on the desk and on the ground."};
+  CLI::App app{
+      "hovermodal: modes of vibration of a structure, seen from a hovering drone\n"
+      "The service itself is hovermodald; these are its companions on the desk and on the ground."};
   app.require_subcommand(1);
   app.set_version_flag("--version", HOVERMODAL_VERSION);
   tools::add_simulate(app);

@@ -9,6 +9,7 @@
 namespace tools {
 
 // Modes as a table for a terminal, rejected poles with their reasons below.
-[[nodiscard]] std::string modes_text(const core::ModalEstimate& estimate, const std::vector<core::ChannelInfo>& channels);
+[[nodiscard]] std::string modes_text(const core::ModalEstimate& estimate,
+                                     const std::vector<core::ChannelInfo>& channels);
 
 }  // namespace tools

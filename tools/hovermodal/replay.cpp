@@ -1,6 +1,6 @@
 // hovermodal replay: the service's chain on recorded tracks, from geometry on.
-#include <CLI/CLI.hpp>
 #include <fmt/core.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 
@@ -17,9 +17,12 @@ void add_replay(CLI::App& app) {
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
-      "replay", "Run geometry, spectra and identification again on a tracks.csv, with any configuration\n"
-                "  hovermodal replay --tracks out/tracks.csv --config flight.yaml --set method=paper --report again");
-  command->add_option("--tracks", options->tracks, "tracks.csv of a run or of `simulate --tracks-only`")->required()->type_name("FILE");
+      "replay",
+      "Run geometry, spectra and identification again on a tracks.csv, with any configuration\n"
+      "  hovermodal replay --tracks out/tracks.csv --config flight.yaml --set method=paper --report again");
+  command->add_option("--tracks", options->tracks, "tracks.csv of a run or of `simulate --tracks-only`")
+      ->required()
+      ->type_name("FILE");
   command->add_option("--config", options->config, "Configuration of the run")->required()->type_name("FILE");
   command->add_option("--set", options->overrides, "Override one key")->type_name("section.key=value")->take_all();
   command->add_option("--report", options->report, "Folder for the report")->type_name("DIR");
