@@ -129,14 +129,15 @@ Renderer::Renderer(const Scene& scene)
                   scene.seed, "background_texture"),
       noise_(noise_table(scene.camera.noise_sigma, scene.seed, scene.camera.width_px)),
       noise_key_(mix64(scene.seed ^ hash_name("sensor_noise_rows"))) {
-  if (scene.hover.rotates()) {
+  if (motion_.camera().rotates() || motion_.camera().zooms() || motion_.structure().tilts() ||
+      scene.camera.lens.model != LensParameters::Model::kNone) {
     throw std::invalid_argument("simulation: the renderer draws no camera rotation; set pitch, yaw and roll to 0");
   }
   require_resolved(scene.background.texture, scene.background.depth_mm, scene.camera.alpha_px);
-  require_resolved(scene.plates.texture, scene.plates.depth_mm, scene.camera.alpha_px);
-  const int cells = cells_for(std::max(scene.plates.width_mm, scene.plates.height_mm), scene.plates.texture.pitch_mm);
-  for (int body = 0; body < scene.n_bodies(); ++body) {
-    plate_.emplace_back(scene.plates.texture, cells, scene.seed, "plate_texture", static_cast<std::uint64_t>(body));
+  for (const Plate& plate : scene.plates) {
+    require_resolved(plate.texture, plate.z_mm, scene.camera.alpha_px);
+    plate_.emplace_back(plate.texture, cells_for(std::max(plate.width_mm, plate.height_mm), plate.texture.pitch_mm),
+                        scene.seed, "plate_texture", plate_.size());
   }
 }
 
@@ -153,7 +154,7 @@ void Renderer::render(std::uint64_t frame, std::uint8_t* pixels) const {
 }
 
 void Renderer::render(std::uint64_t frame, std::uint8_t* pixels, Scratch& scratch) const {
-  const double t_frame_s = motion_.frame_time_s(frame);
+  const double t_frame_s = static_cast<double>(frame) / scene().camera.rate_hz;
   for (int v = 0; v < scene().camera.height_px; ++v) {
     render_row(t_frame_s, v, scratch);
     add_noise(frame, v, scratch.light.data(), pixels + static_cast<std::ptrdiff_t>(v) * scene().camera.width_px);
@@ -163,17 +164,17 @@ void Renderer::render(std::uint64_t frame, std::uint8_t* pixels, Scratch& scratc
 void Renderer::render_light(std::uint64_t frame, float* light) const {
   Scratch scratch = make_scratch();
   for (int v = 0; v < scene().camera.height_px; ++v) {
-    render_row(motion_.frame_time_s(frame), v, scratch);
+    render_row(static_cast<double>(frame) / scene().camera.rate_hz, v, scratch);
     std::copy_n(scratch.light.begin(), scene().camera.width_px,
                 light + static_cast<std::ptrdiff_t>(v) * scene().camera.width_px);
   }
 }
 
 void Renderer::render_row(double t_frame_s, int v, Scratch& scratch) const noexcept {
-  const double middle_s = motion_.row_time_s(t_frame_s, v);
-  const double offset_s = scene().camera.exposure_s / (2.0 * std::sqrt(3.0));
-  const Instant a{middle_s - offset_s, motion_.hover().at(middle_s - offset_s)};
-  const Instant b{middle_s + offset_s, motion_.hover().at(middle_s + offset_s)};
+  const double middle_s = motion_.line_time_s(t_frame_s, {0.0, static_cast<double>(v)});
+  const double offset_s = motion_.exposure_offset_s();
+  const Instant a{middle_s - offset_s, motion_.camera().at(middle_s - offset_s)};
+  const Instant b{middle_s + offset_s, motion_.camera().at(middle_s + offset_s)};
   draw_background(a, b, v, scratch);
   scratch.light = scratch.background;
   for (int body = 0; body < scene().n_bodies(); ++body) {
@@ -215,15 +216,16 @@ void Renderer::draw_background(const Instant& a, const Instant& b, int v, Scratc
 // One of the exposure's two instants: half of what the plate covers is moved from background to plate.
 void Renderer::add_plate(int body, const Instant& instant, int v, Scratch& scratch) const noexcept {
   const CameraParameters& camera = scene().camera;
-  const PlateParameters& plates = scene().plates;
-  const double scale = (plates.depth_mm - instant.pose.z_mm) / camera.alpha_px;
-  const double v_centre = camera.cy_px + (scene().body_y_mm(body) - instant.pose.y_mm) / scale;
-  const double half_v = 0.5 * plates.height_mm / scale;
+  const Plate& plate = scene().plates[static_cast<std::size_t>(body)];
+  const BodyPose moved = motion_.body_at(body, instant.t_s);
+  const double scale = (plate.z_mm - instant.pose.z_mm) / camera.alpha_px;
+  const double v_centre = camera.cy_px + (plate.y_mm + moved.y_mm - instant.pose.y_mm) / scale;
+  const double half_v = 0.5 * plate.height_mm / scale;
   const double cover_v = covered(v, v_centre - half_v, v_centre + half_v);
   if (cover_v <= 0.0) return;
-  const double x_mm = motion_.structure().displacement_mm(body, instant.t_s) - instant.pose.x_mm;
+  const double x_mm = plate.x_mm + moved.x_mm - instant.pose.x_mm;
   const double u_centre = camera.cx_px + x_mm / scale;
-  const double low = u_centre - 0.5 * plates.width_mm / scale, high = u_centre + 0.5 * plates.width_mm / scale;
+  const double low = u_centre - 0.5 * plate.width_mm / scale, high = u_centre + 0.5 * plate.width_mm / scale;
   const int begin = static_cast<int>(std::clamp(std::ceil(low - 0.5), 0.0, static_cast<double>(camera.width_px)));
   const int end = static_cast<int>(std::clamp(std::floor(high + 0.5) + 1.0, 0.0, static_cast<double>(camera.width_px)));
   if (begin >= end) return;

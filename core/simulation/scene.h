@@ -1,34 +1,57 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
+#include "core/simulation/structure_model.h"
 #include "core/types/frame.h"
 
 namespace core::simulation {
 
-// World: X right, Y down, Z away from the camera, mm; the camera hovers about the origin and looks along +Z. The
-// structure's plates and the background are planes of constant Z. Pixel centres lie at integers.
+// World: X right, Y down, Z away from the camera, mm; the camera hovers about its mean position (the origin, unless
+// given) and looks along +Z. Plates and background are planes of constant Z. Pixel centres lie at integers.
+
+// How the lens bends rays: x, y = X/Z, Y/Z -> distorted x, y.
+struct LensParameters {
+  enum class Model : std::uint8_t { kNone, kRadialTangential, kEquidistant };
+  Model model = Model::kNone;
+  std::array<double, 5> k{};  // radial-tangential: k1 k2 p1 p2 k3 (Brown 1971); equidistant: k1 .. k4 (Kannala 2006)
+};
 
 struct CameraParameters {
   int width_px = 1920, height_px = 1080;
-  double alpha_px = 2100.0;  // focal length; square pixels, no distortion
+  double alpha_px = 2100.0;  // focal length; square pixels
   double cx_px = 959.5, cy_px = 539.5;
+  LensParameters lens;
   double rate_hz = 25.0;
-  double readout_s = 0.026;  // row v starts its exposure at frame / rate + readout v / height
+  double readout_s = 0.026;  // first to last line, as the direction runs
+  core::ReadoutDirection readout_direction = core::ReadoutDirection::kDown;
   double exposure_s = 0.004;
-  double noise_sigma = 2.0;  // grey levels, white, before rounding to 8 bits
+  double noise_sigma = 2.0;                        // grey levels, white, before rounding to 8 bits
+  double x_mm = 0.0, y_mm = 0.0, z_mm = 0.0;       // mean position
+  double pitch_rad = 0.0, yaw_rad = 0.0, roll_rad = 0.0;  // mean attitude: about X, then Y, then Z
 };
 
-// Shear building on a shaking table that moves along X. Masses are uniform, shapes those of the uniform fixed-free
-// shear chain, phi_r(i) = sin((2 r - 1) i pi / (2 n + 1)); frequencies are given, one per storey.
-struct StructureParameters {
-  std::vector<double> frequency_hz;
-  std::vector<double> damping_ratio;
-  double band_low_hz = 0.5, band_high_hz = 20.0;  // of the white base acceleration
-  double roof_rms_mm = 4.0;                       // relative to the base, over the clip; scales the input. 0 = at rest
+// What shakes the structure: white noise in a band (a Gaussian per frequency), lines, or both.
+struct ExcitationParameters {
+  double base = 1.0;     // weight of the ground's acceleration; 0 = the ground rests
+  double forces = 0.0;   // weight of independent forces on every body, relative to `base` (N per kg of a unit mass)
+  double band_low_hz = 0.5, band_high_hz = 20.0;
+  double rms_mm = 4.0;  // of the last body relative to the ground, over the clip; scales all. 0 = at rest
 
-  [[nodiscard]] int n_floors() const noexcept { return static_cast<int>(frequency_hz.size()); }
+  struct Peak {  // colour of the ground's motion: its amplitude times 1 + gain at the frequency (a resonance curve)
+    double frequency_hz = 0.0, damping_ratio = 0.05, gain = 0.0;
+  };
+  std::vector<Peak> base_peaks;
+  struct Harmonic {  // a machine: a steady sinusoidal force on one body
+    int body = 1;
+    double frequency_hz = 0.0;
+    double rms_mm = 0.0;  // of that body's response
+  };
+  std::vector<Harmonic> harmonics;
 };
 
 // Texture: cubic B-spline with independent Gaussian coefficients on a grid of this pitch.
@@ -37,11 +60,11 @@ struct TextureParameters {
   double mean = 128.0, contrast_rms = 25.0;  // grey levels
 };
 
-// Body 0 is the base plate on the table, body i the plate of floor i; each is a width x height face in one plane.
-struct PlateParameters {
+// The visible face of one body: flat, parallel to the plane Z = 0. Centre at rest in the world.
+struct Plate {
+  std::string name;
+  double x_mm = 0.0, y_mm = 0.0, z_mm = 2000.0;
   double width_mm = 300.0, height_mm = 50.0;
-  double storey_mm = 140.0;  // centre to centre
-  double depth_mm = 2000.0;  // stand-off
   TextureParameters texture;
 };
 
@@ -55,34 +78,77 @@ struct BackgroundParameters {
 struct HoverParameters {
   double x_rms_mm = 25.0, y_rms_mm = 8.0, z_rms_mm = 25.0;
   double pitch_rms_rad = 0.0, yaw_rms_rad = 0.0, roll_rms_rad = 0.0;  // about X, Y, Z
+  double zoom_rms = 0.0;                                              // breathing of the focal length, relative
   double corner_hz = 0.318, order = 6.0, limit_hz = 5.0;
-
-  [[nodiscard]] bool rotates() const noexcept { return pitch_rms_rad > 0.0 || yaw_rms_rad > 0.0 || roll_rms_rad > 0.0; }
 };
 
-// Everything that is rendered or tracked is a function of this struct alone.
+// A flight that somebody recorded, in camera axes (X right, Y down, Z forward), about its mean. Equal lengths.
+struct RecordedMotion {
+  double rate_hz = 0.0;
+  std::vector<double> x_mm, y_mm, z_mm, pitch_rad, yaw_rad, roll_rad;
+};
+
+// Vibration of the camera at the rotors' rate, which wanders.
+struct RotorParameters {
+  double frequency_hz = 95.0;
+  double wander_rms_hz = 0.3, wander_corner_hz = 0.1;
+  double pitch_rms_rad = 0.0, yaw_rms_rad = 0.0, roll_rms_rad = 0.0;
+};
+
+// Jitter: independent, Gaussian, cut at 0.45 of a frame. Drops and duplicates: independent per frame.
+struct TimingParameters {
+  double jitter_rms_s = 0.0;
+  double drop_probability = 0.0;
+  double duplicate_probability = 0.0;  // the picture before once more, under a stamp of its own
+  bool stamps_tell = true;             // false: stamps are frame / rate, and nothing says that a frame is missing
+};
+
+struct LightParameters {
+  double gain_rms = 0.0;            // of exposure or clouds, relative
+  double gain_corner_hz = 0.2;      // density as the hover's, order 6
+  double flicker_depth = 0.0;       // of lamps: light times 1 + depth cos(2 pi f t + phase)
+  double flicker_hz = 100.0;
+};
+
+// What a tracker adds to the truth, in tracks.
+struct TrackParameters {
+  int points_per_region = 30;
+  double noise_px = 0.03;           // Gaussian, per axis, independent between points and frames
+  double loss_probability = 0.0;    // of a point in a frame
+  double pixel_locking_px = 0.0;    // amplitude of an error periodic in the sub-pixel phase
+  double brightness_bias_px = 0.0;  // error per unit of relative brightness change, in each point's own direction
+};
+
+// What is left of camera and tracker where only channels are made.
+struct ChannelParameters {
+  double noise_mm = 0.01;  // Gaussian, independent
+  double loss_probability = 0.0;
+};
+
+// Everything that is rendered, tracked or sampled is a function of this struct alone.
 struct Scene {
   std::uint64_t seed = 1;
   double duration_s = 60.0;
   CameraParameters camera;
-  StructureParameters structure;
-  PlateParameters plates;
+  StructureModel structure;
+  ExcitationParameters excitation;
+  std::vector<Plate> plates;  // by body: plates[0] stands on the ground
   BackgroundParameters background;
   HoverParameters hover;
+  std::shared_ptr<const RecordedMotion> flight;  // beside the hover model; null = none
+  RotorParameters rotor;
+  TimingParameters timing;
+  LightParameters light;
+  TrackParameters tracks;
+  ChannelParameters channels;
 
-  [[nodiscard]] std::uint64_t n_frames() const noexcept;
-  [[nodiscard]] int n_bodies() const noexcept { return structure.n_floors() + 1; }
-  [[nodiscard]] double body_y_mm(int body) const noexcept;  // centre of the body's plate at rest
+  [[nodiscard]] std::uint64_t n_frames() const noexcept;  // of the sensor, before drops
+  [[nodiscard]] int n_bodies() const noexcept { return static_cast<int>(plates.size()); }
   [[nodiscard]] core::CameraInfo camera_info() const;
 };
 
-// The experiment of the paper: six storeys at 1.657 ... 14.34 Hz, 1 % damping, a 1080p camera at 25 fps 2 m away.
-[[nodiscard]] Scene make_paper_scene(std::uint64_t seed, double duration_s);
-
-// The same view with another sensor: alpha and textures scale with the image so that the scene fits it alike.
-void set_image_size(Scene& scene, int width_px, int height_px);
-
-// Throws std::invalid_argument: NaN or out-of-range values, and a view that plates leave within 3 sigma of the drift.
+// Throws std::invalid_argument: what is NaN or out of range, a structure that is unstable or does not fit the plates, a
+// camera in or behind the structure, and a view that plates leave within 3 sigma of the drift.
 void validate(const Scene& scene);
 
 }  // namespace core::simulation

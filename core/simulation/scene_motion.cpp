@@ -1,8 +1,6 @@
 #include "core/simulation/scene_motion.h"
 
-#include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace core::simulation {
 namespace {
@@ -12,93 +10,70 @@ const Scene& validated(const Scene& scene) {
   return scene;
 }
 
-// Rectangle that holds the plate's inner part in frame 0, in whole pixels.
-core::Region plate_region(const SceneMotion& motion, int body) {
-  const PlateParameters& plates = motion.scene().plates;
-  const double y_mm = motion.scene().body_y_mm(body);
-  const ImagePoint a = motion.see(body, {-plates.width_mm / 2, y_mm - plates.height_mm / 2}, 0.0);
-  const ImagePoint b = motion.see(body, {plates.width_mm / 2, y_mm + plates.height_mm / 2}, 0.0);
-  const double margin = std::min(12.0, 0.22 * (b.v_px - a.v_px));
-  core::Region region;
-  region.u_px = std::ceil(a.u_px + margin);
-  region.v_px = std::ceil(a.v_px + margin);
-  region.width_px = std::floor(b.u_px - margin) - region.u_px;
-  region.height_px = std::floor(b.v_px - margin) - region.v_px;
-  return region;
-}
-
-// Left of the structure, clear of it by four standard deviations of the drift.
-core::Region background_region(const SceneMotion& motion, const core::Region& plate) {
-  const Scene& scene = motion.scene();
-  const double scale = scene.camera.alpha_px / scene.plates.depth_mm;
-  const double margin = 0.02 * scene.camera.width_px;
-  core::Region region;
-  region.name = "background";
-  region.role = core::RegionRole::kBackground;
-  region.u_px = std::ceil(margin + 2.0 * scale * scene.hover.x_rms_mm);
-  region.v_px = std::ceil(0.3 * scene.camera.height_px);
-  region.width_px = std::floor(plate.u_px - scale * (4.0 * scene.hover.x_rms_mm + 20.0)) - region.u_px;
-  region.height_px = std::floor(0.4 * scene.camera.height_px);
-  return region;
-}
-
 }  // namespace
 
-SceneMotion::SceneMotion(const Scene& scene)
-    : scene_(validated(scene)),
-      structure_(scene.structure, scene.seed, scene.duration_s),
-      hover_(scene.hover, scene.seed, scene.duration_s) {}
+SceneMotion::SceneMotion(const Scene& scene) : scene_(validated(scene)), structure_(scene_), camera_(scene_) {}
 
-double SceneMotion::frame_time_s(std::uint64_t frame) const noexcept {
-  return static_cast<double>(frame) / scene_.camera.rate_hz;
+double SceneMotion::line_time_s(double t_frame_s, ImagePoint image) const noexcept {
+  const CameraParameters& camera = scene_.camera;
+  return t_frame_s + camera.readout_s * readout_share(camera, image) + 0.5 * camera.exposure_s;
 }
 
-double SceneMotion::row_time_s(double t_frame_s, double v_px) const noexcept {
-  return t_frame_s + scene_.camera.readout_s * v_px / scene_.camera.height_px + 0.5 * scene_.camera.exposure_s;
-}
+double SceneMotion::exposure_offset_s() const noexcept { return scene_.camera.exposure_s / (2.0 * std::sqrt(3.0)); }
 
 double SceneMotion::depth_mm(int body) const noexcept {
-  return body == kBackgroundBody ? scene_.background.depth_mm : scene_.plates.depth_mm;
+  return body == kBackgroundBody ? scene_.background.depth_mm : scene_.plates[static_cast<std::size_t>(body)].z_mm;
+}
+
+BodyPose SceneMotion::body_at(int body, double t_s) const noexcept {
+  if (body == kBackgroundBody) return {};
+  const double shift_mm = structure_.displacement_mm(body, t_s);
+  const bool along_x = scene_.structure.axis == StructureModel::Axis::kX;
+  return {along_x ? shift_mm : 0.0, along_x ? 0.0 : shift_mm, structure_.tilt_rad(body, t_s)};
+}
+
+ImagePoint SceneMotion::see_at(int body, PlanePoint point, double t_s) const noexcept {
+  double x_mm = point.x_mm, y_mm = point.y_mm;
+  if (body != kBackgroundBody) {
+    const BodyPose pose = body_at(body, t_s);
+    const Plate& plate = scene_.plates[static_cast<std::size_t>(body)];
+    const double c = std::cos(pose.tilt_rad), s = std::sin(pose.tilt_rad);
+    x_mm = plate.x_mm + pose.x_mm + c * point.x_mm - s * point.y_mm;
+    y_mm = plate.y_mm + pose.y_mm + s * point.x_mm + c * point.y_mm;
+  }
+  return project(scene_.camera, camera_.at(t_s), x_mm, y_mm, depth_mm(body));
 }
 
 ImagePoint SceneMotion::see(int body, PlanePoint point, double t_frame_s) const noexcept {
-  // The row's time changes the row by readout / height * velocity, at most a few thousandths: six rounds leave nothing.
-  constexpr int kRounds = 6;
+  // The line's time changes the line by readout / height * velocity, at most a few thousandths: each round gains two
+  // or three digits.
+  constexpr int kRounds = 8;
+  constexpr double kEnough_px = 1e-9;
+  const double offset_s = exposure_offset_s();
   ImagePoint image{scene_.camera.cx_px, scene_.camera.cy_px};
   for (int i = 0; i < kRounds; ++i) {
-    const double t_s = row_time_s(t_frame_s, image.v_px);
-    const double shift_mm = body == kBackgroundBody ? 0.0 : structure_.displacement_mm(body, t_s);
-    image = project(scene_.camera, hover_.at(t_s), point.x_mm + shift_mm, point.y_mm, depth_mm(body));
+    const double t_s = line_time_s(t_frame_s, image);
+    ImagePoint next = see_at(body, point, t_s - offset_s);
+    if (offset_s > 0.0) {
+      const ImagePoint late = see_at(body, point, t_s + offset_s);
+      next = {0.5 * (next.u_px + late.u_px), 0.5 * (next.v_px + late.v_px)};
+    }
+    const double change_px = std::abs(next.u_px - image.u_px) + std::abs(next.v_px - image.v_px);
+    image = next;
+    if (change_px < kEnough_px) break;
   }
   return image;
 }
 
 PlanePoint SceneMotion::material_point(int body, ImagePoint image, double t_frame_s) const noexcept {
-  const double t_s = row_time_s(t_frame_s, image.v_px);
-  PlanePoint point = back_project(scene_.camera, hover_.at(t_s), image, depth_mm(body));
-  if (body != kBackgroundBody) point.x_mm -= structure_.displacement_mm(body, t_s);
-  return point;
-}
-
-std::vector<std::string> body_names(const Scene& scene) {
-  std::vector<std::string> names{"base"};
-  for (int floor = 1; floor <= scene.structure.n_floors(); ++floor) names.push_back("floor" + std::to_string(floor));
-  return names;
-}
-
-std::vector<SceneRegion> tracking_regions(const SceneMotion& motion) {
-  const std::vector<std::string> names = body_names(motion.scene());
-  std::vector<SceneRegion> regions;
-  for (int i = 1; i <= motion.scene().n_bodies(); ++i) {
-    const int body = i % motion.scene().n_bodies();  // floors first, the base last
-    core::Region region = plate_region(motion, body);
-    region.name = names[static_cast<std::size_t>(body)];
-    region.role = body == 0 ? core::RegionRole::kBase : core::RegionRole::kStructure;
-    regions.push_back({body, region});
-  }
-  core::Region background = background_region(motion, regions.front().region);
-  if (background.width_px >= 20.0) regions.push_back({kBackgroundBody, background});
-  return regions;
+  const double t_s = line_time_s(t_frame_s, image);
+  PlanePoint point = back_project(scene_.camera, camera_.at(t_s), image, depth_mm(body));
+  if (body == kBackgroundBody) return point;
+  const BodyPose pose = body_at(body, t_s);
+  const Plate& plate = scene_.plates[static_cast<std::size_t>(body)];
+  const double x_mm = point.x_mm - plate.x_mm - pose.x_mm, y_mm = point.y_mm - plate.y_mm - pose.y_mm;
+  const double c = std::cos(pose.tilt_rad), s = std::sin(pose.tilt_rad);
+  return {c * x_mm + s * y_mm, -s * x_mm + c * y_mm};
 }
 
 }  // namespace core::simulation

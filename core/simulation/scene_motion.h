@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
-#include "core/simulation/hover_motion.h"
+#include "core/simulation/camera_motion.h"
 #include "core/simulation/projection.h"
 #include "core/simulation/scene.h"
 #include "core/simulation/structure_response.h"
@@ -14,6 +15,11 @@ namespace core::simulation {
 // Marks the background wherever a body is asked for.
 inline constexpr int kBackgroundBody = -1;
 
+// Where a body is: its shift from rest and its turn about its centre, from X towards Y.
+struct BodyPose {
+  double x_mm = 0.0, y_mm = 0.0, tilt_rad = 0.0;
+};
+
 // Everything that moves in a scene, at any time: what renderer, track generator and truth share.
 class SceneMotion {
  public:
@@ -21,23 +27,28 @@ class SceneMotion {
 
   [[nodiscard]] const Scene& scene() const noexcept { return scene_; }
   [[nodiscard]] const StructureResponse& structure() const noexcept { return structure_; }
-  [[nodiscard]] const HoverMotion& hover() const noexcept { return hover_; }
+  [[nodiscard]] const CameraMotion& camera() const noexcept { return camera_; }
 
-  [[nodiscard]] double frame_time_s(std::uint64_t frame) const noexcept;  // start of exposure of row 0
-  // Middle of the exposure of row v of the frame that starts at t_frame_s.
-  [[nodiscard]] double row_time_s(double t_frame_s, double v_px) const noexcept;
+  // Middle of the exposure of the line that holds the pixel, in the frame whose row 0 starts at t_frame_s.
+  [[nodiscard]] double line_time_s(double t_frame_s, ImagePoint image) const noexcept;
+  // The two instants whose mean stands for the exposure (Gauss-Legendre: exact to third order in the motion) lie this
+  // far before and after its middle.
+  [[nodiscard]] double exposure_offset_s() const noexcept;
   [[nodiscard]] double depth_mm(int body) const noexcept;
+  [[nodiscard]] BodyPose body_at(int body, double t_s) const noexcept;  // the background rests
 
-  // Where a point fixed to a body (x from the plate's centre, y absolute, both at rest) is in the image: solved for the
-  // time at which its own row is exposed.
+  // Where a point fixed to a body is in the image, averaged over the exposure and solved for the time at which its own
+  // line is exposed. Points are relative to the plate's centre (background: absolute), in the body's own axes.
   [[nodiscard]] ImagePoint see(int body, PlanePoint point, double t_frame_s) const noexcept;
-  // The point of a body that stands at this pixel of the frame.
+  // The point of a body that stands at this pixel of the frame, in the middle of its exposure.
   [[nodiscard]] PlanePoint material_point(int body, ImagePoint image, double t_frame_s) const noexcept;
 
  private:
+  [[nodiscard]] ImagePoint see_at(int body, PlanePoint point, double t_s) const noexcept;
+
   Scene scene_;
   StructureResponse structure_;
-  HoverMotion hover_;
+  CameraMotion camera_;
 };
 
 // What a user would mark in the first frame: floor1 .. floorN, base, background, in this order. Rectangles lie inside
@@ -47,8 +58,5 @@ struct SceneRegion {
   core::Region region;
 };
 [[nodiscard]] std::vector<SceneRegion> tracking_regions(const SceneMotion& motion);
-
-// The names in body order: base, floor1 .. floorN.
-[[nodiscard]] std::vector<std::string> body_names(const Scene& scene);
 
 }  // namespace core::simulation

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "core/simulation/presets.h"
 #include "core/simulation/scene.h"
 #include "drivers/camera/file_camera.h"
 #include "drivers/camera/line_timing.h"

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/simulation/renderer.h"
+#include "core/simulation/presets.h"
 #include "core/simulation/scene.h"
 #include "core/simulation/scene_motion.h"
 
@@ -16,9 +17,8 @@ namespace tests {
 // The paper's building with plates large enough for 480 x 270 px; hovering camera and rolling shutter as in its scene.
 inline core::simulation::Scene small_scene(double duration_s, std::uint64_t seed = 1) {
   core::simulation::Scene scene = core::simulation::make_paper_scene(seed, duration_s);
-  scene.structure.roof_rms_mm = 10.0;
-  scene.plates.storey_mm = 125.0;
-  scene.plates.height_mm = 110.0;
+  scene.excitation.rms_mm = 10.0;
+  scene.plates = core::simulation::tower_plates(6, 300.0, 110.0, 125.0, 2000.0);
   core::simulation::set_image_size(scene, 480, 270);
   return scene;
 }
@@ -61,11 +61,9 @@ inline std::string scene_config(const core::simulation::SceneMotion& motion) {
     text += fmt::format("  - {{name: {}, rect: [{}, {}, {}, {}], role: {}}}\n", region.name, region.u_px, region.v_px,
                         region.width_px, region.height_px, role);
   }
-  const int roof = scene.structure.n_floors();
-  const auto from = motion.see(roof, {0.0, scene.body_y_mm(roof)}, 0.0);
-  const auto to = motion.see(0, {0.0, scene.body_y_mm(0)}, 0.0);
+  const auto from = motion.see(scene.n_bodies() - 1, {0.0, 0.0}, 0.0), to = motion.see(0, {0.0, 0.0}, 0.0);
   return text + fmt::format("scale: {{known_length_mm: {}, from: [{:.2f}, {:.2f}], to: [{:.2f}, {:.2f}]}}\n",
-                            scene.plates.storey_mm * roof, from.u_px, from.v_px, to.u_px, to.v_px);
+                            scene.plates[0].y_mm - scene.plates.back().y_mm, from.u_px, from.v_px, to.u_px, to.v_px);
 }
 
 }  // namespace tests

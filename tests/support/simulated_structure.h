@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/simulation/presets.h"
 #include "core/simulation/scene.h"
 #include "core/simulation/structure_response.h"
 #include "core/spectrum/welch_cpsd.h"
@@ -23,8 +24,9 @@ struct SimulatedStructure {
   int segment = 1024;
   std::uint64_t seed = 1;
   core::simulation::Scene scene = core::simulation::make_paper_scene(1, 300.0);
+  std::vector<core::simulation::TrueMode> modes = core::simulation::modes_of(scene.structure);
 
-  [[nodiscard]] int n_channels() const { return scene.structure.n_floors() + 1; }
+  [[nodiscard]] int n_channels() const { return scene.n_bodies(); }
 
   [[nodiscard]] std::vector<core::ChannelInfo> channels() const {
     std::vector<core::ChannelInfo> list;
@@ -40,7 +42,7 @@ struct SimulatedStructure {
   }
 
   [[nodiscard]] core::CpsdSums spectra() const {
-    const core::simulation::StructureResponse response(scene.structure, seed, duration_s + 1.0);
+    const core::simulation::StructureResponse response(scene.structure, scene.excitation, seed, duration_s + 1.0);
     core::WelchConfig config;
     config.n_channels = n_channels();
     config.segment = segment;
@@ -64,12 +66,12 @@ struct SimulatedStructure {
 
   // What no method beats (ARCHITECTURE.md): sqrt(zeta / (2 pi f T)) of the frequency.
   [[nodiscard]] double frequency_scatter_hz(std::size_t mode) const {
-    const double f = scene.structure.frequency_hz[mode];
-    return f * std::sqrt(scene.structure.damping_ratio[mode] / (2.0 * 3.14159265358979 * f * duration_s));
+    const double f = modes[mode].frequency_hz;
+    return f * std::sqrt(modes[mode].damping_ratio / (2.0 * 3.14159265358979 * f * duration_s));
   }
   [[nodiscard]] double damping_scatter(std::size_t mode) const {
-    const double zeta = scene.structure.damping_ratio[mode];
-    return zeta / std::sqrt(2.0 * 3.14159265358979 * zeta * scene.structure.frequency_hz[mode] * duration_s);
+    const double zeta = modes[mode].damping_ratio;
+    return zeta / std::sqrt(2.0 * 3.14159265358979 * zeta * modes[mode].frequency_hz * duration_s);
   }
 };
 

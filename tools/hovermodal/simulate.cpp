@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/simulation/renderer.h"
+#include "core/simulation/presets.h"
 #include "core/simulation/scene.h"
 #include "drivers/storage/text_file.h"
 #include "tools/hovermodal/commands.h"
@@ -30,7 +31,7 @@ struct Options {
   std::uint64_t seed = 1;
   double duration_s = 60.0;
   bool tracks_only = false, force = false;
-  core::simulation::TrackOptions tracks;
+  core::simulation::TrackParameters tracks;
   int crf = 20;
   int threads = 0;
 };
@@ -59,9 +60,9 @@ SimulateJob make_job(const Options& options) {
   job.scene = core::simulation::make_paper_scene(options.seed, options.duration_s);
   const auto [width, height] = parse_size(options.size);
   core::simulation::set_image_size(job.scene, width, height);
+  job.scene.tracks = options.tracks;
   core::simulation::validate(job.scene);
   job.tracks_only = options.tracks_only;
-  job.tracks = options.tracks;
   job.crf = options.crf;
   return job;
 }

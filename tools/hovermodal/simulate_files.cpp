@@ -26,73 +26,70 @@ Json texture_json(const core::simulation::TextureParameters& texture) {
   return {{"pitch_mm", texture.pitch_mm}, {"mean", texture.mean}, {"contrast_rms", texture.contrast_rms}};
 }
 
+Json plates_json(const Scene& scene) {
+  Json plates = Json::array();
+  for (const auto& plate : scene.plates) {
+    plates.push_back({{"name", plate.name},
+                      {"centre_mm", {plate.x_mm, plate.y_mm, plate.z_mm}},
+                      {"size_mm", {plate.width_mm, plate.height_mm}},
+                      {"texture", texture_json(plate.texture)}});
+  }
+  return plates;
+}
+
 Json scene_json(const Scene& scene) {
-  const auto& [width_px, height_px, alpha_px, cx_px, cy_px, rate_hz, readout_s, exposure_s, noise_sigma] = scene.camera;
-  const auto& plates = scene.plates;
+  const auto& camera = scene.camera;
   const auto& hover = scene.hover;
-  return {
-      {"seed", scene.seed},
-      {"duration_s", scene.duration_s},
-      {"camera",
-       {{"width_px", width_px},
-        {"height_px", height_px},
-        {"alpha_px", alpha_px},
-        {"cx_px", cx_px},
-        {"cy_px", cy_px},
-        {"rate_hz", rate_hz},
-        {"readout_ms", 1e3 * readout_s},
-        {"readout_direction", "down"},
-        {"exposure_ms", 1e3 * exposure_s},
-        {"noise_sigma", noise_sigma}}},
-      {"structure",
-       {{"frequency_hz", scene.structure.frequency_hz},
-        {"damping_ratio", scene.structure.damping_ratio},
-        {"band_low_hz", scene.structure.band_low_hz},
-        {"band_high_hz", scene.structure.band_high_hz},
-        {"roof_rms_mm", scene.structure.roof_rms_mm}}},
-      {"plates",
-       {{"width_mm", plates.width_mm},
-        {"height_mm", plates.height_mm},
-        {"storey_mm", plates.storey_mm},
-        {"depth_mm", plates.depth_mm},
-        {"texture", texture_json(plates.texture)}}},
-      {"background", {{"depth_mm", scene.background.depth_mm}, {"texture", texture_json(scene.background.texture)}}},
-      {"hover",
-       {{"x_rms_mm", hover.x_rms_mm},
-        {"y_rms_mm", hover.y_rms_mm},
-        {"z_rms_mm", hover.z_rms_mm},
-        {"pitch_rms_rad", hover.pitch_rms_rad},
-        {"yaw_rms_rad", hover.yaw_rms_rad},
-        {"roll_rms_rad", hover.roll_rms_rad},
-        {"corner_hz", hover.corner_hz},
-        {"order", hover.order},
-        {"limit_hz", hover.limit_hz}}}};
+  return {{"seed", scene.seed},
+          {"duration_s", scene.duration_s},
+          {"camera",
+           {{"width_px", camera.width_px},
+            {"height_px", camera.height_px},
+            {"alpha_px", camera.alpha_px},
+            {"cx_px", camera.cx_px},
+            {"cy_px", camera.cy_px},
+            {"rate_hz", camera.rate_hz},
+            {"readout_ms", 1e3 * camera.readout_s},
+            {"readout_direction", "down"},
+            {"exposure_ms", 1e3 * camera.exposure_s},
+            {"noise_sigma", camera.noise_sigma}}},
+          {"excitation",
+           {{"band_low_hz", scene.excitation.band_low_hz},
+            {"band_high_hz", scene.excitation.band_high_hz},
+            {"rms_mm", scene.excitation.rms_mm}}},
+          {"plates", plates_json(scene)},
+          {"background", {{"depth_mm", scene.background.depth_mm}, {"texture", texture_json(scene.background.texture)}}},
+          {"hover",
+           {{"x_rms_mm", hover.x_rms_mm},
+            {"y_rms_mm", hover.y_rms_mm},
+            {"z_rms_mm", hover.z_rms_mm},
+            {"corner_hz", hover.corner_hz},
+            {"order", hover.order},
+            {"limit_hz", hover.limit_hz}}}};
 }
 
 // In free vibration the table stands still, so absolute and relative shapes are the same and the base's component is 0.
 Json modes_json(const Scene& scene) {
-  const Eigen::MatrixXd shapes = core::simulation::shear_chain_shapes(scene.structure.n_floors());
-  const std::vector<std::string> names = core::simulation::body_names(scene);
   Json modes = Json::array();
-  for (std::size_t r = 0; r < scene.structure.frequency_hz.size(); ++r) {
-    Json shape{{names[0], 0.0}};
-    for (std::size_t i = 1; i < names.size(); ++i) {
-      shape[names[i]] = shapes(static_cast<Eigen::Index>(i) - 1, static_cast<Eigen::Index>(r));
+  for (const core::simulation::TrueMode& mode : core::simulation::modes_of(scene.structure)) {
+    Json shape{{scene.plates[0].name, 0.0}};
+    for (std::size_t i = 1; i < scene.plates.size(); ++i) {
+      const std::complex<double> value = mode.displacement(static_cast<Eigen::Index>(i) - 1);
+      shape[scene.plates[i].name] =
+          std::abs(value.imag()) < 1e-9 ? Json(value.real()) : Json::array({value.real(), value.imag()});
     }
-    modes.push_back({{"frequency_hz", scene.structure.frequency_hz[r]},
-                     {"damping_ratio", scene.structure.damping_ratio[r]},
-                     {"shape", std::move(shape)}});
+    modes.push_back(
+        {{"frequency_hz", mode.frequency_hz}, {"damping_ratio", mode.damping_ratio}, {"shape", std::move(shape)}});
   }
   return modes;
 }
 
 Json rms_json(const SceneMotion& motion) {
   Json absolute;
-  const std::vector<std::string> names = core::simulation::body_names(motion.scene());
   for (int body = 0; body < motion.scene().n_bodies(); ++body) {
-    absolute[names[static_cast<std::size_t>(body)]] = motion.structure().rms_mm(body);
+    absolute[motion.scene().plates[static_cast<std::size_t>(body)].name] = motion.structure().rms_mm(body);
   }
-  const auto hover = motion.hover().rms();
+  const auto hover = motion.camera().rms();
   return {{"roof_relative_mm", motion.structure().roof_relative_rms_mm()},
           {"absolute_mm", std::move(absolute)},
           {"base_acceleration_mm_s2", motion.structure().base_acceleration_rms_mm_s2()},
@@ -136,9 +133,9 @@ void write_track_header(drivers::CsvWriter& csv, const SimulateJob& job,
 std::string parameter_line(const SimulateJob& job) {
   Json line{{"renderer", kRendererVersion}, {"product", job.product()}, {"scene", scene_json(job.scene)}};
   if (job.tracks_only) {
-    line["tracks"] = {{"points_per_region", job.tracks.points_per_region},
-                      {"noise_px", job.tracks.noise_px},
-                      {"loss_probability", job.tracks.loss_probability}};
+    line["tracks"] = {{"points_per_region", job.scene.tracks.points_per_region},
+                      {"noise_px", job.scene.tracks.noise_px},
+                      {"loss_probability", job.scene.tracks.loss_probability}};
   } else {
     line["crf"] = job.crf;
   }
@@ -176,10 +173,10 @@ void write_true_displacements(const std::filesystem::path& folder, const SceneMo
   const Scene& scene = motion.scene();
   drivers::CsvWriter csv(path_in(folder, "truth_displacements.csv"));
   append(csv.buffer(), "# true absolute displacement in mm at frame / rate + exposure / 2\nt_s");
-  for (const std::string& name : core::simulation::body_names(scene)) append(csv.buffer(), ",{}", name);
+  for (const auto& plate : scene.plates) append(csv.buffer(), ",{}", plate.name);
   end_line(csv);
   for (std::uint64_t frame = 0; frame < scene.n_frames(); ++frame) {
-    const double t_s = motion.frame_time_s(frame) + 0.5 * scene.camera.exposure_s;
+    const double t_s = static_cast<double>(frame) / scene.camera.rate_hz + 0.5 * scene.camera.exposure_s;
     append(csv.buffer(), "{:.9g}", t_s);
     for (int body = 0; body < scene.n_bodies(); ++body) {
       append(csv.buffer(), ",{:.9g}", motion.structure().displacement_mm(body, t_s));
@@ -190,17 +187,18 @@ void write_true_displacements(const std::filesystem::path& folder, const SceneMo
 }
 
 void write_tracks(const std::filesystem::path& folder, const SimulateJob& job) {
-  const core::simulation::TrackGenerator generator(job.scene, job.tracks);
+  const core::simulation::TrackGenerator generator(job.scene);
   drivers::CsvWriter csv(path_in(folder, "tracks.csv"));
   write_track_header(csv, job, generator.regions());
   core::TrackFrame frame;
   Progress progress("simulate", job.scene.n_frames());
-  for (std::uint64_t k = 0; k < job.scene.n_frames(); ++k) {
-    generator.generate(k, frame);
+  auto timing = generator.timing();
+  for (core::simulation::DeliveredFrame delivered; timing.next(delivered);) {
+    generator.generate(delivered, frame);
     for (const core::TrackPoint& point : frame.points) {
       if (!point.seen) continue;
       fmt::memory_buffer& out = csv.buffer();
-      append(out, "{},", k);
+      append(out, "{},", frame.sequence);
       drivers::append_seconds(out, frame.t_start_ns);
       append(out, ",{},{},", point.id, generator.regions()[point.region].region.name);
       drivers::append_fixed(out, point.u_px, 5);
@@ -210,7 +208,7 @@ void write_tracks(const std::filesystem::path& folder, const SimulateJob& job) {
       drivers::append_fixed(out, point.sigma_px, 5);
       end_line(csv);
     }
-    progress.update(k + 1);
+    progress.update(delivered.number + 1);
   }
   csv.commit();
 }
@@ -235,13 +233,13 @@ void write_config(const std::filesystem::path& folder, const SimulateJob& job, c
            region.v_px, region.width_px, region.height_px, role);
   }
   // The height from the base plate's centre to the roof's: the longest length in the picture.
-  const int roof = job.scene.structure.n_floors();
-  const auto from = motion.see(roof, {0.0, job.scene.body_y_mm(roof)}, 0.0);
-  const auto to = motion.see(0, {0.0, job.scene.body_y_mm(0)}, 0.0);
+  const auto& plates = job.scene.plates;
+  const auto from = motion.see(job.scene.n_bodies() - 1, {0.0, 0.0}, 0.0), to = motion.see(0, {0.0, 0.0}, 0.0);
   append(out, "scale:\n  known_length_mm: {}\n  from: [{:.2f}, {:.2f}]\n  to: [{:.2f}, {:.2f}]\n",
-         job.scene.plates.storey_mm * roof, from.u_px, from.v_px, to.u_px, to.v_px);
+         std::hypot(plates.back().x_mm - plates[0].x_mm, plates.back().y_mm - plates[0].y_mm), from.u_px, from.v_px,
+         to.u_px, to.v_px);
   // The default window would reach beyond the plates of a small image.
-  const double plate_px = job.scene.plates.height_mm * camera.alpha_px / job.scene.plates.depth_mm;
+  const double plate_px = plates[0].height_mm * camera.alpha_px / plates[0].z_mm;
   const int window_px = std::max(5, static_cast<int>(0.5 * plate_px / 2.0) * 2 + 1);
   if (window_px < app::TrackingConfig{}.window_px) {
     append(out, "tracking:\n  window_px: {}\n  min_distance_px: {}\n", window_px, std::max(2, window_px / 3));

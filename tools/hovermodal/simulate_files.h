@@ -13,7 +13,6 @@ namespace tools {
 struct SimulateJob {
   core::simulation::Scene scene;
   bool tracks_only = false;
-  core::simulation::TrackOptions tracks;
   int crf = 20;
 
   [[nodiscard]] const char* product() const noexcept { return tracks_only ? "tracks.csv" : "clip.mp4"; }

@@ -1,3 +1,4 @@
+#include "core/simulation/presets.h"
 #include "core/simulation/scene.h"
 
 #include <gtest/gtest.h>

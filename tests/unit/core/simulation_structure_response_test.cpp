@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/simulation/random_stream.h"
+#include "core/simulation/presets.h"
 #include "core/simulation/scene.h"
 
 namespace core::simulation {
