@@ -17,8 +17,7 @@ Ray equidistant(const LensParameters& lens, Ray p) noexcept {
   const double r = std::hypot(p.x, p.y);
   if (r < 1e-12) return p;
   const double theta = std::atan(r), t2 = theta * theta;
-  const double bent =
-      theta * (1.0 + t2 * (lens.k[0] + t2 * (lens.k[1] + t2 * (lens.k[2] + t2 * lens.k[3]))));
+  const double bent = theta * (1.0 + t2 * (lens.k[0] + t2 * (lens.k[1] + t2 * (lens.k[2] + t2 * lens.k[3]))));
   return {p.x * bent / r, p.y * bent / r};
 }
 

@@ -30,15 +30,15 @@ struct CameraParameters {
   double readout_s = 0.026;  // first to last line, as the direction runs
   core::ReadoutDirection readout_direction = core::ReadoutDirection::kDown;
   double exposure_s = 0.004;
-  double noise_sigma = 2.0;                        // grey levels, white, before rounding to 8 bits
-  double x_mm = 0.0, y_mm = 0.0, z_mm = 0.0;       // mean position
+  double noise_sigma = 2.0;                               // grey levels, white, before rounding to 8 bits
+  double x_mm = 0.0, y_mm = 0.0, z_mm = 0.0;              // mean position
   double pitch_rad = 0.0, yaw_rad = 0.0, roll_rad = 0.0;  // mean attitude: about X, then Y, then Z
 };
 
 // What shakes the structure: white noise in a band (a Gaussian per frequency), lines, or both.
 struct ExcitationParameters {
-  double base = 1.0;     // weight of the ground's acceleration; 0 = the ground rests
-  double forces = 0.0;   // weight of independent forces on every body, relative to `base` (N per kg of a unit mass)
+  double base = 1.0;    // weight of the ground's acceleration; 0 = the ground rests
+  double forces = 0.0;  // weight of independent forces on every body, relative to `base` (N per kg of a unit mass)
   double band_low_hz = 0.5, band_high_hz = 20.0;
   double rms_mm = 4.0;  // of the last body relative to the ground, over the clip; scales all. 0 = at rest
 
@@ -104,9 +104,9 @@ struct TimingParameters {
 };
 
 struct LightParameters {
-  double gain_rms = 0.0;            // of exposure or clouds, relative
-  double gain_corner_hz = 0.2;      // density as the hover's, order 6
-  double flicker_depth = 0.0;       // of lamps: light times 1 + depth cos(2 pi f t + phase)
+  double gain_rms = 0.0;        // of exposure or clouds, relative
+  double gain_corner_hz = 0.2;  // density as the hover's, order 6
+  double flicker_depth = 0.0;   // of lamps: light times 1 + depth cos(2 pi f t + phase)
   double flicker_hz = 100.0;
 };
 

@@ -49,14 +49,16 @@ ImagePoint SceneMotion::see(int body, PlanePoint point, double t_frame_s) const 
   // or three digits.
   constexpr int kRounds = 8;
   constexpr double kEnough_px = 1e-9;
-  const double offset_s = exposure_offset_s();
+  constexpr double kOuterWeight = 5.0 / 18.0, kInnerWeight = 8.0 / 18.0;
+  const double outer_s = 0.5 * scene_.camera.exposure_s * std::sqrt(0.6);
   ImagePoint image{scene_.camera.cx_px, scene_.camera.cy_px};
   for (int i = 0; i < kRounds; ++i) {
     const double t_s = line_time_s(t_frame_s, image);
-    ImagePoint next = see_at(body, point, t_s - offset_s);
-    if (offset_s > 0.0) {
-      const ImagePoint late = see_at(body, point, t_s + offset_s);
-      next = {0.5 * (next.u_px + late.u_px), 0.5 * (next.v_px + late.v_px)};
+    ImagePoint next = see_at(body, point, t_s);
+    if (outer_s > 0.0) {
+      const ImagePoint early = see_at(body, point, t_s - outer_s), late = see_at(body, point, t_s + outer_s);
+      next.u_px = kInnerWeight * next.u_px + kOuterWeight * (early.u_px + late.u_px);
+      next.v_px = kInnerWeight * next.v_px + kOuterWeight * (early.v_px + late.v_px);
     }
     const double change_px = std::abs(next.u_px - image.u_px) + std::abs(next.v_px - image.v_px);
     image = next;

@@ -31,14 +31,15 @@ class SceneMotion {
 
   // Middle of the exposure of the line that holds the pixel, in the frame whose row 0 starts at t_frame_s.
   [[nodiscard]] double line_time_s(double t_frame_s, ImagePoint image) const noexcept;
-  // The two instants whose mean stands for the exposure (Gauss-Legendre: exact to third order in the motion) lie this
-  // far before and after its middle.
+  // The two instants whose mean stands for the exposure in pictures (Gauss-Legendre: exact to third order in the
+  // motion) lie this far before and after its middle.
   [[nodiscard]] double exposure_offset_s() const noexcept;
   [[nodiscard]] double depth_mm(int body) const noexcept;
   [[nodiscard]] BodyPose body_at(int body, double t_s) const noexcept;  // the background rests
 
-  // Where a point fixed to a body is in the image, averaged over the exposure and solved for the time at which its own
-  // line is exposed. Points are relative to the plate's centre (background: absolute), in the body's own axes.
+  // Where a point fixed to a body is in the image, averaged over the exposure (three Gauss-Legendre instants: a sine of
+  // f T = 0.5 is met to 0.1 %) and solved for the time at which its own line is exposed. Points are relative to the
+  // plate's centre (background: absolute), in the body's own axes.
   [[nodiscard]] ImagePoint see(int body, PlanePoint point, double t_frame_s) const noexcept;
   // The point of a body that stands at this pixel of the frame, in the middle of its exposure.
   [[nodiscard]] PlanePoint material_point(int body, ImagePoint image, double t_frame_s) const noexcept;
@@ -51,10 +52,18 @@ class SceneMotion {
   CameraMotion camera_;
 };
 
-// What a user would mark in the first frame: floor1 .. floorN, base, background, in this order. Rectangles lie inside
-// their plates, far enough from the edges that a tracking window sees little else.
-struct SceneRegion {
+// What is to be tracked: a rectangle on each body, in its own axes (background: absolute), clear of the plate's rim.
+// The bodies first, then the ground, then the background where there is room beside the structure. It depends on
+// structure and mean view alone, so that a scene with an effect and one without it show the same points.
+struct Mark {
   int body;  // kBackgroundBody, or as in SceneMotion
+  PlanePoint low, high;
+};
+[[nodiscard]] std::vector<Mark> marks_of(const Scene& scene);
+
+// What a user would draw around the marks in the first frame, in their order: rectangles that lie inside them.
+struct SceneRegion {
+  int body;
   core::Region region;
 };
 [[nodiscard]] std::vector<SceneRegion> tracking_regions(const SceneMotion& motion);

@@ -62,6 +62,15 @@ void validate_texture(const std::string& of, const TextureParameters& texture) {
           "give more than 0, or nothing can be tracked there, to 128");
 }
 
+// Plates at one depth would show through each other.
+void require_apart(const Plate& a, const Plate& b) {
+  if (std::abs(a.z_mm - b.z_mm) >= 1.0) return;
+  const double gap_mm = std::max(std::abs(a.x_mm - b.x_mm) - 0.5 * (a.width_mm + b.width_mm),
+                                 std::abs(a.y_mm - b.y_mm) - 0.5 * (a.height_mm + b.height_mm));
+  require(gap_mm >= 0.0, "gap between plates " + a.name + " and " + b.name + " (mm)", gap_mm,
+          "they overlap: give smaller plates or a larger distance");
+}
+
 void validate_plates(const Scene& scene) {
   if (scene.n_bodies() != scene.structure.n_bodies() + 1) {
     throw std::invalid_argument("simulation: " + std::to_string(scene.n_bodies()) + " plates for " +
@@ -71,11 +80,13 @@ void validate_plates(const Scene& scene) {
   for (const Plate& plate : scene.plates) {
     require_range("width of plate " + plate.name + " (mm)", plate.width_mm, 1.0, 1e6);
     require_range("height of plate " + plate.name + " (mm)", plate.height_mm, 1.0, 1e6);
-    for (const double mm : {plate.x_mm, plate.y_mm}) require_range("place of plate " + plate.name + " (mm)", mm, -1e7, 1e7);
+    for (const double mm : {plate.x_mm, plate.y_mm})
+      require_range("place of plate " + plate.name + " (mm)", mm, -1e7, 1e7);
     require_range("depth of plate " + plate.name + " (mm)", plate.z_mm, -1e7, 1e7);
     require(scene.background.depth_mm >= plate.z_mm, "depth of the background (mm)", scene.background.depth_mm,
             "give at least that of plate " + plate.name + ", " + std::to_string(plate.z_mm));
     validate_texture("plate " + plate.name, plate.texture);
+    for (const Plate* other = scene.plates.data(); other != &plate; ++other) require_apart(*other, plate);
   }
   require_range("depth of the background (mm)", scene.background.depth_mm, 1.0, 1e8);
   validate_texture("the background", scene.background.texture);
@@ -125,11 +136,12 @@ void validate_view(const Scene& s) {
   const bool along_x = s.structure.axis == StructureModel::Axis::kX;
   for (int signs = 0; signs < 256; ++signs) {
     const auto sign = [signs](int bit) { return (signs >> bit & 1) != 0 ? 3.0 : -3.0; };
-    CameraPose pose{s.camera.x_mm + sign(0) * hover.x_rms_mm, s.camera.y_mm + sign(1) * hover.y_rms_mm,
-                    s.camera.z_mm + sign(2) * hover.z_rms_mm,
-                    attitude(s.camera.pitch_rad, s.camera.yaw_rad, s.camera.roll_rad) *
-                        attitude(sign(3) * hover.pitch_rms_rad, sign(4) * hover.yaw_rms_rad, sign(5) * hover.roll_rms_rad),
-                    1.0};
+    CameraPose pose{
+        s.camera.x_mm + sign(0) * hover.x_rms_mm, s.camera.y_mm + sign(1) * hover.y_rms_mm,
+        s.camera.z_mm + sign(2) * hover.z_rms_mm,
+        attitude(s.camera.pitch_rad, s.camera.yaw_rad, s.camera.roll_rad) *
+            attitude(sign(3) * hover.pitch_rms_rad, sign(4) * hover.yaw_rms_rad, sign(5) * hover.roll_rms_rad),
+        1.0};
     for (std::size_t i = 0; i < s.plates.size(); ++i) {
       const Plate& plate = s.plates[i];
       const double moved = i == 0 ? 0.0 : shake / 3.0;

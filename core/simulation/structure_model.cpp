@@ -66,7 +66,8 @@ void validate(const StructureModel& model) {
   require_square(model.damping, n, "damping");
   require_square(model.stiffness, n, "stiffness");
   require_shapes(model);
-  if (model.mass.llt().info() != Eigen::Success) refuse("the mass matrix is not positive definite; give positive masses");
+  if (model.mass.llt().info() != Eigen::Success)
+    refuse("the mass matrix is not positive definite; give positive masses");
   if (model.stiffness.llt().info() != Eigen::Success) {
     refuse("unstable: the stiffness matrix is not positive definite; raise the stiffness, or lower what softens it");
   }

@@ -101,8 +101,8 @@ void StructureResponse::add_broadband(const StructureModel& model, const Excitat
   const Input input = draw_input(excitation, model.n_bodies(), seed, 1.0 / period_s);
   const std::size_t n_bins = input.acceleration.size();
 
-  std::vector<Spectrum> absolute(displacement_.size(), Spectrum(n_bins)), tilt(tilts_ ? displacement_.size() : 0,
-                                                                              Spectrum(n_bins));
+  std::vector<Spectrum> absolute(displacement_.size(), Spectrum(n_bins)),
+      tilt(tilts_ ? displacement_.size() : 0, Spectrum(n_bins));
   Spectrum roof(n_bins);
   for (std::size_t k = 1; k < n_bins; ++k) {
     if (static_cast<double>(k) / period_s < excitation.band_low_hz) continue;

@@ -18,15 +18,15 @@ double sub_pixel_error(double position_px) noexcept {
 
 TrackGenerator::TrackGenerator(const Scene& scene)
     : motion_(scene), light_(scene), regions_(tracking_regions(motion_)) {
-  for (std::size_t r = 0; r < regions_.size(); ++r) {
-    const core::Region& region = regions_[r].region;
+  const std::vector<Mark> marks = marks_of(scene);
+  for (std::size_t r = 0; r < marks.size(); ++r) {
+    const auto& [body, low, high] = marks[r];
     RandomStream stream(scene.seed, "track_points", r), direction(scene.seed, "brightness_bias", r);
     for (int i = 0; i < scene.tracks.points_per_region; ++i) {
-      const double u = region.u_px + region.width_px * stream.uniform();
-      const double v = region.v_px + region.height_px * stream.uniform();
+      const double x_mm = low.x_mm + (high.x_mm - low.x_mm) * stream.uniform();
+      const double y_mm = low.y_mm + (high.y_mm - low.y_mm) * stream.uniform();
       const double angle = 2.0 * std::numbers::pi * direction.uniform();
-      points_.push_back({regions_[r].body, static_cast<std::uint16_t>(r),
-                         motion_.material_point(regions_[r].body, {u, v}, 0.0), std::cos(angle), std::sin(angle)});
+      points_.push_back({body, static_cast<std::uint16_t>(r), {x_mm, y_mm}, std::cos(angle), std::sin(angle)});
     }
   }
 }
@@ -38,8 +38,9 @@ void TrackGenerator::generate_true(const DeliveredFrame& frame, core::TrackFrame
   out.points.resize(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const ImagePoint image = motion_.see(points_[i].body, points_[i].point, frame.t_s);
-    out.points[i] = {image.u_px, image.v_px, motion_.scene().tracks.noise_px, static_cast<std::uint32_t>(i),
-                     points_[i].region, true, true};
+    out.points[i] = {
+        image.u_px, image.v_px, motion_.scene().tracks.noise_px, static_cast<std::uint32_t>(i), points_[i].region,
+        true,       true};
   }
 }
 

@@ -22,20 +22,21 @@ class TrackGenerator {
 
   [[nodiscard]] const SceneMotion& motion() const noexcept { return motion_; }
   [[nodiscard]] const std::vector<SceneRegion>& regions() const noexcept { return regions_; }  // TrackPoint::region
-  [[nodiscard]] FrameTiming timing() const { return FrameTiming(motion_.scene()); }            // from frame 0
-
- private:
-  struct Material {
+  // What the points are: TrackPoint::id is an index into these.
+  struct MaterialPoint {
     int body;
     std::uint16_t region;
-    PlanePoint point;
+    PlanePoint point;       // as SceneMotion::see takes it
     double bias_u, bias_v;  // direction of the error by brightness, unit length
   };
+  [[nodiscard]] const std::vector<MaterialPoint>& points() const noexcept { return points_; }
+  [[nodiscard]] FrameTiming timing() const { return FrameTiming(motion_.scene()); }  // from frame 0
 
+ private:
   SceneMotion motion_;
   Light light_;
   std::vector<SceneRegion> regions_;
-  std::vector<Material> points_;
+  std::vector<MaterialPoint> points_;
 };
 
 }  // namespace core::simulation

@@ -13,19 +13,19 @@ struct Extent {
   double low, high;
 };
 
-// Of the four corners of a plate: between the inner two, so that the rectangle lies in the plate, and over all.
+// Of the four corners of a mark as frame 0 shows them, ascending.
 struct Corners {
   std::array<double, 4> u, v;
+  // Between the inner two: a rectangle that lies in the mark.
   [[nodiscard]] Extent inner_u() const { return {u[1], u[2]}; }
   [[nodiscard]] Extent inner_v() const { return {v[1], v[2]}; }
 };
 
-Corners corners_of(const SceneMotion& motion, int body) {
-  const Plate& plate = motion.scene().plates[static_cast<std::size_t>(body)];
+Corners corners_of(const SceneMotion& motion, const Mark& mark) {
   Corners corners{};
   for (std::size_t i = 0; i < 4; ++i) {
-    const double x = (i & 1U) != 0 ? 0.5 : -0.5, y = (i & 2U) != 0 ? 0.5 : -0.5;
-    const ImagePoint image = motion.see(body, {x * plate.width_mm, y * plate.height_mm}, 0.0);
+    const double x = (i & 1U) != 0 ? mark.high.x_mm : mark.low.x_mm, y = (i & 2U) != 0 ? mark.high.y_mm : mark.low.y_mm;
+    const ImagePoint image = motion.see(mark.body, {x, y}, 0.0);
     corners.u[i] = image.u_px;
     corners.v[i] = image.v_px;
   }
@@ -54,63 +54,96 @@ double axis_deg(const SceneMotion& motion, int body) {
   return std::abs(deg) < 1e-9 ? 0.0 : deg;
 }
 
-core::Region plate_region(const SceneMotion& motion, int body) {
-  const Corners corners = corners_of(motion, body);
-  const auto [low_u, high_u] = corners.inner_u();
-  const auto [low_v, high_v] = corners.inner_v();
-  const double margin = std::min(12.0, 0.22 * std::min(high_v - low_v, high_u - low_u));
-  core::Region region = rectangle({low_u + margin, high_u - margin}, {low_v + margin, high_v - margin});
-  region.name = motion.scene().plates[static_cast<std::size_t>(body)].name;
-  region.role = body == 0 ? core::RegionRole::kBase : core::RegionRole::kStructure;
-  region.axis_deg = axis_deg(motion, body);
-  return region;
+// A plate without its rim, as wide as 12 px or a fifth of it.
+Mark plate_mark(const Scene& scene, int body) {
+  const Plate& plate = scene.plates[static_cast<std::size_t>(body)];
+  const double px_mm = (plate.z_mm - scene.camera.z_mm) / scene.camera.alpha_px;
+  const double rim_mm = std::min(12.0 * px_mm, 0.22 * std::min(plate.width_mm, plate.height_mm));
+  const double x = 0.5 * plate.width_mm - rim_mm, y = 0.5 * plate.height_mm - rim_mm;
+  return {body, {-x, -y}, {x, y}};
+}
+
+// The camera at its mean pose without lens: what is marked does not depend on what disturbs the view.
+ImagePoint see_undisturbed(const Scene& scene, double x_mm, double y_mm, double z_mm) {
+  CameraParameters camera = scene.camera;
+  camera.lens = {};
+  const CameraPose pose{camera.x_mm, camera.y_mm, camera.z_mm,
+                        attitude(camera.pitch_rad, camera.yaw_rad, camera.roll_rad)};
+  return project(camera, pose, x_mm, y_mm, z_mm);
 }
 
 // Beside the structure, clear of it by four standard deviations of the drift: left of it where there is room, else the
-// largest of the other three sides.
-core::Region background_region(const SceneMotion& motion) {
-  const Scene& scene = motion.scene();
+// largest of the other three sides. Width 0: no room.
+core::Region free_rectangle(const Scene& scene) {
   double low_u = 1e18, high_u = -1e18, low_v = 1e18, high_v = -1e18, near_mm = 1e18;
-  for (int body = 0; body < scene.n_bodies(); ++body) {
-    const Corners corners = corners_of(motion, body);
-    low_u = std::min(low_u, corners.u[0]), high_u = std::max(high_u, corners.u[3]);
-    low_v = std::min(low_v, corners.v[0]), high_v = std::max(high_v, corners.v[3]);
-    near_mm = std::min(near_mm, motion.depth_mm(body) - scene.camera.z_mm);
+  for (const Plate& plate : scene.plates) {
+    for (const double x : {-0.5, 0.5}) {
+      for (const double y : {-0.5, 0.5}) {
+        const ImagePoint corner =
+            see_undisturbed(scene, plate.x_mm + x * plate.width_mm, plate.y_mm + y * plate.height_mm, plate.z_mm);
+        low_u = std::min(low_u, corner.u_px), high_u = std::max(high_u, corner.u_px);
+        low_v = std::min(low_v, corner.v_px), high_v = std::max(high_v, corner.v_px);
+      }
+    }
+    near_mm = std::min(near_mm, plate.z_mm - scene.camera.z_mm);
   }
   const double scale = scene.camera.alpha_px / near_mm;
-  const double clear_u = scale * (4.0 * scene.hover.x_rms_mm + 4.0 * scene.excitation.rms_mm);
-  const double clear_v = scale * (4.0 * scene.hover.y_rms_mm + 4.0 * scene.excitation.rms_mm);
-  const double margin_u = 0.02 * scene.camera.width_px + 2.0 * scale * scene.hover.x_rms_mm;
-  const double margin_v = 0.02 * scene.camera.height_px + 2.0 * scale * scene.hover.y_rms_mm;
+  const double drift_u = scale * scene.hover.x_rms_mm, drift_v = scale * scene.hover.y_rms_mm;
+  const double shake = 4.0 * scale * scene.excitation.rms_mm;
   const double width = scene.camera.width_px, height = scene.camera.height_px;
   const Extent middle_u{0.3 * width, 0.7 * width}, middle_v{0.3 * height, 0.7 * height};
-  const std::array<core::Region, 4> sides{rectangle({margin_u, low_u - clear_u}, middle_v),
-                                          rectangle({high_u + clear_u, width - margin_u}, middle_v),
-                                          rectangle(middle_u, {margin_v, low_v - clear_v}),
-                                          rectangle(middle_u, {high_v + clear_v, height - margin_v})};
+  const double edge_u = 0.02 * width + 3.0 * drift_u, edge_v = 0.02 * height + 3.0 * drift_v;
+  const std::array<core::Region, 4> sides{rectangle({edge_u, low_u - 4.0 * drift_u - shake}, middle_v),
+                                          rectangle({high_u + 4.0 * drift_u + shake, width - edge_u}, middle_v),
+                                          rectangle(middle_u, {edge_v, low_v - 4.0 * drift_v - shake}),
+                                          rectangle(middle_u, {high_v + 4.0 * drift_v + shake, height - edge_v})};
   const auto room = [](const core::Region& r) {
     return std::min(r.width_px, r.height_px) < 20.0 ? 0.0 : r.width_px * r.height_px;
   };
-  core::Region region = room(sides[0]) > 0.0 ? sides[0] : *std::max_element(sides.begin(), sides.end(), [&](auto& a, auto& b) {
-    return room(a) < room(b);
-  });
-  region.name = "background";
-  region.role = core::RegionRole::kBackground;
-  region.axis_deg = axis_deg(motion, kBackgroundBody);
-  if (room(region) <= 0.0) region.width_px = 0.0;
-  return region;
+  if (room(sides[0]) > 0.0) return sides[0];
+  const core::Region best =
+      *std::max_element(sides.begin(), sides.end(), [&](const auto& a, const auto& b) { return room(a) < room(b); });
+  return room(best) > 0.0 ? best : core::Region{};
+}
+
+Mark background_mark(const Scene& scene, const core::Region& free) {
+  CameraParameters camera = scene.camera;
+  camera.lens = {};
+  const CameraPose pose{camera.x_mm, camera.y_mm, camera.z_mm,
+                        attitude(camera.pitch_rad, camera.yaw_rad, camera.roll_rad)};
+  const double depth_mm = scene.background.depth_mm;
+  const PlanePoint a = back_project(camera, pose, {free.u_px, free.v_px}, depth_mm);
+  const PlanePoint b = back_project(camera, pose, {free.u_px + free.width_px, free.v_px + free.height_px}, depth_mm);
+  return {kBackgroundBody,
+          {std::min(a.x_mm, b.x_mm), std::min(a.y_mm, b.y_mm)},
+          {std::max(a.x_mm, b.x_mm), std::max(a.y_mm, b.y_mm)}};
 }
 
 }  // namespace
 
+std::vector<Mark> marks_of(const Scene& scene) {
+  std::vector<Mark> marks;
+  for (int i = 1; i <= scene.n_bodies(); ++i) marks.push_back(plate_mark(scene, i % scene.n_bodies()));
+  const core::Region free = free_rectangle(scene);
+  if (free.width_px > 0.0) marks.push_back(background_mark(scene, free));
+  return marks;
+}
+
 std::vector<SceneRegion> tracking_regions(const SceneMotion& motion) {
   std::vector<SceneRegion> regions;
-  for (int i = 1; i <= motion.scene().n_bodies(); ++i) {
-    const int body = i % motion.scene().n_bodies();  // the bodies first, the ground last
-    regions.push_back({body, plate_region(motion, body)});
+  for (const Mark& mark : marks_of(motion.scene())) {
+    const Corners corners = corners_of(motion, mark);
+    core::Region region = rectangle(corners.inner_u(), corners.inner_v());
+    region.axis_deg = axis_deg(motion, mark.body);
+    if (mark.body == kBackgroundBody) {
+      region.name = "background";
+      region.role = core::RegionRole::kBackground;
+    } else {
+      region.name = motion.scene().plates[static_cast<std::size_t>(mark.body)].name;
+      region.role = mark.body == 0 ? core::RegionRole::kBase : core::RegionRole::kStructure;
+    }
+    regions.push_back({mark.body, region});
   }
-  const core::Region background = background_region(motion);
-  if (background.width_px > 0.0) regions.push_back({kBackgroundBody, background});
   return regions;
 }
 

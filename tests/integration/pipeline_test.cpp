@@ -38,18 +38,17 @@ TEST(Pipeline, FindsTheModesOfASimulatedBuilding) {
   EXPECT_EQ(outcome.health.state, "finished");
   EXPECT_EQ(outcome.health.frames_processed, n_frames);
   EXPECT_EQ(outcome.estimate.status, "ok");
-  const auto& structure = rig.clip->motion.scene().structure;
-  const Eigen::MatrixXd shapes = core::simulation::shear_chain_shapes(structure.n_floors());
+  const auto modes = core::simulation::modes_of(rig.clip->motion.scene().structure);
   for (std::size_t r = 0; r < 3; ++r) {
-    const double truth_hz = structure.frequency_hz[r];
+    const double truth_hz = modes[r].frequency_hz;
     const core::Mode* mode = nearest_mode(outcome.estimate, truth_hz);
     ASSERT_NE(mode, nullptr);
     // Least scatter of a frequency from a random record of this length.
-    const double scatter = std::sqrt(structure.damping_ratio[r] / (2.0 * std::numbers::pi * truth_hz * kDurationS));
+    const double scatter = std::sqrt(modes[r].damping_ratio / (2.0 * std::numbers::pi * truth_hz * kDurationS));
     EXPECT_NEAR(mode->frequency_hz / truth_hz, 1.0, 3.0 * scatter) << "mode " << r + 1;
     std::vector<std::complex<double>> truth, found;
     for (std::size_t i = 0; i < 6; ++i) {  // the floors stand before the base
-      truth.emplace_back(shapes(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(r)), 0.0);
+      truth.push_back(modes[r].displacement(static_cast<Eigen::Index>(i)));
       found.push_back(mode->shape.at(i));
     }
     EXPECT_GT(core::mac(truth, found), 0.97) << "mode " << r + 1;

@@ -38,7 +38,9 @@ inline std::string refusal(const std::string& text, const std::vector<std::strin
   return {};
 }
 
-inline std::string refusal_with(const std::string& from, const std::string& to) { return refusal(replaced(kGood, from, to)); }
+inline std::string refusal_with(const std::string& from, const std::string& to) {
+  return refusal(replaced(kGood, from, to));
+}
 inline std::string refusal_of_line(const std::string& line) { return refusal(std::string(kGood) + line + "\n"); }
 
 }  // namespace tests

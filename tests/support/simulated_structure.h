@@ -64,6 +64,7 @@ struct SimulatedStructure {
     return welch.sums();
   }
 
+  [[nodiscard]] double frequency_hz(std::size_t mode) const { return modes[mode].frequency_hz; }
   // What no method beats (ARCHITECTURE.md): sqrt(zeta / (2 pi f T)) of the frequency.
   [[nodiscard]] double frequency_scatter_hz(std::size_t mode) const {
     const double f = modes[mode].frequency_hz;
