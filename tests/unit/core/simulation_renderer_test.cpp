@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/simulation/presets.h"
 #include "core/simulation/track_generator.h"
 
 namespace core::simulation {
@@ -78,7 +79,7 @@ ImagePoint misses(const Image& a, const Image& b, ImagePoint centre, const Warp&
 
 Scene still_scene() {
   Scene scene = make_paper_scene(1, 2.0);
-  scene.structure.roof_rms_mm = 0.0;
+  scene.excitation.rms_mm = 0.0;
   scene.hover.x_rms_mm = scene.hover.y_rms_mm = scene.hover.z_rms_mm = 0.0;
   return scene;
 }
@@ -106,22 +107,25 @@ TEST(Renderer, ShiftsTheImageByExactlyTheProjectedMotion) {
 TEST(Renderer, AgreesWithTheTrackGenerator) {
   const Scene scene = make_paper_scene(3, 20.0);
   const Renderer renderer(scene);
-  const TrackGenerator tracks(scene, {6, 0.0, 0.0});
+  Scene tracked = scene;
+  tracked.tracks.points_per_region = 6;
+  tracked.tracks.noise_px = 0.0;
+  const TrackGenerator tracks(tracked);
   const Image first(renderer, 0);
   core::TrackFrame start, later;
-  tracks.generate(0, start);
+  tracks.generate({}, start);
   double sum2 = 0.0;
   int n = 0;
   for (const std::uint64_t frame : {std::uint64_t{1}, std::uint64_t{113}, std::uint64_t{499}}) {
     const Image image(renderer, frame);
-    tracks.generate(frame, later);
+    const double t_s = static_cast<double>(frame) / scene.camera.rate_hz;
+    tracks.generate({frame, t_s, t_s, frame, false}, later);
     for (std::size_t i = 0; i < start.points.size(); ++i) {
       const int body = tracks.regions()[start.points[i].region].body;
-      const double t_s = tracks.motion().frame_time_s(frame);
       const ImagePoint moved{later.points[i].u_px - start.points[i].u_px, later.points[i].v_px - start.points[i].v_px};
       // The scale changes within the window too; about the point itself the warp is the generator's motion.
-      const double growth = (tracks.motion().depth_mm(body) - tracks.motion().hover().at(0.0).z_mm) /
-                            (tracks.motion().depth_mm(body) - tracks.motion().hover().at(t_s).z_mm);
+      const double growth = (tracks.motion().depth_mm(body) - tracks.motion().camera().at(0.0).z_mm) /
+                            (tracks.motion().depth_mm(body) - tracks.motion().camera().at(t_s).z_mm);
       const Warp warp = [&](ImagePoint p) -> ImagePoint {
         return {p.u_px + moved.u_px + (growth - 1.0) * (p.u_px - start.points[i].u_px),
                 p.v_px + moved.v_px + (growth - 1.0) * (p.v_px - start.points[i].v_px)};
@@ -141,7 +145,7 @@ TEST(Renderer, AgreesWithTheTrackGenerator) {
 TEST(Renderer, BlursLikeTheMeanOfManyInstants) {
   Scene scene = make_paper_scene(1, 2.0);
   set_image_size(scene, 480, 270);
-  scene.structure.roof_rms_mm = 12.0;  // three times the speed
+  scene.excitation.rms_mm = 12.0;  // three times the speed
   scene.camera.readout_s = 0.0;
   scene.camera.exposure_s = 0.02;
   const Image blurred(Renderer(scene), 0);
@@ -173,8 +177,11 @@ TEST(Renderer, BlursLikeTheMeanOfManyInstants) {
 
 TEST(Renderer, CoversPlateEdgesExactly) {
   Scene scene = still_scene();
-  scene.plates.texture.contrast_rms = scene.background.texture.contrast_rms = 0.0;
-  scene.plates.texture.mean = 200.0;
+  for (Plate& plate : scene.plates) {
+    plate.texture.contrast_rms = 1e-9;
+    plate.texture.mean = 200.0;
+  }
+  scene.background.texture.contrast_rms = 1e-9;
   scene.background.texture.mean = 100.0;
   const double area_px = 7 * 300.0 * 50.0 * std::pow(scene.camera.alpha_px / 2000.0, 2);
   for (const double shift : {0.0, 0.3, 0.77}) {
@@ -189,7 +196,7 @@ TEST(Renderer, CoversPlateEdgesExactly) {
 TEST(Renderer, AddsWhiteNoiseOfTheDeclaredSpread) {
   Scene scene = make_paper_scene(1, 2.0);
   set_image_size(scene, 960, 540);
-  scene.plates.texture.contrast_rms = 10.0;  // no grey level near black or white
+  for (Plate& plate : scene.plates) plate.texture.contrast_rms = 10.0;  // no grey level near black or white
   const Renderer renderer(scene);
   const Image light(renderer, 7);
   std::vector<std::uint8_t> pixels(light.light.size());
@@ -246,7 +253,7 @@ TEST(Renderer, RefusesWhatItCannotDraw) {
   turning.hover.roll_rms_rad = 1e-3;
   EXPECT_THROW(Renderer{turning}, std::invalid_argument);
   Scene too_fine = make_paper_scene(1, 2.0);
-  too_fine.plates.texture.pitch_mm = 1.0;
+  too_fine.plates[0].texture.pitch_mm = 1.0;
   EXPECT_THROW(Renderer{too_fine}, std::invalid_argument);
 }
 

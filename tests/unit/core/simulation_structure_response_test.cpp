@@ -2,14 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <vector>
 
-#include "core/simulation/random_stream.h"
 #include "core/simulation/presets.h"
+#include "core/simulation/random_stream.h"
 #include "core/simulation/scene.h"
 
 namespace core::simulation {
@@ -17,7 +18,9 @@ namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-StructureParameters paper_structure() { return make_paper_scene(1, 60.0).structure; }
+StructureResponse paper_response(std::uint64_t seed, double duration_s, double grid_rate_hz = 200.0) {
+  return StructureResponse(make_paper_scene(seed, duration_s), grid_rate_hz);
+}
 
 // Modal coordinate r of the displacements relative to the base: uniform masses make the shapes orthogonal.
 double modal_coordinate(const StructureResponse& response, const Eigen::MatrixXd& shapes, Eigen::Index r, double t_s) {
@@ -40,7 +43,7 @@ double second_derivative(const F& f, double t, double h) {
 
 TEST(StructureResponse, HasTheDeclaredRoofRmsOverTheClip) {
   for (const double duration_s : {20.0, 60.0, 300.0}) {
-    const StructureResponse response(paper_structure(), 5, duration_s);
+    const StructureResponse response = paper_response(5, duration_s);
     double sum = 0.0;
     constexpr int kN = 20000;
     for (int i = 0; i < kN; ++i) {
@@ -54,8 +57,7 @@ TEST(StructureResponse, HasTheDeclaredRoofRmsOverTheClip) {
 }
 
 TEST(StructureResponse, InterpolatesTo1e4OfTheRoofRms) {
-  const StructureResponse response(paper_structure(), 1, 60.0);
-  const StructureResponse fine(paper_structure(), 1, 60.0, 1600.0);
+  const StructureResponse response = paper_response(1, 60.0), fine = paper_response(1, 60.0, 1600.0);
   RandomStream stream(1, "times");
   for (int i = 0; i < 1000; ++i) {
     const double t_s = 60.0 * stream.uniform();
@@ -67,12 +69,12 @@ TEST(StructureResponse, InterpolatesTo1e4OfTheRoofRms) {
 
 // q'' + 2 zeta w q' + w^2 q = -participation * base acceleration, from displacements alone.
 TEST(StructureResponse, ObeysTheEquationOfMotionOfEveryMode) {
-  const StructureParameters structure = paper_structure();
-  const StructureResponse response(structure, 3, 20.0, 3200.0);
+  const std::vector<TrueMode> modes = modes_of(make_paper_scene(3, 20.0).structure);
+  const StructureResponse response = paper_response(3, 20.0, 3200.0);
   const Eigen::MatrixXd shapes = shear_chain_shapes(6);
   constexpr double kStep_s = 1e-3;
   for (Eigen::Index r = 0; r < 6; ++r) {
-    const double w = kTwoPi * structure.frequency_hz[static_cast<std::size_t>(r)];
+    const double w = kTwoPi * modes[static_cast<std::size_t>(r)].frequency_hz;
     const double participation = shapes.col(r).sum() / shapes.col(r).squaredNorm();
     double residual = 0.0, scale = 0.0;
     for (double t_s = 1.0; t_s < 19.0; t_s += 0.037) {
@@ -91,12 +93,12 @@ TEST(StructureResponse, ObeysTheEquationOfMotionOfEveryMode) {
 // Whittle's likelihood of the periodogram around each mode, damping known: its scatter is the bound
 // sqrt(zeta / (2 pi f T)), so the estimate must stand within a few of them.
 TEST(StructureResponse, PeaksAtTheDeclaredFrequencies) {
-  const StructureParameters structure = paper_structure();
+  const std::vector<TrueMode> modes = modes_of(make_paper_scene(2, 60.0).structure);
   constexpr double kDuration_s = 300.0, kRate_hz = 60.0;
-  const StructureResponse response(structure, 2, kDuration_s);
+  const StructureResponse response = paper_response(2, kDuration_s);
   const Eigen::MatrixXd shapes = shear_chain_shapes(6);
   for (Eigen::Index r = 0; r < 6; ++r) {
-    const double f = structure.frequency_hz[static_cast<std::size_t>(r)];
+    const double f = modes[static_cast<std::size_t>(r)].frequency_hz;
     std::vector<double> q;
     for (int i = 0; i < static_cast<int>(kDuration_s * kRate_hz); ++i) {
       const double taper = std::sin(std::numbers::pi * (i + 0.5) / (kDuration_s * kRate_hz));
@@ -128,17 +130,73 @@ TEST(StructureResponse, PeaksAtTheDeclaredFrequencies) {
 }
 
 TEST(StructureResponse, MovesDifferentlyForAnotherSeed) {
-  const StructureResponse a(paper_structure(), 1, 10.0), b(paper_structure(), 2, 10.0);
+  const StructureResponse a = paper_response(1, 10.0), b = paper_response(2, 10.0);
   EXPECT_NE(a.displacement_mm(6, 3.0), b.displacement_mm(6, 3.0));
 }
 
 TEST(StructureResponse, StandsStillWhenNotShaken) {
-  StructureParameters structure = paper_structure();
-  structure.roof_rms_mm = 0.0;
-  const StructureResponse response(structure, 1, 10.0);
+  Scene scene = make_paper_scene(1, 10.0);
+  scene.excitation.rms_mm = 0.0;
+  const StructureResponse response(scene);
   EXPECT_EQ(response.n_bodies(), 7);
   EXPECT_EQ(response.displacement_mm(6, 3.0), 0.0);
   EXPECT_EQ(response.rms_mm(6), 0.0);
+}
+
+// A machine on the roof: the sum over the modes of phi phi^T / (w_r^2 - w^2 + 2 i zeta w_r w), scaled to its own body.
+TEST(StructureResponse, AnswersAHarmonicForceInItsSteadyState) {
+  Scene scene = make_paper_scene(1, 20.0);
+  scene.excitation.rms_mm = 0.0;
+  scene.excitation.harmonics = {{6, 3.3, 2.0}};
+  const StructureResponse response(scene);
+  const Eigen::MatrixXd shapes = shear_chain_shapes(6);
+  const std::vector<TrueMode> modes = modes_of(scene.structure);
+  const double w = kTwoPi * 3.3;
+  std::vector<std::complex<double>> receptance(6);
+  for (Eigen::Index r = 0; r < 6; ++r) {
+    const double wr = kTwoPi * modes[static_cast<std::size_t>(r)].frequency_hz;
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      receptance[static_cast<std::size_t>(i)] += shapes(5, r) * shapes(i, r) / shapes.col(r).squaredNorm() /
+                                                 std::complex<double>(wr * wr - w * w, 0.02 * wr * w);
+    }
+  }
+  for (int body = 1; body <= 6; ++body) {
+    std::complex<double> amplitude = 0.0, roof = 0.0;
+    constexpr int kN = 3300;  // a whole number of periods in 10 s
+    for (int i = 0; i < kN; ++i) {
+      const double t_s = 10.0 * i / kN;
+      amplitude += 2.0 / kN * response.displacement_mm(body, t_s) * std::polar(1.0, -w * t_s);
+      roof += 2.0 / kN * response.displacement_mm(6, t_s) * std::polar(1.0, -w * t_s);
+    }
+    EXPECT_NEAR(std::abs(roof), 2.0 * std::numbers::sqrt2, 1e-9);
+    EXPECT_LT(std::abs(amplitude / roof - receptance[static_cast<std::size_t>(body) - 1] / receptance[5]), 1e-9);
+  }
+}
+
+// A model with dashpots of its own has complex shapes; the poles of its modes solve the quadratic eigenvalue problem.
+TEST(StructureModel, HasThePolesOfItsEquationOfMotion) {
+  StructureModel model = uniform_chain({1.0, 2.5, 4.0}, {0.01, 0.02, 0.03});
+  model.damping(0, 1) = model.damping(1, 0) = 0.2;
+  for (const TrueMode& mode : modes_of(model)) {
+    const double w = kTwoPi * mode.frequency_hz;
+    const std::complex<double> s(-mode.damping_ratio * w, w * std::sqrt(1.0 - mode.damping_ratio * mode.damping_ratio));
+    const Eigen::MatrixXcd dynamic =
+        model.stiffness.cast<std::complex<double>>() + s * model.damping + s * s * model.mass;
+    const Eigen::VectorXcd q = model.displacement.cast<std::complex<double>>().inverse() * mode.displacement;
+    EXPECT_LT((dynamic * q).norm(), 1e-9 * model.stiffness.norm() * q.norm());
+  }
+}
+
+// Switching the forces off leaves the ground's motion alone, up to the common scale.
+TEST(StructureResponse, DrawsForcesAndGroundFromStreamsOfTheirOwn) {
+  Scene base = make_paper_scene(4, 20.0), both = base;
+  both.excitation.forces = 0.5;
+  const StructureResponse a(base), b(both);
+  const double scale = b.displacement_mm(0, 3.0) / a.displacement_mm(0, 3.0);
+  for (const double t_s : {1.0, 7.7, 15.2}) {
+    EXPECT_NEAR(b.displacement_mm(0, t_s), scale * a.displacement_mm(0, t_s), 1e-9);
+    EXPECT_GT(std::abs(b.displacement_mm(3, t_s) - scale * a.displacement_mm(3, t_s)), 1e-3);
+  }
 }
 
 TEST(ShearChainShapes, AreOrthogonalAndScaledToOne) {

@@ -5,6 +5,7 @@
 
 #include <thread>
 
+#include "core/simulation/presets.h"
 #include "tests/support/camera_drain.h"
 
 namespace drivers {
