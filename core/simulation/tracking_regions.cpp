@@ -9,6 +9,8 @@
 namespace core::simulation {
 namespace {
 
+constexpr double kClearance = 0.06;  // of the image: four standard deviations of the paper's drift
+
 struct Extent {
   double low, high;
 };
@@ -72,10 +74,10 @@ ImagePoint see_undisturbed(const Scene& scene, double x_mm, double y_mm, double 
   return project(camera, pose, x_mm, y_mm, z_mm);
 }
 
-// Beside the structure, clear of it by four standard deviations of the drift: left of it where there is room, else the
-// largest of the other three sides. Width 0: no room.
+// Beside the structure, clear of it and of the image's edge: left of it where there is room, else the largest of the
+// other three sides. Width 0: no room.
 core::Region free_rectangle(const Scene& scene) {
-  double low_u = 1e18, high_u = -1e18, low_v = 1e18, high_v = -1e18, near_mm = 1e18;
+  double low_u = 1e18, high_u = -1e18, low_v = 1e18, high_v = -1e18;
   for (const Plate& plate : scene.plates) {
     for (const double x : {-0.5, 0.5}) {
       for (const double y : {-0.5, 0.5}) {
@@ -85,18 +87,13 @@ core::Region free_rectangle(const Scene& scene) {
         low_v = std::min(low_v, corner.v_px), high_v = std::max(high_v, corner.v_px);
       }
     }
-    near_mm = std::min(near_mm, plate.z_mm - scene.camera.z_mm);
   }
-  const double scale = scene.camera.alpha_px / near_mm;
-  const double drift_u = scale * scene.hover.x_rms_mm, drift_v = scale * scene.hover.y_rms_mm;
-  const double shake = 4.0 * scale * scene.excitation.rms_mm;
   const double width = scene.camera.width_px, height = scene.camera.height_px;
+  const double clear_u = kClearance * width, clear_v = kClearance * height;
   const Extent middle_u{0.3 * width, 0.7 * width}, middle_v{0.3 * height, 0.7 * height};
-  const double edge_u = 0.02 * width + 3.0 * drift_u, edge_v = 0.02 * height + 3.0 * drift_v;
-  const std::array<core::Region, 4> sides{rectangle({edge_u, low_u - 4.0 * drift_u - shake}, middle_v),
-                                          rectangle({high_u + 4.0 * drift_u + shake, width - edge_u}, middle_v),
-                                          rectangle(middle_u, {edge_v, low_v - 4.0 * drift_v - shake}),
-                                          rectangle(middle_u, {high_v + 4.0 * drift_v + shake, height - edge_v})};
+  const std::array<core::Region, 4> sides{
+      rectangle({clear_u, low_u - clear_u}, middle_v), rectangle({high_u + clear_u, width - clear_u}, middle_v),
+      rectangle(middle_u, {clear_v, low_v - clear_v}), rectangle(middle_u, {high_v + clear_v, height - clear_v})};
   const auto room = [](const core::Region& r) {
     return std::min(r.width_px, r.height_px) < 20.0 ? 0.0 : r.width_px * r.height_px;
   };
