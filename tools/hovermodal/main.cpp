@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
       "The service itself is hovermodald; these are its companions on the desk and on the ground."};
   app.require_subcommand(1);
   app.set_version_flag("--version", HOVERMODAL_VERSION);
+  tools::add_plan(app);
   tools::add_simulate(app);
   tools::add_identify(app);
   tools::add_replay(app);
