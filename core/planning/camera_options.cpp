@@ -32,7 +32,8 @@ void count_troubles(const PlanInput& input, const PlannedCamera& camera, CameraO
   option.n_overlaps = static_cast<int>(survey.overlaps.size());
   option.n_merging = static_cast<int>(
       std::count_if(survey.overlaps.begin(), survey.overlaps.end(), [](const Overlap& o) { return o.merges; }));
-  option.penalty = 3.0 * option.n_open + 2.0 * option.n_hidden + option.n_merging + option.n_overlaps;
+  option.penalty =
+      3.0 * option.n_open + 2.0 * option.n_hidden + option.n_merging + option.n_overlaps + 0.25 * option.n_folded;
 }
 
 CameraOption evaluate(const PlanInput& input, double rate_hz, bool is_turned) {

@@ -69,7 +69,7 @@ struct CameraOption {
   int n_overlaps = 0, n_merging = 0;
   int n_hidden = 0;  // folded into the hover band, or onto an edge
   std::optional<double> least_margin;
-  double penalty = 0.0;  // 3 open + 2 merging + 2 hidden + 1 other overlap; 10 where the structure does not fit
+  double penalty = 0.0;  // 3 open + 2 merging + 2 hidden + 1 other overlap + 1/4 folded; 10 where it does not fit
 };
 
 struct HoverPlan {

@@ -87,6 +87,16 @@ Text overlap_words(const HoverPlan& plan) {
   return out;
 }
 
+// Where turning would tell the folds apart if only the structure fitted.
+Text turning_words(const PlanInput& input, const HoverPlan& plan) {
+  const CameraOption& turned = plan.options[1];
+  const CameraOption& best = plan.options[plan.best_option];
+  if (best.n_open == 0 || turned.n_open >= best.n_open || turned.fits) return {};
+  const double room = core::planning::room_px(core::planning::turned(input.camera), input.axis);
+  return fmt::format(" Turned by 90 degrees the row delays would tell more; the structure fits so from {:.3g} m on.",
+                     1e-3 * input.length_mm * input.camera.focal_px / (0.9 * room));
+}
+
 Text option_words(const PlanInput& input, const HoverPlan& plan) {
   const CameraOption& best = plan.options[plan.best_option];
   const CameraOption& given = plan.options.front();
@@ -144,13 +154,16 @@ Text time_words(const PlanInput& input, const HoverPlan& plan) {
       plan.needed_s / 60.0, damping ? "damping" : "frequency", longest + 1,
       std::ranges::max_element(plan.modes, {}, &ModePlan::seconds_for_frequency)->seconds_for_frequency / 60.0);
   if (input.battery_s > 0.0 && plan.needed_s > input.battery_s) {
+    const auto& mode = input.modes[longest];
+    const double f_sigma =
+        core::planning::relative_frequency_sigma(mode.frequency_hz, mode.damping_ratio, input.battery_s);
+    const double damping_sigma =
+        core::planning::relative_damping_sigma(mode.frequency_hz, mode.damping_ratio, input.battery_s);
     out += fmt::format(
-        " One battery gives {:.1f} min: {:.0f} flights, or sigma f {:.2g} %, sigma damping {:.2g} % after one.",
-        input.battery_s / 60.0, std::ceil(plan.needed_s / input.battery_s),
-        100.0 * core::planning::relative_frequency_sigma(input.modes[longest].frequency_hz,
-                                                         input.modes[longest].damping_ratio, input.battery_s),
-        100.0 * core::planning::relative_damping_sigma(input.modes[longest].frequency_hz,
-                                                       input.modes[longest].damping_ratio, input.battery_s));
+        " One battery gives {:.1f} min: {:.0f} flights, or sigma f {:.2g} %, sigma damping {:.2g} % in mode {} after "
+        "one.",
+        input.battery_s / 60.0, std::ceil(plan.needed_s / input.battery_s), 100.0 * f_sigma, 100.0 * damping_sigma,
+        longest + 1);
   } else if (input.battery_s > 0.0) {
     out += fmt::format(" One battery of {:.3g} min is enough.", input.battery_s / 60.0);
   }
@@ -182,7 +195,7 @@ std::string mode_list(const Indices& indices) {
 
 std::string plan_advice(const PlanInput& input, const HoverPlan& plan) {
   return view_words(input, plan) + fold_words(input, plan) + overlap_words(plan) + option_words(input, plan) +
-         amplitude_words(plan) + time_words(input, plan) + drift_words(plan);
+         turning_words(input, plan) + amplitude_words(plan) + time_words(input, plan) + drift_words(plan);
 }
 
 }  // namespace tools

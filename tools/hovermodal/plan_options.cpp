@@ -124,11 +124,12 @@ void add_plan_options(CLI::App& command, PlanOptions& options) {
       "    --damping-percent 1 --distance-m 2 --focal-px 2100 --fps 25 --readout-ms 26 --exposure-ms 4 \\\n"
       "    --amplitude-mm 4,0.22,0.054,0.018,0.006,0.002 --battery-min 20 --out plan\n"
       "It says: modes 5 and 6 are above half of 25 fps and appear at 12.07 and 10.66 Hz; the delays between the rows\n"
-      "tell that, but mode 6 then lies within the width of mode 4; 30 fps shows all six at their own places.\n"
+      "tell that, but mode 6 then lies within the width of mode 4; 29.97 fps shows all six at their own places.\n"
       "\n"
-      "A bridge deck of 40 m from 60 m, a lens of 24 mm on a sensor 13.2 mm wide:\n"
-      "  hovermodal plan --structure beam --size-m 40 --frequencies 2.1,8.3,18.5 --distance-m 60 \\\n"
-      "    --focal-mm 24 --sensor-width-mm 13.2 --image 2160p --fps 29.97 --readout-ms 20 --exposure-ms 2");
+      "A bridge deck of 40 m from 150 m, a lens of 24 mm on a sensor 13.2 mm wide; it says: turn the camera:\n"
+      "  hovermodal plan --structure beam --size-m 40 --frequencies 2.1,8.3,18.5 --distance-m 150 \\\n"
+      "    --focal-mm 24 --sensor-width-mm 13.2 --image 2160p --fps 29.97 --rates 24,25,29.97 --readout-ms 20 "
+      "--exposure-ms 2");
 }
 
 }  // namespace tools

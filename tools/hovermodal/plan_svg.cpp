@@ -64,26 +64,33 @@ class PlanPicture {
       labels_.push_back(
           fmt::format("{}: {:.4g}{}", i + 1, input_.modes[i].frequency_hz, mode(i).place.n != 0 ? "*" : ""));
       const double half = app::text_width_px(labels_.back(), app::kTextPx) / 2.0;
-      label_x_px_.push_back(std::clamp(x_px(mode(i).place.apparent_hz), half + 6.0, kWidthPx - half - 6.0));
+      label_x_px_.push_back(std::clamp(x_px(mode(i).place.apparent_hz), kLeftPx + half, kWidthPx - half - 6.0));
     }
     rows_ = app::label_rows(label_x_px_, labels_, kMaxRows);
     for (const int row : rows_) n_rows_ = std::max(n_rows_, row + 1);
   }
 
-  // Peak of a mode, and the density near it: a Lorentzian as wide as the resonance and the window together.
+  // Of the mode alone, without the floor.
   [[nodiscard]] double peak(std::size_t i) const {
     const double rms = input_.modes[i].rms_mm.value_or(mode(i).least_rms_mm);
     const auto& m = input_.modes[i];
     return core::planning::peak_density(rms * mode(i).exposure_gain, m.damping_ratio, m.frequency_hz,
                                         plan_.bandwidth_hz);
   }
+  // The resonances' displacement under white forces, widened by the window, folded as the samples fold it.
   [[nodiscard]] double density(double hz) const {
+    constexpr int kBranches = 3;
     double sum = floor_;
     for (const std::size_t i : order_) {
       if (!std::isfinite(mode(i).least_rms_mm)) continue;
-      const double half_width_hz = 0.5 * mode(i).half_power_hz + 0.3 * plan_.bandwidth_hz;
-      const double x = (hz - mode(i).place.apparent_hz) / half_width_hz;
-      sum += peak(i) / (1.0 + x * x);
+      const double f0 = input_.modes[i].frequency_hz;
+      const double zeta = input_.modes[i].damping_ratio + 0.3 * plan_.bandwidth_hz / f0;
+      const double height = peak(i) * std::pow(2.0 * zeta, 2);
+      const double fold_hz = mode(i).place.n * input_.camera.rate_hz;
+      for (int k = -kBranches; k <= kBranches; ++k) {
+        const double ratio = (hz + fold_hz + k * input_.camera.rate_hz) / f0;
+        sum += height / (std::pow(1.0 - ratio * ratio, 2) + std::pow(2.0 * zeta * ratio, 2));
+      }
     }
     return sum;
   }
@@ -175,7 +182,7 @@ class PlanPicture {
     for (const double rival_hz : place.rivals_hz) svg.circle(x, panel.y_px(rival_hz), 3.0, "b x");
     svg.circle(x, y, 4.5, dot_of(place.outlook));
     const bool at_right = x > panel.box().right() - 30.0;
-    svg.text(at_right ? x - 8.0 : x + 8.0, y + 4.0, fmt::format("{}", i + 1), at_right ? Anchor::kEnd : Anchor::kStart,
+    svg.text(at_right ? x - 8.0 : x + 8.0, y - 3.0, fmt::format("{}", i + 1), at_right ? Anchor::kEnd : Anchor::kStart,
              "s");
   }
 
@@ -188,6 +195,11 @@ class PlanPicture {
       svg.circle(x + 9.0, y - 4.0, 4.5, css_class);
       svg.text(x + 22.0, y, label);
       y += 16.0;
+    }
+    for (const auto& overlap : plan_.overlaps) {
+      y += 16.0;
+      if (y > box.bottom()) return;
+      svg.text(x, y, fmt::format("{} and {} overlap", overlap.first + 1, overlap.second + 1), Anchor::kStart, "t q");
     }
   }
 

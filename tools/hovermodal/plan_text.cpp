@@ -51,29 +51,23 @@ Text fold_words(const ModePlan& mode) {
 Text mode_table(const PlanInput& input, const HoverPlan& plan) {
   Text out;
   add(out, "{:>4} {:>9} {:>9} {:>4}  {:<15} {:>8} {:>10} {:>10} {:>8} {:>8} {:>8}\n", "mode", "true Hz", "seen Hz",
-      "fold", "told by delays", "exposure", "least mm", "expect mm", "over dB", "sigma f", "sigma z");
+      "fold", "told by delays", "exposure", "least mm", "expect mm", "dB over", "sigma f", "sigma z");
   for (std::size_t i = 0; i < plan.modes.size(); ++i) {
     const ModePlan& mode = plan.modes[i];
     const auto& rms_mm = input.modes[i].rms_mm;
-    add(out, "{:4} {:9.3f} {:9.3f} {:+4}  {:<15} {:8.3f} {:10.2g} {:>10} {:>8} {:7.2f}% {:7.1f}%\n", i + 1,
+    add(out, "{:4} {:9.3f} {:9.3f} {:4}  {:<15} {:8.3f} {:10.2g} {:>10} {:>8} {:7.2f}% {:7.1f}%\n", i + 1,
         input.modes[i].frequency_hz, mode.place.apparent_hz, mode.place.n, fold_words(mode), mode.exposure_gain,
         mode.least_rms_mm, rms_mm ? fmt::format("{:.2g}", *rms_mm) : "-",
         mode.over_floor_db ? fmt::format("{:.0f}", *mode.over_floor_db) : "-", 100.0 * mode.relative_sigma_frequency,
         100.0 * mode.relative_sigma_damping);
   }
   add(out,
-      "{:>4} told by delays: direct = nothing else is seen there; resolved, ambiguous with the margin in MPC (0.3 is "
-      "asked); no delays\n\n",
-      "");
+      "     direct: nothing else is seen there; resolved, ambiguous: lead of the true frequency in MPC, 0.3 is asked\n"
+      "     least mm: rms that stands 10 dB over the floor; sigma f, sigma z: relative, after the hover\n\n");
   return out;
 }
 
-Text option_words(const CameraOption& option, double readout_s, double exposure_s) {
-  if (option.obstacle == Obstacle::kReadoutTooLong)
-    return fmt::format("not with a readout of {:g} ms: a frame lasts {:.1f} ms", 1e3 * std::abs(readout_s),
-                       1e3 / option.rate_hz);
-  if (option.obstacle == Obstacle::kExposureTooLong)
-    return fmt::format("not with an exposure of {:g} ms", 1e3 * exposure_s);
+Text option_words(const CameraOption& option) {
   Text out;
   if (option.n_folded > 0) add(out, "{} folded, ", option.n_folded);
   if (option.n_open > 0) add(out, "{} open, ", option.n_open);
@@ -85,16 +79,20 @@ Text option_words(const CameraOption& option, double readout_s, double exposure_
 }
 
 Text option_table(const PlanInput& input, const HoverPlan& plan) {
-  Text out;
+  Text out, too_fast;
   add(out, "{:>10}  {:<44} {}\n", "fps", "camera as given", "turned by 90 degrees");
   for (std::size_t i = 0; i + 1 < plan.options.size(); i += 2) {
-    const bool best = i / 2 == plan.best_option / 2;
     const CameraOption& held = plan.options[i];
-    add(out, "{} {:8.2f}  {:<44} {}\n", best ? '>' : ' ', held.rate_hz,
-        option_words(held, input.camera.readout_s, input.camera.exposure_s),
-        held.obstacle == Obstacle::kNone
-            ? option_words(plan.options[i + 1], input.camera.readout_s, input.camera.exposure_s)
-            : "");
+    if (held.obstacle != Obstacle::kNone) {
+      add(too_fast, "{}{:g}", too_fast.empty() ? "" : ", ", held.rate_hz);
+      continue;
+    }
+    const char mark = i / 2 == plan.best_option / 2 ? '>' : ' ';
+    add(out, "{} {:8.2f}  {:<44} {}\n", mark, held.rate_hz, option_words(held), option_words(plan.options[i + 1]));
+  }
+  if (!too_fast.empty()) {
+    add(out, "{:>10}  a frame is shorter than the readout of {:g} ms or the exposure of {:g} ms: {}\n", "",
+        1e3 * std::abs(input.camera.readout_s), 1e3 * input.camera.exposure_s, too_fast);
   }
   return out + "\n";
 }
