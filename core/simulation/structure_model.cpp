@@ -1,14 +1,15 @@
 #include "core/simulation/structure_model.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <stdexcept>
 #include <string>
+
+#include "core/simulation/modal_form.h"
+#include "core/simulation/structure_check.h"
 
 namespace core::simulation {
 namespace {
@@ -17,18 +18,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr int kMostBodies = 64, kMostCoordinates = 128;
+constexpr double kLeastDamping = 1e-6;  // ratio; rounding alone gives an undamped pole either sign
 
-[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("simulation: structure: " + what); }
-
-MatrixXd state_matrix(const StructureModel& model) {
-  const Index n = model.mass.rows();
-  const auto inverse = model.mass.llt();
-  MatrixXd state = MatrixXd::Zero(2 * n, 2 * n);
-  state.topRightCorner(n, n).setIdentity();
-  state.bottomLeftCorner(n, n) = -inverse.solve(model.stiffness);
-  state.bottomRightCorner(n, n) = -inverse.solve(model.damping);
-  return state;
-}
+[[noreturn]] void refuse(const std::string& what) { refuse_structure(what); }
 
 void require_square(const MatrixXd& matrix, Index n, const char* name) {
   if (matrix.rows() != n || matrix.cols() != n) {
@@ -71,28 +63,28 @@ void validate(const StructureModel& model) {
   if (model.stiffness.llt().info() != Eigen::Success) {
     refuse("unstable: the stiffness matrix is not positive definite; raise the stiffness, or lower what softens it");
   }
-  const Eigen::VectorXcd poles = state_matrix(model).eigenvalues();
+  const Eigen::VectorXcd poles = poles_of(modal_form(model.mass, model.damping, model.stiffness)).s;
   for (const std::complex<double>& pole : poles) {
-    if (pole.real() < 0.0) continue;
+    if (pole.real() <= -kLeastDamping * std::abs(pole)) continue;
     refuse("unstable: the pole at " + std::to_string(std::abs(pole) / (2.0 * std::numbers::pi)) +
-           " Hz does not decay; give every mode a positive damping");
+           " Hz has the damping ratio " + std::to_string(-pole.real() / std::abs(pole)) + "; give at least 0.000001");
   }
 }
 
 std::vector<TrueMode> modes_of(const StructureModel& model) {
-  const Eigen::EigenSolver<MatrixXd> solver(state_matrix(model));
-  const Index n = model.mass.rows();
+  const Poles poles = poles_of(modal_form(model.mass, model.damping, model.stiffness));
   std::vector<TrueMode> modes;
-  for (Index i = 0; i < 2 * n; ++i) {
-    const std::complex<double> pole = solver.eigenvalues()(i);
+  for (Index i = 0; i < poles.s.size(); ++i) {
+    const std::complex<double> pole = poles.s(i);
     if (pole.imag() <= 1e-9 * std::abs(pole)) continue;
-    const Eigen::VectorXcd q = solver.eigenvectors().col(i).head(n);
+    const Eigen::VectorXcd q = poles.shapes.col(i);
     TrueMode mode{std::abs(pole) / (2.0 * std::numbers::pi), -pole.real() / std::abs(pole), model.displacement * q,
                   model.tilt * q};
     Index largest = 0;
     mode.displacement.cwiseAbs().maxCoeff(&largest);
     const std::complex<double> scale = mode.displacement(largest);
-    if (std::abs(scale) <= 0.0) continue;  // moves nothing that is seen
+    const double most = model.displacement.cwiseAbs().maxCoeff() * q.cwiseAbs().maxCoeff();
+    if (std::abs(scale) <= 1e-9 * most) continue;  // moves nothing that is seen
     mode.displacement /= scale;
     mode.tilt /= scale;
     modes.push_back(std::move(mode));

@@ -7,14 +7,14 @@
 namespace core::simulation {
 
 // Linear structure on a moving ground: M q'' + C q' + K q = P^T f - L a, with q the coordinates relative to the ground,
-// f the forces on the bodies and a the ground's acceleration. Any consistent units (kg, N/m, N s/m).
-// Bodies are what is seen: body i (1 .. n_bodies) moves by P.row(i - 1) q along `axis` and turns by T.row(i - 1) q.
-// Body 0 is the ground.
+// f the forces on the bodies and a the ground's acceleration (mm/s^2). Any consistent units: kg, N/m, N s/m with q in
+// mm and f in mN, say. Bodies are what is seen: body i (1 .. n_bodies) moves by P.row(i - 1) q along `axis` and turns
+// by T.row(i - 1) q. Body 0 is the ground.
 struct StructureModel {
   enum class Axis : std::uint8_t { kX, kY };  // of the motion, in the world: to the right, or downwards
 
   Eigen::MatrixXd mass, damping, stiffness;  // coordinates x coordinates, symmetric
-  Eigen::VectorXd influence;                 // L: M times the rigid-body motion of the ground
+  Eigen::VectorXd influence;                 // L: M times the coordinates' rigid motion with 1 mm of the ground
   Eigen::MatrixXd displacement;              // P: bodies x coordinates, mm per unit
   Eigen::MatrixXd tilt;                      // T: bodies x coordinates, rad per unit; from X towards Y about Z
   Axis axis = Axis::kX;
@@ -31,14 +31,16 @@ struct TrueMode {
   Eigen::VectorXcd tilt;  // rad per mm of the largest displacement
 };
 
-// Of the state matrix [0 I; -M^-1 K, -M^-1 C], by frequency. Poles that do not oscillate are left out.
+// Of the state matrix [0 I; -M^-1 K, -M^-1 C], by frequency. Poles that do not oscillate, and modes that move no body,
+// are left out.
 [[nodiscard]] std::vector<TrueMode> modes_of(const StructureModel& model);
 
 // q for unit forces on the coordinates at angular frequency w: (K - w^2 M + i w C)^-1 force.
 [[nodiscard]] Eigen::VectorXcd response_at(const StructureModel& model, double w, const Eigen::VectorXcd& force);
 
 // Throws std::invalid_argument: sizes that do not fit, NaN, a matrix that is not symmetric, a mass matrix that is not
-// positive definite, a pole that does not decay (negative damping, a stiffness that is not positive definite).
+// positive definite, a pole that does not decay (a damping ratio below 1e-6, a stiffness that is not positive
+// definite).
 void validate(const StructureModel& model);
 
 // Shear building of uniform masses with the shapes of the uniform fixed-free chain, phi_r(i) = sin((2 r - 1) i pi /

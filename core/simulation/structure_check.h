@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace core::simulation {
+
+// Refusals of structures, worded alike: what, its value, what to give.
+[[noreturn]] inline void refuse_structure(const std::string& what) {
+  throw std::invalid_argument("simulation: structure: " + what);
+}
+
+inline void require_structure(bool ok, const std::string& what, double value, const std::string& advice) {
+  if (!ok) refuse_structure(what + " is " + std::to_string(value) + "; " + advice);
+}
+
+inline void require_positive(const std::string& what, double value) {
+  require_structure(std::isfinite(value) && value > 0.0, what, value, "give more than 0");
+}
+
+}  // namespace core::simulation
