@@ -34,6 +34,10 @@ CameraMotion::CameraMotion(const Scene& scene)
   const std::array<double, 7> rms = hover_rms(hover);
   rotates_ = vibrates_ || rms[3] > 0.0 || rms[4] > 0.0 || rms[5] > 0.0;
   zooms_ = rms[6] > 0.0;
+  if (scene.flight != nullptr) {
+    flight_.emplace(*scene.flight);
+    for (std::size_t i = 3; i < 6; ++i) rotates_ = rotates_ || flight_->rms()[i] > 0.0;
+  }
   for (std::size_t i = 0; i < hover_.size(); ++i) {
     hover_[i] = drift({hover.corner_hz, hover.order, hover.limit_hz}, rms[i], RandomStream(scene.seed, kStreamName[i]),
                       duration_s_);
@@ -52,6 +56,9 @@ double CameraMotion::rotor_phase(double t_s) const noexcept {
 std::array<double, 7> CameraMotion::deviation(double t_s) const noexcept {
   std::array<double, 7> value{};
   for (std::size_t i = 0; i < value.size(); ++i) value[i] = hover_[i].at(t_s);
+  if (flight_) {
+    for (int axis = 0; axis < 6; ++axis) value[static_cast<std::size_t>(axis)] += flight_->at(axis, t_s);
+  }
   if (vibrates_) {
     const double phase = rotor_phase(t_s);
     const std::array<double, 3> rms{rotor_.pitch_rms_rad, rotor_.yaw_rms_rad, rotor_.roll_rms_rad};

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "core/simulation/periodic_signal.h"
 #include "core/simulation/projection.h"
+#include "core/simulation/recorded_motion.h"
 #include "core/simulation/scene.h"
 
 namespace core::simulation {
@@ -32,6 +34,7 @@ class CameraMotion {
   double duration_s_, rate_hz_;
   bool rotates_, zooms_, vibrates_;
   std::array<PeriodicSignal, 7> hover_;
+  std::optional<RecordedPath> flight_;
   PeriodicSignal rotor_wander_;  // cycles
   std::array<double, 3> rotor_phase_rad_{};
 };

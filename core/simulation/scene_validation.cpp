@@ -128,25 +128,38 @@ void validate_effects(const Scene& s) {
   require_range("loss probability of a channel", s.channels.loss_probability, 0.0, 1.0);
 }
 
-// Every motion at three standard deviations and its worst sign at once.
-void validate_view(const Scene& s) {
+// How far the camera strays from its mean pose: three standard deviations of the drift, all of a recorded flight.
+std::array<double, 6> reach_of(const Scene& s) {
   const HoverParameters& hover = s.hover;
+  std::array<double, 6> reach{3.0 * hover.x_rms_mm,      3.0 * hover.y_rms_mm,    3.0 * hover.z_rms_mm,
+                              3.0 * hover.pitch_rms_rad, 3.0 * hover.yaw_rms_rad, 3.0 * hover.roll_rms_rad};
+  if (s.flight == nullptr) return reach;
+  const std::array axes{&s.flight->x_mm,      &s.flight->y_mm,    &s.flight->z_mm,
+                        &s.flight->pitch_rad, &s.flight->yaw_rad, &s.flight->roll_rad};
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    for (const double value : *axes[i]) reach[i] = std::max(reach[i], std::abs(value));
+  }
+  return reach;
+}
+
+// Every motion at its reach and its worst sign at once.
+void validate_view(const Scene& s) {
+  const std::array<double, 6> reach = reach_of(s);
   double low_u = 1e18, high_u = -1e18, low_v = 1e18, high_v = -1e18;
   const double shake = 4.0 * s.excitation.rms_mm;
   const bool along_x = s.structure.axis == StructureModel::Axis::kX;
   for (int signs = 0; signs < 256; ++signs) {
-    const auto sign = [signs](int bit) { return (signs >> bit & 1) != 0 ? 3.0 : -3.0; };
-    CameraPose pose{
-        s.camera.x_mm + sign(0) * hover.x_rms_mm, s.camera.y_mm + sign(1) * hover.y_rms_mm,
-        s.camera.z_mm + sign(2) * hover.z_rms_mm,
-        attitude(s.camera.pitch_rad, s.camera.yaw_rad, s.camera.roll_rad) *
-            attitude(sign(3) * hover.pitch_rms_rad, sign(4) * hover.yaw_rms_rad, sign(5) * hover.roll_rms_rad),
-        1.0};
+    const auto sign = [signs](int bit) { return (signs >> bit & 1) != 0 ? 1.0 : -1.0; };
+    CameraPose pose{s.camera.x_mm + sign(0) * reach[0], s.camera.y_mm + sign(1) * reach[1],
+                    s.camera.z_mm + sign(2) * reach[2],
+                    attitude(s.camera.pitch_rad, s.camera.yaw_rad, s.camera.roll_rad) *
+                        attitude(sign(3) * reach[3], sign(4) * reach[4], sign(5) * reach[5]),
+                    1.0};
     for (std::size_t i = 0; i < s.plates.size(); ++i) {
       const Plate& plate = s.plates[i];
-      const double moved = i == 0 ? 0.0 : shake / 3.0;
-      const double x = plate.x_mm + sign(6) / 6.0 * plate.width_mm + (along_x ? sign(6) * moved : 0.0);
-      const double y = plate.y_mm + sign(7) / 6.0 * plate.height_mm + (along_x ? 0.0 : sign(7) * moved);
+      const double moved = i == 0 ? 0.0 : shake;
+      const double x = plate.x_mm + sign(6) / 2.0 * plate.width_mm + (along_x ? sign(6) * moved : 0.0);
+      const double y = plate.y_mm + sign(7) / 2.0 * plate.height_mm + (along_x ? 0.0 : sign(7) * moved);
       const Eigen::Vector3d seen =
           pose.attitude.transpose() * Eigen::Vector3d(x - pose.x_mm, y - pose.y_mm, plate.z_mm - pose.z_mm);
       require(seen.z() >= 50.0, "distance from the camera to plate " + plate.name + " with 3 sigma of drift (mm)",

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace core {
+
+// Stretches of a recorded flight at a uniform rate, as a flight log and an inertial sensor hold them. `from_s` is the
+// first sample's time since the start of the flight; sample k lies at from_s + k / rate_hz.
+
+// Where the aircraft was, about the mean of the stretch.
+struct FlightPath {
+  double rate_hz = 0.0;
+  double from_s = 0.0;
+  std::vector<double> north_mm, east_mm, up_mm;
+  double mean_heading_deg = 0.0;  // of the nose, clockwise from north
+
+  [[nodiscard]] std::size_t n_samples() const noexcept { return north_mm.size(); }
+};
+
+// How the aircraft was turned and accelerated, in the axes of an inertial sensor: x forward, y left, z up. Angles turn
+// right-handed about x, y, z, in the order yaw, pitch, roll from the level to the sensor.
+struct FlightAttitude {
+  double rate_hz = 0.0;
+  double from_s = 0.0;
+  std::vector<double> roll_rad, pitch_rad, yaw_rad;  // about the means below, unwrapped
+  double mean_roll_rad = 0.0, mean_pitch_rad = 0.0, mean_yaw_rad = 0.0;
+  std::vector<double> x_m_s2, y_m_s2, z_m_s2;  // as measured: at rest and level, z shows +g
+  std::size_t n_replaced = 0;                  // accelerations that were exactly zero in all axes: not measured
+
+  [[nodiscard]] std::size_t n_samples() const noexcept { return roll_rad.size(); }
+};
+
+}  // namespace core
