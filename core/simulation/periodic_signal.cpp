@@ -12,8 +12,35 @@ namespace {
 using Complex = std::complex<double>;
 constexpr std::size_t kStencil = 6;
 
+// exp(2 pi i k / (2 h)) for k < h at h + k, h = 1, 2, 4, ..: each stage of the transform reads its own in order.
+std::vector<Complex> roots(std::size_t n) {
+  std::vector<Complex> root(n);
+  for (std::size_t k = 0; k < n / 2; ++k) {
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n);
+    root[n / 2 + k] = {std::cos(angle), std::sin(angle)};
+  }
+  for (std::size_t h = n / 4; h >= 1; h /= 2) {
+    for (std::size_t k = 0; k < h; ++k) root[h + k] = root[2 * h + 2 * k];
+  }
+  return root;
+}
+
+// Of bit-reversed z. Halves first, so that small ones are done while they are in the cache.
+void butterflies(Complex* z, std::size_t n, const Complex* root) {
+  if (n < 2) return;
+  const std::size_t half = n / 2;
+  butterflies(z, half, root);
+  butterflies(z + half, half, root);
+  for (std::size_t k = 0; k < half; ++k) {
+    const Complex w = root[half + k], a = z[k], b = z[half + k];
+    const Complex product{w.real() * b.real() - w.imag() * b.imag(), w.real() * b.imag() + w.imag() * b.real()};
+    z[k] = a + product;
+    z[half + k] = a - product;
+  }
+}
+
 // In place, unscaled, kernel exp(+2 pi i k n / N); N a power of two.
-void inverse_fft(std::vector<Complex>& z) {
+void inverse_fft(std::vector<Complex>& z, const std::vector<Complex>& root) {
   const std::size_t n = z.size();
   for (std::size_t i = 1, j = 0; i < n; ++i) {
     std::size_t bit = n >> 1;
@@ -21,23 +48,7 @@ void inverse_fft(std::vector<Complex>& z) {
     j ^= bit;
     if (i < j) std::swap(z[i], z[j]);
   }
-  std::vector<Complex> root(n / 2);
-  for (std::size_t k = 0; k < n / 2; ++k) {
-    const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n);
-    root[k] = {std::cos(angle), std::sin(angle)};
-  }
-  for (std::size_t half = 1; half < n; half *= 2) {
-    const std::size_t stride = n / (2 * half);
-    for (std::size_t start = 0; start < n; start += 2 * half) {
-      for (std::size_t k = 0; k < half; ++k) {
-        const Complex w = root[k * stride], b = z[start + half + k];
-        const Complex product{w.real() * b.real() - w.imag() * b.imag(), w.real() * b.imag() + w.imag() * b.real()};
-        const Complex a = z[start + k];
-        z[start + k] = a + product;
-        z[start + half + k] = a - product;
-      }
-    }
-  }
+  butterflies(z.data(), n, root.data());
 }
 
 }  // namespace
@@ -57,11 +68,23 @@ PeriodicSignal::PeriodicSignal(const std::vector<Complex>& amplitude, double per
     : n_(n_samples), rate_hz_(static_cast<double>(n_samples) / period_s) {
   if (2 * amplitude.size() > n_samples)
     throw std::invalid_argument("PeriodicSignal: grid too coarse for its harmonics");
-  std::vector<Complex> z(n_samples);
-  for (std::size_t k = 0; k < amplitude.size(); ++k) z[k] = amplitude[k];
-  inverse_fft(z);
+  // Even and odd samples as real and imaginary part of a transform of half the length (Press et al., Numerical Recipes,
+  // 12.3): z[k] = (x[k] + x[k + n/2]) + i exp(2 pi i k / n) (x[k] - x[k + n/2]), x[k] = conj(x[n - k]) = amplitude[k]
+  // / 2.
+  const std::size_t half = n_samples / 2;
+  const std::vector<Complex> root = roots(n_samples);
+  const auto x = [&](std::size_t k) { return k < amplitude.size() ? 0.5 * amplitude[k] : Complex(0.0); };
+  std::vector<Complex> z(half);
+  for (std::size_t k = 0; k < half; ++k) {
+    const Complex low = k == 0 ? Complex(2.0 * x(0).real(), 0.0) : x(k), high = std::conj(x(half - k));
+    z[k] = (low + high) + Complex(0.0, 1.0) * root[half + k] * (low - high);
+  }
+  inverse_fft(z, root);
   samples_.resize(n_samples + kStencil);
-  for (std::size_t i = 0; i < samples_.size(); ++i) samples_[i] = z[i % n_samples].real();
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const Complex& pair = z[(i % n_samples) / 2];
+    samples_[i] = i % 2 == 0 ? pair.real() : pair.imag();
+  }
 }
 
 double PeriodicSignal::at(double t_s) const noexcept {

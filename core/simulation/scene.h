@@ -37,12 +37,14 @@ struct CameraParameters {
 
 // What shakes the structure: white noise in a band (a Gaussian per frequency), lines, or both.
 struct ExcitationParameters {
-  double base = 1.0;    // weight of the ground's acceleration; 0 = the ground rests
-  double forces = 0.0;  // weight of independent forces on every body, relative to `base` (N per kg of a unit mass)
+  // Weights: the ground's motion alone moves the last body by base * rms_mm, relative to the ground and over the clip,
+  // the independent forces on every body alone by forces * rms_mm. 0 = none.
+  double base = 1.0, forces = 0.0;
   double band_low_hz = 0.5, band_high_hz = 20.0;
-  double rms_mm = 4.0;  // of the last body relative to the ground, over the clip; scales all. 0 = at rest
+  double rms_mm = 4.0;
 
-  struct Peak {  // colour of the ground's motion: its amplitude times 1 + gain at the frequency (a resonance curve)
+  // Colour of the ground's motion, on top of `base`: its amplitude times 1 + gain at the frequency (a resonance curve).
+  struct Peak {
     double frequency_hz = 0.0, damping_ratio = 0.05, gain = 0.0;
   };
   std::vector<Peak> base_peaks;

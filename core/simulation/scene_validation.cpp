@@ -146,7 +146,8 @@ std::array<double, 6> reach_of(const Scene& s) {
 void validate_view(const Scene& s) {
   const std::array<double, 6> reach = reach_of(s);
   double low_u = 1e18, high_u = -1e18, low_v = 1e18, high_v = -1e18;
-  const double shake = 4.0 * s.excitation.rms_mm;
+  double shake = 4.0 * s.excitation.rms_mm * std::hypot(s.excitation.base, s.excitation.forces);
+  for (const auto& harmonic : s.excitation.harmonics) shake += 1.5 * harmonic.rms_mm;
   const bool along_x = s.structure.axis == StructureModel::Axis::kX;
   for (int signs = 0; signs < 256; ++signs) {
     const auto sign = [signs](int bit) { return (signs >> bit & 1) != 0 ? 1.0 : -1.0; };

@@ -18,7 +18,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr int kMostBodies = 64, kMostCoordinates = 128;
-constexpr double kLeastDamping = 1e-6;  // ratio; rounding alone gives an undamped pole either sign
+constexpr double kLeastDamping = 1e-10;  // ratio; rounding alone gives an undamped pole either sign
 
 [[noreturn]] void refuse(const std::string& what) { refuse_structure(what); }
 
@@ -67,7 +67,7 @@ void validate(const StructureModel& model) {
   for (const std::complex<double>& pole : poles) {
     if (pole.real() <= -kLeastDamping * std::abs(pole)) continue;
     refuse("unstable: the pole at " + std::to_string(std::abs(pole) / (2.0 * std::numbers::pi)) +
-           " Hz has the damping ratio " + std::to_string(-pole.real() / std::abs(pole)) + "; give at least 0.000001");
+           " Hz does not decay; give every mode a positive damping");
   }
 }
 

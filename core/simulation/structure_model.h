@@ -39,7 +39,7 @@ struct TrueMode {
 [[nodiscard]] Eigen::VectorXcd response_at(const StructureModel& model, double w, const Eigen::VectorXcd& force);
 
 // Throws std::invalid_argument: sizes that do not fit, NaN, a matrix that is not symmetric, a mass matrix that is not
-// positive definite, a pole that does not decay (a damping ratio below 1e-6, a stiffness that is not positive
+// positive definite, a pole that does not decay (a damping ratio below 1e-10, a stiffness that is not positive
 // definite).
 void validate(const StructureModel& model);
 

@@ -12,10 +12,13 @@ namespace core::simulation {
 // Motion of ground and bodies under white base acceleration and white forces, exact for the linear structure: an
 // independent complex Gaussian per bin inside the band, times the frequency response of the equations of motion (the
 // ground's displacement: divided by -w^2). No integrator, no starting transient. Harmonic forces are added as their
-// exact steady state.
-// The bins make the record periodic; its correlation is the true one plus copies shifted by multiples of the period.
-// The period exceeds the duration by at least 12 time constants of the slowest mode, so within the clip the modal part
-// of those copies stays below exp(-12), and lags up to the duration are never repeated.
+// exact steady state. Ground, forces and each harmonic have streams and levels of their own: to switch one off leaves
+// the others' motion as it was.
+// The level is that of this clip, not of its expectation: over 60 s the rms of a slow mode scatters by 20 % and more,
+// and figures at a stated amplitude would not be at it. The bins make the record periodic; its correlation is the true
+// one plus copies shifted by multiples of the period. The period exceeds the duration by at least 12 time constants of
+// the slowest mode, so within the clip the modal part of those copies stays below exp(-12), and lags up to the duration
+// are never repeated.
 class StructureResponse {
  public:
   // grid_rate_hz: of the interpolation grid; 200 keeps the interpolation error below 1e-5 of the roof's rms.
