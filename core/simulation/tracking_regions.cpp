@@ -45,14 +45,15 @@ core::Region rectangle(Extent u, Extent v) {
   return region;
 }
 
-// The structure's axis of motion as the first frame shows it, from +u towards +v, in (-90, 90].
+// The structure's axis of motion as the first frame shows it, from +u towards +v, in (-45, 135]: an
+// upright axis points down, however little the camera rolls.
 double axis_deg(const SceneMotion& motion, int body) {
   const bool along_x = motion.scene().structure.axis == StructureModel::Axis::kX;
   const ImagePoint a = motion.see(body, {0.0, 0.0}, 0.0);
   const ImagePoint b = motion.see(body, {along_x ? 1.0 : 0.0, along_x ? 0.0 : 1.0}, 0.0);
   double deg = std::atan2(b.v_px - a.v_px, b.u_px - a.u_px) * 180.0 / std::numbers::pi;
-  if (deg <= -90.0) deg += 180.0;
-  if (deg > 90.0) deg -= 180.0;
+  if (deg <= -45.0) deg += 180.0;
+  if (deg > 135.0) deg -= 180.0;
   return std::abs(deg) < 1e-9 ? 0.0 : deg;
 }
 
