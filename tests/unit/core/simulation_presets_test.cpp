@@ -73,7 +73,7 @@ TEST_P(Preset, ScalesWithTheImage) {
   EXPECT_DOUBLE_EQ(back.camera.cx_px, 479.5 + 20.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Preset, testing::ValuesIn(presets()), [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, Preset, testing::ValuesIn(presets()), [](const auto& each) { return each.param.name; });
 
 double frequency(const Scene& scene, std::size_t mode) { return modes_of(scene.structure)[mode].frequency_hz; }
 
