@@ -22,7 +22,11 @@ class Texture {
           std::uint64_t index = 0);
 
   [[nodiscard]] double pitch_mm() const noexcept { return pitch_mm_; }
+  [[nodiscard]] double mean() const noexcept { return mean_; }
   [[nodiscard]] double value(double x_mm, double y_mm) const noexcept;
+  // Value at each of kLook points, given in cells (mm / pitch), |x|, |y| below 1e7.
+  static constexpr int kLook = 16;
+  void look(const double* x, const double* y, float* value) const noexcept;
   // Cells first .. first + count - 1 of the row at y; cell c spans x = c pitch .. (c + 1) pitch.
   void row(double y_mm, std::int64_t first, std::int64_t count, Cell* cells) const noexcept;
 
@@ -30,8 +34,9 @@ class Texture {
   [[nodiscard]] const float* coefficients(std::int64_t row) const noexcept;
 
   double pitch_mm_;
-  std::int64_t n_;
-  std::vector<float> coefficient_;  // n x n, grey levels around the mean, which is added on evaluation
+  std::int64_t n_, stride_;
+  std::vector<float> coefficient_;  // n rows of n, grey levels around the mean, which is added on evaluation; each row
+                                    // repeats its first three at its end, so that four in a line never wrap
   double mean_;
 };
 
