@@ -12,7 +12,10 @@
 #include "core/spectrum/welch_cpsd.h"
 #include "drivers/storage/csv.h"
 #include "firmware_app/core_config.h"
+#include "firmware_app/report/modal_json.h"
+#include "firmware_app/report/pictures.h"
 #include "firmware_app/report/run_report.h"
+#include "firmware_app/run_findings.h"
 
 namespace app {
 
@@ -71,10 +74,34 @@ core::CameraInfo camera_of(const drivers::TracksFile& file, const AppConfig& con
   return camera;
 }
 
+struct SeriesFindings {
+  const core::CpsdSums& sums;
+  const core::ModalEstimate& estimate;
+  const RunHistory& history;
+};
+
+void draw_series(const ChannelSeries& series, const SeriesFindings& found, double max_frequency_hz,
+                 const std::string& directory, const std::string& source) {
+  RunFacts facts;
+  facts.source = source;
+  facts.method = to_text(Method::kHovermodal);
+  facts.counted = false;
+  PictureInputs inputs;
+  inputs.channels = series.channels;
+  inputs.spectrum = &found.sums;
+  inputs.estimate = &found.estimate;
+  inputs.history = &found.history;
+  inputs.unit = series.unit;
+  inputs.max_frequency_hz = max_frequency_hz;
+  inputs.facts = &facts;
+  (void)write_pictures(directory, inputs);
+}
+
 }  // namespace
 
 core::ModalEstimate identify_series(const ChannelSeries& series, const SpectrumConfig& spectrum,
-                                    const core::IdentifierConfig& identifier) {
+                                    const core::IdentifierConfig& identifier, const std::string& report_directory,
+                                    const std::string& source) {
   const std::size_t n_channels = series.channels.size();
   const std::size_t n_samples = n_channels == 0 ? 0 : series.value.front().size();
   if (n_samples < static_cast<std::size_t>(spectrum.segment)) {
@@ -85,16 +112,20 @@ core::ModalEstimate identify_series(const ChannelSeries& series, const SpectrumC
   core::WelchCpsd cpsd(welch_config(spectrum, n_channels, series.rate_hz));
   std::vector<double> value(n_channels);
   std::vector<std::uint8_t> seen(n_channels);
+  RunHistory history(series.rate_hz, n_channels, 0);
   for (std::size_t t = 0; t < n_samples; ++t) {
     for (std::size_t c = 0; c < n_channels; ++c) {
       value[c] = series.value[c][t];
       seen[c] = std::isfinite(value[c]) ? 1 : 0;
     }
     (void)cpsd.push(value, seen);
+    history.add(t, value);
   }
   cpsd.flush();
   core::ModalEstimate estimate = core::Identifier(identifier, series.channels).identify(cpsd.sums());
   estimate.final = true;
+  if (!report_directory.empty())
+    draw_series(series, {cpsd.sums(), estimate, history}, identifier.max_frequency_hz, report_directory, source);
   return estimate;
 }
 
@@ -133,7 +164,16 @@ TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_pa
   result.estimate = core::Identifier(identifier_config(config, result.channels, camera.rate_hz), result.channels)
                         .identify(cpsd.sums());
   result.estimate.final = true;
-  if (report) report->finish(result.estimate, result.losses, corrections(config, camera));
+  if (!report) return result;
+  report->finish(result.estimate, result.losses, corrections(config, camera));
+  const RunFacts facts = run_facts(config, camera, tracks_path, result.losses);
+  PictureInputs inputs = picture_inputs(config, camera, result.channels);
+  inputs.keyframe = &places.first();
+  inputs.spectrum = &cpsd.sums();
+  inputs.estimate = &result.estimate;
+  inputs.history = &report->history();
+  inputs.facts = &facts;
+  (void)write_pictures(report_directory, inputs);
   return result;
 }
 

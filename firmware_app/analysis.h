@@ -19,12 +19,16 @@ struct ChannelSeries {
   double rate_hz = 0.0;
   std::vector<core::ChannelInfo> channels;
   std::vector<std::vector<double>> value;  // per channel, equally long
+  std::string unit = "units";              // of the values, for people
 };
 
-// Spectra and modes of a record, as the service computes them at the end of a run.
+// Spectra and modes of a record, as the service computes them at the end of a run; leaves pictures and report.html in
+// `report_directory`, which must exist, when not empty. `source`: what the report names as its input.
 // Throws std::invalid_argument when the record is shorter than one segment.
 [[nodiscard]] core::ModalEstimate identify_series(const ChannelSeries& series, const SpectrumConfig& spectrum,
-                                                  const core::IdentifierConfig& identifier);
+                                                  const core::IdentifierConfig& identifier,
+                                                  const std::string& report_directory = {},
+                                                  const std::string& source = {});
 
 // tracks.csv -> geometry -> spectra -> modes; leaves the service's report in `report_directory` when not empty.
 struct TracksResult {

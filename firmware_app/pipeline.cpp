@@ -6,6 +6,7 @@
 #include "firmware_app/core_config.h"
 #include "firmware_app/health.h"
 #include "firmware_app/pipeline_setup.h"
+#include "firmware_app/report/report_page.h"
 #include "firmware_app/stages/identification_stage.h"
 #include "rt/memory.h"
 #include "rt/stage_runner.h"
@@ -63,7 +64,7 @@ struct Pipeline::Parts {
     return {*out,
             report.get(),
             [this] { return status(); },
-            picture_drawer(config, source),
+            picture_drawer(config, source, report.get()),
             source.channels(),
             corrections(config, source.info),
             config.telemetry};
@@ -158,6 +159,7 @@ Pipeline::Outcome Pipeline::join() {
   if (std::string note = short_record(parts_->config, parts_->source.info, outcome.estimate); !note.empty()) {
     outcome.notes.push_back(std::move(note));
   }
+  if (outcome.fault.empty() && parts_->report) outcome.page = parts_->config.report.directory + "/" + kReportName;
   return outcome;
 }
 

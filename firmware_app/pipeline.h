@@ -29,6 +29,7 @@ class Pipeline {
     core::Health health;             // final counters
     std::string fault;               // empty: done; else what went wrong (exit code 1)
     std::vector<std::string> notes;  // e.g. a truncated clip
+    std::string page;                // path of report.html; empty: no report was wanted
   };
 
   // Throws ConfigError (configuration does not fit the source), drivers::DeviceMissing, std::runtime_error.

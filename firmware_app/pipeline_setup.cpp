@@ -10,6 +10,7 @@
 #include "firmware_app/config_image.h"
 #include "firmware_app/core_config.h"
 #include "firmware_app/report/pictures.h"
+#include "firmware_app/run_findings.h"
 
 namespace app {
 
@@ -105,19 +106,19 @@ std::string short_record(const AppConfig& config, const core::CameraInfo& info, 
       estimate.n_samples, segment, static_cast<double>(segment) / info.rate_hz, info.rate_hz);
 }
 
-std::function<void(const core::ModalEstimate&, const core::CpsdSums&)> picture_drawer(const AppConfig& config,
-                                                                                      const Source& source) {
-  if (config.report.directory.empty()) return {};
-  return [&config, &source](const core::ModalEstimate& estimate, const core::CpsdSums& spectrum) {
-    PictureInputs inputs;
+std::function<void(const core::ModalEstimate&, const core::CpsdSums&, const core::Health&)> picture_drawer(
+    const AppConfig& config, const Source& source, const RunReport* report) {
+  if (report == nullptr) return {};
+  return [&config, &source, report](const core::ModalEstimate& estimate, const core::CpsdSums& spectrum,
+                                    const core::Health& health) {
+    PictureInputs inputs = picture_inputs(config, source.info, source.channels());
     inputs.first_frame = &source.first_frame;
     inputs.keyframe = &source.keyframe;
-    inputs.regions = config.regions;
-    inputs.channels = source.channels();
     inputs.spectrum = &spectrum;
     inputs.estimate = &estimate;
-    if (estimate.n_samples > 1) inputs.displacements_csv = config.report.directory + "/displacements.csv";
-    inputs.millimetres = config.scale.known_length_mm > 0.0;
+    inputs.history = &report->history();
+    const RunFacts facts = run_facts(config, source.info, config.camera.source, health);
+    inputs.facts = &facts;
     (void)write_pictures(config.report.directory, inputs);
   };
 }

@@ -40,9 +40,9 @@ struct Source {
 // What to say of a record shorter than one segment, which a source of unknown length may turn out to be; else empty.
 [[nodiscard]] std::string short_record(const AppConfig& config, const core::CameraInfo& info,
                                        const core::ModalEstimate& estimate);
-// What PublishStage::Outlets::draw calls; empty: no report wanted. `source` must outlive it.
-[[nodiscard]] std::function<void(const core::ModalEstimate&, const core::CpsdSums&)> picture_drawer(
-    const AppConfig& config, const Source& source);
+// What PublishStage::Outlets::draw calls; empty: no report wanted. All arguments must outlive it.
+[[nodiscard]] std::function<void(const core::ModalEstimate&, const core::CpsdSums&, const core::Health&)>
+picture_drawer(const AppConfig& config, const Source& source, const RunReport* report);
 [[nodiscard]] FrameRecord record_prototype(const Source& source);
 
 // A real-time setting that the system refuses: an error when rt.required, else a warning in every status record.

@@ -82,6 +82,7 @@ bool Progress::finish(const Pipeline::Outcome& outcome) const {
   spdlog::info("{} modes from {:.1f} s ({} segments){}", outcome.estimate.modes.size(), outcome.estimate.duration_s,
                outcome.estimate.n_segments, outcome.estimate.status == "ok" ? "" : ": " + outcome.estimate.status);
   for (const core::Mode& mode : outcome.estimate.modes) print_mode(mode, pipeline_.channels());
+  if (!outcome.page.empty()) spdlog::info("open {}", outcome.page);
   if (outcome.fault.empty()) return true;
   spdlog::error("{}", outcome.fault);
   return false;

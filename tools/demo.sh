@@ -34,6 +34,7 @@ echo "== watching the clip"
 echo "== modes"
 "$bin/hovermodal" compare --result "$out/modal.json" --reference "$out/true_motion/modal.json" --truth "$out/truth.json" --paper
 echo
+echo "open:     $out/report.html"
 echo "modes:    $out/modal.json"
 echo "clip:     $out/clip.mp4, its truth $out/truth.json, its configuration $out/config.yaml"
 echo "pictures: $(cd "$out" && ls ./*.png ./*.svg 2>/dev/null | sed "s|^\./|$out/|" | paste -sd' ')"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "core/identification/correlation.h"
@@ -40,6 +41,33 @@ std::vector<OrderPole> poles_of_orders(const Realisation& realisation, const std
     }
   }
   return poles;
+}
+
+void note_poles(const std::vector<OrderPole>& poles, const std::vector<int>& orders, ModalEstimate& estimate) {
+  for (const OrderPole& p : poles) {
+    if (estimate.poles.size() == kMaxStabilisationPoles) break;
+    estimate.poles.push_back({orders[static_cast<std::size_t>(p.i_order)], p.pole.apparent_hz, frequency_hz(p.pole.s),
+                              damping_ratio(p.pole.s), p.pole.mpc, -1});
+  }
+}
+
+// modes[i] belongs to clusters[i]. The poles, which stand in the order of the clusters' members, learn their line.
+void list_modes(std::vector<Mode> modes, const std::vector<PoleCluster>& clusters, ModalEstimate& estimate) {
+  std::vector<std::size_t> by_frequency(modes.size());
+  std::iota(by_frequency.begin(), by_frequency.end(), std::size_t{0});
+  std::sort(by_frequency.begin(), by_frequency.end(),
+            [&](std::size_t a, std::size_t b) { return modes[a].frequency_hz < modes[b].frequency_hz; });
+  int i_line = 0;
+  for (const bool structural : {true, false}) {
+    for (const std::size_t i : by_frequency) {
+      if ((modes[i].verdict == Verdict::kStructural) != structural) continue;
+      for (const std::size_t member : clusters[i].members) {
+        if (member < estimate.poles.size()) estimate.poles[member].i_line = i_line;
+      }
+      (structural ? estimate.modes : estimate.rejected).push_back(std::move(modes[i]));
+      ++i_line;
+    }
+  }
 }
 
 }  // namespace
@@ -114,19 +142,17 @@ ModalEstimate Identifier::identify(const CpsdSums& sums) const {
   VerdictRules rules;
   rules.min_mpc = config_.min_mpc;
   rules.max_damping = config_.max_damping;
-  std::vector<Mode> modes;
   const std::vector<OrderPole> poles = poles_of_orders(realisation, orders, folding);
   std::vector<PoleCluster> clusters = cluster_poles(poles, static_cast<int>(orders.size()));
   join_split_lines(clusters, static_cast<int>(orders.size()));
+  std::erase_if(clusters, [](const PoleCluster& cluster) { return cluster.presence < kLeastPresence; });
+  std::vector<Mode> modes;
   for (const PoleCluster& cluster : clusters) {
-    if (cluster.presence < kLeastPresence) continue;
     modes.push_back(judge(cluster, base_response(sums, channels_, cluster.apparent_hz), channels_, orders, rules));
   }
   reject_twins(modes);
-  std::sort(modes.begin(), modes.end(), [](const Mode& a, const Mode& b) { return a.frequency_hz < b.frequency_hz; });
-  for (Mode& mode : modes) {
-    (mode.verdict == Verdict::kStructural ? estimate.modes : estimate.rejected).push_back(std::move(mode));
-  }
+  note_poles(poles, orders, estimate);
+  list_modes(std::move(modes), clusters, estimate);
   estimate.status = "ok";
   return estimate;
 }

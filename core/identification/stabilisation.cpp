@@ -113,6 +113,7 @@ PoleCluster summarise(const std::vector<OrderPole>& poles, const std::vector<std
   cluster.apparent_hz = median(apparents);
   cluster.damping_ratio = median(dampings);
   cluster.i_orders.assign(orders.begin(), orders.end());
+  cluster.members = members;
   cluster.first_i_order = *orders.begin();
   cluster.presence = static_cast<double>(orders.size()) / n_orders;
   const auto off = [&](std::size_t m) {
@@ -142,6 +143,7 @@ void join_split_lines(std::vector<PoleCluster>& clusters, int n_orders) {
       std::set<int> orders(line.i_orders.begin(), line.i_orders.end());
       orders.insert(clusters[j].i_orders.begin(), clusters[j].i_orders.end());
       line.i_orders.assign(orders.begin(), orders.end());
+      line.members.insert(line.members.end(), clusters[j].members.begin(), clusters[j].members.end());
       line.first_i_order = line.i_orders.front();
       line.presence = static_cast<double>(orders.size()) / n_orders;
       clusters.erase(clusters.begin() + static_cast<std::ptrdiff_t>(j));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/identification/folding.h"
@@ -17,10 +18,11 @@ struct PoleCluster {
   double frequency_hz = 0.0;  // medians over the members
   double apparent_hz = 0.0;
   double damping_ratio = 0.0;
-  int first_i_order = 0;        // the lowest order in which it was found
-  double presence = 0.0;        // share of the orders in which it was found
-  std::vector<int> i_orders;    // those orders, ascending
-  UnfoldedPole representative;  // the member nearest the medians
+  int first_i_order = 0;             // the lowest order in which it was found
+  double presence = 0.0;             // share of the orders in which it was found
+  std::vector<int> i_orders;         // those orders, ascending
+  std::vector<std::size_t> members;  // indices of its poles
+  UnfoldedPole representative;       // the member nearest the medians
 };
 
 // Average-linkage clustering on |df| / (0.015 f) + (1 - MAC) / 0.3, cut at 1 (ARCHITECTURE.md).

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <complex>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -29,6 +30,20 @@ struct Mode {
   std::string reason;
 };
 
+// One pole of one model order: a point of the stabilisation diagram.
+struct StabilisationPole {
+  int order = 0;
+  double apparent_hz = 0.0;
+  double frequency_hz = 0.0;
+  double damping_ratio = 0.0;
+  double mpc = 0.0;
+  // The line that it joined: an index into `modes`, from modes.size() on into `rejected`; -1 = none that is listed.
+  int i_line = -1;
+};
+
+// Of one estimate; orders beyond it are left out, highest first.
+inline constexpr std::size_t kMaxStabilisationPoles = 4096;
+
 // One answer of the identification: everything known at `n_samples` of stream time.
 struct ModalEstimate {
   std::uint64_t number = 0;     // 0, 1, 2, ... over the run
@@ -38,11 +53,12 @@ struct ModalEstimate {
   std::int64_t t_stream_ns = 0;  // time stamp of the last sample used
   double rate_hz = 0.0;
   double duration_s = 0.0;
-  int model_order = 0;         // order at which the canonical correlations fall off; 0 = unclear
-  bool final = false;          // the last of a run
-  std::string status;          // "ok", or why there are no modes
-  std::vector<Mode> modes;     // structural, by frequency
-  std::vector<Mode> rejected;  // every other pole, with its reason
+  int model_order = 0;                   // order at which the canonical correlations fall off; 0 = unclear
+  bool final = false;                    // the last of a run
+  std::string status;                    // "ok", or why there are no modes
+  std::vector<Mode> modes;               // structural, by frequency
+  std::vector<Mode> rejected;            // every other pole, with its reason
+  std::vector<StabilisationPole> poles;  // of all orders, ascending; at most kMaxStabilisationPoles
 };
 
 }  // namespace core

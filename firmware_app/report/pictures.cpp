@@ -6,13 +6,13 @@
 #include <cmath>
 #include <exception>
 #include <filesystem>
-#include <optional>
 #include <string_view>
 #include <system_error>
 
 #include "drivers/storage/json.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/pictures_parts.h"
+#include "firmware_app/report/report_page.h"
 
 namespace app {
 namespace {
@@ -67,20 +67,20 @@ class PictureWriter {
 std::vector<std::string> write_pictures(const std::string& directory, const PictureInputs& inputs) {
   PictureWriter writer(directory);
   writer.write("frame.png", [&] { return frame_png(inputs); });
-  std::optional<drivers::SeriesFile> series;
-  if (!inputs.displacements_csv.empty()) {
-    writer.attempt("displacements.svg", [&] { series = drivers::read_series_csv(inputs.displacements_csv); });
-  }
-  writer.write("displacements.svg", [&] { return series ? displacements_svg(inputs, *series) : std::string(); });
-  writer.write("scale.svg", [&] { return series ? scale_svg(inputs, *series) : std::string(); });
-  series.reset();
-  writer.write("spectra.svg", [&] { return spectra_svg(inputs); });
+  writer.write("displacements.svg", [&] { return displacements_svg(inputs, kFileFormat); });
+  writer.write("scale.svg", [&] { return scale_svg(inputs, kFileFormat); });
+  writer.write("spectra.svg", [&] { return spectra_svg(inputs, kFileFormat); });
   writer.write("modes.svg", [&] { return modes_svg(inputs); });
+  writer.write("report.html", [&] { return inputs.facts == nullptr ? std::string() : report_html(inputs); });
   return writer.finish();
 }
 
-std::size_t curve_points(std::size_t n_curves) noexcept {
-  return std::clamp<std::size_t>(kMaxPicturePoints / std::max<std::size_t>(1, n_curves), 50, kMaxCurvePoints);
+std::size_t curve_points(std::size_t n_curves, const PictureFormat& format) noexcept {
+  // A page holds every picture twice, and must stay below 2 MB with all of them.
+  const double share = !format.on_page ? 1.0 : is_narrow(format) ? 0.2 : 0.4;
+  const auto all = static_cast<std::size_t>(share * static_cast<double>(kMaxPicturePoints));
+  const auto most = static_cast<std::size_t>(is_narrow(format) ? 0.4 * kMaxCurvePoints : 1.0 * kMaxCurvePoints);
+  return std::clamp<std::size_t>(all / std::max<std::size_t>(1, n_curves), 50, most);
 }
 
 std::string decimals_text(double value, int n_decimals) {

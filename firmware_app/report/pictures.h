@@ -6,13 +6,26 @@
 #include "core/types/cpsd.h"
 #include "core/types/displacement.h"
 #include "core/types/frame.h"
+#include "core/types/health.h"
 #include "core/types/modal_estimate.h"
 #include "core/types/region.h"
 #include "core/types/track.h"
 
 namespace app {
 
-// What the pictures show; everything is borrowed. A null pointer, an empty list, an empty path: not there.
+class RunHistory;
+
+// What only the page tells: how the run was made and what it lost.
+struct RunFacts {
+  std::string source;  // what was watched, e.g. the clip's name; empty = unknown
+  std::string method;  // "paper" | "hovermodal"
+  std::vector<std::string> corrections;
+  core::Health health;
+  bool counted = true;                          // false: of a time series, where `health` knows nothing
+  int image_width_px = 0, image_height_px = 0;  // of the tracks, where there is no frame
+};
+
+// What the pictures show; everything is borrowed. A null pointer, an empty list: not there.
 struct PictureInputs {
   const core::Frame* first_frame = nullptr;
   const core::TrackFrame* keyframe = nullptr;  // points in the first frame
@@ -20,15 +33,17 @@ struct PictureInputs {
   std::vector<core::ChannelInfo> channels;     // in the order of the spectrum and of the shapes
   const core::CpsdSums* spectrum = nullptr;
   const core::ModalEstimate* estimate = nullptr;
-  std::string displacements_csv;  // path of the complete file
-  bool millimetres = false;       // else pixels
+  const RunHistory* history = nullptr;
+  std::string unit = "px";          // of the displacements
+  double max_frequency_hz = 0.0;    // up to which folds were looked for; 0 = half the rate
+  const RunFacts* facts = nullptr;  // with them: report.html
 };
 
-// Draws what a run has found into an existing folder and returns the names of the files written, each below 500 kB and
-// the same bytes for the same input: frame.png (regions and points in the first frame), displacements.svg, scale.svg
-// (where the scale varies), spectra.svg, modes.svg. A picture without its inputs is left out, and an older one of that
-// name removed. Throws nothing but one drivers::FileError that names every picture that failed; the others are
-// complete.
+// Draws what a run has found into an existing folder and returns the names of the files written: frame.png (regions and
+// points in the first frame), displacements.svg, scale.svg (where the scale varies), spectra.svg, modes.svg, each below
+// 500 kB, and report.html (report_page.h). The same bytes for the same input. A picture without its inputs is left out,
+// and an older one of that name removed. Throws nothing but one drivers::FileError that names every picture that
+// failed; the others are complete.
 std::vector<std::string> write_pictures(const std::string& directory, const PictureInputs& inputs);
 
 }  // namespace app

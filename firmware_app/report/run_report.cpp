@@ -68,10 +68,13 @@ void append_line(fmt::memory_buffer& out, fmt::format_string<Args...> format, Ar
 
 RunReport::RunReport(const std::string& directory, const AppConfig& config, const core::CameraInfo& camera,
                      const std::vector<core::ChannelInfo>& channels, const std::vector<std::string>& region_names)
-    : directory_(directory), method_(app::to_text(config.method)), region_names_(region_names) {
+    : directory_(directory),
+      method_(app::to_text(config.method)),
+      region_names_(region_names),
+      history_(camera.rate_hz, channels.size(), region_names.size()) {
   make_directory(directory);
   for (const core::ChannelInfo& channel : channels) channel_names_.push_back(channel.name);
-  for (const char* old : {"modal.json", "modal.json.partial", "tracks.csv"}) {
+  for (const char* old : {"modal.json", "modal.json.partial", "tracks.csv", "report.html"}) {
     std::error_code ignored;  // opening the new file tells what matters
     std::filesystem::remove(in_directory(directory, old), ignored);
   }
@@ -126,6 +129,7 @@ void RunReport::append_point(fmt::memory_buffer& out, const std::string& prefix,
 }
 
 bool RunReport::add(const core::TrackFrame& frame) noexcept try {
+  history_.add(frame);
   if (!tracks_) return true;
   if (tracks_->error() != 0) return ++n_items_lost_, false;
   fmt::memory_buffer& out = tracks_->buffer();
@@ -144,6 +148,7 @@ bool RunReport::add(const core::TrackFrame& frame) noexcept try {
 }
 
 bool RunReport::add(const core::DisplacementSample& sample) noexcept try {
+  history_.add(sample);
   if (displacements_->error() != 0) return ++n_items_lost_, false;
   fmt::memory_buffer& out = displacements_->buffer();
   fmt::format_to(std::back_inserter(out), "{},", sample.sequence);

@@ -13,6 +13,7 @@
 #include "core/types/track.h"
 #include "drivers/storage/csv_writer.h"
 #include "firmware_app/config.h"
+#include "firmware_app/report/run_history.h"
 
 namespace app {
 
@@ -32,6 +33,9 @@ class RunReport {
   // others are complete.
   void finish(const core::ModalEstimate& last, const core::Health& losses, const std::vector<std::string>& corrections);
 
+  // What came so far, for the pictures.
+  [[nodiscard]] const RunHistory& history() const noexcept { return history_; }
+
   // Frames and samples that came after a file had failed.
   [[nodiscard]] std::uint64_t n_items_lost() const noexcept { return n_items_lost_; }
   // Values that were NaN or infinite: left out of the CSV files, null in modal.json. A fault of ours, to be logged.
@@ -47,6 +51,7 @@ class RunReport {
   std::string method_;
   std::vector<std::string> channel_names_;
   std::vector<std::string> region_names_;
+  RunHistory history_;
   std::optional<drivers::CsvWriter> tracks_;  // empty where the configuration wants no tracks
   std::optional<drivers::CsvWriter> displacements_;
   std::uint64_t n_items_lost_ = 0;

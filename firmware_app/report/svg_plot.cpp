@@ -80,9 +80,9 @@ void PlotPanel::draw_x_axis(bool with_labels, int n_ticks) {
     svg_->line(x, box_.y, x, box_.bottom(), "g");
     if (!with_labels) continue;
     if (x_.logarithmic) {
-      svg_->power_of_ten(x, box_.bottom() + 14.0, tick.exponent, Anchor::kMiddle);
+      svg_->text(x, box_.bottom() + 15.0, power_of_ten_text(tick.exponent), Anchor::kMiddle, "s");
     } else {
-      svg_->text(x, box_.bottom() + 14.0, tick.label, Anchor::kMiddle, "s");
+      svg_->text(x, box_.bottom() + 15.0, tick.label, Anchor::kMiddle, "s");
     }
   }
   if (with_labels) svg_->text(box_.x + box_.width / 2.0, box_.bottom() + 32.0, x_.label, Anchor::kMiddle);
@@ -93,9 +93,9 @@ void PlotPanel::draw_y_axis(bool with_label, int n_ticks) {
     const double y = y_px(tick.value);
     svg_->line(box_.x, y, box_.right(), y, "g");
     if (y_.logarithmic) {
-      svg_->power_of_ten(box_.x - 5.0, y + 3.5, tick.exponent, Anchor::kEnd);
+      svg_->text(box_.x - 5.0, y + 4.0, power_of_ten_text(tick.exponent), Anchor::kEnd, "s");
     } else {
-      svg_->text(box_.x - 5.0, y + 3.5, tick.label, Anchor::kEnd, "s");
+      svg_->text(box_.x - 5.0, y + 4.0, tick.label, Anchor::kEnd, "s");
     }
   }
   if (with_label) svg_->text_upwards(box_.x - 46.0, box_.y + box_.height / 2.0, y_.label);
@@ -103,18 +103,25 @@ void PlotPanel::draw_y_axis(bool with_label, int n_ticks) {
 
 void PlotPanel::draw_frame() { svg_->rect(box_, "x"); }
 
-void PlotPanel::curve(std::span<const PlotPoint> points, const std::string& css_class) {
+void PlotPanel::curve(std::span<const PlotPoint> points, const std::string& css_class, std::string_view attributes) {
   std::vector<PlotPoint> path;
   path.reserve(points.size());
   for (const PlotPoint& point : points) {
     const double y = y_px(point.y);  // NaN must stay NaN: clamp would not keep it
     path.push_back({x_px(point.x), std::isfinite(y) ? std::clamp(y, box_.y, box_.bottom()) : y});
   }
-  svg_->path(path, css_class);
+  svg_->path(path, css_class, attributes);
 }
 
-void PlotPanel::vertical(double x, const std::string& css_class) {
-  svg_->line(x_px(x), box_.y, x_px(x), box_.bottom(), css_class);
+void PlotPanel::vertical(double x, const std::string& css_class, std::string_view attributes) {
+  svg_->line(x_px(x), box_.y, x_px(x), box_.bottom(), css_class, attributes);
+}
+
+void PlotPanel::begin_readout(std::string_view kind) {
+  svg_->begin_group(
+      fmt::format("data-read=\"{}\" data-box=\"{} {} {} {}\" data-x=\"{:g} {:g}\" data-y=\"{:g} {:g} {}\"", kind,
+                  svg_number(box_.x), svg_number(box_.y), svg_number(box_.right()), svg_number(box_.bottom()), x_.low,
+                  x_.high, y_.low, y_.high, y_.logarithmic ? "log" : "linear"));
 }
 
 std::vector<PlotPoint> decimated(std::span<const PlotPoint> points, std::size_t max_points) {

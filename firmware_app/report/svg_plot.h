@@ -44,8 +44,11 @@ class PlotPanel {
   void draw_y_axis(bool with_label, int n_ticks = 5);    // grid, tick labels, label to the left
   void draw_frame();
   // In the axes' units; values beyond the y axis are drawn on its edge.
-  void curve(std::span<const PlotPoint> points, const std::string& css_class);
-  void vertical(double x, const std::string& css_class);  // over the whole height
+  void curve(std::span<const PlotPoint> points, const std::string& css_class, std::string_view attributes = {});
+  void vertical(double x, const std::string& css_class, std::string_view attributes = {});  // over the whole height
+  // What is drawn between them can be read out under the cursor by the page's script, which learns the axes here.
+  void begin_readout(std::string_view kind);
+  void end_readout() { svg_->end_group(); }
 
  private:
   [[nodiscard]] static double position(const PlotAxis& axis, double value, double from, double to) noexcept;

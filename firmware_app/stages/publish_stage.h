@@ -23,8 +23,8 @@ class PublishStage : public rt::Stage {
     drivers::Publisher& publisher;
     RunReport* report = nullptr;           // null: no report wanted
     std::function<core::Health()> health;  // a status record of now
-    // Draws the run's pictures beside the report; throws drivers::FileError. Empty: none wanted.
-    std::function<void(const core::ModalEstimate&, const core::CpsdSums&)> draw;
+    // Draws the run's pictures and its page beside the report; throws drivers::FileError. Empty: none wanted.
+    std::function<void(const core::ModalEstimate&, const core::CpsdSums&, const core::Health&)> draw;
     std::vector<core::ChannelInfo> channels;
     std::vector<std::string> corrections;
     TelemetryConfig telemetry;

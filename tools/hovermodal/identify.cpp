@@ -13,6 +13,7 @@
 #include "drivers/storage/text_file.h"
 #include "firmware_app/analysis.h"
 #include "firmware_app/report/modal_json.h"
+#include "firmware_app/report/report_page.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/modes_text.h"
 
@@ -54,6 +55,7 @@ double rate_of(const drivers::SeriesFile& file, const IdentifyOptions& options) 
 app::ChannelSeries load(const IdentifyOptions& options) {
   const drivers::SeriesFile file = drivers::read_series_csv(options.series);
   app::ChannelSeries series;
+  if (const auto unit = file.comments.find("unit"); unit != file.comments.end()) series.unit = unit->second;
   series.rate_hz = rate_of(file, options);
   std::vector<std::string> names = options.channels;
   if (names.empty())
@@ -77,15 +79,18 @@ app::ChannelSeries load(const IdentifyOptions& options) {
 
 void run(const IdentifyOptions& options) {
   const app::ChannelSeries series = load(options);
-  const core::ModalEstimate estimate = app::identify_series(series, options.spectrum, options.identifier);
+  if (!options.report.empty()) std::filesystem::create_directories(options.report);
+  const std::string source = std::filesystem::path(options.series).filename().string();
+  const core::ModalEstimate estimate =
+      app::identify_series(series, options.spectrum, options.identifier, options.report, source);
   fmt::print("{}", modes_text(estimate, series.channels));
   if (options.report.empty()) return;
   app::ModalReport report;
   report.method = "hovermodal";
   for (const core::ChannelInfo& channel : series.channels) report.channel_names.push_back(channel.name);
   report.estimate = estimate;
-  std::filesystem::create_directories(options.report);
   drivers::write_file_atomically(options.report + "/modal.json", app::modal_json(report));
+  fmt::print("open {}/{}\n", options.report, app::kReportName);
 }
 
 }  // namespace
@@ -113,7 +118,7 @@ void add_identify(CLI::App& app) {
           "--max-frequency", options->identifier.max_frequency_hz,
           "Highest true frequency, Hz: above half the rate it is unfolded by the row delays (0 = half the rate)")
       ->capture_default_str();
-  command->add_option("--report", options->report, "Folder for modal.json")->type_name("DIR");
+  command->add_option("--report", options->report, "Folder for modal.json and report.html")->type_name("DIR");
   command->callback([options] { run(*options); });
 }
 

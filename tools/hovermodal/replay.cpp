@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "firmware_app/analysis.h"
+#include "firmware_app/report/report_page.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/modes_text.h"
 
@@ -30,6 +31,7 @@ void add_replay(CLI::App& app) {
     const app::AppConfig config = app::load_config(options->config, options->overrides);
     const app::TracksResult result = app::replay_tracks(config, options->tracks, options->report);
     fmt::print("{}", modes_text(result.estimate, result.channels));
+    if (!options->report.empty()) fmt::print("open {}/{}\n", options->report, app::kReportName);
   });
 }
 

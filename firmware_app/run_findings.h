@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/types/frame.h"
+#include "firmware_app/config.h"
+#include "firmware_app/report/pictures.h"
+
+namespace app {
+
+// What the pictures of a run need of its configuration: the service and the offline replay build it here.
+[[nodiscard]] PictureInputs picture_inputs(const AppConfig& config, const core::CameraInfo& camera,
+                                           const std::vector<core::ChannelInfo>& channels);
+// `source`: a path, of which only the last part is told.
+[[nodiscard]] RunFacts run_facts(const AppConfig& config, const core::CameraInfo& camera, const std::string& source,
+                                 const core::Health& health);
+
+}  // namespace app
