@@ -38,9 +38,8 @@ std::string figure_html(const std::string& wide_svg, const std::string& narrow_s
       wide_svg, narrow_svg, below.empty() ? std::string() : fmt::format("<figcaption>{}</figcaption>\n", below));
 }
 
-HtmlTable::HtmlTable(std::vector<std::string> columns, std::string_view caption) : columns_(std::move(columns)) {
-  if (!caption.empty()) caption_ = fmt::format("<caption>{}</caption>\n", svg_escaped(caption));
-}
+HtmlTable::HtmlTable(std::vector<std::string> columns, std::string_view css_class)
+    : columns_(std::move(columns)), css_class_(css_class) {}
 
 void HtmlTable::add(std::vector<HtmlCell> cells) {
   rows_ += "<tr>";
@@ -55,7 +54,8 @@ void HtmlTable::add(std::vector<HtmlCell> cells) {
 std::string HtmlTable::html() const {
   std::string head;
   for (const std::string& column : columns_) head += fmt::format("<th scope=\"col\">{}</th>", svg_escaped(column));
-  return fmt::format("<table>\n{}<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table>\n", caption_, head, rows_);
+  const std::string css_class = css_class_.empty() ? std::string() : fmt::format(" class=\"{}\"", css_class_);
+  return fmt::format("<table{}>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table>\n", css_class, head, rows_);
 }
 
 }  // namespace app

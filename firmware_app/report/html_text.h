@@ -28,13 +28,13 @@ struct HtmlCell {
 // A table that becomes a list of cards on a phone: every cell carries its column's name.
 class HtmlTable {
  public:
-  explicit HtmlTable(std::vector<std::string> columns, std::string_view caption = {});
+  explicit HtmlTable(std::vector<std::string> columns, std::string_view css_class = {});
   void add(std::vector<HtmlCell> cells);
   [[nodiscard]] std::string html() const;
 
  private:
   std::vector<std::string> columns_;
-  std::string caption_, rows_;
+  std::string css_class_, rows_;
 };
 
 }  // namespace app

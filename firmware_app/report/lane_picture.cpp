@@ -71,7 +71,9 @@ class LanePicture {
   }
 
   void draw_heading(SvgDocument& svg, const Lane& lane, const Box& box) const {
-    svg.text(box.x, box.y - 5.0, name_of(lane), Anchor::kStart, "t e");
+    const double room_px = box.width - text_width_px(lane.remark, kSmallTextPx) - 8.0;
+    const auto most = static_cast<std::size_t>(std::max(4.0, room_px / (0.62 * kTextPx)));
+    svg.text(box.x, box.y - 5.0, shortened(lane.name, std::min(most, 3 * kMaxNameCharacters)), Anchor::kStart, "t e");
     svg.text(box.right(), box.y - 5.0, lane.remark, Anchor::kEnd, "s q");
   }
 

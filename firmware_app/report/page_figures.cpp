@@ -32,7 +32,7 @@ std::string curves_legend(const PictureInputs& inputs) {
   std::string out = "<div class=\"legend\" role=\"group\" aria-label=\"Curves\">\n";
   const std::vector<LegendEntry> channels = spectra_legend(inputs);
   for (std::size_t i = 0; i < channels.size(); ++i) out += key_html(i, channels[i].label, channels[i].css_class);
-  if (const std::string cross = cross_label(inputs); !cross.empty()) out += key_html(channels.size(), cross, "k6 bold");
+  if (const std::string cross = cross_label(inputs); !cross.empty()) out += key_html(channels.size(), cross, "cross");
   return out + "</div>\n";
 }
 

@@ -65,7 +65,7 @@ class FrameOverlay {
   void draw_points() {
     for (const core::TrackPoint& point : inputs_.keyframe->points) {
       if (point.seen && std::isfinite(point.u_px) && std::isfinite(point.v_px))
-        svg_.circle(point.u_px * scale_, point.v_px * scale_, narrow_ ? 1.2 : 2.0, "pt");
+        svg_.circle(point.u_px * scale_, point.v_px * scale_, narrow_ ? 0.9 : 2.0, "pt");
     }
   }
 
@@ -85,8 +85,7 @@ class FrameOverlay {
           place.x >= 0.0 && place.y >= 0.0 && place.right() <= width_px_ && place.bottom() <= height_px_;
       const bool free = std::none_of(taken_.begin(), taken_.end(), [&](const Box& other) {
         const bool own = is_last && other.x == around.x && other.y == around.y && place.right() <= around.right();
-        return !own && place.x < other.right() && other.x < place.right() && place.y < other.bottom() &&
-               other.y < place.bottom();
+        return !own && overlap(place, other);
       });
       if (!free || !inside) continue;
       taken_.push_back(place);

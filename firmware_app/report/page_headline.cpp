@@ -49,7 +49,7 @@ std::string rejected_sentence(const core::ModalEstimate& estimate) {
   std::vector<std::string> parts;
   for (const VerdictMark& mark : verdict_marks()) {
     const std::size_t n = count_of(estimate.rejected, mark.verdict);
-    if (n > 0) parts.push_back(fmt::format("{} {}", n, mark.label));
+    if (n > 0) parts.push_back(plural(n, mark.label, mark.plural));
   }
   return fmt::format("{} set aside ({}).", plural(estimate.rejected.size(), "other pole was", "other poles were"),
                      fmt::join(parts, ", "));

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ struct Counter {
 };
 
 std::string counters_table(const std::vector<Counter>& counters) {
-  HtmlTable table({"Counter", "Value", "Meaning"});
+  HtmlTable table({"Counter", "Value", "Meaning"}, "counters");
   for (const Counter& counter : counters)
     table.add({{counter.name, {}}, {std::to_string(counter.value), {}}, {counter.meaning, {}}});
   return table.html();

@@ -12,7 +12,7 @@
 namespace app {
 namespace {
 
-constexpr double kCardPx = 328.0;              // a phone's width: one drawing serves every page
+constexpr double kCardPx = 316.0;              // a phone's width: one drawing serves every page
 constexpr double kSwingPx = 17.0;              // of the largest component on the picture
 constexpr double kAirShare = 0.08;             // of the structure's length, at both its ends
 constexpr std::size_t kMaxNameCharacters = 9;  // between picture and plot
@@ -51,7 +51,7 @@ Box structure_box(const PictureInputs& inputs) {
 
 Crop crop_of(const PictureInputs& inputs, const ModeLayout& layout) {
   Crop crop;
-  crop.panel = layout.upright ? Box{0.0, 0.0, 128.0, 300.0} : Box{44.0, 0.0, 272.0, 130.0};
+  crop.panel = layout.upright ? Box{0.0, 0.0, 128.0, 300.0} : Box{40.0, 0.0, 266.0, 130.0};
   const Box all = structure_box(inputs);
   const double room = 2.0 * kSwingPx;  // for the motion
   const double across_x = layout.upright ? room : 8.0, across_y = layout.upright ? 8.0 : room;
@@ -183,7 +183,7 @@ std::string mode_svg(const PictureInputs& inputs, const core::Mode& mode) {
   const Box& panel = crop.panel;
   ModePlotSpec spec;
   if (layout.upright) {
-    spec.box = {200.0, panel.y, kCardPx - 200.0 - 10.0, panel.height};
+    spec.box = {194.0, panel.y, kCardPx - 194.0 - 8.0, panel.height};
     spec.low_px = crop.v_px, spec.high_px = crop.v_px + panel.height / crop.scale;
   } else {
     spec.box = {panel.x, panel.bottom() + 14.0, panel.width, 120.0};

@@ -42,7 +42,7 @@ class FoldMap {
                     {0.0, n_bands_ * half, false, "true frequency, Hz"});
     panel.begin_readout("marks");
     panel.draw_x_axis(true, is_narrow(format_) ? 6 : 14);
-    panel.draw_y_axis(true, std::min(8, 2 * n_bands_));
+    panel.draw_y_axis(true, is_narrow(format_) ? 6 : 8);
     panel.draw_frame();
     draw_branches(panel);
     for (const core::Mode& mode : inputs_.estimate->rejected) {
@@ -91,26 +91,24 @@ class FoldMap {
     }
   }
 
-  // Beside the chosen frequency, away from the nearer edge; left out where another one stands.
+  // Beside the chosen frequency on the free side of its branch; left out where another one stands.
   void draw_labels(SvgDocument& svg, const PlotPanel& panel) const {
     std::vector<Box> taken;
     for (const core::Mode& mode : inputs_.estimate->modes) {
-      if (!(mode.apparent_hz >= 0.0 && mode.apparent_hz <= rate_hz_ / 2.0)) continue;
+      const bool inside = mode.apparent_hz >= 0.0 && mode.apparent_hz <= rate_hz_ / 2.0;
+      if (!inside || !std::isfinite(mode.frequency_hz)) continue;
       const std::string label = four_digits_text(mode.frequency_hz) + " Hz";
       const double width = text_width_px(label, kTextPx);
       const double x = panel.x_px(mode.apparent_hz), y = panel.y_px(mode.frequency_hz);
-      if (!std::isfinite(y)) continue;
-      const bool to_left = x + width + 12.0 > panel.box().right();
+      const bool upward = static_cast<int>(mode.frequency_hz / (rate_hz_ / 2.0)) % 2 == 0;
+      const bool to_left = x + width + 14.0 > panel.box().right();
+      const double top = upward == to_left ? y - 20.0 : y + 5.0;
       const Box place{to_left ? x - width - 9.0 : x + 9.0,
-                      std::clamp(y + 4.0, panel.box().y, panel.box().bottom() - 16.0), width, 14.0};
-      const bool free = std::none_of(taken.begin(), taken.end(), [&](const Box& other) {
-        return place.x < other.right() && other.x < place.right() && place.y < other.bottom() &&
-               other.y < place.bottom();
-      });
-      if (!free) continue;
+                      std::clamp(top, panel.box().y + 1.0, panel.box().bottom() - 16.0), width, 15.0};
+      if (std::any_of(taken.begin(), taken.end(), [&](const Box& other) { return overlap(place, other); })) continue;
       taken.push_back(place);
       svg.rect(place, "b");
-      svg.text(place.x, place.y + 11.0, label);
+      svg.text(place.x, place.y + 12.0, label);
     }
   }
 

@@ -34,6 +34,16 @@ std::size_t n_with_points(const RunHistory& history) {
       std::count_if(regions.begin(), regions.end(), [](const auto& region) { return region.n_points > 0; }));
 }
 
+// 1, 2 or 5 times a power of ten: a tick of its own stands at the top.
+double round_above(double value) {
+  if (!std::isfinite(value) || value <= 0.0) return 1.0;
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (value <= factor * power) return factor * power;
+  }
+  return 10.0 * power;
+}
+
 }  // namespace
 
 std::string displacements_svg(const PictureInputs& inputs, const PictureFormat& format) {
@@ -62,9 +72,10 @@ std::string points_seen_svg(const PictureInputs& inputs, const PictureFormat& fo
     for (PlotPoint& point : percent) point.y *= 100.0;
     lanes.push_back(
         lane_of(region_name(inputs, i), region.share_seen, percent, curve_points(n_with_points(history), format)));
-    lanes.back().remark =
-        fmt::format("{} points, mean {} %, least {:.0f} %", region.n_points,
-                    decimals_text(100.0 * region.share_seen.mean(), 1), 100.0 * region.share_seen.low());
+    const std::string shares =
+        fmt::format("mean {} %, least {:.0f} %", decimals_text(100.0 * region.share_seen.mean(), 2),
+                    100.0 * region.share_seen.low());
+    lanes.back().remark = is_narrow(format) ? shares : fmt::format("{} points, {}", region.n_points, shares);
   }
   if (lanes.empty()) return {};
   const PlotAxis range{0.0, 105.0, false, {}};
@@ -87,7 +98,7 @@ std::string point_sigma_svg(const PictureInputs& inputs, const PictureFormat& fo
           fmt::format("mean {} px, worst {} px", decimals_text(sigma.mean(), 4), decimals_text(sigma.high(), 4));
   }
   if (lanes.empty()) return {};
-  const PlotAxis range{0.0, highest > 0.0 ? 1.08 * highest : 1.0, false, {}};
+  const PlotAxis range{0.0, round_above(highest), false, {}};
   return lanes_svg(lanes, history.duration_s(), {"Standard deviation of a point", "sigma, px", "px", range}, format);
 }
 

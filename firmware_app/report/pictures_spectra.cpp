@@ -32,7 +32,7 @@ std::vector<Curve> curves_of(const PictureInputs& inputs, const PictureFormat& f
     out.push_back({decimated(density(sums, c), max_points), line_class(static_cast<std::size_t>(c))});
   if (!format.on_page) return out;
   if (const auto pair = strongest_pair(sums, inputs.channels))
-    out.push_back({decimated(cross_density(sums, pair->first, pair->second), max_points), "k6 bold"});
+    out.push_back({decimated(cross_density(sums, pair->first, pair->second), max_points), "cross"});
   return out;
 }
 
@@ -80,7 +80,8 @@ class SpectraPicture {
     panel.draw_y_axis(true, 12);
     draw_rejected(svg, panel, inputs_.estimate, x_.high, format_);
     panel.draw_frame();
-    for (std::size_t i = 0; i < curves_.size(); ++i)
+    // The last first: the broad cross-spectrum lies behind the channels.
+    for (std::size_t i = curves_.size(); i-- > 0;)
       panel.curve(curves_[i].points, curves_[i].css_class, format_.on_page ? fmt::format("data-k=\"{}\"", i) : "");
     labels.draw(svg, panel);
     panel.end_readout();

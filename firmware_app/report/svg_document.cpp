@@ -24,7 +24,7 @@ constexpr std::string_view kStyle =
     ".hm .b{fill:#fff}.hm .g{stroke:#e2e2e2}.hm .z{stroke:#aaa}.hm .x{fill:none;stroke:#888}"
     ".hm .v{stroke:#222;stroke-dasharray:5 3}.hm .w{stroke:#999;stroke-dasharray:1.5 3}"
     ".hm .w.i{stroke:#d55e00;stroke-opacity:.7}.hm .w.o{stroke:#cc79a7}"
-    ".hm .behind{stroke:#bbb;stroke-width:1.4}.hm .n{fill:none;stroke-width:1.6}.hm .bold{stroke-width:2.4}"
+    ".hm .behind{stroke:#bbb;stroke-width:1.4}.hm .n{fill:none;stroke-width:1.6}"
     ".hm .w.u{stroke:#e69f00;stroke-dasharray:6 2 1 2}.hm .d1{stroke-dasharray:6 3}.hm .d2{stroke-dasharray:2 3}.hm "
     ".d3{stroke-dasharray:8 3 2 3}"
     ".hm .k0{stroke:#0072b2}.hm .k1{stroke:#d55e00}.hm .k2{stroke:#009e73}.hm .k3{stroke:#e69f00}"

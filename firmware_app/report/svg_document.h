@@ -17,6 +17,10 @@ struct Box {
   [[nodiscard]] double bottom() const noexcept { return y + height; }
 };
 
+[[nodiscard]] inline bool overlap(const Box& a, const Box& b) noexcept {
+  return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
+}
+
 enum class Anchor { kStart, kMiddle, kEnd };
 
 inline constexpr double kTextPx = 12.0;       // height of ordinary text

@@ -8,16 +8,17 @@ namespace {
 using core::Verdict;
 
 constexpr std::array<VerdictMark, 6> kMarks{
-    VerdictMark{Verdict::kStructural, "mode", "v", Marker::kDot, "m0", "A mode of vibration of the structure."},
-    VerdictMark{Verdict::kCameraMotion, "camera motion", "w", Marker::kTriangle, "k7 n",
+    VerdictMark{Verdict::kStructural, "mode", "modes", "v", Marker::kDot, "m0",
+                "A mode of vibration of the structure."},
+    VerdictMark{Verdict::kCameraMotion, "camera motion", "camera motion", "w", Marker::kTriangle, "k7 n",
                 "All channels move alike: the camera moved, not the structure."},
-    VerdictMark{Verdict::kInputPeak, "input peak", "w i", Marker::kSquare, "k1 n",
+    VerdictMark{Verdict::kInputPeak, "input peak", "input peaks", "w i", Marker::kSquare, "k1 n",
                 "The base moves too: what shakes the structure, not its answer."},
-    VerdictMark{Verdict::kHarmonic, "harmonic", "w o", Marker::kDiamond, "k4 n",
+    VerdictMark{Verdict::kHarmonic, "harmonic", "harmonics", "w o", Marker::kDiamond, "k4 n",
                 "A machine turning at a constant speed, not a mode."},
-    VerdictMark{Verdict::kAmbiguous, "fold open", "w u", Marker::kRing, "k3 n",
+    VerdictMark{Verdict::kAmbiguous, "fold open", "fold open", "w u", Marker::kRing, "k3 n",
                 "A mode, but the frame rate leaves open which of its possible frequencies is the true one."},
-    VerdictMark{Verdict::kNumerical, "numerical", "w", Marker::kCross, "k7 n",
+    VerdictMark{Verdict::kNumerical, "numerical", "numerical", "w", Marker::kCross, "k7 n",
                 "Does not persist over the model orders, or its components are out of phase: not trusted."}};
 
 }  // namespace

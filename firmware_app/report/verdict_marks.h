@@ -11,6 +11,7 @@ namespace app {
 struct VerdictMark {
   core::Verdict verdict;
   const char* label;       // for legends
+  const char* plural;      // "7 input peaks"
   const char* line_class;  // of a vertical line
   Marker marker;
   const char* marker_class;
