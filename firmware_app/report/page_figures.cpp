@@ -79,11 +79,15 @@ std::string shapes_section(const PictureInputs& inputs) {
     cards += fmt::format("<div class=\"card\">\n{}{}</div>\n", heading_of(modes[i], i),
                          svg.empty() ? absent_html("The shape of this mode is not known.") : svg);
   }
-  std::string body = paragraph_html(in_image ? "Each region at one extreme of its motion, greatly exaggerated, on the "
-                                               "first frame; beside it the components "
-                                               "along the structure, the largest set to 1. Squares are the base."
-                                             : "Components of the channels, the largest set to 1. The input was a time "
-                                               "series: there is no picture of the structure.");
+  const std::string words =
+      in_image
+          ? fmt::format(
+                "Each region at one extreme of its motion, greatly exaggerated, {}; beside it the components "
+                "along the structure, the largest set to 1. Squares are the base.",
+                has_frame(inputs) ? "on the first frame" : "at its place in the image")
+          : "Components of the channels, the largest set to 1. The input was a time series: there is no picture of the "
+            "structure.";
+  std::string body = paragraph_html(words);
   if (in_image) {
     body +=
         "<div class=\"controls\" hidden=\"hidden\"><button type=\"button\" id=\"play\">Play</button>\n<label>Amplitude "

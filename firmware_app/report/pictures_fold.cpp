@@ -33,7 +33,7 @@ class FoldMap {
     n_bands_ = std::clamp(static_cast<int>(std::ceil(highest / half - 1e-9)), 2, kMaxBands);
   }
 
-  [[nodiscard]] std::string draw() const {
+  [[nodiscard]] std::string draw() {
     const double half = rate_hz_ / 2.0;
     const double right = 14.0;
     Box box{62.0, 8.0, format_.width_px - 62.0 - right, is_narrow(format_) ? 240.0 : 280.0};
@@ -74,7 +74,7 @@ class FoldMap {
     }
   }
 
-  void draw_mode(SvgDocument& svg, const PlotPanel& panel, const core::Mode& mode) const {
+  void draw_mode(SvgDocument& svg, const PlotPanel& panel, const core::Mode& mode) {
     const double half = rate_hz_ / 2.0;
     if (!(mode.apparent_hz >= 0.0 && mode.apparent_hz <= half) || !std::isfinite(mode.frequency_hz)) return;
     const VerdictMark& mark = mark_of(mode.verdict);
@@ -83,17 +83,19 @@ class FoldMap {
     for (int band = 0; band < n_bands_; ++band) {
       const double candidate = true_frequency(mode.apparent_hz, band, rate_hz_);
       const bool chosen = std::abs(candidate - mode.frequency_hz) < 0.02 * rate_hz_;
+      if (!chosen && candidate > searched_hz_) continue;
+      const double y = panel.y_px(candidate);
+      taken_.push_back({x - 6.0, y - 6.0, 12.0, 12.0});
       if (chosen) {
-        svg.marker(x, panel.y_px(candidate), 5.0, mark.marker, mark.marker_class);
-      } else if (candidate <= searched_hz_) {
-        svg.marker(x, panel.y_px(candidate), 4.0, Marker::kRing, "k7 n");
+        svg.marker(x, y, 5.0, mark.marker, mark.marker_class);
+      } else {
+        svg.marker(x, y, 4.0, Marker::kRing, "k7 n");
       }
     }
   }
 
-  // Beside the chosen frequency on the free side of its branch; left out where another one stands.
-  void draw_labels(SvgDocument& svg, const PlotPanel& panel) const {
-    std::vector<Box> taken;
+  // Beside the chosen frequency, on the free side of its branch where that is possible; left out in a crowd.
+  void draw_labels(SvgDocument& svg, const PlotPanel& panel) {
     for (const core::Mode& mode : inputs_.estimate->modes) {
       const bool inside = mode.apparent_hz >= 0.0 && mode.apparent_hz <= rate_hz_ / 2.0;
       if (!inside || !std::isfinite(mode.frequency_hz)) continue;
@@ -101,21 +103,39 @@ class FoldMap {
       const double width = text_width_px(label, kTextPx);
       const double x = panel.x_px(mode.apparent_hz), y = panel.y_px(mode.frequency_hz);
       const bool upward = static_cast<int>(mode.frequency_hz / (rate_hz_ / 2.0)) % 2 == 0;
-      const bool to_left = x + width + 14.0 > panel.box().right();
-      const double top = upward == to_left ? y - 20.0 : y + 5.0;
-      const Box place{to_left ? x - width - 9.0 : x + 9.0,
-                      std::clamp(top, panel.box().y + 1.0, panel.box().bottom() - 16.0), width, 15.0};
-      if (std::any_of(taken.begin(), taken.end(), [&](const Box& other) { return overlap(place, other); })) continue;
-      taken.push_back(place);
-      svg.rect(place, "b");
-      svg.text(place.x, place.y + 12.0, label);
+      const Box right{x + 9.0, 0.0, width, 15.0}, left{x - width - 9.0, 0.0, width, 15.0};
+      const double below = y + 5.0, above = y - 20.0;
+      const std::pair<Box, double> places[] = {{right, upward ? below : above},
+                                               {left, upward ? above : below},
+                                               {left, upward ? below : above},
+                                               {right, upward ? above : below},
+                                               {left, y - 38.0},
+                                               {right, y - 38.0},
+                                               {left, y + 23.0},
+                                               {right, y + 23.0}};
+      for (auto [place, top] : places) {
+        place.y = top;
+        if (!free(panel, place)) continue;
+        taken_.push_back(place);
+        svg.rect(place, "b");
+        svg.text(place.x, place.y + 12.0, label);
+        break;
+      }
     }
+  }
+
+  [[nodiscard]] bool free(const PlotPanel& panel, const Box& place) const {
+    const Box& box = panel.box();
+    if (place.x < box.x || place.right() > box.right() || place.y < box.y || place.bottom() > box.bottom())
+      return false;
+    return std::none_of(taken_.begin(), taken_.end(), [&](const Box& other) { return overlap(place, other); });
   }
 
   const PictureInputs& inputs_;
   PictureFormat format_;
   double rate_hz_, searched_hz_ = 0.0;
   int n_bands_ = 2;
+  std::vector<Box> taken_;  // of the markers, then of the labels
 };
 
 }  // namespace

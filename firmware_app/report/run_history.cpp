@@ -12,7 +12,8 @@ RunHistory::RunHistory(double rate_hz, std::size_t n_channels, std::size_t n_reg
 std::optional<std::uint64_t> RunHistory::cell_of(std::int64_t t_ns) noexcept {
   if (!first_ns_) first_ns_ = t_ns;
   if (t_ns < *first_ns_) return std::nullopt;
-  const double cells = static_cast<double>(t_ns - *first_ns_) * 1e-9 * rate_hz_;
+  const double cells =
+      static_cast<double>(static_cast<std::uint64_t>(t_ns) - static_cast<std::uint64_t>(*first_ns_)) * 1e-9 * rate_hz_;
   const auto i_cell = static_cast<std::uint64_t>(std::llround(cells));
   n_cells_ = std::max(n_cells_, i_cell + 1);
   return i_cell;

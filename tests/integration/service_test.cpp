@@ -7,6 +7,7 @@
 #include <csignal>
 #include <thread>
 
+#include "firmware_app/report/report_page.h"
 #include "tests/support/loopback_network.h"
 #include "tests/support/pipeline_run.h"
 #include "tests/support/service_run.h"
@@ -109,6 +110,12 @@ TEST(Service, TheSameClipTwiceGivesTheSameBytes) {
     EXPECT_GT(text.size(), 1000U) << name;
     EXPECT_TRUE(text == tests::file_text(folder / "second" / name)) << name;
   }
+  const auto page = [&](const char* name) {
+    const std::string text = tests::file_text(folder / name / app::kReportName);
+    return text.substr(0, text.find(app::kVariesBegin)) + text.substr(text.find(app::kVariesEnd));
+  };
+  EXPECT_GT(page("first").size(), 50'000U);
+  EXPECT_TRUE(page("first") == page("second"));
 }
 
 TEST(Service, LaterSettingsOverrideEarlierOnes) {

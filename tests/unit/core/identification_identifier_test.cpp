@@ -41,6 +41,29 @@ double mac_with_truth(const Mode& mode, Eigen::Index true_mode) {
   return mac(truth, std::span(mode.shape).subspan(1));  // channel 0 is the base
 }
 
+TEST(Identifier, ListsThePolesOfEveryOrderWithTheLineTheyJoined) {
+  SimulatedStructure structure;
+  const ModalEstimate estimate = Identifier({}, structure.channels()).identify(structure.spectra());
+  ASSERT_FALSE(estimate.modes.empty());
+  ASSERT_FALSE(estimate.poles.empty());
+  EXPECT_LE(estimate.poles.size(), kMaxStabilisationPoles);
+  const std::vector<Mode>& modes = estimate.modes;
+  std::vector<int> n_orders(modes.size() + estimate.rejected.size());
+  int last_order = 0;
+  for (const StabilisationPole& pole : estimate.poles) {
+    EXPECT_GE(pole.order, last_order);
+    last_order = pole.order;
+    EXPECT_GE(pole.order, estimate.model_order);
+    if (pole.i_line < 0) continue;
+    const auto i = static_cast<std::size_t>(pole.i_line);
+    ASSERT_LT(i, n_orders.size());
+    ++n_orders[i];
+    const Mode& mode = i < modes.size() ? modes[i] : estimate.rejected[i - modes.size()];
+    EXPECT_NEAR(pole.apparent_hz / mode.apparent_hz, 1.0, 0.05);
+  }
+  for (std::size_t i = 0; i < modes.size(); ++i) EXPECT_GE(n_orders[i], 13) << modes[i].frequency_hz;  // of 15
+}
+
 TEST(Identifier, FindsTheModesOfASixStoreyFrameNearTheTheoreticalScatter) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SCOPED_TRACE(seed);

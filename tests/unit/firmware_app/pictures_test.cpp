@@ -1,18 +1,14 @@
 #include "firmware_app/report/pictures.h"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <numbers>
-#include <random>
 
 #include "drivers/storage/text_file.h"
+#include "tests/support/made_up_run.h"
 #include "tests/support/xml_fault.h"
 
 namespace app {
@@ -28,72 +24,6 @@ using ::testing::Not;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMaxFileBytes = 500'000;
 
-// A run's data, made up: channels on a vertical line, three modes of which the last is folded.
-struct RunData {
-  core::Frame frame;
-  core::TrackFrame keyframe;
-  core::CpsdSums spectrum;
-  core::ModalEstimate estimate;
-  PictureInputs inputs;
-};
-
-void add_channel(RunData& run, std::size_t i, std::size_t n) {
-  core::Region region;
-  region.name = fmt::format("floor{}", i);
-  const double step = 1000.0 / static_cast<double>(n);
-  region.u_px = 800.0, region.v_px = 40.0 + step * static_cast<double>(n - 1 - i);
-  region.width_px = 300.0, region.height_px = std::min(40.0, step);
-  if (i == 0) region.role = core::RegionRole::kBase;
-  run.inputs.regions.push_back(region);
-  core::ChannelInfo channel;
-  channel.name = region.name, channel.region = static_cast<std::uint16_t>(i), channel.is_base = i == 0;
-  run.inputs.channels.push_back(channel);
-  for (std::uint32_t k = 0; k < 20; ++k) {
-    run.keyframe.points.push_back({805.0 + 15.0 * k, region.v_px + std::fmod(7.3 * k, region.height_px), 0.05, k,
-                                   static_cast<std::uint16_t>(i), k % 7 != 6, true});
-  }
-}
-
-// Noise: the worst to compress.
-void fill_frame(RunData& run, int width_px, int height_px) {
-  run.frame.width_px = width_px, run.frame.height_px = height_px;
-  run.frame.pixels.resize(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px));
-  std::mt19937 random(1);
-  for (std::uint8_t& pixel : run.frame.pixels) pixel = static_cast<std::uint8_t>(random() % 256);
-}
-
-void fill_spectrum(RunData& run, std::size_t n) {
-  core::CpsdSums& sums = run.spectrum;
-  sums.n_channels = static_cast<int>(n), sums.n_fft = 4096, sums.rate_hz = 25.0, sums.n_segments = 8,
-  sums.window_power = 768.0;
-  sums.data_sum.assign(static_cast<std::size_t>(sums.n_bins()) * static_cast<std::size_t>(sums.n_pairs()), 0.0);
-  std::mt19937 random(1);
-  for (int k = 0; k < sums.n_bins(); ++k) {
-    for (int c = 0; c < sums.n_channels; ++c) {
-      double value = 1.0 + static_cast<double>(random() % 1000) / 1000.0;
-      for (const double f0 : {1.657, 5.04, 12.07}) {
-        value += 100.0 * (c + 1) / (0.01 + std::pow(k * sums.rate_hz / sums.n_fft - f0, 2.0));
-      }
-      const auto at = static_cast<std::size_t>(k * sums.n_pairs() + core::CpsdSums::pair_index(c, c, sums.n_channels));
-      sums.data_sum[at] = value;
-    }
-  }
-}
-
-core::Mode mode(double frequency_hz, double apparent_hz, std::size_t n_channels, core::Verdict verdict) {
-  core::Mode out;
-  out.frequency_hz = frequency_hz, out.apparent_hz = apparent_hz, out.damping_ratio = 0.0102, out.mpc = 0.998;
-  out.frequency_std_hz = 0.003, out.damping_std = 0.001;
-  out.fold_n = frequency_hz > 12.5 ? 1 : 0;
-  for (std::size_t i = 0; i < n_channels; ++i) {
-    const double along = n_channels > 1 ? static_cast<double>(i) / static_cast<double>(n_channels - 1) : 1.0;
-    out.shape.emplace_back(std::sin(along * std::numbers::pi * (0.5 + frequency_hz / 4.0)), 0.01);
-    out.shape_std.push_back(0.05);
-  }
-  out.verdict = verdict;
-  return out;
-}
-
 class PicturesTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -101,42 +31,6 @@ class PicturesTest : public ::testing::Test {
               ::testing::UnitTest::GetInstance()->current_test_info()->name();
     fs::remove_all(folder_);
     fs::create_directories(folder_);
-  }
-
-  void make(RunData& run, std::size_t n_channels, std::size_t n_samples) {
-    for (std::size_t i = 0; i < n_channels; ++i) add_channel(run, i, n_channels);
-    fill_frame(run, 640, 360);
-    fill_spectrum(run, n_channels);
-    run.estimate.status = "ok";
-    for (const auto& [true_hz, apparent_hz] : {std::pair{1.657, 1.657}, {5.04, 5.04}, {12.93, 12.07}}) {
-      run.estimate.modes.push_back(mode(true_hz, apparent_hz, n_channels, core::Verdict::kStructural));
-    }
-    run.estimate.rejected.push_back(mode(0.3, 0.3, n_channels, core::Verdict::kCameraMotion));
-    run.estimate.rejected.push_back(mode(7.0, 7.0, n_channels, core::Verdict::kInputPeak));
-    run.inputs.first_frame = &run.frame, run.inputs.keyframe = &run.keyframe;
-    run.inputs.spectrum = &run.spectrum, run.inputs.estimate = &run.estimate;
-    run.inputs.millimetres = true;
-    run.inputs.displacements_csv = csv(run.inputs.channels, n_samples);
-  }
-
-  // Every 10th sample of a channel is missing, 20 frames in a row, and the whole of the last channel of three or more.
-  [[nodiscard]] std::string csv(const std::vector<core::ChannelInfo>& channels, std::size_t n_samples) const {
-    const std::string path = (folder_ / "displacements.csv").string();
-    std::ofstream out(path);
-    out << "# unit: mm\nframe,t_s,scale_mm_per_px";
-    for (const core::ChannelInfo& channel : channels) out << ',' << channel.name;
-    for (std::size_t k = 0; k < n_samples; ++k) {
-      if (k >= 100 && k < 120) continue;
-      const double t = static_cast<double>(k) / 25.0;
-      out << fmt::format("\n{},{:.4f},{:.6f}", k, 1000.0 + t, 0.95 + 0.02 * std::sin(0.7 * t));
-      for (std::size_t c = 0; c < channels.size(); ++c) {
-        const bool missing = (k + c) % 10 == 9 || (c >= 2 && c + 1 == channels.size());
-        const double value = 20.0 * std::sin(0.3 * t) + static_cast<double>(c + 1) * std::sin(10.4 * t);
-        out << ',' << (missing ? "" : fmt::format("{:.6f}", value));
-      }
-    }
-    out << '\n';
-    return path;
   }
 
   [[nodiscard]] std::vector<std::string> write(const RunData& run, const std::string& name = "out") const {
@@ -162,7 +56,7 @@ class PicturesTest : public ::testing::Test {
 
 TEST_F(PicturesTest, WritesEveryPictureOfACompleteRun) {
   RunData run;
-  make(run, 7, 1500);
+  make_run(run, 7, 1500);
   fill_frame(run, 1920, 1080);
   const std::vector<std::string> names = write(run);
   EXPECT_THAT(names, ElementsAre("frame.png", "displacements.svg", "scale.svg", "spectra.svg", "modes.svg"));
@@ -177,7 +71,7 @@ TEST_F(PicturesTest, WritesEveryPictureOfACompleteRun) {
 
 TEST_F(PicturesTest, GivesTheSameBytesForTheSameInput) {
   RunData run;
-  make(run, 3, 500);
+  make_run(run, 3, 500);
   const std::vector<std::string> names = write(run, "first");
   EXPECT_EQ(names, write(run, "second"));
   for (const std::string& name : names) EXPECT_EQ(text_of(name, "first"), text_of(name, "second")) << name;
@@ -185,7 +79,7 @@ TEST_F(PicturesTest, GivesTheSameBytesForTheSameInput) {
 
 TEST_F(PicturesTest, OneChannelWithoutModesSaysNoModes) {
   RunData run;
-  make(run, 1, 300);
+  make_run(run, 1, 300);
   run.estimate.modes.clear();
   run.estimate.status = "too few <segments>";
   const std::vector<std::string> names = write(run);
@@ -196,9 +90,9 @@ TEST_F(PicturesTest, OneChannelWithoutModesSaysNoModes) {
 
 TEST_F(PicturesTest, StaysSmallWith64ChannelsAndALongRecord) {
   RunData run;
-  make(run, 64, 10'000);
+  make_run(run, 64, 10'000);
   for (int i = 0; i < 40; ++i) {
-    run.estimate.modes.push_back(mode(6.0 + 0.1 * i, 6.0 + 0.1 * i, 64, core::Verdict::kStructural));
+    run.estimate.modes.push_back(made_up_mode(6.0 + 0.1 * i, 6.0 + 0.1 * i, 64, core::Verdict::kStructural));
   }
   const std::vector<std::string> names = write(run);
   EXPECT_EQ(names.size(), 5U);
@@ -215,8 +109,10 @@ TEST_F(PicturesTest, LeavesOutWhatHasNoInputAndRemovesAnOlderPicture) {
 
 TEST_F(PicturesTest, LeavesOutAScaleThatDoesNotVary) {
   RunData run;
-  run.inputs.displacements_csv = (folder_ / "flat.csv").string();
-  std::ofstream(run.inputs.displacements_csv) << "frame,t_s,scale_mm_per_px,a\n0,0,0.5,1\n1,0.04,0.5,1\n";
+  RunHistory history(25.0, 1, 0);
+  for (std::int64_t k = 0; k < 2; ++k)
+    history.add(core::DisplacementSample{0, k * 40'000'000, false, 0.5, {1.0}, {}, {1}, {}});
+  run.inputs.history = &history;
   const std::vector<std::string> names = write(run);
   EXPECT_THAT(names, ElementsAre("displacements.svg"));
   expect_sound(names);
@@ -224,7 +120,7 @@ TEST_F(PicturesTest, LeavesOutAScaleThatDoesNotVary) {
 
 TEST_F(PicturesTest, SurvivesValuesThatAreNotFiniteAndListsThatDoNotMatch) {
   RunData run;
-  make(run, 4, 50);
+  make_run(run, 4, 50);
   run.spectrum.data_sum[40] = kNan;
   for (std::size_t i = 0; i < run.spectrum.data_sum.size(); i += 10)
     run.spectrum.data_sum[i] = 0.0;  // channel 0 at rest
@@ -243,7 +139,7 @@ TEST_F(PicturesTest, SurvivesValuesThatAreNotFiniteAndListsThatDoNotMatch) {
 
 TEST_F(PicturesTest, DrawsRegionsBesideEachOtherAndBothAxes) {
   RunData run;
-  make(run, 6, 50);
+  make_run(run, 6, 50);
   for (std::size_t i = 0; i < 6; ++i) {
     core::Region& region = run.inputs.regions[i];
     region.u_px = 40.0 + 310.0 * static_cast<double>(i / 2), region.v_px = 500.0, region.both_axes = true;
@@ -258,7 +154,7 @@ TEST_F(PicturesTest, DrawsRegionsBesideEachOtherAndBothAxes) {
 
 TEST_F(PicturesTest, EscapesNames) {
   RunData run;
-  make(run, 2, 50);
+  make_run(run, 2, 50);
   run.inputs.channels[0].name = "a<b>&\"c'\x01\xFF";
   run.inputs.regions[0].name = "étage <1> & more";
   const std::vector<std::string> names = write(run);
@@ -268,15 +164,15 @@ TEST_F(PicturesTest, EscapesNames) {
 
 TEST_F(PicturesTest, AFailureIsAFileErrorAndTheOtherPicturesAreComplete) {
   RunData run;
-  make(run, 2, 50);
-  run.inputs.displacements_csv = (folder_ / "none.csv").string();
+  make_run(run, 2, 50);
+  fs::create_directories(folder_ / "out" / "scale.svg" / "in the way");
   try {
     (void)write(run);
-    FAIL() << "a missing file was not told";
+    FAIL() << "a picture that could not be written was not told";
   } catch (const drivers::FileError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("none.csv"));
+    EXPECT_THAT(error.what(), HasSubstr("scale.svg"));
   }
-  expect_sound({"frame.png", "spectra.svg", "modes.svg"});
+  expect_sound({"frame.png", "displacements.svg", "spectra.svg", "modes.svg"});
   EXPECT_THROW((void)write_pictures((folder_ / "no such folder").string(), run.inputs), drivers::FileError);
 }
 

@@ -1,0 +1,93 @@
+#include "firmware_app/report/run_history.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tests/support/alloc_guard.h"
+
+namespace app {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(BinnedSeries, AShortSeriesIsKeptAsItIs) {
+  BinnedSeries series;
+  for (const auto& [cell, value] : {std::pair{0U, 1.0}, {1U, 2.0}, {2U, kNan}, {3U, 0.5}}) series.add(cell, value);
+  const std::vector<PlotPoint> curve = series.curve(0.04);
+  ASSERT_EQ(curve.size(), 4U);
+  EXPECT_EQ(curve[1].x, 0.04);
+  EXPECT_EQ(curve[1].y, 2.0);
+  EXPECT_TRUE(std::isnan(curve[2].y));
+  EXPECT_EQ(series.n_values(), 3U);
+  EXPECT_NEAR(series.mean(), 3.5 / 3.0, 1e-15);
+}
+
+TEST(BinnedSeries, ALongSeriesKeepsItsExtremesTheirTimesAndItsGaps) {
+  BinnedSeries series;
+  for (std::uint64_t i = 0; i < 1'000'000; ++i) {
+    if (i >= 400'000 && i < 500'000) continue;
+    series.add(i, i == 777'777 ? 50.0 : i == 888'888 ? -60.0 : std::sin(1e-4 * static_cast<double>(i)));
+  }
+  const std::vector<PlotPoint> curve = series.curve(1.0);
+  EXPECT_LE(curve.size(), 2 * BinnedSeries::kBins);
+  EXPECT_GE(curve.size(), BinnedSeries::kBins / 2);
+  const auto has = [&](double x, double y) {
+    return std::any_of(curve.begin(), curve.end(), [&](const PlotPoint& p) { return p.x == x && p.y == y; });
+  };
+  EXPECT_TRUE(has(777'777.0, 50.0));
+  EXPECT_TRUE(has(888'888.0, -60.0));
+  EXPECT_TRUE(std::any_of(curve.begin(), curve.end(),
+                          [](const PlotPoint& p) { return std::isnan(p.y) && p.x > 400'000.0 && p.x < 500'000.0; }));
+  EXPECT_TRUE(std::is_sorted(curve.begin(), curve.end(), [](const auto& a, const auto& b) { return a.x < b.x; }));
+  EXPECT_EQ(series.low(), -60.0);
+  EXPECT_EQ(series.high(), 50.0);
+  EXPECT_EQ(series.n_values(), 900'000U);
+}
+
+TEST(BinnedSeries, SurvivesATimeFarAway) {
+  BinnedSeries series;
+  series.add(0, 1.0);
+  series.add(std::numeric_limits<std::uint64_t>::max() / 2, 2.0);
+  EXPECT_LE(series.curve(1.0).size(), 2 * BinnedSeries::kBins);
+  EXPECT_EQ(series.high(), 2.0);
+}
+
+TEST(RunHistory, CountsPointsAndSigmaOfEveryRegion) {
+  RunHistory history(25.0, 1, 2);
+  core::TrackFrame frame;
+  for (std::uint32_t i = 0; i < 8; ++i)
+    frame.points.push_back({0.0, 0.0, 0.03, i, static_cast<std::uint16_t>(i / 4), i != 0, true});
+  frame.points.push_back({0.0, 0.0, 0.1, 9, 77, true, true});  // of a region that is not there
+  history.add(frame);
+  EXPECT_EQ(history.regions()[0].n_points, 4U);
+  EXPECT_EQ(history.regions()[0].share_seen.mean(), 0.75);
+  EXPECT_EQ(history.regions()[1].share_seen.mean(), 1.0);
+  EXPECT_NEAR(history.regions()[1].sigma_px.mean(), 0.03, 1e-12);
+}
+
+TEST(RunHistory, TakesAnHourWithoutAllocating) {
+  RunHistory history(60.0, 4, 2);
+  core::DisplacementSample sample;
+  sample.value_mm = {1.0, 2.0, 3.0, 4.0}, sample.seen = {1, 1, 1, 0}, sample.scale_mm_per_px = 0.9;
+  core::TrackFrame frame;
+  for (std::uint32_t i = 0; i < 8; ++i)
+    frame.points.push_back({0.0, 0.0, 0.03, i, static_cast<std::uint16_t>(i % 2), true, true});
+  {
+    const test_support::AllocGuard guard;
+    for (std::int64_t k = 0; k < 60 * 3600; ++k) {
+      frame.t_start_ns = sample.t_start_ns = k * 16'666'667;
+      history.add(frame);
+      history.add(sample);
+    }
+    EXPECT_EQ(guard.n_new(), 0U);
+  }
+  EXPECT_NEAR(history.duration_s(), 3600.0, 0.1);
+  EXPECT_TRUE(history.displacements()[3].empty());
+}
+
+}  // namespace
+}  // namespace app
