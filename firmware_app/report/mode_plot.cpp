@@ -1,5 +1,7 @@
 #include "firmware_app/report/mode_plot.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -93,10 +95,17 @@ class ModePlot {
     if (place.channel >= mode_.shape_std.size() || !std::isfinite(mode_.shape_std[place.channel])) return;
     const double middle = mode_.shape[place.channel].real(), deviation = mode_.shape_std[place.channel];
     const PlotPoint a = at(place, middle - deviation), b = at(place, middle + deviation);
-    svg_.line(a.x, a.y, b.x, b.y, line_class(i_line));
-    const double across_x = layout_.upright ? 0.0 : kCapPx, across_y = layout_.upright ? kCapPx : 0.0;
-    for (const PlotPoint& end : {a, b})
-      svg_.line(end.x - across_x, end.y - across_y, end.x + across_x, end.y + across_y, line_class(i_line));
+    const double cap_x = layout_.upright ? 0.0 : kCapPx, cap_y = layout_.upright ? kCapPx : 0.0;
+    const PlotPoint gap{std::numeric_limits<double>::quiet_NaN(), 0.0};
+    const std::vector<PlotPoint> bar{a,
+                                     b,
+                                     gap,
+                                     {a.x - cap_x, a.y - cap_y},
+                                     {a.x + cap_x, a.y + cap_y},
+                                     gap,
+                                     {b.x - cap_x, b.y - cap_y},
+                                     {b.x + cap_x, b.y + cap_y}};
+    svg_.path(bar, fmt::format("k{}", i_line));
   }
 
   [[nodiscard]] PlotPoint at(const ModePlace& place, double value) const {

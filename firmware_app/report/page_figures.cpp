@@ -13,6 +13,7 @@ namespace app {
 namespace {
 
 constexpr std::size_t kMaxCards = 12;
+constexpr std::size_t kMaxCardRegions = 260;  // of all cards together: many channels make few cards
 
 using Picture = std::string (*)(const PictureInputs&, const PictureFormat&);
 
@@ -73,8 +74,11 @@ std::string shapes_section(const PictureInputs& inputs) {
     return section_html("shapes", "Mode shapes", absent_html("There are no shapes to draw: no mode was found."));
   const std::vector<core::Mode>& modes = inputs.estimate->modes;
   const bool in_image = !inputs.regions.empty();
+  const std::size_t n_cards =
+      std::min({modes.size(), kMaxCards,
+                std::max<std::size_t>(3, kMaxCardRegions / std::max<std::size_t>(1, inputs.channels.size()))});
   std::string cards;
-  for (std::size_t i = 0; i < modes.size() && i < kMaxCards; ++i) {
+  for (std::size_t i = 0; i < n_cards; ++i) {
     const std::string svg = mode_svg(inputs, modes[i]);
     cards += fmt::format("<div class=\"card\">\n{}{}</div>\n", heading_of(modes[i], i),
                          svg.empty() ? absent_html("The shape of this mode is not known.") : svg);
@@ -99,8 +103,8 @@ std::string shapes_section(const PictureInputs& inputs) {
   body += paragraph_html(any_std ? "Bars: one standard deviation to both sides."
                                  : "No bars: this run did not estimate the standard deviations of the shapes.",
                          "note");
-  if (modes.size() > kMaxCards)
-    body += paragraph_html(fmt::format("{} more modes are in the table above only.", modes.size() - kMaxCards), "note");
+  if (modes.size() > n_cards)
+    body += paragraph_html(fmt::format("{} more modes are in the table above only.", modes.size() - n_cards), "note");
   return section_html("shapes", "Mode shapes", body);
 }
 

@@ -16,7 +16,8 @@ namespace app {
 namespace {
 
 constexpr double kPolePx = 3.2;
-constexpr double kLoosePx = 1.6;  // poles of no listed line
+constexpr std::size_t kMaxPoles = 1'500;  // drawn: keeps the page below 2 MB; loose ones make room first
+constexpr double kLoosePx = 1.6;          // poles of no listed line
 
 // The verdict on the line that a pole joined; null: it joined none.
 const core::Mode* line_of(const core::ModalEstimate& estimate, const core::StabilisationPole& pole) {
@@ -42,13 +43,15 @@ void draw_spectrum(PlotPanel& panel, SvgDocument& svg, const PictureInputs& inpu
 
 void draw_poles(SvgDocument& svg, const PlotPanel& panel, const core::ModalEstimate& estimate, double highest_hz) {
   // Loose ones first, modes last: they lie on top.
-  for (int layer = 0; layer < 3; ++layer) {
+  std::size_t n_drawn = 0;
+  for (int layer = estimate.poles.size() > kMaxPoles ? 1 : 0; layer < 3; ++layer) {
     for (const core::StabilisationPole& pole : estimate.poles) {
       if (!(pole.apparent_hz >= 0.0 && pole.apparent_hz <= highest_hz)) continue;
       if (!std::isfinite(pole.frequency_hz + pole.damping_ratio + pole.mpc)) continue;
       const core::Mode* line = line_of(estimate, pole);
       const bool kept = line != nullptr && line->verdict == core::Verdict::kStructural;
       if (layer != (line == nullptr ? 0 : kept ? 2 : 1)) continue;
+      if (++n_drawn > kMaxPoles) return;
       const double x = panel.x_px(pole.apparent_hz), y = panel.y_px(pole.order);
       const std::string facts = fmt::format("data-p=\"{} {:.4g} {:.3g} {:.3g} {}\"", pole.order, pole.frequency_hz,
                                             100.0 * pole.damping_ratio, pole.mpc, kept ? 1 : 0);
