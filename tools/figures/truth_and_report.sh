@@ -13,7 +13,12 @@ tools/setup.sh
 quietly tools/build.sh hovermodald hovermodal
 
 line 1 MISS "not measured" "0.005 px worst, 0.001 px rms" "known shifts of smooth and sharp texture: no command yet"
-line 2 MISS "not measured" "within sqrt(zeta / (2 pi f T)) f, 20 seeds" "spectral peaks of 600 s of truth: no command yet"
+"$bin/hovermodal" selftest peaks >"$out/peaks.txt"
+read -r modes mean low high < <(awk -F"\t" '$1 == "peak" { n++; m = $6 < 0 ? -$6 : $6; if (m > w) w = m; if (l == "" || $7 < l) l = $7; if ($7 > h) h = $7 }
+  END { print n / 2, w, l, h }' "$out/peaks.txt")
+judge 2 "$modes modes, mean error at most $mean, rms $low ... $high of the theoretical scatter" "mean <= 0.67, rms 0.6 ... 1.4" \
+  "frequency and damping of 600 s of truth, 20 seeds, by a fit of the simulator's own" \
+  "$modes == 6 && $mean <= 0.67 && $low >= 0.6 && $high <= 1.4"
 
 # --- 3: each effect against its first-order signature ----------------------------------------------------------------
 "$bin/hovermodal" selftest signatures >"$out/signatures.txt"

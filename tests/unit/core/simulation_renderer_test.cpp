@@ -249,9 +249,6 @@ TEST(Renderer, KeepsTheSceneWhenNoiseIsSwitchedOff) {
 }
 
 TEST(Renderer, RefusesWhatItCannotDraw) {
-  Scene turning = make_paper_scene(1, 2.0);
-  turning.hover.roll_rms_rad = 1e-3;
-  EXPECT_THROW(Renderer{turning}, std::invalid_argument);
   Scene too_fine = make_paper_scene(1, 2.0);
   too_fine.plates[0].texture.pitch_mm = 1.0;
   EXPECT_THROW(Renderer{too_fine}, std::invalid_argument);
