@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # The figures of simulator and report: is the truth true, and can the report be read? One line a figure.
-#   tools/figures/truth_and_report.sh [--quick]      --quick takes the report of a 10 s clip for that of the demo
+#   tools/figures/truth_and_report.sh [--quick]      --quick takes the report of a 12 s clip for that of the demo
 # Line 6 needs Debian's package chromium (or its browser at $CHROMIUM).
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
 seconds=60
-[ "${1:-}" != --quick ] || seconds=10
+[ "${1:-}" != --quick ] || seconds=12
 out=build/figures/truth_and_report
 mkdir -p "$out"
 tools/setup.sh
