@@ -18,28 +18,33 @@ constexpr int kBlock = Texture::kLook;
 constexpr double kSmallest = 1e-9;  // of the depth row: nearer to the horizon nothing is drawn
 constexpr double kFarthest = 1e6;   // cells
 constexpr double kSharp_px = 1.499, kGone_px = 1.0;
-constexpr double kOutside_px = -2.0;  // a pixel this far from an edge sees none of it, even on a bent line
+constexpr double kNear_px = 2.0;       // a pixel farther from an edge sees none of it, even on a bent line
+constexpr double kBoxMargin_px = 4.0;  // the same where the lens makes a pixel up to twice as wide as in its middle
 
+// Where a block's rays meet the plane, in cells.
 struct Places {
-  double x[kBlock], y[kBlock];
-};
+  double x[kBlock], y[kBlock], depth[kBlock];
 
-// Where the block's rays meet the plane, in cells; bounded also where they do not.
-void meet(const PlaneView& view, const double* __restrict ray_x, const double* __restrict ray_y,
-          Places& places) noexcept {
-  const auto& h = view.cells;
-  const double a0 = h(0, 0), a1 = h(0, 1), a2 = h(0, 2), b0 = h(1, 0), b1 = h(1, 1), b2 = h(1, 2);
-  const double d0 = h(2, 0), d1 = h(2, 1), d2 = h(2, 2);
-  for (int i = 0; i < kBlock; ++i) {
-    const double depth = d0 * ray_x[i] + d1 * ray_y[i] + d2;
-    const double inverse = 1.0 / (depth > kSmallest ? depth : kSmallest);
-    const double x = (a0 * ray_x[i] + a1 * ray_y[i] + a2) * inverse;
-    const double y = (b0 * ray_x[i] + b1 * ray_y[i] + b2) * inverse;
-    const double x_below = x < kFarthest ? x : kFarthest, y_below = y < kFarthest ? y : kFarthest;
-    places.x[i] = x_below > -kFarthest ? x_below : -kFarthest;
-    places.y[i] = y_below > -kFarthest ? y_below : -kFarthest;
+  Places(const PlaneView& view, const double* __restrict ray_x, const double* __restrict ray_y) noexcept {
+    const auto& h = view.cells;
+    const double a0 = h(0, 0), a1 = h(0, 1), a2 = h(0, 2), b0 = h(1, 0), b1 = h(1, 1), b2 = h(1, 2);
+    const double d0 = h(2, 0), d1 = h(2, 1), d2 = h(2, 2);
+    for (int i = 0; i < kBlock; ++i) {
+      depth[i] = d0 * ray_x[i] + d1 * ray_y[i] + d2;
+      const double inverse = 1.0 / depth[i];
+      x[i] = (a0 * ray_x[i] + a1 * ray_y[i] + a2) * inverse;
+      y[i] = (b0 * ray_x[i] + b1 * ray_y[i] + b2) * inverse;
+    }
   }
-}
+
+  // All before the horizon and near enough: what holds at both ends holds between.
+  [[nodiscard]] bool sane() const noexcept {
+    const auto sane_at = [this](int i) {
+      return depth[i] > kSmallest && std::abs(x[i]) < kFarthest && std::abs(y[i]) < kFarthest;
+    };
+    return sane_at(0) && sane_at(kBlock - 1);
+  }
+};
 
 // The texture's contrast at this ray, 0 .. 1, by the largest number of cells that a pixel spans in any direction.
 double contrast(const PlaneView& view, double ray_x, double ray_y, double ray_per_px) noexcept {
@@ -55,10 +60,10 @@ double contrast(const PlaneView& view, double ray_x, double ray_y, double ray_pe
 
 // d(ray) / d(pixel), to first order around a ray.
 Matrix2d ray_slope(const LineRays& rays, double x, double y) noexcept {
-  if (rays.lens.model == LensParameters::Model::kNone) return Matrix2d::Identity() * rays.ray_per_px;
+  if (rays.lens->model == LensParameters::Model::kNone) return Matrix2d::Identity() * rays.ray_per_px;
   constexpr double kStep = 1e-5;
-  const Ray right = distort(rays.lens, {x + kStep, y}), left = distort(rays.lens, {x - kStep, y});
-  const Ray below = distort(rays.lens, {x, y + kStep}), above = distort(rays.lens, {x, y - kStep});
+  const Ray right = distort(*rays.lens, {x + kStep, y}), left = distort(*rays.lens, {x - kStep, y});
+  const Ray below = distort(*rays.lens, {x, y + kStep}), above = distort(*rays.lens, {x, y - kStep});
   Matrix2d bent;
   bent << right.x - left.x, below.x - above.x, right.y - left.y, below.y - above.y;
   bent /= 2.0 * kStep;
@@ -98,6 +103,16 @@ class Gauge {
   [[nodiscard]] double distance_px(std::size_t k, double ray_x, double ray_y) const noexcept {
     return edges_[k].at(ray_x, ray_y) * per_px_[k];
   }
+  // No edge comes near the pixels first .. last, all inside; between their rays an edge is straight to a small part of
+  // a pixel.
+  [[nodiscard]] bool holds(const LineRays& rays, int first, int last) const noexcept {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double a = distance_px(k, rays.x[first], rays.y[first]);
+      const double b = distance_px(k, rays.x[last], rays.y[last]);
+      if (std::min(a, b) < kNear_px) return false;
+    }
+    return true;
+  }
   [[nodiscard]] float share(double ray_x, double ray_y) const noexcept {
     std::array<double, 4> of{};
     for (std::size_t k = 0; k < 4; ++k) {
@@ -112,38 +127,37 @@ class Gauge {
   std::array<Vector2d, 4> normal_;
 };
 
-enum class Block : std::uint8_t { kOutside, kInside, kMixed };
-
-// By the rays at both ends of pixels first .. last, between which an edge is straight to a small part of a pixel.
-Block place_block(const Gauge& gauge, const LineRays& rays, int first, int last) noexcept {
-  bool inside = true;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const double a = gauge.distance_px(k, rays.x[first], rays.y[first]);
-    const double b = gauge.distance_px(k, rays.x[last], rays.y[last]);
-    if (std::max(a, b) < kOutside_px) return Block::kOutside;
-    inside = inside && std::min(a, b) > -kOutside_px;
-  }
-  return inside ? Block::kInside : Block::kMixed;
+// No ray of the line comes near the plate if their box lies outside one edge.
+bool misses(const std::array<Edge, 4>& edges, const LineRays& rays) noexcept {
+  return std::any_of(edges.begin(), edges.end(), [&rays](const Edge& edge) {
+    return edge.at(rays.middle_x, rays.middle_y) + std::abs(edge.x) * rays.half_x + std::abs(edge.y) * rays.half_y <
+           0.0;
+  });
 }
 
-// The line's rays lie in a box; no ray of it comes near the plate if the box lies outside one edge.
-bool misses(const std::array<Edge, 4>& edges, const LineRays& rays) noexcept {
-  double low_x = rays.x[0], high_x = low_x, low_y = rays.y[0], high_y = low_y;
-  for (int i = 0; i < rays.length + kBlock - 1; i += kBlock) {
-    const int u = std::min(i, rays.length - 1);
-    low_x = std::min(low_x, rays.x[u]), high_x = std::max(high_x, rays.x[u]);
-    low_y = std::min(low_y, rays.y[u]), high_y = std::max(high_y, rays.y[u]);
-  }
-  const double middle_x = 0.5 * (low_x + high_x), middle_y = 0.5 * (low_y + high_y);
-  // Twice the margin of a block: the lens may make a pixel twice as wide as in its middle.
-  const double half_x = 0.5 * (high_x - low_x) - 2.0 * kOutside_px * rays.ray_per_px;
-  const double half_y = 0.5 * (high_y - low_y) - 2.0 * kOutside_px * rays.ray_per_px;
+// The same for the pixels first .. last, by the rays at both ends.
+bool misses(const std::array<Edge, 4>& edges, const LineRays& rays, int first, int last) noexcept {
+  const double margin = kBoxMargin_px * rays.ray_per_px;
   return std::any_of(edges.begin(), edges.end(), [&](const Edge& edge) {
-    return edge.at(middle_x, middle_y) + std::abs(edge.x) * half_x + std::abs(edge.y) * half_y < 0.0;
+    const double nearest = std::max(edge.at(rays.x[first], rays.y[first]), edge.at(rays.x[last], rays.y[last]));
+    return nearest + (std::abs(edge.x) + std::abs(edge.y)) * margin < 0.0;
   });
 }
 
 }  // namespace
+
+LineRays::LineRays(const double* ray_x, const double* ray_y, int n, const CameraParameters& camera,
+                   double zoom) noexcept
+    : x(ray_x), y(ray_y), length(n), ray_per_px(1.0 / (camera.alpha_px * zoom)), lens(&camera.lens) {
+  double low_x = x[n - 1], high_x = low_x, low_y = y[n - 1], high_y = low_y;
+  for (int i = 0; i < n; i += kBlock) {
+    low_x = std::min(low_x, x[i]), high_x = std::max(high_x, x[i]);
+    low_y = std::min(low_y, y[i]), high_y = std::max(high_y, y[i]);
+  }
+  const double margin = kBoxMargin_px * ray_per_px;
+  middle_x = 0.5 * (low_x + high_x), half_x = 0.5 * (high_x - low_x) + margin;
+  middle_y = 0.5 * (low_y + high_y), half_y = 0.5 * (high_y - low_y) + margin;
+}
 
 PlaneView::PlaneView(const CameraPose& camera, PlanePoint centre, double tilt_rad, double depth_mm,
                      double pitch_mm) noexcept
@@ -164,12 +178,11 @@ void draw_plane(const PlaneView& view, const Texture& texture, const LineRays& r
   for (int u = begin; u < end; u += kBlock) {
     const int middle = std::min(u + kBlock / 2, rays.length - 1);
     const auto share = static_cast<float>(contrast(view, rays.x[middle], rays.y[middle], rays.ray_per_px));
-    if (!view.in_front || share <= 0.0F) {
+    const Places places(view, rays.x + u, rays.y + u);
+    if (!view.in_front || share <= 0.0F || !places.sane()) {
       std::fill_n(light + u, kBlock, mean);
       continue;
     }
-    Places places;
-    meet(view, rays.x + u, rays.y + u, places);
     texture.look(places.x, places.y, light + u);
     if (share >= 1.0F) continue;
     for (int i = 0; i < kBlock; ++i) light[u + i] = mean + share * (light[u + i] - mean);
@@ -183,14 +196,15 @@ PixelRange cover_plate(const PlaneView& view, double half_x, double half_y, cons
   if (!view.in_front || misses(edges, rays)) return range;
   for (int u = 0; u < rays.length; u += kBlock) {
     const int last = std::min(u + kBlock, rays.length) - 1;
-    const Gauge gauge(edges, rays, rays.x[(u + last) / 2], rays.y[(u + last) / 2]);
-    const Block block = place_block(gauge, rays, u, last);
-    if (block == Block::kOutside && range.end == 0) continue;
-    if (range.end == 0) range.begin = u;
-    for (int i = u; i < u + kBlock; ++i) {
-      cover[i] = block == Block::kOutside ? 0.0F : block == Block::kInside ? 1.0F : gauge.share(rays.x[i], rays.y[i]);
+    if (misses(edges, rays, u, last)) {
+      if (range.end > 0) std::fill_n(cover + u, kBlock, 0.0F);
+      continue;
     }
-    if (block != Block::kOutside) range.end = last + 1;
+    if (range.end == 0) range.begin = u;
+    range.end = last + 1;
+    const Gauge gauge(edges, rays, rays.x[(u + last) / 2], rays.y[(u + last) / 2]);
+    const bool inside = gauge.holds(rays, u, last);
+    for (int i = u; i < u + kBlock; ++i) cover[i] = inside ? 1.0F : gauge.share(rays.x[i], rays.y[i]);
   }
   return range;
 }

@@ -23,10 +23,13 @@ struct PlaneView {
 
 // Where the pixels of a line look.
 struct LineRays {
-  const double *x, *y;  // as RayMap gives them, and Texture::kLook more of any finite values
+  const double *x, *y;  // as RayMap gives them, and the last one Texture::kLook times more
   int length;
-  double ray_per_px;           // 1 / (alpha zoom)
-  const LensParameters& lens;  // through which they came
+  double ray_per_px;                          // 1 / (alpha zoom)
+  const LensParameters* lens;                 // through which they came
+  double middle_x, middle_y, half_x, half_y;  // box around them, some pixels wider
+
+  LineRays(const double* ray_x, const double* ray_y, int n, const CameraParameters& camera, double zoom) noexcept;
 };
 
 // light[u] for u in [begin, end), whole blocks of Texture::kLook; `begin` is a multiple of it. Exact as long as the

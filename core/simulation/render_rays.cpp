@@ -12,11 +12,23 @@ namespace {
 constexpr int kSpacing_px = 8;
 constexpr double kWidestRay = 100.0;  // 89.4 degrees
 
-// Cubic through the values at -1, 0, 1, 2, evaluated at s.
+// Weights at s of the cubic through the values at -1, 0, 1, 2.
 std::array<double, 4> lagrange(double s) noexcept {
   const double a = s + 1.0, c = s - 1.0, d = s - 2.0;
   return {s * c * d / -6.0, a * c * d / 2.0, a * s * d / -2.0, a * s * c / 6.0};
 }
+
+// The same as a polynomial.
+struct Cubic {
+  double c0, c1, c2, c3;
+
+  template <class Value>
+  explicit Cubic(const Value& value) noexcept {
+    const double a = value(-1), b = value(0), c = value(1), d = value(2);
+    c0 = b, c1 = c - a / 3.0 - b / 2.0 - d / 6.0, c2 = (a + c) / 2.0 - b, c3 = (d - a) / 6.0 + (b - c) / 2.0;
+  }
+  [[nodiscard]] double at(double s) const noexcept { return c0 + s * (c1 + s * (c2 + s * c3)); }
+};
 
 // Knots reach as far as a pixel may look when the focal length breathes, and two further.
 int margin_knots(int n_pixels, double zoom_rms) {
@@ -66,9 +78,10 @@ void RayMap::line(const Axis& along, const Axis& across, double across_px, doubl
     }
     return;
   }
-  // Place on the unzoomed sensor, in knots.
-  const auto place = [zoom](const Axis& axis, double px) {
-    const double knots = (axis.centre_px + (px - axis.centre_px) / zoom - axis.first_px) / kSpacing_px;
+  // Place on the unzoomed sensor, in knots: of pixel i, first + i step.
+  const double step = 1.0 / (zoom * kSpacing_px);
+  const auto place = [step](const Axis& axis, double px) {
+    const double knots = (axis.centre_px - axis.first_px) / kSpacing_px + (px - axis.centre_px) * step;
     return std::clamp(knots, 1.0, axis.n_knots - 3.0);
   };
   const double at = place(across, across_px);
@@ -80,19 +93,18 @@ void RayMap::line(const Axis& along, const Axis& across, double across_px, doubl
     const std::ptrdiff_t next = across.stride;
     return w[0] * p[0] + w[1] * p[next] + w[2] * p[2 * next] + w[3] * p[3 * next];
   };
-  std::array<double, 4> kx{}, ky{};
-  for (int i = 0, cell = -1; i < along.n_pixels; ++i) {
-    const double p = place(along, i);
-    if (cell != static_cast<int>(p)) {
-      cell = static_cast<int>(p);
-      for (int k = 0; k < 4; ++k) {
-        kx[static_cast<std::size_t>(k)] = knot(knot_x_, cell - 1 + k);
-        ky[static_cast<std::size_t>(k)] = knot(knot_y_, cell - 1 + k);
-      }
+  for (int i = 0; i < along.n_pixels;) {
+    const double first = place(along, i);
+    const int cell = static_cast<int>(first);
+    const Cubic cx([&](int k) { return knot(knot_x_, cell + k); }), cy([&](int k) { return knot(knot_y_, cell + k); });
+    // The last pixel of the cell, and at least this one.
+    const int end = std::min(along.n_pixels, i + std::max(1, static_cast<int>(std::ceil((cell + 1 - first) / step))));
+    const double s0 = first - cell - i * step;
+    for (; i < end; ++i) {
+      const double s = s0 + i * step;
+      x[i] = cx.at(s);
+      y[i] = cy.at(s);
     }
-    const std::array<double, 4> s = lagrange(p - cell);
-    x[i] = s[0] * kx[0] + s[1] * kx[1] + s[2] * kx[2] + s[3] * kx[3];
-    y[i] = s[0] * ky[0] + s[1] * ky[1] + s[2] * ky[2] + s[3] * ky[3];
   }
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/simulation/render_plane.h"
 #include "core/simulation/render_row.h"
 #include "core/simulation/render_textures.h"
 
@@ -151,39 +150,46 @@ void Renderer::add_plate_row(std::size_t body, const Instant& instant, std::size
 }
 
 void Renderer::draw_any_line(const Instant& a, const Instant& b, int index, RenderLine& line) const noexcept {
-  const double depth_mm = scene().background.depth_mm;
-  const std::size_t n_instants = b.t_s > a.t_s ? 2 : 1;
-  const std::array<const Instant*, 2> instants{&a, &b};
-  for (std::size_t i = 0; i < n_instants; ++i) {
-    const CameraPose& pose = instants[i]->pose;
+  const CameraParameters& camera = scene().camera;
+  const auto trace = [&](const CameraPose& pose, std::size_t i) -> LineRays {
     double *x = line.ray_x[i].data(), *y = line.ray_y[i].data();
     rows_ ? rays_.row(index, pose.zoom, x, y) : rays_.column(index, pose.zoom, x, y);
-    const LineRays rays{x, y, line_length(), 1.0 / (scene().camera.alpha_px * pose.zoom), scene().camera.lens};
-    const PlaneView view(pose, {0.0, 0.0}, 0.0, depth_mm, background_.pitch_mm());
-    draw_plane(view, background_, rays, 0, line_length(), i == 0 ? line.background.data() : line.plate.data());
-  }
-  if (n_instants == 2) {
+    const int n = line_length();
+    std::fill_n(x + n, Texture::kLook, x[n - 1]);
+    std::fill_n(y + n, Texture::kLook, y[n - 1]);
+    return {x, y, n, camera, pose.zoom};
+  };
+  const auto draw = [&](const CameraPose& pose, const LineRays& rays, std::vector<float>& light) {
+    // Whole periods of the texture keep the numbers small wherever the camera is.
+    const double period_mm = background_.period_mm();
+    const PlanePoint origin{period_mm * std::round(pose.x_mm / period_mm),
+                            period_mm * std::round(pose.y_mm / period_mm)};
+    const PlaneView view(pose, origin, 0.0, scene().background.depth_mm, background_.pitch_mm());
+    draw_plane(view, background_, rays, 0, line_length(), light.data());
+  };
+  const bool blurred = b.t_s > a.t_s;
+  const LineRays rays_a = trace(a.pose, 0), rays_b = b.pose.zoom == a.pose.zoom ? rays_a : trace(b.pose, 1);
+  draw(a.pose, rays_a, line.background);
+  if (blurred) {
+    draw(b.pose, rays_b, line.plate);
     for (std::size_t u = 0; u < line.plate.size(); ++u) {
       line.background[u] = 0.5F * (line.background[u] + line.plate[u]);
     }
   }
   line.light = line.background;
   for (const std::size_t body : front_to_back_) {
-    for (std::size_t i = 0; i < n_instants; ++i) {
-      add_plate(body, *instants[i], i, n_instants == 2 ? 0.5F : 1.0F, line);
-    }
+    add_plate(body, a, rays_a, 0, blurred ? 0.5F : 1.0F, line);
+    if (blurred) add_plate(body, b, rays_b, 1, 0.5F, line);
   }
 }
 
-void Renderer::add_plate(std::size_t body, const Instant& instant, std::size_t i_instant, float weight,
-                         RenderLine& line) const noexcept {
+void Renderer::add_plate(std::size_t body, const Instant& instant, const LineRays& rays, std::size_t i_instant,
+                         float weight, RenderLine& line) const noexcept {
   const Plate& plate = scene().plates[body];
   const BodyPose moved = motion_.body_at(static_cast<int>(body), instant.t_s);
   const double pitch = plate_[body].pitch_mm();
   const PlaneView view(instant.pose, {plate.x_mm + moved.x_mm, plate.y_mm + moved.y_mm}, moved.tilt_rad, plate.z_mm,
                        pitch);
-  const LineRays rays{line.ray_x[i_instant].data(), line.ray_y[i_instant].data(), line_length(),
-                      1.0 / (scene().camera.alpha_px * instant.pose.zoom), scene().camera.lens};
   const PixelRange range =
       cover_plate(view, 0.5 * plate.width_mm / pitch, 0.5 * plate.height_mm / pitch, rays, line.cover.data());
   if (range.begin >= range.end) return;

@@ -6,6 +6,7 @@
 #include "core/simulation/frame_timing.h"
 #include "core/simulation/light.h"
 #include "core/simulation/render_line.h"
+#include "core/simulation/render_plane.h"
 #include "core/simulation/render_rays.h"
 #include "core/simulation/render_sensor.h"
 #include "core/simulation/scene_motion.h"
@@ -60,7 +61,7 @@ class Renderer {
   void add_plate_row(std::size_t body, const Instant& instant, std::size_t i_instant, int v,
                      RenderLine& line) const noexcept;
   void draw_any_line(const Instant& a, const Instant& b, int index, RenderLine& line) const noexcept;
-  void add_plate(std::size_t body, const Instant& instant, std::size_t i_instant, float weight,
+  void add_plate(std::size_t body, const Instant& instant, const LineRays& rays, std::size_t i_instant, float weight,
                  RenderLine& line) const noexcept;
 
   SceneMotion motion_;

@@ -22,6 +22,7 @@ class Texture {
           std::uint64_t index = 0);
 
   [[nodiscard]] double pitch_mm() const noexcept { return pitch_mm_; }
+  [[nodiscard]] double period_mm() const noexcept { return static_cast<double>(n_) * pitch_mm_; }
   [[nodiscard]] double mean() const noexcept { return mean_; }
   [[nodiscard]] double value(double x_mm, double y_mm) const noexcept;
   // Value at each of kLook points, given in cells (mm / pitch), |x|, |y| below 1e7.
