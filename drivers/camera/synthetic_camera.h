@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/simulation/frame_timing.h"
 #include "core/simulation/renderer.h"
 #include "core/simulation/scene.h"
 #include "drivers/camera/camera.h"
@@ -17,7 +18,8 @@ struct SyntheticCameraConfig {
 };
 
 // A simulated camera in front of a simulated structure. Frames are rendered inside `capture`, from the scene alone:
-// the same scene gives the same pixels. Frame k begins its exposure at k / rate. Ends after scene.n_frames().
+// the same scene gives the same pixels. Delivers what the scene's timing delivers, under its stamps: a dropped frame is
+// a jump of the sequence, unless the scene's stamps do not tell.
 class SyntheticCamera final : public Camera {
  public:
   explicit SyntheticCamera(const SyntheticCameraConfig& config);
@@ -34,9 +36,11 @@ class SyntheticCamera final : public Camera {
   core::simulation::Scene scene_;
   core::simulation::Renderer renderer_;
   core::simulation::Renderer::Scratch scratch_;
+  core::simulation::FrameTiming timing_;
+  core::simulation::DeliveredFrame next_;  // valid while has_next_
+  bool has_next_ = false;
   core::CameraInfo info_;
   StreamPacer pacer_;
-  std::uint64_t next_frame_ = 0;
   std::string fault_;
   std::atomic<bool> stopped_{true};  // written by start and stop, read by capture; a flag alone, nothing rides on it
 };
