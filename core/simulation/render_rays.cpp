@@ -43,7 +43,7 @@ RayMap::RayMap(const CameraParameters& camera, double zoom_rms)
     : alpha_px_(camera.alpha_px), bent_(camera.lens.model != LensParameters::Model::kNone) {
   const auto axis = [zoom_rms](int n_pixels, double centre_px) -> Axis {
     const int margin = margin_knots(n_pixels, zoom_rms);
-    return {n_pixels, n_pixels / kSpacing_px + 2 * margin, 1, centre_px, -1.0 * margin * kSpacing_px};
+    return {n_pixels, n_pixels / kSpacing_px + 2 + 2 * margin, 1, centre_px, -1.0 * margin * kSpacing_px};
   };
   u_ = axis(camera.width_px, camera.cx_px);
   v_ = axis(camera.height_px, camera.cy_px);
@@ -82,7 +82,7 @@ void RayMap::line(const Axis& along, const Axis& across, double across_px, doubl
   const double step = 1.0 / (zoom * kSpacing_px);
   const auto place = [step](const Axis& axis, double px) {
     const double knots = (axis.centre_px - axis.first_px) / kSpacing_px + (px - axis.centre_px) * step;
-    return std::clamp(knots, 1.0, axis.n_knots - 3.0);
+    return std::clamp(knots, 1.0, axis.n_knots - 2.0001);
   };
   const double at = place(across, across_px);
   const int row = static_cast<int>(at);

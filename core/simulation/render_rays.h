@@ -7,7 +7,7 @@
 namespace core::simulation {
 
 // The ideal (undistorted) ray X / Z, Y / Z of every pixel, a line at a time. With a lens: by cubic interpolation
-// between exact rays every 8 px, which misses them by less than 1e-5 px wherever the lens does not fold over; at any
+// between exact rays every 8 px, which misses them by less than 1e-4 px wherever the lens does not fold over; at any
 // zoom, because a zoomed pixel looks where another place of the sensor looks otherwise.
 class RayMap {
  public:

@@ -24,7 +24,14 @@ class RenderReference {
   [[nodiscard]] const SceneMotion& motion() const noexcept { return motion_; }
 
  private:
-  [[nodiscard]] int seen_body(ImagePoint image, double t_s) const;  // nearest; kBackgroundBody
+  // Where everything is at an instant.
+  struct Instant {
+    CameraPose camera;
+    std::vector<BodyPose> bodies;
+  };
+  [[nodiscard]] Instant instant_at(double t_s) const;
+  [[nodiscard]] PlanePoint place(int body, ImagePoint image, const Instant& instant) const;
+  [[nodiscard]] int seen_body(ImagePoint image, const Instant& instant) const;  // nearest; kBackgroundBody
 
   SceneMotion motion_;
   Light light_;

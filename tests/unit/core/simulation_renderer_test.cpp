@@ -10,46 +10,15 @@
 #include <thread>
 #include <vector>
 
-#include "core/simulation/presets.h"
 #include "core/simulation/track_generator.h"
+#include "tests/support/rendered_image.h"
 
 namespace core::simulation {
 namespace {
 
-struct Image {
-  int width_px, height_px;
-  std::vector<float> light;
-
-  Image(const Renderer& renderer, std::uint64_t frame)
-      : width_px(renderer.scene().camera.width_px),
-        height_px(renderer.scene().camera.height_px),
-        light(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)) {
-    renderer.render_light(frame, light.data());
-  }
-
-  [[nodiscard]] double pixel(int u, int v) const {
-    return static_cast<double>(
-        light[static_cast<std::size_t>(v) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(u)]);
-  }
-
-  // Twelve-point Lagrange interpolation: its own error on this texture lies below 1e-3 px.
-  [[nodiscard]] double at(double u, double v) const {
-    const int u0 = static_cast<int>(std::floor(u)) - 5, v0 = static_cast<int>(std::floor(v)) - 5;
-    double wu[12], wv[12], sum = 0.0;
-    for (int i = 0; i < 12; ++i) {
-      wu[i] = wv[i] = 1.0;
-      for (int j = 0; j < 12; ++j) {
-        if (j == i) continue;
-        wu[i] *= (u - u0 - j) / (i - j);
-        wv[i] *= (v - v0 - j) / (i - j);
-      }
-    }
-    for (int j = 0; j < 12; ++j) {
-      for (int i = 0; i < 12; ++i) sum += wu[i] * wv[j] * pixel(u0 + i, v0 + j);
-    }
-    return sum;
-  }
-};
+using test_support::Image;
+using test_support::small_scene;
+using test_support::still_scene;
 
 // Maps a pixel of one image to where it should stand in another.
 using Warp = std::function<ImagePoint(ImagePoint)>;
@@ -77,13 +46,6 @@ ImagePoint misses(const Image& a, const Image& b, ImagePoint centre, const Warp&
   return {du, dv};
 }
 
-Scene still_scene() {
-  Scene scene = make_paper_scene(1, 2.0);
-  scene.excitation.rms_mm = 0.0;
-  scene.hover.x_rms_mm = scene.hover.y_rms_mm = scene.hover.z_rms_mm = 0.0;
-  return scene;
-}
-
 TEST(Renderer, ShiftsTheImageByExactlyTheProjectedMotion) {
   const Scene scene = still_scene();
   const Image still(Renderer(scene), 0);
@@ -105,21 +67,19 @@ TEST(Renderer, ShiftsTheImageByExactlyTheProjectedMotion) {
 
 // Pixels and tracks come from the same scene by different ways: drift, scale change, shaking and row times included.
 TEST(Renderer, AgreesWithTheTrackGenerator) {
-  const Scene scene = make_paper_scene(3, 20.0);
+  Scene scene = make_paper_scene(3, 20.0);
   const Renderer renderer(scene);
-  Scene tracked = scene;
-  tracked.tracks.points_per_region = 6;
-  tracked.tracks.noise_px = 0.0;
-  const TrackGenerator tracks(tracked);
+  scene.tracks.points_per_region = 6;
+  const TrackGenerator tracks(scene);
   const Image first(renderer, 0);
   core::TrackFrame start, later;
-  tracks.generate({}, start);
+  tracks.generate_true({}, start);
   double sum2 = 0.0;
   int n = 0;
   for (const std::uint64_t frame : {std::uint64_t{1}, std::uint64_t{113}, std::uint64_t{499}}) {
     const Image image(renderer, frame);
     const double t_s = static_cast<double>(frame) / scene.camera.rate_hz;
-    tracks.generate({frame, t_s, t_s, frame, false}, later);
+    tracks.generate_true({frame, t_s, t_s, frame, false}, later);
     for (std::size_t i = 0; i < start.points.size(); ++i) {
       const int body = tracks.regions()[start.points[i].region].body;
       const ImagePoint moved{later.points[i].u_px - start.points[i].u_px, later.points[i].v_px - start.points[i].v_px};
@@ -143,8 +103,7 @@ TEST(Renderer, AgreesWithTheTrackGenerator) {
 }
 
 TEST(Renderer, BlursLikeTheMeanOfManyInstants) {
-  Scene scene = make_paper_scene(1, 2.0);
-  set_image_size(scene, 480, 270);
+  Scene scene = small_scene();
   scene.excitation.rms_mm = 12.0;  // three times the speed
   scene.camera.readout_s = 0.0;
   scene.camera.exposure_s = 0.02;
@@ -177,11 +136,8 @@ TEST(Renderer, BlursLikeTheMeanOfManyInstants) {
 
 TEST(Renderer, CoversPlateEdgesExactly) {
   Scene scene = still_scene();
-  for (Plate& plate : scene.plates) {
-    plate.texture.contrast_rms = 1e-9;
-    plate.texture.mean = 200.0;
-  }
-  scene.background.texture.contrast_rms = 1e-9;
+  scene.background.texture.contrast_rms = 1e-6;
+  for (Plate& plate : scene.plates) plate.texture.contrast_rms = 1e-6, plate.texture.mean = 200.0;
   scene.background.texture.mean = 100.0;
   const double area_px = 7 * 300.0 * 50.0 * std::pow(scene.camera.alpha_px / 2000.0, 2);
   for (const double shift : {0.0, 0.3, 0.77}) {
@@ -226,8 +182,7 @@ TEST(Renderer, DrawsNoiseThatFramesDoNotShare) {
 }
 
 TEST(Renderer, GivesTheSameFrameToEveryThreadInAnyOrder) {
-  Scene scene = make_paper_scene(1, 2.0);
-  set_image_size(scene, 480, 270);
+  Scene scene = small_scene();
   const Renderer renderer(scene), twin(scene);
   std::vector<std::vector<std::uint8_t>> forward(8, std::vector<std::uint8_t>(480 * 270)), backward = forward;
   std::thread other([&] {
@@ -241,17 +196,38 @@ TEST(Renderer, GivesTheSameFrameToEveryThreadInAnyOrder) {
 }
 
 TEST(Renderer, KeepsTheSceneWhenNoiseIsSwitchedOff) {
-  Scene scene = make_paper_scene(1, 2.0);
-  set_image_size(scene, 480, 270);
+  Scene scene = small_scene();
   const Image noisy(Renderer(scene), 5);
   scene.camera.noise_sigma = 0.0;
   EXPECT_EQ(Image(Renderer(scene), 5).light, noisy.light);
 }
 
+TEST(Renderer, GivesADuplicateThePictureItRepeats) {
+  Scene scene = small_scene();
+  scene.timing.jitter_rms_s = 0.002;
+  const Renderer renderer(scene);
+  auto scratch = renderer.make_scratch();
+  std::vector<std::uint8_t> first(480 * 270), again(first.size()), jittered(first.size());
+  const double t_s = FrameTiming(scene).frame_time_s(9);
+  renderer.render({9, t_s, t_s, 9, false}, first.data(), scratch);
+  renderer.render({9, t_s, t_s + 0.04, 10, false}, again.data(), scratch);
+  renderer.render(9, jittered.data(), scratch);  // at 9 / rate
+  EXPECT_EQ(first, again);
+  EXPECT_NE(first, jittered);
+}
+
 TEST(Renderer, RefusesWhatItCannotDraw) {
   Scene too_fine = make_paper_scene(1, 2.0);
-  too_fine.plates[0].texture.pitch_mm = 1.0;
+  too_fine.plates[2].texture.pitch_mm = 1.0;
   EXPECT_THROW(Renderer{too_fine}, std::invalid_argument);
+  Scene fine_background = make_paper_scene(1, 2.0);
+  fine_background.background.texture.pitch_mm = 1.0;
+  EXPECT_THROW(Renderer{fine_background}, std::invalid_argument);
+  Scene oblique = still_scene();  // fine enough seen straight, too fine so obliquely
+  oblique.camera.alpha_px *= 0.7;
+  oblique.camera.yaw_rad = 0.9;
+  oblique.camera.x_mm = -2000.0 * std::tan(0.9);
+  EXPECT_THROW(Renderer{oblique}, std::invalid_argument);
 }
 
 }  // namespace

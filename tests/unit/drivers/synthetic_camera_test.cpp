@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <thread>
 
 #include "core/simulation/presets.h"
@@ -51,6 +52,60 @@ TEST(SyntheticCamera, SameSceneSamePixels) {
   const Drained b = drain(second);
   ASSERT_EQ(a.frames.size(), 5u);
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(a.frames[i].pixels, b.frames[i].pixels);
+}
+
+TEST(SyntheticCamera, TellsDroppedFramesAsGapsAndStampsAsTheyAreSaid) {
+  SyntheticCameraConfig config = small_scene(8.0);
+  config.scene.timing.drop_probability = 0.2;
+  config.scene.timing.duplicate_probability = 0.1;
+  config.scene.timing.jitter_rms_s = 0.003;
+  SyntheticCamera camera(config);
+  camera.start();
+  const Drained run = drain(camera);
+  core::simulation::FrameTiming timing(config.scene);
+  core::simulation::DeliveredFrame wanted;
+  std::uint64_t shown = ~std::uint64_t{0};
+  std::size_t n = 0, n_gaps = 0, n_duplicates = 0;
+  for (; timing.next(wanted); ++n) {
+    ASSERT_LT(n, run.frames.size());
+    EXPECT_EQ(run.frames[n].sequence, wanted.sequence);
+    EXPECT_EQ(run.frames[n].t_start_ns, std::llround(wanted.stamp_s * 1e9));
+    EXPECT_EQ(run.frames[n].gap_before, wanted.gap_before);
+    n_gaps += wanted.gap_before ? 1 : 0;
+    EXPECT_EQ(n > 0 && run.frames[n].pixels == run.frames[n - 1].pixels, wanted.number == shown);
+    n_duplicates += wanted.number == shown ? 1 : 0;
+    shown = wanted.number;
+  }
+  EXPECT_EQ(n, run.frames.size());
+  EXPECT_EQ(n, camera.info().frame_count);
+  EXPECT_GT(n_gaps, 10u);
+  EXPECT_GT(n_duplicates, 5u);
+}
+
+TEST(SyntheticCamera, SaysNothingOfDropsWhereStampsDoNotTell) {
+  SyntheticCameraConfig config = small_scene(2.0);
+  config.scene.timing.drop_probability = 0.3;
+  config.scene.timing.stamps_tell = false;
+  SyntheticCamera camera(config);
+  camera.start();
+  const Drained run = drain(camera);
+  ASSERT_LT(run.frames.size(), 45u);
+  for (std::size_t i = 0; i < run.frames.size(); ++i) {
+    EXPECT_EQ(run.frames[i].sequence, i);
+    EXPECT_EQ(run.frames[i].t_start_ns, static_cast<std::int64_t>(i) * 40'000'000);
+    EXPECT_FALSE(run.frames[i].gap_before);
+  }
+}
+
+TEST(SyntheticCamera, StartsAnewWithTheSameFrames) {
+  SyntheticCamera camera(small_scene(0.2));
+  camera.start();
+  const Drained first = drain(camera);
+  camera.stop();
+  camera.start();
+  const Drained again = drain(camera);
+  ASSERT_EQ(again.frames.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(again.frames[i].pixels, first.frames[i].pixels);
 }
 
 TEST(SyntheticCamera, EndsAfterStop) {
