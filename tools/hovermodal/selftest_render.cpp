@@ -43,7 +43,8 @@ class Sum {
 Scene moving_scene() {
   Scene scene = core::simulation::make_paper_scene(4, 10.0);
   core::simulation::set_image_size(scene, 480, 270);
-  scene.camera.exposure_s = 0.01;
+  scene.camera.exposure_s = 0.03;  // about a pixel of motion
+  scene.excitation.rms_mm = 10.0;
   scene.camera.alpha_px *= 0.9;  // room to turn
   scene.hover.y_rms_mm = 4.0;
   return scene;

@@ -114,14 +114,15 @@ ShiftError check(std::string name, const Scene& scene, bool smooth) {
 Scene scene_of(bool smooth, bool moving) {
   Scene scene = core::simulation::make_paper_scene(7, 10.0);
   core::simulation::set_image_size(scene, 960, 540);
-  // Pitches in pixels as at full size; higher plates, to hold as many cells.
+  scene.camera.alpha_px *= 0.93;
   for (auto& plate : scene.plates) {
     plate.height_mm = 80.0;
-    if (!smooth) plate.texture.pitch_mm = 1.6 * plate.z_mm / scene.camera.alpha_px;
+    plate.texture.pitch_mm = (smooth ? 2.75 : 1.6) * plate.z_mm / scene.camera.alpha_px;
   }
   scene.hover.y_rms_mm = 4.0;
   if (moving) {
-    scene.camera.exposure_s = 0.01;  // half a pixel of motion and more
+    scene.camera.exposure_s = 0.02;  // about a pixel of motion
+    scene.excitation.rms_mm = 10.0;
   } else {
     scene.camera.exposure_s = 0.0;
     scene.excitation.rms_mm = 0.0;
