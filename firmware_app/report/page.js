@@ -152,7 +152,8 @@
       return node && off < 6 ? " · " + node.dataset.say : "";
     }
     curves() {
-      this.paths = this.paths || all("path[data-k]", this.group).map((node) => ({ node, points: points_of(node) }));
+      this.paths = this.paths || all("path[data-k]", this.group)
+        .map((node) => ({ node, points: points_of(node) })).sort((a, b) => a.node.dataset.k - b.node.dataset.k);
       const figure = this.svg.closest("figure"), said = [];
       for (const { node, points } of this.paths) {
         if (node.classList.contains("off")) continue;
@@ -160,7 +161,8 @@
         const key = figure.querySelector(".key[data-k=\"" + node.dataset.k + "\"]");
         if (at && off < 6) said.push((key ? key.textContent.trim() : "") + " " + rounded(this.value(at[1])));
       }
-      return this.hz().toFixed(3) + " Hz" + this.mark() + " · " + said.join(" · ");
+      const values = said.length ? " · " + said.join(" · ") + " " + this.group.dataset.unit : "";
+      return this.hz().toFixed(3) + " Hz" + this.mark() + values;
     }
     marks() {
       const half = this.x_high, seen = this.hz(), could = [];

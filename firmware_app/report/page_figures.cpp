@@ -103,6 +103,10 @@ std::string shapes_section(const PictureInputs& inputs) {
   body += paragraph_html(any_std ? "Bars: one standard deviation to both sides."
                                  : "No bars: this run did not estimate the standard deviations of the shapes.",
                          "note");
+  const auto has_both = [](const core::Region& region) { return region.both_axes; };
+  if (std::any_of(inputs.regions.begin(), inputs.regions.end(), has_both))
+    body +=
+        paragraph_html("Regions with two axes: solid is the motion along u (right), dashed along v (down).", "note");
   if (modes.size() > n_cards)
     body += paragraph_html(fmt::format("{} more modes are in the table above only.", modes.size() - n_cards), "note");
   return section_html("shapes", "Mode shapes", body);

@@ -63,7 +63,14 @@ Crop crop_of(const PictureInputs& inputs, const ModeLayout& layout) {
   return crop;
 }
 
-std::vector<Motion> motions_of(const PictureInputs& inputs, const core::Mode& mode, const Crop& crop) {
+// Of the two extremes that one which the plot shows: positive to the right, or upwards.
+double shown_extreme(const PictureInputs& inputs, bool upright) {
+  const core::ChannelInfo& first = inputs.channels.front();
+  return (upright ? first.direction_u : -first.direction_v) < 0.0 ? -1.0 : 1.0;
+}
+
+std::vector<Motion> motions_of(const PictureInputs& inputs, const core::Mode& mode, const Crop& crop, bool upright) {
+  const double swing_px = kSwingPx * shown_extreme(inputs, upright);
   std::map<std::size_t, Motion> by_region;
   for (std::size_t c = 0; c < inputs.channels.size() && c < mode.shape.size(); ++c) {
     const core::ChannelInfo& channel = inputs.channels[c];
@@ -71,7 +78,7 @@ std::vector<Motion> motions_of(const PictureInputs& inputs, const core::Mode& mo
     if (!std::isfinite(value.real()) || !std::isfinite(value.imag())) continue;
     Motion& motion = by_region[channel.region];
     motion.at_rest = crop.placed(inputs.regions[channel.region]);
-    const double x = kSwingPx * channel.direction_u, y = kSwingPx * channel.direction_v;
+    const double x = swing_px * channel.direction_u, y = swing_px * channel.direction_v;
     motion.re_x += value.real() * x, motion.re_y += value.real() * y;
     motion.im_x += value.imag() * x, motion.im_y += value.imag() * y;
     if (c >= mode.shape_std.size() || !std::isfinite(mode.shape_std[c])) continue;
@@ -87,7 +94,7 @@ std::vector<Motion> motions_of(const PictureInputs& inputs, const core::Mode& mo
 class ModeOnFrame {
  public:
   ModeOnFrame(SvgDocument& svg, const PictureInputs& inputs, const core::Mode& mode, const Crop& crop, bool upright)
-      : svg_(svg), has_frame_(has_frame(inputs)), crop_(crop), motions_(motions_of(inputs, mode, crop)) {
+      : svg_(svg), has_frame_(has_frame(inputs)), crop_(crop), motions_(motions_of(inputs, mode, crop, upright)) {
     const auto along = [&](const Motion& m) {
       return upright ? m.at_rest.y + m.at_rest.height / 2.0 : m.at_rest.x + m.at_rest.width / 2.0;
     };
@@ -173,7 +180,7 @@ std::string mode_svg(const PictureInputs& inputs, const core::Mode& mode) {
   ModeLayout layout = mode_layout(inputs);
   if (!layout.in_image) return card_without_image(mode, layout);
   for (auto& line : layout.lines) {
-    for (ModePlace& place : line) place.name = shortened(place.name, kMaxNameCharacters);
+    for (ModePlace& place : line) place.name = shortened_inside(place.name, kMaxNameCharacters);
   }
   const Crop crop = crop_of(inputs, layout);
   const double height = layout.upright ? crop.panel.height : crop.panel.height + 14.0 + 120.0;

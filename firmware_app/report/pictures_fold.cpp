@@ -100,7 +100,7 @@ class FoldMap {
       const bool inside = mode.apparent_hz >= 0.0 && mode.apparent_hz <= rate_hz_ / 2.0;
       if (!inside || !std::isfinite(mode.frequency_hz)) continue;
       const std::string label = four_digits_text(mode.frequency_hz) + " Hz";
-      const double width = text_width_px(label, kTextPx);
+      const double width = 0.9 * text_width_px(label, kTextPx);  // digits are narrow
       const double x = panel.x_px(mode.apparent_hz), y = panel.y_px(mode.frequency_hz);
       const bool upward = static_cast<int>(mode.frequency_hz / (rate_hz_ / 2.0)) % 2 == 0;
       const Box right{x + 9.0, 0.0, width, 15.0}, left{x - width - 9.0, 0.0, width, 15.0};
@@ -128,6 +128,14 @@ class FoldMap {
     const Box& box = panel.box();
     if (place.x < box.x || place.right() > box.right() || place.y < box.y || place.bottom() > box.bottom())
       return false;
+    for (int band = 0; band < n_bands_; ++band) {
+      const auto y_at = [&](double x) {
+        const double apparent = (x - box.x) / box.width * rate_hz_ / 2.0;
+        return panel.y_px(true_frequency(apparent, band, rate_hz_));
+      };
+      const double one = y_at(place.x), other = y_at(place.right());
+      if (std::min(one, other) < place.bottom() && std::max(one, other) > place.y) return false;
+    }
     return std::none_of(taken_.begin(), taken_.end(), [&](const Box& other) { return overlap(place, other); });
   }
 

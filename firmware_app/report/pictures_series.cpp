@@ -93,9 +93,11 @@ std::string point_sigma_svg(const PictureInputs& inputs, const PictureFormat& fo
     lanes.push_back(lane_of(region_name(inputs, i), sigma, sigma.curve(history.cell_s()),
                             curve_points(n_with_points(history), format)));
     highest = std::max(highest, sigma.high());
-    if (!sigma.empty())
-      lanes.back().remark =
-          fmt::format("mean {} px, worst {} px", decimals_text(sigma.mean(), 4), decimals_text(sigma.high(), 4));
+    if (sigma.empty()) continue;
+    lanes.back().remark =
+        is_narrow(format)
+            ? fmt::format("{} px, worst {}", decimals_text(sigma.mean(), 3), decimals_text(sigma.high(), 3))
+            : fmt::format("mean {} px, worst {} px", decimals_text(sigma.mean(), 4), decimals_text(sigma.high(), 4));
   }
   if (lanes.empty()) return {};
   const PlotAxis range{0.0, round_above(highest), false, {}};

@@ -142,6 +142,15 @@ std::string shortened(std::string_view text, std::size_t max_characters) {
   return std::string(text);
 }
 
+std::string shortened_inside(std::string_view text, std::size_t max_characters) {
+  std::vector<std::size_t> starts;  // of the characters
+  for (std::size_t at = 0; at < text.size(); at += std::max<std::size_t>(character_length(text.substr(at)), 1))
+    starts.push_back(at);
+  if (starts.size() <= max_characters || max_characters < 3) return shortened(text, max_characters);
+  const std::size_t n_front = (max_characters - 1) / 2, n_back = max_characters - 1 - n_front;
+  return std::string(text.substr(0, starts[n_front])) + "…" + std::string(text.substr(starts[starts.size() - n_back]));
+}
+
 std::string line_class(std::size_t i_line) {
   const std::size_t dash = i_line / kColors % kDashes;
   return dash == 0 ? fmt::format("k{}", i_line % kColors) : fmt::format("k{} d{}", i_line % kColors, dash);

@@ -36,6 +36,8 @@ inline constexpr double kTitlePx = 14.0;
 [[nodiscard]] double text_width_px(std::string_view text, double height_px) noexcept;
 // At most `max_characters`; cut text ends in an ellipsis.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t max_characters);
+// The same, keeping both ends: names often differ in their last characters only.
+[[nodiscard]] std::string shortened_inside(std::string_view text, std::size_t max_characters);
 
 // Classes of the style sheet that every drawing carries: the colours of Okabe and Ito (told apart with every kind of
 // colour vision) in two sets, for light and for dark surroundings. After seven lines the dashes change.

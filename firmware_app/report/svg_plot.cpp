@@ -118,10 +118,12 @@ void PlotPanel::vertical(double x, const std::string& css_class, std::string_vie
 }
 
 void PlotPanel::begin_readout(std::string_view kind) {
-  svg_->begin_group(
-      fmt::format("data-read=\"{}\" data-box=\"{} {} {} {}\" data-x=\"{:g} {:g}\" data-y=\"{:g} {:g} {}\"", kind,
-                  svg_number(box_.x), svg_number(box_.y), svg_number(box_.right()), svg_number(box_.bottom()), x_.low,
-                  x_.high, y_.low, y_.high, y_.logarithmic ? "log" : "linear"));
+  const std::size_t comma = y_.label.rfind(", ");
+  const std::string unit = comma == std::string::npos ? std::string() : y_.label.substr(comma + 2);
+  svg_->begin_group(fmt::format(
+      "data-read=\"{}\" data-box=\"{} {} {} {}\" data-x=\"{:g} {:g}\" data-y=\"{:g} {:g} {}\" data-unit=\"{}\"", kind,
+      svg_number(box_.x), svg_number(box_.y), svg_number(box_.right()), svg_number(box_.bottom()), x_.low, x_.high,
+      y_.low, y_.high, y_.logarithmic ? "log" : "linear", svg_escaped(unit)));
 }
 
 std::vector<PlotPoint> decimated(std::span<const PlotPoint> points, std::size_t max_points) {

@@ -61,6 +61,8 @@ TEST(SvgDocument, NumbersAreShortAndGapsSplitAPath) {
 TEST(SvgDocument, CutsTextBetweenCharacters) {
   EXPECT_EQ(shortened("étage", 5), "étage");
   EXPECT_EQ(shortened("éééé", 3), "éé…");
+  EXPECT_EQ(shortened_inside("deck panel 12", 9), "deck…l 12");
+  EXPECT_EQ(shortened_inside("étage", 5), "étage");
 }
 
 }  // namespace
