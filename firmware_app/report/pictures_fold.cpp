@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "firmware_app/report/mode_labels.h"
@@ -113,7 +116,9 @@ class FoldMap {
                                                {right, y - 38.0},
                                                {left, y + 23.0},
                                                {right, y + 23.0}};
-      for (auto [place, top] : places) {
+      // Further away a label could be taken for another mode's: only where the true frequency is news.
+      const std::size_t n_places = is_folded(mode) ? std::size(places) : 4;
+      for (auto [place, top] : std::span(places, n_places)) {
         place.y = top;
         if (!free(panel, place)) continue;
         taken_.push_back(place);
