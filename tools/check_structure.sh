@@ -29,9 +29,10 @@ check_includes() {
   awk '
     function drivers_rule(file, name) {
       if (name ~ /^core\/types\// || name ~ /^rt\/(spsc_ring|clock|wakeup)\.h$/) return ""
+      if (file ~ /^drivers\/storage\/scene_/ && name ~ /^core\/simulation\//) return ""
       if (file ~ /^drivers\/storage\// && name ~ /^core\// && name !~ /^core\/simulation\//) return ""
       if (file ~ /\/(synthetic_camera|camera_factory|clip_)[^\/]*$/ && name ~ /^core\/simulation\//) return ""
-      return "drivers may include of core only types (storage: any plain type; synthetic camera, its factory and clips: simulation), of rt only ring, clock and wakeup"
+      return "drivers may include of core only types (storage: any plain type; scene files, synthetic camera, its factory and clips: simulation), of rt only ring, clock and wakeup"
     }
     function tools_rule(name) {
       if (name ~ /^(core|drivers)\//) return ""
