@@ -2,70 +2,25 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdint>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <stdexcept>
-#include <string>
 #include <system_error>
 #include <thread>
-#include <utility>
 
 #include "core/simulation/renderer.h"
-#include "core/simulation/presets.h"
-#include "core/simulation/scene.h"
 #include "drivers/storage/text_file.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/simulate_clip.h"
+#include "tools/hovermodal/simulate_config.h"
 #include "tools/hovermodal/simulate_files.h"
+#include "tools/hovermodal/simulate_truth.h"
 
 namespace tools {
 namespace {
 
 namespace fs = std::filesystem;
 using core::simulation::SceneMotion;
-
-struct Options {
-  std::string preset = "paper", size = "1080p", method = "hovermodal", folder;
-  std::uint64_t seed = 1;
-  double duration_s = 60.0;
-  bool tracks_only = false, force = false;
-  core::simulation::TrackParameters tracks;
-  int crf = 20;
-  int threads = 0;
-};
-
-std::pair<int, int> parse_size(const std::string& text) {
-  static const std::map<std::string, std::pair<int, int>> kNamed{
-      {"2160p", {3840, 2160}}, {"1440p", {2560, 1440}}, {"1080p", {1920, 1080}}, {"720p", {1280, 720}},
-      {"540p", {960, 540}},    {"360p", {640, 360}},    {"270p", {480, 270}}};
-  if (const auto named = kNamed.find(text); named != kNamed.end()) return named->second;
-  const std::size_t cross = text.find('x');
-  const auto width = drivers::parse_whole(std::string_view(text).substr(0, cross));
-  const auto height =
-      cross == std::string::npos ? std::nullopt : drivers::parse_whole(std::string_view(text).substr(cross + 1));
-  if (!width || !height || *width < 320 || *height < 180 || *width > 8192 || *height > 8192 || *width % 2 != 0 ||
-      *height % 2 != 0) {
-    throw std::invalid_argument(
-        fmt::format("--size {}: give 2160p, 1440p, 1080p, 720p, 540p, 360p, 270p or WIDTHxHEIGHT, both even, "
-                    "320x180 to 8192x8192",
-                    drivers::printable(text)));
-  }
-  return {static_cast<int>(*width), static_cast<int>(*height)};
-}
-
-SimulateJob make_job(const Options& options) {
-  SimulateJob job;
-  job.scene = core::simulation::make_paper_scene(options.seed, options.duration_s);
-  const auto [width, height] = parse_size(options.size);
-  core::simulation::set_image_size(job.scene, width, height);
-  job.scene.tracks = options.tracks;
-  core::simulation::validate(job.scene);
-  job.tracks_only = options.tracks_only;
-  job.crf = options.crf;
-  return job;
-}
 
 void make_folder(const fs::path& folder) {
   std::error_code error;
@@ -79,14 +34,24 @@ void make_folder(const fs::path& folder) {
   }
 }
 
-void simulate(const Options& options) {
+void write_product(const fs::path& folder, const SimulateJob& job, const SceneMotion& motion, int threads) {
+  if (job.depth == Depth::kChannels) return write_channels(folder, job, motion);
+  if (job.depth == Depth::kTracks) return write_tracks(folder, job);
+  const int n_threads = threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  write_clip(core::simulation::Renderer(job.scene()), (folder / job.product()).string(), job.crf, n_threads);
+}
+
+void simulate(const SimulateOptions& options) {
+  if (options.help_scene) return fmt::print("{}", drivers::scene_help());
   const SimulateJob job = make_job(options);
+  if (options.print_scene) return fmt::print("{}", drivers::scene_text(job.file));
+  if (options.folder.empty()) throw std::invalid_argument("--out is missing: name a folder for what is made");
   const fs::path folder = options.folder;
   make_folder(folder);
   const std::string product = (folder / job.product()).string();
-  const SceneMotion motion(job.scene);
+  const SceneMotion motion(job.scene());
   // First, because it tells at once whether the folder can be written; and cheap enough to follow --method each time.
-  write_config(folder, job, motion, options.method);
+  write_config(folder, job, motion);
   if (!options.force && already_made(folder, job)) {
     fmt::print("{}: already made from the same parameters; --force makes it anew\n", product);
     return;
@@ -94,54 +59,60 @@ void simulate(const Options& options) {
   // truth.json comes last: a folder with it is a finished one.
   fs::remove(folder / "truth.json");
   write_true_displacements(folder, motion);
-  if (job.tracks_only) {
-    write_tracks(folder, job);
-  } else {
-    const int n_threads =
-        options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    write_clip(core::simulation::Renderer(job.scene), product, job.crf, n_threads);
-  }
+  write_product(folder, job, motion, options.threads);
   write_truth(folder, job, motion);
-  fmt::print("{}: {} frames, {:.1f} MB\n", product, job.scene.n_frames(),
+  fmt::print("{}: {} frames, {:.1f} MB\n", product, job.scene().n_frames(),
              static_cast<double>(fs::file_size(product)) / 1e6);
+}
+
+void add_scene_options(CLI::App& command, SimulateOptions& options) {
+  command.add_option("--scene", options.scene_path, "Scene file (YAML); --help-scene tells every key")
+      ->type_name("FILE");
+  command.add_option("--preset", options.preset, "Without a scene file: the scene to make (default: paper)")
+      ->check(CLI::IsMember(drivers::scene_presets()));
+  command.add_option("--seed", options.seed, "Everything random follows from it (default: the scene's, or 1)")
+      ->check([](const std::string& text) {  // a negative number would wrap
+        return drivers::parse_unsigned(text) ? "" : "give a whole number from 0";
+      });
+  command.add_option("--duration", options.duration_s, "Length in seconds (default: the scene's, or 60)");
+  command.add_option("--size", options.size, "1080p, 720p, 270p, ... or WIDTHxHEIGHT; the view stays the same");
+  command.add_flag("--print-scene", options.print_scene, "Print the complete scene as a file to start from");
+  command.add_flag("--help-scene", options.help_scene, "Every key of scene files: unit, default, range, meaning");
+}
+
+void add_product_options(CLI::App& command, SimulateOptions& options) {
+  command.add_option("--out", options.folder,
+                     "Folder for the product, truth.json, truth_displacements.csv, config.yaml");
+  command.add_flag("--tracks-only", options.tracks_only, "Write tracks.csv as a perfect tracker would, draw nothing");
+  command.add_flag("--channels-only", options.channels_only,
+                   "Write displacements.csv: motions without the camera's own");
+  command.add_option("--track-noise-px", options.track_noise_px, "With --tracks-only: noise per axis, px rms");
+  command.add_option("--track-loss", options.track_loss, "With --tracks-only: chance of a lost point");
+  command.add_option("--points", options.points, "With --tracks-only: points per region");
+  command.add_option("--method", options.method, "Method in the written config.yaml: hovermodal or paper")
+      ->check(CLI::IsMember({"hovermodal", "paper"}))
+      ->capture_default_str();
+  command.add_option("--crf", options.crf, "Quality of the clip, 0 (lossless) to 51; 20 gives some 130 MB a minute")
+      ->check(CLI::Range(0, 51))
+      ->capture_default_str();
+  command.add_option("--threads", options.threads, "Threads that draw; 0 = one per core")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command.add_flag("--force", options.force, "Make it anew even when it is there");
 }
 
 }  // namespace
 
 void add_simulate(CLI::App& app) {
   CLI::App* command =
-      app.add_subcommand("simulate", "Draw a shaken building as a hovering camera sees it, with its truth");
-  const auto options = std::make_shared<Options>();
-  command->add_option("--preset", options->preset, "Scene: paper (six storeys, 1080p at 25 fps, 2 m away)")
-      ->check(CLI::IsMember({"paper"}))
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Everything random follows from it")
-      ->check([](const std::string& text) {  // a negative number would wrap
-        return drivers::parse_unsigned(text) ? "" : "give a whole number from 0";
-      })
-      ->capture_default_str();
-  command->add_option("--duration", options->duration_s, "Length in seconds")->capture_default_str();
-  command->add_option("--size", options->size, "1080p, 720p, 270p, ... or WIDTHxHEIGHT; the view stays the same")
-      ->capture_default_str();
-  command->add_option("--out", options->folder, "Folder for clip.mp4 or tracks.csv, truth.json, config.yaml, ...")
-      ->required();
-  command->add_flag("--tracks-only", options->tracks_only, "Write tracks.csv as a perfect tracker would, draw nothing");
-  command->add_option("--track-noise-px", options->tracks.noise_px, "With --tracks-only: noise per axis, px rms")
-      ->capture_default_str();
-  command->add_option("--track-loss", options->tracks.loss_probability, "With --tracks-only: chance of a lost point")
-      ->capture_default_str();
-  command->add_option("--points", options->tracks.points_per_region, "With --tracks-only: points per region")
-      ->capture_default_str();
-  command->add_option("--method", options->method, "Method in the written config.yaml: hovermodal or paper")
-      ->check(CLI::IsMember({"hovermodal", "paper"}))
-      ->capture_default_str();
-  command->add_option("--crf", options->crf, "Quality of the clip, 0 (lossless) to 51; 20 gives some 130 MB a minute")
-      ->check(CLI::Range(0, 51))
-      ->capture_default_str();
-  command->add_option("--threads", options->threads, "Threads that draw; 0 = one per core")
-      ->check(CLI::Range(0, 256))
-      ->capture_default_str();
-  command->add_flag("--force", options->force, "Make it anew even when it is there");
+      app.add_subcommand("simulate",
+                         "Draw a shaken structure as a hovering camera sees it, with its truth\n"
+                         "  hovermodal simulate --preset paper --duration 60 --out made\n"
+                         "  hovermodal simulate --print-scene > scene.yaml\n"
+                         "  hovermodal simulate --scene scene.yaml --channels-only --duration 3600 --out hour");
+  const auto options = std::make_shared<SimulateOptions>();
+  add_scene_options(*command, *options);
+  add_product_options(*command, *options);
   command->callback([options] { simulate(*options); });
 }
 
