@@ -77,12 +77,16 @@ StructureModel from_given_matrices(const SceneStructure& s) {
   return model;
 }
 
-StructureModel model_of(const SceneStructure& s) {
-  core::simulation::Cantilever tower = s.tower;
-  tower.bodies = s.deck.bodies;
+core::simulation::BridgeDeck deck_of(const SceneStructure& s) {
   core::simulation::BridgeDeck deck = s.deck;
   deck.bending_stiffness_n_m2 = s.tower.bending_stiffness_n_m2;
   deck.mass_kg_per_m = s.tower.mass_kg_per_m;
+  return deck;
+}
+
+StructureModel model_of(const SceneStructure& s) {
+  core::simulation::Cantilever tower = s.tower;
+  tower.bodies = s.deck.bodies;
   switch (s.type) {
     case Type::kUniformChain:
       return core::simulation::uniform_chain(s.frequency_hz, ratios_of(s));
@@ -91,7 +95,7 @@ StructureModel model_of(const SceneStructure& s) {
     case Type::kCantilever:
       return core::simulation::cantilever(tower, damping_of(s));
     case Type::kBridgeDeck:
-      return core::simulation::bridge_deck(deck, damping_of(s));
+      return core::simulation::bridge_deck(deck_of(s), damping_of(s));
     case Type::kModes:
       return from_given_modes(s);
     case Type::kMatrices:
@@ -107,7 +111,7 @@ double place_of(const SceneFile& file, int body) {
   if (file.plates.spacing_mm > 0.0) return file.plates.spacing_mm * body;
   if (s.type == Type::kCantilever) return s.tower.height_mm * body / n;
   if (s.type == Type::kBridgeDeck) {
-    return core::simulation::body_positions_mm(s.deck)[static_cast<std::size_t>(body) - 1];
+    return core::simulation::body_positions_mm(deck_of(s))[static_cast<std::size_t>(body) - 1];
   }
   if (s.type != Type::kShearFrame || s.frame.storey_height_mm.empty()) return kUsualSpacing_mm * body;
   double height = 0.0;

@@ -38,7 +38,7 @@ struct Place {
 
 // The section that a refusal of core::simulation::validate speaks of, by words of its messages; the first that fits.
 std::string section_of(const std::string& message) {
-  static const std::pair<const char*, const char*> kWords[] = {{"structure:", "structure"},
+  static const std::pair<const char*, const char*> kWords[] = {{"simulation: structure:", "structure"},
                                                                {"edge of the structure", "camera"},
                                                                {"distance from the camera", "camera"},
                                                                {"the background", "background"},
@@ -98,9 +98,11 @@ class Reader {
     refuse(node.line, fmt::format("{}: {} is refused: allowed {}; {}", key, shown(node), allowed, remedy));
   }
   [[noreturn]] void refuse_scene(const std::string& message) const {
-    constexpr std::string_view kPrefix = "simulation: ";
-    const std::string text = message.starts_with(kPrefix) ? message.substr(kPrefix.size()) : message;
     const std::string section = section_of(message);
+    std::string text = message;
+    for (const std::string& known : {std::string("simulation: "), section + ": "}) {
+      if (text.starts_with(known)) text = text.substr(known.size());
+    }
     const auto line = lines_.find(section);
     if (line != lines_.end()) refuse(line->second, fmt::format("{}: {}", section, text));
     throw std::invalid_argument(file_name_.empty() ? message : fmt::format("{}: {}: {}", file_name_, section, text));

@@ -43,7 +43,8 @@ std::set<std::string> all_paths() {
   std::set<std::string> paths;
   for (const SceneKey& key : scene_keys()) {
     for (std::size_t dot = key.path.find('.'); dot != std::string::npos; dot = key.path.find('.', dot + 1)) {
-      paths.insert(key.path.substr(0, dot));
+      const std::string section = key.path.substr(0, dot);
+      paths.insert(section.ends_with("[]") ? section.substr(0, section.size() - 2) : section);
     }
     paths.insert(key.path);
   }

@@ -18,6 +18,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kLongest_s = 120.0;
 constexpr std::size_t kMostFrames = 200;
+constexpr int kMostPoints = 6;  // per region: a sum over all frames does not need more
 // Below what tracks.csv can show: rounding of the arithmetic.
 constexpr double kNothing_px = 1e-9;
 
@@ -80,6 +81,7 @@ Json declared(const SimulateJob& job, const std::string& effect, const Json& sce
 Scene scene_for_rms(const Scene& scene) {
   Scene part = scene;
   part.duration_s = std::min(scene.duration_s, kLongest_s);
+  part.tracks.points_per_region = std::min(scene.tracks.points_per_region, kMostPoints);
   return part;
 }
 

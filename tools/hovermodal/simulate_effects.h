@@ -14,7 +14,7 @@ namespace tools {
 // scene. Empty: the effect does not move tracks (losses, grey levels, channels), or there is no scene without it.
 [[nodiscard]] std::optional<double> effect_rms_px(const core::simulation::TrackGenerator& with,
                                                   const std::string& effect);
-// The two minutes of the scene.
+// The scene cut to two minutes and a few points per region: enough for that.
 [[nodiscard]] core::simulation::Scene scene_for_rms(const core::simulation::Scene& scene);
 
 // {name, declared, rms_px, parameters} of each active effect. `scene`: as scene_json() gives it.

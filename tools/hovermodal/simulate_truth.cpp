@@ -1,6 +1,8 @@
 #include "tools/hovermodal/simulate_truth.h"
 
+#include <bit>
 #include <complex>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -21,6 +23,7 @@ constexpr int kRendererVersion = 2;  // raise when the same scene gives other pi
 Json modes_json(const Scene& scene) {
   Json modes = Json::array();
   for (const core::simulation::TrueMode& mode : core::simulation::modes_of(scene.structure)) {
+    if (mode.frequency_hz > 2.0 * scene.excitation.band_high_hz) break;  // far above all that is shaken
     Json shape{{scene.plates[0].name, 0.0}};
     for (std::size_t i = 1; i < scene.plates.size(); ++i) {
       const std::complex<double> value = mode.displacement(static_cast<Eigen::Index>(i) - 1);
@@ -64,11 +67,22 @@ Json declared_json(const SimulateJob& job) {
           {"timestamps", job.scene().timing.stamps_tell}};
 }
 
+// FNV-1a: the scene names the flight's files only.
+std::uint64_t hash_of(const core::simulation::RecordedMotion& flight) {
+  std::uint64_t hash = 0xCBF29CE484222325ULL;
+  for (const auto* axis :
+       {&flight.x_mm, &flight.y_mm, &flight.z_mm, &flight.pitch_rad, &flight.yaw_rad, &flight.roll_rad}) {
+    for (const double value : *axis) hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001B3ULL;
+  }
+  return hash;
+}
+
 }  // namespace
 
 std::string parameter_line(const SimulateJob& job) {
   Json line{{"renderer", kRendererVersion}, {"product", job.product()}, {"scene", drivers::scene_json(job.file)}};
   if (job.depth == Depth::kPixels) line["crf"] = job.crf;
+  if (job.scene().flight) line["flight"] = hash_of(*job.scene().flight);
   return line.dump();
 }
 
