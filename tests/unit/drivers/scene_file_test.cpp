@@ -30,10 +30,10 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(SceneFile, ChangesOneThingOfThePreset) {
-  const SceneFile file = parse("camera: {readout_ms: 12.5, attitude_deg: [1, 0, 0]}\nduration_s: 7\n");
+  const SceneFile file = parse("camera: {readout_ms: 12.5, attitude_deg: [0.2, 0, 0]}\nduration_s: 7\n");
   EXPECT_EQ(file.preset, "paper");
   EXPECT_DOUBLE_EQ(file.scene.camera.readout_s, 0.0125);
-  EXPECT_DOUBLE_EQ(file.scene.camera.pitch_rad, std::numbers::pi / 180.0);
+  EXPECT_DOUBLE_EQ(file.scene.camera.pitch_rad, 0.2 * std::numbers::pi / 180.0);
   EXPECT_DOUBLE_EQ(file.scene.duration_s, 7.0);
   EXPECT_DOUBLE_EQ(file.scene.camera.exposure_s, 0.004);
   EXPECT_EQ(file.scene.plates.size(), 7U);
@@ -168,6 +168,7 @@ TEST(SceneFile, ReadsAFlightBesideTheSceneFile) {
   std::filesystem::create_directories(folder);
   {
     std::ofstream log(folder / "log.csv");
+    log.precision(12);
     log << "time(millisecond),latitude,longitude,altitude(m),compass_heading(degrees)\n";
     for (int i = 0; i < 200; ++i) log << 100 * i << ",40.0," << -88.0 + 1e-7 * std::sin(0.3 * i) << ",50,90\n";
     std::ofstream(folder / "scene.yaml") << "flight: {file: log.csv, from_s: 1, to_s: 15, scale: 0.5}\n";
