@@ -225,7 +225,7 @@ TEST_F(SimulateScene, RefusesBadScenesWithExitCode2) {
 }
 
 TEST_F(SimulateScene, TheServiceAcceptsTheConfigurationOfAClip) {
-  (void)simulate("declare: {readout_ms: 12, exposure_ms: false}\n", "--size 320x180 --duration 1");
+  (void)simulate("declare: {readout_ms: 12, exposure_ms: false}\n", "--size 640x360 --duration 1");
   const Outcome checked = run("hovermodald", "--check --set spectrum.segment=16 --config " + config_path());
   EXPECT_EQ(checked.exit_code, 0) << checked.text;
 }
