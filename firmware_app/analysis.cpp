@@ -13,7 +13,7 @@
 #include "drivers/storage/csv.h"
 #include "firmware_app/core_config.h"
 #include "firmware_app/report/modal_json.h"
-#include "firmware_app/report/pictures.h"
+#include "firmware_app/report/pictures/pictures.h"
 #include "firmware_app/report/run_report.h"
 #include "firmware_app/run_findings.h"
 

@@ -6,7 +6,7 @@
 #include "firmware_app/core_config.h"
 #include "firmware_app/health.h"
 #include "firmware_app/pipeline_setup.h"
-#include "firmware_app/report/report_page.h"
+#include "firmware_app/report/page/report_page.h"
 #include "firmware_app/stages/identification_stage.h"
 #include "rt/memory.h"
 #include "rt/stage_runner.h"

@@ -9,7 +9,7 @@
 #include "drivers/telemetry/publisher_factory.h"
 #include "firmware_app/config_image.h"
 #include "firmware_app/core_config.h"
-#include "firmware_app/report/pictures.h"
+#include "firmware_app/report/pictures/pictures.h"
 #include "firmware_app/run_findings.h"
 
 namespace app {

@@ -5,7 +5,7 @@
 
 #include "core/types/frame.h"
 #include "firmware_app/config.h"
-#include "firmware_app/report/pictures.h"
+#include "firmware_app/report/pictures/pictures.h"
 
 namespace app {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/simulation/frame_timing.h"
+#include "core/simulation/camera/frame_timing.h"
 #include "core/simulation/scene_motion.h"
 #include "core/types/displacement.h"
 

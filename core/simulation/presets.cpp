@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "core/simulation/beam_builders.h"
-#include "core/simulation/structure_builders.h"
-
 namespace core::simulation {
 namespace {
 
-constexpr double kPlatePitchPx = 2.75;  // content up to 0.2 cycles/px
-constexpr double kBackgroundPitchPx = 7.0;
+constexpr double kPlatePitch_px = 2.75, kBackgroundPitch_px = 7.0;
 
 Scene empty_scene(std::uint64_t seed, double duration_s) {
   Scene scene;
@@ -19,14 +15,10 @@ Scene empty_scene(std::uint64_t seed, double duration_s) {
   return scene;
 }
 
-// Every texture at its pitch in pixels.
 void fit_textures(Scene& scene) {
-  const CameraParameters& camera = scene.camera;
-  const auto pitch_mm = [&](double pitch_px, double depth_mm) {
-    return pitch_px * (depth_mm - camera.z_mm) / camera.alpha_px;
-  };
-  for (Plate& plate : scene.plates) plate.texture.pitch_mm = pitch_mm(kPlatePitchPx, plate.z_mm);
-  scene.background.texture.pitch_mm = pitch_mm(kBackgroundPitchPx, scene.background.depth_mm);
+  for (Plate& plate : scene.plates) plate.texture.pitch_mm = 0.0;
+  scene.background.texture.pitch_mm = 0.0;
+  settle_textures(scene);
 }
 
 // A multicopter on satellite positioning with a gimbal, in light wind.
@@ -48,7 +40,48 @@ CameraParameters outdoor_camera() {
   return camera;
 }
 
+StructureDescription paper_structure() { return {UniformChain{{1.657, 5.04, 8.14, 10.83, 12.93, 14.34}}, {{0.01}}}; }
+
+// A steel tube 0.76 m wide with walls of 8 mm, platforms and cladding included in the mass.
+constexpr Cantilever kChimney{30.0e3, 8, 2.8e8, 170.0, 80.0};
+StructureDescription cantilever_structure() { return {kChimney, {{0.008, 0.010, 0.012}}}; }
+
+StructureDescription shear_frame_structure() {
+  ShearFrame frame;
+  frame.mass_kg = {12.0, 11.0, 11.0, 8.0};
+  frame.stiffness_n_per_m = {1.9e4, 1.6e4, 1.4e4, 1.2e4};
+  return {frame, {{0.010, 0.008, 0.012, 0.015}}};
+}
+
+constexpr BridgeDeck kFootbridge{40.0e3, 7, 1, 4.494e9, 1200.0, BridgeDeck::Ends::kSimple};
+StructureDescription deck_structure() { return {kFootbridge, {{0.006, 0.008, 0.010}}}; }
+
+struct Builder {
+  const ModalDamping& damping;
+  StructureModel operator()(const UniformChain& chain) const {
+    std::vector<double> ratio = damping.ratio;
+    ratio.resize(chain.frequency_hz.size(), ratio.back());
+    return uniform_chain(chain.frequency_hz, ratio);
+  }
+  StructureModel operator()(const ShearFrame& frame) const { return shear_frame(frame, damping); }
+  StructureModel operator()(const Cantilever& tower) const { return cantilever(tower, damping); }
+  StructureModel operator()(const BridgeDeck& deck) const { return bridge_deck(deck, damping); }
+};
+
 }  // namespace
+
+StructureModel build(const StructureDescription& description) {
+  return std::visit(Builder{description.damping}, description.kind);
+}
+
+void settle_textures(Scene& scene) {
+  const auto settle = [&](TextureParameters& texture, double depth_mm, double pitch_px) {
+    const double mm_per_px = (depth_mm - scene.camera.z_mm) / scene.camera.alpha_px;
+    if (texture.pitch_mm <= 0.0) texture.pitch_mm = std::max(0.01, pitch_px * mm_per_px);
+  };
+  for (Plate& plate : scene.plates) settle(plate.texture, plate.z_mm, kPlatePitch_px);
+  settle(scene.background.texture, scene.background.depth_mm, kBackgroundPitch_px);
+}
 
 std::vector<Plate> tower_plates(int n_floors, double width_mm, double height_mm, double storey_mm, double depth_mm) {
   std::vector<Plate> plates;
@@ -66,19 +99,16 @@ std::vector<Plate> tower_plates(int n_floors, double width_mm, double height_mm,
 
 Scene make_paper_scene(std::uint64_t seed, double duration_s) {
   Scene scene = empty_scene(seed, duration_s);
-  scene.structure = uniform_chain({1.657, 5.04, 8.14, 10.83, 12.93, 14.34}, std::vector<double>(6, 0.01));
+  scene.structure = build(paper_structure());
   scene.plates = tower_plates(6, 300.0, 50.0, 140.0, 2000.0);
   fit_textures(scene);
   return scene;
 }
 
 Scene make_cantilever_scene(std::uint64_t seed, double duration_s) {
-  constexpr int kBodies = 8;
-  constexpr double kHeight_mm = 30.0e3;
   Scene scene = empty_scene(seed, duration_s);
-  // A steel tube 0.76 m wide with walls of 8 mm, platforms and cladding included in the mass.
-  scene.structure = cantilever({kHeight_mm, kBodies, 2.8e8, 170.0, 80.0}, ModalDamping{{0.008, 0.010, 0.012}});
-  scene.plates = tower_plates(kBodies, 1500.0, 1200.0, kHeight_mm / kBodies, 40.0e3);
+  scene.structure = build(cantilever_structure());
+  scene.plates = tower_plates(kChimney.bodies, 1500.0, 1200.0, kChimney.height_mm / kChimney.bodies, 40.0e3);
   for (std::size_t i = 1; i < scene.plates.size(); ++i) scene.plates[i].name = "section" + std::to_string(i);
   scene.camera = outdoor_camera();
   scene.hover = outdoor_hover();
@@ -93,10 +123,7 @@ Scene make_cantilever_scene(std::uint64_t seed, double duration_s) {
 
 Scene make_shear_frame_scene(std::uint64_t seed, double duration_s) {
   Scene scene = empty_scene(seed, duration_s);
-  ShearFrame frame;
-  frame.mass_kg = {12.0, 11.0, 11.0, 8.0};
-  frame.stiffness_n_per_m = {1.9e4, 1.6e4, 1.4e4, 1.2e4};
-  scene.structure = shear_frame(frame, ModalDamping{{0.010, 0.008, 0.012, 0.015}});
+  scene.structure = build(shear_frame_structure());
   scene.plates = tower_plates(4, 360.0, 70.0, 200.0, 2500.0);
   scene.excitation.forces = 0.5;
   scene.excitation.rms_mm = 3.0;
@@ -106,23 +133,18 @@ Scene make_shear_frame_scene(std::uint64_t seed, double duration_s) {
 }
 
 Scene make_deck_scene(std::uint64_t seed, double duration_s) {
-  BridgeDeck deck;
-  deck.span_mm = 40.0e3;
-  deck.bodies = 7;
-  deck.bending_stiffness_n_m2 = 4.494e9;
-  deck.mass_kg_per_m = 1200.0;
   Scene scene = empty_scene(seed, duration_s);
-  scene.structure = bridge_deck(deck, ModalDamping{{0.006, 0.008, 0.010}});
+  scene.structure = build(deck_structure());
   Plate plate;
   plate.name = "base";
-  plate.x_mm = -0.5 * deck.span_mm - 1200.0;
+  plate.x_mm = -0.5 * kFootbridge.span_mm - 1200.0;
   plate.z_mm = 45.0e3;
   plate.width_mm = 2000.0;
   plate.height_mm = 900.0;
   scene.plates.push_back(plate);
-  for (const double x_mm : body_positions_mm(deck)) {
+  for (const double x_mm : body_positions_mm(kFootbridge)) {
     plate.name = "deck" + std::to_string(scene.plates.size());
-    plate.x_mm = x_mm - 0.5 * deck.span_mm;
+    plate.x_mm = x_mm - 0.5 * kFootbridge.span_mm;
     scene.plates.push_back(plate);
   }
   scene.camera = outdoor_camera();
@@ -140,11 +162,12 @@ Scene make_deck_scene(std::uint64_t seed, double duration_s) {
 
 const std::vector<PresetInfo>& presets() {
   static const std::vector<PresetInfo> kPresets{
-      {"paper", "six storeys on a shaking table, 1.7 to 14 Hz, 25 fps, 2 m away", make_paper_scene},
-      {"cantilever", "30 m chimney in the wind, 0.8 to 14 Hz, 30 fps, 40 m away", make_cantilever_scene},
-      {"shear_frame", "four unequal storeys, table and forces, 2.3 to 11 Hz, 25 fps, 2.5 m away",
+      {"paper", "six storeys on a shaking table, 1.7 to 14 Hz, 25 fps, 2 m away", paper_structure, make_paper_scene},
+      {"cantilever", "30 m chimney in the wind, 0.8 to 14 Hz, 30 fps, 40 m away", cantilever_structure,
+       make_cantilever_scene},
+      {"shear_frame", "four unequal storeys, table and forces, 2.3 to 11 Hz, 25 fps, 2.5 m away", shear_frame_structure,
        make_shear_frame_scene},
-      {"deck", "40 m footbridge, vertical, 1.9 to 17 Hz, 50 fps, 45 m away", make_deck_scene}};
+      {"deck", "40 m footbridge, vertical, 1.9 to 17 Hz, 50 fps, 45 m away", deck_structure, make_deck_scene}};
   return kPresets;
 }
 

@@ -2,9 +2,12 @@
 
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/simulation/scene.h"
+#include "core/simulation/structure/beam_builders.h"
+#include "core/simulation/structure/structure_builders.h"
 
 namespace core::simulation {
 
@@ -23,14 +26,29 @@ namespace core::simulation {
 // nothing.
 [[nodiscard]] Scene make_deck_scene(std::uint64_t seed, double duration_s);
 
+// What the structure of a preset is built from.
+struct UniformChain {
+  std::vector<double> frequency_hz;
+};
+struct StructureDescription {
+  std::variant<UniformChain, ShearFrame, Cantilever, BridgeDeck> kind;
+  ModalDamping damping;  // the last ratio holds for all modes above
+};
+[[nodiscard]] StructureModel build(const StructureDescription& description);
+
 // By name, for a command line.
 struct PresetInfo {
   std::string name, description;
+  StructureDescription (*structure)();
   Scene (*make)(std::uint64_t seed, double duration_s);
 };
 [[nodiscard]] const std::vector<PresetInfo>& presets();
 // Throws std::invalid_argument with the names there are.
 [[nodiscard]] Scene make_preset(const std::string& name, std::uint64_t seed, double duration_s);
+
+// Textures that have no pitch (0 or less) get the one that suits their distance: plates 2.75 px a cell, which holds up
+// to 0.2 cycles/px, the background 7 px.
+void settle_textures(Scene& scene);
 
 // The same view with another sensor: focal length and principal point scale with the image so that the scene fits it
 // alike, and textures keep their pitch in pixels.

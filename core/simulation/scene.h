@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/simulation/structure_model.h"
+#include "core/simulation/structure/structure_model.h"
 #include "core/types/frame.h"
 
 namespace core::simulation {

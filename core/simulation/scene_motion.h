@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "core/simulation/camera_motion.h"
-#include "core/simulation/projection.h"
+#include "core/simulation/camera/camera_motion.h"
+#include "core/simulation/camera/projection.h"
 #include "core/simulation/scene.h"
-#include "core/simulation/structure_response.h"
+#include "core/simulation/structure/structure_response.h"
 #include "core/types/region.h"
 
 namespace core::simulation {

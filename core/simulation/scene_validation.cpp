@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/simulation/projection.h"
+#include "core/simulation/camera/projection.h"
 #include "core/simulation/scene.h"
 
 namespace core::simulation {

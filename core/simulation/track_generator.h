@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/simulation/frame_timing.h"
-#include "core/simulation/light.h"
+#include "core/simulation/camera/frame_timing.h"
+#include "core/simulation/camera/light.h"
 #include "core/simulation/scene_motion.h"
 #include "core/types/track.h"
 

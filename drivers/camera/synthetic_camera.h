@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
-#include "core/simulation/frame_timing.h"
-#include "core/simulation/renderer.h"
+#include "core/simulation/camera/frame_timing.h"
+#include "core/simulation/render/renderer.h"
 #include "core/simulation/scene.h"
 #include "drivers/camera/camera.h"
 #include "drivers/camera/stream_pacer.h"

@@ -7,7 +7,7 @@
 
 #include "core/types/displacement.h"
 #include "core/types/track.h"
-#include "firmware_app/report/binned_series.h"
+#include "firmware_app/report/plot/binned_series.h"
 
 namespace app {
 

@@ -8,7 +8,7 @@
 #include <ostream>
 
 #include "core/identification/mac.h"
-#include "core/simulation/structure_response.h"
+#include "core/simulation/structure/structure_response.h"
 #include "tests/support/pipeline_rig.h"
 
 namespace {

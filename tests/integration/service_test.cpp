@@ -7,7 +7,7 @@
 #include <csignal>
 #include <thread>
 
-#include "firmware_app/report/report_page.h"
+#include "firmware_app/report/page/report_page.h"
 #include "tests/support/loopback_network.h"
 #include "tests/support/pipeline_run.h"
 #include "tests/support/service_run.h"

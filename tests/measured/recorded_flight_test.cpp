@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/simulation/recorded_motion.h"
+#include "core/simulation/camera/recorded_motion.h"
 #include "core/spectrum/real_fft.h"
 #include "drivers/storage/flight_log.h"
 #include "drivers/storage/text_file.h"

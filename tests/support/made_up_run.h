@@ -9,7 +9,7 @@
 #include <random>
 #include <utility>
 
-#include "firmware_app/report/pictures.h"
+#include "firmware_app/report/pictures/pictures.h"
 #include "firmware_app/report/run_history.h"
 
 namespace app {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/simulation/presets.h"
-#include "core/simulation/renderer.h"
+#include "core/simulation/render/renderer.h"
 
 namespace test_support {
 

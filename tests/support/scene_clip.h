@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/simulation/presets.h"
-#include "core/simulation/renderer.h"
+#include "core/simulation/render/renderer.h"
 #include "core/simulation/scene.h"
 #include "core/simulation/scene_motion.h"
 

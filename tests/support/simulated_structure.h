@@ -8,7 +8,7 @@
 
 #include "core/simulation/presets.h"
 #include "core/simulation/scene.h"
-#include "core/simulation/structure_response.h"
+#include "core/simulation/structure/structure_response.h"
 #include "core/spectrum/welch_cpsd.h"
 #include "core/types/displacement.h"
 

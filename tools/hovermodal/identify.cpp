@@ -13,7 +13,7 @@
 #include "drivers/storage/text_file.h"
 #include "firmware_app/analysis.h"
 #include "firmware_app/report/modal_json.h"
-#include "firmware_app/report/report_page.h"
+#include "firmware_app/report/page/report_page.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/modes_text.h"
 

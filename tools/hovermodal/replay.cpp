@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "firmware_app/analysis.h"
-#include "firmware_app/report/report_page.h"
+#include "firmware_app/report/page/report_page.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/modes_text.h"
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "core/planning/hover_plan.h"
-#include "core/simulation/structure_model.h"
+#include "core/simulation/structure/structure_model.h"
 
 namespace core::planning {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/simulation/camera_motion.h"
+#include "core/simulation/camera/camera_motion.h"
 
 #include <gtest/gtest.h>
 

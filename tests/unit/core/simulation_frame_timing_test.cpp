@@ -1,4 +1,4 @@
-#include "core/simulation/frame_timing.h"
+#include "core/simulation/camera/frame_timing.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "core/simulation/lens.h"
+#include "core/simulation/camera/lens.h"
 
 #include <gtest/gtest.h>
 #include <opencv2/calib3d.hpp>
 
 #include <vector>
 
-#include "core/simulation/projection.h"
+#include "core/simulation/camera/projection.h"
 
 namespace core::simulation {
 namespace {

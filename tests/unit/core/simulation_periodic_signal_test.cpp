@@ -1,4 +1,4 @@
-#include "core/simulation/periodic_signal.h"
+#include "core/simulation/structure/periodic_signal.h"
 
 #include <gtest/gtest.h>
 

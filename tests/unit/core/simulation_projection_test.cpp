@@ -1,4 +1,4 @@
-#include "core/simulation/projection.h"
+#include "core/simulation/camera/projection.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/simulation/recorded_motion.h"
+#include "core/simulation/camera/recorded_motion.h"
 
 #include <gtest/gtest.h>
 

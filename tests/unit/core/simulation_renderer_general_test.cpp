@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/simulation/lens.h"
-#include "core/simulation/render_plane.h"
-#include "core/simulation/render_reference.h"
+#include "core/simulation/camera/lens.h"
+#include "core/simulation/render/render_plane.h"
+#include "core/simulation/render/render_reference.h"
 #include "tests/support/rendered_image.h"
 
 namespace core::simulation {

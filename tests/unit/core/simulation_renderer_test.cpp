@@ -1,4 +1,4 @@
-#include "core/simulation/renderer.h"
+#include "core/simulation/render/renderer.h"
 
 #include <gtest/gtest.h>
 

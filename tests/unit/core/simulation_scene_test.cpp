@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/simulation/camera/projection.h"
 #include "core/simulation/presets.h"
-#include "core/simulation/projection.h"
 #include "core/simulation/scene_motion.h"
 
 namespace core::simulation {

@@ -1,4 +1,4 @@
-#include "core/simulation/structure_builders.h"
+#include "core/simulation/structure/structure_builders.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "core/simulation/structure_model.h"
+#include "core/simulation/structure/structure_model.h"
 
 namespace core::simulation {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/simulation/structure_response.h"
+#include "core/simulation/structure/structure_response.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "core/simulation/presets.h"
 #include "core/simulation/scene.h"
-#include "core/simulation/structure_builders.h"
+#include "core/simulation/structure/structure_builders.h"
 
 namespace core::simulation {
 namespace {

@@ -1,12 +1,12 @@
-#include "core/simulation/modal_form.h"
+#include "core/simulation/structure/modal_form.h"
 
 #include <gtest/gtest.h>
 
 #include <complex>
 #include <vector>
 
-#include "core/simulation/beam_builders.h"
-#include "core/simulation/structure_builders.h"
+#include "core/simulation/structure/beam_builders.h"
+#include "core/simulation/structure/structure_builders.h"
 
 namespace core::simulation {
 namespace {

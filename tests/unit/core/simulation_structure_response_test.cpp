@@ -1,4 +1,4 @@
-#include "core/simulation/structure_response.h"
+#include "core/simulation/structure/structure_response.h"
 
 #include <gtest/gtest.h>
 

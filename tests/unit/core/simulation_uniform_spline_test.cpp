@@ -1,4 +1,4 @@
-#include "core/simulation/uniform_spline.h"
+#include "core/simulation/camera/uniform_spline.h"
 
 #include <gtest/gtest.h>
 

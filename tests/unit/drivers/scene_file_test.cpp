@@ -1,4 +1,4 @@
-#include "drivers/storage/scene_file.h"
+#include "drivers/storage/scene/scene_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "firmware_app/report/pictures.h"
+#include "firmware_app/report/pictures/pictures.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "firmware_app/report/report_page.h"
+#include "firmware_app/report/page/report_page.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

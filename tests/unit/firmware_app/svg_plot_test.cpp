@@ -1,4 +1,4 @@
-#include "firmware_app/report/svg_plot.h"
+#include "firmware_app/report/plot/svg_plot.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -94,7 +94,7 @@ TEST_F(CheckStructure, RefusesSimulationInAnyOtherDriver) {
 }
 
 TEST_F(CheckStructure, RefusesAToolThatKnowsStages) {
-  expect_refused("tools/hovermodal/spy.cpp", "\n\n#include \"firmware_app/stages/items.h\"\n", 3);
+  expect_refused("tools/hovermodal/spy/spy.cpp", "\n\n#include \"firmware_app/stages/items.h\"\n", 3);
 }
 
 TEST_F(CheckStructure, RefusesAServiceThatKnowsTools) {

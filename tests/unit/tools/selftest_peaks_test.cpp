@@ -1,4 +1,4 @@
-#include "tools/hovermodal/selftest_peaks.h"
+#include "tools/hovermodal/selftest/peaks.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "core/simulation/presets.h"
 #include "core/simulation/random_stream.h"
-#include "tools/hovermodal/selftest_peak_fit.h"
+#include "tools/hovermodal/selftest/peak_fit.h"
 
 namespace tools {
 namespace {

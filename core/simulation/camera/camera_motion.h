@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "core/simulation/camera/projection.h"
+#include "core/simulation/camera/recorded_motion.h"
+#include "core/simulation/scene.h"
+#include "core/simulation/structure/periodic_signal.h"
+
+namespace core::simulation {
+
+// Where the camera is at any time: its mean pose, the drift of hovering (independent Gaussian processes with the
+// density of HoverParameters, one random stream each), a recorded flight, the rotors' vibration. Everything but the
+// mean pose has the mean zero over all time; at t = 0 the camera is somewhere within its drift.
+class CameraMotion {
+ public:
+  explicit CameraMotion(const Scene& scene);
+
+  [[nodiscard]] CameraPose at(double t_s) const noexcept;
+  [[nodiscard]] bool rotates() const noexcept { return rotates_; }  // other than by the mean attitude
+  [[nodiscard]] bool zooms() const noexcept { return zooms_; }
+  // Deviations from the mean pose in camera axes over the clip: x, y, z in mm, pitch, yaw, roll in rad, zoom.
+  [[nodiscard]] std::array<double, 7> rms() const;
+  [[nodiscard]] std::array<double, 7> deviation(double t_s) const noexcept;
+
+ private:
+  [[nodiscard]] double rotor_phase(double t_s) const noexcept;
+
+  CameraParameters mean_;
+  Eigen::Matrix3d mean_attitude_;
+  RotorParameters rotor_;
+  double duration_s_, rate_hz_;
+  bool rotates_, zooms_, vibrates_;
+  std::array<PeriodicSignal, 7> hover_;
+  std::optional<RecordedPath> flight_;
+  PeriodicSignal rotor_wander_;  // cycles
+  std::array<double, 3> rotor_phase_rad_{};
+};
+
+}  // namespace core::simulation

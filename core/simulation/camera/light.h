@@ -1,0 +1,23 @@
+#pragma once
+
+#include "core/simulation/scene.h"
+#include "core/simulation/structure/periodic_signal.h"
+
+namespace core::simulation {
+
+// How bright the scene is over time: slow changes of exposure or clouds times the flicker of lamps.
+class Light {
+ public:
+  explicit Light(const Scene& scene);
+
+  // Mean over an exposure around t_s, relative to 1. Slow changes are taken in its middle; the flicker's mean is exact.
+  [[nodiscard]] double factor(double t_s) const noexcept;
+  [[nodiscard]] bool constant() const noexcept { return constant_; }
+
+ private:
+  bool constant_;
+  PeriodicSignal gain_;
+  double flicker_depth_, flicker_hz_, flicker_phase_rad_;
+};
+
+}  // namespace core::simulation

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "firmware_app/report/page/html_text.h"
+#include "firmware_app/report/pictures/parts.h"
+
+namespace app {
+
+// The sections of report.html, in their order. One that has nothing to show says why.
+[[nodiscard]] std::string headline_html(const PictureInputs& inputs);
+
+[[nodiscard]] std::string modes_section(const PictureInputs& inputs);
+[[nodiscard]] std::string shapes_section(const PictureInputs& inputs);
+[[nodiscard]] std::string spectra_section(const PictureInputs& inputs);
+[[nodiscard]] std::string fold_section(const PictureInputs& inputs);
+[[nodiscard]] std::string stabilisation_section(const PictureInputs& inputs);
+[[nodiscard]] std::string displacements_section(const PictureInputs& inputs);
+[[nodiscard]] std::string scale_section(const PictureInputs& inputs);
+[[nodiscard]] std::string quality_section(const PictureInputs& inputs);
+[[nodiscard]] std::string frame_section(const PictureInputs& inputs);
+[[nodiscard]] std::string losses_section(const PictureInputs& inputs);
+// The one part that differs between two runs on the same input.
+[[nodiscard]] std::string timing_section(const PictureInputs& inputs);
+
+// Embedded at build time from page.css and page.js.
+[[nodiscard]] std::string_view page_css() noexcept;
+[[nodiscard]] std::string_view page_js() noexcept;
+
+// The first frame stands in the page once, under this id; every picture of it refers there.
+inline constexpr const char* kFrameId = "frame";
+struct ImageSize {
+  int width_px = 0, height_px = 0;  // 0: unknown
+};
+[[nodiscard]] bool has_frame(const PictureInputs& inputs);
+[[nodiscard]] ImageSize image_size(const PictureInputs& inputs);
+[[nodiscard]] std::string frame_jpeg(const core::Frame& frame);  // bytes, at most 260 kB
+[[nodiscard]] const char* role_class(core::RegionRole role);
+
+// Whether anything of this mode is known that a picture of its shape could show.
+[[nodiscard]] bool has_shape(const PictureInputs& inputs, const core::Mode& mode);
+
+}  // namespace app

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware_app/report/pictures/parts.h"
+#include "firmware_app/report/plot/svg_plot.h"
+
+namespace app {
+
+// One curve over time in a panel of its own.
+struct Lane {
+  std::string name;
+  std::string remark;             // beside the name, e.g. its rms
+  std::vector<PlotPoint> points;  // x in seconds since the first sample
+  bool empty = true;              // no sample at all
+  double low = 0.0, high = 0.0;   // of all samples, also those that are not drawn
+};
+
+struct LanesText {
+  std::string title;
+  std::string quantity;  // with its unit
+  std::string unit;
+  std::optional<PlotAxis> range;  // of every lane; empty: each about its own middle, all with the same span
+};
+
+// Lanes under each other, so that amplitudes compare. `lanes` must not be empty.
+[[nodiscard]] std::string lanes_svg(const std::vector<Lane>& lanes, double duration_s, const LanesText& text,
+                                    const PictureFormat& format);
+
+[[nodiscard]] PlotAxis time_axis(double duration_s);
+
+}  // namespace app

@@ -1,0 +1,34 @@
+#include "firmware_app/report/plot/verdict_marks.h"
+
+#include <algorithm>
+
+namespace app {
+namespace {
+
+using core::Verdict;
+
+constexpr std::array<VerdictMark, 6> kMarks{
+    VerdictMark{Verdict::kStructural, "mode", "modes", "v", Marker::kDot, "m0",
+                "A mode of vibration of the structure."},
+    VerdictMark{Verdict::kCameraMotion, "camera motion", "camera motion", "w", Marker::kTriangle, "k7 n",
+                "All channels move alike: the camera moved, not the structure."},
+    VerdictMark{Verdict::kInputPeak, "input peak", "input peaks", "w i", Marker::kSquare, "k1 n",
+                "The base moves too: what shakes the structure, not its answer."},
+    VerdictMark{Verdict::kHarmonic, "harmonic", "harmonics", "w o", Marker::kDiamond, "k4 n",
+                "A machine turning at a constant speed, not a mode."},
+    VerdictMark{Verdict::kAmbiguous, "fold open", "fold open", "w u", Marker::kRing, "k3 n",
+                "A mode, but the frame rate leaves open which of its possible frequencies is the true one."},
+    VerdictMark{Verdict::kNumerical, "numerical", "numerical", "w", Marker::kCross, "k7 n",
+                "Does not persist over the model orders, or its components are out of phase: not trusted."}};
+
+}  // namespace
+
+const std::array<VerdictMark, 6>& verdict_marks() noexcept { return kMarks; }
+
+const VerdictMark& mark_of(core::Verdict verdict) noexcept {
+  const auto found =
+      std::find_if(kMarks.begin(), kMarks.end(), [&](const VerdictMark& mark) { return mark.verdict == verdict; });
+  return found == kMarks.end() ? kMarks.back() : *found;
+}
+
+}  // namespace app

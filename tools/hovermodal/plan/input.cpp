@@ -1,0 +1,182 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "drivers/storage/csv.h"
+#include "drivers/storage/text_file.h"
+#include "tools/hovermodal/plan/options.h"
+
+namespace tools {
+namespace {
+
+using core::planning::LongAxis;
+using core::planning::PlanInput;
+using core::planning::StructureKind;
+
+bool given(const CLI::App& command, const char* name) { return command.count(name) > 0; }
+
+[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("plan: " + what); }
+
+void require_positive(double value, const char* name) {
+  if (!(value > 0.0)) refuse(fmt::format("{} is {:g}; give a positive number", name, value));
+}
+
+std::optional<std::pair<double, double>> parse_sides(std::string_view text) {
+  const std::size_t cross = text.find('x');
+  if (cross == std::string_view::npos) return std::nullopt;
+  const auto first = drivers::parse_number(text.substr(0, cross));
+  const auto second = drivers::parse_number(text.substr(cross + 1));
+  if (!first || !second || !(*first > 0.0) || !(*second > 0.0)) return std::nullopt;
+  return std::pair{*first, *second};
+}
+
+std::pair<int, int> image_size(const std::string& text) {
+  static const std::map<std::string, std::pair<int, int>> kNamed{{"4320p", {7680, 4320}}, {"2160p", {3840, 2160}},
+                                                                 {"1440p", {2560, 1440}}, {"1080p", {1920, 1080}},
+                                                                 {"720p", {1280, 720}},   {"540p", {960, 540}}};
+  if (const auto named = kNamed.find(text); named != kNamed.end()) return named->second;
+  const auto sides = parse_sides(text);
+  if (!sides || sides->first > 32768.0 || sides->second > 32768.0) {
+    refuse(fmt::format("--image {}: give 4320p, 2160p, 1440p, 1080p, 720p, 540p or WIDTHxHEIGHT in px",
+                       drivers::printable(text)));
+  }
+  return {static_cast<int>(sides->first), static_cast<int>(sides->second)};
+}
+
+double focal_px(const CLI::App& command, const PlanOptions& o, int width_px) {
+  const bool px = given(command, "--focal-px"), fov = given(command, "--fov-deg");
+  const bool mm = given(command, "--focal-mm"), sensor = given(command, "--sensor-width-mm");
+  if (mm != sensor) {
+    refuse("--focal-mm and --sensor-width-mm belong together: the focal length in px is their ratio times the width");
+  }
+  const int n_ways = static_cast<int>(px) + static_cast<int>(fov) + static_cast<int>(mm);
+  if (n_ways == 0) refuse("no focal length; give --focal-px, or --focal-mm with --sensor-width-mm, or --fov-deg");
+  if (n_ways > 1) {
+    refuse(fmt::format("the focal length is given {} times{}{}{}; give it in one way only", n_ways,
+                       px ? fmt::format(", --focal-px {:g}", o.focal_px) : "",
+                       mm ? fmt::format(", --focal-mm {:g}", o.focal_mm) : "",
+                       fov ? fmt::format(", --fov-deg {:g}", o.fov_deg) : ""));
+  }
+  if (px) return o.focal_px;
+  return mm ? core::planning::focal_px_from_mm(o.focal_mm, o.sensor_width_mm, width_px)
+            : core::planning::focal_px_from_fov(o.fov_deg, width_px);
+}
+
+void set_camera(const CLI::App& command, const PlanOptions& o, PlanInput& input) {
+  static const std::map<std::string, core::ReadoutDirection> kDirections{{"down", core::ReadoutDirection::kDown},
+                                                                         {"up", core::ReadoutDirection::kUp},
+                                                                         {"left", core::ReadoutDirection::kLeft},
+                                                                         {"right", core::ReadoutDirection::kRight}};
+  core::planning::PlannedCamera& camera = input.camera;
+  std::tie(camera.width_px, camera.height_px) = image_size(o.image);
+  camera.focal_px = focal_px(command, o, camera.width_px);
+  camera.rate_hz = o.fps;
+  camera.readout_s = o.readout_ms * 1e-3;
+  camera.exposure_s = o.exposure_ms * 1e-3;
+  camera.direction = kDirections.at(o.direction);
+  input.distance_mm = o.distance_m * 1e3;
+  input.rates_hz = o.rates_hz;
+}
+
+void set_structure(const CLI::App& command, const PlanOptions& o, PlanInput& input) {
+  const bool shear = o.structure == "shear";
+  input.kind = shear                         ? StructureKind::kShearChain
+               : o.structure == "cantilever" ? StructureKind::kCantilever
+                                             : StructureKind::kBeam;
+  const bool lies = o.axis.empty() ? input.kind == StructureKind::kBeam : o.axis == "horizontal";
+  input.axis = lies ? LongAxis::kHorizontal : LongAxis::kVertical;
+  if (!shear && (given(command, "--storeys") || given(command, "--storey-mm"))) {
+    refuse(fmt::format("--storeys and --storey-mm are of --structure shear; for a {} give --size-m and --regions",
+                       o.structure));
+  }
+  if (shear && given(command, "--regions"))
+    refuse("--regions is of --structure cantilever or beam; a shear frame has a region on every floor (--storeys)");
+  if (given(command, "--size-m") == given(command, "--storey-mm")) {
+    refuse(shear ? "give the size once: --storey-mm (with --storeys), or --size-m" : "give --size-m, height or span");
+  }
+  const int n_floors = given(command, "--storeys") ? o.storeys : static_cast<int>(o.frequency_hz.size());
+  const int n_regions = shear ? n_floors : given(command, "--regions") ? o.regions : 6;
+  require_positive(n_regions, shear ? "--storeys" : "--regions");
+  input.n_floors = n_floors;
+  if (given(command, "--storey-mm")) require_positive(o.storey_mm, "--storey-mm");
+  input.length_mm = given(command, "--storey-mm") ? o.storey_mm * n_floors : o.size_m * 1e3;
+  input.positions = core::planning::even_positions(input.kind, n_regions);
+}
+
+double one_or_each(const std::vector<double>& values, std::size_t i, std::size_t n, const char* name) {
+  if (values.size() != 1 && values.size() != n) {
+    refuse(fmt::format("{} has {} values for {} frequencies; give one, or one for each", name, values.size(), n));
+  }
+  return values.size() == 1 ? values.front() : values[i];
+}
+
+void set_modes(const PlanOptions& o, PlanInput& input) {
+  const std::size_t n = o.frequency_hz.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    core::planning::PlannedMode mode;
+    mode.frequency_hz = o.frequency_hz[i];
+    mode.damping_ratio = 0.01 * one_or_each(o.damping_percent, i, n, "--damping-percent");
+    if (!o.amplitude_mm.empty()) mode.rms_mm = one_or_each(o.amplitude_mm, i, n, "--amplitude-mm");
+    input.modes.push_back(mode);
+  }
+}
+
+void set_shapes(const std::string& path, PlanInput& input) {
+  const drivers::SeriesFile file = drivers::read_series_csv(path);
+  const int i_position = file.column("position_mm");
+  if (i_position < 0) refuse(path + ": no column position_mm, the region's place from the foot or the left end");
+  if (file.columns.size() != input.modes.size() + 1) {
+    refuse(fmt::format("{}: {} columns of shapes for {} frequencies; give one for each mode, in their order", path,
+                       file.columns.size() - 1, input.modes.size()));
+  }
+  input.positions.clear();
+  for (const double mm : file.columns[static_cast<std::size_t>(i_position)])
+    input.positions.push_back(mm / input.length_mm);
+  std::size_t i_mode = 0;
+  for (std::size_t c = 0; c < file.columns.size(); ++c) {
+    if (static_cast<int>(c) != i_position) input.modes[i_mode++].shape = file.columns[c];
+  }
+}
+
+void set_points(const CLI::App& command, const PlanOptions& o, PlanInput& input) {
+  input.points_per_region = o.points;
+  input.window_px = o.window_px;
+  const double named = o.texture == "poor" ? 3.0 : o.texture == "good" ? 16.0 : 8.0;
+  core::planning::PointQuality quality;
+  quality.noise_grey = o.noise_grey;
+  quality.gradient_grey = given(command, "--gradient") ? o.gradient_grey : named;
+  quality.window_px = o.window_px;
+  input.point_sigma_px =
+      given(command, "--point-sigma-px") ? o.point_sigma_px : core::planning::point_sigma_px(quality);
+  if (o.region_mm.empty()) return;
+  const auto sides = parse_sides(o.region_mm);
+  if (!sides) refuse(fmt::format("--region-mm {}: give WIDTHxHEIGHT, e.g. 300x50", drivers::printable(o.region_mm)));
+  std::tie(input.region_width_mm, input.region_height_mm) = *sides;
+}
+
+}  // namespace
+
+PlanInput plan_input(const CLI::App& command, const PlanOptions& o) {
+  for (const auto& [name, value] : {std::pair{"--hover-min", o.hover_min}, {"--battery-min", o.battery_min}}) {
+    if (given(command, name)) require_positive(value, name);
+  }
+  require_positive(o.distance_m, "--distance-m");
+  PlanInput input;
+  set_structure(command, o, input);
+  set_modes(o, input);
+  set_camera(command, o, input);
+  set_points(command, o, input);
+  if (!o.shapes_file.empty()) set_shapes(o.shapes_file, input);
+  input.relative_sigma_frequency = 0.01 * o.sigma_f_percent;
+  input.relative_sigma_damping = 0.01 * o.sigma_zeta_percent;
+  input.hover_s = 60.0 * o.hover_min;
+  input.battery_s = 60.0 * o.battery_min;
+  core::planning::validate(input);
+  return input;
+}
+
+}  // namespace tools

@@ -1,0 +1,52 @@
+// hovermodal plan: what a flight will show, before it.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <system_error>
+
+#include "drivers/storage/json.h"
+#include "tools/hovermodal/commands.h"
+#include "tools/hovermodal/plan/options.h"
+#include "tools/hovermodal/plan/words.h"
+
+namespace tools {
+namespace {
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (std::filesystem::exists(folder, error) && !std::filesystem::is_directory(folder, error))
+    throw std::invalid_argument(fmt::format("--out {}: is a file; name a folder", folder.string()));
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw std::runtime_error(fmt::format("--out {}: cannot be made: {}; name a folder that may be written",
+                                         folder.string(), error.message()));
+  }
+}
+
+void run(const CLI::App& command, const PlanOptions& options) {
+  const core::planning::PlanInput input = plan_input(command, options);
+  const core::planning::HoverPlan plan = core::planning::make_plan(input);
+  if (!options.folder.empty()) {
+    const std::filesystem::path folder = options.folder;
+    make_folder(folder);
+    drivers::write_file_atomically((folder / "plan.json").string(), plan_json(input, plan));
+    drivers::write_file_atomically((folder / "plan.svg").string(), plan_svg(input, plan));
+  }
+  fmt::print("{}", options.json ? plan_json(input, plan) : plan_text(input, plan));
+  if (!options.folder.empty() && !options.json) fmt::print("\n{}/plan.svg and plan.json written\n", options.folder);
+}
+
+}  // namespace
+
+void add_plan(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "plan", "Before the flight: what each mode will look like, what the camera can tell apart, how long to hover");
+  auto options = std::make_shared<PlanOptions>();
+  add_plan_options(*command, *options);
+  command->callback([command, options] { run(*command, *options); });
+}
+
+}  // namespace tools

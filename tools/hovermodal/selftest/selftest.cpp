@@ -1,0 +1,126 @@
+// The simulator checked against what it does not use itself: first-order theory, statistics, other people's trackers.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tools/hovermodal/commands.h"
+#include "tools/hovermodal/selftest/peaks.h"
+#include "tools/hovermodal/selftest/render.h"
+#include "tools/hovermodal/selftest/signatures.h"
+
+namespace tools {
+namespace {
+
+struct Options {
+  std::string what;
+  int n_seeds = 20, n_frames = 40, n_threads = 2;
+};
+
+void print_signatures(const Options&) {
+  fmt::print("# effect: tracks with it minus tracks without it, rms; what the first-order signature leaves of it\n");
+  for (const SignatureCheck& check : check_signatures()) {
+    fmt::print("signature\t{}\t{:.4f} px\t{:.5f} %\n", check.effect, check.rms_px, 1e2 * check.relative_error);
+  }
+}
+
+void print_peaks(const Options& options) {
+  const PeakCheck check = check_peaks(options.n_seeds, 600.0);
+  const auto print = [](const char* what, const ModePeak& mode, double value, double scatter,
+                        const PeakErrors& errors) {
+    fmt::print("peak\t{:.3f} Hz\t{}\t{:.5f}\t{:.5f}\t{:+.2f}\t{:.2f}\t{:+.2f}\n", mode.frequency_hz, what, value,
+               scatter, errors.mean, errors.rms, errors.worst);
+  };
+  fmt::print("# {} seeds of {:.0f} s; errors in units of the theoretical scatter: mean, rms, worst\n", check.n_seeds,
+             check.duration_s);
+  fmt::print("# bars: |mean| <= {:.2f}, rms {:.2f} ... {:.2f}\n", check.most_mean, check.least_rms, check.most_rms);
+  for (const ModePeak& mode : check.modes) {
+    print("frequency_hz", mode, mode.frequency_hz, mode.frequency_scatter_hz, mode.frequency);
+    print("damping_ratio", mode, mode.damping_ratio, mode.damping_scatter, mode.damping);
+  }
+  fmt::print("peaks\t{}\n", check.passed() ? "within the bars" : "OUTSIDE the bars");
+}
+
+void print_shifts(const Options&) {
+  fmt::print("# plates shifted by known parts of a pixel, drawn and measured again: worst, rms, shifts\n");
+  for (const ShiftError& error : check_known_shifts()) {
+    fmt::print("shift\t{}\t{:.6f} px\t{:.6f} px\t{}\n", error.name, error.worst_px, error.rms_px, error.n_shifts);
+  }
+}
+
+void print_pixels(const Options&) {
+  fmt::print(
+      "# light of pixels less the same by brute force, grey levels (edges: of a step of 100): worst, rms, pixels\n");
+  for (const ReferenceError& error : check_reference_pixels()) {
+    fmt::print("pixels\t{}\t{:.4f}\t{:.4f}\t{}\n", error.name, error.worst, error.rms, error.n_pixels);
+  }
+  fmt::print("# mean of each row under flickering lamps over that without, less the lamps' own: worst\n");
+  fmt::print("flicker\t{:.5f}\n", check_flicker_bands());
+}
+
+void print_klt(const Options& options) {
+  fmt::print(
+      "# OpenCV's KLT in drawn frames less the true tracks: worst, rms per axis; rms of the motion; points, lost\n");
+  for (const TrackError& error : check_opencv_tracks(options.n_frames)) {
+    fmt::print("klt\t{}\t{:.4f} px\t{:.4f} px\t{:.2f} px\t{}\t{}\n", error.name, error.worst_px, error.rms_px,
+               error.truth_rms_px, error.n_tracks, error.n_lost);
+  }
+}
+
+void print_speed(const Options& options) {
+  fmt::print("# frames of 1080p per second on {} threads\n", options.n_threads);
+  for (const RenderSpeed& speed : check_render_speed(options.n_threads)) {
+    fmt::print("speed\t{}\t{:.1f}\n", speed.name, speed.frames_per_s);
+  }
+}
+
+struct Check {
+  const char *name, *meaning;
+  void (*print)(const Options&);
+};
+constexpr std::array kChecks{
+    Check{"signatures", "every effect's motion of the tracks against its linear signature", print_signatures},
+    Check{"peaks", "the true motion's frequencies and damping against those declared", print_peaks},
+    Check{"shifts", "plates drawn at known shifts, measured again", print_shifts},
+    Check{"pixels", "light of single pixels against brute force, flicker against the lamps'", print_pixels},
+    Check{"klt", "OpenCV's tracker in drawn frames against the true tracks", print_klt},
+    Check{"speed", "1080p frames drawn per second", print_speed}};
+
+std::string meanings() {
+  std::string text = "What is checked";
+  for (const Check& check : kChecks) text += fmt::format("\n{}: {}", check.name, check.meaning);
+  return text;
+}
+
+std::vector<std::string> names() {
+  std::vector<std::string> all;
+  for (const Check& check : kChecks) all.emplace_back(check.name);
+  return all;
+}
+
+}  // namespace
+
+void add_selftest(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("selftest", "Check the simulator's truth against independent theory");
+  const auto options = std::make_shared<Options>();
+  command->add_option("what", options->what, meanings())->required()->check(CLI::IsMember(names()));
+  command->add_option("--seeds", options->n_seeds, "peaks: records, of seeds 1 to this")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command->add_option("--frames", options->n_frames, "klt: frames of a minute that are drawn")
+      ->check(CLI::Range(1, 1499))
+      ->capture_default_str();
+  command->add_option("--threads", options->n_threads, "speed: threads that draw")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  command->callback([options] {
+    const auto named = [&](const Check& check) { return options->what == check.name; };
+    std::find_if(kChecks.begin(), kChecks.end(), named)->print(*options);
+  });
+}
+
+}  // namespace tools

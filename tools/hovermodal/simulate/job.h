@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/types/frame.h"
+#include "drivers/storage/scene/scene_file.h"
+
+namespace tools {
+
+// How deep the simulation goes: displacements, tracks of points, or a clip.
+enum class Depth : std::uint8_t { kChannels, kTracks, kPixels };
+
+// What the command line asks for. What is not there comes from the scene file, or from the preset.
+struct SimulateOptions {
+  std::string scene_path, folder, method = "hovermodal";
+  std::optional<std::string> preset, size;
+  std::optional<std::uint64_t> seed;
+  std::optional<double> duration_s, track_noise_px, track_loss;
+  std::optional<int> points;
+  bool tracks_only = false, channels_only = false, force = false, print_scene = false, help_scene = false;
+  int crf = 20, threads = 0;
+};
+
+// What `hovermodal simulate` makes, apart from where.
+struct SimulateJob {
+  drivers::SceneFile file;
+  Depth depth = Depth::kPixels;
+  int crf = 20;
+  std::string method = "hovermodal";  // in config.yaml
+
+  [[nodiscard]] const core::simulation::Scene& scene() const noexcept { return file.scene; }
+  [[nodiscard]] const char* product() const noexcept;
+  // The camera as the operator declares it: what headers of files and row delays follow.
+  [[nodiscard]] core::CameraInfo declared_camera() const;
+  [[nodiscard]] bool declares_lens() const noexcept;
+};
+
+// Throws std::invalid_argument.
+[[nodiscard]] SimulateJob make_job(const SimulateOptions& options);
+
+}  // namespace tools

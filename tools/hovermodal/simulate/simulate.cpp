@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <system_error>
+#include <thread>
+
+#include "core/simulation/render/renderer.h"
+#include "drivers/storage/text_file.h"
+#include "tools/hovermodal/commands.h"
+#include "tools/hovermodal/simulate/clip.h"
+#include "tools/hovermodal/simulate/config.h"
+#include "tools/hovermodal/simulate/files.h"
+#include "tools/hovermodal/simulate/truth.h"
+
+namespace tools {
+namespace {
+
+namespace fs = std::filesystem;
+using core::simulation::SceneMotion;
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
+    throw std::invalid_argument(fmt::format("--out {}: is a file; name a folder", folder.string()));
+  }
+  fs::create_directories(folder, error);
+  if (error) {
+    throw std::runtime_error(fmt::format("--out {}: cannot be made: {}; name a folder that may be written",
+                                         folder.string(), error.message()));
+  }
+}
+
+void write_product(const fs::path& folder, const SimulateJob& job, const SceneMotion& motion, int threads) {
+  if (job.depth == Depth::kChannels) return write_channels(folder, job, motion);
+  if (job.depth == Depth::kTracks) return write_tracks(folder, job);
+  const int n_threads = threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  write_clip(core::simulation::Renderer(job.scene()), (folder / job.product()).string(), job.crf, n_threads);
+}
+
+void simulate(const SimulateOptions& options) {
+  if (options.help_scene) return fmt::print("{}", drivers::scene_help());
+  const SimulateJob job = make_job(options);
+  if (options.print_scene) return fmt::print("{}", drivers::scene_text(job.file));
+  if (options.folder.empty()) throw std::invalid_argument("--out is missing: name a folder for what is made");
+  const fs::path folder = options.folder;
+  make_folder(folder);
+  const std::string product = (folder / job.product()).string();
+  const SceneMotion motion(job.scene());
+  // First, because it tells at once whether the folder can be written; and cheap enough to follow --method each time.
+  write_config(folder, job, motion);
+  if (!options.force && already_made(folder, job)) {
+    fmt::print("{}: already made from the same parameters; --force makes it anew\n", product);
+    return;
+  }
+  // truth.json comes last: a folder with it is a finished one.
+  fs::remove(folder / "truth.json");
+  write_true_displacements(folder, motion);
+  write_product(folder, job, motion, options.threads);
+  write_truth(folder, job, motion);
+  fmt::print("{}: {} frames, {:.1f} MB\n", product, job.scene().n_frames(),
+             static_cast<double>(fs::file_size(product)) / 1e6);
+}
+
+void add_scene_options(CLI::App& command, SimulateOptions& options) {
+  command.add_option("--scene", options.scene_path, "Scene file (YAML); --help-scene tells every key")
+      ->type_name("FILE");
+  command.add_option("--preset", options.preset, "Without a scene file: the scene to make (default: paper)")
+      ->check(CLI::IsMember(drivers::scene_presets()));
+  command.add_option("--seed", options.seed, "Everything random follows from it (default: the scene's, or 1)")
+      ->check([](const std::string& text) {  // a negative number would wrap
+        return drivers::parse_unsigned(text) ? "" : "give a whole number from 0";
+      });
+  command.add_option("--duration", options.duration_s, "Length in seconds (default: the scene's, or 60)");
+  command.add_option("--size", options.size, "1080p, 720p, 270p, ... or WIDTHxHEIGHT; the view stays the same");
+  command.add_flag("--print-scene", options.print_scene, "Print the complete scene as a file to start from");
+  command.add_flag("--help-scene", options.help_scene, "Every key of scene files: unit, default, range, meaning");
+}
+
+void add_product_options(CLI::App& command, SimulateOptions& options) {
+  command.add_option("--out", options.folder,
+                     "Folder for the product, truth.json, truth_displacements.csv, config.yaml");
+  command.add_flag("--tracks-only", options.tracks_only, "Write tracks.csv as a perfect tracker would, draw nothing");
+  command.add_flag("--channels-only", options.channels_only,
+                   "Write displacements.csv: motions without the camera's own");
+  command.add_option("--track-noise-px", options.track_noise_px, "With --tracks-only: noise per axis, px rms");
+  command.add_option("--track-loss", options.track_loss, "With --tracks-only: chance of a lost point");
+  command.add_option("--points", options.points, "With --tracks-only: points per region");
+  command.add_option("--method", options.method, "Method in the written config.yaml: hovermodal or paper")
+      ->check(CLI::IsMember({"hovermodal", "paper"}))
+      ->capture_default_str();
+  command.add_option("--crf", options.crf, "Quality of the clip, 0 (lossless) to 51; 20 gives some 130 MB a minute")
+      ->check(CLI::Range(0, 51))
+      ->capture_default_str();
+  command.add_option("--threads", options.threads, "Threads that draw; 0 = one per core")
+      ->check(CLI::Range(0, 256))
+      ->capture_default_str();
+  command.add_flag("--force", options.force, "Make it anew even when it is there");
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("simulate",
+                         "Draw a shaken structure as a hovering camera sees it, with its truth\n"
+                         "  hovermodal simulate --preset paper --duration 60 --out made\n"
+                         "  hovermodal simulate --print-scene > scene.yaml\n"
+                         "  hovermodal simulate --scene scene.yaml --channels-only --duration 3600 --out hour");
+  const auto options = std::make_shared<SimulateOptions>();
+  add_scene_options(*command, *options);
+  add_product_options(*command, *options);
+  command->callback([options] { simulate(*options); });
+}
+
+}  // namespace tools

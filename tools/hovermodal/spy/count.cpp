@@ -1,0 +1,71 @@
+#ifdef HOVERMODAL_WITH_LCM
+#include "tools/hovermodal/spy/count.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace tools {
+namespace {
+
+using drivers::StreamMonitor;
+
+std::optional<std::int64_t> sent(const StreamMonitor& monitor, const std::string& lcm_channel) {
+  if (!monitor.health()) return std::nullopt;
+  for (const auto& count : monitor.health()->counts) {
+    if (count.lcm_channel == lcm_channel) return count.n_sent;
+  }
+  return std::nullopt;
+}
+
+nlohmann::json channel_json(const drivers::ChannelCount& count, std::optional<std::int64_t> n_sent) {
+  nlohmann::json out{{"received", count.received},
+                     {"gaps", count.gaps},
+                     {"out_of_order", count.out_of_order},
+                     {"restarts", count.restarts},
+                     {"undecodable", count.undecodable},
+                     {"foreign", count.foreign},
+                     {"first_sequence", nullptr},
+                     {"last_sequence", nullptr},
+                     {"sent", nullptr}};
+  if (count.first_sequence >= 0) {
+    out["first_sequence"] = count.first_sequence;
+    out["last_sequence"] = count.last_sequence;
+  }
+  if (n_sent) out["sent"] = *n_sent;
+  return out;
+}
+
+}  // namespace
+
+bool is_complete(const StreamMonitor& monitor) {
+  if (!monitor.is_finished()) return false;
+  for (std::size_t i = 0; i < StreamMonitor::kTopics; ++i) {
+    const auto topic = static_cast<StreamMonitor::Topic>(i);
+    const auto& count = monitor.count(topic);
+    const auto n_sent = sent(monitor, monitor.lcm_channel(topic));
+    if (!n_sent || *n_sent != static_cast<std::int64_t>(count.received)) return false;
+    if (count.gaps + count.out_of_order + count.restarts + count.undecodable != 0) return false;
+  }
+  return true;
+}
+
+std::string count_json(const StreamMonitor& monitor) {
+  nlohmann::json out;
+  out["stream_id"] = monitor.stream_id();
+  out["config_hash"] = fmt::format("{:016x}", static_cast<std::uint64_t>(monitor.config_hash()));
+  out["final_health"] = monitor.is_finished();
+  out["state"] = monitor.health() ? nlohmann::json(monitor.health()->state) : nlohmann::json(nullptr);
+  out["complete"] = is_complete(monitor);
+  for (std::size_t i = 0; i < StreamMonitor::kTopics; ++i) {
+    const auto topic = static_cast<StreamMonitor::Topic>(i);
+    const std::string& name = monitor.lcm_channel(topic);
+    out["channels"][name] = channel_json(monitor.count(topic), sent(monitor, name));
+  }
+  // Strings came over the network: what is not UTF-8 is replaced.
+  return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace tools
+#endif

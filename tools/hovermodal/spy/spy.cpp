@@ -1,0 +1,26 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "tools/hovermodal/commands.h"
+#include "tools/hovermodal/spy/session.h"
+
+namespace tools {
+
+void add_spy(CLI::App& app) {
+  CLI::App* spy = app.add_subcommand("spy", "Show modes, displacements, losses and health live, from LCM alone");
+  const auto options = std::make_shared<SpyOptions>();
+  spy->add_option("--url", options->url, "LCM URL to listen on; file://LOG?speed=0 reads an event log")
+      ->capture_default_str();
+  spy->add_option("--prefix", options->prefix, "Prefix of the LCM channels (telemetry.channel_prefix)")
+      ->capture_default_str();
+  spy->add_flag("--once", options->once, "End half a second after the service says it has finished");
+  spy->add_option("--seconds", options->seconds, "End after so many seconds; with --once that is a failure")
+      ->check(CLI::Range(0.1, 1e6));
+  spy->add_flag("--plain", options->plain, "Plain lines, ASCII only, also on a terminal");
+  spy->add_option("--count", options->count_file, "Write the messages heard and missed to this JSON file at the end");
+  spy->callback([options] { run_spy(*options); });
+}
+
+}  // namespace tools
