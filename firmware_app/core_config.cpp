@@ -34,6 +34,13 @@ double scale_mm_per_px(const ScaleConfig& scale, const core::CameraModel& camera
   return scale.known_length_mm / std::hypot(to.u - from.u, to.v - from.v);
 }
 
+// An inline camera matrix alone says where the axis is; a file is taken to know the lens.
+bool undistorts(const CalibrationConfig& calibration) {
+  const auto& k = calibration.distortion;
+  return !calibration.file.empty() ||
+         (calibration.fx > 0.0 && std::any_of(k.begin(), k.end(), [](double value) { return value != 0.0; }));
+}
+
 }  // namespace
 
 core::StructureTrackerConfig tracker_config(const AppConfig& config) {
@@ -93,8 +100,7 @@ std::vector<std::string> region_names(const AppConfig& config) {
 std::vector<std::string> corrections(const AppConfig& config, const core::CameraInfo& camera) {
   std::vector<std::string> list;
   const bool paper = config.method == Method::kPaper;
-  if (config.calibration.fx > 0.0 || !config.calibration.file.empty())
-    list.emplace_back("lens distortion (points undistorted)");
+  if (undistorts(config.calibration)) list.emplace_back("lens distortion (points undistorted)");
   if (config.scale.adaptive)
     list.emplace_back(paper ? "scale per frame, two points (Eq. 6)" : "scale per frame, least squares over all points");
   if (paper) {

@@ -29,6 +29,13 @@ std::vector<DeliveredFrame> frames_of(const TrackGenerator& generator) {
   return frames;
 }
 
+Scene part_of(const Scene& scene) {
+  Scene part = scene;
+  part.duration_s = std::min(scene.duration_s, kLongest_s);
+  part.tracks.points_per_region = std::min(scene.tracks.points_per_region, kMostPoints);
+  return part;
+}
+
 bool same_point(const TrackGenerator& a, const TrackGenerator& b, std::size_t i) {
   const auto& p = a.points()[i];
   const auto& q = b.points()[i];
@@ -41,11 +48,10 @@ struct Squares {
   std::size_t n = 0;
 };
 
-void add_frame(const TrackGenerator& with, const TrackGenerator& without, const DeliveredFrame& a,
-               const DeliveredFrame& b, Squares& squares) {
-  core::TrackFrame seen, clean;
-  with.generate(a, seen);
-  without.generate(b, clean);
+void add_frame(const TrackGenerator& with, const core::TrackFrame& seen, const TrackGenerator& without,
+               const DeliveredFrame& frame, Squares& squares) {
+  core::TrackFrame clean;
+  without.generate(frame, clean);
   for (std::size_t i = 0; i < std::min(seen.points.size(), clean.points.size()); ++i) {
     if (!same_point(with, without, i)) continue;
     const double du = seen.points[i].u_px - clean.points[i].u_px, dv = seen.points[i].v_px - clean.points[i].v_px;
@@ -55,14 +61,15 @@ void add_frame(const TrackGenerator& with, const TrackGenerator& without, const 
   }
 }
 
-double rms_between(const TrackGenerator& with, const TrackGenerator& without) {
-  const std::vector<DeliveredFrame> a = frames_of(with), b = frames_of(without);
-  const std::size_t step = std::max<std::size_t>(1, a.size() / kMostFrames);
+double rms_between(const SampledTracks& with, const TrackGenerator& without) {
+  const std::vector<DeliveredFrame> frames = frames_of(without);
   Squares squares;
-  for (std::size_t i = 0; i < a.size(); i += step) {
-    const auto same = std::lower_bound(b.begin(), b.end(), a[i].sequence,
+  for (const core::TrackFrame& seen : with.frames) {
+    const auto same = std::lower_bound(frames.begin(), frames.end(), seen.sequence,
                                        [](const DeliveredFrame& f, std::uint64_t s) { return f.sequence < s; });
-    if (same != b.end() && same->sequence == a[i].sequence) add_frame(with, without, a[i], *same, squares);
+    if (same != frames.end() && same->sequence == seen.sequence) {
+      add_frame(with.generator, seen, without, *same, squares);
+    }
   }
   return squares.n > 0 ? std::sqrt(squares.sum / static_cast<double>(squares.n)) : 0.0;
 }
@@ -78,15 +85,15 @@ Json declared(const SimulateJob& job, const std::string& effect, const Json& sce
 
 }  // namespace
 
-Scene scene_for_rms(const Scene& scene) {
-  Scene part = scene;
-  part.duration_s = std::min(scene.duration_s, kLongest_s);
-  part.tracks.points_per_region = std::min(scene.tracks.points_per_region, kMostPoints);
-  return part;
+SampledTracks::SampledTracks(const Scene& scene) : generator(part_of(scene)) {
+  const std::vector<DeliveredFrame> all = frames_of(generator);
+  const std::size_t step = std::max<std::size_t>(1, all.size() / kMostFrames);
+  for (std::size_t i = 0; i < all.size(); i += step) generator.generate(all[i], frames.emplace_back());
 }
 
-std::optional<double> effect_rms_px(const TrackGenerator& with, const std::string& effect) try {
-  const double rms = rms_between(with, TrackGenerator(core::simulation::without_effect(with.motion().scene(), effect)));
+std::optional<double> effect_rms_px(const SampledTracks& with, const std::string& effect) try {
+  const Scene& scene = with.generator.motion().scene();
+  const double rms = rms_between(with, TrackGenerator(core::simulation::without_effect(scene, effect)));
   return rms > kNothing_px ? std::optional(rms) : std::nullopt;
 } catch (const std::invalid_argument&) {
   return std::nullopt;  // without it the structure is not in view
@@ -94,7 +101,7 @@ std::optional<double> effect_rms_px(const TrackGenerator& with, const std::strin
 
 Json effects_json(const SimulateJob& job, const Json& scene) {
   Json effects = Json::array();
-  const TrackGenerator with(scene_for_rms(job.scene()));
+  const SampledTracks with(job.scene());
   for (const std::string& name : core::simulation::active_effects(job.scene())) {
     const std::optional<double> rms_px = effect_rms_px(with, name);
     Json parameters = Json::object();

@@ -16,7 +16,7 @@ using core::simulation::Scene;
 using core::simulation::SceneMotion;
 using Json = nlohmann::ordered_json;
 
-constexpr int kRendererVersion = 2;  // raise when the same scene gives other pixels, tracks or channels
+constexpr int kRendererVersion = 3;  // raise when the same scene gives other pixels, tracks or channels
 
 // In free vibration the ground stands still, so absolute and relative shapes are the same and the base's component is
 // 0.
