@@ -35,4 +35,22 @@ TEST(Selftest, FindsEveryEffectWhereItsSignatureSaysItIs) {
   EXPECT_EQ(n_effects, 20);
 }
 
+TEST(Selftest, OpenCvFindsTheDrawnPointsWhereTheTracksAre) {
+  std::istringstream lines(selftest("klt --frames 3"));
+  int n_scenes = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("klt\t", 0) != 0) continue;
+    std::istringstream cells(line);
+    std::string word, scene, worst, rms;
+    std::getline(cells, word, '\t');
+    std::getline(cells, scene, '\t');
+    std::getline(cells, worst, '\t');
+    std::getline(cells, rms, '\t');
+    EXPECT_GT(std::stod(rms), 0.005) << scene;  // the frames are noisy
+    EXPECT_LT(std::stod(rms), 0.05) << scene;
+    ++n_scenes;
+  }
+  EXPECT_EQ(n_scenes, 3);
+}
+
 }  // namespace
