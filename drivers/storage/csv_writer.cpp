@@ -38,8 +38,8 @@ void append_scaled(fmt::memory_buffer& out, std::int64_t value, int n_decimals) 
 
 }  // namespace
 
-CsvWriter::CsvWriter(std::string path) : path_(std::move(path)), partial_path_(path_ + ".partial") {
-  if (::unlink(path_.c_str()) != 0 && errno != ENOENT) {
+CsvWriter::CsvWriter(std::string path, OldFile old) : path_(std::move(path)), partial_path_(path_ + ".partial") {
+  if (old == OldFile::kRemove && ::unlink(path_.c_str()) != 0 && errno != ENOENT) {
     throw FileError(fmt::format("{}: cannot be replaced: {}; name another folder", path_, std::strerror(errno)));
   }
   descriptor_ = ::open(partial_path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);

@@ -8,12 +8,16 @@
 
 namespace drivers {
 
+// What becomes of an older file of the name at the start. kRemove: after a crash nothing stands there that looks like
+// this run's result. kKeepUntilCommit: a reader finds the old file or the whole new one at any moment.
+enum class OldFile : std::uint8_t { kRemove, kKeepUntilCommit };
+
 // A text file written in large blocks under the name "<path>.partial" and renamed to `path` by commit(). After the
 // first failed write (disk full) it takes no more and keeps the reason; what reached the disk stays as *.partial.
 class CsvWriter {
  public:
-  // Removes an older `path`: after a crash nothing stands there that looks like this run's result. Throws FileError.
-  explicit CsvWriter(std::string path);
+  // Throws FileError.
+  explicit CsvWriter(std::string path, OldFile old = OldFile::kRemove);
   ~CsvWriter();
   CsvWriter(const CsvWriter&) = delete;
   CsvWriter& operator=(const CsvWriter&) = delete;

@@ -92,7 +92,7 @@ Json read_json_file(const std::string& path, std::size_t max_bytes) {
 }
 
 void write_file_atomically(const std::string& path, const std::string& text) {
-  CsvWriter writer(path);
+  CsvWriter writer(path, OldFile::kKeepUntilCommit);
   writer.buffer().append(text);
   writer.commit();
 }

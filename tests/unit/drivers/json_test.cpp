@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <thread>
 
 #include "drivers/storage/text_file.h"
 
@@ -62,6 +64,28 @@ TEST(JsonFile, RefusesWhatIsNoJson) {
     EXPECT_THROW(static_cast<void>(read_json_file(path)), FileError) << text.substr(0, 20);
   }
   EXPECT_THROW(static_cast<void>(read_json_file((folder / "missing").string())), FileError);
+}
+
+// Two programs may meet on one file: `hovermodal simulate` writes the configuration that a service is about to read.
+TEST(WriteFileAtomically, LeavesAReaderTheOldFileOrTheNewOneAtEveryMoment) {
+  const std::string path = testing::TempDir() + "hovermodal_atomic.txt";
+  write_file_atomically(path, "old");
+  std::atomic<bool> done{false};
+  std::thread writer([&] {
+    for (int i = 0; i < 300; ++i) write_file_atomically(path, i % 2 == 0 ? "new" : "old");
+    done = true;
+  });
+  int n_reads = 0, n_broken = 0;
+  while (!done) {
+    std::ifstream file(path);
+    std::string text;
+    file >> text;
+    ++n_reads;
+    if (text != "old" && text != "new") ++n_broken;
+  }
+  writer.join();
+  EXPECT_GT(n_reads, 0);
+  EXPECT_EQ(n_broken, 0);
 }
 
 }  // namespace
