@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <span>
 
 #include "core/spectrum/real_fft.h"
 
@@ -28,14 +29,28 @@ class PairTransform {
   void inverse(const std::vector<std::complex<double>>& sum, int pair, const std::vector<double>& gain,
                std::vector<double>& out) {
     const auto pairs = static_cast<std::size_t>(sums_.n_pairs());
-    for (std::size_t k = 0; k < bins_; ++k) {
-      spectrum_[k] = sum[k * pairs + static_cast<std::size_t>(pair)] * (gain.empty() ? 1.0 : gain[k]);
+    for (std::size_t k = 0; k < bins_; ++k) spectrum_[k] = sum[k * pairs + static_cast<std::size_t>(pair)];
+    finish(gain, out);
+  }
+
+  // The same of the blocks' sums together.
+  void inverse(std::span<const CpsdBlock> blocks, std::vector<std::complex<double>> CpsdBlock::*sum, int pair,
+               const std::vector<double>& gain, std::vector<double>& out) {
+    const auto pairs = static_cast<std::size_t>(sums_.n_pairs());
+    std::fill(spectrum_.begin(), spectrum_.end(), std::complex<double>());
+    for (const CpsdBlock& block : blocks) {
+      for (std::size_t k = 0; k < bins_; ++k) spectrum_[k] += (block.*sum)[k * pairs + static_cast<std::size_t>(pair)];
     }
+    finish(gain, out);
+  }
+
+ private:
+  void finish(const std::vector<double>& gain, std::vector<double>& out) {
+    for (std::size_t k = 0; k < gain.size(); ++k) spectrum_[k] *= gain[k];
     out.resize(static_cast<std::size_t>(sums_.n_fft));
     fft_.inverse(spectrum_, out);
   }
 
- private:
   const CpsdSums& sums_;
   RealFft fft_;
   std::size_t bins_;
@@ -49,6 +64,11 @@ std::vector<double> difference_gain(int n_fft, int n_differences) {
     gain[k] = std::pow(s * s, n_differences);
   }
   return gain;
+}
+
+std::span<const CpsdBlock> group_of(const CpsdSums& sums, std::size_t group, std::size_t n_groups) {
+  const std::size_t first = group * sums.n_blocks / n_groups, last = (group + 1) * sums.n_blocks / n_groups;
+  return std::span(sums.blocks).subspan(first, last - first);
 }
 
 std::size_t circular(int lag, int n_fft) { return static_cast<std::size_t>(lag >= 0 ? lag : n_fft + lag); }
@@ -123,6 +143,34 @@ CorrelationStatus compute_correlations(const CpsdSums& sums, int max_lag, int n_
     if (!(out.undivided(i, i, 0) > kLeastPower)) return CorrelationStatus::kNoPower;
   }
   return CorrelationStatus::kOk;
+}
+
+std::vector<Correlations> block_deviations(const CpsdSums& sums, int n_differences, const Correlations& mean,
+                                           std::size_t n_groups) {
+  if (n_groups == 0 || sums.n_blocks < n_groups) return {};
+  const int n = sums.n_channels, max_lag = mean.max_lag();
+  std::vector<Correlations> out(n_groups, Correlations(n, max_lag));
+  PairTransform transform(sums);
+  const std::vector<double> gain = difference_gain(sums.n_fft, n_differences);
+  std::vector<double> data, all;
+  std::vector<std::vector<double>> mask(n_groups);  // without losses all pairs have the same
+  for (int i = 0; i < n; ++i) {
+    for (int j = i; j < n; ++j) {
+      const int pair = CpsdSums::pair_index(i, j, n);
+      const bool same_mask = sums.n_missing == 0 && pair > 0;
+      if (!same_mask) transform.inverse(sums.mask_sum, pair, {}, all);
+      for (std::size_t g = 0; g < n_groups; ++g) {
+        const std::span<const CpsdBlock> part = group_of(sums, g, n_groups);
+        transform.inverse(part, &CpsdBlock::data_sum, pair, gain, data);
+        if (!same_mask) transform.inverse(part, &CpsdBlock::mask_sum, pair, {}, mask[g]);
+        for (int lag = -max_lag; lag <= max_lag; ++lag) {
+          const std::size_t at = circular(lag, sums.n_fft);
+          out[g].set(i, j, lag, (data[at] - mean.divided(i, j, lag) * mask[g][at]) / all[at], 0.0);
+        }
+      }
+    }
+  }
+  return out;
 }
 
 }  // namespace core

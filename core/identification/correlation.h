@@ -38,6 +38,12 @@ class Correlations {
 [[nodiscard]] CorrelationStatus compute_correlations(const CpsdSums& sums, int max_lag, int n_differences,
                                                      Correlations& out);
 
+// The blocks in use, joined in order to n_groups parts as equal as can be (none when there are fewer blocks): by how
+// much each part moves `divided` of `mean`, to first order: (D_b - R M_b) / M, lag by lag, with the part's own sums
+// D_b, M_b. Over all parts this adds up to zero. `undivided` stays 0. `mean`: of the same sums and differences.
+[[nodiscard]] std::vector<Correlations> block_deviations(const CpsdSums& sums, int n_differences,
+                                                         const Correlations& mean, std::size_t n_groups);
+
 [[nodiscard]] const char* to_string(CorrelationStatus status) noexcept;
 
 }  // namespace core

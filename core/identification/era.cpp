@@ -48,11 +48,12 @@ EraStatus realise(const Correlations& correlations, const EraConfig& config, Rea
   Eigen::MatrixXd h0 = block_hankel(correlations, config.references, scale, p, p, config.first_lag);
   Eigen::MatrixXd h1 = block_hankel(correlations, config.references, scale, p, p, config.first_lag + 1);
   Eigen::MatrixXd left_top = Eigen::MatrixXd::Identity(ny, ny);
+  Eigen::MatrixXd left, right;  // Cholesky factors; empty: no weights
   if (config.canonical_variates) {
     std::vector<int> outputs(static_cast<std::size_t>(ny));
     std::iota(outputs.begin(), outputs.end(), 0);
-    const Eigen::MatrixXd left = cholesky_with_ridge(block_toeplitz(correlations, outputs, scale, p, false));
-    const Eigen::MatrixXd right = cholesky_with_ridge(block_toeplitz(correlations, config.references, scale, p, true));
+    left = cholesky_with_ridge(block_toeplitz(correlations, outputs, scale, p, false));
+    right = cholesky_with_ridge(block_toeplitz(correlations, config.references, scale, p, true));
     if (left.size() == 0 || right.size() == 0) return EraStatus::kRankDeficient;
     h0 = whiten(left, h0, right);
     h1 = whiten(left, h1, right);
@@ -75,6 +76,16 @@ EraStatus realise(const Correlations& correlations, const EraConfig& config, Rea
   out.a.array().rowwise() /= root.transpose();
   out.c = scale.asDiagonal() * left_top * u.topRows(ny);
   out.c.array().rowwise() *= root.transpose();
+  out.scale = scale;
+  out.left_map = u;
+  out.right_map = v;
+  if (config.canonical_variates) {
+    left.triangularView<Eigen::Lower>().transpose().solveInPlace(out.left_map);
+    right.triangularView<Eigen::Lower>().transpose().solveInPlace(out.right_map);
+  }
+  out.left_map.transposeInPlace();
+  out.left_map.array().colwise() /= root;
+  out.right_map.array().rowwise() /= root.transpose();
   return EraStatus::kOk;
 }
 

@@ -27,6 +27,11 @@ struct Realisation {
   Eigen::VectorXd singular_values;  // canonical correlations, 0..1, when weighted
   Eigen::MatrixXd a;                // max_order x max_order, in balanced coordinates
   Eigen::MatrixXd c;                // n_channels x max_order, channel units
+  // a = left_map H1 right_map with the Hankel matrix H1 of unit-variance channels (shifted by one lag); with the
+  // unshifted H0 it is the identity: each pole is a generalised eigenvalue of two matrices linear in R.
+  Eigen::MatrixXd left_map;   // max_order x (block rows * channels)
+  Eigen::MatrixXd right_map;  // (block columns * references) x max_order
+  Eigen::VectorXd scale;      // per channel: its standard deviation
 };
 
 // A pole of the discrete system and its shape in channel units.

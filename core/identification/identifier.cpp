@@ -7,6 +7,7 @@
 
 #include "core/identification/correlation.h"
 #include "core/identification/era.h"
+#include "core/identification/uncertainty.h"
 #include "core/identification/verdict.h"
 
 namespace core {
@@ -32,15 +33,34 @@ void copy_stream_facts(const CpsdSums& sums, ModalEstimate& estimate) {
   estimate.duration_s = static_cast<double>(sums.n_samples) / sums.rate_hz;
 }
 
-std::vector<OrderPole> poles_of_orders(const Realisation& realisation, const std::vector<int>& orders,
-                                       const FoldingConfig& folding) {
-  std::vector<OrderPole> poles;
+// Every pole of every order, as observed and unfolded; the two lists run in parallel.
+struct Poles {
+  std::vector<PoleOfOrder> observed;
+  std::vector<OrderPole> unfolded;
+};
+
+Poles poles_of_orders(const Realisation& realisation, const std::vector<int>& orders, const FoldingConfig& folding) {
+  Poles poles;
   for (std::size_t i = 0; i < orders.size(); ++i) {
-    for (const DiscretePole& pole : poles_of_order(realisation, orders[i])) {
-      poles.push_back({static_cast<int>(i), unfold(pole.lambda, pole.shape, folding)});
+    for (DiscretePole& pole : poles_of_order(realisation, orders[i])) {
+      poles.unfolded.push_back({static_cast<int>(i), unfold(pole.lambda, pole.shape, folding)});
+      poles.observed.push_back({orders[i], std::move(pole)});
     }
   }
   return poles;
+}
+
+std::vector<PoleCluster> lines_of(const std::vector<OrderPole>& poles, int n_orders) {
+  std::vector<PoleCluster> lines = cluster_poles(poles, n_orders);
+  join_split_lines(lines, n_orders);
+  std::erase_if(lines, [](const PoleCluster& line) { return line.presence < kLeastPresence; });
+  return lines;
+}
+
+std::vector<int> orders_from(int first, const Realisation& realisation) {
+  std::vector<int> orders;
+  for (int k = 0; k < kOrders && first + 2 * k <= realisation.a.rows(); ++k) orders.push_back(first + 2 * k);
+  return orders;
 }
 
 void note_poles(const std::vector<OrderPole>& poles, const std::vector<int>& orders, ModalEstimate& estimate) {
@@ -49,6 +69,13 @@ void note_poles(const std::vector<OrderPole>& poles, const std::vector<int>& ord
     estimate.poles.push_back({orders[static_cast<std::size_t>(p.i_order)], p.pole.apparent_hz, frequency_hz(p.pole.s),
                               damping_ratio(p.pole.s), p.pole.mpc, -1});
   }
+}
+
+void state_scatter(const std::optional<ModeScatter>& scatter, Mode& mode) {
+  if (!scatter) return;
+  mode.frequency_std_hz = scatter->frequency_hz;
+  mode.damping_std = scatter->damping_ratio;
+  mode.shape_std = scatter->shape;
 }
 
 // modes[i] belongs to clusters[i]. The poles, which stand in the order of the clusters' members, learn their line.
@@ -107,17 +134,29 @@ int Identifier::choose_block_rows(const CpsdSums& sums) const noexcept {
                     std::max(kLeastBlockRows, longest));
 }
 
-ModalEstimate Identifier::identify(const CpsdSums& sums) const {
-  ModalEstimate estimate;
-  copy_stream_facts(sums, estimate);
+EraConfig Identifier::era_config(const CpsdSums& sums) const {
   EraConfig era;
   era.block_rows = choose_block_rows(sums);
   era.first_lag = 1 + config_.n_differences;
   era.references = choose_references();
   const int room =
-      std::min<int>(static_cast<int>(era.references.size()), static_cast<int>(channels_.size())) * era.block_rows;
+      std::min(static_cast<int>(era.references.size()), static_cast<int>(channels_.size())) * era.block_rows;
   era.max_order = config_.max_order > 0 ? std::min(config_.max_order, room) : room;
+  return era;
+}
 
+FoldingConfig Identifier::folding_config(double rate_hz) const {
+  FoldingConfig folding{rate_hz, config_.max_frequency_hz, {}};
+  for (const ChannelInfo& channel : channels_) {
+    folding.delay_s.push_back(config_.undo_row_delays ? channel.row_delay_s : 0.0);
+  }
+  return folding;
+}
+
+ModalEstimate Identifier::identify(const CpsdSums& sums) const {
+  ModalEstimate estimate;
+  copy_stream_facts(sums, estimate);
+  const EraConfig era = era_config(sums);
   Correlations correlations;
   const CorrelationStatus status =
       compute_correlations(sums, 2 * era.block_rows + era.first_lag, config_.n_differences, correlations);
@@ -130,29 +169,32 @@ ModalEstimate Identifier::identify(const CpsdSums& sums) const {
     estimate.status = "the correlations carry no system: nothing moves, or the segment is too short";
     return estimate;
   }
-
-  const int n0 = std::max(2, canonical_order(realisation));
-  std::vector<int> orders;
-  for (int k = 0; k < kOrders && n0 + 2 * k <= realisation.a.rows(); ++k) orders.push_back(n0 + 2 * k);
-  estimate.model_order = n0;
-  FoldingConfig folding{sums.rate_hz, config_.max_frequency_hz, {}};
-  for (const ChannelInfo& channel : channels_)
-    folding.delay_s.push_back(config_.undo_row_delays ? channel.row_delay_s : 0.0);
+  estimate.model_order = std::max(2, canonical_order(realisation));
+  const std::vector<int> orders = orders_from(estimate.model_order, realisation);
+  const FoldingConfig folding = folding_config(sums.rate_hz);
+  const Poles poles = poles_of_orders(realisation, orders, folding);
+  const std::vector<PoleCluster> lines = lines_of(poles.unfolded, static_cast<int>(orders.size()));
 
   VerdictRules rules;
   rules.min_mpc = config_.min_mpc;
   rules.max_damping = config_.max_damping;
-  const std::vector<OrderPole> poles = poles_of_orders(realisation, orders, folding);
-  std::vector<PoleCluster> clusters = cluster_poles(poles, static_cast<int>(orders.size()));
-  join_split_lines(clusters, static_cast<int>(orders.size()));
-  std::erase_if(clusters, [](const PoleCluster& cluster) { return cluster.presence < kLeastPresence; });
   std::vector<Mode> modes;
-  for (const PoleCluster& cluster : clusters) {
-    modes.push_back(judge(cluster, base_response(sums, channels_, cluster.apparent_hz), channels_, orders, rules));
+  for (const PoleCluster& line : lines) {
+    modes.push_back(judge(line, base_response(sums, channels_, line.apparent_hz), channels_, orders, rules));
+  }
+  if (sums.n_blocks >= kScatterBlocks) {
+    std::vector<PoleOfOrder> chosen;
+    for (const PoleCluster& line : lines) chosen.push_back(poles.observed[line.i_representative]);
+    const auto changes = pole_changes(
+        realisation, era, block_deviations(sums, config_.n_differences, correlations, kScatterBlocks), chosen);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      state_scatter(mode_scatter(chosen[i], lines[i].representative, folding, changes[i]), modes[i]);
+    }
+    estimate.n_blocks = kScatterBlocks;
   }
   reject_twins(modes);
-  note_poles(poles, orders, estimate);
-  list_modes(std::move(modes), clusters, estimate);
+  note_poles(poles.unfolded, orders, estimate);
+  list_modes(std::move(modes), lines, estimate);
   estimate.status = "ok";
   return estimate;
 }

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/identification/era.h"
+#include "core/identification/folding.h"
 #include "core/types/cpsd.h"
 #include "core/types/displacement.h"
 #include "core/types/modal_estimate.h"
@@ -35,6 +37,8 @@ class Identifier {
  private:
   [[nodiscard]] int choose_block_rows(const CpsdSums& sums) const noexcept;
   [[nodiscard]] std::vector<int> choose_references() const;
+  [[nodiscard]] EraConfig era_config(const CpsdSums& sums) const;
+  [[nodiscard]] FoldingConfig folding_config(double rate_hz) const;
 
   IdentifierConfig config_;
   std::vector<ChannelInfo> channels_;

@@ -123,6 +123,7 @@ PoleCluster summarise(const std::vector<OrderPole>& poles, const std::vector<std
   };
   const auto nearest =
       std::min_element(agreeing.begin(), agreeing.end(), [&](auto a, auto b) { return off(a) < off(b); });
+  cluster.i_representative = *nearest;
   cluster.representative = poles[*nearest].pole;
   return cluster;
 }

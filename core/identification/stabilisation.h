@@ -22,7 +22,8 @@ struct PoleCluster {
   double presence = 0.0;             // share of the orders in which it was found
   std::vector<int> i_orders;         // those orders, ascending
   std::vector<std::size_t> members;  // indices of its poles
-  UnfoldedPole representative;       // the member nearest the medians
+  std::size_t i_representative = 0;  // the member nearest the medians
+  UnfoldedPole representative;
 };
 
 // Average-linkage clustering on |df| / (0.015 f) + (1 - MAC) / 0.3, cut at 1 (ARCHITECTURE.md).

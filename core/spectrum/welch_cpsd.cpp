@@ -18,6 +18,8 @@ void check(const WelchConfig& config) {
     throw std::invalid_argument("WelchCpsd: segment of " + std::to_string(config.segment) + " samples; at least 4");
   if (!(config.overlap >= 0.0 && config.overlap < 1.0))
     throw std::invalid_argument("WelchCpsd: overlap must lie in 0 .. 1");
+  if (config.n_blocks < 0 || config.n_blocks % 2 != 0)
+    throw std::invalid_argument("WelchCpsd: number of blocks must be even and not negative");
   if (!(config.rate_hz > 0.0)) throw std::invalid_argument("WelchCpsd: rate must be positive");
 }
 
@@ -37,6 +39,11 @@ CpsdSums WelchCpsd::empty_sums(const WelchConfig& config) {
   const auto size = static_cast<std::size_t>(sums.n_bins()) * static_cast<std::size_t>(sums.n_pairs());
   sums.data_sum.assign(size, 0.0);
   sums.mask_sum.assign(size, 0.0);
+  sums.blocks.resize(static_cast<std::size_t>(config.n_blocks));
+  for (CpsdBlock& block : sums.blocks) {
+    block.data_sum.assign(size, 0.0);
+    block.mask_sum.assign(size, 0.0);
+  }
   return sums;
 }
 
@@ -131,25 +138,58 @@ void WelchCpsd::transform_channel(int channel) noexcept {
   fft_.forward(padded_, {mask_.data() + c * bins, bins});
 }
 
+// The block that takes the next segment is the last in use.
+void WelchCpsd::open_block() noexcept {
+  std::vector<CpsdBlock>& blocks = sums_.blocks;
+  if (sums_.n_blocks > 0 && blocks[sums_.n_blocks - 1].n_segments < segments_per_block_) return;
+  if (sums_.n_blocks == blocks.size()) {
+    for (std::size_t b = 0; b < blocks.size(); b += 2) {
+      CpsdBlock& first = blocks[b];
+      const CpsdBlock& second = blocks[b + 1];
+      first.n_segments += second.n_segments;
+      for (std::size_t k = 0; k < first.data_sum.size(); ++k) {
+        first.data_sum[k] += second.data_sum[k];
+        first.mask_sum[k] += second.mask_sum[k];
+      }
+      std::swap(blocks[b / 2], first);
+    }
+    sums_.n_blocks /= 2;
+    segments_per_block_ *= 2;
+  }
+  CpsdBlock& next = blocks[sums_.n_blocks++];
+  next.n_segments = 0;
+  std::fill(next.data_sum.begin(), next.data_sum.end(), Complex());
+  std::fill(next.mask_sum.begin(), next.mask_sum.end(), Complex());
+}
+
 void WelchCpsd::add_products() noexcept {
+  CpsdBlock* block = nullptr;
+  if (!sums_.blocks.empty()) {
+    open_block();
+    block = &sums_.blocks[sums_.n_blocks - 1];
+    ++block->n_segments;
+  }
   const int n = config_.n_channels;
   const auto bins = static_cast<std::size_t>(fft_.n_bins());
   const auto pairs = static_cast<std::size_t>(sums_.n_pairs());
-  const auto add = [&](const std::vector<Complex>& spectra, std::vector<Complex>& sum) noexcept {
+  const auto add = [&](const std::vector<Complex>& spectra, std::vector<Complex>& sum,
+                       std::vector<Complex>* part) noexcept {
     std::size_t pair = 0;
     for (int i = 0; i < n; ++i) {
       const Complex* a = spectra.data() + static_cast<std::size_t>(i) * bins;
       for (int j = i; j < n; ++j, ++pair) {
         const Complex* b = spectra.data() + static_cast<std::size_t>(j) * bins;
         for (std::size_t k = 0; k < bins; ++k) {
-          sum[k * pairs + pair] += Complex(a[k].real() * b[k].real() + a[k].imag() * b[k].imag(),
-                                           a[k].imag() * b[k].real() - a[k].real() * b[k].imag());
+          const Complex product(a[k].real() * b[k].real() + a[k].imag() * b[k].imag(),
+                                a[k].imag() * b[k].real() - a[k].real() * b[k].imag());
+          sum[k * pairs + pair] += product;
+          if (part != nullptr) (*part)[k * pairs + pair] += product;
         }
       }
     }
   };
-  add(data_, sums_.data_sum);
-  add(mask_, sums_.mask_sum);
+  add(data_, sums_.data_sum, block != nullptr ? &block->data_sum : nullptr);
+  add(mask_, sums_.mask_sum, block != nullptr ? &block->mask_sum : nullptr);
 }
 
 }  // namespace core

@@ -17,6 +17,9 @@ struct WelchConfig {
   double overlap = 0.5;  // 0 <= overlap < 1
   WindowKind window = WindowKind::kHann;
   double rate_hz = 1.0;
+  // Parts of the record that are summed apart as well. As it grows they are joined two and two, so that between half
+  // and all of them are in use once there were as many segments. Even; 0 = none.
+  int n_blocks = 20;
 };
 
 // Streaming Welch estimate of the cross-power spectra of all channels (Welch 1967), fixed memory.
@@ -44,14 +47,16 @@ class WelchCpsd {
   void accumulate_segment() noexcept;
   void transform_channel(int channel) noexcept;
   void add_products() noexcept;
+  void open_block() noexcept;
 
   WelchConfig config_;
   int hop_;
   std::vector<double> window_;
   RealFft fft_;
   CpsdSums sums_;
-  int n_filled_ = 0;                        // samples in the segment being gathered
-  int n_new_ = 0;                           // of them, not yet part of any accumulated segment
+  int n_filled_ = 0;  // samples in the segment being gathered
+  int n_new_ = 0;     // of them, not yet part of any accumulated segment
+  std::uint64_t segments_per_block_ = 1;
   std::vector<double> value_;               // channels x segment
   std::vector<std::uint8_t> seen_;          // channels x segment
   std::vector<double> padded_;              // n_fft

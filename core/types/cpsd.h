@@ -6,6 +6,12 @@
 
 namespace core {
 
+// The sums of one of several contiguous parts of the record: what standard deviations are made of.
+struct CpsdBlock {
+  std::uint64_t n_segments = 0;
+  std::vector<std::complex<double>> data_sum, mask_sum;  // as in CpsdSums
+};
+
 // Sums of a Welch estimate, not yet divided. bins x pairs; a pair (i <= j) stands at i * n - i (i - 1) / 2 + (j - i).
 // Bin k lies at k * rate_hz / n_fft. `mask_sum` is the same for the seen/missing masks: dividing the two inverse
 // transforms removes the window and the losses in one step (ARCHITECTURE.md).
@@ -19,9 +25,19 @@ struct CpsdSums {
   double window_power = 0.0;                   // sum of squared window values of one full segment
   std::vector<std::complex<double>> data_sum;  // mm^2
   std::vector<std::complex<double>> mask_sum;  // dimensionless
+  std::vector<CpsdBlock> blocks;               // in order; together they are the sums above; may be none
+  std::size_t n_blocks = 0;                    // of them in use
 
   [[nodiscard]] int n_bins() const noexcept { return n_fft / 2 + 1; }
   [[nodiscard]] int n_pairs() const noexcept { return n_channels * (n_channels + 1) / 2; }
+  // Everything but the blocks.
+  void copy_totals(const CpsdSums& other) {
+    n_channels = other.n_channels, n_fft = other.n_fft, rate_hz = other.rate_hz;
+    n_segments = other.n_segments, n_samples = other.n_samples, n_missing = other.n_missing;
+    window_power = other.window_power;
+    data_sum = other.data_sum, mask_sum = other.mask_sum;
+    blocks.clear(), n_blocks = 0;
+  }
   [[nodiscard]] static int pair_index(int i, int j, int n) noexcept { return i * n - i * (i - 1) / 2 + (j - i); }
 };
 

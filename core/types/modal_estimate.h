@@ -53,6 +53,8 @@ struct ModalEstimate {
   std::int64_t t_stream_ns = 0;  // time stamp of the last sample used
   double rate_hz = 0.0;
   double duration_s = 0.0;
+  // Blocks of the record behind the standard deviations: read them with n_blocks - 1 degrees of freedom (Student).
+  std::size_t n_blocks = 0;
   int model_order = 0;                   // order at which the canonical correlations fall off; 0 = unclear
   bool final = false;                    // the last of a run
   std::string status;                    // "ok", or why there are no modes

@@ -19,7 +19,7 @@ rt::StepStatus IdentificationStage::step() noexcept {
 bool IdentificationStage::identify(const SpectrumSnapshot& snapshot, IdentificationResult& out) noexcept {
   try {
     out.estimate = identifier_.identify(snapshot.sums);
-    out.sums = snapshot.sums;
+    out.sums.copy_totals(snapshot.sums);
   } catch (...) {  // out of memory: this estimate is lost and counted, the next may succeed
     return false;
   }

@@ -128,6 +128,34 @@ TEST(WelchCpsd, ForgetsAConstant) {
   for (const auto& z : welch.sums().data_sum) EXPECT_LT(std::abs(z), 1e-18);
 }
 
+TEST(WelchCpsd, BlocksAreTheRecordInOrderAndAddUpToItsSums) {
+  WelchConfig config = config_of(2, 16, 0.5);
+  config.n_blocks = 4;
+  for (const std::size_t n_samples : {24U, 40U, 48U, 56U, 1000U}) {
+    WelchCpsd welch(config);
+    push_noise(welch, 2, n_samples, 3);
+    const CpsdSums& sums = welch.sums();
+    std::vector<std::complex<double>> data(sums.data_sum.size()), mask(data.size());
+    std::uint64_t n_segments = 0;
+    ASSERT_LE(sums.n_blocks, 4U);
+    EXPECT_GE(sums.n_blocks, std::min<std::uint64_t>(2, sums.n_segments));
+    for (std::size_t b = 0; b < sums.n_blocks; ++b) {
+      n_segments += sums.blocks[b].n_segments;
+      // All but the last are alike.
+      if (b + 1 < sums.n_blocks) EXPECT_EQ(sums.blocks[b].n_segments, sums.blocks[0].n_segments);
+      for (std::size_t k = 0; k < data.size(); ++k) {
+        data[k] += sums.blocks[b].data_sum[k];
+        mask[k] += sums.blocks[b].mask_sum[k];
+      }
+    }
+    EXPECT_EQ(n_segments, sums.n_segments);
+    for (std::size_t k = 0; k < data.size(); ++k) {
+      EXPECT_NEAR(std::abs(data[k] - sums.data_sum[k]), 0.0, 1e-9 * (1.0 + std::abs(data[k])));
+      EXPECT_NEAR(std::abs(mask[k] - sums.mask_sum[k]), 0.0, 1e-9 * (1.0 + std::abs(mask[k])));
+    }
+  }
+}
+
 TEST(WelchCpsd, EmptySumsHaveTheShapeOfRealOnes) {
   const WelchConfig config = config_of(3, 20, 0.5);
   WelchCpsd welch(config);

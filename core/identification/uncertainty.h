@@ -1,0 +1,53 @@
+#pragma once
+
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "core/identification/correlation.h"
+#include "core/identification/era.h"
+#include "core/identification/folding.h"
+#include "core/types/modal_estimate.h"
+
+namespace core {
+
+// Standard deviations by the delta method, without a second fit. With the weights and the subspace of a realisation
+// held fixed, a pole is a generalised eigenvalue of two matrices linear in the correlations R,
+//   left_map (dH1 - lambda dH0) right_map,
+// and so a linear functional of R, as its shape H0 right_map psi is. Blocks of the record (CpsdBlock) give independent
+// changes of R that sum to zero: var = K / (K - 1) sum of the squared changes, to be read with K - 1 degrees of freedom
+// (Student). Fewer blocks than ten say too little about a variance: nothing is stated then; more would be too
+// short, for they should span a few decays of the slowest mode.
+inline constexpr std::size_t kScatterBlocks = 10;
+
+// How one block moves a pole and its observed shape.
+struct PoleChange {
+  std::complex<double> lambda;
+  std::vector<std::complex<double>> shape;
+};
+
+struct PoleOfOrder {
+  int order = 0;
+  DiscretePole pole;  // as poles_of_order gives it
+};
+
+// [pole][block]. `deviations` as block_deviations() gives them, with the lags of the realisation. Empty for a pole that
+// is not found again.
+[[nodiscard]] std::vector<std::vector<PoleChange>> pole_changes(const Realisation& realisation, const EraConfig& config,
+                                                                const std::vector<Correlations>& deviations,
+                                                                const std::vector<PoleOfOrder>& poles);
+
+struct ModeScatter {
+  double frequency_hz = 0.0, damping_ratio = 0.0;
+  std::vector<double> shape;  // of the components' real parts, the largest component being 1
+};
+// Carries the changes through the logarithm, the fold and the row delays. Empty without enough blocks, or when the
+// result is not finite.
+[[nodiscard]] std::optional<ModeScatter> mode_scatter(const PoleOfOrder& pole, const UnfoldedPole& unfolded,
+                                                      const FoldingConfig& folding,
+                                                      const std::vector<PoleChange>& changes);
+
+// Half width of the two-sided 95 % interval in standard deviations, for that many degrees of freedom (Student's t).
+[[nodiscard]] double student_95(std::size_t degrees_of_freedom) noexcept;
+
+}  // namespace core

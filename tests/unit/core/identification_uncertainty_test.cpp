@@ -1,0 +1,149 @@
+#include "core/identification/uncertainty.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <vector>
+
+#include "core/identification/identifier.h"
+#include "tests/support/random_system.h"
+#include "tests/support/simulated_structure.h"
+
+namespace core {
+namespace {
+
+using Complex = std::complex<double>;
+using test_support::RandomSystem;
+using test_support::SimulatedStructure;
+
+EraConfig plain(int n_channels, int order) {
+  EraConfig config;
+  config.block_rows = 12;
+  config.max_order = order;
+  config.canonical_variates = false;
+  for (int c = 0; c < n_channels; ++c) config.references.push_back(c);
+  return config;
+}
+
+// R + eps (S - R): between the correlations of two systems.
+Correlations between(const Correlations& a, const Correlations& b, double eps) {
+  Correlations out(a.n_channels(), a.max_lag());
+  for (int i = 0; i < a.n_channels(); ++i) {
+    for (int j = i; j < a.n_channels(); ++j) {
+      for (int lag = -a.max_lag(); lag <= a.max_lag(); ++lag) {
+        const double value = a.divided(i, j, lag) + eps * (b.divided(i, j, lag) - a.divided(i, j, lag));
+        out.set(i, j, lag, value, value);
+      }
+    }
+  }
+  return out;
+}
+
+const DiscretePole& nearest(const std::vector<DiscretePole>& poles, Complex lambda) {
+  return *std::min_element(poles.begin(), poles.end(), [&](const auto& a, const auto& b) {
+    return std::abs(a.lambda - lambda) < std::abs(b.lambda - lambda);
+  });
+}
+
+// The functional is the derivative: the pole of correlations a little further on, refitted, has moved as it says. The
+// system fills the subspace exactly, so that holding it fixed costs nothing to first order.
+TEST(PoleChanges, AreTheDerivativeOfARefit) {
+  constexpr int kModes = 3, kOrder = 2 * kModes;
+  const RandomSystem system(4, kModes, 4), other(5, kModes, 4);
+  const EraConfig config = plain(4, kOrder);
+  const Correlations r = system.correlations(40), s = other.correlations(40);
+  Realisation at;
+  ASSERT_EQ(realise(r, config, at), EraStatus::kOk);
+  const double eps = 1e-6;
+  Correlations deviation(4, 40);
+  for (int i = 0; i < 4; ++i) {
+    for (int j = i; j < 4; ++j) {
+      for (int lag = -40; lag <= 40; ++lag) deviation.set(i, j, lag, s.divided(i, j, lag) - r.divided(i, j, lag), 0.0);
+    }
+  }
+  std::vector<PoleOfOrder> poles;
+  for (const DiscretePole& pole : poles_of_order(at, kOrder)) poles.push_back({kOrder, pole});
+  ASSERT_EQ(poles.size(), 3U);
+  const auto changes = pole_changes(at, config, {deviation}, poles);
+  Realisation moved;
+  ASSERT_EQ(realise(between(r, s, eps), config, moved), EraStatus::kOk);
+  const std::vector<DiscretePole> later = poles_of_order(moved, kOrder);
+  for (std::size_t p = 0; p < poles.size(); ++p) {
+    ASSERT_EQ(changes[p].size(), 1U);
+    const DiscretePole& before = poles[p].pole;
+    const DiscretePole& after = nearest(later, before.lambda);
+    const Complex slope = (after.lambda - before.lambda) / eps;
+    EXPECT_NEAR(std::abs(changes[p][0].lambda - slope), 0.0, 1e-3 * std::abs(slope));
+    // Shapes have no scale: compare the ratio to the first component.
+    for (std::size_t c = 1; c < before.shape.size(); ++c) {
+      const Complex ratio = before.shape[c] / before.shape[0];
+      const Complex ratio_slope = (after.shape[c] / after.shape[0] - ratio) / eps;
+      const Complex stated = (changes[p][0].shape[c] - ratio * changes[p][0].shape[0]) / before.shape[0];
+      EXPECT_NEAR(std::abs(stated - ratio_slope), 0.0, 1e-2 * (1.0 + std::abs(ratio_slope))) << c;
+    }
+  }
+}
+
+TEST(ModeScatter, IsEmptyForARecordOfTooFewBlocks) {
+  SimulatedStructure structure;
+  structure.duration_s = 60.0;  // seven segments
+  const ModalEstimate estimate = Identifier({}, structure.channels()).identify(structure.spectra());
+  ASSERT_FALSE(estimate.modes.empty());
+  EXPECT_EQ(estimate.n_blocks, 0U);
+  for (const Mode& mode : estimate.modes) {
+    EXPECT_FALSE(mode.frequency_std_hz.has_value());
+    EXPECT_TRUE(mode.shape_std.empty());
+  }
+}
+
+// Twelve records: the errors are as large as stated, give or take what twelve records can tell.
+TEST(ModeScatter, StatesTheErrorsThatTheRecordsShow) {
+  constexpr int kRecords = 12;
+  double squares = 0.0, damping_squares = 0.0, shape_squares = 0.0;
+  int n = 0, n_shape = 0;
+  const Eigen::MatrixXd shapes = simulation::shear_chain_shapes(6);
+  for (std::uint64_t seed = 1; seed <= kRecords; ++seed) {
+    SimulatedStructure structure;
+    structure.seed = seed;
+    const ModalEstimate estimate = Identifier({}, structure.channels()).identify(structure.spectra());
+    ASSERT_EQ(estimate.n_blocks, kScatterBlocks);
+    for (std::size_t r = 0; r < 4; ++r) {
+      for (const Mode& mode : estimate.modes) {
+        if (std::abs(mode.frequency_hz - structure.frequency_hz(r)) > 0.15) continue;
+        ASSERT_TRUE(mode.frequency_std_hz && mode.damping_std);
+        squares += std::pow((mode.frequency_hz - structure.frequency_hz(r)) / *mode.frequency_std_hz, 2);
+        damping_squares += std::pow((mode.damping_ratio - 0.01) / *mode.damping_std, 2);
+        ++n;
+        Eigen::Index largest = 0;
+        (void)shapes.col(static_cast<Eigen::Index>(r)).cwiseAbs().maxCoeff(&largest);
+        for (Eigen::Index c = 0; c < 6; ++c) {
+          const auto at = static_cast<std::size_t>(c) + 1;
+          const auto own = static_cast<std::size_t>(largest) + 1;
+          if (mode.shape_std[own] > 0.0 || at == own) continue;  // another component is the largest in this record
+          const double truth = shapes(c, static_cast<Eigen::Index>(r)) / shapes(largest, static_cast<Eigen::Index>(r));
+          shape_squares += std::pow((mode.shape[at].real() - truth) / mode.shape_std[at], 2);
+          ++n_shape;
+        }
+      }
+    }
+  }
+  ASSERT_GE(n, 4 * kRecords - 4);
+  ASSERT_GT(n_shape, 100);
+  // The mean square of Student's t with 9 degrees of freedom is 9 / 7.
+  EXPECT_GT(squares / n, 0.6);
+  EXPECT_LT(squares / n, 2.3);
+  EXPECT_GT(damping_squares / n, 0.6);
+  EXPECT_LT(damping_squares / n, 2.5);
+  EXPECT_GT(shape_squares / n_shape, 0.4);
+  EXPECT_LT(shape_squares / n_shape, 3.5);
+}
+
+TEST(Student, WidensForFewDegreesOfFreedom) {
+  EXPECT_DOUBLE_EQ(student_95(9), 2.262);
+  EXPECT_DOUBLE_EQ(student_95(1000), 1.96);
+  EXPECT_GT(student_95(1), student_95(2));
+}
+
+}  // namespace
+}  // namespace core
