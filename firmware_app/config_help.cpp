@@ -2,12 +2,11 @@
 
 #include <string_view>
 
+#include "drivers/storage/text_wrap.h"
 #include "firmware_app/config_table.h"
 
 namespace app {
 namespace {
-
-constexpr std::size_t kColumns = 100;
 
 constexpr std::string_view kHead = R"(CONFIGURATION (YAML)
 
@@ -33,16 +32,6 @@ Unknown or repeated keys, wrong types and values out of range are refused.
 EVERY KEY
 )";
 
-void append_wrapped(std::string& out, std::string_view text, std::size_t indent) {
-  while (!text.empty()) {
-    const std::size_t width = kColumns - indent;
-    std::size_t length = text.size() <= width ? text.size() : text.rfind(' ', width);
-    if (length == std::string_view::npos || length == 0) length = text.size();
-    out += std::string(indent, ' ').append(text.substr(0, length)) + '\n';
-    text.remove_prefix(std::min(length + 1, text.size()));
-  }
-}
-
 }  // namespace
 
 std::string config_help() {
@@ -57,8 +46,8 @@ std::string config_help() {
     const std::string value = key.default_text.empty() ? key.canonical(defaults, 0) : key.default_text;
     const std::string type = key.unit.empty() ? key.type : fmt::format("{}, {}", key.type, key.unit);
     out += fmt::format("{:<32} {}\n", key.path, type);
-    append_wrapped(out, key.meaning, 4);
-    append_wrapped(out, fmt::format("default: {}   allowed: {}", value, key.allowed), 4);
+    drivers::append_wrapped(out, key.meaning, 4);
+    drivers::append_wrapped(out, fmt::format("default: {}   allowed: {}", value, key.allowed), 4);
   }
   return out;
 }

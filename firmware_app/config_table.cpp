@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "drivers/storage/key_suggestion.h"
 #include "firmware_app/config_sections.h"
 
 namespace app {
@@ -45,6 +46,12 @@ const ConfigKey* find_key(const std::string& path) {
 bool is_section(const std::string& path) {
   return std::any_of(config_keys().begin(), config_keys().end(),
                      [&](const ConfigKey& key) { return key.path.starts_with(path + "."); });
+}
+
+std::string suggest_key(const std::string& path) {
+  std::vector<std::string> keys;
+  for (const ConfigKey& key : config_keys()) keys.push_back(key.path);
+  return drivers::suggest_key(path, keys, "--help-config");
 }
 
 std::string canonical_text(const AppConfig& config) {

@@ -9,6 +9,9 @@ namespace core {
 // The way the sensor's lines are read, as seen in the delivered (already rotated) image.
 enum class ReadoutDirection : std::uint8_t { kDown, kUp, kLeft, kRight };
 
+// "down", "up", "left", "right": as in every file and message.
+[[nodiscard]] const char* to_string(ReadoutDirection direction) noexcept;
+
 // What a camera knows about itself before its first frame. Fixed while the camera runs.
 struct CameraInfo {
   int width_px = 0;

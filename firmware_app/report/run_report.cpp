@@ -27,20 +27,6 @@ constexpr int kPixelDecimals = 4;
 constexpr int kSigmaDecimals = 5;
 constexpr int kDisplacementDecimals = 6;
 
-std::string_view to_text(core::ReadoutDirection direction) {
-  switch (direction) {
-    case core::ReadoutDirection::kDown:
-      return "down";
-    case core::ReadoutDirection::kUp:
-      return "up";
-    case core::ReadoutDirection::kLeft:
-      return "left";
-    case core::ReadoutDirection::kRight:
-      return "right";
-  }
-  return "down";
-}
-
 void make_directory(const std::string& directory) {
   if (directory.empty()) throw drivers::FileError("report.directory is empty; name a folder");
   std::error_code error;
@@ -91,7 +77,7 @@ void RunReport::write_track_header(const core::CameraInfo& camera) {
   append_line(out, "# image_size_px: {} x {}", camera.width_px, camera.height_px);
   append_line(out, "# rate_hz: {}", camera.rate_hz);
   append_line(out, "# readout_ms: {}", static_cast<double>(camera.readout_ns) / 1e6);
-  append_line(out, "# readout_direction: {}", to_text(camera.readout_direction));
+  append_line(out, "# readout_direction: {}", to_string(camera.readout_direction));
   append_line(out, "# exposure_ms: {}", static_cast<double>(camera.exposure_ns) / 1e6);
   append_line(out, "# frame_count: {}", camera.frame_count == 0 ? "unknown" : std::to_string(camera.frame_count));
   append_line(out, "# regions: {}", fmt::join(region_names_, ","));

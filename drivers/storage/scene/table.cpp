@@ -1,11 +1,6 @@
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
-#include <numeric>
-#include <set>
-#include <string_view>
 
+#include "drivers/storage/key_suggestion.h"
 #include "drivers/storage/scene/key.h"
 
 namespace drivers {
@@ -20,35 +15,6 @@ std::vector<SceneKey> build_keys() {
   add_motion_keys(keys);
   add_record_keys(keys);
   return keys;
-}
-
-// Levenshtein distance: insertions, deletions and changes that turn one word into the other.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, changed}));
-    }
-  }
-  return row[b.size()];
-}
-
-std::string_view leaf(std::string_view path) { return path.substr(path.rfind('.') + 1); }
-
-// Every key and every section on the way to it.
-std::set<std::string> all_paths() {
-  std::set<std::string> paths;
-  for (const SceneKey& key : scene_keys()) {
-    for (std::size_t dot = key.path.find('.'); dot != std::string::npos; dot = key.path.find('.', dot + 1)) {
-      const std::string section = key.path.substr(0, dot);
-      paths.insert(section.ends_with("[]") ? section.substr(0, section.size() - 2) : section);
-    }
-    paths.insert(key.path);
-  }
-  return paths;
 }
 
 }  // namespace
@@ -76,30 +42,9 @@ bool is_scene_section(const std::string& path) {
 }
 
 std::string suggest_scene_key(const std::string& path) {
-  constexpr std::size_t kMaxLength = 80;  // nothing longer is like any key
-  if (path.size() > kMaxLength) return "see --help-scene";
-  std::string best;
-  std::size_t best_score = kMaxLength * 4;
-  for (const std::string& candidate : all_paths()) {
-    // A right name in a wrong section counts almost like a typing error in the right one.
-    const std::size_t whole = edit_distance(path, candidate) * 2;
-    const std::size_t by_leaf = edit_distance(leaf(path), leaf(candidate)) * 2 + 1;
-    std::size_t score = std::min(whole, by_leaf);
-    // "rate" for rate_hz: forgotten endings are the commonest mistake.
-    if (path.size() > 2 && candidate.starts_with(path)) score = 0;
-    if (score < best_score) best_score = score, best = candidate;
-  }
-  if (best_score <= std::max<std::size_t>(4, leaf(path).size())) {
-    return fmt::format("did you mean `{}`? (--help-scene lists all)", best);
-  }
-  std::vector<std::string> beside;
-  const std::string section = path.substr(0, path.size() - leaf(path).size());
-  for (const std::string& candidate : all_paths()) {
-    if (candidate.starts_with(section) && candidate.find('.', section.size()) == std::string::npos) {
-      beside.push_back(candidate.substr(section.size()));
-    }
-  }
-  return fmt::format("known here: {}", fmt::join(beside, ", "));
+  std::vector<std::string> keys;
+  for (const SceneKey& key : scene_keys()) keys.push_back(key.path);
+  return suggest_key(path, keys, "--help-scene");
 }
 
 }  // namespace drivers

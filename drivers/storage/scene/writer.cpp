@@ -1,16 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
 
 #include "drivers/storage/json.h"
 #include "drivers/storage/scene/key.h"
+#include "drivers/storage/text_wrap.h"
 
 namespace drivers {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr std::size_t kColumns = 100, kCommentColumn = 40;
+constexpr std::size_t kCommentColumn = 40;
 
 bool applies(const SceneKey& key, const SceneFile& file) { return !key.applies || key.applies(file); }
 
@@ -122,16 +122,6 @@ class TextWriter {
   std::string list_, list_indent_;
   std::vector<Json> items_;
 };
-
-void append_wrapped(std::string& out, std::string_view text, std::size_t indent) {
-  while (!text.empty()) {
-    const std::size_t width = kColumns - indent;
-    std::size_t length = text.size() <= width ? text.size() : text.rfind(' ', width);
-    if (length == std::string_view::npos || length == 0) length = text.size();
-    out += std::string(indent, ' ').append(text.substr(0, length)) + '\n';
-    text.remove_prefix(std::min(length + 1, text.size()));
-  }
-}
 
 // The value of a key in the paper's scene; members of a list have that of a new item.
 std::string default_of(const SceneKey& key) {

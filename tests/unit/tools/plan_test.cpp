@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -9,6 +7,7 @@
 #include <string>
 
 #include "firmware_app/config.h"
+#include "tests/support/command.h"
 #include "tests/support/xml_fault.h"
 
 // `hovermodal plan` as a user runs it.
@@ -16,28 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Outcome {
-  int exit_code;
-  std::string text;  // standard output and standard error
-};
+using tests::Outcome;
+using tests::read;
 
-Outcome plan(const std::string& arguments) {
-  const std::string command = std::string(HOVERMODAL_BIN_DIR) + "/hovermodal plan " + arguments + " 2>&1";
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) return {-1, "popen failed"};
-  std::string text;
-  char block[4096];
-  while (const std::size_t n = std::fread(block, 1, sizeof block, pipe)) text.append(block, n);
-  const int status = ::pclose(pipe);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
-}
-
-std::string read(const fs::path& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+Outcome plan(const std::string& arguments) { return tests::run("hovermodal", "plan " + arguments); }
 
 const std::string kFrame =
     "--storeys 6 --storey-mm 140 --frequencies 1.657,5.04,8.14,10.83,12.93,14.34 --damping-percent 1 ";

@@ -1,20 +1,16 @@
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <sstream>
 #include <string>
+
+#include "tests/support/command.h"
 
 // `hovermodal selftest` as a user runs it.
 namespace {
 
 std::string selftest(const std::string& what) {
-  const std::string command = std::string(HOVERMODAL_BIN_DIR) + "/hovermodal selftest " + what;
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) return {};
-  std::string text;
-  char block[4096];
-  while (const std::size_t n = std::fread(block, 1, sizeof block, pipe)) text.append(block, n);
-  return ::pclose(pipe) == 0 ? text : std::string();
+  const tests::Outcome outcome = tests::run("hovermodal", "selftest " + what);
+  return outcome.exit_code == 0 ? outcome.text : std::string();
 }
 
 TEST(Selftest, FindsEveryEffectWhereItsSignatureSaysItIs) {

@@ -1,20 +1,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "drivers/storage/csv.h"
 #include "firmware_app/config.h"
+#include "tests/support/command.h"
 
 // `hovermodal simulate --scene` as a user runs it.
 namespace {
@@ -23,28 +20,9 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using Json = nlohmann::json;
 
-struct Outcome {
-  int exit_code;
-  std::string text;  // standard output and standard error
-};
-
-Outcome run(const std::string& program, const std::string& arguments) {
-  const std::string command = std::string(HOVERMODAL_BIN_DIR) + "/" + program + " " + arguments + " 2>&1";
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) return {-1, "popen failed"};
-  std::string text;
-  std::array<char, 4096> block{};
-  while (const std::size_t n = std::fread(block.data(), 1, block.size(), pipe)) text.append(block.data(), n);
-  const int status = ::pclose(pipe);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
-}
-
-std::string read(const fs::path& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+using tests::Outcome;
+using tests::read;
+using tests::run;
 
 class SimulateScene : public testing::Test {
  protected:

@@ -1,8 +1,5 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -11,34 +8,17 @@
 #include <string>
 
 #include "firmware_app/config.h"
+#include "tests/support/command.h"
 
 // `hovermodal simulate` as a user runs it.
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Outcome {
-  int exit_code;
-  std::string text;  // standard output and standard error
-};
+using tests::Outcome;
+using tests::read;
 
-Outcome simulate(const std::string& arguments) {
-  const std::string command = std::string(HOVERMODAL_BIN_DIR) + "/hovermodal simulate " + arguments + " 2>&1";
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) return {-1, "popen failed"};
-  std::string text;
-  char block[4096];
-  while (const std::size_t n = std::fread(block, 1, sizeof block, pipe)) text.append(block, n);
-  const int status = ::pclose(pipe);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
-}
-
-std::string read(const fs::path& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+Outcome simulate(const std::string& arguments) { return tests::run("hovermodal", "simulate " + arguments); }
 
 class Simulate : public testing::Test {
  protected:

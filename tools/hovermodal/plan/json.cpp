@@ -81,7 +81,7 @@ Json camera_json(const PlanInput& input) {
           {"focal_px", camera.focal_px},
           {"rate_hz", camera.rate_hz},
           {"readout_ms", 1e3 * camera.readout_s},
-          {"readout_direction", to_text(camera.direction)},
+          {"readout_direction", to_string(camera.direction)},
           {"exposure_ms", 1e3 * camera.exposure_s},
           {"distance_mm", input.distance_mm}};
 }

@@ -132,20 +132,6 @@ const char* to_text(core::planning::FoldOutlook outlook) noexcept {
   return "";
 }
 
-const char* to_text(core::ReadoutDirection direction) noexcept {
-  switch (direction) {
-    case core::ReadoutDirection::kDown:
-      return "down";
-    case core::ReadoutDirection::kUp:
-      return "up";
-    case core::ReadoutDirection::kLeft:
-      return "left";
-    case core::ReadoutDirection::kRight:
-      return "right";
-  }
-  return "";
-}
-
 std::string plan_text(const PlanInput& input, const HoverPlan& plan) {
   return head(input, plan) + mode_table(input, plan) + option_table(input, plan) +
          wrapped(plan_advice(input, plan), 118) + "\n" + plan_yaml(input, plan);

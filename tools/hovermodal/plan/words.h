@@ -22,7 +22,6 @@ namespace tools {
 [[nodiscard]] std::string plan_svg(const core::planning::PlanInput& input, const core::planning::HoverPlan& plan);
 
 [[nodiscard]] const char* to_text(core::planning::FoldOutlook outlook) noexcept;
-[[nodiscard]] const char* to_text(core::ReadoutDirection direction) noexcept;
 
 // "mode 5", "modes 5 and 6", "modes 2, 5 and 6"; the numbers count from 1.
 [[nodiscard]] std::string mode_list(const std::vector<std::size_t>& indices);

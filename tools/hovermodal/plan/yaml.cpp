@@ -13,7 +13,7 @@ std::string plan_yaml(const core::planning::PlanInput& input, const core::planni
       "  readout_ms: {:.10g}\n"
       "  readout_direction: {}\n"
       "  exposure_ms: {:.10g}\n",
-      camera.rate_hz, 1e3 * camera.readout_s, to_text(camera.direction), 1e3 * camera.exposure_s);
+      camera.rate_hz, 1e3 * camera.readout_s, to_string(camera.direction), 1e3 * camera.exposure_s);
   out += fmt::format(
       "tracking:\n"
       "  points_per_region: {}\n"

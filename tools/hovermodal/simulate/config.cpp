@@ -22,11 +22,6 @@ void append(std::string& out, fmt::format_string<Args...> format, Args&&... args
   fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
 }
 
-const char* to_text(core::ReadoutDirection direction) {
-  constexpr const char* kNames[] = {"down", "up", "left", "right"};
-  return kNames[static_cast<std::size_t>(direction)];
-}
-
 // 15 digits: 26, not 26.000000000000004, where a unit was converted.
 void append_declared(std::string& out, const char* key, const drivers::Declared& declared, double truth) {
   if (const auto value = declared.of(truth)) append(out, "  {}: {:.15g}\n", key, *value);
@@ -40,7 +35,7 @@ std::string camera_section(const SimulateJob& job, const std::string& source) {
   append_declared(out, "rate_hz", declare.rate_hz, camera.rate_hz);
   out += "  pace: as_fast_as_possible\n";
   append_declared(out, "readout_ms", declare.readout_ms, 1e3 * camera.readout_s);
-  append(out, "  readout_direction: {}\n", to_text(camera.readout_direction));
+  append(out, "  readout_direction: {}\n", to_string(camera.readout_direction));
   append_declared(out, "exposure_ms", declare.exposure_ms, 1e3 * camera.exposure_s);
   return out;
 }

@@ -40,11 +40,6 @@ void end_line(drivers::CsvWriter& csv) {
   if (!csv.end_line()) csv.commit();  // throws with the reason
 }
 
-const char* to_text(core::ReadoutDirection direction) {
-  constexpr const char* kNames[] = {"down", "up", "left", "right"};
-  return kNames[static_cast<std::size_t>(direction)];
-}
-
 // The same comment lines as the tracks.csv of a run.
 void write_track_header(drivers::CsvWriter& csv, const SimulateJob& job,
                         const std::vector<core::simulation::SceneRegion>& regions) {
@@ -55,7 +50,7 @@ void write_track_header(drivers::CsvWriter& csv, const SimulateJob& job,
   append(out, "# hovermodal tracks, version 1\n# image_size_px: {} x {}\n# rate_hz: {}\n", camera.width_px,
          camera.height_px, camera.rate_hz);
   append(out, "# readout_ms: {}\n# readout_direction: {}\n# exposure_ms: {}\n",
-         static_cast<double>(camera.readout_ns) / 1e6, to_text(camera.readout_direction),
+         static_cast<double>(camera.readout_ns) / 1e6, to_string(camera.readout_direction),
          static_cast<double>(camera.exposure_ns) / 1e6);
   append(out, "# frame_count: {}\n# regions: {}\nframe,t_s,point,region,u_px,v_px,sigma_px", camera.frame_count, names);
   end_line(csv);

@@ -1,14 +1,14 @@
+#include "drivers/storage/key_suggestion.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numeric>
 #include <set>
-#include <string_view>
+#include <utility>
 
-#include "firmware_app/config_table.h"
-
-namespace app {
+namespace drivers {
 namespace {
 
 // Levenshtein distance: insertions, deletions and changes that turn one word into the other.
@@ -28,26 +28,27 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::string_view leaf(std::string_view path) { return path.substr(path.rfind('.') + 1); }
 
 // Every key and every section on the way to it.
-std::set<std::string> all_paths() {
+std::set<std::string> all_paths(const std::vector<std::string>& keys) {
   std::set<std::string> paths;
-  for (const ConfigKey& key : config_keys()) {
-    for (std::size_t dot = key.path.find('.'); dot != std::string::npos; dot = key.path.find('.', dot + 1)) {
-      const std::string section = key.path.substr(0, dot);
-      paths.insert(section == "regions[]" ? "regions" : section);
+  for (const std::string& key : keys) {
+    for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', dot + 1)) {
+      const std::string section = key.substr(0, dot);
+      paths.insert(section.ends_with("[]") ? section.substr(0, section.size() - 2) : section);
     }
-    paths.insert(key.path);
+    paths.insert(key);
   }
   return paths;
 }
 
 }  // namespace
 
-std::string suggest_key(const std::string& path) {
+std::string suggest_key(const std::string& path, const std::vector<std::string>& keys, std::string_view help_option) {
   constexpr std::size_t kMaxLength = 80;  // nothing longer is like any key
-  if (path.size() > kMaxLength) return "see --help-config";
+  if (path.size() > kMaxLength) return fmt::format("see {}", help_option);
+  const std::set<std::string> candidates = all_paths(keys);
   std::string best;
   std::size_t best_score = kMaxLength * 4;
-  for (const std::string& candidate : all_paths()) {
+  for (const std::string& candidate : candidates) {
     // A right name in a wrong section counts almost like a typing error in the right one.
     const std::size_t whole = edit_distance(path, candidate) * 2;
     const std::size_t by_leaf = edit_distance(leaf(path), leaf(candidate)) * 2 + 1;
@@ -56,11 +57,12 @@ std::string suggest_key(const std::string& path) {
     if (path.size() > 2 && candidate.starts_with(path)) score = 0;
     if (score < best_score) best_score = score, best = candidate;
   }
-  if (best_score <= std::max<std::size_t>(4, leaf(path).size()))
-    return fmt::format("did you mean `{}`? (--help-config lists all)", best);
+  if (best_score <= std::max<std::size_t>(4, leaf(path).size())) {
+    return fmt::format("did you mean `{}`? ({} lists all)", best, help_option);
+  }
   std::vector<std::string> beside;
   const std::string section = path.substr(0, path.size() - leaf(path).size());
-  for (const std::string& candidate : all_paths()) {
+  for (const std::string& candidate : candidates) {
     if (candidate.starts_with(section) && candidate.find('.', section.size()) == std::string::npos) {
       beside.push_back(candidate.substr(section.size()));
     }
@@ -68,4 +70,4 @@ std::string suggest_key(const std::string& path) {
   return fmt::format("known here: {}", fmt::join(beside, ", "));
 }
 
-}  // namespace app
+}  // namespace drivers
