@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tools/hovermodal/commands.h"
+#include "tools/hovermodal/selftest/identification.h"
 #include "tools/hovermodal/selftest/peaks.h"
 #include "tools/hovermodal/selftest/render.h"
 #include "tools/hovermodal/selftest/signatures.h"
@@ -90,37 +91,62 @@ constexpr std::array kChecks{
     Check{"klt", "OpenCV's tracker in drawn frames against the true tracks", print_klt},
     Check{"speed", "1080p frames drawn per second", print_speed}};
 
+// The identification on simulated records.
+struct IdentificationCheck {
+  const char *name, *meaning;
+  void (*print)(const IdentificationOptions&);
+};
+constexpr std::array kIdentificationChecks{
+    IdentificationCheck{"bias", "bias, scatter and stated intervals of the identification", print_bias},
+    IdentificationCheck{"losses", "what random losses of samples and frames do to the modes", print_losses},
+    IdentificationCheck{"folding", "modes above half the frame rate", print_folding},
+    IdentificationCheck{"null", "a rigid building under a hovering camera: no mode", print_null},
+    IdentificationCheck{"harmonics", "rotor lines and steady forces beside modes", print_harmonics}};
+
 std::string meanings() {
   std::string text = "What is checked";
   for (const Check& check : kChecks) text += fmt::format("\n{}: {}", check.name, check.meaning);
+  for (const IdentificationCheck& check : kIdentificationChecks) {
+    text += fmt::format("\n{}: {}", check.name, check.meaning);
+  }
   return text;
 }
 
 std::vector<std::string> names() {
   std::vector<std::string> all;
   for (const Check& check : kChecks) all.emplace_back(check.name);
+  for (const IdentificationCheck& check : kIdentificationChecks) all.emplace_back(check.name);
   return all;
+}
+
+void run(const Options& options) {
+  const auto named = [&](const auto& check) { return options.what == check.name; };
+  if (const auto check = std::find_if(kChecks.begin(), kChecks.end(), named); check != kChecks.end()) {
+    check->print(options);
+    return;
+  }
+  std::find_if(kIdentificationChecks.begin(), kIdentificationChecks.end(), named)
+      ->print({options.n_seeds, options.n_threads});
 }
 
 }  // namespace
 
 void add_selftest(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("selftest", "Check the simulator's truth against independent theory");
+  CLI::App* command = app.add_subcommand(
+      "selftest", "Check the simulator against theory, the identification against the simulator's truth");
   const auto options = std::make_shared<Options>();
   command->add_option("what", options->what, meanings())->required()->check(CLI::IsMember(names()));
-  command->add_option("--seeds", options->n_seeds, "peaks: records, of seeds 1 to this")
+  command
+      ->add_option("--seeds", options->n_seeds, "peaks and checks of the identification: records, of seeds 1 to this")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   command->add_option("--frames", options->n_frames, "klt: frames of a minute that are drawn")
       ->check(CLI::Range(1, 1499))
       ->capture_default_str();
-  command->add_option("--threads", options->n_threads, "speed: threads that draw")
+  command->add_option("--threads", options->n_threads, "speed and checks of the identification: threads")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  command->callback([options] {
-    const auto named = [&](const Check& check) { return options->what == check.name; };
-    std::find_if(kChecks.begin(), kChecks.end(), named)->print(*options);
-  });
+  command->callback([options] { run(*options); });
 }
 
 }  // namespace tools

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tools {
+
+// The identification on simulated records of known truth: structure -> channel samples -> spectra -> modes, in process.
+// Each prints tab-separated lines, with a comment line (#) that names their columns. Records are those of seeds 1 to
+// n_seeds, made on n_threads; what is printed does not depend on the number of threads.
+struct IdentificationOptions {
+  int n_seeds = 20;
+  int n_threads = 2;
+};
+
+void print_bias(const IdentificationOptions& options);       // bias, scatter and stated intervals, six storeys at 60 Hz
+void print_losses(const IdentificationOptions& options);     // samples and frames lost at random
+void print_folding(const IdentificationOptions& options);    // modes above half the frame rate
+void print_null(const IdentificationOptions& options);       // a rigid building under a hovering, vibrating camera
+void print_harmonics(const IdentificationOptions& options);  // rotor lines and steady forces beside modes
+
+}  // namespace tools

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <thread>
+#include <vector>
+
+namespace tools {
+
+// One result per seed 1 .. n_seeds, in their order, whichever thread made it. The first exception is rethrown.
+template <class Make>
+[[nodiscard]] auto for_each_seed(int n_seeds, int n_threads, Make make) {
+  std::vector<decltype(make(std::uint64_t{1}))> results(static_cast<std::size_t>(n_seeds));
+  std::vector<std::exception_ptr> failures(results.size());
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t i = next++; i < results.size(); i = next++) {
+      try {
+        results[i] = make(static_cast<std::uint64_t>(i) + 1);
+      } catch (...) {
+        failures[i] = std::current_exception();
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (int t = 1; t < std::min(n_threads, n_seeds); ++t) threads.emplace_back(work);
+    work();
+  }
+  for (const std::exception_ptr& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
+  return results;
+}
+
+}  // namespace tools
