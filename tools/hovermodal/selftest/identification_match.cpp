@@ -41,6 +41,10 @@ const Mode* nearest(std::vector<const Mode*>& poles, double wanted_hz, double li
 
 }  // namespace
 
+double shape_mac(const TrueMode& truth, const Mode& mode, const std::vector<core::ChannelInfo>& channels) {
+  return core::mac(true_shape(truth, channels), mode.shape);
+}
+
 double apparent_hz(double frequency_hz, double rate_hz) noexcept {
   return std::abs(frequency_hz - rate_hz * std::round(frequency_hz / rate_hz));
 }
@@ -61,7 +65,7 @@ Match match_modes(const core::ModalEstimate& estimate, const std::vector<TrueMod
       const Mode* mode = apparent ? nearest(from, apparent_hz(f, estimate.rate_hz), kNearApparent,
                                             [](const Mode& m) { return m.apparent_hz; })
                                   : nearest(from, f, kNear, [](const Mode& m) { return m.frequency_hz; });
-      if (mode != nullptr) match.modes[r] = {as, *mode, core::mac(true_shape(truth[r], channels), mode->shape)};
+      if (mode != nullptr) match.modes[r] = {as, *mode, shape_mac(truth[r], *mode, channels)};
     }
   };
   take(Found::As::kRight, structural, false);

@@ -27,6 +27,10 @@ struct Match {
                                 const std::vector<core::simulation::TrueMode>& truth,
                                 const std::vector<core::ChannelInfo>& channels);
 
+// MAC of a pole's shape with a true mode's, in these channels.
+[[nodiscard]] double shape_mac(const core::simulation::TrueMode& truth, const core::Mode& mode,
+                               const std::vector<core::ChannelInfo>& channels);
+
 // Where a frequency appears in the sampled spectrum, 0 .. rate / 2.
 [[nodiscard]] double apparent_hz(double frequency_hz, double rate_hz) noexcept;
 
