@@ -52,24 +52,37 @@ void normalise_shape(std::vector<Complex>& shape) noexcept {
   for (Complex& z : shape) z = z == largest ? Complex(1.0, 0.0) : z / largest;
 }
 
+std::vector<Complex> observed_shape(const UnfoldedPole& pole, const FoldingConfig& config) {
+  const bool conjugate = pole.apparent_hz + pole.fold_n.value_or(0) * config.rate_hz < 0.0;
+  std::vector<Complex> shape = pole.shape;
+  for (std::size_t c = 0; c < shape.size() && c < config.delay_s.size(); ++c) {
+    shape[c] *= std::exp(pole.s * config.delay_s[c]);
+    if (conjugate) shape[c] = std::conj(shape[c]);
+  }
+  return shape;
+}
+
 UnfoldedPole unfold(Complex lambda, const std::vector<Complex>& shape, const FoldingConfig& config) {
   const Complex s_apparent = std::log(lambda) * config.rate_hz;
   UnfoldedPole out;
   out.apparent_hz = s_apparent.imag() / (2.0 * std::numbers::pi);
   Hypothesis best = evaluate(s_apparent, 0, shape, config);
-  if (folding_observable(config) && config.max_frequency_hz > config.rate_hz / 2.0) {
-    double second = -1.0;
+  Hypothesis rival{0, {}, {}, -1.0};  // the best of the others
+  if (config.max_frequency_hz > config.rate_hz / 2.0) {
     const int reach = static_cast<int>(std::ceil(config.max_frequency_hz / config.rate_hz)) + 1;
     for (int n = -reach; n <= reach; ++n) {
       if (n == 0 || std::abs(out.apparent_hz + n * config.rate_hz) > config.max_frequency_hz) continue;
       Hypothesis other = evaluate(s_apparent, n, shape, config);
-      if (other.mpc > best.mpc) std::swap(best, other);
-      second = std::max(second, other.mpc);
+      if (other.mpc > best.mpc && folding_observable(config)) std::swap(best, other);
+      if (other.mpc > rival.mpc) rival = std::move(other);
     }
-    if (second >= 0.0) {
-      out.fold_n = best.n;
-      out.fold_margin = best.mpc - second;
-    }
+  }
+  if (rival.mpc >= 0.0 && folding_observable(config)) {
+    out.fold_n = best.n;
+    out.fold_margin = best.mpc - rival.mpc;
+  } else if (rival.mpc >= 0.0) {
+    out.fold_open = true;
+    best.mpc = std::max(best.mpc, rival.mpc);
   }
   out.s = best.s;
   out.mpc = best.mpc;

@@ -22,11 +22,17 @@ struct UnfoldedPole {
   double mpc = 0.0;
   std::optional<int> fold_n;          // empty: cannot be told (fewer than three channels, or no delays)
   std::optional<double> fold_margin;  // best MPC minus second best
+  // There are other frequencies below the limit, and nothing that could tell: s and shape are those of n = 0, mpc is
+  // that of the best.
+  bool fold_open = false;
 };
 
 // lambda: discrete pole with Im > 0. shape: as observed.
 [[nodiscard]] UnfoldedPole unfold(std::complex<double> lambda, const std::vector<std::complex<double>>& shape,
                                   const FoldingConfig& config);
+
+// The shape as it was observed, before the delays were undone.
+[[nodiscard]] std::vector<std::complex<double>> observed_shape(const UnfoldedPole& pole, const FoldingConfig& config);
 
 // Is the delay span long enough to tell n = 0 from n = +-1 at all?
 [[nodiscard]] bool folding_observable(const FoldingConfig& config) noexcept;

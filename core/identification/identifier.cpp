@@ -7,6 +7,7 @@
 
 #include "core/identification/correlation.h"
 #include "core/identification/era.h"
+#include "core/identification/line_evidence.h"
 #include "core/identification/uncertainty.h"
 #include "core/identification/verdict.h"
 
@@ -71,11 +72,27 @@ void note_poles(const std::vector<OrderPole>& poles, const std::vector<int>& ord
   }
 }
 
-void state_scatter(const std::optional<ModeScatter>& scatter, Mode& mode) {
-  if (!scatter) return;
-  mode.frequency_std_hz = scatter->frequency_hz;
-  mode.damping_std = scatter->damping_ratio;
-  mode.shape_std = scatter->shape;
+// What the standard deviations of a fit are made of.
+struct FitScatter {
+  const Realisation& realisation;
+  const EraConfig& era;
+  const FoldingConfig& folding;
+  const std::vector<Correlations>& deviations;
+};
+
+// modes[i] belongs to lines[i].
+void state_scatter(const FitScatter& fit, const Poles& poles, const std::vector<PoleCluster>& lines,
+                   std::vector<Mode>& modes) {
+  std::vector<PoleOfOrder> chosen;
+  for (const PoleCluster& line : lines) chosen.push_back(poles.observed[line.i_representative]);
+  const auto changes = pole_changes(fit.realisation, fit.era, fit.deviations, chosen);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const auto scatter = mode_scatter(chosen[i], lines[i].representative, fit.folding, changes[i]);
+    if (!scatter) continue;
+    modes[i].frequency_std_hz = scatter->frequency_hz;
+    modes[i].damping_std = scatter->damping_ratio;
+    modes[i].shape_std = scatter->shape;
+  }
 }
 
 // modes[i] belongs to clusters[i]. The poles, which stand in the order of the clusters' members, learn their line.
@@ -179,17 +196,14 @@ ModalEstimate Identifier::identify(const CpsdSums& sums) const {
   rules.min_mpc = config_.min_mpc;
   rules.max_damping = config_.max_damping;
   std::vector<Mode> modes;
+  LineExaminer examiner(sums, folding);
   for (const PoleCluster& line : lines) {
-    modes.push_back(judge(line, base_response(sums, channels_, line.apparent_hz), channels_, orders, rules));
+    modes.push_back(judge(line, base_response(sums, channels_, line.apparent_hz), channels_, orders, rules,
+                          examiner.examine(line.representative)));
   }
   if (sums.n_blocks >= kScatterBlocks) {
-    std::vector<PoleOfOrder> chosen;
-    for (const PoleCluster& line : lines) chosen.push_back(poles.observed[line.i_representative]);
-    const auto changes = pole_changes(
-        realisation, era, block_deviations(sums, config_.n_differences, correlations, kScatterBlocks), chosen);
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      state_scatter(mode_scatter(chosen[i], lines[i].representative, folding, changes[i]), modes[i]);
-    }
+    const auto deviations = block_deviations(sums, config_.n_differences, correlations, kScatterBlocks);
+    state_scatter({realisation, era, folding, deviations}, poles, lines, modes);
     estimate.n_blocks = kScatterBlocks;
   }
   reject_twins(modes);

@@ -55,7 +55,8 @@ bool moves_with_base(double base_share, const BaseResponse& response, const Verd
 }
 
 void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response,
-            const std::vector<ChannelInfo>& channels, const std::vector<int>& orders, const VerdictRules& rules) {
+            const std::vector<ChannelInfo>& channels, const std::vector<int>& orders, const VerdictRules& rules,
+            const LineEvidence& line) {
   const double uniform = uniform_mac(mode, channels);
   const double base = base_share(mode, channels);
   const int first_order = orders[static_cast<std::size_t>(cluster.first_i_order)];
@@ -65,17 +66,28 @@ void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response
   } else if (uniform > rules.max_uniform_mac) {
     set(mode, Verdict::kCameraMotion,
         text("all channels move alike (MAC %.3f with a translation of the camera)", uniform));
+  } else if (line.camera_mac > rules.min_camera_mac) {
+    set(mode, Verdict::kCameraMotion,
+        text("the camera vibrates at %.1f Hz: the rows' delays turn it into this shape (MAC %.3f)", line.camera_hz,
+             line.camera_mac));
   } else if (moves_with_base(base, response, rules)) {
     set(mode, Verdict::kInputPeak,
         text("the base moves %.2f of the largest channel: motion of the base or the camera", base));
   } else if (cluster.presence < rules.min_presence || cluster.first_i_order > rules.last_first_i_order) {
     set(mode, Verdict::kNumerical,
         text("found in %.0f %% of the orders, first at order %d", 100.0 * cluster.presence, first_order));
+  } else if (line.late_damping_ratio && *line.late_damping_ratio < rules.max_late_damping) {
+    set(mode, Verdict::kHarmonic,
+        text("a steady force: damping %.3f %%, and its correlation goes on as if it had %.3f %%",
+             100.0 * mode.damping_ratio, 100.0 * *line.late_damping_ratio));
   } else if (mode.mpc < rules.min_mpc) {
     set(mode, Verdict::kNumerical, text("components not in phase: MPC %.2f < %.2f", mode.mpc, rules.min_mpc));
   } else if (mode.fold_n && (*mode.fold_margin < rules.least_fold_margin || mode.mpc < rules.least_certain_mpc)) {
     set(mode, Verdict::kAmbiguous,
         text("a mode, but its true frequency is open: fold margin %.2f, MPC %.2f", *mode.fold_margin, mode.mpc));
+  } else if (cluster.representative.fold_open) {
+    set(mode, Verdict::kAmbiguous,
+        "a mode, but its true frequency is open: the channels are seen too close in time to tell");
   } else {
     set(mode, Verdict::kStructural,
         text("found in %.0f %% of the orders from order %d on, MPC %.3f", 100.0 * cluster.presence, first_order,
@@ -86,7 +98,7 @@ void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response
 }  // namespace
 
 Mode judge(const PoleCluster& cluster, const BaseResponse& response, const std::vector<ChannelInfo>& channels,
-           const std::vector<int>& orders, const VerdictRules& rules) {
+           const std::vector<int>& orders, const VerdictRules& rules, const LineEvidence& line) {
   Mode mode;
   mode.frequency_hz = cluster.frequency_hz;
   mode.apparent_hz = cluster.apparent_hz;
@@ -96,7 +108,7 @@ Mode judge(const PoleCluster& cluster, const BaseResponse& response, const std::
   mode.shape = cluster.representative.shape;
   mode.mpc = cluster.representative.mpc;
   mode.presence = cluster.presence;
-  decide(mode, cluster, response, channels, orders, rules);
+  decide(mode, cluster, response, channels, orders, rules, line);
   return mode;
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/identification/base_response.h"
+#include "core/identification/line_evidence.h"
 #include "core/identification/stabilisation.h"
 #include "core/types/displacement.h"
 #include "core/types/modal_estimate.h"
@@ -19,6 +20,8 @@ struct VerdictRules {
   double open_base_share = 0.3;     // up to here a clear answer of the structure to its base decides
   double least_base_gain = 3.0;     // ... of at least this gain, and a local maximum
   double max_uniform_mac = 0.98;    // MAC with all channels moving alike: the camera's own translation
+  double min_camera_mac = 0.98;     // with a shaking camera, at a frequency where no mode is expected
+  double max_late_damping = 0.001;  // of a steady force, over the longest lags that a segment has
   double least_certain_mpc = 0.85;  // a folded frequency is certain from here on ...
   double least_fold_margin = 0.3;   // ... and with this lead over the next hypothesis
 };
@@ -26,7 +29,7 @@ struct VerdictRules {
 // A cluster as a mode with its verdict and the reason in words.
 [[nodiscard]] Mode judge(const PoleCluster& cluster, const BaseResponse& response,
                          const std::vector<ChannelInfo>& channels, const std::vector<int>& orders,
-                         const VerdictRules& rules);
+                         const VerdictRules& rules, const LineEvidence& line = {});
 
 // Of two structural modes with MAC > 0.9 within 6 % the one found in fewer orders is a twin (often an amplitude
 // dependence of the same mode): it becomes numerical, and its reason says so.

@@ -131,7 +131,7 @@ TEST(WelchCpsd, ForgetsAConstant) {
 TEST(WelchCpsd, BlocksAreTheRecordInOrderAndAddUpToItsSums) {
   WelchConfig config = config_of(2, 16, 0.5);
   config.n_blocks = 4;
-  for (const std::size_t n_samples : {24U, 40U, 48U, 56U, 1000U}) {
+  for (const int n_samples : {24, 40, 48, 56, 1000}) {
     WelchCpsd welch(config);
     push_noise(welch, 2, n_samples, 3);
     const CpsdSums& sums = welch.sums();

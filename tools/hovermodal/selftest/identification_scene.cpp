@@ -18,7 +18,6 @@ using Eigen::Index;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kDistance_mm = 2000.0;
 constexpr double kPlateHeight_mm = 40.0, kPlateWidth_mm = 300.0, kBaseAside_mm = 450.0;
-constexpr double kModalParts[kStoreys] = {1.0, 0.2, 0.08, 0.04, 0.02, 0.012};
 
 // rms of the roof in a mode under white forces of one density on all bodies; modal masses of unit body masses.
 double roof_part(const Eigen::MatrixXd& shapes, Index mode, double frequency_hz) {
@@ -35,7 +34,8 @@ StructureModel with_modal_parts(double damping_ratio) {
                                                       std::vector<double>(kStoreys, 1.0));
   const double first = roof_part(shapes, 0, f[0]);
   for (Index r = 0; r < kStoreys; ++r) {
-    const double heavier = roof_part(shapes, r, f[static_cast<std::size_t>(r)]) / (kModalParts[r] * first);
+    const double heavier =
+        roof_part(shapes, r, f[static_cast<std::size_t>(r)]) / (kModalParts[static_cast<std::size_t>(r)] * first);
     model.mass(r, r) *= heavier;
     model.damping(r, r) *= heavier;
     model.stiffness(r, r) *= heavier;

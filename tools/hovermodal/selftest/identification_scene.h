@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct StoreysSetup {
 [[nodiscard]] core::simulation::Scene storeys_scene(const StoreysSetup& setup, std::uint64_t seed);
 
 inline constexpr int kStoreys = 6;
+inline constexpr std::array<double, kStoreys> kModalParts{1.0, 0.2, 0.08, 0.04, 0.02, 0.012};  // of the roof
 [[nodiscard]] const std::vector<double>& storey_frequencies_hz();
 
 // Height of each mode's peak over the channels' noise, dB, in the channel where it stands highest: one-sided density of

@@ -1,0 +1,125 @@
+#include "core/identification/line_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/identification/stabilisation.h"
+
+namespace core {
+
+namespace {
+
+using Complex = std::complex<double>;
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+
+// Rotors and their blades; exposures average faster vibration away.
+constexpr double kFastestCamera_hz = 250.0;
+// Undoing two frequencies gives nearly the same shape when their delays' phasors are closer than this.
+constexpr double kMostAlike = 0.8;
+
+// Of a segment: two windows of lags, whose middles are two windows apart.
+constexpr double kWindow = 0.2, kLateStart = 0.4;
+// Poles with more damping than this are no lines, whatever else they are.
+constexpr double kMostLineDamping = 0.005;
+constexpr int kDifferences = 1;  // against the hover's drift
+
+std::vector<Complex> delays_undone(const std::vector<Complex>& observed, double frequency_hz,
+                                   const std::vector<double>& delay_s) {
+  std::vector<Complex> shape(observed.size());
+  for (std::size_t c = 0; c < shape.size(); ++c) {
+    shape[c] = observed[c] * std::polar(1.0, -kTwoPi * frequency_hz * delay_s[c]);
+  }
+  return shape;
+}
+
+// How alike the phases are by which two frequencies this far apart move the channels, 0..1.
+double likeness(double apart_hz, const std::vector<double>& delay_s) {
+  Complex sum = 0.0;
+  for (const double delay : delay_s) sum += std::polar(1.0, kTwoPi * apart_hz * delay);
+  return std::abs(sum) / static_cast<double>(delay_s.size());
+}
+
+// Share of a shape that a constant and a slope over the delays explain (complex least squares, orthogonal by
+// centring).
+double explained_by_slope(const std::vector<Complex>& shape, const std::vector<double>& delay_s) {
+  const double n = static_cast<double>(shape.size());
+  double mean_delay = 0.0;
+  for (const double delay : delay_s) mean_delay += delay / n;
+  Complex constant = 0.0, slope = 0.0;
+  double slopes = 0.0, whole = 0.0;
+  for (std::size_t c = 0; c < shape.size(); ++c) {
+    const double x = delay_s[c] - mean_delay;
+    constant += shape[c];
+    slope += x * shape[c];
+    slopes += x * x;
+    whole += std::norm(shape[c]);
+  }
+  if (!(whole > 0.0 && slopes > 0.0)) return 0.0;
+  return (std::norm(constant) / n + std::norm(slope) / slopes) / whole;
+}
+
+}  // namespace
+
+void LineExaminer::find_camera(const std::vector<Complex>& observed, double apparent_hz, LineEvidence& out) const {
+  const double rate_hz = folding_.rate_hz, limit_hz = std::max(folding_.max_frequency_hz, 0.5 * rate_hz);
+  if (observed.size() < 5 || folding_.delay_s.size() != observed.size()) return;  // a constant, a slope and a check
+  const int reach = static_cast<int>(std::ceil(kFastestCamera_hz / rate_hz)) + 1;
+  const auto near_a_mode = [&](double f) {
+    for (int n = -reach; n <= reach; ++n) {
+      const double other = apparent_hz + n * rate_hz;
+      if (std::abs(other) <= limit_hz && likeness(f - other, folding_.delay_s) > kMostAlike) return true;
+    }
+    return false;
+  };
+  for (int n = -reach; n <= reach; ++n) {
+    const double f = apparent_hz + n * rate_hz;
+    if (std::abs(f) <= limit_hz || std::abs(f) > kFastestCamera_hz || near_a_mode(f)) continue;
+    const double share = explained_by_slope(delays_undone(observed, f, folding_.delay_s), folding_.delay_s);
+    if (share > out.camera_mac) out.camera_mac = share, out.camera_hz = std::abs(f);
+  }
+}
+
+// |sum over lags of phi' R(lag) phi exp(-i w lag)|, Hann weighted: what the correlation of the shape still has at that
+// frequency.
+double LineExaminer::envelope(const std::vector<Complex>& observed, double apparent_hz, int first_lag,
+                              int n_lags) const {
+  const int n = correlations_.n_channels();
+  const double turn = kTwoPi * apparent_hz / sums_.rate_hz;
+  Complex sum = 0.0;
+  for (int k = 0; k < n_lags; ++k) {
+    const int lag = first_lag + k;
+    Complex value = 0.0;
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) {
+        value += std::conj(observed[static_cast<std::size_t>(i)]) * correlations_.divided(i, j, lag) *
+                 observed[static_cast<std::size_t>(j)];
+      }
+    }
+    const double window = 0.5 - 0.5 * std::cos(kTwoPi * (k + 0.5) / n_lags);
+    sum += window * value * std::polar(1.0, -turn * lag);
+  }
+  return std::abs(sum);
+}
+
+std::optional<double> LineExaminer::late_damping(const std::vector<Complex>& observed, const UnfoldedPole& pole) {
+  const double segment = 0.5 * sums_.n_fft;
+  const int n_lags = static_cast<int>(kWindow * segment), late = static_cast<int>(kLateStart * segment);
+  if (!status_) status_ = compute_correlations(sums_, late + n_lags, kDifferences, correlations_);
+  if (*status_ != CorrelationStatus::kOk || correlations_.max_lag() < late + n_lags - 1 || n_lags < 2) return {};
+  const double first = envelope(observed, pole.apparent_hz, 0, n_lags);
+  const double last = envelope(observed, pole.apparent_hz, late, n_lags);
+  if (!(first > 0.0 && last > 0.0)) return {};
+  const double apart_s = late / sums_.rate_hz;
+  return std::log(first / last) / (kTwoPi * frequency_hz(pole.s) * apart_s);
+}
+
+LineEvidence LineExaminer::examine(const UnfoldedPole& pole) {
+  LineEvidence evidence;
+  const std::vector<Complex> observed = observed_shape(pole, folding_);
+  find_camera(observed, pole.apparent_hz, evidence);
+  if (damping_ratio(pole.s) < kMostLineDamping) evidence.late_damping_ratio = late_damping(observed, pole);
+  return evidence;
+}
+
+}  // namespace core

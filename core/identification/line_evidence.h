@@ -1,0 +1,46 @@
+#pragma once
+
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "core/identification/correlation.h"
+#include "core/identification/folding.h"
+#include "core/types/cpsd.h"
+#include "core/types/displacement.h"
+
+namespace core {
+
+// What speaks for a line that is no mode of the structure: a vibration of the camera, or a steady force.
+struct LineEvidence {
+  // Largest MAC of the observed shape with what a shaking camera shows: at frequencies beyond those looked for, where
+  // no mode is expected, a translation and a turn about the view (a constant and a slope along the rows) with phases of
+  // their own, its delays undone. 0: such frequencies cannot be told from the others by these delays.
+  double camera_mac = 0.0;
+  double camera_hz = 0.0;  // the frequency at which it is that large
+  // Damping ratio by which the correlation decays from a tenth to half of a segment, where modes are spent and a steady
+  // force goes on. Empty: not examined, or no correlation that far.
+  std::optional<double> late_damping_ratio;
+};
+
+// Of one spectrum; keeps references to its arguments. One thread.
+class LineExaminer {
+ public:
+  LineExaminer(const CpsdSums& sums, const FoldingConfig& folding) : sums_(sums), folding_(folding) {}
+
+  [[nodiscard]] LineEvidence examine(const UnfoldedPole& pole);
+
+ private:
+  void find_camera(const std::vector<std::complex<double>>& observed, double apparent_hz, LineEvidence& out) const;
+  [[nodiscard]] std::optional<double> late_damping(const std::vector<std::complex<double>>& observed,
+                                                   const UnfoldedPole& pole);
+  [[nodiscard]] double envelope(const std::vector<std::complex<double>>& observed, double apparent_hz, int first_lag,
+                                int n_lags) const;
+
+  const CpsdSums& sums_;
+  const FoldingConfig& folding_;
+  std::optional<CorrelationStatus> status_;  // empty: the long correlations are not made yet
+  Correlations correlations_;
+};
+
+}  // namespace core
