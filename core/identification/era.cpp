@@ -47,8 +47,8 @@ EraStatus realise(const Correlations& correlations, const EraConfig& config, Rea
   const Eigen::VectorXd scale = channel_scale(correlations);
   Eigen::MatrixXd h0 = block_hankel(correlations, config.references, scale, p, p, config.first_lag);
   Eigen::MatrixXd h1 = block_hankel(correlations, config.references, scale, p, p, config.first_lag + 1);
-  Eigen::MatrixXd left_top = Eigen::MatrixXd::Identity(ny, ny);
-  Eigen::MatrixXd left, right;  // Cholesky factors; empty: no weights
+  Eigen::MatrixXd left;
+  Eigen::MatrixXd right;
   if (config.canonical_variates) {
     std::vector<int> outputs(static_cast<std::size_t>(ny));
     std::iota(outputs.begin(), outputs.end(), 0);
@@ -57,7 +57,6 @@ EraStatus realise(const Correlations& correlations, const EraConfig& config, Rea
     if (left.size() == 0 || right.size() == 0) return EraStatus::kRankDeficient;
     h0 = whiten(left, h0, right);
     h1 = whiten(left, h1, right);
-    left_top = left.topLeftCorner(ny, ny);
   }
   if (!h0.allFinite() || !h1.allFinite()) return EraStatus::kRankDeficient;
 
@@ -74,16 +73,17 @@ EraStatus realise(const Correlations& correlations, const EraConfig& config, Rea
   out.a = u.transpose() * h1 * v;
   out.a.array().colwise() /= root;
   out.a.array().rowwise() /= root.transpose();
-  out.c = scale.asDiagonal() * left_top * u.topRows(ny);
+  out.c = u.topRows(ny);
+  if (config.canonical_variates) out.c = left.topLeftCorner(ny, ny).triangularView<Eigen::Lower>() * out.c;
+  out.c = scale.asDiagonal() * out.c;
   out.c.array().rowwise() *= root.transpose();
   out.scale = scale;
-  out.left_map = u;
+  out.left_map = u.transpose();
   out.right_map = v;
   if (config.canonical_variates) {
-    left.triangularView<Eigen::Lower>().transpose().solveInPlace(out.left_map);
-    right.triangularView<Eigen::Lower>().transpose().solveInPlace(out.right_map);
+    left.triangularView<Eigen::Lower>().solveInPlace<Eigen::OnTheRight>(out.left_map);
+    right.triangularView<Eigen::Lower>().adjoint().solveInPlace(out.right_map);
   }
-  out.left_map.transposeInPlace();
   out.left_map.array().colwise() /= root;
   out.right_map.array().rowwise() /= root.transpose();
   return EraStatus::kOk;

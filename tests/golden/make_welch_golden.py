@@ -1,17 +1,27 @@
 #!/usr/bin/env python3
-"""Writes welch_golden.json beside itself: Welch cross-spectra by scipy.signal.csd, for welch_golden_test.cpp.
+"""Welch cross-spectra by scipy.signal.csd, for welch_golden_test.cpp, in welch_golden.json beside this script.
+
+    make_welch_golden.py            writes the file (made with numpy 1.24, scipy 1.10)
+    make_welch_golden.py --check    recomputes it with the installed scipy and prints the worst relative deviation;
+                                    exit code 1 beyond 1e-10
 
 One-sided density, detrend = constant, zero-padded to the power of two >= 2 * segment. Pair (i, j) is
-E[X_i conj(X_j)]; scipy's csd(x, y) is E[conj(X) Y], hence csd(x_j, x_i). Made with numpy 1.24, scipy 1.10.
+E[X_i conj(X_j)]; scipy's csd(x, y) is E[conj(X) Y], hence csd(x_j, x_i).
 """
+import argparse
 import json
 import pathlib
+import sys
 
 import numpy as np
 import scipy.signal
 
 RATE_HZ = 25.0
 SAMPLES = 300
+PATH = pathlib.Path(__file__).with_name("welch_golden.json")
+# Bins below it, of the pair's peak, are what rounding leaves of the mean: deviations are taken relative to at least it.
+FLOOR = 1e-4
+BAR = 1e-10
 
 
 def channels():
@@ -34,14 +44,38 @@ def spectra(x, window, segment, overlap):
     return {"window": window, "segment": segment, "overlap": overlap, "n_fft": n_fft, "pairs": pairs}
 
 
-def main():
+def write():
     x = channels()
     cases = [spectra(x, window, 48, overlap) for window in ("hann", "hamming", "boxcar") for overlap in (0.0, 0.5, 0.75)]
     cases.append(spectra(x, "hann", 64, 0.5))
+    cases += [spectra(x, window, segment, overlap)  # odd lengths
+              for window, segment, overlap in (("hann", 45, 0.5), ("hamming", 33, 0.75), ("boxcar", 31, 0.5), ("hann", 37, 0.3))]
     golden = {"rate_hz": RATE_HZ, "channels": x.tolist(), "cases": cases}
-    path = pathlib.Path(__file__).with_name("welch_golden.json")
-    path.write_text(json.dumps(golden, separators=(",", ":")).replace('{"window"', '\n{"window"') + "\n")
+    PATH.write_text(json.dumps(golden, separators=(",", ":")).replace('{"window"', '\n{"window"') + "\n")
+
+
+def worst_deviation():
+    golden = json.loads(PATH.read_text())
+    x = np.array(golden["channels"])
+    worst = 0.0
+    for case in golden["cases"]:
+        again = spectra(x, case["window"], case["segment"], case["overlap"])
+        for old, new in zip(case["pairs"], again["pairs"]):
+            old, new = (np.array(p["re"]) + 1j * np.array(p["im"]) for p in (old, new))
+            worst = max(worst, np.max(np.abs(new - old) / np.maximum(np.abs(old), FLOOR * np.abs(old).max())))
+    return worst, len(golden["cases"])
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--check", action="store_true")
+    if not parser.parse_args().check:
+        write()
+        return 0
+    worst, n_cases = worst_deviation()
+    print(f"scipy {scipy.__version__}: {n_cases} cases, worst relative deviation {worst:.1e}")
+    return 0 if worst <= BAR else 1
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/identification/block_hankel.h"
 #include "core/identification/mac.h"
 #include "tests/support/random_system.h"
 
@@ -58,6 +59,25 @@ TEST(Era, CanonicalCorrelationsLieBetweenZeroAndOneAndShowTheOrder) {
   EXPECT_LT(realisation.singular_values[6], 0.01);
   EXPECT_LE(canonical_order(realisation), 6);
   EXPECT_EQ(canonical_order(realisation, 0.01), 6);
+}
+
+TEST(Era, MapsTakeTheHankelMatricesToTheRealisation) {
+  const RandomSystem system(4, 3, 3);
+  const Correlations correlations = system.correlations(30);
+  Eigen::VectorXd scale(3);
+  for (int i = 0; i < 3; ++i) scale[i] = std::sqrt(correlations.undivided(i, i, 0));
+  for (const bool weighted : {false, true}) {
+    EraConfig config = config_of(10, {0, 2}, weighted);
+    config.max_order = 6;
+    Realisation realisation;
+    ASSERT_EQ(realise(correlations, config, realisation), EraStatus::kOk);
+    const auto mapped = [&](int first_lag) -> Eigen::MatrixXd {
+      return realisation.left_map * block_hankel(correlations, config.references, scale, 10, 10, first_lag) *
+             realisation.right_map;
+    };
+    EXPECT_LT((mapped(config.first_lag) - Eigen::MatrixXd::Identity(6, 6)).norm(), 1e-6) << weighted;
+    EXPECT_LT((mapped(config.first_lag + 1) - realisation.a).norm(), 1e-6 * realisation.a.norm()) << weighted;
+  }
 }
 
 TEST(Era, SaysWhenThereAreTooFewLags) {
