@@ -1,0 +1,167 @@
+// One update of the identification, timed in process CPU time, on data that tests/bench/identification_speed.py reads
+// too: a new segment of 1024 samples into the sums, correlations, ERA, poles and shapes of orders 2-60, their clusters.
+//   identification_speed make DATA                             writes 12 channels, 300 s at 30 Hz, as doubles by sample
+//   identification_speed run DATA plain|cva BLOCK_ROWS REPEATS POLES    prints the least milliseconds of an update
+//   identification_speed service CHANNELS UPDATES              the service's defaults, to count instructions
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "core/identification/era.h"
+#include "core/identification/identifier.h"
+#include "core/identification/stabilisation.h"
+#include "core/simulation/random_stream.h"
+#include "core/spectrum/welch_cpsd.h"
+
+namespace {
+
+constexpr int kSegment = 1024;
+constexpr int kMaxOrder = 60;
+constexpr double kRateHz = 30.0;
+const std::vector<int> kReferences{0, 5, 11};
+
+// Sums of modes of a cantilever-like frame under white force, with 1 % of noise: by sample, n_channels side by side.
+std::vector<double> make_motion(int n_channels, int n_samples) {
+  core::simulation::RandomStream random(1, "identification_speed");
+  std::vector<double> motion(static_cast<std::size_t>(n_channels) * static_cast<std::size_t>(n_samples));
+  for (double& x : motion) x = 0.01 * random.gaussian();
+  for (int m = 1; m <= n_channels; ++m) {
+    const double angle = std::numbers::pi * (2 * m - 1) / (2 * n_channels + 1) / 2.0;
+    const double w = 2.0 * std::numbers::pi * 13.0 * std::sin(angle) / kRateHz;
+    const double decay = std::exp(-0.01 * w);
+    double before = 0.0, last = 0.0;
+    for (int t = 0; t < n_samples; ++t) {
+      const double now = 2.0 * decay * std::cos(w) * last - decay * decay * before + w * w / m * random.gaussian();
+      before = last;
+      last = now;
+      for (int c = 0; c < n_channels; ++c) {
+        motion[static_cast<std::size_t>(t * n_channels + c)] += now * std::sin(2.0 * angle * (c + 1));
+      }
+    }
+  }
+  return motion;
+}
+
+double cpu_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+void push(core::WelchCpsd& welch, const std::vector<double>& motion, std::size_t n_channels, std::size_t begin,
+          std::size_t end) {
+  const std::vector<std::uint8_t> seen(n_channels, 1);
+  for (std::size_t t = begin; t < end; ++t) welch.push({motion.data() + t * n_channels, n_channels}, seen);
+}
+
+struct Update {
+  std::vector<core::OrderPole> poles;
+  std::vector<core::PoleCluster> clusters;
+  double last_singular_value = 0.0;
+};
+
+Update identify(const core::CpsdSums& sums, const core::EraConfig& config) {
+  core::Correlations correlations;
+  core::Realisation realisation;
+  Update out;
+  if (core::compute_correlations(sums, 2 * config.block_rows + config.first_lag, 0, correlations) !=
+          core::CorrelationStatus::kOk ||
+      core::realise(correlations, config, realisation) != core::EraStatus::kOk) {
+    std::fprintf(stderr, "identification_speed: no realisation\n");
+    std::exit(1);
+  }
+  out.last_singular_value = realisation.singular_values[kMaxOrder - 1];
+  const core::FoldingConfig folding{kRateHz, 0.0, {}};
+  for (int order = 2; order <= kMaxOrder; order += 2) {
+    for (const core::DiscretePole& pole : core::poles_of_order(realisation, order)) {
+      out.poles.push_back({order / 2 - 1, core::unfold(pole.lambda, pole.shape, folding)});
+    }
+  }
+  out.clusters = core::cluster_poles(out.poles, kMaxOrder / 2);
+  return out;
+}
+
+void write_poles(const Update& update, const std::string& path) {
+  std::FILE* file = std::fopen(path.c_str(), "w");
+  if (file == nullptr) return;
+  for (const core::OrderPole& p : update.poles) {
+    const std::complex<double> lambda = std::exp(p.pole.s / kRateHz);
+    std::fprintf(file, "%d %.17g %.17g %.17g\n", 2 * (p.i_order + 1), lambda.real(), lambda.imag(), p.pole.mpc);
+  }
+  std::fclose(file);
+}
+
+int run(const std::string& path, bool weighted, int block_rows, int repeats, const std::string& poles) {
+  constexpr std::size_t kChannels = 12;
+  std::ifstream file(path, std::ios::binary);
+  std::vector<double> motion(kChannels * 9000);
+  file.read(reinterpret_cast<char*>(motion.data()), static_cast<std::streamsize>(motion.size() * sizeof(double)));
+  if (!file) {
+    std::fprintf(stderr, "identification_speed: %s does not hold 9000 samples of 12 channels\n", path.c_str());
+    return 1;
+  }
+  // 16 segments, the last of them in the timed part.
+  const std::size_t hop = kSegment / 2, begin = kSegment + 14 * hop;
+  core::WelchCpsd start({static_cast<int>(kChannels), kSegment, 0.5, core::WindowKind::kHann, kRateHz});
+  push(start, motion, kChannels, 0, begin);
+  core::EraConfig config;
+  config.block_rows = block_rows;
+  config.max_order = kMaxOrder;
+  config.references = kReferences;
+  config.canonical_variates = weighted;
+  double least_ms = 1e300;
+  Update update;
+  for (int k = 0; k < repeats; ++k) {
+    core::WelchCpsd welch = start;
+    const double t0 = cpu_ms();
+    push(welch, motion, kChannels, begin, begin + hop);
+    update = identify(welch.sums(), config);
+    least_ms = std::min(least_ms, cpu_ms() - t0);
+  }
+  write_poles(update, poles);
+  std::printf("%.3f ms\t%zu poles\t%zu clusters\tsingular value 60: %.12g\n", least_ms, update.poles.size(),
+              update.clusters.size(), update.last_singular_value);
+  return 0;
+}
+
+int service(int n_channels, int n_updates) {
+  const std::vector<double> motion = make_motion(n_channels, 9000);
+  core::WelchCpsd welch({n_channels, 512, 0.5, core::WindowKind::kHann, kRateHz});
+  push(welch, motion, static_cast<std::size_t>(n_channels), 0, 9000);
+  std::vector<core::ChannelInfo> channels(static_cast<std::size_t>(n_channels));
+  const core::Identifier identifier({}, channels);
+  for (int k = 0; k < n_updates; ++k) {
+    const core::ModalEstimate estimate = identifier.identify(welch.sums());
+    std::printf("%s: order %d, %zu modes, %zu rejected\n", estimate.status.c_str(), estimate.model_order,
+                estimate.modes.size(), estimate.rejected.size());
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (arguments.size() == 2 && arguments[0] == "make") {
+    const std::vector<double> motion = make_motion(12, 9000);
+    std::ofstream(arguments[1], std::ios::binary)
+        .write(reinterpret_cast<const char*>(motion.data()),
+               static_cast<std::streamsize>(motion.size() * sizeof(double)));
+    return 0;
+  }
+  if (arguments.size() == 6 && arguments[0] == "run") {
+    return run(arguments[1], arguments[2] == "cva", std::stoi(arguments[3]), std::stoi(arguments[4]), arguments[5]);
+  }
+  if (arguments.size() == 3 && arguments[0] == "service")
+    return service(std::stoi(arguments[1]), std::stoi(arguments[2]));
+  std::fprintf(stderr,
+               "usage: identification_speed make DATA | run DATA plain|cva BLOCK_ROWS REPEATS POLES | service "
+               "CHANNELS UPDATES\n");
+  return 2;
+}

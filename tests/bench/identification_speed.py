@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+"""The same update as `identification_speed run`, with NumPy and SciPy as one would write it: whole arrays, LAPACK.
+
+    identification_speed.py DATA plain|cva BLOCK_ROWS REPEATS POLES [svd|gram]
+
+`svd` (default) factorises the Hankel matrix by LAPACK's gesdd, `gram` takes the eigenvectors of its Gram matrix.
+One BLAS thread: set OPENBLAS_NUM_THREADS=1. Prints the least CPU time of an update and the BLAS in use.
+"""
+import pathlib
+import sys
+import time
+
+import numpy as np
+import scipy.cluster.hierarchy
+import scipy.linalg
+import scipy.signal
+
+CHANNELS, SEGMENT, ORDERS, RATE_HZ, RIDGE = 12, 1024, range(2, 61, 2), 30.0, 1e-6
+REFERENCES = np.array([0, 5, 11])
+N_FFT = 2 * SEGMENT
+WINDOW = scipy.signal.get_window("hann", SEGMENT)
+FAST = {"check_finite": False}
+
+
+class Sums:
+    """Cross-spectra of all pairs i <= j (plain ERA needs only those with a reference)."""
+
+    def __init__(self, weighted):
+        first, second = np.triu_indices(CHANNELS)
+        if not weighted:
+            wanted = np.isin(first, REFERENCES) | np.isin(second, REFERENCES) | (first == second)
+            first, second = first[wanted], second[wanted]
+        self.first, self.second = first, second
+        self.sum = np.zeros((len(first), N_FFT // 2 + 1), complex)
+        self.segments = 0
+        self.window_correlation = np.fft.irfft(np.abs(np.fft.rfft(WINDOW, N_FFT)) ** 2)
+
+    def add(self, segment):
+        spectrum = np.fft.rfft((segment - segment.mean(axis=0)).T * WINDOW, N_FFT)
+        self.sum += spectrum[self.first] * spectrum[self.second].conj()
+        self.segments += 1
+
+    def correlations(self, max_lag):
+        """(divided, undivided), lag -max_lag .. max_lag x channel x channel, channels of unit variance."""
+        lags = np.arange(-max_lag, max_lag + 1)
+        both = np.fft.irfft(self.sum)[:, lags]
+        undivided = both / (self.segments * self.window_correlation[0])
+        at_zero = undivided[self.first == self.second][:, max_lag]
+        scale = np.sqrt(at_zero)
+        undivided /= (scale[self.first] * scale[self.second])[:, None]
+        full = np.zeros((CHANNELS, CHANNELS, len(lags)))
+        full[self.first, self.second] = undivided
+        full[self.second, self.first] = undivided[:, ::-1]
+        full = np.ascontiguousarray(full.transpose(2, 0, 1))
+        ratio = self.window_correlation[0] / self.window_correlation[lags]
+        return full * ratio[:, None, None], full, scale
+
+
+def blocks(r, lags):
+    """Block matrix with block (a, b) = r[lags[a, b]]."""
+    n_a, n_b = lags.shape
+    return r[lags].transpose(0, 2, 1, 3).reshape(n_a * r.shape[1], n_b * r.shape[2])
+
+
+def left_vectors(h, order, factoriser):
+    if factoriser == "svd":
+        u, s, vt = scipy.linalg.svd(h, full_matrices=False, overwrite_a=True, **FAST)
+        return u[:, :order], s[:order], vt[:order].T
+    n = h.shape[1]
+    w, v = scipy.linalg.eigh(h.T @ h, subset_by_index=[n - order, n - 1], **FAST)
+    s, v = np.sqrt(w[::-1]), v[:, ::-1]
+    return h @ v / s, s, v
+
+
+def realise(divided, undivided, scale, max_lag, rows, weighted, factoriser):
+    a, b = np.indices((rows, rows))
+    to_reference = divided[:, :, REFERENCES]
+    h0 = blocks(to_reference, max_lag + 1 + a + b)
+    h1 = blocks(to_reference, max_lag + 2 + a + b)
+    top = np.eye(CHANNELS)
+    if weighted:
+        future = blocks(undivided, max_lag + a - b)
+        past = blocks(undivided[:, REFERENCES][:, :, REFERENCES], max_lag + b - a)
+        lower = [scipy.linalg.cholesky(t + RIDGE * np.eye(len(t)), lower=True, overwrite_a=True, **FAST)
+                 for t in (future, past)]
+
+        def whiten(h):
+            half = scipy.linalg.solve_triangular(lower[0], h, lower=True, overwrite_b=True, **FAST)
+            return scipy.linalg.solve_triangular(lower[1], half.T, lower=True, **FAST).T
+
+        h0, h1, top = whiten(h0), whiten(h1), lower[0][:CHANNELS, :CHANNELS]
+    order = max(ORDERS)
+    u, s, v = left_vectors(h0, order, factoriser)
+    root = np.sqrt(s)
+    return (u.T @ h1 @ v) / root[:, None] / root, scale[:, None] * (top @ u[:CHANNELS]) * root, s
+
+
+def poles_of(a, c):
+    lambdas, shapes, orders = [], [], []
+    for order in ORDERS:
+        w, v = scipy.linalg.eig(a[:order, :order], **FAST)
+        upper = w.imag > 0
+        lambdas.append(w[upper])
+        shapes.append(c[:, :order] @ v[:, upper])
+        orders.append(np.full(upper.sum(), order))
+    return np.concatenate(lambdas), np.concatenate(shapes, axis=1), np.concatenate(orders)
+
+
+def collinearity(shapes):
+    xx, yy = (shapes.real ** 2).sum(axis=0), (shapes.imag ** 2).sum(axis=0)
+    xy = (shapes.real * shapes.imag).sum(axis=0)
+    return ((xx - yy) ** 2 + 4 * xy ** 2) / (xx + yy) ** 2
+
+
+def clusters_of(lambdas, shapes):
+    f = np.log(lambdas).imag
+    unit = shapes / np.linalg.norm(shapes, axis=0)
+    df = np.abs(f[:, None] - f) / (0.015 * 0.5 * (f[:, None] + f))
+    distance = np.where(df >= 1, 2, df + (1 - np.abs(unit.conj().T @ unit) ** 2) / 0.3)
+    condensed = distance[np.triu_indices(len(f), 1)]
+    return scipy.cluster.hierarchy.fcluster(scipy.cluster.hierarchy.linkage(condensed, "average"), 1.0, "distance")
+
+
+def update(sums, segment, rows, weighted, factoriser):
+    sums.add(segment)
+    max_lag = 2 * rows + 1
+    a, c, s = realise(*sums.correlations(max_lag), max_lag, rows, weighted, factoriser)
+    lambdas, shapes, orders = poles_of(a, c)
+    return lambdas, orders, collinearity(shapes), clusters_of(lambdas, shapes), s
+
+
+def blas_in_use():
+    maps = pathlib.Path("/proc/self/maps").read_text().split()
+    return ", ".join(sorted({str(pathlib.Path(m).resolve().name) for m in maps if "blas" in m or "lapack" in m and "_" not in m}))
+
+
+def main():
+    path, method, rows, repeats, poles = sys.argv[1], sys.argv[2], int(sys.argv[3]), int(sys.argv[4]), sys.argv[5]
+    factoriser = sys.argv[6] if len(sys.argv) > 6 else "svd"
+    motion = np.fromfile(path).reshape(-1, CHANNELS)
+    weighted, hop = method == "cva", SEGMENT // 2
+    start = Sums(weighted)
+    for k in range(15):
+        start.add(motion[k * hop:k * hop + SEGMENT])
+    kept = start.sum.copy()
+    least = np.inf
+    for _ in range(repeats):
+        start.sum[:], start.segments = kept, 15
+        t0 = time.process_time()
+        lambdas, orders, mpc, clusters, s = update(start, motion[15 * hop:15 * hop + SEGMENT], rows, weighted, factoriser)
+        least = min(least, time.process_time() - t0)
+    np.savetxt(poles, np.column_stack([orders, lambdas.real, lambdas.imag, mpc]), fmt="%d %.17g %.17g %.17g")
+    print(f"{1e3 * least:.3f} ms\t{len(lambdas)} poles\t{clusters.max()} clusters\t"
+          f"singular value 60: {s[59]:.12g}\t{blas_in_use()}")
+
+
+if __name__ == "__main__":
+    main()
