@@ -15,11 +15,13 @@ struct EraConfig {
   int block_rows = 30;  // block rows and columns
   int first_lag = 1;    // lags before it carry the sensor noise: 1 + number of differences
   int max_order = 60;
+  int above_canonical = 0;      // > 0: no orders beyond canonical_order() + this
   std::vector<int> references;  // channel indices
   // Canonical-variate weighting of the Hankel matrix, G = Lf^-1 H Lp^-T with the Cholesky factors of future and past
   // covariance: scatter near the bound, weak modes appear, and the singular values are canonical correlations
   // (ARCHITECTURE.md). false: the plain ERA of Juang & Pappa 1985.
   bool canonical_variates = true;
+  bool with_maps = true;  // fill left_map and right_map
 };
 
 // One factorisation for all orders: the realisation of order n is the leading n x n part.
@@ -47,5 +49,6 @@ struct DiscretePole {
 
 // The order at which canonical correlations fall below one half, rounded up to even.
 [[nodiscard]] int canonical_order(const Realisation& realisation, double threshold = 0.5);
+[[nodiscard]] int canonical_order(const Eigen::Ref<const Eigen::VectorXd>& singular_values, double threshold = 0.5);
 
 }  // namespace core

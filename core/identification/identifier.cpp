@@ -159,6 +159,8 @@ EraConfig Identifier::era_config(const CpsdSums& sums) const {
   const int room =
       std::min(static_cast<int>(era.references.size()), static_cast<int>(channels_.size())) * era.block_rows;
   era.max_order = config_.max_order > 0 ? std::min(config_.max_order, room) : room;
+  era.above_canonical = 2 * (kOrders - 1);
+  era.with_maps = sums.n_blocks >= kScatterBlocks;
   return era;
 }
 

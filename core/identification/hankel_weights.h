@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/identification/era.h"
+
+namespace core {
+
+// Of unit-variance channels. Larger values cost the weakest mode, smaller ones let Cholesky fail (ARCHITECTURE.md).
+inline constexpr double kLeastRidge = 1e-6;
+inline constexpr double kMostRidge = 1.0;
+
+// Lower Cholesky factors of the block Toeplitz covariances of future and past, each with the smallest ridge (1e-6, then
+// ten times more) that makes it positive definite.
+struct HankelWeights {
+  Eigen::MatrixXd left, right;
+};
+
+// Root of the channels' variances.
+[[nodiscard]] Eigen::VectorXd channel_scale(const Correlations& correlations);
+
+// [T; B] factored (core/linear/dense.h: factor_stacked) with the smallest ridge that lets T be; false when none does.
+[[nodiscard]] bool factor_with_ridge(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& below,
+                                     Eigen::MatrixXd& out);
+
+[[nodiscard]] Eigen::MatrixXd future_covariance(const Correlations& correlations, const EraConfig& config,
+                                                const Eigen::VectorXd& scale);
+[[nodiscard]] Eigen::MatrixXd past_covariance(const Correlations& correlations, const EraConfig& config,
+                                              const Eigen::VectorXd& scale);
+
+[[nodiscard]] bool hankel_weights(const Correlations& correlations, const EraConfig& config,
+                                  const Eigen::VectorXd& scale, HankelWeights& out);
+
+// The order of the realisation: what is asked for, as far as singular values (descending) are not zero.
+[[nodiscard]] Eigen::Index wanted_order(const EraConfig& config, const Eigen::VectorXd& singular_values);
+
+}  // namespace core

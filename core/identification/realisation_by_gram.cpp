@@ -1,0 +1,130 @@
+#include "core/identification/realisation_by_gram.h"
+
+#include <cmath>
+
+#include "core/identification/block_hankel.h"
+#include "core/identification/hankel_gram.h"
+#include "core/identification/hankel_weights.h"
+#include "core/linear/dense.h"
+#include "core/linear/symmetric_eigen.h"
+
+namespace core {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Of the largest singular value; its square is a hundredth of a million roundings.
+constexpr double kLeastSingularValue = 1e-4;
+
+// G^T G = V S^2 V^T, the leading part.
+struct RightVectors {
+  VectorXd s;    // all, descending
+  MatrixXd v_t;  // order x n
+};
+
+GramStatus right_vectors(const MatrixXd& gram, const EraConfig& config, RightVectors& out) {
+  if (!gram.allFinite()) return GramStatus::kRankDeficient;
+  const SymmetricEigen eigen(gram);
+  out.s = eigen.values().cwiseMax(0.0).cwiseSqrt();
+  if (!(out.s[0] > 0.0)) return GramStatus::kRankDeficient;
+  const Index order = wanted_order(config, out.s);
+  if (order < 2) return GramStatus::kRankDeficient;
+  if (out.s[order - 1] < kLeastSingularValue * out.s[0]) return GramStatus::kIllConditioned;
+  out.v_t = eigen.leading_vectors(order).transpose();
+  return GramStatus::kOk;
+}
+
+MatrixXd product(const MatrixXd& a, const Eigen::Ref<const MatrixXd>& b) {
+  MatrixXd c = MatrixXd::Zero(a.rows(), b.cols());
+  add_product(c, 1.0, a, b);
+  return c;
+}
+
+MatrixXd product_transposed(const MatrixXd& a, const Eigen::Ref<const MatrixXd>& b) {
+  MatrixXd c = MatrixXd::Zero(a.rows(), b.rows());
+  add_product_transposed(c, 1.0, a, b);
+  return c;
+}
+
+void copy_shapes(const MatrixXd& u_top_t, const VectorXd& scale, const VectorXd& root, Realisation& out) {
+  out.c = scale.asDiagonal() * u_top_t.transpose() * root.asDiagonal();
+}
+
+// U = G V S^-1 is never formed: A = S^-3/2 V^T (H0^T H1) V S^-1/2.
+GramStatus realise_plain(const Correlations& correlations, const EraConfig& config, Realisation& out) {
+  const VectorXd scale = channel_scale(correlations);
+  const HankelGram gram = hankel_gram(correlations, config.references, scale, config.block_rows, config.first_lag);
+  RightVectors right;
+  const GramStatus status = right_vectors(gram.own, config, right);
+  if (status != GramStatus::kOk) return status;
+  const VectorXd s = right.s.head(right.v_t.rows());
+  const VectorXd root = s.cwiseSqrt();
+  const MatrixXd by_s = s.cwiseInverse().asDiagonal() * right.v_t;        // U = H0 by_s^T
+  const MatrixXd by_root = root.cwiseInverse().asDiagonal() * right.v_t;  // right_map^T
+  const MatrixXd left = root.cwiseInverse().asDiagonal() * by_s;          // left_map = left H0^T
+  out.scale = scale;
+  out.singular_values = right.s;
+  out.a = product_transposed(product(left, gram.shifted), by_root);
+  const MatrixXd top = block_hankel(correlations, config.references, scale, 1, config.block_rows, config.first_lag);
+  copy_shapes(product_transposed(by_s, top), scale, root, out);
+  if (config.with_maps) {
+    const MatrixXd h0 =
+        block_hankel(correlations, config.references, scale, config.block_rows, config.block_rows, config.first_lag);
+    out.left_map = product_transposed(left, h0);
+    out.right_map = by_root.transpose();
+  }
+  return GramStatus::kOk;
+}
+
+GramStatus realise_weighted(const Correlations& correlations, const EraConfig& config, Realisation& out) {
+  const int p = config.block_rows;
+  const Index ny = correlations.n_channels();
+  const auto nr = static_cast<Index>(config.references.size());
+  const VectorXd scale = channel_scale(correlations);
+  // [H0, last block column of H1]: H1 is the same matrix one block column further.
+  const MatrixXd wide = block_hankel(correlations, config.references, scale, p, p + 1, config.first_lag);
+  if (!wide.allFinite()) return GramStatus::kRankDeficient;
+  MatrixXd left, right;  // [Lf; (Lf^-1 wide)^T], [Lp; G]
+  if (!factor_with_ridge(future_covariance(correlations, config, scale), wide.transpose(), left)) {
+    return GramStatus::kRankDeficient;
+  }
+  const Index n_rows = p * ny, n_columns = p * nr;
+  const MatrixXd half = left.bottomRows(n_columns + nr);
+  if (!factor_with_ridge(past_covariance(correlations, config, scale), half.topRows(n_columns).transpose(), right)) {
+    return GramStatus::kRankDeficient;
+  }
+  const MatrixXd g_t = right.bottomRows(n_rows).transpose();
+  RightVectors vectors;
+  const GramStatus status = right_vectors(product_transposed(g_t, g_t), config, vectors);
+  if (status != GramStatus::kOk) return status;
+
+  const VectorXd s = vectors.s.head(vectors.v_t.rows());
+  const VectorXd root = s.cwiseSqrt();
+  const MatrixXd by_root = root.cwiseInverse().asDiagonal() * vectors.v_t;
+  const MatrixXd u_t = s.cwiseInverse().asDiagonal() * product(vectors.v_t, g_t);
+  const MatrixXd by_root_u = root.cwiseInverse().asDiagonal() * u_t;
+  MatrixXd right_map_t = by_root;
+  divide_by_lower(right_map_t, right.topRows(n_columns));
+  out.scale = scale;
+  out.singular_values = vectors.s;
+  out.a = product_transposed(product_transposed(by_root_u, half.bottomRows(n_columns)), right_map_t);
+  copy_shapes(product_transposed(u_t.leftCols(ny), left.topLeftCorner(ny, ny)), scale, root, out);
+  if (config.with_maps) {
+    out.left_map = by_root_u;
+    divide_by_lower(out.left_map, left.topRows(n_rows));
+    out.right_map = right_map_t.transpose();
+  }
+  return GramStatus::kOk;
+}
+
+}  // namespace
+
+GramStatus realise_by_gram(const Correlations& correlations, const EraConfig& config, Realisation& out) {
+  return config.canonical_variates ? realise_weighted(correlations, config, out)
+                                   : realise_plain(correlations, config, out);
+}
+
+}  // namespace core

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace core {
+
+// Products and triangular factors of dense matrices, the same bits on every machine: each element is a sum in the
+// order of the inner index, however wide the machine's vectors are. They may allocate.
+
+// c += factor * a * b.
+void add_product(Eigen::Ref<Eigen::MatrixXd> c, double factor, const Eigen::Ref<const Eigen::MatrixXd>& a,
+                 const Eigen::Ref<const Eigen::MatrixXd>& b);
+
+// c += factor * a * b^T.
+void add_product_transposed(Eigen::Ref<Eigen::MatrixXd> c, double factor, const Eigen::Ref<const Eigen::MatrixXd>& a,
+                            const Eigen::Ref<const Eigen::MatrixXd>& b);
+
+// m = [T; B], T symmetric n x n of which the lower triangle is read. Afterwards [L; B L^-T] with T = L L^T, the
+// strict upper triangle of T's place zero. False where T is not positive definite; m is then spoilt.
+[[nodiscard]] bool factor_stacked(Eigen::MatrixXd& m);
+
+// x <- x L^-1, L lower triangular.
+void divide_by_lower(Eigen::Ref<Eigen::MatrixXd> x, const Eigen::Ref<const Eigen::MatrixXd>& lower);
+
+}  // namespace core

@@ -1,0 +1,245 @@
+#include "core/linear/real_eigen.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/linear/francis_qr.h"
+#include "core/linear/vector_clones.h"
+
+namespace core {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+}  // namespace
+
+namespace linear_kernels {
+
+// sum[j] = sum_i v[i] rows(i, j), then rows(i, j) -= tau v[i] sum[j].
+HOVERMODAL_VECTOR_CLONES
+void reflect_from_left(double* rows, int stride, int n_rows, int n_columns, const double* v, double tau,
+                       double* __restrict sum) {
+  for (int j = 0; j < n_columns; ++j) sum[j] = 0.0;
+  for (int i = 0; i < n_rows; ++i) {
+    const double* __restrict row = rows + static_cast<std::ptrdiff_t>(i) * stride;
+    const double factor = v[i];
+    for (int j = 0; j < n_columns; ++j) sum[j] += factor * row[j];
+  }
+  for (int i = 0; i < n_rows; ++i) {
+    double* __restrict row = rows + static_cast<std::ptrdiff_t>(i) * stride;
+    const double factor = tau * v[i];
+    for (int j = 0; j < n_columns; ++j) row[j] -= factor * sum[j];
+  }
+}
+
+// rows <- rows (I - tau v v^T).
+HOVERMODAL_VECTOR_CLONES
+void reflect_from_right(double* rows, int stride, int n_rows, int n_columns, const double* __restrict v, double tau) {
+  for (int i = 0; i < n_rows; ++i) {
+    double* __restrict row = rows + static_cast<std::ptrdiff_t>(i) * stride;
+    double s0 = 0.0, s1 = 0.0, s2 = 0.0, s3 = 0.0;
+    int j = 0;
+    for (; j + 4 <= n_columns; j += 4) {
+      s0 += row[j] * v[j];
+      s1 += row[j + 1] * v[j + 1];
+      s2 += row[j + 2] * v[j + 2];
+      s3 += row[j + 3] * v[j + 3];
+    }
+    for (; j < n_columns; ++j) s0 += row[j] * v[j];
+    const double factor = tau * ((s0 + s1) + (s2 + s3));
+    for (j = 0; j < n_columns; ++j) row[j] -= factor * v[j];
+  }
+}
+
+// current <- next - (re + i im) current, next real.
+HOVERMODAL_VECTOR_CLONES
+void eliminate_kept(double* __restrict current_re, double* __restrict current_im, const double* __restrict next,
+                    int begin, int end, double re, double im) {
+  for (int j = begin; j < end; ++j) {
+    const double a = current_re[j], b = current_im[j];
+    current_re[j] = next[j] - (re * a - im * b);
+    current_im[j] = -(re * b + im * a);
+  }
+}
+
+// current <- current - (re + i im) next, next real.
+HOVERMODAL_VECTOR_CLONES
+void eliminate_swapped(double* __restrict current_re, double* __restrict current_im, const double* __restrict next,
+                       int begin, int end, double re, double im) {
+  for (int j = begin; j < end; ++j) {
+    current_re[j] -= re * next[j];
+    current_im[j] -= im * next[j];
+  }
+}
+
+}  // namespace linear_kernels
+
+namespace {
+
+// Q^T A Q = H in place, C <- C Q.
+void to_hessenberg(RowMatrix& a, std::vector<double>& c, int n_seen) {
+  const int n = a.n;
+  std::vector<double> v(static_cast<std::size_t>(n)), sum(static_cast<std::size_t>(n));
+  for (int k = 0; k + 2 < n; ++k) {
+    const int m = n - k - 1;
+    double rest = 0.0;
+    for (int i = 0; i < m; ++i) {
+      v[static_cast<std::size_t>(i)] = a.row(k + 1 + i)[k];
+      if (i > 0) rest += v[static_cast<std::size_t>(i)] * v[static_cast<std::size_t>(i)];
+    }
+    if (rest == 0.0) continue;
+    const double first = v[0];
+    const double beta = -std::copysign(std::sqrt(first * first + rest), first);
+    const double scale = 1.0 / (first - beta);
+    for (double& x : v) x *= scale;
+    v[0] = 1.0;
+    const double tau = (beta - first) / beta;
+    linear_kernels::reflect_from_left(a.row(k + 1) + k + 1, n, m, m, v.data(), tau, sum.data());
+    linear_kernels::reflect_from_right(a.row(0) + k + 1, n, n, m, v.data(), tau);
+    linear_kernels::reflect_from_right(c.data() + k + 1, n, n_seen, m, v.data(), tau);
+    a.row(k + 1)[k] = beta;
+    for (int i = k + 2; i < n; ++i) a.row(i)[k] = 0.0;
+  }
+}
+
+// Eigenvectors of an upper Hessenberg matrix: with H - lambda I = P L U, solves U x = L^-1 P^T b for a b chosen so that
+// the right side is a vector of ones.
+class HessenbergVector {
+ public:
+  explicit HessenbergVector(const RowMatrix& h)
+      : h_(h), re_(h.values.size()), im_(h.values.size()), x_re_(static_cast<std::size_t>(h.n)), x_im_(x_re_) {
+    for (const double value : h.values) norm_ = std::max(norm_, std::abs(value));
+  }
+
+  void compute(Complex lambda) {
+    factor(lambda);
+    substitute();
+  }
+  [[nodiscard]] const std::vector<double>& re() const noexcept { return x_re_; }  // of unit norm
+  [[nodiscard]] const std::vector<double>& im() const noexcept { return x_im_; }
+
+ private:
+  double* re(int i) { return re_.data() + static_cast<std::ptrdiff_t>(i) * h_.n; }
+  double* im(int i) { return im_.data() + static_cast<std::ptrdiff_t>(i) * h_.n; }
+
+  // Row k of U stands in row k of re_, im_.
+  void factor(Complex lambda) {
+    const int n = h_.n;
+    std::copy(h_.row(0), h_.row(0) + n, re(0));
+    std::fill(im(0), im(0) + n, 0.0);
+    re(0)[0] -= lambda.real();
+    im(0)[0] -= lambda.imag();
+    for (int k = 0; k + 1 < n; ++k) {
+      double *current_re = re(k), *current_im = im(k), *next_re = re(k + 1), *next_im = im(k + 1);
+      const double* below = h_.row(k + 1);
+      const double a = current_re[k], b = current_im[k], size = a * a + b * b;
+      if (below[k] * below[k] <= size) {
+        const double factor = size > 0.0 ? below[k] / size : 0.0;
+        std::copy(current_re + k + 1, current_re + n, next_re + k + 1);
+        std::copy(current_im + k + 1, current_im + n, next_im + k + 1);
+        linear_kernels::eliminate_kept(next_re, next_im, below, k + 1, n, factor * a, -factor * b);
+        next_re[k + 1] -= lambda.real();
+        next_im[k + 1] -= lambda.imag();
+      } else {
+        const double mr = a / below[k], mi = b / below[k];
+        std::copy(current_re + k + 1, current_re + n, next_re + k + 1);
+        std::copy(current_im + k + 1, current_im + n, next_im + k + 1);
+        linear_kernels::eliminate_swapped(next_re, next_im, below, k + 1, n, mr, mi);
+        next_re[k + 1] += mr * lambda.real() - mi * lambda.imag();
+        next_im[k + 1] += mr * lambda.imag() + mi * lambda.real();
+        std::copy(below + k, below + n, current_re + k);
+        std::fill(current_im + k, current_im + n, 0.0);
+        current_re[k + 1] -= lambda.real();
+        current_im[k + 1] -= lambda.imag();
+      }
+    }
+  }
+
+  void substitute() {
+    const double least = std::max(kEpsilon * norm_, 1e-150);
+    double norm2 = 0.0;
+    for (int k = h_.n - 1; k >= 0; --k) {
+      const Complex rest = Complex(1.0, 0.0) - row_product(k);
+      double a = re(k)[k], b = im(k)[k];
+      if (std::abs(a) + std::abs(b) < least) a = least, b = 0.0;
+      const double inverse = 1.0 / (a * a + b * b);
+      const auto at = static_cast<std::size_t>(k);
+      x_re_[at] = (rest.real() * a + rest.imag() * b) * inverse;
+      x_im_[at] = (rest.imag() * a - rest.real() * b) * inverse;
+      norm2 += x_re_[at] * x_re_[at] + x_im_[at] * x_im_[at];
+    }
+    const double scale = 1.0 / std::sqrt(norm2);
+    for (double& x : x_re_) x *= scale;
+    for (double& x : x_im_) x *= scale;
+  }
+
+  // sum over j > k of U(k, j) x(j).
+  [[nodiscard]] Complex row_product(int k) {
+    const double *a = re(k), *b = im(k), *x = x_re_.data(), *y = x_im_.data();
+    double ax0 = 0.0, by0 = 0.0, ay0 = 0.0, bx0 = 0.0, ax1 = 0.0, by1 = 0.0, ay1 = 0.0, bx1 = 0.0;
+    int j = k + 1;
+    for (; j + 2 <= h_.n; j += 2) {
+      ax0 += a[j] * x[j];
+      by0 += b[j] * y[j];
+      ay0 += a[j] * y[j];
+      bx0 += b[j] * x[j];
+      ax1 += a[j + 1] * x[j + 1];
+      by1 += b[j + 1] * y[j + 1];
+      ay1 += a[j + 1] * y[j + 1];
+      bx1 += b[j + 1] * x[j + 1];
+    }
+    if (j < h_.n) {
+      ax0 += a[j] * x[j];
+      by0 += b[j] * y[j];
+      ay0 += a[j] * y[j];
+      bx0 += b[j] * x[j];
+    }
+    return {(ax0 + ax1) - (by0 + by1), (ay0 + ay1) + (bx0 + bx1)};
+  }
+
+  const RowMatrix& h_;
+  double norm_ = 0.0;
+  std::vector<double> re_, im_, x_re_, x_im_;
+};
+
+}  // namespace
+
+bool upper_half_plane_eigen(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& c,
+                            UpperEigen& out) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  out = {};
+  const auto n = static_cast<int>(a.rows());
+  const auto n_seen = static_cast<int>(c.rows());
+  RowMatrix h{n, std::vector<double>(static_cast<std::size_t>(a.size()))};
+  std::vector<double> seen(static_cast<std::size_t>(c.size()));
+  Eigen::Map<RowMajor>(h.values.data(), n, n) = a;
+  Eigen::Map<RowMajor>(seen.data(), n_seen, n) = c;
+  to_hessenberg(h, seen, n_seen);
+
+  RowMatrix worked = h;
+  std::vector<Complex> values;
+  if (!hessenberg_values(worked, values)) return false;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(out.values),
+               [](Complex value) { return value.imag() > 0.0; });
+  out.seen.resize(n_seen, static_cast<Eigen::Index>(out.values.size()));
+  HessenbergVector vector(h);
+  for (std::size_t k = 0; k < out.values.size(); ++k) {
+    vector.compute(out.values[k]);
+    for (int i = 0; i < n_seen; ++i) {
+      const double* row = seen.data() + static_cast<std::ptrdiff_t>(i) * n;
+      double re = 0.0, im = 0.0;
+      for (int j = 0; j < n; ++j) {
+        re += row[j] * vector.re()[static_cast<std::size_t>(j)];
+        im += row[j] * vector.im()[static_cast<std::size_t>(j)];
+      }
+      out.seen(i, static_cast<Eigen::Index>(k)) = {re, im};
+    }
+  }
+  return true;
+}
+
+}  // namespace core

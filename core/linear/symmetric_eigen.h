@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace core {
+
+// All eigenvalues, and as many leading eigenvectors as are asked for, of a symmetric matrix: Householder's
+// tridiagonal form, Pal-Walker-Kahan QL, inverse iteration (Parlett, The Symmetric Eigenvalue Problem, 1998). The same
+// bits on every machine.
+class SymmetricEigen {
+ public:
+  explicit SymmetricEigen(const Eigen::MatrixXd& a);  // n x n, lower triangle read; finite
+
+  [[nodiscard]] const Eigen::VectorXd& values() const noexcept { return values_; }  // descending
+
+  // n x count, orthonormal. Inverse iteration cannot separate what rounding has merged; the whole decomposition by
+  // implicit QR takes over where the vectors come out oblique.
+  [[nodiscard]] Eigen::MatrixXd leading_vectors(Eigen::Index count) const;
+
+ private:
+  void reduce();
+
+  Eigen::MatrixXd reflectors_;  // column k: Householder vector of step k below the diagonal, its first element 1
+  Eigen::VectorXd tau_, diagonal_, subdiagonal_, values_;
+};
+
+}  // namespace core
