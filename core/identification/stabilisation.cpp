@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
 #include <set>
 
+#include "core/identification/average_linkage.h"
 #include "core/identification/mac.h"
 
 namespace core {
@@ -16,14 +16,9 @@ namespace {
 
 constexpr double kFrequencyTolerance = 0.015;  // relative
 constexpr double kMacTolerance = 0.3;
+constexpr double kFarApart = 2.0;
 constexpr double kSplitFrequency = 0.03;  // relative
 constexpr double kSplitMac = 0.95;
-
-double distance(const UnfoldedPole& a, const UnfoldedPole& b) noexcept {
-  const double mean_hz = 0.5 * (a.apparent_hz + b.apparent_hz);
-  const double df = std::abs(a.apparent_hz - b.apparent_hz) / (kFrequencyTolerance * mean_hz);
-  return df >= 1.0 ? 2.0 : df + (1.0 - mac(a.shape, b.shape)) / kMacTolerance;
-}
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -31,62 +26,31 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Lance-Williams average linkage on a dense distance matrix; n is a few hundred.
-class AverageLinkage {
- public:
-  explicit AverageLinkage(const std::vector<OrderPole>& poles) : n_(poles.size()), distance_(n_ * n_), members_(n_) {
-    for (std::size_t i = 0; i < n_; ++i) {
-      members_[i] = {i};
-      for (std::size_t j = 0; j < n_; ++j) distance_[i * n_ + j] = distance(poles[i].pole, poles[j].pole);
-    }
+// (1 - MAC) needs the shapes' inner product only where the frequencies are near: two for all others.
+std::vector<double> distances(const std::vector<OrderPole>& poles) {
+  const std::size_t n = poles.size();
+  std::vector<double> norm(n), all(n * n);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (const std::complex<double>& z : poles[i].pole.shape) norm[i] += std::norm(z);
   }
-
-  [[nodiscard]] std::vector<std::vector<std::size_t>> cut(double limit) {
-    for (;;) {
-      const auto [i, j, nearest] = nearest_pair();
-      if (!(nearest < limit)) break;
-      merge(i, j);
+  const auto distance = [&](std::size_t i, std::size_t j) {
+    const UnfoldedPole &a = poles[i].pole, &b = poles[j].pole;
+    const double mean_hz = 0.5 * (a.apparent_hz + b.apparent_hz);
+    const double df = std::abs(a.apparent_hz - b.apparent_hz) / (kFrequencyTolerance * mean_hz);
+    if (df >= 1.0) return kFarApart;
+    double re = 0.0, im = 0.0;  // of the inner product
+    for (std::size_t c = 0; c < a.shape.size() && c < b.shape.size(); ++c) {
+      re += a.shape[c].real() * b.shape[c].real() + a.shape[c].imag() * b.shape[c].imag();
+      im += a.shape[c].real() * b.shape[c].imag() - a.shape[c].imag() * b.shape[c].real();
     }
-    std::vector<std::vector<std::size_t>> clusters;
-    for (auto& members : members_) {
-      if (!members.empty()) clusters.push_back(members);
-    }
-    return clusters;
-  }
-
- private:
-  struct Pair {
-    std::size_t i, j;
-    double distance;
+    const double mac = norm[i] > 0.0 && norm[j] > 0.0 ? (re * re + im * im) / (norm[i] * norm[j]) : 0.0;
+    return df + (1.0 - mac) / kMacTolerance;
   };
-
-  [[nodiscard]] Pair nearest_pair() const {
-    Pair best{0, 0, std::numeric_limits<double>::infinity()};
-    for (std::size_t i = 0; i < n_; ++i) {
-      if (members_[i].empty()) continue;
-      for (std::size_t j = i + 1; j < n_; ++j) {
-        if (!members_[j].empty() && distance_[i * n_ + j] < best.distance) best = {i, j, distance_[i * n_ + j]};
-      }
-    }
-    return best;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i + 1; j < n; ++j) all[i * n + j] = all[j * n + i] = distance(i, j);
   }
-
-  void merge(std::size_t i, std::size_t j) {
-    const auto ni = static_cast<double>(members_[i].size());
-    const auto nj = static_cast<double>(members_[j].size());
-    for (std::size_t k = 0; k < n_; ++k) {
-      const double joined = (ni * distance_[i * n_ + k] + nj * distance_[j * n_ + k]) / (ni + nj);
-      distance_[i * n_ + k] = joined;
-      distance_[k * n_ + i] = joined;
-    }
-    members_[i].insert(members_[i].end(), members_[j].begin(), members_[j].end());
-    members_[j].clear();
-  }
-
-  std::size_t n_;
-  std::vector<double> distance_;
-  std::vector<std::vector<std::size_t>> members_;
-};
+  return all;
+}
 
 // Orders may disagree about the fold. Frequency, damping and shape must belong to one answer: that of the most.
 std::vector<std::size_t> of_commonest_fold(const std::vector<OrderPole>& poles,
@@ -157,7 +121,9 @@ double frequency_hz(std::complex<double> s) noexcept { return std::abs(s) / (2.0
 
 std::vector<PoleCluster> cluster_poles(const std::vector<OrderPole>& poles, int n_orders) {
   std::vector<PoleCluster> clusters;
-  for (const auto& members : AverageLinkage(poles).cut(1.0)) clusters.push_back(summarise(poles, members, n_orders));
+  for (const auto& members : average_linkage(distances(poles), poles.size(), 1.0)) {
+    clusters.push_back(summarise(poles, members, n_orders));
+  }
   std::sort(clusters.begin(), clusters.end(),
             [](const PoleCluster& a, const PoleCluster& b) { return a.apparent_hz < b.apparent_hz; });
   return clusters;
