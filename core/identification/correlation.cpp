@@ -71,6 +71,17 @@ std::span<const CpsdBlock> group_of(const CpsdSums& sums, std::size_t group, std
   return std::span(sums.blocks).subspan(first, last - first);
 }
 
+// Have all channels lacked the same samples, or none? Then one mask serves all pairs.
+bool one_mask(const CpsdSums& sums) {
+  const auto pairs = static_cast<std::size_t>(sums.n_pairs());
+  for (std::size_t k = 0; k < sums.mask_sum.size(); k += pairs) {
+    for (std::size_t pair = 1; pair < pairs; ++pair) {
+      if (sums.mask_sum[k + pair] != sums.mask_sum[k]) return false;
+    }
+  }
+  return true;
+}
+
 std::size_t circular(int lag, int n_fft) { return static_cast<std::size_t>(lag >= 0 ? lag : n_fft + lag); }
 
 }  // namespace
@@ -118,11 +129,12 @@ CorrelationStatus compute_correlations(const CpsdSums& sums, int max_lag, int n_
   out = Correlations(n, max_lag);
   PairTransform transform(sums);
   const std::vector<double> gain = difference_gain(sums.n_fft, n_differences);
+  const bool shared_mask = one_mask(sums);
   std::vector<double> data;
   std::vector<double> mask;
   std::vector<double> mask_at_0(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {
-    transform.inverse(sums.mask_sum, CpsdSums::pair_index(i, i, n), {}, mask);
+    if (i == 0 || !shared_mask) transform.inverse(sums.mask_sum, CpsdSums::pair_index(i, i, n), {}, mask);
     mask_at_0[static_cast<std::size_t>(i)] = mask[0];
     if (!(mask[0] > 0.0)) return CorrelationStatus::kNoPower;
   }
@@ -130,7 +142,7 @@ CorrelationStatus compute_correlations(const CpsdSums& sums, int max_lag, int n_
     for (int j = i; j < n; ++j) {
       const int pair = CpsdSums::pair_index(i, j, n);
       transform.inverse(sums.data_sum, pair, gain, data);
-      transform.inverse(sums.mask_sum, pair, {}, mask);
+      if (!shared_mask) transform.inverse(sums.mask_sum, pair, {}, mask);
       // One positive scale per channel keeps the undivided estimate positive semidefinite under unequal losses.
       const double scale = std::sqrt(mask_at_0[static_cast<std::size_t>(i)] * mask_at_0[static_cast<std::size_t>(j)]);
       for (int lag = -max_lag; lag <= max_lag; ++lag) {
@@ -153,11 +165,12 @@ std::vector<Correlations> block_deviations(const CpsdSums& sums, int n_differenc
   PairTransform transform(sums);
   const std::vector<double> gain = difference_gain(sums.n_fft, n_differences);
   std::vector<double> data, all;
-  std::vector<std::vector<double>> mask(n_groups);  // without losses all pairs have the same
+  std::vector<std::vector<double>> mask(n_groups);
+  const bool shared = one_mask(sums);
   for (int i = 0; i < n; ++i) {
     for (int j = i; j < n; ++j) {
       const int pair = CpsdSums::pair_index(i, j, n);
-      const bool same_mask = sums.n_missing == 0 && pair > 0;
+      const bool same_mask = shared && pair > 0;
       if (!same_mask) transform.inverse(sums.mask_sum, pair, {}, all);
       for (std::size_t g = 0; g < n_groups; ++g) {
         const std::span<const CpsdBlock> part = group_of(sums, g, n_groups);

@@ -7,20 +7,113 @@
 #include <string>
 #include <utility>
 
+#include "core/linear/vector_clones.h"
+
 namespace core {
 
 namespace {
 
 using Complex = std::complex<double>;
 
-// std::complex's operator* checks for NaN and infinity as C's Annex G asks, which costs more than the product.
-inline Complex multiply(Complex a, Complex b) noexcept {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
-
 Complex unit_root(int k, int n) { return std::polar(1.0, -2.0 * std::numbers::pi * k / n); }
 
+// Real and imaginary parts apart.
+struct Points {
+  const double *re, *im;
+};
+struct Target {
+  double *re, *im;
+};
+
+// `count` butterflies with one set of twiddles: in at +0, +quarter, +2 quarter, +3 quarter; out at +0, +count, ...
+[[gnu::always_inline]] inline void butterflies(Points from, Target to, int quarter, int count, const double* w,
+                                               int n_twiddles) {
+  const double w1r = w[0], w1i = w[n_twiddles], w2r = w[2 * n_twiddles], w2i = w[3 * n_twiddles];
+  const double w3r = w[4 * n_twiddles], w3i = w[5 * n_twiddles];
+  const double* __restrict fr = from.re;
+  const double* __restrict fi = from.im;
+  double* __restrict tr = to.re;
+  double* __restrict ti = to.im;
+  for (int q = 0; q < count; ++q) {
+    const double sum_r = fr[q] + fr[q + 2 * quarter], sum_i = fi[q] + fi[q + 2 * quarter];
+    const double off_r = fr[q] - fr[q + 2 * quarter], off_i = fi[q] - fi[q + 2 * quarter];
+    const double odd_r = fr[q + quarter] + fr[q + 3 * quarter], odd_i = fi[q + quarter] + fi[q + 3 * quarter];
+    const double turn_r = fr[q + quarter] - fr[q + 3 * quarter], turn_i = fi[q + quarter] - fi[q + 3 * quarter];
+    const double ar = off_r + turn_i, ai = off_i - turn_r;
+    const double br = sum_r - odd_r, bi = sum_i - odd_i;
+    const double cr = off_r - turn_i, ci = off_i + turn_r;
+    tr[q] = sum_r + odd_r;
+    ti[q] = sum_i + odd_i;
+    tr[q + count] = w1r * ar - w1i * ai;
+    ti[q + count] = w1r * ai + w1i * ar;
+    tr[q + 2 * count] = w2r * br - w2i * bi;
+    ti[q + 2 * count] = w2r * bi + w2i * br;
+    tr[q + 3 * count] = w3r * cr - w3i * ci;
+    ti[q + 3 * count] = w3r * ci + w3i * cr;
+  }
+}
+
 }  // namespace
+
+namespace fft_kernels {
+
+HOVERMODAL_VECTOR_CLONES
+void pass_of_four(Points from, Target to, int n_butterflies, int stride, const double* w) {
+  const int quarter = n_butterflies * stride;
+  for (int p = 0; p < n_butterflies; ++p) {
+    const Points in{from.re + p * stride, from.im + p * stride};
+    const Target out{to.re + 4 * p * stride, to.im + 4 * p * stride};
+    if (stride == 1) {
+      butterflies(in, out, quarter, 1, w + p, n_butterflies);
+    } else if (stride == 4) {
+      butterflies(in, out, quarter, 4, w + p, n_butterflies);
+    } else {
+      butterflies(in, out, quarter, stride, w + p, n_butterflies);
+    }
+  }
+}
+
+HOVERMODAL_VECTOR_CLONES
+void pass_of_two(Points from, Target to, int stride) {
+  const double* __restrict fr = from.re;
+  const double* __restrict fi = from.im;
+  double* __restrict tr = to.re;
+  double* __restrict ti = to.im;
+  for (int q = 0; q < stride; ++q) {
+    tr[q] = fr[q] + fr[q + stride];
+    ti[q] = fi[q] + fi[q + stride];
+    tr[q + stride] = fr[q] - fr[q + stride];
+    ti[q + stride] = fi[q] - fi[q + stride];
+  }
+}
+
+// Of the transform z of x[2 k] + i x[2 k + 1], k = 1 .. half - 1.
+HOVERMODAL_VECTOR_CLONES
+void untangle(Points z, Points unit, int half, double* __restrict spectrum) {
+  for (int k = 1; k < half; ++k) {
+    const double even_r = 0.5 * (z.re[k] + z.re[half - k]), even_i = 0.5 * (z.im[k] - z.im[half - k]);
+    const double odd_r = 0.5 * (z.im[k] + z.im[half - k]), odd_i = -0.5 * (z.re[k] - z.re[half - k]);
+    spectrum[2 * k] = even_r + (unit.re[k] * odd_r - unit.im[k] * odd_i);
+    spectrum[2 * k + 1] = even_i + (unit.re[k] * odd_i + unit.im[k] * odd_r);
+  }
+}
+
+// Its inverse, conjugated: the inverse transform is the forward one between two conjugations. k = 0 .. half - 1.
+HOVERMODAL_VECTOR_CLONES
+void tangle(const double* __restrict spectrum, Points unit, int half, Target z) {
+  double* __restrict re = z.re;
+  double* __restrict im = z.im;
+  for (int k = 0; k < half; ++k) {
+    const double ar = spectrum[2 * k], ai = spectrum[2 * k + 1];
+    const double br = spectrum[2 * (half - k)], bi = -spectrum[2 * (half - k) + 1];
+    const double off_r = 0.5 * (ar - br), off_i = 0.5 * (ai - bi);
+    const double odd_r = unit.re[k] * off_r + unit.im[k] * off_i, odd_i = unit.re[k] * off_i - unit.im[k] * off_r;
+    re[k] = 0.5 * (ar + br) - odd_i;
+    im[k] = -(0.5 * (ai + bi) + odd_r);
+  }
+}
+
+}  // namespace fft_kernels
 
 int next_power_of_two(int n) noexcept {
   int power = 1;
@@ -31,68 +124,65 @@ int next_power_of_two(int n) noexcept {
 RealFft::RealFft(int n) : n_(n), half_(n / 2) {
   if (n < 4 || (n & (n - 1)) != 0)
     throw std::invalid_argument("RealFft: length " + std::to_string(n) + " is not a power of two >= 4");
-  const auto half = static_cast<std::size_t>(half_);
-  for (int k = 0; k < half_ / 2; ++k) twiddle_half_.push_back(unit_root(k, half_));
-  for (int k = 0; k <= half_; ++k) twiddle_full_.push_back(unit_root(k, n_));
-  work_.resize(half);
-  bit_reversed_.assign(half, 0);
-  for (std::size_t i = 1, j = 0; i < half; ++i) {
-    std::size_t bit = half >> 1;
-    for (; (j & bit) != 0; bit >>= 1) j ^= bit;
-    j ^= bit;
-    bit_reversed_[i] = static_cast<int>(j);
+  int n_points = half_;
+  for (int stride = 1; n_points >= 4; n_points /= 4, stride *= 4) {
+    Pass pass{n_points / 4, stride, {}};
+    for (int power = 1; power <= 3; ++power) {
+      for (const bool imaginary : {false, true}) {
+        for (int p = 0; p < pass.n_butterflies; ++p) {
+          const Complex w = unit_root(power * p, n_points);
+          pass.twiddles.push_back(imaginary ? w.imag() : w.real());
+        }
+      }
+    }
+    passes_.push_back(std::move(pass));
   }
+  radix_two_last_ = n_points == 2;
+  for (int k = 0; k <= half_; ++k) {
+    unit_re_.push_back(unit_root(k, n_).real());
+    unit_im_.push_back(unit_root(k, n_).imag());
+  }
+  for (std::vector<double>* points : {&re_, &im_, &re_to_, &im_to_})
+    points->assign(static_cast<std::size_t>(half_), 0.0);
 }
 
 void RealFft::transform_half() noexcept {
-  const auto half = static_cast<std::size_t>(half_);
-  for (std::size_t i = 0; i < half; ++i) {
-    const auto j = static_cast<std::size_t>(bit_reversed_[i]);
-    if (i < j) std::swap(work_[i], work_[j]);
+  for (const Pass& pass : passes_) {
+    fft_kernels::pass_of_four({re_.data(), im_.data()}, {re_to_.data(), im_to_.data()}, pass.n_butterflies, pass.stride,
+                              pass.twiddles.data());
+    std::swap(re_, re_to_);
+    std::swap(im_, im_to_);
   }
-  for (std::size_t length = 2; length <= half; length *= 2) {
-    const std::size_t step = half / length;
-    for (std::size_t begin = 0; begin < half; begin += length) {
-      for (std::size_t k = 0; k < length / 2; ++k) {
-        const Complex even = work_[begin + k];
-        const Complex odd = multiply(work_[begin + k + length / 2], twiddle_half_[k * step]);
-        work_[begin + k] = even + odd;
-        work_[begin + k + length / 2] = even - odd;
-      }
-    }
-  }
+  if (!radix_two_last_) return;
+  fft_kernels::pass_of_two({re_.data(), im_.data()}, {re_to_.data(), im_to_.data()}, half_ / 2);
+  std::swap(re_, re_to_);
+  std::swap(im_, im_to_);
 }
 
 void RealFft::forward(std::span<const double> x, std::span<Complex> spectrum) noexcept {
   assert(x.size() == static_cast<std::size_t>(n_) && spectrum.size() == static_cast<std::size_t>(n_bins()));
   const auto half = static_cast<std::size_t>(half_);
-  for (std::size_t k = 0; k < half; ++k) work_[k] = {x[2 * k], x[2 * k + 1]};
-  transform_half();
-  for (std::size_t k = 0; k <= half; ++k) {
-    const Complex a = work_[k % half];
-    const Complex b = std::conj(work_[(half - k) % half]);
-    const Complex even = 0.5 * (a + b);
-    const Complex odd = multiply(Complex(0.0, -0.5), a - b);
-    spectrum[k] = even + multiply(twiddle_full_[k], odd);
+  for (std::size_t k = 0; k < half; ++k) {
+    re_[k] = x[2 * k];
+    im_[k] = x[2 * k + 1];
   }
+  transform_half();
+  spectrum[0] = re_[0] + im_[0];
+  spectrum[half] = re_[0] - im_[0];
+  // std::complex<double> is an array of two doubles ([complex.numbers.general]).
+  fft_kernels::untangle({re_.data(), im_.data()}, {unit_re_.data(), unit_im_.data()}, half_,
+                        reinterpret_cast<double*>(spectrum.data()));
 }
 
 void RealFft::inverse(std::span<const Complex> spectrum, std::span<double> x) noexcept {
   assert(x.size() == static_cast<std::size_t>(n_) && spectrum.size() == static_cast<std::size_t>(n_bins()));
-  const auto half = static_cast<std::size_t>(half_);
-  for (std::size_t k = 0; k < half; ++k) {
-    const Complex a = spectrum[k];
-    const Complex b = std::conj(spectrum[half - k]);
-    const Complex even = 0.5 * (a + b);
-    const Complex odd = multiply(std::conj(twiddle_full_[k]), 0.5 * (a - b));
-    // Conjugated, because the inverse is the forward transform between two conjugations.
-    work_[k] = std::conj(even + multiply(Complex(0.0, 1.0), odd));
-  }
+  fft_kernels::tangle(reinterpret_cast<const double*>(spectrum.data()), {unit_re_.data(), unit_im_.data()}, half_,
+                      {re_.data(), im_.data()});
   transform_half();
   const double scale = 1.0 / half_;
-  for (std::size_t k = 0; k < half; ++k) {
-    x[2 * k] = work_[k].real() * scale;
-    x[2 * k + 1] = -work_[k].imag() * scale;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(half_); ++k) {
+    x[2 * k] = re_[k] * scale;
+    x[2 * k + 1] = -im_[k] * scale;
   }
 }
 

@@ -9,6 +9,7 @@ namespace core {
 // Planned discrete Fourier transform of real data, length a power of two >= 4. Nothing is allocated after construction.
 // Forward: X[k] = sum_t x[t] exp(-2 pi i k t / n), k = 0 .. n/2. Inverse: exactly undoes forward (divides by n).
 // A real transform is one complex transform of half the length (Press et al., Numerical Recipes, section 12.3).
+// The same bits on every machine.
 // Not thread-safe: the work space is a member.
 class RealFft {
  public:
@@ -20,14 +21,20 @@ class RealFft {
   void inverse(std::span<const std::complex<double>> spectrum, std::span<double> x) noexcept;  // n/2 + 1 -> n
 
  private:
-  void transform_half() noexcept;  // work_ in place, forward
+  void transform_half() noexcept;  // re_, im_, forward; the other two are work space
+
+  // One pass of radix 4 (Stockham, self-sorting): n_points / 4 butterflies of `stride` neighbours each.
+  struct Pass {
+    int n_butterflies, stride;
+    std::vector<double> twiddles;  // re, im of w, w^2, w^3, each n_butterflies long
+  };
 
   int n_;
   int half_;
-  std::vector<std::complex<double>> twiddle_half_;  // exp(-2 pi i k / half), k < half / 2
-  std::vector<std::complex<double>> twiddle_full_;  // exp(-2 pi i k / n), k <= half
-  std::vector<int> bit_reversed_;
-  std::vector<std::complex<double>> work_;
+  std::vector<Pass> passes_;
+  bool radix_two_last_ = false;                  // where half_ is no power of four
+  std::vector<double> unit_re_, unit_im_;        // exp(-2 pi i k / n), k <= half
+  std::vector<double> re_, im_, re_to_, im_to_;  // half
 };
 
 // Smallest power of two >= n (n >= 1).

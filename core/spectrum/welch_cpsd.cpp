@@ -57,6 +57,7 @@ WelchCpsd::WelchCpsd(const WelchConfig& config)
   padded_.assign(static_cast<std::size_t>(fft_.size()), 0.0);
   const auto bins = static_cast<std::size_t>(config.n_channels) * static_cast<std::size_t>(fft_.n_bins());
   data_.assign(bins, 0.0);
+  data_of_bin_.assign(static_cast<std::size_t>(config.n_channels), 0.0);
   mask_.assign(bins, 0.0);
 }
 
@@ -111,8 +112,21 @@ void WelchCpsd::flush() noexcept {
 }
 
 void WelchCpsd::accumulate_segment() noexcept {
-  for (int c = 0; c < config_.n_channels; ++c) transform_channel(c);
-  add_products();
+  const auto segment = static_cast<std::ptrdiff_t>(config_.segment);
+  bool one_mask = true;
+  for (std::ptrdiff_t c = 1; c < config_.n_channels && one_mask; ++c) {
+    one_mask = std::equal(seen_.begin(), seen_.begin() + segment, seen_.begin() + c * segment);
+  }
+  for (int c = 0; c < config_.n_channels; ++c) {
+    transform_channel(c);
+    if (c == 0 || !one_mask) transform_mask(c);
+  }
+  add_products(one_mask, sums_.data_sum, sums_.mask_sum);
+  if (!sums_.blocks.empty()) {
+    CpsdBlock& block = current_block();
+    ++block.n_segments;
+    add_products(one_mask, block.data_sum, block.mask_sum);
+  }
   ++sums_.n_segments;
   n_new_ = 0;
 }
@@ -131,17 +145,25 @@ void WelchCpsd::transform_channel(int channel) noexcept {
     count += seen[t];
   }
   const double mean = count > 0.0 ? sum / count : 0.0;
-  std::fill(padded_.begin(), padded_.end(), 0.0);
+  std::fill(padded_.begin() + static_cast<std::ptrdiff_t>(segment), padded_.end(), 0.0);
   for (std::size_t t = 0; t < segment; ++t) padded_[t] = seen[t] != 0 ? (value[t] - mean) * window_[t] : 0.0;
   fft_.forward(padded_, {data_.data() + c * bins, bins});
-  for (std::size_t t = 0; t < segment; ++t) padded_[t] = seen[t] != 0 ? window_[t] : 0.0;
+}
+
+void WelchCpsd::transform_mask(int channel) noexcept {
+  const auto segment = static_cast<std::size_t>(config_.segment);
+  const auto bins = static_cast<std::size_t>(fft_.n_bins());
+  const auto c = static_cast<std::size_t>(channel);
+  std::fill(padded_.begin() + static_cast<std::ptrdiff_t>(segment), padded_.end(), 0.0);
+  for (std::size_t t = 0; t < segment; ++t) padded_[t] = seen_[c * segment + t] != 0 ? window_[t] : 0.0;
   fft_.forward(padded_, {mask_.data() + c * bins, bins});
 }
 
 // The block that takes the next segment is the last in use.
-void WelchCpsd::open_block() noexcept {
+CpsdBlock& WelchCpsd::current_block() noexcept {
   std::vector<CpsdBlock>& blocks = sums_.blocks;
-  if (sums_.n_blocks > 0 && blocks[sums_.n_blocks - 1].n_segments < segments_per_block_) return;
+  if (sums_.n_blocks > 0 && blocks[sums_.n_blocks - 1].n_segments < segments_per_block_)
+    return blocks[sums_.n_blocks - 1];
   if (sums_.n_blocks == blocks.size()) {
     for (std::size_t b = 0; b < blocks.size(); b += 2) {
       CpsdBlock& first = blocks[b];
@@ -160,36 +182,32 @@ void WelchCpsd::open_block() noexcept {
   next.n_segments = 0;
   std::fill(next.data_sum.begin(), next.data_sum.end(), Complex());
   std::fill(next.mask_sum.begin(), next.mask_sum.end(), Complex());
+  return next;
 }
 
-void WelchCpsd::add_products() noexcept {
-  CpsdBlock* block = nullptr;
-  if (!sums_.blocks.empty()) {
-    open_block();
-    block = &sums_.blocks[sums_.n_blocks - 1];
-    ++block->n_segments;
-  }
-  const int n = config_.n_channels;
+void WelchCpsd::add_products(bool one_mask, std::vector<Complex>& data_sum, std::vector<Complex>& mask_sum) noexcept {
+  const auto channels = static_cast<std::size_t>(config_.n_channels);
   const auto bins = static_cast<std::size_t>(fft_.n_bins());
   const auto pairs = static_cast<std::size_t>(sums_.n_pairs());
-  const auto add = [&](const std::vector<Complex>& spectra, std::vector<Complex>& sum,
-                       std::vector<Complex>* part) noexcept {
-    std::size_t pair = 0;
-    for (int i = 0; i < n; ++i) {
-      const Complex* a = spectra.data() + static_cast<std::size_t>(i) * bins;
-      for (int j = i; j < n; ++j, ++pair) {
-        const Complex* b = spectra.data() + static_cast<std::size_t>(j) * bins;
-        for (std::size_t k = 0; k < bins; ++k) {
-          const Complex product(a[k].real() * b[k].real() + a[k].imag() * b[k].imag(),
-                                a[k].imag() * b[k].real() - a[k].real() * b[k].imag());
-          sum[k * pairs + pair] += product;
-          if (part != nullptr) (*part)[k * pairs + pair] += product;
-        }
-      }
-    }
+  const auto product = [](Complex a, Complex b) noexcept {
+    return Complex(a.real() * b.real() + a.imag() * b.imag(), a.imag() * b.real() - a.real() * b.imag());
   };
-  add(data_, sums_.data_sum, block != nullptr ? &block->data_sum : nullptr);
-  add(mask_, sums_.mask_sum, block != nullptr ? &block->mask_sum : nullptr);
+  for (std::size_t k = 0; k < bins; ++k) {
+    Complex* data = data_sum.data() + k * pairs;
+    Complex* mask = mask_sum.data() + k * pairs;
+    for (std::size_t c = 0; c < channels; ++c) data_of_bin_[c] = data_[c * bins + k];
+    for (std::size_t i = 0; i < channels; ++i) {
+      for (std::size_t j = i; j < channels; ++j) *data++ += product(data_of_bin_[i], data_of_bin_[j]);
+    }
+    if (one_mask) {
+      const Complex power = product(mask_[k], mask_[k]);
+      for (std::size_t pair = 0; pair < pairs; ++pair) mask[pair] += power;
+      continue;
+    }
+    for (std::size_t i = 0; i < channels; ++i) {
+      for (std::size_t j = i; j < channels; ++j) *mask++ += product(mask_[i * bins + k], mask_[j * bins + k]);
+    }
+  }
 }
 
 }  // namespace core

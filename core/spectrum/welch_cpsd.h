@@ -46,8 +46,11 @@ class WelchCpsd {
   bool advance() noexcept;
   void accumulate_segment() noexcept;
   void transform_channel(int channel) noexcept;
-  void add_products() noexcept;
-  void open_block() noexcept;
+  void transform_mask(int channel) noexcept;
+  // one_mask: all channels lack the same samples
+  void add_products(bool one_mask, std::vector<std::complex<double>>& data_sum,
+                    std::vector<std::complex<double>>& mask_sum) noexcept;
+  [[nodiscard]] CpsdBlock& current_block() noexcept;
 
   WelchConfig config_;
   int hop_;
@@ -57,11 +60,12 @@ class WelchCpsd {
   int n_filled_ = 0;  // samples in the segment being gathered
   int n_new_ = 0;     // of them, not yet part of any accumulated segment
   std::uint64_t segments_per_block_ = 1;
-  std::vector<double> value_;               // channels x segment
-  std::vector<std::uint8_t> seen_;          // channels x segment
-  std::vector<double> padded_;              // n_fft
-  std::vector<std::complex<double>> data_;  // channels x bins
-  std::vector<std::complex<double>> mask_;  // channels x bins
+  std::vector<double> value_;                      // channels x segment
+  std::vector<std::uint8_t> seen_;                 // channels x segment
+  std::vector<double> padded_;                     // n_fft
+  std::vector<std::complex<double>> data_;         // channels x bins
+  std::vector<std::complex<double>> mask_;         // channels x bins; where all are equal, the first only
+  std::vector<std::complex<double>> data_of_bin_;  // channels
 };
 
 }  // namespace core
