@@ -2,6 +2,7 @@
 """The same update as `identification_speed run`, with NumPy and SciPy as one would write it: whole arrays, LAPACK.
 
     identification_speed.py DATA plain|cva BLOCK_ROWS REPEATS POLES [svd|gram]
+    identification_speed.py compare POLES POLES         the worst relative difference of two lists of poles
 
 `svd` (default) factorises the Hankel matrix by LAPACK's gesdd, `gram` takes the eigenvectors of its Gram matrix.
 One BLAS thread: set OPENBLAS_NUM_THREADS=1. Prints the least CPU time of an update and the BLAS in use.
@@ -130,11 +131,26 @@ def update(sums, segment, rows, weighted, factoriser):
 
 
 def blas_in_use():
-    maps = pathlib.Path("/proc/self/maps").read_text().split()
-    return ", ".join(sorted({str(pathlib.Path(m).resolve().name) for m in maps if "blas" in m or "lapack" in m and "_" not in m}))
+    mapped = {pathlib.Path(word).resolve().name for word in pathlib.Path("/proc/self/maps").read_text().split()}
+    return " ".join(sorted(name for name in mapped if name.startswith(("libblas", "liblapack", "libopenblas"))))
+
+
+def compare(paths):
+    """Orders must hold as many poles each; every pole of the first list against the nearest of its order."""
+    first, second = (np.loadtxt(path) for path in paths)
+    if not np.array_equal(first[:, 0], second[:, 0]):
+        sys.exit("the lists do not hold the same number of poles in every order")
+    worst = 0.0
+    for order in np.unique(first[:, 0]):
+        a, b = (p[p[:, 0] == order] @ [0, 1, 1j, 0] for p in (first, second))
+        worst = max(worst, np.max(np.abs(a[:, None] - b).min(axis=1) / np.abs(a)))
+    print(f"{worst:.1e}\t{len(first)} poles")
 
 
 def main():
+    if sys.argv[1] == "compare":
+        compare(sys.argv[2:4])
+        return
     path, method, rows, repeats, poles = sys.argv[1], sys.argv[2], int(sys.argv[3]), int(sys.argv[4]), sys.argv[5]
     factoriser = sys.argv[6] if len(sys.argv) > 6 else "svd"
     motion = np.fromfile(path).reshape(-1, CHANNELS)
