@@ -74,60 +74,7 @@ core::CameraInfo camera_of(const drivers::TracksFile& file, const AppConfig& con
   return camera;
 }
 
-struct SeriesFindings {
-  const core::CpsdSums& sums;
-  const core::ModalEstimate& estimate;
-  const RunHistory& history;
-};
-
-void draw_series(const ChannelSeries& series, const SeriesFindings& found, double max_frequency_hz,
-                 const std::string& directory, const std::string& source) {
-  RunFacts facts;
-  facts.source = source;
-  facts.method = to_text(Method::kHovermodal);
-  facts.counted = false;
-  PictureInputs inputs;
-  inputs.channels = series.channels;
-  inputs.spectrum = &found.sums;
-  inputs.estimate = &found.estimate;
-  inputs.history = &found.history;
-  inputs.unit = series.unit;
-  inputs.max_frequency_hz = max_frequency_hz;
-  inputs.facts = &facts;
-  (void)write_pictures(directory, inputs);
-}
-
 }  // namespace
-
-core::ModalEstimate identify_series(const ChannelSeries& series, const SpectrumConfig& spectrum,
-                                    const core::IdentifierConfig& identifier, const std::string& report_directory,
-                                    const std::string& source) {
-  const std::size_t n_channels = series.channels.size();
-  const std::size_t n_samples = n_channels == 0 ? 0 : series.value.front().size();
-  if (n_samples < static_cast<std::size_t>(spectrum.segment)) {
-    throw std::invalid_argument(
-        fmt::format("{} samples are fewer than one segment of {}: at least {:.1f} s at {:g} Hz, or a shorter segment",
-                    n_samples, spectrum.segment, spectrum.segment / series.rate_hz, series.rate_hz));
-  }
-  core::WelchCpsd cpsd(welch_config(spectrum, n_channels, series.rate_hz));
-  std::vector<double> value(n_channels);
-  std::vector<std::uint8_t> seen(n_channels);
-  RunHistory history(series.rate_hz, n_channels, 0);
-  for (std::size_t t = 0; t < n_samples; ++t) {
-    for (std::size_t c = 0; c < n_channels; ++c) {
-      value[c] = series.value[c][t];
-      seen[c] = std::isfinite(value[c]) ? 1 : 0;
-    }
-    (void)cpsd.push(value, seen);
-    history.add(t, value);
-  }
-  cpsd.flush();
-  core::ModalEstimate estimate = core::Identifier(identifier, series.channels).identify(cpsd.sums());
-  estimate.final = true;
-  if (!report_directory.empty())
-    draw_series(series, {cpsd.sums(), estimate, history}, identifier.max_frequency_hz, report_directory, source);
-  return estimate;
-}
 
 TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_path,
                            const std::string& report_directory) {

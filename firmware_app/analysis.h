@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "core/identification/frequency_response.h"
 #include "core/identification/identifier.h"
 #include "core/types/displacement.h"
 #include "core/types/health.h"
@@ -22,13 +24,29 @@ struct ChannelSeries {
   std::string unit = "units";              // of the values, for people
 };
 
+struct SeriesOptions {
+  SpectrumConfig spectrum{.segment = 0};  // segment 0 = chosen from the record's length; of the decimated rate
+  core::IdentifierConfig identifier;      // references are indices into ChannelSeries::channels
+  // Slower: the record is decimated so far that identifier.max_frequency_hz stays in the filter's passband.
+  bool decimate = true;
+  std::string report_directory;                     // must exist; empty = no report
+  std::string source;                               // what the report names as its input
+  std::function<void(double share)> progress = {};  // told now and then how much of the record is done, 0..1
+};
+
+struct SeriesResult {
+  core::ModalEstimate estimate;
+  std::vector<core::ChannelInfo> channels;   // those of the shapes: what was left out is missing here
+  std::vector<core::ResponsePeak> response;  // to the first base channel; empty without one
+  int decimation = 1;
+  int segment = 0;                   // samples of the decimated record
+  std::vector<std::string> remarks;  // what was chosen, left out or doubtful, in words
+};
+
 // Spectra and modes of a record, as the service computes them at the end of a run; leaves pictures and report.html in
-// `report_directory`, which must exist, when not empty. `source`: what the report names as its input.
-// Throws std::invalid_argument when the record is shorter than one segment.
-[[nodiscard]] core::ModalEstimate identify_series(const ChannelSeries& series, const SpectrumConfig& spectrum,
-                                                  const core::IdentifierConfig& identifier,
-                                                  const std::string& report_directory = {},
-                                                  const std::string& source = {});
+// the report's folder. A channel without samples, without motion, or equal to another is left out, with a remark.
+// Throws std::invalid_argument when nothing is left, or the record is shorter than one segment.
+[[nodiscard]] SeriesResult identify_series(const ChannelSeries& series, const SeriesOptions& options);
 
 // tracks.csv -> geometry -> spectra -> modes; leaves the service's report in `report_directory` when not empty.
 struct TracksResult {

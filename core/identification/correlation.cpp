@@ -15,9 +15,6 @@ namespace {
 // A lag seen fewer times than this share of lag 0 has no usable average.
 constexpr double kLeastMaskShare = 1e-3;
 
-// mm^2. A constant channel leaves the rounding of its mean (1e-13 of a metre); no camera sees a nanometre.
-constexpr double kLeastPower = 1e-18;
-
 class PairTransform {
  public:
   explicit PairTransform(const CpsdSums& sums)
@@ -122,7 +119,8 @@ const char* to_string(CorrelationStatus status) noexcept {
   return "";
 }
 
-CorrelationStatus compute_correlations(const CpsdSums& sums, int max_lag, int n_differences, Correlations& out) {
+CorrelationStatus compute_correlations(const CpsdSums& sums, int max_lag, int n_differences, Correlations& out,
+                                       double least_power) {
   if (sums.n_segments == 0) return CorrelationStatus::kNoSegment;
   const int n = sums.n_channels;
   max_lag = std::min(max_lag, sums.n_fft / 2 - 1);
@@ -152,7 +150,7 @@ CorrelationStatus compute_correlations(const CpsdSums& sums, int max_lag, int n_
         out.set(i, j, lag, data[at] / mask[at], data[at] / scale);
       }
     }
-    if (!(out.undivided(i, i, 0) > kLeastPower)) return CorrelationStatus::kNoPower;
+    if (!(out.undivided(i, i, 0) > least_power)) return CorrelationStatus::kNoPower;
   }
   return CorrelationStatus::kOk;
 }

@@ -9,6 +9,9 @@ namespace core {
 
 enum class CorrelationStatus : std::uint8_t { kOk, kNoSegment, kNotFinite, kNoPower, kTooFewSamples };
 
+// A constant channel leaves the rounding of its mean (1e-13 of a metre); no camera sees a nanometre.
+inline constexpr double kLeastPowerMm2 = 1e-18;
+
 // Correlation functions R_ij(lag) = E[x_i(t + lag) x_j(t)], lag -max_lag .. max_lag, of the d-times differenced
 // channels (NExT: James, Carne & Lauffer 1993). `divided`: unbiased, by the mask's own correlation (ARCHITECTURE.md);
 // what the realisation is made of. `undivided`: the positive semidefinite estimate; what weights are made of. Equal to
@@ -36,7 +39,7 @@ class Correlations {
 // Prewhitening by `n_differences` differences is done on the spectrum: |1 - exp(-i w)|^(2 d). It takes the hover drift,
 // which stands 40 dB above the modes, out of the ridge and the rounding; shapes and poles are untouched.
 [[nodiscard]] CorrelationStatus compute_correlations(const CpsdSums& sums, int max_lag, int n_differences,
-                                                     Correlations& out);
+                                                     Correlations& out, double least_power = kLeastPowerMm2);
 
 // The blocks in use, joined in order to n_groups parts as equal as can be (none when there are fewer blocks): by how
 // much each part moves `divided` of `mean`, to first order: (D_b - R M_b) / M, lag by lag, with the part's own sums

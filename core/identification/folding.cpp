@@ -27,6 +27,9 @@ Hypothesis evaluate(Complex s_apparent, int n, const std::vector<Complex>& shape
   for (std::size_t c = 0; c < h.shape.size() && c < config.delay_s.size(); ++c) {
     h.shape[c] *= std::exp(-h.s * config.delay_s[c]);
   }
+  for (std::size_t c = 0; c < h.shape.size() && c < config.n_integrations.size(); ++c) {
+    for (int k = 0; k < config.n_integrations[c]; ++k) h.shape[c] /= h.s;
+  }
   if (h.s.imag() < 0.0) {  // the conjugate pair's other member: positive frequency, conjugate shape
     h.s = std::conj(h.s);
     for (Complex& z : h.shape) z = std::conj(z);

@@ -13,12 +13,14 @@ struct FoldingConfig {
   double rate_hz = 0.0;
   double max_frequency_hz = 0.0;  // |f_a + n f_s| beyond it are not considered
   std::vector<double> delay_s;    // per channel
+  // Per channel; empty = all displacements. A velocity row is s times, an acceleration row s^2 times the displacement.
+  std::vector<int> n_integrations = {};
 };
 
 struct UnfoldedPole {
   std::complex<double> s;                   // continuous pole, rad/s, Im > 0
   double apparent_hz = 0.0;                 // 0 .. f_s / 2
-  std::vector<std::complex<double>> shape;  // delays undone, largest component 1
+  std::vector<std::complex<double>> shape;  // delays undone, in displacement, largest component 1
   double mpc = 0.0;
   std::optional<int> fold_n;          // empty: cannot be told (fewer than three channels, or no delays)
   std::optional<double> fold_margin;  // best MPC minus second best

@@ -5,9 +5,8 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "core/identification/correlation.h"
-#include "core/identification/era.h"
 #include "core/identification/line_evidence.h"
+#include "core/identification/model_fit.h"
 #include "core/identification/uncertainty.h"
 #include "core/identification/verdict.h"
 
@@ -15,16 +14,7 @@ namespace core {
 
 namespace {
 
-constexpr int kMaxReferences = 6;
-constexpr int kOrders = 15;              // of the stabilisation diagram, two apart
 constexpr double kLeastPresence = 0.25;  // poles of fewer orders are the scatter of over-modelling, not worth a verdict
-constexpr int kLeastBlockRows = 6;
-// Rows of the Hankel matrix, all channels together: 40 block rows of 6 channels. Few channels take more block rows,
-// which is what separates close lines.
-constexpr int kMostRows = 240;
-// The weights are covariance matrices of block_rows * channels: with fewer samples per row than this they fit the noise
-// and every singular value comes out near 1.
-constexpr double kSamplesPerRow = 16.0;
 
 void copy_stream_facts(const CpsdSums& sums, ModalEstimate& estimate) {
   estimate.n_samples = sums.n_samples;
@@ -60,7 +50,7 @@ std::vector<PoleCluster> lines_of(const std::vector<OrderPole>& poles, int n_ord
 
 std::vector<int> orders_from(int first, const Realisation& realisation) {
   std::vector<int> orders;
-  for (int k = 0; k < kOrders && first + 2 * k <= realisation.a.rows(); ++k) orders.push_back(first + 2 * k);
+  for (int k = 0; k < kMostOrders && first + 2 * k <= realisation.a.rows(); ++k) orders.push_back(first + 2 * k);
   return orders;
 }
 
@@ -126,48 +116,11 @@ Identifier::Identifier(IdentifierConfig config, std::vector<ChannelInfo> channel
   }
 }
 
-std::vector<int> Identifier::choose_references() const {
-  if (!config_.references.empty()) return config_.references;
-  std::vector<int> structure;
-  for (std::size_t c = 0; c < channels_.size(); ++c) {
-    if (!channels_[c].is_base) structure.push_back(static_cast<int>(c));
-  }
-  if (structure.empty()) structure.push_back(0);
-  const auto n = static_cast<int>(structure.size());
-  if (n <= kMaxReferences) return structure;
-  std::vector<int> spread;  // evenly over the channels, both ends included
-  for (int k = 0; k < kMaxReferences; ++k) {
-    spread.push_back(structure[static_cast<std::size_t>(k * (n - 1) / (kMaxReferences - 1))]);
-  }
-  return spread;
-}
-
-int Identifier::choose_block_rows(const CpsdSums& sums) const noexcept {
-  if (config_.block_rows > 0) return config_.block_rows;
-  const double rows = std::min<double>(kMostRows, static_cast<double>(sums.n_samples) / kSamplesPerRow);
-  // The weights keep the window's taper, the Hankel matrix does not: up to an eighth of a segment they agree.
-  const int longest = sums.n_fft / 16;
-  return std::clamp(static_cast<int>(rows) / static_cast<int>(channels_.size()), kLeastBlockRows,
-                    std::max(kLeastBlockRows, longest));
-}
-
-EraConfig Identifier::era_config(const CpsdSums& sums) const {
-  EraConfig era;
-  era.block_rows = choose_block_rows(sums);
-  era.first_lag = 1 + config_.n_differences;
-  era.references = choose_references();
-  const int room =
-      std::min(static_cast<int>(era.references.size()), static_cast<int>(channels_.size())) * era.block_rows;
-  era.max_order = config_.max_order > 0 ? std::min(config_.max_order, room) : room;
-  era.above_canonical = 2 * (kOrders - 1);
-  era.with_maps = sums.n_blocks >= kScatterBlocks;
-  return era;
-}
-
 FoldingConfig Identifier::folding_config(double rate_hz) const {
   FoldingConfig folding{rate_hz, config_.max_frequency_hz, {}};
   for (const ChannelInfo& channel : channels_) {
     folding.delay_s.push_back(config_.undo_row_delays ? channel.row_delay_s : 0.0);
+    folding.n_integrations.push_back(channel.n_integrations);
   }
   return folding;
 }
@@ -175,28 +128,24 @@ FoldingConfig Identifier::folding_config(double rate_hz) const {
 ModalEstimate Identifier::identify(const CpsdSums& sums) const {
   ModalEstimate estimate;
   copy_stream_facts(sums, estimate);
-  const EraConfig era = era_config(sums);
-  Correlations correlations;
-  const CorrelationStatus status =
-      compute_correlations(sums, 2 * era.block_rows + era.first_lag, config_.n_differences, correlations);
-  if (status != CorrelationStatus::kOk) {
-    estimate.status = to_string(status);
-    return estimate;
+  ModelFit fit;
+  estimate.status = fit_model(sums, config_, channels_, fit);
+  if (estimate.status != "ok") return estimate;
+  if (fit.order_is_clear) {
+    estimate.model_order = fit.order;
+  } else {
+    estimate.status =
+        "order unclear: no gap in the canonical correlations; taken from order " + std::to_string(fit.order) + " on";
   }
-  Realisation realisation;
-  if (realise(correlations, era, realisation) != EraStatus::kOk) {
-    estimate.status = "the correlations carry no system: nothing moves, or the segment is too short";
-    return estimate;
-  }
-  estimate.model_order = std::max(2, canonical_order(realisation));
-  const std::vector<int> orders = orders_from(estimate.model_order, realisation);
+  const std::vector<int> orders = orders_from(fit.order, fit.realisation);
   const FoldingConfig folding = folding_config(sums.rate_hz);
-  const Poles poles = poles_of_orders(realisation, orders, folding);
+  const Poles poles = poles_of_orders(fit.realisation, orders, folding);
   const std::vector<PoleCluster> lines = lines_of(poles.unfolded, static_cast<int>(orders.size()));
 
   VerdictRules rules;
   rules.min_mpc = config_.min_mpc;
   rules.max_damping = config_.max_damping;
+  rules.max_apparent_hz = config_.edge_hz;
   std::vector<Mode> modes;
   LineExaminer examiner(sums, folding);
   for (const PoleCluster& line : lines) {
@@ -204,14 +153,13 @@ ModalEstimate Identifier::identify(const CpsdSums& sums) const {
                           examiner.examine(line.representative)));
   }
   if (sums.n_blocks >= kScatterBlocks) {
-    const auto deviations = block_deviations(sums, config_.n_differences, correlations, kScatterBlocks);
-    state_scatter({realisation, era, folding, deviations}, poles, lines, modes);
+    const auto deviations = block_deviations(sums, config_.n_differences, fit.correlations, kScatterBlocks);
+    state_scatter({fit.realisation, fit.era, folding, deviations}, poles, lines, modes);
     estimate.n_blocks = kScatterBlocks;
   }
   reject_twins(modes);
   note_poles(poles.unfolded, orders, estimate);
   list_modes(std::move(modes), lines, estimate);
-  estimate.status = "ok";
   return estimate;
 }
 

@@ -3,13 +3,15 @@
 #include <string>
 #include <vector>
 
-#include "core/identification/era.h"
+#include "core/identification/correlation.h"
 #include "core/identification/folding.h"
 #include "core/types/cpsd.h"
 #include "core/types/displacement.h"
 #include "core/types/modal_estimate.h"
 
 namespace core {
+
+inline constexpr int kMostOrders = 15;  // of the stabilisation diagram, two apart
 
 struct IdentifierConfig {
   std::vector<int> references;    // channel indices; empty = automatic
@@ -18,8 +20,10 @@ struct IdentifierConfig {
   double max_frequency_hz = 0.0;  // true frequencies looked for; 0 = half the rate: nothing is unfolded
   double min_mpc = 0.8;
   double max_damping = 0.15;
-  int n_differences = 1;        // prewhitening; 0 for channels without drift
-  bool undo_row_delays = true;  // false: the samples were compensated before (paper mode)
+  int n_differences = 1;  // prewhitening; 0 for channels without drift
+  double edge_hz = 0.0;   // apparent frequencies above it lie in a filter's edge and are no modes; 0 = no filter
+  double least_power = kLeastPowerMm2;  // a channel with less is taken to stand still; in the channels' unit squared
+  bool undo_row_delays = true;          // false: the samples were compensated before (paper mode)
 };
 
 // From the sums of a spectrum to modes with a verdict each: NExT, canonical-variate ERA, a stabilisation over orders
@@ -35,9 +39,6 @@ class Identifier {
   [[nodiscard]] const std::vector<ChannelInfo>& channels() const noexcept { return channels_; }
 
  private:
-  [[nodiscard]] int choose_block_rows(const CpsdSums& sums) const noexcept;
-  [[nodiscard]] std::vector<int> choose_references() const;
-  [[nodiscard]] EraConfig era_config(const CpsdSums& sums) const;
   [[nodiscard]] FoldingConfig folding_config(double rate_hz) const;
 
   IdentifierConfig config_;

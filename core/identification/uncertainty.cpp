@@ -134,9 +134,11 @@ StatedChange stated_change(const PoleOfOrder& pole, const FoldingConfig& folding
   std::size_t m = 0;
   for (std::size_t c = 0; c < n; ++c) {
     const double delay_s = c < folding.delay_s.size() ? folding.delay_s[c] : 0.0;
-    const Complex undone = std::exp(-s * delay_s);
+    const int n_integrations = c < folding.n_integrations.size() ? folding.n_integrations[c] : 0;
+    const Complex undone = std::exp(-s * delay_s) / std::pow(s, n_integrations);
     x[c] = pole.pole.shape[c] * undone;
-    dx[c] = (change.shape[c] - delay_s * out.s * pole.pole.shape[c]) * undone;
+    dx[c] =
+        (change.shape[c] - (delay_s + static_cast<double>(n_integrations) / s) * out.s * pole.pole.shape[c]) * undone;
     if (std::norm(x[c]) > std::norm(x[m])) m = c;
   }
   for (std::size_t c = 0; c < n; ++c) out.shape.push_back(((dx[c] - x[c] / x[m] * dx[m]) / x[m]).real());

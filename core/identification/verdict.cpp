@@ -30,9 +30,14 @@ double base_share(const Mode& mode, const std::vector<ChannelInfo>& channels) {
   return share;
 }
 
+// Velocities and accelerations were not seen by a camera.
+bool all_displacements(const std::vector<ChannelInfo>& channels) {
+  return std::all_of(channels.begin(), channels.end(), [](const ChannelInfo& c) { return c.n_integrations == 0; });
+}
+
 // Camera translation moves all channels of one axis alike; a lone channel tells nothing.
 double uniform_mac(const Mode& mode, const std::vector<ChannelInfo>& channels) {
-  if (channels.size() < 2) return 0.0;
+  if (channels.size() < 2 || !all_displacements(channels)) return 0.0;
   std::vector<std::complex<double>> uniform(channels.size());
   for (std::size_t c = 0; c < channels.size(); ++c) {
     uniform[c] =
@@ -63,6 +68,9 @@ void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response
   if (mode.damping_ratio < kLeastDamping || mode.damping_ratio > rules.max_damping) {
     set(mode, Verdict::kNumerical,
         text("damping %.2f %% outside 0 .. %.0f %%", 100.0 * mode.damping_ratio, 100.0 * rules.max_damping));
+  } else if (rules.max_apparent_hz > 0.0 && mode.apparent_hz > rules.max_apparent_hz) {
+    set(mode, Verdict::kNumerical,
+        text("filter edge: above the %.4g Hz that the decimation lets through", rules.max_apparent_hz));
   } else if (uniform > rules.max_uniform_mac) {
     set(mode, Verdict::kCameraMotion,
         text("all channels move alike (MAC %.3f with a translation of the camera)", uniform));

@@ -14,6 +14,7 @@ namespace core {
 struct VerdictRules {
   double min_mpc = 0.8;
   double max_damping = 0.15;
+  double max_apparent_hz = 0.0;     // above it stands the edge of the filter that came before; 0 = no filter
   double min_presence = 0.85;       // of the orders
   int last_first_i_order = 1;       // present from the canonical order or the next one on
   double max_base_share = 0.1;      // |shape at the base| / largest

@@ -14,6 +14,7 @@ struct ChannelInfo {
   double direction_v = 0.0;
   double row_delay_s = 0.0;  // tau: the channel is seen this long after the frame's time stamp (ARCHITECTURE.md)
   bool is_base = false;      // region role `base`: measured input, kept as an output
+  int n_integrations = 0;    // from its samples to a displacement: 0 displacement, 1 velocity, 2 acceleration
 };
 
 // One sample of every channel, relative to the keyframe.

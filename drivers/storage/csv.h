@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,13 +25,26 @@ struct SeriesFile {
   std::vector<std::string> names;
   std::vector<std::vector<double>> columns;  // one per name, equally long; NaN where a cell is empty or "nan"
   std::map<std::string, std::string> comments;
+  std::vector<std::string> units;  // per column, from its name or the file's head; "" = not said
+  std::optional<double> rate_hz;   // from the head of a LabVIEW measurement file
+  bool has_names = true;           // false: no line of names, the columns are called c1, c2, ...
+  std::uint64_t n_not_finite = 0;  // infinities, taken as missing
 
   [[nodiscard]] int column(const std::string& name) const noexcept;  // -1 = not there
 };
 
-// Both throw FileError "FILE:LINE: ..." on what they cannot take for exactly that: ragged rows, text for a number,
+// What other programs write. Separators comma, semicolon, tab or white space, decimal commas where the separator is
+// none, with or without names, `#` or `%` comments, the head of LabVIEW's .lvm; infinities count as missing.
+struct ForeignFormat {
+  bool no_names = false;  // the first line must hold numbers
+  // Told now and then how many lines were read.
+  std::function<void(std::uint64_t n_lines)> progress = {};
+};
+
+// All throw FileError "FILE:LINE: ..." on what they cannot take for exactly that: ragged rows, text for a number,
 // over-long lines, NUL bytes, no header, frames or times that go back.
 [[nodiscard]] TracksFile read_tracks_csv(const std::string& path);
 [[nodiscard]] SeriesFile read_series_csv(const std::string& path);
+[[nodiscard]] SeriesFile read_foreign_series(const std::string& path, const ForeignFormat& format = {});
 
 }  // namespace drivers

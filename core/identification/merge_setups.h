@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/types/displacement.h"
+#include "core/types/modal_estimate.h"
+
+namespace core {
+
+// One record of a structure whose sensors were moved between records, but for the references.
+struct Setup {
+  std::string name;
+  ModalEstimate estimate;
+  std::vector<ChannelInfo> channels;    // of the estimate's shapes
+  std::vector<std::string> references;  // names of channels, in the same order in every set-up
+};
+
+struct MergedSetups {
+  ModalEstimate estimate;             // durations and segments are sums
+  std::vector<ChannelInfo> channels;  // references as in the first set-up, then "<set-up>.<channel>"
+  std::vector<std::string> remarks;
+};
+
+// Set-ups identified one by one and joined (PoSER: Reynders, Magalhaes, De Roeck & Cunha 2009). Structural modes of
+// different set-ups are one where |df| / (0.03 f) + (1 - MAC over the references) / 0.5 < 1, the nearest pair first and
+// no two of one set-up. Frequency and damping are means weighted by duration: standard deviations of single records
+// scatter too much to weigh by. Shapes are scaled to the first set-up's reference part by least squares and joined; the
+// references' own rows are averaged, weighted by duration. Modes that a set-up lacks are rejected with the reason.
+//
+// Rates may differ. Throws std::invalid_argument: fewer than two set-ups, no reference, a reference that a set-up
+// lacks.
+[[nodiscard]] MergedSetups merge_setups(const std::vector<Setup>& setups);
+
+}  // namespace core

@@ -1,0 +1,109 @@
+#include "core/identification/model_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/identification/uncertainty.h"
+
+namespace core {
+
+namespace {
+
+constexpr int kMaxReferences = 6;
+constexpr int kLeastBlockRows = 6;
+// Rows of the Hankel matrix, all channels together: 40 block rows of 6 channels. Few channels take more block rows,
+// which is what separates close lines.
+constexpr int kMostRows = 240;
+// The weights are covariance matrices of block_rows * channels: with fewer samples per row than this they fit the noise
+// and every singular value comes out near 1.
+constexpr double kSamplesPerRow = 16.0;
+// Where the canonical correlations fall off by less than this (a system in noise: 2.5-3), the input is coloured or not
+// stationary, and the count above one half means nothing.
+constexpr double kLeastOrderGap = 1.3;
+constexpr int kUnclearBlockRows = 20;
+constexpr double kUnclearThreshold = 0.7;
+
+// One or two correlations beside the gap may fall on the wrong side of one half.
+bool order_is_clear(const Realisation& realisation, int order) {
+  const Eigen::VectorXd& s = realisation.singular_values;
+  for (Eigen::Index k = std::max(1, order - 2); k <= order + 1 && k < s.size(); ++k) {
+    if (s[k - 1] > kLeastOrderGap * s[k]) return true;
+  }
+  return false;
+}
+
+std::vector<int> choose_references(const IdentifierConfig& config, const std::vector<ChannelInfo>& channels) {
+  if (!config.references.empty()) return config.references;
+  std::vector<int> structure;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    if (!channels[c].is_base) structure.push_back(static_cast<int>(c));
+  }
+  if (structure.empty()) structure.push_back(0);
+  const auto n = static_cast<int>(structure.size());
+  if (n <= kMaxReferences) return structure;
+  std::vector<int> spread;  // evenly over the channels, both ends included
+  for (int k = 0; k < kMaxReferences; ++k) {
+    spread.push_back(structure[static_cast<std::size_t>(k * (n - 1) / (kMaxReferences - 1))]);
+  }
+  return spread;
+}
+
+int choose_block_rows(const CpsdSums& sums, const IdentifierConfig& config, std::size_t n_channels) {
+  if (config.block_rows > 0) return config.block_rows;
+  const double rows = std::min<double>(kMostRows, static_cast<double>(sums.n_samples) / kSamplesPerRow);
+  // The weights keep the window's taper, the Hankel matrix does not: up to an eighth of a segment they agree.
+  const int longest = sums.n_fft / 16;
+  return std::clamp(static_cast<int>(rows) / static_cast<int>(n_channels), kLeastBlockRows,
+                    std::max(kLeastBlockRows, longest));
+}
+
+EraConfig era_config(const CpsdSums& sums, const IdentifierConfig& config, const std::vector<ChannelInfo>& channels) {
+  EraConfig era;
+  era.block_rows = choose_block_rows(sums, config, channels.size());
+  era.first_lag = 1 + config.n_differences;
+  era.references = choose_references(config, channels);
+  era.above_canonical = 2 * (kMostOrders - 1);
+  era.with_maps = sums.n_blocks >= kScatterBlocks;
+  return era;
+}
+
+EraStatus realise_up_to(int max_order, ModelFit& fit) {
+  const auto least = std::min(fit.era.references.size(), static_cast<std::size_t>(fit.correlations.n_channels()));
+  const int room = static_cast<int>(least) * fit.era.block_rows;
+  fit.era.max_order = max_order > 0 ? std::min(max_order, room) : room;
+  return realise(fit.correlations, fit.era, fit.realisation);
+}
+
+// A short memory keeps the colour of the input out of the model.
+EraStatus realise_with_short_memory(const IdentifierConfig& config, ModelFit& fit) {
+  EraStatus status = EraStatus::kOk;
+  if (fit.era.block_rows > kUnclearBlockRows && config.block_rows == 0) {
+    fit.era.block_rows = kUnclearBlockRows;
+    status = realise_up_to(config.max_order, fit);
+  }
+  if (status == EraStatus::kOk) fit.order = canonical_order(fit.realisation, kUnclearThreshold);
+  return status;
+}
+
+}  // namespace
+
+std::string fit_model(const CpsdSums& sums, const IdentifierConfig& config, const std::vector<ChannelInfo>& channels,
+                      ModelFit& out) {
+  out.era = era_config(sums, config, channels);
+  const CorrelationStatus status = compute_correlations(sums, 2 * out.era.block_rows + out.era.first_lag,
+                                                        config.n_differences, out.correlations, config.least_power);
+  if (status != CorrelationStatus::kOk) return to_string(status);
+  EraStatus era_status = realise_up_to(config.max_order, out);
+  if (era_status == EraStatus::kOk) {
+    out.order = canonical_order(out.realisation);
+    out.order_is_clear = order_is_clear(out.realisation, out.order);
+    if (!out.order_is_clear) era_status = realise_with_short_memory(config, out);
+  }
+  if (era_status != EraStatus::kOk) {
+    return "the correlations carry no system: nothing moves, or the segment is too short";
+  }
+  out.order = std::max(2, out.order);
+  return "ok";
+}
+
+}  // namespace core

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/identification/correlation.h"
+#include "core/identification/era.h"
+#include "core/identification/identifier.h"
+#include "core/types/cpsd.h"
+#include "core/types/displacement.h"
+
+namespace core {
+
+// The realisation of a record, with how it was made.
+struct ModelFit {
+  EraConfig era;
+  Correlations correlations;
+  Realisation realisation;
+  int order = 0;  // the lowest of the stabilisation diagram
+  // Do the canonical correlations fall off there? Where they do not, the input is coloured or not stationary.
+  bool order_is_clear = false;
+};
+
+// Chooses references, block rows and order where the configuration leaves them open. "ok", or why there is no model.
+[[nodiscard]] std::string fit_model(const CpsdSums& sums, const IdentifierConfig& config,
+                                    const std::vector<ChannelInfo>& channels, ModelFit& out);
+
+}  // namespace core

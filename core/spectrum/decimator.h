@@ -1,0 +1,33 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace core {
+
+// Takes every `factor`-th sample of a record after a linear-phase low-pass filter (windowed sinc, Kaiser window, 80
+// dB), without delay: sample k of the result stands at sample k * factor of the record. Flat within 1e-4 up to
+// kPassband * new rate; what lies between there and half the new rate is the filter's edge and carries aliases.
+//
+// NaN = missing, as is everything outside of the record. A result whose missing inputs weigh more than 1 % of the
+// filter is NaN (a gap masks its neighbourhood); with fewer the rest of the filter is scaled up.
+class Decimator {
+ public:
+  static constexpr double kPassband = 0.4;  // of the new rate
+
+  explicit Decimator(int factor);  // throws std::invalid_argument when the factor is < 1; 1 copies
+
+  [[nodiscard]] int factor() const noexcept { return factor_; }
+  [[nodiscard]] std::vector<double> decimate(std::span<const double> record) const;
+
+ private:
+  int factor_;
+  int half_ = 0;              // taps to either side
+  std::vector<double> taps_;  // 2 * half_ + 1, of sum 1
+  double total_weight_ = 0.0;
+};
+
+// The largest factor that keeps frequencies up to max_frequency_hz in the passband; 1 where there is none to spare.
+[[nodiscard]] int decimation_factor(double rate_hz, double max_frequency_hz) noexcept;
+
+}  // namespace core

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "firmware_app/analysis.h"
+
+namespace app {
+
+// What a record must be freed of before its spectra mean something. All add what they did to `remarks`.
+
+// Leaves out channels that have no sample, do not move (all values equal but for rounding), or equal another channel
+// or a multiple of one; `references` follow. Throws std::invalid_argument when no channel is left, or no reference of
+// those that were asked for.
+void leave_out_unusable(ChannelSeries& series, std::vector<int>& references, std::vector<std::string>& remarks);
+
+// Decimates so that max_frequency_hz (0: nothing is done) stays in the passband; returns the factor.
+int decimate_to(ChannelSeries& series, double max_frequency_hz, std::vector<std::string>& remarks);
+
+// A power of two of samples, about an eighth of the record: 64 .. 4096.
+[[nodiscard]] int automatic_segment(std::size_t n_samples) noexcept;
+
+}  // namespace app

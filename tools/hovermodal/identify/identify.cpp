@@ -1,0 +1,165 @@
+// hovermodal identify: the service's spectra and identification on any time series.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+#include "drivers/storage/text_file.h"
+#include "firmware_app/analysis.h"
+#include "tools/hovermodal/commands.h"
+#include "tools/hovermodal/identify/series_input.h"
+#include "tools/hovermodal/identify/series_output.h"
+
+namespace tools {
+
+namespace {
+
+struct IdentifyOptions {
+  std::vector<std::string> files;
+  SeriesRequest request;
+  std::vector<std::string> references;
+  int segment = 0;
+  int n_differences = -1;  // -1 = by the quantities
+  core::IdentifierConfig identifier;
+  bool merge = false;
+  std::string report;
+};
+
+constexpr const char* kHelp =
+    "Modes of any time series: displacements of a run, accelerometers, lasers, tracks of other programs\n"
+    "  hovermodal identify --series out/displacements.csv --base base\n"
+    "      a run of the service: rate, units and row delays are in the file\n"
+    "  hovermodal identify --series frame.csv --rate 256 --quantity v,v,v,a,a --channels 1 2 3 4 5 --max-frequency 12\n"
+    "      lasers beside accelerometers; decimated to just above 12 Hz; the columns by number\n"
+    "  hovermodal identify --series table.csv --quantity a --input ground --max-frequency 22 --report out\n"
+    "      a measured ground: its own peaks are told from modes, and the response to it is listed\n"
+    "  hovermodal identify --series a.csv b.csv c.csv --rate 256 --reference ref_x ref_y --merge --report out\n"
+    "      set-ups with moved sensors, joined by the two that stayed\n"
+    "A file: one row per sample; names on the first line, or none; comma, semicolon, tab or blanks between cells;\n"
+    "empty cells are missing samples; a column t_s (seconds) or frame shows gaps; # lines are comments.";
+
+int default_differences(const std::vector<core::ChannelInfo>& channels) {
+  return std::any_of(channels.begin(), channels.end(), [](const auto& c) { return c.n_integrations == 0; }) ? 1 : 0;
+}
+
+SeriesFindings identify_file(const IdentifyOptions& options, const std::string& path, const std::string& report) {
+  LoadedSeries loaded = load_series(path, options.request);
+  SeriesFindings findings;
+  findings.name = std::filesystem::path(path).stem().string();
+  app::SeriesOptions series;
+  series.spectrum.segment = options.segment;
+  series.identifier = options.identifier;
+  series.identifier.n_differences =
+      options.n_differences >= 0 ? options.n_differences : default_differences(loaded.series.channels);
+  for (const std::string& reference : options.references) {
+    const int channel = channel_index(loaded, reference, path);
+    findings.references.push_back(loaded.series.channels[static_cast<std::size_t>(channel)].name);
+    // Of set-ups they are what joins the shapes; each alone uses all its channels.
+    if (!options.merge) series.identifier.references.push_back(channel);
+  }
+  series.report_directory = report;
+  series.source = std::filesystem::path(path).filename().string();
+  series.progress = [&](double share) { fmt::print(stderr, "{}: spectra {:.0f} %\n", path, 100.0 * share); };
+  if (!report.empty()) std::filesystem::create_directories(report);
+  try {
+    findings.result = app::identify_series(loaded.series, series);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(path + ": " + error.what());
+  }
+  findings.result.remarks.insert(findings.result.remarks.begin(), loaded.remarks.begin(), loaded.remarks.end());
+  return findings;
+}
+
+// DIR for one file, DIR/NAME for each of several.
+std::string report_of(const IdentifyOptions& options, std::size_t i) {
+  if (options.report.empty() || options.files.size() == 1) return options.report;
+  const auto stem = [&](std::size_t k) { return std::filesystem::path(options.files[k]).stem().string(); };
+  std::size_t n_before = 0;
+  for (std::size_t k = 0; k < i; ++k) n_before += stem(k) == stem(i) ? 1U : 0U;
+  return options.report + "/" + stem(i) + (n_before > 0 ? fmt::format("_{}", n_before + 1) : "");
+}
+
+void check(const IdentifyOptions& options) {
+  if (options.request.rate_hz < 0.0) throw std::invalid_argument("--rate must be positive");
+  if (options.segment != 0 && options.segment < 16)
+    throw std::invalid_argument(fmt::format("--segment {}: at least 16 samples, or 0 = automatic", options.segment));
+  if (options.merge && options.files.size() < 2) throw std::invalid_argument("--merge joins two files or more");
+  if (options.merge && options.references.empty())
+    throw std::invalid_argument("--merge needs --reference: the channels that stayed where they were in every file");
+}
+
+void run(const IdentifyOptions& options) {
+  check(options);
+  std::vector<SeriesFindings> all;
+  for (std::size_t i = 0; i < options.files.size(); ++i) {
+    const std::string report = report_of(options, i);
+    all.push_back(identify_file(options, options.files[i], report));
+    if (options.files.size() > 1) fmt::print("{}{}\n", i == 0 ? "" : "\n", options.files[i]);
+    fmt::print("{}", findings_text(all.back().result));
+    if (!report.empty()) fmt::print("open {}\n", write_findings(all.back().result, report));
+  }
+  if (!options.merge) return;
+  const app::SeriesResult merged = merge_findings(all);
+  fmt::print("\n{} set-ups merged\n{}", all.size(), findings_text(merged));
+  if (!options.report.empty()) fmt::print("open {}\n", write_merged(merged, options.report));
+}
+
+void add_data_options(CLI::App& command, IdentifyOptions& options) {
+  SeriesRequest& request = options.request;
+  command.add_option("--series", options.files, "Tables of samples")->required()->type_name("FILE...");
+  command.add_option("--rate", request.rate_hz, "Samples per second, where the file has no times")->type_name("HZ");
+  command
+      .add_option("--quantity", request.quantities,
+                  "d displacement, v velocity, a acceleration: one for all channels, or one for each (default: by the "
+                  "units in names and comments)")
+      ->delimiter(',')
+      ->type_name("d|v|a");
+  command.add_flag("--no-header", request.no_header, "The first line holds numbers (found out by itself as well)");
+  command
+      .add_option("--channels", request.channels, "Columns to use, by name or number from 1 (default: all but times)")
+      ->type_name("NAME");
+  command.add_option("--base", request.bases, "Columns that are the structure's base")->type_name("NAME");
+  command
+      .add_option("--input", request.input,
+                  "Column of the measured input (ground, table): what moves with it is an input peak, and the peaks of "
+                  "the response to it are listed")
+      ->type_name("NAME");
+  command.add_option("--delays-ms", request.delays_ms, "When each channel is seen after the time of its row")
+      ->delimiter(',')
+      ->type_name("MS");
+}
+
+void add_method_options(CLI::App& command, IdentifyOptions& options) {
+  command.add_option("--reference", options.references, "Reference channels; those that all files of --merge share")
+      ->type_name("NAME");
+  command
+      .add_option("--max-frequency", options.identifier.max_frequency_hz,
+                  "Highest true frequency, Hz: far below half the rate the record is decimated, above it poles are "
+                  "unfolded by the row delays (0 = half the rate)")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command.add_option("--segment", options.segment, "Samples of a Welch segment, after decimation; 0 = automatic")
+      ->capture_default_str();
+  command.add_option("--block-rows", options.identifier.block_rows, "Block rows of the Hankel matrix, 0 = automatic")
+      ->capture_default_str();
+  command.add_option("--differences", options.n_differences,
+                     "Prewhitening differences (default: 1 where there are displacements, else 0)");
+  command.add_flag("--merge", options.merge, "The files are set-ups of one structure, joined by --reference");
+  command.add_option("--report", options.report, "Folder for modal.json and report.html (of several files: one each)")
+      ->type_name("DIR");
+}
+
+}  // namespace
+
+void add_identify(CLI::App& app) {
+  auto options = std::make_shared<IdentifyOptions>();
+  CLI::App* command = app.add_subcommand("identify", kHelp);
+  add_data_options(*command, *options);
+  add_method_options(*command, *options);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace tools

@@ -1,0 +1,73 @@
+#include "tools/hovermodal/identify/series_output.h"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "core/identification/merge_setups.h"
+#include "drivers/storage/json.h"
+#include "firmware_app/report/modal_json.h"
+#include "firmware_app/report/page/report_page.h"
+#include "firmware_app/report/pictures/pictures.h"
+#include "tools/hovermodal/modes_text.h"
+
+namespace tools {
+
+namespace {
+
+std::string page_of(const std::string& directory) { return directory + "/" + std::string(app::kReportName); }
+
+}  // namespace
+
+std::string findings_text(const app::SeriesResult& result) {
+  std::string text = modes_text(result.estimate, result.channels);
+  if (!result.response.empty()) text += "response to the input (H1):\n";
+  for (const core::ResponsePeak& peak : result.response) {
+    text += fmt::format("  {:9.4f} Hz  gain {:.1f} at {}  coherence {:.2f}\n", peak.frequency_hz, peak.gain,
+                        result.channels[static_cast<std::size_t>(peak.channel)].name, peak.coherence);
+  }
+  for (const std::string& remark : result.remarks) text += "note: " + remark + "\n";
+  return text;
+}
+
+std::string write_findings(const app::SeriesResult& result, const std::string& directory) {
+  app::ModalReport report;
+  report.method = "hovermodal";
+  for (const core::ChannelInfo& channel : result.channels) report.channel_names.push_back(channel.name);
+  report.estimate = result.estimate;
+  drivers::write_file_atomically(directory + "/modal.json", app::modal_json(report));
+  return page_of(directory);
+}
+
+app::SeriesResult merge_findings(const std::vector<SeriesFindings>& setups) {
+  std::vector<core::Setup> list;
+  for (const SeriesFindings& setup : setups) {
+    core::Setup& one = list.emplace_back();
+    one.name = setup.name;
+    one.estimate = setup.result.estimate;
+    one.channels = setup.result.channels;
+    one.references = setup.references;
+  }
+  core::MergedSetups merged = core::merge_setups(list);
+  app::SeriesResult result;
+  result.estimate = std::move(merged.estimate);
+  result.channels = std::move(merged.channels);
+  result.remarks = std::move(merged.remarks);
+  return result;
+}
+
+std::string write_merged(const app::SeriesResult& result, const std::string& directory) {
+  app::RunFacts facts;
+  facts.source = "set-ups merged";
+  facts.method = "hovermodal";
+  facts.counted = false;
+  app::PictureInputs inputs;
+  inputs.channels = result.channels;
+  inputs.estimate = &result.estimate;
+  inputs.facts = &facts;
+  (void)app::write_pictures(directory, inputs);
+  return write_findings(result, directory);
+}
+
+}  // namespace tools
