@@ -33,11 +33,11 @@ double distance(const Member& a, const Member& b) {
 
 class Merger {
  public:
-  explicit Merger(const std::vector<Setup>& setups) : setups_(setups) {
+  explicit Merger(const std::vector<SetupModes>& setups) : setups_(setups) {
     if (setups.size() < 2) throw std::invalid_argument("merging needs two set-ups or more");
     if (setups.front().references.empty())
       throw std::invalid_argument("the set-ups share no reference: name the channels that were never moved");
-    for (const Setup& setup : setups) {
+    for (const SetupModes& setup : setups) {
       index_of_references_.push_back(reference_indices(setup));
       total_s_ += setup.estimate.duration_s;
     }
@@ -47,7 +47,7 @@ class Merger {
   [[nodiscard]] MergedSetups merge() {
     ModalEstimate& estimate = out_.estimate;
     estimate.final = true;
-    for (const Setup& setup : setups_) {
+    for (const SetupModes& setup : setups_) {
       estimate.n_samples += setup.estimate.n_samples;
       estimate.n_segments += setup.estimate.n_segments;
       estimate.n_missing += setup.estimate.n_missing;
@@ -69,7 +69,7 @@ class Merger {
   }
 
  private:
-  static std::vector<std::size_t> reference_indices(const Setup& setup) {
+  static std::vector<std::size_t> reference_indices(const SetupModes& setup) {
     std::vector<std::size_t> indices;
     for (const std::string& name : setup.references) {
       const auto found =
@@ -85,7 +85,7 @@ class Merger {
   void list_channels() {
     const std::size_t n_references = index_of_references_.front().size();
     for (std::size_t j = 0; j < setups_.size(); ++j) {
-      const Setup& setup = setups_[j];
+      const SetupModes& setup = setups_[j];
       if (index_of_references_[j].size() != n_references)
         throw std::invalid_argument("set-up " + setup.name + " names another number of references");
       auto& places = place_of_channel_.emplace_back(setup.channels.size(), 0);
@@ -241,7 +241,7 @@ class Merger {
 
   static std::string rounded(double value) { return std::to_string(std::round(value * 1e3) / 1e3).substr(0, 5); }
 
-  const std::vector<Setup>& setups_;
+  const std::vector<SetupModes>& setups_;
   std::vector<std::vector<std::size_t>> index_of_references_;  // per set-up
   std::vector<std::vector<std::size_t>> place_of_channel_;     // per set-up and channel, in the joined shape
   std::size_t n_roving_ = 0;
@@ -251,6 +251,6 @@ class Merger {
 
 }  // namespace
 
-MergedSetups merge_setups(const std::vector<Setup>& setups) { return Merger(setups).merge(); }
+MergedSetups merge_setups(const std::vector<SetupModes>& setups) { return Merger(setups).merge(); }
 
 }  // namespace core

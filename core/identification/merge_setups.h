@@ -9,7 +9,7 @@
 namespace core {
 
 // One record of a structure whose sensors were moved between records, but for the references.
-struct Setup {
+struct SetupModes {
   std::string name;
   ModalEstimate estimate;
   std::vector<ChannelInfo> channels;    // of the estimate's shapes
@@ -30,6 +30,6 @@ struct MergedSetups {
 //
 // Rates may differ. Throws std::invalid_argument: fewer than two set-ups, no reference, a reference that a set-up
 // lacks.
-[[nodiscard]] MergedSetups merge_setups(const std::vector<Setup>& setups);
+[[nodiscard]] MergedSetups merge_setups(const std::vector<SetupModes>& setups);
 
 }  // namespace core

@@ -41,9 +41,9 @@ std::string write_findings(const app::SeriesResult& result, const std::string& d
 }
 
 app::SeriesResult merge_findings(const std::vector<SeriesFindings>& setups) {
-  std::vector<core::Setup> list;
+  std::vector<core::SetupModes> list;
   for (const SeriesFindings& setup : setups) {
-    core::Setup& one = list.emplace_back();
+    core::SetupModes& one = list.emplace_back();
     one.name = setup.name;
     one.estimate = setup.result.estimate;
     one.channels = setup.result.channels;
