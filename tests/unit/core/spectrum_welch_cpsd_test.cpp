@@ -142,7 +142,9 @@ TEST(WelchCpsd, BlocksAreTheRecordInOrderAndAddUpToItsSums) {
     for (std::size_t b = 0; b < sums.n_blocks; ++b) {
       n_segments += sums.blocks[b].n_segments;
       // All but the last are alike.
-      if (b + 1 < sums.n_blocks) EXPECT_EQ(sums.blocks[b].n_segments, sums.blocks[0].n_segments);
+      if (b + 1 < sums.n_blocks) {
+        EXPECT_EQ(sums.blocks[b].n_segments, sums.blocks[0].n_segments);
+      }
       for (std::size_t k = 0; k < data.size(); ++k) {
         data[k] += sums.blocks[b].data_sum[k];
         mask[k] += sums.blocks[b].mask_sum[k];
