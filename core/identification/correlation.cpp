@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <span>
 
 #include "core/spectrum/real_fft.h"
@@ -22,28 +21,26 @@ class PairTransform {
     spectrum_.resize(bins_);
   }
 
-  // Inverse transform of one pair's sum; gain per bin may be empty. out: n_fft circular lags.
-  void inverse(const std::vector<std::complex<double>>& sum, int pair, const std::vector<double>& gain,
-               std::vector<double>& out) {
+  // Inverse transform of one pair's sum. out: n_fft circular lags.
+  void inverse(const std::vector<std::complex<double>>& sum, int pair, std::vector<double>& out) {
     const auto pairs = static_cast<std::size_t>(sums_.n_pairs());
     for (std::size_t k = 0; k < bins_; ++k) spectrum_[k] = sum[k * pairs + static_cast<std::size_t>(pair)];
-    finish(gain, out);
+    finish(out);
   }
 
   // The same of the blocks' sums together.
   void inverse(std::span<const CpsdBlock> blocks, std::vector<std::complex<double>> CpsdBlock::*sum, int pair,
-               const std::vector<double>& gain, std::vector<double>& out) {
+               std::vector<double>& out) {
     const auto pairs = static_cast<std::size_t>(sums_.n_pairs());
     std::fill(spectrum_.begin(), spectrum_.end(), std::complex<double>());
     for (const CpsdBlock& block : blocks) {
       for (std::size_t k = 0; k < bins_; ++k) spectrum_[k] += (block.*sum)[k * pairs + static_cast<std::size_t>(pair)];
     }
-    finish(gain, out);
+    finish(out);
   }
 
  private:
-  void finish(const std::vector<double>& gain, std::vector<double>& out) {
-    for (std::size_t k = 0; k < gain.size(); ++k) spectrum_[k] *= gain[k];
+  void finish(std::vector<double>& out) {
     out.resize(static_cast<std::size_t>(sums_.n_fft));
     fft_.inverse(spectrum_, out);
   }
@@ -54,13 +51,12 @@ class PairTransform {
   std::vector<std::complex<double>> spectrum_;
 };
 
-std::vector<double> difference_gain(int n_fft, int n_differences) {
-  std::vector<double> gain(static_cast<std::size_t>(n_fft / 2 + 1));
-  for (std::size_t k = 0; k < gain.size(); ++k) {
-    const double s = 2.0 * std::sin(std::numbers::pi * static_cast<double>(k) / n_fft);
-    gain[k] = std::pow(s * s, n_differences);
+// R_d(lag) = 2 R(lag) - R(lag - 1) - R(lag + 1), n times; the ends are used up.
+void difference(std::vector<double>& values, int n_differences) {
+  for (int d = 0; d < n_differences; ++d) {
+    for (std::size_t k = 0; k + 2 < values.size(); ++k) values[k] = 2.0 * values[k + 1] - values[k] - values[k + 2];
+    values.resize(values.size() - 2);
   }
-  return gain;
 }
 
 std::span<const CpsdBlock> group_of(const CpsdSums& sums, std::size_t group, std::size_t n_groups) {
@@ -123,31 +119,39 @@ CorrelationStatus compute_correlations(const CpsdSums& sums, int max_lag, int n_
                                        double least_power) {
   if (sums.n_segments == 0) return CorrelationStatus::kNoSegment;
   const int n = sums.n_channels;
-  max_lag = std::min(max_lag, sums.n_fft / 2 - 1);
+  max_lag = std::min(max_lag, sums.n_fft / 2 - 1 - n_differences);
   out = Correlations(n, max_lag);
   PairTransform transform(sums);
-  const std::vector<double> gain = difference_gain(sums.n_fft, n_differences);
   const bool shared_mask = one_mask(sums);
-  std::vector<double> data;
-  std::vector<double> mask;
+  std::vector<double> data, mask, divided, undivided;
   std::vector<double> mask_at_0(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {
-    if (i == 0 || !shared_mask) transform.inverse(sums.mask_sum, CpsdSums::pair_index(i, i, n), {}, mask);
+    if (i == 0 || !shared_mask) transform.inverse(sums.mask_sum, CpsdSums::pair_index(i, i, n), mask);
     mask_at_0[static_cast<std::size_t>(i)] = mask[0];
     if (!(mask[0] > 0.0)) return CorrelationStatus::kNoPower;
   }
+  const int reach = max_lag + n_differences;
   for (int i = 0; i < n; ++i) {
     for (int j = i; j < n; ++j) {
       const int pair = CpsdSums::pair_index(i, j, n);
-      transform.inverse(sums.data_sum, pair, gain, data);
-      if (!shared_mask) transform.inverse(sums.mask_sum, pair, {}, mask);
+      transform.inverse(sums.data_sum, pair, data);
+      if (!shared_mask) transform.inverse(sums.mask_sum, pair, mask);
       // One positive scale per channel keeps the undivided estimate positive semidefinite under unequal losses.
       const double scale = std::sqrt(mask_at_0[static_cast<std::size_t>(i)] * mask_at_0[static_cast<std::size_t>(j)]);
-      for (int lag = -max_lag; lag <= max_lag; ++lag) {
+      divided.clear();
+      undivided.clear();
+      for (int lag = -reach; lag <= reach; ++lag) {
         const std::size_t at = circular(lag, sums.n_fft);
         if (!std::isfinite(data[at])) return CorrelationStatus::kNotFinite;
         if (mask[at] < kLeastMaskShare * scale) return CorrelationStatus::kTooFewSamples;
-        out.set(i, j, lag, data[at] / mask[at], data[at] / scale);
+        divided.push_back(data[at] / mask[at]);
+        undivided.push_back(data[at] / scale);
+      }
+      difference(divided, n_differences);
+      difference(undivided, n_differences);
+      for (int lag = -max_lag; lag <= max_lag; ++lag) {
+        const auto at = static_cast<std::size_t>(lag + max_lag);
+        out.set(i, j, lag, divided[at], undivided[at]);
       }
     }
     if (!(out.undivided(i, i, 0) > least_power)) return CorrelationStatus::kNoPower;
@@ -155,28 +159,32 @@ CorrelationStatus compute_correlations(const CpsdSums& sums, int max_lag, int n_
   return CorrelationStatus::kOk;
 }
 
-std::vector<Correlations> block_deviations(const CpsdSums& sums, int n_differences, const Correlations& mean,
-                                           std::size_t n_groups) {
+std::vector<Correlations> block_deviations(const CpsdSums& sums, int n_differences, int max_lag, std::size_t n_groups) {
   if (n_groups == 0 || sums.n_blocks < n_groups) return {};
-  const int n = sums.n_channels, max_lag = mean.max_lag();
+  const int n = sums.n_channels, reach = max_lag + n_differences;
   std::vector<Correlations> out(n_groups, Correlations(n, max_lag));
   PairTransform transform(sums);
-  const std::vector<double> gain = difference_gain(sums.n_fft, n_differences);
-  std::vector<double> data, all;
-  std::vector<std::vector<double>> mask(n_groups);
   const bool shared = one_mask(sums);
+  std::vector<double> data, all_data, all_mask, moved;
+  std::vector<std::vector<double>> mask(n_groups);
   for (int i = 0; i < n; ++i) {
     for (int j = i; j < n; ++j) {
       const int pair = CpsdSums::pair_index(i, j, n);
       const bool same_mask = shared && pair > 0;
-      if (!same_mask) transform.inverse(sums.mask_sum, pair, {}, all);
+      transform.inverse(sums.data_sum, pair, all_data);
+      if (!same_mask) transform.inverse(sums.mask_sum, pair, all_mask);
       for (std::size_t g = 0; g < n_groups; ++g) {
         const std::span<const CpsdBlock> part = group_of(sums, g, n_groups);
-        transform.inverse(part, &CpsdBlock::data_sum, pair, gain, data);
-        if (!same_mask) transform.inverse(part, &CpsdBlock::mask_sum, pair, {}, mask[g]);
-        for (int lag = -max_lag; lag <= max_lag; ++lag) {
+        transform.inverse(part, &CpsdBlock::data_sum, pair, data);
+        if (!same_mask) transform.inverse(part, &CpsdBlock::mask_sum, pair, mask[g]);
+        moved.clear();
+        for (int lag = -reach; lag <= reach; ++lag) {
           const std::size_t at = circular(lag, sums.n_fft);
-          out[g].set(i, j, lag, (data[at] - mean.divided(i, j, lag) * mask[g][at]) / all[at], 0.0);
+          moved.push_back((data[at] - all_data[at] / all_mask[at] * mask[g][at]) / all_mask[at]);
+        }
+        difference(moved, n_differences);
+        for (int lag = -max_lag; lag <= max_lag; ++lag) {
+          out[g].set(i, j, lag, moved[static_cast<std::size_t>(lag + max_lag)], 0.0);
         }
       }
     }

@@ -14,8 +14,8 @@ inline constexpr double kLeastPowerMm2 = 1e-18;
 
 // Correlation functions R_ij(lag) = E[x_i(t + lag) x_j(t)], lag -max_lag .. max_lag, of the d-times differenced
 // channels (NExT: James, Carne & Lauffer 1993). `divided`: unbiased, by the mask's own correlation (ARCHITECTURE.md);
-// what the realisation is made of. `undivided`: the positive semidefinite estimate; what weights are made of. Equal to
-// `divided` at lag 0.
+// what the realisation is made of. `undivided`: the positive semidefinite estimate; what weights are made of. Without
+// differences equal to `divided` at lag 0.
 class Correlations {
  public:
   Correlations() = default;
@@ -36,16 +36,18 @@ class Correlations {
   std::vector<double> undivided_;
 };
 
-// Prewhitening by `n_differences` differences is done on the spectrum: |1 - exp(-i w)|^(2 d). It takes the hover drift,
-// which stands 40 dB above the modes, out of the ridge and the rounding; shapes and poles are untouched.
+// Prewhitening by `n_differences` differences is done on the lags, R_d(lag) = 2 R(lag) - R(lag - 1) - R(lag + 1), after
+// the division: differences of a windowed signal are not those of the signal, and the window's slope would shift the
+// lowest mode. It takes the hover drift, which stands 40 dB above the modes, out of the ridge and the rounding; shapes
+// and poles are untouched.
 [[nodiscard]] CorrelationStatus compute_correlations(const CpsdSums& sums, int max_lag, int n_differences,
                                                      Correlations& out, double least_power = kLeastPowerMm2);
 
 // The blocks in use, joined in order to n_groups parts as equal as can be (none when there are fewer blocks): by how
 // much each part moves `divided` of `mean`, to first order: (D_b - R M_b) / M, lag by lag, with the part's own sums
-// D_b, M_b. Over all parts this adds up to zero. `undivided` stays 0. `mean`: of the same sums and differences.
-[[nodiscard]] std::vector<Correlations> block_deviations(const CpsdSums& sums, int n_differences,
-                                                         const Correlations& mean, std::size_t n_groups);
+// D_b, M_b. Over all parts this adds up to zero. `undivided` stays 0. max_lag: as compute_correlations() took it.
+[[nodiscard]] std::vector<Correlations> block_deviations(const CpsdSums& sums, int n_differences, int max_lag,
+                                                         std::size_t n_groups);
 
 [[nodiscard]] const char* to_string(CorrelationStatus status) noexcept;
 

@@ -98,13 +98,15 @@ TEST(Correlations, DividedAndUndividedAgreeAtLagZeroOfAChannel) {
   for (int c = 0; c < 2; ++c) EXPECT_DOUBLE_EQ(correlations.divided(c, c, 0), correlations.undivided(c, c, 0));
 }
 
-// Differencing on the spectrum is differencing of the signal: R_d(lag) = 2 R(lag) - R(lag - 1) - R(lag + 1).
-TEST(Correlations, DifferencesOnTheSpectrumAreThoseOfTheUndividedLags) {
-  const CpsdSums sums = welch(noise(2, 400, 6, 0.0), 64);
+// Differencing the signal is differencing its correlation twice; a window and losses change nothing of that.
+TEST(Correlations, DifferencesAreThoseOfTheLags) {
+  const CpsdSums sums = welch(noise(2, 400, 6, 0.1), 64, WindowKind::kHann, 0.5);
   Correlations plain, differenced;
   ASSERT_EQ(compute_correlations(sums, 21, 0, plain), CorrelationStatus::kOk);
   ASSERT_EQ(compute_correlations(sums, 20, 1, differenced), CorrelationStatus::kOk);
   for (int lag = -20; lag <= 20; ++lag) {
+    EXPECT_NEAR(differenced.divided(0, 1, lag),
+                2.0 * plain.divided(0, 1, lag) - plain.divided(0, 1, lag - 1) - plain.divided(0, 1, lag + 1), 1e-12);
     EXPECT_NEAR(differenced.undivided(0, 1, lag),
                 2.0 * plain.undivided(0, 1, lag) - plain.undivided(0, 1, lag - 1) - plain.undivided(0, 1, lag + 1),
                 1e-12);

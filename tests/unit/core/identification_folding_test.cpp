@@ -92,6 +92,27 @@ TEST(Folding, IsNotObservableWithFewerThanThreeChannels) {
   EXPECT_NEAR(pole.apparent_hz, 10.66, 0.02);
 }
 
+TEST(Folding, IsOpenWhereOtherFrequenciesCannotBeTold) {
+  FoldingConfig two = seven_rows(0.9 / kRate, 20.0);
+  const Seen seen = observe(14.34, two.delay_s);
+  EXPECT_FALSE(unfold(seen.lambda, seen.shape, two).fold_open) << "six channels tell it";
+  two.delay_s.resize(2);
+  const UnfoldedPole open = unfold(seen.lambda, {seen.shape[0], seen.shape[1]}, two);
+  EXPECT_TRUE(open.fold_open);
+  EXPECT_GT(open.mpc, 0.999) << "that of the best hypothesis";
+  const Seen slow = observe(2.0, two.delay_s);  // 23 and 27 Hz are not looked for
+  EXPECT_FALSE(unfold(slow.lambda, {slow.shape[0], slow.shape[1]}, two).fold_open);
+}
+
+TEST(Folding, GivesTheObservedShapeBack) {
+  const FoldingConfig config = seven_rows(0.9 / kRate, 60.0);
+  for (const double true_hz : {3.0, 14.34, 27.0, 40.0}) {
+    const Seen seen = observe(true_hz, config.delay_s);
+    const std::vector<Complex> shape = observed_shape(unfold(seen.lambda, seen.shape, config), config);
+    EXPECT_NEAR(mac(shape, seen.shape), 1.0, 1e-12) << true_hz;
+  }
+}
+
 TEST(Folding, IsNotObservableWithoutDelays) {
   EXPECT_TRUE(folding_observable(seven_rows(0.9 / kRate, 60.0)));
   EXPECT_FALSE(folding_observable(seven_rows(0.0, 60.0)));

@@ -132,6 +132,32 @@ TEST(Verdict, AFoldWithoutAClearLeadIsAmbiguous) {
   EXPECT_EQ(judged(cluster).verdict, Verdict::kAmbiguous);
 }
 
+TEST(Verdict, AShakingCameraBeyondTheModesIsNoMode) {
+  PoleCluster cluster = flawless();
+  const LineEvidence camera{0.995, 95.0, {}};
+  const Mode mode = judge(cluster, {}, channels(), kOrders, VerdictRules{}, camera);
+  EXPECT_EQ(mode.verdict, Verdict::kCameraMotion);
+  EXPECT_NE(mode.reason.find("95.0 Hz"), std::string::npos) << mode.reason;
+  const LineEvidence hardly{0.9, 95.0, {}};
+  EXPECT_EQ(judge(cluster, {}, channels(), kOrders, VerdictRules{}, hardly).verdict, Verdict::kStructural);
+}
+
+TEST(Verdict, ACorrelationThatDoesNotDecayIsASteadyForce) {
+  PoleCluster cluster = flawless();
+  cluster.damping_ratio = 0.0008;
+  const LineEvidence steady{0.0, 0.0, 0.0001}, decays{0.0, 0.0, 0.004};
+  const Mode mode = judge(cluster, {}, channels(), kOrders, VerdictRules{}, steady);
+  EXPECT_EQ(mode.verdict, Verdict::kHarmonic);
+  EXPECT_NE(mode.reason.find("steady force"), std::string::npos) << mode.reason;
+  EXPECT_EQ(judge(cluster, {}, channels(), kOrders, VerdictRules{}, decays).verdict, Verdict::kStructural);
+}
+
+TEST(Verdict, AFoldThatNothingCanTellIsAmbiguous) {
+  PoleCluster cluster = flawless();
+  cluster.representative.fold_open = true;
+  EXPECT_EQ(judged(cluster).verdict, Verdict::kAmbiguous);
+}
+
 Mode structural(double hz, double presence, double mpc, std::vector<std::complex<double>> shape) {
   Mode mode;
   mode.verdict = Verdict::kStructural;
