@@ -153,7 +153,7 @@ ModalEstimate Identifier::identify(const CpsdSums& sums) const {
                           examiner.examine(line.representative)));
   }
   if (sums.n_blocks >= kScatterBlocks) {
-    const auto deviations = block_deviations(sums, config_.n_differences, fit.correlations.max_lag(), kScatterBlocks);
+    const auto deviations = block_deviations(sums, fit.n_differences, fit.correlations.max_lag(), kScatterBlocks);
     state_scatter({fit.realisation, fit.era, folding, deviations}, poles, lines, modes);
     estimate.n_blocks = kScatterBlocks;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/identification/prewhitening.h"
 #include "core/identification/uncertainty.h"
 
 namespace core {
@@ -57,10 +58,11 @@ int choose_block_rows(const CpsdSums& sums, const IdentifierConfig& config, std:
                     std::max(kLeastBlockRows, longest));
 }
 
-EraConfig era_config(const CpsdSums& sums, const IdentifierConfig& config, const std::vector<ChannelInfo>& channels) {
+EraConfig era_config(const CpsdSums& sums, const IdentifierConfig& config, const std::vector<ChannelInfo>& channels,
+                     int n_differences) {
   EraConfig era;
   era.block_rows = choose_block_rows(sums, config, channels.size());
-  era.first_lag = 1 + config.n_differences;
+  era.first_lag = 1 + n_differences;
   era.references = choose_references(config, channels);
   era.above_canonical = 2 * (kMostOrders - 1);
   era.with_maps = sums.n_blocks >= kScatterBlocks;
@@ -89,9 +91,10 @@ EraStatus realise_with_short_memory(const IdentifierConfig& config, ModelFit& fi
 
 std::string fit_model(const CpsdSums& sums, const IdentifierConfig& config, const std::vector<ChannelInfo>& channels,
                       ModelFit& out) {
-  out.era = era_config(sums, config, channels);
+  out.n_differences = config.n_differences >= 0 ? config.n_differences : choose_differences(sums);
+  out.era = era_config(sums, config, channels, out.n_differences);
   const CorrelationStatus status = compute_correlations(sums, 2 * out.era.block_rows + out.era.first_lag,
-                                                        config.n_differences, out.correlations, config.least_power);
+                                                        out.n_differences, out.correlations, config.least_power);
   if (status != CorrelationStatus::kOk) return to_string(status);
   EraStatus era_status = realise_up_to(config.max_order, out);
   if (era_status == EraStatus::kOk) {

@@ -13,6 +13,7 @@ namespace core {
 
 // The realisation of a record, with how it was made.
 struct ModelFit {
+  int n_differences = 0;
   EraConfig era;
   Correlations correlations;
   Realisation realisation;

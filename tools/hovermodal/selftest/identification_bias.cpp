@@ -84,7 +84,7 @@ void print_bias(const IdentificationOptions& options) {
   const auto records = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t seed) {
     const Record record = structure_record(storeys_scene(long_record(), seed), false);
     const core::CpsdSums sums = spectra(record);
-    const core::Identifier identifier({}, record.channels);
+    const core::Identifier identifier(identifier_config(), record.channels);
     return BothWays{match_modes(identifier.identify(sums), truth, record.channels),
                     match_modes(identifier.identify(without_window_correction(sums)), truth, record.channels)};
   });

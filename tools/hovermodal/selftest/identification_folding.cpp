@@ -80,8 +80,7 @@ Outcome judge(const FoldingCase& which, std::uint64_t seed, const std::vector<Tr
   Record record = structure_record(storeys_scene(which.setup, seed), false);
   if (!which.keep.empty()) record = select_channels(record, which.keep);
   const core::CpsdSums sums = spectra(record);
-  core::IdentifierConfig config;
-  config.max_frequency_hz = kMaxFrequency_hz;
+  core::IdentifierConfig config = identifier_config(kMaxFrequency_hz);
   const core::ModalEstimate estimate = core::Identifier(config, record.channels).identify(sums);
   Outcome outcome{match_modes(estimate, truth, record.channels), {}, {}};
   if (!which.reads_off) return outcome;

@@ -114,10 +114,15 @@ core::CpsdSums without_window_correction(core::CpsdSums sums) {
   return sums;
 }
 
-core::ModalEstimate identify_record(const Record& record, double max_frequency_hz) {
+core::IdentifierConfig identifier_config(double max_frequency_hz) {
   core::IdentifierConfig config;
   config.max_frequency_hz = max_frequency_hz;
-  return core::Identifier(config, record.channels).identify(spectra(record));
+  config.n_differences = -1;
+  return config;
+}
+
+core::ModalEstimate identify_record(const Record& record, double max_frequency_hz) {
+  return core::Identifier(identifier_config(max_frequency_hz), record.channels).identify(spectra(record));
 }
 
 }  // namespace tools

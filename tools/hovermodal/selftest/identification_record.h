@@ -37,6 +37,8 @@ inline constexpr int kSegment = 1024;
 // As if the window and the losses did nothing but scale the correlations.
 [[nodiscard]] core::CpsdSums without_window_correction(core::CpsdSums sums);
 
+// Prewhitening chosen by the record.
+[[nodiscard]] core::IdentifierConfig identifier_config(double max_frequency_hz = 0.0);
 [[nodiscard]] core::ModalEstimate identify_record(const Record& record, double max_frequency_hz = 0.0);
 
 }  // namespace tools
