@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/spectrum/bridge_losses.h"
+
 namespace core {
 
 namespace {
@@ -54,6 +56,10 @@ WelchCpsd::WelchCpsd(const WelchConfig& config)
   const auto samples = static_cast<std::size_t>(config.n_channels) * static_cast<std::size_t>(config.segment);
   value_.assign(samples, 0.0);
   seen_.assign(samples, 0);
+  if (config.bridge_losses) {
+    bridged_.assign(samples, 0.0);
+    held_.assign(samples, 0);
+  }
   padded_.assign(static_cast<std::size_t>(fft_.size()), 0.0);
   const auto bins = static_cast<std::size_t>(config.n_channels) * static_cast<std::size_t>(fft_.n_bins());
   data_.assign(bins, 0.0);
@@ -135,8 +141,15 @@ void WelchCpsd::transform_channel(int channel) noexcept {
   const auto segment = static_cast<std::size_t>(config_.segment);
   const auto bins = static_cast<std::size_t>(fft_.n_bins());
   const auto c = static_cast<std::size_t>(channel);
-  const std::span<const double> value(value_.data() + c * segment, segment);
-  const std::span<const std::uint8_t> seen(seen_.data() + c * segment, segment);
+  std::span<const double> value(value_.data() + c * segment, segment);
+  std::span<const std::uint8_t> seen(seen_.data() + c * segment, segment);
+  if (config_.bridge_losses) {
+    const std::span<double> bridged(bridged_.data() + c * segment, segment);
+    const std::span<std::uint8_t> held(held_.data() + c * segment, segment);
+    bridge_losses(value, seen, bridged, held);
+    value = bridged;
+    seen = held;
+  }
 
   double sum = 0.0;
   double count = 0.0;
@@ -154,8 +167,9 @@ void WelchCpsd::transform_mask(int channel) noexcept {
   const auto segment = static_cast<std::size_t>(config_.segment);
   const auto bins = static_cast<std::size_t>(fft_.n_bins());
   const auto c = static_cast<std::size_t>(channel);
+  const std::uint8_t* seen = (config_.bridge_losses ? held_ : seen_).data() + c * segment;  // after transform_channel()
   std::fill(padded_.begin() + static_cast<std::ptrdiff_t>(segment), padded_.end(), 0.0);
-  for (std::size_t t = 0; t < segment; ++t) padded_[t] = seen_[c * segment + t] != 0 ? window_[t] : 0.0;
+  for (std::size_t t = 0; t < segment; ++t) padded_[t] = seen[t] != 0 ? window_[t] : 0.0;
   fft_.forward(padded_, {mask_.data() + c * bins, bins});
 }
 

@@ -20,6 +20,7 @@ struct WelchConfig {
   // Parts of the record that are summed apart as well. As it grows they are joined two and two, so that between half
   // and all of them are in use once there were as many segments. Even; 0 = none.
   int n_blocks = 20;
+  bool bridge_losses = false;  // short gaps: see bridge_losses.h; false: every lost sample is masked
 };
 
 // Streaming Welch estimate of the cross-power spectra of all channels (Welch 1967), fixed memory.
@@ -62,6 +63,8 @@ class WelchCpsd {
   std::uint64_t segments_per_block_ = 1;
   std::vector<double> value_;                      // channels x segment
   std::vector<std::uint8_t> seen_;                 // channels x segment
+  std::vector<double> bridged_;                    // channels x segment; empty unless losses are bridged
+  std::vector<std::uint8_t> held_;                 // channels x segment; empty unless losses are bridged
   std::vector<double> padded_;                     // n_fft
   std::vector<std::complex<double>> data_;         // channels x bins
   std::vector<std::complex<double>> mask_;         // channels x bins; where all are equal, the first only

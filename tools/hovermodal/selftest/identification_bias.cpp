@@ -121,13 +121,15 @@ Record with_losses(Record record, double probability, bool whole_frames, std::ui
 
 struct LossCase {
   double probability;
-  bool whole_frames;
+  bool whole_frames, bridged;
 };
 
 std::vector<LossCase> loss_cases() {
   std::vector<LossCase> cases;
-  for (const bool whole_frames : {false, true}) {
-    for (const double p : kLosses) cases.push_back({p, whole_frames});
+  for (const bool bridged : {true, false}) {
+    for (const bool whole_frames : {false, true}) {
+      for (const double p : kLosses) cases.push_back({p, whole_frames, bridged});
+    }
   }
   return cases;
 }
@@ -141,7 +143,7 @@ std::vector<Shifts> shifts_of(std::uint64_t seed, const std::vector<TrueMode>& t
   std::vector<Shifts> shifts;
   for (const LossCase& loss : loss_cases()) {
     const Record lossy = with_losses(whole, loss.probability, loss.whole_frames, seed);
-    const Match match = match_modes(identify_record(lossy), truth, lossy.channels);
+    const Match match = match_modes(identify_record(lossy, 0.0, loss.bridged), truth, lossy.channels);
     Shifts& shift = shifts.emplace_back();
     for (std::size_t r = 0; r < kJudgedModes; ++r) {
       if (match.modes[r].as != Found::As::kRight || reference.modes[r].as != Found::As::kRight) continue;
@@ -158,7 +160,8 @@ void print_losses(const IdentificationOptions& options) {
   const auto records =
       for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t seed) { return shifts_of(seed, truth); });
   fmt::print(
-      "# losses: what is lost, share lost %, true Hz, records in which it is found, of; f against the estimate "
+      "# losses: bridged or masked, what is lost, share lost %, true Hz, records in which it is found, of; f against "
+      "the estimate "
       "without\n"
       "#   losses of the same record, %: median magnitude, worst\n");
   const std::vector<LossCase> cases = loss_cases();
@@ -169,8 +172,9 @@ void print_losses(const IdentificationOptions& options) {
         if (record[i][r]) magnitude.push_back(std::abs(*record[i][r]));
       }
       const Statistics s = statistics(magnitude);
-      fmt::print("losses\t{}\t{:.0f}\t{:.3f}\t{}\t{}\t{:.4f}\t{:.4f}\n", cases[i].whole_frames ? "frames" : "samples",
-                 1e2 * cases[i].probability, truth[r].frequency_hz, s.n, records.size(), s.median, s.worst);
+      fmt::print("losses\t{}\t{}\t{:.0f}\t{:.3f}\t{}\t{}\t{:.4f}\t{:.4f}\n", cases[i].bridged ? "bridged" : "masked",
+                 cases[i].whole_frames ? "frames" : "samples", 1e2 * cases[i].probability, truth[r].frequency_hz, s.n,
+                 records.size(), s.median, s.worst);
     }
   }
 }

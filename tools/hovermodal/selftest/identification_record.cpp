@@ -86,11 +86,12 @@ Record image_record(const core::simulation::Scene& scene, bool with_base) {
   return with_base ? record : select_channels(record, all_but_base(record.channels));
 }
 
-core::CpsdSums spectra(const Record& record, int segment) {
+core::CpsdSums spectra(const Record& record, bool bridge_losses) {
   core::WelchConfig config;
   const std::size_t n = record.channels.size();
   config.n_channels = static_cast<int>(n);
-  config.segment = segment;
+  config.segment = kSegment;
+  config.bridge_losses = bridge_losses;
   config.rate_hz = record.rate_hz;
   core::WelchCpsd welch(config);
   for (std::size_t k = 0; k < record.n_samples(); ++k) {
@@ -121,8 +122,9 @@ core::IdentifierConfig identifier_config(double max_frequency_hz) {
   return config;
 }
 
-core::ModalEstimate identify_record(const Record& record, double max_frequency_hz) {
-  return core::Identifier(identifier_config(max_frequency_hz), record.channels).identify(spectra(record));
+core::ModalEstimate identify_record(const Record& record, double max_frequency_hz, bool bridge_losses) {
+  return core::Identifier(identifier_config(max_frequency_hz), record.channels)
+      .identify(spectra(record, bridge_losses));
 }
 
 }  // namespace tools

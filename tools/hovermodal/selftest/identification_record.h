@@ -32,13 +32,14 @@ struct Record {
 [[nodiscard]] Record select_channels(const Record& record, const std::vector<std::size_t>& keep);
 
 inline constexpr int kSegment = 1024;
-[[nodiscard]] core::CpsdSums spectra(const Record& record, int segment = kSegment);
+[[nodiscard]] core::CpsdSums spectra(const Record& record, bool bridge_losses = true);
 
 // As if the window and the losses did nothing but scale the correlations.
 [[nodiscard]] core::CpsdSums without_window_correction(core::CpsdSums sums);
 
 // Prewhitening chosen by the record.
 [[nodiscard]] core::IdentifierConfig identifier_config(double max_frequency_hz = 0.0);
-[[nodiscard]] core::ModalEstimate identify_record(const Record& record, double max_frequency_hz = 0.0);
+[[nodiscard]] core::ModalEstimate identify_record(const Record& record, double max_frequency_hz = 0.0,
+                                                  bool bridge_losses = true);
 
 }  // namespace tools
