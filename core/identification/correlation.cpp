@@ -85,20 +85,6 @@ Correlations::Correlations(int n_channels, int max_lag) : n_channels_(n_channels
   undivided_ = divided_;
 }
 
-std::size_t Correlations::index(int i, int j, int lag) const noexcept {
-  if (i > j) {  // R_ij(lag) = R_ji(-lag)
-    std::swap(i, j);
-    lag = -lag;
-  }
-  const auto pair = static_cast<std::size_t>(CpsdSums::pair_index(i, j, n_channels_));
-  return pair * static_cast<std::size_t>(2 * max_lag_ + 1) + static_cast<std::size_t>(lag + max_lag_);
-}
-
-void Correlations::set(int i, int j, int lag, double divided, double undivided) noexcept {
-  divided_[index(i, j, lag)] = divided;
-  undivided_[index(i, j, lag)] = undivided;
-}
-
 const char* to_string(CorrelationStatus status) noexcept {
   switch (status) {
     case CorrelationStatus::kOk:

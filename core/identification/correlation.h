@@ -25,10 +25,18 @@ class Correlations {
   [[nodiscard]] int max_lag() const noexcept { return max_lag_; }
   [[nodiscard]] double divided(int i, int j, int lag) const noexcept { return divided_[index(i, j, lag)]; }
   [[nodiscard]] double undivided(int i, int j, int lag) const noexcept { return undivided_[index(i, j, lag)]; }
-  void set(int i, int j, int lag, double divided, double undivided) noexcept;  // i <= j
+  void set(int i, int j, int lag, double divided, double undivided) noexcept {  // i <= j
+    divided_[index(i, j, lag)] = divided;
+    undivided_[index(i, j, lag)] = undivided;
+  }
 
  private:
-  [[nodiscard]] std::size_t index(int i, int j, int lag) const noexcept;
+  [[nodiscard]] std::size_t index(int i, int j, int lag) const noexcept {
+    const bool mirrored = i > j;  // R_ij(lag) = R_ji(-lag)
+    const auto pair = static_cast<std::size_t>(CpsdSums::pair_index(mirrored ? j : i, mirrored ? i : j, n_channels_));
+    return pair * static_cast<std::size_t>(2 * max_lag_ + 1) +
+           static_cast<std::size_t>((mirrored ? -lag : lag) + max_lag_);
+  }
 
   int n_channels_ = 0;
   int max_lag_ = 0;

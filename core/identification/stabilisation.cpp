@@ -4,8 +4,10 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "core/identification/average_linkage.h"
 #include "core/identification/mac.h"
@@ -26,17 +28,21 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// (1 - MAC) needs the shapes' inner product only where the frequencies are near: two for all others.
-std::vector<double> distances(const std::vector<OrderPole>& poles) {
-  const std::size_t n = poles.size();
+double frequency_distance(const UnfoldedPole& a, const UnfoldedPole& b) noexcept {
+  const double mean_hz = 0.5 * (a.apparent_hz + b.apparent_hz);
+  return std::abs(a.apparent_hz - b.apparent_hz) / (kFrequencyTolerance * mean_hz);
+}
+
+// Distances of poles, `members` of them, in that order.
+std::vector<double> distances(const std::vector<OrderPole>& poles, const std::vector<std::size_t>& members) {
+  const std::size_t n = members.size();
   std::vector<double> norm(n), all(n * n);
   for (std::size_t i = 0; i < n; ++i) {
-    for (const std::complex<double>& z : poles[i].pole.shape) norm[i] += std::norm(z);
+    for (const std::complex<double>& z : poles[members[i]].pole.shape) norm[i] += std::norm(z);
   }
   const auto distance = [&](std::size_t i, std::size_t j) {
-    const UnfoldedPole &a = poles[i].pole, &b = poles[j].pole;
-    const double mean_hz = 0.5 * (a.apparent_hz + b.apparent_hz);
-    const double df = std::abs(a.apparent_hz - b.apparent_hz) / (kFrequencyTolerance * mean_hz);
+    const UnfoldedPole &a = poles[members[i]].pole, &b = poles[members[j]].pole;
+    const double df = frequency_distance(a, b);
     if (df >= 1.0) return kFarApart;
     double re = 0.0, im = 0.0;  // of the inner product
     for (std::size_t c = 0; c < a.shape.size() && c < b.shape.size(); ++c) {
@@ -49,6 +55,24 @@ std::vector<double> distances(const std::vector<OrderPole>& poles) {
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < n; ++j) all[i * n + j] = all[j * n + i] = distance(i, j);
   }
+  return all;
+}
+
+// Poles between two gaps in frequency that are too wide to be bridged: all distances across a gap are the same, beyond
+// the cut, so that clusters never reach over it. Members ascending.
+std::vector<std::vector<std::size_t>> bands(const std::vector<OrderPole>& poles) {
+  std::vector<std::size_t> by_frequency(poles.size());
+  std::iota(by_frequency.begin(), by_frequency.end(), std::size_t{0});
+  std::sort(by_frequency.begin(), by_frequency.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(poles[a].pole.apparent_hz, a) < std::pair(poles[b].pole.apparent_hz, b);
+  });
+  std::vector<std::vector<std::size_t>> all;
+  for (std::size_t i = 0; i < by_frequency.size(); ++i) {
+    const UnfoldedPole& pole = poles[by_frequency[i]].pole;
+    if (i == 0 || frequency_distance(poles[by_frequency[i - 1]].pole, pole) >= 1.0) all.emplace_back();
+    all.back().push_back(by_frequency[i]);
+  }
+  for (std::vector<std::size_t>& band : all) std::sort(band.begin(), band.end());
   return all;
 }
 
@@ -140,8 +164,11 @@ double frequency_hz(std::complex<double> s) noexcept { return std::abs(s) / (2.0
 
 std::vector<PoleCluster> cluster_poles(const std::vector<OrderPole>& poles, int n_orders) {
   std::vector<PoleCluster> clusters;
-  for (const auto& members : average_linkage(distances(poles), poles.size(), 1.0)) {
-    clusters.push_back(summarise(poles, members, n_orders));
+  for (const std::vector<std::size_t>& band : bands(poles)) {
+    for (std::vector<std::size_t>& members : average_linkage(distances(poles, band), band.size(), 1.0)) {
+      for (std::size_t& member : members) member = band[member];
+      clusters.push_back(summarise(poles, members, n_orders));
+    }
   }
   std::sort(clusters.begin(), clusters.end(),
             [](const PoleCluster& a, const PoleCluster& b) { return a.apparent_hz < b.apparent_hz; });

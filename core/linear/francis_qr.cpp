@@ -163,8 +163,9 @@ void Francis::sweep(int first, int last, const Shift& s) {
     else if (first != m)
       h_.row(k)[k - 1] = -h_.row(k)[k - 1];
     const double pivot = b.p + root;
-    const double x = pivot / root, y = b.q / root, z = b.r / root;
-    const double q = b.q / pivot, r = b.r / pivot;
+    const double by_root = 1.0 / root, by_pivot = 1.0 / pivot;
+    const double x = pivot * by_root, y = b.q * by_root, z = b.r * by_root;
+    const double q = b.q * by_pivot, r = b.r * by_pivot;
     if (three) {
       linear_kernels::reflect_three_rows(h_.row(k), h_.row(k + 1), h_.row(k + 2), k, last + 1, q, r, x, y, z);
     } else {
@@ -176,13 +177,22 @@ void Francis::sweep(int first, int last, const Shift& s) {
         h1[j] -= p * y;
       }
     }
-    const int end = std::min(last, k + 3);
-    for (int i = first; i <= end; ++i) {
-      double* h = h_.row(i) + k;
-      const double p = three ? x * h[0] + y * h[1] + z * h[2] : x * h[0] + y * h[1];
-      h[0] -= p;
-      h[1] -= p * q;
-      if (three) h[2] -= p * r;
+    // From below: the next reflection needs the lowest rows.
+    if (three) {
+      for (int i = std::min(last, k + 3); i >= first; --i) {
+        double* h = h_.row(i) + k;
+        const double p = x * h[0] + y * h[1] + z * h[2];
+        h[0] -= p;
+        h[1] -= p * q;
+        h[2] -= p * r;
+      }
+    } else {
+      for (int i = last; i >= first; --i) {
+        double* h = h_.row(i) + k;
+        const double p = x * h[0] + y * h[1];
+        h[0] -= p;
+        h[1] -= p * q;
+      }
     }
   }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "core/linear/francis_qr.h"
@@ -55,24 +56,25 @@ void reflect_from_right(double* rows, int stride, int n_rows, int n_columns, con
   }
 }
 
-// current <- next - (re + i im) current, next real.
+// next <- below - (re + i im) current, below real.
 HOVERMODAL_VECTOR_CLONES
-void eliminate_kept(double* __restrict current_re, double* __restrict current_im, const double* __restrict next,
-                    int begin, int end, double re, double im) {
+void eliminate_kept(const double* __restrict current_re, const double* __restrict current_im,
+                    const double* __restrict below, double* __restrict next_re, double* __restrict next_im, int begin,
+                    int end, double re, double im) {
   for (int j = begin; j < end; ++j) {
-    const double a = current_re[j], b = current_im[j];
-    current_re[j] = next[j] - (re * a - im * b);
-    current_im[j] = -(re * b + im * a);
+    next_re[j] = below[j] - (re * current_re[j] - im * current_im[j]);
+    next_im[j] = -(re * current_im[j] + im * current_re[j]);
   }
 }
 
-// current <- current - (re + i im) next, next real.
+// next <- current - (re + i im) below, below real.
 HOVERMODAL_VECTOR_CLONES
-void eliminate_swapped(double* __restrict current_re, double* __restrict current_im, const double* __restrict next,
+void eliminate_swapped(const double* __restrict current_re, const double* __restrict current_im,
+                       const double* __restrict below, double* __restrict next_re, double* __restrict next_im,
                        int begin, int end, double re, double im) {
   for (int j = begin; j < end; ++j) {
-    current_re[j] -= re * next[j];
-    current_im[j] -= im * next[j];
+    next_re[j] = current_re[j] - re * below[j];
+    next_im[j] = current_im[j] - im * below[j];
   }
 }
 
@@ -111,7 +113,12 @@ void to_hessenberg(RowMatrix& a, std::vector<double>& c, int n_seen) {
 class HessenbergVector {
  public:
   explicit HessenbergVector(const RowMatrix& h)
-      : h_(h), re_(h.values.size()), im_(h.values.size()), x_re_(static_cast<std::size_t>(h.n)), x_im_(x_re_) {
+      : h_(h),
+        exchanged_(static_cast<std::size_t>(h.n)),
+        re_(h.values.size()),
+        im_(h.values.size()),
+        x_re_(static_cast<std::size_t>(h.n)),
+        x_im_(x_re_) {
     for (const double value : h.values) norm_ = std::max(norm_, std::abs(value));
   }
 
@@ -126,48 +133,45 @@ class HessenbergVector {
   double* re(int i) { return re_.data() + static_cast<std::ptrdiff_t>(i) * h_.n; }
   double* im(int i) { return im_.data() + static_cast<std::ptrdiff_t>(i) * h_.n; }
 
-  // Row k of U stands in row k of re_, im_.
+  // Row k of U stands in row k of re_, im_; where rows were exchanged it is row k + 1 of H - lambda I itself.
   void factor(Complex lambda) {
     const int n = h_.n;
+    lambda_ = lambda;
     std::copy(h_.row(0), h_.row(0) + n, re(0));
     std::fill(im(0), im(0) + n, 0.0);
     re(0)[0] -= lambda.real();
     im(0)[0] -= lambda.imag();
     for (int k = 0; k + 1 < n; ++k) {
-      double *current_re = re(k), *current_im = im(k), *next_re = re(k + 1), *next_im = im(k + 1);
       const double* below = h_.row(k + 1);
-      const double a = current_re[k], b = current_im[k], size = a * a + b * b;
-      if (below[k] * below[k] <= size) {
-        const double factor = size > 0.0 ? below[k] / size : 0.0;
-        std::copy(current_re + k + 1, current_re + n, next_re + k + 1);
-        std::copy(current_im + k + 1, current_im + n, next_im + k + 1);
-        linear_kernels::eliminate_kept(next_re, next_im, below, k + 1, n, factor * a, -factor * b);
-        next_re[k + 1] -= lambda.real();
-        next_im[k + 1] -= lambda.imag();
-      } else {
+      const double a = re(k)[k], b = im(k)[k], size = a * a + b * b;
+      const bool exchange = below[k] * below[k] > size;
+      exchanged_[static_cast<std::size_t>(k)] = exchange ? 1 : 0;
+      Complex diagonal = lambda;
+      if (exchange) {
         const double mr = a / below[k], mi = b / below[k];
-        std::copy(current_re + k + 1, current_re + n, next_re + k + 1);
-        std::copy(current_im + k + 1, current_im + n, next_im + k + 1);
-        linear_kernels::eliminate_swapped(next_re, next_im, below, k + 1, n, mr, mi);
-        next_re[k + 1] += mr * lambda.real() - mi * lambda.imag();
-        next_im[k + 1] += mr * lambda.imag() + mi * lambda.real();
-        std::copy(below + k, below + n, current_re + k);
-        std::fill(current_im + k, current_im + n, 0.0);
-        current_re[k + 1] -= lambda.real();
-        current_im[k + 1] -= lambda.imag();
+        linear_kernels::eliminate_swapped(re(k), im(k), below, re(k + 1), im(k + 1), k + 1, n, mr, mi);
+        diagonal = {mi * lambda.imag() - mr * lambda.real(), -(mr * lambda.imag() + mi * lambda.real())};
+      } else {
+        const double factor = size > 0.0 ? below[k] / size : 0.0;
+        linear_kernels::eliminate_kept(re(k), im(k), below, re(k + 1), im(k + 1), k + 1, n, factor * a, -factor * b);
       }
+      re(k + 1)[k + 1] -= diagonal.real();
+      im(k + 1)[k + 1] -= diagonal.imag();
     }
+    exchanged_[static_cast<std::size_t>(n) - 1] = 0;
   }
 
   void substitute() {
     const double least = std::max(kEpsilon * norm_, 1e-150);
     double norm2 = 0.0;
     for (int k = h_.n - 1; k >= 0; --k) {
-      const Complex rest = Complex(1.0, 0.0) - row_product(k);
-      double a = re(k)[k], b = im(k)[k];
+      const auto at = static_cast<std::size_t>(k);
+      const bool exchanged = exchanged_[at] != 0;
+      const Complex rest = Complex(1.0, 0.0) - (exchanged ? exchanged_product(k) : product(k));
+      double a = exchanged ? h_.row(k + 1)[k] : re(k)[k];
+      double b = exchanged ? 0.0 : im(k)[k];
       if (std::abs(a) + std::abs(b) < least) a = least, b = 0.0;
       const double inverse = 1.0 / (a * a + b * b);
-      const auto at = static_cast<std::size_t>(k);
       x_re_[at] = (rest.real() * a + rest.imag() * b) * inverse;
       x_im_[at] = (rest.imag() * a - rest.real() * b) * inverse;
       norm2 += x_re_[at] * x_re_[at] + x_im_[at] * x_im_[at];
@@ -178,7 +182,7 @@ class HessenbergVector {
   }
 
   // sum over j > k of U(k, j) x(j).
-  [[nodiscard]] Complex row_product(int k) {
+  [[nodiscard]] Complex product(int k) {
     const double *a = re(k), *b = im(k), *x = x_re_.data(), *y = x_im_.data();
     double ax0 = 0.0, by0 = 0.0, ay0 = 0.0, bx0 = 0.0, ax1 = 0.0, by1 = 0.0, ay1 = 0.0, bx1 = 0.0;
     int j = k + 1;
@@ -201,8 +205,29 @@ class HessenbergVector {
     return {(ax0 + ax1) - (by0 + by1), (ay0 + ay1) + (bx0 + bx1)};
   }
 
+  [[nodiscard]] Complex exchanged_product(int k) {
+    const double *a = h_.row(k + 1), *x = x_re_.data(), *y = x_im_.data();
+    double ax0 = 0.0, ay0 = 0.0, ax1 = 0.0, ay1 = 0.0;
+    int j = k + 1;
+    for (; j + 2 <= h_.n; j += 2) {
+      ax0 += a[j] * x[j];
+      ay0 += a[j] * y[j];
+      ax1 += a[j + 1] * x[j + 1];
+      ay1 += a[j + 1] * y[j + 1];
+    }
+    if (j < h_.n) {
+      ax0 += a[j] * x[j];
+      ay0 += a[j] * y[j];
+    }
+    const double u = x[k + 1], v = y[k + 1];
+    return {(ax0 + ax1) - (lambda_.real() * u - lambda_.imag() * v),
+            (ay0 + ay1) - (lambda_.real() * v + lambda_.imag() * u)};
+  }
+
   const RowMatrix& h_;
   double norm_ = 0.0;
+  Complex lambda_;
+  std::vector<std::uint8_t> exchanged_;
   std::vector<double> re_, im_, x_re_, x_im_;
 };
 
