@@ -5,8 +5,8 @@
 
 namespace core {
 
-HankelGram hankel_gram(const Correlations& correlations, const std::vector<int>& references,
-                       const Eigen::VectorXd& scale, int n_blocks, int first_lag) {
+Eigen::MatrixXd hankel_gram(const Correlations& correlations, const std::vector<int>& references,
+                            const Eigen::VectorXd& scale, int n_blocks, int first_lag) {
   using Eigen::Index;
   using Eigen::MatrixXd;
   const auto nr = static_cast<Index>(references.size());
@@ -16,19 +16,17 @@ HankelGram hankel_gram(const Correlations& correlations, const std::vector<int>&
   const MatrixXd lags = block_hankel(correlations, references, scale, 1, 2 * n_blocks, first_lag);
   const MatrixXd stacked = lags.transpose();
 
-  MatrixXd step = MatrixXd::Zero(n, n);
-  add_product_transposed(step, -1.0, stacked.topRows(n), stacked.topRows(n));
-  add_product_transposed(step, 1.0, stacked.bottomRows(n), stacked.bottomRows(n));
-
   MatrixXd first = MatrixXd::Zero(n_wide, nr);
   for (Index a = 0; a < n_blocks; ++a) {
     add_product(first, 1.0, stacked.middleRows(a * nr, n_wide), lags.middleCols(a * nr, nr));
   }
-  MatrixXd gram(n_wide, n_wide);
+  MatrixXd gram = MatrixXd::Zero(n_wide, n_wide);
+  add_product_transposed(gram.bottomRightCorner(n, n), -1.0, stacked.topRows(n), stacked.topRows(n));
+  add_product_transposed(gram.bottomRightCorner(n, n), 1.0, stacked.bottomRows(n), stacked.bottomRows(n));
   gram.leftCols(nr) = first;
   gram.topRows(nr) = first.transpose();
-  for (Index j = nr; j < n_wide; ++j) gram.col(j).tail(n) = gram.col(j - nr).head(n) + step.col(j - nr);
-  return {gram.topLeftCorner(n, n), gram.block(0, nr, n, n)};
+  for (Index j = nr; j < n_wide; ++j) gram.col(j).tail(n) += gram.col(j - nr).head(n);
+  return gram;
 }
 
 }  // namespace core

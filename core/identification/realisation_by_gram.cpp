@@ -1,6 +1,7 @@
 #include "core/identification/realisation_by_gram.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/identification/block_hankel.h"
 #include "core/identification/hankel_gram.h"
@@ -25,9 +26,9 @@ struct RightVectors {
   MatrixXd v_t;  // order x n
 };
 
-GramStatus right_vectors(const MatrixXd& gram, const EraConfig& config, RightVectors& out) {
+GramStatus right_vectors(MatrixXd gram, const EraConfig& config, RightVectors& out) {
   if (!gram.allFinite()) return GramStatus::kRankDeficient;
-  const SymmetricEigen eigen(gram);
+  const SymmetricEigen eigen(std::move(gram));
   out.s = eigen.values().cwiseMax(0.0).cwiseSqrt();
   if (!(out.s[0] > 0.0)) return GramStatus::kRankDeficient;
   const Index order = wanted_order(config, out.s);
@@ -56,9 +57,11 @@ void copy_shapes(const MatrixXd& u_top_t, const VectorXd& scale, const VectorXd&
 // U = G V S^-1 is never formed: A = S^-3/2 V^T (H0^T H1) V S^-1/2.
 GramStatus realise_plain(const Correlations& correlations, const EraConfig& config, Realisation& out) {
   const VectorXd scale = channel_scale(correlations);
-  const HankelGram gram = hankel_gram(correlations, config.references, scale, config.block_rows, config.first_lag);
+  const MatrixXd gram = hankel_gram(correlations, config.references, scale, config.block_rows, config.first_lag);
+  const auto nr = static_cast<Index>(config.references.size());
+  const Index n = config.block_rows * nr;
   RightVectors right;
-  const GramStatus status = right_vectors(gram.own, config, right);
+  const GramStatus status = right_vectors(gram.topLeftCorner(n, n), config, right);
   if (status != GramStatus::kOk) return status;
   const VectorXd s = right.s.head(right.v_t.rows());
   const VectorXd root = s.cwiseSqrt();
@@ -67,7 +70,7 @@ GramStatus realise_plain(const Correlations& correlations, const EraConfig& conf
   const MatrixXd left = root.cwiseInverse().asDiagonal() * by_s;          // left_map = left H0^T
   out.scale = scale;
   out.singular_values = right.s;
-  out.a = product_transposed(product(left, gram.shifted), by_root);
+  out.a = product_transposed(product(left, gram.block(0, nr, n, n)), by_root);
   const MatrixXd top = block_hankel(correlations, config.references, scale, 1, config.block_rows, config.first_lag);
   copy_shapes(product_transposed(by_s, top), scale, root, out);
   if (config.with_maps) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/linear/francis_qr.h"
+#include "core/linear/lanes.h"
 #include "core/linear/vector_clones.h"
 
 namespace core {
@@ -15,6 +16,52 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+struct RightReflection {
+  double* rows;
+  int stride, n_rows, n_columns;
+  const double* v;
+  double tau;
+};
+
+// rows <- rows (I - tau v v^T).
+template <int kWidth>
+[[gnu::always_inline]] inline void reflect_from_right(const RightReflection& r) {
+  using Vector = typename Lanes<kWidth>::Vector;
+  constexpr int kParts = kLanes / kWidth;
+  for (int i = 0; i < r.n_rows; ++i) {
+    double* row = r.rows + static_cast<std::ptrdiff_t>(i) * r.stride;
+    Vector part[static_cast<std::size_t>(kParts)] = {};
+    int j = 0;
+    for (; j + kLanes <= r.n_columns; j += kLanes) {
+      for (int h = 0; h < kParts; ++h) {
+        part[h] += *reinterpret_cast<const Vector*>(row + j + h * kWidth) *
+                   *reinterpret_cast<const Vector*>(r.v + j + h * kWidth);
+      }
+    }
+    double sum = 0.0;
+    for (; j < r.n_columns; ++j) sum += row[j] * r.v[j];
+    for (int lane = 0; lane < kLanes; ++lane) sum += part[lane / kWidth][lane % kWidth];
+    const double factor = r.tau * sum;
+    for (j = 0; j + kLanes <= r.n_columns; j += kLanes) {
+      for (int h = 0; h < kParts; ++h) {
+        *reinterpret_cast<Vector*>(row + j + h * kWidth) -=
+            factor * *reinterpret_cast<const Vector*>(r.v + j + h * kWidth);
+      }
+    }
+    for (; j < r.n_columns; ++j) row[j] -= factor * r.v[j];
+  }
+}
+
+void reflect_narrow(const RightReflection& r) { reflect_from_right<2>(r); }
+#ifdef __x86_64__
+__attribute__((target("avx2"))) void reflect_wide(const RightReflection& r) { reflect_from_right<4>(r); }
+__attribute__((target("avx512f"))) void reflect_widest(const RightReflection& r) { reflect_from_right<8>(r); }
+#else
+constexpr auto reflect_wide = reflect_narrow;
+constexpr auto reflect_widest = reflect_narrow;
+#endif
+const auto reflect_rows_from_right = by_vector_width(reflect_narrow, reflect_wide, reflect_widest);
 
 }  // namespace
 
@@ -34,25 +81,6 @@ void reflect_from_left(double* rows, int stride, int n_rows, int n_columns, cons
     double* __restrict row = rows + static_cast<std::ptrdiff_t>(i) * stride;
     const double factor = tau * v[i];
     for (int j = 0; j < n_columns; ++j) row[j] -= factor * sum[j];
-  }
-}
-
-// rows <- rows (I - tau v v^T).
-HOVERMODAL_VECTOR_CLONES
-void reflect_from_right(double* rows, int stride, int n_rows, int n_columns, const double* __restrict v, double tau) {
-  for (int i = 0; i < n_rows; ++i) {
-    double* __restrict row = rows + static_cast<std::ptrdiff_t>(i) * stride;
-    double s0 = 0.0, s1 = 0.0, s2 = 0.0, s3 = 0.0;
-    int j = 0;
-    for (; j + 4 <= n_columns; j += 4) {
-      s0 += row[j] * v[j];
-      s1 += row[j + 1] * v[j + 1];
-      s2 += row[j + 2] * v[j + 2];
-      s3 += row[j + 3] * v[j + 3];
-    }
-    for (; j < n_columns; ++j) s0 += row[j] * v[j];
-    const double factor = tau * ((s0 + s1) + (s2 + s3));
-    for (j = 0; j < n_columns; ++j) row[j] -= factor * v[j];
   }
 }
 
@@ -101,8 +129,8 @@ void to_hessenberg(RowMatrix& a, std::vector<double>& c, int n_seen) {
     v[0] = 1.0;
     const double tau = (beta - first) / beta;
     linear_kernels::reflect_from_left(a.row(k + 1) + k + 1, n, m, m, v.data(), tau, sum.data());
-    linear_kernels::reflect_from_right(a.row(0) + k + 1, n, n, m, v.data(), tau);
-    linear_kernels::reflect_from_right(c.data() + k + 1, n, n_seen, m, v.data(), tau);
+    reflect_rows_from_right({a.row(0) + k + 1, n, n, m, v.data(), tau});
+    reflect_rows_from_right({c.data() + k + 1, n, n_seen, m, v.data(), tau});
     a.row(k + 1)[k] = beta;
     for (int i = k + 2; i < n; ++i) a.row(i)[k] = 0.0;
   }

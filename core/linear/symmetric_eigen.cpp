@@ -2,8 +2,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <utility>
 
 #include "core/linear/dense.h"
+#include "core/linear/lanes.h"
 #include "core/linear/tridiagonal.h"
 #include "core/linear/vector_clones.h"
 
@@ -16,7 +18,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kMostOblique = 1e-8;
-constexpr Index kGroup = 4;  // columns of a sweep, and partial sums of an inner product
+constexpr Index kGroup = 4;  // columns of a sweep
 
 // Pointers to the trailing part of size m.
 struct Sweep {
@@ -25,11 +27,6 @@ struct Sweep {
   const double *last_v, *last_w;  // the rank-two update that the trailing part still waits for
   const double* v;
   double* y;  // a v
-};
-
-template <int kWidth>
-struct Lanes {
-  using Vector [[gnu::vector_size(kWidth * sizeof(double)), gnu::aligned(8), gnu::may_alias]] = double;
 };
 
 // One column alone, rows first .. end.
@@ -45,12 +42,12 @@ struct Lanes {
   }
 }
 
-// Four columns, from the row below their triangle on. An inner product is four partial sums and a rest, whatever the
-// machine's vector width.
+// Four columns, from the row below their triangle on. An inner product is kLanes partial sums and a rest, whatever
+// the machine's vector width.
 template <int kWidth>
 [[gnu::always_inline]] inline void sweep_group(const Sweep& s, Index j) {
   using Vector = typename Lanes<kWidth>::Vector;
-  constexpr std::size_t kParts = kGroup / kWidth;
+  constexpr std::size_t kParts = kLanes / kWidth;
   double* column[kGroup];
   double sum[kGroup] = {};
   Vector part[kGroup][kParts];
@@ -59,7 +56,7 @@ template <int kWidth>
     for (std::size_t h = 0; h < kParts; ++h) part[t][h] = Vector{} * 0.0;
   }
   Index i = j + kGroup;
-  for (; i + kGroup <= s.m; i += kGroup) {
+  for (; i + kLanes <= s.m; i += kLanes) {
     for (std::size_t h = 0; h < kParts; ++h) {
       const Index at = i + static_cast<Index>(h) * kWidth;
       const Vector last_v = *reinterpret_cast<const Vector*>(s.last_v + at);
@@ -84,7 +81,7 @@ template <int kWidth>
     }
   }
   for (int t = 0; t < kGroup; ++t) {
-    for (int lane = 0; lane < kGroup; ++lane) sum[t] += part[t][lane / kWidth][lane % kWidth];
+    for (int lane = 0; lane < kLanes; ++lane) sum[t] += part[t][lane / kWidth][lane % kWidth];
     s.y[j + t] += sum[t];
   }
 }
@@ -104,10 +101,12 @@ void sweep_narrow(const Sweep& s) { sweep<2>(s); }
 
 #ifdef __x86_64__
 __attribute__((target("avx2"))) void sweep_wide(const Sweep& s) { sweep<4>(s); }
-const auto sweep_trailing = __builtin_cpu_supports("avx2") ? sweep_wide : sweep_narrow;
+__attribute__((target("avx512f"))) void sweep_widest(const Sweep& s) { sweep<8>(s); }
 #else
-const auto sweep_trailing = sweep_narrow;
+constexpr auto sweep_wide = sweep_narrow;
+constexpr auto sweep_widest = sweep_narrow;
 #endif
+const auto sweep_trailing = by_vector_width(sweep_narrow, sweep_wide, sweep_widest);
 
 // x becomes v with v[0] = 1; returns tau of I - tau v v^T, and in `beta` what it makes of x[0].
 double make_reflector(Eigen::Ref<VectorXd> x, double& beta) {
@@ -150,10 +149,10 @@ void reflect_rows(double* rows, Index count, Index m, const double* v, double ta
 
 }  // namespace linear_kernels
 
-SymmetricEigen::SymmetricEigen(const MatrixXd& a) : reflectors_(a) {
-  const Index n = a.rows();
+SymmetricEigen::SymmetricEigen(MatrixXd a) : reflectors_(std::move(a)) {
+  const Index n = reflectors_.rows();
   tau_ = VectorXd::Zero(n);
-  diagonal_ = a.diagonal();
+  diagonal_ = reflectors_.diagonal();
   subdiagonal_ = VectorXd::Zero(std::max<Index>(n - 1, 0));
   reduce();
   values_ = tridiagonal_values(diagonal_, subdiagonal_);

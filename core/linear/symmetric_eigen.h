@@ -9,7 +9,7 @@ namespace core {
 // bits on every machine.
 class SymmetricEigen {
  public:
-  explicit SymmetricEigen(const Eigen::MatrixXd& a);  // n x n, lower triangle read; finite
+  explicit SymmetricEigen(Eigen::MatrixXd a);  // n x n, lower triangle read; finite
 
   [[nodiscard]] const Eigen::VectorXd& values() const noexcept { return values_; }  // descending
 

@@ -21,19 +21,13 @@ Complex unit_root(int k, int n) { return std::polar(1.0, -2.0 * std::numbers::pi
 struct Points {
   const double *re, *im;
 };
-struct Target {
-  double *re, *im;
-};
 
 // `count` butterflies with one set of twiddles: in at +0, +quarter, +2 quarter, +3 quarter; out at +0, +count, ...
-[[gnu::always_inline]] inline void butterflies(Points from, Target to, int quarter, int count, const double* w,
-                                               int n_twiddles) {
+[[gnu::always_inline]] inline void butterflies(const double* __restrict fr, const double* __restrict fi,
+                                               double* __restrict tr, double* __restrict ti, int quarter, int count,
+                                               const double* w, int n_twiddles) {
   const double w1r = w[0], w1i = w[n_twiddles], w2r = w[2 * n_twiddles], w2i = w[3 * n_twiddles];
   const double w3r = w[4 * n_twiddles], w3i = w[5 * n_twiddles];
-  const double* __restrict fr = from.re;
-  const double* __restrict fi = from.im;
-  double* __restrict tr = to.re;
-  double* __restrict ti = to.im;
   for (int q = 0; q < count; ++q) {
     const double sum_r = fr[q] + fr[q + 2 * quarter], sum_i = fi[q] + fi[q + 2 * quarter];
     const double off_r = fr[q] - fr[q + 2 * quarter], off_i = fi[q] - fi[q + 2 * quarter];
@@ -57,28 +51,48 @@ struct Target {
 
 namespace fft_kernels {
 
+// Of stride 1: every butterfly with its own twiddles.
 HOVERMODAL_VECTOR_CLONES
-void pass_of_four(Points from, Target to, int n_butterflies, int stride, const double* w) {
+void first_pass(const double* __restrict fr, const double* __restrict fi, double* __restrict tr, double* __restrict ti,
+                int quarter, const double* __restrict w) {
+  for (int p = 0; p < quarter; ++p) {
+    const double sum_r = fr[p] + fr[p + 2 * quarter], sum_i = fi[p] + fi[p + 2 * quarter];
+    const double off_r = fr[p] - fr[p + 2 * quarter], off_i = fi[p] - fi[p + 2 * quarter];
+    const double odd_r = fr[p + quarter] + fr[p + 3 * quarter], odd_i = fi[p + quarter] + fi[p + 3 * quarter];
+    const double turn_r = fr[p + quarter] - fr[p + 3 * quarter], turn_i = fi[p + quarter] - fi[p + 3 * quarter];
+    const double ar = off_r + turn_i, ai = off_i - turn_r;
+    const double br = sum_r - odd_r, bi = sum_i - odd_i;
+    const double cr = off_r - turn_i, ci = off_i + turn_r;
+    const double w1r = w[p], w1i = w[p + quarter], w2r = w[p + 2 * quarter], w2i = w[p + 3 * quarter];
+    const double w3r = w[p + 4 * quarter], w3i = w[p + 5 * quarter];
+    tr[4 * p] = sum_r + odd_r;
+    ti[4 * p] = sum_i + odd_i;
+    tr[4 * p + 1] = w1r * ar - w1i * ai;
+    ti[4 * p + 1] = w1r * ai + w1i * ar;
+    tr[4 * p + 2] = w2r * br - w2i * bi;
+    ti[4 * p + 2] = w2r * bi + w2i * br;
+    tr[4 * p + 3] = w3r * cr - w3i * ci;
+    ti[4 * p + 3] = w3r * ci + w3i * cr;
+  }
+}
+
+HOVERMODAL_VECTOR_CLONES
+void pass_of_four(const double* __restrict fr, const double* __restrict fi, double* __restrict tr,
+                  double* __restrict ti, int n_butterflies, int stride, const double* w) {
   const int quarter = n_butterflies * stride;
   for (int p = 0; p < n_butterflies; ++p) {
-    const Points in{from.re + p * stride, from.im + p * stride};
-    const Target out{to.re + 4 * p * stride, to.im + 4 * p * stride};
-    if (stride == 1) {
-      butterflies(in, out, quarter, 1, w + p, n_butterflies);
-    } else if (stride == 4) {
-      butterflies(in, out, quarter, 4, w + p, n_butterflies);
+    const int from = p * stride, to = 4 * p * stride;
+    if (stride == 4) {
+      butterflies(fr + from, fi + from, tr + to, ti + to, quarter, 4, w + p, n_butterflies);
     } else {
-      butterflies(in, out, quarter, stride, w + p, n_butterflies);
+      butterflies(fr + from, fi + from, tr + to, ti + to, quarter, stride, w + p, n_butterflies);
     }
   }
 }
 
 HOVERMODAL_VECTOR_CLONES
-void pass_of_two(Points from, Target to, int stride) {
-  const double* __restrict fr = from.re;
-  const double* __restrict fi = from.im;
-  double* __restrict tr = to.re;
-  double* __restrict ti = to.im;
+void pass_of_two(const double* __restrict fr, const double* __restrict fi, double* __restrict tr, double* __restrict ti,
+                 int stride) {
   for (int q = 0; q < stride; ++q) {
     tr[q] = fr[q] + fr[q + stride];
     ti[q] = fi[q] + fi[q + stride];
@@ -89,10 +103,11 @@ void pass_of_two(Points from, Target to, int stride) {
 
 // Of the transform z of x[2 k] + i x[2 k + 1], k = 1 .. half - 1.
 HOVERMODAL_VECTOR_CLONES
-void untangle(Points z, Points unit, int half, double* __restrict spectrum) {
+void untangle(const double* __restrict re, const double* __restrict im, Points unit, int half,
+              double* __restrict spectrum) {
   for (int k = 1; k < half; ++k) {
-    const double even_r = 0.5 * (z.re[k] + z.re[half - k]), even_i = 0.5 * (z.im[k] - z.im[half - k]);
-    const double odd_r = 0.5 * (z.im[k] + z.im[half - k]), odd_i = -0.5 * (z.re[k] - z.re[half - k]);
+    const double even_r = 0.5 * (re[k] + re[half - k]), even_i = 0.5 * (im[k] - im[half - k]);
+    const double odd_r = 0.5 * (im[k] + im[half - k]), odd_i = -0.5 * (re[k] - re[half - k]);
     spectrum[2 * k] = even_r + (unit.re[k] * odd_r - unit.im[k] * odd_i);
     spectrum[2 * k + 1] = even_i + (unit.re[k] * odd_i + unit.im[k] * odd_r);
   }
@@ -100,9 +115,7 @@ void untangle(Points z, Points unit, int half, double* __restrict spectrum) {
 
 // Its inverse, conjugated: the inverse transform is the forward one between two conjugations. k = 0 .. half - 1.
 HOVERMODAL_VECTOR_CLONES
-void tangle(const double* __restrict spectrum, Points unit, int half, Target z) {
-  double* __restrict re = z.re;
-  double* __restrict im = z.im;
+void tangle(const double* __restrict spectrum, Points unit, int half, double* __restrict re, double* __restrict im) {
   for (int k = 0; k < half; ++k) {
     const double ar = spectrum[2 * k], ai = spectrum[2 * k + 1];
     const double br = spectrum[2 * (half - k)], bi = -spectrum[2 * (half - k) + 1];
@@ -147,16 +160,23 @@ RealFft::RealFft(int n) : n_(n), half_(n / 2) {
 }
 
 void RealFft::transform_half() noexcept {
-  for (const Pass& pass : passes_) {
-    fft_kernels::pass_of_four({re_.data(), im_.data()}, {re_to_.data(), im_to_.data()}, pass.n_butterflies, pass.stride,
-                              pass.twiddles.data());
+  const auto swap = [this]() noexcept {
     std::swap(re_, re_to_);
     std::swap(im_, im_to_);
+  };
+  for (const Pass& pass : passes_) {
+    if (pass.stride == 1) {
+      fft_kernels::first_pass(re_.data(), im_.data(), re_to_.data(), im_to_.data(), pass.n_butterflies,
+                              pass.twiddles.data());
+    } else {
+      fft_kernels::pass_of_four(re_.data(), im_.data(), re_to_.data(), im_to_.data(), pass.n_butterflies, pass.stride,
+                                pass.twiddles.data());
+    }
+    swap();
   }
   if (!radix_two_last_) return;
-  fft_kernels::pass_of_two({re_.data(), im_.data()}, {re_to_.data(), im_to_.data()}, half_ / 2);
-  std::swap(re_, re_to_);
-  std::swap(im_, im_to_);
+  fft_kernels::pass_of_two(re_.data(), im_.data(), re_to_.data(), im_to_.data(), half_ / 2);
+  swap();
 }
 
 void RealFft::forward(std::span<const double> x, std::span<Complex> spectrum) noexcept {
@@ -170,14 +190,14 @@ void RealFft::forward(std::span<const double> x, std::span<Complex> spectrum) no
   spectrum[0] = re_[0] + im_[0];
   spectrum[half] = re_[0] - im_[0];
   // std::complex<double> is an array of two doubles ([complex.numbers.general]).
-  fft_kernels::untangle({re_.data(), im_.data()}, {unit_re_.data(), unit_im_.data()}, half_,
+  fft_kernels::untangle(re_.data(), im_.data(), {unit_re_.data(), unit_im_.data()}, half_,
                         reinterpret_cast<double*>(spectrum.data()));
 }
 
 void RealFft::inverse(std::span<const Complex> spectrum, std::span<double> x) noexcept {
   assert(x.size() == static_cast<std::size_t>(n_) && spectrum.size() == static_cast<std::size_t>(n_bins()));
   fft_kernels::tangle(reinterpret_cast<const double*>(spectrum.data()), {unit_re_.data(), unit_im_.data()}, half_,
-                      {re_.data(), im_.data()});
+                      re_.data(), im_.data());
   transform_half();
   const double scale = 1.0 / half_;
   for (std::size_t k = 0; k < static_cast<std::size_t>(half_); ++k) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/linear/vector_clones.h"
 #include "core/spectrum/bridge_losses.h"
 
 namespace core {
@@ -31,6 +32,22 @@ int padded_length(const WelchConfig& config) {
 }
 
 }  // namespace
+
+namespace welch_kernels {
+
+// x_i conj(x_j) of all channels i <= j onto `sum`. by_real: re x, -im x; by_imaginary: im x, re x, channel by channel.
+HOVERMODAL_VECTOR_CLONES
+void add_outer_product(const double* __restrict by_real, const double* __restrict by_imaginary, int n_channels,
+                       double* __restrict sum) {
+  for (int i = 0; i < n_channels; ++i) {
+    const double re = by_imaginary[2 * i + 1], im = by_imaginary[2 * i];
+    const int n = 2 * (n_channels - i);
+    for (int t = 0; t < n; ++t) sum[t] += re * by_real[2 * i + t] + im * by_imaginary[2 * i + t];
+    sum += n;
+  }
+}
+
+}  // namespace welch_kernels
 
 CpsdSums WelchCpsd::empty_sums(const WelchConfig& config) {
   CpsdSums sums;
@@ -63,7 +80,8 @@ WelchCpsd::WelchCpsd(const WelchConfig& config)
   padded_.assign(static_cast<std::size_t>(fft_.size()), 0.0);
   const auto bins = static_cast<std::size_t>(config.n_channels) * static_cast<std::size_t>(fft_.n_bins());
   data_.assign(bins, 0.0);
-  data_of_bin_.assign(static_cast<std::size_t>(config.n_channels), 0.0);
+  by_real_.assign(2 * static_cast<std::size_t>(config.n_channels), 0.0);
+  by_imaginary_ = by_real_;
   mask_.assign(bins, 0.0);
 }
 
@@ -203,24 +221,27 @@ void WelchCpsd::add_products(bool one_mask, std::vector<Complex>& data_sum, std:
   const auto channels = static_cast<std::size_t>(config_.n_channels);
   const auto bins = static_cast<std::size_t>(fft_.n_bins());
   const auto pairs = static_cast<std::size_t>(sums_.n_pairs());
-  const auto product = [](Complex a, Complex b) noexcept {
-    return Complex(a.real() * b.real() + a.imag() * b.imag(), a.imag() * b.real() - a.real() * b.imag());
+  const auto add = [&](const std::vector<Complex>& spectra, std::vector<Complex>& sums, std::size_t k) noexcept {
+    for (std::size_t c = 0; c < channels; ++c) {
+      const Complex x = spectra[c * bins + k];
+      by_real_[2 * c] = x.real();
+      by_real_[2 * c + 1] = -x.imag();
+      by_imaginary_[2 * c] = x.imag();
+      by_imaginary_[2 * c + 1] = x.real();
+    }
+    // std::complex<double> is an array of two doubles ([complex.numbers.general]).
+    welch_kernels::add_outer_product(by_real_.data(), by_imaginary_.data(), config_.n_channels,
+                                     reinterpret_cast<double*>(sums.data() + k * pairs));
   };
   for (std::size_t k = 0; k < bins; ++k) {
-    Complex* data = data_sum.data() + k * pairs;
-    Complex* mask = mask_sum.data() + k * pairs;
-    for (std::size_t c = 0; c < channels; ++c) data_of_bin_[c] = data_[c * bins + k];
-    for (std::size_t i = 0; i < channels; ++i) {
-      for (std::size_t j = i; j < channels; ++j) *data++ += product(data_of_bin_[i], data_of_bin_[j]);
-    }
-    if (one_mask) {
-      const Complex power = product(mask_[k], mask_[k]);
-      for (std::size_t pair = 0; pair < pairs; ++pair) mask[pair] += power;
+    add(data_, data_sum, k);
+    if (!one_mask) {
+      add(mask_, mask_sum, k);
       continue;
     }
-    for (std::size_t i = 0; i < channels; ++i) {
-      for (std::size_t j = i; j < channels; ++j) *mask++ += product(mask_[i * bins + k], mask_[j * bins + k]);
-    }
+    const double power = mask_[k].real() * mask_[k].real() + mask_[k].imag() * mask_[k].imag();
+    Complex* mask = mask_sum.data() + k * pairs;
+    for (std::size_t pair = 0; pair < pairs; ++pair) mask[pair] += power;
   }
 }
 

@@ -61,14 +61,14 @@ class WelchCpsd {
   int n_filled_ = 0;  // samples in the segment being gathered
   int n_new_ = 0;     // of them, not yet part of any accumulated segment
   std::uint64_t segments_per_block_ = 1;
-  std::vector<double> value_;                      // channels x segment
-  std::vector<std::uint8_t> seen_;                 // channels x segment
-  std::vector<double> bridged_;                    // channels x segment; empty unless losses are bridged
-  std::vector<std::uint8_t> held_;                 // channels x segment; empty unless losses are bridged
-  std::vector<double> padded_;                     // n_fft
-  std::vector<std::complex<double>> data_;         // channels x bins
-  std::vector<std::complex<double>> mask_;         // channels x bins; where all are equal, the first only
-  std::vector<std::complex<double>> data_of_bin_;  // channels
+  std::vector<double> value_;                   // channels x segment
+  std::vector<std::uint8_t> seen_;              // channels x segment
+  std::vector<double> bridged_;                 // channels x segment; empty unless losses are bridged
+  std::vector<std::uint8_t> held_;              // channels x segment; empty unless losses are bridged
+  std::vector<double> padded_;                  // n_fft
+  std::vector<std::complex<double>> data_;      // channels x bins
+  std::vector<std::complex<double>> mask_;      // channels x bins; where all are equal, the first only
+  std::vector<double> by_real_, by_imaginary_;  // one bin of all channels
 };
 
 }  // namespace core
