@@ -18,14 +18,15 @@ constexpr int kMostRows = 240;
 // The weights are covariance matrices of block_rows * channels: with fewer samples per row than this they fit the noise
 // and every singular value comes out near 1.
 constexpr double kSamplesPerRow = 16.0;
-// Where the canonical correlations fall off by less than this (a system in noise: 2.5-3), the input is coloured or not
-// stationary, and the count above one half means nothing.
+// A coloured input that is not stationary (an earthquake) fills whatever memory the model has with canonical
+// correlations above one half, and they fall off nowhere by as much as this (a system in noise: 2.5-3).
 constexpr double kLeastOrderGap = 1.3;
 constexpr int kUnclearBlockRows = 20;
 constexpr double kUnclearThreshold = 0.7;
 
-// One or two correlations beside the gap may fall on the wrong side of one half.
-bool order_is_clear(const Realisation& realisation, int order) {
+bool order_is_clear(const Realisation& realisation, int order, int block_rows) {
+  if (2 * order <= block_rows) return true;
+  // One or two correlations beside the gap may fall on the wrong side of one half.
   const Eigen::VectorXd& s = realisation.singular_values;
   for (Eigen::Index k = std::max(1, order - 2); k <= order + 1 && k < s.size(); ++k) {
     if (s[k - 1] > kLeastOrderGap * s[k]) return true;
@@ -77,12 +78,9 @@ EraStatus realise_up_to(int max_order, ModelFit& fit) {
 }
 
 // A short memory keeps the colour of the input out of the model.
-EraStatus realise_with_short_memory(const IdentifierConfig& config, ModelFit& fit) {
-  EraStatus status = EraStatus::kOk;
-  if (fit.era.block_rows > kUnclearBlockRows && config.block_rows == 0) {
-    fit.era.block_rows = kUnclearBlockRows;
-    status = realise_up_to(config.max_order, fit);
-  }
+EraStatus realise_with_short_memory(int max_order, ModelFit& fit) {
+  fit.era.block_rows = kUnclearBlockRows;
+  const EraStatus status = realise_up_to(max_order, fit);
   if (status == EraStatus::kOk) fit.order = canonical_order(fit.realisation, kUnclearThreshold);
   return status;
 }
@@ -99,8 +97,9 @@ std::string fit_model(const CpsdSums& sums, const IdentifierConfig& config, cons
   EraStatus era_status = realise_up_to(config.max_order, out);
   if (era_status == EraStatus::kOk) {
     out.order = canonical_order(out.realisation);
-    out.order_is_clear = order_is_clear(out.realisation, out.order);
-    if (!out.order_is_clear) era_status = realise_with_short_memory(config, out);
+    const bool can_shorten = config.block_rows == 0 && out.era.block_rows > kUnclearBlockRows;
+    out.order_is_clear = !can_shorten || order_is_clear(out.realisation, out.order, out.era.block_rows);
+    if (!out.order_is_clear) era_status = realise_with_short_memory(config.max_order, out);
   }
   if (era_status != EraStatus::kOk) {
     return "the correlations carry no system: nothing moves, or the segment is too short";

@@ -131,5 +131,37 @@ TEST(NormaliseShape, MakesTheLargestComponentOne) {
   for (const Complex& z : zero) EXPECT_EQ(z, 0.0);
 }
 
+// A velocity is s times, an acceleration s^2 times the displacement: undamped, rows turned by 90 degrees each.
+TEST(Folding, MixedQuantitiesBecomeDisplacements) {
+  FoldingConfig config = seven_rows(0.0, kRate / 2.0);
+  config.n_integrations = {0, 1, 2, 2, 1, 0};
+  Seen seen = observe(3.0, config.delay_s);
+  const double w = 2.0 * std::numbers::pi * 3.0;
+  const Complex s(-kZeta * w, w * std::sqrt(1.0 - kZeta * kZeta));
+  for (std::size_t c = 0; c < seen.shape.size(); ++c) seen.shape[c] *= std::pow(s, config.n_integrations[c]);
+  const UnfoldedPole pole = unfold(seen.lambda, seen.shape, config);
+  EXPECT_NEAR(pole.mpc, 1.0, 1e-9);
+  EXPECT_NEAR(mac(pole.shape, kShape), 1.0, 1e-9);
+  config.n_integrations.clear();
+  EXPECT_LT(mac(unfold(seen.lambda, seen.shape, config).shape, kShape), 0.9);
+}
+
+// The true frequency, not the apparent one, is what a folded row is divided by.
+TEST(Folding, MixedQuantitiesOfAFoldedModeAreDividedByItsTrueFrequency) {
+  FoldingConfig config = seven_rows(0.9 / kRate, 20.0);
+  config.n_integrations = {0, 2, 0, 2, 0, 2};
+  const double w = 2.0 * std::numbers::pi * 14.34;
+  const Complex s(-kZeta * w, w * std::sqrt(1.0 - kZeta * kZeta));
+  Seen seen{std::exp(s / kRate), kShape};
+  for (std::size_t c = 0; c < kShape.size(); ++c)
+    seen.shape[c] *= std::pow(s, config.n_integrations[c]) * std::exp(s * config.delay_s[c]);
+  seen.lambda = std::conj(seen.lambda);  // 14.34 - 25 Hz is the upper half plane's conjugate
+  for (Complex& z : seen.shape) z = std::conj(z);
+  const UnfoldedPole pole = unfold(seen.lambda, seen.shape, config);
+  ASSERT_TRUE(pole.fold_n.has_value());
+  EXPECT_EQ(*pole.fold_n, -1);
+  EXPECT_NEAR(mac(pole.shape, kShape), 1.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace core

@@ -174,5 +174,42 @@ TEST(Identifier, RefusesReferencesThatAreNoChannel) {
   EXPECT_THROW(Identifier({}, {}), std::invalid_argument);
 }
 
+// Lightly damped resonators far below the rate, all of one kind, driven by an input with many lines of its own that
+// swells: its colour fills the model.
+TEST(Identifier, SaysWhenTheOrderIsUnclear) {
+  WelchConfig welch;
+  welch.n_channels = 2;
+  welch.segment = 1024;
+  welch.rate_hz = 60.0;
+  WelchCpsd cpsd(welch);
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> gaussian;
+  const std::vector<std::uint8_t> seen(2, 1);
+  constexpr int kLines = 60;
+  for (int t = 0; t < 6000; ++t) {
+    std::vector<double> value{0.01 * gaussian(random), 0.01 * gaussian(random)};
+    for (int k = 0; k < kLines; ++k) {
+      const double phase = 0.045 * (k + 1) * t + 1.7 * k * k;
+      const double swell = std::exp(-0.0012 * t);
+      value[0] += swell * std::sin(phase);
+      value[1] += swell * std::sin(phase + 0.7 * k);
+    }
+    (void)cpsd.push(value, seen);
+  }
+  cpsd.flush();
+  std::vector<ChannelInfo> channels(2);
+  const ModalEstimate estimate = Identifier({}, channels).identify(cpsd.sums());
+  EXPECT_NE(estimate.status.find("order unclear"), std::string::npos) << estimate.status;
+  EXPECT_EQ(estimate.model_order, 0);
+}
+
+TEST(Identifier, AnOrdinaryRecordHasAClearOrder) {
+  SimulatedStructure structure;
+  const ModalEstimate estimate = Identifier({}, structure.channels()).identify(structure.spectra());
+  EXPECT_EQ(estimate.status, "ok");
+  EXPECT_GE(estimate.model_order, 12);
+  EXPECT_LE(estimate.model_order, 16);
+}
+
 }  // namespace
 }  // namespace core

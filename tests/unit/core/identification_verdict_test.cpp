@@ -215,5 +215,25 @@ TEST(VerdictNames, AreThoseOfTheReport) {
   EXPECT_STREQ(to_string(Verdict::kNumerical), "numerical");
 }
 
+TEST(Verdict, TheEdgeOfTheFilterBeforeIsNumerical) {
+  VerdictRules rules;
+  rules.max_apparent_hz = 2.9;
+  const Mode mode = judge(flawless(), {}, channels(), kOrders, rules);
+  EXPECT_EQ(mode.verdict, Verdict::kNumerical);
+  EXPECT_NE(mode.reason.find("filter edge"), std::string::npos) << mode.reason;
+  rules.max_apparent_hz = 3.1;
+  EXPECT_EQ(judge(flawless(), {}, channels(), kOrders, rules).verdict, Verdict::kStructural);
+}
+
+TEST(Verdict, AccelerometersThatMoveAlikeAreNoCameraMotion) {
+  PoleCluster cluster = flawless();
+  cluster.representative.shape = {1.0, 1.0, 1.0, 1.0};
+  std::vector<ChannelInfo> list = channels();
+  list[0].is_base = false;
+  EXPECT_EQ(judge(cluster, {}, list, kOrders, {}).verdict, Verdict::kCameraMotion);
+  for (ChannelInfo& channel : list) channel.n_integrations = 2;
+  EXPECT_EQ(judge(cluster, {}, list, kOrders, {}).verdict, Verdict::kStructural);
+}
+
 }  // namespace
 }  // namespace core
