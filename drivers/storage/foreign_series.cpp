@@ -128,10 +128,8 @@ class ForeignReader {
       name_columns(names, n_cells);
     }
     out_.units.resize(out_.names.size());
-    for (std::size_t i = 0; i < out_.names.size(); ++i) {
-      out_.units[i] =
-          is_labview_ && i > 0 && i <= labview_units_.size() ? labview_units_[i - 1] : unit_of_name(out_.names[i]);
-    }
+    for (std::size_t i = 1; is_labview_ && i < out_.units.size() && i <= labview_units_.size(); ++i)
+      out_.units[i] = labview_units_[i - 1];
     out_.columns.resize(out_.names.size());
     i_frame_ = out_.column("frame");
     i_time_ = out_.column("t_s");
@@ -149,7 +147,8 @@ class ForeignReader {
       if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
       if (parse_series_number(cell, cell_format_.decimal_comma))
         lines_.fail(fmt::format("the line above is neither numbers nor names: `{}`", printable(names)));
-      add_name(cell);
+      out_.units.push_back(unit_of_name(cell));
+      add_name(without_unit(cell));
     }
   }
 

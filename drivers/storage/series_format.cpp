@@ -41,6 +41,16 @@ bool all_numbers(const std::vector<std::string_view>& cells, bool decimal_comma)
   return n_numbers > 0;
 }
 
+// Where the bracket of a known unit at the end of a trimmed name opens; npos = there is none.
+std::size_t unit_bracket(std::string_view name) {
+  for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
+    const std::size_t begin = name.rfind(open);
+    if (begin == std::string_view::npos || !name.ends_with(close)) continue;
+    if (motion_unit(name.substr(begin + 1, name.size() - begin - 2))) return begin;
+  }
+  return std::string_view::npos;
+}
+
 struct NamedUnit {
   std::string_view name;
   MotionUnit unit;
@@ -106,13 +116,8 @@ std::optional<CellFormat> detect_cell_format(std::string_view line) {
 }
 
 std::string unit_of_name(std::string_view name) {
-  name = trimmed(name);
-  for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
-    const std::size_t begin = name.rfind(open);
-    if (begin == std::string_view::npos || !name.ends_with(close)) continue;
-    const std::string unit(trimmed(name.substr(begin + 1, name.size() - begin - 2)));
-    return motion_unit(unit) ? unit : std::string();
-  }
+  if (const auto bracket = unit_bracket(name); bracket != std::string_view::npos)
+    return std::string(trimmed(name.substr(bracket + 1, name.size() - bracket - 2)));
   // The longest ending of up to three parts: ax_m_s2 is m/s2, not s2.
   std::size_t at = name.size();
   std::string found;
@@ -124,6 +129,12 @@ std::string unit_of_name(std::string_view name) {
     if (motion_unit(unit)) found = unit;
   }
   return found;
+}
+
+std::string_view without_unit(std::string_view name) {
+  const std::size_t bracket = unit_bracket(name);
+  const std::string_view bare = bracket == std::string_view::npos ? name : trimmed(name.substr(0, bracket));
+  return bare.empty() ? name : bare;
 }
 
 std::optional<MotionUnit> motion_unit(std::string_view unit) {

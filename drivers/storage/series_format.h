@@ -29,6 +29,9 @@ void split_series_cells(std::string_view line, char separator, std::vector<std::
 // The unit that a column's name ends with: "ax [m/s^2]", "ax (g)", "ax_m_s2"; empty = none that is known.
 [[nodiscard]] std::string unit_of_name(std::string_view name);
 
+// "ax [m/s^2]" -> "ax"; a name that ends with no known unit in brackets stays.
+[[nodiscard]] std::string_view without_unit(std::string_view name);
+
 // A unit of length, velocity or acceleration.
 struct MotionUnit {
   int n_integrations = 0;  // to a displacement: 0 length, 1 velocity, 2 acceleration

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <stdexcept>
 
 #include "core/identification/mac.h"
@@ -174,31 +175,33 @@ TEST(Identifier, RefusesReferencesThatAreNoChannel) {
   EXPECT_THROW(Identifier({}, {}), std::invalid_argument);
 }
 
-// Lightly damped resonators far below the rate, all of one kind, driven by an input with many lines of its own that
-// swells: its colour fills the model.
+// Narrow bands of the input, each weaker than the last, sink into the noise one by one: no gap.
 TEST(Identifier, SaysWhenTheOrderIsUnclear) {
   WelchConfig welch;
-  welch.n_channels = 2;
+  welch.n_channels = 4;
   welch.segment = 1024;
   welch.rate_hz = 60.0;
   WelchCpsd cpsd(welch);
   std::mt19937_64 random(3);
   std::normal_distribution<double> gaussian;
-  const std::vector<std::uint8_t> seen(2, 1);
-  constexpr int kLines = 60;
+  const std::vector<std::uint8_t> seen(4, 1);
+  std::vector<std::complex<double>> amplitude(60);  // random walks with a memory of 5000 samples
   for (int t = 0; t < 6000; ++t) {
-    std::vector<double> value{0.01 * gaussian(random), 0.01 * gaussian(random)};
-    for (int k = 0; k < kLines; ++k) {
-      const double phase = 0.045 * (k + 1) * t + 1.7 * k * k;
-      const double swell = std::exp(-0.0012 * t);
-      value[0] += swell * std::sin(phase);
-      value[1] += swell * std::sin(phase + 0.7 * k);
+    std::vector<double> value;
+    for (auto& a : amplitude) a += 0.02 * std::complex<double>(gaussian(random), gaussian(random)) - 2e-4 * a;
+    for (int c = 0; c < 4; ++c) {
+      value.push_back(0.3 * gaussian(random));
+      for (int k = 0; k < 60; ++k)
+        value.back() +=
+            (std::polar(std::pow(0.93, k), 0.045 * (k + 1) * t + 0.7 * k * c) * amplitude[static_cast<std::size_t>(k)])
+                .real();
     }
     (void)cpsd.push(value, seen);
   }
   cpsd.flush();
-  std::vector<ChannelInfo> channels(2);
-  const ModalEstimate estimate = Identifier({}, channels).identify(cpsd.sums());
+  IdentifierConfig config;
+  config.n_differences = 0;
+  const ModalEstimate estimate = Identifier(config, std::vector<ChannelInfo>(4)).identify(cpsd.sums());
   EXPECT_NE(estimate.status.find("order unclear"), std::string::npos) << estimate.status;
   EXPECT_EQ(estimate.model_order, 0);
 }

@@ -83,6 +83,7 @@ TEST_F(ForeignSeries, UnitsComeFromTheNamesAndComments) {
   const SeriesFile series =
       read("# unit: mm\n# rate_hz: 25\nax [m/s^2],vy (mm/s),z_um,top_m_s2,left_m_s,plain\n1,2,3,4,5,6\n");
   EXPECT_THAT(series.units, ElementsAre("m/s^2", "mm/s", "um", "m/s2", "m/s", ""));
+  EXPECT_THAT(series.names, ElementsAre("ax", "vy", "z_um", "top_m_s2", "left_m_s", "plain"));
   EXPECT_EQ(series.comments.at("unit"), "mm");
 }
 
