@@ -2,12 +2,14 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <stdexcept>
 
 #include "core/geometry/channel_displacement.h"
+#include "core/identification/mode_tracker.h"
 #include "core/spectrum/time_grid.h"
 #include "core/spectrum/welch_cpsd.h"
 #include "drivers/storage/csv.h"
@@ -62,6 +64,33 @@ class PointPlaces {
   core::TrackFrame first_;
 };
 
+// Estimates at the hops where the service makes them, so that the modes get the same history.
+class Estimates {
+ public:
+  Estimates(const AppConfig& config, const std::vector<core::ChannelInfo>& channels, double rate_hz, RunReport* report)
+      : identifier_(identifier_config(config, channels, rate_hz), channels),
+        tracker_({.row_delay_s = identifier_.undone_delay_s()}),
+        period_hops_(static_cast<std::uint64_t>(std::max(1, config.identification.period_hops))),
+        report_(report) {}
+
+  void note(bool hop, const core::WelchCpsd& cpsd) {
+    if (hop && cpsd.n_hops() % period_hops_ == 0) (void)make(cpsd.sums());
+  }
+  [[nodiscard]] core::ModalEstimate make(const core::CpsdSums& sums) {
+    core::ModalEstimate estimate = identifier_.identify(sums);
+    estimate.number = n_++;
+    tracker_.update(estimate);
+    if (report_ != nullptr) report_->add(estimate);
+    return estimate;
+  }
+
+ private:
+  core::Identifier identifier_;
+  core::ModeTracker tracker_;
+  std::uint64_t period_hops_, n_ = 0;
+  RunReport* report_;
+};
+
 core::CameraInfo camera_of(const drivers::TracksFile& file, const AppConfig& config) {
   core::CameraInfo camera = file.camera;
   if (config.camera.rate_hz > 0.0) camera.rate_hz = config.camera.rate_hz;
@@ -91,6 +120,7 @@ TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_pa
     report = std::make_unique<RunReport>(report_directory, config, camera, result.channels, region_names(config));
   }
   core::WelchCpsd cpsd(welch_config(config.spectrum, result.channels.size(), camera.rate_hz));
+  Estimates estimates(config, result.channels, camera.rate_hz, report.get());
   core::TimeGrid grid(camera.rate_hz);
   core::DisplacementSample sample = displacement.sample_prototype();
   core::TrackFrame tracks;
@@ -101,15 +131,14 @@ TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_pa
     ++result.losses.frames_in;
     ++result.losses.frames_processed;
     if (!placement.accepted) continue;
-    for (std::uint64_t k = 0; k < placement.n_missing_before; ++k) (void)cpsd.push_missing();
+    for (std::uint64_t k = 0; k < placement.n_missing_before; ++k) estimates.note(cpsd.push_missing(), cpsd);
     result.losses.frames_missing += placement.n_missing_before;
-    (void)cpsd.push(sample.value_mm, sample.seen);
+    estimates.note(cpsd.push(sample.value_mm, sample.seen), cpsd);
     if (report) (void)(report->add(tracks) && report->add(sample));
   }
   cpsd.flush();
   result.losses.samples_masked = cpsd.sums().n_missing;
-  result.estimate = core::Identifier(identifier_config(config, result.channels, camera.rate_hz), result.channels)
-                        .identify(cpsd.sums());
+  result.estimate = estimates.make(cpsd.sums());
   result.estimate.final = true;
   if (!report) return result;
   report->finish(result.estimate, result.losses, corrections(config, camera));

@@ -116,12 +116,17 @@ Identifier::Identifier(IdentifierConfig config, std::vector<ChannelInfo> channel
   }
 }
 
-FoldingConfig Identifier::folding_config(double rate_hz) const {
-  FoldingConfig folding{rate_hz, config_.max_frequency_hz, {}};
+std::vector<double> Identifier::undone_delay_s() const {
+  std::vector<double> delay_s;
   for (const ChannelInfo& channel : channels_) {
-    folding.delay_s.push_back(config_.undo_row_delays ? channel.row_delay_s : 0.0);
-    folding.n_integrations.push_back(channel.n_integrations);
+    delay_s.push_back(config_.undo_row_delays ? channel.row_delay_s : 0.0);
   }
+  return delay_s;
+}
+
+FoldingConfig Identifier::folding_config(double rate_hz) const {
+  FoldingConfig folding{rate_hz, config_.max_frequency_hz, undone_delay_s()};
+  for (const ChannelInfo& channel : channels_) folding.n_integrations.push_back(channel.n_integrations);
   return folding;
 }
 

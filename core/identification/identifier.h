@@ -37,6 +37,8 @@ class Identifier {
   [[nodiscard]] ModalEstimate identify(const CpsdSums& sums) const;
 
   [[nodiscard]] const std::vector<ChannelInfo>& channels() const noexcept { return channels_; }
+  // Per channel, as it is undone at every mode; 0 where the samples were compensated before.
+  [[nodiscard]] std::vector<double> undone_delay_s() const;
 
  private:
   [[nodiscard]] FoldingConfig folding_config(double rate_hz) const;

@@ -13,6 +13,19 @@ enum class Verdict : std::uint8_t { kStructural, kCameraMotion, kInputPeak, kHar
 
 [[nodiscard]] const char* to_string(Verdict verdict) noexcept;
 
+// A mode over the estimates of one run (core/identification/mode_tracker.h).
+struct ModeHistory {
+  std::uint32_t id = 0;                  // 1, 2, ... in the order of confirmation; stays with the mode
+  std::uint32_t n_estimates = 0;         // that found it, this one included
+  std::uint64_t first_number = 0;        // of the estimate that found it first ...
+  double first_seen_s = 0.0;             // ... and its duration_s
+  std::uint32_t n_fold_changes = 0;      // how often another true frequency was read from the same peak
+  std::optional<double> drift_hz_per_s;  // trend of the true frequency, with its standard deviation: both or none
+  std::optional<double> drift_std_hz_per_s;
+  bool drifts = false;           // more than estimates that share their data may change
+  std::optional<double> more_s;  // record still wanted for a damping good to 10 %; 0 = it is
+};
+
 // One pole with its shape. What is not known yet is empty, never invented.
 struct Mode {
   double frequency_hz = 0.0;  // true frequency (after unfolding, where that was resolved)
@@ -28,6 +41,7 @@ struct Mode {
   double presence = 0.0;                    // share of model orders in which the pole was found, 0..1
   Verdict verdict = Verdict::kNumerical;
   std::string reason;
+  std::optional<ModeHistory> history;  // empty: not followed, or seen in one estimate only
 };
 
 // One pole of one model order: a point of the stabilisation diagram.

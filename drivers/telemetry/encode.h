@@ -58,9 +58,12 @@ template <class Message>
   return message;
 }
 
-// A count or index in the 16 bits it has on the wire; saturates.
+// A count or index in the bits it has on the wire; saturates.
 [[nodiscard]] constexpr std::int16_t to_int16(std::uint64_t value) noexcept {
   return value > INT16_MAX ? std::int16_t{INT16_MAX} : static_cast<std::int16_t>(value);
+}
+[[nodiscard]] constexpr std::int32_t to_int32(std::uint64_t value) noexcept {
+  return value > INT32_MAX ? std::int32_t{INT32_MAX} : static_cast<std::int32_t>(value);
 }
 
 }  // namespace drivers

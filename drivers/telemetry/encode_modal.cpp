@@ -40,6 +40,18 @@ void set_shape(const core::Mode& mode, mode_t& out) {
   for (std::size_t i = 0; i < out.shape_std.size(); ++i) out.shape_std[i] = static_cast<float>(mode.shape_std[i]);
 }
 
+void set_history(const std::optional<core::ModeHistory>& history, mode_t& out) {
+  out.first_seen_s = history ? static_cast<float>(history->first_seen_s) : kUnknown;
+  out.drift_hz_per_s = known(history ? history->drift_hz_per_s : std::nullopt);
+  out.drift_std_hz_per_s = known(history ? history->drift_std_hz_per_s : std::nullopt);
+  out.more_s = known(history ? history->more_s : std::nullopt);
+  if (!history) return;
+  out.track_id = to_int32(history->id);
+  out.n_estimates = to_int32(history->n_estimates);
+  out.n_fold_changes = to_int16(history->n_fold_changes);
+  out.drifts = history->drifts ? 1 : 0;
+}
+
 mode_t to_message(const core::Mode& mode, bool is_structural) {
   mode_t out{};
   out.is_structural = is_structural ? 1 : 0;
@@ -55,6 +67,7 @@ mode_t to_message(const core::Mode& mode, bool is_structural) {
   out.presence = static_cast<float>(mode.presence);
   set_shape(mode, out);
   out.reason = clipped(mode.reason, kMaxReasonBytes);
+  set_history(mode.history, out);
   return out;
 }
 

@@ -42,6 +42,19 @@ Json shape_std_json(const core::Mode& mode, const std::vector<std::string>& name
   return shape_std;
 }
 
+Json history_json(const std::optional<core::ModeHistory>& history) {
+  if (!history) return nullptr;
+  return {{"id", history->id},
+          {"estimates", history->n_estimates},
+          {"first_estimate", history->first_number},
+          {"first_seen_s", history->first_seen_s},
+          {"fold_changes", history->n_fold_changes},
+          {"drift_hz_per_s", or_null(history->drift_hz_per_s)},
+          {"drift_std_hz_per_s", or_null(history->drift_std_hz_per_s)},
+          {"drifts", history->drifts},
+          {"more_s", or_null(history->more_s)}};
+}
+
 Json mode_json(const core::Mode& mode, const std::vector<std::string>& names) {
   Json out = Json::object();
   out["frequency_hz"] = mode.frequency_hz;
@@ -56,6 +69,7 @@ Json mode_json(const core::Mode& mode, const std::vector<std::string>& names) {
   out["mpc"] = mode.mpc;
   out["verdict"] = core::to_string(mode.verdict);
   out["reason"] = mode.reason;
+  out["history"] = history_json(mode.history);
   return out;
 }
 

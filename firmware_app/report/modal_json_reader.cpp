@@ -105,6 +105,29 @@ class ModalReader {
     out.reason = text(item, "reason");
     out.verdict = verdict(text(item, "verdict"), name);
     read_shape(item, name, out);
+    if (const Json* history = find(item, "history")) out.history = history_of(*history, name + ".history");
+    return out;
+  }
+
+  [[nodiscard]] core::ModeHistory history_of(const Json& item, const std::string& name) const {
+    const auto small = [&](const char* key) {
+      const std::uint64_t value = count(item, key);
+      if (value > UINT32_MAX) refuse(name + "." + key, "is no small whole number");
+      return static_cast<std::uint32_t>(value);
+    };
+    core::ModeHistory out;
+    out.id = small("id");
+    if (out.id == 0) refuse(name + ".id", "is missing");
+    out.n_estimates = small("estimates");
+    out.first_number = count(item, "first_estimate");
+    out.first_seen_s = optional_number(item, "first_seen_s").value_or(0.0);
+    out.n_fold_changes = small("fold_changes");
+    out.drift_hz_per_s = optional_number(item, "drift_hz_per_s");
+    out.drift_std_hz_per_s = optional_number(item, "drift_std_hz_per_s");
+    const Json* drifts = find(item, "drifts");
+    if (drifts != nullptr && !drifts->is_boolean()) refuse(name + ".drifts", "is neither true nor false");
+    out.drifts = drifts != nullptr && drifts->get<bool>();
+    out.more_s = optional_number(item, "more_s");
     return out;
   }
 

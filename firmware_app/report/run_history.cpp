@@ -7,7 +7,11 @@
 namespace app {
 
 RunHistory::RunHistory(double rate_hz, std::size_t n_channels, std::size_t n_regions)
-    : rate_hz_(rate_hz > 0.0 ? rate_hz : 1.0), displacements_(n_channels), regions_(n_regions), counts_(n_regions) {}
+    : rate_hz_(rate_hz > 0.0 ? rate_hz : 1.0),
+      displacements_(n_channels),
+      regions_(n_regions),
+      followed_(kMaxFollowed),
+      counts_(n_regions) {}
 
 std::optional<std::uint64_t> RunHistory::cell_of(std::int64_t t_ns) noexcept {
   if (!first_ns_) first_ns_ = t_ns;
@@ -51,6 +55,26 @@ void RunHistory::add(const core::DisplacementSample& sample) noexcept {
     if (c < sample.seen.size() && c < sample.value_mm.size() && sample.seen[c] != 0)
       displacements_[c].add(*i_cell, sample.value_mm[c]);
   }
+}
+
+void RunHistory::add(const core::ModalEstimate& estimate) noexcept {
+  ++n_estimates_;
+  for (const core::Mode& mode : estimate.modes) {
+    if (!mode.history) continue;
+    const auto place = std::find_if(followed_.begin(), followed_.end(), [&](const FollowedMode& followed) {
+      return followed.id == mode.history->id || followed.id == 0;
+    });
+    if (place == followed_.end()) continue;
+    place->id = mode.history->id;
+    place->frequency_hz.add(estimate.n_samples, mode.frequency_hz);
+    place->damping_ratio.add(estimate.n_samples, mode.damping_ratio);
+  }
+}
+
+const RunHistory::FollowedMode* RunHistory::followed(std::uint32_t id) const noexcept {
+  const auto place = std::find_if(followed_.begin(), followed_.end(),
+                                  [&](const FollowedMode& followed) { return followed.id == id && id != 0; });
+  return place == followed_.end() ? nullptr : &*place;
 }
 
 void RunHistory::add(std::uint64_t i_cell, std::span<const double> values) noexcept {

@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "core/types/displacement.h"
+#include "core/types/modal_estimate.h"
 #include "core/types/track.h"
 #include "firmware_app/report/plot/binned_series.h"
 
 namespace app {
 
 // What a run looked like over time, for the pictures: displacement of every channel, scale, track quality of every
-// region. Memory is fixed at construction, so that a run may take as long as it likes. Used by one thread.
+// region, every mode over the estimates. Memory is fixed at construction, so that a run may take as long as it likes.
+// Used by one thread.
 class RunHistory {
  public:
   struct Region {
@@ -21,10 +23,19 @@ class RunHistory {
     std::size_t n_points = 0;
   };
 
+  // A mode that the tracker follows, over the record behind each estimate (cells = samples).
+  struct FollowedMode {
+    std::uint32_t id = 0;  // 0 = unused
+    BinnedSeries frequency_hz;
+    BinnedSeries damping_ratio;
+  };
+  static constexpr std::size_t kMaxFollowed = 16;  // later ones are not kept
+
   RunHistory(double rate_hz, std::size_t n_channels, std::size_t n_regions);
 
   void add(const core::TrackFrame& frame) noexcept;
   void add(const core::DisplacementSample& sample) noexcept;
+  void add(const core::ModalEstimate& estimate) noexcept;
   // A row of a time series: NaN = missing.
   void add(std::uint64_t i_cell, std::span<const double> values) noexcept;
 
@@ -34,6 +45,9 @@ class RunHistory {
   [[nodiscard]] const std::vector<BinnedSeries>& displacements() const noexcept { return displacements_; }
   [[nodiscard]] const BinnedSeries& scale() const noexcept { return scale_; }
   [[nodiscard]] const std::vector<Region>& regions() const noexcept { return regions_; }
+  // nullptr: not kept.
+  [[nodiscard]] const FollowedMode* followed(std::uint32_t id) const noexcept;
+  [[nodiscard]] std::uint64_t n_estimates() const noexcept { return n_estimates_; }
   [[nodiscard]] bool has_tracks() const noexcept { return has_tracks_; }
 
  private:
@@ -42,11 +56,12 @@ class RunHistory {
 
   double rate_hz_;
   std::optional<std::int64_t> first_ns_;
-  std::uint64_t n_cells_ = 0, n_samples_ = 0;
+  std::uint64_t n_cells_ = 0, n_samples_ = 0, n_estimates_ = 0;
   bool has_tracks_ = false;
   std::vector<BinnedSeries> displacements_;
   BinnedSeries scale_;
   std::vector<Region> regions_;
+  std::vector<FollowedMode> followed_;
   struct Count {
     std::size_t n_points = 0, n_seen = 0;
     double sum_variance = 0.0;

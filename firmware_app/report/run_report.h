@@ -28,6 +28,8 @@ class RunReport {
   // One frame, one sample. False: a file has failed (disk full); the rest of it is lost, counted, and told by finish().
   bool add(const core::TrackFrame& frame) noexcept;
   bool add(const core::DisplacementSample& sample) noexcept;
+  // One estimate, for the pictures of how the modes settled.
+  void add(const core::ModalEstimate& estimate) noexcept { history_.add(estimate); }
 
   // Completes the files and writes modal.json. Throws one drivers::FileError that names every file that failed; the
   // others are complete.

@@ -26,6 +26,7 @@ bool IdentificationStage::identify(const SpectrumSnapshot& snapshot, Identificat
   out.estimate.number = n_estimates_++;
   out.estimate.t_stream_ns = snapshot.t_last_ns;
   out.estimate.final = snapshot.final;
+  tracker_.update(out.estimate);
   return true;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/identification/identifier.h"
+#include "core/identification/mode_tracker.h"
 #include "firmware_app/stages/items.h"
 #include "rt/spsc_ring.h"
 #include "rt/stage.h"
@@ -8,13 +9,16 @@
 
 namespace app {
 
-// newest spectrum -> modes. Runs at ordinary priority and may take its time: nothing upstream waits for it but a
-// lossless source.
+// newest spectrum -> modes, each followed from one estimate to the next. Runs at ordinary priority and may take its
+// time: nothing upstream waits for it but a lossless source.
 class IdentificationStage : public rt::Stage {
  public:
   IdentificationStage(rt::TripleBuffer<SpectrumSnapshot>& snapshots, const core::Identifier& identifier,
                       rt::RingWriter<IdentificationResult> results)
-      : snapshots_(snapshots), identifier_(identifier), results_(results) {}
+      : snapshots_(snapshots),
+        identifier_(identifier),
+        tracker_({.row_delay_s = identifier.undone_delay_s()}),
+        results_(results) {}
 
   [[nodiscard]] std::string_view name() const noexcept override { return "identification"; }
   [[nodiscard]] rt::StepStatus step() noexcept override;
@@ -25,6 +29,7 @@ class IdentificationStage : public rt::Stage {
 
   rt::TripleBuffer<SpectrumSnapshot>& snapshots_;
   const core::Identifier& identifier_;
+  core::ModeTracker tracker_;
   rt::RingWriter<IdentificationResult> results_;
   std::uint64_t n_estimates_ = 0;
 };

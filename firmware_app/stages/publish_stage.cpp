@@ -46,6 +46,7 @@ void PublishStage::publish_record(const FrameRecord& record) noexcept {
 void PublishStage::publish_result(const IdentificationResult& result) noexcept {
   (void)outlets_.publisher.publish(result.estimate, outlets_.channels);
   (void)outlets_.publisher.publish(result.sums, outlets_.channels);
+  if (outlets_.report != nullptr) outlets_.report->add(result.estimate);
   try {
     last_estimate_ = result.estimate;
     last_sums_ = result.sums;

@@ -80,7 +80,7 @@ TEST(LcmSpy, ASecondProcessHearsEveryMessageInOrder) {
   EXPECT_EQ(spy.wait_for_exit(), 0) << spy.output();
   EXPECT_EQ(publisher.messages_failed(), 0U);
   expect_complete(read_json(count_file), "HOVERMODAL", publisher.messages_sent());
-  for (const char* text : {"1.5000", "structural", "floor_12.u", "identification", "worst ms",
+  for (const char* text : {"1.5000", "structural", "#3 ", "20s", "2.00*", "floor_12.u", "identification", "worst ms",
                            "real-time priority refused", "finished", "s ago"}) {
     EXPECT_NE(spy.output().find(text), std::string::npos) << text << " in\n" << spy.output();
   }

@@ -135,6 +135,12 @@ void expect_same_bits(const core::Mode& a, const core::Mode& b) {
     EXPECT_TRUE(same_bits(a.shape[i].real(), b.shape[i].real()) && same_bits(a.shape[i].imag(), b.shape[i].imag()));
   }
   EXPECT_EQ(a.reason, b.reason);
+  ASSERT_EQ(a.history.has_value(), b.history.has_value());
+  if (!a.history) return;
+  EXPECT_EQ(a.history->id, b.history->id);
+  EXPECT_EQ(a.history->n_estimates, b.history->n_estimates);
+  EXPECT_TRUE(same_bits(a.history->drift_hz_per_s.value_or(0.0), b.history->drift_hz_per_s.value_or(0.0)) &&
+              same_bits(a.history->more_s.value_or(0.0), b.history->more_s.value_or(0.0)));
 }
 
 TEST(Pipeline, TheSameReplayTwiceGivesTheSameBits) {

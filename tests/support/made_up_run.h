@@ -106,6 +106,25 @@ inline void fill_history(RunData& run, std::size_t n_samples) {
   run.inputs.history = run.history.get();
 }
 
+// Eight estimates that settle on the last one; the second mode drifts.
+inline void fill_estimates(RunData& run) {
+  for (std::size_t i = 0; i < run.estimate.modes.size(); ++i) {
+    run.estimate.modes[i].history = core::ModeHistory{
+        static_cast<std::uint32_t>(i + 1), 7, 0, 8.0, i == 2 ? 1U : 0U, 1e-4, 2e-5, i == 1, i == 0 ? 240.0 : 0.0};
+  }
+  for (std::uint64_t k = 1; k <= 8; ++k) {
+    core::ModalEstimate estimate = run.estimate;
+    estimate.n_samples = run.estimate.n_samples * k / 8;
+    for (core::Mode& mode : estimate.modes) {
+      const double away = std::sqrt(8.0 / static_cast<double>(k) - 1.0);
+      mode.frequency_hz *= 1.0 + 0.002 * away;
+      mode.damping_ratio *= 1.0 - 0.1 * away;
+      if (k == 1) mode.history.reset();
+    }
+    run.history->add(estimate);
+  }
+}
+
 // Poles of 15 orders: three modes in all of them, and a loose one in each.
 inline void fill_poles(RunData& run) {
   for (int order = 16; order <= 44; order += 2) {
@@ -140,6 +159,7 @@ inline void make_run(RunData& run, std::size_t n_channels, std::size_t n_samples
   run.estimate.rejected.push_back(made_up_mode(7.0, 7.0, n_channels, core::Verdict::kInputPeak));
   fill_poles(run);
   fill_history(run, n_samples);
+  fill_estimates(run);
   fill_health(run, n_samples);
   run.inputs.first_frame = &run.frame, run.inputs.keyframe = &run.keyframe;
   run.inputs.spectrum = &run.spectrum, run.inputs.estimate = &run.estimate;

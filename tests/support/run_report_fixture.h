@@ -71,6 +71,7 @@ class RunReportTest : public ::testing::Test {
     mode.verdict = core::Verdict::kStructural;
     mode.reason = "present in 14 of 15 orders";
     out.modes.push_back(mode);
+    out.modes.back().history = core::ModeHistory{2, 5, 1, 30.0, 0, -0.0005, 0.000125, true, 120.5};
     mode.verdict = core::Verdict::kNumerical;
     mode.shape_std = {0.1, 0.2};
     mode.fold_n = -1;

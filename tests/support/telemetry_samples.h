@@ -36,6 +36,7 @@ inline core::Mode sample_mode(std::size_t n_channels, double frequency_hz) {
   mode.mpc = 0.98;
   mode.presence = 0.9;
   mode.verdict = core::Verdict::kStructural;
+  mode.history = core::ModeHistory{3, 4, 1, 20.0, 0, 0.0005, 0.0001, true, 600.0};
   for (std::size_t i = 0; i < n_channels; ++i) {
     const double x = static_cast<double>(i + 1) / static_cast<double>(n_channels);
     mode.shape.emplace_back(i % 3 == 1 ? -x : x, 0.01 * x);

@@ -16,6 +16,7 @@ namespace app {
 [[nodiscard]] std::string spectra_section(const PictureInputs& inputs);
 [[nodiscard]] std::string fold_section(const PictureInputs& inputs);
 [[nodiscard]] std::string stabilisation_section(const PictureInputs& inputs);
+[[nodiscard]] std::string convergence_section(const PictureInputs& inputs);
 [[nodiscard]] std::string displacements_section(const PictureInputs& inputs);
 [[nodiscard]] std::string scale_section(const PictureInputs& inputs);
 [[nodiscard]] std::string quality_section(const PictureInputs& inputs);

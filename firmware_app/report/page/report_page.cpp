@@ -35,9 +35,9 @@ std::string frame_definition(const PictureInputs& inputs) {
 
 std::string contents_html() {
   constexpr std::pair<const char*, const char*> kSections[] = {
-      {"modes", "Modes"},          {"shapes", "Shapes"},        {"spectra", "Spectra"}, {"folds", "Fold map"},
-      {"stabilisation", "Orders"}, {"displacements", "Motion"}, {"scale", "Scale"},     {"quality", "Tracking"},
-      {"frame-view", "Frame"},     {"losses", "Losses"},        {"timing", "Timing"}};
+      {"modes", "Modes"},          {"shapes", "Shapes"},           {"spectra", "Spectra"},      {"folds", "Fold map"},
+      {"stabilisation", "Orders"}, {"convergence", "Convergence"}, {"displacements", "Motion"}, {"scale", "Scale"},
+      {"quality", "Tracking"},     {"frame-view", "Frame"},        {"losses", "Losses"},        {"timing", "Timing"}};
   std::string out = "<nav aria-label=\"Sections\">\n";
   for (const auto& [id, name] : kSections) out += fmt::format("<a href=\"#{}\">{}</a>\n", id, name);
   return out + "</nav>\n";
@@ -56,6 +56,7 @@ std::string report_html(const PictureInputs& inputs) {
   out += spectra_section(inputs);
   out += fold_section(inputs);
   out += stabilisation_section(inputs);
+  out += convergence_section(inputs);
   out += displacements_section(inputs);
   out += scale_section(inputs);
   out += quality_section(inputs);

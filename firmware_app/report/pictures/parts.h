@@ -36,6 +36,9 @@ inline constexpr PictureFormat kNarrowFormat{328.0, true};  // a phone of 360 px
 [[nodiscard]] std::string spectra_remark(const PictureInputs& inputs);
 [[nodiscard]] std::string fold_map_svg(const PictureInputs& inputs, const PictureFormat& format);
 [[nodiscard]] std::string stabilisation_svg(const PictureInputs& inputs, const PictureFormat& format);
+// Relative to the last estimate, over the record behind each; for a run of three estimates or more.
+[[nodiscard]] std::string frequency_convergence_svg(const PictureInputs& inputs, const PictureFormat& format);
+[[nodiscard]] std::string damping_convergence_svg(const PictureInputs& inputs, const PictureFormat& format);
 [[nodiscard]] std::string modes_svg(const PictureInputs& inputs);
 // On the page only: the first frame (an element of the page) under the regions and points.
 [[nodiscard]] std::string frame_svg(const PictureInputs& inputs, const PictureFormat& format);

@@ -64,6 +64,7 @@ class LanePicture {
     panel.draw_x_axis(i + 1 == lanes_.size(), is_narrow(format_) ? 5 : 10);
     if (tall() && !lane.empty) panel.draw_y_axis(false, box.height < 72.0 ? 2 : 4);
     panel.draw_frame();
+    for (const auto& curve : lane.behind) panel.curve(curve, "behind");
     panel.curve(lane.points, line_class(0));
     const double y = box.y + box.height / 2.0;
     if (lane.empty) svg.text(box.x + box.width / 2.0, y + 4.0, "no sample", Anchor::kMiddle, "s q");

@@ -12,10 +12,11 @@ namespace app {
 // One curve over time in a panel of its own.
 struct Lane {
   std::string name;
-  std::string remark;             // beside the name, e.g. its rms
-  std::vector<PlotPoint> points;  // x in seconds since the first sample
-  bool empty = true;              // no sample at all
-  double low = 0.0, high = 0.0;   // of all samples, also those that are not drawn
+  std::string remark;                          // beside the name, e.g. its rms
+  std::vector<PlotPoint> points;               // x in seconds since the first sample
+  std::vector<std::vector<PlotPoint>> behind;  // what it is compared with; may leave the panel
+  bool empty = true;                           // no sample at all
+  double low = 0.0, high = 0.0;                // of all samples, also those that are not drawn
 };
 
 struct LanesText {

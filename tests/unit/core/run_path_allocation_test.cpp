@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/geometry/channel_displacement.h"
+#include "core/identification/mode_tracker.h"
 #include "core/spectrum/time_grid.h"
 #include "core/spectrum/welch_cpsd.h"
 #include "core/tracking/outlier_rejection.h"
@@ -94,6 +95,35 @@ TEST(RunPathAllocation, ChannelDisplacementUpdateAllocatesNothing) {
     EXPECT_EQ(sample.seen, std::vector<std::uint8_t>(3, 1));
     EXPECT_EQ(n_calls, 0U) << "paper method " << paper;
   }
+}
+
+TEST(RunPathAllocation, ModeTrackerUpdateAllocatesNothing) {
+  ModeTracker tracker({.row_delay_s = std::vector<double>(12, 0.001)});
+  ModalEstimate estimate;
+  estimate.status = "ok";
+  estimate.rate_hz = 25.0;
+  for (int i = 0; i < 20; ++i) {
+    Mode mode;
+    mode.frequency_hz = mode.apparent_hz = 0.5 + 0.5 * i;
+    mode.damping_ratio = 0.01;
+    mode.shape.assign(12, {1.0, 0.0});
+    mode.verdict = i % 5 == 4 ? Verdict::kAmbiguous : Verdict::kStructural;
+    (mode.verdict == Verdict::kStructural ? estimate.modes : estimate.rejected).push_back(mode);
+  }
+  std::size_t n_calls = 0;
+  {
+    const AllocGuard guard;
+    for (std::uint64_t k = 1; k <= 50; ++k) {
+      estimate.number = k;
+      estimate.n_samples = 1000 * k;
+      estimate.duration_s = 40.0 * static_cast<double>(k);
+      for (Mode& mode : estimate.modes) mode.apparent_hz += k % 7 == 0 ? 1.0 : 0.0;  // some come and go
+      tracker.update(estimate);
+    }
+    n_calls = guard.n_new() + guard.n_delete();
+  }
+  EXPECT_GT(tracker.n_followed(), 10U);
+  EXPECT_EQ(n_calls, 0U);
 }
 
 }  // namespace

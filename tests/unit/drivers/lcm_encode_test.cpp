@@ -87,6 +87,14 @@ TEST(LcmEncode, ModesComeBackWithTheirNumbers) {
   EXPECT_FLOAT_EQ(back->modes[1].shape_im[4], static_cast<float>(estimate.modes[1].shape[4].imag()));
   EXPECT_EQ(back->modes[1].shape_std.size(), 6U);
   EXPECT_EQ(back->channel_names.at(5), "floor_6.u");
+  const auto& mode = back->modes[1];
+  EXPECT_EQ(mode.track_id, 3);
+  EXPECT_EQ(mode.n_estimates, 4);
+  EXPECT_FLOAT_EQ(mode.first_seen_s, 20.0F);
+  EXPECT_FLOAT_EQ(mode.drift_hz_per_s, 0.0005F);
+  EXPECT_FLOAT_EQ(mode.drift_std_hz_per_s, 0.0001F);
+  EXPECT_EQ(mode.drifts, 1);
+  EXPECT_FLOAT_EQ(mode.more_s, 600.0F);
 }
 
 TEST(LcmEncode, UnknownNumbersAreNanOrTheSentinelNeverInvented) {
@@ -100,6 +108,12 @@ TEST(LcmEncode, UnknownNumbersAreNanOrTheSentinelNeverInvented) {
   EXPECT_TRUE(std::isnan(mode.fold_margin));
   EXPECT_EQ(mode.fold_n, hovermodal::mode_t::FOLD_UNKNOWN);
   EXPECT_EQ(mode.n_shape_std, 0);
+  EXPECT_EQ(mode.track_id, 0);
+  EXPECT_EQ(mode.n_estimates, 0);
+  EXPECT_EQ(mode.drifts, 0);
+  for (const float unknown : {mode.first_seen_s, mode.drift_hz_per_s, mode.drift_std_hz_per_s, mode.more_s}) {
+    EXPECT_TRUE(std::isnan(unknown));
+  }
 }
 
 TEST(LcmEncode, AnUnseenDisplacementIsNanNotZero) {
@@ -195,6 +209,7 @@ TEST(LcmEncode, CutsTextBetweenCharactersAndAtAnEmbeddedZero) {
 
 TEST(LcmEncode, NumbersTooLargeForTheWireSaturateOrBecomeUnknown) {
   EXPECT_EQ(drivers::to_int16(65535), 32767);
+  EXPECT_EQ(drivers::to_int32(std::uint64_t{1} << 40U), 2147483647);
   core::ModalEstimate estimate;
   estimate.modes.resize(1);
   estimate.modes[0].fold_n = 100000;

@@ -81,6 +81,11 @@ TEST(ReportPage, ShowsAllOfACompleteRun) {
                            "Fold map",
                            "Scale over time",
                            "Track quality",
+                           "Convergence",
+                           "%/min, drifts",
+                           "fold changed 1 times",
+                           "4.0 min",
+                           "mode 2: 5.040 Hz",
                            "Frames missing",
                            "7.654 ms",
                            "class=\"move\"",
@@ -114,8 +119,8 @@ TEST(ReportPage, TellsWhyASectionIsMissing) {
   expect_sound(page);
   expect_nothing_from_outside(page);
   EXPECT_THAT(page, HasSubstr("No mode of the structure was found: the record is &lt;short&gt;."));
-  for (const char* id : {"modes", "shapes", "spectra", "folds", "stabilisation", "displacements", "scale", "quality",
-                         "frame-view", "losses", "timing"}) {
+  for (const char* id : {"modes", "shapes", "spectra", "folds", "stabilisation", "convergence", "displacements",
+                         "scale", "quality", "frame-view", "losses", "timing"}) {
     const std::size_t begin = page.find(std::string("<section id=\"") + id + "\"");
     ASSERT_NE(begin, std::string::npos) << id;
     EXPECT_THAT(page.substr(begin, page.find("</section>", begin) - begin), HasSubstr("class=\"absent\"")) << id;

@@ -69,6 +69,36 @@ TEST(RunHistory, CountsPointsAndSigmaOfEveryRegion) {
   EXPECT_NEAR(history.regions()[1].sigma_px.mean(), 0.03, 1e-12);
 }
 
+core::ModalEstimate estimate_of(std::uint64_t n_samples, const std::vector<std::uint32_t>& ids) {
+  core::ModalEstimate estimate;
+  estimate.n_samples = n_samples;
+  for (const std::uint32_t id : ids) {
+    core::Mode mode;
+    mode.frequency_hz = id, mode.damping_ratio = 0.01 * id;
+    if (id != 0)
+      mode.history = core::ModeHistory{.id = id, .drift_hz_per_s = {}, .drift_std_hz_per_s = {}, .more_s = {}};
+    estimate.modes.push_back(mode);
+  }
+  return estimate;
+}
+
+TEST(RunHistory, FollowsModesByTheirNumbers) {
+  RunHistory history(25.0, 1, 0);
+  history.add(estimate_of(500, {0, 0}));
+  history.add(estimate_of(750, {1, 2}));
+  history.add(estimate_of(1000, {2}));
+  EXPECT_EQ(history.n_estimates(), 3U);
+  ASSERT_NE(history.followed(2), nullptr);
+  EXPECT_EQ(history.followed(1)->frequency_hz.n_values(), 1U);
+  EXPECT_EQ(history.followed(2)->frequency_hz.n_values(), 2U);
+  EXPECT_EQ(history.followed(2)->damping_ratio.mean(), 0.02);
+  EXPECT_EQ(history.followed(3), nullptr);
+  EXPECT_EQ(history.followed(0), nullptr);
+  for (std::uint32_t id = 3; id < 40; ++id) history.add(estimate_of(1250, {id}));
+  EXPECT_NE(history.followed(RunHistory::kMaxFollowed), nullptr);
+  EXPECT_EQ(history.followed(RunHistory::kMaxFollowed + 1), nullptr);
+}
+
 TEST(RunHistory, TakesAnHourWithoutAllocating) {
   RunHistory history(60.0, 4, 2);
   core::DisplacementSample sample;

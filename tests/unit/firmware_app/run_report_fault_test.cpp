@@ -114,6 +114,9 @@ TEST_F(RunReportTest, RefusesBrokenModalJson) {
   EXPECT_THAT(refusal("\"structural\"", "\"nice\""), HasSubstr("`nice` is unknown"));
   EXPECT_THAT(refusal("\"samples\": 1500", "\"samples\": -1"), HasSubstr("samples"));
   EXPECT_THAT(refusal("\"fold_n\": -1", "\"fold_n\": 0.5"), HasSubstr("fold_n"));
+  EXPECT_THAT(refusal("\"id\": 2", "\"id\": 0"), HasSubstr("modes[0].history.id"));
+  EXPECT_THAT(refusal("\"estimates\": 5", "\"estimates\": 5000000000"), HasSubstr("estimates"));
+  EXPECT_THAT(refusal("\"drifts\": true", "\"drifts\": 1"), HasSubstr("drifts"));
   EXPECT_THAT(refusal("\"modes\": [", "\"modes\": [7, "), HasSubstr("modes[0]"));
 }
 

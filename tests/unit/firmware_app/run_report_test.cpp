@@ -95,7 +95,18 @@ TEST_F(RunReportTest, ModalJsonHasExactlyTheAgreedLayout) {
       "shape_std": null,
       "mpc": 0.99,
       "verdict": "structural",
-      "reason": "present in 14 of 15 orders"
+      "reason": "present in 14 of 15 orders",
+      "history": {
+        "id": 2,
+        "estimates": 5,
+        "first_estimate": 1,
+        "first_seen_s": 30,
+        "fold_changes": 0,
+        "drift_hz_per_s": -0.0005,
+        "drift_std_hz_per_s": 0.000125,
+        "drifts": true,
+        "more_s": 120.5
+      }
     }
   ],
   "rejected": [
@@ -117,7 +128,8 @@ TEST_F(RunReportTest, ModalJsonHasExactlyTheAgreedLayout) {
       },
       "mpc": 0.99,
       "verdict": "numerical",
-      "reason": "present in 14 of 15 orders"
+      "reason": "present in 14 of 15 orders",
+      "history": null
     }
   ],
   "corrections": [

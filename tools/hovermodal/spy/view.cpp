@@ -15,6 +15,7 @@ using hovermodal::mode_t;
 using Lines = std::vector<std::string>;
 
 constexpr std::size_t kRmsSamples = 256;
+constexpr std::size_t kHistoryColumns = 19;
 constexpr std::size_t kHalf = 49;  // columns of one of two tables side by side
 
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
@@ -30,13 +31,22 @@ std::string fold_text(std::int16_t fold_n) {
   return fold_n == mode_t::FOLD_UNKNOWN ? "-" : fmt::format("{:+d}", fold_n);
 }
 
-std::string mode_line(const mode_t& mode, const ViewOptions& options) {
-  constexpr std::size_t kBeforeShape = 63;
+// "#3   240s  -0.12*": number, record since it was first seen, trend in % a minute; * = more than chance.
+std::string history_text(const mode_t& mode, double duration_s) {
+  if (mode.track_id <= 0) return fit("  -", kHistoryColumns);
+  const double trend = 6000.0 * real(mode.drift_hz_per_s) / mode.frequency_hz;
+  return fmt::format("{} {:>6} {:>6}{}", fit(fmt::format("#{}", mode.track_id), 4),
+                     number(duration_s - real(mode.first_seen_s), 0) + "s", number(trend, 2),
+                     mode.drifts != 0 ? '*' : ' ');
+}
+
+std::string mode_line(const mode_t& mode, double duration_s, const ViewOptions& options) {
+  constexpr std::size_t kBeforeShape = 63 + kHistoryColumns + 1;
   const std::size_t shape_columns = options.columns > kBeforeShape ? options.columns - kBeforeShape : 0;
-  return fmt::format("{:>9} {:>8} {:>7} {:>6} {:>6} {:>5}  {} {}", number(mode.frequency_hz, 4),
+  return fmt::format("{:>9} {:>8} {:>7} {:>6} {:>6} {:>5}  {} {} {}", number(mode.frequency_hz, 4),
                      number(real(mode.frequency_std_hz), 4), number(100.0 * real(mode.damping_ratio), 2),
                      number(100.0 * real(mode.damping_std), 2), number(real(mode.mpc), 3), fold_text(mode.fold_n),
-                     fit(verdict_text(mode.verdict), 14),
+                     fit(verdict_text(mode.verdict), 14), history_text(mode, duration_s),
                      shape_bars(mode.shape_re, mode.shape_im, shape_columns, options.charset));
 }
 
@@ -140,9 +150,11 @@ void append(Lines& lines, const Lines& more) { lines.insert(lines.end(), more.be
 Lines render_modes(const StreamMonitor& monitor, const ViewOptions& options, std::size_t max_modes) {
   Lines out{modes_title(monitor)};
   if (!monitor.estimate()) return out;
-  out.push_back("     f Hz       +-  zeta %     +-    MPC  fold  verdict        shape per channel");
+  out.push_back("     f Hz       +-  zeta %     +-    MPC  fold  verdict        mode    age  %/min  shape per channel");
   const auto modes = monitor.modes();
-  for (std::size_t i = 0; i < std::min(modes.size(), max_modes); ++i) out.push_back(mode_line(*modes[i], options));
+  for (std::size_t i = 0; i < std::min(modes.size(), max_modes); ++i) {
+    out.push_back(mode_line(*modes[i], monitor.estimate()->duration_s, options));
+  }
   return out;
 }
 

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+namespace core {
+
+// Trend of a frequency from successive estimates of one growing record.
+//
+// An estimate f(T) over the record 0..T averages what the record holds, so successive estimates share their data: with
+// variance c^2 / T each, Cov f(T1) f(T2) = c^2 / T2 for T1 < T2, and a line through f(T) would take shared noise for a
+// drift. Undoing the average leaves the part that is new,
+//     d_k = (T_k f_k - T_{k-1} f_{k-1}) / (T_k - T_{k-1})   about time (T_k + T_{k-1}) / 2,
+// independent from piece to piece, with variance c^2 / (T_k - T_{k-1}) (the difference rule of Hausman 1978,
+// Lemma 2.1). Least squares of d on time with weights T_k - T_{k-1} is then the best linear estimate, and a frequency
+// that drifts at r Hz/s gives d on a line of slope r exactly. Slope variance: c^2 / sum w (t - mean t)^2.
+//
+// c^2 = sigma_f^2 T comes from the caller; where the residuals scatter more than that, theirs is taken, so that
+// estimates jumping about (order changes, a weak mode) do not pass for a drift. Fixed memory, plain arithmetic.
+class FrequencyTrend {
+ public:
+  // Estimates in the order of their records; one whose record did not grow brings nothing new and is ignored.
+  void add(double frequency_hz, double record_s) noexcept;
+  void restart() noexcept { *this = FrequencyTrend(); }
+
+  struct Slope {
+    double hz_per_s = 0.0;
+    double std_hz_per_s = 0.0;
+  };
+  // From three pieces on. `variance_time` = c^2 in Hz^2 s, > 0.
+  [[nodiscard]] std::optional<Slope> slope(double variance_time) const noexcept;
+  [[nodiscard]] std::size_t n_pieces() const noexcept { return n_; }
+
+ private:
+  std::size_t n_ = 0;
+  double first_hz_ = 0.0;  // sums hold differences from it: digits are kept
+  double last_hz_ = 0.0, last_s_ = 0.0;
+  double w_ = 0.0, wt_ = 0.0, wd_ = 0.0, wtt_ = 0.0, wtd_ = 0.0, wdd_ = 0.0;
+};
+
+}  // namespace core

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/identification/assignment.h"
+#include "core/identification/frequency_trend.h"
+#include "core/types/modal_estimate.h"
+
+namespace core {
+
+struct ModeTrackerConfig {
+  std::vector<double> row_delay_s;  // per channel, as the identification undid them; all 0 where it did not
+  std::uint32_t n_absent = 3;       // not found in so many successive estimates: lost ...
+  double keep_lost_s = 1800.0;      // ... but found again within this much of record: the same mode
+  double gate_sigmas = 5.0;         // two estimates of one mode differ less than this
+  double min_mac = 0.5;             // ... and their shapes less than that
+  double drift_sigmas = 4.0;        // every estimate of every mode is a test: far out, so that false alarms stay rare
+  double damping_target = 0.1;      // relative standard deviation that ModeHistory::more_s is about
+};
+
+// Follows modes from one estimate of a growing record to the next and gives each its own number.
+//
+// Compared is what the camera saw: the apparent frequency, and the shape with its row delays put back. Both stay as
+// they are when the identification reads another fold from the same peak, so a mode keeps its number then. Cost of a
+// pair, cut at 1:
+//     (df / max(5 sigma, zeta f))^2 + (1 - MAC) / 0.5         sigma^2 = sigma_track^2 + sigma_mode^2
+// with the stated standard deviations, else the scatter 1.2 sqrt(zeta f / (2 pi T)) (core/planning/hover_time.h). The
+// sum of variances is an upper bound for estimates that share data; zeta f is half the half-power bandwidth, within
+// which two peaks of one shape are one. Pairs are made by optimal assignment: confirmed modes first, then lost ones,
+// then new.
+//
+// A structural mode is new until the next estimate finds it too; then it has a number. Ambiguous poles continue a mode,
+// but begin none. An estimate whose status is not "ok" says nothing about any mode and ends none.
+//
+// Memory is fixed at construction. Deterministic. Used by one thread.
+class ModeTracker {
+ public:
+  static constexpr std::size_t kMaxTracks = 64;
+  static constexpr std::size_t kMaxModes = 64;  // of one estimate; structural ones first
+
+  explicit ModeTracker(ModeTrackerConfig config);
+
+  // Fills `history` of the estimate's modes. Modes with a frequency, damping or shape that is no number are left out.
+  void update(ModalEstimate& estimate) noexcept;
+
+  [[nodiscard]] std::size_t n_followed() const noexcept;  // confirmed, not lost
+  // Modes that found no room: beyond kMaxTracks at once, or kMaxModes in one estimate.
+  [[nodiscard]] std::uint64_t n_left_out() const noexcept { return n_left_out_; }
+
+ private:
+  enum class State : std::uint8_t { kFree, kNew, kConfirmed, kLost };
+  using Shape = std::vector<std::complex<double>>;
+
+  struct Track {
+    State state = State::kFree;
+    // Of the last estimate that found it.
+    double apparent_hz = 0.0, frequency_hz = 0.0, damping_ratio = 0.0;
+    double variance = 0.0;  // of its frequency, Hz^2
+    Shape seen;             // with the row delays put back
+    double last_record_s = 0.0;
+    std::uint32_t n_absent = 0;
+    int fold_n = 0;
+    bool found = false;  // in the estimate at hand
+    ModeHistory history;
+    FrequencyTrend trend;
+  };
+  struct Candidate {
+    Mode* mode = nullptr;
+    double variance = 0.0;  // of its frequency, Hz^2
+    Shape seen;
+    bool taken = false;
+  };
+
+  void gather(ModalEstimate& estimate) noexcept;
+  void add_candidate(Mode& mode, double rate_hz) noexcept;
+  [[nodiscard]] double cost(const Track& track, const Candidate& candidate) const noexcept;
+  void match(State state) noexcept;
+  void follow(Track& track, Candidate& candidate) noexcept;
+  void begin(Candidate& candidate, const ModalEstimate& estimate) noexcept;
+  void age() noexcept;
+  [[nodiscard]] Track* free_track() noexcept;
+  void note_frequency(Track& track, const Mode& mode) const noexcept;
+  void note_trend(Track& track, const Mode& mode) const noexcept;
+
+  ModeTrackerConfig config_;
+  std::array<Track, kMaxTracks> tracks_;
+  std::array<Candidate, kMaxModes> candidates_;
+  std::size_t n_candidates_ = 0;
+  double record_s_ = 0.0;
+  std::uint64_t n_samples_ = 0;
+  std::uint32_t last_id_ = 0;
+  std::uint64_t n_left_out_ = 0;
+
+  Assignment assignment_{kMaxTracks, kMaxModes};
+  std::vector<double> cost_;
+  std::array<std::size_t, kMaxTracks> row_track_{};
+  std::array<std::size_t, kMaxModes> column_candidate_{};
+};
+
+}  // namespace core

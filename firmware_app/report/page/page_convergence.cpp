@@ -1,0 +1,65 @@
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "firmware_app/report/page/page_parts.h"
+
+namespace app {
+namespace {
+
+std::string minutes_text(double seconds) { return decimals_text(seconds / 60.0, 1) + " min"; }
+
+// What each mode's history says, for people.
+std::string followed_table(const PictureInputs& inputs) {
+  constexpr double kPercentPerMinute = 6000.0;
+  HtmlTable table({"Mode", "Frequency", "Found in", "Since", "Trend", "More hover for damping to 10 %"});
+  for (std::size_t i = 0; i < inputs.estimate->modes.size(); ++i) {
+    const core::Mode& mode = inputs.estimate->modes[i];
+    if (!mode.history) continue;
+    const core::ModeHistory& history = *mode.history;
+    const double per_minute = kPercentPerMinute / mode.frequency_hz;
+    std::string trend = "–";
+    if (history.drift_hz_per_s && history.drift_std_hz_per_s) {
+      trend = fmt::format("{} ± {} %/min", decimals_text(per_minute * *history.drift_hz_per_s, 3),
+                          decimals_text(per_minute * *history.drift_std_hz_per_s, 3));
+      if (history.drifts) trend += ", drifts";
+    }
+    if (history.n_fold_changes > 0) trend += fmt::format(", fold changed {} times", history.n_fold_changes);
+    table.add({{std::to_string(i + 1), {}},
+               {four_digits_text(mode.frequency_hz) + " Hz", {}},
+               {fmt::format("{} estimates", history.n_estimates), {}},
+               {decimals_text(history.first_seen_s, 0) + " s", {}},
+               {trend, {}},
+               {!history.more_s         ? "–"
+                : *history.more_s > 0.0 ? minutes_text(*history.more_s)
+                                        : "reached",
+                {}}});
+  }
+  return table.html();
+}
+
+}  // namespace
+
+std::string convergence_section(const PictureInputs& inputs) {
+  const std::string title = "Convergence";
+  const std::string frequency = frequency_convergence_svg(inputs, kWideFormat);
+  if (frequency.empty()) {
+    return section_html("convergence", title,
+                        absent_html("There is no course over the estimates: the run made fewer than three, or they "
+                                    "found no mode twice."));
+  }
+  std::string body = followed_table(inputs);
+  body +=
+      "<h3>Frequency</h3>\n" +
+      figure_html(frequency, frequency_convergence_svg(inputs, kNarrowFormat), {},
+                  "Every mode's frequency in percent of the last estimate's, over the record behind it. A mode that "
+                  "stays as it is keeps between the grey lines 19 times out of 20: they hold what an estimate may "
+                  "differ from a later one that shares its data.");
+  body += "<h3>Damping</h3>\n" + figure_html(damping_convergence_svg(inputs, kWideFormat),
+                                             damping_convergence_svg(inputs, kNarrowFormat), {},
+                                             "The same of the damping, which takes far longer to settle.");
+  return section_html("convergence", title, body);
+}
+
+}  // namespace app
