@@ -156,16 +156,18 @@ TEST(Pipeline, TheSameReplayTwiceGivesTheSameBits) {
   const auto& first = heard[0]->estimates;
   const auto& second = heard[1]->estimates;
   ASSERT_EQ(first.size(), second.size());
-  std::size_t n_modes = 0;
+  std::size_t n_modes = 0, n_followed = 0;
   for (std::size_t k = 0; k < first.size(); ++k) {
     for (const auto member : {&core::ModalEstimate::modes, &core::ModalEstimate::rejected}) {
       ASSERT_EQ((first[k].*member).size(), (second[k].*member).size());
       for (std::size_t m = 0; m < (first[k].*member).size(); ++m, ++n_modes) {
         expect_same_bits((first[k].*member)[m], (second[k].*member)[m]);
+        n_followed += (first[k].*member)[m].history ? 1U : 0U;
       }
     }
   }
   EXPECT_GT(n_modes, 0U);
+  EXPECT_GT(n_followed, 0U);
   for (const char* name : {"modal.json", "tracks.csv", "displacements.csv"}) {
     const std::string text = tests::file_text(folder / "first" / name);
     EXPECT_FALSE(text.empty()) << name;

@@ -50,9 +50,10 @@ Lane lane_of(const BinnedSeries& series, const Course& course, double cell_s, do
   for (PlotPoint point : series.means(cell_s)) {
     point.y = 100.0 * (point.y / course.last - 1.0);
     if (!std::isfinite(point.y)) continue;
-    lane.low = std::min(lane.low, point.y), lane.high = std::max(lane.high, point.y);
+    lane.high = std::max(lane.high, std::abs(point.y));
     lane.points.push_back(point);
   }
+  lane.low = -lane.high;  // the last value in the middle
   lane.empty = lane.points.empty();
   if (lane.empty || !std::isfinite(course.sigma)) return lane;
   for (const double side : {-1.0, 1.0}) lane.behind.push_back(bound(course, lane.points.front().x, record_s, side));
