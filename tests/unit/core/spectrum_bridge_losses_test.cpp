@@ -80,8 +80,9 @@ TEST(BridgeLosses, HasTheSignalAsItsExpectationAtEveryFrequency) {
       }
     }
     for (std::size_t t = 8; t < kSamples - 8; ++t) EXPECT_NEAR(mean[t], x[t], 0.025) << w << " at " << t;
-    const double rest = 1.0 - std::cos(w);
-    EXPECT_LT(squares, 1.3 * 0.1 / 0.9 * rest * rest * 0.5 + 1e-4) << w;
+    const double rest = 1.0 - std::cos(w);  // what a line through both neighbours leaves of the signal
+    // Lost neighbours make the line longer: up to twice.
+    EXPECT_LT(squares, 2.0 * 0.1 / 0.9 * 0.5 * rest * rest + 1e-4) << w;
   }
 }
 
