@@ -20,8 +20,10 @@ constexpr double kMostAlike = 0.8;
 
 // Of a segment: two windows of lags, whose middles are two windows apart.
 constexpr double kWindow = 0.2, kLateStart = 0.4;
-// Poles with more damping than this are no lines, whatever else they are.
-constexpr double kMostLineDamping = 0.005;
+// Poles with more damping than this are no lines, whatever else they are. Between the two only modes that would have
+// forgotten themselves often enough over the record are examined: the decay of the others scatters too much to tell.
+constexpr double kMostLineDamping = 0.005, kSurelySmallDamping = 0.001;
+constexpr double kLeastForgotten = 60.0;  // 2 pi zeta f T
 constexpr int kDifferences = 1;  // against the hover's drift
 
 std::vector<Complex> delays_undone(const std::vector<Complex>& observed, double frequency_hz,
@@ -118,7 +120,10 @@ LineEvidence LineExaminer::examine(const UnfoldedPole& pole) {
   LineEvidence evidence;
   const std::vector<Complex> observed = observed_shape(pole, folding_);
   find_camera(observed, pole.apparent_hz, evidence);
-  if (damping_ratio(pole.s) < kMostLineDamping) evidence.late_damping_ratio = late_damping(observed, pole);
+  const double damping = damping_ratio(pole.s), duration_s = static_cast<double>(sums_.n_samples) / sums_.rate_hz;
+  const double forgotten = kTwoPi * damping * frequency_hz(pole.s) * duration_s;
+  const bool can_tell = damping < kSurelySmallDamping || forgotten > kLeastForgotten;
+  if (can_tell && damping < kMostLineDamping) evidence.late_damping_ratio = late_damping(observed, pole);
   return evidence;
 }
 

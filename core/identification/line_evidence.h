@@ -19,7 +19,7 @@ struct LineEvidence {
   double camera_mac = 0.0;
   double camera_hz = 0.0;  // the frequency at which it is that large
   // Damping ratio by which the correlation decays from a tenth to half of a segment, where modes are spent and a steady
-  // force goes on. Empty: not examined, or no correlation that far.
+  // force goes on. Empty: damped too much, too slow to tell in this record, or no correlation that far.
   std::optional<double> late_damping_ratio;
 };
 
