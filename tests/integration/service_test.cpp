@@ -118,6 +118,29 @@ TEST(Service, TheSameClipTwiceGivesTheSameBytes) {
   EXPECT_TRUE(page("first") == page("second"));
 }
 
+TEST(Service, AReplayOfItsTracksFollowsTheSameModes) {
+  const auto folder = own_folder();
+  EXPECT_EQ(run_service(clip_arguments({"--report", (folder / "run").string()})).code, 0);
+  tests::ChildProcess replay({tests::kTools, "replay", "--tracks", (folder / "run" / "tracks.csv").string(), "--config",
+                              (tests::simulated_folder() / "config.yaml").string(), "--set", "spectrum.segment=128",
+                              "--report", (folder / "replay").string()});
+  EXPECT_EQ(replay.wait_for_exit(), 0) << replay.output();
+  const auto first = tests::json_of(folder / "run" / "modal.json")["modes"];
+  const auto again = tests::json_of(folder / "replay" / "modal.json")["modes"];
+  ASSERT_EQ(first.size(), again.size());
+  int n_followed = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_NEAR(first[i]["frequency_hz"].get<double>(), again[i]["frequency_hz"].get<double>(), 1e-3);
+    ASSERT_EQ(first[i]["history"].is_null(), again[i]["history"].is_null());
+    if (first[i]["history"].is_null()) continue;
+    ++n_followed;
+    for (const char* key : {"id", "estimates", "first_estimate"}) {
+      EXPECT_EQ(first[i]["history"][key], again[i]["history"][key]) << key;
+    }
+  }
+  EXPECT_GT(n_followed, 0);
+}
+
 TEST(Service, LaterSettingsOverrideEarlierOnes) {
   const auto folder = own_folder();
   const ServiceRun run = run_service(clip_arguments(

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/identification/common_drift.h"
 #include "firmware_app/report/page/page_parts.h"
 
 namespace app {
@@ -10,9 +11,20 @@ namespace {
 
 std::string minutes_text(double seconds) { return decimals_text(seconds / 60.0, 1) + " min"; }
 
+constexpr double kPercentPerMinute = 6000.0;
+
+// Whether the structure as a whole changed under way.
+std::string drift_sentence(const core::ModalEstimate& estimate) {
+  const auto drift = core::common_drift(estimate);
+  if (!drift) return "Whether the frequencies drift together cannot be told yet: fewer than two modes have a trend.";
+  return fmt::format("All {} modes together {}: {} ± {} % a minute.", drift->n_modes,
+                     drift->drifts ? "drift" : "show no drift beyond what the record allows",
+                     decimals_text(kPercentPerMinute * drift->share_per_s, 3),
+                     decimals_text(kPercentPerMinute * drift->std_per_s, 3));
+}
+
 // What each mode's history says, for people.
 std::string followed_table(const PictureInputs& inputs) {
-  constexpr double kPercentPerMinute = 6000.0;
   HtmlTable table({"Mode", "Frequency", "Found in", "Since", "Trend", "More hover for damping to 10 %"});
   for (std::size_t i = 0; i < inputs.estimate->modes.size(); ++i) {
     const core::Mode& mode = inputs.estimate->modes[i];
@@ -49,7 +61,7 @@ std::string convergence_section(const PictureInputs& inputs) {
                         absent_html("There is no course over the estimates: the run made fewer than three, or they "
                                     "found no mode twice."));
   }
-  std::string body = followed_table(inputs);
+  std::string body = paragraph_html(drift_sentence(*inputs.estimate)) + followed_table(inputs);
   body +=
       "<h3>Frequency</h3>\n" +
       figure_html(frequency, frequency_convergence_svg(inputs, kNarrowFormat), {},

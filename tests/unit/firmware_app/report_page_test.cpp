@@ -83,6 +83,7 @@ TEST(ReportPage, ShowsAllOfACompleteRun) {
                            "Track quality",
                            "Convergence",
                            "%/min, drifts",
+                           "All 3 modes together",
                            "fold changed 1 times",
                            "4.0 min",
                            "mode 2: 5.040 Hz",
