@@ -102,13 +102,17 @@ const char* to_string(CorrelationStatus status) noexcept {
 }
 
 CorrelationStatus compute_correlations(const CpsdSums& sums, int max_lag, int n_differences, Correlations& out,
-                                       double least_power) {
+                                       std::span<const int> references, double least_power) {
   if (sums.n_segments == 0) return CorrelationStatus::kNoSegment;
   const int n = sums.n_channels;
   max_lag = std::min(max_lag, sums.n_fft / 2 - 1 - n_differences);
   out = Correlations(n, max_lag);
   PairTransform transform(sums);
   const bool shared_mask = one_mask(sums);
+  const auto is_wanted = [&](int i, int j) {
+    return references.empty() || i == j ||
+           std::any_of(references.begin(), references.end(), [&](int r) { return r == i || r == j; });
+  };
   std::vector<double> data, mask, divided, undivided;
   std::vector<double> mask_at_0(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {
@@ -119,6 +123,7 @@ CorrelationStatus compute_correlations(const CpsdSums& sums, int max_lag, int n_
   const int reach = max_lag + n_differences;
   for (int i = 0; i < n; ++i) {
     for (int j = i; j < n; ++j) {
+      if (!is_wanted(i, j)) continue;
       const int pair = CpsdSums::pair_index(i, j, n);
       transform.inverse(sums.data_sum, pair, data);
       if (!shared_mask) transform.inverse(sums.mask_sum, pair, mask);

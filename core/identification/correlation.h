@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/types/cpsd.h"
@@ -47,12 +48,14 @@ class Correlations {
 // Prewhitening by `n_differences` differences is done on the lags, R_d(lag) = 2 R(lag) - R(lag - 1) - R(lag + 1), after
 // the division: differences of a windowed signal are not those of the signal, and the window's slope would shift the
 // lowest mode. It takes the hover drift, which stands 40 dB above the modes, out of the ridge and the rounding; shapes
-// and poles are untouched.
+// and poles are untouched. Where `references` are named, only the pairs that hold one and each channel's own are
+// computed; the others are zero. least_power: a channel with less stands still, in its unit squared.
 [[nodiscard]] CorrelationStatus compute_correlations(const CpsdSums& sums, int max_lag, int n_differences,
-                                                     Correlations& out, double least_power = kLeastPowerMm2);
+                                                     Correlations& out, std::span<const int> references = {},
+                                                     double least_power = kLeastPowerMm2);
 
 // The blocks in use, joined in order to n_groups parts as equal as can be (none when there are fewer blocks): by how
-// much each part moves `divided` of `mean`, to first order: (D_b - R M_b) / M, lag by lag, with the part's own sums
+// much each part moves `divided`, to first order: (D_b - R M_b) / M, lag by lag, with the part's own sums
 // D_b, M_b. Over all parts this adds up to zero. `undivided` stays 0. max_lag: as compute_correlations() took it.
 [[nodiscard]] std::vector<Correlations> block_deviations(const CpsdSums& sums, int n_differences, int max_lag,
                                                          std::size_t n_groups);

@@ -92,7 +92,7 @@ std::string fit_model(const CpsdSums& sums, const IdentifierConfig& config, cons
   out.n_differences = config.n_differences >= 0 ? config.n_differences : choose_differences(sums);
   out.era = era_config(sums, config, channels, out.n_differences);
   const CorrelationStatus status = compute_correlations(sums, 2 * out.era.block_rows + out.era.first_lag,
-                                                        out.n_differences, out.correlations, config.least_power);
+                                                        out.n_differences, out.correlations, {}, config.least_power);
   if (status != CorrelationStatus::kOk) return to_string(status);
   EraStatus era_status = realise_up_to(config.max_order, out);
   if (era_status == EraStatus::kOk) {

@@ -97,19 +97,21 @@ class Francis {
 
   // Where the sweep may start: two consecutive small subdiagonal elements.
   int start_of_sweep(int first, int last, const Shift& s, Bulge& b) const {
-    for (int m = last - 2;; --m) {
-      const double z = h_.row(m)[m];
-      const double r = s.x - z, t = s.y - z;
-      b.p = (r * t - s.w) / h_.row(m + 1)[m] + h_.row(m)[m + 1];
-      b.q = h_.row(m + 1)[m + 1] - z - r - t;
-      b.r = h_.row(m + 2)[m + 1];
-      const double size = std::abs(b.p) + std::abs(b.q) + std::abs(b.r);
-      b = {b.p / size, b.q / size, b.r / size};
-      if (m == first) return m;
-      const double u = std::abs(h_.row(m)[m - 1]) * (std::abs(b.q) + std::abs(b.r));
-      const double v = std::abs(b.p) * (std::abs(h_.row(m - 1)[m - 1]) + std::abs(z) + std::abs(h_.row(m + 1)[m + 1]));
-      if (u <= kEpsilon * v) return m;
+    int m = last - 2;
+    for (;; --m) {
+      const double *row = h_.row(m), *below = h_.row(m + 1);
+      const double z = row[m], r = s.x - z, t = s.y - z;
+      b.p = (r * t - s.w) + row[m + 1] * below[m];
+      b.q = (below[m + 1] - z - r - t) * below[m];
+      b.r = h_.row(m + 2)[m + 1] * below[m];
+      if (m == first) break;
+      const double u = std::abs(row[m - 1]) * (std::abs(b.q) + std::abs(b.r));
+      const double v = std::abs(b.p) * (std::abs(h_.row(m - 1)[m - 1]) + std::abs(z) + std::abs(below[m + 1]));
+      if (u <= kEpsilon * v) break;
     }
+    const double size = std::abs(b.p) + std::abs(b.q) + std::abs(b.r);
+    b = {b.p / size, b.q / size, b.r / size};
+    return m;
   }
 
   void sweep(int first, int last, const Shift& s);

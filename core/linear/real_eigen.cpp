@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 
 #include "core/linear/francis_qr.h"
+#include "core/linear/hessenberg_vector.h"
 #include "core/linear/lanes.h"
 #include "core/linear/vector_clones.h"
 
@@ -14,8 +13,6 @@ namespace core {
 namespace {
 
 using Complex = std::complex<double>;
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 struct RightReflection {
   double* rows;
@@ -84,28 +81,6 @@ void reflect_from_left(double* rows, int stride, int n_rows, int n_columns, cons
   }
 }
 
-// next <- below - (re + i im) current, below real.
-HOVERMODAL_VECTOR_CLONES
-void eliminate_kept(const double* __restrict current_re, const double* __restrict current_im,
-                    const double* __restrict below, double* __restrict next_re, double* __restrict next_im, int begin,
-                    int end, double re, double im) {
-  for (int j = begin; j < end; ++j) {
-    next_re[j] = below[j] - (re * current_re[j] - im * current_im[j]);
-    next_im[j] = -(re * current_im[j] + im * current_re[j]);
-  }
-}
-
-// next <- current - (re + i im) below, below real.
-HOVERMODAL_VECTOR_CLONES
-void eliminate_swapped(const double* __restrict current_re, const double* __restrict current_im,
-                       const double* __restrict below, double* __restrict next_re, double* __restrict next_im,
-                       int begin, int end, double re, double im) {
-  for (int j = begin; j < end; ++j) {
-    next_re[j] = current_re[j] - re * below[j];
-    next_im[j] = current_im[j] - im * below[j];
-  }
-}
-
 }  // namespace linear_kernels
 
 namespace {
@@ -136,129 +111,6 @@ void to_hessenberg(RowMatrix& a, std::vector<double>& c, int n_seen) {
   }
 }
 
-// Eigenvectors of an upper Hessenberg matrix: with H - lambda I = P L U, solves U x = L^-1 P^T b for a b chosen so that
-// the right side is a vector of ones.
-class HessenbergVector {
- public:
-  explicit HessenbergVector(const RowMatrix& h)
-      : h_(h),
-        exchanged_(static_cast<std::size_t>(h.n)),
-        re_(h.values.size()),
-        im_(h.values.size()),
-        x_re_(static_cast<std::size_t>(h.n)),
-        x_im_(x_re_) {
-    for (const double value : h.values) norm_ = std::max(norm_, std::abs(value));
-  }
-
-  void compute(Complex lambda) {
-    factor(lambda);
-    substitute();
-  }
-  [[nodiscard]] const std::vector<double>& re() const noexcept { return x_re_; }  // of unit norm
-  [[nodiscard]] const std::vector<double>& im() const noexcept { return x_im_; }
-
- private:
-  double* re(int i) { return re_.data() + static_cast<std::ptrdiff_t>(i) * h_.n; }
-  double* im(int i) { return im_.data() + static_cast<std::ptrdiff_t>(i) * h_.n; }
-
-  // Row k of U stands in row k of re_, im_; where rows were exchanged it is row k + 1 of H - lambda I itself.
-  void factor(Complex lambda) {
-    const int n = h_.n;
-    lambda_ = lambda;
-    std::copy(h_.row(0), h_.row(0) + n, re(0));
-    std::fill(im(0), im(0) + n, 0.0);
-    re(0)[0] -= lambda.real();
-    im(0)[0] -= lambda.imag();
-    for (int k = 0; k + 1 < n; ++k) {
-      const double* below = h_.row(k + 1);
-      const double a = re(k)[k], b = im(k)[k], size = a * a + b * b;
-      const bool exchange = below[k] * below[k] > size;
-      exchanged_[static_cast<std::size_t>(k)] = exchange ? 1 : 0;
-      Complex diagonal = lambda;
-      if (exchange) {
-        const double mr = a / below[k], mi = b / below[k];
-        linear_kernels::eliminate_swapped(re(k), im(k), below, re(k + 1), im(k + 1), k + 1, n, mr, mi);
-        diagonal = {mi * lambda.imag() - mr * lambda.real(), -(mr * lambda.imag() + mi * lambda.real())};
-      } else {
-        const double factor = size > 0.0 ? below[k] / size : 0.0;
-        linear_kernels::eliminate_kept(re(k), im(k), below, re(k + 1), im(k + 1), k + 1, n, factor * a, -factor * b);
-      }
-      re(k + 1)[k + 1] -= diagonal.real();
-      im(k + 1)[k + 1] -= diagonal.imag();
-    }
-    exchanged_[static_cast<std::size_t>(n) - 1] = 0;
-  }
-
-  void substitute() {
-    const double least = std::max(kEpsilon * norm_, 1e-150);
-    double norm2 = 0.0;
-    for (int k = h_.n - 1; k >= 0; --k) {
-      const auto at = static_cast<std::size_t>(k);
-      const bool exchanged = exchanged_[at] != 0;
-      const Complex rest = Complex(1.0, 0.0) - (exchanged ? exchanged_product(k) : product(k));
-      double a = exchanged ? h_.row(k + 1)[k] : re(k)[k];
-      double b = exchanged ? 0.0 : im(k)[k];
-      if (std::abs(a) + std::abs(b) < least) a = least, b = 0.0;
-      const double inverse = 1.0 / (a * a + b * b);
-      x_re_[at] = (rest.real() * a + rest.imag() * b) * inverse;
-      x_im_[at] = (rest.imag() * a - rest.real() * b) * inverse;
-      norm2 += x_re_[at] * x_re_[at] + x_im_[at] * x_im_[at];
-    }
-    const double scale = 1.0 / std::sqrt(norm2);
-    for (double& x : x_re_) x *= scale;
-    for (double& x : x_im_) x *= scale;
-  }
-
-  // sum over j > k of U(k, j) x(j).
-  [[nodiscard]] Complex product(int k) {
-    const double *a = re(k), *b = im(k), *x = x_re_.data(), *y = x_im_.data();
-    double ax0 = 0.0, by0 = 0.0, ay0 = 0.0, bx0 = 0.0, ax1 = 0.0, by1 = 0.0, ay1 = 0.0, bx1 = 0.0;
-    int j = k + 1;
-    for (; j + 2 <= h_.n; j += 2) {
-      ax0 += a[j] * x[j];
-      by0 += b[j] * y[j];
-      ay0 += a[j] * y[j];
-      bx0 += b[j] * x[j];
-      ax1 += a[j + 1] * x[j + 1];
-      by1 += b[j + 1] * y[j + 1];
-      ay1 += a[j + 1] * y[j + 1];
-      bx1 += b[j + 1] * x[j + 1];
-    }
-    if (j < h_.n) {
-      ax0 += a[j] * x[j];
-      by0 += b[j] * y[j];
-      ay0 += a[j] * y[j];
-      bx0 += b[j] * x[j];
-    }
-    return {(ax0 + ax1) - (by0 + by1), (ay0 + ay1) + (bx0 + bx1)};
-  }
-
-  [[nodiscard]] Complex exchanged_product(int k) {
-    const double *a = h_.row(k + 1), *x = x_re_.data(), *y = x_im_.data();
-    double ax0 = 0.0, ay0 = 0.0, ax1 = 0.0, ay1 = 0.0;
-    int j = k + 1;
-    for (; j + 2 <= h_.n; j += 2) {
-      ax0 += a[j] * x[j];
-      ay0 += a[j] * y[j];
-      ax1 += a[j + 1] * x[j + 1];
-      ay1 += a[j + 1] * y[j + 1];
-    }
-    if (j < h_.n) {
-      ax0 += a[j] * x[j];
-      ay0 += a[j] * y[j];
-    }
-    const double u = x[k + 1], v = y[k + 1];
-    return {(ax0 + ax1) - (lambda_.real() * u - lambda_.imag() * v),
-            (ay0 + ay1) - (lambda_.real() * v + lambda_.imag() * u)};
-  }
-
-  const RowMatrix& h_;
-  double norm_ = 0.0;
-  Complex lambda_;
-  std::vector<std::uint8_t> exchanged_;
-  std::vector<double> re_, im_, x_re_, x_im_;
-};
-
 }  // namespace
 
 bool upper_half_plane_eigen(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& c,
@@ -280,17 +132,12 @@ bool upper_half_plane_eigen(const Eigen::Ref<const Eigen::MatrixXd>& a, const Ei
                [](Complex value) { return value.imag() > 0.0; });
   out.seen.resize(n_seen, static_cast<Eigen::Index>(out.values.size()));
   HessenbergVector vector(h);
+  const Eigen::MatrixXd by_vector = Eigen::Map<RowMajor>(seen.data(), n_seen, n);
   for (std::size_t k = 0; k < out.values.size(); ++k) {
     vector.compute(out.values[k]);
-    for (int i = 0; i < n_seen; ++i) {
-      const double* row = seen.data() + static_cast<std::ptrdiff_t>(i) * n;
-      double re = 0.0, im = 0.0;
-      for (int j = 0; j < n; ++j) {
-        re += row[j] * vector.re()[static_cast<std::size_t>(j)];
-        im += row[j] * vector.im()[static_cast<std::size_t>(j)];
-      }
-      out.seen(i, static_cast<Eigen::Index>(k)) = {re, im};
-    }
+    const auto column = static_cast<Eigen::Index>(k);
+    out.seen.col(column).real() = by_vector * Eigen::Map<const Eigen::VectorXd>(vector.re().data(), n);
+    out.seen.col(column).imag() = by_vector * Eigen::Map<const Eigen::VectorXd>(vector.im().data(), n);
   }
   return true;
 }

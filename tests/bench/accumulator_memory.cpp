@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
   core::simulation::RandomStream noise(1, "accumulator");
   const std::size_t bytes_without = heap_bytes();
   core::WelchCpsd welch({kChannels, 1024, 0.5, core::WindowKind::kHann, 30.0});
-  push_noise(welch, noise, 2048);  // every page of it touched once
+  push_noise(welch, noise, 2048);                   // every page of it touched once
   const long resident_before_kib = resident_kib();  // first: reading it allocates for good
   const std::size_t bytes_before = heap_bytes();
   std::size_t n_calls = 0;

@@ -70,7 +70,8 @@ Update identify(const core::CpsdSums& sums, const core::EraConfig& config) {
   core::Correlations correlations;
   core::Realisation realisation;
   Update out;
-  if (core::compute_correlations(sums, 2 * config.block_rows + config.first_lag, 0, correlations) !=
+  const std::span<const int> pairs_with = config.canonical_variates ? std::span<const int>{} : kReferences;
+  if (core::compute_correlations(sums, 2 * config.block_rows + config.first_lag, 0, correlations, pairs_with) !=
           core::CorrelationStatus::kOk ||
       core::realise(correlations, config, realisation) != core::EraStatus::kOk) {
     std::fprintf(stderr, "identification_speed: no realisation\n");
