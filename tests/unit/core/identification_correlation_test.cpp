@@ -151,5 +151,36 @@ TEST(Correlations, SayWhyThereAreNone) {
   }
 }
 
+TEST(Correlations, OfNamedReferencesOnlyAreThoseOfAllPairs) {
+  const CpsdSums sums = welch(noise(4, 200, 6, 0.0), 32);
+  Correlations all, some;
+  const std::vector<int> references{2};
+  ASSERT_EQ(compute_correlations(sums, 10, 1, all), CorrelationStatus::kOk);
+  ASSERT_EQ(compute_correlations(sums, 10, 1, some, references), CorrelationStatus::kOk);
+  for (int c = 0; c < 4; ++c) {
+    EXPECT_EQ(some.undivided(c, c, 0), all.undivided(c, c, 0));
+    for (int lag = -10; lag <= 10; ++lag) EXPECT_EQ(some.divided(c, 2, lag), all.divided(c, 2, lag));
+  }
+  EXPECT_EQ(some.divided(0, 1, 3), 0.0);
+}
+
+// Channels that lose the same samples share one mask; one more lost sample in a channel parts them.
+TEST(Correlations, SharedAndSeparateMasksAgree) {
+  Record record = noise(3, 400, 8, 0.1);
+  record.seen[1] = record.seen[2] = record.seen[0];
+  Correlations shared, separate;
+  ASSERT_EQ(compute_correlations(welch(record, 40), 12, 0, shared), CorrelationStatus::kOk);
+  CpsdSums sums = welch(record, 40);
+  sums.mask_sum[1] *= 1.0 + 1e-15;
+  ASSERT_EQ(compute_correlations(sums, 12, 0, separate), CorrelationStatus::kOk);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      for (int lag = -12; lag <= 12; ++lag) {
+        EXPECT_NEAR(shared.divided(i, j, lag), separate.divided(i, j, lag), 1e-12);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace core
