@@ -24,6 +24,8 @@ constexpr double kWindow = 0.2, kLateStart = 0.4;
 // forgotten themselves often enough over the record are examined: the decay of the others scatters too much to tell.
 constexpr double kMostLineDamping = 0.005, kSurelySmallDamping = 0.001;
 constexpr double kLeastForgotten = 60.0;  // 2 pi zeta f T
+// Shorter lags than it takes the least damped of structures to lose a fifth cannot tell one from a steady line.
+constexpr double kLeastModeDamping = 0.001, kLeastLoss = 0.2;
 constexpr int kDifferences = 1;  // against the hover's drift
 
 std::vector<Complex> delays_undone(const std::vector<Complex>& observed, double frequency_hz,
@@ -109,10 +111,12 @@ std::optional<double> LineExaminer::late_damping(const std::vector<Complex>& obs
   const int n_lags = static_cast<int>(kWindow * segment), late = static_cast<int>(kLateStart * segment);
   if (!status_) status_ = compute_correlations(sums_, late + n_lags, kDifferences, correlations_);
   if (*status_ != CorrelationStatus::kOk || correlations_.max_lag() < late + n_lags - 1 || n_lags < 2) return {};
+  const double apart_s = late / sums_.rate_hz;
+  // What a mode of the least damping that structures have would lose by then.
+  if (kTwoPi * frequency_hz(pole.s) * apart_s * kLeastModeDamping < kLeastLoss) return {};
   const double first = envelope(observed, pole.apparent_hz, 0, n_lags);
   const double last = envelope(observed, pole.apparent_hz, late, n_lags);
   if (!(first > 0.0 && last > 0.0)) return {};
-  const double apart_s = late / sums_.rate_hz;
   return std::log(first / last) / (kTwoPi * frequency_hz(pole.s) * apart_s);
 }
 
