@@ -25,7 +25,7 @@ std::string drift_sentence(const core::ModalEstimate& estimate) {
 
 // What each mode's history says, for people.
 std::string followed_table(const PictureInputs& inputs) {
-  HtmlTable table({"Mode", "Frequency", "Found in", "Since", "Trend", "More hover for damping to 10 %"});
+  HtmlTable table({"Mode", "Frequency", "Found in", "Since", "Trend", "Still wanted"});
   for (std::size_t i = 0; i < inputs.estimate->modes.size(); ++i) {
     const core::Mode& mode = inputs.estimate->modes[i];
     if (!mode.history) continue;
@@ -62,6 +62,7 @@ std::string convergence_section(const PictureInputs& inputs) {
                                     "found no mode twice."));
   }
   std::string body = paragraph_html(drift_sentence(*inputs.estimate)) + followed_table(inputs);
+  body += paragraph_html("Still wanted: how much longer a record makes the damping good to 10 %.", "note");
   body +=
       "<h3>Frequency</h3>\n" +
       figure_html(frequency, frequency_convergence_svg(inputs, kNarrowFormat), {},
