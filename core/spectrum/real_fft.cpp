@@ -22,29 +22,39 @@ struct Points {
   const double *re, *im;
 };
 
-// `count` butterflies with one set of twiddles: in at +0, +quarter, +2 quarter, +3 quarter; out at +0, +count, ...
+// exp(-2 pi i p / n) for one p, its square and its cube.
+struct Twiddles {
+  double w1r, w1i, w2r, w2i, w3r, w3i;
+
+  Twiddles(const double* w, int n) : w1r(w[0]), w1i(w[n]), w2r(w[2 * n]), w2i(w[3 * n]), w3r(w[4 * n]), w3i(w[5 * n]) {}
+};
+
+// In at +0, +quarter, +2 quarter, +3 quarter; out at +0, +step, +2 step, +3 step.
+[[gnu::always_inline]] inline void butterfly(const double* __restrict fr, const double* __restrict fi,
+                                             double* __restrict tr, double* __restrict ti, int quarter, int step,
+                                             const Twiddles& w) {
+  const double sum_r = fr[0] + fr[2 * quarter], sum_i = fi[0] + fi[2 * quarter];
+  const double off_r = fr[0] - fr[2 * quarter], off_i = fi[0] - fi[2 * quarter];
+  const double odd_r = fr[quarter] + fr[3 * quarter], odd_i = fi[quarter] + fi[3 * quarter];
+  const double turn_r = fr[quarter] - fr[3 * quarter], turn_i = fi[quarter] - fi[3 * quarter];
+  const double ar = off_r + turn_i, ai = off_i - turn_r;
+  const double br = sum_r - odd_r, bi = sum_i - odd_i;
+  const double cr = off_r - turn_i, ci = off_i + turn_r;
+  tr[0] = sum_r + odd_r;
+  ti[0] = sum_i + odd_i;
+  tr[step] = w.w1r * ar - w.w1i * ai;
+  ti[step] = w.w1r * ai + w.w1i * ar;
+  tr[2 * step] = w.w2r * br - w.w2i * bi;
+  ti[2 * step] = w.w2r * bi + w.w2i * br;
+  tr[3 * step] = w.w3r * cr - w.w3i * ci;
+  ti[3 * step] = w.w3r * ci + w.w3i * cr;
+}
+
+// `count` neighbours with one set of twiddles.
 [[gnu::always_inline]] inline void butterflies(const double* __restrict fr, const double* __restrict fi,
                                                double* __restrict tr, double* __restrict ti, int quarter, int count,
-                                               const double* w, int n_twiddles) {
-  const double w1r = w[0], w1i = w[n_twiddles], w2r = w[2 * n_twiddles], w2i = w[3 * n_twiddles];
-  const double w3r = w[4 * n_twiddles], w3i = w[5 * n_twiddles];
-  for (int q = 0; q < count; ++q) {
-    const double sum_r = fr[q] + fr[q + 2 * quarter], sum_i = fi[q] + fi[q + 2 * quarter];
-    const double off_r = fr[q] - fr[q + 2 * quarter], off_i = fi[q] - fi[q + 2 * quarter];
-    const double odd_r = fr[q + quarter] + fr[q + 3 * quarter], odd_i = fi[q + quarter] + fi[q + 3 * quarter];
-    const double turn_r = fr[q + quarter] - fr[q + 3 * quarter], turn_i = fi[q + quarter] - fi[q + 3 * quarter];
-    const double ar = off_r + turn_i, ai = off_i - turn_r;
-    const double br = sum_r - odd_r, bi = sum_i - odd_i;
-    const double cr = off_r - turn_i, ci = off_i + turn_r;
-    tr[q] = sum_r + odd_r;
-    ti[q] = sum_i + odd_i;
-    tr[q + count] = w1r * ar - w1i * ai;
-    ti[q + count] = w1r * ai + w1i * ar;
-    tr[q + 2 * count] = w2r * br - w2i * bi;
-    ti[q + 2 * count] = w2r * bi + w2i * br;
-    tr[q + 3 * count] = w3r * cr - w3i * ci;
-    ti[q + 3 * count] = w3r * ci + w3i * cr;
-  }
+                                               const Twiddles& w) {
+  for (int q = 0; q < count; ++q) butterfly(fr + q, fi + q, tr + q, ti + q, quarter, count, w);
 }
 
 }  // namespace
@@ -56,23 +66,7 @@ HOVERMODAL_VECTOR_CLONES
 void first_pass(const double* __restrict fr, const double* __restrict fi, double* __restrict tr, double* __restrict ti,
                 int quarter, const double* __restrict w) {
   for (int p = 0; p < quarter; ++p) {
-    const double sum_r = fr[p] + fr[p + 2 * quarter], sum_i = fi[p] + fi[p + 2 * quarter];
-    const double off_r = fr[p] - fr[p + 2 * quarter], off_i = fi[p] - fi[p + 2 * quarter];
-    const double odd_r = fr[p + quarter] + fr[p + 3 * quarter], odd_i = fi[p + quarter] + fi[p + 3 * quarter];
-    const double turn_r = fr[p + quarter] - fr[p + 3 * quarter], turn_i = fi[p + quarter] - fi[p + 3 * quarter];
-    const double ar = off_r + turn_i, ai = off_i - turn_r;
-    const double br = sum_r - odd_r, bi = sum_i - odd_i;
-    const double cr = off_r - turn_i, ci = off_i + turn_r;
-    const double w1r = w[p], w1i = w[p + quarter], w2r = w[p + 2 * quarter], w2i = w[p + 3 * quarter];
-    const double w3r = w[p + 4 * quarter], w3i = w[p + 5 * quarter];
-    tr[4 * p] = sum_r + odd_r;
-    ti[4 * p] = sum_i + odd_i;
-    tr[4 * p + 1] = w1r * ar - w1i * ai;
-    ti[4 * p + 1] = w1r * ai + w1i * ar;
-    tr[4 * p + 2] = w2r * br - w2i * bi;
-    ti[4 * p + 2] = w2r * bi + w2i * br;
-    tr[4 * p + 3] = w3r * cr - w3i * ci;
-    ti[4 * p + 3] = w3r * ci + w3i * cr;
+    butterfly(fr + p, fi + p, tr + 4 * p, ti + 4 * p, quarter, 1, Twiddles(w + p, quarter));
   }
 }
 
@@ -82,10 +76,11 @@ void pass_of_four(const double* __restrict fr, const double* __restrict fi, doub
   const int quarter = n_butterflies * stride;
   for (int p = 0; p < n_butterflies; ++p) {
     const int from = p * stride, to = 4 * p * stride;
+    const Twiddles twiddles(w + p, n_butterflies);
     if (stride == 4) {
-      butterflies(fr + from, fi + from, tr + to, ti + to, quarter, 4, w + p, n_butterflies);
+      butterflies(fr + from, fi + from, tr + to, ti + to, quarter, 4, twiddles);
     } else {
-      butterflies(fr + from, fi + from, tr + to, ti + to, quarter, stride, w + p, n_butterflies);
+      butterflies(fr + from, fi + from, tr + to, ti + to, quarter, stride, twiddles);
     }
   }
 }

@@ -2,24 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <random>
+#include <limits>
+
+#include "tests/support/noise_matrix.h"
 
 namespace core {
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-MatrixXd noise(Index rows, Index columns, unsigned seed) {
-  std::mt19937 random(seed);
-  std::normal_distribution<double> gaussian;
-  return MatrixXd::NullaryExpr(rows, columns, [&] { return gaussian(random); });
-}
+using test_support::noise_matrix;
 
 TEST(Dense, ProductsAddToWhatIsThere) {
   for (const Index n : {1, 2, 3, 31, 97, 130}) {
-    const MatrixXd a = noise(n, n + 5, 1), b = noise(n + 5, 7, 2), before = noise(n, 7, 3);
+    const MatrixXd a = noise_matrix(n, n + 5, 1), b = noise_matrix(n + 5, 7, 2), before = noise_matrix(n, 7, 3);
     MatrixXd c = before;
     add_product(c, -2.0, a, b);
     EXPECT_LT((c - (before - 2.0 * a * b)).cwiseAbs().maxCoeff(), 1e-12 * static_cast<double>(n + 10)) << n;
@@ -30,7 +26,7 @@ TEST(Dense, ProductsAddToWhatIsThere) {
 
 TEST(Dense, ProductsOfBlocksLeaveTheRestAlone) {
   MatrixXd c = MatrixXd::Constant(9, 9, 5.0);
-  const MatrixXd a = noise(4, 3, 1), b = noise(3, 5, 2);
+  const MatrixXd a = noise_matrix(4, 3, 1), b = noise_matrix(3, 5, 2);
   add_product(c.block(2, 1, 4, 5), 1.0, a, b);
   MatrixXd expected = MatrixXd::Constant(9, 9, 5.0);
   expected.block(2, 1, 4, 5) += a * b;
@@ -39,7 +35,7 @@ TEST(Dense, ProductsOfBlocksLeaveTheRestAlone) {
 
 TEST(Dense, FactorsAndDividesTheRowsBelow) {
   for (const Index n : {1, 5, 8, 9, 70}) {
-    const MatrixXd root = noise(n, n + 3, 4), below = noise(6, n, 5);
+    const MatrixXd root = noise_matrix(n, n + 3, 4), below = noise_matrix(6, n, 5);
     const MatrixXd covariance = root * root.transpose();
     MatrixXd m(n + 6, n);
     m << covariance, below;

@@ -4,9 +4,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <random>
 
 #include "core/identification/mac.h"
+#include "tests/support/noise_matrix.h"
 
 namespace core {
 namespace {
@@ -14,12 +14,7 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-MatrixXd noise(Index rows, Index columns, unsigned seed) {
-  std::mt19937 random(seed);
-  std::normal_distribution<double> gaussian;
-  return MatrixXd::NullaryExpr(rows, columns, [&] { return gaussian(random); });
-}
+using test_support::noise_matrix;
 
 std::vector<Complex> column(const Eigen::MatrixXcd& m, Index k) { return {m.col(k).begin(), m.col(k).end()}; }
 
@@ -48,7 +43,8 @@ void expect_as_eigen(const MatrixXd& a, const MatrixXd& c) {
 
 TEST(RealEigen, FindsWhatEigenFinds) {
   for (const Index n : {1, 2, 3, 4, 5, 12, 37, 60}) {
-    for (unsigned seed = 1; seed <= 5; ++seed) expect_as_eigen(noise(n, n, seed), noise(4, n, seed + 100));
+    for (unsigned seed = 1; seed <= 5; ++seed)
+      expect_as_eigen(noise_matrix(n, n, seed), noise_matrix(4, n, seed + 100));
   }
 }
 
@@ -58,11 +54,11 @@ TEST(RealEigen, MatricesThatFallApart) {
     const double angle = 0.3 + 0.4 * static_cast<double>(k);
     blocks.block(2 * k, 2 * k, 2, 2) << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
   }
-  expect_as_eigen(blocks, noise(3, 6, 1));
-  expect_as_eigen(MatrixXd::Zero(5, 5), noise(3, 5, 1));
+  expect_as_eigen(blocks, noise_matrix(3, 6, 1));
+  expect_as_eigen(MatrixXd::Zero(5, 5), noise_matrix(3, 5, 1));
   MatrixXd cyclic = MatrixXd::Zero(8, 8);  // plain QR does not converge on it
   for (Index k = 0; k < 8; ++k) cyclic((k + 1) % 8, k) = 1.0;
-  expect_as_eigen(cyclic, noise(3, 8, 2));
+  expect_as_eigen(cyclic, noise_matrix(3, 8, 2));
 }
 
 }  // namespace
