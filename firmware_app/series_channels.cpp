@@ -14,6 +14,7 @@ namespace {
 
 // Relative to the largest value: what rounding leaves of a constant.
 constexpr double kLeastMotion = 1e-12;
+constexpr double kLargestMotion = 1e50;  // its fourth power still is a number
 // 1 - |correlation| of a channel and its copy in other digits.
 constexpr double kLeastDifference = 1e-9;
 
@@ -37,9 +38,7 @@ Moments moments_of(const std::vector<double>& values) {
   return m;
 }
 
-bool stands_still(const Moments& m) {
-  return !(m.sum_of_squares > kLeastMotion * kLeastMotion * m.largest * m.largest * m.count);
-}
+bool stands_still(const Moments& m) { return !(std::sqrt(m.sum_of_squares / m.count) > kLeastMotion * m.largest); }
 
 bool is_copy(const std::vector<double>& a, const Moments& of_a, const std::vector<double>& b, const Moments& of_b) {
   double cross = 0.0;
@@ -56,7 +55,9 @@ std::string reason_to_leave_out(const ChannelSeries& series, const std::vector<M
                                 const std::vector<std::size_t>& kept, std::size_t c) {
   if (moments[c].count == 0.0) return "it has no sample";
   if (stands_still(moments[c])) return fmt::format("it is constant ({:g})", moments[c].mean);
-  if (!std::isfinite(moments[c].sum_of_squares)) return "its values are too large to be squared";
+  const double rms = std::sqrt(moments[c].sum_of_squares / moments[c].count);
+  if (!(rms < kLargestMotion && rms > 1.0 / kLargestMotion))
+    return fmt::format("an rms of {:.3g} is beyond any unit of motion", rms);
   for (const std::size_t k : kept) {
     if (is_copy(series.value[k], moments[k], series.value[c], moments[c]))
       return fmt::format("it is a copy or a multiple of {}", series.channels[k].name);

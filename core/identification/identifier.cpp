@@ -151,6 +151,7 @@ ModalEstimate Identifier::identify(const CpsdSums& sums) const {
   rules.min_mpc = config_.min_mpc;
   rules.max_damping = config_.max_damping;
   rules.max_apparent_hz = config_.edge_hz;
+  rules.last_first_i_order = fit.last_first_i_order;
   std::vector<Mode> modes;
   LineExaminer examiner(sums, folding);
   for (const PoleCluster& line : lines) {

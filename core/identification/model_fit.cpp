@@ -23,6 +23,8 @@ constexpr double kSamplesPerRow = 16.0;
 constexpr double kLeastOrderGap = 1.3;
 constexpr int kUnclearBlockRows = 20;
 constexpr double kUnclearThreshold = 0.7;
+// With fewer channels any pole is collinear, and only the strict rule of the first order keeps noise out.
+constexpr std::size_t kLeastChannelsForMpc = 3;
 
 bool order_is_clear(const Realisation& realisation, int order, int block_rows) {
   if (2 * order <= block_rows) return true;
@@ -104,6 +106,8 @@ std::string fit_model(const CpsdSums& sums, const IdentifierConfig& config, cons
   if (era_status != EraStatus::kOk) {
     return "the correlations carry no system: nothing moves, or the segment is too short";
   }
+  out.last_first_i_order = channels.size() < kLeastChannelsForMpc ? 0 : 1;
+  if (out.order == 0) out.last_first_i_order = -1;
   out.order = std::max(2, out.order);
   return "ok";
 }

@@ -20,6 +20,7 @@ struct ModelFit {
   int order = 0;  // the lowest of the stabilisation diagram
   // Do the canonical correlations fall off there? Where they do not, the input is coloured or not stationary.
   bool order_is_clear = false;
+  int last_first_i_order = 1;  // VerdictRules; -1 = no canonical correlation reaches one half: nothing is a mode
 };
 
 // Chooses references, block rows and order where the configuration leaves them open. "ok", or why there is no model.

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -108,6 +109,38 @@ TEST(IdentifySeries, TheScaleOfTheValuesDoesNotMatter) {
       for (double& value : values) value *= scale;
     }
     expect_both_modes(identify_series(series, up_to(0.0)));
+  }
+}
+
+TEST(IdentifySeries, WildOrdersOfMagnitudeAreLeftOut) {
+  ChannelSeries series = two_modes(20.0, 300.0);
+  for (const double scale : {1e80, 1e-80, 1e200, 1e-200, 1e30}) {
+    series.channels.emplace_back().name = fmt::format("times {:g}", scale);
+    series.value.push_back(series.value[0]);
+    for (std::size_t t = 0; t < series.value.back().size(); ++t)
+      series.value.back()[t] = scale * (series.value.back()[t] + 0.3 * series.value[1][t]);
+  }
+  const SeriesResult result = identify_series(series, up_to(0.0));
+  EXPECT_EQ(result.channels.size(), 4U);
+  expect_both_modes(result);
+  for (const core::Mode& mode : result.estimate.rejected) EXPECT_TRUE(std::isfinite(mode.mpc));
+  EXPECT_THAT(result.remarks, Contains(HasSubstr("times 1e+80 is left out")));
+}
+
+TEST(IdentifySeries, WhiteNoiseOfOneOrTwoChannelsHasNoMode) {
+  for (const std::size_t n_channels : {1U, 2U}) {
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+      std::mt19937_64 random(seed);
+      std::normal_distribution<double> gaussian;
+      ChannelSeries series;
+      series.rate_hz = 20.0;
+      series.channels.resize(n_channels);
+      series.value.assign(n_channels, std::vector<double>(6000));
+      for (auto& values : series.value) {
+        for (double& value : values) value = gaussian(random);
+      }
+      EXPECT_TRUE(identify_series(series, up_to(0.0)).estimate.modes.empty()) << n_channels << " " << seed;
+    }
   }
 }
 

@@ -98,7 +98,6 @@ class Identify : public testing::Test {
     return nlohmann::json::parse(std::ifstream(folder_ / name));
   }
   [[nodiscard]] std::string out() const { return " --report " + (folder_ / "out").string(); }
-  // The mode nearest to a frequency.
   static nlohmann::json nearest(const nlohmann::json& json, double frequency_hz) {
     nlohmann::json best;
     for (const auto& mode : json.at("modes")) {
@@ -117,7 +116,6 @@ class Identify : public testing::Test {
 
   fs::path folder_;
 };
-
 TEST_F(Identify, HelpTeachesWithExamples) {
   const Outcome outcome = identify("--help");
   EXPECT_EQ(outcome.exit_code, 0);
@@ -267,7 +265,6 @@ TEST_F(Identify, BadInputIsRefusedByNameOrStated) {
   refused("a,b\n1,1\n1,1\n1,1\n", "--rate 20", "no channel is left");
   EXPECT_EQ(identify("--series " + (folder_ / "none.csv").string() + " --rate 20").exit_code, 1);
   EXPECT_EQ(identify("--series x --rate -3").exit_code, 2);
-  EXPECT_EQ(identify("--series x --quantity q").exit_code, 1);  // no such file comes first
   EXPECT_EQ(identify("").exit_code, 2);
 
   // Stated, not fatal.
