@@ -106,18 +106,19 @@ double LineExaminer::envelope(const std::vector<Complex>& observed, double appar
   return std::abs(sum);
 }
 
-std::optional<double> LineExaminer::late_damping(const std::vector<Complex>& observed, const UnfoldedPole& pole) {
+void LineExaminer::find_late_decay(const std::vector<Complex>& observed, const UnfoldedPole& pole, LineEvidence& out) {
   const double segment = 0.5 * sums_.n_fft;
   const int n_lags = static_cast<int>(kWindow * segment), late = static_cast<int>(kLateStart * segment);
   if (!status_) status_ = compute_correlations(sums_, late + n_lags, kDifferences, correlations_);
-  if (*status_ != CorrelationStatus::kOk || correlations_.max_lag() < late + n_lags - 1 || n_lags < 2) return {};
+  if (*status_ != CorrelationStatus::kOk || correlations_.max_lag() < late + n_lags - 1 || n_lags < 2) return;
   const double apart_s = late / sums_.rate_hz;
   // What a mode of the least damping that structures have would lose by then.
-  if (kTwoPi * frequency_hz(pole.s) * apart_s * kLeastModeDamping < kLeastLoss) return {};
+  if (kTwoPi * frequency_hz(pole.s) * apart_s * kLeastModeDamping < kLeastLoss) return;
   const double first = envelope(observed, pole.apparent_hz, 0, n_lags);
   const double last = envelope(observed, pole.apparent_hz, late, n_lags);
-  if (!(first > 0.0 && last > 0.0)) return {};
-  return std::log(first / last) / (kTwoPi * frequency_hz(pole.s) * apart_s);
+  if (!(first > 0.0 && last > 0.0)) return;
+  out.late_loss = std::log(first / last);
+  out.late_damping_ratio = out.late_loss / (kTwoPi * frequency_hz(pole.s) * apart_s);
 }
 
 LineEvidence LineExaminer::examine(const UnfoldedPole& pole) {
@@ -127,7 +128,7 @@ LineEvidence LineExaminer::examine(const UnfoldedPole& pole) {
   const double damping = damping_ratio(pole.s), duration_s = static_cast<double>(sums_.n_samples) / sums_.rate_hz;
   const double forgotten = kTwoPi * damping * frequency_hz(pole.s) * duration_s;
   const bool can_tell = damping < kSurelySmallDamping || forgotten > kLeastForgotten;
-  if (can_tell && damping < kMostLineDamping) evidence.late_damping_ratio = late_damping(observed, pole);
+  if (can_tell && damping < kMostLineDamping) find_late_decay(observed, pole, evidence);
   return evidence;
 }
 

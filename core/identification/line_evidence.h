@@ -21,6 +21,7 @@ struct LineEvidence {
   // Damping ratio by which the correlation decays from a tenth to half of a segment, where modes are spent and a steady
   // force goes on. Empty: damped too much, too slow to tell in this record, or no correlation that far.
   std::optional<double> late_damping_ratio;
+  double late_loss = 0.0;  // logarithm of what the correlation lost over those lags
 };
 
 // Of one spectrum; keeps references to its arguments. One thread.
@@ -32,8 +33,7 @@ class LineExaminer {
 
  private:
   void find_camera(const std::vector<std::complex<double>>& observed, double apparent_hz, LineEvidence& out) const;
-  [[nodiscard]] std::optional<double> late_damping(const std::vector<std::complex<double>>& observed,
-                                                   const UnfoldedPole& pole);
+  void find_late_decay(const std::vector<std::complex<double>>& observed, const UnfoldedPole& pole, LineEvidence& out);
   [[nodiscard]] double envelope(const std::vector<std::complex<double>>& observed, double apparent_hz, int first_lag,
                                 int n_lags) const;
 
