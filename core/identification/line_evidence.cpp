@@ -106,7 +106,7 @@ double LineExaminer::envelope(const std::vector<Complex>& observed, double appar
   return std::abs(sum);
 }
 
-void LineExaminer::find_late_decay(const std::vector<Complex>& observed, const UnfoldedPole& pole, LineEvidence& out) {
+void LineExaminer::find_decay(const std::vector<Complex>& observed, const UnfoldedPole& pole, LineEvidence& out) {
   const double segment = 0.5 * sums_.n_fft;
   const int n_lags = static_cast<int>(kWindow * segment), late = static_cast<int>(kLateStart * segment);
   if (!status_) status_ = compute_correlations(sums_, late + n_lags, kDifferences, correlations_);
@@ -117,8 +117,8 @@ void LineExaminer::find_late_decay(const std::vector<Complex>& observed, const U
   const double first = envelope(observed, pole.apparent_hz, 0, n_lags);
   const double last = envelope(observed, pole.apparent_hz, late, n_lags);
   if (!(first > 0.0 && last > 0.0)) return;
-  out.late_loss = std::log(first / last);
-  out.late_damping_ratio = out.late_loss / (kTwoPi * frequency_hz(pole.s) * apart_s);
+  out.late_share = last / first;
+  out.late_damping_ratio = -std::log(out.late_share) / (kTwoPi * frequency_hz(pole.s) * apart_s);
 }
 
 LineEvidence LineExaminer::examine(const UnfoldedPole& pole) {
@@ -128,7 +128,7 @@ LineEvidence LineExaminer::examine(const UnfoldedPole& pole) {
   const double damping = damping_ratio(pole.s), duration_s = static_cast<double>(sums_.n_samples) / sums_.rate_hz;
   const double forgotten = kTwoPi * damping * frequency_hz(pole.s) * duration_s;
   const bool can_tell = damping < kSurelySmallDamping || forgotten > kLeastForgotten;
-  if (can_tell && damping < kMostLineDamping) find_late_decay(observed, pole, evidence);
+  if (can_tell && damping < kMostLineDamping) find_decay(observed, pole, evidence);
   return evidence;
 }
 

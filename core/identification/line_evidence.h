@@ -21,7 +21,8 @@ struct LineEvidence {
   // Damping ratio by which the correlation decays from a tenth to half of a segment, where modes are spent and a steady
   // force goes on. Empty: damped too much, too slow to tell in this record, or no correlation that far.
   std::optional<double> late_damping_ratio;
-  double late_loss = 0.0;  // logarithm of what the correlation lost over those lags
+  // What is left of the correlation by then, 0..1 and scatter: of a mode that has decayed, the scatter of its estimate.
+  double late_share = 0.0;
 };
 
 // Of one spectrum; keeps references to its arguments. One thread.
@@ -33,7 +34,7 @@ class LineExaminer {
 
  private:
   void find_camera(const std::vector<std::complex<double>>& observed, double apparent_hz, LineEvidence& out) const;
-  void find_late_decay(const std::vector<std::complex<double>>& observed, const UnfoldedPole& pole, LineEvidence& out);
+  void find_decay(const std::vector<std::complex<double>>& observed, const UnfoldedPole& pole, LineEvidence& out);
   [[nodiscard]] double envelope(const std::vector<std::complex<double>>& observed, double apparent_hz, int first_lag,
                                 int n_lags) const;
 

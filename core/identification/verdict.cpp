@@ -84,8 +84,8 @@ void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response
   } else if (cluster.presence < rules.min_presence || cluster.first_i_order > rules.last_first_i_order) {
     set(mode, Verdict::kNumerical,
         text("found in %.0f %% of the orders, first at order %d", 100.0 * cluster.presence, first_order));
-  } else if (line.late_damping_ratio && line.late_loss < rules.max_late_loss &&
-             *line.late_damping_ratio < rules.max_late_damping) {
+  } else if (line.late_damping_ratio && *line.late_damping_ratio < rules.max_late_damping &&
+             line.late_share > rules.min_late_share) {
     set(mode, Verdict::kHarmonic,
         text("a steady force: damping %.3f %%, and its correlation goes on as if it had %.3f %%",
              100.0 * mode.damping_ratio, 100.0 * *line.late_damping_ratio));

@@ -21,9 +21,9 @@ struct VerdictRules {
   double open_base_share = 0.3;     // up to here a clear answer of the structure to its base decides
   double least_base_gain = 3.0;     // ... of at least this gain, and a local maximum
   double max_uniform_mac = 0.98;    // MAC with all channels moving alike: the camera's own translation
-  double min_camera_mac = 0.98;     // with a shaking camera, at a frequency where no mode is expected
-  double max_late_loss = 0.15;      // of a steady force: it goes on
+  double min_camera_mac = 0.95;     // with a shaking camera, at a frequency where no mode is expected
   double max_late_damping = 0.001;  // of a steady force, over the longest lags that a segment has
+  double min_late_share = 0.86;     // ... and so much of the correlation must be left there: it goes on
   double least_certain_mpc = 0.85;  // a folded frequency is certain from here on ...
   double least_fold_margin = 0.3;   // ... and with this lead over the next hypothesis
 };

@@ -60,6 +60,7 @@ TEST(LineEvidence, ASteadyLineDoesNotDecay) {
   const LineEvidence line = LineExaminer(sums, folding).examine(pole_at(4.0, 0.0005, kPlain));
   ASSERT_TRUE(line.late_damping_ratio.has_value());
   EXPECT_LT(std::abs(*line.late_damping_ratio), 2e-4);
+  EXPECT_GT(line.late_share, 0.9);
 }
 
 TEST(LineEvidence, AModeDecaysAsMuchAsItIsDamped) {
@@ -67,7 +68,7 @@ TEST(LineEvidence, AModeDecaysAsMuchAsItIsDamped) {
   const CpsdSums sums = record(5.0, 0.004, false);
   const LineEvidence mode = LineExaminer(sums, folding).examine(pole_at(5.0, 0.004, kPlain));
   ASSERT_TRUE(mode.late_damping_ratio.has_value());
-  EXPECT_GT(*mode.late_damping_ratio, 0.002);
+  EXPECT_LT(mode.late_share, 0.4);
 }
 
 // A fifth of a lost 0.1 % takes 32 cycles: the lags of a segment hold fewer of a slow line.
@@ -115,7 +116,7 @@ TEST(LineEvidence, AModeOfTheStructureIsNoShakingCamera) {
   for (const double readout : {0.05, 0.3, 0.66, 0.9}) {
     const FoldingConfig folding = rows(readout);
     for (const auto& shape : {kPlain, sway}) {
-      EXPECT_LT(LineExaminer(sums, folding).examine(pole_at(1.7, 0.01, shape)).camera_mac, 0.98) << readout;
+      EXPECT_LT(LineExaminer(sums, folding).examine(pole_at(1.7, 0.01, shape)).camera_mac, 0.95) << readout;
     }
   }
 }

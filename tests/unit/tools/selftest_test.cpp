@@ -49,4 +49,24 @@ TEST(Selftest, OpenCvFindsTheDrawnPointsWhereTheTracksAre) {
   EXPECT_EQ(n_scenes, 3);
 }
 
+int count_lines(const std::string& text, const std::string& start) {
+  std::istringstream lines(text);
+  int n = 0;
+  for (std::string line; std::getline(lines, line);) n += line.rfind(start, 0) == 0 ? 1 : 0;
+  return n;
+}
+
+TEST(Selftest, SaysTheSameOfTheIdentificationOnAnyNumberOfThreads) {
+  const std::string text = selftest("bias --seeds 3 --threads 1");
+  EXPECT_EQ(text, selftest("bias --seeds 3 --threads 3"));
+  EXPECT_EQ(count_lines(text, "bias\tcorrected\t"), 6) << text;
+  EXPECT_EQ(count_lines(text, "bias\tuncorrected\t"), 6) << text;
+  EXPECT_EQ(count_lines(text, "bias-all\tcorrected\t3\t0\t"), 1) << "three records, no false mode\n" << text;
+}
+
+TEST(Selftest, JudgesLossesAndRigidBuildings) {
+  EXPECT_EQ(count_lines(selftest("losses --seeds 1"), "losses\t"), 48);
+  EXPECT_EQ(count_lines(selftest("null --seeds 1"), "null\tfloors\t1\t0\t0\t"), 1) << "no mode in a rigid building";
+}
+
 }  // namespace
