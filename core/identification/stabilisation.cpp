@@ -86,23 +86,6 @@ std::vector<std::size_t> of_commonest_fold(const std::vector<OrderPole>& poles,
       ->second;
 }
 
-// Mean of shapes of any phase, turned onto the first; scatter between the orders averages out.
-std::vector<std::complex<double>> mean_shape(const std::vector<OrderPole>& poles,
-                                             const std::vector<std::size_t>& members,
-                                             const std::vector<std::complex<double>>& like) {
-  std::vector<std::complex<double>> mean(like.size());
-  for (const std::size_t m : members) {
-    const std::vector<std::complex<double>>& shape = poles[m].pole.shape;
-    std::complex<double> inner = 0.0;
-    double norm = 0.0;
-    for (std::size_t c = 0; c < shape.size(); ++c) inner += std::conj(shape[c]) * like[c], norm += std::norm(shape[c]);
-    if (!(norm > 0.0)) continue;
-    for (std::size_t c = 0; c < shape.size(); ++c) mean[c] += shape[c] * inner / norm;
-  }
-  normalise_shape(mean);
-  return mean;
-}
-
 PoleCluster summarise(const std::vector<OrderPole>& poles, const std::vector<std::size_t>& members, int n_orders) {
   std::vector<double> frequencies, apparents, dampings;
   std::set<int> orders;
@@ -130,8 +113,6 @@ PoleCluster summarise(const std::vector<OrderPole>& poles, const std::vector<std
       std::min_element(agreeing.begin(), agreeing.end(), [&](auto a, auto b) { return off(a) < off(b); });
   cluster.i_representative = *nearest;
   cluster.representative = poles[*nearest].pole;
-  cluster.representative.shape = mean_shape(poles, agreeing, cluster.representative.shape);
-  cluster.representative.mpc = mpc(cluster.representative.shape);
   return cluster;
 }
 
