@@ -25,7 +25,8 @@ constexpr double kWindow = 0.2, kLateStart = 0.4;
 constexpr double kMostLineDamping = 0.005, kSurelySmallDamping = 0.001;
 constexpr double kLeastForgotten = 60.0;  // 2 pi zeta f T
 // Shorter lags than it takes the least damped of structures to lose a fifth cannot tell one from a steady line.
-constexpr double kLeastModeDamping = 0.001, kLeastLoss = 0.2;
+// Nor can a record over which it would hardly have been excited anew: a free decay looks steady, too.
+constexpr double kLeastModeDamping = 0.001, kLeastLoss = 0.2, kLeastRenewals = 10.0;
 constexpr int kDifferences = 1;  // against the hover's drift
 
 std::vector<Complex> delays_undone(const std::vector<Complex>& observed, double frequency_hz,
@@ -127,7 +128,8 @@ LineEvidence LineExaminer::examine(const UnfoldedPole& pole) {
   find_camera(observed, pole.apparent_hz, evidence);
   const double damping = damping_ratio(pole.s), duration_s = static_cast<double>(sums_.n_samples) / sums_.rate_hz;
   const double forgotten = kTwoPi * damping * frequency_hz(pole.s) * duration_s;
-  const bool can_tell = damping < kSurelySmallDamping || forgotten > kLeastForgotten;
+  const double renewals = kTwoPi * kLeastModeDamping * frequency_hz(pole.s) * duration_s;
+  const bool can_tell = renewals > kLeastRenewals && (damping < kSurelySmallDamping || forgotten > kLeastForgotten);
   if (can_tell && damping < kMostLineDamping) find_decay(observed, pole, evidence);
   return evidence;
 }
