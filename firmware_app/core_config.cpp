@@ -70,7 +70,9 @@ core::ChannelDisplacementConfig displacement_config(const AppConfig& config, con
 
 core::WelchConfig welch_config(const SpectrumConfig& spectrum, std::size_t n_channels, double rate_hz) {
   const core::WindowKind window = core::window_kind(spectrum.window).value_or(core::WindowKind::kHann);
-  return {static_cast<int>(n_channels), spectrum.segment, spectrum.overlap, window, rate_hz};
+  core::WelchConfig out{static_cast<int>(n_channels), spectrum.segment, spectrum.overlap, window, rate_hz};
+  out.bridge_losses = true;
+  return out;
 }
 
 core::IdentifierConfig identifier_config(const AppConfig& config, const std::vector<core::ChannelInfo>& channels,

@@ -22,7 +22,7 @@ struct IdentifyOptions {
   SeriesRequest request;
   std::vector<std::string> references;
   int segment = 0;
-  int n_differences = -1;  // -1 = by the quantities
+  int n_differences = -1;  // -1 = automatic
   core::IdentifierConfig identifier;
   bool merge = false;
   std::string report;
@@ -41,10 +41,6 @@ constexpr const char* kHelp =
     "A file: one row per sample; names on the first line, or none; comma, semicolon, tab or blanks between cells;\n"
     "empty cells are missing samples; a column t_s (seconds) or frame shows gaps; # lines are comments.";
 
-int default_differences(const std::vector<core::ChannelInfo>& channels) {
-  return std::any_of(channels.begin(), channels.end(), [](const auto& c) { return c.n_integrations == 0; }) ? 1 : 0;
-}
-
 SeriesFindings identify_file(const IdentifyOptions& options, const std::string& path, const std::string& report) {
   LoadedSeries loaded = load_series(path, options.request);
   SeriesFindings findings;
@@ -52,8 +48,7 @@ SeriesFindings identify_file(const IdentifyOptions& options, const std::string& 
   app::SeriesOptions series;
   series.spectrum.segment = options.segment;
   series.identifier = options.identifier;
-  series.identifier.n_differences =
-      options.n_differences >= 0 ? options.n_differences : default_differences(loaded.series.channels);
+  series.identifier.n_differences = options.n_differences;
   for (const std::string& reference : options.references) {
     const int channel = channel_index(loaded, reference, path);
     findings.references.push_back(loaded.series.channels[static_cast<std::size_t>(channel)].name);
