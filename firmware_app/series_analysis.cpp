@@ -75,11 +75,23 @@ void require_samples(const ChannelSeries& series, int segment) {
                   segment / series.rate_hz, series.rate_hz));
 }
 
+double wanted_segment_s(const core::Mode& mode) {
+  return kLeastSegmentDecays / (std::max(mode.damping_ratio, 1e-9) * 2.0 * std::numbers::pi * mode.frequency_hz);
+}
+
+// Where nobody chose the segment: is it far too short for the lowest mode, and would twice as long still fit?
+bool should_double(const SeriesResult& result, std::size_t n_samples) {
+  constexpr double kMostOfTheRecord = 0.7;
+  if (result.estimate.modes.empty()) return false;
+  const double segment_s = result.segment / result.estimate.rate_hz;
+  return 2.0 * segment_s < wanted_segment_s(result.estimate.modes.front()) &&
+         2.0 * result.segment < kMostOfTheRecord * static_cast<double>(n_samples);
+}
+
 void remark_on_segment(SeriesResult& result) {
   const double segment_s = result.segment / result.estimate.rate_hz;
   for (const core::Mode& mode : result.estimate.modes) {
-    const double wanted_s =
-        kLeastSegmentDecays / (std::max(mode.damping_ratio, 1e-9) * 2.0 * std::numbers::pi * mode.frequency_hz);
+    const double wanted_s = wanted_segment_s(mode);
     if (segment_s >= wanted_s || mode.damping_ratio <= 0.0) continue;
     result.remarks.push_back(fmt::format(
         "the segment of {:.3g} s is shorter than 1.5 decay times of {:.4g} Hz ({:.3g} s): its damping may read high",
@@ -117,15 +129,22 @@ SeriesResult identify_series(const ChannelSeries& given, const SeriesOptions& op
 
   SpectrumConfig spectrum = options.spectrum;
   const std::size_t n_samples = series.value.front().size();
-  if (spectrum.segment <= 0) {
-    spectrum.segment = automatic_segment(n_samples);
-    result.remarks.push_back(fmt::format("segment of {} samples ({:.4g} s): about an eighth of the record",
-                                         spectrum.segment, spectrum.segment / series.rate_hz));
-  }
+  const bool choose_segment = spectrum.segment <= 0;
+  if (choose_segment) spectrum.segment = automatic_segment(n_samples);
   result.segment = spectrum.segment;
   require_samples(series, spectrum.segment);
-  const SeriesSpectra spectra = spectra_of(series, spectrum, options.progress);
-  result.estimate = core::Identifier(identifier, series.channels).identify(spectra.sums);
+  const core::Identifier identify(identifier, series.channels);
+  SeriesSpectra spectra = spectra_of(series, spectrum, options.progress);
+  result.estimate = identify.identify(spectra.sums);
+  while (choose_segment && should_double(result, n_samples)) {
+    result.segment = spectrum.segment *= 2;
+    spectra = spectra_of(series, spectrum, options.progress);
+    result.estimate = identify.identify(spectra.sums);
+  }
+  if (choose_segment) {
+    result.remarks.push_back(
+        fmt::format("segment of {} samples ({:.4g} s)", spectrum.segment, spectrum.segment / series.rate_hz));
+  }
   result.estimate.final = true;
   result.channels = series.channels;
   if (series.channels.size() == 1)

@@ -116,8 +116,10 @@ int decimate_to(ChannelSeries& series, double max_frequency_hz, std::vector<std:
 }
 
 int automatic_segment(std::size_t n_samples) noexcept {
+  // In short records a segment must still resolve the modes: 512 samples while one and a half of them fit.
+  const int least = n_samples >= 768 ? 9 : 6;
   const double eighth = std::max(1.0, static_cast<double>(n_samples) / 8.0);
-  return 1 << std::clamp(static_cast<int>(std::lround(std::log2(eighth))), 6, 12);
+  return 1 << std::clamp(static_cast<int>(std::lround(std::log2(eighth))), least, 12);
 }
 
 }  // namespace app

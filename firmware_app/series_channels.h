@@ -17,7 +17,7 @@ void leave_out_unusable(ChannelSeries& series, std::vector<int>& references, std
 // Decimates so that max_frequency_hz (0: nothing is done) stays in the passband; returns the factor.
 int decimate_to(ChannelSeries& series, double max_frequency_hz, std::vector<std::string>& remarks);
 
-// A power of two of samples, about an eighth of the record: 64 .. 4096.
+// A power of two of samples, about an eighth of the record: 512 .. 4096, from 64 on where 768 do not fit.
 [[nodiscard]] int automatic_segment(std::size_t n_samples) noexcept;
 
 }  // namespace app

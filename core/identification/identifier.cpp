@@ -70,14 +70,20 @@ struct FitScatter {
   const std::vector<Correlations>& deviations;
 };
 
-// modes[i] belongs to lines[i].
+// modes[i] belongs to lines[i]. What scatter a numerical pole has says nothing; it is not computed.
 void state_scatter(const FitScatter& fit, const Poles& poles, const std::vector<PoleCluster>& lines,
                    std::vector<Mode>& modes) {
   std::vector<PoleOfOrder> chosen;
-  for (const PoleCluster& line : lines) chosen.push_back(poles.observed[line.i_representative]);
-  const auto changes = pole_changes(fit.realisation, fit.era, fit.deviations, chosen);
+  std::vector<std::size_t> line_of;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const auto scatter = mode_scatter(chosen[i], lines[i].representative, fit.folding, changes[i]);
+    if (modes[i].verdict == Verdict::kNumerical) continue;
+    chosen.push_back(poles.observed[lines[i].i_representative]);
+    line_of.push_back(i);
+  }
+  const auto changes = pole_changes(fit.realisation, fit.era, fit.deviations, chosen);
+  for (std::size_t c = 0; c < chosen.size(); ++c) {
+    const std::size_t i = line_of[c];
+    const auto scatter = mode_scatter(chosen[c], lines[i].representative, fit.folding, changes[c]);
     if (!scatter) continue;
     modes[i].frequency_std_hz = scatter->frequency_hz;
     modes[i].damping_std = scatter->damping_ratio;
