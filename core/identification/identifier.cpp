@@ -64,14 +64,13 @@ void note_poles(const std::vector<OrderPole>& poles, const std::vector<int>& ord
 
 // What the standard deviations of a fit are made of.
 struct FitScatter {
-  const Realisation& realisation;
-  const EraConfig& era;
+  const CpsdSums& sums;
+  const ModelFit& fit;
   const FoldingConfig& folding;
-  const std::vector<Correlations>& deviations;
 };
 
 // modes[i] belongs to lines[i]. What scatter a numerical pole has says nothing; it is not computed.
-void state_scatter(const FitScatter& fit, const Poles& poles, const std::vector<PoleCluster>& lines,
+void state_scatter(const FitScatter& scatters, const Poles& poles, const std::vector<PoleCluster>& lines,
                    std::vector<Mode>& modes) {
   std::vector<PoleOfOrder> chosen;
   std::vector<std::size_t> line_of;
@@ -80,10 +79,14 @@ void state_scatter(const FitScatter& fit, const Poles& poles, const std::vector<
     chosen.push_back(poles.observed[lines[i].i_representative]);
     line_of.push_back(i);
   }
-  const auto changes = pole_changes(fit.realisation, fit.era, fit.deviations, chosen);
+  if (chosen.empty()) return;
+  const ModelFit& fit = scatters.fit;
+  const auto deviations =
+      block_deviations(scatters.sums, fit.n_differences, fit.correlations.max_lag(), kScatterBlocks);
+  const auto changes = pole_changes(fit.realisation, fit.era, deviations, chosen);
   for (std::size_t c = 0; c < chosen.size(); ++c) {
     const std::size_t i = line_of[c];
-    const auto scatter = mode_scatter(chosen[c], lines[i].representative, fit.folding, changes[c]);
+    const auto scatter = mode_scatter(chosen[c], lines[i].representative, scatters.folding, changes[c]);
     if (!scatter) continue;
     modes[i].frequency_std_hz = scatter->frequency_hz;
     modes[i].damping_std = scatter->damping_ratio;
@@ -165,8 +168,7 @@ ModalEstimate Identifier::identify(const CpsdSums& sums) const {
                           examiner.examine(line.representative)));
   }
   if (sums.n_blocks >= kScatterBlocks) {
-    const auto deviations = block_deviations(sums, fit.n_differences, fit.correlations.max_lag(), kScatterBlocks);
-    state_scatter({fit.realisation, fit.era, folding, deviations}, poles, lines, modes);
+    state_scatter({sums, fit, folding}, poles, lines, modes);
     estimate.n_blocks = kScatterBlocks;
   }
   reject_twins(modes);

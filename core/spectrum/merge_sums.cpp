@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "core/spectrum/join_blocks.h"
+
 namespace core {
 
 namespace {
@@ -22,12 +24,6 @@ void add(std::vector<std::complex<double>>& into, const std::vector<std::complex
   for (std::size_t k = 0; k < into.size(); ++k) into[k] += from[k];
 }
 
-void add(CpsdBlock& into, const CpsdBlock& from) {
-  into.n_segments += from.n_segments;
-  add(into.data_sum, from.data_sum);
-  add(into.mask_sum, from.mask_sum);
-}
-
 std::vector<CpsdBlock> blocks_in_use(const CpsdSums& sums) {
   return {sums.blocks.begin(), sums.blocks.begin() + static_cast<std::ptrdiff_t>(sums.n_blocks)};
 }
@@ -36,7 +32,7 @@ void join_pairs(std::vector<CpsdBlock>& blocks) {
   std::vector<CpsdBlock> joined;
   for (std::size_t b = 0; b < blocks.size(); b += 2) {
     joined.push_back(std::move(blocks[b]));
-    if (b + 1 < blocks.size()) add(joined.back(), blocks[b + 1]);
+    if (b + 1 < blocks.size()) join_blocks(joined.back(), blocks[b + 1]);
   }
   blocks = std::move(joined);
 }

@@ -8,6 +8,7 @@
 
 #include "core/linear/vector_clones.h"
 #include "core/spectrum/bridge_losses.h"
+#include "core/spectrum/join_blocks.h"
 
 namespace core {
 
@@ -198,14 +199,8 @@ CpsdBlock& WelchCpsd::current_block() noexcept {
     return blocks[sums_.n_blocks - 1];
   if (sums_.n_blocks == blocks.size()) {
     for (std::size_t b = 0; b < blocks.size(); b += 2) {
-      CpsdBlock& first = blocks[b];
-      const CpsdBlock& second = blocks[b + 1];
-      first.n_segments += second.n_segments;
-      for (std::size_t k = 0; k < first.data_sum.size(); ++k) {
-        first.data_sum[k] += second.data_sum[k];
-        first.mask_sum[k] += second.mask_sum[k];
-      }
-      std::swap(blocks[b / 2], first);
+      join_blocks(blocks[b], blocks[b + 1]);
+      std::swap(blocks[b / 2], blocks[b]);
     }
     sums_.n_blocks /= 2;
     segments_per_block_ *= 2;

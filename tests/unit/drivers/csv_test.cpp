@@ -10,6 +10,7 @@
 #include "drivers/storage/csv_lines.h"
 #include "drivers/storage/csv_writer.h"
 #include "drivers/storage/text_file.h"
+#include "tests/support/folder_test.h"
 
 namespace drivers {
 namespace {
@@ -32,19 +33,8 @@ frame,t_s,point,region,u_px,v_px,sigma_px
 5,0.200000001,7,roof,10.6000,20.3000,0.05000
 )";
 
-class CsvTest : public ::testing::Test {
+class CsvTest : public tests::FolderTest {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) / "csv_test" /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  [[nodiscard]] std::string file(const std::string& text) const {
-    const std::string path = (folder_ / "a.csv").string();
-    std::ofstream(path, std::ios::binary) << text;
-    return path;
-  }
   [[nodiscard]] std::string tracks_refusal(const std::string& text) const {
     try {
       static_cast<void>(read_tracks_csv(file(text)));

@@ -3,11 +3,11 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "drivers/storage/csv.h"
 #include "drivers/storage/series_format.h"
 #include "drivers/storage/text_file.h"
+#include "tests/support/folder_test.h"
 
 namespace drivers {
 namespace {
@@ -16,19 +16,8 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-class ForeignSeries : public ::testing::Test {
+class ForeignSeries : public tests::FolderTest {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) / "foreign_series_test" /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-  }
-  [[nodiscard]] std::string file(const std::string& text) const {
-    const std::string path = (folder_ / "a.csv").string();
-    std::ofstream(path, std::ios::binary) << text;
-    return path;
-  }
   [[nodiscard]] SeriesFile read(const std::string& text, const ForeignFormat& format = {}) const {
     return read_foreign_series(file(text), format);
   }
