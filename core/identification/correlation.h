@@ -54,12 +54,6 @@ class Correlations {
                                                      Correlations& out, std::span<const int> references = {},
                                                      double least_power = kLeastPowerMm2);
 
-// The blocks in use, joined in order to n_groups parts as equal as can be (none when there are fewer blocks): by how
-// much each part moves `divided`, to first order: (D_b - R M_b) / M, lag by lag, with the part's own sums
-// D_b, M_b. Over all parts this adds up to zero. `undivided` stays 0. max_lag: as compute_correlations() took it.
-[[nodiscard]] std::vector<Correlations> block_deviations(const CpsdSums& sums, int n_differences, int max_lag,
-                                                         std::size_t n_groups);
-
 [[nodiscard]] const char* to_string(CorrelationStatus status) noexcept;
 
 }  // namespace core

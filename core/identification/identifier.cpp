@@ -81,8 +81,8 @@ void state_scatter(const FitScatter& scatters, const Poles& poles, const std::ve
   }
   if (chosen.empty()) return;
   const ModelFit& fit = scatters.fit;
-  const auto deviations =
-      block_deviations(scatters.sums, fit.n_differences, fit.correlations.max_lag(), kScatterBlocks);
+  const DeviationLags lags{fit.era.first_lag, 2 * fit.era.block_rows, fit.n_differences};
+  const auto deviations = block_deviations(scatters.sums, fit.era.references, lags, kScatterBlocks);
   const auto changes = pole_changes(fit.realisation, fit.era, deviations, chosen);
   for (std::size_t c = 0; c < chosen.size(); ++c) {
     const std::size_t i = line_of[c];

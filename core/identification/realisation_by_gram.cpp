@@ -101,7 +101,7 @@ GramStatus realise_weighted(const Correlations& correlations, const EraConfig& c
   }
   const MatrixXd g_t = right.bottomRows(n_rows).transpose();
   RightVectors vectors;
-  const GramStatus status = right_vectors(product_transposed(g_t, g_t), config, vectors);
+  const GramStatus status = right_vectors(core::gram(g_t), config, vectors);
   if (status != GramStatus::kOk) return status;
 
   const VectorXd s = vectors.s.head(vectors.v_t.rows());

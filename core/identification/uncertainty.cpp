@@ -8,7 +8,7 @@
 #include <map>
 #include <numbers>
 
-#include "core/identification/block_hankel.h"
+#include "core/linear/dense.h"
 
 namespace core {
 
@@ -63,28 +63,45 @@ class PoleChanges {
     }
   }
 
-  // What one block does to each of the poles.
-  [[nodiscard]] std::vector<PoleChange> of(const Correlations& deviation) const {
+  // [pole][block]: what each block does to each of the poles.
+  [[nodiscard]] std::vector<std::vector<PoleChange>> of(const BlockDeviations& deviations) const {
     const Index ny = realisation_.scale.size(), rows = realisation_.left_map.cols();
-    // One block row more than H0 has: H1 is the same matrix without its first block row.
-    const Eigen::MatrixXd h = block_hankel(deviation, config_.references, realisation_.scale, config_.block_rows + 1,
-                                           config_.block_rows, config_.first_lag);
-    const Eigen::MatrixXd y = h * directions_;
-    std::vector<PoleChange> changes(poles_.size());
+    const Eigen::MatrixXd y = hankel_times_directions(deviations);
+    std::vector<std::vector<PoleChange>> changes(poles_.size());
+    Eigen::VectorXcd moved(rows + ny);
     for (std::size_t p = 0; p < poles_.size(); ++p) {
       if (poles_[p].vectors == nullptr) continue;
       const Index c = 2 * static_cast<Index>(p);
-      Eigen::VectorXcd moved(y.rows());
-      moved.real() = y.col(c);
-      moved.imag() = y.col(c + 1);
-      changes[p] = change(poles_[p], moved.head(rows), moved.segment(ny, rows), ny);
+      for (Index block = 0; block < deviations.n_blocks; ++block) {
+        for (Index a = 0; a <= config_.block_rows; ++a) {
+          const Index from = (a * deviations.n_blocks + block) * ny;
+          moved.segment(a * ny, ny).real() = y.col(c).segment(from, ny);
+          moved.segment(a * ny, ny).imag() = y.col(c + 1).segment(from, ny);
+        }
+        changes[p].push_back(change(poles_[p], moved.head(rows), moved.segment(ny, rows), ny));
+      }
     }
     return changes;
   }
 
-  [[nodiscard]] bool found(std::size_t p) const { return poles_[p].vectors != nullptr; }
-
  private:
+  // Rows (block row, block of the record, channel). A block row of the Hankel matrix is a run of lags; one block row
+  // more than H0 has, for H1 is the same matrix without its first.
+  [[nodiscard]] Eigen::MatrixXd hankel_times_directions(const BlockDeviations& deviations) const {
+    const Index ny = realisation_.scale.size(), nr = static_cast<Index>(config_.references.size());
+    const Index height = deviations.value.rows(), width = config_.block_rows * nr;
+    Eigen::MatrixXd of_unit_variance = deviations.value;
+    for (Index r = 0; r < height; ++r) of_unit_variance.row(r) /= realisation_.scale[r % ny];
+    for (Index c = 0; c < of_unit_variance.cols(); ++c) {
+      of_unit_variance.col(c) /= realisation_.scale[config_.references[static_cast<std::size_t>(c % nr)]];
+    }
+    Eigen::MatrixXd y = Eigen::MatrixXd::Zero((config_.block_rows + 1) * height, directions_.cols());
+    for (Index a = 0; a <= config_.block_rows; ++a) {
+      add_product(y.middleRows(a * height, height), 1.0, of_unit_variance.middleCols(a * nr, width), directions_);
+    }
+    return y;
+  }
+
   [[nodiscard]] Pole locate(const OrderVectors& vectors, const DiscretePole& given) const {
     if (!vectors.valid) return {};
     Index k = 0;
@@ -149,18 +166,10 @@ StatedChange stated_change(const PoleOfOrder& pole, const FoldingConfig& folding
 }  // namespace
 
 std::vector<std::vector<PoleChange>> pole_changes(const Realisation& realisation, const EraConfig& config,
-                                                  const std::vector<Correlations>& deviations,
+                                                  const BlockDeviations& deviations,
                                                   const std::vector<PoleOfOrder>& poles) {
-  std::vector<std::vector<PoleChange>> out(poles.size());
-  if (poles.empty() || deviations.empty()) return out;
-  const PoleChanges changes(realisation, config, poles);
-  for (const Correlations& deviation : deviations) {
-    std::vector<PoleChange> of_block = changes.of(deviation);
-    for (std::size_t p = 0; p < poles.size(); ++p) {
-      if (changes.found(p)) out[p].push_back(std::move(of_block[p]));
-    }
-  }
-  return out;
+  if (poles.empty() || deviations.n_blocks == 0) return std::vector<std::vector<PoleChange>>(poles.size());
+  return PoleChanges(realisation, config, poles).of(deviations);
 }
 
 std::optional<ModeScatter> mode_scatter(const PoleOfOrder& pole, const UnfoldedPole& unfolded,

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/identification/correlation.h"
+#include "core/identification/block_deviations.h"
 #include "core/identification/era.h"
 #include "core/identification/folding.h"
 #include "core/types/modal_estimate.h"
@@ -31,10 +31,10 @@ struct PoleOfOrder {
   DiscretePole pole;  // as poles_of_order gives it
 };
 
-// [pole][block]. `deviations` as block_deviations() gives them, with the lags of the realisation. Empty for a pole that
-// is not found again.
+// [pole][block]. `deviations` hold 2 block_rows lags from the realisation's first on. Empty for a pole that is not
+// found again.
 [[nodiscard]] std::vector<std::vector<PoleChange>> pole_changes(const Realisation& realisation, const EraConfig& config,
-                                                                const std::vector<Correlations>& deviations,
+                                                                const BlockDeviations& deviations,
                                                                 const std::vector<PoleOfOrder>& poles);
 
 struct ModeScatter {

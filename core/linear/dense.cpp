@@ -116,6 +116,17 @@ void add_product_transposed(Ref<MatrixXd> c, double factor, const Ref<const Matr
   add_packed(c, a, factor * b.transpose());
 }
 
+MatrixXd gram(const Ref<const MatrixXd>& a) {
+  const Index n = a.rows();
+  MatrixXd out = MatrixXd::Zero(n, n);
+  for (Index j = 0; j < n; j += kStripColumns) {
+    const Index width = std::min(kStripColumns, n - j);
+    add_product_transposed(out.block(j, j, n - j, width), 1.0, a.bottomRows(n - j), a.middleRows(j, width));
+  }
+  out.triangularView<Eigen::StrictlyUpper>() = out.transpose();
+  return out;
+}
+
 bool factor_stacked(MatrixXd& m) {
   if (!factor_columns(m)) return false;
   for (Index j = 1; j < m.cols(); ++j) m.col(j).head(j).setZero();

@@ -15,6 +15,9 @@ void add_product(Eigen::Ref<Eigen::MatrixXd> c, double factor, const Eigen::Ref<
 void add_product_transposed(Eigen::Ref<Eigen::MatrixXd> c, double factor, const Eigen::Ref<const Eigen::MatrixXd>& a,
                             const Eigen::Ref<const Eigen::MatrixXd>& b);
 
+// a * a^T, of which one half is computed.
+[[nodiscard]] Eigen::MatrixXd gram(const Eigen::Ref<const Eigen::MatrixXd>& a);
+
 // m = [T; B], T symmetric n x n of which the lower triangle is read. Afterwards [L; B L^-T] with T = L L^T, the
 // strict upper triangle of T's place zero. False where T is not positive definite; m is then spoilt.
 [[nodiscard]] bool factor_stacked(Eigen::MatrixXd& m);

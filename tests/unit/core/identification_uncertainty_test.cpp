@@ -56,16 +56,20 @@ TEST(PoleChanges, AreTheDerivativeOfARefit) {
   Realisation at;
   ASSERT_EQ(realise(r, config, at), EraStatus::kOk);
   const double eps = 1e-6;
-  Correlations deviation(4, 40);
+  const int n_lags = 2 * config.block_rows;
+  BlockDeviations deviation{1, Eigen::MatrixXd(4, 4 * n_lags)};
   for (int i = 0; i < 4; ++i) {
-    for (int j = i; j < 4; ++j) {
-      for (int lag = -40; lag <= 40; ++lag) deviation.set(i, j, lag, s.divided(i, j, lag) - r.divided(i, j, lag), 0.0);
+    for (int j = 0; j < 4; ++j) {
+      for (int k = 0; k < n_lags; ++k) {
+        const int lag = config.first_lag + k;
+        deviation.value(i, 4 * k + j) = s.divided(i, j, lag) - r.divided(i, j, lag);
+      }
     }
   }
   std::vector<PoleOfOrder> poles;
   for (const DiscretePole& pole : poles_of_order(at, kOrder)) poles.push_back({kOrder, pole});
   ASSERT_EQ(poles.size(), 3U);
-  const auto changes = pole_changes(at, config, {deviation}, poles);
+  const auto changes = pole_changes(at, config, deviation, poles);
   Realisation moved;
   ASSERT_EQ(realise(between(r, s, eps), config, moved), EraStatus::kOk);
   const std::vector<DiscretePole> later = poles_of_order(moved, kOrder);

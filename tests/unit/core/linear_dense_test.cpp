@@ -33,6 +33,14 @@ TEST(Dense, ProductsOfBlocksLeaveTheRestAlone) {
   EXPECT_LT((c - expected).cwiseAbs().maxCoeff(), 1e-14);
 }
 
+TEST(Dense, GramIsTheProductWithItself) {
+  for (const Index n : {1, 5, 24, 25, 70}) {
+    const MatrixXd a = noise_matrix(n, 40, 6), product = gram(a);
+    EXPECT_LT((product - a * a.transpose()).cwiseAbs().maxCoeff(), 1e-12) << n;
+    EXPECT_EQ((product - product.transpose()).norm(), 0.0) << n;
+  }
+}
+
 TEST(Dense, FactorsAndDividesTheRowsBelow) {
   for (const Index n : {1, 5, 8, 9, 70}) {
     const MatrixXd root = noise_matrix(n, n + 3, 4), below = noise_matrix(6, n, 5);
