@@ -20,7 +20,7 @@ struct IdentifierConfig {
   double max_frequency_hz = 0.0;  // true frequencies looked for; 0 = half the rate: nothing is unfolded
   double min_mpc = 0.8;
   double max_damping = 0.15;
-  int n_differences = -1;  // prewhitening: once against slow drift, 0 without it, -1 = as choose_differences() finds
+  int n_differences = -1;  // prewhitening: 0, 1, -1 = as choose_differences() finds
   double edge_hz = 0.0;    // apparent frequencies above it lie in a filter's edge and are no modes; 0 = no filter
   double least_power = kLeastPowerMm2;  // a channel with less is taken to stand still; in the channels' unit squared
   bool undo_row_delays = true;          // false: the samples were compensated before (paper mode)

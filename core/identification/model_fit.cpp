@@ -91,7 +91,8 @@ EraStatus realise_with_short_memory(int max_order, ModelFit& fit) {
 
 std::string fit_model(const CpsdSums& sums, const IdentifierConfig& config, const std::vector<ChannelInfo>& channels,
                       ModelFit& out) {
-  out.n_differences = config.n_differences >= 0 ? config.n_differences : choose_differences(sums);
+  out.n_differences =
+      config.n_differences >= 0 ? config.n_differences : choose_differences(sums, config.max_frequency_hz);
   out.era = era_config(sums, config, channels, out.n_differences);
   const CorrelationStatus status = compute_correlations(sums, 2 * out.era.block_rows + out.era.first_lag,
                                                         out.n_differences, out.correlations, {}, config.least_power);

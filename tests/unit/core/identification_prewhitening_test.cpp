@@ -30,16 +30,21 @@ CpsdSums record(double drift) {
 }
 
 TEST(ChooseDifferences, OneAgainstDriftNoneWithout) {
-  EXPECT_EQ(choose_differences(record(0.0)), 0);
-  EXPECT_EQ(choose_differences(record(0.2)), 0);
-  EXPECT_EQ(choose_differences(record(10.0)), 1);
+  EXPECT_EQ(choose_differences(record(0.0), 12.5), 0);
+  EXPECT_EQ(choose_differences(record(0.2), 12.5), 0);
+  EXPECT_EQ(choose_differences(record(10.0), 12.5), 1);
+}
+
+TEST(ChooseDifferences, OneForModesAboveHalfTheRate) {
+  EXPECT_EQ(choose_differences(record(0.0), 20.0), 1);
+  EXPECT_EQ(choose_differences(record(0.0), 0.0), 0);
 }
 
 TEST(ChooseDifferences, NothingToJudgeNeedsNone) {
-  EXPECT_EQ(choose_differences(CpsdSums{}), 0);
+  EXPECT_EQ(choose_differences(CpsdSums{}, 12.5), 0);
   CpsdSums broken = record(0.0);
   for (auto& z : broken.data_sum) z = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(choose_differences(broken), 0);
+  EXPECT_EQ(choose_differences(broken, 12.5), 0);
 }
 
 }  // namespace
