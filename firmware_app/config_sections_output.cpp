@@ -42,6 +42,8 @@ void add_analysis_keys(std::vector<ConfigKey>& keys) {
       number_key("spectrum.overlap", "", at(&A::spectrum, &S::overlap), {0, 0.95}, "of neighbouring segments"));
   keys.push_back(text_choice_key("spectrum.window", at(&A::spectrum, &S::window), {"hann", "hamming", "boxcar"},
                                  "taper of a segment"));
+  keys.push_back(number_key("spectrum.forget_s", "s", at(&A::spectrum, &S::forget_s), {1, 1e7, true},
+                            "a segment counts exp(-age / this), for a structure that changes; 0 = never forgets"));
   using I = IdentificationConfig;
   keys.push_back(
       whole_key("identification.period", "hops", at(&A::identification, &I::period_hops), {1, 1000000},

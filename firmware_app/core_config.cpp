@@ -72,6 +72,7 @@ core::WelchConfig welch_config(const SpectrumConfig& spectrum, std::size_t n_cha
   const core::WindowKind window = core::window_kind(spectrum.window).value_or(core::WindowKind::kHann);
   core::WelchConfig out{static_cast<int>(n_channels), spectrum.segment, spectrum.overlap, window, rate_hz};
   out.bridge_losses = true;
+  out.forget_s = spectrum.forget_s;
   return out;
 }
 

@@ -21,6 +21,17 @@ class Deviations {
     }
   }
 
+  [[nodiscard]] double degrees_of_freedom() const {
+    double sum = 0.0, squares = 0.0;
+    for (const std::span<const CpsdBlock> group : groups_) {
+      double variance = 0.0;
+      for (const CpsdBlock& block : group) variance += block.weight.squares;
+      sum += variance;
+      squares += variance * variance;
+    }
+    return squares > 0.0 ? std::max(0.0, sum * sum / squares - 1.0) : 0.0;
+  }
+
   // Of R(i, j, lag), i <= j, over lags of either sign; all parts but the last, which is minus their sum.
   void transform(int i, int j) {
     const int pair = CpsdSums::pair_index(i, j, sums_.n_channels);
@@ -72,9 +83,9 @@ BlockDeviations block_deviations(const CpsdSums& sums, const std::vector<int>& r
                                  std::size_t n_groups) {
   if (n_groups < 2 || sums.n_blocks < n_groups) return {};
   const auto n_references = static_cast<Index>(references.size());
-  BlockDeviations out{static_cast<int>(n_groups), {}};
-  out.value.resize(static_cast<Index>(n_groups) * sums.n_channels, lags.n * n_references);
   Deviations deviations(sums, lags, n_groups);
+  BlockDeviations out{static_cast<int>(n_groups), deviations.degrees_of_freedom(), {}};
+  out.value.resize(static_cast<Index>(n_groups) * sums.n_channels, lags.n * n_references);
   const auto place = [&](int channel) { return std::find(references.begin(), references.end(), channel); };
   for (int i = 0; i < sums.n_channels; ++i) {
     for (int j = i; j < sums.n_channels; ++j) {

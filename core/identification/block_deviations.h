@@ -10,7 +10,9 @@ namespace core {
 
 // What parts of a record do to its correlations with the references.
 struct BlockDeviations {
-  int n_blocks = 0;       // 0: the record has fewer blocks than were asked for
+  int n_blocks = 0;  // 0: the record has fewer blocks than were asked for
+  // Of a variance estimated from the blocks: n_blocks - 1, and fewer where they do not weigh the same (Satterthwaite).
+  double degrees_of_freedom = 0.0;
   Eigen::MatrixXd value;  // (block, channel) x (lag, reference)
 };
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/identification/modal_coherence.h"
 #include "core/identification/realisation_by_gram.h"
 #include "core/identification/realisation_by_svd.h"
 #include "core/linear/real_eigen.h"
@@ -20,13 +21,16 @@ std::vector<DiscretePole> poles_of_order(const Realisation& realisation, int ord
   const Eigen::Index n = std::min<Eigen::Index>(order, realisation.a.rows());
   UpperEigen eigen;
   std::vector<DiscretePole> poles;
-  if (n < 2 || !upper_half_plane_eigen(realisation.a.topLeftCorner(n, n), realisation.c.leftCols(n), eigen)) {
-    return poles;
-  }
+  if (n < 2) return poles;
+  const Eigen::Index ny = realisation.c.rows();
+  Eigen::MatrixXd seen(ny + realisation.c_last.rows(), n);
+  seen << realisation.c.leftCols(n), realisation.c_last.leftCols(n);
+  if (!upper_half_plane_eigen(realisation.a.topLeftCorner(n, n), seen, eigen)) return poles;
   for (std::size_t k = 0; k < eigen.values.size(); ++k) {
     if (!std::isfinite(std::abs(eigen.values[k]))) continue;
-    const auto shape = eigen.seen.col(static_cast<Eigen::Index>(k));
-    poles.push_back({eigen.values[k], {shape.begin(), shape.end()}});
+    const Eigen::VectorXcd both = eigen.seen.col(static_cast<Eigen::Index>(k));
+    const std::vector<std::complex<double>> shape(both.begin(), both.begin() + ny), last(both.begin() + ny, both.end());
+    poles.push_back({eigen.values[k], shape, output_emac(shape, last, std::pow(eigen.values[k], realisation.n_steps))});
   }
   return poles;
 }

@@ -28,7 +28,9 @@ struct EraConfig {
 struct Realisation {
   Eigen::VectorXd singular_values;  // canonical correlations, 0..1, when weighted
   Eigen::MatrixXd a;                // max_order x max_order, in balanced coordinates
-  Eigen::MatrixXd c;                // n_channels x max_order, channel units
+  Eigen::MatrixXd c;                // n_channels x max_order, channel units: first block row of the observability
+  Eigen::MatrixXd c_last;           // its last, n_steps block rows on
+  int n_steps = 0;
   // a = left_map H1 right_map with the Hankel matrix H1 of unit-variance channels (shifted by one lag); with the
   // unshifted H0 it is the identity: each pole is a generalised eigenvalue of two matrices linear in R.
   Eigen::MatrixXd left_map;   // max_order x (block rows * channels)
@@ -40,6 +42,7 @@ struct Realisation {
 struct DiscretePole {
   std::complex<double> lambda;
   std::vector<std::complex<double>> shape;
+  double emac = 0.0;  // extended modal amplitude coherence of the outputs, 0..1 (modal_coherence.h)
 };
 
 [[nodiscard]] EraStatus realise(const Correlations& correlations, const EraConfig& config, Realisation& out);

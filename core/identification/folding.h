@@ -21,7 +21,7 @@ struct UnfoldedPole {
   std::complex<double> s;                   // continuous pole, rad/s, Im > 0
   double apparent_hz = 0.0;                 // 0 .. f_s / 2
   std::vector<std::complex<double>> shape;  // delays undone, in displacement, largest component 1
-  double mpc = 0.0;
+  double mpc = 0.0, emac = 0.0;
   std::optional<int> fold_n;          // empty: cannot be told (fewer than three channels, or no delays)
   std::optional<double> fold_margin;  // best MPC minus second best
   // There are other frequencies below the limit, and nothing that could tell: s and shape are those of n = 0, mpc is

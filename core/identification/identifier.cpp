@@ -22,6 +22,7 @@ void copy_stream_facts(const CpsdSums& sums, ModalEstimate& estimate) {
   estimate.n_missing = sums.n_missing;
   estimate.rate_hz = sums.rate_hz;
   estimate.duration_s = static_cast<double>(sums.n_samples) / sums.rate_hz;
+  estimate.remembered_s = sums.n_remembered() / sums.rate_hz;
 }
 
 // Every pole of every order, as observed and unfolded; the two lists run in parallel.
@@ -35,6 +36,7 @@ Poles poles_of_orders(const Realisation& realisation, const std::vector<int>& or
   for (std::size_t i = 0; i < orders.size(); ++i) {
     for (DiscretePole& pole : poles_of_order(realisation, orders[i])) {
       poles.unfolded.push_back({static_cast<int>(i), unfold(pole.lambda, pole.shape, folding)});
+      poles.unfolded.back().pole.emac = pole.emac;
       poles.observed.push_back({orders[i], std::move(pole)});
     }
   }
@@ -69,9 +71,9 @@ struct FitScatter {
   const FoldingConfig& folding;
 };
 
-// modes[i] belongs to lines[i]. What scatter a numerical pole has says nothing; it is not computed.
-void state_scatter(const FitScatter& scatters, const Poles& poles, const std::vector<PoleCluster>& lines,
-                   std::vector<Mode>& modes) {
+// Degrees of freedom. modes[i] belongs to lines[i]. What scatter a numerical pole has says nothing; it is not computed.
+double state_scatter(const FitScatter& scatters, const Poles& poles, const std::vector<PoleCluster>& lines,
+                     std::vector<Mode>& modes) {
   std::vector<PoleOfOrder> chosen;
   std::vector<std::size_t> line_of;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -79,7 +81,6 @@ void state_scatter(const FitScatter& scatters, const Poles& poles, const std::ve
     chosen.push_back(poles.observed[lines[i].i_representative]);
     line_of.push_back(i);
   }
-  if (chosen.empty()) return;
   const ModelFit& fit = scatters.fit;
   const DeviationLags lags{fit.era.first_lag, 2 * fit.era.block_rows, fit.n_differences};
   const auto deviations = block_deviations(scatters.sums, fit.era.references, lags, kScatterBlocks);
@@ -92,6 +93,7 @@ void state_scatter(const FitScatter& scatters, const Poles& poles, const std::ve
     modes[i].damping_std = scatter->damping_ratio;
     modes[i].shape_std = scatter->shape;
   }
+  return deviations.degrees_of_freedom;
 }
 
 // modes[i] belongs to clusters[i]. The poles, which stand in the order of the clusters' members, learn their line.
@@ -168,8 +170,7 @@ ModalEstimate Identifier::identify(const CpsdSums& sums) const {
                           examiner.examine(line.representative)));
   }
   if (sums.n_blocks >= kScatterBlocks) {
-    state_scatter({sums, fit, folding}, poles, lines, modes);
-    estimate.n_blocks = kScatterBlocks;
+    estimate.degrees_of_freedom = state_scatter({sums, fit, folding}, poles, lines, modes);
   }
   reject_twins(modes);
   note_poles(poles.unfolded, orders, estimate);

@@ -126,7 +126,7 @@ LineEvidence LineExaminer::examine(const UnfoldedPole& pole) {
   LineEvidence evidence;
   const std::vector<Complex> observed = observed_shape(pole, folding_);
   find_camera(observed, pole.apparent_hz, evidence);
-  const double damping = damping_ratio(pole.s), duration_s = static_cast<double>(sums_.n_samples) / sums_.rate_hz;
+  const double damping = damping_ratio(pole.s), duration_s = sums_.n_remembered() / sums_.rate_hz;
   const double forgotten = kTwoPi * damping * frequency_hz(pole.s) * duration_s;
   const double renewals = kTwoPi * kLeastModeDamping * frequency_hz(pole.s) * duration_s;
   const bool can_tell = renewals > kLeastRenewals && (damping < kSurelySmallDamping || forgotten > kLeastForgotten);

@@ -49,6 +49,8 @@ void put_delays_back(const Mode& mode, double rate_hz, const std::vector<double>
   }
 }
 
+constexpr double kAll = 0.99;  // a record of which more is remembered forgets nothing
+
 // Samples without a picture add nothing to what the record tells.
 double observed_s(const ModalEstimate& estimate, std::size_t n_channels) noexcept {
   const double cells = static_cast<double>(estimate.n_samples) * static_cast<double>(n_channels);
@@ -80,6 +82,8 @@ void ModeTracker::update(ModalEstimate& estimate) noexcept {
   }
   n_samples_ = estimate.n_samples;
   record_s_ = record_s;
+  const double share = estimate.duration_s > 0.0 ? estimate.remembered_s / estimate.duration_s : 1.0;
+  remembered_s_ = share > 0.0 && share < kAll ? share * record_s : record_s;  // 0: nothing is said about it
   gather(estimate);
   for (const State state : {State::kConfirmed, State::kLost, State::kNew}) match(state);
   age();
@@ -104,7 +108,7 @@ void ModeTracker::add_candidate(Mode& mode, double rate_hz) noexcept {
   }
   Candidate& candidate = candidates_[n_candidates_++];
   candidate.mode = &mode;
-  candidate.variance = variance_time(mode, record_s_) / record_s_;
+  candidate.variance = variance_time(mode, remembered_s_) / remembered_s_;
   candidate.taken = false;
   put_delays_back(mode, rate_hz, config_.row_delay_s, candidate.seen);
 }
@@ -179,6 +183,8 @@ void ModeTracker::note_trend(Track& track, const Mode& mode) const noexcept {
   out.drift_hz_per_s.reset();
   out.drift_std_hz_per_s.reset();
   out.drifts = false;
+  out.more_s.reset();
+  if (remembered_s_ < record_s_) return;  // both are about a record that grows
   if (const auto slope = track.trend.slope(variance_time(mode, record_s_))) {
     out.drift_hz_per_s = slope->hz_per_s;
     out.drift_std_hz_per_s = slope->std_hz_per_s;

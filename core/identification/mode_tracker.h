@@ -36,6 +36,9 @@ struct ModeTrackerConfig {
 // A structural mode is new until the next estimate finds it too; then it has a number. Ambiguous poles continue a mode,
 // but begin none. An estimate whose status is not "ok" says nothing about any mode and ends none.
 //
+// Where the estimate forgets (ModalEstimate::remembered_s), neither a drift nor more_s is stated: both are about a
+// record that grows.
+//
 // Memory is fixed at construction. Deterministic. Used by one thread.
 class ModeTracker {
  public:
@@ -90,7 +93,7 @@ class ModeTracker {
   std::array<Track, kMaxTracks> tracks_;
   std::array<Candidate, kMaxModes> candidates_;
   std::size_t n_candidates_ = 0;
-  double record_s_ = 0.0;
+  double record_s_ = 0.0, remembered_s_ = 0.0;
   std::uint64_t n_samples_ = 0;
   std::uint32_t last_id_ = 0;
   std::uint64_t n_left_out_ = 0;

@@ -54,7 +54,7 @@ std::vector<int> choose_references(const IdentifierConfig& config, const std::ve
 
 int choose_block_rows(const CpsdSums& sums, const IdentifierConfig& config, std::size_t n_channels) {
   if (config.block_rows > 0) return config.block_rows;
-  const double rows = std::min<double>(kMostRows, static_cast<double>(sums.n_samples) / kSamplesPerRow);
+  const double rows = std::min<double>(kMostRows, sums.n_remembered() / kSamplesPerRow);
   // The weights keep the window's taper, the Hankel matrix does not: up to an eighth of a segment they agree.
   const int longest = sums.n_fft / 16;
   return std::clamp(static_cast<int>(rows) / static_cast<int>(n_channels), kLeastBlockRows,

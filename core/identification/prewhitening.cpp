@@ -25,7 +25,7 @@ double drift_share(const CpsdSums& sums, int channel) noexcept {
 }  // namespace
 
 int choose_differences(const CpsdSums& sums, double max_frequency_hz) noexcept {
-  if (max_frequency_hz > 0.5 * sums.rate_hz) return 1;
+  if (sums.rate_hz > 0.0 && max_frequency_hz > 0.5 * sums.rate_hz) return 1;
   double share = 0.0;
   for (int c = 0; c < sums.n_channels; ++c) share += drift_share(sums, c) / std::max(1, sums.n_channels);
   return share > kMostDrift ? 1 : 0;

@@ -50,8 +50,9 @@ MatrixXd product_transposed(const MatrixXd& a, const Eigen::Ref<const MatrixXd>&
   return c;
 }
 
-void copy_shapes(const MatrixXd& u_top_t, const VectorXd& scale, const VectorXd& root, Realisation& out) {
-  out.c = scale.asDiagonal() * u_top_t.transpose() * root.asDiagonal();
+// One block row of the observability matrix from that of U, transposed.
+MatrixXd seen(const MatrixXd& u_t, const VectorXd& scale, const VectorXd& root) {
+  return scale.asDiagonal() * u_t.transpose() * root.asDiagonal();
 }
 
 // U = G V S^-1 is never formed: A = S^-3/2 V^T (H0^T H1) V S^-1/2.
@@ -72,7 +73,11 @@ GramStatus realise_plain(const Correlations& correlations, const EraConfig& conf
   out.singular_values = right.s;
   out.a = product_transposed(product(left, gram.block(0, nr, n, n)), by_root);
   const MatrixXd top = block_hankel(correlations, config.references, scale, 1, config.block_rows, config.first_lag);
-  copy_shapes(product_transposed(by_s, top), scale, root, out);
+  const int last_lag = config.first_lag + config.block_rows - 1;
+  const MatrixXd end = block_hankel(correlations, config.references, scale, 1, config.block_rows, last_lag);
+  out.c = seen(product_transposed(by_s, top), scale, root);
+  out.c_last = seen(product_transposed(by_s, end), scale, root);
+  out.n_steps = config.block_rows - 1;
   if (config.with_maps) {
     const MatrixXd h0 =
         block_hankel(correlations, config.references, scale, config.block_rows, config.block_rows, config.first_lag);
@@ -114,7 +119,9 @@ GramStatus realise_weighted(const Correlations& correlations, const EraConfig& c
   out.scale = scale;
   out.singular_values = vectors.s;
   out.a = product_transposed(product_transposed(by_root_u, half.bottomRows(n_columns)), right_map_t);
-  copy_shapes(product_transposed(u_t.leftCols(ny), left.topLeftCorner(ny, ny)), scale, root, out);
+  out.c = seen(product_transposed(u_t.leftCols(ny), left.topLeftCorner(ny, ny)), scale, root);
+  out.c_last = seen(product_transposed(u_t, left.middleRows(n_rows - ny, ny)), scale, root);
+  out.n_steps = p - 1;
   if (config.with_maps) {
     out.left_map = by_root_u;
     divide_by_lower(out.left_map, left.topRows(n_rows));

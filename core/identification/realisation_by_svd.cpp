@@ -47,15 +47,20 @@ EraStatus realise_by_svd(const Correlations& correlations, const EraConfig& conf
   out.a.array().colwise() /= root;
   out.a.array().rowwise() /= root.transpose();
   out.c = u.topRows(ny);
+  out.c_last = u.bottomRows(ny);
+  out.n_steps = p - 1;
   out.left_map = u.transpose();
   out.right_map = v;
   if (config.canonical_variates) {
     out.c = weights.left.topLeftCorner(ny, ny).triangularView<Eigen::Lower>() * out.c;
+    out.c_last = (weights.left.triangularView<Eigen::Lower>() * u).bottomRows(ny);
     weights.left.triangularView<Eigen::Lower>().solveInPlace<Eigen::OnTheRight>(out.left_map);
     weights.right.triangularView<Eigen::Lower>().adjoint().solveInPlace(out.right_map);
   }
-  out.c = scale.asDiagonal() * out.c;
-  out.c.array().rowwise() *= root.transpose();
+  for (MatrixXd* c : {&out.c, &out.c_last}) {
+    *c = scale.asDiagonal() * *c;
+    c->array().rowwise() *= root.transpose();
+  }
   out.left_map.array().colwise() /= root;
   out.right_map.array().rowwise() /= root.transpose();
   return EraStatus::kOk;

@@ -1,11 +1,9 @@
 #include "core/identification/uncertainty.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "core/linear/dense.h"
@@ -17,47 +15,72 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Index;
 
-// The eigenvectors of one order's realisation.
-struct OrderVectors {
-  Eigen::VectorXcd lambda;
-  Eigen::MatrixXcd right, left;  // columns psi, rows of its inverse
-  bool valid = false;
-};
+// One pole of one order's realisation A: its eigenvector psi, and how pole and psi answer to a change of A. With any b
+// and c that are not orthogonal to the left and the right eigenvector,
+//   [A - lambda I, b; c^H, 0]
+// is regular, and one factorisation of it serves all: c^H psi = 1; z, nu of a right side r solve
+// (A - lambda I) z + b nu = r, c^H z = 0. So (A - lambda I) dpsi = psi dlambda - dA psi has a solution where
+// dlambda = -nu(-dA psi) / nu(psi).
+class PoleResponse {
+ public:
+  PoleResponse(const Realisation& realisation, const PoleOfOrder& given) {
+    const Index n = std::min<Index>(given.order, realisation.a.rows());
+    const Eigen::Map<const Eigen::VectorXcd> shape(given.pole.shape.data(), realisation.c.rows());
+    const Eigen::VectorXcd unit = realisation.scale.cast<Complex>().cwiseInverse().cwiseAbs2().cwiseProduct(shape);
+    const Eigen::VectorXcd c = realisation.c.leftCols(n).transpose() * unit;
+    Eigen::MatrixXcd bordered(n + 1, n + 1);
+    bordered.topLeftCorner(n, n) = realisation.a.topLeftCorner(n, n).cast<Complex>();
+    bordered.diagonal().array() -= given.pole.lambda;
+    bordered.col(n).setOnes();
+    bordered.row(n).head(n) = c.adjoint() / c.norm();
+    bordered(n, n) = 0.0;
+    lu_.compute(bordered);
+    const Eigen::VectorXcd null = lu_.solve(Eigen::VectorXcd::Unit(n + 1, n));
+    psi = null.head(n);
+    const Eigen::VectorXcd own = realisation.c.leftCols(n) * psi;
+    Index m = 0;
+    const double largest = own.cwiseAbs().maxCoeff(&m);
+    by_psi_ = solve(psi);
+    found = null.allFinite() && by_psi_.allFinite() && largest > 0.0 && std::abs(by_psi_[n]) > 0.0 &&
+            std::abs(null[n]) < 1e-9 * psi.norm();
+    if (found) factor = shape[m] / own[m];
+  }
 
-OrderVectors vectors_of(const Realisation& realisation, int order) {
-  OrderVectors out;
-  const Index n = std::min<Index>(order, realisation.a.rows());
-  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(realisation.a.topLeftCorner(n, n));
-  if (eigen.info() != Eigen::Success) return out;
-  out.lambda = eigen.eigenvalues();
-  out.right = eigen.eigenvectors();
-  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(out.right);
-  out.left = lu.inverse();
-  out.valid = out.left.allFinite();
-  return out;
-}
+  // [dpsi; dlambda] of dA psi.
+  [[nodiscard]] Eigen::VectorXcd to(const Eigen::VectorXcd& change) const {
+    const Index n = psi.size();
+    const Eigen::VectorXcd z = solve(-change);
+    const Complex dlambda = -z[n] / by_psi_[n];
+    Eigen::VectorXcd out(n + 1);
+    out << z.head(n) + dlambda * by_psi_.head(n), dlambda;
+    return out;
+  }
 
-struct Pole {
-  const OrderVectors* vectors = nullptr;  // null: not found again
-  Index k = 0;                            // its column
-  Complex factor;                         // shape as given = factor * C psi
+  bool found = false;
+  Eigen::VectorXcd psi;
+  Complex factor;  // shape as given = factor * C psi
+
+ private:
+  [[nodiscard]] Eigen::VectorXcd solve(const Eigen::VectorXcd& right) const {
+    Eigen::VectorXcd bordered(right.size() + 1);
+    bordered << right, 0.0;
+    return lu_.solve(bordered);
+  }
+
+  Eigen::PartialPivLU<Eigen::MatrixXcd> lu_;
+  Eigen::VectorXcd by_psi_;
 };
 
 class PoleChanges {
  public:
   PoleChanges(const Realisation& realisation, const EraConfig& config, const std::vector<PoleOfOrder>& poles)
       : realisation_(realisation), config_(config) {
-    for (const PoleOfOrder& each : poles) {
-      auto [at, added] = orders_.try_emplace(each.order);
-      if (added) at->second = vectors_of(realisation, each.order);
-      poles_.push_back(locate(at->second, each.pole));
-    }
-    directions_.resize(realisation.right_map.rows(), 2 * static_cast<Index>(poles.size()));
-    directions_.setZero();
-    for (std::size_t p = 0; p < poles_.size(); ++p) {
-      if (poles_[p].vectors == nullptr) continue;
-      const OrderVectors& v = *poles_[p].vectors;
-      const Eigen::VectorXcd r = realisation.right_map.leftCols(v.lambda.size()) * v.right.col(poles_[p].k);
+    directions_ = Eigen::MatrixXd::Zero(realisation.right_map.rows(), 2 * static_cast<Index>(poles.size()));
+    for (std::size_t p = 0; p < poles.size(); ++p) {
+      poles_.emplace_back(realisation, poles[p]);
+      lambda_.push_back(poles[p].pole.lambda);
+      if (!poles_[p].found) continue;
+      const Eigen::VectorXcd r = realisation.right_map.leftCols(poles_[p].psi.size()) * poles_[p].psi;
       directions_.col(2 * static_cast<Index>(p)) = r.real();
       directions_.col(2 * static_cast<Index>(p) + 1) = r.imag();
     }
@@ -66,72 +89,72 @@ class PoleChanges {
   // [pole][block]: what each block does to each of the poles.
   [[nodiscard]] std::vector<std::vector<PoleChange>> of(const BlockDeviations& deviations) const {
     const Index ny = realisation_.scale.size(), rows = realisation_.left_map.cols();
-    const Eigen::MatrixXd y = hankel_times_directions(deviations);
+    const Eigen::MatrixXd moved = hankel_times_directions(deviations);
+    const Eigen::MatrixXd by_h0 = left_times(moved.topRows(rows)), by_h1 = left_times(moved.bottomRows(rows));
     std::vector<std::vector<PoleChange>> changes(poles_.size());
-    Eigen::VectorXcd moved(rows + ny);
+    const auto column = [](const Eigen::MatrixXd& m, Index re, Index n) {
+      Eigen::VectorXcd out(n);
+      out.real() = m.col(re).head(n);
+      out.imag() = m.col(re + 1).head(n);
+      return out;
+    };
     for (std::size_t p = 0; p < poles_.size(); ++p) {
-      if (poles_[p].vectors == nullptr) continue;
-      const Index c = 2 * static_cast<Index>(p);
+      if (!poles_[p].found) continue;
+      const Index n = poles_[p].psi.size();
       for (Index block = 0; block < deviations.n_blocks; ++block) {
-        for (Index a = 0; a <= config_.block_rows; ++a) {
-          const Index from = (a * deviations.n_blocks + block) * ny;
-          moved.segment(a * ny, ny).real() = y.col(c).segment(from, ny);
-          moved.segment(a * ny, ny).imag() = y.col(c + 1).segment(from, ny);
-        }
-        changes[p].push_back(change(poles_[p], moved.head(rows), moved.segment(ny, rows), ny));
+        const Index c = 2 * (block * static_cast<Index>(poles_.size()) + static_cast<Index>(p));
+        changes[p].push_back(change(p, {column(by_h0, c, n), column(by_h1, c, n), column(moved, c, ny)}));
       }
     }
     return changes;
   }
 
  private:
-  // Rows (block row, block of the record, channel). A block row of the Hankel matrix is a run of lags; one block row
-  // more than H0 has, for H1 is the same matrix without its first.
+  // dH right_map psi, rows of one block row more than H0 has, for H1 is the same matrix without its first; columns
+  // (block of the record, pole, real or imaginary part). A block row of the Hankel matrix is a run of lags.
   [[nodiscard]] Eigen::MatrixXd hankel_times_directions(const BlockDeviations& deviations) const {
     const Index ny = realisation_.scale.size(), nr = static_cast<Index>(config_.references.size());
-    const Index height = deviations.value.rows(), width = config_.block_rows * nr;
+    const Index height = deviations.value.rows(), width = config_.block_rows * nr, n_columns = directions_.cols();
     Eigen::MatrixXd of_unit_variance = deviations.value;
     for (Index r = 0; r < height; ++r) of_unit_variance.row(r) /= realisation_.scale[r % ny];
     for (Index c = 0; c < of_unit_variance.cols(); ++c) {
       of_unit_variance.col(c) /= realisation_.scale[config_.references[static_cast<std::size_t>(c % nr)]];
     }
-    Eigen::MatrixXd y = Eigen::MatrixXd::Zero((config_.block_rows + 1) * height, directions_.cols());
+    Eigen::MatrixXd out((config_.block_rows + 1) * ny, deviations.n_blocks * n_columns), y(height, n_columns);
     for (Index a = 0; a <= config_.block_rows; ++a) {
-      add_product(y.middleRows(a * height, height), 1.0, of_unit_variance.middleCols(a * nr, width), directions_);
+      y.setZero();
+      add_product(y, 1.0, of_unit_variance.middleCols(a * nr, width), directions_);
+      for (Index block = 0; block < deviations.n_blocks; ++block) {
+        out.block(a * ny, block * n_columns, ny, n_columns) = y.middleRows(block * ny, ny);
+      }
     }
-    return y;
+    return out;
   }
 
-  [[nodiscard]] Pole locate(const OrderVectors& vectors, const DiscretePole& given) const {
-    if (!vectors.valid) return {};
-    Index k = 0;
-    const double off = (vectors.lambda.array() - given.lambda).abs().minCoeff(&k);
-    if (!(off < 1e-9 * std::max(1.0, std::abs(given.lambda)))) return {};
-    const Eigen::VectorXcd own = realisation_.c.leftCols(vectors.lambda.size()) * vectors.right.col(k);
-    Index m = 0;
-    if (!(own.cwiseAbs().maxCoeff(&m) > 0.0)) return {};
-    return {&vectors, k, given.shape[static_cast<std::size_t>(m)] / own[m]};
+  [[nodiscard]] Eigen::MatrixXd left_times(const Eigen::Ref<const Eigen::MatrixXd>& moved) const {
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(realisation_.left_map.rows(), moved.cols());
+    add_product(out, 1.0, realisation_.left_map, moved);
+    return out;
   }
 
-  [[nodiscard]] PoleChange change(const Pole& pole, const Eigen::VectorXcd& h0, const Eigen::VectorXcd& h1,
-                                  Index ny) const {
-    const OrderVectors& v = *pole.vectors;
-    const Index n = v.lambda.size();
-    const Complex lambda = v.lambda[pole.k];
-    const Eigen::VectorXcd moved = v.left * (realisation_.left_map.topRows(n) * (h1 - lambda * h0));
-    Eigen::VectorXcd mixing = Eigen::VectorXcd::Zero(n);
-    for (Index j = 0; j < n; ++j) {
-      if (j != pole.k) mixing[j] = moved[j] / (lambda - v.lambda[j]);
-    }
-    const Eigen::VectorXcd top = realisation_.scale.cast<Complex>().cwiseProduct(h0.head(ny));
-    const Eigen::VectorXcd shape = pole.factor * (top + realisation_.c.leftCols(n) * (v.right * mixing));
-    return {moved[pole.k], {shape.begin(), shape.end()}};
+  // What one block does along one pole's direction: left_map dH0, left_map dH1, and the first block row of dH0.
+  struct Moved {
+    Eigen::VectorXcd by_h0, by_h1, top;
+  };
+
+  [[nodiscard]] PoleChange change(std::size_t p, const Moved& by) const {
+    const PoleResponse& pole = poles_[p];
+    const Index n = pole.psi.size();
+    const Eigen::VectorXcd moved = pole.to(by.by_h1 - lambda_[p] * by.by_h0);
+    const Eigen::VectorXcd top = realisation_.scale.cast<Complex>().cwiseProduct(by.top);
+    const Eigen::VectorXcd shape = pole.factor * (top + realisation_.c.leftCols(n) * moved.head(n));
+    return {moved[n], {shape.begin(), shape.end()}};
   }
 
   const Realisation& realisation_;
   const EraConfig& config_;
-  std::map<int, OrderVectors> orders_;
-  std::vector<Pole> poles_;
+  std::vector<PoleResponse> poles_;
+  std::vector<Complex> lambda_;
   Eigen::MatrixXd directions_;  // right_map psi of every pole: real and imaginary part
 };
 
@@ -197,12 +220,26 @@ std::optional<ModeScatter> mode_scatter(const PoleOfOrder& pole, const UnfoldedP
   return finite ? std::optional(std::move(out)) : std::nullopt;
 }
 
-double student_95(std::size_t degrees_of_freedom) noexcept {
+double student_95(double degrees_of_freedom) noexcept {
   constexpr std::array<double, 30> kQuantile{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228,
                                              2.201,  2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086,
                                              2.080,  2.074, 2.069, 2.064, 2.060, 2.056, 2.052, 2.048, 2.045, 2.042};
-  if (degrees_of_freedom == 0) return kQuantile.front();
-  return degrees_of_freedom <= kQuantile.size() ? kQuantile[degrees_of_freedom - 1] : 1.96;
+  constexpr double kNormal = 1.960;
+  if (!(degrees_of_freedom > 1.0)) return kQuantile.front();
+  const double whole = std::floor(degrees_of_freedom);
+  if (whole >= static_cast<double>(kQuantile.size())) {
+    return kNormal + (kQuantile.back() - kNormal) * static_cast<double>(kQuantile.size()) / degrees_of_freedom;
+  }
+  const auto at = static_cast<std::size_t>(whole);
+  const double share = (1.0 / whole - 1.0 / degrees_of_freedom) / (1.0 / whole - 1.0 / (whole + 1.0));
+  return kQuantile[at - 1] + share * (kQuantile[at] - kQuantile[at - 1]);
+}
+
+std::optional<Interval> damping_interval_95(const Mode& mode, double degrees_of_freedom) noexcept {
+  if (!mode.damping_std || !(mode.damping_ratio > 0.0) || !(degrees_of_freedom > 0.0)) return std::nullopt;
+  const double factor = std::exp(student_95(degrees_of_freedom) * *mode.damping_std / mode.damping_ratio);
+  if (!std::isfinite(factor) || !(factor > 0.0)) return std::nullopt;
+  return Interval{mode.damping_ratio / factor, mode.damping_ratio * factor};
 }
 
 }  // namespace core

@@ -47,7 +47,16 @@ struct ModeScatter {
                                                       const FoldingConfig& folding,
                                                       const std::vector<PoleChange>& changes);
 
-// Half width of the two-sided 95 % interval in standard deviations, for that many degrees of freedom (Student's t).
-[[nodiscard]] double student_95(std::size_t degrees_of_freedom) noexcept;
+// Half width of the two-sided 95 % interval in standard deviations (Student's t; between whole degrees of freedom,
+// linear in their reciprocal).
+[[nodiscard]] double student_95(double degrees_of_freedom) noexcept;
+
+// Of a damping ratio, symmetric in its logarithm: its scatter grows with itself, so that a damping that came out low
+// states too small a deviation. (600 simulated records, 30 cycles of memory: 93.0 % held the truth, 91.2 % of plain
+// ones.)
+struct Interval {
+  double low = 0.0, high = 0.0;
+};
+[[nodiscard]] std::optional<Interval> damping_interval_95(const Mode& mode, double degrees_of_freedom) noexcept;
 
 }  // namespace core

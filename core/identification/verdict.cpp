@@ -116,6 +116,7 @@ Mode judge(const PoleCluster& cluster, const BaseResponse& response, const std::
   mode.fold_margin = cluster.representative.fold_margin;
   mode.shape = cluster.representative.shape;
   mode.mpc = cluster.representative.mpc;
+  mode.emac = cluster.representative.emac;
   mode.presence = cluster.presence;
   decide(mode, cluster, response, channels, orders, rules, line);
   return mode;

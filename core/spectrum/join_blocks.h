@@ -15,6 +15,7 @@ inline void join_blocks(CpsdBlock& into, const CpsdBlock& from) noexcept {
     std::transform(sum.begin(), sum.end(), more.begin(), sum.begin(), std::plus<>());
   };
   into.n_segments += from.n_segments;
+  into.weight.join(from.weight);
   add(into.data_sum, from.data_sum);
   add(into.mask_sum, from.mask_sum);
 }

@@ -86,6 +86,7 @@ void add_record(RecordSums& into, const RecordSums& from) {
   add(sums.data_sum, from.sums.data_sum);
   add(sums.mask_sum, from.sums.mask_sum);
   sums.n_segments += from.sums.n_segments;
+  sums.weight.join(from.sums.weight);
   sums.n_samples += from.sums.n_samples;
   sums.n_missing += from.sums.n_missing;
   // Without room for blocks on one side the parts would not be the whole: then there are none.

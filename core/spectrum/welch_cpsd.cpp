@@ -24,6 +24,8 @@ void check(const WelchConfig& config) {
     throw std::invalid_argument("WelchCpsd: overlap must lie in 0 .. 1");
   if (config.n_blocks < 0 || config.n_blocks % 2 != 0)
     throw std::invalid_argument("WelchCpsd: number of blocks must be even and not negative");
+  if (!(config.forget_s >= 0.0) || std::isinf(config.forget_s))
+    throw std::invalid_argument("WelchCpsd: forget_s must be a time, or 0 for never");
   if (!(config.rate_hz > 0.0)) throw std::invalid_argument("WelchCpsd: rate must be positive");
 }
 
@@ -71,6 +73,12 @@ WelchCpsd::WelchCpsd(const WelchConfig& config)
     : config_(config), fft_(padded_length(config)), sums_(empty_sums(config)) {
   hop_ = std::max(1, config.segment - static_cast<int>(std::floor(config.segment * config.overlap)));
   window_ = make_window(config.window, config.segment);
+  if (config.forget_s > 0.0) {
+    const double hops = config.forget_s * config.rate_hz / hop_;  // that it remembers
+    kept_per_hop_ = std::exp(-1.0 / hops);
+    const double per_block = std::clamp(2.0 * hops / std::max(1, config.n_blocks), 1.0, 1e15);
+    most_segments_per_block_ = static_cast<std::uint64_t>(std::ceil(per_block));
+  }
   const auto samples = static_cast<std::size_t>(config.n_channels) * static_cast<std::size_t>(config.segment);
   value_.assign(samples, 0.0);
   seen_.assign(samples, 0);
@@ -146,10 +154,13 @@ void WelchCpsd::accumulate_segment() noexcept {
     transform_channel(c);
     if (c == 0 || !one_mask) transform_mask(c);
   }
+  fade();
   add_products(one_mask, sums_.data_sum, sums_.mask_sum);
+  sums_.weight.add_one();
   if (!sums_.blocks.empty()) {
     CpsdBlock& block = current_block();
     ++block.n_segments;
+    block.weight.add_one();
     add_products(one_mask, block.data_sum, block.mask_sum);
   }
   ++sums_.n_segments;
@@ -192,21 +203,44 @@ void WelchCpsd::transform_mask(int channel) noexcept {
   fft_.forward(padded_, {mask_.data() + c * bins, bins});
 }
 
+void WelchCpsd::fade() noexcept {
+  if (kept_per_hop_ == 1.0) return;
+  const auto scale = [this](std::vector<Complex>& sum) {
+    for (Complex& z : sum) z *= kept_per_hop_;
+  };
+  scale(sums_.data_sum), scale(sums_.mask_sum);
+  sums_.weight.fade(kept_per_hop_);
+  for (std::size_t b = 0; b < sums_.n_blocks; ++b) {
+    scale(sums_.blocks[b].data_sum), scale(sums_.blocks[b].mask_sum);
+    sums_.blocks[b].weight.fade(kept_per_hop_);
+  }
+}
+
+void WelchCpsd::make_room() noexcept {
+  std::vector<CpsdBlock>& blocks = sums_.blocks;
+  if (2 * segments_per_block_ > most_segments_per_block_) {
+    join_blocks(blocks[0], blocks[1]);
+    std::rotate(blocks.begin() + 1, blocks.begin() + 2, blocks.end());
+    --sums_.n_blocks;
+    return;
+  }
+  for (std::size_t b = 0; b < blocks.size(); b += 2) {
+    join_blocks(blocks[b], blocks[b + 1]);
+    std::swap(blocks[b / 2], blocks[b]);
+  }
+  sums_.n_blocks /= 2;
+  segments_per_block_ *= 2;
+}
+
 // The block that takes the next segment is the last in use.
 CpsdBlock& WelchCpsd::current_block() noexcept {
   std::vector<CpsdBlock>& blocks = sums_.blocks;
   if (sums_.n_blocks > 0 && blocks[sums_.n_blocks - 1].n_segments < segments_per_block_)
     return blocks[sums_.n_blocks - 1];
-  if (sums_.n_blocks == blocks.size()) {
-    for (std::size_t b = 0; b < blocks.size(); b += 2) {
-      join_blocks(blocks[b], blocks[b + 1]);
-      std::swap(blocks[b / 2], blocks[b]);
-    }
-    sums_.n_blocks /= 2;
-    segments_per_block_ *= 2;
-  }
+  if (sums_.n_blocks == blocks.size()) make_room();
   CpsdBlock& next = blocks[sums_.n_blocks++];
   next.n_segments = 0;
+  next.weight = {};
   std::fill(next.data_sum.begin(), next.data_sum.end(), Complex());
   std::fill(next.mask_sum.begin(), next.mask_sum.end(), Complex());
   return next;

@@ -18,8 +18,11 @@ struct WelchConfig {
   WindowKind window = WindowKind::kHann;
   double rate_hz = 1.0;
   // Parts of the record that are summed apart as well. As it grows they are joined two and two, so that between half
-  // and all of them are in use once there were as many segments. Even; 0 = none.
+  // and all of them are in use once there were as many segments; where old segments are forgotten, only until all
+  // together span two forget_s, and then the oldest two become one. Even; 0 = none.
   int n_blocks = 20;
+  // A segment counts exp(-age / forget_s): the estimate follows a structure that changes. 0 = never forgets.
+  double forget_s = 0.0;
   bool bridge_losses = false;  // short gaps: see bridge_losses.h; false: every lost sample is masked
 };
 
@@ -51,7 +54,9 @@ class WelchCpsd {
   // one_mask: all channels lack the same samples
   void add_products(bool one_mask, std::vector<std::complex<double>>& data_sum,
                     std::vector<std::complex<double>>& mask_sum) noexcept;
+  void fade() noexcept;  // by one hop
   [[nodiscard]] CpsdBlock& current_block() noexcept;
+  void make_room() noexcept;  // all blocks are in use
 
   WelchConfig config_;
   int hop_;
@@ -60,7 +65,8 @@ class WelchCpsd {
   CpsdSums sums_;
   int n_filled_ = 0;  // samples in the segment being gathered
   int n_new_ = 0;     // of them, not yet part of any accumulated segment
-  std::uint64_t segments_per_block_ = 1;
+  double kept_per_hop_ = 1.0;
+  std::uint64_t segments_per_block_ = 1, most_segments_per_block_ = UINT64_MAX;
   std::vector<double> value_;                   // channels x segment
   std::vector<std::uint8_t> seen_;              // channels x segment
   std::vector<double> bridged_;                 // channels x segment; empty unless losses are bridged

@@ -6,9 +6,21 @@
 
 namespace core {
 
+// Segments count less the older they are where a Welch estimate forgets; else each counts one.
+struct SegmentWeight {
+  double sum = 0.0, squares = 0.0;
+
+  void add_one() noexcept { sum += 1.0, squares += 1.0; }
+  void fade(double factor) noexcept { sum *= factor, squares *= factor * factor; }
+  void join(const SegmentWeight& other) noexcept { sum += other.sum, squares += other.squares; }
+  // How many equal segments would scatter as much.
+  [[nodiscard]] double effective() const noexcept { return squares > 0.0 ? sum * sum / squares : 0.0; }
+};
+
 // The sums of one of several contiguous parts of the record: what standard deviations are made of.
 struct CpsdBlock {
   std::uint64_t n_segments = 0;
+  SegmentWeight weight;
   std::vector<std::complex<double>> data_sum, mask_sum;  // as in CpsdSums
 };
 
@@ -20,6 +32,7 @@ struct CpsdSums {
   int n_fft = 0;
   double rate_hz = 0.0;
   std::uint64_t n_segments = 0;
+  SegmentWeight weight;                        // of those segments: densities divide by its sum
   std::uint64_t n_samples = 0;                 // stream position: grid cells consumed, seen or missing
   std::uint64_t n_missing = 0;                 // channel samples masked out
   double window_power = 0.0;                   // sum of squared window values of one full segment
@@ -30,11 +43,16 @@ struct CpsdSums {
 
   [[nodiscard]] int n_bins() const noexcept { return n_fft / 2 + 1; }
   [[nodiscard]] int n_pairs() const noexcept { return n_channels * (n_channels + 1) / 2; }
+  // Samples that the estimate remembers: all of them, unless it forgets.
+  [[nodiscard]] double n_remembered() const noexcept {
+    const double share = n_segments > 0 ? weight.effective() / static_cast<double>(n_segments) : 1.0;
+    return share * static_cast<double>(n_samples);
+  }
   // Everything but the blocks.
   void copy_totals(const CpsdSums& other) {
     n_channels = other.n_channels, n_fft = other.n_fft, rate_hz = other.rate_hz;
     n_segments = other.n_segments, n_samples = other.n_samples, n_missing = other.n_missing;
-    window_power = other.window_power;
+    window_power = other.window_power, weight = other.weight;
     data_sum = other.data_sum, mask_sum = other.mask_sum;
     blocks.clear(), n_blocks = 0;
   }

@@ -38,6 +38,7 @@ struct Mode {
   std::vector<std::complex<double>> shape;  // per channel; the largest component is 1 (real)
   std::vector<double> shape_std;            // empty = unknown
   double mpc = 0.0;                         // modal phase collinearity, 0..1
+  double emac = 0.0;                        // extended modal amplitude coherence, 0..1; times MPC: CMI
   double presence = 0.0;                    // share of model orders in which the pole was found, 0..1
   Verdict verdict = Verdict::kNumerical;
   std::string reason;
@@ -67,8 +68,9 @@ struct ModalEstimate {
   std::int64_t t_stream_ns = 0;  // time stamp of the last sample used
   double rate_hz = 0.0;
   double duration_s = 0.0;
-  // Blocks of the record behind the standard deviations: read them with n_blocks - 1 degrees of freedom (Student).
-  std::size_t n_blocks = 0;
+  double remembered_s = 0.0;  // of it; less only where old samples are forgotten
+  // Read the standard deviations with so many degrees of freedom (Student's t); 0 = none are stated.
+  double degrees_of_freedom = 0.0;
   int model_order = 0;                   // order at which the canonical correlations fall off; 0 = unclear
   bool final = false;                    // the last of a run
   std::string status;                    // "ok", or why there are no modes

@@ -10,7 +10,7 @@ constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 // One-sided density of channel i: every bin but DC and Nyquist stands for its negative twin too.
 std::vector<float> density(const core::CpsdSums& sums, int i_channel) {
-  const double norm = sums.rate_hz * sums.window_power * static_cast<double>(sums.n_segments);
+  const double norm = sums.rate_hz * sums.window_power * sums.weight.sum;
   const auto n_bins = static_cast<std::size_t>(sums.n_bins());
   std::vector<float> psd(n_bins, kUnknown);
   if (!(norm > 0.0)) return psd;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/identification/uncertainty.h"
 #include "drivers/storage/json.h"
 
 namespace app {
@@ -55,7 +56,12 @@ Json history_json(const std::optional<core::ModeHistory>& history) {
           {"more_s", or_null(history->more_s)}};
 }
 
-Json mode_json(const core::Mode& mode, const std::vector<std::string>& names) {
+Json interval_json(const std::optional<core::Interval>& interval) {
+  if (!interval) return nullptr;
+  return {interval->low, interval->high};
+}
+
+Json mode_json(const core::Mode& mode, const core::ModalEstimate& estimate, const std::vector<std::string>& names) {
   Json out = Json::object();
   out["frequency_hz"] = mode.frequency_hz;
   out["frequency_std_hz"] = or_null(mode.frequency_std_hz);
@@ -64,18 +70,22 @@ Json mode_json(const core::Mode& mode, const std::vector<std::string>& names) {
   out["fold_margin"] = or_null(mode.fold_margin);
   out["damping_ratio"] = mode.damping_ratio;
   out["damping_std"] = or_null(mode.damping_std);
+  out["damping_interval_95"] = interval_json(core::damping_interval_95(mode, estimate.degrees_of_freedom));
   out["shape"] = shape_json(mode, names);
   out["shape_std"] = shape_std_json(mode, names);
   out["mpc"] = mode.mpc;
+  out["emac"] = mode.emac;
+  out["cmi"] = mode.emac * mode.mpc;
   out["verdict"] = core::to_string(mode.verdict);
   out["reason"] = mode.reason;
   out["history"] = history_json(mode.history);
   return out;
 }
 
-Json modes_json(const std::vector<core::Mode>& modes, const std::vector<std::string>& names) {
+Json modes_json(const std::vector<core::Mode>& modes, const core::ModalEstimate& estimate,
+                const std::vector<std::string>& names) {
   Json out = Json::array();
-  for (const core::Mode& mode : modes) out.push_back(mode_json(mode, names));
+  for (const core::Mode& mode : modes) out.push_back(mode_json(mode, estimate, names));
   return out;
 }
 
@@ -98,8 +108,10 @@ std::string modal_json(const ModalReport& report, std::size_t* n_not_finite) {
   out["duration_s"] = estimate.duration_s;
   out["samples"] = estimate.n_samples;
   out["segments"] = estimate.n_segments;
-  out["modes"] = modes_json(estimate.modes, report.channel_names);
-  out["rejected"] = modes_json(estimate.rejected, report.channel_names);
+  out["remembered_s"] = estimate.remembered_s;
+  out["degrees_of_freedom"] = positive_or_null(estimate.degrees_of_freedom);
+  out["modes"] = modes_json(estimate.modes, estimate, report.channel_names);
+  out["rejected"] = modes_json(estimate.rejected, estimate, report.channel_names);
   out["corrections"] = report.corrections;
   out["losses"] = losses_json(report.losses);
   drivers::JsonText text = drivers::to_json_text(out);

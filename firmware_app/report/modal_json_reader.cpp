@@ -29,6 +29,7 @@ class ModalReader {
     estimate.duration_s = optional_number(root, "duration_s").value_or(0.0);
     estimate.n_samples = count(root, "samples");
     estimate.n_segments = count(root, "segments");
+    estimate.degrees_of_freedom = optional_number(root, "degrees_of_freedom").value_or(0.0);
     estimate.final = true;
     estimate.modes = modes(root, "modes");
     estimate.rejected = modes(root, "rejected");
@@ -102,6 +103,7 @@ class ModalReader {
     out.damping_ratio = optional_number(item, "damping_ratio").value_or(0.0);
     out.damping_std = optional_number(item, "damping_std");
     out.mpc = optional_number(item, "mpc").value_or(0.0);
+    out.emac = optional_number(item, "emac").value_or(0.0);
     out.reason = text(item, "reason");
     out.verdict = verdict(text(item, "verdict"), name);
     read_shape(item, name, out);

@@ -65,7 +65,7 @@ class RunReportTest : public ::testing::Test {
     core::ModalEstimate out;
     out.n_samples = 1500, out.n_segments = 4, out.rate_hz = 25.0, out.duration_s = 60.0;
     core::Mode mode;
-    mode.frequency_hz = 1.657, mode.apparent_hz = 1.657, mode.damping_ratio = 0.01, mode.mpc = 0.99;
+    mode.frequency_hz = 1.657, mode.apparent_hz = 1.657, mode.damping_ratio = 0.01, mode.mpc = 0.99, mode.emac = 0.9;
     mode.frequency_std_hz = 0.002;
     mode.shape = {{0.1, -0.02}, {1.0, 0.0}};
     mode.verdict = core::Verdict::kStructural;

@@ -91,7 +91,7 @@ inline core::CpsdSums sample_sums(int n_channels, int n_fft) {
   out.n_channels = n_channels;
   out.n_fft = n_fft;
   out.rate_hz = 25.0;
-  out.n_segments = 4;
+  out.n_segments = 4, out.weight = {4.0, 4.0};
   out.n_samples = 1000;
   out.window_power = 0.375 * n_fft;
   out.data_sum.assign(static_cast<std::size_t>(out.n_bins()) * static_cast<std::size_t>(out.n_pairs()), {2.0, 0.0});

@@ -14,7 +14,7 @@ std::complex<double> at(const core::CpsdSums& sums, int bin, int pair) {
 // value(bin): of the undivided sums.
 template <class Value>
 std::vector<PlotPoint> one_sided(const core::CpsdSums& sums, const Value& value) {
-  const double divisor = sums.rate_hz * sums.window_power * static_cast<double>(sums.n_segments);
+  const double divisor = sums.rate_hz * sums.window_power * sums.weight.sum;
   std::vector<PlotPoint> out;
   for (int k = 1; k < sums.n_bins(); ++k) {
     const double sides = 2 * k == sums.n_fft ? 1.0 : 2.0;

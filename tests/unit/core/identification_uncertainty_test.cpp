@@ -57,7 +57,7 @@ TEST(PoleChanges, AreTheDerivativeOfARefit) {
   ASSERT_EQ(realise(r, config, at), EraStatus::kOk);
   const double eps = 1e-6;
   const int n_lags = 2 * config.block_rows;
-  BlockDeviations deviation{1, Eigen::MatrixXd(4, 4 * n_lags)};
+  BlockDeviations deviation{1, 0.0, Eigen::MatrixXd(4, 4 * n_lags)};
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) {
       for (int k = 0; k < n_lags; ++k) {
@@ -94,7 +94,7 @@ TEST(ModeScatter, IsEmptyForARecordOfTooFewBlocks) {
   structure.duration_s = 60.0;  // seven segments
   const ModalEstimate estimate = Identifier({}, structure.channels()).identify(structure.spectra());
   ASSERT_FALSE(estimate.modes.empty());
-  EXPECT_EQ(estimate.n_blocks, 0U);
+  EXPECT_EQ(estimate.degrees_of_freedom, 0.0);
   for (const Mode& mode : estimate.modes) {
     EXPECT_FALSE(mode.frequency_std_hz.has_value());
     EXPECT_TRUE(mode.shape_std.empty());
@@ -111,7 +111,7 @@ TEST(ModeScatter, StatesTheErrorsThatTheRecordsShow) {
     SimulatedStructure structure;
     structure.seed = seed;
     const ModalEstimate estimate = Identifier({}, structure.channels()).identify(structure.spectra());
-    ASSERT_EQ(estimate.n_blocks, kScatterBlocks);
+    EXPECT_NEAR(estimate.degrees_of_freedom, 9.0, 1.0);
     for (std::size_t r = 0; r < 4; ++r) {
       for (const Mode& mode : estimate.modes) {
         if (std::abs(mode.frequency_hz - structure.frequency_hz(r)) > 0.15) continue;
@@ -145,8 +145,28 @@ TEST(ModeScatter, StatesTheErrorsThatTheRecordsShow) {
 
 TEST(Student, WidensForFewDegreesOfFreedom) {
   EXPECT_DOUBLE_EQ(student_95(9), 2.262);
-  EXPECT_DOUBLE_EQ(student_95(1000), 1.96);
-  EXPECT_GT(student_95(1), student_95(2));
+  EXPECT_DOUBLE_EQ(student_95(1), 12.706);
+  EXPECT_DOUBLE_EQ(student_95(30), 2.042);
+  EXPECT_NEAR(student_95(60), 2.000, 2e-3);
+  EXPECT_NEAR(student_95(1e6), 1.96, 1e-3);
+  for (double k = 1.0; k < 40.0; k += 0.25) EXPECT_GT(student_95(k), student_95(k + 0.25)) << k;
+  EXPECT_DOUBLE_EQ(student_95(0.3), 12.706);
+}
+
+TEST(DampingInterval, IsSymmetricInTheLogarithm) {
+  Mode mode;
+  mode.damping_ratio = 0.01;
+  EXPECT_FALSE(damping_interval_95(mode, 9).has_value());
+  mode.damping_std = 0.002;
+  const auto interval = damping_interval_95(mode, 9);
+  ASSERT_TRUE(interval.has_value());
+  EXPECT_NEAR(interval->low * interval->high, 1e-4, 1e-12);
+  EXPECT_NEAR(std::log(interval->high / 0.01), 2.262 * 0.2, 1e-12);
+  EXPECT_FALSE(damping_interval_95(mode, 0.0).has_value());
+  mode.damping_ratio = -0.001;
+  EXPECT_FALSE(damping_interval_95(mode, 9).has_value());
+  mode.damping_ratio = 1e-9;
+  EXPECT_FALSE(damping_interval_95(mode, 9).has_value()) << "the factor is no number";
 }
 
 }  // namespace

@@ -146,7 +146,7 @@ TEST(LcmEncode, SpectrumIntegratesToTheMeanSquareOfASine) {
   constexpr int kN = 64;
   constexpr double kAmplitude = 3.0;
   core::CpsdSums sums = tests::sample_sums(1, kN);
-  sums.n_segments = 1;
+  sums.n_segments = 1, sums.weight.sum = 1.0;
   sums.window_power = kN;  // boxcar
   sums.data_sum.assign(static_cast<std::size_t>(sums.n_bins()), {0.0, 0.0});
   for (std::size_t k = 0; k < sums.data_sum.size(); ++k) {
@@ -174,7 +174,7 @@ TEST(LcmEncode, SpectrumDoublesAllBinsButDcAndNyquistAndPicksTheDiagonal) {
   const auto messages = to_messages(sums, tests::sample_channels(2), kIdentity);
   ASSERT_EQ(messages.size(), 2U);
   const auto& psd = messages[1].psd_mm2_per_hz;
-  const double norm = sums.rate_hz * sums.window_power * static_cast<double>(sums.n_segments);
+  const double norm = sums.rate_hz * sums.window_power * sums.weight.sum;
   EXPECT_FLOAT_EQ(psd[0], static_cast<float>(10.0 / norm));
   EXPECT_FLOAT_EQ(psd[1], static_cast<float>(20.0 / norm));
   EXPECT_FLOAT_EQ(psd[4], static_cast<float>(10.0 / norm));
@@ -183,7 +183,7 @@ TEST(LcmEncode, SpectrumDoublesAllBinsButDcAndNyquistAndPicksTheDiagonal) {
 
 TEST(LcmEncode, SpectrumBeforeTheFirstSegmentIsUnknownAndBrokenSumsAreRefused) {
   auto sums = tests::sample_sums(1, 8);
-  sums.n_segments = 0;
+  sums.n_segments = 0, sums.weight = {};
   EXPECT_TRUE(std::isnan(to_messages(sums, {}, kIdentity).at(0).psd_mm2_per_hz.at(1)));
   sums.data_sum.pop_back();
   EXPECT_TRUE(to_messages(sums, {}, kIdentity).empty());

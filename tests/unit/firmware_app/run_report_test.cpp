@@ -79,6 +79,8 @@ TEST_F(RunReportTest, ModalJsonHasExactlyTheAgreedLayout) {
   "duration_s": 60,
   "samples": 1500,
   "segments": 4,
+  "remembered_s": 0,
+  "degrees_of_freedom": null,
   "modes": [
     {
       "frequency_hz": 1.657,
@@ -88,12 +90,15 @@ TEST_F(RunReportTest, ModalJsonHasExactlyTheAgreedLayout) {
       "fold_margin": null,
       "damping_ratio": 0.01,
       "damping_std": null,
+      "damping_interval_95": null,
       "shape": {
         "base": [0.1, -0.02],
         "roof": [1, 0]
       },
       "shape_std": null,
       "mpc": 0.99,
+      "emac": 0.9,
+      "cmi": 0.891,
       "verdict": "structural",
       "reason": "present in 14 of 15 orders",
       "history": {
@@ -118,6 +123,7 @@ TEST_F(RunReportTest, ModalJsonHasExactlyTheAgreedLayout) {
       "fold_margin": 0.25,
       "damping_ratio": 0.01,
       "damping_std": null,
+      "damping_interval_95": null,
       "shape": {
         "base": [0.1, -0.02],
         "roof": [1, 0]
@@ -127,6 +133,8 @@ TEST_F(RunReportTest, ModalJsonHasExactlyTheAgreedLayout) {
         "roof": 0.2
       },
       "mpc": 0.99,
+      "emac": 0.9,
+      "cmi": 0.891,
       "verdict": "numerical",
       "reason": "present in 14 of 15 orders",
       "history": null

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "core/identification/uncertainty.h"
 #include "core/simulation/random_stream.h"
 #include "tools/hovermodal/selftest/identification.h"
 #include "tools/hovermodal/selftest/identification_match.h"
@@ -17,7 +18,7 @@ namespace {
 
 using core::simulation::TrueMode;
 
-constexpr double kStudent95 = 2.262;  // two-sided 95 % of Student's t of 9 degrees: ten blocks
+constexpr double kDegreesOfFreedom = 9.0;
 constexpr double kClearPeak_db = 20.0;
 
 // One mode over all records.
@@ -26,7 +27,10 @@ struct Errors {
   int n_stated = 0, n_frequency_inside = 0, n_damping_inside = 0;
 };
 
-bool inside(double error, double standard_deviation) { return std::abs(error) <= kStudent95 * standard_deviation; }
+bool inside(double value, const core::Interval& interval) { return value >= interval.low && value <= interval.high; }
+bool inside(double error, double standard_deviation) {
+  return std::abs(error) <= core::student_95(kDegreesOfFreedom) * standard_deviation;
+}
 
 void add(Errors& errors, const Found& found, const TrueMode& truth) {
   if (found.as != Found::As::kRight) return;
@@ -37,7 +41,8 @@ void add(Errors& errors, const Found& found, const TrueMode& truth) {
   if (!found.mode.frequency_std_hz || !found.mode.damping_std) return;
   ++errors.n_stated;
   errors.n_frequency_inside += inside(df, *found.mode.frequency_std_hz) ? 1 : 0;
-  errors.n_damping_inside += inside(dz, *found.mode.damping_std) ? 1 : 0;
+  const auto interval = core::damping_interval_95(found.mode, kDegreesOfFreedom);
+  errors.n_damping_inside += interval && inside(truth.damping_ratio, *interval) ? 1 : 0;
 }
 
 std::string percent(int part, int whole) { return whole > 0 ? fmt::format("{:.1f}", 100.0 * part / whole) : "-"; }
