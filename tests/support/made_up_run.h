@@ -52,8 +52,8 @@ inline void fill_frame(RunData& run, int width_px, int height_px) {
 
 inline void fill_spectrum(RunData& run, std::size_t n) {
   core::CpsdSums& sums = run.spectrum;
-  sums.n_channels = static_cast<int>(n), sums.n_fft = 4096, sums.rate_hz = 25.0, sums.n_segments = 8, sums.weight = {8.0, 8.0},
-  sums.window_power = 768.0;
+  sums.n_channels = static_cast<int>(n), sums.n_fft = 4096, sums.rate_hz = 25.0, sums.n_segments = 8,
+  sums.weight = {8.0, 8.0}, sums.window_power = 768.0;
   sums.data_sum.assign(static_cast<std::size_t>(sums.n_bins()) * static_cast<std::size_t>(sums.n_pairs()), 0.0);
   std::mt19937 random(1);
   for (int k = 0; k < sums.n_bins(); ++k) {
