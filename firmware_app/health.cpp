@@ -27,6 +27,18 @@ core::StageHealth stage_health(const HealthCollector::Queue& queue) {
   return health;
 }
 
+// Regions that were not measured all the time.
+void warn_of_regions(core::Health& health) {
+  for (const core::RegionHealth& region : health.regions) {
+    if (region.frames_searching + region.frames_lost == 0) continue;
+    const bool is_measured = region.state == core::RegionState::kMeasuring;
+    health.warnings.push_back(
+        fmt::format("region '{}' {}: without a measurement in {} frames (searched for in {}, lost in {})", region.name,
+                    is_measured ? "is measured again" : fmt::format("is {} now", core::to_string(region.state)),
+                    region.frames_searching + region.frames_lost, region.frames_searching, region.frames_lost));
+  }
+}
+
 }  // namespace
 
 core::Health HealthCollector::collect(const drivers::Publisher& publisher) const {
@@ -48,6 +60,11 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
   if (const std::uint64_t n = tracking_.n_failed_frames(); n > 0) {
     health.warnings.push_back(fmt::format("the tracker itself failed on {} frames: they have no points", n));
   }
+  health.regions = tracking_.regions();
+  for (std::size_t r = 0; r < health.regions.size() && r < region_names_.size(); ++r) {
+    health.regions[r].name = region_names_[r];
+  }
+  warn_of_regions(health);
   if (const double jitter = spectrum_.worst_jitter_cells(); jitter > kJitterWorthAWord) {
     health.warnings.push_back(fmt::format(
         "time stamps stray by up to {:.2f} of a frame from even spacing; spectra take them as even", jitter));

@@ -28,6 +28,7 @@ class HealthCollector {
 
   // Set-up only.
   void watch(Queue queue) { queues_.push_back(std::move(queue)); }
+  void name_regions(std::vector<std::string> names) { region_names_ = std::move(names); }  // as configured
   void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
 
   [[nodiscard]] core::Health collect(const drivers::Publisher& publisher) const;
@@ -38,7 +39,7 @@ class HealthCollector {
   const TrackingStage& tracking_;
   const SpectrumStage& spectrum_;
   std::vector<Queue> queues_;
-  std::vector<std::string> warnings_;
+  std::vector<std::string> region_names_, warnings_;
 };
 
 }  // namespace app

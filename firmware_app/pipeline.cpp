@@ -84,6 +84,7 @@ struct Pipeline::Parts {
     results.set_reader_wakeup(&publish.wakeup());
   }
   void watch() {
+    health.name_regions(region_names(config));
     health.watch({&capture, {}, 0});
     health.watch({&tracking, [this] { return frames.depth(); }, frames.n_slots()});
     health.watch({&spectrum, [this] { return samples.depth(); }, samples.n_slots()});

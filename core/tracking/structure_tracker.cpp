@@ -33,7 +33,12 @@ std::string StructureTracker::seed(const Frame& frame) {
   }
   klt_.set_keyframe(gray, points);
   predicted_ = points;
-  region_offset_.assign(config_.regions.size(), cv::Point2f(0.0F, 0.0F));
+  std::vector<Vector2> keyframe;
+  for (const cv::Point2f& point : points)
+    keyframe.push_back({static_cast<double>(point.x), static_cast<double>(point.y)});
+  follower_ = std::make_unique<RegionFollower>(
+      RegionFollowerConfig{frame.width_px, frame.height_px, config_.min_points, config_.lost_after}, keyframe,
+      region_of_point_, config_.regions.size());
   tracked_.resize(points.size());
   return {};
 }
@@ -57,24 +62,10 @@ bool StructureTracker::track(const Frame& frame, TrackFrame& out) noexcept {
 }
 
 void StructureTracker::learn(const TrackFrame& judged) noexcept {
-  const std::vector<cv::Point2f>& keyframe = klt_.keyframe_points();
-  const std::size_t n = std::min(judged.points.size(), keyframe.size());
-  for (std::size_t begin = 0; begin < n;) {
-    const std::uint16_t region = region_of_point_[begin];
-    std::size_t end = begin;
-    cv::Point2f sum(0.0F, 0.0F);
-    int count = 0;
-    for (; end < n && region_of_point_[end] == region; ++end) {
-      if (!judged.points[end].inlier) continue;
-      sum += tracked_[end].position - keyframe[end];
-      ++count;
-    }
-    // A region without inliers is expected where it was last seen.
-    if (count > 0) region_offset_[region] = sum * (1.0F / static_cast<float>(count));
-    for (std::size_t i = begin; i < end; ++i) {
-      predicted_[i] = judged.points[i].inlier ? tracked_[i].position : keyframe[i] + region_offset_[region];
-    }
-    begin = end;
+  follower_->update(judged);
+  for (std::size_t i = 0; i < predicted_.size(); ++i) {
+    const Vector2& at = follower_->expected(i);
+    predicted_[i] = {static_cast<float>(at.u), static_cast<float>(at.v)};
   }
 }
 

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "core/tracking/klt_tracker.h"
 #include "core/tracking/point_seeder.h"
+#include "core/tracking/region_follower.h"
 #include "core/types/frame.h"
 #include "core/types/region.h"
 #include "core/types/track.h"
@@ -14,11 +18,12 @@ struct StructureTrackerConfig {
   SeedConfig seed;
   KltConfig klt;
   std::vector<Region> regions;
-  int min_points = 3;  // a region that seeds fewer is an error
+  int min_points = 3;             // a region that seeds fewer is an error; with fewer inliers it is not measured
+  std::uint32_t lost_after = 50;  // frames of search until a region counts as lost
 };
 
 // All points of all regions through the frames: seeds them in the first frame (the keyframe), tracks them against it,
-// and predicts where to look from what the outlier rejection made of the previous frame.
+// and predicts where to look from what the outlier rejection made of the previous frame (region_follower.h).
 // One thread: seed() once, then track() per frame followed by learn().
 class StructureTracker {
  public:
@@ -30,15 +35,18 @@ class StructureTracker {
 
   // Fills `out.points` (sized n_points() beforehand). False: the tracker itself failed; no point is seen.
   [[nodiscard]] bool track(const Frame& frame, TrackFrame& out) noexcept;
-  // The same frame after outlier rejection set `inlier`: an outlier is looked for with its region next time.
+  // The same frame after outlier rejection set `inlier`: an outlier is looked for with its region next time, a region
+  // with the others.
   void learn(const TrackFrame& judged) noexcept;
+  // After seed().
+  [[nodiscard]] const RegionFollower& regions() const noexcept { return *follower_; }
 
  private:
   StructureTrackerConfig config_;
   KltTracker klt_;
   std::vector<std::uint16_t> region_of_point_;
   std::vector<cv::Point2f> predicted_;
-  std::vector<cv::Point2f> region_offset_;  // mean motion of each region's inliers since the keyframe
+  std::unique_ptr<RegionFollower> follower_;
   std::vector<KltPoint> tracked_;
 };
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/types/region.h"
+
 namespace core {
 
 // Counters of one stage since start. Latencies in nanoseconds from step begin to step end.
@@ -15,6 +17,14 @@ struct StageHealth {
   std::uint64_t busy_ns = 0;
   std::uint64_t worst_step_ns = 0;
   std::uint32_t queue_depth = 0, queue_slots = 0;  // of the ring it reads
+};
+
+// A region, since start.
+struct RegionHealth {
+  std::string name;
+  RegionState state = RegionState::kMeasuring;         // in the newest frame
+  std::uint64_t points_tracked = 0, points_total = 0;  // in the newest frame; inliers
+  std::uint64_t frames_searching = 0, frames_lost = 0;
 };
 
 // The whole service, once a second and at the end. Every loss has a name here.
@@ -33,6 +43,7 @@ struct Health {
   std::string state;                    // "starting", "running", "finished", "fault: ..."
   std::vector<std::string> warnings;    // e.g. real-time priority refused
   std::vector<StageHealth> stages;
+  std::vector<RegionHealth> regions;  // empty where frames were not tracked here
 };
 
 }  // namespace core

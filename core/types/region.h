@@ -7,6 +7,22 @@ namespace core {
 
 enum class RegionRole : std::uint8_t { kStructure, kBase, kBackground };
 
+// What a region does in the newest frame. Searching: not measured, but it should be in the image. Lost: it has left the
+// image, or was searched for too long; it is measured again as soon as it is seen.
+enum class RegionState : std::uint8_t { kMeasuring, kSearching, kLost };
+
+[[nodiscard]] constexpr const char* to_string(RegionState state) noexcept {
+  switch (state) {
+    case RegionState::kMeasuring:
+      return "measuring";
+    case RegionState::kSearching:
+      return "searching";
+    case RegionState::kLost:
+      return "lost";
+  }
+  return "";
+}
+
 // A rectangle of the first image whose points move together: a floor, a deck panel, a wall behind.
 struct Region {
   std::string name;

@@ -20,6 +20,17 @@ hovermodal::stage_t to_message(const core::StageHealth& stage) {
   return out;
 }
 
+hovermodal::region_t to_message(const core::RegionHealth& region) {
+  hovermodal::region_t out{};
+  out.name = clipped(region.name, kMaxNameBytes);
+  out.state = core::to_string(region.state);
+  out.points_tracked = static_cast<std::int32_t>(region.points_tracked);
+  out.points_total = static_cast<std::int32_t>(region.points_total);
+  out.frames_searching = counter(region.frames_searching);
+  out.frames_lost = counter(region.frames_lost);
+  return out;
+}
+
 hovermodal::channel_t to_message(const core::ChannelInfo& channel) {
   hovermodal::channel_t out{};
   out.name = clipped(channel.name, kMaxNameBytes);
@@ -60,9 +71,11 @@ hovermodal::health_t to_message(const core::Health& health, const std::vector<co
   const std::size_t n_warnings = std::min(health.warnings.size(), kMaxWarnings);
   for (std::size_t i = 0; i < n_warnings; ++i) out.warnings.push_back(clipped(health.warnings[i], kMaxWarningBytes));
   for (const auto& stage : health.stages) out.stages.push_back(to_message(stage));
+  for (const auto& region : health.regions) out.regions.push_back(to_message(region));
   for (const auto& channel : channels) out.channels.push_back(to_message(channel));
   out.n_warnings = to_int16(out.warnings.size());
   out.n_stages = to_int16(out.stages.size());
+  out.n_regions = to_int16(out.regions.size());
   out.n_channels = to_int16(out.channels.size());
   return out;
 }

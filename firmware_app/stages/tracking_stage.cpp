@@ -10,7 +10,9 @@ TrackingStage::TrackingStage(rt::RingReader<core::Frame> frames, core::Structure
       channels_(channels),
       samples_(samples),
       records_(records),
-      lossless_(lossless) {
+      lossless_(lossless),
+      regions_(tracker.regions().n_regions()) {
+  for (std::size_t r = 0; r < regions_.size(); ++r) regions_[r].points_total = tracker.regions().n_points(r);
   scratch_.tracks.points.resize(tracker.n_points());
   scratch_.sample = channels.sample_prototype();
 }
@@ -48,9 +50,32 @@ void TrackingStage::measure(const core::Frame& frame) noexcept {
     n_failed_.store(n_failed_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   channels_.update(scratch_.tracks, scratch_.sample);
   tracker_.learn(scratch_.tracks);
+  count_regions();
   std::uint64_t n_tracked = 0;
   for (const core::TrackPoint& point : scratch_.tracks.points) n_tracked += point.inlier ? 1U : 0U;
   points_tracked_.store(n_tracked, std::memory_order_relaxed);
+}
+
+void TrackingStage::count_regions() noexcept {
+  for (std::size_t r = 0; r < regions_.size(); ++r) {
+    RegionCounts& counts = regions_[r];
+    const core::RegionState state = tracker_.regions().state(r);
+    counts.state.store(state, std::memory_order_relaxed);
+    counts.points_tracked.store(tracker_.regions().n_inliers(r), std::memory_order_relaxed);
+    if (state == core::RegionState::kSearching) rt::StageStats::add(counts.frames_searching);
+    if (state == core::RegionState::kLost) rt::StageStats::add(counts.frames_lost);
+  }
+}
+
+std::vector<core::RegionHealth> TrackingStage::regions() const {
+  std::vector<core::RegionHealth> out;
+  for (const RegionCounts& counts : regions_) {
+    out.push_back({"", counts.state.load(std::memory_order_relaxed),
+                   counts.points_tracked.load(std::memory_order_relaxed), counts.points_total,
+                   counts.frames_searching.load(std::memory_order_relaxed),
+                   counts.frames_lost.load(std::memory_order_relaxed)});
+  }
+  return out;
 }
 
 void TrackingStage::finish() noexcept {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <atomic>
+#include <vector>
 
 #include "core/geometry/channel_displacement.h"
 #include "core/tracking/structure_tracker.h"
 #include "core/types/frame.h"
+#include "core/types/health.h"
 #include "firmware_app/stages/items.h"
 #include "rt/spsc_ring.h"
 #include "rt/stage.h"
@@ -27,6 +29,8 @@ class TrackingStage : public rt::Stage {
     return points_tracked_.load(std::memory_order_relaxed);
   }
   [[nodiscard]] std::uint64_t points_total() const noexcept { return scratch_.tracks.points.size(); }
+  // Any thread: of the newest frame, and since start.
+  [[nodiscard]] std::vector<core::RegionHealth> regions() const;
   [[nodiscard]] std::uint64_t n_failed_frames() const noexcept { return n_failed_.load(std::memory_order_relaxed); }
   // Any thread: frames that publish never saw, because its ring was full.
   [[nodiscard]] std::uint64_t n_records_lost() const noexcept {
@@ -34,7 +38,14 @@ class TrackingStage : public rt::Stage {
   }
 
  private:
+  struct RegionCounts {  // written here only; relaxed: each a count on its own
+    std::atomic<core::RegionState> state{core::RegionState::kMeasuring};
+    std::atomic<std::uint64_t> points_tracked{0}, frames_searching{0}, frames_lost{0};
+    std::uint64_t points_total = 0;
+  };
+
   void measure(const core::Frame& frame) noexcept;
+  void count_regions() noexcept;
 
   rt::RingReader<core::Frame> frames_;
   core::StructureTracker& tracker_;
@@ -44,6 +55,7 @@ class TrackingStage : public rt::Stage {
   bool lossless_;
   FrameRecord scratch_;
   bool gap_before_next_ = false;
+  std::vector<RegionCounts> regions_;
   std::atomic<std::uint64_t> points_tracked_{0};  // written here only; relaxed: a count on its own
   std::atomic<std::uint64_t> n_failed_{0};
   std::atomic<std::uint64_t> n_records_lost_{0};

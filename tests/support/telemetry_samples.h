@@ -117,6 +117,8 @@ inline core::Health sample_health(const std::string& state, std::uint64_t n) {
     stage.queue_slots = 8;
     out.stages.push_back(stage);
   }
+  out.regions = {{"roof", core::RegionState::kSearching, 0, 30, 7, 0},
+                 {"base", core::RegionState::kMeasuring, 29, 30, 0, 0}};
   return out;
 }
 

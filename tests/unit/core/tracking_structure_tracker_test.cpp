@@ -102,6 +102,34 @@ TEST(StructureTracker, AnOutlierIsLookedForWithItsRegion) {
   EXPECT_NEAR(tracks.points[4].u_px - keyframe.points[4].u_px, 12.5, 0.05);
 }
 
+// The camera sinks until the upper region has left the image, drifts sideways, and rises again.
+TEST(StructureTracker, ARegionThatLeftTheImageIsFoundAgainWithItsDatum) {
+  const AnalyticTexture texture(33);
+  const auto seen_from = [&](double du, double dv) { return texture.image(kWidth, kHeight, du, dv); };
+  StructureTracker tracker(config());
+  ASSERT_EQ(tracker.seed(frame_of(seen_from(0.0, 0.0), 0)), "");
+  TrackFrame keyframe, tracks;
+  keyframe.points.resize(tracker.n_points());
+  tracks.points.resize(tracker.n_points());
+  ASSERT_TRUE(tracker.track(frame_of(seen_from(0.0, 0.0), 0), keyframe));
+  bool was_lost = false;
+  std::uint64_t k = 0;
+  const auto step = [&](double du, double dv) {
+    ASSERT_TRUE(tracker.track(frame_of(seen_from(du, dv), ++k), tracks));
+    call_all_seen_inliers(tracks);
+    tracker.learn(tracks);
+    was_lost = was_lost || tracker.regions().state(0) == RegionState::kLost;
+    EXPECT_EQ(tracker.regions().state(1), RegionState::kMeasuring) << k;
+  };
+  for (double dv = -5.0; dv >= -95.0; dv -= 5.0) step(0.0, dv);
+  EXPECT_TRUE(was_lost);
+  for (double du = 4.0; du <= 60.0; du += 4.0) step(du, -95.0);
+  for (double dv = -90.0; dv <= 0.0; dv += 5.0) step(60.0, dv);
+  step(60.0, 0.0);
+  EXPECT_EQ(tracker.regions().state(0), RegionState::kMeasuring);
+  EXPECT_NEAR(mean_shift(tracks, keyframe, 0), 60.0, 0.05);
+}
+
 TEST(StructureTracker, SaysWhichRegionHasTooLittleTextureAndWhatToTry) {
   cv::Mat gray = plates(0.0, 0.0);
   gray(cv::Rect(0, kHeight / 2, kWidth, kHeight / 2)).setTo(255);

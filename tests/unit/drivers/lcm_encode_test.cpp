@@ -198,6 +198,11 @@ TEST(LcmEncode, HealthCarriesCountersWarningsStagesAndChannels) {
   EXPECT_EQ(back->stages.at(1).name, "tracking");
   EXPECT_EQ(back->stages.at(1).worst_step_ns, 3'000'000);
   EXPECT_EQ(back->channels.at(11).name, "floor_12.u");
+  ASSERT_EQ(back->n_regions, 2);
+  EXPECT_EQ(back->regions.at(0).name, "roof");
+  EXPECT_EQ(back->regions.at(0).state, "searching");
+  EXPECT_EQ(back->regions.at(0).frames_searching, 7);
+  EXPECT_EQ(back->regions.at(1).points_tracked, 29);
 }
 
 TEST(LcmEncode, CutsTextBetweenCharactersAndAtAnEmbeddedZero) {

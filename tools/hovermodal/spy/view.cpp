@@ -76,6 +76,13 @@ Lines head_lines(const StreamMonitor& monitor, const ViewOptions& options) {
   out.push_back(fmt::format("points {} / {}  estimates {}  snapshots skipped {}  messages sent {}  failed {}",
                             h->points_tracked, h->points_total, h->estimates, h->snapshots_skipped, h->messages_sent,
                             h->messages_failed));
+  std::string unmeasured;
+  for (const auto& region : h->regions) {
+    if (region.state == "measuring") continue;
+    unmeasured += fmt::format("{}{} {} ({}/{} points)", unmeasured.empty() ? "" : ", ", printable(region.name),
+                              printable(region.state), region.points_tracked, region.points_total);
+  }
+  if (!unmeasured.empty()) out.push_back("REGIONS " + unmeasured);
   for (std::size_t i = 0; i < std::min<std::size_t>(h->warnings.size(), 2); ++i) {
     const bool has_more = i == 1 && h->warnings.size() > 2;
     out.push_back("WARNING " + printable(h->warnings[i]) +

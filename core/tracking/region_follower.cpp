@@ -1,0 +1,148 @@
+#include "core/tracking/region_follower.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace core {
+
+namespace {
+
+// A camera that hovers comes no nearer and goes no farther than this.
+constexpr double kLeastMagnification = 0.2, kMostMagnification = 5.0;
+
+}  // namespace
+
+RegionFollower::RegionFollower(RegionFollowerConfig config, std::vector<Vector2> keyframe,
+                               std::vector<std::uint16_t> region_of_point, std::size_t n_regions)
+    : config_(config),
+      keyframe_(std::move(keyframe)),
+      expected_(keyframe_),
+      region_of_point_(std::move(region_of_point)),
+      regions_(n_regions) {
+  if (region_of_point_.size() != keyframe_.size())
+    throw std::invalid_argument("RegionFollower: every point needs a region");
+  for (const std::uint16_t r : region_of_point_) {
+    if (r >= n_regions) throw std::invalid_argument("RegionFollower: a point of no region");
+    ++regions_[r].n_points;
+  }
+}
+
+void RegionFollower::update(const TrackFrame& judged) noexcept {
+  measure_regions(judged);
+  fit_common(judged);
+  note_distances(judged);
+  predict(judged);
+  judge_states();
+}
+
+bool RegionFollower::is_measured(std::size_t region) const noexcept {
+  return static_cast<int>(regions_[region].n_inliers) >= std::max(1, config_.min_points);
+}
+
+bool RegionFollower::is_used(const TrackPoint& point) const noexcept {
+  return point.inlier && std::isfinite(point.u_px) && std::isfinite(point.v_px);
+}
+
+void RegionFollower::measure_regions(const TrackFrame& judged) noexcept {
+  for (Watched& region : regions_) region.n_inliers = 0;
+  std::size_t i = 0;
+  for (const TrackPoint& point : judged.points) {
+    if (i >= keyframe_.size()) break;
+    if (is_used(point)) ++regions_[region_of_point_[i]].n_inliers;
+    ++i;
+  }
+  for (std::size_t r = 0; r < regions_.size(); ++r) {
+    Watched& region = regions_[r];
+    if (region.n_inliers == 0) continue;
+    Vector2 sum;
+    for (i = 0; i < keyframe_.size() && i < judged.points.size(); ++i) {
+      if (region_of_point_[i] != r || !is_used(judged.points[i])) continue;
+      sum.u += judged.points[i].u_px - keyframe_[i].u;
+      sum.v += judged.points[i].v_px - keyframe_[i].v;
+    }
+    region.offset = {sum.u / region.n_inliers, sum.v / region.n_inliers};
+  }
+}
+
+// Least squares of p = turn k + shift over the inliers of all measured regions. Stays as it was where none is.
+void RegionFollower::fit_common(const TrackFrame& judged) noexcept {
+  const std::size_t n = std::min(keyframe_.size(), judged.points.size());
+  const auto counts = [&](std::size_t i) { return is_used(judged.points[i]) && is_measured(region_of_point_[i]); };
+  Vector2 mean_k, mean_p;
+  double count = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!counts(i)) continue;
+    mean_k = {mean_k.u + keyframe_[i].u, mean_k.v + keyframe_[i].v};
+    mean_p = {mean_p.u + judged.points[i].u_px, mean_p.v + judged.points[i].v_px};
+    count += 1.0;
+  }
+  if (count == 0.0) return;
+  mean_k = {mean_k.u / count, mean_k.v / count};
+  mean_p = {mean_p.u / count, mean_p.v / count};
+  double along = 0.0, across = 0.0, spread = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!counts(i)) continue;
+    const Vector2 k{keyframe_[i].u - mean_k.u, keyframe_[i].v - mean_k.v};
+    const Vector2 p{judged.points[i].u_px - mean_p.u, judged.points[i].v_px - mean_p.v};
+    along += k.u * p.u + k.v * p.v;
+    across += k.u * p.v - k.v * p.u;
+    spread += k.u * k.u + k.v * k.v;
+  }
+  Similarity fit;
+  const double magnification = spread > 0.0 ? std::hypot(along, across) / spread : 0.0;
+  if (magnification > kLeastMagnification && magnification < kMostMagnification) {
+    fit.turn_re = along / spread;
+    fit.turn_im = across / spread;
+  }
+  const Vector2 turned = fit.of(mean_k);
+  fit.shift = {mean_p.u - turned.u, mean_p.v - turned.v};
+  common_ = fit;
+}
+
+void RegionFollower::note_distances(const TrackFrame& judged) noexcept {
+  for (std::size_t r = 0; r < regions_.size(); ++r) {
+    if (!is_measured(r)) continue;
+    Vector2 sum;
+    for (std::size_t i = 0; i < keyframe_.size() && i < judged.points.size(); ++i) {
+      if (region_of_point_[i] != r || !is_used(judged.points[i])) continue;
+      const Vector2 common = common_.of(keyframe_[i]);
+      sum = {sum.u + judged.points[i].u_px - common.u, sum.v + judged.points[i].v_px - common.v};
+    }
+    const auto count = static_cast<double>(regions_[r].n_inliers);
+    regions_[r].off_common = {sum.u / count, sum.v / count};
+  }
+}
+
+void RegionFollower::predict(const TrackFrame& judged) noexcept {
+  for (Watched& region : regions_) region.n_inside = 0;
+  for (std::size_t i = 0; i < keyframe_.size(); ++i) {
+    Watched& region = regions_[region_of_point_[i]];
+    if (!is_measured(region_of_point_[i])) {
+      const Vector2 common = common_.of(keyframe_[i]);
+      expected_[i] = {common.u + region.off_common.u, common.v + region.off_common.v};
+    } else if (i < judged.points.size() && is_used(judged.points[i])) {
+      expected_[i] = {judged.points[i].u_px, judged.points[i].v_px};
+    } else {
+      expected_[i] = {keyframe_[i].u + region.offset.u, keyframe_[i].v + region.offset.v};
+    }
+    const Vector2& at = expected_[i];
+    if (at.u >= 0.0 && at.v >= 0.0 && at.u < config_.width_px && at.v < config_.height_px) ++region.n_inside;
+  }
+}
+
+void RegionFollower::judge_states() noexcept {
+  for (std::size_t r = 0; r < regions_.size(); ++r) {
+    Watched& region = regions_[r];
+    if (is_measured(r)) {
+      region.state = RegionState::kMeasuring;
+      region.n_unmeasured = 0;
+      continue;
+    }
+    region.n_unmeasured = std::min(region.n_unmeasured + 1, UINT32_MAX - 1);
+    const bool outside = region.n_inside < config_.least_share_inside * region.n_points;
+    region.state = outside || region.n_unmeasured > config_.lost_after ? RegionState::kLost : RegionState::kSearching;
+  }
+}
+
+}  // namespace core

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/types/region.h"
+#include "core/types/track.h"
+#include "core/types/vector2.h"
+
+namespace core {
+
+struct RegionFollowerConfig {
+  int width_px = 0, height_px = 0;
+  int min_points = 3;               // fewer inliers: the region is not measured in this frame
+  std::uint32_t lost_after = 50;    // frames without a measurement until a region in the image counts as lost
+  double least_share_inside = 0.5;  // of a region's points that should lie in the image: with fewer it has left it
+};
+
+// Where the points of every region are to be looked for in the next frame, and what has become of the region. A region
+// that is not measured goes where the others go: the similarity (shift, turn, magnification) that takes the keyframe to
+// the other regions' points by least squares, plus what it was off from that when it was last measured. So it is found
+// again after an occlusion, or once the drifting camera has it back in the image; its points keep their keyframe, and
+// the channel its datum. Fixed memory; nothing allocates after construction. One thread.
+class RegionFollower {
+ public:
+  // keyframe: where the points of all regions were, in any order of regions; region_of_point: < n_regions.
+  RegionFollower(RegionFollowerConfig config, std::vector<Vector2> keyframe, std::vector<std::uint16_t> region_of_point,
+                 std::size_t n_regions);
+
+  // The points of a frame after outlier rejection set `inlier`.
+  void update(const TrackFrame& judged) noexcept;
+
+  [[nodiscard]] const Vector2& expected(std::size_t point) const noexcept { return expected_[point]; }
+  [[nodiscard]] RegionState state(std::size_t region) const noexcept { return regions_[region].state; }
+  [[nodiscard]] std::uint32_t n_inliers(std::size_t region) const noexcept { return regions_[region].n_inliers; }
+  [[nodiscard]] std::uint32_t n_points(std::size_t region) const noexcept { return regions_[region].n_points; }
+  [[nodiscard]] std::size_t n_regions() const noexcept { return regions_.size(); }
+
+ private:
+  struct Watched {
+    RegionState state = RegionState::kMeasuring;
+    std::uint32_t n_points = 0, n_inliers = 0, n_inside = 0;
+    std::uint32_t n_unmeasured = 0;  // frames in a row
+    Vector2 offset;                  // mean motion of the inliers since the keyframe
+    Vector2 off_common;              // of the inliers' mean from the common motion, when last measured
+  };
+  // p = turn k + shift as complex numbers u + i v.
+  struct Similarity {
+    double turn_re = 1.0, turn_im = 0.0;
+    Vector2 shift;
+    [[nodiscard]] Vector2 of(const Vector2& k) const noexcept {
+      return {turn_re * k.u - turn_im * k.v + shift.u, turn_im * k.u + turn_re * k.v + shift.v};
+    }
+  };
+
+  [[nodiscard]] bool is_measured(std::size_t region) const noexcept;
+  [[nodiscard]] bool is_used(const TrackPoint& point) const noexcept;
+  void measure_regions(const TrackFrame& judged) noexcept;
+  void fit_common(const TrackFrame& judged) noexcept;
+  void note_distances(const TrackFrame& judged) noexcept;
+  void predict(const TrackFrame& judged) noexcept;
+  void judge_states() noexcept;
+
+  RegionFollowerConfig config_;
+  std::vector<Vector2> keyframe_, expected_;
+  std::vector<std::uint16_t> region_of_point_;
+  std::vector<Watched> regions_;
+  Similarity common_;
+};
+
+}  // namespace core
