@@ -14,6 +14,8 @@ namespace {
 constexpr double kLeastDamping = -0.002;
 constexpr double kTwinMac = 0.9;
 constexpr double kTwinFrequency = 0.06;  // relative
+// A steady force beside a mode moves the structure in that mode's shape, with next to no damping.
+constexpr double kMostLineDamping = 0.001, kMostLineShare = 0.3;  // of the mode's
 
 template <class... Args>
 std::string text(const char* format, Args... args) {
@@ -81,14 +83,14 @@ void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response
   } else if (moves_with_base(base, response, rules)) {
     set(mode, Verdict::kInputPeak,
         text("the base moves %.2f of the largest channel: motion of the base or the camera", base));
-  } else if (cluster.presence < rules.min_presence || cluster.first_i_order > rules.last_first_i_order) {
-    set(mode, Verdict::kNumerical,
-        text("found in %.0f %% of the orders, first at order %d", 100.0 * cluster.presence, first_order));
   } else if (line.late_damping_ratio && *line.late_damping_ratio < rules.max_late_damping &&
              line.late_share > rules.min_late_share) {
     set(mode, Verdict::kHarmonic,
         text("a steady force: damping %.3f %%, and its correlation goes on as if it had %.3f %%",
              100.0 * mode.damping_ratio, 100.0 * *line.late_damping_ratio));
+  } else if (cluster.presence < rules.min_presence || cluster.first_i_order > rules.last_first_i_order) {
+    set(mode, Verdict::kNumerical,
+        text("found in %.0f %% of the orders, first at order %d", 100.0 * cluster.presence, first_order));
   } else if (mode.mpc < rules.min_mpc) {
     set(mode, Verdict::kNumerical, text("components not in phase: MPC %.2f < %.2f", mode.mpc, rules.min_mpc));
   } else if (mode.fold_n && (*mode.fold_margin < rules.least_fold_margin || mode.mpc < rules.least_certain_mpc)) {
@@ -122,6 +124,14 @@ Mode judge(const PoleCluster& cluster, const BaseResponse& response, const std::
   return mode;
 }
 
+namespace {
+
+bool is_line_beside(const Mode& line, const Mode& mode) noexcept {
+  return line.damping_ratio < kMostLineDamping && line.damping_ratio < kMostLineShare * mode.damping_ratio;
+}
+
+}  // namespace
+
 void reject_twins(std::vector<Mode>& modes) {
   for (Mode& a : modes) {
     for (Mode& b : modes) {
@@ -129,6 +139,13 @@ void reject_twins(std::vector<Mode>& modes) {
       const bool near =
           std::abs(a.frequency_hz - b.frequency_hz) < kTwinFrequency * std::max(a.frequency_hz, b.frequency_hz);
       if (!near || mac(a.shape, b.shape) <= kTwinMac) continue;
+      if (is_line_beside(a, b)) {
+        set(a, Verdict::kHarmonic,
+            text("a steady force: the shape of %.4f Hz beside it, with %.3f %% of damping", b.frequency_hz,
+                 100.0 * a.damping_ratio));
+        continue;
+      }
+      if (is_line_beside(b, a)) continue;  // its turn will come
       Mode& weaker = a.presence < b.presence || (a.presence == b.presence && a.mpc < b.mpc) ? a : b;
       const Mode& stronger = &weaker == &a ? b : a;
       set(weaker, Verdict::kNumerical,

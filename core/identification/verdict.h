@@ -33,7 +33,8 @@ struct VerdictRules {
                          const std::vector<ChannelInfo>& channels, const std::vector<int>& orders,
                          const VerdictRules& rules, const LineEvidence& line = {});
 
-// Of two structural modes with MAC > 0.9 within 6 % the one found in fewer orders is a twin (often an amplitude
+// Of two structural modes with MAC > 0.9 within 6 % one that has less than 0.1 % of damping, and less than a third of
+// the other's, is a steady force beside it (harmonic). Else the one found in fewer orders is a twin (often an amplitude
 // dependence of the same mode): it becomes numerical, and its reason says so.
 void reject_twins(std::vector<Mode>& modes);
 

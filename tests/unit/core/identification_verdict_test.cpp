@@ -191,6 +191,28 @@ TEST(Twins, AnotherShapeOrAnotherFrequencyIsNoTwin) {
   for (const Mode& mode : modes) EXPECT_EQ(mode.verdict, Verdict::kStructural) << mode.frequency_hz;
 }
 
+TEST(Twins, OneWithNextToNoDampingIsASteadyForceBesideTheMode) {
+  for (const bool line_first : {true, false}) {
+    std::vector<Mode> modes{structural(3.0, 0.9, 0.9, {0.4, 1.0}), structural(3.1, 1.0, 0.99, {0.4, 1.0})};
+    const std::size_t line = line_first ? 0 : 1;
+    modes[line].damping_ratio = 1e-5;
+    modes[1 - line].damping_ratio = 0.01;
+    reject_twins(modes);
+    EXPECT_EQ(modes[line].verdict, Verdict::kHarmonic);
+    EXPECT_EQ(modes[1 - line].verdict, Verdict::kStructural) << "whatever the presence";
+    EXPECT_NE(modes[line].reason.find("steady force"), std::string::npos) << modes[line].reason;
+  }
+}
+
+TEST(Twins, TwoOfLittleDampingAreNoLineAndItsMode) {
+  std::vector<Mode> modes{structural(3.0, 0.9, 0.99, {0.4, 1.0}), structural(3.1, 1.0, 0.99, {0.4, 1.0})};
+  modes[0].damping_ratio = 0.0008;
+  modes[1].damping_ratio = 0.0015;
+  reject_twins(modes);
+  EXPECT_EQ(modes[0].verdict, Verdict::kNumerical);
+  EXPECT_EQ(modes[1].verdict, Verdict::kStructural);
+}
+
 TEST(Twins, ARejectedPoleHasNoTwin) {
   std::vector<Mode> modes{structural(3.0, 0.9, 0.99, {0.4, 1.0}), structural(3.1, 1.0, 0.99, {0.4, 1.0})};
   modes[1].verdict = Verdict::kInputPeak;
