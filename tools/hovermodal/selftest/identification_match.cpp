@@ -12,14 +12,14 @@ namespace {
 
 using core::Mode;
 using core::simulation::TrueMode;
-constexpr std::string_view kFloor = "floor";
+constexpr std::string_view kDigits = "0123456789";
 constexpr double kNear = 0.02, kNearApparent = 0.03;  // relative
 
-// Floors are named after their bodies; the base rests.
+// Channels are named after their bodies (floor3, deck12.v); the base rests.
 std::vector<std::complex<double>> true_shape(const TrueMode& mode, const std::vector<core::ChannelInfo>& channels) {
   std::vector<std::complex<double>> shape;
   for (const core::ChannelInfo& channel : channels) {
-    shape.push_back(channel.is_base ? 0.0 : mode.displacement[std::stoi(channel.name.substr(kFloor.size())) - 1]);
+    shape.push_back(channel.is_base ? 0.0 : mode.displacement[std::stoi(channel.name.substr(channel.name.find_first_of(kDigits))) - 1]);
   }
   return shape;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tools/hovermodal/commands.h"
+#include "tools/hovermodal/selftest/geometry.h"
 #include "tools/hovermodal/selftest/identification.h"
 #include "tools/hovermodal/selftest/peaks.h"
 #include "tools/hovermodal/selftest/render.h"
@@ -20,6 +21,8 @@ namespace {
 struct Options {
   std::string what;
   int n_seeds = 20, n_frames = 40, n_threads = 2;
+  double duration_s = 0.0;
+  std::string flight;
 };
 
 void print_signatures(const Options&) {
@@ -103,12 +106,26 @@ constexpr std::array kIdentificationChecks{
     IdentificationCheck{"null", "a rigid building under a hovering camera: no mode", print_null},
     IdentificationCheck{"harmonics", "rotor lines and steady forces beside modes", print_harmonics}};
 
+// The whole chain behind the tracker on simulated flights.
+struct GeometryCheck {
+  const char *name, *meaning;
+  void (*print)(const GeometryOptions&);
+};
+constexpr std::array kGeometryChecks{
+    GeometryCheck{"geometry", "the paper's experiment, one correction after the other", print_geometry},
+    GeometryCheck{"wind", "gusts that turn the camera by 5 degrees", print_wind},
+    GeometryCheck{"low-frequency", "a mode of 0.32 Hz in the drift of the hover", print_low_frequency},
+    GeometryCheck{"deck", "a bridge deck, camera upright and turned", print_deck},
+    GeometryCheck{"elevation", "a tower seen from 30 degrees below", print_elevation},
+    GeometryCheck{"noise-floor", "nothing moves but the camera", print_noise_floor}};
+
 std::string meanings() {
   std::string text = "What is checked";
   for (const Check& check : kChecks) text += fmt::format("\n{}: {}", check.name, check.meaning);
   for (const IdentificationCheck& check : kIdentificationChecks) {
     text += fmt::format("\n{}: {}", check.name, check.meaning);
   }
+  for (const GeometryCheck& check : kGeometryChecks) text += fmt::format("\n{}: {}", check.name, check.meaning);
   return text;
 }
 
@@ -116,6 +133,7 @@ std::vector<std::string> names() {
   std::vector<std::string> all;
   for (const Check& check : kChecks) all.emplace_back(check.name);
   for (const IdentificationCheck& check : kIdentificationChecks) all.emplace_back(check.name);
+  for (const GeometryCheck& check : kGeometryChecks) all.emplace_back(check.name);
   return all;
 }
 
@@ -123,6 +141,11 @@ void run(const Options& options) {
   const auto named = [&](const auto& check) { return options.what == check.name; };
   if (const auto check = std::find_if(kChecks.begin(), kChecks.end(), named); check != kChecks.end()) {
     check->print(options);
+    return;
+  }
+  if (const auto check = std::find_if(kGeometryChecks.begin(), kGeometryChecks.end(), named);
+      check != kGeometryChecks.end()) {
+    check->print({options.n_seeds, options.n_threads, options.duration_s, options.flight});
     return;
   }
   std::find_if(kIdentificationChecks.begin(), kIdentificationChecks.end(), named)
@@ -146,6 +169,10 @@ void add_selftest(CLI::App& app) {
   command->add_option("--threads", options->n_threads, "speed and checks of the identification: threads")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
+  command->add_option("--duration", options->duration_s, "checks of the geometry: seconds; 0 = that of the figure")
+      ->check(CLI::Range(0.0, 3600.0));
+  command->add_option("--flight", options->flight, "checks of the geometry: the recorded flight that moves the camera")
+      ->type_name("FILE");
   command->callback([options] { run(*options); });
 }
 

@@ -95,7 +95,7 @@ std::string tracking_section(const Scene& scene) {
 
 }  // namespace
 
-void write_config(const std::filesystem::path& folder, const SimulateJob& job, const SceneMotion& motion) {
+std::string config_text(const SimulateJob& job, const SceneMotion& motion, const std::string& source) {
   std::string out =
       "# Written by `hovermodal simulate`: what is declared of the simulated camera, and what a user would mark in the "
       "first frame.\n";
@@ -105,12 +105,17 @@ void write_config(const std::filesystem::path& folder, const SimulateJob& job, c
     out += "# No clip was drawn: the source is a file of displacements, for `hovermodal identify`.\n";
   }
   append(out, "method: {}\n", job.method);
-  out += camera_section(job, std::filesystem::absolute(folder / job.product()).lexically_normal().string());
+  out += camera_section(job, source);
   out += calibration_section(job);
   out += regions_section(motion);
   out += scale_section(motion);
   out += tracking_section(job.scene());
-  drivers::write_file_atomically((folder / "config.yaml").string(), out);
+  return out;
+}
+
+void write_config(const std::filesystem::path& folder, const SimulateJob& job, const SceneMotion& motion) {
+  const std::string source = std::filesystem::absolute(folder / job.product()).lexically_normal().string();
+  drivers::write_file_atomically((folder / "config.yaml").string(), config_text(job, motion, source));
 }
 
 }  // namespace tools

@@ -1,13 +1,18 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "core/simulation/scene_motion.h"
 #include "tools/hovermodal/simulate/job.h"
 
 namespace tools {
 
-// config.yaml for the service: what the operator declares of the camera, and what a user would mark in the first frame.
+// The text of config.yaml, for the service: what the operator declares of the camera, and what a user would mark in the
+// first frame. `source`: the file that the camera is.
+[[nodiscard]] std::string config_text(const SimulateJob& job, const core::simulation::SceneMotion& motion,
+                                      const std::string& source);
+
 // Throws std::runtime_error (drivers::FileError).
 void write_config(const std::filesystem::path& folder, const SimulateJob& job,
                   const core::simulation::SceneMotion& motion);

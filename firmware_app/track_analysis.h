@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/geometry/channel_displacement.h"
+#include "core/identification/identifier.h"
+#include "core/identification/mode_tracker.h"
+#include "core/spectrum/time_grid.h"
+#include "core/spectrum/welch_cpsd.h"
+#include "core/types/displacement.h"
+#include "core/types/health.h"
+#include "core/types/modal_estimate.h"
+#include "core/types/track.h"
+#include "firmware_app/config.h"
+
+namespace app {
+
+class RunReport;
+
+// The service's chain behind the tracker, frame by frame in one thread: what `replay` and the tools' own simulations
+// run. Set-up throws ConfigError, std::invalid_argument.
+
+// Samples of all channels -> grid of the frames -> spectra -> modes, with the estimates on the way that the service
+// makes, so that modes get the same history.
+class ChannelAnalysis {
+ public:
+  ChannelAnalysis(const AppConfig& config, const std::vector<core::ChannelInfo>& channels, double rate_hz);
+
+  void report_to(RunReport* report) noexcept { report_ = report; }  // every estimate; null = none
+
+  // False: a frame that lies in no cell of its own of the grid, and is left out.
+  bool push(const core::DisplacementSample& sample);
+  // Once, after the last sample.
+  [[nodiscard]] core::ModalEstimate finish();
+
+  [[nodiscard]] const core::Health& losses() const noexcept { return losses_; }
+  [[nodiscard]] const core::CpsdSums& sums() const noexcept { return cpsd_.sums(); }  // whole after finish()
+
+ private:
+  void note(bool hop);
+  [[nodiscard]] core::ModalEstimate make();
+
+  core::Identifier identifier_;
+  core::ModeTracker tracker_;
+  core::WelchCpsd cpsd_;
+  core::TimeGrid grid_;
+  core::Health losses_;
+  std::uint64_t period_hops_, n_estimates_ = 0;
+  RunReport* report_ = nullptr;
+};
+
+// The same from tracked points on.
+class TrackAnalysis {
+ public:
+  // keyframe: the first frame's tracks; every point that will come, seen.
+  TrackAnalysis(const AppConfig& config, const core::CameraInfo& camera, const core::TrackFrame& keyframe);
+
+  // Points as in the keyframe, in its order; their inliers are marked. False as ChannelAnalysis::push.
+  bool push(core::TrackFrame& tracks);
+
+  [[nodiscard]] const std::vector<core::ChannelInfo>& channels() const noexcept { return displacement_.channels(); }
+  [[nodiscard]] const core::DisplacementSample& sample() const noexcept { return sample_; }  // of the last frame
+  [[nodiscard]] ChannelAnalysis& analysis() noexcept { return analysis_; }
+
+ private:
+  core::ChannelDisplacement displacement_;
+  core::DisplacementSample sample_;
+  ChannelAnalysis analysis_;
+};
+
+}  // namespace app

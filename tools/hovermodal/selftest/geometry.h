@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+namespace tools {
+
+// The whole chain behind the tracker on simulated flights of known truth: tracks -> geometry -> spectra -> modes, as
+// `hovermodal replay` runs it. Each prints tab-separated lines, with comment lines (#) that name their columns. Records
+// are those of seeds 1 to n_seeds, made on n_threads; what is printed does not depend on the number of threads.
+struct GeometryOptions {
+  int n_seeds = 20;
+  int n_threads = 2;
+  double duration_s = 0.0;  // 0 = that of the figure
+  std::string flight;       // recorded flight (CSV) that carries the camera; empty = the hover model instead
+};
+
+void print_geometry(const GeometryOptions& options);       // the paper's experiment, one correction after the other
+void print_wind(const GeometryOptions& options);           // gusts of 5 degrees
+void print_low_frequency(const GeometryOptions& options);  // a mode of 0.32 Hz in the hover's drift
+void print_deck(const GeometryOptions& options);           // a bridge deck, camera upright and turned
+void print_elevation(const GeometryOptions& options);      // seen from 30 degrees below
+void print_noise_floor(const GeometryOptions& options);    // nothing moves but the camera
+
+}  // namespace tools

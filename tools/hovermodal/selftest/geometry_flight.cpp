@@ -1,0 +1,205 @@
+#include "tools/hovermodal/selftest/geometry_flight.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <utility>
+
+#include "core/identification/prewhitening.h"
+#include "core/simulation/channel_generator.h"
+#include "core/simulation/camera/recorded_motion.h"
+#include "drivers/storage/flight_log.h"
+#include "firmware_app/core_config.h"
+#include "firmware_app/track_analysis.h"
+#include "tools/hovermodal/simulate/config.h"
+
+namespace tools {
+namespace {
+
+using core::simulation::DeliveredFrame;
+using core::simulation::RecordedMotion;
+using core::simulation::TrackGenerator;
+
+// The hover of the recorded flight (data set phantom4_hover).
+constexpr double kHoverFrom_s = 360.7, kHoverTo_s = 440.0;
+constexpr double kSeedsPerRound = 20.0;
+
+// The record from another of its instants on, there and back, as long as is needed.
+std::vector<double> from_phase(const std::vector<double>& values, std::size_t first, std::size_t n) {
+  std::vector<double> out;
+  if (values.empty()) return out;
+  const std::size_t round = 2 * (values.size() - 1);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = (first + k) % round;
+    out.push_back(values[std::min(i, round - i)]);
+  }
+  return out;
+}
+
+std::shared_ptr<const RecordedMotion> carried_by(const std::string& path, const FlightSetup& setup, std::uint64_t seed,
+                                                 double duration_s) {
+  const core::FlightPath log = drivers::read_flight_path(path, kHoverFrom_s, kHoverTo_s);
+  const RecordedMotion recorded =
+      core::simulation::make_recorded_motion(log, nullptr, {log.mean_heading_deg, 0.0, 0.0});
+  const auto round = 2 * (recorded.x_mm.size() - 1);
+  const double share = std::fmod(static_cast<double>(seed - 1) / kSeedsPerRound, 1.0);
+  const auto first = static_cast<std::size_t>(std::llround(share * static_cast<double>(round)));
+  const auto n = static_cast<std::size_t>(std::ceil((duration_s + 1.0) * recorded.rate_hz)) + 4;
+  RecordedMotion out;
+  out.rate_hz = recorded.rate_hz;
+  for (auto axis : {&RecordedMotion::x_mm, &RecordedMotion::y_mm, &RecordedMotion::z_mm}) {
+    out.*axis = from_phase(recorded.*axis, first, n);
+    for (double& value : out.*axis) value *= setup.flight_scale;
+  }
+  return std::make_shared<const RecordedMotion>(std::move(out));
+}
+
+void hover_instead(core::simulation::HoverParameters& hover, double scale) {
+  hover.x_rms_mm = hover.z_rms_mm = 120.0 * scale;
+  hover.y_rms_mm = 80.0 * scale;
+}
+
+bool is_background(const core::Region& region) { return region.role == core::RegionRole::kBackground; }
+
+// One way, fed frame by frame.
+class Run {
+ public:
+  Run(const DeclaredRun& declared, const Way& way, const core::TrackFrame& keyframe)
+      : without_(way.with_background ? -1 : background_of(declared.config)),
+        config_(without_ < 0 ? declared.config : without_background(declared.config)),
+        tracks_(keyframe),
+        analysis_(config_, declared.camera, kept(keyframe)) {}
+
+  void push(const core::TrackFrame& frame) { (void)analysis_.push(kept(frame)); }
+  [[nodiscard]] app::TrackAnalysis& analysis() noexcept { return analysis_; }
+
+ private:
+  static int background_of(const app::AppConfig& config) {
+    const auto at = std::find_if(config.regions.begin(), config.regions.end(), is_background);
+    return at == config.regions.end() ? -1 : static_cast<int>(at - config.regions.begin());
+  }
+  static app::AppConfig without_background(app::AppConfig config) {
+    std::erase_if(config.regions, is_background);
+    return config;
+  }
+  // The background is the last region: the others keep their numbers.
+  core::TrackFrame& kept(const core::TrackFrame& frame) {
+    tracks_ = frame;
+    if (without_ >= 0) std::erase_if(tracks_.points, [&](const auto& point) { return point.region == without_; });
+    return tracks_;
+  }
+
+  int without_;
+  app::AppConfig config_;
+  core::TrackFrame tracks_;
+  app::TrackAnalysis analysis_;
+};
+
+// The true motion's spectra are made once; it is identified with each prewhitening that a way chose.
+class Truth {
+ public:
+  Truth(const DeclaredRun& declared, const core::simulation::ChannelGenerator& generator)
+      : declared_(declared),
+        generator_(generator),
+        analysis_(declared.config, generator.channels(), declared.camera.rate_hz),
+        sample_(generator.sample_prototype()) {}
+
+  void push(const DeliveredFrame& frame) {
+    generator_.generate(frame, sample_);
+    (void)analysis_.push(sample_);
+  }
+  void finish() { (void)analysis_.finish(); }
+  [[nodiscard]] const core::DisplacementSample& sample() const noexcept { return sample_; }
+  [[nodiscard]] const core::CpsdSums& sums() const noexcept { return analysis_.sums(); }
+  [[nodiscard]] const core::ModalEstimate& identified(int n_differences) {
+    const auto known = estimates_.find(n_differences);
+    if (known != estimates_.end()) return known->second;
+    core::IdentifierConfig config =
+        app::identifier_config(declared_.config, generator_.channels(), declared_.camera.rate_hz);
+    config.n_differences = n_differences;
+    return estimates_[n_differences] = core::Identifier(config, generator_.channels()).identify(analysis_.sums());
+  }
+
+ private:
+  const DeclaredRun& declared_;
+  const core::simulation::ChannelGenerator& generator_;
+  app::ChannelAnalysis analysis_;
+  core::DisplacementSample sample_;
+  std::map<int, core::ModalEstimate> estimates_;
+};
+
+}  // namespace
+
+SimulateJob flight_job(const FlightSetup& setup, std::uint64_t seed, double duration_s,
+                       const GeometryOptions& options) {
+  drivers::SceneOverrides overrides;
+  overrides.seed = seed;
+  overrides.duration_s = options.duration_s > 0.0 ? options.duration_s : duration_s;
+  SimulateJob job;
+  job.file = drivers::parse_scene(setup.scene, "geometry", overrides);
+  job.depth = Depth::kTracks;
+  auto& scene = job.file.scene;
+  if (setup.flight_scale > 0.0 && options.flight.empty()) hover_instead(scene.hover, setup.flight_scale);
+  if (setup.flight_scale > 0.0 && !options.flight.empty()) {
+    scene.flight = carried_by(options.flight, setup, seed, scene.duration_s);
+  }
+  core::simulation::validate(scene);
+  return job;
+}
+
+DeclaredRun declared_run(const SimulateJob& job, const FlightSetup& setup, const Way& way,
+                         const core::simulation::SceneMotion& motion) {
+  SimulateJob declared = job;
+  drivers::Declared& readout = declared.file.declare.readout_ms;
+  if (way.readout == StatedReadout::kNone) readout.kind = drivers::Declared::Kind::kNothing;
+  if (way.readout == StatedReadout::kWholeFrame) {
+    readout = {drivers::Declared::Kind::kValue, 1e3 / job.scene().camera.rate_hz};
+  }
+  std::vector<std::string> overrides = setup.configuration;
+  overrides.insert(overrides.end(), way.overrides.begin(), way.overrides.end());
+  return {app::parse_config(config_text(declared, motion, "tracks.csv"), way.name, overrides),
+          declared.declared_camera()};
+}
+
+FlightResult analyse_flight(const SimulateJob& job, const FlightSetup& setup, const std::vector<Way>& ways,
+                            const SampleObserver& observe) {
+  const TrackGenerator generator(job.scene());
+  core::simulation::Scene quiet = job.scene();
+  quiet.channels = {.noise_mm = 0.0, .loss_probability = 0.0};
+  const core::simulation::SceneMotion true_motion(quiet);
+  const core::simulation::ChannelGenerator true_channels(true_motion, quiet.camera.readout_s);
+  const DeclaredRun as_is = declared_run(job, setup, {}, generator.motion());
+  Truth truth(as_is, true_channels);
+
+  std::vector<std::unique_ptr<Run>> runs;
+  core::TrackFrame frame;
+  auto timing = generator.timing();
+  for (DeliveredFrame delivered; timing.next(delivered);) {
+    generator.generate(delivered, frame);
+    if (runs.empty()) {
+      for (const Way& way : ways) {
+        runs.push_back(std::make_unique<Run>(declared_run(job, setup, way, generator.motion()), way, frame));
+      }
+    }
+    truth.push(delivered);
+    for (std::size_t w = 0; w < runs.size(); ++w) {
+      runs[w]->push(frame);
+      if (observe) observe(w, runs[w]->analysis().sample(), truth.sample());
+    }
+  }
+  truth.finish();
+  FlightResult result{{}, truth.sums(), job.scene().camera.rate_hz, job.scene().duration_s};
+  for (const auto& run : runs) {
+    app::ChannelAnalysis& analysis = run->analysis().analysis();
+    Analysed analysed{analysis.finish(), {}, run->analysis().channels(), analysis.sums()};
+    analysed.truth = truth.identified(core::choose_differences(analysis.sums()));
+    result.ways.push_back(std::move(analysed));
+  }
+  return result;
+}
+
+}  // namespace tools

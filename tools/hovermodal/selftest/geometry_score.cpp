@@ -1,0 +1,152 @@
+#include "tools/hovermodal/selftest/geometry_score.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/identification/mac.h"
+#include "tools/hovermodal/selftest/identification_match.h"
+#include "tools/hovermodal/selftest/identification_parallel.h"
+
+namespace tools {
+namespace {
+
+using core::simulation::TrueMode;
+using As = Found::As;
+
+ModeScore score_mode(const Found& found, const Found& reference, const TrueMode& truth, double duration_s) {
+  ModeScore out;
+  out.found = found.as == As::kRight;
+  out.ambiguous = found.as == As::kAmbiguous;
+  out.wrong = found.as == As::kWrongFold;
+  out.has_reference = reference.as == As::kRight;
+  if (!out.found) return out;
+  const double turns = 2.0 * std::numbers::pi * truth.frequency_hz * duration_s;
+  out.frequency_scatters =
+      (found.mode.frequency_hz / truth.frequency_hz - 1.0) / std::sqrt(truth.damping_ratio / turns);
+  out.damping_scatters =
+      (found.mode.damping_ratio / truth.damping_ratio - 1.0) * std::sqrt(truth.damping_ratio * turns);
+  if (!out.has_reference) return out;
+  out.frequency_error = found.mode.frequency_hz / reference.mode.frequency_hz - 1.0;
+  out.damping_error = found.mode.damping_ratio / reference.mode.damping_ratio - 1.0;
+  out.mac = core::mac(found.mode.shape, reference.mode.shape);
+  return out;
+}
+
+// Of one record: the worst of the judged modes that were found.
+struct WorstOfRecord {
+  double frequency = 0.0, damping = 0.0, mac = 1.0;
+  bool any = false, all = true;
+};
+
+WorstOfRecord worst_of(const RecordScore& record, std::size_t n_judged) {
+  WorstOfRecord worst;
+  for (std::size_t r = 0; r < std::min(n_judged, record.modes.size()); ++r) {
+    const ModeScore& mode = record.modes[r];
+    worst.all = worst.all && mode.found;
+    if (!mode.found || !mode.has_reference) continue;
+    worst.any = true;
+    worst.frequency = std::max(worst.frequency, std::abs(mode.frequency_error));
+    worst.damping = std::max(worst.damping, std::abs(mode.damping_error));
+    worst.mac = std::min(worst.mac, mode.mac);
+  }
+  return worst;
+}
+
+// "nan<tab>nan" for none, so that no bar is met by accident.
+std::string median_and_worst(const std::vector<double>& values, double factor, const char* format) {
+  const double nan = std::nan("");
+  const Statistics s = statistics(values);
+  const double median = values.empty() ? nan : factor * s.median, worst = values.empty() ? nan : factor * s.worst;
+  return fmt::format(fmt::runtime(fmt::format("{}\t{}", format, format)), median, worst);
+}
+
+}  // namespace
+
+RecordScore score(const Analysed& analysed, const std::vector<TrueMode>& truth, double duration_s) {
+  const Match measured = match_modes(analysed.measured, truth, analysed.channels);
+  const Match reference = match_modes(analysed.truth, truth, analysed.channels);
+  RecordScore out;
+  out.n_false = measured.n_false;
+  for (std::size_t r = 0; r < truth.size(); ++r) {
+    out.modes.push_back(score_mode(measured.modes[r], reference.modes[r], truth[r], duration_s));
+  }
+  return out;
+}
+
+void print_score_columns(const char* figure, const std::string& judged) {
+  fmt::print(
+      "# {}: case, way, records; {}: records with all of them; worst of them in a record against the true motion's\n"
+      "#   own identification, over the records: frequency % median, worst; damping % median, worst; least MAC median,\n"
+      "#   worst; of all true modes found median, fewest, of; judged modes against the true parameters in the least\n"
+      "#   possible scatter: frequency rms, worst, damping rms, worst; per record: structural poles that are no mode;\n"
+      "#   modes ambiguous, modes given a wrong frequency\n",
+      figure, judged);
+}
+
+void print_scores(const char* figure, const std::string& what, const std::string& way,
+                  const std::vector<RecordScore>& records, std::size_t n_judged) {
+  std::vector<double> frequency, damping, mac_deficit, n_found, f_scatters, z_scatters;
+  int complete = 0;
+  double n_false = 0.0, ambiguous = 0.0, wrong = 0.0;
+  for (const RecordScore& record : records) {
+    const WorstOfRecord worst = worst_of(record, n_judged);
+    complete += worst.all ? 1 : 0;
+    n_false += record.n_false;
+    n_found.push_back(0.0);
+    for (std::size_t r = 0; r < record.modes.size(); ++r) {
+      const ModeScore& mode = record.modes[r];
+      ambiguous += mode.ambiguous ? 1.0 : 0.0;
+      wrong += mode.wrong ? 1.0 : 0.0;
+      if (!mode.found) continue;
+      n_found.back() += 1.0;
+      if (r >= n_judged) continue;
+      f_scatters.push_back(mode.frequency_scatters);
+      z_scatters.push_back(mode.damping_scatters);
+    }
+    if (!worst.any) continue;
+    frequency.push_back(worst.frequency);
+    damping.push_back(worst.damping);
+    mac_deficit.push_back(worst.mac - 1.0);
+  }
+  const double n = static_cast<double>(std::max<std::size_t>(1, records.size()));
+  const Statistics m = statistics(mac_deficit), k = statistics(n_found), f = statistics(f_scatters),
+                   z = statistics(z_scatters);
+  const double fewest = n_found.empty() ? 0.0 : *std::min_element(n_found.begin(), n_found.end());
+  const double no_mac = mac_deficit.empty() ? std::nan("") : 1.0;
+  fmt::print(
+      "{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.5f}\t{:.5f}\t{:g}\t{:g}\t{}\t{:.2f}\t{:+.2f}\t{:.2f}\t{:+.2f}\t{:.2f}\t{:.2f}\t{:."
+      "2f}\n",
+      figure, what, way, records.size(), complete, median_and_worst(frequency, 1e2, "{:.4f}"),
+      median_and_worst(damping, 1e2, "{:.2f}"), no_mac * (1.0 + m.median), no_mac * (1.0 + m.worst), k.median, fewest,
+      records.empty() ? 0 : records.front().modes.size(), f.rms, f.worst, z.rms, z.worst, n_false / n, ambiguous / n,
+      wrong / n);
+  std::fflush(stdout);
+}
+
+CaseScores score_case(const FigureCase& which, const GeometryOptions& options) {
+  const auto records = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t seed) {
+    const SimulateJob job = flight_job(which.setup, seed, which.duration_s, options);
+    const std::vector<TrueMode> truth = modes_of(job.scene().structure);
+    const FlightResult result = analyse_flight(job, which.setup, which.ways);
+    std::vector<RecordScore> scores;
+    for (const Analysed& way : result.ways) scores.push_back(score(way, truth, result.duration_s));
+    return scores;
+  });
+  CaseScores by_way(which.ways.size());
+  for (const auto& record : records) {
+    for (std::size_t w = 0; w < by_way.size(); ++w) by_way[w].push_back(record[w]);
+  }
+  return by_way;
+}
+
+void print_case(const FigureCase& which, const GeometryOptions& options) {
+  const CaseScores scores = score_case(which, options);
+  for (std::size_t w = 0; w < scores.size(); ++w) {
+    print_scores(which.figure, which.name, which.ways[w].name, scores[w], which.n_judged);
+  }
+}
+
+}  // namespace tools
