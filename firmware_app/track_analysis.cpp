@@ -8,8 +8,10 @@
 
 namespace app {
 
-ChannelAnalysis::ChannelAnalysis(const AppConfig& config, const std::vector<core::ChannelInfo>& channels, double rate_hz)
-    : identifier_(identifier_config(config, channels, rate_hz), channels),
+ChannelAnalysis::ChannelAnalysis(const AppConfig& config, const std::vector<core::ChannelInfo>& channels,
+                                 double rate_hz)
+    : config_(identifier_config(config, channels, rate_hz)),
+      identifier_(config_, channels),
       tracker_({.row_delay_s = identifier_.undone_delay_s()}),
       cpsd_(welch_config(config.spectrum, identifier_.channels().size(), rate_hz)),
       grid_(rate_hz),
@@ -44,6 +46,12 @@ core::ModalEstimate ChannelAnalysis::finish() {
   core::ModalEstimate estimate = make();
   estimate.final = true;
   return estimate;
+}
+
+core::ModalEstimate ChannelAnalysis::identified(int n_differences) const {
+  core::IdentifierConfig config = config_;
+  config.n_differences = n_differences;
+  return core::Identifier(config, identifier_.channels()).identify(cpsd_.sums());
 }
 
 TrackAnalysis::TrackAnalysis(const AppConfig& config, const core::CameraInfo& camera, const core::TrackFrame& keyframe)

@@ -35,6 +35,9 @@ class ChannelAnalysis {
   // Once, after the last sample.
   [[nodiscard]] core::ModalEstimate finish();
 
+  // Those samples again with another prewhitening (as core::IdentifierConfig takes it); no estimate of the run.
+  [[nodiscard]] core::ModalEstimate identified(int n_differences) const;
+
   [[nodiscard]] const core::Health& losses() const noexcept { return losses_; }
   [[nodiscard]] const core::CpsdSums& sums() const noexcept { return cpsd_.sums(); }  // whole after finish()
 
@@ -42,6 +45,7 @@ class ChannelAnalysis {
   void note(bool hop);
   [[nodiscard]] core::ModalEstimate make();
 
+  core::IdentifierConfig config_;
   core::Identifier identifier_;
   core::ModeTracker tracker_;
   core::WelchCpsd cpsd_;

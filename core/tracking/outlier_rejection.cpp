@@ -1,6 +1,7 @@
 #include "core/tracking/outlier_rejection.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -19,18 +20,23 @@ double log_likelihood(std::span<const Vector2> motion, std::span<const std::uint
   const double inverse_2s2 = 0.5 / (config.sigma_px * config.sigma_px);
   const double peak = inverse_2s2 / std::numbers::pi;
   const double outlier = 1.0 / (config.spread_px * config.spread_px);
+  // The exponentials are most of the work and do not change with the share.
+  constexpr std::size_t kKept = 128;
+  std::array<double, kKept> kept;
+  const auto closeness = [&](std::size_t i) { return std::exp(-squared_distance(motion[i], centre) * inverse_2s2); };
+  for (std::size_t i = 0; i < std::min(kKept, motion.size()); ++i) kept[i] = valid[i] != 0 ? closeness(i) : 0.0;
   double share = 0.5;
   double sum = 0.0;
   for (int iteration = 0; iteration < config.mixing_iterations; ++iteration) {
+    const bool last = iteration + 1 == config.mixing_iterations;
     double inlier_weight = 0.0;
     double n = 0.0;
-    sum = 0.0;
     for (std::size_t i = 0; i < motion.size(); ++i) {
       if (valid[i] == 0) continue;
-      const double in = share * peak * std::exp(-squared_distance(motion[i], centre) * inverse_2s2);
+      const double in = share * peak * (i < kKept ? kept[i] : closeness(i));
       const double total = in + (1.0 - share) * outlier;
       inlier_weight += in / total;
-      sum += std::log(total);
+      if (last) sum += std::log(total);
       n += 1.0;
     }
     share = std::min(0.99, std::max(0.01, inlier_weight / n));

@@ -10,10 +10,9 @@
 #include <utility>
 
 #include "core/identification/prewhitening.h"
-#include "core/simulation/channel_generator.h"
 #include "core/simulation/camera/recorded_motion.h"
+#include "core/simulation/channel_generator.h"
 #include "drivers/storage/flight_log.h"
-#include "firmware_app/core_config.h"
 #include "firmware_app/track_analysis.h"
 #include "tools/hovermodal/simulate/config.h"
 
@@ -63,6 +62,12 @@ void hover_instead(core::simulation::HoverParameters& hover, double scale) {
   hover.y_rms_mm = 80.0 * scale;
 }
 
+// A hundredth of what the tracker leaves of each channel: ground that rests would be no channel at all without.
+double whisper_mm(const core::simulation::Scene& scene) {
+  const double mm_per_px = (scene.plates.front().z_mm - scene.camera.z_mm) / scene.camera.alpha_px;
+  return 0.01 * mm_per_px * scene.tracks.noise_px / std::sqrt(scene.tracks.points_per_region);
+}
+
 bool is_background(const core::Region& region) { return region.role == core::RegionRole::kBackground; }
 
 // One way, fed frame by frame.
@@ -103,8 +108,7 @@ class Run {
 class Truth {
  public:
   Truth(const DeclaredRun& declared, const core::simulation::ChannelGenerator& generator)
-      : declared_(declared),
-        generator_(generator),
+      : generator_(generator),
         analysis_(declared.config, generator.channels(), declared.camera.rate_hz),
         sample_(generator.sample_prototype()) {}
 
@@ -118,14 +122,10 @@ class Truth {
   [[nodiscard]] const core::ModalEstimate& identified(int n_differences) {
     const auto known = estimates_.find(n_differences);
     if (known != estimates_.end()) return known->second;
-    core::IdentifierConfig config =
-        app::identifier_config(declared_.config, generator_.channels(), declared_.camera.rate_hz);
-    config.n_differences = n_differences;
-    return estimates_[n_differences] = core::Identifier(config, generator_.channels()).identify(analysis_.sums());
+    return estimates_[n_differences] = analysis_.identified(n_differences);
   }
 
  private:
-  const DeclaredRun& declared_;
   const core::simulation::ChannelGenerator& generator_;
   app::ChannelAnalysis analysis_;
   core::DisplacementSample sample_;
@@ -169,7 +169,7 @@ FlightResult analyse_flight(const SimulateJob& job, const FlightSetup& setup, co
                             const SampleObserver& observe) {
   const TrackGenerator generator(job.scene());
   core::simulation::Scene quiet = job.scene();
-  quiet.channels = {.noise_mm = 0.0, .loss_probability = 0.0};
+  quiet.channels = {.noise_mm = whisper_mm(quiet), .loss_probability = 0.0};
   const core::simulation::SceneMotion true_motion(quiet);
   const core::simulation::ChannelGenerator true_channels(true_motion, quiet.camera.readout_s);
   const DeclaredRun as_is = declared_run(job, setup, {}, generator.motion());

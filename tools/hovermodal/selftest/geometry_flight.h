@@ -56,7 +56,8 @@ struct FlightResult {
 using SampleObserver =
     std::function<void(std::size_t way, const core::DisplacementSample& sample, const core::DisplacementSample& truth)>;
 // The true motion: displacement of the bodies (ground included) at the instant at which the middle of each region is
-// read, averaged over the exposure; neither camera nor tracker in it (core::simulation::ChannelGenerator).
+// read, averaged over the exposure; neither camera nor tracker in it (core::simulation::ChannelGenerator), but a
+// hundredth of the tracker's noise.
 [[nodiscard]] FlightResult analyse_flight(const SimulateJob& job, const FlightSetup& setup,
                                           const std::vector<Way>& ways, const SampleObserver& observe = {});
 

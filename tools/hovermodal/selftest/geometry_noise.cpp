@@ -131,16 +131,19 @@ Floors floors_of(const FlightSetup& setup, const std::vector<Way>& ways, std::ui
 }  // namespace
 
 void print_noise_floor(const GeometryOptions& options) {
-  FlightSetup setup{"preset: paper\ncamera: {readout_ms: 28}\nexcitation: {rms_mm: 0}\nhover: {x_rms_mm: 0, y_rms_mm: "
-                    "0, z_rms_mm: 0, pitch_rms_deg: 0.022, yaw_rms_deg: 0.022, roll_rms_deg: 0.022}\n",
-                    {"spectrum.segment=1024", "identification.period=10000"},
-                    0.25};
-  const std::vector<Way> ways{{"ours", {}}, {"ours-no-background", {}, StatedReadout::kTrue, false}, {"paper", {"method=paper"}}};
+  FlightSetup setup{
+      "preset: paper\ncamera: {readout_ms: 28}\nexcitation: {rms_mm: 0}\nhover: {x_rms_mm: 0, y_rms_mm: "
+      "0, z_rms_mm: 0, pitch_rms_deg: 0.022, yaw_rms_deg: 0.022, roll_rms_deg: 0.022}\n",
+      {"spectrum.segment=1024", "identification.period=10000"},
+      0.25};
+  const std::vector<Way> ways{
+      {"ours", {}}, {"ours-no-background", {}, StatedReadout::kTrue, false}, {"paper", {"method=paper"}}};
   const auto records = for_each_seed(options.n_seeds, options.n_threads,
                                      [&](std::uint64_t seed) { return floors_of(setup, ways, seed, options); });
   fmt::print(
       "# noise-floor: way, channel, records; medians over the records of: rms of the displacement about its mean, mm,\n"
-      "#   px; rms of white noise with its density above {} Hz, mm, px; Cramer-Rao bound with the camera known, px, mm,\n"
+      "#   px; rms of white noise with its density above {} Hz, mm, px; Cramer-Rao bound with the camera known, px, "
+      "mm,\n"
       "#   and with the camera estimated from background and ground, px, mm; whole rms and white rms over that bound\n",
       kAboveHover_hz);
   for (std::size_t w = 0; w < ways.size(); ++w) {
@@ -155,9 +158,10 @@ void print_noise_floor(const GeometryOptions& options) {
       const double s = records.front().mm_per_px;
       const double a = statistics(whole).median, b = statistics(white).median, k = statistics(known).median,
                    e = statistics(estimated).median;
-      fmt::print("noise-floor\t{}\t{}\t{}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.2f}\t{:.2f}\n",
-                 ways[w].name, records.front().names[c], records.size(), a, a / s, b, b / s, k, k * s, e, e * s,
-                 a / s / e, b / s / e);
+      fmt::print(
+          "noise-floor\t{}\t{}\t{}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.2f}\t{:.2f}\n",
+          ways[w].name, records.front().names[c], records.size(), a, a / s, b, b / s, k, k * s, e, e * s, a / s / e,
+          b / s / e);
     }
   }
 }

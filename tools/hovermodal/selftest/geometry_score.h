@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/simulation/structure/structure_model.h"
+#include "core/simulation/scene.h"
 #include "tools/hovermodal/selftest/geometry_flight.h"
 
 namespace tools {
@@ -18,10 +18,13 @@ struct ModeScore {
   // Against the identification of the true motion; only with a reference.
   double frequency_error = 0.0, damping_error = 0.0;  // relative
   double mac = 0.0;
-  // Against the true parameters, in the least possible scatter: sigma_f / f = sqrt(zeta / (2 pi f T)), sigma_zeta / zeta
-  // = 1 / sqrt(2 pi zeta f T).
+  // Against the true parameters, in the least possible scatter: sigma_f / f = sqrt(zeta / (2 pi f T)), sigma_zeta /
+  // zeta = 1 / sqrt(2 pi zeta f T).
   double frequency_scatters = 0.0, damping_scatters = 0.0;
 };
+
+// Those inside the band of the excitation, by frequency.
+[[nodiscard]] std::vector<core::simulation::TrueMode> shaken_modes(const core::simulation::Scene& scene);
 
 struct RecordScore {
   std::vector<ModeScore> modes;  // by true frequency

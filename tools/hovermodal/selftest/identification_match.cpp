@@ -19,7 +19,9 @@ constexpr double kNear = 0.02, kNearApparent = 0.03;  // relative
 std::vector<std::complex<double>> true_shape(const TrueMode& mode, const std::vector<core::ChannelInfo>& channels) {
   std::vector<std::complex<double>> shape;
   for (const core::ChannelInfo& channel : channels) {
-    shape.push_back(channel.is_base ? 0.0 : mode.displacement[std::stoi(channel.name.substr(channel.name.find_first_of(kDigits))) - 1]);
+    shape.push_back(channel.is_base
+                        ? 0.0
+                        : mode.displacement[std::stoi(channel.name.substr(channel.name.find_first_of(kDigits))) - 1]);
   }
   return shape;
 }
