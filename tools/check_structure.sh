@@ -36,7 +36,7 @@ check_includes() {
     }
     function tools_rule(name) {
       if (name ~ /^(core|drivers)\//) return ""
-      if (name ~ /^firmware_app\/(pipeline|config|analysis)\.h$/ || name ~ /^firmware_app\/report\/.*\.h$/) return ""
+      if (name ~ /^firmware_app\/(pipeline|config|analysis|track_analysis)\.h$/ || name ~ /^firmware_app\/report\/.*\.h$/) return ""
       return "tools may include core, drivers, and of firmware_app only pipeline.h, config.h, analysis.h, track_analysis.h and report/"
     }
     function rule(file, room, name, target) {
