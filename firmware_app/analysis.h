@@ -53,6 +53,7 @@ struct TracksResult {
   core::ModalEstimate estimate;
   core::Health losses;
   std::vector<core::ChannelInfo> channels;
+  int n_differences = 0;  // the prewhitening that the spectra asked for
 };
 [[nodiscard]] TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_path,
                                          const std::string& report_directory);

@@ -7,6 +7,7 @@
 #include "core/geometry/channel_displacement.h"
 #include "core/identification/identifier.h"
 #include "core/identification/mode_tracker.h"
+#include "core/identification/prewhitening.h"
 #include "core/spectrum/time_grid.h"
 #include "core/spectrum/welch_cpsd.h"
 #include "core/types/displacement.h"
@@ -35,6 +36,8 @@ class ChannelAnalysis {
   // Once, after the last sample.
   [[nodiscard]] core::ModalEstimate finish();
 
+  // The prewhitening that the spectra ask for, and that finish() used.
+  [[nodiscard]] int n_differences() const { return core::choose_differences(cpsd_.sums()); }
   // Those samples again with another prewhitening (as core::IdentifierConfig takes it); no estimate of the run.
   [[nodiscard]] core::ModalEstimate identified(int n_differences) const;
 

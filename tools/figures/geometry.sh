@@ -7,8 +7,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-seeds=20 low_seeds=20 quick=no shorter=()
-[ "${1:-}" != --quick ] || { seeds=3 low_seeds=2 quick=yes shorter=(--duration 120); }
+seeds=20 few=5 clips=3 shorter=()
+[ "${1:-}" != --quick ] || { seeds=3 few=1 clips=0 shorter=(--duration 120); }
 out=build/figures/geometry
 mkdir -p "$out"
 tools/setup.sh
@@ -59,6 +59,28 @@ figure_1() {
     "$complete == $n && $f_median <= 0.2 && $f_worst <= 0.4 && $mac_worst >= 0.999"
   judge 1b "median $found, fewest $fewest of $all; per record $n_false that are no mode" "5 of 6 (goal: 6)" \
     "modes found in the same records" "$fewest >= 5"
+  figure_1_pixels
+  figure_1_table
+}
+figure_1_pixels() {
+  if [ "$clips" -eq 0 ]; then line 1c SKIP "--quick draws no clip" "0.2 % median, 0.4 % worst, MAC 0.999" "60 s of rendered 1080p25"; return; fi
+  check geometry-pixels "$clips" --report "$out"
+  read_row geometry-pixels paper-60s ours
+  bar 1c "$(errors); found median $found of $all; $(truth)" "0.2 % median, 0.4 % worst, MAC 0.999" \
+    "60 s of rendered 1080p25 through the service, $n seeds (a clip takes a minute)" \
+    "$complete == $n && $f_median <= 0.2 && $f_worst <= 0.4 && $mac_worst >= 0.999"
+  read_row geometry-pixels paper-60s paper
+  line 1c beside "$(errors)" "none" "the same by the paper's chain"
+}
+figure_1_table() {
+  check table1 "$few" "${shorter[@]}" --report "$out/table1"
+  local sensor
+  for sensor in stationary paper ours; do
+    line 1d beside "$(awk -F'\t' -v s="$sensor" '$1 == "table1" && $2 == s { out = out sprintf("%smode %d found in %d of %d, error %s %%, MAC %s %%", n++ ? "; " : "", $3, $5, $4, $7, $9) } END { print out }' "$out/table1.txt")" \
+      "none" "Table 1 of the paper simulated, medians against the accelerometers: $sensor"
+  done
+  line 1d beside "$(awk -F'\t' '$1 == "table1-published" { out = out sprintf("%smode %d error %s and %s %%, MAC %s and %s %%", n++ ? "; " : "", $2, $8, $9, $6, $7) } END { print out }' "$out/table1.txt")" \
+    "none" "the same as published: stationary camera and UAV; Figures 6 to 9 in $out/table1"
 }
 
 # --- 2: wind ------------------------------------------------------------------------------------------------------------
@@ -75,7 +97,7 @@ figure_2() {
 
 # --- 3: a tall structure ------------------------------------------------------------------------------------------------
 figure_3() {
-  check low-frequency "$low_seeds"
+  check low-frequency "$([ "$clips" -gt 0 ] && echo "$seeds" || echo "$few")"
   read_row low-frequency chimney-900s ours
   bar 3 "found $complete of $n, f median $f_median worst $f_worst %, damping median $z_median worst $z_worst %; $(truth)" \
     "0.5 %, 25 %, all" "0.32 Hz under the drift of the $moved_by, 900 s" \
@@ -87,7 +109,17 @@ figure_3() {
 
 # --- 4: readout ---------------------------------------------------------------------------------------------------------
 figure_4() {
-  line 4 SKIP "no online estimate of the readout in this build" "0.02 of a frame, 2.5 sigma" "readout over -1 ... 1 of a frame"
+  local what="readout over -1 ... 1 of a frame, from tracks of 300 s under the hover" bar="0.02 of a frame, 2.5 sigma"
+  if ! "$bin/hovermodal" selftest --help | grep -q '^ *readout:'; then
+    line 4a SKIP "no online estimate of the readout in this build" "$bar" "$what"
+    return
+  fi
+  "$bin/hovermodal" selftest readout --seeds "$seeds" --threads "$(nproc)" >"$out/readout.txt"
+  # readout, true frames, seconds, records, with an estimate, mean, deviation, worst error, stated, worst in sigmas, ...
+  read -r rows missing worst sigmas < <(awk -F'\t' '$1 == "readout" && $3 == 300 { n++; missing += $4 - $5; if ($8 > w) w = $8; if ($10 > s) s = $10 }
+    END { print n + 0, missing + 0, w + 0, s + 0 }' "$out/readout.txt")
+  judge 4a "worst $worst of a frame, worst $sigmas of the stated deviation, $missing records without an estimate" "$bar" \
+    "$what, $rows readouts" "$rows > 0 && $missing == 0 && $worst <= 0.02 && $sigmas <= 2.5"
 }
 
 # --- 5: a bridge deck ---------------------------------------------------------------------------------------------------
@@ -122,7 +154,7 @@ figure_6() {
 
 # --- 7: noise floor -----------------------------------------------------------------------------------------------------
 figure_7() {
-  check noise-floor "$low_seeds" "${shorter[@]}"
+  check noise-floor "$few" "${shorter[@]}"
   local way
   for way in ours ours-no-background paper; do
     line 7 beside "$(awk -F'\t' -v w="$way" '$2 == w { s = s sprintf("%s%s %.4f mm %.4f px (white %.4f px, bound %.4f, camera known %.4f)", n++ ? "; " : "", $3, $5, $6, $8, $11, $9) } END { print s }' "$out/noise-floor.txt")" \

@@ -11,14 +11,17 @@ struct GeometryOptions {
   int n_seeds = 20;
   int n_threads = 2;
   double duration_s = 0.0;  // 0 = that of the figure
+  std::string report;       // folder for pictures and reports; empty = none
   std::string flight;       // recorded flight (CSV) that carries the camera; empty = the hover model instead
 };
 
-void print_geometry(const GeometryOptions& options);       // the paper's experiment, one correction after the other
-void print_wind(const GeometryOptions& options);           // gusts of 5 degrees
-void print_low_frequency(const GeometryOptions& options);  // a mode of 0.32 Hz in the hover's drift
-void print_deck(const GeometryOptions& options);           // a bridge deck, camera upright and turned
-void print_elevation(const GeometryOptions& options);      // seen from 30 degrees below
-void print_noise_floor(const GeometryOptions& options);    // nothing moves but the camera
+void print_geometry(const GeometryOptions& options);         // the paper's experiment, one correction after the other
+void print_geometry_pixels(const GeometryOptions& options);  // the same from rendered clips; `report` holds them
+void print_table1(const GeometryOptions& options);           // the paper's Table 1, sensor by sensor
+void print_wind(const GeometryOptions& options);             // gusts of 5 degrees
+void print_low_frequency(const GeometryOptions& options);    // a mode of 0.32 Hz in the hover's drift
+void print_deck(const GeometryOptions& options);             // a bridge deck, camera upright and turned
+void print_elevation(const GeometryOptions& options);        // seen from 30 degrees below
+void print_noise_floor(const GeometryOptions& options);      // nothing moves but the camera
 
 }  // namespace tools

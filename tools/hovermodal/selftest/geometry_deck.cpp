@@ -61,6 +61,7 @@ FigureCase deck_case(bool turned) {
   which.setup.configuration = {"identification.max_frequency_hz=22", "spectrum.segment=1024",
                                "identification.period=10000"};
   which.setup.flight_scale = 1.0;
+  which.setup.ground_rests = true;
   return which;
 }
 

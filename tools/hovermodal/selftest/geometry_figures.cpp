@@ -7,6 +7,7 @@
 
 #include "tools/hovermodal/selftest/geometry.h"
 #include "tools/hovermodal/selftest/geometry_score.h"
+#include "tools/hovermodal/selftest/geometry_sensors.h"
 
 namespace tools {
 namespace {
@@ -26,10 +27,13 @@ Way paper() { return {"paper", {"method=paper"}}; }
 
 }  // namespace
 
+// The recorded hover a quarter as large: indoors, 2 m away, the scale then changes by some 5 % as in the paper.
+FlightSetup paper_flight() {
+  return {std::string("preset: paper\ncamera: {readout_ms: 28}\n") + kGimbal, identification(20.0, 1024), 0.25};
+}
+
 void print_geometry(const GeometryOptions& options) {
-  // The recorded hover a quarter as large: indoors, 2 m away, the scale then changes by some 5 % as in the paper.
-  FigureCase which{"geometry", "paper-300s", {}, 300.0, 3, {}};
-  which.setup = {std::string("preset: paper\ncamera: {readout_ms: 28}\n") + kGimbal, identification(20.0, 1024), 0.25};
+  FigureCase which{"geometry", "paper-300s", paper_flight(), 300.0, 3, {}};
   // Without delays nothing above half the rate can be told: nobody would look there.
   const std::string half_rate = "identification.max_frequency_hz=0";
   which.ways = {{"raw", {"scale.adaptive=false", half_rate}, StatedReadout::kNone},
@@ -63,7 +67,7 @@ void print_low_frequency(const GeometryOptions& options) {
           "height_mm: 2000}\nbackground: {depth_mm: 150000}\nexcitation: {band_hz: [0.05, 7]}\ncamera: {rate_hz: "
           "15, readout_ms: 20}\ntracks: {points_per_region: 20}\n") +
           kGimbal,
-      identification(0.0, 1024), 1.0};
+      identification(0.0, 1024), 1.0, true};
   which.ways = {{"ours", {}}, paper()};
   print_score_columns("low-frequency", "mode 1");
   print_case(which, options);
@@ -76,7 +80,10 @@ void print_elevation(const GeometryOptions& options) {
                              "attitude_deg: [30, 0, 0]}\n") +
                      kGimbal,
                  identification(20.0, 1024), 0.25};
-  which.ways = {paper(), {"one-scale", {}}};
+  which.ways = {paper(), {"one-scale"}};
+  if (configuration_knows("scale.points")) {
+    which.ways.push_back({.name = "plane-pose", .plane_points = true});
+  }
   print_score_columns("elevation", "modes 1-3");
   print_case(which, options);
 }

@@ -9,9 +9,9 @@
 #include <numbers>
 #include <utility>
 
-#include "core/identification/prewhitening.h"
 #include "core/simulation/camera/recorded_motion.h"
 #include "core/simulation/channel_generator.h"
+#include "core/simulation/random_stream.h"
 #include "drivers/storage/flight_log.h"
 #include "firmware_app/track_analysis.h"
 #include "tools/hovermodal/simulate/config.h"
@@ -68,7 +68,48 @@ double whisper_mm(const core::simulation::Scene& scene) {
   return 0.01 * mm_per_px * scene.tracks.noise_px / std::sqrt(scene.tracks.points_per_region);
 }
 
+// The scene without the tracker's errors, but for a whisper.
+core::simulation::Scene quiet(core::simulation::Scene scene) {
+  scene.channels = {.noise_mm = whisper_mm(scene), .loss_probability = 0.0};
+  return scene;
+}
+
 bool is_background(const core::Region& region) { return region.role == core::RegionRole::kBackground; }
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  return at == std::string::npos ? text : text.replace(at, what.size(), by);
+}
+
+// What a user says of the regions beyond what `simulate` writes.
+std::string with_region_facts(std::string text, const core::simulation::Scene& scene, bool ground_rests) {
+  if (configuration_knows("depth_m") && text.find("depth_m") == std::string::npos) {
+    const double depth_m = 1e-3 * (scene.background.depth_mm - scene.camera.z_mm);
+    text = replaced(text, "role: background\n", fmt::format("role: background\n    depth_m: {}\n", depth_m));
+  }
+  return ground_rests && configuration_knows("| ground") ? replaced(text, "role: base", "role: ground") : text;
+}
+
+// scale.points: corners of the lowest, a middle and the highest plate, in mm along the plane.
+std::string plane_points(const core::simulation::SceneMotion& motion) {
+  constexpr double kReading_px = 0.5;
+  const auto& plates = motion.scene().plates;
+  core::simulation::RandomStream reading(motion.scene().seed, "plane_points");
+  std::string out;
+  for (const std::size_t body : {std::size_t{0}, plates.size() / 2, plates.size() - 1}) {
+    for (const double x : {-0.5, 0.5}) {
+      for (const double y : {-0.5, 0.5}) {
+        const core::simulation::PlanePoint corner{x * plates[body].width_mm, y * plates[body].height_mm};
+        const auto seen = motion.see(static_cast<int>(body), corner, 0.0);
+        const double u_px = seen.u_px + kReading_px * reading.gaussian();
+        out += fmt::format("{}[{:.2f}, {:.2f}, {}, {}]", out.empty() ? "" : ", ", u_px,
+                           seen.v_px + kReading_px * reading.gaussian(), plates[body].x_mm + corner.x_mm,
+                           plates[body].y_mm + corner.y_mm);
+      }
+    }
+  }
+  return "scale.points=[" + out + "]";
+}
 
 // One way, fed frame by frame.
 class Run {
@@ -134,6 +175,11 @@ class Truth {
 
 }  // namespace
 
+bool configuration_knows(const std::string& words) {
+  static const std::string help = app::config_help();
+  return help.find(words) != std::string::npos;
+}
+
 SimulateJob flight_job(const FlightSetup& setup, std::uint64_t seed, double duration_s,
                        const GeometryOptions& options) {
   drivers::SceneOverrides overrides;
@@ -161,19 +207,19 @@ DeclaredRun declared_run(const SimulateJob& job, const FlightSetup& setup, const
   }
   std::vector<std::string> overrides = setup.configuration;
   overrides.insert(overrides.end(), way.overrides.begin(), way.overrides.end());
-  return {app::parse_config(config_text(declared, motion, "tracks.csv"), way.name, overrides),
-          declared.declared_camera()};
+  if (way.plane_points) overrides.push_back(plane_points(motion));
+  const bool is_paper = std::find(overrides.begin(), overrides.end(), "method=paper") != overrides.end();
+  const std::string text =
+      with_region_facts(config_text(declared, motion, "tracks.csv"), job.scene(), setup.ground_rests && !is_paper);
+  return {app::parse_config(text, way.name, overrides), declared.declared_camera()};
 }
 
 FlightResult analyse_flight(const SimulateJob& job, const FlightSetup& setup, const std::vector<Way>& ways,
                             const SampleObserver& observe) {
   const TrackGenerator generator(job.scene());
-  core::simulation::Scene quiet = job.scene();
-  quiet.channels = {.noise_mm = whisper_mm(quiet), .loss_probability = 0.0};
-  const core::simulation::SceneMotion true_motion(quiet);
-  const core::simulation::ChannelGenerator true_channels(true_motion, quiet.camera.readout_s);
-  const DeclaredRun as_is = declared_run(job, setup, {}, generator.motion());
-  Truth truth(as_is, true_channels);
+  const core::simulation::ChannelGenerator true_channels(core::simulation::SceneMotion(quiet(job.scene())),
+                                                         job.scene().camera.readout_s);
+  Truth truth(declared_run(job, setup, {}, generator.motion()), true_channels);
 
   std::vector<std::unique_ptr<Run>> runs;
   core::TrackFrame frame;
@@ -196,10 +242,20 @@ FlightResult analyse_flight(const SimulateJob& job, const FlightSetup& setup, co
   for (const auto& run : runs) {
     app::ChannelAnalysis& analysis = run->analysis().analysis();
     Analysed analysed{analysis.finish(), {}, run->analysis().channels(), analysis.sums()};
-    analysed.truth = truth.identified(core::choose_differences(analysis.sums()));
+    analysed.truth = truth.identified(analysis.n_differences());
     result.ways.push_back(std::move(analysed));
   }
   return result;
+}
+
+core::ModalEstimate true_estimate(const SimulateJob& job, const FlightSetup& setup, int n_differences) {
+  const core::simulation::SceneMotion motion(quiet(job.scene()));
+  const core::simulation::ChannelGenerator channels(motion, job.scene().camera.readout_s);
+  Truth truth(declared_run(job, setup, {}, motion), channels);
+  auto timing = channels.timing();
+  for (DeliveredFrame delivered; timing.next(delivered);) truth.push(delivered);
+  truth.finish();
+  return truth.identified(n_differences);
 }
 
 }  // namespace tools

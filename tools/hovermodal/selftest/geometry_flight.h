@@ -22,17 +22,21 @@ enum class StatedReadout : std::uint8_t { kTrue, kNone, kWholeFrame };
 
 // One way to analyse the tracks: what differs from the configuration that `simulate` writes beside them.
 struct Way {
-  std::string name;
-  std::vector<std::string> overrides;  // "section.key=value"
+  std::string name = "ours";
+  std::vector<std::string> overrides = {};  // "section.key=value"
   StatedReadout readout = StatedReadout::kTrue;
   bool with_background = true;  // false: neither its region nor its points
+  bool plane_points = false;    // the corners of three plates are told in mm, each read to half a pixel
 };
 
 struct FlightSetup {
   std::string scene;                       // YAML, as drivers::parse_scene takes it
   std::vector<std::string> configuration;  // overrides for every way, the true motion's included
   double flight_scale = 0.0;               // the recorded flight moves the camera, its path times this; 0 = it does not
+  bool ground_rests = false;  // and the operator says so, but for the paper's chain, which knows no such thing
 };
+// Whether this build's configuration knows what is asked for, by the words of its help.
+[[nodiscard]] bool configuration_knows(const std::string& words);
 
 // The scene of one seed. The recorded flight starts elsewhere in its record for each seed, 1/20 of the way there and
 // back on, and runs back and forth; its attitude is the scene's own. Without a recording the path is the hover model's:
@@ -60,6 +64,9 @@ using SampleObserver =
 // hundredth of the tracker's noise.
 [[nodiscard]] FlightResult analyse_flight(const SimulateJob& job, const FlightSetup& setup,
                                           const std::vector<Way>& ways, const SampleObserver& observe = {});
+
+// The true motion of a job alone, with a given prewhitening.
+[[nodiscard]] core::ModalEstimate true_estimate(const SimulateJob& job, const FlightSetup& setup, int n_differences);
 
 // The configuration of a way, and the camera as its operator declares it.
 struct DeclaredRun {

@@ -22,7 +22,7 @@ struct Options {
   std::string what;
   int n_seeds = 20, n_frames = 40, n_threads = 2;
   double duration_s = 0.0;
-  std::string flight;
+  std::string flight, report;
 };
 
 void print_signatures(const Options&) {
@@ -113,6 +113,8 @@ struct GeometryCheck {
 };
 constexpr std::array kGeometryChecks{
     GeometryCheck{"geometry", "the paper's experiment, one correction after the other", print_geometry},
+    GeometryCheck{"geometry-pixels", "the same from rendered clips through the service", print_geometry_pixels},
+    GeometryCheck{"table1", "the paper's Table 1 and Figures 6 to 9, sensor by sensor", print_table1},
     GeometryCheck{"wind", "gusts that turn the camera by 5 degrees", print_wind},
     GeometryCheck{"low-frequency", "a mode of 0.32 Hz in the drift of the hover", print_low_frequency},
     GeometryCheck{"deck", "a bridge deck, camera upright and turned", print_deck},
@@ -145,7 +147,7 @@ void run(const Options& options) {
   }
   if (const auto check = std::find_if(kGeometryChecks.begin(), kGeometryChecks.end(), named);
       check != kGeometryChecks.end()) {
-    check->print({options.n_seeds, options.n_threads, options.duration_s, options.flight});
+    check->print({options.n_seeds, options.n_threads, options.duration_s, options.report, options.flight});
     return;
   }
   std::find_if(kIdentificationChecks.begin(), kIdentificationChecks.end(), named)
@@ -173,6 +175,10 @@ void add_selftest(CLI::App& app) {
       ->check(CLI::Range(0.0, 3600.0));
   command->add_option("--flight", options->flight, "checks of the geometry: the recorded flight that moves the camera")
       ->type_name("FILE");
+  command
+      ->add_option("--report", options->report,
+                   "table1: folder for the pictures; geometry-pixels: for clips and reports")
+      ->type_name("DIR");
   command->callback([options] { run(*options); });
 }
 
