@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/camera_model.h"
 #include "core/types/frame.h"
 #include "core/types/region.h"
 
@@ -30,7 +31,8 @@ struct CameraConfig {
 struct CalibrationConfig {
   std::string file;                               // Kalibr, OpenCV or ROS YAML; empty = the inline values
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  // 0 = no calibration: points are not undistorted
-  std::array<double, 5> distortion{};             // k1 k2 p1 p2 k3
+  core::LensModel model = core::LensModel::kRadialTangential;
+  std::array<double, 8> distortion{};  // radtan: k1 k2 p1 p2 k3 k4 k5 k6; equidistant: k1 k2 k3 k4
 };
 
 struct ScaleConfig {

@@ -118,13 +118,20 @@ class Checker {
   void check_calibration() const {
     const std::vector<std::string> inline_keys{"fx", "fy", "cx", "cy"};
     const auto written = [&](const std::string& name) { return is_written("calibration." + name); };
-    const bool any = std::any_of(inline_keys.begin(), inline_keys.end(), written) || written("distortion");
+    const bool any =
+        std::any_of(inline_keys.begin(), inline_keys.end(), written) || written("distortion") || written("model");
     if (any && !config_.calibration.file.empty()) {
       refuse("calibration.file", drivers::printable(config_.calibration.file), "a file, or fx fy cx cy, not both",
              "remove one of them");
     }
     for (const std::string& name : inline_keys) {
       if (any) require("calibration." + name, "fx, fy, cx and cy together", "write all four, or none");
+    }
+    const auto& k = config_.calibration.distortion;
+    if (config_.calibration.model == core::LensModel::kEquidistant &&
+        std::any_of(k.begin() + 4, k.end(), [](double value) { return value != 0.0; })) {
+      refuse("calibration.distortion", fmt::format("[{}]", fmt::join(k, ", ")),
+             "[k1, k2, k3, k4] with model equidistant", "remove the others, or write model: radtan");
     }
   }
 

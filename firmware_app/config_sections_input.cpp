@@ -114,8 +114,12 @@ void add_calibration_keys(std::vector<ConfigKey>& keys) {
                                 is_focal ? "focal length; all four of fx fy cx cy, or none" : "principal point"),
                      "none: points are not undistorted"));
   }
+  keys.push_back(choice_key<core::LensModel>(
+      "calibration.model", at(&A::calibration, &C::model),
+      {{"radtan", core::LensModel::kRadialTangential}, {"equidistant", core::LensModel::kEquidistant}},
+      "what `distortion` below means; equidistant: a fisheye"));
   NumberList distortion;
-  distortion.ranges.assign(5, NumberRange{-100, 100});
+  distortion.ranges.assign(8, NumberRange{-1e5, 1e5});
   distortion.n_min = 4;
   distortion.put = [](AppConfig& config, std::size_t, const std::vector<double>& values) {
     config.calibration.distortion = {};
@@ -125,8 +129,8 @@ void add_calibration_keys(std::vector<ConfigKey>& keys) {
     return std::vector<double>(config.calibration.distortion.begin(), config.calibration.distortion.end());
   };
   keys.push_back(numbers_key("calibration.distortion", "", std::move(distortion),
-                             "[k1, k2, p1, p2] or [k1, k2, p1, p2, k3], each -100 .. 100",
-                             "radial-tangential distortion"));
+                             "[k1, k2, p1, p2], and k3, and k4 k5 k6 (rational); equidistant: [k1, k2, k3, k4]",
+                             "coefficients of the distortion, as OpenCV orders them"));
 }
 
 void add_region_keys(std::vector<ConfigKey>& keys) {

@@ -5,27 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/storage/calibration_file.h"
+#include "firmware_app/calibration.h"
 
 namespace app {
 
 namespace {
-
-core::CameraModel camera_model(const AppConfig& config, const core::CameraInfo& camera) {
-  const CalibrationConfig& inline_values = config.calibration;
-  core::CameraModel model{inline_values.fx, inline_values.fy, inline_values.cx, inline_values.cy,
-                          inline_values.distortion};
-  if (inline_values.file.empty()) return model;
-  const drivers::Calibration file = drivers::read_calibration(inline_values.file);
-  if (file.width_px != 0 && (file.width_px != camera.width_px || file.height_px != camera.height_px)) {
-    throw ConfigError(fmt::format(
-        "calibration.file: {} is for {} x {} px, the camera gives {} x {} px: calibrate this mode of the camera",
-        inline_values.file, file.width_px, file.height_px, camera.width_px, camera.height_px));
-  }
-  model = {file.fx, file.fy, file.cx, file.cy, {}};
-  std::copy_n(file.distortion.begin(), std::min<std::size_t>(file.distortion.size(), 5), model.distortion.begin());
-  return model;
-}
 
 double scale_mm_per_px(const ScaleConfig& scale, const core::CameraModel& camera) {
   if (scale.known_length_mm <= 0.0) return 1.0;
@@ -38,7 +22,8 @@ double scale_mm_per_px(const ScaleConfig& scale, const core::CameraModel& camera
 bool undistorts(const CalibrationConfig& calibration) {
   const auto& k = calibration.distortion;
   return !calibration.file.empty() ||
-         (calibration.fx > 0.0 && std::any_of(k.begin(), k.end(), [](double value) { return value != 0.0; }));
+         (calibration.fx > 0.0 && (calibration.model == core::LensModel::kEquidistant ||
+                                   std::any_of(k.begin(), k.end(), [](double value) { return value != 0.0; })));
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 #include "drivers/storage/calibration_file.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
+#include <map>
 #include <utility>
 
 #include "drivers/storage/yaml.h"
@@ -70,56 +71,66 @@ class CalibrationReader {
 
   [[nodiscard]] Calibration kalibr_camera(const YamlNode& camera) const {
     if (const YamlNode* model = camera.find("camera_model"); model != nullptr && model->text != "pinhole") {
-      refuse(model->line,
-             fmt::format("camera_model `{}` is not supported; calibrate as `pinhole`", printable(model->text)));
+      refuse(model->line, fmt::format("camera_model: `{}` is not supported; calibrate as `pinhole` with radtan or "
+                                      "equidistant distortion",
+                                      printable(model->text)));
     }
-    Calibration out;
+    const YamlNode* model = camera.find("distortion_model");
+    if (model == nullptr) refuse(camera.line, "distortion_model is missing; is the file cut off?");
     const YamlNode& intrinsics = *camera.find("intrinsics");
     const std::vector<double> k = numbers(intrinsics, "intrinsics");
     if (k.size() != 4)
       refuse(intrinsics.line, fmt::format("intrinsics: {} numbers instead of 4 (fx fy cx cy)", k.size()));
-    out.fx = k[0], out.fy = k[1], out.cx = k[2], out.cy = k[3];
-    require_model(camera);
+    Calibration out;
+    out.camera.fx = k[0], out.camera.fy = k[1], out.camera.cx = k[2], out.camera.cy = k[3];
     const YamlNode* coefficients = camera.find("distortion_coeffs");
-    if (coefficients == nullptr) refuse(camera.line, "distortion_coeffs is missing; is the file cut off?");
-    set_distortion(out, *coefficients, numbers(*coefficients, "distortion_coeffs"));
+    const Form form = form_of(*model);
+    if (coefficients == nullptr && form != Form::kNone)
+      refuse(camera.line, "distortion_coeffs is missing; is the file cut off?");
+    if (coefficients != nullptr)
+      set_distortion(out.camera, form, *coefficients, numbers(*coefficients, "distortion_coeffs"));
     if (const YamlNode* resolution = camera.find("resolution")) {
       if (resolution->items.size() != 2) refuse(resolution->line, "resolution: expected [width, height]");
       out.width_px = size_px(resolution->items[0], "resolution");
       out.height_px = size_px(resolution->items[1], "resolution");
     }
-    return checked(std::move(out), intrinsics.line);
+    require_sound(out, intrinsics.line);
+    return out;
   }
 
   // OpenCV FileStorage and ROS camera_info share this form; only the names of the keys differ.
   [[nodiscard]] Calibration matrix_form(const YamlNode& root) const {
-    const YamlNode* camera = first_of(root, {"camera_matrix", "cameraMatrix", "CameraMatrix", "K", "k"});
+    const YamlNode* camera =
+        first_of(root, {"camera_matrix", "cameraMatrix", "CameraMatrix", "Camera_Matrix", "K", "k"});
     if (camera == nullptr) {
       refuse(root.line, "is no calibration: neither `intrinsics` (Kalibr) nor `camera_matrix` (OpenCV, ROS) found");
     }
-    if (const YamlNode* fisheye = root.find("fisheye_model"); fisheye != nullptr && fisheye->text != "0") {
-      refuse(fisheye->line,
-             "a fisheye (equidistant) calibration is not supported; calibrate as pinhole, 4 or 5 coefficients");
-    }
-    require_model(root);
     const std::vector<double> k = matrix(*camera, "camera_matrix");
     if (k.size() != 9) refuse(camera->line, fmt::format("camera_matrix: {} numbers instead of 9", k.size()));
     if (std::abs(k[1]) > 1e-6 * std::abs(k[0]) || k[3] != 0.0 || k[6] != 0.0 || k[7] != 0.0 || k[8] != 1.0) {
-      refuse(camera->line, "camera_matrix: not of the form [fx 0 cx; 0 fy cy; 0 0 1]");
+      refuse(camera->line, "camera_matrix: not of the form [fx 0 cx; 0 fy cy; 0 0 1]; calibrate without skew");
     }
     Calibration out;
-    out.fx = k[0], out.fy = k[4], out.cx = k[2], out.cy = k[5];
-    const YamlNode* coefficients = first_of(root, {"distortion_coefficients", "dist_coeffs", "distCoeffs", "DistCoeffs",
-                                                   "dist_coefs", "distortion", "D", "d"});
-    if (coefficients == nullptr) refuse(root.line, "distortion_coefficients is missing; is the file cut off?");
-    set_distortion(out, *coefficients, matrix(*coefficients, "distortion_coefficients"));
+    out.camera.fx = k[0], out.camera.fy = k[4], out.camera.cx = k[2], out.camera.cy = k[5];
+    const YamlNode* coefficients =
+        first_of(root, {"distortion_coefficients", "dist_coeffs", "distCoeffs", "DistCoeffs", "dist_coefs",
+                        "Distortion_Coefficients", "distortion_coeffs", "distortion", "D", "d"});
+    const Form form = matrix_form_distortion(root);
+    if (coefficients == nullptr && form != Form::kNone)
+      refuse(root.line, "distortion_coefficients is missing; is the file cut off?");
+    if (coefficients != nullptr)
+      set_distortion(out.camera, form, data_of(*coefficients), matrix(*coefficients, "distortion_coefficients"));
     const YamlNode* width = first_of(root, {"image_width", "image_Width", "width"});
     const YamlNode* height = first_of(root, {"image_height", "image_Height", "height"});
     if (width != nullptr && height != nullptr) {
       out.width_px = size_px(*width, "image_width");
       out.height_px = size_px(*height, "image_height");
     }
-    return checked(std::move(out), camera->line);
+    if (const YamlNode* rms = first_of(root, {"avg_reprojection_error", "Avg_Reprojection_Error"})) {
+      out.rms_px = std::abs(number(*rms, "avg_reprojection_error"));
+    }
+    require_sound(out, data_of(*camera).line);
+    return out;
   }
 
   [[nodiscard]] static const YamlNode* first_of(const YamlNode& root, std::initializer_list<const char*> keys) {
@@ -127,6 +138,11 @@ class CalibrationReader {
       if (const YamlNode* node = root.find(key)) return node;
     }
     return nullptr;
+  }
+
+  [[nodiscard]] static const YamlNode& data_of(const YamlNode& matrix) {
+    const YamlNode* data = matrix.find("data");
+    return data == nullptr ? matrix : *data;
   }
 
   // {rows, cols, data: [...]}, or the bare list of ROS messages.
@@ -145,38 +161,66 @@ class CalibrationReader {
     return values;
   }
 
-  void require_model(const YamlNode& camera) const {
-    const YamlNode* model = camera.find("distortion_model");
-    if (model == nullptr || model->text == "radtan" || model->text == "plumb_bob") return;
-    refuse(model->line,
-           fmt::format("distortion_model `{}` is not supported; calibrate as radial-tangential (radtan, plumb_bob)",
-                       printable(model->text)));
+  enum class Form : std::uint8_t { kNone, kBrown, kRational, kAnyOfOpencv, kEquidistant };
+
+  [[nodiscard]] Form form_of(const YamlNode& model) const {
+    static const std::map<std::string, Form> kForms{{"radtan", Form::kBrown},
+                                                    {"plumb_bob", Form::kBrown},
+                                                    {"rational_polynomial", Form::kRational},
+                                                    {"equidistant", Form::kEquidistant},
+                                                    {"equi", Form::kEquidistant},
+                                                    {"fisheye", Form::kEquidistant},
+                                                    {"none", Form::kNone}};
+    const auto found = kForms.find(model.text);
+    if (found != kForms.end()) return found->second;
+    refuse(model.line,
+           fmt::format("distortion_model: `{}` is not supported; calibrate as radial-tangential (radtan, plumb_bob, "
+                       "rational_polynomial) or equidistant",
+                       printable(model.text)));
   }
 
-  // Coefficients beyond k3 (rational, thin prism, tilt) may stand there as zeros.
-  void set_distortion(Calibration& out, const YamlNode& node, std::vector<double> values) const {
-    while (values.size() > 5 && values.back() == 0.0) values.pop_back();
-    if (values.size() != 4 && values.size() != 5) {
-      refuse(node.line, fmt::format("distortion: {} numbers instead of 4 or 5 (k1 k2 p1 p2 [k3])", values.size()));
-    }
-    for (const double value : values) {
-      if (std::abs(value) > 100.0)
-        refuse(node.line, fmt::format("distortion: {} is refused: allowed -100 .. 100", value));
-    }
-    out.distortion = std::move(values);
-    out.model = "pinhole-radtan";
+  // OpenCV itself names no model: the number of coefficients tells, and a flag in the files of its fisheye sample.
+  [[nodiscard]] Form matrix_form_distortion(const YamlNode& root) const {
+    const YamlNode* model = root.find("distortion_model");
+    if (model != nullptr && !model->text.empty()) return form_of(*model);
+    const YamlNode* fisheye = root.find("fisheye_model");
+    return fisheye != nullptr && number(*fisheye, "fisheye_model") != 0.0 ? Form::kEquidistant : Form::kAnyOfOpencv;
   }
 
-  [[nodiscard]] Calibration checked(Calibration out, int line) const {
-    for (const double focal : {out.fx, out.fy}) {
-      if (focal < 1.0 || focal > 1e6)
-        refuse(line, fmt::format("focal length {} is refused: allowed 1 .. 1000000 (px)", focal));
+  [[noreturn]] void refuse_count(const YamlNode& node, std::size_t n, const char* wanted) const {
+    refuse(node.line,
+           fmt::format("distortion: {} numbers instead of {}; is the file cut off, or the model another?", n, wanted));
+  }
+
+  void set_distortion(core::CameraModel& out, Form form, const YamlNode& node,
+                      const std::vector<double>& values) const {
+    std::size_t n = values.size();
+    if (form == Form::kEquidistant && n != 4) refuse_count(node, n, "4 (k1 k2 k3 k4)");
+    if (form == Form::kNone && std::any_of(values.begin(), values.end(), [](double k) { return k != 0.0; }))
+      refuse(node.line, "distortion: coefficients with distortion_model `none`; name the model, or remove them");
+    // Coefficients beyond those of the model may stand there as zeros.
+    const std::size_t n_model = form == Form::kRational || form == Form::kAnyOfOpencv ? 8 : 5;
+    while (n > n_model && values[n - 1] == 0.0) --n;
+    if (n > 8)
+      refuse(node.line,
+             "distortion: thin prism and tilt (more than 8 coefficients) are not supported; calibrate without");
+    const bool counts = n == 4 || n == 5 || (n_model == 8 && n == 8);
+    if (form == Form::kBrown && !counts) refuse_count(node, n, "4 or 5 (k1 k2 p1 p2 [k3])");
+    if (form != Form::kNone && !counts) refuse_count(node, n, "4, 5 or 8 (k1 k2 p1 p2 [k3 [k4 k5 k6]])");
+    const double most = n == 8 ? 1e5 : 100.0;  // numerator and denominator of the rational form often nearly cancel
+    for (std::size_t i = 0; i < n; ++i) {
+      if (std::abs(values[i]) > most) {
+        refuse(node.line,
+               fmt::format("distortion: {} is refused: allowed {} .. {}; calibrate again", values[i], -most, most));
+      }
     }
-    for (const double centre : {out.cx, out.cy}) {
-      if (std::abs(centre) > 1e6)
-        refuse(line, fmt::format("principal point {} is refused: allowed within 1000000 px", centre));
-    }
-    return out;
+    std::copy_n(values.begin(), std::min(n, out.distortion.size()), out.distortion.begin());
+    out.lens = form == Form::kEquidistant ? core::LensModel::kEquidistant : core::LensModel::kRadialTangential;
+  }
+
+  void require_sound(const Calibration& calibration, int line) const {
+    const std::string fault = calibration_fault(calibration.camera, calibration.width_px, calibration.height_px);
+    if (!fault.empty()) refuse(line, fault);
   }
 
   const std::string& name_;

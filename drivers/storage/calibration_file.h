@@ -3,19 +3,40 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/camera_model.h"
+
 namespace drivers {
 
-// A pinhole camera with radial-tangential distortion, as calibration programs write it. Pixels of the raw image.
+// A camera and its lens, as calibration programs write them. Pixels of the raw image.
 struct Calibration {
-  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;
-  std::string model;                // "pinhole-radtan"
-  std::vector<double> distortion;   // k1 k2 p1 p2 [k3]: 4 or 5 values
+  core::CameraModel camera;
   int width_px = 0, height_px = 0;  // of the calibrated image; 0 = unknown
+  double rms_px = 0.0;              // reprojection error; 0 = not stated
 };
 
 // Reads a Kalibr camchain (one camera), an OpenCV FileStorage YAML or a ROS camera_info YAML; which one it is shows in
-// the content. Throws FileError (drivers/storage/text_file.h) with file, line and what to do; other models are refused.
+// the content. Distortion: radial-tangential with 4 or 5 coefficients, rational with 8, equidistant with 4, none.
+// Throws FileError (drivers/storage/text_file.h) with file, line, key, value and what to do; other models (omni, double
+// sphere, fov, thin prism, tilt, equirectangular) and what calibration_fault() finds are refused.
 [[nodiscard]] Calibration read_calibration(const std::string& path);
 [[nodiscard]] Calibration parse_calibration(const std::string& text, const std::string& name);
+
+// Why a camera cannot be that of an image of this size: focal length, principal point outside, distortion that folds
+// it. In words with the remedy; empty = it can.
+[[nodiscard]] std::string calibration_fault(const core::CameraModel& camera, int width_px, int height_px);
+
+// What `calibration` would be if its whole image were scaled to this width.
+[[nodiscard]] core::CameraModel scaled_camera(const Calibration& calibration, int width_px);
+
+// What a calibration of ours tells beside the camera.
+struct CalibrationNotes {
+  int board_columns = 0, board_rows = 0;  // inner corners
+  double square_mm = 0.0;
+  int n_views = 0;
+  std::vector<double> sigma;  // of fx fy cx cy and the coefficients; empty = unknown
+};
+
+// OpenCV's format, as `hovermodal calibrate` writes it and read_calibration() reads it back to the last bit.
+[[nodiscard]] std::string calibration_text(const Calibration& calibration, const CalibrationNotes& notes);
 
 }  // namespace drivers

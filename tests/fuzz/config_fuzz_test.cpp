@@ -189,10 +189,13 @@ TEST(CalibrationFuzz, GivesACalibrationOrFileError) {
       "dt: d\n"
       "   data: [ 650., 0., 320., 0., 660., 240., 0., 0., 1. ]\ndistortion_coefficients: !!opencv-matrix\n   rows: 5\n"
       "   cols: 1\n   dt: d\n   data: [ -0.4, 0.2, 0., 0., -0.05 ]\n";
-  for (const std::string& text : {kalibr, opencv}) {
+  const std::string ros =
+      "height: 480\nwidth: 640\ndistortion_model: equidistant\nD: [-0.01, 0.02, -0.003, 0.0004]\n"
+      "K: [350.5, 0.0, 320.0, 0.0, 351.5, 240.0, 0.0, 0.0, 1.0]\n";
+  for (const std::string& text : {kalibr, opencv, ros}) {
     fuzz<drivers::FileError>(text, 2000, [](const std::string& mutation) {
       const drivers::Calibration c = drivers::parse_calibration(mutation, "fuzz");
-      ASSERT_TRUE(c.fx >= 1.0 && c.fy >= 1.0 && (c.distortion.size() == 4 || c.distortion.size() == 5));
+      ASSERT_EQ(drivers::calibration_fault(c.camera, c.width_px, c.height_px), "");
     });
   }
 }

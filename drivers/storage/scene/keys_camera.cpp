@@ -33,7 +33,7 @@ void add_lens_keys(std::vector<SceneKey>& keys) {
       {{"none", Lens::Model::kNone},
        {"radial_tangential", Lens::Model::kRadialTangential},
        {"equidistant", Lens::Model::kEquidistant}},
-      "how the lens bends rays; equidistant is a fisheye, which the service cannot be told"));
+      "how the lens bends rays; equidistant is a fisheye"));
   keys.push_back(scene_tuple("camera.lens.k", "", {lens_k(0), lens_k(1), lens_k(2), lens_k(3), lens_k(4)}, 4,
                              {-10.0, 10.0}, "radial_tangential: k1 k2 p1 p2 k3; equidistant: k1 k2 k3 k4"));
 }

@@ -88,9 +88,17 @@ TEST_F(SimulateScene, ConfigurationTellsWhatIsDeclaredAndTruthTellsAll) {
   EXPECT_EQ(tracks.camera.readout_direction, core::ReadoutDirection::kUp);
 }
 
+TEST_F(SimulateScene, AFisheyeIsDeclared) {
+  (void)simulate("camera: {lens: {model: equidistant, k: [0.01, 0.02, 0.003, 0.004]}}\n",
+                 "--channels-only --duration 2");
+  const app::AppConfig config = app::load_config(config_path());
+  EXPECT_EQ(config.calibration.model, core::LensModel::kEquidistant);
+  EXPECT_DOUBLE_EQ(config.calibration.distortion[3], 0.004);
+}
+
 TEST_F(SimulateScene, AnUndeclaredLensOrFocalLengthIsLeftOut) {
-  (void)simulate("camera: {lens: {model: equidistant, k: [0, 0, 0, 0]}}\n", "--channels-only --duration 2");
-  EXPECT_THAT(read(config_path()), HasSubstr("equidistant"));
+  (void)simulate("camera: {lens: {model: equidistant, k: [0.1, 0, 0, 0]}}\ndeclare: {lens: false}\n",
+                 "--channels-only --duration 2");
   EXPECT_DOUBLE_EQ(app::load_config(config_path()).calibration.distortion[0], 0.0);
   (void)simulate("declare: {focal_length: false}\n", "--channels-only --duration 2");
   EXPECT_DOUBLE_EQ(app::load_config(config_path()).calibration.fx, 0.0);

@@ -44,14 +44,15 @@ std::string calibration_section(const SimulateJob& job) {
   if (!job.file.declare.focal_length) return {};
   const auto& camera = job.scene().camera;
   std::string out;
-  if (camera.lens.model == core::simulation::LensParameters::Model::kEquidistant) {
-    out += "# The lens is equidistant (a fisheye), which the service does not know: it is left out.\n";
-  }
   append(out, "calibration:\n  fx: {0}\n  fy: {0}\n  cx: {1}\n  cy: {2}\n", camera.alpha_px, camera.cx_px,
          camera.cy_px);
   if (!job.declares_lens()) return out;
   const auto& k = camera.lens.k;
-  append(out, "  distortion: [{}, {}, {}, {}, {}]\n", k[0], k[1], k[2], k[3], k[4]);
+  if (camera.lens.model == core::simulation::LensParameters::Model::kEquidistant) {
+    append(out, "  model: equidistant\n  distortion: [{}, {}, {}, {}]\n", k[0], k[1], k[2], k[3]);
+  } else {
+    append(out, "  distortion: [{}, {}, {}, {}, {}]\n", k[0], k[1], k[2], k[3], k[4]);
+  }
   return out;
 }
 

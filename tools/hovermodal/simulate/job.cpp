@@ -43,7 +43,7 @@ void require_possible(const SimulateJob& job) {
                     camera.width_px, camera.height_px));
   }
   const auto& declare = job.file.declare;
-  if (camera.lens.model == Lens::Model::kRadialTangential && declare.lens && !declare.focal_length) {
+  if (camera.lens.model != Lens::Model::kNone && declare.lens && !declare.focal_length) {
     throw std::invalid_argument(
         "declare.lens: the lens cannot be told without the focal length: give declare: {lens: false}, or "
         "focal_length: true");
@@ -75,7 +75,7 @@ core::CameraInfo SimulateJob::declared_camera() const {
 }
 
 bool SimulateJob::declares_lens() const noexcept {
-  return file.declare.lens && scene().camera.lens.model == Lens::Model::kRadialTangential;
+  return file.declare.lens && scene().camera.lens.model != Lens::Model::kNone;
 }
 
 SimulateJob make_job(const SimulateOptions& options) {

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "core/geometry/camera_model.h"
+#include "core/types/frame.h"
+#include "firmware_app/config.h"
+
+namespace app {
+
+// The camera of `config`, from calibration.file or from the values in its place; not calibrated where there is neither.
+// Throws ConfigError / FileError when it does not fit the image of `camera` (drivers::calibration_fault), or when it
+// was made for another resolution: then with the values that scaling would give, where the shape of the image is equal.
+[[nodiscard]] core::CameraModel camera_model(const AppConfig& config, const core::CameraInfo& camera);
+
+}  // namespace app
