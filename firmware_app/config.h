@@ -38,6 +38,10 @@ struct CalibrationConfig {
 struct ScaleConfig {
   double known_length_mm = 0.0;  // 0 = unknown: displacements are reported in px with scale 1 "mm"/px
   std::array<double, 2> from_px{}, to_px{};
+  std::vector<std::array<double, 5>> lengths;  // more known lengths: u1 v1 u2 v2 (px), mm; one scale by least squares
+  std::vector<std::array<double, 4>> points;   // points of the structure's plane: u v (px), x y (mm); its pose
+  double point_sigma_px = 0.5;                 // how exactly these pixels were read, per axis
+  double max_obliqueness_deg = 10.0;           // what the operator cannot exclude between structure and image plane
   bool adaptive = true;  // per-frame scale (Eq. 6); false: the camera keeps its distance (a tripod)
 };
 

@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -113,6 +115,29 @@ class Checker {
       refuse("scale.to", fmt::format("[{}]", fmt::join(config_.scale.to_px, ", ")), "a point other than scale.from",
              "the known length needs two ends");
     }
+    const ScaleConfig& scale = config_.scale;
+    if (static_cast<int>(any) + static_cast<int>(!scale.lengths.empty()) + static_cast<int>(!scale.points.empty()) >
+        1) {
+      refuse(scale.points.empty() ? "scale.lengths" : "scale.points", "a second scale",
+             "one of known_length_mm, lengths and points", "remove the others");
+    }
+    for (const auto& row : scale.lengths) require_two_ends("scale.lengths", row);
+    for (std::size_t i = 0; i < config_.regions.size(); ++i) {
+      const core::Region& r = config_.regions[i];
+      if (r.length_mm > 0.0) {
+        require_two_ends(fmt::format("regions.{}.length", i),
+                         {r.length_from_px.u, r.length_from_px.v, r.length_to_px.u, r.length_to_px.v, r.length_mm});
+      }
+    }
+    if (!scale.points.empty() && config_.calibration.file.empty() && config_.calibration.fx == 0.0) {
+      refuse("scale.points", fmt::format("{} points", scale.points.size()), "with a calibration",
+             "give calibration.file or fx fy cx cy (`hovermodal calibrate` makes it), or scale.lengths in their place");
+    }
+  }
+
+  void require_two_ends(const std::string& key, const std::array<double, 5>& row) const {
+    if (std::hypot(row[2] - row[0], row[3] - row[1]) >= 2.0) return;
+    refuse(key, fmt::format("[{}]", fmt::join(row, ", ")), "ends 2 px or more apart", "a length needs two ends");
   }
 
   void check_calibration() const {

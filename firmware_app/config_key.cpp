@@ -166,6 +166,36 @@ ConfigKey numbers_key(std::string path, std::string unit, NumberList list, std::
   return key;
 }
 
+ConfigKey rows_key(std::string path, std::string unit, NumberRows rows, std::string allowed, std::string meaning) {
+  ConfigKey key{std::move(path), "list of rows", std::move(unit), std::move(allowed), "", std::move(meaning), {}, {}};
+  key.set = [rows](AppConfig& config, std::size_t, const YamlNode& node) -> Remedy {
+    const std::size_t n = node.items.size();
+    if (node.kind != YamlNode::Kind::kList || (n > 0 && n < rows.n_min) || n > rows.n_max)
+      return fmt::format("write [] or {} to {} rows, each a list in brackets", rows.n_min, rows.n_max);
+    std::vector<std::vector<double>> values(n, std::vector<double>(rows.ranges.size()));
+    for (std::size_t i = 0; i < n; ++i) {
+      const YamlNode& row = node.items[i];
+      if (row.kind != YamlNode::Kind::kList || row.items.size() != rows.ranges.size())
+        return fmt::format("row {}: write a list of {} numbers", i + 1, rows.ranges.size());
+      for (std::size_t k = 0; k < rows.ranges.size(); ++k) {
+        if (auto remedy = read_number(row.items[k], values[i][k]))
+          return fmt::format("row {}, number {}: {}", i + 1, k + 1, *remedy);
+        if (auto remedy = out_of_range(values[i][k], rows.ranges[k]))
+          return fmt::format("row {}, number {}: {}", i + 1, k + 1, *remedy);
+      }
+    }
+    rows.put(config, values);
+    return std::nullopt;
+  };
+  key.canonical = [rows](AppConfig& config, std::size_t) {
+    std::string text;
+    for (const std::vector<double>& row : rows.get(config))
+      text += fmt::format("{}[{}]", text.empty() ? "" : ", ", fmt::join(row, ", "));
+    return "[" + text + "]";
+  };
+  return key;
+}
+
 ConfigKey pair_key(std::string path, std::string unit, Field<std::array<double, 2>> field, NumberRange range,
                    std::string meaning) {
   NumberList list;

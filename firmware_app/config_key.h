@@ -79,6 +79,15 @@ struct NumberList {
 };
 [[nodiscard]] ConfigKey numbers_key(std::string path, std::string unit, NumberList list, std::string allowed,
                                     std::string meaning);
+// A list of rows of numbers, one range per column; [] where `n_min` rows need not be.
+struct NumberRows {
+  std::vector<NumberRange> ranges;
+  std::size_t n_min, n_max;  // rows, where there are any
+  std::function<void(AppConfig&, const std::vector<std::vector<double>>&)> put;
+  std::function<std::vector<std::vector<double>>(AppConfig&)> get;
+};
+[[nodiscard]] ConfigKey rows_key(std::string path, std::string unit, NumberRows rows, std::string allowed,
+                                 std::string meaning);
 // A fixed number of values in one range, straight into an array.
 [[nodiscard]] ConfigKey pair_key(std::string path, std::string unit, Field<std::array<double, 2>> field,
                                  NumberRange range, std::string meaning);

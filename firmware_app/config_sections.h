@@ -10,6 +10,7 @@ namespace app {
 void add_camera_keys(std::vector<ConfigKey>& keys);
 void add_calibration_keys(std::vector<ConfigKey>& keys);
 void add_region_keys(std::vector<ConfigKey>& keys);
+void add_region_length_key(std::vector<ConfigKey>& keys);
 void add_scale_keys(std::vector<ConfigKey>& keys);
 void add_tracking_keys(std::vector<ConfigKey>& keys);
 void add_analysis_keys(std::vector<ConfigKey>& keys);

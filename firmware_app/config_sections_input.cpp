@@ -144,21 +144,7 @@ void add_region_keys(std::vector<ConfigKey>& keys) {
       {{"structure", RegionRole::kStructure}, {"base", RegionRole::kBase}, {"background", RegionRole::kBackground}},
       "base: moves with the ground of the structure; background: does not move"));
   keys.push_back(axis_key());
-}
-
-void add_scale_keys(std::vector<ConfigKey>& keys) {
-  using C = ScaleConfig;
-  keys.push_back(with_default(number_key("scale.known_length_mm", "mm", at(&A::scale, &C::known_length_mm), {1e-6, 1e9},
-                                         "true distance between the two points `from` and `to`"),
-                              "none: displacements in px"));
-  keys.push_back(with_default(pair_key("scale.from", "px", at(&A::scale, &C::from_px), {0, kMaxImagePx},
-                                       "one end of the known length in the first image"),
-                              "none"));
-  keys.push_back(
-      with_default(pair_key("scale.to", "px", at(&A::scale, &C::to_px), {0, kMaxImagePx}, "its other end"), "none"));
-  keys.push_back(
-      switch_key("scale.adaptive", at(&A::scale, &C::adaptive),
-                 "follow the distance to the structure in every frame; false: the camera stands on a tripod"));
+  add_region_length_key(keys);
 }
 
 }  // namespace app

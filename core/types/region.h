@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include "core/types/vector2.h"
+
 namespace core {
 
 enum class RegionRole : std::uint8_t { kStructure, kBase, kBackground };
@@ -31,6 +33,9 @@ struct Region {
   // Axis of the displacement in the image: angle from +u towards +v (down). `both` gives two channels, u and v.
   double axis_deg = 0.0;
   bool both_axes = false;
+  // A length known here, between two points of the first image: the region's own scale. 0 = none.
+  double length_mm = 0.0;
+  Vector2 length_from_px, length_to_px;
 };
 
 }  // namespace core

@@ -2,7 +2,7 @@
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc imgcodecs video videoio)
+find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc imgcodecs video videoio calib3d)
 find_package(yaml-cpp REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(spdlog REQUIRED)
@@ -12,7 +12,7 @@ find_package(nlohmann_json REQUIRED)
 # OpenCV's and yaml-cpp's Debian packages give plain variables or bare targets: wrap them, headers as SYSTEM.
 add_library(hovermodal_opencv INTERFACE)
 target_include_directories(hovermodal_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
-target_link_libraries(hovermodal_opencv INTERFACE opencv_core opencv_imgproc opencv_video)
+target_link_libraries(hovermodal_opencv INTERFACE opencv_core opencv_imgproc opencv_video opencv_calib3d)
 add_library(hovermodal_videoio INTERFACE)
 target_link_libraries(hovermodal_videoio INTERFACE hovermodal_opencv opencv_videoio opencv_imgcodecs)
 

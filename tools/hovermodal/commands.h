@@ -8,6 +8,7 @@ namespace tools {
 
 // Each adds one subcommand to `app`, in the file of its name. The callback throws on failure: std::invalid_argument for
 // usage (exit 2), std::runtime_error for a fault (exit 1). `main` alone catches.
+void add_calibrate(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_plan(CLI::App& app);
 void add_identify(CLI::App& app);

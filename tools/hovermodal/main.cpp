@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", HOVERMODAL_VERSION);
   tools::add_plan(app);
+  tools::add_calibrate(app);
   tools::add_simulate(app);
   tools::add_identify(app);
   tools::add_replay(app);
