@@ -78,23 +78,18 @@ CameraAdjustment start(const ChessBoard& board, const std::vector<BoardView>& vi
   return out;
 }
 
-bool is_needed(const CameraAdjustment& fit, std::size_t i_coefficient, int width_px, int height_px) {
-  const double value = fit.camera().distortion[i_coefficient];
-  return std::abs(value) > 3.0 * fit.sigma()[4 + i_coefficient] && !lens_fault(fit.camera(), width_px, height_px);
-}
-
-// The coefficients beyond the first ones, one by one, as long as the views can tell them from zero.
-int fit_with_needed_coefficients(CameraAdjustment& fit, LensModel lens, int width_px, int height_px) {
-  int n = lens == LensModel::kEquidistant ? 2 : 4;
+// All coefficients; fewer only where that is more than the views can tell: a fold in the picture, or no solution.
+int fit_with_possible_coefficients(CameraAdjustment& fit, LensModel lens, int width_px, int height_px) {
+  const int least = lens == LensModel::kEquidistant ? 2 : 4;
   const int most = lens == LensModel::kEquidistant ? 4 : 5;
-  fit.solve(n);
-  while (n < most) {
+  for (int n = most; n > least; --n) {
     CameraAdjustment richer = fit;
-    if (!richer.solve(n + 1) || !is_needed(richer, static_cast<std::size_t>(n), width_px, height_px)) break;
+    if (!richer.solve(n) || lens_fault(richer.camera(), width_px, height_px)) continue;
     fit = richer;
-    ++n;
+    return n;
   }
-  return n;
+  fit.solve(least);
+  return least;
 }
 
 // What a board's place, size, turn and tilt look like, each about as large as the share of the image it changes.
@@ -132,7 +127,7 @@ CameraFit fit_camera(const ChessBoard& board, const std::vector<BoardView>& view
   CameraFit out;
   try {
     CameraAdjustment fit = start(board, views, lens, {width_px, height_px});
-    out.n_coefficients = fit_with_needed_coefficients(fit, lens, width_px, height_px);
+    out.n_coefficients = fit_with_possible_coefficients(fit, lens, width_px, height_px);
     out.camera = fit.camera();
     out.sigma = fit.sigma();
     out.rms_px = fit.rms_px();

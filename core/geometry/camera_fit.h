@@ -33,9 +33,10 @@ struct CameraFit {
 constexpr std::size_t kMinViews = 3;
 
 // Zhang's method (2000): OpenCV's start, then Gauss-Newton over camera and all poses on the reprojection error;
-// covariance from the Schur complement of the poses, scaled by the residual. Radial-tangential: k1 k2 p1 p2, and k3
-// where it is more than three of its standard deviations; equidistant: k1 k2, then k3 and k4 by the same rule. All
-// views hold board.n_corners() finite corners. Throws std::runtime_error saying what is missing when it fails.
+// covariance from the Schur complement of the poses, scaled by the residual. Radial-tangential: k1 k2 p1 p2 k3;
+// equidistant: k1 k2 k3 k4. The last ones are held at zero only where the fit would else fold the image or not settle:
+// a coefficient held for being small would make the deviations of the others too small (by ten and more, in trials).
+// All views hold board.n_corners() finite corners. Throws std::runtime_error saying what is missing when it fails.
 [[nodiscard]] CameraFit fit_camera(const ChessBoard& board, const std::vector<BoardView>& views, LensModel lens,
                                    int width_px, int height_px);
 

@@ -103,7 +103,7 @@ LengthScale fit_length_scale(std::span<const KnownLength> lengths, double sigma_
     square += known.length_mm * known.length_mm;
   }
   if (!(mixed > 0.0) || !std::isfinite(mixed)) return out;
-  out.mm_per_px = square / mixed;
+  out.mm_per_px = lengths.size() == 1 ? lengths[0].length_mm / length_px(lengths[0]) : square / mixed;
   const double px_sigma = std::numbers::sqrt2 * sigma_px;  // of a length: two ends
   double worst_error = -1.0;
   for (std::size_t i = 0; i < lengths.size(); ++i) {

@@ -70,7 +70,7 @@ TEST_F(Calibrate, FindsALensFromDrawnFrames) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_THAT(outcome.text, AllOf(HasSubstr("reprojection error"), HasSubstr("worst view"), HasSubstr("per ninth"),
                                   HasSubstr("standard deviation")));
-  expect_truth(camera, 4);
+  expect_truth(camera, 5);
   const drivers::Calibration file = drivers::read_calibration(out());
   EXPECT_EQ(file.width_px, 640);
   EXPECT_GT(file.rms_px, 0.0);
@@ -86,7 +86,7 @@ TEST_F(Calibrate, FindsAFisheyeFromDrawnFrames) {
   const tests::Outcome outcome = calibrate("--model equidistant");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_EQ(drivers::read_calibration(out()).camera.lens, core::LensModel::kEquidistant);
-  expect_truth(camera, 2);
+  expect_truth(camera, 4);
 }
 
 TEST_F(Calibrate, WarnsWhenTheBoardAlwaysFacesTheCamera) {

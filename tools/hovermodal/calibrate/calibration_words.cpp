@@ -42,7 +42,7 @@ std::string parameter_table(const core::CameraFit& fit) {
     if (static_cast<int>(i) < fit.n_coefficients) {
       out += fmt::format("  {}      {:11.6f}   {:.6f}\n", name, camera.distortion[i], fit.sigma[4 + i]);
     } else {
-      out += fmt::format("  {}                0   held: these views cannot tell it from zero\n", name);
+      out += fmt::format("  {}                0   held: with it the fit would fold the image\n", name);
     }
   }
   return out;
