@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <opencv2/core/persistence.hpp>
 #include <string>
 
 #include "drivers/storage/text_file.h"
@@ -224,6 +225,23 @@ TEST(CalibrationFile, ReadsBackWhatItWrites) {
     EXPECT_EQ(c.height_px, 720);
     EXPECT_EQ(c.rms_px, 0.123);
   }
+}
+
+TEST(CalibrationFile, OpencvReadsWhatItWrites) {
+  const core::CameraModel camera{
+      500.25, 501.0, 640.1, 360.2, {-0.01, 0.02, -1e-5, -2e-4}, core::LensModel::kEquidistant};
+  const std::string text = calibration_text({camera, 1280, 720, 0.25}, {9, 6, 25.0, 12, {0.1, 0.2}});
+  const cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
+  cv::Mat matrix, coefficients;
+  file["camera_matrix"] >> matrix;
+  file["distortion_coefficients"] >> coefficients;
+  ASSERT_EQ(matrix.size(), cv::Size(3, 3));
+  EXPECT_EQ(matrix.at<double>(0, 0), 500.25);
+  EXPECT_EQ(matrix.at<double>(1, 2), 360.2);
+  ASSERT_EQ(coefficients.total(), 4U);
+  EXPECT_EQ(coefficients.at<double>(3), -2e-4);
+  EXPECT_EQ(static_cast<int>(file["image_width"]), 1280);
+  EXPECT_EQ(static_cast<int>(file["fisheye_model"]), 1);
 }
 
 TEST(CalibrationFile, RefusesBrokenNumbers) {

@@ -93,8 +93,8 @@ TEST_F(Calibrate, WarnsWhenTheBoardAlwaysFacesTheCamera) {
   const tests::DrawnCamera camera;
   std::vector<tests::DrawnPose> poses;
   for (int i = 0; i < 6; ++i) {
-    poses.push_back(tests::board_pose(
-        board_, {-30.0 + 30.0 * (i % 3), -20.0 + 40.0 * static_cast<double>(i / 3), 400.0}, 0.0, 0.0, 0.0));
+    const Eigen::Vector3d middle(-30.0 + 30.0 * (i % 3), -20.0 + 40.0 * static_cast<double>(i / 3), 400.0 + 10.0 * i);
+    poses.push_back(tests::board_pose(board_, middle, i % 2 == 0 ? 4.0 : -4.0, 3.0, 5.0 * i));
   }
   paint(camera, poses);
   const tests::Outcome outcome = calibrate("");
