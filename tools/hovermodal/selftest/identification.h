@@ -18,5 +18,6 @@ void print_losses(const IdentificationOptions& options);     // samples and fram
 void print_folding(const IdentificationOptions& options);    // modes above half the frame rate
 void print_null(const IdentificationOptions& options);       // a rigid building under a hovering, vibrating camera
 void print_harmonics(const IdentificationOptions& options);  // rotor lines and steady forces beside modes
+void print_readout(const IdentificationOptions& options);    // readout time from tracks of the paper's experiment
 
 }  // namespace tools

@@ -104,7 +104,8 @@ constexpr std::array kIdentificationChecks{
     IdentificationCheck{"losses", "what random losses of samples and frames do to the modes", print_losses},
     IdentificationCheck{"folding", "modes above half the frame rate", print_folding},
     IdentificationCheck{"null", "a rigid building under a hovering camera: no mode", print_null},
-    IdentificationCheck{"harmonics", "rotor lines and steady forces beside modes", print_harmonics}};
+    IdentificationCheck{"harmonics", "rotor lines and steady forces beside modes", print_harmonics},
+    IdentificationCheck{"readout", "readout time estimated from tracks", print_readout}};
 
 // The whole chain behind the tracker on simulated flights.
 struct GeometryCheck {

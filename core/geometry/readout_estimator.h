@@ -1,0 +1,101 @@
+#pragma once
+
+#include <array>
+#include <complex>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry/region_shear.h"
+#include "core/spectrum/real_fft.h"
+#include "core/spectrum/time_grid.h"
+#include "core/types/readout.h"
+#include "core/types/track.h"
+
+namespace core {
+
+// Readout time of a rolling shutter from the tracks themselves, on line: a region that moves at V px per frame is
+// sheared by rho V px from the first to the last line (RegionShear), rho = T_r f_s.
+//
+// V is the derivative of the region's mean motion by a band-limited differentiator (Kaiser window, good to 0.44 of the
+// rate), in the same frame as the shear: no motion common to the image is needed. Both series, windowed alike, go to
+// spectra over segments; instantaneous proportionality survives every window, mask and band. Per band b and block k of
+// the record, with M the Fisher information of the shears:
+//     A = sum V* M V - its noise    B = sum Re V* M S    rho_b = B / A    s_b^2 = mean residual of S - rho V
+// and rho = sum B_b / s_b^2 / sum A_b / s_b^2 over the bands that agree. The noise of V is known from s_b^2, as the
+// mean of a region does not vary together with its shear (errors in variables). A motion above half the frame rate is
+// seen folded, with a velocity of the wrong sign and size; its band contradicts the others: the largest set of bands
+// that agree within their deviations stands, the rest is left out and counted. The mean of every segment is subtracted:
+// errors of the keyframe do not matter. Errors in proportion to displacement (lens, parallax) are in quadrature to
+// velocity. Standard deviation: the larger of that of about twenty contiguous blocks (Student's t) and that of the
+// noise s_b^2 alone.
+//
+// Fixed memory; nothing allocates after construction. One thread. Deterministic.
+class ReadoutEstimator {
+ public:
+  struct Config {
+    RegionShear::Config shear;
+    double rate_hz = 0.0;
+  };
+  // Throws std::invalid_argument: a rate that is not positive, a point of no region.
+  ReadoutEstimator(const Config& config, const TrackFrame& keyframe);
+
+  // One frame, in order. Gaps of a few frames are bridged, longer ones cut the record.
+  void update(const TrackFrame& tracks) noexcept;
+  // Of all segments so far; cheap.
+  [[nodiscard]] ReadoutEstimate estimate() const noexcept;
+
+  static constexpr std::size_t kMaxBands = 20;
+  static constexpr std::size_t kMaxBlocks = 20;
+  struct Sums {  // of one band
+    double velocity = 0.0, cross = 0.0, shear = 0.0;
+    double velocity_noise = 0.0;  // of `velocity` per unit of s^2
+    double n_values = 0.0;        // degrees of freedom of `shear`, times 1 per unit of s^2
+  };
+
+ private:
+  static constexpr int kHalf = 16;        // of the differentiator
+  static constexpr int kMostBridged = 5;  // frames
+  static constexpr int kRing = 2 * kHalf + 1 + kMostBridged;
+  using Block = std::array<Sums, kMaxBands>;
+
+  void push_cell(bool seen) noexcept;
+  void bridge(std::size_t region) noexcept;
+  void clear_ring() noexcept;
+  void differentiate() noexcept;
+  void take_segment() noexcept;
+  void transform_channels() noexcept;
+  void add_bins() noexcept;
+  void close_segment() noexcept;
+  [[nodiscard]] RegionShear::Sample& at(std::int64_t cell) noexcept {
+    return ring_[static_cast<std::size_t>(cell % kRing)];
+  }
+
+  RegionShear shear_;
+  std::size_t n_channels_;
+  double rate_hz_;
+  TimeGrid grid_;
+  std::array<double, kHalf + 1> taps_{};
+  std::array<RegionShear::Sample, kRing> ring_;
+  std::int64_t n_cells_ = 0;             // pushed since the ring was cleared
+  std::vector<std::int64_t> last_seen_;  // per region, cell; -1 = none
+  RegionShear::Sample frame_;
+
+  int segment_;
+  std::size_t n_bands_ = 0;
+  std::array<std::size_t, kMaxBands + 1> first_bin_{};
+  std::vector<double> window_, window_sum_;  // segment; per channel: energy of the window where it was seen
+  std::vector<double> velocity_, shear_px_;  // channels x segment, oldest first
+  std::vector<std::uint8_t> seen_;           // regions x segment
+  int filled_ = 0;
+  RealFft fft_;
+  std::vector<double> work_;
+  std::vector<std::complex<double>> velocity_bins_, shear_bins_;  // channels x bins
+  std::vector<double> noise_gain_;                                // per bin: |differentiator|^2
+
+  std::array<Block, kMaxBlocks> blocks_{};
+  std::size_t n_blocks_ = 0, segments_in_last_ = 0, segments_per_block_ = 1;
+  std::size_t n_segments_ = 0;
+};
+
+}  // namespace core

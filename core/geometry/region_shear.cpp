@@ -1,0 +1,223 @@
+#include "core/geometry/region_shear.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace core {
+
+namespace {
+
+constexpr double kLeastSigmaPx = 0.003;
+constexpr double kLeastOwnShare = 1e-4;   // of a column that the columns before it do not explain
+constexpr double kLeastPivotShare = 0.1;  // of a frame against the keyframe: fewer points tell too little
+constexpr std::size_t kLeastPoints = 4;   // a region's six unknowns from eight coordinates
+// Camera pitch and yaw, as a part of the image's width that the middle moves by: keeps them finite where a few points
+// hardly tell. Wide against every flight; against points of unit variance (px^2).
+constexpr double kMostTurn = 0.3;
+
+}  // namespace
+
+RegionShear::RegionShear(const Config& config, const TrackFrame& keyframe)
+    : camera_(config.camera), regions_(config.n_regions) {
+  place_columns(config, keyframe);
+  for (RegionFit& region : regions_) centre_columns(region);
+  make_information();
+}
+
+void RegionShear::place_columns(const Config& config, const TrackFrame& keyframe) {
+  const double width_px = std::max(1, config.readout.width_px);
+  const Vector2 centre = camera_.calibrated() ? Vector2{camera_.cx, camera_.cy}
+                                              : Vector2{0.5 * (width_px - 1.0), 0.5 * (config.readout.height_px - 1.0)};
+  double sum = 0.0;
+  for (const TrackPoint& seen : keyframe.points) {
+    if (seen.region >= regions_.size()) throw std::invalid_argument("RegionShear: a point of no region");
+    Point point;
+    point.keyframe = camera_.undistort({seen.u_px, seen.v_px});
+    point.region = seen.region;
+    const double sigma_px = std::max(kLeastSigmaPx, seen.sigma_px);  // NaN gives the first
+    point.weight = 1.0 / (sigma_px * sigma_px);
+    sum += point.weight;
+    const double x = point.keyframe.u - centre.u, y = point.keyframe.v - centre.v;
+    const double fraction = config.readout.fraction(seen.u_px, seen.v_px);
+    point.column = {{{1.0, 0.0, y, x, fraction, 0.0, x * y / width_px, x * x / width_px},
+                     {0.0, 1.0, -x, y, 0.0, fraction, y * y / width_px, x * y / width_px}}};
+    regions_[seen.region].points.push_back(points_.size());
+    points_.push_back(point);
+  }
+  for (Point& point : points_) point.weight *= static_cast<double>(points_.size()) / sum;
+}
+
+// Subtracts the weighted means, so that the region's mean motion varies together with nothing else, and scales.
+void RegionShear::centre_columns(RegionFit& region) {
+  double weight = 0.0;
+  std::array<std::array<double, kAll>, kAxes> mean{};
+  for (const std::size_t j : region.points) {
+    weight += points_[j].weight;
+    for (std::size_t a = 0; a < kAxes; ++a) {
+      for (std::size_t c = 2; c < kAll; ++c) mean[a][c] += points_[j].weight * points_[j].column[a][c];
+    }
+  }
+  if (!(weight > 0.0)) return;
+  region.mean_variance = 1.0 / weight;
+  double squares = 0.0;
+  for (const std::size_t j : region.points) {
+    for (std::size_t a = 0; a < kAxes; ++a) {
+      for (std::size_t c = 2; c < kAll; ++c) points_[j].column[a][c] -= mean[a][c] / weight;
+    }
+    squares += points_[j].weight * points_[j].column[0][4] * points_[j].column[0][4];
+  }
+  region.fraction_scale = squares > 0.0 ? std::sqrt(squares / weight) : 1.0;
+  for (const std::size_t j : region.points) {
+    points_[j].column[0][4] /= region.fraction_scale;
+    points_[j].column[1][5] /= region.fraction_scale;
+    add_point(points_[j], {}, region.normal);
+  }
+}
+
+void RegionShear::add_point(const Point& point, Vector2 motion, Normal& normal) const noexcept {
+  for (std::size_t a = 0; a < kAxes; ++a) {
+    const std::array<double, kAll>& column = point.column[a];
+    const double value = a == 0 ? motion.u : motion.v;
+    for (std::size_t r = 0; r < kAll; ++r) {
+      const double weighted = point.weight * column[r];
+      for (std::size_t c = r; c < kAll; ++c) normal[r][c] += weighted * column[c];
+      normal[r][kAll] += weighted * value;
+    }
+  }
+}
+
+namespace {
+
+// Gaussian elimination of the first `n` unknowns of a symmetric system of which the upper half and the right-hand side
+// are held; the rest becomes the reduced system. Rows already eliminated keep what back-substitution needs.
+template <class Normal>
+void eliminate(Normal& normal, std::size_t n) noexcept {
+  const std::size_t all = normal.size();
+  for (std::size_t p = 0; p < n; ++p) {
+    if (!(normal[p][p] > 0.0)) continue;
+    for (std::size_t r = p + 1; r < all; ++r) {
+      const double factor = normal[p][r] / normal[p][p];
+      for (std::size_t c = r; c <= all; ++c) normal[r][c] -= factor * normal[p][c];
+    }
+  }
+}
+
+// Unknowns p < n from the eliminated rows; x holds those from n on.
+template <class Normal, class Vector>
+void back_substitute(const Normal& normal, std::size_t n, Vector& x) noexcept {
+  const std::size_t all = normal.size();
+  for (std::size_t p = n; p-- > 0;) {
+    double value = normal[p][all];
+    for (std::size_t c = p + 1; c < all; ++c) value -= normal[p][c] * x[c];
+    x[p] = value / normal[p][p];
+  }
+}
+
+struct Turn {
+  double pitch = 0.0, yaw = 0.0;
+};
+
+// Of the reduced system of pitch and yaw, with the weak prior added.
+Turn solve_turn(double pp, double py, double yy, double p, double y) noexcept {
+  const double determinant = pp * yy - py * py;
+  if (!(determinant > 0.0)) return {};
+  return {(yy * p - py * y) / determinant, (pp * y - py * p) / determinant};
+}
+
+}  // namespace
+
+void RegionShear::make_information() {
+  using Eigen::Index;
+  const auto n = static_cast<Index>(kAxes * regions_.size());
+  information_ = Eigen::MatrixXd::Zero(n, n);
+  Eigen::MatrixXd across = Eigen::MatrixXd::Zero(n, 2);
+  Eigen::Matrix2d turn = Eigen::Matrix2d::Identity() / (kMostTurn * kMostTurn);
+  for (std::size_t r = 0; r < regions_.size(); ++r) {
+    RegionFit& region = regions_[r];
+    Normal reduced = region.normal;
+    eliminate(reduced, kOwn);
+    region.usable = region.points.size() >= kLeastPoints;
+    for (std::size_t p = 0; p < kOwn; ++p) {
+      region.pivot[p] = reduced[p][p];
+      region.usable = region.usable && reduced[p][p] > kLeastOwnShare * region.normal[p][p];
+    }
+    if (!region.usable) continue;
+    reduced = region.normal;
+    eliminate(reduced, 4);
+    const double scale = region.fraction_scale;
+    const auto at = static_cast<Index>(kAxes * r);
+    information_.block<2, 2>(at, at) << reduced[4][4] * scale * scale, reduced[4][5] * scale * scale,
+        reduced[4][5] * scale * scale, reduced[5][5] * scale * scale;
+    across.block<2, 2>(at, 0) << reduced[4][6] * scale, reduced[4][7] * scale, reduced[5][6] * scale,
+        reduced[5][7] * scale;
+    turn(0, 0) += reduced[6][6];
+    turn(0, 1) += reduced[6][7];
+    turn(1, 0) += reduced[6][7];
+    turn(1, 1) += reduced[7][7];
+  }
+  information_ -= across * turn.inverse() * across.transpose();
+}
+
+std::size_t RegionShear::n_usable() const noexcept {
+  return static_cast<std::size_t>(
+      std::count_if(regions_.begin(), regions_.end(), [](const RegionFit& region) { return region.usable; }));
+}
+
+RegionShear::Sample RegionShear::sample_prototype() const {
+  Sample sample;
+  sample.mean_px.assign(kAxes * regions_.size(), 0.0);
+  sample.shear_px.assign(kAxes * regions_.size(), 0.0);
+  sample.seen.assign(regions_.size(), 0);
+  return sample;
+}
+
+// The region's normal equations of this frame, its own unknowns eliminated. False: it is not seen.
+bool RegionShear::accumulate(const TrackFrame& tracks, RegionFit& region) noexcept {
+  region.normal = {};
+  std::size_t n_seen = 0;
+  for (const std::size_t j : region.points) {
+    if (j >= tracks.points.size()) continue;
+    const TrackPoint& point = tracks.points[j];
+    if (!point.seen || !point.inlier || point.region != points_[j].region) continue;
+    const Vector2 place = camera_.undistort({point.u_px, point.v_px});
+    const Vector2 motion{place.u - points_[j].keyframe.u, place.v - points_[j].keyframe.v};
+    if (!std::isfinite(motion.u) || !std::isfinite(motion.v)) continue;
+    add_point(points_[j], motion, region.normal);
+    ++n_seen;
+  }
+  if (n_seen < kLeastPoints) return false;
+  eliminate(region.normal, kOwn);
+  for (std::size_t p = 0; p < kOwn; ++p) {
+    if (!(region.normal[p][p] > kLeastPivotShare * region.pivot[p])) return false;
+  }
+  return true;
+}
+
+void RegionShear::fit(const TrackFrame& tracks, Sample& out) noexcept {
+  double pp = 1.0 / (kMostTurn * kMostTurn), py = 0.0, yy = pp, p = 0.0, y = 0.0;
+  for (std::size_t r = 0; r < regions_.size(); ++r) {
+    RegionFit& region = regions_[r];
+    out.seen[r] = region.usable && accumulate(tracks, region) ? 1 : 0;
+    if (out.seen[r] == 0) continue;
+    pp += region.normal[6][6];
+    py += region.normal[6][7];
+    yy += region.normal[7][7];
+    p += region.normal[6][kAll];
+    y += region.normal[7][kAll];
+  }
+  const Turn turn = solve_turn(pp, py, yy, p, y);
+  for (std::size_t r = 0; r < regions_.size(); ++r) {
+    std::array<double, kAll> unknown{};
+    unknown[6] = turn.pitch;
+    unknown[7] = turn.yaw;
+    if (out.seen[r] != 0) back_substitute(regions_[r].normal, kOwn, unknown);
+    for (std::size_t a = 0; a < kAxes; ++a) {
+      out.mean_px[kAxes * r + a] = unknown[a];
+      out.shear_px[kAxes * r + a] = unknown[4 + a] / regions_[r].fraction_scale;
+    }
+  }
+}
+
+}  // namespace core

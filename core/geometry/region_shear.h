@@ -1,0 +1,87 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/geometry/camera_model.h"
+#include "core/geometry/rolling_shutter.h"
+#include "core/types/track.h"
+
+namespace core {
+
+// How far each region moved and how far the image of it is sheared along the readout, frame by frame. Rows that are
+// read later show a moving region sheared: a point at readout fraction g (0 .. 1 over the image) lies T_r V (g - mean
+// g) beside where the region's mean motion puts it, V its velocity. Fitted to the motion of a region's points since the
+// keyframe, per region and frame, by weighted least squares:
+//     d_j = mean + turn (y, -x) + growth (x, y) + shear g_j      pixels; (x, y), g_j about the region's weighted means
+// and, common to all regions, the quadratic fields of camera pitch (xy, y^2) and yaw (x^2, xy), also about the means:
+// their constant and the linear part that looks like turn or growth stay with the region. Turn and growth are free per
+// region because floors tilt and depths differ; for regions that are wider than high along the readout this costs
+// little. Along both image axes.
+//
+// One thread; nothing allocates after construction.
+class RegionShear {
+ public:
+  static constexpr std::size_t kAxes = 2;  // u, v
+
+  struct Config {
+    std::size_t n_regions = 0;
+    CameraModel camera;    // points are undistorted; without calibration the image centre is taken
+    ReadoutModel readout;  // direction and image size; its time is not used
+  };
+  // keyframe: every point that will come, seen. Throws std::invalid_argument: a point of no region.
+  RegionShear(const Config& config, const TrackFrame& keyframe);
+
+  [[nodiscard]] std::size_t n_regions() const noexcept { return regions_.size(); }
+  // Regions whose points spread enough to tell shear from turn and growth.
+  [[nodiscard]] std::size_t n_usable() const noexcept;
+
+  struct Sample {  // of one frame, per region and axis: [2 region + axis]
+    std::vector<double> mean_px, shear_px;
+    std::vector<std::uint8_t> seen;  // per region
+  };
+  [[nodiscard]] Sample sample_prototype() const;
+  // Points that are lost, outliers or no numbers take no part; a region of which too little is left is not seen.
+  void fit(const TrackFrame& tracks, Sample& out) noexcept;
+
+  // Fisher information of the shears [2 region + axis] with all points seen, for points of unit variance on the
+  // average; zero for regions that are not usable.
+  [[nodiscard]] const Eigen::MatrixXd& information() const noexcept { return information_; }
+  // Variance of a region's mean in the same unit. It does not vary together with the shears.
+  [[nodiscard]] double mean_variance(std::size_t region) const noexcept { return regions_[region].mean_variance; }
+
+ private:
+  static constexpr std::size_t kOwn = 6, kAll = 8;                // unknowns of a region; with pitch and yaw
+  using Normal = std::array<std::array<double, kAll + 1>, kAll>;  // the last column is the right-hand side
+
+  struct Point {
+    Vector2 keyframe;
+    double weight = 1.0;
+    std::uint16_t region = 0;
+    std::array<std::array<double, kAll>, kAxes> column{};
+  };
+  struct RegionFit {
+    std::vector<std::size_t> points;
+    double fraction_scale = 1.0;  // the shear column is g / fraction_scale
+    double mean_variance = 0.0;
+    std::array<double, kOwn> pivot{};  // of the elimination with all points
+    bool usable = false;
+    Normal normal{};
+  };
+
+  void place_columns(const Config& config, const TrackFrame& keyframe);
+  void centre_columns(RegionFit& region);
+  void add_point(const Point& point, Vector2 motion, Normal& normal) const noexcept;
+  void make_information();
+  [[nodiscard]] bool accumulate(const TrackFrame& tracks, RegionFit& region) noexcept;
+
+  CameraModel camera_;
+  std::vector<Point> points_;
+  std::vector<RegionFit> regions_;
+  Eigen::MatrixXd information_;
+};
+
+}  // namespace core
