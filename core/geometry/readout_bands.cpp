@@ -40,7 +40,7 @@ void settle(Band& band, const Sums& sums, double frames) noexcept {
   band.cross = sums.cross;
 }
 
-Band read_band(const Sums& sums) noexcept {
+Band read_band(const Sums& sums, double window_energy) noexcept {
   Band band;
   if (!(sums.velocity > 0.0) || !(sums.n_values > 0.0) || !std::isfinite(sums.velocity + sums.cross + sums.shear))
     return band;
@@ -48,7 +48,7 @@ Band read_band(const Sums& sums) noexcept {
   band.tells = band.velocity > kLeastVelocity * band.noise * sums.velocity_noise;
   if (!band.tells) return band;
   band.frames = band.cross / band.velocity;
-  band.variance = 0.5 * kOverlap * band.noise / band.velocity;
+  band.variance = 0.5 * kOverlap * window_energy * band.noise / band.velocity;
   return band;
 }
 
@@ -94,7 +94,8 @@ struct Deviation {
 };
 
 // The largest of: noise alone; scatter of the blocks; noise widened by what the bands disagree.
-Deviation deviation(const BandList& bands, double frames, std::span<const Bands> blocks) noexcept {
+Deviation deviation(const BandList& bands, double frames, std::span<const Bands> blocks,
+                    double window_energy) noexcept {
   double weight = 0.0, chi2 = 0.0, squares = 0.0;
   int n_bands = 0;
   for (const Band& band : bands) {
@@ -113,7 +114,7 @@ Deviation deviation(const BandList& bands, double frames, std::span<const Bands>
     squares += excess * excess;
   }
   const auto n = static_cast<int>(blocks.size());
-  const double noise = 0.5 * kOverlap / weight;
+  const double noise = 0.5 * kOverlap * window_energy / weight;
   const double widened = n_bands > 1 ? noise * chi2 / (n_bands - 1) : noise;
   const double scatter = n > 1 ? squares * n / (n - 1) / (weight * weight) : 0.0;
   return {std::max({noise, widened, scatter}), std::max(1, n - 1)};
@@ -121,13 +122,13 @@ Deviation deviation(const BandList& bands, double frames, std::span<const Bands>
 
 }  // namespace
 
-ReadoutEstimate combine_bands(std::span<const Bands> blocks, std::size_t n_bands) noexcept {
+ReadoutEstimate combine_bands(std::span<const Bands> blocks, std::size_t n_bands, double window_energy) noexcept {
   Bands total{};
   for (const Bands& block : blocks) {
     for (std::size_t b = 0; b < n_bands; ++b) add(total[b], block[b]);
   }
   BandList bands{};
-  for (std::size_t b = 0; b < n_bands; ++b) bands[b] = read_band(total[b]);
+  for (std::size_t b = 0; b < n_bands; ++b) bands[b] = read_band(total[b], window_energy);
   mark_agreement(bands);
   double frames = weighted_mean(bands);
   for (int round = 0; round < kRounds; ++round) {
@@ -142,7 +143,7 @@ ReadoutEstimate combine_bands(std::span<const Bands> blocks, std::size_t n_bands
     estimate.n_bands_against += band.tells && !band.agrees ? 1 : 0;
   }
   if (estimate.n_bands == 0) return estimate;
-  const Deviation spread = deviation(bands, frames, blocks);
+  const Deviation spread = deviation(bands, frames, blocks, window_energy);
   const double std_frames = std::sqrt(spread.variance);
   estimate.observable = std::isfinite(frames) && std_frames < kObservable_frames;
   if (!estimate.observable) return estimate;

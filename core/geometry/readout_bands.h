@@ -7,9 +7,9 @@
 namespace core {
 
 // From the sums per block and band to one readout time (formulas: readout_estimator.h). blocks: of equal length, in
-// order. Memory on the stack only.
+// order; window_energy: sum of its squares. Memory on the stack only.
 [[nodiscard]] ReadoutEstimate combine_bands(
-    std::span<const std::array<ReadoutEstimator::Sums, ReadoutEstimator::kMaxBands>> blocks,
-    std::size_t n_bands) noexcept;
+    std::span<const std::array<ReadoutEstimator::Sums, ReadoutEstimator::kMaxBands>> blocks, std::size_t n_bands,
+    double window_energy) noexcept;
 
 }  // namespace core

@@ -15,7 +15,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kSegment_s = 8.0;  // slow drift tells much: a few of its periods
 constexpr double kTop = 0.42;       // of the rate: highest bin, where the differentiator is still good
-constexpr double kKaiserBeta = 6.0;
+constexpr double kKaiserBeta = 8.0;
 
 int segment_length(double rate_hz) {
   if (!(rate_hz > 0.0) || !std::isfinite(rate_hz))
@@ -61,7 +61,9 @@ ReadoutEstimator::ReadoutEstimator(const Config& config, const TrackFrame& keyfr
     for (int k = 1; k <= kHalf; ++k) {
       gain += 2.0 * taps_[static_cast<std::size_t>(k)] * std::sin(2.0 * kPi * static_cast<double>(bin) * k / segment_);
     }
-    noise_gain_.push_back(gain * gain);
+    const double omega = 2.0 * kPi * static_cast<double>(bin) / segment_;
+    velocity_gain_.push_back(bin == 0 || !(gain > 0.0) ? 1.0 : omega / gain);
+    noise_gain_.push_back(omega * omega);
   }
   // Half an octave wide, one bin at least; bin 0 holds the keyframe's errors.
   const auto last = static_cast<std::size_t>(kTop * segment_);
@@ -117,7 +119,7 @@ void ReadoutEstimator::bridge(std::size_t region) noexcept {
     const double share = static_cast<double>(k) / static_cast<double>(gap);
     RegionShear::Sample& cell = at(from + k);
     for (std::size_t c = RegionShear::kAxes * region; c < RegionShear::kAxes * (region + 1); ++c) {
-      cell.mean_px[c] = std::lerp(start.mean_px[c], end.mean_px[c], share);
+      cell.carrier_px[c] = std::lerp(start.carrier_px[c], end.carrier_px[c], share);
       cell.shear_px[c] = std::lerp(start.shear_px[c], end.shear_px[c], share);
     }
     cell.seen[region] = 1;
@@ -135,7 +137,7 @@ void ReadoutEstimator::differentiate() noexcept {
     for (std::size_t c = RegionShear::kAxes * r; c < RegionShear::kAxes * (r + 1); ++c) {
       double velocity = 0.0;
       for (int k = 1; k <= kHalf && whole; ++k) {
-        velocity += taps_[static_cast<std::size_t>(k)] * (at(middle + k).mean_px[c] - at(middle - k).mean_px[c]);
+        velocity += taps_[static_cast<std::size_t>(k)] * (at(middle + k).carrier_px[c] - at(middle - k).carrier_px[c]);
       }
       velocity_[c * n + t] = velocity;
       shear_px_[c * n + t] = whole ? at(middle).shear_px[c] : 0.0;
@@ -190,21 +192,24 @@ void ReadoutEstimator::add_bins() noexcept {
   double noise = 0.0, values = 0.0;
   for (std::size_t c = 0; c < n_channels_; ++c) {
     const auto i = static_cast<Eigen::Index>(c);
-    if (!(m(i, i) > 0.0)) continue;
-    noise += m(i, i) * shear_.mean_variance(c / RegionShear::kAxes) * window_sum_[c];
-    values += window_sum_[c];
+    if (m(i, i) > 0.0) values += window_sum_[c];
+    for (std::size_t d = 0; d < n_channels_; ++d) {
+      const auto j = static_cast<Eigen::Index>(d);
+      noise += m(i, j) * shear_.carrier_covariance()(j, i) * std::sqrt(window_sum_[c] * window_sum_[d]);
+    }
   }
   for (std::size_t b = 0; b < n_bands_; ++b) {
     Sums& sums = block[b];
     for (std::size_t bin = first_bin_[b]; bin < first_bin_[b + 1]; ++bin) {
+      const double gain = velocity_gain_[bin];
       for (std::size_t i = 0; i < n_channels_; ++i) {
         std::complex<double> mv, ms;
         for (std::size_t j = 0; j < n_channels_; ++j) {
           const double weight = m(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-          mv += weight * velocity_bins_[j * n_bins + bin];
+          mv += gain * weight * velocity_bins_[j * n_bins + bin];
           ms += weight * shear_bins_[j * n_bins + bin];
         }
-        const std::complex<double> v = velocity_bins_[i * n_bins + bin], s = shear_bins_[i * n_bins + bin];
+        const std::complex<double> v = gain * velocity_bins_[i * n_bins + bin], s = shear_bins_[i * n_bins + bin];
         sums.velocity += v.real() * mv.real() + v.imag() * mv.imag();
         sums.cross += v.real() * ms.real() + v.imag() * ms.imag();
         sums.shear += s.real() * ms.real() + s.imag() * ms.imag();
@@ -236,7 +241,7 @@ void ReadoutEstimator::close_segment() noexcept {
 
 ReadoutEstimate ReadoutEstimator::estimate() const noexcept {
   const std::size_t n = segments_in_last_ == 0 && n_blocks_ > 0 ? n_blocks_ - 1 : n_blocks_;
-  ReadoutEstimate estimate = combine_bands({blocks_.data(), n}, n_bands_);
+  ReadoutEstimate estimate = combine_bands({blocks_.data(), n}, n_bands_, 0.375 * segment_);
   estimate.seconds_used =
       n_segments_ == 0 ? 0.0
                        : 0.5 * static_cast<double>((n_segments_ + 1) * static_cast<std::size_t>(segment_)) / rate_hz_;

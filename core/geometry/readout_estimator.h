@@ -91,7 +91,8 @@ class ReadoutEstimator {
   RealFft fft_;
   std::vector<double> work_;
   std::vector<std::complex<double>> velocity_bins_, shear_bins_;  // channels x bins
-  std::vector<double> noise_gain_;                                // per bin: |differentiator|^2
+  std::vector<double> velocity_gain_;                             // per bin: what the differentiator lacks
+  std::vector<double> noise_gain_;                                // per bin: of white noise of a mean in its velocity
 
   std::array<Block, kMaxBlocks> blocks_{};
   std::size_t n_blocks_ = 0, segments_in_last_ = 0, segments_per_block_ = 1;

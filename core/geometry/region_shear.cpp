@@ -23,7 +23,9 @@ RegionShear::RegionShear(const Config& config, const TrackFrame& keyframe)
     : camera_(config.camera), regions_(config.n_regions) {
   place_columns(config, keyframe);
   for (RegionFit& region : regions_) centre_columns(region);
+  judge_regions();
   make_information();
+  fields_.assign(kAxes * regions_.size(), 0.0);
 }
 
 void RegionShear::place_columns(const Config& config, const TrackFrame& keyframe) {
@@ -60,18 +62,17 @@ void RegionShear::centre_columns(RegionFit& region) {
     }
   }
   if (!(weight > 0.0)) return;
-  region.mean_variance = 1.0 / weight;
   double squares = 0.0;
   for (const std::size_t j : region.points) {
     for (std::size_t a = 0; a < kAxes; ++a) {
       for (std::size_t c = 2; c < kAll; ++c) points_[j].column[a][c] -= mean[a][c] / weight;
     }
-    squares += points_[j].weight * points_[j].column[0][4] * points_[j].column[0][4];
+    squares += points_[j].weight * points_[j].column[0][kShear] * points_[j].column[0][kShear];
   }
   region.fraction_scale = squares > 0.0 ? std::sqrt(squares / weight) : 1.0;
   for (const std::size_t j : region.points) {
-    points_[j].column[0][4] /= region.fraction_scale;
-    points_[j].column[1][5] /= region.fraction_scale;
+    points_[j].column[0][kShear] /= region.fraction_scale;
+    points_[j].column[1][kShear + 1] /= region.fraction_scale;
     add_point(points_[j], {}, region.normal);
   }
 }
@@ -128,14 +129,9 @@ Turn solve_turn(double pp, double py, double yy, double p, double y) noexcept {
 
 }  // namespace
 
-void RegionShear::make_information() {
-  using Eigen::Index;
-  const auto n = static_cast<Index>(kAxes * regions_.size());
-  information_ = Eigen::MatrixXd::Zero(n, n);
-  Eigen::MatrixXd across = Eigen::MatrixXd::Zero(n, 2);
-  Eigen::Matrix2d turn = Eigen::Matrix2d::Identity() / (kMostTurn * kMostTurn);
-  for (std::size_t r = 0; r < regions_.size(); ++r) {
-    RegionFit& region = regions_[r];
+// A region is usable where its own six unknowns can be told apart.
+void RegionShear::judge_regions() {
+  for (RegionFit& region : regions_) {
     Normal reduced = region.normal;
     eliminate(reduced, kOwn);
     region.usable = region.points.size() >= kLeastPoints;
@@ -143,21 +139,91 @@ void RegionShear::make_information() {
       region.pivot[p] = reduced[p][p];
       region.usable = region.usable && reduced[p][p] > kLeastOwnShare * region.normal[p][p];
     }
-    if (!region.usable) continue;
-    reduced = region.normal;
-    eliminate(reduced, 4);
-    const double scale = region.fraction_scale;
-    const auto at = static_cast<Index>(kAxes * r);
-    information_.block<2, 2>(at, at) << reduced[4][4] * scale * scale, reduced[4][5] * scale * scale,
-        reduced[4][5] * scale * scale, reduced[5][5] * scale * scale;
-    across.block<2, 2>(at, 0) << reduced[4][6] * scale, reduced[4][7] * scale, reduced[5][6] * scale,
-        reduced[5][7] * scale;
-    turn(0, 0) += reduced[6][6];
-    turn(0, 1) += reduced[6][7];
-    turn(1, 0) += reduced[6][7];
-    turn(1, 1) += reduced[7][7];
   }
-  information_ -= across * turn.inverse() * across.transpose();
+}
+
+// Covariance of the unknowns of usable regions (six each, in order; zero elsewhere), pitch and yaw last.
+Eigen::MatrixXd RegionShear::covariance() const {
+  using Eigen::Index;
+  const auto n = static_cast<Index>(kOwn * regions_.size() + 2), own = static_cast<Index>(kOwn);
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Identity(n, n);
+  normal.bottomRightCorner<2, 2>() /= kMostTurn * kMostTurn;
+  for (std::size_t r = 0; r < regions_.size(); ++r) {
+    if (!regions_[r].usable) continue;
+    const auto place = [&](Index c) { return c < own ? own * static_cast<Index>(r) + c : n - 2 + c - own; };
+    const Normal& part = regions_[r].normal;
+    for (Index a = 0; a < static_cast<Index>(kAll); ++a) {
+      for (Index b = a; b < static_cast<Index>(kAll); ++b) {
+        const double value = part[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)];
+        if (a < own && b < own && place(a) == place(b))
+          normal(place(a), place(a)) = value;
+        else {
+          normal(place(a), place(b)) += value;
+          if (a != b) normal(place(b), place(a)) += value;
+        }
+      }
+    }
+  }
+  Eigen::MatrixXd inverse = normal.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+  for (std::size_t r = 0; r < regions_.size(); ++r) {
+    if (regions_[r].usable) continue;
+    inverse.middleRows(own * static_cast<Index>(r), own).setZero();
+    inverse.middleCols(own * static_cast<Index>(r), own).setZero();
+  }
+  return inverse;
+}
+
+// Rows of unknowns `from`, `from` + 1 of every region, scaled to pixels.
+Eigen::MatrixXd RegionShear::selection(std::size_t from) const {
+  using Eigen::Index;
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Index>(kAxes * regions_.size()),
+                                               static_cast<Index>(kOwn * regions_.size() + 2));
+  for (std::size_t r = 0; r < regions_.size(); ++r) {
+    const double scale = from == kShear ? 1.0 / regions_[r].fraction_scale : 1.0;
+    for (std::size_t a = 0; a < kAxes; ++a)
+      rows(static_cast<Index>(kAxes * r + a), static_cast<Index>(kOwn * r + from + a)) = scale;
+  }
+  return rows;
+}
+
+void RegionShear::make_information() {
+  using Eigen::Index;
+  const Eigen::MatrixXd all = covariance();
+  const Eigen::MatrixXd shear = selection(kShear), mean = selection(0), turn = selection(kTurn);
+  carrier_ = Eigen::MatrixXd::Zero(shear.rows(), shear.rows());
+  for (std::size_t r = 0; r < regions_.size(); ++r) {
+    for (std::size_t field = 0; field < 2 && regions_[r].usable; ++field) {
+      carrier_.col(static_cast<Index>(2 * r + field)) = shear * all * field_response(r, field);
+    }
+  }
+  const Eigen::MatrixXd carrier = mean + carrier_ * turn;
+  carrier_covariance_ = carrier * all * carrier.transpose();
+  Eigen::MatrixXd scatter = shear * all * shear.transpose();
+  for (Index c = 0; c < scatter.rows(); ++c) {
+    if (!regions_[static_cast<std::size_t>(c) / kAxes].usable) scatter(c, c) = 1.0;
+  }
+  information_ = scatter.ldlt().solve(Eigen::MatrixXd::Identity(scatter.rows(), scatter.cols()));
+  for (Index c = 0; c < scatter.rows(); ++c) {
+    if (!regions_[static_cast<std::size_t>(c) / kAxes].usable) information_(c, c) = 0.0;
+  }
+}
+
+// Right-hand side of the normal equations for points of one region that are shifted by their readout fraction times a
+// turn (0) or growth (1) of one radian or one.
+Eigen::VectorXd RegionShear::field_response(std::size_t region, std::size_t field) const {
+  using Eigen::Index;
+  Normal normal{};
+  for (const std::size_t j : regions_[region].points) {
+    const Point& point = points_[j];
+    const double fraction = point.column[0][kShear] * regions_[region].fraction_scale;
+    add_point(point, {fraction * point.column[0][kTurn + field], fraction * point.column[1][kTurn + field]}, normal);
+  }
+  const auto n = static_cast<Index>(kOwn * regions_.size() + 2);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
+  for (std::size_t c = 0; c < kAll; ++c) {
+    right(c < kOwn ? static_cast<Index>(kOwn * region + c) : n - 2 + static_cast<Index>(c - kOwn)) = normal[c][kAll];
+  }
+  return right;
 }
 
 std::size_t RegionShear::n_usable() const noexcept {
@@ -167,7 +233,7 @@ std::size_t RegionShear::n_usable() const noexcept {
 
 RegionShear::Sample RegionShear::sample_prototype() const {
   Sample sample;
-  sample.mean_px.assign(kAxes * regions_.size(), 0.0);
+  sample.carrier_px.assign(kAxes * regions_.size(), 0.0);
   sample.shear_px.assign(kAxes * regions_.size(), 0.0);
   sample.seen.assign(regions_.size(), 0);
   return sample;
@@ -213,9 +279,17 @@ void RegionShear::fit(const TrackFrame& tracks, Sample& out) noexcept {
     unknown[6] = turn.pitch;
     unknown[7] = turn.yaw;
     if (out.seen[r] != 0) back_substitute(regions_[r].normal, kOwn, unknown);
+    // The rows stand apart by what the region has grown since the keyframe.
+    const double grown = std::clamp(1.0 + unknown[kTurn + 1], 0.5, 2.0);
     for (std::size_t a = 0; a < kAxes; ++a) {
-      out.mean_px[kAxes * r + a] = unknown[a];
-      out.shear_px[kAxes * r + a] = unknown[4 + a] / regions_[r].fraction_scale;
+      out.carrier_px[kAxes * r + a] = unknown[a];
+      out.shear_px[kAxes * r + a] = unknown[kShear + a] / regions_[r].fraction_scale / grown;
+      fields_[kAxes * r + a] = unknown[kTurn + a];
+    }
+  }
+  for (std::size_t c = 0; c < fields_.size(); ++c) {
+    for (std::size_t f = 0; f < fields_.size(); ++f) {
+      out.carrier_px[c] += carrier_(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(f)) * fields_[f];
     }
   }
 }

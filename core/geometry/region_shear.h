@@ -40,7 +40,7 @@ class RegionShear {
   [[nodiscard]] std::size_t n_usable() const noexcept;
 
   struct Sample {  // of one frame, per region and axis: [2 region + axis]
-    std::vector<double> mean_px, shear_px;
+    std::vector<double> carrier_px, shear_px;
     std::vector<std::uint8_t> seen;  // per region
   };
   [[nodiscard]] Sample sample_prototype() const;
@@ -50,11 +50,12 @@ class RegionShear {
   // Fisher information of the shears [2 region + axis] with all points seen, for points of unit variance on the
   // average; zero for regions that are not usable.
   [[nodiscard]] const Eigen::MatrixXd& information() const noexcept { return information_; }
-  // Variance of a region's mean in the same unit. It does not vary together with the shears.
-  [[nodiscard]] double mean_variance(std::size_t region) const noexcept { return regions_[region].mean_variance; }
+  // Covariance of the carriers in the same unit.
+  [[nodiscard]] const Eigen::MatrixXd& carrier_covariance() const noexcept { return carrier_covariance_; }
 
  private:
-  static constexpr std::size_t kOwn = 6, kAll = 8;                // unknowns of a region; with pitch and yaw
+  // Places of a region's unknowns, their number, and that with pitch and yaw.
+  static constexpr std::size_t kTurn = 2, kShear = 4, kOwn = 6, kAll = 8;
   using Normal = std::array<std::array<double, kAll + 1>, kAll>;  // the last column is the right-hand side
 
   struct Point {
@@ -65,8 +66,7 @@ class RegionShear {
   };
   struct RegionFit {
     std::vector<std::size_t> points;
-    double fraction_scale = 1.0;  // the shear column is g / fraction_scale
-    double mean_variance = 0.0;
+    double fraction_scale = 1.0;       // the shear column is g / fraction_scale
     std::array<double, kOwn> pivot{};  // of the elimination with all points
     bool usable = false;
     Normal normal{};
@@ -75,13 +75,19 @@ class RegionShear {
   void place_columns(const Config& config, const TrackFrame& keyframe);
   void centre_columns(RegionFit& region);
   void add_point(const Point& point, Vector2 motion, Normal& normal) const noexcept;
+  void judge_regions();
   void make_information();
+  [[nodiscard]] Eigen::MatrixXd covariance() const;
+  [[nodiscard]] Eigen::MatrixXd selection(std::size_t from) const;
+  [[nodiscard]] Eigen::VectorXd field_response(std::size_t region, std::size_t field) const;
   [[nodiscard]] bool accumulate(const TrackFrame& tracks, RegionFit& region) noexcept;
 
   CameraModel camera_;
   std::vector<Point> points_;
   std::vector<RegionFit> regions_;
-  Eigen::MatrixXd information_;
+  Eigen::MatrixXd information_, carrier_covariance_;
+  Eigen::MatrixXd carrier_;     // pixels of carrier per turn and growth of every region
+  std::vector<double> fields_;  // turn and growth of every region
 };
 
 }  // namespace core
