@@ -9,7 +9,8 @@ namespace core {
 
 namespace {
 
-constexpr double kLeastSigmaPx = 0.003;
+constexpr double kLeastSigmaPx = 0.003, kMostSigmaPx = 100.0;
+constexpr double kMostMotion_px = 1e5;
 constexpr double kLeastOwnShare = 1e-4;   // of a column that the columns before it do not explain
 constexpr double kLeastPivotShare = 0.1;  // of a frame against the keyframe: fewer points tell too little
 constexpr std::size_t kLeastPoints = 4;   // a region's six unknowns from eight coordinates
@@ -32,23 +33,27 @@ void RegionShear::place_columns(const Config& config, const TrackFrame& keyframe
   const double width_px = std::max(1, config.readout.width_px);
   const Vector2 centre = camera_.calibrated() ? Vector2{camera_.cx, camera_.cy}
                                               : Vector2{0.5 * (width_px - 1.0), 0.5 * (config.readout.height_px - 1.0)};
-  double sum = 0.0;
+  double sum = 0.0, n_known = 0.0;
   for (const TrackPoint& seen : keyframe.points) {
     if (seen.region >= regions_.size()) throw std::invalid_argument("RegionShear: a point of no region");
     Point point;
     point.keyframe = camera_.undistort({seen.u_px, seen.v_px});
     point.region = seen.region;
-    const double sigma_px = std::max(kLeastSigmaPx, seen.sigma_px);  // NaN gives the first
+    const double sigma_px = std::min(kMostSigmaPx, std::max(kLeastSigmaPx, seen.sigma_px));  // NaN gives the least
     point.weight = 1.0 / (sigma_px * sigma_px);
-    sum += point.weight;
     const double x = point.keyframe.u - centre.u, y = point.keyframe.v - centre.v;
     const double fraction = config.readout.fraction(seen.u_px, seen.v_px);
     point.column = {{{1.0, 0.0, y, x, fraction, 0.0, x * y / width_px, x * x / width_px},
                      {0.0, 1.0, -x, y, 0.0, fraction, y * y / width_px, x * y / width_px}}};
-    regions_[seen.region].points.push_back(points_.size());
+    const bool known = seen.seen && std::isfinite(x) && std::isfinite(y) && std::isfinite(fraction);
+    if (known) {
+      regions_[seen.region].points.push_back(points_.size());
+      sum += point.weight;
+      ++n_known;
+    }
     points_.push_back(point);
   }
-  for (Point& point : points_) point.weight *= static_cast<double>(points_.size()) / sum;
+  for (Point& point : points_) point.weight *= n_known / sum;
 }
 
 // Subtracts the weighted means, so that the region's mean motion varies together with nothing else, and scales.
@@ -249,7 +254,7 @@ bool RegionShear::accumulate(const TrackFrame& tracks, RegionFit& region) noexce
     if (!point.seen || !point.inlier || point.region != points_[j].region) continue;
     const Vector2 place = camera_.undistort({point.u_px, point.v_px});
     const Vector2 motion{place.u - points_[j].keyframe.u, place.v - points_[j].keyframe.v};
-    if (!std::isfinite(motion.u) || !std::isfinite(motion.v)) continue;
+    if (!(std::abs(motion.u) < kMostMotion_px && std::abs(motion.v) < kMostMotion_px)) continue;
     add_point(points_[j], motion, region.normal);
     ++n_seen;
   }

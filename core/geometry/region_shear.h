@@ -12,15 +12,19 @@
 
 namespace core {
 
-// How far each region moved and how far the image of it is sheared along the readout, frame by frame. Rows that are
-// read later show a moving region sheared: a point at readout fraction g (0 .. 1 over the image) lies T_r V (g - mean
-// g) beside where the region's mean motion puts it, V its velocity. Fitted to the motion of a region's points since the
-// keyframe, per region and frame, by weighted least squares:
-//     d_j = mean + turn (y, -x) + growth (x, y) + shear g_j      pixels; (x, y), g_j about the region's weighted means
-// and, common to all regions, the quadratic fields of camera pitch (xy, y^2) and yaw (x^2, xy), also about the means:
-// their constant and the linear part that looks like turn or growth stay with the region. Turn and growth are free per
-// region because floors tilt and depths differ; for regions that are wider than high along the readout this costs
-// little. Along both image axes.
+// How much the image of each region is sheared along the readout, frame by frame, and the motion that does it. Rows are
+// read one after the other: where a region moves at v_j px per frame, a point at readout fraction g_j (0 .. 1 over the
+// image) is seen rho g_j v_j beside where it was at the start of the frame, rho the readout time in frames. Fitted to
+// the motion of the points since the keyframe by weighted least squares, (x, y) and g_j about the region's weighted
+// means:
+//     d_j = mean + turn (y, -x) + growth (x, y) + shear g_j      per region, both image axes, pixels
+//           + pitch (x y, y^2) + yaw (x^2, x y)                  of the whole image, also about the regions' means
+// Turn and growth are free per region: floors tilt, depths differ. Pitch and yaw are the camera's: their linear part
+// shears regions off the middle of the image, which must not be taken for a readout.
+//
+// The shear is rho times the rate of `carrier`: the mean, and a constant linear map of turn and growth, because g_j
+// times a field that turns or grows is quadratic and looks partly like pitch and yaw. In both, the keyframe's errors
+// are constants.
 //
 // One thread; nothing allocates after construction.
 class RegionShear {
@@ -32,16 +36,17 @@ class RegionShear {
     CameraModel camera;    // points are undistorted; without calibration the image centre is taken
     ReadoutModel readout;  // direction and image size; its time is not used
   };
-  // keyframe: every point that will come, seen. Throws std::invalid_argument: a point of no region.
+  // keyframe: every point that will come; one that is lost or no number there takes no part. Throws
+  // std::invalid_argument: a point of no region.
   RegionShear(const Config& config, const TrackFrame& keyframe);
 
   [[nodiscard]] std::size_t n_regions() const noexcept { return regions_.size(); }
   // Regions whose points spread enough to tell shear from turn and growth.
   [[nodiscard]] std::size_t n_usable() const noexcept;
 
-  struct Sample {  // of one frame, per region and axis: [2 region + axis]
-    std::vector<double> carrier_px, shear_px;
-    std::vector<std::uint8_t> seen;  // per region
+  struct Sample {                              // of one frame, per region and axis: [2 region + axis]
+    std::vector<double> carrier_px, shear_px;  // shear: from fraction 0 to 1, of the region as large as in the keyframe
+    std::vector<std::uint8_t> seen;            // per region
   };
   [[nodiscard]] Sample sample_prototype() const;
   // Points that are lost, outliers or no numbers take no part; a region of which too little is left is not seen.
