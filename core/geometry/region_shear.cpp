@@ -25,8 +25,8 @@ RegionShear::RegionShear(const Config& config, const TrackFrame& keyframe)
   place_columns(config, keyframe);
   for (RegionFit& region : regions_) centre_columns(region);
   judge_regions();
+  fields_.assign(kAxes * regions_.size() + 2, 0.0);
   make_information();
-  fields_.assign(kAxes * regions_.size(), 0.0);
 }
 
 void RegionShear::place_columns(const Config& config, const TrackFrame& keyframe) {
@@ -67,6 +67,7 @@ void RegionShear::centre_columns(RegionFit& region) {
     }
   }
   if (!(weight > 0.0)) return;
+  region.mean_fraction = mean[0][kShear] / weight;
   double squares = 0.0;
   for (const std::size_t j : region.points) {
     for (std::size_t a = 0; a < kAxes; ++a) {
@@ -194,14 +195,20 @@ Eigen::MatrixXd RegionShear::selection(std::size_t from) const {
 void RegionShear::make_information() {
   using Eigen::Index;
   const Eigen::MatrixXd all = covariance();
-  const Eigen::MatrixXd shear = selection(kShear), mean = selection(0), turn = selection(kTurn);
-  carrier_ = Eigen::MatrixXd::Zero(shear.rows(), shear.rows());
+  const Eigen::MatrixXd shear = selection(kShear);
+  const auto n_fields = static_cast<Index>(fields_.size());
+  Eigen::MatrixXd fields = Eigen::MatrixXd::Zero(n_fields, all.cols());
+  fields.topRows(shear.rows()) = selection(kTurn);
+  fields.bottomRightCorner<2, 2>().setIdentity();
+  carrier_ = Eigen::MatrixXd::Zero(shear.rows(), n_fields);
   for (std::size_t r = 0; r < regions_.size(); ++r) {
-    for (std::size_t field = 0; field < 2 && regions_[r].usable; ++field) {
-      carrier_.col(static_cast<Index>(2 * r + field)) = shear * all * field_response(r, field);
+    if (!regions_[r].usable) continue;
+    for (std::size_t f = 0; f < 2; ++f) {
+      carrier_.col(static_cast<Index>(2 * r + f)) = shear * all * field_response(r, kTurn + f);
+      carrier_.col(n_fields - 2 + static_cast<Index>(f)) += shear * all * field_response(r, kOwn + f);
     }
   }
-  const Eigen::MatrixXd carrier = mean + carrier_ * turn;
+  const Eigen::MatrixXd carrier = selection(0) + carrier_ * fields;
   carrier_covariance_ = carrier * all * carrier.transpose();
   Eigen::MatrixXd scatter = shear * all * shear.transpose();
   for (Index c = 0; c < scatter.rows(); ++c) {
@@ -213,15 +220,16 @@ void RegionShear::make_information() {
   }
 }
 
-// Right-hand side of the normal equations for points of one region that are shifted by their readout fraction times a
-// turn (0) or growth (1) of one radian or one.
-Eigen::VectorXd RegionShear::field_response(std::size_t region, std::size_t field) const {
+// Right-hand side of the normal equations for points of one region that are shifted by their readout fraction times the
+// field of one unknown, of size one.
+Eigen::VectorXd RegionShear::field_response(std::size_t region, std::size_t unknown) const {
   using Eigen::Index;
+  const RegionFit& own = regions_[region];
   Normal normal{};
-  for (const std::size_t j : regions_[region].points) {
+  for (const std::size_t j : own.points) {
     const Point& point = points_[j];
-    const double fraction = point.column[0][kShear] * regions_[region].fraction_scale;
-    add_point(point, {fraction * point.column[0][kTurn + field], fraction * point.column[1][kTurn + field]}, normal);
+    const double fraction = own.mean_fraction + point.column[0][kShear] * own.fraction_scale;
+    add_point(point, {fraction * point.column[0][unknown], fraction * point.column[1][unknown]}, normal);
   }
   const auto n = static_cast<Index>(kOwn * regions_.size() + 2);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
@@ -292,7 +300,9 @@ void RegionShear::fit(const TrackFrame& tracks, Sample& out) noexcept {
       fields_[kAxes * r + a] = unknown[kTurn + a];
     }
   }
-  for (std::size_t c = 0; c < fields_.size(); ++c) {
+  fields_[fields_.size() - 2] = turn.pitch;
+  fields_[fields_.size() - 1] = turn.yaw;
+  for (std::size_t c = 0; c < out.carrier_px.size(); ++c) {
     for (std::size_t f = 0; f < fields_.size(); ++f) {
       out.carrier_px[c] += carrier_(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(f)) * fields_[f];
     }

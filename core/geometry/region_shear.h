@@ -71,6 +71,7 @@ class RegionShear {
   };
   struct RegionFit {
     std::vector<std::size_t> points;
+    double mean_fraction = 0.0;
     double fraction_scale = 1.0;       // the shear column is g / fraction_scale
     std::array<double, kOwn> pivot{};  // of the elimination with all points
     bool usable = false;
@@ -84,15 +85,15 @@ class RegionShear {
   void make_information();
   [[nodiscard]] Eigen::MatrixXd covariance() const;
   [[nodiscard]] Eigen::MatrixXd selection(std::size_t from) const;
-  [[nodiscard]] Eigen::VectorXd field_response(std::size_t region, std::size_t field) const;
+  [[nodiscard]] Eigen::VectorXd field_response(std::size_t region, std::size_t unknown) const;
   [[nodiscard]] bool accumulate(const TrackFrame& tracks, RegionFit& region) noexcept;
 
   CameraModel camera_;
   std::vector<Point> points_;
   std::vector<RegionFit> regions_;
   Eigen::MatrixXd information_, carrier_covariance_;
-  Eigen::MatrixXd carrier_;     // pixels of carrier per turn and growth of every region
-  std::vector<double> fields_;  // turn and growth of every region
+  Eigen::MatrixXd carrier_;     // pixels of carrier per entry of fields_
+  std::vector<double> fields_;  // turn and growth of every region; pitch, yaw
 };
 
 }  // namespace core
