@@ -14,20 +14,26 @@ using Complex = std::complex<double>;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kStep_frames = 0.005;  // of the search; the maximum is as wide as 0.1
 constexpr double kLeastRowShare = 0.05;
+constexpr double kLeastShapeStd = 0.003;  // of the largest component, 1
 
-double best_mpc(const ObservedPole& pole, std::span<const double> row_share, double readout_s,
-                const ReadoutSearch& search) {
+struct Fold {
+  double mpc = 0.0, frequency_hz = 0.0;
+};
+
+Fold best_fold(const ObservedPole& pole, std::span<const double> row_share, double readout_s,
+               const ReadoutSearch& search) {
   const double limit_hz = std::max(search.max_frequency_hz, 0.5 * search.rate_hz);
   const int reach = static_cast<int>(std::ceil(limit_hz / search.rate_hz)) + 1;
   std::vector<Complex> shape(pole.shape.size());
-  double best = 0.0;
+  Fold best{0.0, pole.apparent_hz};
   for (int n = -reach; n <= reach; ++n) {
     const double f = pole.apparent_hz + n * search.rate_hz;
     if (std::abs(f) > limit_hz) continue;
     for (std::size_t c = 0; c < shape.size(); ++c) {
       shape[c] = pole.shape[c] * std::polar(1.0, -kTwoPi * f * readout_s * row_share[c]);
     }
-    best = std::max(best, mpc(shape));
+    const double value = mpc(shape);
+    if (value > best.mpc) best = {value, f};
   }
   return best;
 }
@@ -41,7 +47,7 @@ class MpcTable {
         n_steps_(static_cast<std::size_t>(2 * half_ + 1)) {
     for (const ObservedPole& pole : poles) {
       for (std::size_t k = 0; k < n_steps_; ++k) {
-        mpc_.push_back(best_mpc(pole, row_share, readout_frames(static_cast<double>(k)) / search.rate_hz, search));
+        mpc_.push_back(best_fold(pole, row_share, readout_frames(static_cast<double>(k)) / search.rate_hz, search).mpc);
       }
     }
   }
@@ -77,6 +83,26 @@ class MpcTable {
   std::vector<double> mpc_;
 };
 
+// Of the readout, per frame^2, from one pole: the slope of its components' phases over the row share, phase scatter
+// s_c / |phi_c|, intercept free. None where a component's scatter is unknown.
+std::optional<double> information_of(const ObservedPole& pole, std::span<const double> row_share, double frequency_hz,
+                                     double rate_hz) {
+  if (pole.shape_std.size() != pole.shape.size()) return {};
+  double weight = 0.0, share = 0.0, squares = 0.0;
+  for (std::size_t c = 0; c < pole.shape.size(); ++c) {
+    // The component that the shape is scaled by has no scatter of its own.
+    const double scatter = std::max(pole.shape_std[c], kLeastShapeStd);
+    if (!std::isfinite(scatter)) return {};
+    const double w = std::norm(pole.shape[c]) / (scatter * scatter);
+    weight += w;
+    share += w * row_share[c];
+    squares += w * row_share[c] * row_share[c];
+  }
+  if (!(weight > 0.0)) return {};
+  const double turn = kTwoPi * frequency_hz / rate_hz;  // radians per frame of readout
+  return turn * turn * std::max(0.0, squares - share * share / weight);
+}
+
 bool usable(std::span<const ObservedPole> poles, std::span<const double> row_share, const ReadoutSearch& search) {
   if (poles.size() < 2 || row_share.size() < 3 || !(search.rate_hz > 0.0) || !(search.most_frames > 0.0)) return false;
   const auto [low, high] = std::minmax_element(row_share.begin(), row_share.end());
@@ -89,7 +115,7 @@ bool usable(std::span<const ObservedPole> poles, std::span<const double> row_sha
 
 ObservedPole observed_pole(const Mode& mode, const std::vector<ChannelInfo>& channels, double rate_hz) {
   const double signed_hz = mode.apparent_hz + mode.fold_n.value_or(0) * rate_hz;
-  ObservedPole pole{mode.apparent_hz, mode.shape};
+  ObservedPole pole{mode.apparent_hz, mode.shape, mode.shape_std};
   for (std::size_t c = 0; c < pole.shape.size() && c < channels.size(); ++c) {
     pole.shape[c] = (signed_hz < 0.0 ? std::conj(pole.shape[c]) : pole.shape[c]) *
                     std::polar(1.0, kTwoPi * signed_hz * channels[c].row_delay_s);
@@ -114,6 +140,16 @@ std::optional<ReadoutFromShapes> readout_from_shapes(std::span<const ObservedPol
   }
   for (const double value : without) squares += (value - mean) * (value - mean);
   out.std_frames = std::sqrt(squares * static_cast<double>(n - 1) / static_cast<double>(n));
+  double information = 0.0;
+  int n_known = 0;
+  for (const ObservedPole& pole : poles) {
+    const Fold fold = best_fold(pole, row_share, out.readout_frames / search.rate_hz, search);
+    const auto known = information_of(pole, row_share, fold.frequency_hz, search.rate_hz);
+    information += known.value_or(0.0);
+    n_known += known ? 1 : 0;
+  }
+  out.scatter_known = n_known >= 2 && information > 0.0;
+  if (out.scatter_known) out.std_frames = std::max(out.std_frames, 1.0 / std::sqrt(information));
   return out;
 }
 

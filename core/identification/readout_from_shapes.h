@@ -17,6 +17,7 @@ namespace core {
 struct ObservedPole {
   double apparent_hz = 0.0;
   std::vector<std::complex<double>> shape;
+  std::vector<double> shape_std;  // per component; empty = unknown
 };
 
 // Puts the row delays of `channels` back into a mode's shape.
@@ -30,8 +31,9 @@ struct ReadoutSearch {
 
 struct ReadoutFromShapes {
   double readout_frames = 0.0;
-  double std_frames = 0.0;  // jackknife over the poles
-  double mean_mpc = 0.0;    // of the poles' best hypotheses at that readout, 0..1
+  double std_frames = 0.0;     // the larger of the jackknife over the poles and what their shapes' scatter implies
+  bool scatter_known = false;  // of at least two poles' shapes; without it a flat maximum may look sharp
+  double mean_mpc = 0.0;       // of the poles' best hypotheses at that readout, 0..1
   int n_poles = 0;
 };
 
