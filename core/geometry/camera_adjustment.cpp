@@ -9,6 +9,7 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
+using ByCamera = Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, 12>;  // on the stack: one per corner
 
 Eigen::Vector3d board_point(const ChessBoard& board, std::size_t i_corner) {
   const auto columns = static_cast<std::size_t>(board.columns);
@@ -88,7 +89,7 @@ void CameraAdjustment::add_corner(std::size_t i_view, std::size_t i_corner, View
   Eigen::Matrix<double, 2, 6> by_pose;
   for (int i = 0; i < 3; ++i) by_pose.col(i) = d_shift * Eigen::Vector3d::Unit(i).cross(turned);
   by_pose.rightCols<3>() = d_shift;
-  Eigen::MatrixXd by_camera = Eigen::MatrixXd::Zero(2, n_parameters_);
+  ByCamera by_camera = ByCamera::Zero(2, n_parameters_);
   by_camera(0, 0) = at.x;
   by_camera(1, 1) = at.y;
   by_camera(0, 2) = by_camera(1, 3) = 1.0;

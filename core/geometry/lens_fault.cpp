@@ -30,7 +30,7 @@ std::optional<LensFault> fault_along(const CameraModel& camera, const Rectangle&
       return LensFault{{u, v}, std::hypot(u - camera.cx, v - camera.cy), std::atan(r) * 180.0 / std::numbers::pi};
     }
     if (!image.holds(u, v)) return std::nullopt;
-    r_next = r + std::max(pixel, 0.002 * r);
+    r_next = r + std::max(std::min(pixel, 0.01), 0.002 * r);
   }
   return std::nullopt;
 }

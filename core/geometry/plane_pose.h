@@ -30,7 +30,7 @@ struct PlanePose {
   double rms_px = 0.0;      // distance of the given pixel from the predicted one
   double chi_square = 0.0;  // in the stated sigma_px
 
-  // nullopt: behind the camera; the ray misses the plane or meets it from behind.
+  // nullopt: behind the camera; the ray never meets the plane.
   [[nodiscard]] std::optional<Vector2> project(const PlanePlace& place) const noexcept;
   [[nodiscard]] std::optional<PlanePlace> place_at(const Vector2& ideal_px) const noexcept;
 

@@ -3,9 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 #include "drivers/storage/calibration_file.h"
@@ -47,18 +49,19 @@ The file is in OpenCV's format. Fisheye lenses (more than about 100 degrees acro
 core::ChessBoard parse_board(const Options& options) {
   core::ChessBoard board;
   const std::size_t x = options.board.find('x');
-  const auto columns = drivers::parse_whole(std::string_view(options.board).substr(0, x));
-  const auto rows = x == std::string::npos ? std::nullopt : drivers::parse_whole(options.board.substr(x + 1));
-  const auto allowed = [](const auto& n) { return n && *n >= 3 && *n <= 50; };
-  if (!allowed(columns) || !allowed(rows)) {
+  const bool two = x != std::string::npos;
+  const auto number = [](std::string_view text) { return drivers::parse_whole(text).value_or(0); };
+  const std::int64_t columns = two ? number(std::string_view(options.board).substr(0, x)) : 0;
+  const std::int64_t rows = two ? number(std::string_view(options.board).substr(x + 1)) : 0;
+  if (std::min(columns, rows) < 3 || std::max(columns, rows) > 50) {
     throw std::invalid_argument(
         fmt::format("--board {}: is refused: allowed COLUMNSxROWS, each 3 .. 50; count the inner corners, e.g. 9x6",
                     drivers::printable(options.board)));
   }
   if (!(options.square_mm > 0.0 && options.square_mm <= 1e6))
     throw std::invalid_argument(fmt::format("--square-mm {}: is refused: allowed more than 0", options.square_mm));
-  board.columns = static_cast<int>(*columns);
-  board.rows = static_cast<int>(*rows);
+  board.columns = static_cast<int>(columns);
+  board.rows = static_cast<int>(rows);
   board.square_mm = options.square_mm;
   return board;
 }
