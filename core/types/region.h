@@ -35,7 +35,7 @@ struct Region {
   bool both_axes = false;
   // A length known here, between two points of the first image: the region's own scale. 0 = none.
   double length_mm = 0.0;
-  Vector2 length_from_px, length_to_px;
+  Vector2 length_from_px{}, length_to_px{};
 };
 
 }  // namespace core
