@@ -101,7 +101,7 @@ TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_pa
   result.losses = analysis.losses();
   result.n_differences = analysis.n_differences();
   if (!report) return result;
-  report->finish(result.estimate, result.losses, corrections(config, camera));
+  report->finish(result.estimate, result.losses, corrections(config, camera), caveats(config, camera));
   const RunFacts facts = run_facts(config, camera, tracks_path, result.losses);
   PictureInputs inputs = picture_inputs(config, camera, result.channels);
   inputs.keyframe = &places.first();

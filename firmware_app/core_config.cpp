@@ -6,17 +6,11 @@
 #include <cmath>
 
 #include "firmware_app/calibration.h"
+#include "firmware_app/structure_scale.h"
 
 namespace app {
 
 namespace {
-
-double scale_mm_per_px(const ScaleConfig& scale, const core::CameraModel& camera) {
-  if (scale.known_length_mm <= 0.0) return 1.0;
-  const core::Vector2 from = camera.undistort({scale.from_px[0], scale.from_px[1]});
-  const core::Vector2 to = camera.undistort({scale.to_px[0], scale.to_px[1]});
-  return scale.known_length_mm / std::hypot(to.u - from.u, to.v - from.v);
-}
 
 // An inline camera matrix alone says where the axis is; a file is taken to know the lens.
 bool undistorts(const CalibrationConfig& calibration) {
@@ -45,7 +39,9 @@ core::ChannelDisplacementConfig displacement_config(const AppConfig& config, con
   out.readout = {static_cast<double>(camera.readout_ns) * 1e-9, camera.readout_direction, camera.width_px,
                  camera.height_px};
   out.rate_hz = camera.rate_hz;
-  out.scale_mm_per_px = scale_mm_per_px(config.scale, out.camera);
+  StructureScale scale = structure_scale(config, out.camera);
+  out.scale_mm_per_px = scale.mm_per_px;
+  if (config.method != Method::kPaper) out.region_scale_mm_per_px = std::move(scale.region_mm_per_px);
   out.adaptive_scale = config.scale.adaptive;
   out.paper_method = config.method == Method::kPaper;
   out.inlier_sigma_px = config.tracking.inlier_sigma_px;
@@ -98,6 +94,10 @@ std::vector<std::string> corrections(const AppConfig& config, const core::Camera
                                static_cast<double>(camera.readout_ns) * 1e-6));
   }
   return list;
+}
+
+std::vector<std::string> caveats(const AppConfig& config, const core::CameraInfo& camera) {
+  return structure_scale(config, camera_model(config, camera)).notes;
 }
 
 }  // namespace app

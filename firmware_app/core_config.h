@@ -24,5 +24,7 @@ namespace app {
 [[nodiscard]] std::vector<std::string> region_names(const AppConfig& config);
 // The corrections in force, in words, for modal.json.
 [[nodiscard]] std::vector<std::string> corrections(const AppConfig& config, const core::CameraInfo& camera);
+// What the result leaves open about scale and obliqueness, in words, for the same.
+[[nodiscard]] std::vector<std::string> caveats(const AppConfig& config, const core::CameraInfo& camera);
 
 }  // namespace app

@@ -67,6 +67,7 @@ struct Pipeline::Parts {
             picture_drawer(config, source, report.get()),
             source.channels(),
             corrections(config, source.info),
+            caveats(config, source.info),
             config.telemetry};
   }
 

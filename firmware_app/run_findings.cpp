@@ -2,8 +2,10 @@
 
 #include <filesystem>
 
+#include "firmware_app/calibration.h"
 #include "firmware_app/core_config.h"
 #include "firmware_app/report/modal_json.h"
+#include "firmware_app/structure_scale.h"
 
 namespace app {
 
@@ -12,7 +14,7 @@ PictureInputs picture_inputs(const AppConfig& config, const core::CameraInfo& ca
   PictureInputs inputs;
   inputs.regions = config.regions;
   inputs.channels = channels;
-  inputs.unit = config.scale.known_length_mm > 0.0 ? "mm" : "px";
+  inputs.unit = structure_scale(config, camera_model(config, camera)).known ? "mm" : "px";
   inputs.max_frequency_hz = identifier_config(config, channels, camera.rate_hz).max_frequency_hz;
   return inputs;
 }
@@ -24,6 +26,7 @@ RunFacts run_facts(const AppConfig& config, const core::CameraInfo& camera, cons
   if (facts.source.empty() && config.camera.driver == CameraDriver::kSynthetic) facts.source = "synthetic camera";
   facts.method = to_text(config.method);
   facts.corrections = corrections(config, camera);
+  facts.caveats = caveats(config, camera);
   facts.health = health;
   facts.image_width_px = camera.width_px, facts.image_height_px = camera.height_px;
   return facts;

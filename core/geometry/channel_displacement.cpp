@@ -164,6 +164,11 @@ void ChannelDisplacement::compensate_rolling_shutter() noexcept {
   }
 }
 
+double ChannelDisplacement::scale_of(std::uint16_t region) const noexcept {
+  return region < config_.region_scale_mm_per_px.size() ? config_.region_scale_mm_per_px[region]
+                                                        : config_.scale_mm_per_px;
+}
+
 void ChannelDisplacement::average_channel(std::size_t channel, double magnification, const TrackFrame& tracks,
                                           DisplacementSample& out) const noexcept {
   const ChannelInfo& info = channels_[channel];
@@ -180,7 +185,7 @@ void ChannelDisplacement::average_channel(std::size_t channel, double magnificat
     ++count;
   }
   const bool enough = weight > 0.0 && count >= config_.min_points;
-  const double s0 = config_.scale_mm_per_px;
+  const double s0 = scale_of(info.region);
   out.seen[channel] = enough ? 1 : 0;
   out.n_points[channel] = count;
   out.value_mm[channel] = enough ? s0 * sum / weight : 0.0;

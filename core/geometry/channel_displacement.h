@@ -17,8 +17,10 @@ struct ChannelDisplacementConfig {
   ReadoutModel readout;
   double rate_hz = 0.0;
   double scale_mm_per_px = 1.0;  // S_0, of the keyframe
-  bool adaptive_scale = true;    // per-frame scale (paper Eq. 6)
-  bool paper_method = false;     // two-point scale; rolling shutter by Eqs. 7-8 on the samples, with rho = 1
+  // Per region, where an oblique plane or a length of its own gives it another scale than S_0; empty = S_0 for all.
+  std::vector<double> region_scale_mm_per_px = {};
+  bool adaptive_scale = true;  // per-frame scale (paper Eq. 6)
+  bool paper_method = false;   // two-point scale; rolling shutter by Eqs. 7-8 on the samples, with rho = 1
   double inlier_sigma_px = 0.3;
   int min_points = 3;  // fewer inliers: the channel has no sample in this frame
 };
@@ -51,6 +53,7 @@ class ChannelDisplacement {
   [[nodiscard]] double estimate_scale() noexcept;
   void reject_outliers(double magnification) noexcept;
   void compensate_rolling_shutter() noexcept;
+  [[nodiscard]] double scale_of(std::uint16_t region) const noexcept;
   [[nodiscard]] Vector2 scaled_motion(std::size_t point, double magnification) const noexcept;
   void average_channel(std::size_t channel, double magnification, const TrackFrame& tracks,
                        DisplacementSample& out) const noexcept;

@@ -113,6 +113,7 @@ std::string modal_json(const ModalReport& report, std::size_t* n_not_finite) {
   out["modes"] = modes_json(estimate.modes, estimate, report.channel_names);
   out["rejected"] = modes_json(estimate.rejected, estimate, report.channel_names);
   out["corrections"] = report.corrections;
+  out["caveats"] = report.caveats;
   out["losses"] = losses_json(report.losses);
   drivers::JsonText text = drivers::to_json_text(out);
   if (n_not_finite != nullptr) *n_not_finite = text.n_not_finite;

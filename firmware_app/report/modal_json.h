@@ -18,6 +18,7 @@ struct ModalReport {
   core::ModalEstimate estimate;
   std::vector<std::string> corrections;  // effects that were removed before the identification
   core::Health losses;
+  std::vector<std::string> caveats = {};  // what the result leaves open
 };
 
 [[nodiscard]] std::string_view to_text(Method method) noexcept;

@@ -33,9 +33,8 @@ class ModalReader {
     estimate.final = true;
     estimate.modes = modes(root, "modes");
     estimate.rejected = modes(root, "rejected");
-    if (const Json* list = find(root, "corrections")) {
-      for (const Json& item : *list) report_.corrections.push_back(item.is_string() ? item.get<std::string>() : "");
-    }
+    report_.corrections = texts(root, "corrections");
+    report_.caveats = texts(root, "caveats");
     if (const Json* losses = find(root, "losses")) read_losses(*losses);
     return std::move(report_);
   }
@@ -76,6 +75,14 @@ class ModalReader {
     if (value == nullptr) return {};
     if (!value->is_string()) refuse(key, "is no text");
     return value->get<std::string>();
+  }
+
+  [[nodiscard]] std::vector<std::string> texts(const Json& root, const char* key) const {
+    std::vector<std::string> out;
+    const Json* list = find(root, key);
+    if (list == nullptr) return out;
+    for (const Json& item : *list) out.push_back(item.is_string() ? item.get<std::string>() : "");
+    return out;
   }
 
   [[nodiscard]] std::vector<core::Mode> modes(const Json& root, const char* key) {

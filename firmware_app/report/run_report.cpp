@@ -1,4 +1,6 @@
 #include "firmware_app/report/run_report.h"
+#include "firmware_app/calibration.h"
+#include "firmware_app/structure_scale.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -88,7 +90,7 @@ void RunReport::write_displacement_header(const AppConfig& config, const core::C
                                           const std::vector<core::ChannelInfo>& channels) {
   fmt::memory_buffer& out = displacements_->buffer();
   append_line(out, "# hovermodal displacements, version 1");
-  append_line(out, "# unit: {}", config.scale.known_length_mm > 0.0 ? "mm" : "px");
+  append_line(out, "# unit: {}", structure_scale(config, camera_model(config, camera)).known ? "mm" : "px");
   append_line(out, "# rate_hz: {}", camera.rate_hz);
   // A channel is seen this long after t_s.
   for (const core::ChannelInfo& channel : channels)
@@ -156,7 +158,7 @@ bool RunReport::add(const core::DisplacementSample& sample) noexcept try {
 }
 
 void RunReport::finish(const core::ModalEstimate& last, const core::Health& losses,
-                       const std::vector<std::string>& corrections) {
+                       const std::vector<std::string>& corrections, const std::vector<std::string>& caveats) {
   std::string failures;
   const auto attempt = [&](const auto& write) {
     try {
@@ -169,7 +171,7 @@ void RunReport::finish(const core::ModalEstimate& last, const core::Health& loss
   attempt([&] { displacements_->commit(); });
   attempt([&] {
     std::size_t n_not_finite = 0;
-    const std::string text = modal_json({method_, channel_names_, last, corrections, losses}, &n_not_finite);
+    const std::string text = modal_json({method_, channel_names_, last, corrections, losses, caveats}, &n_not_finite);
     n_not_finite_ += n_not_finite;
     drivers::write_file_atomically(in_directory(directory_, "modal.json"), text);
   });

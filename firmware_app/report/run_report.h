@@ -33,7 +33,8 @@ class RunReport {
 
   // Completes the files and writes modal.json. Throws one drivers::FileError that names every file that failed; the
   // others are complete.
-  void finish(const core::ModalEstimate& last, const core::Health& losses, const std::vector<std::string>& corrections);
+  void finish(const core::ModalEstimate& last, const core::Health& losses, const std::vector<std::string>& corrections,
+              const std::vector<std::string>& caveats = {});
 
   // What came so far, for the pictures.
   [[nodiscard]] const RunHistory& history() const noexcept { return history_; }

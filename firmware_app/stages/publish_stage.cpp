@@ -69,7 +69,8 @@ void PublishStage::publish_health_when_due() noexcept {
 }
 
 void PublishStage::complete_report(const core::Health& health) {
-  if (outlets_.report != nullptr) outlets_.report->finish(last_estimate_, health, outlets_.corrections);
+  if (outlets_.report != nullptr)
+    outlets_.report->finish(last_estimate_, health, outlets_.corrections, outlets_.caveats);
   if (outlets_.draw) outlets_.draw(last_estimate_, last_sums_, health);
 }
 

@@ -26,7 +26,7 @@ class PublishStage : public rt::Stage {
     // Draws the run's pictures and its page beside the report; throws drivers::FileError. Empty: none wanted.
     std::function<void(const core::ModalEstimate&, const core::CpsdSums&, const core::Health&)> draw;
     std::vector<core::ChannelInfo> channels;
-    std::vector<std::string> corrections;
+    std::vector<std::string> corrections, caveats;
     TelemetryConfig telemetry;
   };
 

@@ -83,6 +83,7 @@ std::string facts_html(const PictureInputs& inputs, const core::ModalEstimate& e
   out += fact_html("Channels", std::to_string(inputs.channels.size()));
   out += fact_html("Corrections",
                    facts.corrections.empty() ? "none" : fmt::format("{}", fmt::join(facts.corrections, "; ")));
+  if (!facts.caveats.empty()) out += fact_html("Left open", fmt::format("{}", fmt::join(facts.caveats, "; ")));
   return out + "</dl>\n";
 }
 

@@ -19,7 +19,7 @@ class RunHistory;
 struct RunFacts {
   std::string source;  // what was watched, e.g. the clip's name; empty = unknown
   std::string method;  // "paper" | "hovermodal"
-  std::vector<std::string> corrections;
+  std::vector<std::string> corrections, caveats;
   core::Health health;
   bool counted = true;                          // false: of a time series, where `health` knows nothing
   int image_width_px = 0, image_height_px = 0;  // of the tracks, where there is no frame

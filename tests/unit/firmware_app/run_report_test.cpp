@@ -71,7 +71,8 @@ TEST_F(RunReportTest, DisplacementsLeaveMissingCellsEmpty) {
 TEST_F(RunReportTest, ModalJsonHasExactlyTheAgreedLayout) {
   core::Health losses;
   losses.frames_in = 10, losses.frames_processed = 9, losses.frames_dropped = 1;
-  const std::string text = modal_json({"paper", {"base", "roof"}, estimate(), {"camera roll"}, losses});
+  const std::string text =
+      modal_json({"paper", {"base", "roof"}, estimate(), {"camera roll"}, losses, {"an oblique view"}});
   EXPECT_EQ(text, R"({
   "version": 1,
   "method": "paper",
@@ -142,6 +143,9 @@ TEST_F(RunReportTest, ModalJsonHasExactlyTheAgreedLayout) {
   ],
   "corrections": [
     "camera roll"
+  ],
+  "caveats": [
+    "an oblique view"
   ],
   "losses": {
     "frames_in": 10,
