@@ -27,7 +27,7 @@ class RunReportTest : public ::testing::Test {
     channels_.resize(2);
     channels_[0].name = "base", channels_[1].name = "roof";
     channels_[1].row_delay_s = 0.0125;
-    config_.scale.known_length_mm = 100.0;
+    config_.scale.known_length_mm = 100.0, config_.scale.to_px = {100.0, 0.0};
   }
   [[nodiscard]] RunReport open(const std::string& name = "r") const {
     return {path(name), config_, camera_, channels_, {"base", "roof"}};

@@ -184,7 +184,7 @@ TEST(Config, RefusesBrokenCalibration) {
   EXPECT_THAT(refusal_of_line("calibration: {file: c.yaml, fx: 1, fy: 1, cx: 1, cy: 1}"), HasSubstr("not both"));
   EXPECT_THAT(refusal_of_line("calibration: {fx: 0, fy: 1, cx: 1, cy: 1}"), HasSubstr("calibration.fx: 0 is refused"));
   EXPECT_THAT(refusal_of_line("calibration: {fx: 9, fy: 9, cx: 1, cy: 1, distortion: [1, 2, 3]}"),
-              HasSubstr("4 to 5 numbers"));
+              HasSubstr("4 to 8 numbers"));
   EXPECT_EQ(refusal_of_line("calibration: {fx: 9, fy: 9, cx: 1, cy: 1, distortion: [1, 2, 3, 4]}"), "");
   EXPECT_EQ(refusal_of_line("calibration: {file: c.yaml}"), "");
 }
