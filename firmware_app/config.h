@@ -21,7 +21,8 @@ struct CameraConfig {
   std::string source;    // file: video or image folder; synthetic: empty, or a scene's seed is below
   double rate_hz = 0.0;  // 0 = take it from the source
   Pace pace = Pace::kAsFastAsPossible;
-  double readout_ms = 0.0;  // signed
+  double readout_ms = 0.0;         // signed
+  double readout_sigma_ms = -1.0;  // of readout_ms; 0 = exact, below 0 = chosen (readout_use.h)
   core::ReadoutDirection readout_direction = core::ReadoutDirection::kDown;
   double exposure_ms = 0.0;            // 0 = unknown
   double synthetic_duration_s = 30.0;  // synthetic driver only

@@ -83,6 +83,11 @@ void add_camera_keys(std::vector<ConfigKey>& keys) {
   keys.push_back(
       number_key("camera.readout_ms", "ms", at(&A::camera, &C::readout_ms), {-1000, 1000},
                  "rolling shutter: first to last line along readout_direction; 0 = global shutter or unknown"));
+  keys.push_back(with_default(
+      number_key(
+          "camera.readout_sigma_ms", "ms", at(&A::camera, &C::readout_sigma_ms), {-1, 1000},
+          "standard deviation of readout_ms, which is combined with what the tracks tell; 0 = exact, -1 = chosen"),
+      "-1: 1 ms, or half a frame where readout_ms is 0"));
   using core::ReadoutDirection;
   keys.push_back(
       choice_key<ReadoutDirection>("camera.readout_direction", at(&A::camera, &C::readout_direction),

@@ -6,6 +6,7 @@
 #include "firmware_app/core_config.h"
 #include "firmware_app/health.h"
 #include "firmware_app/pipeline_setup.h"
+#include "firmware_app/readout_use.h"
 #include "firmware_app/report/page/report_page.h"
 #include "firmware_app/stages/identification_stage.h"
 #include "rt/memory.h"
@@ -25,7 +26,7 @@ struct Pipeline::Parts {
   Source source;  // camera, its first frame, the points seeded in it, the channels
   std::unique_ptr<drivers::Publisher> out;
   std::unique_ptr<RunReport> report = open_report(config, source);
-  core::Identifier identifier{identifier_config(config, source.channels(), source.info.rate_hz), source.channels()};
+  ReadoutUse identifier{config, source.info, source.keyframe, source.channels()};
 
   // camera -> [frames] -> tracking -> [samples] -> spectrum -> [snapshots] -> identification -> [results] -> publish
   //                          \------------------ [records] ------------------------------------------------/
@@ -34,11 +35,11 @@ struct Pipeline::Parts {
 
   rt::SpscRing<core::DisplacementSample> samples{slots(config.rt.sample_slots), source.displacement.sample_prototype()};
   rt::SpscRing<FrameRecord> records{slots(config.rt.sample_slots), record_prototype(source)};
-  TrackingStage tracking{frames.reader(),  source.tracker,   source.displacement,
+  TrackingStage tracking{frames.reader(),  source.tracker,   source.displacement, source.readout,
                          samples.writer(), records.writer(), source.info.lossless};
 
   core::WelchConfig welch = welch_config(config.spectrum, source.channels().size(), source.info.rate_hz);
-  rt::TripleBuffer<SpectrumSnapshot> snapshots{SpectrumSnapshot{core::WelchCpsd::empty_sums(welch), 0, 0, false}};
+  rt::TripleBuffer<SpectrumSnapshot> snapshots{SpectrumSnapshot{core::WelchCpsd::empty_sums(welch), 0, 0, false, {}}};
   SpectrumStage spectrum{samples.reader(), welch, config.identification.period_hops, snapshots, source.info.lossless};
 
   rt::SpscRing<IdentificationResult> results{slots(kResultSlots), IdentificationResult{}};

@@ -9,6 +9,7 @@
 #include "drivers/telemetry/publisher_factory.h"
 #include "firmware_app/config_image.h"
 #include "firmware_app/core_config.h"
+#include "firmware_app/readout_use.h"
 #include "firmware_app/report/pictures/pictures.h"
 #include "firmware_app/run_findings.h"
 
@@ -68,7 +69,8 @@ Source::Source(std::unique_ptr<drivers::Camera> opened, const AppConfig& config)
       first_frame(take_first_frame(*camera, info)),
       tracker(seeded_tracker(config, first_frame)),
       keyframe(track_keyframe(tracker, first_frame)),
-      displacement(displacement_config(config, info), keyframe) {}
+      displacement(displacement_config(config, info), keyframe),
+      readout(readout_config(config, info), keyframe) {}
 
 std::unique_ptr<drivers::Camera> open_camera(const AppConfig& config) {
   const CameraConfig& c = config.camera;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/geometry/channel_displacement.h"
+#include "core/geometry/readout_estimator.h"
 #include "core/tracking/structure_tracker.h"
 #include "core/types/frame.h"
 #include "drivers/camera/camera.h"
@@ -31,6 +32,7 @@ struct Source {
   core::StructureTracker tracker;
   core::TrackFrame keyframe;
   core::ChannelDisplacement displacement;
+  core::ReadoutEstimator readout;
 };
 
 [[nodiscard]] std::unique_ptr<drivers::Camera> open_camera(const AppConfig& config);

@@ -22,7 +22,9 @@ void ChannelAnalysis::note(bool hop) {
 }
 
 core::ModalEstimate ChannelAnalysis::make() {
-  core::ModalEstimate estimate = identifier_.identify(cpsd_.sums());
+  core::ModalEstimate estimate =
+      readout_use_ ? readout_use_->identify(cpsd_.sums(), readout_) : identifier_.identify(cpsd_.sums());
+  if (readout_use_) tracker_.set_row_delays(readout_use_->delay_s(estimate));
   estimate.number = n_estimates_++;
   tracker_.update(estimate);
   if (report_ != nullptr) report_->add(estimate);
@@ -36,6 +38,7 @@ bool ChannelAnalysis::push(const core::DisplacementSample& sample) {
   if (!placement.accepted) return false;
   for (std::uint64_t k = 0; k < placement.n_missing_before; ++k) note(cpsd_.push_missing());
   losses_.frames_missing += placement.n_missing_before;
+  readout_ = sample.readout;
   note(cpsd_.push(sample.value_mm, sample.seen));
   return true;
 }
@@ -56,11 +59,16 @@ core::ModalEstimate ChannelAnalysis::identified(int n_differences) const {
 
 TrackAnalysis::TrackAnalysis(const AppConfig& config, const core::CameraInfo& camera, const core::TrackFrame& keyframe)
     : displacement_(displacement_config(config, camera), keyframe),
+      readout_(readout_config(config, camera), keyframe),
       sample_(displacement_.sample_prototype()),
-      analysis_(config, displacement_.channels(), camera.rate_hz) {}
+      analysis_(config, displacement_.channels(), camera.rate_hz) {
+  analysis_.find_readout(ReadoutUse(config, camera, keyframe, displacement_.channels()));
+}
 
 bool TrackAnalysis::push(core::TrackFrame& tracks) {
   displacement_.update(tracks, sample_);
+  readout_.update(tracks);
+  sample_.readout = readout_.estimate();
   return analysis_.push(sample_);
 }
 

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/channel_displacement.h"
@@ -15,6 +17,7 @@
 #include "core/types/modal_estimate.h"
 #include "core/types/track.h"
 #include "firmware_app/config.h"
+#include "firmware_app/readout_use.h"
 
 namespace app {
 
@@ -29,6 +32,8 @@ class ChannelAnalysis {
  public:
   ChannelAnalysis(const AppConfig& config, const std::vector<core::ChannelInfo>& channels, double rate_hz);
 
+  // Find the readout time on the way; else row delays are undone as declared.
+  void find_readout(ReadoutUse use) { readout_use_.emplace(std::move(use)); }
   void report_to(RunReport* report) noexcept { report_ = report; }  // every estimate; null = none
 
   // False: a frame that lies in no cell of its own of the grid, and is left out.
@@ -50,6 +55,8 @@ class ChannelAnalysis {
 
   core::IdentifierConfig config_;
   core::Identifier identifier_;
+  std::optional<ReadoutUse> readout_use_;
+  core::ReadoutEstimate readout_;  // with the last sample
   core::ModeTracker tracker_;
   core::WelchCpsd cpsd_;
   core::TimeGrid grid_;
@@ -73,6 +80,7 @@ class TrackAnalysis {
 
  private:
   core::ChannelDisplacement displacement_;
+  core::ReadoutEstimator readout_;
   core::DisplacementSample sample_;
   ChannelAnalysis analysis_;
 };

@@ -70,6 +70,11 @@ std::size_t ModeTracker::n_followed() const noexcept {
                                                 [](const Track& track) { return track.state == State::kConfirmed; }));
 }
 
+void ModeTracker::set_row_delays(const std::vector<double>& row_delay_s) noexcept {
+  std::copy_n(row_delay_s.begin(), std::min(row_delay_s.size(), config_.row_delay_s.size()),
+              config_.row_delay_s.begin());
+}
+
 void ModeTracker::update(ModalEstimate& estimate) noexcept {
   for (auto* list : {&estimate.modes, &estimate.rejected}) {
     for (Mode& mode : *list) mode.history.reset();

@@ -47,6 +47,8 @@ class ModeTracker {
 
   explicit ModeTracker(ModeTrackerConfig config);
 
+  // From the next estimate on; as many as before.
+  void set_row_delays(const std::vector<double>& row_delay_s) noexcept;
   // Fills `history` of the estimate's modes. Modes with a frequency, damping or shape that is no number are left out.
   void update(ModalEstimate& estimate) noexcept;
 

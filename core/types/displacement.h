@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/types/readout.h"
+
 namespace core {
 
 // A channel is one region along one axis. What is fixed over the run stands here, once.
@@ -27,6 +29,7 @@ struct DisplacementSample {
   std::vector<double> sigma_mm;         // n_channels
   std::vector<std::uint8_t> seen;       // n_channels; 1 = a sample
   std::vector<std::uint16_t> n_points;  // n_channels: inlier points behind the sample
+  ReadoutEstimate readout;              // from the tracks up to this frame
 };
 
 }  // namespace core

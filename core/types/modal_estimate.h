@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/types/readout.h"
+
 namespace core {
 
 enum class Verdict : std::uint8_t { kStructural, kCameraMotion, kInputPeak, kHarmonic, kAmbiguous, kNumerical };
@@ -71,12 +73,13 @@ struct ModalEstimate {
   double remembered_s = 0.0;  // of it; less only where old samples are forgotten
   // Read the standard deviations with so many degrees of freedom (Student's t); 0 = none are stated.
   double degrees_of_freedom = 0.0;
-  int model_order = 0;                   // order at which the canonical correlations fall off; 0 = unclear
-  bool final = false;                    // the last of a run
-  std::string status;                    // "ok", or why there are no modes
-  std::vector<Mode> modes;               // structural, by frequency
-  std::vector<Mode> rejected;            // every other pole, with its reason
-  std::vector<StabilisationPole> poles;  // of all orders, ascending; at most kMaxStabilisationPoles
+  int model_order = 0;                    // order at which the canonical correlations fall off; 0 = unclear
+  bool final = false;                     // the last of a run
+  std::string status;                     // "ok", or why there are no modes
+  std::optional<ReadoutFinding> readout;  // behind the row delays that were undone; empty: not looked at
+  std::vector<Mode> modes;                // structural, by frequency
+  std::vector<Mode> rejected;             // every other pole, with its reason
+  std::vector<StabilisationPole> poles;   // of all orders, ascending; at most kMaxStabilisationPoles
 };
 
 }  // namespace core

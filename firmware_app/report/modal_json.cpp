@@ -89,6 +89,21 @@ Json modes_json(const std::vector<core::Mode>& modes, const core::ModalEstimate&
   return out;
 }
 
+Json value_json(const std::optional<core::ReadoutValue>& value) {
+  if (!value) return nullptr;
+  return {{"readout_ms", 1e3 * value->readout_s}, {"std_ms", 1e3 * value->std_s}};
+}
+
+Json readout_json(const std::optional<core::ReadoutFinding>& readout) {
+  if (!readout) return nullptr;
+  return {{"declared", value_json(readout->declared)},
+          {"from_tracks", value_json(readout->from_tracks)},
+          {"from_shapes", value_json(readout->from_shapes)},
+          {"used", value_json(readout->used)},
+          {"consistent", readout->consistent},
+          {"why", readout->why}};
+}
+
 Json losses_json(const core::Health& losses) {
   return {{"frames_in", losses.frames_in},           {"frames_processed", losses.frames_processed},
           {"frames_dropped", losses.frames_dropped}, {"frames_missing", losses.frames_missing},
@@ -112,6 +127,7 @@ std::string modal_json(const ModalReport& report, std::size_t* n_not_finite) {
   out["degrees_of_freedom"] = positive_or_null(estimate.degrees_of_freedom);
   out["modes"] = modes_json(estimate.modes, estimate, report.channel_names);
   out["rejected"] = modes_json(estimate.rejected, estimate, report.channel_names);
+  out["readout"] = readout_json(estimate.readout);
   out["corrections"] = report.corrections;
   out["caveats"] = report.caveats;
   out["losses"] = losses_json(report.losses);

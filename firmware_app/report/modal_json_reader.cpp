@@ -33,6 +33,7 @@ class ModalReader {
     estimate.final = true;
     estimate.modes = modes(root, "modes");
     estimate.rejected = modes(root, "rejected");
+    if (const Json* readout = find(root, "readout")) estimate.readout = readout_of(*readout);
     report_.corrections = texts(root, "corrections");
     report_.caveats = texts(root, "caveats");
     if (const Json* losses = find(root, "losses")) read_losses(*losses);
@@ -137,6 +138,24 @@ class ModalReader {
     if (drifts != nullptr && !drifts->is_boolean()) refuse(name + ".drifts", "is neither true nor false");
     out.drifts = drifts != nullptr && drifts->get<bool>();
     out.more_s = optional_number(item, "more_s");
+    return out;
+  }
+
+  [[nodiscard]] core::ReadoutFinding readout_of(const Json& item) const {
+    const auto value = [&](const char* key) -> std::optional<core::ReadoutValue> {
+      const Json* found = find(item, key);
+      if (found == nullptr) return {};
+      return core::ReadoutValue{1e-3 * optional_number(*found, "readout_ms").value_or(0.0),
+                                1e-3 * optional_number(*found, "std_ms").value_or(0.0)};
+    };
+    const Json* consistent = find(item, "consistent");
+    core::ReadoutFinding out;
+    out.declared = value("declared").value_or(core::ReadoutValue{});
+    out.used = value("used").value_or(core::ReadoutValue{});
+    out.from_tracks = value("from_tracks");
+    out.from_shapes = value("from_shapes");
+    out.consistent = consistent == nullptr || !consistent->is_boolean() || consistent->get<bool>();
+    out.why = text(item, "why");
     return out;
   }
 

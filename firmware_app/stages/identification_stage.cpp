@@ -18,7 +18,8 @@ rt::StepStatus IdentificationStage::step() noexcept {
 
 bool IdentificationStage::identify(const SpectrumSnapshot& snapshot, IdentificationResult& out) noexcept {
   try {
-    out.estimate = identifier_.identify(snapshot.sums);
+    out.estimate = identifier_.identify(snapshot.sums, snapshot.readout);
+    tracker_.set_row_delays(identifier_.delay_s(out.estimate));
     out.sums.copy_totals(snapshot.sums);
   } catch (...) {  // out of memory: this estimate is lost and counted, the next may succeed
     return false;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/identification/identifier.h"
 #include "core/identification/mode_tracker.h"
+#include "firmware_app/readout_use.h"
 #include "firmware_app/stages/items.h"
 #include "rt/spsc_ring.h"
 #include "rt/stage.h"
@@ -13,11 +13,11 @@ namespace app {
 // time: nothing upstream waits for it but a lossless source.
 class IdentificationStage : public rt::Stage {
  public:
-  IdentificationStage(rt::TripleBuffer<SpectrumSnapshot>& snapshots, const core::Identifier& identifier,
+  IdentificationStage(rt::TripleBuffer<SpectrumSnapshot>& snapshots, const ReadoutUse& identifier,
                       rt::RingWriter<IdentificationResult> results)
       : snapshots_(snapshots),
         identifier_(identifier),
-        tracker_({.row_delay_s = identifier.undone_delay_s()}),
+        tracker_({.row_delay_s = identifier.declared_delay_s()}),
         results_(results) {}
 
   [[nodiscard]] std::string_view name() const noexcept override { return "identification"; }
@@ -28,7 +28,7 @@ class IdentificationStage : public rt::Stage {
   [[nodiscard]] bool identify(const SpectrumSnapshot& snapshot, IdentificationResult& out) noexcept;
 
   rt::TripleBuffer<SpectrumSnapshot>& snapshots_;
-  const core::Identifier& identifier_;
+  const ReadoutUse& identifier_;
   core::ModeTracker tracker_;
   rt::RingWriter<IdentificationResult> results_;
   std::uint64_t n_estimates_ = 0;

@@ -23,6 +23,7 @@ struct SpectrumSnapshot {
   std::uint64_t number = 0;    // 0, 1, 2, ... in stream time
   std::int64_t t_last_ns = 0;  // time stamp of the newest sample in the sums
   bool final = false;          // the record has ended
+  core::ReadoutEstimate readout;
 };
 
 // identification -> publish.

@@ -45,6 +45,7 @@ void SpectrumStage::take(const core::DisplacementSample& sample) noexcept {
     return;
   }
   t_stream_ns_.store(sample.t_start_ns, std::memory_order_relaxed);
+  readout_ = sample.readout;
   note_hop(welch_.push(sample.value_mm, sample.seen));
 }
 
@@ -76,6 +77,7 @@ rt::StepStatus SpectrumStage::hand_over() noexcept {
   snapshot.number = n_snapshots_++;
   snapshot.t_last_ns = t_stream_ns_.load(std::memory_order_relaxed);
   snapshot.final = flushed_;
+  snapshot.readout = readout_;
   snapshots_.publish();
   rt::StageStats::add(stats().n_out);
   due_ = false;

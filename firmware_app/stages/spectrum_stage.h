@@ -49,6 +49,7 @@ class SpectrumStage : public rt::Stage {
   bool front_refused_ = false;   // ... and it is already taken
   bool due_ = false;             // a snapshot waits to be handed over
   bool flushed_ = false;
+  core::ReadoutEstimate readout_;
   std::uint64_t n_snapshots_ = 0;
   // Written here only; relaxed: each is a number on its own.
   std::atomic<std::uint64_t> n_masked_{0};

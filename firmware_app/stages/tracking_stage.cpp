@@ -3,11 +3,13 @@
 namespace app {
 
 TrackingStage::TrackingStage(rt::RingReader<core::Frame> frames, core::StructureTracker& tracker,
-                             core::ChannelDisplacement& channels, rt::RingWriter<core::DisplacementSample> samples,
-                             rt::RingWriter<FrameRecord> records, bool lossless)
+                             core::ChannelDisplacement& channels, core::ReadoutEstimator& readout,
+                             rt::RingWriter<core::DisplacementSample> samples, rt::RingWriter<FrameRecord> records,
+                             bool lossless)
     : frames_(frames),
       tracker_(tracker),
       channels_(channels),
+      readout_(readout),
       samples_(samples),
       records_(records),
       lossless_(lossless),
@@ -49,6 +51,8 @@ void TrackingStage::measure(const core::Frame& frame) noexcept {
   if (!tracker_.track(frame, scratch_.tracks))
     n_failed_.store(n_failed_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   channels_.update(scratch_.tracks, scratch_.sample);
+  readout_.update(scratch_.tracks);
+  scratch_.sample.readout = readout_.estimate();
   tracker_.learn(scratch_.tracks);
   count_regions();
   std::uint64_t n_tracked = 0;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/geometry/channel_displacement.h"
+#include "core/geometry/readout_estimator.h"
 #include "core/tracking/structure_tracker.h"
 #include "core/types/frame.h"
 #include "core/types/health.h"
@@ -17,8 +18,8 @@ namespace app {
 class TrackingStage : public rt::Stage {
  public:
   TrackingStage(rt::RingReader<core::Frame> frames, core::StructureTracker& tracker,
-                core::ChannelDisplacement& channels, rt::RingWriter<core::DisplacementSample> samples,
-                rt::RingWriter<FrameRecord> records, bool lossless);
+                core::ChannelDisplacement& channels, core::ReadoutEstimator& readout,
+                rt::RingWriter<core::DisplacementSample> samples, rt::RingWriter<FrameRecord> records, bool lossless);
 
   [[nodiscard]] std::string_view name() const noexcept override { return "tracking"; }
   [[nodiscard]] rt::StepStatus step() noexcept override;
@@ -50,6 +51,7 @@ class TrackingStage : public rt::Stage {
   rt::RingReader<core::Frame> frames_;
   core::StructureTracker& tracker_;
   core::ChannelDisplacement& channels_;
+  core::ReadoutEstimator& readout_;
   rt::RingWriter<core::DisplacementSample> samples_;
   rt::RingWriter<FrameRecord> records_;
   bool lossless_;

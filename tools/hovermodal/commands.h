@@ -15,6 +15,7 @@ void add_identify(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_spy(CLI::App& app);
+void add_readout(CLI::App& app);
 void add_selftest(CLI::App& app);
 
 }  // namespace tools

@@ -71,6 +71,16 @@ std::string fact_html(const char* name, const std::string& value) {
   return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, svg_escaped(value.empty() ? "–" : value));
 }
 
+std::string readout_text(const core::ReadoutFinding& readout) {
+  const auto value = [](const core::ReadoutValue& v) {
+    return decimals_text(1e3 * v.readout_s, 2) + (v.std_s > 0.0 ? " ± " + decimals_text(1e3 * v.std_s, 2) : "") + " ms";
+  };
+  std::string out = value(readout.used) + ", " + readout.why + " (declared " + value(readout.declared);
+  if (readout.from_tracks) out += "; tracks " + value(*readout.from_tracks);
+  if (readout.from_shapes) out += "; shapes " + value(*readout.from_shapes);
+  return out + ")";
+}
+
 std::string facts_html(const PictureInputs& inputs, const core::ModalEstimate& estimate) {
   const RunFacts& facts = *inputs.facts;
   std::string out = "<dl class=\"facts\">\n";
@@ -83,6 +93,7 @@ std::string facts_html(const PictureInputs& inputs, const core::ModalEstimate& e
   out += fact_html("Channels", std::to_string(inputs.channels.size()));
   out += fact_html("Corrections",
                    facts.corrections.empty() ? "none" : fmt::format("{}", fmt::join(facts.corrections, "; ")));
+  if (estimate.readout) out += fact_html("Readout time", readout_text(*estimate.readout));
   if (!facts.caveats.empty()) out += fact_html("Left open", fmt::format("{}", fmt::join(facts.caveats, "; ")));
   return out + "</dl>\n";
 }

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "core/types/readout.h"
+#include "core/types/vector2.h"
+
+namespace core {
+
+// The readout time of a camera that is turned by hand, from what a gyro says and how the picture moves. A far point at
+// bearing p_1 in one frame is seen in the next at
+//     p_2 = R G(t_2)^T G(t_1) R^T p_1      t = frame's stamp + T_r x readout fraction of the point + clock offset
+// G the gyro's attitude (rates integrated, less a constant bias), R from gyro axes to camera axes (X right, Y down, Z
+// forward), pinhole of focal length f. Unknown: T_r, clock offset, f where it is not given, bias, R. Start: R by
+// Wahba's problem between the rotations of frame pairs and the gyro's, over a grid of offsets; then robust Gauss-Newton
+// (Cauchy weights at the residuals' own scale). Standard deviations: sandwich over frame pairs, whose residuals go
+// together (translation, parallax).
+
+struct GyroSample {
+  double t_s = 0.0;
+  Eigen::Vector3d rate_rad_s = Eigen::Vector3d::Zero();
+};
+
+// A point in two successive frames: undistorted pixels, and the readout fraction (0 .. 1) of its raw pixel.
+struct PointPair {
+  Vector2 from, to;
+  double from_fraction = 0.0, to_fraction = 0.0;
+};
+
+struct FramePair {
+  double from_s = 0.0, to_s = 0.0;  // start of exposure of row 0
+  std::vector<PointPair> points;
+  bool held_out = false;  // takes no part in the fit
+};
+
+struct GyroReadoutConfig {
+  double focal_px = 0.0;  // 0 = unknown
+  double cx_px = 0.0, cy_px = 0.0;
+  double width_px = 0.0;
+  double most_offset_s = 0.1;  // of the clocks, looked for
+};
+
+struct GyroReadout {
+  ReadoutValue readout;
+  double offset_s = 0.0, offset_std_s = 0.0;  // what to add to stamps to be on the gyro's clock
+  double focal_px = 0.0, focal_std_px = 0.0;
+  Eigen::Vector3d bias_rad_s = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // R
+  // Of held-out frames, per axis: everything else fitted with a readout of zero; with the readout.
+  double rms_without_px = 0.0, rms_with_px = 0.0;
+  std::vector<double> pair_rms_without_px, pair_rms_with_px;  // every pair
+};
+
+// Throws std::invalid_argument: fewer than eight pairs with points, a gyro record that does not hold them, or no
+// turning.
+[[nodiscard]] GyroReadout fit_gyro_readout(const std::vector<FramePair>& pairs, const std::vector<GyroSample>& gyro,
+                                           const GyroReadoutConfig& config);
+
+}  // namespace core

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "core/geometry/readout_estimator.h"
+#include "core/identification/identifier.h"
+#include "core/types/displacement.h"
+#include "core/types/frame.h"
+#include "core/types/modal_estimate.h"
+#include "core/types/readout.h"
+#include "core/types/track.h"
+#include "firmware_app/config.h"
+
+namespace app {
+
+[[nodiscard]] core::ReadoutEstimator::Config readout_config(const AppConfig& config, const core::CameraInfo& camera);
+
+// The identification with the readout time that is known best: the declared one, with camera.readout_sigma_ms (where
+// that is chosen: 1 ms, or half a frame where nothing is declared), that of the tracks, and that of the modes' own
+// shapes. Where the shapes change it noticeably, the modes are identified once more with it. In paper mode nothing is
+// undone or found. A pure function of its arguments, so that a replay gives the same bits. Any thread.
+class ReadoutUse {
+ public:
+  // Throws as identifier_config() does.
+  ReadoutUse(const AppConfig& config, const core::CameraInfo& camera, const core::TrackFrame& keyframe,
+             std::vector<core::ChannelInfo> channels);
+
+  [[nodiscard]] core::ModalEstimate identify(const core::CpsdSums& sums,
+                                             const core::ReadoutEstimate& from_tracks) const;
+
+  // Row delay of every channel as it was undone in the estimate's shapes, or would be as declared; 0 in paper mode.
+  [[nodiscard]] std::vector<double> delay_s(const core::ModalEstimate& estimate) const;
+  [[nodiscard]] std::vector<double> declared_delay_s() const { return delay_s({}); }
+
+ private:
+  [[nodiscard]] std::vector<core::ChannelInfo> channels_with(double readout_s) const;
+  [[nodiscard]] std::optional<core::ReadoutValue> read_shapes(const core::ModalEstimate& estimate,
+                                                              double readout_s) const;
+
+  core::IdentifierConfig identifier_;
+  std::vector<core::ChannelInfo> channels_;
+  std::vector<double> row_share_;  // part of the readout that has passed when each channel is seen
+  double rate_hz_;
+  core::ReadoutValue declared_;
+};
+
+}  // namespace app

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/geometry/camera_model.h"
+#include "core/geometry/gyro_readout.h"
+#include "core/types/frame.h"
+
+namespace tools {
+
+struct ClipMotion {
+  int width_px = 0, height_px = 0;
+  std::vector<core::FramePair> pairs;
+};
+
+// Corners all over each frame, tracked into the next one and back. Pairs with too few are left out. Every
+// `hold_out_every`-th pair is held out. stamps_s: of the clip's frames, in order.
+// Throws what drivers::open_frame_source does; std::invalid_argument: fewer stamps than frames.
+[[nodiscard]] ClipMotion track_clip(const std::string& path, const std::vector<double>& stamps_s,
+                                    const core::CameraModel& camera, core::ReadoutDirection direction,
+                                    int hold_out_every);
+
+}  // namespace tools
