@@ -141,6 +141,7 @@ TEST_F(RunReportTest, ModalJsonHasExactlyTheAgreedLayout) {
       "history": null
     }
   ],
+  "readout": null,
   "corrections": [
     "camera roll"
   ],
@@ -163,11 +164,17 @@ TEST_F(RunReportTest, ModalJsonComesBackAsItWas) {
   RunReport report = open();
   core::Health losses;
   losses.frames_missing = 3;
-  report.finish(estimate(), losses, {"camera roll"});
+  core::ModalEstimate found = estimate();
+  found.readout = core::ReadoutFinding{{0.026, 0.001}, {0.025, 0.0005}, core::ReadoutValue{0.0249, 0.0006}, {}, true,
+                                       "declared and estimated from the tracks"};
+  report.finish(found, losses, {"camera roll"});
   const ModalReport back = read_modal_json(path("r/modal.json"));
   EXPECT_EQ(back.method, "hovermodal");
   EXPECT_THAT(back.channel_names, ElementsAre("base", "roof"));
   EXPECT_EQ(modal_json(back), text_of(path("r/modal.json")));
+  ASSERT_TRUE(back.estimate.readout && back.estimate.readout->from_tracks);
+  EXPECT_DOUBLE_EQ(back.estimate.readout->from_tracks->readout_s, 0.0249);
+  EXPECT_FALSE(back.estimate.readout->from_shapes.has_value());
 }
 
 TEST_F(RunReportTest, NeverWritesWhatIsNotFinite) {

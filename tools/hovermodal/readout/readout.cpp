@@ -21,7 +21,7 @@ namespace {
 
 struct Options {
   std::string clip, stamps, gyro, calibration, picture;
-  double time_unit_s = 1e-6, focal_px = 0.0, most_offset_s = 0.1;
+  double time_unit_s = 1.0, focal_px = 0.0, most_offset_s = 0.1;
   int first_stamp = 0, hold_out_every = 4;
   core::ReadoutDirection direction = core::ReadoutDirection::kDown;
 };
