@@ -2,6 +2,7 @@
 
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "tests/support/command.h"
 
@@ -67,6 +68,57 @@ TEST(Selftest, SaysTheSameOfTheIdentificationOnAnyNumberOfThreads) {
 TEST(Selftest, JudgesLossesAndRigidBuildings) {
   EXPECT_EQ(count_lines(selftest("losses --seeds 1"), "losses\t"), 48);
   EXPECT_EQ(count_lines(selftest("null --seeds 1"), "null\tfloors\t1\t0\t0\t"), 1) << "no mode in a rigid building";
+}
+
+// The cells of every line that starts so.
+std::vector<std::vector<std::string>> rows(const std::string& text, const std::string& start) {
+  std::istringstream lines(text);
+  std::vector<std::vector<std::string>> out;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind(start, 0) != 0) continue;
+    std::istringstream cells(line);
+    out.emplace_back();
+    for (std::string cell; std::getline(cells, cell, '\t');) out.back().push_back(cell);
+  }
+  return out;
+}
+
+TEST(Selftest, SaysTheSameOfTheGeometryOnAnyNumberOfThreads) {
+  const std::string text = selftest("elevation --seeds 2 --duration 60 --threads 1");
+  EXPECT_EQ(text, selftest("elevation --seeds 2 --duration 60 --threads 2"));
+  const auto scale = rows(text, "elevation\t30deg\tone-scale\t");
+  ASSERT_EQ(scale.size(), 1U) << text;
+  ASSERT_EQ(scale[0].size(), 21U) << text;
+  EXPECT_EQ(scale[0][3], "2");
+  EXPECT_EQ(scale[0][13], "6") << "true modes";
+  EXPECT_LT(std::stod(scale[0][5]), 1.0) << "median error of the frequency, %";
+  EXPECT_GT(std::stod(scale[0][9]), 0.9) << "median MAC";
+}
+
+// Nothing that looks at noisy points is better than the bound, however the camera is known.
+TEST(Selftest, NoNoiseFloorLiesBelowTheBound) {
+  const auto channels = rows(selftest("noise-floor --seeds 1 --duration 60"), "noise-floor\t");
+  ASSERT_GE(channels.size(), 18U);
+  for (const auto& cells : channels) {
+    ASSERT_EQ(cells.size(), 14U);
+    const double white_px = std::stod(cells[7]), known_px = std::stod(cells[8]), estimated_px = std::stod(cells[10]);
+    EXPECT_GT(white_px, 0.9 * known_px) << cells[1] << " " << cells[2];
+    EXPECT_GE(estimated_px, known_px) << cells[1] << " " << cells[2];
+  }
+}
+
+TEST(Selftest, PlansTheDeckAsItIsFound) {
+  const std::string text = selftest("deck --seeds 1 --duration 120");
+  EXPECT_EQ(count_lines(text, "deck\tlandscape\tours\t"), 1) << text;
+  int n_folded = 0;
+  for (const auto& cells : rows(text, "deck-mode\t")) {
+    ASSERT_EQ(cells.size(), 9U);
+    if (cells[2] != "ours" || std::stod(cells[3]) < 15.0) continue;
+    ++n_folded;
+    EXPECT_EQ(cells[4] == "resolved", cells[1] == "turned") << "as planned for " << cells[3];
+    EXPECT_EQ(cells[8], "0") << "certain and wrong: " << cells[1] << " " << cells[3];
+  }
+  EXPECT_EQ(n_folded, 4) << text;
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ Bounds bounds_of(const core::simulation::TrackGenerator& generator) {
 // Of one record: [way][channel].
 struct Floors {
   std::vector<std::vector<double>> whole_mm, white_mm;
-  std::vector<std::string> names;
+  std::vector<std::string> names;  // floors first, then the base, which not every way has
   Bounds bounds;
   double mm_per_px = 1.0;
 };
@@ -116,11 +116,11 @@ Floors floors_of(const FlightSetup& setup, const std::vector<Way>& ways, std::ui
   Floors out;
   out.bounds = bounds_of(core::simulation::TrackGenerator(job.scene()));
   out.mm_per_px = job.scene().plates[0].z_mm / job.scene().camera.alpha_px;
-  for (const core::ChannelInfo& channel : result.ways.front().channels) out.names.push_back(channel.name);
+  for (const core::ChannelInfo& channel : result.ways.back().channels) out.names.push_back(channel.name);
   for (std::size_t w = 0; w < ways.size(); ++w) {
     out.whole_mm.emplace_back();
     out.white_mm.emplace_back();
-    for (std::size_t c = 0; c < out.names.size(); ++c) {
+    for (std::size_t c = 0; c < result.ways[w].channels.size(); ++c) {
       out.whole_mm[w].push_back(moments[w][c].deviation());
       out.white_mm[w].push_back(white_rms_mm(result.ways[w].sums, static_cast<int>(c)));
     }
@@ -128,16 +128,34 @@ Floors floors_of(const FlightSetup& setup, const std::vector<Way>& ways, std::ui
   return out;
 }
 
+void print_channel(const std::string& way, std::size_t w, std::size_t c, const std::vector<Floors>& records) {
+  std::vector<double> whole, white, known, estimated;
+  for (const Floors& record : records) {
+    whole.push_back(record.whole_mm[w][c]);
+    white.push_back(record.white_mm[w][c]);
+    known.push_back(record.bounds.known_px[c]);
+    estimated.push_back(record.bounds.estimated_px[c]);
+  }
+  const double s = records.front().mm_per_px;
+  const double a = statistics(whole).median, b = statistics(white).median, k = statistics(known).median,
+               e = statistics(estimated).median;
+  fmt::print(
+      "noise-floor\t{}\t{}\t{}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.2f}\t{:.2f}\n", way,
+      records.front().names[c], records.size(), a, a / s, b, b / s, k, k * s, e, e * s, a / s / e, b / s / e);
+}
+
 }  // namespace
 
 void print_noise_floor(const GeometryOptions& options) {
-  FlightSetup setup{
-      "preset: paper\ncamera: {readout_ms: 28}\nexcitation: {rms_mm: 0}\nhover: {x_rms_mm: 0, y_rms_mm: "
-      "0, z_rms_mm: 0, pitch_rms_deg: 0.022, yaw_rms_deg: 0.022, roll_rms_deg: 0.022}\n",
+  const FlightSetup setup{
+      "preset: paper\ncamera: {readout_ms: 28}\nexcitation: {rms_mm: 0}\nhover: {x_rms_mm: 0, y_rms_mm: 0, z_rms_mm: "
+      "0, "
+      "pitch_rms_deg: 0.022, yaw_rms_deg: 0.022, roll_rms_deg: 0.022}\n",
       {"spectrum.segment=1024", "identification.period=10000"},
-      0.25};
+      0.25,
+      true};
   const std::vector<Way> ways{
-      {"ours", {}}, {"ours-no-background", {}, StatedReadout::kTrue, false}, {"paper", {"method=paper"}}};
+      {"ours"}, {"ours-no-background", {}, StatedReadout::kTrue, false}, {"paper", {"method=paper"}}};
   const auto records = for_each_seed(options.n_seeds, options.n_threads,
                                      [&](std::uint64_t seed) { return floors_of(setup, ways, seed, options); });
   fmt::print(
@@ -147,22 +165,7 @@ void print_noise_floor(const GeometryOptions& options) {
       "#   and with the camera estimated from background and ground, px, mm; whole rms and white rms over that bound\n",
       kAboveHover_hz);
   for (std::size_t w = 0; w < ways.size(); ++w) {
-    for (std::size_t c = 0; c < records.front().names.size(); ++c) {
-      std::vector<double> whole, white, known, estimated;
-      for (const Floors& record : records) {
-        whole.push_back(record.whole_mm[w][c]);
-        white.push_back(record.white_mm[w][c]);
-        known.push_back(record.bounds.known_px[c]);
-        estimated.push_back(record.bounds.estimated_px[c]);
-      }
-      const double s = records.front().mm_per_px;
-      const double a = statistics(whole).median, b = statistics(white).median, k = statistics(known).median,
-                   e = statistics(estimated).median;
-      fmt::print(
-          "noise-floor\t{}\t{}\t{}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.2f}\t{:.2f}\n",
-          ways[w].name, records.front().names[c], records.size(), a, a / s, b, b / s, k, k * s, e, e * s, a / s / e,
-          b / s / e);
-    }
+    for (std::size_t c = 0; c < records.front().whole_mm[w].size(); ++c) print_channel(ways[w].name, w, c, records);
   }
 }
 

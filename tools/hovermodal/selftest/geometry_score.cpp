@@ -55,6 +55,40 @@ WorstOfRecord worst_of(const RecordScore& record, std::size_t n_judged) {
   return worst;
 }
 
+// Over the records of one way.
+struct Tally {
+  int complete = 0;
+  double n_false = 0.0, n_ambiguous = 0.0, n_wrong = 0.0;
+  std::vector<double> frequency, damping, mac_deficit;  // of each record with a judged mode
+  std::vector<double> n_found;                          // of each record
+  std::vector<double> frequency_scatters, damping_scatters;
+};
+
+Tally tally_of(const std::vector<RecordScore>& records, std::size_t n_judged) {
+  Tally tally;
+  for (const RecordScore& record : records) {
+    double n_found = 0.0;
+    for (std::size_t r = 0; r < record.modes.size(); ++r) {
+      const ModeScore& mode = record.modes[r];
+      tally.n_ambiguous += mode.ambiguous ? 1.0 : 0.0;
+      tally.n_wrong += mode.wrong ? 1.0 : 0.0;
+      n_found += mode.found ? 1.0 : 0.0;
+      if (!mode.found || r >= n_judged) continue;
+      tally.frequency_scatters.push_back(mode.frequency_scatters);
+      tally.damping_scatters.push_back(mode.damping_scatters);
+    }
+    const WorstOfRecord worst = worst_of(record, n_judged);
+    tally.n_found.push_back(n_found);
+    tally.complete += worst.all ? 1 : 0;
+    tally.n_false += record.n_false;
+    if (!worst.any) continue;
+    tally.frequency.push_back(worst.frequency);
+    tally.damping.push_back(worst.damping);
+    tally.mac_deficit.push_back(worst.mac - 1.0);
+  }
+  return tally;
+}
+
 // "nan<tab>nan" for none, so that no bar is met by accident.
 std::string median_and_worst(const std::vector<double>& values, double factor, const char* format) {
   const double nan = std::nan("");
@@ -89,42 +123,18 @@ void print_score_columns(const char* figure, const std::string& judged) {
 
 void print_scores(const char* figure, const std::string& what, const std::string& way,
                   const std::vector<RecordScore>& records, std::size_t n_judged) {
-  std::vector<double> frequency, damping, mac_deficit, n_found, f_scatters, z_scatters;
-  int complete = 0;
-  double n_false = 0.0, ambiguous = 0.0, wrong = 0.0;
-  for (const RecordScore& record : records) {
-    const WorstOfRecord worst = worst_of(record, n_judged);
-    complete += worst.all ? 1 : 0;
-    n_false += record.n_false;
-    n_found.push_back(0.0);
-    for (std::size_t r = 0; r < record.modes.size(); ++r) {
-      const ModeScore& mode = record.modes[r];
-      ambiguous += mode.ambiguous ? 1.0 : 0.0;
-      wrong += mode.wrong ? 1.0 : 0.0;
-      if (!mode.found) continue;
-      n_found.back() += 1.0;
-      if (r >= n_judged) continue;
-      f_scatters.push_back(mode.frequency_scatters);
-      z_scatters.push_back(mode.damping_scatters);
-    }
-    if (!worst.any) continue;
-    frequency.push_back(worst.frequency);
-    damping.push_back(worst.damping);
-    mac_deficit.push_back(worst.mac - 1.0);
-  }
+  const Tally tally = tally_of(records, n_judged);
   const double n = static_cast<double>(std::max<std::size_t>(1, records.size()));
-  const Statistics m = statistics(mac_deficit), k = statistics(n_found), f = statistics(f_scatters),
-                   z = statistics(z_scatters);
-  const double fewest = n_found.empty() ? 0.0 : *std::min_element(n_found.begin(), n_found.end());
-  const double no_mac = mac_deficit.empty() ? std::nan("") : 1.0;
-  fmt::print(
-      "{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.5f}\t{:.5f}\t{:g}\t{:g}\t{}\t{:.2f}\t{:+.2f}\t{:.2f}\t{:+.2f}\t{:.2f}\t{:.2f}\t{:"
-      "."
-      "2f}\n",
-      figure, what, way, records.size(), complete, median_and_worst(frequency, 1e2, "{:.4f}"),
-      median_and_worst(damping, 1e2, "{:.2f}"), no_mac * (1.0 + m.median), no_mac * (1.0 + m.worst), k.median, fewest,
-      records.empty() ? 0 : records.front().modes.size(), f.rms, f.worst, z.rms, z.worst, n_false / n, ambiguous / n,
-      wrong / n);
+  const Statistics k = statistics(tally.n_found), f = statistics(tally.frequency_scatters),
+                   z = statistics(tally.damping_scatters), mac = statistics(tally.mac_deficit);
+  const double fewest = tally.n_found.empty() ? 0.0 : *std::min_element(tally.n_found.begin(), tally.n_found.end());
+  const double known = tally.mac_deficit.empty() ? std::nan("") : 1.0;
+  fmt::print("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.5f}\t{:.5f}\t{:g}\t{:g}\t{}", figure, what, way, records.size(),
+             tally.complete, median_and_worst(tally.frequency, 1e2, "{:.4f}"),
+             median_and_worst(tally.damping, 1e2, "{:.2f}"), known * (1.0 + mac.median), known * (1.0 + mac.worst),
+             k.median, fewest, records.empty() ? 0 : records.front().modes.size());
+  fmt::print("\t{:.2f}\t{:+.2f}\t{:.2f}\t{:+.2f}\t{:.2f}\t{:.2f}\t{:.2f}\n", f.rms, f.worst, z.rms, z.worst,
+             tally.n_false / n, tally.n_ambiguous / n, tally.n_wrong / n);
   std::fflush(stdout);
 }
 

@@ -122,37 +122,38 @@ constexpr std::array kGeometryChecks{
     GeometryCheck{"elevation", "a tower seen from 30 degrees below", print_elevation},
     GeometryCheck{"noise-floor", "nothing moves but the camera", print_noise_floor}};
 
+// Calls `visit` with every check of every kind.
+template <class Visit>
+void for_all_checks(const Visit& visit) {
+  std::for_each(kChecks.begin(), kChecks.end(), visit);
+  std::for_each(kIdentificationChecks.begin(), kIdentificationChecks.end(), visit);
+  std::for_each(kGeometryChecks.begin(), kGeometryChecks.end(), visit);
+}
+
 std::string meanings() {
   std::string text = "What is checked";
-  for (const Check& check : kChecks) text += fmt::format("\n{}: {}", check.name, check.meaning);
-  for (const IdentificationCheck& check : kIdentificationChecks) {
-    text += fmt::format("\n{}: {}", check.name, check.meaning);
-  }
-  for (const GeometryCheck& check : kGeometryChecks) text += fmt::format("\n{}: {}", check.name, check.meaning);
+  for_all_checks([&](const auto& check) { text += fmt::format("\n{}: {}", check.name, check.meaning); });
   return text;
 }
 
 std::vector<std::string> names() {
   std::vector<std::string> all;
-  for (const Check& check : kChecks) all.emplace_back(check.name);
-  for (const IdentificationCheck& check : kIdentificationChecks) all.emplace_back(check.name);
-  for (const GeometryCheck& check : kGeometryChecks) all.emplace_back(check.name);
+  for_all_checks([&](const auto& check) { all.emplace_back(check.name); });
   return all;
 }
 
+void print(const Check& check, const Options& options) { check.print(options); }
+void print(const IdentificationCheck& check, const Options& options) {
+  check.print({options.n_seeds, options.n_threads});
+}
+void print(const GeometryCheck& check, const Options& options) {
+  check.print({options.n_seeds, options.n_threads, options.duration_s, options.report, options.flight});
+}
+
 void run(const Options& options) {
-  const auto named = [&](const auto& check) { return options.what == check.name; };
-  if (const auto check = std::find_if(kChecks.begin(), kChecks.end(), named); check != kChecks.end()) {
-    check->print(options);
-    return;
-  }
-  if (const auto check = std::find_if(kGeometryChecks.begin(), kGeometryChecks.end(), named);
-      check != kGeometryChecks.end()) {
-    check->print({options.n_seeds, options.n_threads, options.duration_s, options.report, options.flight});
-    return;
-  }
-  std::find_if(kIdentificationChecks.begin(), kIdentificationChecks.end(), named)
-      ->print({options.n_seeds, options.n_threads});
+  for_all_checks([&](const auto& check) {
+    if (options.what == check.name) print(check, options);
+  });
 }
 
 }  // namespace
