@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/geometry/keyframe_view.h"
 #include "core/tracking/outlier_rejection.h"
 
 namespace core {
@@ -46,21 +47,27 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
     range.end = i + 1;
     const double sigma_px = std::max(kLeastSigmaPx, keyframe.points[i].sigma_px);  // NaN gives the first
     weight_.push_back(1.0 / (sigma_px * sigma_px));
-    keyframe_.push_back(config_.camera.undistort({keyframe.points[i].u_px, keyframe.points[i].v_px}));
+    const Vector2 ideal = config_.camera.undistort({keyframe.points[i].u_px, keyframe.points[i].v_px});
+    keyframe_.push_back({ideal.u - config_.camera.cx, ideal.v - config_.camera.cy});
     readout_share_.push_back(config_.readout.fraction(keyframe.points[i].u_px, keyframe.points[i].v_px));
   }
   position_ = motion_ = keyframe_;
+  share_now_ = readout_share_;
+  sigma_px_.assign(n, 0.0);
   seen_.assign(n, 0);
-  inlier_.assign(n, 0);
+  inlier_ = inlier_before_ = seen_;
   last_region_motion_.resize(config_.regions.size());
   has_last_.assign(config_.regions.size(), 0);
   make_channels();
+  if (!config_.adaptive_scale || config_.scale_only || config_.paper_method) return;
+  camera_motion_.emplace(
+      make_camera_motion(config_.regions, config_.camera, config_.readout, config_.scale_mm_per_px, keyframe));
 }
 
 void ChannelDisplacement::make_channels() {
   for (std::size_t r = 0; r < config_.regions.size(); ++r) {
     const Region& region = config_.regions[r];
-    if (region.role == RegionRole::kBackground) continue;
+    if (!makes_channel(region.role)) continue;
     double share = 0.0;  // the same weighted mean as the channel's
     double weight = 0.0;
     for (std::size_t i = ranges_[r].begin; i < ranges_[r].end; ++i) {
@@ -97,26 +104,35 @@ DisplacementSample ChannelDisplacement::sample_prototype() const {
 
 void ChannelDisplacement::place_points(const TrackFrame& tracks) noexcept {
   for (std::size_t i = 0; i < keyframe_.size(); ++i) {
-    const bool present = i < tracks.points.size() && tracks.points[i].seen && std::isfinite(tracks.points[i].u_px) &&
-                         std::isfinite(tracks.points[i].v_px);
-    if (present) position_[i] = config_.camera.undistort({tracks.points[i].u_px, tracks.points[i].v_px});
+    seen_[i] = 0;
+    if (i >= tracks.points.size()) continue;
+    const TrackPoint& point = tracks.points[i];
+    if (!point.seen || !std::isfinite(point.u_px) || !std::isfinite(point.v_px)) continue;
+    const Vector2 ideal = config_.camera.undistort({point.u_px, point.v_px});
+    position_[i] = {ideal.u - config_.camera.cx, ideal.v - config_.camera.cy};
+    share_now_[i] = config_.readout.fraction(point.u_px, point.v_px);
+    sigma_px_[i] = point.sigma_px;
     // Far outside the image a lens model may have no inverse.
-    seen_[i] = present && std::isfinite(position_[i].u) && std::isfinite(position_[i].v) ? 1 : 0;
+    seen_[i] = std::isfinite(position_[i].u) && std::isfinite(position_[i].v) ? 1 : 0;
   }
 }
 
-// Scale-corrected step since the keyframe in keyframe pixels: (p - c) / b - (p0 - c).
-Vector2 ChannelDisplacement::scaled_motion(std::size_t i, double magnification) const noexcept {
-  const double cx = config_.camera.cx;
-  const double cy = config_.camera.cy;
-  return {(position_[i].u - cx) / magnification - (keyframe_[i].u - cx),
-          (position_[i].v - cy) / magnification - (keyframe_[i].v - cy)};
+// Step since the keyframe in keyframe pixels: p / b - p0.
+void ChannelDisplacement::remove_scale(double magnification) noexcept {
+  for (std::size_t i = 0; i < keyframe_.size(); ++i) {
+    motion_[i] = {position_[i].u / magnification - keyframe_[i].u, position_[i].v / magnification - keyframe_[i].v};
+  }
 }
 
-void ChannelDisplacement::reject_outliers(double magnification) noexcept {
+void ChannelDisplacement::stabilise() noexcept {
+  for (std::size_t i = 0; i < keyframe_.size(); ++i) {
+    if (seen_[i] != 0) motion_[i] = camera_motion_->stabilised(i, position_[i], share_now_[i]);
+  }
+}
+
+void ChannelDisplacement::reject_outliers() noexcept {
   MlesacConfig mlesac;
   mlesac.sigma_px = config_.inlier_sigma_px;
-  for (std::size_t i = 0; i < keyframe_.size(); ++i) motion_[i] = scaled_motion(i, magnification);
   for (const RegionRange& range : ranges_) {
     const std::size_t n = range.end - range.begin;
     (void)mlesac_translation({motion_.data() + range.begin, n}, {seen_.data() + range.begin, n}, mlesac,
@@ -125,13 +141,36 @@ void ChannelDisplacement::reject_outliers(double magnification) noexcept {
 }
 
 double ChannelDisplacement::estimate_scale() noexcept {
-  const double start = config_.adaptive_scale ? scale_.median_of_pairs(position_, seen_) : 1.0;
-  reject_outliers(start);
+  remove_scale(config_.adaptive_scale ? scale_.median_of_pairs(position_, seen_) : 1.0);
+  reject_outliers();
   if (!config_.adaptive_scale) return 1.0;
   const double b =
       config_.paper_method ? scale_.two_point(position_, inlier_) : scale_.least_squares(position_, inlier_);
-  reject_outliers(b);
+  remove_scale(b);
+  reject_outliers();
   return b;
+}
+
+// Outliers are told about the predicted motion. After a jump that nothing predicted most points would be: then all that
+// are seen take part (with Huber's weights), and are judged by what they give.
+double ChannelDisplacement::follow_camera(std::int64_t t_start_ns) noexcept {
+  camera_motion_->predict(static_cast<double>(t_start_ns) * 1e-9);
+  stabilise();
+  reject_outliers();
+  const auto count = [](const std::vector<std::uint8_t>& flags) {
+    return std::count(flags.begin(), flags.end(), std::uint8_t{1});
+  };
+  if (2 * count(inlier_) < count(seen_)) inlier_ = seen_;
+  camera_motion_->correct({position_, share_now_, sigma_px_, inlier_});
+  stabilise();
+  inlier_before_ = inlier_;
+  reject_outliers();
+  if (inlier_ != inlier_before_) {
+    camera_motion_->correct({position_, share_now_, sigma_px_, inlier_});
+    stabilise();
+  }
+  camera_motion_->settle();
+  return camera_motion_->magnification();
 }
 
 // Paper Eqs. 7-8: line i is read t_r (i - 1) after the first, t_r = 1 / (f_s h); the shift it suffers is that times the
@@ -186,10 +225,13 @@ void ChannelDisplacement::average_channel(std::size_t channel, double magnificat
   }
   const bool enough = weight > 0.0 && count >= config_.min_points;
   const double s0 = scale_of(info.region);
+  const double mean_px = weight > 0.0 ? std::sqrt(variance) / weight / magnification : 0.0;
+  const double camera_px =
+      camera_motion_ ? camera_motion_->sigma_px(info.region, info.direction_u, info.direction_v) / magnification : 0.0;
   out.seen[channel] = enough ? 1 : 0;
   out.n_points[channel] = count;
   out.value_mm[channel] = enough ? s0 * sum / weight : 0.0;
-  out.sigma_mm[channel] = enough ? s0 / magnification * std::sqrt(variance) / weight : 0.0;
+  out.sigma_mm[channel] = enough ? s0 * std::hypot(mean_px, camera_px) : 0.0;
 }
 
 void ChannelDisplacement::update(TrackFrame& tracks, DisplacementSample& out) noexcept {
@@ -197,7 +239,7 @@ void ChannelDisplacement::update(TrackFrame& tracks, DisplacementSample& out) no
   out.t_start_ns = tracks.t_start_ns;
   out.gap_before = tracks.gap_before;
   place_points(tracks);
-  const double magnification = estimate_scale();
+  const double magnification = camera_motion_ ? follow_camera(tracks.t_start_ns) : estimate_scale();
   for (std::size_t i = 0; i < keyframe_.size() && i < tracks.points.size(); ++i)
     tracks.points[i].inlier = inlier_[i] != 0;
   if (config_.paper_method) compensate_rolling_shutter();

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/geometry/camera_model.h"
+#include "core/geometry/camera_motion.h"
 #include "core/geometry/rolling_shutter.h"
 #include "core/geometry/scale_factor.h"
 #include "core/types/displacement.h"
@@ -19,18 +21,21 @@ struct ChannelDisplacementConfig {
   double scale_mm_per_px = 1.0;  // S_0, of the keyframe
   // Per region, where an oblique plane or a length of its own gives it another scale than S_0; empty = S_0 for all.
   std::vector<double> region_scale_mm_per_px = {};
-  bool adaptive_scale = true;  // per-frame scale (paper Eq. 6)
-  bool paper_method = false;   // two-point scale; rolling shutter by Eqs. 7-8 on the samples, with rho = 1
+  bool adaptive_scale = true;    // follow the camera; false: it stands still
+  bool scale_only = false;       // of its motion only the distance (paper Eq. 6), from all points
+  bool paper_method = false;     // two-point scale; rolling shutter by Eqs. 7-8 on the samples, with rho = 1
   double inlier_sigma_px = 0.3;
   int min_points = 3;  // fewer inliers: the channel has no sample in this frame
 };
 
-// From the points of one frame to the displacement of every channel relative to the keyframe (paper Eq. 4):
-//   d = S_i (p_i - c) - S_0 (p_0 - c), weighted mean of the region's inliers, along the region's axis; c = principal
-//   point.
-// Points are undistorted, per-frame scale is estimated from them, outliers are rejected per region by MLESAC.
+// From the points of one frame to the displacement of every channel relative to the keyframe: each point's motion in
+// the structure's plane with the camera's motion taken away (CameraMotion), weighted mean of the region's inliers,
+// along the region's axis. Scale only, and `paper` (Eq. 4): d = S_i (p_i - c) - S_0 (p_0 - c), c = principal point.
+// Points are undistorted; outliers are rejected per region by MLESAC about the predicted, then the estimated motion.
 // `hovermodal` leaves the samples at the instants at which rows were read and states the delay of each channel
-// (ARCHITECTURE.md); `paper` moves them to row 0 with Eqs. 7-8. Background regions make no channel.
+// (ARCHITECTURE.md); `paper` moves them to row 0 with Eqs. 7-8. What rests (background, ground) makes no channel.
+// What no data tell of the camera's motion (its sideways shift, where nothing but the structure is seen) stays in all
+// channels alike; sigma_mm is without it.
 // One thread; nothing allocates after construction.
 class ChannelDisplacement {
  public:
@@ -43,6 +48,11 @@ class ChannelDisplacement {
   void update(TrackFrame& tracks, DisplacementSample& out) noexcept;
   [[nodiscard]] DisplacementSample sample_prototype() const;
 
+  // null: not estimated.
+  [[nodiscard]] const CameraMotion* camera_motion() const noexcept {
+    return camera_motion_ ? &*camera_motion_ : nullptr;
+  }
+
  private:
   struct RegionRange {
     std::size_t begin = 0, end = 0;  // of the points
@@ -50,11 +60,13 @@ class ChannelDisplacement {
 
   void make_channels();
   void place_points(const TrackFrame& tracks) noexcept;
+  [[nodiscard]] double follow_camera(std::int64_t t_start_ns) noexcept;
   [[nodiscard]] double estimate_scale() noexcept;
-  void reject_outliers(double magnification) noexcept;
+  void stabilise() noexcept;
+  void reject_outliers() noexcept;
   void compensate_rolling_shutter() noexcept;
   [[nodiscard]] double scale_of(std::uint16_t region) const noexcept;
-  [[nodiscard]] Vector2 scaled_motion(std::size_t point, double magnification) const noexcept;
+  void remove_scale(double magnification) noexcept;
   void average_channel(std::size_t channel, double magnification, const TrackFrame& tracks,
                        DisplacementSample& out) const noexcept;
 
@@ -65,8 +77,11 @@ class ChannelDisplacement {
   std::vector<double> weight_;         // of a point in its channel: inverse variance by its texture, constant
   std::vector<double> readout_share_;  // along the readout, of the raw row: rows are read as they lie on the sensor
   ScaleFactor scale_;
-  std::vector<Vector2> position_, motion_;  // undistorted px; scale-corrected step since the keyframe, keyframe px
-  std::vector<std::uint8_t> seen_, inlier_;
+  std::optional<CameraMotion> camera_motion_;  // none: scale only, paper, or a camera that stands still
+  std::vector<Vector2> position_, motion_;     // undistorted px from the principal point; step since the keyframe with
+                                               // the camera's motion taken away, keyframe px
+  std::vector<double> share_now_, sigma_px_;   // of the row where the point is now; of this frame
+  std::vector<std::uint8_t> seen_, inlier_, inlier_before_;
   std::vector<Vector2> last_region_motion_;  // paper mode: for V_rel
   std::vector<std::uint8_t> has_last_;
 };

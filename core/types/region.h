@@ -7,7 +7,13 @@
 
 namespace core {
 
-enum class RegionRole : std::uint8_t { kStructure, kBase, kBackground };
+// kBase moves with the structure's ground; kGround rests, in the structure's plane; kBackground rests, elsewhere.
+enum class RegionRole : std::uint8_t { kStructure, kBase, kBackground, kGround };
+
+// What rests has no displacement.
+[[nodiscard]] constexpr bool makes_channel(RegionRole role) noexcept {
+  return role == RegionRole::kStructure || role == RegionRole::kBase;
+}
 
 // What a region does in the newest frame. Searching: not measured, but it should be in the image. Lost: it has left the
 // image, or was searched for too long; it is measured again as soon as it is seen.
@@ -36,6 +42,7 @@ struct Region {
   // A length known here, between two points of the first image: the region's own scale. 0 = none.
   double length_mm = 0.0;
   Vector2 length_from_px{}, length_to_px{};
+  double depth_m = 0.0;  // background: distance along the optical axis in the first image; 0 = unknown
 };
 
 }  // namespace core

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+namespace core {
+
+// What is estimated of the camera, against the keyframe: rotation vector w (rad) and translation t (mm) that take
+// keyframe camera coordinates to present ones, and two turns about the middle of what is seen (rad, about x and y).
+inline constexpr int kMotionSize = 8;
+enum MotionIndex : int {
+  kPitch = 0,   // w about x
+  kYaw = 1,     // w about y
+  kRoll = 2,    // w about the optical axis
+  kShiftX = 3,  // t
+  kShiftY = 4,
+  kShiftZ = 5,
+  kFaceX = 6,  // perspective turn about x, about the middle: see camera_motion.h
+  kFaceY = 7
+};
+// Each with its first and second derivative by time: entry d * kMotionSize + i is the d-th derivative of component i.
+inline constexpr int kMotionState = 3 * kMotionSize;
+
+using MotionVector = Eigen::Matrix<double, kMotionSize, 1>;
+using MotionStateVector = Eigen::Matrix<double, kMotionState, 1>;
+using MotionStateMatrix = Eigen::Matrix<double, kMotionState, kMotionState>;
+using MotionMatrix = Eigen::Matrix<double, kMotionSize, kMotionSize>;
+
+// Independent stationary Gaussian processes with the covariance of Matern, nu = 5/2 (power density ~ (1 + (f/fc)^2)^-3,
+// as an aircraft that holds its place moves), in state-space form [Hartikainen & Sarkka 2010]: exact for any step of
+// time. What is never observed keeps the prior's variance. One thread; nothing allocates.
+class MotionProcess {
+ public:
+  explicit MotionProcess(double corner_hz);
+
+  // The keyframe: position zero, known; derivatives with the prior's variance. sd: of each component.
+  void start(const MotionVector& sd) noexcept;
+  // dt_s < 0 counts as 0.
+  void predict(double dt_s, const MotionVector& sd) noexcept;
+  // Data on the components themselves, of information matrix `information` and of gradient `rhs` about the predicted
+  // mean: the most likely state is the predicted one + step. May be asked again with other data; nothing that the data
+  // leave open is inverted. false: not finite.
+  [[nodiscard]] bool step(const MotionMatrix& information, const MotionVector& rhs, MotionStateVector& step) noexcept;
+  // Takes the last step; the covariance is positive semidefinite by construction.
+  void accept(const MotionStateVector& step) noexcept;
+
+  [[nodiscard]] const MotionStateVector& mean() const noexcept { return mean_; }
+  [[nodiscard]] const MotionStateMatrix& covariance() const noexcept { return covariance_; }
+  // At `tau_s` from the state's instant.
+  [[nodiscard]] static MotionVector at(const MotionStateVector& state, double tau_s) noexcept;
+
+ private:
+  using Matrix3 = Eigen::Matrix3d;
+
+  [[nodiscard]] Matrix3 transition(double dt_s) const noexcept;
+  [[nodiscard]] Matrix3 process_noise(double dt_s, const Matrix3& transition) const noexcept;
+  void factor() noexcept;
+
+  double lambda_;       // rad/s
+  Matrix3 stationary_;  // of unit variance
+  MotionStateVector mean_ = MotionStateVector::Zero();
+  MotionStateMatrix covariance_ = MotionStateMatrix::Zero();
+  MotionStateMatrix root_ = MotionStateMatrix::Zero();  // lower triangle: of the predicted covariance
+  MotionMatrix inner_ = MotionMatrix::Identity();       // Cholesky factor of I + L^T information L
+  MotionStateMatrix work_ = MotionStateMatrix::Zero(), half_ = MotionStateMatrix::Zero();
+};
+
+}  // namespace core
