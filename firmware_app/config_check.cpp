@@ -26,6 +26,7 @@ class Checker {
     check_references();
     check_scale();
     check_calibration();
+    check_depths();
     if (config_.tracking.min_points > config_.tracking.points_per_region) {
       refuse("tracking.min_points", std::to_string(config_.tracking.min_points),
              fmt::format("1 .. {} (tracking.points_per_region)", config_.tracking.points_per_region),
@@ -78,10 +79,9 @@ class Checker {
         taken.push_back(std::move(name));
       }
     }
-    const auto measured = [](const core::Region& region) { return region.role != core::RegionRole::kBackground; };
+    const auto measured = [](const core::Region& region) { return core::makes_channel(region.role); };
     if (std::none_of(config_.regions.begin(), config_.regions.end(), measured)) {
-      refuse("regions", "only role background", "1 or more regions with role structure or base",
-             "declare what vibrates");
+      refuse("regions", "only what rests", "1 or more regions with role structure or base", "declare what vibrates");
     }
   }
 
@@ -93,7 +93,7 @@ class Checker {
   void check_references() const {
     std::vector<std::string> channels;
     for (const core::Region& region : config_.regions) {
-      if (region.role == core::RegionRole::kBackground) continue;
+      if (!core::makes_channel(region.role)) continue;
       for (std::string& name : channel_names(region)) channels.push_back(std::move(name));
     }
     for (const std::string& reference : config_.identification.references) {
@@ -138,6 +138,21 @@ class Checker {
   void require_two_ends(const std::string& key, const std::array<double, 5>& row) const {
     if (std::hypot(row[2] - row[0], row[3] - row[1]) >= 2.0) return;
     refuse(key, fmt::format("[{}]", fmt::join(row, ", ")), "ends 2 px or more apart", "a length needs two ends");
+  }
+
+  // A depth in metres says something only beside the structure's, which is focal length times scale.
+  void check_depths() const {
+    for (std::size_t i = 0; i < config_.regions.size(); ++i) {
+      const std::string key = fmt::format("regions.{}.depth_m", i);
+      if (!(config_.regions[i].depth_m > 0.0)) continue;
+      const std::string value = fmt::format("{}", config_.regions[i].depth_m);
+      if (config_.regions[i].role != core::RegionRole::kBackground)
+        refuse(key, value, "a region of role background", "remove it: the structure's distance follows from its scale");
+      if (config_.calibration.fx <= 0.0 && config_.calibration.file.empty())
+        refuse(key, value, "with a focal length", "set calibration.fx, fy, cx, cy or calibration.file, or remove it");
+      if (!(config_.scale.known_length_mm > 0.0))
+        refuse(key, value, "with a scale", "set scale.known_length_mm, from and to, or remove it");
+    }
   }
 
   void check_calibration() const {

@@ -144,12 +144,17 @@ void add_region_keys(std::vector<ConfigKey>& keys) {
                                        "name of the region; also of its channel (with axis both: NAME.u and NAME.v)"),
                               "none; must be given"));
   keys.push_back(rect_key());
-  keys.push_back(choice_key<RegionRole>(
-      "regions[].role", at(&core::Region::role),
-      {{"structure", RegionRole::kStructure}, {"base", RegionRole::kBase}, {"background", RegionRole::kBackground}},
-      "base: moves with the ground of the structure; background: does not move"));
+  keys.push_back(choice_key<RegionRole>("regions[].role", at(&core::Region::role),
+                                        {{"structure", RegionRole::kStructure},
+                                         {"base", RegionRole::kBase},
+                                         {"background", RegionRole::kBackground},
+                                         {"ground", RegionRole::kGround}},
+                                        "base: moves with the ground of the structure; background: rests, elsewhere; "
+                                        "ground: rests, in the structure's plane"));
   keys.push_back(axis_key());
   add_region_length_key(keys);
+  keys.push_back(number_key("regions[].depth_m", "m", at(&core::Region::depth_m), {0, 1e6},
+                            "background: its distance along the optical axis; 0 = unknown, taken as far away"));
 }
 
 }  // namespace app

@@ -20,6 +20,23 @@ bool undistorts(const CalibrationConfig& calibration) {
                                    std::any_of(k.begin(), k.end(), [](double value) { return value != 0.0; })));
 }
 
+// What is removed of the camera's motion, and what cannot be.
+std::string camera_correction(const AppConfig& config) {
+  if (config.method == Method::kPaper) return "scale per frame, two points (Eq. 6)";
+  if (config.scale.only) return "scale per frame, least squares over all points";
+  const auto any = [&](core::RegionRole role) {
+    return std::any_of(config.regions.begin(), config.regions.end(), [&](const auto& r) { return r.role == role; });
+  };
+  const bool calibrated = config.calibration.fx > 0.0 || !config.calibration.file.empty();
+  const bool ground = any(core::RegionRole::kGround), background = any(core::RegionRole::kBackground);
+  std::string text = "camera motion per frame from all points: distance and roll";
+  if (calibrated) text += ", perspective";
+  if (ground) return text + "; shift and turning together, by resting points in the structure's plane";
+  if (!calibrated) return text + "; without a focal length yaw, pitch and shifts stay in all channels alike";
+  if (!background) return text + "; without resting points yaw and sideways shift stay in all channels alike";
+  return text + "; yaw and pitch by the background, shifts as far as its distance is known";
+}
+
 }  // namespace
 
 core::StructureTrackerConfig tracker_config(const AppConfig& config) {
@@ -43,6 +60,7 @@ core::ChannelDisplacementConfig displacement_config(const AppConfig& config, con
   out.scale_mm_per_px = scale.mm_per_px;
   if (config.method != Method::kPaper) out.region_scale_mm_per_px = std::move(scale.region_mm_per_px);
   out.adaptive_scale = config.scale.adaptive;
+  out.scale_only = config.scale.only;
   out.paper_method = config.method == Method::kPaper;
   out.inlier_sigma_px = config.tracking.inlier_sigma_px;
   out.min_points = config.tracking.min_points;
@@ -85,8 +103,7 @@ std::vector<std::string> corrections(const AppConfig& config, const core::Camera
   std::vector<std::string> list;
   const bool paper = config.method == Method::kPaper;
   if (undistorts(config.calibration)) list.emplace_back("lens distortion (points undistorted)");
-  if (config.scale.adaptive)
-    list.emplace_back(paper ? "scale per frame, two points (Eq. 6)" : "scale per frame, least squares over all points");
+  if (config.scale.adaptive) list.push_back(camera_correction(config));
   if (paper) {
     list.emplace_back("rolling shutter from frame differences, readout = one frame (Eqs. 7-8)");
   } else if (camera.readout_ns != 0) {

@@ -49,8 +49,13 @@ CameraMotion::CameraMotion(const CameraMotionConfig& config, const std::vector<K
   }
   place_middles(points);
   add_own_columns(points);
-  const double d = config.distance_mm, turn = config.perspective ? 1.0 : 0.0;
-  base_ << turn, turn, 1.0, d, d, d, turn * kFace_rad, turn * kFace_rad;
+  // Where nothing rests, a turn and a shift cannot be told apart: f and t are all there is.
+  const bool rests = std::any_of(regions.begin(), regions.end(), [](const KeyframeRegion& region) {
+    return region.kind != KeyframeRegion::Kind::kMoving;
+  });
+  const double d = config.distance_mm, face = config.perspective ? kFace_rad : 0.0;
+  const double turn = config.perspective && rests ? 1.0 : 0.0;
+  base_ << turn, turn, 1.0, d, d, d, face, face;
   log_variance_ = {2.0 * std::log(kTurn_rad), 2.0 * std::log(kShift)};
   set_sd();
   process_.start(sd_);

@@ -31,7 +31,8 @@ struct CameraMotionConfig {
 
 // Motion of the camera against the keyframe on the full projection. For a point with ray r and inverse depth q:
 //   y = R(w) [c + R(f) (r - c + sum_k nu_k col_k + q t)]        seen at (fx y_x / y_z, fy y_y / y_z)
-// w, t, f are smooth in time (MotionProcess) and taken at the instant at which the point's row is read. nu are free in
+// w, t, f are smooth in time (MotionProcess) and taken at the instant at which the point's row is read; t counts in the
+// keyframe's axes, so that a shift of the camera and a slide of all regions are one and the same column. nu are free in
 // every frame, per region, with next to no prior: sliding along the region's axes (col = q axis), that slide's change
 // over the rows, turning in its plane, and for far points zoom. So nothing that the structure does along its axes can
 // pass for camera motion, whatever its readout.
@@ -39,6 +40,9 @@ struct CameraMotionConfig {
 // f turns the view about the middle c of the structure (of each other region: its own middle) and has next to no prior.
 // The perspective pattern (x^2, xy, y^2) tells yaw and pitch by it, but so faintly (0.5 px of the whole image in each
 // frame) that it must not move the channels: f takes it up, and leaves w and t to what shifts.
+//
+// Where no region rests, yaw and pitch stay zero and f and t are all there is: what is common to all channels along
+// their axes is left in them, rather than filled with the noise of perspective.
 //
 // How large w and t are (one number each) is learned from the record: the prior's variance follows what the data moved
 // the state by against what they should [empirical Bayes; Mehra 1970], so that what is at rest is held at rest, and

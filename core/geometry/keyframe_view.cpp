@@ -26,6 +26,22 @@ KeyframeRegion keyframe_region(const Region& region, bool calibrated) {
   return out;
 }
 
+// Axes that are meant to be one, but for how they were drawn or for perspective, become one: where each had its own
+// direction, the differences would seem to tell the shift along them.
+void share_axis(std::vector<KeyframeRegion>& regions) {
+  constexpr double kAlike = 0.996;  // cosine of 5 degrees
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  const auto single = [](const KeyframeRegion& r) { return r.kind == KeyframeRegion::Kind::kMoving && r.n_axes == 1; };
+  for (const KeyframeRegion& region : regions) {
+    if (single(region)) sum += sum.dot(region.axis[0]) < 0.0 ? Eigen::Vector3d(-region.axis[0]) : region.axis[0];
+  }
+  if (!(sum.norm() > 0.0)) return;
+  sum.normalize();
+  for (KeyframeRegion& region : regions) {
+    if (single(region) && std::abs(sum.dot(region.axis[0])) > kAlike) region.axis[0] = sum;
+  }
+}
+
 }  // namespace
 
 CameraMotion make_camera_motion(const std::vector<Region>& regions, const CameraModel& camera,
@@ -41,6 +57,7 @@ CameraMotion make_camera_motion(const std::vector<Region>& regions, const Camera
 
   std::vector<KeyframeRegion> about;
   for (const Region& region : regions) about.push_back(keyframe_region(region, config.perspective));
+  share_axis(about);
   std::vector<KeyframePoint> points;
   for (const TrackPoint& p : keyframe.points) {
     const Vector2 ideal = camera.undistort({p.u_px, p.v_px});

@@ -123,6 +123,7 @@ const char* role_class(core::RegionRole role) {
     case core::RegionRole::kBase:
       return "r1";
     case core::RegionRole::kBackground:
+    case core::RegionRole::kGround:
       return "r2";
   }
   return "r0";

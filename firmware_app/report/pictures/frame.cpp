@@ -28,6 +28,7 @@ cv::Scalar color_of(core::RegionRole role) {
     case core::RegionRole::kBase:
       return {0, 159, 230};
     case core::RegionRole::kBackground:
+    case core::RegionRole::kGround:
       return {167, 121, 204};
   }
   return {233, 180, 86};
@@ -41,6 +42,8 @@ const char* to_text(core::RegionRole role) {
       return "base";
     case core::RegionRole::kBackground:
       return "background";
+    case core::RegionRole::kGround:
+      return "ground";
   }
   return "structure";
 }
