@@ -92,9 +92,10 @@ void add_scale_keys(std::vector<ConfigKey>& keys) {
   keys.push_back(number_key("scale.max_obliqueness_deg", "degrees", at(&A::scale, &C::max_obliqueness_deg), {0, 80},
                             "largest angle between the structure's face and the image plane that you cannot exclude; "
                             "the report says what it would do to the scale"));
-  keys.push_back(
-      switch_key("scale.adaptive", at(&A::scale, &C::adaptive),
-                 "follow the distance to the structure in every frame; false: the camera stands on a tripod"));
+  keys.push_back(switch_key("scale.adaptive", at(&A::scale, &C::adaptive),
+                            "follow the camera in every frame; false: it stands on a tripod"));
+  keys.push_back(switch_key("scale.only", at(&A::scale, &C::only),
+                            "follow the distance alone, not the camera's turning and shifting"));
 }
 
 }  // namespace app
