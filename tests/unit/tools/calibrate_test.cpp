@@ -40,8 +40,9 @@ class Calibrate : public tests::FolderTest {
   [[nodiscard]] std::vector<double> sigma() const {
     std::string text = tests::read(out());
     text.erase(0, text.find('\n'));
+    const drivers::YamlNode root = drivers::parse_yaml(text, "c");
     std::vector<double> values;
-    for (const auto& item : drivers::parse_yaml(text, "c").find("standard_deviations")->find("data")->items)
+    for (const auto& item : root.find("standard_deviations")->find("data")->items)
       values.push_back(std::stod(item.text));
     return values;
   }
