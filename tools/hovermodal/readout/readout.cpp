@@ -68,10 +68,7 @@ std::vector<double> read_stamps(const Options& options) {
 
 core::CameraModel camera_model(const Options& options) {
   if (options.calibration.empty()) return {};
-  const drivers::Calibration file = drivers::read_calibration(options.calibration);
-  core::CameraModel model{file.fx, file.fy, file.cx, file.cy, {}};
-  std::copy_n(file.distortion.begin(), std::min<std::size_t>(file.distortion.size(), 5), model.distortion.begin());
-  return model;
+  return drivers::read_calibration(options.calibration).camera;
 }
 
 void print(const Options& options, const ClipMotion& clip, const core::GyroReadout& found) {
