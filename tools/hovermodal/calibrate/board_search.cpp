@@ -59,6 +59,7 @@ class BoardSearch {
   BoardSearch(const core::ChessBoard& board, int every) : board_(board), every_(every) {}
 
   void look_through(const std::string& source) {
+    if (gives_up()) return;
     std::error_code error;
     if (!std::filesystem::exists(source, error)) {
       throw std::invalid_argument(source + ": no such file or folder; name a clip, images, or a folder of images");
@@ -72,6 +73,11 @@ class BoardSearch {
   [[nodiscard]] FoundBoards take() { return std::move(found_); }
 
  private:
+  // Another board is in the picture: the search for the one that is not there takes seconds an image.
+  [[nodiscard]] bool gives_up() const {
+    return !found_.hint.empty() && found_.views.empty() && found_.n_looked_at >= 3;
+  }
+
   void look_at_image(const std::string& file) {
     const cv::Mat image = cv::imread(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
     if (image.empty()) throw std::runtime_error(file + ": cannot be decoded: damaged, or not an image");
@@ -87,7 +93,7 @@ class BoardSearch {
     core::Frame frame;
     frame.pixels.resize(static_cast<std::size_t>(info.width_px) * static_cast<std::size_t>(info.height_px));
     Progress progress("looking for the board,", info.frame_count);
-    for (std::uint64_t i = 0;; ++i) {
+    for (std::uint64_t i = 0; !gives_up(); ++i) {
       const drivers::ReadStatus status = frames.read(frame);
       if (status == drivers::ReadStatus::kFault) throw std::runtime_error(frames.error());
       if (status == drivers::ReadStatus::kEnd) break;
