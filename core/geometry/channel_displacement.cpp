@@ -111,7 +111,8 @@ void ChannelDisplacement::place_points(const TrackFrame& tracks) noexcept {
     const Vector2 ideal = config_.camera.undistort({point.u_px, point.v_px});
     position_[i] = {ideal.u - config_.camera.cx, ideal.v - config_.camera.cy};
     share_now_[i] = config_.readout.fraction(point.u_px, point.v_px);
-    sigma_px_[i] = point.sigma_px;
+    const bool stated = std::isfinite(point.sigma_px) && point.sigma_px >= 0.0;
+    sigma_px_[i] = stated ? point.sigma_px : 1.0 / std::sqrt(weight_[i]);
     // Far outside the image a lens model may have no inverse.
     seen_[i] = std::isfinite(position_[i].u) && std::isfinite(position_[i].v) ? 1 : 0;
   }
@@ -203,12 +204,7 @@ void ChannelDisplacement::compensate_rolling_shutter() noexcept {
   }
 }
 
-double ChannelDisplacement::scale_of(std::uint16_t region) const noexcept {
-  return region < config_.region_scale_mm_per_px.size() ? config_.region_scale_mm_per_px[region]
-                                                        : config_.scale_mm_per_px;
-}
-
-void ChannelDisplacement::average_channel(std::size_t channel, double magnification, const TrackFrame& tracks,
+void ChannelDisplacement::average_channel(std::size_t channel, double magnification,
                                           DisplacementSample& out) const noexcept {
   const ChannelInfo& info = channels_[channel];
   const RegionRange& range = ranges_[info.region];
@@ -220,7 +216,7 @@ void ChannelDisplacement::average_channel(std::size_t channel, double magnificat
     if (inlier_[i] == 0) continue;
     sum += weight_[i] * (motion_[i].u * info.direction_u + motion_[i].v * info.direction_v);
     weight += weight_[i];
-    variance += weight_[i] * weight_[i] * tracks.points[i].sigma_px * tracks.points[i].sigma_px;
+    variance += weight_[i] * weight_[i] * sigma_px_[i] * sigma_px_[i];
     ++count;
   }
   const bool enough = weight > 0.0 && count >= config_.min_points;
@@ -244,7 +240,7 @@ void ChannelDisplacement::update(TrackFrame& tracks, DisplacementSample& out) no
     tracks.points[i].inlier = inlier_[i] != 0;
   if (config_.paper_method) compensate_rolling_shutter();
   out.scale_mm_per_px = config_.scale_mm_per_px / magnification;
-  for (std::size_t c = 0; c < channels_.size(); ++c) average_channel(c, magnification, tracks, out);
+  for (std::size_t c = 0; c < channels_.size(); ++c) average_channel(c, magnification, out);
 }
 
 }  // namespace core

@@ -67,8 +67,7 @@ class ChannelDisplacement {
   void compensate_rolling_shutter() noexcept;
   [[nodiscard]] double scale_of(std::uint16_t region) const noexcept;
   void remove_scale(double magnification) noexcept;
-  void average_channel(std::size_t channel, double magnification, const TrackFrame& tracks,
-                       DisplacementSample& out) const noexcept;
+  void average_channel(std::size_t channel, double magnification, DisplacementSample& out) const noexcept;
 
   ChannelDisplacementConfig config_;
   std::vector<ChannelInfo> channels_;

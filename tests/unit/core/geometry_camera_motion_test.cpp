@@ -1,0 +1,160 @@
+#include "core/geometry/camera_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "core/geometry/channel_displacement.h"
+#include "core/simulation/presets.h"
+#include "core/simulation/track_generator.h"
+
+namespace core {
+namespace {
+
+using simulation::kBackgroundBody;
+using simulation::Scene;
+using simulation::TrackGenerator;
+
+// The paper's frame in a view wide enough for gusts of 5 degrees in every axis.
+Scene gusty_scene(double gust_deg) {
+  Scene scene = simulation::make_paper_scene(1, 20.0);
+  scene.hover.pitch_rms_rad = scene.hover.yaw_rms_rad = scene.hover.roll_rms_rad = gust_deg * std::numbers::pi / 180.0;
+  scene.camera.width_px = scene.camera.height_px = 4000;
+  scene.camera.cx_px = scene.camera.cy_px = 1999.5;
+  return scene;
+}
+
+ChannelDisplacementConfig config_of(const TrackGenerator& tracks, double background_m) {
+  const auto& camera = tracks.motion().scene().camera;
+  ChannelDisplacementConfig config;
+  for (const auto& [body, region] : tracks.regions()) {
+    config.regions.push_back(region);
+    if (body == kBackgroundBody) config.regions.back().depth_m = background_m;
+  }
+  config.camera = {camera.alpha_px, camera.alpha_px, camera.cx_px, camera.cy_px, {}};
+  config.readout = {camera.readout_s, camera.readout_direction, camera.width_px, camera.height_px};
+  config.rate_hz = camera.rate_hz;
+  const double depth_mm = tracks.motion().scene().plates[0].z_mm - tracks.motion().camera().at(0.0).z_mm;
+  config.scale_mm_per_px = depth_mm / camera.alpha_px;
+  return config;
+}
+
+double rms(const std::vector<double>& x) {
+  double sum = 0.0, square = 0.0;
+  for (const double v : x) sum += v, square += v * v;
+  const auto n = static_cast<double>(x.size());
+  return std::sqrt(std::max(0.0, square / n - sum / n * sum / n));
+}
+
+struct Errors {
+  double common_px, between_px;
+};
+
+Errors errors_of(const TrackGenerator& tracks, const ChannelDisplacementConfig& config) {
+  auto timing = tracks.timing();
+  simulation::DeliveredFrame frame;
+  TrackFrame points;
+  std::unique_ptr<ChannelDisplacement> channels;
+  DisplacementSample sample;
+  std::vector<double> common, between;
+  while (timing.next(frame)) {
+    tracks.generate(frame, points);
+    if (!channels) {
+      channels = std::make_unique<ChannelDisplacement>(config, points);
+      sample = channels->sample_prototype();
+    }
+    channels->update(points, sample);
+    const auto error = [&](std::size_t c) {
+      const ChannelInfo& info = channels->channels()[c];
+      const double t_s = frame.t_s + info.row_delay_s + 0.5 * tracks.motion().scene().camera.exposure_s;
+      const int body = tracks.regions()[info.region].body;
+      return (sample.value_mm[c] - tracks.motion().body_at(body, t_s).x_mm) / config.scale_mm_per_px;
+    };
+    const std::size_t last = channels->channels().size() - 1;
+    common.push_back(error(last));
+    between.push_back(error(0) - error(last));
+  }
+  return {rms(common), rms(between)};
+}
+
+TEST(CameraMotionEstimate, GustsAreTakenAwayByABackgroundOfKnownDistance) {
+  const TrackGenerator tracks(gusty_scene(5.0));
+  ChannelDisplacementConfig config = config_of(tracks, 4.0);
+  const Errors ours = errors_of(tracks, config);
+  config.scale_only = true;
+  const Errors scale_only = errors_of(tracks, config);
+  EXPECT_GT(scale_only.common_px, 50.0);
+  EXPECT_LT(ours.common_px, 0.1 * scale_only.common_px);
+  EXPECT_LT(ours.between_px, 0.1 * scale_only.between_px);
+}
+
+TEST(CameraMotionEstimate, DriftWithoutTurningIsTakenAwayByABackgroundOfKnownDistance) {
+  const TrackGenerator tracks(simulation::make_paper_scene(2, 20.0));
+  ChannelDisplacementConfig config = config_of(tracks, 4.0);
+  const Errors ours = errors_of(tracks, config);
+  config.scale_only = true;
+  EXPECT_LT(ours.common_px, 0.1 * errors_of(tracks, config).common_px);
+}
+
+// Nothing is invented: yaw and the shift along the axes stay zero, and with them their noise.
+TEST(CameraMotionEstimate, WhatNothingTellsStaysInTheChannels) {
+  const TrackGenerator tracks(gusty_scene(1.0));
+  ChannelDisplacementConfig config = config_of(tracks, 0.0);
+  const std::size_t n_moving = config.regions.size() - 1;
+  config.regions.resize(n_moving);
+  auto timing = tracks.timing();
+  simulation::DeliveredFrame frame;
+  TrackFrame points;
+  std::unique_ptr<ChannelDisplacement> channels;
+  DisplacementSample sample;
+  while (timing.next(frame)) {
+    tracks.generate(frame, points);
+    std::erase_if(points.points, [&](const TrackPoint& p) { return p.region >= n_moving; });
+    if (!channels) {
+      channels = std::make_unique<ChannelDisplacement>(config, points);
+      sample = channels->sample_prototype();
+    }
+    channels->update(points, sample);
+  }
+  const CameraMotion& motion = *channels->camera_motion();
+  EXPECT_EQ(motion.state()(kYaw), 0.0);
+  EXPECT_TRUE(motion.open()[kShiftX]);
+  EXPECT_GT(std::abs(motion.state()(kRoll)), 1e-4);
+}
+
+TEST(CameraMotionEstimate, HostileTracksLeaveNoNaN) {
+  const TrackGenerator tracks(simulation::make_paper_scene(3, 4.0));
+  ChannelDisplacementConfig config = config_of(tracks, 4.0);
+  auto timing = tracks.timing();
+  simulation::DeliveredFrame frame;
+  TrackFrame points;
+  ASSERT_TRUE(timing.next(frame));
+  tracks.generate(frame, points);
+  ChannelDisplacement channels(config, points);
+  DisplacementSample sample = channels.sample_prototype();
+  for (int k = 0; timing.next(frame); ++k) {
+    tracks.generate(frame, points);
+    for (std::size_t i = 0; i < points.points.size(); ++i) {
+      TrackPoint& point = points.points[i];
+      if (k % 7 == 1) point.seen = false;
+      if (k % 7 == 2) point.u_px = std::numeric_limits<double>::quiet_NaN();
+      if (k % 7 == 3) point.sigma_px = i % 2 == 0 ? std::numeric_limits<double>::quiet_NaN() : -1.0;
+      if (k % 7 == 4) point.v_px = i % 3 == 0 ? 1e300 : point.v_px;
+      if (k % 7 == 5) point.u_px = 1e9;
+    }
+    if (k % 11 == 6) points.t_start_ns = 0;
+    channels.update(points, sample);
+    EXPECT_TRUE(channels.camera_motion()->state().allFinite()) << k;
+    EXPECT_TRUE(channels.camera_motion()->covariance().allFinite()) << k;
+    EXPECT_TRUE(std::isfinite(sample.scale_mm_per_px)) << k;
+    for (std::size_t c = 0; c < sample.value_mm.size(); ++c)
+      EXPECT_TRUE(std::isfinite(sample.value_mm[c]) && (sample.seen[c] == 0 || !std::isnan(sample.sigma_mm[c]))) << k;
+  }
+}
+
+}  // namespace
+}  // namespace core
