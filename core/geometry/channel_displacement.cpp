@@ -204,6 +204,11 @@ void ChannelDisplacement::compensate_rolling_shutter() noexcept {
   }
 }
 
+double ChannelDisplacement::scale_of(std::uint16_t region) const noexcept {
+  return region < config_.region_scale_mm_per_px.size() ? config_.region_scale_mm_per_px[region]
+                                                        : config_.scale_mm_per_px;
+}
+
 void ChannelDisplacement::average_channel(std::size_t channel, double magnification,
                                           DisplacementSample& out) const noexcept {
   const ChannelInfo& info = channels_[channel];
