@@ -53,6 +53,8 @@ CameraMotion::CameraMotion(const CameraMotionConfig& config, const std::vector<K
   const bool rests = std::any_of(regions.begin(), regions.end(), [](const KeyframeRegion& region) {
     return region.kind != KeyframeRegion::Kind::kMoving;
   });
+  learns_tilt_ = !rests;
+  if (rests) tilt_variance_ = 1.0;  // free: what rests tells roll from bending
   const double d = config.distance_mm, face = config.perspective ? kFace_rad : 0.0;
   const double turn = config.perspective && rests ? 1.0 : 0.0;
   base_ << turn, turn, 1.0, d, d, d, face, face;
@@ -218,7 +220,7 @@ void CameraMotion::learn() noexcept {
     square += region.value(region.i_tilt) * region.value(region.i_tilt) + region.tilt_sd * region.tilt_sd;
     count += 1.0;
   }
-  if (count > 0.0) {
+  if (learns_tilt_ && count > 0.0) {
     tilt_variance_ += kTiltRate * (square / count - tilt_variance_);
     tilt_variance_ = std::max(tilt_variance_, kLeastTilt_rad * kLeastTilt_rad);
   }

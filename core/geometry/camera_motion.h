@@ -50,8 +50,8 @@ struct CameraMotionConfig {
 // height, distance) move more.
 //
 // Roll comes from a region's own turning and from what regions do across their axes. A bending cantilever's sections
-// tilt, which looks the same: their tilt is free, of a variance that is learned too. Where they tilt alike, only a
-// background or resting points tell roll from bending.
+// tilt, which looks the same: where a region rests, tilt is free and the resting points alone tell roll; where none
+// does, tilt has a variance that is learned, and bending passes for roll.
 //
 // One thread; nothing allocates after construction; the same bits in every run. Never NaN: frames whose solution is not
 // finite are counted and left at the prediction.
@@ -104,7 +104,7 @@ class CameraMotion {
   MotionVector base_, sd_;
   std::array<double, 2> log_variance_{};  // of turns and of shifts, in units of base_
   double tilt_variance_ = 1e-6;           // rad^2
-  bool raised_ = false;
+  bool raised_ = false, learns_tilt_ = true;
   double t_s_, dt_s_ = 0.0;
   Eigen::Vector3d middle_ = Eigen::Vector3d::UnitZ();  // of the structure: ray
   Eigen::Matrix<double, kMotionSize, kMotionSize> position_covariance_;
