@@ -126,7 +126,6 @@ struct Turn {
   double pitch = 0.0, yaw = 0.0;
 };
 
-// Of the reduced system of pitch and yaw, with the weak prior added.
 Turn solve_turn(double pp, double py, double yy, double p, double y) noexcept {
   const double determinant = pp * yy - py * py;
   if (!(determinant > 0.0)) return {};
