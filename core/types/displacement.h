@@ -29,7 +29,7 @@ struct DisplacementSample {
   std::vector<double> sigma_mm;         // n_channels
   std::vector<std::uint8_t> seen;       // n_channels; 1 = a sample
   std::vector<std::uint16_t> n_points;  // n_channels: inlier points behind the sample
-  ReadoutEstimate readout;              // from the tracks up to this frame
+  ReadoutEstimate readout{};            // from the tracks up to this frame
 };
 
 }  // namespace core
