@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/keyframe_view.h"
 #include "firmware_app/calibration.h"
 #include "firmware_app/structure_scale.h"
 
@@ -21,20 +22,19 @@ bool undistorts(const CalibrationConfig& calibration) {
 }
 
 // What is removed of the camera's motion, and what cannot be.
-std::string camera_correction(const AppConfig& config) {
+std::string camera_correction(const AppConfig& config, const core::CameraModel& camera) {
   if (config.method == Method::kPaper) return "scale per frame, two points (Eq. 6)";
-  if (config.scale.only) return "scale per frame, least squares over all points";
-  const auto any = [&](core::RegionRole role) {
-    return std::any_of(config.regions.begin(), config.regions.end(), [&](const auto& r) { return r.role == role; });
-  };
-  const bool calibrated = config.calibration.fx > 0.0 || !config.calibration.file.empty();
-  const bool ground = any(core::RegionRole::kGround), background = any(core::RegionRole::kBackground);
-  std::string text = "camera motion per frame from all points: distance and roll";
-  if (calibrated) text += ", perspective";
-  if (ground) return text + "; shift and turning together, by resting points in the structure's plane";
-  if (!calibrated) return text + "; without a focal length yaw, pitch and shifts stay in all channels alike";
-  if (!background) return text + "; without resting points yaw and sideways shift stay in all channels alike";
-  return text + "; yaw and pitch by the background, shifts as far as its distance is known";
+  const std::string scale = "scale per frame, least squares over all points";
+  if (config.scale.only) return scale;
+  if (!core::tells_camera_motion(config.regions, camera)) {
+    return scale + (camera.calibrated() ? "; no region rests (role background or ground): the camera's turns stay"
+                                        : "; no focal length is known: the camera's turns stay");
+  }
+  const bool ground = std::any_of(config.regions.begin(), config.regions.end(),
+                                  [](const auto& r) { return r.role == core::RegionRole::kGround; });
+  return std::string("camera motion per frame from all points: distance, roll, perspective; ") +
+         (ground ? "shift and turning together, by resting points in the structure's plane"
+                 : "yaw and pitch by the background, shifts as far as its distance is known");
 }
 
 }  // namespace
@@ -58,7 +58,10 @@ core::ChannelDisplacementConfig displacement_config(const AppConfig& config, con
   out.rate_hz = camera.rate_hz;
   StructureScale scale = structure_scale(config, out.camera);
   out.scale_mm_per_px = scale.mm_per_px;
-  if (config.method != Method::kPaper) out.region_scale_mm_per_px = std::move(scale.region_mm_per_px);
+  if (config.method != Method::kPaper) {
+    out.region_scale_mm_per_px = std::move(scale.region_mm_per_px);
+    out.plane = std::move(scale.plane);
+  }
   out.adaptive_scale = config.scale.adaptive;
   out.scale_only = config.scale.only;
   out.paper_method = config.method == Method::kPaper;
@@ -103,7 +106,7 @@ std::vector<std::string> corrections(const AppConfig& config, const core::Camera
   std::vector<std::string> list;
   const bool paper = config.method == Method::kPaper;
   if (undistorts(config.calibration)) list.emplace_back("lens distortion (points undistorted)");
-  if (config.scale.adaptive) list.push_back(camera_correction(config));
+  if (config.scale.adaptive) list.push_back(camera_correction(config, camera_model(config, camera)));
   if (paper) {
     list.emplace_back("rolling shutter from frame differences, readout = one frame (Eqs. 7-8)");
   } else if (camera.readout_ns != 0) {

@@ -65,6 +65,11 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
     health.regions[r].name = region_names_[r];
   }
   warn_of_regions(health);
+  if (tracking_.camera_given_up()) {
+    health.warnings.emplace_back(
+        "most points contradict the camera's motion: does what is declared to rest (role background or ground) move? "
+        "Only the scale is followed since");
+  }
   if (const double jitter = spectrum_.worst_jitter_cells(); jitter > kJitterWorthAWord) {
     health.warnings.push_back(fmt::format(
         "time stamps stray by up to {:.2f} of a frame from even spacing; spectra take them as even", jitter));

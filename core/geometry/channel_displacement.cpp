@@ -14,6 +14,9 @@ namespace {
 // No point is better than this: rounding and the optics. It bounds the weights.
 constexpr double kLeastSigmaPx = 0.003;
 
+// Frames in a row that contradict the estimated camera motion, until it is given up.
+constexpr int kMostContradicted = 50;
+
 Vector2 axis_of(const Region& region) noexcept {
   const double angle = region.axis_deg * std::numbers::pi / 180.0;
   return {std::cos(angle), std::sin(angle)};
@@ -60,8 +63,9 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
   has_last_.assign(config_.regions.size(), 0);
   make_channels();
   if (!config_.adaptive_scale || config_.scale_only || config_.paper_method) return;
-  camera_motion_.emplace(
-      make_camera_motion(config_.regions, config_.camera, config_.readout, config_.scale_mm_per_px, keyframe));
+  if (!tells_camera_motion(config_.regions, config_.camera)) return;
+  camera_motion_.emplace(make_camera_motion(config_.regions, config_.camera, config_.readout, config_.scale_mm_per_px,
+                                            keyframe, config_.plane));
 }
 
 void ChannelDisplacement::make_channels() {
@@ -171,6 +175,9 @@ double ChannelDisplacement::follow_camera(std::int64_t t_start_ns) noexcept {
     stabilise();
   }
   camera_motion_->settle();
+  // A datum that does not rest, or a view that the model cannot hold: most points contradict it for long.
+  n_contradicted_ = 4 * count(inlier_) < count(seen_) ? n_contradicted_ + 1 : 0;
+  if (n_contradicted_ > kMostContradicted) camera_given_up_ = true;
   return camera_motion_->magnification();
 }
 
@@ -228,7 +235,8 @@ void ChannelDisplacement::average_channel(std::size_t channel, double magnificat
   const double s0 = scale_of(info.region);
   const double mean_px = weight > 0.0 ? std::sqrt(variance) / weight / magnification : 0.0;
   const double camera_px =
-      camera_motion_ ? camera_motion_->sigma_px(info.region, info.direction_u, info.direction_v) / magnification : 0.0;
+      follows_camera() ? camera_motion_->sigma_px(info.region, info.direction_u, info.direction_v) / magnification
+                       : 0.0;
   out.seen[channel] = enough ? 1 : 0;
   out.n_points[channel] = count;
   out.value_mm[channel] = enough ? s0 * sum / weight : 0.0;
@@ -240,7 +248,7 @@ void ChannelDisplacement::update(TrackFrame& tracks, DisplacementSample& out) no
   out.t_start_ns = tracks.t_start_ns;
   out.gap_before = tracks.gap_before;
   place_points(tracks);
-  const double magnification = camera_motion_ ? follow_camera(tracks.t_start_ns) : estimate_scale();
+  const double magnification = follows_camera() ? follow_camera(tracks.t_start_ns) : estimate_scale();
   for (std::size_t i = 0; i < keyframe_.size() && i < tracks.points.size(); ++i)
     tracks.points[i].inlier = inlier_[i] != 0;
   if (config_.paper_method) compensate_rolling_shutter();

@@ -5,6 +5,7 @@
 
 #include "core/geometry/camera_model.h"
 #include "core/geometry/camera_motion.h"
+#include "core/geometry/plane_pose.h"
 #include "core/geometry/rolling_shutter.h"
 #include "core/geometry/scale_factor.h"
 #include "core/types/displacement.h"
@@ -21,9 +22,10 @@ struct ChannelDisplacementConfig {
   double scale_mm_per_px = 1.0;  // S_0, of the keyframe
   // Per region, where an oblique plane or a length of its own gives it another scale than S_0; empty = S_0 for all.
   std::vector<double> region_scale_mm_per_px = {};
-  bool adaptive_scale = true;    // follow the camera; false: it stands still
-  bool scale_only = false;       // of its motion only the distance (paper Eq. 6), from all points
-  bool paper_method = false;     // two-point scale; rolling shutter by Eqs. 7-8 on the samples, with rho = 1
+  std::optional<PlanePose> plane = {};  // of the structure; empty: it faces the camera
+  bool adaptive_scale = true;           // follow the camera; false: it stands still
+  bool scale_only = false;              // of its motion only the distance (paper Eq. 6), from all points
+  bool paper_method = false;            // two-point scale; rolling shutter by Eqs. 7-8 on the samples, with rho = 1
   double inlier_sigma_px = 0.3;
   int min_points = 3;  // fewer inliers: the channel has no sample in this frame
 };
@@ -48,12 +50,16 @@ class ChannelDisplacement {
   void update(TrackFrame& tracks, DisplacementSample& out) noexcept;
   [[nodiscard]] DisplacementSample sample_prototype() const;
 
+  // Most points contradicted it for two seconds and more (something was declared to rest that does not): only the scale
+  // has been followed since.
+  [[nodiscard]] bool camera_given_up() const noexcept { return camera_given_up_; }
   // null: not estimated.
   [[nodiscard]] const CameraMotion* camera_motion() const noexcept {
     return camera_motion_ ? &*camera_motion_ : nullptr;
   }
 
  private:
+  [[nodiscard]] bool follows_camera() const noexcept { return camera_motion_ && !camera_given_up_; }
   struct RegionRange {
     std::size_t begin = 0, end = 0;  // of the points
   };
@@ -76,6 +82,8 @@ class ChannelDisplacement {
   std::vector<double> weight_;         // of a point in its channel: inverse variance by its texture, constant
   std::vector<double> readout_share_;  // along the readout, of the raw row: rows are read as they lie on the sensor
   ScaleFactor scale_;
+  int n_contradicted_ = 0;
+  bool camera_given_up_ = false;
   std::optional<CameraMotion> camera_motion_;  // none: scale only, paper, or a camera that stands still
   std::vector<Vector2> position_, motion_;     // undistorted px from the principal point; step since the keyframe with
                                                // the camera's motion taken away, keyframe px

@@ -42,10 +42,34 @@ void share_axis(std::vector<KeyframeRegion>& regions) {
   }
 }
 
+// Of what lies in the structure's plane.
+double inverse_depth(const std::optional<PlanePose>& plane, const Vector2& ideal_px, double distance_mm) noexcept {
+  const auto place = plane ? plane->place_at(ideal_px) : std::nullopt;
+  if (!place) return 1.0 / distance_mm;
+  const double z_mm =
+      plane->rotation(2, 0) * place->x_mm + plane->rotation(2, 1) * place->y_mm + plane->translation_mm.z();
+  return z_mm > 0.0 ? 1.0 / z_mm : 1.0 / distance_mm;
+}
+
+// The direction in space of a motion along an image direction, where the plane meets this pixel.
+Eigen::Vector3d axis_in_plane(const PlanePose& plane, const Vector2& ideal_px, const Eigen::Vector3d& image_axis) {
+  const auto place = plane.place_at(ideal_px);
+  if (!place) return image_axis;
+  const Eigen::Vector2d mm = plane.px_per_mm(*place).inverse() * image_axis.head<2>();
+  const Eigen::Vector3d axis = plane.rotation.leftCols<2>() * mm;
+  return axis.allFinite() && axis.norm() > 0.0 ? Eigen::Vector3d(axis.normalized()) : image_axis;
+}
+
 }  // namespace
 
+bool tells_camera_motion(const std::vector<Region>& regions, const CameraModel& camera) noexcept {
+  return camera.calibrated() &&
+         std::any_of(regions.begin(), regions.end(), [](const Region& region) { return !makes_channel(region.role); });
+}
+
 CameraMotion make_camera_motion(const std::vector<Region>& regions, const CameraModel& camera,
-                                const ReadoutModel& readout, double scale_mm_per_px, const TrackFrame& keyframe) {
+                                const ReadoutModel& readout, double scale_mm_per_px, const TrackFrame& keyframe,
+                                const std::optional<PlanePose>& plane) {
   CameraMotionConfig config;
   config.perspective = camera.calibrated();
   const double narrow_px = kNarrowView * std::max(readout.width_px, readout.height_px);
@@ -56,7 +80,14 @@ CameraMotion make_camera_motion(const std::vector<Region>& regions, const Camera
   config.distance_mm = 0.5 * (config.fx + config.fy) * scale;
 
   std::vector<KeyframeRegion> about;
-  for (const Region& region : regions) about.push_back(keyframe_region(region, config.perspective));
+  for (const Region& region : regions) {
+    about.push_back(keyframe_region(region, config.perspective));
+    if (!plane || region.role == RegionRole::kBackground) continue;
+    const Vector2 middle =
+        camera.undistort({region.u_px + 0.5 * region.width_px, region.v_px + 0.5 * region.height_px});
+    for (Eigen::Vector3d& axis : about.back().axis) axis = axis_in_plane(*plane, middle, axis);
+    about.back().normal = -plane->normal();  // away from the camera
+  }
   share_axis(about);
   std::vector<KeyframePoint> points;
   for (const TrackPoint& p : keyframe.points) {
@@ -68,7 +99,7 @@ CameraMotion make_camera_motion(const std::vector<Region>& regions, const Camera
     point.readout_share = readout.fraction(p.u_px, p.v_px);
     point.region = p.region;
     const KeyframeRegion& region = about[p.region];
-    if (!region.background) point.inverse_depth = 1.0 / config.distance_mm;
+    if (!region.background) point.inverse_depth = inverse_depth(plane, ideal, config.distance_mm);
     if (region.background && region.kind == KeyframeRegion::Kind::kStatic)
       point.inverse_depth = 1e-3 / regions[p.region].depth_m;
     points.push_back(point);

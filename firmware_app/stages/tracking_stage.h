@@ -32,6 +32,7 @@ class TrackingStage : public rt::Stage {
   [[nodiscard]] std::uint64_t points_total() const noexcept { return scratch_.tracks.points.size(); }
   // Any thread: of the newest frame, and since start.
   [[nodiscard]] std::vector<core::RegionHealth> regions() const;
+  [[nodiscard]] bool camera_given_up() const noexcept { return camera_given_up_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t n_failed_frames() const noexcept { return n_failed_.load(std::memory_order_relaxed); }
   // Any thread: frames that publish never saw, because its ring was full.
   [[nodiscard]] std::uint64_t n_records_lost() const noexcept {
@@ -58,6 +59,7 @@ class TrackingStage : public rt::Stage {
   FrameRecord scratch_;
   bool gap_before_next_ = false;
   std::vector<RegionCounts> regions_;
+  std::atomic<bool> camera_given_up_{false};
   std::atomic<std::uint64_t> points_tracked_{0};  // written here only; relaxed: a count on its own
   std::atomic<std::uint64_t> n_failed_{0};
   std::atomic<std::uint64_t> n_records_lost_{0};
