@@ -43,8 +43,8 @@ struct ScaleConfig {
   std::vector<std::array<double, 4>> points;   // points of the structure's plane: u v (px), x y (mm); its pose
   double point_sigma_px = 0.5;                 // how exactly these pixels were read, per axis
   double max_obliqueness_deg = 10.0;           // what the operator cannot exclude between structure and image plane
-  bool adaptive = true;  // false: the camera stands still (a tripod)
-  bool only = false;     // of the camera's motion only the distance (Eq. 6)
+  bool adaptive = true;                        // false: the camera stands still (a tripod)
+  bool only = true;                            // of the camera's motion only the distance (Eq. 6)
 };
 
 struct TrackingConfig {

@@ -150,8 +150,8 @@ class Checker {
         refuse(key, value, "a region of role background", "remove it: the structure's distance follows from its scale");
       if (config_.calibration.fx <= 0.0 && config_.calibration.file.empty())
         refuse(key, value, "with a focal length", "set calibration.fx, fy, cx, cy or calibration.file, or remove it");
-      if (!(config_.scale.known_length_mm > 0.0))
-        refuse(key, value, "with a scale", "set scale.known_length_mm, from and to, or remove it");
+      if (!(config_.scale.known_length_mm > 0.0) && config_.scale.lengths.empty() && config_.scale.points.empty())
+        refuse(key, value, "with a scale", "set scale.known_length_mm, from and to, or scale.points, or remove it");
     }
   }
 

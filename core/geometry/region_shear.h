@@ -59,6 +59,9 @@ class RegionShear {
   [[nodiscard]] const Eigen::MatrixXd& carrier_covariance() const noexcept { return carrier_covariance_; }
 
  private:
+  // Camera pitch and yaw, as a part of the image's width that the middle moves by: keeps them finite where a few points
+  // hardly tell. Wide against every flight; against points of unit variance (px^2).
+  static constexpr double kMostTurn = 0.3;
   // Places of a region's unknowns, their number, and that with pitch and yaw.
   static constexpr std::size_t kTurn = 2, kShear = 4, kOwn = 6, kAll = 8;
   using Normal = std::array<std::array<double, kAll + 1>, kAll>;  // the last column is the right-hand side

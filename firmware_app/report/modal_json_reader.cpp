@@ -145,8 +145,8 @@ class ModalReader {
     const auto value = [&](const char* key) -> std::optional<core::ReadoutValue> {
       const Json* found = find(item, key);
       if (found == nullptr) return {};
-      return core::ReadoutValue{1e-3 * optional_number(*found, "readout_ms").value_or(0.0),
-                                1e-3 * optional_number(*found, "std_ms").value_or(0.0)};
+      return core::ReadoutValue{optional_number(*found, "readout_ms").value_or(0.0) / 1e3,
+                                optional_number(*found, "std_ms").value_or(0.0) / 1e3};
     };
     const Json* consistent = find(item, "consistent");
     core::ReadoutFinding out;

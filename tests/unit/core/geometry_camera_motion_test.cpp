@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/geometry/channel_displacement.h"
+#include "core/geometry/keyframe_view.h"
 #include "core/simulation/presets.h"
 #include "core/simulation/track_generator.h"
 
@@ -101,29 +102,14 @@ TEST(CameraMotionEstimate, DriftWithoutTurningIsTakenAwayByABackgroundOfKnownDis
 }
 
 // Nothing is invented: yaw and the shift along the axes stay zero, and with them their noise.
-TEST(CameraMotionEstimate, WhatNothingTellsStaysInTheChannels) {
+// A structure alone does not tell its own turning from the camera's.
+TEST(CameraMotionEstimate, NeedsAFocalLengthAndSomethingThatRests) {
   const TrackGenerator tracks(gusty_scene(1.0));
   ChannelDisplacementConfig config = config_of(tracks, 0.0);
-  const std::size_t n_moving = config.regions.size() - 1;
-  config.regions.resize(n_moving);
-  auto timing = tracks.timing();
-  simulation::DeliveredFrame frame;
-  TrackFrame points;
-  std::unique_ptr<ChannelDisplacement> channels;
-  DisplacementSample sample;
-  while (timing.next(frame)) {
-    tracks.generate(frame, points);
-    std::erase_if(points.points, [&](const TrackPoint& p) { return p.region >= n_moving; });
-    if (!channels) {
-      channels = std::make_unique<ChannelDisplacement>(config, points);
-      sample = channels->sample_prototype();
-    }
-    channels->update(points, sample);
-  }
-  const CameraMotion& motion = *channels->camera_motion();
-  EXPECT_EQ(motion.state()(kYaw), 0.0);
-  EXPECT_TRUE(motion.open()[kShiftX]);
-  EXPECT_GT(std::abs(motion.state()(kRoll)), 1e-4);
+  EXPECT_TRUE(tells_camera_motion(config.regions, config.camera));
+  EXPECT_FALSE(tells_camera_motion(config.regions, CameraModel{}));
+  config.regions.pop_back();
+  EXPECT_FALSE(tells_camera_motion(config.regions, config.camera));
 }
 
 TEST(CameraMotionEstimate, HostileTracksLeaveNoNaN) {

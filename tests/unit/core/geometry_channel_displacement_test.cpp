@@ -168,15 +168,13 @@ TEST(ChannelDisplacement, APointThatCannotBeUndistortedIsLostAlone) {
   for (std::size_t r = 0; r < 3; ++r) EXPECT_NEAR(sample.value_mm[r], sway(r, 0.2), 1e-4);
 }
 
-TEST(ChannelDisplacement, SigmaIsThatOfTheMeanAndOfTheCamera) {
+TEST(ChannelDisplacement, SigmaIsThatOfTheMean) {
   const PlateView view;
   ChannelDisplacementConfig config = view.config();
-  Measured with_camera(config, view.frame(0.0, at_rest, no_zoom));
   config.adaptive_scale = false;
   Measured measure(config, view.frame(0.0, at_rest, no_zoom));
   TrackFrame tracks = view.frame(0.04, at_rest, no_zoom);
   EXPECT_NEAR(measure(tracks).sigma_mm[0], 2.0 * 0.04 / 4.0, 1e-9);
-  EXPECT_GT(with_camera(tracks).sigma_mm[0], 2.0 * 0.04 / 4.0);
 }
 
 TEST(ChannelDisplacement, NamesChannelsByRegionAndAxis) {

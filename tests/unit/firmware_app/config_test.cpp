@@ -86,6 +86,7 @@ TEST(Config, EachKeySetsItsOwnMemberOnly) {
       {"tracking.corner_quality", "0.5"},
       {"report.tracks", "false"},
       {"scale.adaptive", "false"},
+      {"scale.only", "false"},
       {"rt.required", "true"},
       {"rt.lock_memory", "true"},
       {"spectrum.segment", "64"}};
@@ -164,7 +165,7 @@ TEST(Config, RefusesBrokenRegions) {
   EXPECT_THAT(refusal("camera: {source: a}\nregions: [{rect: [1, 2, 3, 4]}]\n"),
               HasSubstr("regions.0.name: nothing is refused"));
   EXPECT_THAT(refusal("camera: {source: a}\nregions: [{name: a, rect: [1, 2, 3, 4], role: background}]\n"),
-              HasSubstr("only role background"));
+              HasSubstr("only what rests"));
   EXPECT_THAT(refusal("camera: {source: a}\nregions: [base]\n"), HasSubstr("regions.0: base is refused"));
 }
 

@@ -95,12 +95,14 @@ TEST(Selftest, SaysTheSameOfTheGeometryOnAnyNumberOfThreads) {
   EXPECT_GT(std::stod(scale[0][9]), 0.9) << "median MAC";
 }
 
-// Nothing that looks at noisy points is better than the bound, however the camera is known.
+// Nothing that looks at the noisy points of a frame is better than the bound, however the camera is known. (The paper's
+// chain mixes in the frame before.)
 TEST(Selftest, NoNoiseFloorLiesBelowTheBound) {
   const auto channels = rows(selftest("noise-floor --seeds 1 --duration 60"), "noise-floor\t");
   ASSERT_GE(channels.size(), 18U);
   for (const auto& cells : channels) {
     ASSERT_EQ(cells.size(), 14U);
+    if (cells[1] == "paper") continue;
     const double white_px = std::stod(cells[7]), known_px = std::stod(cells[8]), estimated_px = std::stod(cells[10]);
     EXPECT_GT(white_px, 0.9 * known_px) << cells[1] << " " << cells[2];
     EXPECT_GE(estimated_px, known_px) << cells[1] << " " << cells[2];

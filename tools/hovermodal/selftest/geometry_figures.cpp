@@ -37,8 +37,8 @@ void print_geometry(const GeometryOptions& options) {
   // Without delays nothing above half the rate can be told: nobody would look there.
   const std::string half_rate = "identification.max_frequency_hz=0";
   which.ways = {{"raw", {"scale.adaptive=false", half_rate}, StatedReadout::kNone},
-                {"scale", {"scale.only=true", half_rate}, StatedReadout::kNone},
-                {"rho-1", {"scale.only=true"}, StatedReadout::kWholeFrame},
+                {"scale", {half_rate}, StatedReadout::kNone},
+                {"rho-1", {}, StatedReadout::kWholeFrame},
                 paper(),
                 {"ours", {}}};
   print_score_columns("geometry", "modes 1-3");
@@ -53,8 +53,10 @@ void print_wind(const GeometryOptions& options) {
       "preset: paper\ncamera: {readout_ms: 28, alpha_px: 1200}\n"
       "hover: {x_rms_mm: 0, y_rms_mm: 0, z_rms_mm: 0, pitch_rms_deg: 1.667, yaw_rms_deg: 1.667, roll_rms_deg: 1.667}\n",
       identification(20.0, 1024), 0.25};
-  which.ways = {
-      {"ours", {}}, {"scale", {"scale.only=true"}}, {"ours-no-background", {}, StatedReadout::kTrue, false}, paper()};
+  which.ways = {{"ours", {"scale.only=false"}},
+                {"scale"},
+                {"ours-no-background", {"scale.only=false"}, StatedReadout::kTrue, false},
+                paper()};
   print_score_columns("wind", "modes 1-3");
   print_case(which, options);
 }
@@ -69,7 +71,7 @@ void print_low_frequency(const GeometryOptions& options) {
           "15, readout_ms: 20}\ntracks: {points_per_region: 20}\n") +
           kGimbal,
       identification(0.0, 1024), 1.0, true};
-  which.ways = {{"ours", {}}, {"scale", {"scale.only=true"}}, paper()};
+  which.ways = {{"ours", {"scale.only=false"}}, {"scale"}, paper()};
   print_score_columns("low-frequency", "mode 1");
   print_case(which, options);
 }
@@ -81,7 +83,7 @@ void print_elevation(const GeometryOptions& options) {
                              "attitude_deg: [30, 0, 0]}\n") +
                      kGimbal,
                  identification(20.0, 1024), 0.25};
-  which.ways = {paper(), {"one-scale", {"scale.only=true"}}};
+  which.ways = {paper(), {"one-scale"}};
   if (configuration_knows("scale.points")) {
     which.ways.push_back({.name = "plane-pose", .plane_points = true});
   }

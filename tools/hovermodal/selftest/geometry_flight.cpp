@@ -59,7 +59,7 @@ std::shared_ptr<const RecordedMotion> carried_by(const std::string& path, const 
 
 void hover_instead(core::simulation::HoverParameters& hover, double scale) {
   hover.x_rms_mm = hover.z_rms_mm = 120.0 * scale;
-  hover.y_rms_mm = 80.0 * scale;
+  hover.y_rms_mm = 40.0 * scale;
 }
 
 // A hundredth of what the tracker leaves of each channel: ground that rests would be no channel at all without.
@@ -88,6 +88,15 @@ std::string with_region_facts(std::string text, const core::simulation::Scene& s
     text = replaced(text, "role: background\n", fmt::format("role: background\n    depth_m: {}\n", depth_m));
   }
   return ground_rests && configuration_knows("| ground") ? replaced(text, "role: base", "role: ground") : text;
+}
+
+// The points are the scale then.
+std::string without_known_length(std::string text) {
+  for (const char* key : {"  known_length_mm:", "  from:", "  to:"}) {
+    const std::size_t at = text.find(key);
+    if (at != std::string::npos) text.erase(at, text.find('\n', at) + 1 - at);
+  }
+  return replaced(std::move(text), "scale:\n", "");
 }
 
 // scale.points: corners of the lowest, a middle and the highest plate, in mm along the plane.
@@ -209,8 +218,9 @@ DeclaredRun declared_run(const SimulateJob& job, const FlightSetup& setup, const
   overrides.insert(overrides.end(), way.overrides.begin(), way.overrides.end());
   if (way.plane_points) overrides.push_back(plane_points(motion));
   const bool is_paper = std::find(overrides.begin(), overrides.end(), "method=paper") != overrides.end();
-  const std::string text =
+  std::string text =
       with_region_facts(config_text(declared, motion, "tracks.csv"), job.scene(), setup.ground_rests && !is_paper);
+  if (way.plane_points) text = without_known_length(std::move(text));
   return {app::parse_config(text, way.name, overrides), declared.declared_camera()};
 }
 

@@ -40,7 +40,7 @@ struct FlightSetup {
 
 // The scene of one seed. The recorded flight starts elsewhere in its record for each seed, 1/20 of the way there and
 // back on, and runs back and forth; its attitude is the scene's own. Without a recording the path is the hover model's:
-// 120, 80, 120 mm rms to the side, up and ahead, times flight_scale.
+// 120, 40, 120 mm rms to the side, up and ahead, times flight_scale.
 [[nodiscard]] SimulateJob flight_job(const FlightSetup& setup, std::uint64_t seed, double duration_s,
                                      const GeometryOptions& options);
 

@@ -154,8 +154,10 @@ void print_noise_floor(const GeometryOptions& options) {
       {"spectrum.segment=1024", "identification.period=10000"},
       0.25,
       true};
-  const std::vector<Way> ways{
-      {"ours"}, {"ours-no-background", {}, StatedReadout::kTrue, false}, {"paper", {"method=paper"}}};
+  const std::vector<Way> ways{{"ours"},
+                              {"whole-motion", {"scale.only=false"}},
+                              {"ours-no-background", {}, StatedReadout::kTrue, false},
+                              {"paper", {"method=paper"}}};
   const auto records = for_each_seed(options.n_seeds, options.n_threads,
                                      [&](std::uint64_t seed) { return floors_of(setup, ways, seed, options); });
   fmt::print(
