@@ -43,6 +43,9 @@ check_includes() {
       if (target == "tests") return room == "tests" ? "" : "only tests may include tests"
       if (room == target) {
         if (file ~ /^core\/simulation\// && name ~ /^core\/closure\//) return "core/simulation must not know core/closure: a test must not be made by what it tests"
+        if (file ~ /^core\/(closure|structure)\// && name ~ /^core\/simulation\//) return "core/closure and core/structure must not know core/simulation: a test must not be made by what it tests"
+        if (file ~ /^core\/simulation\// && name ~ /^core\/structure\//) return "core/simulation builds structures of its own: a test must not be made by what it tests"
+        if (file ~ /^core\/structure\// && name ~ /^core\/closure\//) return "core/structure is a model; core/closure judges it"
         if (file ~ /^core\/types\// && name !~ /^core\/types\//) return "core/types are plain data: they include only each other"
         return ""
       }

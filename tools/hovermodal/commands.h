@@ -12,6 +12,7 @@ void add_calibrate(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_plan(CLI::App& app);
 void add_identify(CLI::App& app);
+void add_closeloop(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_spy(CLI::App& app);

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   tools::add_calibrate(app);
   tools::add_simulate(app);
   tools::add_identify(app);
+  tools::add_closeloop(app);
   tools::add_replay(app);
   tools::add_compare(app);
   tools::add_spy(app);

@@ -19,5 +19,7 @@ void print_folding(const IdentificationOptions& options);    // modes above half
 void print_null(const IdentificationOptions& options);       // a rigid building under a hovering, vibrating camera
 void print_harmonics(const IdentificationOptions& options);  // rotor lines and steady forces beside modes
 void print_readout(const IdentificationOptions& options);    // readout time from tracks of the paper's experiment
+void print_closure(const IdentificationOptions& options);    // closing the loop on structures that lack one effect
+void print_closure_null(const IdentificationOptions& options);  // and on one that lacks none
 
 }  // namespace tools

@@ -105,7 +105,9 @@ constexpr std::array kIdentificationChecks{
     IdentificationCheck{"folding", "modes above half the frame rate", print_folding},
     IdentificationCheck{"null", "a rigid building under a hovering camera: no mode", print_null},
     IdentificationCheck{"harmonics", "rotor lines and steady forces beside modes", print_harmonics},
-    IdentificationCheck{"readout", "readout time estimated from tracks", print_readout}};
+    IdentificationCheck{"readout", "readout time estimated from tracks", print_readout},
+    IdentificationCheck{"closure", "closing the loop on structures that lack one known effect", print_closure},
+    IdentificationCheck{"closure-null", "closing the loop on a structure that lacks none", print_closure_null}};
 
 // The whole chain behind the tracker on simulated flights.
 struct GeometryCheck {

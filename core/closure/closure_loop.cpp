@@ -1,0 +1,185 @@
+#include "core/closure/closure_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace core::closure {
+namespace {
+
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+constexpr double kTie = 0.01;         // of the score: as good as equal
+constexpr double kKeptOfScore = 0.5;  // a refit must keep so much of the predicted drop in held-out squares
+
+class Loop {
+ public:
+  Loop(ClosureLevel& level, const ClosureOptions& options) : level_(level), options_(options) {}
+
+  ClosureResult run() {
+    start();
+    while (step()) {
+    }
+    finish();
+    return std::move(result_);
+  }
+
+ private:
+  void start() {
+    tell("fitting the model without effects");
+    result_.level = level_.name();
+    result_.unit = level_.unit();
+    fit_ = level_.fit();
+    result_.baseline_rms = fit_.residual_rms;
+    result_.noise_floor = fit_.noise_floor;
+    result_.modes_before = level_.modes();
+    result_.reference_error_before = level_.reference_error();
+  }
+
+  bool step() {
+    if (!fit_.structured) return stop(fit_.words);
+    if (result_.steps.size() >= options_.max_steps) return stop("as many effects as were allowed are adopted");
+    if (level_.candidates().empty()) return stop("no candidate is left; " + fit_.words);
+    tell("scoring the candidates of step " + std::to_string(result_.steps.size() + 1));
+    const std::vector<CandidateScore> scores = level_.score();
+    result_.refused = ranked(scores, kNone);
+    const std::size_t best = best_of(scores);
+    if (best == kNone) return stop("no candidate lowers the held-out error materially and plausibly");
+    const double threshold = threshold_of_step();
+    if (!(scores[best].score > threshold)) {
+      result_.refused.front().refusal = "not above what chance reaches";
+      return stop("the best candidate, " + scores[best].effect + ", is not above what chance reaches");
+    }
+    return adopt(scores, best, threshold);
+  }
+
+  bool adopt(const std::vector<CandidateScore>& scores, std::size_t best, double threshold) {
+    const LevelFit before = fit_;
+    level_.adopt(best);
+    fit_ = level_.fit();
+    const double predicted = before.heldout * before.heldout - scores[best].heldout * scores[best].heldout;
+    const double reached = before.heldout * before.heldout - fit_.heldout * fit_.heldout;
+    const bool from_nothing = std::isinf(before.heldout) && std::isfinite(fit_.heldout);
+    if (!from_nothing && !(reached > 0.0 && reached >= kKeptOfScore * predicted)) {
+      level_.drop();
+      fit_ = level_.fit();
+      return stop(scores[best].effect + " was taken back: the held-out error did not fall when all was refitted");
+    }
+    ClosureStep step;
+    step.effect = scores[best].effect;
+    step.kind = scores[best].kind;
+    step.heldout_before = before.heldout;
+    step.heldout_after = fit_.heldout;
+    step.score = scores[best].score;
+    step.threshold = threshold;
+    step.others = ranked(scores, best);
+    result_.steps.push_back(std::move(step));
+    result_.refused.clear();
+    return true;
+  }
+
+  [[nodiscard]] double threshold_of_step() {
+    std::vector<double> scores(options_.n_surrogates);
+    for (std::size_t i = 0; i < scores.size(); ++i) {
+      if (i % 32 == 0) tell("surrogate " + std::to_string(i + 1) + " of " + std::to_string(scores.size()));
+      scores[i] = level_.surrogate_score(next_seed());
+    }
+    result_.n_surrogates += scores.size();
+    return chance_threshold(std::move(scores));
+  }
+
+  [[nodiscard]] static std::size_t best_of(const std::vector<CandidateScore>& scores) {
+    std::size_t best = kNone;
+    for (std::size_t i = 0; i < scores.size(); ++i) {
+      const CandidateScore& s = scores[i];
+      if (!s.refusal.empty() || !std::isfinite(s.score) || !(s.score > 0.0)) continue;
+      if (best == kNone) {
+        best = i;
+        continue;
+      }
+      const double tie = kTie * std::max(s.score, scores[best].score);
+      const bool equal = std::abs(s.score - scores[best].score) <= tie && s.n_parameters != scores[best].n_parameters;
+      if (equal ? s.n_parameters < scores[best].n_parameters : s.score > scores[best].score) best = i;
+    }
+    return best;
+  }
+
+  // All but one, best first; those that may be adopted before those that may not.
+  [[nodiscard]] static std::vector<CandidateScore> ranked(std::vector<CandidateScore> scores, std::size_t without) {
+    if (without != kNone) scores.erase(scores.begin() + static_cast<std::ptrdiff_t>(without));
+    for (CandidateScore& s : scores) {
+      if (std::isnan(s.score)) s.score = -std::numeric_limits<double>::infinity();
+    }
+    std::stable_sort(scores.begin(), scores.end(), [](const CandidateScore& a, const CandidateScore& b) {
+      if (a.refusal.empty() != b.refusal.empty()) return a.refusal.empty();
+      return a.score > b.score;
+    });
+    return scores;
+  }
+
+  bool stop(const std::string& reason) {
+    result_.stop_reason = reason;
+    return false;
+  }
+
+  void finish() {
+    for (std::size_t i = 0; i < result_.steps.size(); ++i) {
+      tell("looking for rivals of " + result_.steps[i].effect);
+      result_.steps[i].parameters = level_.parameters(i);
+      result_.steps[i].rivals = level_.rivals(i, next_seed());
+    }
+    result_.residual_rms = fit_.residual_rms;
+    result_.modes_after = level_.modes();
+    result_.reference_error_after = level_.reference_error();
+    result_.not_observable = level_.not_observable();
+    const auto excess = [&](double rms) { return std::max(rms * rms - fit_.noise_floor * fit_.noise_floor, 0.0); };
+    const double whole = excess(result_.baseline_rms);
+    if (fit_.structured)
+      result_.unexplained_fraction = whole > 0.0 ? std::min(excess(fit_.residual_rms) / whole, 1.0) : 0.0;
+    result_.unexplained = fit_.structured ? level_.describe_residual() : "nothing: " + fit_.words;
+  }
+
+  // Never the same twice in a run: (seed, count) through splitmix64's constant keeps streams of other runs apart.
+  [[nodiscard]] std::uint64_t next_seed() noexcept { return options_.seed * 0x9e3779b97f4a7c15ULL + n_drawn_++; }
+
+  void tell(const std::string& words) const {
+    if (options_.progress) options_.progress(words);
+  }
+
+  ClosureLevel& level_;
+  const ClosureOptions& options_;
+  ClosureResult result_;
+  LevelFit fit_;
+  std::uint64_t n_drawn_ = 0;
+};
+
+}  // namespace
+
+double chance_threshold(std::vector<double> scores) {
+  const double n = static_cast<double>(scores.size());
+  const auto k = static_cast<std::size_t>(std::floor(kChance * (n + 1.0) + 1e-9));
+  if (k > 0) {
+    std::nth_element(scores.begin(), scores.begin() + static_cast<std::ptrdiff_t>(k - 1), scores.end(),
+                     std::greater<>());
+    return scores[k - 1];
+  }
+  const double mean = std::accumulate(scores.begin(), scores.end(), 0.0) / n;
+  double squares = 0.0;
+  for (const double s : scores) squares += (s - mean) * (s - mean);
+  const double deviation = std::sqrt(squares / std::max(n - 1.0, 1.0));
+  const double gumbel = -std::log(-std::log(1.0 - kChance));  // standard Gumbel at that level
+  return mean + deviation * std::sqrt(6.0) / std::numbers::pi * (gumbel - std::numbers::egamma);
+}
+
+ClosureResult close_loop(ClosureLevel& level, const ClosureOptions& options) {
+  if (options.n_surrogates < 8)
+    throw std::invalid_argument("surrogates: " + std::to_string(options.n_surrogates) +
+                                " cannot tell chance; take 333 or more (8 at least)");
+  return Loop(level, options).run();
+}
+
+}  // namespace core::closure

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace core::closure {
+
+// Plain results of closing the loop; closure.json holds them. Errors and residuals are in the level's unit.
+
+enum class EffectKind : std::uint8_t { kNamed, kLatent };
+
+struct ParameterValue {
+  std::string name, unit;
+  double value = 0.0;
+  std::optional<double> sigma;  // empty: unknown, as for a parameter that was given and not fitted
+};
+
+// What one candidate does on top of the effects adopted so far.
+struct CandidateScore {
+  std::string effect;
+  EffectKind kind = EffectKind::kNamed;
+  std::size_t n_parameters = 0;
+  double heldout = 0.0;  // error on data that its fit did not see
+  double score = 0.0;    // drop of the held-out squares in units of the noise variance; more is better
+  std::string refusal;   // why it may not be adopted however large its score: immaterial, implausible; empty = it may
+};
+
+struct ClosureStep {
+  std::string effect;
+  EffectKind kind = EffectKind::kNamed;
+  std::vector<ParameterValue> parameters;  // of the last joint fit
+  double heldout_before = 0.0, heldout_after = 0.0;
+  double score = 0.0, threshold = 0.0;
+  std::vector<std::string> rivals;     // in its place they would do as well: none of these is shown to be the cause
+  std::vector<CandidateScore> others;  // the other candidates of that step, best first
+};
+
+struct NotObservable {
+  std::string effect;
+  std::string reason;   // which free quantity absorbs it
+  std::string instead;  // what to measure or film to see it
+};
+
+// A mode of the model, or an identified one, beside its reference. Empty = unknown. Errors in percent of the reference.
+struct ClosureMode {
+  int number = 0;  // from 1
+  double frequency_hz = 0.0;
+  std::optional<double> damping_ratio, reference_hz, error_percent, heldout_error_percent, sigma_percent, mac;
+};
+
+struct ClosureResult {
+  std::string level, unit;
+  double baseline_rms = 0.0;  // residual of the model without effects
+  double noise_floor = 0.0;   // what noise alone would leave
+  double residual_rms = 0.0;  // with all adopted effects
+  std::vector<ClosureStep> steps;
+  double unexplained_fraction = 0.0;  // of the baseline's mean square above the noise
+  std::string unexplained;
+  std::vector<NotObservable> not_observable;
+  std::vector<ClosureMode> modes_before, modes_after;
+  std::optional<double> reference_error_before, reference_error_after;  // rms, on what no fit saw
+  std::string stop_reason;
+  std::vector<CandidateScore> refused;  // the last round's candidates, best first
+  std::size_t n_surrogates = 0;         // in all
+};
+
+}  // namespace core::closure

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <vector>
+
+#include "core/closure/closure_level.h"
+#include "core/structure/frame_fit.h"
+
+namespace core::closure {
+
+// The structure level: frequencies (and shapes, where given) of a declared shear frame against reference modes. The
+// unit is percent of frequency. Held out is one mode at a time: its frequency and shape are predicted from the others.
+// Score = drop of the summed squares of those predictions' errors, in units of the reference's variances.
+class StructureLevel final : public ClosureLevel {
+ public:
+  // Published bar: an effect must at least halve the leave-one-out error.
+  static constexpr double kMaterial = 0.5;
+
+  // Throws std::invalid_argument (core/structure/declared_frame.h). `check`: modes that no fit ever sees; where given,
+  // reference_error() is against them, else it is the leave-one-out error.
+  StructureLevel(structure::DeclaredFrame declared, std::vector<structure::ReferenceMode> reference,
+                 std::vector<structure::ReferenceMode> check = {});
+
+  [[nodiscard]] std::string name() const override { return "structure"; }
+  [[nodiscard]] std::string unit() const override { return "%"; }
+  [[nodiscard]] std::vector<NotObservable> not_observable() const override;
+  [[nodiscard]] std::vector<std::string> candidates() const override;
+  LevelFit fit() override;
+  [[nodiscard]] std::vector<CandidateScore> score() override;
+  [[nodiscard]] double surrogate_score(std::uint64_t seed) override;
+  void adopt(std::size_t candidate) override;
+  void drop() override;
+  [[nodiscard]] std::vector<ParameterValue> parameters(std::size_t adopted) const override;
+  [[nodiscard]] std::vector<std::string> rivals(std::size_t adopted, std::uint64_t seed) override;
+  [[nodiscard]] std::vector<ClosureMode> modes() const override;
+  [[nodiscard]] std::optional<double> reference_error() const override;
+  [[nodiscard]] std::string describe_residual() const override;
+
+  // All of the model's modes after the last fit(); what an adopted effect's numbers mean (may be empty).
+  [[nodiscard]] structure::FrameModes model_modes() const;
+  [[nodiscard]] std::string meaning(std::size_t adopted) const;
+  [[nodiscard]] const std::vector<structure::ReferenceMode>& check() const noexcept { return check_; }
+
+ private:
+  using Effect = const structure::StructuralEffect*;
+  using Reference = std::vector<structure::ReferenceMode>;
+
+  [[nodiscard]] std::vector<Effect> open() const;  // observable, not adopted
+  [[nodiscard]] structure::FrameModel with(Effect effect) const;
+  [[nodiscard]] std::string refusal(const structure::FrameModel& model, const structure::FrameFit& fit,
+                                    const structure::LeaveOneOut& loo) const;
+  [[nodiscard]] std::string implausible(const structure::FrameModel& model, const structure::FrameFit& fit) const;
+  [[nodiscard]] Reference surrogate(const structure::FrameModel& model, const structure::FrameFit& fit, double spread,
+                                    std::uint64_t seed) const;
+  [[nodiscard]] double spread() const;  // of the residual in sigmas, at least 1
+  [[nodiscard]] bool is_rival(const structure::FrameModel& rival, std::uint64_t seed) const;
+
+  structure::DeclaredFrame declared_;
+  Reference reference_, check_;
+  structure::FrameModel model_;
+  structure::FrameFit fit_;
+  structure::LeaveOneOut loo_;
+};
+
+}  // namespace core::closure

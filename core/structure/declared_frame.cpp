@@ -1,0 +1,72 @@
+#include "core/structure/declared_frame.h"
+
+#include <cmath>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+namespace core::structure {
+namespace {
+
+template <class... Parts>
+[[noreturn]] void refuse(const Parts&... parts) {
+  std::ostringstream text;
+  (text << ... << parts);
+  throw std::invalid_argument(text.str());
+}
+
+void require(double value, double low, double high, const std::string& what) {
+  if (!(value >= low && value <= high)) refuse(what, ": ", value, " is refused: allowed ", low, " .. ", high);
+}
+
+void require_each(const std::vector<double>& values, std::size_t n, const std::string& what) {
+  if (values.empty()) return;
+  if (values.size() != n) refuse(what, ": ", values.size(), " values for ", n, " storeys; give one each, lowest first");
+  for (const double value : values) require(value, 1e-6, 1e6, what);
+}
+
+}  // namespace
+
+void validate(const DeclaredFrame& frame) {
+  if (frame.n_storeys < 1 || frame.n_storeys > kMaxStoreys)
+    refuse("storeys: ", frame.n_storeys, " is refused: allowed 1 .. ", kMaxStoreys);
+  require_each(frame.mass, frame.n_storeys, "masses");
+  require_each(frame.stiffness_ratio, frame.n_storeys, "stiffness_ratio");
+  if (frame.storey_height_mm) require(*frame.storey_height_mm, 1.0, 1e5, "storey_height_mm");
+  if (frame.stiffness_over_mass_per_s2) require(*frame.stiffness_over_mass_per_s2, 1e-6, 1e12, "stiffness_over_mass");
+  if (frame.dt_s) require(*frame.dt_s, 1e-9, 1e3, "dt_s");
+  require(frame.frequency_sigma, 1e-6, 0.2, "frequency_sigma");
+  require(frame.shape_sigma, 1e-4, 1.0, "shape_sigma");
+  if (!frame.floors.empty() && frame.floors.size() != frame.n_storeys)
+    refuse("floors: ", frame.floors.size(), " names for ", frame.n_storeys, " storeys; give one each, lowest first");
+}
+
+void validate(const DeclaredFrame& frame, const std::vector<ReferenceMode>& reference) {
+  validate(frame);
+  if (reference.size() < 2)
+    refuse("the reference holds ", reference.size(), " modes; two or more are needed to leave one out");
+  std::set<int> numbers;
+  double last_hz = 0.0;
+  int last = 0;
+  for (const ReferenceMode& mode : reference) {
+    if (mode.number < 1 || static_cast<std::size_t>(mode.number) > frame.n_storeys)
+      refuse("mode ", mode.number, " of the reference: a frame of ", frame.n_storeys, " storeys has modes 1 .. ",
+             frame.n_storeys, "; declare more storeys, or leave the mode out");
+    if (!numbers.insert(mode.number).second) refuse("mode ", mode.number, " stands twice in the reference; keep one");
+    require(mode.frequency_hz, 1e-6, 1e9, "frequency of mode " + std::to_string(mode.number));
+    require(mode.sigma_hz / mode.frequency_hz, 1e-7, 0.5, "relative sigma of mode " + std::to_string(mode.number));
+    if (mode.number <= last || mode.frequency_hz <= last_hz)
+      refuse("mode ", mode.number, " at ", mode.frequency_hz, " Hz follows mode ", last, " at ", last_hz,
+             " Hz; modes count upwards with their frequencies");
+    last = mode.number;
+    last_hz = mode.frequency_hz;
+    if (!mode.shape.empty() && (mode.shape.size() != frame.n_storeys || mode.shape_sigma.size() != frame.n_storeys))
+      refuse("shape of mode ", mode.number, ": ", mode.shape.size(), " components for ", frame.n_storeys, " storeys");
+    for (std::size_t i = 0; i < mode.shape.size(); ++i) {
+      require(mode.shape[i], -1e3, 1e3, "shape of mode " + std::to_string(mode.number));
+      require(mode.shape_sigma[i], 1e-7, 1e3, "sigma of the shape of mode " + std::to_string(mode.number));
+    }
+  }
+}
+
+}  // namespace core::structure

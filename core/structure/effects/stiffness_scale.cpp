@@ -1,0 +1,30 @@
+#include "core/structure/effects/all.h"
+
+namespace core::structure {
+namespace {
+
+// Stiffness over mass is not what was declared. Where it was not declared it is fitted from the beginning.
+class StiffnessScale : public StructuralEffect {
+ public:
+  std::string_view name() const override { return "stiffness_scale"; }
+  std::vector<EffectParameter> parameters(const DeclaredFrame&) const override {
+    return {{"stiffness_over_mass_ratio", "1", 1.0, {0.98, 1.02}, 0.05, 20.0}};
+  }
+  std::optional<Obstacle> obstacle(const DeclaredFrame& declared) const override {
+    if (declared.stiffness_over_mass_per_s2) return std::nullopt;
+    return Obstacle{"stiffness over mass was not declared and is fitted from the beginning",
+                    "declare stiffness_over_mass, from a drawing or a pull test"};
+  }
+  void apply(std::span<const double> p, const DeclaredFrame&, ShearFrame& frame) const override {
+    for (double& k : frame.stiffness_per_s2) k *= p[0];
+  }
+  std::string implausible(std::span<const double> p, const DeclaredFrame&, const ShearFrame&) const override {
+    return outside(p[0], 0.3, 3.0, "a ratio of stiffness over mass");
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<StructuralEffect> make_stiffness_scale() { return std::make_unique<StiffnessScale>(); }
+
+}  // namespace core::structure

@@ -1,0 +1,289 @@
+#include "core/structure/frame_fit.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace core::structure {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kIterations = 60;
+constexpr int kDampings = 12;  // tries of one iteration
+
+struct Bounds {
+  VectorXd low, high, step;  // step of differences
+};
+
+Bounds bounds_of(const FrameModel& model) {
+  const Index n = model.n_parameters();
+  Bounds out{VectorXd::Constant(n, -60.0), VectorXd::Constant(n, 60.0), VectorXd::Constant(n, 1e-6)};
+  Index at = model.n_scale();
+  for (const StructuralEffect* effect : model.effects) {
+    for (const EffectParameter& p : effect->parameters(*model.declared)) {
+      out.low(at) = p.low;
+      out.high(at) = p.high;
+      out.step(at++) = 1e-6 * std::max(std::abs(p.starts.back()), 1e-3);
+    }
+  }
+  return out;
+}
+
+bool has_shapes(const std::vector<ReferenceMode>& reference) {
+  return std::any_of(reference.begin(), reference.end(), [](const ReferenceMode& m) { return !m.shape.empty(); });
+}
+
+// Residuals of one reference mode in units of its sigmas.
+void append_residuals(const FrameModes& modes, const ReferenceMode& mode, std::vector<double>& out) {
+  const Index r = mode.number - 1;
+  out.push_back((modes.frequency_hz(r) / mode.frequency_hz - 1.0) * mode.frequency_hz / mode.sigma_hz);
+  if (mode.shape.empty()) return;
+  double along = 0.0, square = 0.0;
+  for (std::size_t i = 0; i < mode.shape.size(); ++i) {
+    const double weight = 1.0 / (mode.shape_sigma[i] * mode.shape_sigma[i]);
+    const double component = modes.shapes(static_cast<Index>(i), r);
+    along += weight * component * mode.shape[i];
+    square += weight * component * component;
+  }
+  for (std::size_t i = 0; i < mode.shape.size(); ++i)
+    out.push_back((modes.shapes(static_cast<Index>(i), r) * along / square - mode.shape[i]) / mode.shape_sigma[i]);
+}
+
+class Problem {
+ public:
+  Problem(const FrameModel& model, const std::vector<ReferenceMode>& reference, int without)
+      : model_(model),
+        reference_(reference),
+        without_(without),
+        bounds_(bounds_of(model)),
+        with_shapes_(has_shapes(reference)) {}
+
+  [[nodiscard]] bool residuals(const VectorXd& p, VectorXd& out) const {
+    const auto modes = seen_modes(model_, p, with_shapes_);
+    if (!modes) return false;
+    std::vector<double> values;
+    for (std::size_t i = 0; i < reference_.size(); ++i) {
+      if (static_cast<int>(i) != without_) append_residuals(*modes, reference_[i], values);
+    }
+    out = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
+    return out.allFinite();
+  }
+
+  [[nodiscard]] bool jacobian(const VectorXd& p, const VectorXd& r, MatrixXd& out) const {
+    out.resize(r.size(), p.size());
+    VectorXd moved;
+    for (Index k = 0; k < p.size(); ++k) {
+      const double step = bounds_.step(k) + 1e-6 * std::abs(p(k));
+      VectorXd q = p;
+      q(k) += q(k) + step > bounds_.high(k) ? -step : step;
+      if (!residuals(q, moved)) {
+        q(k) = p(k) - step;
+        if (!residuals(q, moved)) return false;
+      }
+      out.col(k) = (moved - r) / (q(k) - p(k));
+    }
+    return true;
+  }
+
+  // From p on; false where p itself is no frame.
+  [[nodiscard]] bool minimise(FrameFit& fit, VectorXd p) const {
+    p = p.cwiseMax(bounds_.low).cwiseMin(bounds_.high);
+    VectorXd r;
+    if (!residuals(p, r)) return false;
+    double damping = 1e-4;
+    MatrixXd j;
+    for (int i = 0; i < kIterations && p.size() > 0; ++i) {
+      if (!jacobian(p, r, j)) return false;
+      if (!improve(j, p, r, damping)) break;
+    }
+    if (!jacobian(p, r, fit.jacobian)) return false;
+    fit.ok = true;
+    fit.chi2 = r.squaredNorm();
+    fit.n_data = r.size();
+    fit.parameters = std::move(p);
+    return true;
+  }
+
+ private:
+  // One step that lowers the squares; false where there is none worth taking.
+  bool improve(const MatrixXd& j, VectorXd& p, VectorXd& r, double& damping) const {
+    const VectorXd gradient = j.transpose() * r;
+    MatrixXd normal = j.transpose() * j;
+    for (Index k = 0; k < p.size(); ++k) {  // what stands at a bound and would leave it stays
+      const bool held = (p(k) <= bounds_.low(k) && gradient(k) > 0.0) || (p(k) >= bounds_.high(k) && gradient(k) < 0.0);
+      if (!held && normal(k, k) > 0.0) continue;
+      normal.row(k).setZero();
+      normal.col(k).setZero();
+      normal(k, k) = 1.0;
+    }
+    for (int attempt = 0; attempt < kDampings; ++attempt) {
+      MatrixXd damped = normal;
+      damped.diagonal() *= 1.0 + damping;
+      VectorXd step = -damped.llt().solve(gradient);
+      for (Index k = 0; k < p.size(); ++k) {
+        if ((p(k) <= bounds_.low(k) && gradient(k) > 0.0) || (p(k) >= bounds_.high(k) && gradient(k) < 0.0))
+          step(k) = 0.0;
+      }
+      const VectorXd q = (p + step).cwiseMax(bounds_.low).cwiseMin(bounds_.high);
+      VectorXd moved;
+      if (residuals(q, moved) && moved.squaredNorm() < r.squaredNorm()) {
+        const double gain = r.squaredNorm() - moved.squaredNorm();
+        const bool worth = gain > 1e-10 * (r.squaredNorm() + 1e-6);
+        p = q;
+        r = std::move(moved);
+        damping = std::max(damping * 0.1, 1e-9);
+        return worth;
+      }
+      damping = std::min(damping * 10.0, 1e12);
+    }
+    return false;
+  }
+
+  const FrameModel& model_;
+  const std::vector<ReferenceMode>& reference_;
+  int without_;
+  Bounds bounds_;
+  bool with_shapes_;
+};
+
+// Where a fit of the whole begins: ln(stiffness over mass) from the lowest reference mode of the plain frame.
+double first_scale(const FrameModel& model, const std::vector<ReferenceMode>& reference) {
+  const auto modes = frame_modes(uniform_frame(*model.declared, 1.0), false);
+  if (!modes) return 0.0;
+  double sum = 0.0;
+  for (const ReferenceMode& mode : reference) sum += std::log(mode.frequency_hz / modes->frequency_hz(mode.number - 1));
+  return 2.0 * sum / static_cast<double>(reference.size());
+}
+
+// All combinations of the last effect's starts, behind what is known of the others.
+std::vector<VectorXd> starts_of(const FrameModel& model, const std::vector<ReferenceMode>& reference,
+                                const VectorXd& before) {
+  const Index n = model.n_parameters();
+  VectorXd base = VectorXd::Zero(n);
+  if (model.n_scale() == 1) base(0) = first_scale(model, reference);
+  base.head(std::min(before.size(), n)) = before.head(std::min(before.size(), n));
+  std::vector<VectorXd> out{base};
+  if (before.size() >= n || model.effects.empty()) return out;
+  const std::vector<EffectParameter> last = model.effects.back()->parameters(*model.declared);
+  for (std::size_t k = 0; k < last.size(); ++k) {
+    std::vector<VectorXd> more;
+    for (const VectorXd& p : out) {
+      for (const double start : last[k].starts) {
+        more.push_back(p);
+        more.back()(n - static_cast<Index>(last.size() - k)) = start;
+      }
+    }
+    out = std::move(more);
+  }
+  return out;
+}
+
+}  // namespace
+
+Index FrameModel::n_parameters() const {
+  Index n = n_scale();
+  for (const StructuralEffect* effect : effects) n += static_cast<Index>(effect->parameters(*declared).size());
+  return n;
+}
+
+std::vector<double> FrameModel::of_effect(std::size_t i_effect, const VectorXd& parameters) const {
+  Index at = n_scale();
+  for (std::size_t i = 0; i < i_effect; ++i) at += static_cast<Index>(effects[i]->parameters(*declared).size());
+  const auto n = effects[i_effect]->parameters(*declared).size();
+  return {parameters.data() + at, parameters.data() + at + n};
+}
+
+ShearFrame frame_of(const FrameModel& model, const VectorXd& parameters) {
+  const double scale =
+      model.n_scale() == 1 ? std::exp(parameters(0)) : model.declared->stiffness_over_mass_per_s2.value_or(1.0);
+  ShearFrame frame = uniform_frame(*model.declared, scale);
+  for (std::size_t i = 0; i < model.effects.size(); ++i)
+    model.effects[i]->apply(model.of_effect(i, parameters), *model.declared, frame);
+  return frame;
+}
+
+std::optional<FrameModes> seen_modes(const FrameModel& model, const VectorXd& parameters, bool with_shapes) {
+  auto modes = frame_modes(frame_of(model, parameters), with_shapes);
+  if (!modes) return modes;
+  for (std::size_t i = 0; i < model.effects.size(); ++i) {
+    const std::vector<double> own = model.of_effect(i, parameters);
+    for (double& hz : modes->frequency_hz) hz = model.effects[i]->seen_hz(hz, own, *model.declared);
+  }
+  return modes;
+}
+
+FrameFit fit_frame(const FrameModel& model, const std::vector<ReferenceMode>& reference, const VectorXd& before,
+                   Starts starts, int without) {
+  const Problem problem(model, reference, without);
+  std::vector<VectorXd> all = starts_of(model, reference, before);
+  if (starts == Starts::kBest && all.size() > 1) {
+    const auto squares = [&](const VectorXd& p) {
+      VectorXd r;
+      return problem.residuals(p, r) ? r.squaredNorm() : kInfinity;
+    };
+    all = {*std::min_element(all.begin(), all.end(),
+                             [&](const VectorXd& a, const VectorXd& b) { return squares(a) < squares(b); })};
+  }
+  FrameFit best;
+  for (const VectorXd& start : all) {
+    FrameFit fit;
+    if (problem.minimise(fit, start) && (!best.ok || fit.chi2 < best.chi2)) best = std::move(fit);
+  }
+  return best;
+}
+
+LeaveOneOut leave_one_out(const FrameModel& model, const std::vector<ReferenceMode>& reference, const FrameFit& fit) {
+  LeaveOneOut out;
+  out.chi2 = out.rms_percent = kInfinity;
+  const auto n = static_cast<Index>(reference.size());
+  if (!fit.ok || n < 2) return out;
+  double chi2 = 0.0, squares = 0.0;
+  std::vector<double> errors;
+  for (Index i = 0; i < n; ++i) {
+    const FrameFit others = fit_frame(model, reference, fit.parameters, Starts::kBest, static_cast<int>(i));
+    if (!others.ok || others.n_data < others.parameters.size()) return out;
+    const ReferenceMode& mode = reference[static_cast<std::size_t>(i)];
+    const auto modes = seen_modes(model, others.parameters, !mode.shape.empty());
+    if (!modes) return out;
+    std::vector<double> residuals;
+    append_residuals(*modes, mode, residuals);
+    for (const double r : residuals) chi2 += r * r;
+    errors.push_back(modes->frequency_hz(mode.number - 1) / mode.frequency_hz - 1.0);
+    squares += errors.back() * errors.back();
+  }
+  if (!std::isfinite(chi2)) return out;
+  out.chi2 = chi2;
+  out.rms_percent = 100.0 * std::sqrt(squares / static_cast<double>(n));
+  out.relative_error = std::move(errors);
+  return out;
+}
+
+VectorXd parameter_sigmas(const FrameFit& fit) {
+  const Index n = fit.parameters.size();
+  VectorXd out = VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
+  if (!fit.ok || n == 0) return out;
+  VectorXd size(n);  // unit columns: parameters differ by orders of magnitude
+  for (Index k = 0; k < n; ++k) size(k) = fit.jacobian.col(k).norm();
+  if (!(size.minCoeff() > 0.0)) return out;
+  const MatrixXd scaled = fit.jacobian * size.cwiseInverse().asDiagonal();
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(scaled);
+  if (qr.rank() < n || std::abs(double{qr.matrixQR()(n - 1, n - 1)}) < 1e-7) return out;
+  const MatrixXd inverse = (scaled.transpose() * scaled).llt().solve(MatrixXd::Identity(n, n));
+  for (Index k = 0; k < n; ++k) out(k) = std::sqrt(inverse(k, k)) / size(k);
+  return out;
+}
+
+double chi2_limit(double degrees_of_freedom) {
+  constexpr double kNormal = 2.748;  // exceeded with probability 0.003
+  const double part = 2.0 / (9.0 * degrees_of_freedom);
+  return degrees_of_freedom * std::pow(1.0 - part + kNormal * std::sqrt(part), 3);
+}
+
+}  // namespace core::structure

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "core/structure/structural_effect.h"
+
+namespace core::structure {
+
+// A shear frame with effects: what is fitted to reference modes. Parameters: ln(stiffness over mass) unless declared,
+// then those of the effects in their order. Borrows all of them.
+struct FrameModel {
+  const DeclaredFrame* declared = nullptr;
+  std::vector<const StructuralEffect*> effects;
+
+  [[nodiscard]] Eigen::Index n_scale() const noexcept { return declared->stiffness_over_mass_per_s2 ? 0 : 1; }
+  [[nodiscard]] Eigen::Index n_parameters() const;
+  // The parameters of one effect within all.
+  [[nodiscard]] std::vector<double> of_effect(std::size_t i_effect, const Eigen::VectorXd& parameters) const;
+};
+
+[[nodiscard]] ShearFrame frame_of(const FrameModel& model, const Eigen::VectorXd& parameters);
+// Modes as they would be seen; empty where the frame has none.
+[[nodiscard]] std::optional<FrameModes> seen_modes(const FrameModel& model, const Eigen::VectorXd& parameters,
+                                                   bool with_shapes);
+
+struct FrameFit {
+  bool ok = false;             // false: no parameters give a frame, or none start within bounds
+  Eigen::VectorXd parameters;  // within the effects' bounds
+  double chi2 = 0.0;           // sum of squared residuals in units of the reference's sigmas
+  Eigen::Index n_data = 0;
+  Eigen::MatrixXd jacobian;  // of those residuals; n_data x parameters
+};
+
+enum class Starts { kAll, kBest };  // begin at each effect's every start, or at the one that fits best
+
+// Least squares by Levenberg-Marquardt with bounds (Nocedal & Wright 10.3, 16.7), residuals: relative error of every
+// reference frequency over its sigma, and each shape's components, at its best scale, over theirs. The last effect's
+// parameters begin at its starts, all others at `before` (that of the model without the last effect), or, where
+// `before` holds all parameters, there. `without`: a place in `reference` that is left out; -1 none.
+[[nodiscard]] FrameFit fit_frame(const FrameModel& model, const std::vector<ReferenceMode>& reference,
+                                 const Eigen::VectorXd& before, Starts starts, int without = -1);
+
+// Each reference mode predicted by a fit to all others.
+struct LeaveOneOut {
+  std::vector<double> relative_error;  // of the frequency, per reference mode; empty: too few modes
+  double chi2 = 0.0;                   // of frequencies and shapes
+  double rms_percent = 0.0;            // of the frequencies; infinite where it cannot be told
+};
+[[nodiscard]] LeaveOneOut leave_one_out(const FrameModel& model, const std::vector<ReferenceMode>& reference,
+                                        const FrameFit& fit);
+
+// Standard deviations of the parameters; NaN where one stands at a bound or the data do not fix it.
+[[nodiscard]] Eigen::VectorXd parameter_sigmas(const FrameFit& fit);
+
+// The 99.7 % level of chi-square with that many degrees of freedom (Wilson & Hilferty 1931).
+[[nodiscard]] double chi2_limit(double degrees_of_freedom);
+
+}  // namespace core::structure

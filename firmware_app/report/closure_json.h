@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "core/closure/closure_result.h"
+
+namespace app {
+
+// Text of closure.json: no wall clock, no paths; the same input gives the same bytes. Unknown is null.
+[[nodiscard]] std::string closure_json(const core::closure::ClosureResult& result);
+
+// The residual of each mode before and after, percent of frequency, with one standard deviation of the reference to
+// both sides; a file of its own. Empty where no mode has a reference.
+[[nodiscard]] std::string closure_modes_svg(const core::closure::ClosureResult& result);
+
+}  // namespace app

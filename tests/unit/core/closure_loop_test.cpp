@@ -1,0 +1,187 @@
+#include "core/closure/closure_loop.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+namespace core::closure {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+struct Known {
+  std::string name;
+  double heldout_alone;  // held-out error with it on top of none
+  std::size_t n_parameters = 1;
+  std::string refusal = {};
+};
+
+// A level whose every answer is written down: held-out errors fall as told, the residual is structured above 1.
+class ScriptedLevel : public ClosureLevel {
+ public:
+  std::vector<Known> known;
+  double heldout = 4.0, chance = 0.5;
+  double refit_loss = 1.0;  // what a refit makes of the held-out error
+  std::vector<std::string> adopted;
+
+  std::string name() const override { return "structure"; }
+  std::string unit() const override { return "%"; }
+  std::vector<NotObservable> not_observable() const override { return {{"clock", "absorbed", "film a clock"}}; }
+  std::vector<std::string> candidates() const override {
+    std::vector<std::string> out;
+    for (const Known& k : known) out.push_back(k.name);
+    return out;
+  }
+  LevelFit fit() override {
+    return {heldout / 2.0, 0.1, heldout, heldout > 1.0, heldout > 1.0 ? "structured" : "noise"};
+  }
+  std::vector<CandidateScore> score() override {
+    std::vector<CandidateScore> out;
+    for (const Known& k : known) {
+      CandidateScore s;
+      s.effect = k.name;
+      s.n_parameters = k.n_parameters;
+      s.heldout = k.heldout_alone;
+      s.score = heldout * heldout - k.heldout_alone * k.heldout_alone;
+      s.refusal = k.refusal;
+      out.push_back(s);
+    }
+    return out;
+  }
+  double surrogate_score(std::uint64_t seed) override { return seeds[seed]++ == 0 ? chance : 1e9; }
+  void adopt(std::size_t i) override {
+    adopted.push_back(known.at(i).name);
+    before_ = heldout;
+    heldout = known.at(i).heldout_alone * refit_loss;
+    taken_ = known.at(i);
+    known.erase(known.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  void drop() override {
+    adopted.pop_back();
+    heldout = before_;
+    known.push_back(taken_);
+  }
+  std::vector<ParameterValue> parameters(std::size_t) const override { return {{"p", "1", 2.0, 0.1}}; }
+  std::vector<std::string> rivals(std::size_t i, std::uint64_t) override {
+    return i == 0 ? std::vector<std::string>{"twin"} : std::vector<std::string>{};
+  }
+  std::vector<ClosureMode> modes() const override { return {}; }
+  std::optional<double> reference_error() const override { return heldout; }
+  std::string describe_residual() const override { return "left over"; }
+
+  std::map<std::uint64_t, int> seeds;
+
+ private:
+  double before_ = 0.0;
+  Known taken_;
+};
+
+TEST(ClosureLoop, AdoptsTheBestUntilOnlyNoiseIsLeft) {
+  ScriptedLevel level;
+  level.known = {{"weak", 3.0}, {"strong", 1.5}, {"finishing", 0.9}};
+  level.known[2].heldout_alone = 2.0;
+  const ClosureResult first = close_loop(level, {.n_surrogates = 333});
+  EXPECT_THAT(level.adopted, ElementsAre("strong"));
+  EXPECT_THAT(first.stop_reason, HasSubstr("no candidate lowers"));
+  ASSERT_EQ(first.steps.size(), 1U);
+  EXPECT_DOUBLE_EQ(first.steps[0].heldout_before, 4.0);
+  EXPECT_DOUBLE_EQ(first.steps[0].heldout_after, 1.5);
+  EXPECT_DOUBLE_EQ(first.steps[0].threshold, 0.5);
+  EXPECT_THAT(first.steps[0].rivals, ElementsAre("twin"));
+  EXPECT_EQ(first.steps[0].others.front().effect, "finishing");
+  EXPECT_EQ(first.unexplained, "left over");
+  EXPECT_GT(first.unexplained_fraction, 0.0);
+  EXPECT_EQ(first.n_surrogates, 333U);
+  EXPECT_EQ(*first.reference_error_before, 4.0);
+  EXPECT_EQ(*first.reference_error_after, 1.5);
+  EXPECT_EQ(first.not_observable.size(), 1U);
+}
+
+TEST(ClosureLoop, StopsAtNoiseWithoutASingleSurrogate) {
+  ScriptedLevel level;
+  level.heldout = 0.8;
+  level.known = {{"tempting", 0.1}};
+  const ClosureResult result = close_loop(level);
+  EXPECT_TRUE(result.steps.empty());
+  EXPECT_EQ(result.n_surrogates, 0U);
+  EXPECT_EQ(result.stop_reason, "noise");
+  EXPECT_EQ(result.unexplained_fraction, 0.0);
+}
+
+TEST(ClosureLoop, LeavesWhatChanceReaches) {
+  ScriptedLevel level;
+  level.chance = 100.0;
+  level.known = {{"lucky", 1.5}};
+  const ClosureResult result = close_loop(level);
+  EXPECT_TRUE(level.adopted.empty());
+  EXPECT_THAT(result.stop_reason, HasSubstr("lucky, is not above what chance reaches"));
+}
+
+TEST(ClosureLoop, RefusedCandidatesAreNamedAndNeverAdopted) {
+  ScriptedLevel level;
+  level.known = {{"impossible", 0.1, 1, "implausible: negative mass"}, {"modest", 2.0}};
+  const ClosureResult result = close_loop(level);
+  EXPECT_THAT(level.adopted, ElementsAre("modest"));
+  EXPECT_EQ(result.steps[0].others[0].refusal, "implausible: negative mass");
+}
+
+TEST(ClosureLoop, FewerParametersWinATie) {
+  ScriptedLevel level;
+  level.known = {{"three", 1.500, 3}, {"one", 1.505, 1}};
+  (void)close_loop(level);
+  EXPECT_EQ(level.adopted.front(), "one");
+}
+
+TEST(ClosureLoop, TakesBackWhatTheRefitDoesNotKeep) {
+  ScriptedLevel level;
+  level.refit_loss = 10.0;
+  level.known = {{"deceiver", 1.5}};
+  const ClosureResult result = close_loop(level);
+  EXPECT_TRUE(level.adopted.empty());
+  EXPECT_TRUE(result.steps.empty());
+  EXPECT_THAT(result.stop_reason, HasSubstr("taken back"));
+}
+
+TEST(ClosureLoop, NeverDrawsASurrogateTwice) {
+  ScriptedLevel level;
+  level.known = {{"a", 2.5}, {"b", 2.0}, {"c", 1.5}};
+  (void)close_loop(level, {.n_surrogates = 50});
+  for (const auto& [seed, times] : level.seeds) EXPECT_EQ(times, 1) << seed;
+}
+
+TEST(ClosureLoop, InfiniteAndUndefinedScoresAreLeft) {
+  ScriptedLevel level;
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  level.known = {{"nan", nan}, {"inf", inf}};
+  const ClosureResult result = close_loop(level);
+  EXPECT_TRUE(level.adopted.empty());
+  EXPECT_FALSE(result.stop_reason.empty());
+}
+
+TEST(ClosureLoop, RefusesTooFewSurrogates) {
+  ScriptedLevel level;
+  EXPECT_THROW((void)close_loop(level, {.n_surrogates = 3}), std::invalid_argument);
+}
+
+TEST(ChanceThreshold, IsAnOrderStatisticWhereThereAreEnough) {
+  std::vector<double> scores;
+  for (int i = 1; i <= 999; ++i) scores.push_back(i);
+  EXPECT_EQ(chance_threshold(scores), 997.0);  // exceeded by three of a thousand, the next draw included
+  scores.resize(333);
+  EXPECT_EQ(chance_threshold(scores), 333.0);
+}
+
+TEST(ChanceThreshold, ReadsAGumbelTailFromFew) {
+  // Gumbel quantiles at (i - 1/2) / n; location 2, scale 3: the 99.7 % level is 2 + 3 * 5.8076.
+  std::vector<double> scores;
+  for (int i = 0; i < 100; ++i) scores.push_back(2.0 - 3.0 * std::log(-std::log((i + 0.5) / 100.0)));
+  EXPECT_NEAR(chance_threshold(scores), 19.4, 1.0);
+}
+
+}  // namespace
+}  // namespace core::closure

@@ -1,0 +1,90 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "tools/hovermodal/closeloop/words.h"
+
+namespace tools {
+namespace {
+
+using core::closure::CandidateScore;
+using core::closure::ClosureMode;
+using core::closure::ClosureResult;
+using core::closure::ClosureStep;
+
+std::string parameters_text(const ClosureStep& step) {
+  std::string out;
+  for (const auto& p : step.parameters) {
+    out += fmt::format("{}{} = {:.4g}", out.empty() ? "" : ", ", p.name, p.value);
+    out += p.sigma ? fmt::format(" +- {:.2g}", *p.sigma) : " (at a bound, or not fixed by the data)";
+    if (p.unit != "1") out += " " + p.unit;
+  }
+  return out.empty() ? "nothing fitted" : out;
+}
+
+std::string others_text(const std::vector<CandidateScore>& others, const std::string& unit) {
+  std::string out;
+  for (const CandidateScore& other : others)
+    out += fmt::format("      {:<20}{:9.3g} {}  {}\n", other.effect, other.heldout, unit,
+                       other.refusal.empty() ? "less than the adopted one" : other.refusal);
+  return out;
+}
+
+std::string step_text(const ClosureStep& step, std::size_t i, const std::string& meaning, const std::string& unit) {
+  std::string out = fmt::format("step {}: {}{}\n", i + 1, step.effect,
+                                step.kind == core::closure::EffectKind::kLatent ? " (latent)" : "");
+  out += fmt::format("    held-out error {:.3g} -> {:.3g} {}; score {:.4g}, chance reaches {:.3g}\n",
+                     step.heldout_before, step.heldout_after, unit, step.score, step.threshold);
+  out += fmt::format("    {}{}\n", parameters_text(step), meaning.empty() ? "" : "; " + meaning);
+  if (!step.rivals.empty())
+    out += fmt::format("    cannot be told from: {}; the cause is one of these\n", fmt::join(step.rivals, ", "));
+  if (!step.others.empty()) out += "    tried beside it:\n" + others_text(step.others, unit);
+  return out;
+}
+
+std::string cell(const std::optional<double>& value, const char* format, int width) {
+  return value ? fmt::format(fmt::runtime(format), *value) : fmt::format("{:>{}}", "-", width);
+}
+
+std::string modes_text(const ClosureResult& result) {
+  const bool with_mac = std::any_of(result.modes_before.begin(), result.modes_before.end(),
+                                    [](const ClosureMode& m) { return m.mac.has_value(); });
+  std::string out = fmt::format("mode  reference Hz    before %     after %  held out %{}\n",
+                                with_mac ? "   MAC before     after" : "");
+  for (std::size_t i = 0; i < result.modes_after.size() && i < result.modes_before.size(); ++i) {
+    const ClosureMode &before = result.modes_before[i], &after = result.modes_after[i];
+    out += fmt::format("{:4}  {}  {}  {}  {}", after.number,
+                       after.reference_hz ? fmt::format("{:12.4f}", *after.reference_hz)
+                                          : fmt::format("({:10.4f})", after.frequency_hz),
+                       cell(before.error_percent, "{:+10.3f}", 10), cell(after.error_percent, "{:+10.3f}", 10),
+                       cell(after.heldout_error_percent, "{:+10.3f}", 10));
+    if (with_mac) out += fmt::format("   {}  {}", cell(before.mac, "{:10.5f}", 10), cell(after.mac, "{:8.5f}", 8));
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string closure_text(const ClosureResult& result, const std::vector<std::string>& meanings) {
+  const std::string& unit = result.unit;
+  std::string out = fmt::format("level {}: residual {:.3g} {} rms without effects, stated noise {:.3g} {}\n",
+                                result.level, result.baseline_rms, unit, result.noise_floor, unit);
+  for (std::size_t i = 0; i < result.steps.size(); ++i)
+    out += step_text(result.steps[i], i, i < meanings.size() ? meanings[i] : "", unit);
+  if (result.steps.empty()) out += "no effect adopted\n";
+  if (!result.refused.empty()) out += "not adopted (held-out error, why):\n" + others_text(result.refused, unit);
+  out += fmt::format("stopped: {}\n", result.stop_reason);
+  out += fmt::format("residual {:.3g} -> {:.3g} {} rms; unexplained {:.0f} %: {}\n", result.baseline_rms,
+                     result.residual_rms, unit, 100.0 * result.unexplained_fraction, result.unexplained);
+  if (result.reference_error_before && result.reference_error_after)
+    out += fmt::format("error on what no fit saw {:.3g} -> {:.3g} {}\n", *result.reference_error_before,
+                       *result.reference_error_after, unit);
+  out += modes_text(result);
+  for (const auto& effect : result.not_observable)
+    out += fmt::format("not observable here: {}: {}; {}\n", effect.effect, effect.reason, effect.instead);
+  return out;
+}
+
+}  // namespace tools
