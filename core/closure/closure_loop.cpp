@@ -51,7 +51,9 @@ class Loop {
     if (best == kNone) return stop("no candidate lowers the held-out error materially and plausibly");
     const double threshold = threshold_of_step();
     if (!(scores[best].score > threshold)) {
-      result_.refused.front().refusal = "not above what chance reaches";
+      for (CandidateScore& score : result_.refused) {
+        if (score.refusal.empty()) score.refusal = "not above what chance reaches";
+      }
       return stop("the best candidate, " + scores[best].effect + ", is not above what chance reaches");
     }
     return adopt(scores, best, threshold);

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "core/closure/closure_loop.h"
 #include "core/closure/noise_stream.h"
+#include "core/closure/structure_words.h"
 
 namespace core::closure {
 
@@ -23,31 +23,6 @@ namespace {
 
 constexpr std::size_t kRivalSurrogates = 333;
 
-double relative_sigma(const ReferenceMode& mode) { return mode.sigma_hz / mode.frequency_hz; }
-
-std::string number(double value) {
-  std::ostringstream text;
-  text.precision(3);
-  text << value;
-  return text.str();
-}
-
-// rms of the relative errors of frequencies, percent; infinite without a model.
-double rms_percent(const std::vector<ReferenceMode>& reference, const FrameModes& modes) {
-  double squares = 0.0;
-  for (const ReferenceMode& mode : reference) {
-    const double error = modes.frequency_hz(mode.number - 1) / mode.frequency_hz - 1.0;
-    squares += error * error;
-  }
-  return 100.0 * std::sqrt(squares / static_cast<double>(reference.size()));
-}
-
-double mac(const std::vector<double>& a, const Eigen::VectorXd& b) {
-  const Eigen::Map<const Eigen::VectorXd> x(a.data(), static_cast<Eigen::Index>(a.size()));
-  const double inner = x.dot(b);
-  return inner * inner / (x.squaredNorm() * b.squaredNorm());
-}
-
 }  // namespace
 
 StructureLevel::StructureLevel(structure::DeclaredFrame declared, Reference reference, Reference check)
@@ -60,15 +35,6 @@ StructureLevel::StructureLevel(structure::DeclaredFrame declared, Reference refe
     structure::validate(declared_, check_);
   }
   model_.declared = &declared_;
-}
-
-std::vector<NotObservable> StructureLevel::not_observable() const {
-  std::vector<NotObservable> out;
-  for (const auto& effect : structure::structural_effects()) {
-    if (const auto obstacle = effect->obstacle(declared_))
-      out.push_back({std::string(effect->name()), obstacle->reason, obstacle->instead});
-  }
-  return out;
 }
 
 std::vector<StructureLevel::Effect> StructureLevel::open() const {
@@ -195,21 +161,6 @@ void StructureLevel::drop() {
   fit_.parameters = fit_.parameters.head(model_.n_parameters()).eval();
 }
 
-std::vector<ParameterValue> StructureLevel::parameters(std::size_t adopted) const {
-  Eigen::Index at = model_.n_scale();
-  for (std::size_t i = 0; i < adopted; ++i)
-    at += static_cast<Eigen::Index>(model_.effects[i]->parameters(declared_).size());
-  const Eigen::VectorXd sigmas = spread() * parameter_sigmas(fit_);
-  std::vector<ParameterValue> out;
-  for (const structure::EffectParameter& p : model_.effects.at(adopted)->parameters(declared_)) {
-    ParameterValue value{p.name, p.unit, fit_.parameters(at), std::nullopt};
-    if (std::isfinite(sigmas(at))) value.sigma = sigmas(at);
-    out.push_back(std::move(value));
-    ++at;
-  }
-  return out;
-}
-
 // Where the residual is more than the stated noise, what is left is taken as noise: Birge's ratio.
 double StructureLevel::spread() const {
   const double freedom = static_cast<double>(fit_.n_data - fit_.parameters.size());
@@ -246,59 +197,6 @@ std::vector<std::string> StructureLevel::rivals(std::size_t adopted, std::uint64
     if (is_rival(rival, seed)) out.emplace_back(effect->name());
   }
   return out;
-}
-
-FrameModes StructureLevel::model_modes() const {
-  return seen_modes(model_, fit_.parameters, true).value_or(FrameModes{});
-}
-
-std::vector<ClosureMode> StructureLevel::modes() const {
-  const FrameModes model = model_modes();
-  std::vector<ClosureMode> out;
-  for (Eigen::Index r = 0; r < model.frequency_hz.size(); ++r) {
-    ClosureMode mode;
-    mode.number = static_cast<int>(r) + 1;
-    mode.frequency_hz = model.frequency_hz(r);
-    for (std::size_t i = 0; i < reference_.size(); ++i) {
-      const ReferenceMode& seen = reference_[i];
-      if (seen.number != mode.number) continue;
-      mode.reference_hz = seen.frequency_hz;
-      mode.error_percent = 100.0 * (mode.frequency_hz / seen.frequency_hz - 1.0);
-      if (!loo_.relative_error.empty()) mode.heldout_error_percent = 100.0 * loo_.relative_error[i];
-      mode.sigma_percent = 100.0 * relative_sigma(seen);
-      if (!seen.shape.empty()) mode.mac = mac(seen.shape, model.shapes.col(r));
-    }
-    out.push_back(std::move(mode));
-  }
-  return out;
-}
-
-std::optional<double> StructureLevel::reference_error() const {
-  if (!check_.empty()) return rms_percent(check_, model_modes());
-  if (std::isfinite(loo_.rms_percent)) return loo_.rms_percent;
-  return std::nullopt;
-}
-
-std::string StructureLevel::describe_residual() const {
-  const ClosureMode* worst = nullptr;
-  const std::vector<ClosureMode> all = modes();
-  double first = 0.0, last = 0.0;
-  bool any = false;
-  for (const ClosureMode& mode : all) {
-    if (!mode.error_percent) continue;
-    if (worst == nullptr || std::abs(*mode.error_percent) > std::abs(*worst->error_percent)) worst = &mode;
-    if (!any) first = *mode.error_percent;
-    last = *mode.error_percent;
-    any = true;
-  }
-  if (worst == nullptr) return "no mode has a reference";
-  return "errors from " + number(first) + " % (lowest mode) to " + number(last) + " % (highest), largest " +
-         number(*worst->error_percent) + " % in mode " + std::to_string(worst->number) +
-         ": named by no effect of the catalogue";
-}
-
-std::string StructureLevel::meaning(std::size_t adopted) const {
-  return model_.effects.at(adopted)->meaning(model_.of_effect(adopted, fit_.parameters), declared_);
 }
 
 }  // namespace core::closure

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 struct Known {
   std::string name;
-  double heldout_alone;  // held-out error with it on top of none
+  double heldout_alone = 0.0;  // held-out error with it on top of none
   std::size_t n_parameters = 1;
   std::string refusal = {};
 };

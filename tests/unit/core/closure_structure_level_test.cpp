@@ -17,6 +17,7 @@ using structure::DeclaredFrame;
 using structure::ReferenceMode;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::vector<ReferenceMode> modes_at(const std::vector<double>& frequency_hz, double sigma = 0.0015) {
   std::vector<ReferenceMode> out;
