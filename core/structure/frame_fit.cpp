@@ -243,12 +243,12 @@ LeaveOneOut leave_one_out(const FrameModel& model, const std::vector<ReferenceMo
   LeaveOneOut out;
   out.chi2 = out.rms_percent = kInfinity;
   const auto n = static_cast<Index>(reference.size());
-  if (!fit.ok || n < 2) return out;
+  if (!fit.ok || n < 2 || n - 1 < fit.parameters.size()) return out;
   double chi2 = 0.0, squares = 0.0;
   std::vector<double> errors;
   for (Index i = 0; i < n; ++i) {
     const FrameFit others = fit_frame(model, reference, fit.parameters, Starts::kBest, static_cast<int>(i));
-    if (!others.ok || others.n_data < others.parameters.size()) return out;
+    if (!others.ok) return out;
     const ReferenceMode& mode = reference[static_cast<std::size_t>(i)];
     const auto modes = seen_modes(model, others.parameters, !mode.shape.empty());
     if (!modes) return out;

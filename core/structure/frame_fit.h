@@ -42,7 +42,8 @@ enum class Starts { kAll, kBest };  // begin at each effect's every start, or at
 [[nodiscard]] FrameFit fit_frame(const FrameModel& model, const std::vector<ReferenceMode>& reference,
                                  const Eigen::VectorXd& before, Starts starts, int without = -1);
 
-// Each reference mode predicted by a fit to all others.
+// Each reference mode predicted by a fit to all others, whose frequencies alone must suffice for its parameters: shapes
+// help, but their sigmas are often assumed.
 struct LeaveOneOut {
   std::vector<double> relative_error;  // of the frequency, per reference mode; empty: too few modes
   double chi2 = 0.0;                   // of frequencies and shapes

@@ -49,18 +49,21 @@ std::vector<double> uniform_hz(std::size_t n, double k_per_s2) {
   return out;
 }
 
+// Known: uniform 2.31 % rms, 2.79 % left out; softening with ground storey or roof mass 0.10 and 0.23 %.
 TEST(StructureLevel, PapersFrameSoftensUnderGravityAndItsPartnerStaysOpen) {
   StructureLevel level(frame_of(6), modes_at(kPaper), modes_at({1.632, 5.054, 8.175}));
   const ClosureResult result = close_loop(level);
-  EXPECT_NEAR(result.baseline_rms, 2.3, 0.05);
+  EXPECT_NEAR(result.baseline_rms, 2.31, 0.02);
   ASSERT_EQ(result.steps.size(), 2U);
-  EXPECT_EQ(result.steps[0].effect, "gravity_softening");
-  EXPECT_NEAR(result.steps[0].heldout_before, 2.8, 0.1);
-  EXPECT_NEAR(result.steps[0].heldout_after, 0.91, 0.02);
-  EXPECT_LE(result.residual_rms, 0.25);
-  EXPECT_NEAR(result.steps[1].heldout_after, 0.23, 0.02);
-  std::vector<std::string> partners = result.steps[1].rivals;
-  partners.push_back(result.steps[1].effect);
+  EXPECT_NEAR(result.steps[0].heldout_before, 2.79, 0.02);
+  EXPECT_NEAR(result.steps[1].heldout_after, 0.23, 0.01);
+  EXPECT_NEAR(result.residual_rms, 0.10, 0.01);
+  const bool gravity_first = result.steps[0].effect == "gravity_softening";
+  const ClosureStep &gravity = result.steps[gravity_first ? 0 : 1], &partner = result.steps[gravity_first ? 1 : 0];
+  EXPECT_EQ(gravity.effect, "gravity_softening");
+  EXPECT_NEAR(gravity.parameters[0].value, 90.0, 3.0);
+  std::vector<std::string> partners = partner.rivals;
+  partners.push_back(partner.effect);
   EXPECT_THAT(partners, Contains("ground_storey"));
   EXPECT_THAT(partners, Contains("roof_mass"));
   EXPECT_LT(*result.reference_error_after, *result.reference_error_before);
