@@ -76,7 +76,8 @@ TEST(StructureLevel, ADeclaredHeightRefusesAnotherOne) {
   StructureLevel level(frame, modes_at(kPaper));
   (void)level.fit();
   for (const CandidateScore& score : level.score()) {
-    if (score.effect == "gravity_softening") EXPECT_THAT(score.refusal, HasSubstr("implausible: a storey height"));
+    if (score.effect != "gravity_softening") continue;
+    EXPECT_THAT(score.refusal, HasSubstr("implausible: a storey height"));
   }
 }
 
