@@ -49,7 +49,7 @@ TEST(StructureFile, RefusalsNameFileLineKeyValueAndRemedy) {
       {"structure:\n  storeys: many\n", {"frame.yaml:2", "structure.storeys", "many", "decimal"}},
       {"structure:\n  storeys: 2.5\n", {"frame.yaml:2", "2.5", "whole"}},
       {"structure:\n  storeys: 1000\n", {"frame.yaml:2", "1000", "1 .. 100"}},
-      {"structure:\n  storey: 3\n", {"frame.yaml:2", "structure.storey", "storeys"}},
+      {"structure:\n  storeyss: 3\n", {"frame.yaml:2", "structure.storeyss", "did you mean `structure.storeys`"}},
       {"structure:\n  kind: bridge\n  storeys: 2\n", {"frame.yaml:2", "bridge", "shear_frame"}},
       {"structure:\n  kind: shear_frame\n", {"structure.storeys is missing"}},
       {"structure: {storeys: 3, masses: [1, 2]}", {"masses", "2 values for 3 storeys"}},
