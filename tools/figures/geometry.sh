@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The figures of the geometry: flights of known truth from tracks (and one from pixels) to modes. One line a figure.
-#   tools/figures/geometry.sh [--quick]      --quick takes 3 seeds for 20 and shorter records, and draws no clip
+#   tools/figures/geometry.sh [--quick] [FIGURE...]      --quick takes 3 seeds for 20 and shorter records, and draws no
+# clip; FIGURE: some of 1 ... 7 (default: all).
 # Tables and pictures stay in build/figures/geometry. Errors are those against the identification of the true motion of
 # the same record; beside them stand the errors against the true parameters, in the least possible scatter
 # sqrt(zeta / (2 pi f T)).
@@ -8,7 +9,9 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
 seeds=20 few=5 clips=3 shorter=()
-[ "${1:-}" != --quick ] || { seeds=3 few=1 clips=0 shorter=(--duration 120); }
+[ "${1:-}" != --quick ] || { seeds=3 few=1 clips=0 shorter=(--duration 120) && shift; }
+figures=("${@:-}")
+[ -n "${figures[0]}" ] || figures=(1 2 3 4 5 6 7)
 out=build/figures/geometry
 mkdir -p "$out"
 tools/setup.sh
@@ -162,5 +165,5 @@ figure_7() {
   done
 }
 
-for figure in 1 2 3 4 5 6 7; do figure_$figure; done
+for figure in "${figures[@]}"; do figure_$figure; done
 [ "$misses" -eq 0 ]
