@@ -74,6 +74,7 @@ ReadoutEstimator::ReadoutEstimator(const Config& config, const TrackFrame& keyfr
     first_bin_[n_bands_ + 1] = std::min(last + 1, static_cast<std::size_t>(std::lround(edge)));
     ++n_bands_;
   }
+  estimate_ = combined();
 }
 
 void ReadoutEstimator::update(const TrackFrame& tracks) noexcept {
@@ -150,6 +151,7 @@ void ReadoutEstimator::take_segment() noexcept {
   transform_channels();
   add_bins();
   close_segment();
+  estimate_ = combined();
   const auto n = static_cast<std::size_t>(segment_), half = n / 2;
   const auto shift = [&](auto& series, std::size_t rows) {
     for (std::size_t r = 0; r < rows; ++r) {
@@ -239,7 +241,7 @@ void ReadoutEstimator::close_segment() noexcept {
   segments_in_last_ = 0;
 }
 
-ReadoutEstimate ReadoutEstimator::estimate() const noexcept {
+ReadoutEstimate ReadoutEstimator::combined() const noexcept {
   const std::size_t n = segments_in_last_ == 0 && n_blocks_ > 0 ? n_blocks_ - 1 : n_blocks_;
   ReadoutEstimate estimate = combine_bands({blocks_.data(), n}, n_bands_, 0.375 * segment_);
   estimate.seconds_used =

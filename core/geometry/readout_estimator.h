@@ -42,8 +42,8 @@ class ReadoutEstimator {
 
   // One frame, in order. Gaps of a few frames are bridged, longer ones cut the record.
   void update(const TrackFrame& tracks) noexcept;
-  // Of all segments so far; cheap.
-  [[nodiscard]] ReadoutEstimate estimate() const noexcept;
+  // Of all segments so far; made when one is complete.
+  [[nodiscard]] const ReadoutEstimate& estimate() const noexcept { return estimate_; }
 
   static constexpr std::size_t kMaxBands = 20;
   static constexpr std::size_t kMaxBlocks = 20;
@@ -67,6 +67,7 @@ class ReadoutEstimator {
   void transform_channels() noexcept;
   void add_bins() noexcept;
   void close_segment() noexcept;
+  [[nodiscard]] ReadoutEstimate combined() const noexcept;
   [[nodiscard]] RegionShear::Sample& at(std::int64_t cell) noexcept {
     return ring_[static_cast<std::size_t>(cell % kRing)];
   }
@@ -97,6 +98,7 @@ class ReadoutEstimator {
   std::array<Block, kMaxBlocks> blocks_{};
   std::size_t n_blocks_ = 0, segments_in_last_ = 0, segments_per_block_ = 1;
   std::size_t n_segments_ = 0;
+  ReadoutEstimate estimate_;
 };
 
 }  // namespace core

@@ -9,15 +9,17 @@
 
 namespace core {
 
+// Same sizes; nothing allocates.
+inline void add_sums(std::vector<std::complex<double>>& into, const std::vector<std::complex<double>>& from) noexcept {
+  std::transform(into.begin(), into.end(), from.begin(), into.begin(), std::plus<>());
+}
+
 // `into` becomes the block of both. Same sizes; nothing allocates.
 inline void join_blocks(CpsdBlock& into, const CpsdBlock& from) noexcept {
-  const auto add = [](std::vector<std::complex<double>>& sum, const std::vector<std::complex<double>>& more) {
-    std::transform(sum.begin(), sum.end(), more.begin(), sum.begin(), std::plus<>());
-  };
   into.n_segments += from.n_segments;
   into.weight.join(from.weight);
-  add(into.data_sum, from.data_sum);
-  add(into.mask_sum, from.mask_sum);
+  add_sums(into.data_sum, from.data_sum);
+  add_sums(into.mask_sum, from.mask_sum);
 }
 
 }  // namespace core

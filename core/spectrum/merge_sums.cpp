@@ -20,10 +20,6 @@ std::string text(const char* format, Args... args) {
   return buffer;
 }
 
-void add(std::vector<std::complex<double>>& into, const std::vector<std::complex<double>>& from) {
-  for (std::size_t k = 0; k < into.size(); ++k) into[k] += from[k];
-}
-
 std::vector<CpsdBlock> blocks_in_use(const CpsdSums& sums) {
   return {sums.blocks.begin(), sums.blocks.begin() + static_cast<std::ptrdiff_t>(sums.n_blocks)};
 }
@@ -83,8 +79,8 @@ void add_record(RecordSums& into, const RecordSums& from) {
   CpsdSums& sums = into.sums;
   std::vector<CpsdBlock> blocks = blocks_in_use(sums);
   for (CpsdBlock& block : blocks_in_use(from.sums)) blocks.push_back(std::move(block));
-  add(sums.data_sum, from.sums.data_sum);
-  add(sums.mask_sum, from.sums.mask_sum);
+  add_sums(sums.data_sum, from.sums.data_sum);
+  add_sums(sums.mask_sum, from.sums.mask_sum);
   sums.n_segments += from.sums.n_segments;
   sums.weight.join(from.sums.weight);
   sums.n_samples += from.sums.n_samples;

@@ -82,6 +82,18 @@ void print_speed(const Options& options) {
   }
 }
 
+// The identification on simulated records.
+template <void (*print)(const IdentificationOptions&)>
+void identification(const Options& options) {
+  print({options.n_seeds, options.n_threads});
+}
+
+// The whole chain behind the tracker on simulated flights.
+template <void (*print)(const GeometryOptions&)>
+void geometry(const Options& options) {
+  print({options.n_seeds, options.n_threads, options.duration_s, options.report, options.flight});
+}
+
 struct Check {
   const char *name, *meaning;
   void (*print)(const Options&);
@@ -92,70 +104,40 @@ constexpr std::array kChecks{
     Check{"shifts", "plates drawn at known shifts, measured again", print_shifts},
     Check{"pixels", "light of single pixels against brute force, flicker against the lamps'", print_pixels},
     Check{"klt", "OpenCV's tracker in drawn frames against the true tracks", print_klt},
-    Check{"speed", "1080p frames drawn per second", print_speed}};
-
-// The identification on simulated records.
-struct IdentificationCheck {
-  const char *name, *meaning;
-  void (*print)(const IdentificationOptions&);
-};
-constexpr std::array kIdentificationChecks{
-    IdentificationCheck{"bias", "bias, scatter and stated intervals of the identification", print_bias},
-    IdentificationCheck{"losses", "what random losses of samples and frames do to the modes", print_losses},
-    IdentificationCheck{"folding", "modes above half the frame rate", print_folding},
-    IdentificationCheck{"null", "a rigid building under a hovering camera: no mode", print_null},
-    IdentificationCheck{"harmonics", "rotor lines and steady forces beside modes", print_harmonics},
-    IdentificationCheck{"readout", "readout time estimated from tracks", print_readout},
-    IdentificationCheck{"closure", "closing the loop on structures that lack one known effect", print_closure},
-    IdentificationCheck{"closure-null", "closing the loop on a structure that lacks none", print_closure_null}};
-
-// The whole chain behind the tracker on simulated flights.
-struct GeometryCheck {
-  const char *name, *meaning;
-  void (*print)(const GeometryOptions&);
-};
-constexpr std::array kGeometryChecks{
-    GeometryCheck{"geometry", "the paper's experiment, one correction after the other", print_geometry},
-    GeometryCheck{"geometry-pixels", "the same from rendered clips through the service", print_geometry_pixels},
-    GeometryCheck{"table1", "the paper's Table 1 and Figures 6 to 9, sensor by sensor", print_table1},
-    GeometryCheck{"wind", "gusts that turn the camera by 5 degrees", print_wind},
-    GeometryCheck{"low-frequency", "a mode of 0.32 Hz in the drift of the hover", print_low_frequency},
-    GeometryCheck{"deck", "a bridge deck, camera upright and turned", print_deck},
-    GeometryCheck{"elevation", "a tower seen from 30 degrees below", print_elevation},
-    GeometryCheck{"noise-floor", "nothing moves but the camera", print_noise_floor}};
-
-// Calls `visit` with every check of every kind.
-template <class Visit>
-void for_all_checks(const Visit& visit) {
-  std::for_each(kChecks.begin(), kChecks.end(), visit);
-  std::for_each(kIdentificationChecks.begin(), kIdentificationChecks.end(), visit);
-  std::for_each(kGeometryChecks.begin(), kGeometryChecks.end(), visit);
-}
+    Check{"speed", "1080p frames drawn per second", print_speed},
+    Check{"bias", "bias, scatter and stated intervals of the identification", identification<print_bias>},
+    Check{"losses", "what random losses of samples and frames do to the modes", identification<print_losses>},
+    Check{"folding", "modes above half the frame rate", identification<print_folding>},
+    Check{"null", "a rigid building under a hovering camera: no mode", identification<print_null>},
+    Check{"harmonics", "rotor lines and steady forces beside modes", identification<print_harmonics>},
+    Check{"readout", "readout time estimated from tracks", identification<print_readout>},
+    Check{"closure", "closing the loop on structures that lack one known effect", identification<print_closure>},
+    Check{"closure-null", "closing the loop on a structure that lacks none", identification<print_closure_null>},
+    Check{"geometry", "the paper's experiment, one correction after the other", geometry<print_geometry>},
+    Check{"geometry-pixels", "the same from rendered clips through the service", geometry<print_geometry_pixels>},
+    Check{"table1", "the paper's Table 1 and Figures 6 to 9, sensor by sensor", geometry<print_table1>},
+    Check{"wind", "gusts that turn the camera by 5 degrees", geometry<print_wind>},
+    Check{"low-frequency", "a mode of 0.32 Hz in the drift of the hover", geometry<print_low_frequency>},
+    Check{"deck", "a bridge deck, camera upright and turned", geometry<print_deck>},
+    Check{"elevation", "a tower seen from 30 degrees below", geometry<print_elevation>},
+    Check{"noise-floor", "nothing moves but the camera", geometry<print_noise_floor>}};
 
 std::string meanings() {
   std::string text = "What is checked";
-  for_all_checks([&](const auto& check) { text += fmt::format("\n{}: {}", check.name, check.meaning); });
+  for (const Check& check : kChecks) text += fmt::format("\n{}: {}", check.name, check.meaning);
   return text;
 }
 
 std::vector<std::string> names() {
   std::vector<std::string> all;
-  for_all_checks([&](const auto& check) { all.emplace_back(check.name); });
+  for (const Check& check : kChecks) all.emplace_back(check.name);
   return all;
 }
 
-void print(const Check& check, const Options& options) { check.print(options); }
-void print(const IdentificationCheck& check, const Options& options) {
-  check.print({options.n_seeds, options.n_threads});
-}
-void print(const GeometryCheck& check, const Options& options) {
-  check.print({options.n_seeds, options.n_threads, options.duration_s, options.report, options.flight});
-}
-
 void run(const Options& options) {
-  for_all_checks([&](const auto& check) {
-    if (options.what == check.name) print(check, options);
-  });
+  std::find_if(kChecks.begin(), kChecks.end(), [&](const Check& check) {
+    return options.what == check.name;
+  })->print(options);
 }
 
 }  // namespace
