@@ -94,10 +94,10 @@ void add_scale_keys(std::vector<ConfigKey>& keys) {
                             "the report says what it would do to the scale"));
   keys.push_back(switch_key("scale.adaptive", at(&A::scale, &C::adaptive),
                             "follow the camera in every frame; false: it stands on a tripod"));
-  keys.push_back(
-      switch_key("scale.only", at(&A::scale, &C::only),
-                 "follow the distance alone; false: the camera's turning and shifting too, where a focal length is "
-                 "known and something rests (role background or ground): for wind; it adds some noise"));
+  keys.push_back(switch_key(
+      "scale.only", at(&A::scale, &C::only),
+      "follow the distance alone; false: the camera's turning and shifting too, where a focal length is "
+      "known and something rests (role background or ground): for wind; its noise is that of the background"));
 }
 
 }  // namespace app

@@ -1,5 +1,6 @@
 #include "core/geometry/camera_motion.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -16,18 +17,14 @@ constexpr double kTurn_rad = 0.035, kLeastTurn_rad = 1e-6, kMostTurn_rad = 0.2;
 constexpr double kShift = 0.03, kLeastShift = 1e-6, kMostShift = 0.2;
 // The perspective turn is as good as free: see the header.
 constexpr double kFace_rad = 1.0;
-// The regions' own motions, in every frame: shares of the distance, rad, relative zoom.
-constexpr double kSlide = 1e3, kSlidePerReadout = 10.0, kZoom = 0.2, kFarShift = 0.5;
 constexpr int kIterations = 3;
 // Learning: rate per frame; pull towards rest, which nothing but motion that is clearly there withstands; what a single
 // frame may say; and where the prior is plainly too narrow.
 constexpr double kLearningRate = 0.1, kTowardsRest = 0.02, kMostSurprise = 4.0, kPlainSurprise = 16.0;
 constexpr double kLeastShare = 0.05;  // of its variance that a component has from this frame, to be asked
-constexpr double kTiltRate = 0.02, kLeastTilt_rad = 1e-6;
 constexpr double kOpen_px = 0.5;
-
-// What it takes for a turn of the region in its plane to be told from its slide.
-constexpr std::uint32_t kPointsForTilt = 4;
+// A shift that a frame tells this many times worse than a channel's own points tell where the channel is.
+constexpr double kPoorlyTold = 10.0;
 
 }  // namespace
 
@@ -49,15 +46,8 @@ CameraMotion::CameraMotion(const CameraMotionConfig& config, const std::vector<K
   }
   place_middles(points);
   add_own_columns(points);
-  // Where nothing rests, a turn and a shift cannot be told apart: f and t are all there is.
-  const bool rests = std::any_of(regions.begin(), regions.end(), [](const KeyframeRegion& region) {
-    return region.kind != KeyframeRegion::Kind::kMoving;
-  });
-  learns_tilt_ = !rests;
-  if (rests) tilt_variance_ = 1.0;  // free: what rests tells roll from bending
-  const double d = config.distance_mm, face = config.perspective ? kFace_rad : 0.0;
-  const double turn = config.perspective && rests ? 1.0 : 0.0;
-  base_ << turn, turn, 1.0, d, d, d, face, face;
+  const double d = config.distance_mm;
+  base_ << 1.0, 1.0, 1.0, d, d, d, kFace_rad, kFace_rad;
   log_variance_ = {2.0 * std::log(kTurn_rad), 2.0 * std::log(kShift)};
   set_sd();
   process_.start(sd_);
@@ -69,80 +59,12 @@ double CameraMotion::mean_share(const std::vector<KeyframePoint>& points) noexce
   return points.empty() ? 0.0 : sum / static_cast<double>(points.size());
 }
 
-// c: of all points in the structure's plane alike; of each far region its own.
-void CameraMotion::place_middles(const std::vector<KeyframePoint>& points) {
-  std::vector<Eigen::Vector3d> own(regions_.size(), Eigen::Vector3d::Zero());
-  std::vector<double> count(regions_.size(), 0.0);
-  Eigen::Vector3d structure = Eigen::Vector3d::Zero();  // mm
-  double n_structure = 0.0;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    own[points[i].region] += points_[i].ray;
-    count[points[i].region] += 1.0;
-    if (!in_plane(points_[i])) continue;
-    structure += points_[i].ray / points_[i].inverse_depth;
-    n_structure += 1.0;
-  }
-  if (n_structure > 0.0) structure /= n_structure;
-  if (structure.z() > 0.0) middle_ = structure / structure.z();
-  for (MotionPoint& p : points_) {
-    p.middle =
-        in_plane(p) ? Eigen::Vector3d(p.inverse_depth * structure) : Eigen::Vector3d(own[p.region] / count[p.region]);
-  }
-}
-
-// Background has a middle of its own, known depth or not.
-bool CameraMotion::in_plane(const MotionPoint& point) const noexcept {
-  return point.inverse_depth > 0.0 && !regions_[point.region].about.background;
-}
-
-void CameraMotion::add_own_columns(const std::vector<KeyframePoint>& points) {
-  for (std::size_t r = 0; r < regions_.size(); ++r) {
-    MotionRegion& region = regions_[r];
-    const auto of_region = [&](std::size_t i) { return points_[i].region == r; };
-    Eigen::Vector3d ray = Eigen::Vector3d::Zero();
-    double share = 0.0, count = 0.0;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (!of_region(i)) continue;
-      ray += points_[i].ray, share += points[i].readout_share, count += 1.0;
-    }
-    if (count > 0.0) ray /= count, share /= count;
-    region.share = share;
-    const auto add = [&](double sd, const auto& column) {
-      region.prior_sd(region.n_own) = sd;
-      for (std::size_t i = 0; i < points_.size(); ++i) {
-        if (of_region(i)) points_[i].own.col(region.n_own) = column(i);
-      }
-      ++region.n_own;
-    };
-    const auto from_middle = [&](std::size_t i) { return Eigen::Vector3d(points_[i].ray - ray); };
-    const double d = config_.distance_mm;
-    if (region.about.kind == KeyframeRegion::Kind::kMoving) {
-      for (int a = 0; a < region.about.n_axes; ++a) {
-        const Eigen::Vector3d axis = region.about.axis[static_cast<std::size_t>(a)];
-        add(kSlide * d, [&](std::size_t i) { return Eigen::Vector3d(points_[i].inverse_depth * axis); });
-        region.by_row[static_cast<std::size_t>(region.n_own)] = true;
-        add(kSlidePerReadout * d, [&](std::size_t i) { return Eigen::Vector3d(points_[i].inverse_depth * axis); });
-      }
-      region.i_tilt = region.n_own;
-      add(1.0, [&](std::size_t i) { return region.about.normal.cross(from_middle(i)); });
-    } else if (region.about.kind == KeyframeRegion::Kind::kFar) {
-      add(kZoom, from_middle);
-      if (config_.perspective) continue;  // else what it shifts by is no turn
-      add(kFarShift, [](std::size_t) { return Eigen::Vector3d(Eigen::Vector3d::UnitX()); });
-      add(kFarShift, [](std::size_t) { return Eigen::Vector3d(Eigen::Vector3d::UnitY()); });
-    }
-  }
-}
-
 void CameraMotion::set_sd() noexcept {
   log_variance_[0] = std::clamp(log_variance_[0], 2.0 * std::log(kLeastTurn_rad), 2.0 * std::log(kMostTurn_rad));
   log_variance_[1] = std::clamp(log_variance_[1], 2.0 * std::log(kLeastShift), 2.0 * std::log(kMostShift));
   sd_ = base_;
   sd_.segment<3>(kPitch) *= std::exp(0.5 * log_variance_[0]);
   sd_.segment<3>(kShiftX) *= std::exp(0.5 * log_variance_[1]);
-  for (MotionRegion& region : regions_) {
-    if (region.i_tilt >= 0) region.prior_sd(region.i_tilt) = std::sqrt(tilt_variance_);
-  }
 }
 
 void CameraMotion::predict(double t_s) noexcept {
@@ -153,6 +75,7 @@ void CameraMotion::predict(double t_s) noexcept {
   before_ = settled_;
   before_.predict(dt_s_, sd_);
   process_ = before_;
+  taken_ = process_.mean();
 }
 
 // The derivatives by time enter as what they are now estimated to be: rows tell them too, but a wrong readout time, and
@@ -166,12 +89,14 @@ void CameraMotion::iterate(const MotionObservation& seen) noexcept {
     if (!process_.step(equations_.information(), equations_.gradient() + equations_.information() * ahead, step)) {
       ++n_failed_;
       process_ = before_;
+      taken_ = process_.mean();
       return;
     }
     equations_.update_own(step.head<n>() - ahead, regions_);
     linear = before_.mean() + step;
   }
   process_.accept(step);
+  taken_ = process_.mean();
 }
 
 void CameraMotion::correct(const MotionObservation& seen) noexcept {
@@ -214,49 +139,77 @@ void CameraMotion::learn() noexcept {
     }
     if (count > 0.0) log_variance_[g] += kLearningRate * (sum / count - kTowardsRest);
   }
-  double square = 0.0, count = 0.0;
-  for (const MotionRegion& region : regions_) {
-    if (region.i_tilt < 0 || region.n_used < kPointsForTilt) continue;
-    square += region.value(region.i_tilt) * region.value(region.i_tilt) + region.tilt_sd * region.tilt_sd;
-    count += 1.0;
-  }
-  if (learns_tilt_ && count > 0.0) {
-    tilt_variance_ += kTiltRate * (square / count - tilt_variance_);
-    tilt_variance_ = std::max(tilt_variance_, kLeastTilt_rad * kLeastTilt_rad);
-  }
 }
 
 void CameraMotion::settle() noexcept {
+  position_covariance_ = process_.covariance().topLeftCorner<n, n>();
+  open_.fill(false);
+  leave_out_poorly_told();
   find_open();
   learn();
   set_sd();
 }
 
+// Greatest effect along an axis of the region.
+double CameraMotion::effect_px(const MotionVector& motion, std::size_t r) const noexcept {
+  const MotionRegion& region = regions_[r];
+  const Eigen::Vector2d px = region.effect * motion;
+  double most = 0.0;
+  for (int a = 0; a < region.about.n_axes; ++a) {
+    most = std::max(most, std::abs(region.about.axis[static_cast<std::size_t>(a)].head<2>().dot(px)));
+  }
+  return region.about.kind == KeyframeRegion::Kind::kMoving ? most : 0.0;
+}
+
+// What is known of the others, this one given.
+void CameraMotion::give_up(int component) noexcept {
+  open_[static_cast<std::size_t>(component)] = true;
+  const MotionVector column = position_covariance_.col(component);
+  if (column(component) > 0.0) position_covariance_ -= column * column.transpose() / column(component);
+  position_covariance_.row(component).setZero();
+  position_covariance_.col(component).setZero();
+}
+
+// This frame alone (and the prior's size) leaves a shift and what goes with it the direction `along`: the state is
+// moved along it to where the shift is zero, and fits the frame as before.
+void CameraMotion::leave_out_poorly_told() noexcept {
+  const auto scale = sd_.asDiagonal();
+  MotionMatrix scaled = scale * equations_.information() * scale;
+  scaled.diagonal().array() += 1.0;
+  MotionMatrix frame = scale * scaled.llt().solve(MotionMatrix(scale));
+  for (int round = 0; round < 2; ++round) {
+    int worst = -1;
+    double most = kPoorlyTold;
+    for (const int i : {int{kShiftX}, int{kShiftY}}) {
+      if (open_[static_cast<std::size_t>(i)] || !(frame(i, i) > 0.0)) continue;
+      const MotionVector along = frame.col(i) / std::sqrt(frame(i, i));
+      for (std::size_t r = 0; r < regions_.size(); ++r) {
+        const double ratio = effect_px(along, r) * std::sqrt(regions_[r].sum_weight);
+        if (ratio > most) worst = i, most = ratio;
+      }
+    }
+    if (worst < 0) return;
+    const MotionVector along = frame.col(worst) / frame(worst, worst);
+    for (int d = 0; d < 3; ++d) taken_.segment<n>(d * n) -= taken_(d * n + worst) * along;
+    frame -= frame(worst, worst) * (along * along.transpose());
+    give_up(worst);
+  }
+}
+
 // From the component that is known worst, in px at the channels: what is open is taken as given, the rest judged again.
 void CameraMotion::find_open() noexcept {
-  position_covariance_ = process_.covariance().topLeftCorner<n, n>();
-  open_.fill(false);
   for (int round = 0; round < n; ++round) {
     int worst = -1;
     double worst_px = kOpen_px;
     for (int i = 0; i < n; ++i) {
-      double effect = 0.0;
-      for (const MotionRegion& region : regions_) {
-        if (region.about.kind != KeyframeRegion::Kind::kMoving) continue;
-        for (int a = 0; a < region.about.n_axes; ++a) {
-          const Eigen::Vector3d& axis = region.about.axis[static_cast<std::size_t>(a)];
-          effect = std::max(effect, std::abs(axis.x() * region.effect(0, i) + axis.y() * region.effect(1, i)));
-        }
+      const double sd = std::sqrt(std::max(0.0, position_covariance_(i, i)));
+      for (std::size_t r = 0; r < regions_.size(); ++r) {
+        const double px = effect_px(sd * MotionVector::Unit(i), r);
+        if (px > worst_px) worst = i, worst_px = px;
       }
-      const double px = effect * std::sqrt(std::max(0.0, position_covariance_(i, i)));
-      if (px > worst_px) worst = i, worst_px = px;
     }
     if (worst < 0) return;
-    open_[static_cast<std::size_t>(worst)] = true;
-    const MotionVector column = position_covariance_.col(worst);
-    position_covariance_ -= column * column.transpose() / column(worst);
-    position_covariance_.row(worst).setZero();
-    position_covariance_.col(worst).setZero();
+    give_up(worst);
   }
 }
 
@@ -268,21 +221,24 @@ double CameraMotion::sigma_px(std::size_t region, double e_u, double e_v) const 
 // The point's ray of this frame in keyframe axes, up to the point's plane.
 Vector2 CameraMotion::stabilised(std::size_t i, const Vector2& position, double share) const noexcept {
   const MotionPoint& point = points_[i];
-  const MotionPose pose = equations_.pose(process_.mean(), share);
+  const MotionPose pose = equations_.pose(taken_, share);
   const Eigen::Vector3d seen(position.u / config_.fx, position.v / config_.fy, 1.0);
   // seen ~ R(w) [c + R(f) (x)], x = where the point is now in the keyframe's axes, from c, up to a factor.
   const Eigen::Vector3d direction = pose.face.transpose() * (pose.turn.transpose() * seen);
   const Eigen::Vector3d origin = point.inverse_depth * pose.shift + pose.face.transpose() * point.middle;
   const Eigen::Vector3d rest = point.ray - point.middle;
-  const Eigen::Vector3d& normal = regions_[point.region].about.normal;
-  const Eigen::Vector3d moved = direction * (normal.dot(rest + origin) / normal.dot(direction)) - origin - rest;
+  const MotionRegion& region = regions_[point.region];
+  const Eigen::Vector3d& normal = region.about.normal;
+  Eigen::Vector3d moved = direction * (normal.dot(rest + origin) / normal.dot(direction)) - origin - rest;
+  // What is far rests: its zoom is the camera's too.
+  if (region.about.kind == KeyframeRegion::Kind::kFar) moved -= point.own * region.value;
   const double z = 1.0 + moved.z();
   return {config_.fx * ((point.ray.x() + moved.x()) / z - point.ray.x()),
           config_.fy * ((point.ray.y() + moved.y()) / z - point.ray.y())};
 }
 
 double CameraMotion::magnification() const noexcept {
-  const MotionPose pose(process_.mean().head<n>());
+  const MotionPose pose(taken_.head<n>());
   return 1.0 / (pose.turn * (middle_ + pose.face * pose.shift / config_.distance_mm)).z();
 }
 

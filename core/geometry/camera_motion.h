@@ -26,7 +26,6 @@ struct CameraMotionConfig {
   double fx = 0.0, fy = 0.0;    // px
   double distance_mm = 1000.0;  // to the structure: size of what a translation may be
   double readout_s = 0.0;       // signed
-  bool perspective = true;      // false: focal length unknown: roll, zoom and common shift only
 };
 
 // Motion of the camera against the keyframe on the full projection. For a point with ray r and inverse depth q:
@@ -41,23 +40,23 @@ struct CameraMotionConfig {
 // The perspective pattern (x^2, xy, y^2) tells yaw and pitch by it, but so faintly (0.5 px of the whole image in each
 // frame) that it must not move the channels: f takes it up, and leaves w and t to what shifts.
 //
-// Where no region rests, yaw and pitch stay zero and f and t are all there is: what is common to all channels along
-// their axes is left in them, rather than filled with the noise of perspective.
+// A shift along the axes of all regions is told from a turn by little but perspective, unless something rests in the
+// structure's plane: .3 px in each frame, fifty times the noise of a channel. Where a frame tells a shift so poorly,
+// what is taken away is the turn alone that the resting points then show, which leaves some of a shift in all channels
+// alike (half of it, for a background twice as far) rather than such noise. open() names it.
 //
 // How large w and t are (one number each) is learned from the record: the prior's variance follows what the data moved
 // the state by against what they should [empirical Bayes; Mehra 1970], so that what is at rest is held at rest, and
 // what two components share (the yaw and the sideways shift of a background) goes where their like (pitch, roll;
 // height, distance) move more.
 //
-// Roll comes from a region's own turning and from what regions do across their axes. A bending cantilever's sections
-// tilt, which looks the same: where a region rests, tilt is free and the resting points alone tell roll; where none
-// does, tilt has a variance that is learned, and bending passes for roll.
+// Roll comes from what rests: a bending cantilever's sections tilt, which looks the same, so regions may tilt freely.
 //
 // One thread; nothing allocates after construction; the same bits in every run. Never NaN: frames whose solution is not
 // finite are counted and left at the prediction.
 class CameraMotion {
  public:
-  // t_keyframe_s: when row 0 of the keyframe was read, any origin.
+  // t_keyframe_s: when row 0 of the keyframe was read, any origin. At least one region rests.
   CameraMotion(const CameraMotionConfig& config, const std::vector<KeyframePoint>& points,
                const std::vector<KeyframeRegion>& regions, double t_keyframe_s);
 
@@ -65,20 +64,21 @@ class CameraMotion {
   void predict(double t_s) noexcept;
   // Works from the last prediction; may be called again with another choice of points.
   void correct(const MotionObservation& seen) noexcept;
-  // The frame is done: learn from it.
+  // The frame is done: learn from it, and leave out what it tells too poorly.
   void settle() noexcept;
 
-  // Motion of a point in its plane with the camera's motion taken away, px of the keyframe.
+  // Motion of a point in its plane with the camera's motion taken away, px of the keyframe. Before settle() with all
+  // components, after it without those that are open.
   [[nodiscard]] Vector2 stabilised(std::size_t i, const Vector2& position, double share) const noexcept;
 
-  [[nodiscard]] const MotionStateVector& state() const noexcept { return process_.mean(); }
+  [[nodiscard]] const MotionStateVector& state() const noexcept { return taken_; }
   [[nodiscard]] const MotionStateMatrix& covariance() const noexcept { return process_.covariance(); }
   [[nodiscard]] const MotionVector& prior_sd() const noexcept { return sd_; }
   // Magnification against the keyframe at the structure's middle: < 1 farther away.
   [[nodiscard]] double magnification() const noexcept;
   // Weighted mean over the region's points in use of d(px) / d(component), rows u and v.
   [[nodiscard]] const MotionEffect& region_effect(std::size_t region) const noexcept { return regions_[region].effect; }
-  // Components that these data leave open by more than what matters (kOpenPx in the channels).
+  // Components that these data leave open: too poorly told in a frame, or unknown by more than what matters.
   [[nodiscard]] std::array<bool, kMotionSize> open() const noexcept { return open_; }
   // Standard deviation in px, along (e_u, e_v), of the camera's motion that was taken from a region, for what is not
   // open: what is open stays in the channels as it is.
@@ -95,7 +95,10 @@ class CameraMotion {
   void learn() noexcept;
   void iterate(const MotionObservation& seen) noexcept;
   [[nodiscard]] bool surprised() noexcept;
+  void leave_out_poorly_told() noexcept;
   void find_open() noexcept;
+  [[nodiscard]] double effect_px(const MotionVector& motion, std::size_t region) const noexcept;
+  void give_up(int component) noexcept;
 
   CameraMotionConfig config_;
   std::vector<MotionPoint> points_;
@@ -103,11 +106,11 @@ class CameraMotion {
   MotionProcess process_, before_, settled_;
   MotionVector base_, sd_;
   std::array<double, 2> log_variance_{};  // of turns and of shifts, in units of base_
-  double tilt_variance_ = 1e-6;           // rad^2
-  bool raised_ = false, learns_tilt_ = true;
+  bool raised_ = false;
+  MotionStateVector taken_ = MotionStateVector::Zero();  // what is taken from the points
   double t_s_, dt_s_ = 0.0;
   Eigen::Vector3d middle_ = Eigen::Vector3d::UnitZ();  // of the structure: ray
-  Eigen::Matrix<double, kMotionSize, kMotionSize> position_covariance_;
+  MotionMatrix position_covariance_ = MotionMatrix::Zero();
   std::array<bool, kMotionSize> open_{};
   std::uint64_t n_failed_ = 0;
   MotionEquations equations_;

@@ -175,6 +175,7 @@ double ChannelDisplacement::follow_camera(std::int64_t t_start_ns) noexcept {
     stabilise();
   }
   camera_motion_->settle();
+  stabilise();
   // A datum that does not rest, or a view that the model cannot hold: most points contradict it for long.
   n_contradicted_ = 4 * count(inlier_) < count(seen_) ? n_contradicted_ + 1 : 0;
   if (n_contradicted_ > kMostContradicted) camera_given_up_ = true;

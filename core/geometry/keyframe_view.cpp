@@ -8,15 +8,11 @@ namespace core {
 
 namespace {
 
-// Without a calibration: image widths to the picture; perspective is then a thousandth of what a lens shows.
-constexpr double kNarrowView = 50.0;
-
-KeyframeRegion keyframe_region(const Region& region, bool calibrated) {
+KeyframeRegion keyframe_region(const Region& region) {
   KeyframeRegion out;
   out.background = region.role == RegionRole::kBackground;
   if (!makes_channel(region.role)) {
-    // Without a focal length the distances are made up: a depth in metres says nothing.
-    const bool far = out.background && (!calibrated || !(region.depth_m > 0.0));
+    const bool far = out.background && !(region.depth_m > 0.0);
     out.kind = far ? KeyframeRegion::Kind::kFar : KeyframeRegion::Kind::kStatic;
     return out;
   }
@@ -71,17 +67,15 @@ CameraMotion make_camera_motion(const std::vector<Region>& regions, const Camera
                                 const ReadoutModel& readout, double scale_mm_per_px, const TrackFrame& keyframe,
                                 const std::optional<PlanePose>& plane) {
   CameraMotionConfig config;
-  config.perspective = camera.calibrated();
-  const double narrow_px = kNarrowView * std::max(readout.width_px, readout.height_px);
-  config.fx = config.perspective ? camera.fx : narrow_px;
-  config.fy = config.perspective ? camera.fy : narrow_px;
+  config.fx = camera.fx;
+  config.fy = camera.fy;
   config.readout_s = readout.readout_s;
   const double scale = std::isfinite(scale_mm_per_px) && scale_mm_per_px > 0.0 ? scale_mm_per_px : 1.0;
   config.distance_mm = 0.5 * (config.fx + config.fy) * scale;
 
   std::vector<KeyframeRegion> about;
   for (const Region& region : regions) {
-    about.push_back(keyframe_region(region, config.perspective));
+    about.push_back(keyframe_region(region));
     if (!plane || region.role == RegionRole::kBackground) continue;
     const Vector2 middle =
         camera.undistort({region.u_px + 0.5 * region.width_px, region.v_px + 0.5 * region.height_px});

@@ -17,8 +17,8 @@ namespace core {
 [[nodiscard]] bool tells_camera_motion(const std::vector<Region>& regions, const CameraModel& camera) noexcept;
 
 // The estimator for what the first frame shows: structure, base and ground in a plane that faces the camera at
-// fx * scale_mm_per_px, or lies as `plane` says, background at its region's depth_m, or far. Without a focal length the
-// view is taken to be so narrow that perspective plays no part; the camera's centre must be set all the same.
+// fx * scale_mm_per_px, or lies as `plane` says, background at its region's depth_m, or far. The
+// camera is calibrated, and something rests (tells_camera_motion).
 [[nodiscard]] CameraMotion make_camera_motion(const std::vector<Region>& regions, const CameraModel& camera,
                                               const ReadoutModel& readout, double scale_mm_per_px,
                                               const TrackFrame& keyframe,

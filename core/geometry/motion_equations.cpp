@@ -148,7 +148,6 @@ void MotionEquations::eliminate(std::span<MotionRegion> regions) noexcept {
     const Eigen::Matrix<double, kMotionSize, kMaxOwn> scaled = cross_[r] * inverse;
     information_.noalias() -= scaled * cross_[r].transpose();
     gradient_.noalias() -= scaled * own_gradient_[r];
-    if (region.i_tilt >= 0) region.tilt_sd = std::sqrt(std::max(0.0, inverse(region.i_tilt, region.i_tilt)));
   }
 }
 

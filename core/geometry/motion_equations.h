@@ -42,11 +42,10 @@ struct MotionPoint {
 
 struct MotionRegion {
   KeyframeRegion about;
-  int n_own = 0, i_tilt = -1;
+  int n_own = 0;
   std::array<bool, kMaxOwn> by_row{};  // nu_k grows along the readout: its column is times (share - this share)
   double share = 0.0;
   OwnVector value = OwnVector::Zero(), prior_sd = OwnVector::Ones();  // nu
-  double tilt_sd = 0.0;                                               // of the estimate, the camera's motion given
   std::uint32_t n_used = 0;
   double sum_weight = 0.0;                     // of them, 1/px^2
   MotionEffect effect = MotionEffect::Zero();  // weighted mean over the points in use

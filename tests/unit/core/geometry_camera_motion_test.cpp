@@ -93,12 +93,31 @@ TEST(CameraMotionEstimate, GustsAreTakenAwayByABackgroundOfKnownDistance) {
   EXPECT_LT(ours.between_px, 0.1 * scale_only.between_px);
 }
 
-TEST(CameraMotionEstimate, DriftWithoutTurningIsTakenAwayByABackgroundOfKnownDistance) {
-  const TrackGenerator tracks(simulation::make_paper_scene(2, 20.0));
+// A shift looks like a turn to a background: of one twice as far half is taken away.
+TEST(CameraMotionEstimate, DriftIsHalvedByABackgroundAndTakenAwayByGroundInTheStructuresPlane) {
+  Scene scene = simulation::make_paper_scene(2, 20.0);
+  scene.excitation.rms_mm = 0.0;
+  const TrackGenerator tracks(scene);
   ChannelDisplacementConfig config = config_of(tracks, 4.0);
-  const Errors ours = errors_of(tracks, config);
+  const Errors by_background = errors_of(tracks, config);
   config.scale_only = true;
-  EXPECT_LT(ours.common_px, 0.1 * errors_of(tracks, config).common_px);
+  const Errors scale_only = errors_of(tracks, config);
+  config.scale_only = false;
+  for (Region& region : config.regions)
+    region.role = region.role == RegionRole::kBase ? RegionRole::kGround : region.role;
+  const Errors by_ground = errors_of(tracks, config);
+  EXPECT_LT(by_background.common_px, 0.6 * scale_only.common_px);
+  EXPECT_LT(by_ground.common_px, 0.02 * scale_only.common_px);
+}
+
+TEST(CameraMotionEstimate, ACameraAtRestAddsNoMoreNoiseThanItsBackgroundHas) {
+  Scene scene = simulation::make_paper_scene(2, 20.0);
+  scene.excitation.rms_mm = 0.0;
+  scene.hover.x_rms_mm = scene.hover.y_rms_mm = scene.hover.z_rms_mm = 0.0;
+  const TrackGenerator tracks(scene);
+  const double points = scene.tracks.points_per_region;
+  const Errors errors = errors_of(tracks, config_of(tracks, 4.0));
+  EXPECT_LT(errors.common_px, 2.0 * scene.tracks.noise_px * std::sqrt(2.0 / points));
 }
 
 // Nothing is invented: yaw and the shift along the axes stay zero, and with them their noise.
