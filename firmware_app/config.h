@@ -91,10 +91,18 @@ struct ReportConfig {
   bool tracks = true;     // write tracks.csv (the largest file)
 };
 
+struct StateConfig {
+  std::string directory;  // where the run's state is kept; empty = nowhere
+  double period_s = 60.0;
+};
+
 struct RtConfig {
   bool required = false;  // refuse to run without the priorities below
   int priority = 0;       // SCHED_FIFO priority of capture, tracking, spectrum; 0 = ordinary
+  int capture_cpu = -1, tracking_cpu = -1, spectrum_cpu = -1;  // pinned there; -1 = any
   bool lock_memory = false;
+  double stall_s = 10.0;      // a step that takes longer is told and no longer feeds the watchdog
+  bool thin_overload = true;  // a live source that is too fast: keep every n-th frame instead of those that find room
   int frame_slots = 8;
   int sample_slots = 256;
 };
@@ -110,6 +118,7 @@ struct AppConfig {
   IdentificationConfig identification;
   TelemetryConfig telemetry;
   ReportConfig report;
+  StateConfig state;
   RtConfig rt;
   std::uint64_t hash = 0;  // FNV-1a of the canonical text of everything above that changes results
 };

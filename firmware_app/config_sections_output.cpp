@@ -82,13 +82,32 @@ void add_output_keys(std::vector<ConfigKey>& keys) {
                           "folder for modal.json and CSV files; \"\" = none; --report goes before"));
   keys.push_back(
       switch_key("report.tracks", at(&A::report, &ReportConfig::tracks), "also write tracks.csv (the largest file)"));
+  using P = StateConfig;
+  keys.push_back(
+      text_key("state.directory", at(&A::state, &P::directory), {},
+               "folder where spectra and modes are kept against a loss of power; a run that finds a state of "
+               "the same configuration and view there goes on with it; \"\" = none"));
+  keys.push_back(number_key("state.period_s", "s", at(&A::state, &P::period_s), {0.1, 86400},
+                            "of stream time between two such states: at most so much record is lost"));
   using R = RtConfig;
   keys.push_back(switch_key("rt.required", at(&A::rt, &R::required),
                             "refuse to run where priority or memory lock are denied (exit 4)"));
   keys.push_back(whole_key("rt.priority", "", at(&A::rt, &R::priority), {0, 90},
                            "SCHED_FIFO priority of capture, tracking, spectrum; 0 = ordinary threads"));
+  const auto cpu = [&](const char* name, int R::*member, const char* meaning) {
+    keys.push_back(whole_key(std::string("rt.") + name, "", at(&A::rt, member), {-1, 1023}, meaning));
+  };
+  cpu("capture_cpu", &R::capture_cpu, "CPU that capture is pinned to; -1 = any");
+  cpu("tracking_cpu", &R::tracking_cpu, "CPU that tracking is pinned to; -1 = any");
+  cpu("spectrum_cpu", &R::spectrum_cpu, "CPU that spectrum is pinned to; -1 = any");
+  keys.push_back(number_key("rt.stall_s", "s", at(&A::rt, &R::stall_s), {0.5, 3600},
+                            "a stage that stays in one step for longer is named in health, and the watchdog is no "
+                            "longer fed; identification may take ten times as long"));
   keys.push_back(
       switch_key("rt.lock_memory", at(&A::rt, &R::lock_memory), "keep the service's memory from being paged out"));
+  keys.push_back(switch_key("rt.thin_overload", at(&A::rt, &R::thin_overload),
+                            "a live source that is too fast for tracking: keep every n-th frame at equal spacing, with "
+                            "new spectra at the new rate; false: keep what finds room"));
   keys.push_back(
       whole_key("rt.frame_slots", "", at(&A::rt, &R::frame_slots), {2, 256}, "frames that may wait for tracking"));
   keys.push_back(whole_key("rt.sample_slots", "", at(&A::rt, &R::sample_slots), {2, 65536},

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include "rt/clock.h"
+
 namespace app {
 
 namespace {
@@ -13,15 +15,23 @@ std::uint64_t read(const std::atomic<std::uint64_t>& counter) noexcept {
   return counter.load(std::memory_order_relaxed);
 }
 
-core::StageHealth stage_health(const HealthCollector::Queue& queue) {
-  const rt::StageStats& stats = queue.stage->stats();
+core::LatencyHealth latency_health(const rt::LatencyHistogram& histogram) noexcept {
+  const auto p = histogram.percentiles();
+  return {p.n, p.p50_ns, p.p99_ns, p.p999_ns, p.max_ns};
+}
+
+core::StageHealth stage_health(const HealthCollector::Queue& queue, std::int64_t now_ns) {
+  const rt::Stage& stage = queue.runner->stage();
+  const rt::StageStats& stats = stage.stats();
   core::StageHealth health;
-  health.name = std::string(queue.stage->name());
+  health.name = std::string(stage.name());
   health.n_in = read(stats.n_in);
   health.n_out = read(stats.n_out);
   health.n_dropped = read(stats.n_dropped);
   health.busy_ns = read(stats.busy_ns);
-  health.worst_step_ns = read(stats.worst_step_ns);
+  health.cpu_ns = read(stats.cpu_ns);
+  health.step = latency_health(stats.step);
+  health.stalled_ns = queue.runner->stalled_for_ns(now_ns);
   health.queue_slots = static_cast<std::uint32_t>(queue.n_slots);
   if (queue.depth) health.queue_depth = static_cast<std::uint32_t>(queue.depth());
   return health;
@@ -43,7 +53,8 @@ void warn_of_regions(core::Health& health) {
 
 core::Health HealthCollector::collect(const drivers::Publisher& publisher) const {
   core::Health health;
-  health.rate_hz = rate_hz_;
+  const ThinningSchedule::Change thinning = capture_.thinning().newest();
+  health.rate_hz = rate_hz_ / thinning.stride;
   health.t_stream_ns = spectrum_.t_stream_ns();
   health.frames_in = read(capture_.stats().n_in);
   health.frames_dropped = read(capture_.stats().n_dropped);
@@ -55,8 +66,16 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
   health.snapshots_skipped = spectrum_.n_skipped();
   health.messages_sent = publisher.messages_sent();
   health.messages_failed = publisher.messages_failed();
-  health.state = "running";
+  health.frame_latency = latency_health(tracking_.frame_latency());
+  const std::string stalled = stall();
+  health.state = stalled.empty() ? "running" : "stalled: " + stalled;
   health.warnings = warnings_;
+  if (thinning.stride > 1) {
+    health.warnings.push_back(fmt::format(
+        "overload: every {}th frame is kept since frame {}, {:.4g} frames a second; spectra and folds began "
+        "anew there",
+        thinning.stride, thinning.first_sequence, health.rate_hz));
+  }
   if (const std::uint64_t n = tracking_.n_failed_frames(); n > 0) {
     health.warnings.push_back(fmt::format("the tracker itself failed on {} frames: they have no points", n));
   }
@@ -70,16 +89,30 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
         "most points contradict the camera's motion: does what is declared to rest (role background or ground) move? "
         "Only the scale is followed since");
   }
+  if (const std::string failure = checkpoint_ != nullptr ? checkpoint_->failure() : ""; !failure.empty())
+    health.warnings.push_back("the run's state could not be kept: " + failure);
   if (const double jitter = spectrum_.worst_jitter_cells(); jitter > kJitterWorthAWord) {
     health.warnings.push_back(fmt::format(
         "time stamps stray by up to {:.2f} of a frame from even spacing; spectra take them as even", jitter));
   }
   for (const Queue& queue : queues_) {
-    health.stages.push_back(stage_health(queue));
-    if (queue.stage->name() == "identification") health.estimates = health.stages.back().n_out;
-    if (queue.stage->name() == "publish") health.stages.back().n_dropped += tracking_.n_records_lost();
+    health.stages.push_back(stage_health(queue, rt::monotonic_ns()));
+    core::StageHealth& stage = health.stages.back();
+    if (stage.name == "identification") health.estimates = stage.n_out;
+    if (stage.name == "publish") stage.n_dropped += tracking_.n_records_lost();
   }
   return health;
+}
+
+std::string HealthCollector::stall() const {
+  const std::int64_t now_ns = rt::monotonic_ns();
+  for (const Queue& queue : queues_) {
+    if (const std::int64_t stalled_ns = queue.runner->stalled_for_ns(now_ns); stalled_ns > 0) {
+      return fmt::format("stage {}: one step has taken {:.1f} s", queue.runner->stage().name(),
+                         static_cast<double>(stalled_ns) * 1e-9);
+    }
+  }
+  return {};
 }
 
 }  // namespace app

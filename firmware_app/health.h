@@ -6,10 +6,11 @@
 
 #include "core/types/health.h"
 #include "firmware_app/stages/capture_stage.h"
+#include "firmware_app/stages/checkpoint_stage.h"
 #include "firmware_app/stages/publish_stage.h"
 #include "firmware_app/stages/spectrum_stage.h"
 #include "firmware_app/stages/tracking_stage.h"
-#include "rt/stage.h"
+#include "rt/stage_runner.h"
 
 namespace app {
 
@@ -17,7 +18,7 @@ namespace app {
 class HealthCollector {
  public:
   struct Queue {
-    const rt::Stage* stage = nullptr;
+    const rt::StageRunner* runner = nullptr;
     std::function<std::size_t()> depth;  // of the ring it reads; empty = none
     std::size_t n_slots = 0;
   };
@@ -30,14 +31,18 @@ class HealthCollector {
   void watch(Queue queue) { queues_.push_back(std::move(queue)); }
   void name_regions(std::vector<std::string> names) { region_names_ = std::move(names); }  // as configured
   void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
+  void watch_state(const CheckpointStage& checkpoint) { checkpoint_ = &checkpoint; }
 
   [[nodiscard]] core::Health collect(const drivers::Publisher& publisher) const;
+  // "stage tracking: one step has taken 3.2 s"; empty: every stage goes on.
+  [[nodiscard]] std::string stall() const;
 
  private:
   double rate_hz_;
   const CaptureStage& capture_;
   const TrackingStage& tracking_;
   const SpectrumStage& spectrum_;
+  const CheckpointStage* checkpoint_ = nullptr;  // null: no state is kept
   std::vector<Queue> queues_;
   std::vector<std::string> region_names_, warnings_;
 };

@@ -10,6 +10,7 @@
 #include "firmware_app/pipeline.h"
 #include "firmware_app/pipeline_setup.h"
 #include "firmware_app/progress.h"
+#include "firmware_app/service_notify.h"
 
 namespace {
 
@@ -19,11 +20,18 @@ int run(const app::AppConfig& config) {
   const app::SignalWatch signals;  // before any thread starts: they inherit the mask
   app::Pipeline pipeline(config);
   app::Progress progress(pipeline);
+  app::ServiceNotify service;
   pipeline.start();
-  for (const std::string& warning : pipeline.warnings()) spdlog::warn("{}", warning);
+  progress.started();
+  service.ready("running");
   while (pipeline.running()) {
-    if (signals.stop_requested()) pipeline.request_stop();
+    if (signals.stop_requested()) {
+      pipeline.request_stop();
+      progress.stopping();
+      service.stopping();
+    }
     progress.tick();
+    service.tick(pipeline.stall());
   }
   return progress.finish(pipeline.join()) ? kDone : kFault;
 }

@@ -1,8 +1,11 @@
 #include "firmware_app/pipeline.h"
 
+#include <algorithm>
+#include <cstdio>
 #include <optional>
 #include <stdexcept>
 
+#include "drivers/host/host_status.h"
 #include "firmware_app/core_config.h"
 #include "firmware_app/health.h"
 #include "firmware_app/pipeline_setup.h"
@@ -17,54 +20,80 @@ namespace app {
 // The data flow, top to bottom. Members are destroyed in reverse: threads first, then stages, rings, devices.
 struct Pipeline::Parts {
   Parts(const AppConfig& c, std::unique_ptr<drivers::Camera> camera, std::unique_ptr<drivers::Publisher> publisher)
-      : config(c), source(std::move(camera), config), out(std::move(publisher)) {
+      : config(keep_memory(c)), source(std::move(camera), config), out(std::move(publisher)) {
     connect();
     watch();
+    if (keeps_state()) keep_state();
   }
 
   AppConfig config;
   Source source;  // camera, its first frame, the points seeded in it, the channels
   std::unique_ptr<drivers::Publisher> out;
   std::unique_ptr<RunReport> report = open_report(config, source);
-  ReadoutUse identifier{config, source.info, source.keyframe, source.channels()};
 
   // camera -> [frames] -> tracking -> [samples] -> spectrum -> [snapshots] -> identification -> [results] -> publish
   //                          \------------------ [records] ------------------------------------------------/
   rt::SpscRing<core::Frame> frames{slots(config.rt.frame_slots), source.first_frame};
-  CaptureStage capture{*source.camera, frames.writer(), source.first_frame};
+  CaptureStage capture{*source.camera, frames.writer(), source.first_frame, config.rt.thin_overload};
 
   rt::SpscRing<core::DisplacementSample> samples{slots(config.rt.sample_slots), source.displacement.sample_prototype()};
   rt::SpscRing<FrameRecord> records{slots(config.rt.sample_slots), record_prototype(source)};
-  TrackingStage tracking{frames.reader(),  source.tracker,   source.displacement, source.readout,
-                         samples.writer(), records.writer(), source.info.lossless};
+  TrackingStage tracking{frames.reader(),  source.tracker,   source.displacement,  source.readout,
+                         samples.writer(), records.writer(), source.info.lossless, capture.thinning()};
 
   core::WelchConfig welch = welch_config(config.spectrum, source.channels().size(), source.info.rate_hz);
   rt::TripleBuffer<SpectrumSnapshot> snapshots{SpectrumSnapshot{core::WelchCpsd::empty_sums(welch), 0, 0, false, {}}};
-  SpectrumStage spectrum{samples.reader(), welch, config.identification.period_hops, snapshots, source.info.lossless};
+  SpectrumStage spectrum{samples.reader(),  welch, config.identification.period_hops, snapshots, source.info.lossless,
+                         capture.thinning()};
 
   rt::SpscRing<IdentificationResult> results{slots(kResultSlots), IdentificationResult{}};
-  IdentificationStage identification{snapshots, identifier, results.writer()};
+  IdentificationStage identification{snapshots, source.info.rate_hz,
+                                     [this](double rate_hz) { return identifier(rate_hz); }, results.writer()};
+
+  // spectrum, identification -> (newest state) -> checkpoint -> the state file
+  rt::TripleBuffer<StateBytes> spectrum_states{state_room(spectrum.state_bytes())};
+  rt::TripleBuffer<StateBytes> mode_states{state_room(identification.state_bytes())};
+  CheckpointStage checkpoint{spectrum_states, mode_states, view_of(config, source), state_path(config)};
 
   HealthCollector health{source.info.rate_hz, capture, tracking, spectrum};
   PublishStage publish{records.reader(), results.reader(), outlets()};
 
   // Started back to front, stopped front to back.
-  rt::StageRunner run_capture{capture, {"hm-capture", config.rt.priority}};
-  rt::StageRunner run_tracking{tracking, {"hm-tracking", config.rt.priority}};
-  rt::StageRunner run_spectrum{spectrum, {"hm-spectrum", config.rt.priority}};
+  rt::StageRunner run_capture{capture, frame_thread("hm-capture", config.rt, config.rt.capture_cpu)};
+  rt::StageRunner run_tracking{tracking, frame_thread("hm-tracking", config.rt, config.rt.tracking_cpu)};
+  rt::StageRunner run_spectrum{spectrum, frame_thread("hm-spectrum", config.rt, config.rt.spectrum_cpu)};
   rt::StageRunner run_identification{identification, {"hm-identify"}};
   rt::StageRunner run_publish{publish, {"hm-publish"}};
+  rt::StageRunner run_checkpoint{checkpoint, {"hm-checkpoint"}};
+  const std::vector<rt::StageRunner*> all_runners = list_runners();  // in flow order
 
   static constexpr int kResultSlots = 8;
   static std::size_t slots(int n) { return static_cast<std::size_t>(n); }
 
-  [[nodiscard]] std::array<rt::StageRunner*, 5> runners() noexcept {
-    return {&run_capture, &run_tracking, &run_spectrum, &run_identification, &run_publish};
+  [[nodiscard]] std::unique_ptr<const ReadoutUse> identifier(double rate_hz) const {
+    core::CameraInfo info = source.info;
+    info.rate_hz = rate_hz;
+    return std::make_unique<const ReadoutUse>(config, info, source.keyframe, source.channels());
+  }
+  // Before anything is allocated.
+  static const AppConfig& keep_memory(const AppConfig& config) noexcept {
+    if (config.rt.lock_memory) rt::keep_freed_memory();
+    return config;
+  }
+  [[nodiscard]] const std::vector<rt::StageRunner*>& runners() const noexcept { return all_runners; }
+  [[nodiscard]] bool keeps_state() const noexcept { return !config.state.directory.empty(); }
+  [[nodiscard]] StateBytes state_room(std::size_t n_bytes) const {
+    return {std::vector<std::uint8_t>(keeps_state() ? n_bytes : 0), 0};
+  }
+  [[nodiscard]] std::vector<rt::StageRunner*> list_runners() {
+    std::vector<rt::StageRunner*> all{&run_capture, &run_tracking, &run_spectrum, &run_identification, &run_publish};
+    if (keeps_state()) all.push_back(&run_checkpoint);
+    return all;
   }
   [[nodiscard]] PublishStage::Outlets outlets() {
     return {*out,
             report.get(),
-            [this] { return status(); },
+            [this] { return status_with_host(); },
             picture_drawer(config, source, report.get()),
             source.channels(),
             corrections(config, source.info),
@@ -85,13 +114,24 @@ struct Pipeline::Parts {
     results.set_writer_wakeup(&identification.wakeup());
     results.set_reader_wakeup(&publish.wakeup());
   }
+  void keep_state() {
+    spectrum_states.set_reader_wakeup(&checkpoint.wakeup());
+    spectrum.keep_state(spectrum_states, config.state.period_s);
+    identification.keep_state(mode_states);
+    health.watch_state(checkpoint);
+    health.watch({&run_checkpoint, {}, 0});
+    resume_state(state_path(config), view_of(config, source), spectrum, identification, health);
+  }
   void watch() {
     health.name_regions(region_names(config));
-    health.watch({&capture, {}, 0});
-    health.watch({&tracking, [this] { return frames.depth(); }, frames.n_slots()});
-    health.watch({&spectrum, [this] { return samples.depth(); }, samples.n_slots()});
-    health.watch({&identification, {}, 0});
-    health.watch({&publish, [this] { return records.depth(); }, records.n_slots()});
+    health.watch({&run_capture, {}, 0});
+    health.watch({&run_tracking, [this] { return frames.depth(); }, frames.n_slots()});
+    health.watch({&run_spectrum, [this] { return samples.depth(); }, samples.n_slots()});
+    health.watch({&run_identification, {}, 0});
+    health.watch({&run_publish, [this] { return records.depth(); }, records.n_slots()});
+    const auto stall_ns = static_cast<std::int64_t>(1e9 * config.rt.stall_s);
+    for (rt::StageRunner* runner : runners()) runner->set_stall_limit_ns(stall_ns);
+    run_identification.set_stall_limit_ns(10 * stall_ns);
   }
   [[nodiscard]] std::string fault() {
     if (run_capture.faulted()) return "camera: " + source.camera->fault();
@@ -101,6 +141,11 @@ struct Pipeline::Parts {
   [[nodiscard]] core::Health status() {
     core::Health now = health.collect(*out);
     if (const std::string text = fault(); !text.empty()) now.state = "fault: " + text;
+    return now;
+  }
+  [[nodiscard]] core::Health status_with_host() {
+    core::Health now = status();
+    now.host = drivers::read_host_status(config.report.directory);
     return now;
   }
 };
@@ -130,7 +175,7 @@ void Pipeline::start() {
     if (const std::string refused = rt::lock_memory(); !refused.empty())
       refuse_or_warn(rt_config, refused, parts_->health);
   }
-  const auto runners = parts_->runners();
+  const auto& runners = parts_->runners();
   for (auto runner = runners.rbegin(); runner != runners.rend(); ++runner)
     start_runner(**runner, rt_config, parts_->health);
 }
@@ -138,7 +183,7 @@ void Pipeline::start() {
 void Pipeline::request_stop() noexcept { parts_->capture.request_stop(); }
 
 bool Pipeline::running() noexcept {
-  const auto runners = parts_->runners();
+  const auto& runners = parts_->runners();
   for (std::size_t i = runners.size(); i-- > 0;) {
     if (!runners[i]->faulted()) continue;
     for (std::size_t upstream = 0; upstream < i; ++upstream) runners[upstream]->abort();  // their output has no reader
@@ -153,10 +198,15 @@ Pipeline::Outcome Pipeline::join() {
   for (rt::StageRunner* runner : parts_->runners()) runner->join();
   parts_->source.camera->stop();
   Outcome outcome;
+  for (const rt::StageRunner* runner : parts_->runners())
+    outcome.stages_ended_ns = std::max(outcome.stages_ended_ns, runner->steps_ended_ns());
   outcome.estimate = parts_->publish.last_estimate();
   outcome.health = parts_->status();
   outcome.fault = parts_->fault();
-  if (outcome.fault.empty()) outcome.health.state = "finished";
+  if (outcome.fault.empty()) {
+    outcome.health.state = "finished";
+    if (parts_->keeps_state()) std::remove(state_path(parts_->config).c_str());  // the next run is another one
+  }
   if (outcome.fault.empty() && !parts_->source.camera->fault().empty())
     outcome.notes.push_back(parts_->source.camera->fault());
   if (std::string note = short_record(parts_->config, parts_->source.info, outcome.estimate); !note.empty()) {
@@ -166,6 +216,15 @@ Pipeline::Outcome Pipeline::join() {
   return outcome;
 }
 
+std::string Pipeline::stall() const { return parts_->health.stall(); }
+std::vector<std::string> Pipeline::take_events() {
+  std::vector<std::string> lines;
+  for (rt::StageRunner* runner : parts_->runners()) {
+    rt::Stage& stage = runner->stage();
+    (void)stage.events().drain([&](const rt::Event& event) { lines.push_back(event_line(stage.name(), event)); });
+  }
+  return lines;
+}
 core::Health Pipeline::health() const { return parts_->status(); }
 const core::CameraInfo& Pipeline::camera_info() const noexcept { return parts_->source.info; }
 const std::vector<core::ChannelInfo>& Pipeline::channels() const noexcept { return parts_->source.channels(); }

@@ -25,11 +25,12 @@ namespace app {
 class Pipeline {
  public:
   struct Outcome {
-    core::ModalEstimate estimate;    // the last one
-    core::Health health;             // final counters
-    std::string fault;               // empty: done; else what went wrong (exit code 1)
-    std::vector<std::string> notes;  // e.g. a truncated clip
-    std::string page;                // path of report.html; empty: no report was wanted
+    core::ModalEstimate estimate;      // the last one
+    core::Health health;               // final counters
+    std::string fault;                 // empty: done; else what went wrong (exit code 1)
+    std::vector<std::string> notes;    // e.g. a truncated clip
+    std::int64_t stages_ended_ns = 0;  // CLOCK_MONOTONIC when the last stage took its last step; the report came after
+    std::string page;                  // path of report.html; empty: no report was wanted
   };
 
   // Throws ConfigError (configuration does not fit the source), drivers::DeviceMissing, std::runtime_error.
@@ -50,6 +51,10 @@ class Pipeline {
   [[nodiscard]] Outcome join();
 
   [[nodiscard]] core::Health health() const;
+  // The stage that has been in one step for too long, in words; empty: all go on. Any thread.
+  [[nodiscard]] std::string stall() const;
+  // What the stages had to say since the last call, one line each. One thread.
+  [[nodiscard]] std::vector<std::string> take_events();
   [[nodiscard]] const core::CameraInfo& camera_info() const noexcept;
   [[nodiscard]] const std::vector<core::ChannelInfo>& channels() const noexcept;
   [[nodiscard]] std::vector<std::string> warnings() const;

@@ -2,16 +2,20 @@
 
 #include <fmt/core.h>
 
+#include <cerrno>
 #include <system_error>
 #include <utility>
 
 #include "drivers/camera/camera_factory.h"
+#include "drivers/storage/checkpoint_file.h"
 #include "drivers/telemetry/publisher_factory.h"
+#include "firmware_app/calibration.h"
 #include "firmware_app/config_image.h"
 #include "firmware_app/core_config.h"
 #include "firmware_app/readout_use.h"
 #include "firmware_app/report/pictures/pictures.h"
 #include "firmware_app/run_findings.h"
+#include "firmware_app/structure_scale.h"
 
 namespace app {
 
@@ -51,6 +55,15 @@ core::StructureTracker seeded_tracker(const AppConfig& config, const core::Frame
   core::StructureTracker tracker(tracker_config(config));
   if (const std::string refused = tracker.seed(first); !refused.empty()) throw ConfigError("regions: " + refused);
   return tracker;
+}
+
+std::string refusal(const rt::ThreadConfig& thread, const std::error_code& code) {
+  std::string asked;
+  if (thread.fifo_priority > 0) asked = fmt::format("priority {}", thread.fifo_priority);
+  if (thread.cpu >= 0) asked += fmt::format("{}CPU {}", asked.empty() ? "" : " on ", thread.cpu);
+  const char* remedy = code.value() == EPERM ? "grant CAP_SYS_NICE or raise RLIMIT_RTPRIO"
+                                             : "is there such a CPU, and may the service use it? (taskset -p 1)";
+  return fmt::format("{}: {} refused ({}): {}", thread.name, asked, code.message(), remedy);
 }
 
 // The seeds as the first frame's tracks: the tracker finds each point where it was put.
@@ -127,21 +140,75 @@ std::function<void(const core::ModalEstimate&, const core::CpsdSums&, const core
 
 FrameRecord record_prototype(const Source& source) { return {source.keyframe, source.displacement.sample_prototype()}; }
 
+RunState view_of(const AppConfig& config, const Source& source) {
+  RunState view;
+  view.config_hash = config.hash;
+  view.rate_hz = source.info.rate_hz;
+  view.scale_mm_per_px = structure_scale(config, camera_model(config, source.info)).mm_per_px;
+  view.channels = source.channels();
+  view.keyframe = source.keyframe;
+  const bool is_file = config.camera.driver == CameraDriver::kFile || config.camera.driver == CameraDriver::kSynthetic;
+  if (!is_file) view.boot_id = drivers::boot_id();
+  return view;
+}
+
+std::string state_path(const AppConfig& config) {
+  return config.state.directory.empty() ? "" : config.state.directory + "/hovermodal.state";
+}
+
+void resume_state(const std::string& path, const RunState& view, SpectrumStage& spectrum,
+                  IdentificationStage& identification, HealthCollector& health) {
+  std::string refused;
+  try {
+    const drivers::CheckpointRead read = drivers::read_checkpoint(path);
+    if (!read.exists) return;
+    refused = read.refused;
+    if (refused.empty()) {
+      const RunState saved = run_state_of(read.bytes);
+      refused = why_foreign(saved, view);
+      const bool clock_goes_on = !view.boot_id.empty() && saved.boot_id == view.boot_id;
+      if (refused.empty() && !spectrum.resume(saved.spectrum, clock_goes_on)) refused = "its spectra do not fit";
+      if (refused.empty()) {
+        const bool has_modes = identification.resume(saved.modes);
+        const core::CpsdSums& sums = spectrum.sums();
+        health.warn(fmt::format("goes on with the state in {}: {:.1f} s of record, {} segments{}", path,
+                                static_cast<double>(sums.n_samples) / sums.rate_hz, sums.n_segments,
+                                has_modes ? "" : "; its modes begin anew"));
+        return;
+      }
+    }
+  } catch (const std::exception& e) {
+    refused = e.what();
+  }
+  health.warn(fmt::format("the state in {} is not taken: {}; the record begins anew", path, refused));
+}
+
 void refuse_or_warn(const RtConfig& config, const std::string& refused, HealthCollector& health) {
   if (config.required) throw RealTimeRefused(refused + " (rt.required is true)");
   health.warn(refused);
+}
+
+rt::ThreadConfig frame_thread(std::string name, const RtConfig& config, int cpu) {
+  constexpr std::size_t kStackBytes = 2 << 20, kPrefaultBytes = 512 << 10;
+  return {std::move(name), config.priority, cpu, kStackBytes, kPrefaultBytes};
+}
+
+std::string event_line(std::string_view stage, const rt::Event& event) {
+  std::string text = event.what;
+  for (const std::int64_t value : event.values) {
+    const std::size_t at = text.find("{}");
+    if (at != text.npos) text.replace(at, 2, std::to_string(value));
+  }
+  return fmt::format("{}: {}", stage, text);
 }
 
 void start_runner(rt::StageRunner& runner, const RtConfig& config, HealthCollector& health) {
   try {
     runner.start();
   } catch (const std::system_error& e) {
-    if (runner.config().fifo_priority == 0) throw;
-    refuse_or_warn(config,
-                   fmt::format("{}: priority {} refused ({}): grant CAP_SYS_NICE or raise RLIMIT_RTPRIO",
-                               runner.config().name, runner.config().fifo_priority, e.code().message()),
-                   health);
-    runner.drop_priority();
+    if (!runner.config().is_special()) throw;
+    refuse_or_warn(config, refusal(runner.config(), e.code()), health);
+    runner.be_ordinary();
     runner.start();
   }
 }

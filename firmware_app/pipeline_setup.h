@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "core/geometry/channel_displacement.h"
 #include "core/geometry/readout_estimator.h"
@@ -13,6 +14,8 @@
 #include "firmware_app/config.h"
 #include "firmware_app/health.h"
 #include "firmware_app/report/run_report.h"
+#include "firmware_app/run_state.h"
+#include "firmware_app/stages/identification_stage.h"
 #include "firmware_app/stages/items.h"
 #include "rt/stage_runner.h"
 
@@ -47,8 +50,18 @@ struct Source {
 picture_drawer(const AppConfig& config, const Source& source, const RunReport* report);
 [[nodiscard]] FrameRecord record_prototype(const Source& source);
 
+// What a kept state must agree with.
+[[nodiscard]] RunState view_of(const AppConfig& config, const Source& source);
+[[nodiscard]] std::string state_path(const AppConfig& config);  // empty: none is kept
+// Goes on with the state found at `path`; says so, or why not, in health.
+void resume_state(const std::string& path, const RunState& view, SpectrumStage& spectrum,
+                  IdentificationStage& identification, HealthCollector& health);
+
 // A real-time setting that the system refuses: an error when rt.required, else a warning in every status record.
 void refuse_or_warn(const RtConfig& config, const std::string& refused, HealthCollector& health);
+// Threads that frames pass through get rt.priority, their CPU, and a stack that is mapped beforehand.
+[[nodiscard]] rt::ThreadConfig frame_thread(std::string name, const RtConfig& config, int cpu);
+[[nodiscard]] std::string event_line(std::string_view stage, const rt::Event& event);
 void start_runner(rt::StageRunner& runner, const RtConfig& config, HealthCollector& health);
 
 // Thrown by the two above (exit code 4).

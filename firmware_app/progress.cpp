@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <ctime>
 
 #include "rt/clock.h"
@@ -24,6 +25,17 @@ void print_mode(const core::Mode& mode, const std::vector<core::ChannelInfo>& ch
                mode.mpc, shape);
 }
 
+double milliseconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-6; }
+
+void print_stop(const Pipeline::Outcome& outcome, std::int64_t stop_ns) {
+  std::uint64_t longest_ns = 0;
+  for (const core::StageHealth& stage : outcome.health.stages) longest_ns = std::max(longest_ns, stage.step.max_ns);
+  spdlog::info(
+      "stages stopped {:.0f} ms after the request, the report was complete after {:.0f} ms; longest step {:.0f} ms",
+      std::max(0.0, milliseconds(outcome.stages_ended_ns - stop_ns)), milliseconds(rt::monotonic_ns() - stop_ns),
+      milliseconds(static_cast<std::int64_t>(longest_ns)));
+}
+
 }  // namespace
 
 SignalWatch::SignalWatch() {
@@ -37,7 +49,7 @@ SignalWatch::SignalWatch() {
 
 bool SignalWatch::stop_requested() const noexcept { return sigtimedwait(&signals_, nullptr, &kPace) > 0; }
 
-Progress::Progress(const Pipeline& pipeline)
+Progress::Progress(Pipeline& pipeline)
     : pipeline_(pipeline), start_ns_(rt::monotonic_ns()), next_line_ns_(start_ns_ + kLinePeriodNs) {
   const core::CameraInfo& info = pipeline.camera_info();
   spdlog::info("{}: {} x {} px, {:g} fps, readout {:g} ms", info.description, info.width_px, info.height_px,
@@ -48,7 +60,29 @@ Progress::Progress(const Pipeline& pipeline)
   }
 }
 
+void Progress::started() {
+  told_ = pipeline_.warnings();
+  for (const std::string& warning : told_) spdlog::warn("{}", warning);
+}
+
+void Progress::stopping() {
+  if (stop_ns_ == 0) stop_ns_ = rt::monotonic_ns();
+}
+
+void Progress::print_stall() {
+  const std::string stall = pipeline_.stall();
+  if (stall.empty() == !stalled_) return;
+  stalled_ = !stall.empty();
+  if (stalled_) {
+    spdlog::error("stalled: {}", stall);
+  } else {
+    spdlog::info("every stage goes on again");
+  }
+}
+
 void Progress::tick() {
+  for (const std::string& line : pipeline_.take_events()) spdlog::info("{}", line);
+  print_stall();
   const std::int64_t now_ns = rt::monotonic_ns();
   if (now_ns < next_line_ns_) return;
   next_line_ns_ = now_ns + kLinePeriodNs;
@@ -63,7 +97,7 @@ void Progress::tick() {
                health.points_total, health.frames_dropped, health.samples_masked, health.estimates);
 }
 
-bool Progress::finish(const Pipeline::Outcome& outcome) const {
+bool Progress::finish(const Pipeline::Outcome& outcome) {
   const core::Health& h = outcome.health;
   const double elapsed_s = static_cast<double>(rt::monotonic_ns() - start_ns_) * 1e-9;
   spdlog::info(
@@ -71,7 +105,11 @@ bool Progress::finish(const Pipeline::Outcome& outcome) const {
       "frames/s",
       h.frames_in, h.frames_processed, h.frames_dropped, h.frames_missing, h.samples_masked, elapsed_s,
       static_cast<double>(h.frames_processed) / elapsed_s);
-  for (const std::string& warning : h.warnings) spdlog::warn("{}", warning);
+  for (const std::string& line : pipeline_.take_events()) spdlog::info("{}", line);
+  if (stop_ns_ != 0) print_stop(outcome, stop_ns_);
+  for (const std::string& warning : h.warnings) {
+    if (std::find(told_.begin(), told_.end(), warning) == told_.end()) spdlog::warn("{}", warning);
+  }
   if (h.messages_failed > 0) {
     spdlog::warn(
         "{} telemetry messages failed, {} were sent: check the route of telemetry.lcm_url and the disk under "

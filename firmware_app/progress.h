@@ -2,6 +2,8 @@
 
 #include <csignal>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "firmware_app/pipeline.h"
 
@@ -21,15 +23,22 @@ class SignalWatch {
 // What the person at the terminal sees: source and channels, a line now and then, the modes at the end. Main thread.
 class Progress {
  public:
-  explicit Progress(const Pipeline& pipeline);
+  explicit Progress(Pipeline& pipeline);
+  void started();   // says what start() had to do without
+  void stopping();  // the stop was asked for now
   void tick();
   // Prints the result; true when the run ended without fault.
-  [[nodiscard]] bool finish(const Pipeline::Outcome& outcome) const;
+  [[nodiscard]] bool finish(const Pipeline::Outcome& outcome);
 
  private:
-  const Pipeline& pipeline_;
+  void print_stall();
+
+  Pipeline& pipeline_;
   std::int64_t start_ns_;
   std::int64_t next_line_ns_;
+  std::int64_t stop_ns_ = 0;       // 0: not asked for
+  std::vector<std::string> told_;  // warnings already printed
+  bool stalled_ = false;
 };
 
 }  // namespace app

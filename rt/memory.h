@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace rt {
@@ -7,5 +8,13 @@ namespace rt {
 // Locks all present and future pages of the process into memory, so that no page fault delays a stage. Returns an empty
 // text, or why it was refused and how to allow it.
 [[nodiscard]] std::string lock_memory();
+
+// What malloc was given back stays with the process, and large blocks come from the heap instead of fresh pages: after
+// set-up has used the memory once, the run path finds it mapped. Process-wide; call it before set-up.
+void keep_freed_memory() noexcept;
+
+// Touches `n_bytes` of the calling thread's stack, so that its first deep call does not wait for a page. There
+// must be that much.
+void prefault_stack(std::size_t n_bytes) noexcept;
 
 }  // namespace rt

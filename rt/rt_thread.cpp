@@ -2,9 +2,13 @@
 
 #include <sched.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <memory>
 #include <system_error>
 #include <utility>
+
+#include "rt/memory.h"
 
 namespace rt {
 
@@ -12,12 +16,14 @@ namespace {
 
 struct Start {
   std::string name;
+  std::size_t prefault_bytes;
   std::function<void()> body;
 };
 
 void* run(void* argument) {
   const std::unique_ptr<Start> start(static_cast<Start*>(argument));
   pthread_setname_np(pthread_self(), start->name.substr(0, 15).c_str());
+  prefault_stack(start->prefault_bytes);
   start->body();
   return nullptr;
 }
@@ -34,21 +40,32 @@ class Attributes {
   pthread_attr_t value_{};
 };
 
-void set_policy(Attributes& attributes, const ThreadConfig& config) {
+// Half of the stack is left to the body; without a known size no more than any system's default has room for.
+std::size_t prefault_bytes(const ThreadConfig& config) noexcept {
+  constexpr std::size_t kOfUnknownStack = 1 << 20;
+  return std::min(config.prefault_bytes, config.stack_bytes > 0 ? config.stack_bytes / 2 : kOfUnknownStack);
+}
+
+void check(int error, const ThreadConfig& config, const char* what) {
+  if (error != 0) throw std::system_error(error, std::generic_category(), "thread " + config.name + ": " + what);
+}
+
+void set_attributes(Attributes& attributes, const ThreadConfig& config) {
   if (config.fifo_priority > 0) {
     sched_param parameter{};
     parameter.sched_priority = config.fifo_priority;
     pthread_attr_setinheritsched(attributes.get(), PTHREAD_EXPLICIT_SCHED);
     pthread_attr_setschedpolicy(attributes.get(), SCHED_FIFO);
-    const int error = pthread_attr_setschedparam(attributes.get(), &parameter);
-    if (error != 0) throw std::system_error(error, std::generic_category(), "thread " + config.name + ": priority");
+    check(pthread_attr_setschedparam(attributes.get(), &parameter), config, "priority");
   }
   if (config.cpu >= 0) {
     cpu_set_t cpus;
     CPU_ZERO(&cpus);
+    check(config.cpu < CPU_SETSIZE ? 0 : EINVAL, config, "cpu");
     CPU_SET(static_cast<std::size_t>(config.cpu), &cpus);
-    pthread_attr_setaffinity_np(attributes.get(), sizeof cpus, &cpus);
+    check(pthread_attr_setaffinity_np(attributes.get(), sizeof cpus, &cpus), config, "cpu");
   }
+  if (config.stack_bytes > 0) check(pthread_attr_setstacksize(attributes.get(), config.stack_bytes), config, "stack");
 }
 
 }  // namespace
@@ -58,10 +75,9 @@ RtThread::~RtThread() { join(); }
 void RtThread::start(const ThreadConfig& config, std::function<void()> body) {
   join();
   Attributes attributes;
-  set_policy(attributes, config);
-  auto start = std::make_unique<Start>(Start{config.name, std::move(body)});
-  const int error = pthread_create(&handle_, attributes.get(), run, start.get());
-  if (error != 0) throw std::system_error(error, std::generic_category(), "thread " + config.name);
+  set_attributes(attributes, config);
+  auto start = std::make_unique<Start>(Start{config.name, prefault_bytes(config), std::move(body)});
+  check(pthread_create(&handle_, attributes.get(), run, start.get()), config, "start");
   start.release();  // the new thread owns it now
   running_ = true;
 }

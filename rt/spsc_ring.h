@@ -18,8 +18,9 @@ class RingReader;
 
 // One writer thread, one reader thread, N slots built once. Lock-free: both ends only ever load the other's index.
 // Slots are borrowed in place at both ends, so an item is written and read where it lies and nothing is copied.
-// Indices grow without wrapping (64 bit); slot = index % N. The opposite index is cached (as in rigtorp's SPSCQueue):
-// the shared line is touched only when the cached value says full or empty.
+// Indices grow without wrapping (64 bit); each end counts its slot along beside them, which spares a division. The
+// opposite index is cached (as in rigtorp's SPSCQueue): the shared line is touched only when the cached value says full
+// or empty, and what one end keeps for itself lies on a line that the other never looks at.
 template <class T>
 class SpscRing {
  public:
@@ -47,20 +48,23 @@ class SpscRing {
   friend class RingWriter<T>;
   friend class RingReader<T>;
 
-  [[nodiscard]] T& slot(std::uint64_t index) noexcept {
-    return slots_[static_cast<std::size_t>(index % slots_.size())];
-  }
+  // What one end alone reads and writes.
+  struct alignas(kCacheLineBytes) End {
+    std::uint64_t cached_opposite_index = 0;
+    std::size_t slot = 0;  // = own index % N
+
+    void advance(std::size_t n_slots) noexcept { slot = slot + 1 == n_slots ? 0 : slot + 1; }
+  };
 
   std::vector<T> slots_;
   Wakeup* reader_wakeup_ = nullptr;
   Wakeup* writer_wakeup_ = nullptr;
   // Release by the writer in publish(), acquire by the reader in front(): the slot's contents travel with it.
   alignas(kCacheLineBytes) std::atomic<std::uint64_t> write_index_{0};
-  std::atomic<bool> closed_{false};      // release in close(), acquire in finished(): after the last publish
-  std::uint64_t cached_read_index_ = 0;  // writer's own
+  std::atomic<bool> closed_{false};  // release in close(), acquire in finished(): after the last publish
   // Release by the reader in pop(), acquire by the writer in try_claim(): the reader's last look at the slot is over.
   alignas(kCacheLineBytes) std::atomic<std::uint64_t> read_index_{0};
-  std::uint64_t cached_write_index_ = 0;  // reader's own
+  End writer_end_, reader_end_;
 };
 
 // Held by the producing stage only.
@@ -72,17 +76,19 @@ class RingWriter {
   // Next free slot, nullptr when full. Claiming twice without publish gives the same slot.
   [[nodiscard]] T* try_claim() noexcept {
     const std::uint64_t index = ring_->write_index_.load(std::memory_order_relaxed);  // only we write it
-    if (index - ring_->cached_read_index_ >= ring_->slots_.size()) {
-      ring_->cached_read_index_ = ring_->read_index_.load(std::memory_order_acquire);
-      if (index - ring_->cached_read_index_ >= ring_->slots_.size()) return nullptr;
+    auto& own = ring_->writer_end_;
+    if (index - own.cached_opposite_index >= ring_->slots_.size()) {
+      own.cached_opposite_index = ring_->read_index_.load(std::memory_order_acquire);
+      if (index - own.cached_opposite_index >= ring_->slots_.size()) return nullptr;
     }
-    return &ring_->slot(index);
+    return &ring_->slots_[own.slot];
   }
 
   // Hands the claimed slot over and nudges the reader.
   void publish() noexcept {
     const std::uint64_t index = ring_->write_index_.load(std::memory_order_relaxed);
     assert(index - ring_->read_index_.load(std::memory_order_relaxed) < ring_->slots_.size());
+    ring_->writer_end_.advance(ring_->slots_.size());
     ring_->write_index_.store(index + 1, std::memory_order_release);
     if (ring_->reader_wakeup_ != nullptr) ring_->reader_wakeup_->nudge();
   }
@@ -106,17 +112,19 @@ class RingReader {
   // Oldest item, nullptr when empty. Valid until pop().
   [[nodiscard]] const T* front() noexcept {
     const std::uint64_t index = ring_->read_index_.load(std::memory_order_relaxed);  // only we write it
-    if (index == ring_->cached_write_index_) {
-      ring_->cached_write_index_ = ring_->write_index_.load(std::memory_order_acquire);
-      if (index == ring_->cached_write_index_) return nullptr;
+    auto& own = ring_->reader_end_;
+    if (index == own.cached_opposite_index) {
+      own.cached_opposite_index = ring_->write_index_.load(std::memory_order_acquire);
+      if (index == own.cached_opposite_index) return nullptr;
     }
-    return &ring_->slot(index);
+    return &ring_->slots_[own.slot];
   }
 
   // Gives the slot back and nudges the writer. Only after front() returned an item.
   void pop() noexcept {
     const std::uint64_t index = ring_->read_index_.load(std::memory_order_relaxed);
-    assert(index != ring_->cached_write_index_);
+    assert(index != ring_->reader_end_.cached_opposite_index);
+    ring_->reader_end_.advance(ring_->slots_.size());
     ring_->read_index_.store(index + 1, std::memory_order_release);
     if (ring_->writer_wakeup_ != nullptr) ring_->writer_wakeup_->nudge();
   }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "rt/event_log.h"
 #include "rt/stage_stats.h"
 #include "rt/wakeup.h"
 
@@ -23,10 +24,13 @@ class Stage {
   [[nodiscard]] Wakeup& wakeup() noexcept { return wakeup_; }
   [[nodiscard]] StageStats& stats() noexcept { return stats_; }
   [[nodiscard]] const StageStats& stats() const noexcept { return stats_; }
+  // Written by the stage's thread; drained by the one thread that prints.
+  [[nodiscard]] EventLog& events() noexcept { return events_; }
 
  private:
   Wakeup wakeup_;
   StageStats stats_;
+  EventLog events_;
 };
 
 }  // namespace rt

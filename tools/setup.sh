@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Installs what the build, the tests and the demo need on Debian 12, from Debian's packages; nothing when all is there.
+#   tools/setup.sh [--runtime]     also what tools/figures/runtime.sh needs: a model checker, an arm64 compiler and emulator
 set -euo pipefail
 
 packages=(
@@ -7,8 +8,11 @@ packages=(
   libopencv-dev libeigen3-dev libyaml-cpp-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
   liblcm-dev liblcm-bin libglib2.0-dev iproute2
   ffmpeg
+  libsystemd-dev
   libgtest-dev libgmock-dev librapidcheck-dev
 )
+
+[ "${1:-}" != --runtime ] || packages+=(libboost-dev spin g++-aarch64-linux-gnu qemu-user)
 
 missing=()
 for package in "${packages[@]}"; do

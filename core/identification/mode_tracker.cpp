@@ -75,6 +75,26 @@ void ModeTracker::set_row_delays(const std::vector<double>& row_delay_s) noexcep
               config_.row_delay_s.begin());
 }
 
+bool ModeTracker::restore(StateReader& in) noexcept {
+  describe(in, *this);
+  bool sane = in.ok();
+  for (Track& track : tracks_) {
+    sane = sane && track.state <= State::kLost && std::isfinite(track.apparent_hz) && std::isfinite(track.variance);
+    track.found = false;
+  }
+  if (!sane) restart(), last_id_ = 0;
+  return sane;
+}
+
+std::size_t ModeTracker::state_bytes() const noexcept {
+  return 64 + kMaxTracks * (sizeof(Track) + 16 + config_.row_delay_s.size() * sizeof(Complex));
+}
+
+void ModeTracker::restart() noexcept {
+  for (Track& track : tracks_) track.state = State::kFree;
+  n_samples_ = 0;
+}
+
 void ModeTracker::update(ModalEstimate& estimate) noexcept {
   for (auto* list : {&estimate.modes, &estimate.rejected}) {
     for (Mode& mode : *list) mode.history.reset();

@@ -9,6 +9,7 @@
 #include "core/identification/assignment.h"
 #include "core/identification/frequency_trend.h"
 #include "core/types/modal_estimate.h"
+#include "core/types/state_bytes.h"
 
 namespace core {
 
@@ -49,14 +50,37 @@ class ModeTracker {
 
   // From the next estimate on; as many as before.
   void set_row_delays(const std::vector<double>& row_delay_s) noexcept;
+  // What is followed is forgotten; new modes get new numbers. For estimates from another kind of record.
+  void restart() noexcept;
   // Fills `history` of the estimate's modes. Modes with a frequency, damping or shape that is no number are left out.
   void update(ModalEstimate& estimate) noexcept;
+
+  // To go on where another process ended. restore(): false, and nothing followed, where the bytes are not of a tracker
+  // of as many channels.
+  void save(StateWriter& out) const noexcept { describe(out, *this); }
+  [[nodiscard]] bool restore(StateReader& in) noexcept;
+  [[nodiscard]] std::size_t state_bytes() const noexcept;  // at most
 
   [[nodiscard]] std::size_t n_followed() const noexcept;  // confirmed, not lost
   // Modes that found no room: beyond kMaxTracks at once, or kMaxModes in one estimate.
   [[nodiscard]] std::uint64_t n_left_out() const noexcept { return n_left_out_; }
 
  private:
+  template <class Archive, class Self>
+  static void describe(Archive& archive, Self& self) noexcept {
+    archive.value(self.n_samples_);
+    archive.value(self.last_id_);
+    for (auto& track : self.tracks_) {
+      archive.value(track.state);
+      archive.value(track.apparent_hz), archive.value(track.frequency_hz), archive.value(track.damping_ratio);
+      archive.value(track.variance);
+      archive.array(track.seen);
+      archive.value(track.last_record_s), archive.value(track.n_absent), archive.value(track.fold_n);
+      archive.value(track.history);
+      archive.value(track.trend);
+    }
+  }
+
   enum class State : std::uint8_t { kFree, kNew, kConfirmed, kLost };
   using Shape = std::vector<std::complex<double>>;
 

@@ -94,6 +94,20 @@ WelchCpsd::WelchCpsd(const WelchConfig& config)
   mask_.assign(bins, 0.0);
 }
 
+void WelchCpsd::restart(double rate_hz) noexcept {
+  sums_.rate_hz = rate_hz;
+  sums_.n_segments = sums_.n_samples = sums_.n_missing = 0;
+  sums_.weight = {};
+  sums_.n_blocks = 0;
+  std::fill(sums_.data_sum.begin(), sums_.data_sum.end(), Complex());
+  std::fill(sums_.mask_sum.begin(), sums_.mask_sum.end(), Complex());
+  for (CpsdBlock& block : sums_.blocks) block.n_segments = 0, block.weight = {};
+  n_filled_ = n_new_ = 0;
+  segments_per_block_ = 1;
+  std::fill(value_.begin(), value_.end(), 0.0);
+  std::fill(seen_.begin(), seen_.end(), std::uint8_t{0});
+}
+
 bool WelchCpsd::push(std::span<const double> value, std::span<const std::uint8_t> seen) noexcept {
   const auto n_channels = static_cast<std::size_t>(config_.n_channels);
   const auto segment = static_cast<std::size_t>(config_.segment);

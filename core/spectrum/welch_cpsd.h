@@ -8,6 +8,7 @@
 #include "core/spectrum/real_fft.h"
 #include "core/spectrum/window.h"
 #include "core/types/cpsd.h"
+#include "core/types/state_bytes.h"
 
 namespace core {
 
@@ -41,12 +42,25 @@ class WelchCpsd {
   // The end of the record: what lies beyond the last full segment enters as a segment whose rest is masked.
   void flush() noexcept;
 
+  // Begins anew, as constructed, at another rate of the grid. Nothing is allocated. A memory that fades (forget_s)
+  // keeps its length in hops.
+  void restart(double rate_hz) noexcept;
+
+  // All that later samples build on: a restored accumulator goes on to the same bits. save() allocates nothing.
+  void save(StateWriter& out) const noexcept;
+  [[nodiscard]] std::size_t state_bytes() const noexcept;  // at most
+  // False, and the accumulator as constructed: the bytes are not of one with this configuration.
+  [[nodiscard]] bool restore(StateReader& in) noexcept;
+
   [[nodiscard]] const CpsdSums& sums() const noexcept { return sums_; }
   [[nodiscard]] std::uint64_t n_hops() const noexcept { return sums_.n_segments; }
   [[nodiscard]] int hop() const noexcept { return hop_; }
   [[nodiscard]] static CpsdSums empty_sums(const WelchConfig& config);  // sized as sums() will be
 
  private:
+  template <class Archive, class Self>
+  static void describe(Archive& archive, Self& self) noexcept;
+  [[nodiscard]] bool is_consistent() const noexcept;
   bool advance() noexcept;
   void accumulate_segment() noexcept;
   void transform_channel(int channel) noexcept;

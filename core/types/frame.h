@@ -30,6 +30,7 @@ struct Frame {
   std::uint64_t sequence = 0;    // frame number at the source; jumps where frames were lost
   std::int64_t t_start_ns = 0;   // start of exposure of row 0 (stream time for files, CLOCK_MONOTONIC for devices)
   std::int64_t exposure_ns = 0;  // 0 = unknown
+  std::int64_t t_taken_ns = 0;   // CLOCK_MONOTONIC when the service had it; for latencies, never for results
   bool gap_before = false;       // at least one frame is missing between this and the previous one
   int width_px = 0;
   int height_px = 0;

@@ -1,12 +1,19 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "core/types/region.h"
 
 namespace core {
+
+// A distribution of durations since start; a percentile is at most 1/16 too long.
+struct LatencyHealth {
+  std::uint64_t n = 0;  // 0: nothing measured, all others 0
+  std::uint64_t p50_ns = 0, p99_ns = 0, p999_ns = 0, max_ns = 0;
+};
 
 // Counters of one stage since start. Latencies in nanoseconds from step begin to step end.
 struct StageHealth {
@@ -15,7 +22,9 @@ struct StageHealth {
   std::uint64_t n_out = 0;      // items handed on
   std::uint64_t n_dropped = 0;  // items lost here
   std::uint64_t busy_ns = 0;
-  std::uint64_t worst_step_ns = 0;
+  std::uint64_t cpu_ns = 0;  // processor time of its thread
+  LatencyHealth step;
+  std::int64_t stalled_ns = 0;                     // now in one step for so long, beyond what is allowed; else 0
   std::uint32_t queue_depth = 0, queue_slots = 0;  // of the ring it reads
 };
 
@@ -25,6 +34,16 @@ struct RegionHealth {
   RegionState state = RegionState::kMeasuring;         // in the newest frame
   std::uint64_t points_tracked = 0, points_total = 0;  // in the newest frame; inliers
   std::uint64_t frames_searching = 0, frames_lost = 0;
+};
+
+// The computer. NaN and -1: it does not say.
+struct HostHealth {
+  double cpu_temperature_c = std::numeric_limits<double>::quiet_NaN();
+  double cpu_frequency_mhz = std::numeric_limits<double>::quiet_NaN();
+  int throttled = -1;                 // 1 = slowed by heat or voltage
+  std::int64_t resident_bytes = -1;   // of this process
+  std::int64_t available_bytes = -1;  // memory that could still be had
+  std::int64_t disk_left_bytes = -1;  // where the report goes
 };
 
 // The whole service, once a second and at the end. Every loss has a name here.
@@ -40,9 +59,11 @@ struct Health {
   std::uint64_t estimates = 0;
   std::uint64_t messages_sent = 0, messages_failed = 0;
   std::uint64_t snapshots_skipped = 0;  // due, but the previous one was not yet taken (live sources only)
-  std::string state;                    // "starting", "running", "finished", "fault: ..."
+  LatencyHealth frame_latency;          // from a frame taken to its displacement handed on
+  std::string state;                    // "starting", "running", "stalled: ...", "finished", "fault: ..."
   std::vector<std::string> warnings;    // e.g. real-time priority refused
   std::vector<StageHealth> stages;
+  HostHealth host;
   std::vector<RegionHealth> regions;  // empty where frames were not tracked here
 };
 

@@ -14,7 +14,12 @@ hovermodal::stage_t to_message(const core::StageHealth& stage) {
   out.n_out = counter(stage.n_out);
   out.n_dropped = counter(stage.n_dropped);
   out.busy_ns = counter(stage.busy_ns);
-  out.worst_step_ns = counter(stage.worst_step_ns);
+  out.worst_step_ns = counter(stage.step.max_ns);
+  out.p50_step_ns = counter(stage.step.p50_ns);
+  out.p99_step_ns = counter(stage.step.p99_ns);
+  out.p999_step_ns = counter(stage.step.p999_ns);
+  out.cpu_ns = counter(stage.cpu_ns);
+  out.stalled_ns = stage.stalled_ns;
   out.queue_depth = static_cast<std::int32_t>(stage.queue_depth);
   out.queue_slots = static_cast<std::int32_t>(stage.queue_slots);
   return out;
@@ -28,6 +33,17 @@ hovermodal::region_t to_message(const core::RegionHealth& region) {
   out.points_total = static_cast<std::int32_t>(region.points_total);
   out.frames_searching = counter(region.frames_searching);
   out.frames_lost = counter(region.frames_lost);
+  return out;
+}
+
+hovermodal::host_t to_message(const core::HostHealth& host) {
+  hovermodal::host_t out{};
+  out.cpu_temperature_c = static_cast<float>(host.cpu_temperature_c);
+  out.cpu_frequency_mhz = static_cast<float>(host.cpu_frequency_mhz);
+  out.throttled = static_cast<std::int8_t>(host.throttled);
+  out.resident_bytes = host.resident_bytes;
+  out.available_bytes = host.available_bytes;
+  out.disk_left_bytes = host.disk_left_bytes;
   return out;
 }
 
@@ -68,6 +84,12 @@ hovermodal::health_t to_message(const core::Health& health, const std::vector<co
   out.messages_sent = counter(health.messages_sent);
   out.messages_failed = counter(health.messages_failed);
   out.snapshots_skipped = counter(health.snapshots_skipped);
+  out.n_latencies = counter(health.frame_latency.n);
+  out.p50_latency_ns = counter(health.frame_latency.p50_ns);
+  out.p99_latency_ns = counter(health.frame_latency.p99_ns);
+  out.p999_latency_ns = counter(health.frame_latency.p999_ns);
+  out.worst_latency_ns = counter(health.frame_latency.max_ns);
+  out.host = to_message(health.host);
   const std::size_t n_warnings = std::min(health.warnings.size(), kMaxWarnings);
   for (std::size_t i = 0; i < n_warnings; ++i) out.warnings.push_back(clipped(health.warnings[i], kMaxWarningBytes));
   for (const auto& stage : health.stages) out.stages.push_back(to_message(stage));

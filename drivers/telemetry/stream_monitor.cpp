@@ -100,6 +100,8 @@ void StreamMonitor::take(hovermodal::health_t message, std::int64_t now_ns) {
   const std::string_view state = message.state;
   is_finished_ = state.substr(0, 8) == "finished" || state.substr(0, 5) == "fault";
   if (is_finished_) finished_at_ns_ = now_ns;
+  const bool same_run = health_ && message.sequence > health_->sequence;
+  previous_health_ = same_run ? std::move(health_) : std::nullopt;
   health_ = std::move(message);
 }
 

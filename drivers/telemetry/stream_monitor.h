@@ -39,6 +39,8 @@ class StreamMonitor {
   [[nodiscard]] std::int64_t last_received_ns() const noexcept { return last_received_ns_; }  // caller's clock
 
   [[nodiscard]] const std::optional<hovermodal::health_t>& health() const noexcept { return health_; }
+  // The one before, of the same run: for rates.
+  [[nodiscard]] const std::optional<hovermodal::health_t>& previous_health() const noexcept { return previous_health_; }
   [[nodiscard]] bool is_finished() const noexcept { return is_finished_; }  // a health with a final state was heard
   [[nodiscard]] std::int64_t finished_at_ns() const noexcept { return finished_at_ns_; }
 
@@ -65,7 +67,7 @@ class StreamMonitor {
   bool is_following_ = false;
   std::int64_t config_hash_ = 0, stream_time_ns_ = 0, last_received_ns_ = 0, finished_at_ns_ = 0;
   bool is_finished_ = false;
-  std::optional<hovermodal::health_t> health_;
+  std::optional<hovermodal::health_t> health_, previous_health_;
   std::optional<hovermodal::modal_estimate_t> estimate_;  // its own `modes` moved into parts_
   std::map<std::int16_t, std::vector<hovermodal::mode_t>> parts_;
   std::size_t n_modes_ = 0;

@@ -3,14 +3,24 @@
 #include <chrono>
 #include <utility>
 
+#include "rt/clock.h"
+
 namespace app {
 
 namespace {
 constexpr std::chrono::milliseconds kCaptureTimeout{100};
 }
 
-CaptureStage::CaptureStage(drivers::Camera& camera, rt::RingWriter<core::Frame> frames, core::Frame first)
-    : camera_(camera), frames_(frames), first_(std::move(first)), spare_(first_), lossless_(camera.info().lossless) {
+CaptureStage::CaptureStage(drivers::Camera& camera, rt::RingWriter<core::Frame> frames, core::Frame first,
+                           bool thin_overload)
+    : camera_(camera),
+      frames_(frames),
+      first_(std::move(first)),
+      spare_(first_),
+      lossless_(camera.info().lossless),
+      thin_overload_(thin_overload && !lossless_),
+      rate_hz_(camera.info().rate_hz),
+      overload_(rate_hz_) {
   last_sequence_ = first_.sequence;
 }
 
@@ -45,9 +55,13 @@ rt::StepStatus CaptureStage::deliver_next() noexcept {
       break;
   }
   count(target);
-  if (slot == nullptr) {
+  if (!thinning_.newest().keeps(target.sequence)) {  // its slot, if it had one, is free still
     rt::StageStats::add(stats().n_dropped);
-    gap_before_next_ = true;
+    return rt::StepStatus::kWorked;
+  }
+  watch_overload(target, slot == nullptr);
+  if (slot == nullptr) {
+    drop(target);
     return rt::StepStatus::kWorked;
   }
   target.gap_before = target.gap_before || gap_before_next_;
@@ -57,7 +71,23 @@ rt::StepStatus CaptureStage::deliver_next() noexcept {
   return rt::StepStatus::kWorked;
 }
 
-void CaptureStage::count(const core::Frame& frame) noexcept {
+void CaptureStage::drop(const core::Frame& frame) noexcept {
+  rt::StageStats::add(stats().n_dropped);
+  if (!gap_before_next_)
+    events().write("tracking is behind: frame {} and on dropped", static_cast<std::int64_t>(frame.sequence));
+  gap_before_next_ = true;
+}
+
+void CaptureStage::watch_overload(const core::Frame& frame, bool dropped) noexcept {
+  if (!thin_overload_) return;
+  const std::uint32_t stride = overload_.add(dropped);
+  if (stride == 0 || !thinning_.change({frame.sequence + 1, stride})) return;
+  events().write("overload: every {}th frame is kept from frame {} on", stride,
+                 static_cast<std::int64_t>(frame.sequence + 1));
+}
+
+void CaptureStage::count(core::Frame& frame) noexcept {
+  frame.t_taken_ns = rt::monotonic_ns();
   rt::StageStats::add(stats().n_in);
   if (frame.sequence > last_sequence_ + 1) {
     n_missing_.store(n_missing_.load(std::memory_order_relaxed) + frame.sequence - last_sequence_ - 1,

@@ -5,17 +5,20 @@
 
 #include "core/types/frame.h"
 #include "drivers/camera/camera.h"
+#include "firmware_app/stages/thinning.h"
 #include "rt/spsc_ring.h"
 #include "rt/stage.h"
 
 namespace app {
 
 // camera -> frame ring. A lossless source waits for a free slot; a live one drops the newest frame, counts it, and
-// marks the gap on the next.
+// marks the gap on the next. Where that goes on (OverloadWatch), only every n-th frame is kept from then on, at equal
+// spacing; the others count as dropped too, but are no gaps.
 class CaptureStage : public rt::Stage {
  public:
   // first: the frame that set-up has already taken from the camera; it goes first into the ring.
-  CaptureStage(drivers::Camera& camera, rt::RingWriter<core::Frame> frames, core::Frame first);
+  // thin_overload: false leaves all loss to chance.
+  CaptureStage(drivers::Camera& camera, rt::RingWriter<core::Frame> frames, core::Frame first, bool thin_overload);
 
   [[nodiscard]] std::string_view name() const noexcept override { return "capture"; }
   [[nodiscard]] rt::StepStatus step() noexcept override;
@@ -26,13 +29,16 @@ class CaptureStage : public rt::Stage {
     stop_.store(true, std::memory_order_release);
     wakeup().nudge();
   }
+  [[nodiscard]] const ThinningSchedule& thinning() const noexcept { return thinning_; }  // any thread
   // Any thread: frames lost before they reached us.
   [[nodiscard]] std::uint64_t n_missing() const noexcept { return n_missing_.load(std::memory_order_relaxed); }
 
  private:
   [[nodiscard]] rt::StepStatus deliver_first() noexcept;
   [[nodiscard]] rt::StepStatus deliver_next() noexcept;
-  void count(const core::Frame& frame) noexcept;
+  void count(core::Frame& frame) noexcept;
+  void drop(const core::Frame& frame) noexcept;
+  void watch_overload(const core::Frame& frame, bool dropped) noexcept;
 
   drivers::Camera& camera_;
   rt::RingWriter<core::Frame> frames_;
@@ -42,6 +48,10 @@ class CaptureStage : public rt::Stage {
   bool first_delivered_ = false;
   bool gap_before_next_ = false;
   std::uint64_t last_sequence_ = 0;
+  bool thin_overload_;
+  double rate_hz_;
+  ThinningSchedule thinning_;
+  OverloadWatch overload_;
   std::atomic<bool> stop_{false};
   std::atomic<std::uint64_t> n_missing_{0};  // written here only; relaxed: a count on its own
 };

@@ -16,10 +16,19 @@ rt::StepStatus IdentificationStage::step() noexcept {
   return rt::StepStatus::kWorked;
 }
 
+// Other rate, other folds: what was an apparent frequency is another one now.
+void IdentificationStage::follow_rate(double rate_hz) {
+  if (rate_hz == rate_hz_) return;
+  identifier_ = make_identifier_(rate_hz);
+  rate_hz_ = rate_hz;
+  tracker_.restart();
+}
+
 bool IdentificationStage::identify(const SpectrumSnapshot& snapshot, IdentificationResult& out) noexcept {
   try {
-    out.estimate = identifier_.identify(snapshot.sums, snapshot.readout);
-    tracker_.set_row_delays(identifier_.delay_s(out.estimate));
+    follow_rate(snapshot.sums.rate_hz);
+    out.estimate = identifier_->identify(snapshot.sums, snapshot.readout);
+    tracker_.set_row_delays(identifier_->delay_s(out.estimate));
     out.sums.copy_totals(snapshot.sums);
   } catch (...) {  // out of memory: this estimate is lost and counted, the next may succeed
     return false;
@@ -28,7 +37,23 @@ bool IdentificationStage::identify(const SpectrumSnapshot& snapshot, Identificat
   out.estimate.t_stream_ns = snapshot.t_last_ns;
   out.estimate.final = snapshot.final;
   tracker_.update(out.estimate);
+  hand_over_state();
   return true;
+}
+
+void IdentificationStage::hand_over_state() noexcept {
+  if (states_ == nullptr) return;
+  StateBytes& state = states_->back();
+  core::StateWriter out(state.bytes);
+  tracker_.save(out);
+  if (!out.ok()) return;
+  state.n_used = out.n_used();
+  states_->publish();
+}
+
+bool IdentificationStage::resume(std::span<const std::uint8_t> bytes) noexcept {
+  core::StateReader in(bytes);
+  return tracker_.restore(in);
 }
 
 }  // namespace app

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "core/types/cpsd.h"
 #include "core/types/displacement.h"
@@ -30,6 +32,12 @@ struct SpectrumSnapshot {
 struct IdentificationResult {
   core::ModalEstimate estimate;
   core::CpsdSums sums;
+};
+
+// spectrum, identification -> checkpoint: all that a later run needs to go on. Sized once.
+struct StateBytes {
+  std::vector<std::uint8_t> bytes;
+  std::size_t n_used = 0;
 };
 
 }  // namespace app

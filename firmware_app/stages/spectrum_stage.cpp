@@ -1,20 +1,26 @@
 #include "firmware_app/stages/spectrum_stage.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace app {
 
 SpectrumStage::SpectrumStage(rt::RingReader<core::DisplacementSample> samples, const core::WelchConfig& config,
-                             int period_hops, rt::TripleBuffer<SpectrumSnapshot>& snapshots, bool lossless)
+                             int period_hops, rt::TripleBuffer<SpectrumSnapshot>& snapshots, bool lossless,
+                             const ThinningSchedule& thinning)
     : samples_(samples),
+      camera_rate_hz_(config.rate_hz),
       grid_(config.rate_hz),
       welch_(config),
       period_hops_(static_cast<std::uint64_t>(std::max(1, period_hops))),
       snapshots_(snapshots),
-      lossless_(lossless) {}
+      lossless_(lossless),
+      thinning_(thinning) {}
 
 rt::StepStatus SpectrumStage::step() noexcept {
   if (due_) return hand_over();
+  hand_over_state_when_due();
   if (n_to_mask_ > 0) {
     note_hop(mask_one_missing());
     return rt::StepStatus::kWorked;
@@ -22,6 +28,8 @@ rt::StepStatus SpectrumStage::step() noexcept {
   const core::DisplacementSample* sample = samples_.front();
   if (sample == nullptr) return samples_.finished() ? end_record() : rt::StepStatus::kIdle;
   if (!front_placed_) {
+    const std::uint32_t stride = thinning_.at(sample->sequence).stride;
+    if (stride != stride_ && !begin_other_rate(stride)) return rt::StepStatus::kWorked;
     const core::TimeGrid::Placement placement = grid_.place(sample->t_start_ns);
     front_placed_ = true;
     front_refused_ = !placement.accepted;
@@ -30,6 +38,7 @@ rt::StepStatus SpectrumStage::step() noexcept {
     // masked cells would only add empty segments.
     n_to_mask_ =
         std::min<std::uint64_t>(placement.n_missing_before, 2 * static_cast<std::uint64_t>(welch_.sums().n_fft));
+    if (placement.accepted) n_to_mask_ += std::exchange(n_masked_on_resume_, 0);
     if (n_to_mask_ > 0) return rt::StepStatus::kWorked;
   }
   take(*sample);
@@ -37,6 +46,20 @@ rt::StepStatus SpectrumStage::step() noexcept {
   front_placed_ = false;
   rt::StageStats::add(stats().n_in);
   return rt::StepStatus::kWorked;
+}
+
+// False: the sums of the old rate are to be handed over first.
+bool SpectrumStage::begin_other_rate(std::uint32_t stride) noexcept {
+  if (welch_.sums().n_segments > 0 && !old_rate_ended_) {
+    old_rate_ended_ = due_ = true;
+    return false;
+  }
+  n_masked_before_ += welch_.sums().n_missing;
+  welch_.restart(camera_rate_hz_ / stride);
+  grid_ = core::TimeGrid(camera_rate_hz_ / stride);
+  stride_ = stride;
+  old_rate_ended_ = false;
+  return true;
 }
 
 void SpectrumStage::take(const core::DisplacementSample& sample) noexcept {
@@ -55,7 +78,7 @@ bool SpectrumStage::mask_one_missing() noexcept {
 }
 
 void SpectrumStage::note_hop(bool hop) noexcept {
-  n_masked_.store(welch_.sums().n_missing, std::memory_order_relaxed);
+  n_masked_.store(n_masked_before_ + welch_.sums().n_missing, std::memory_order_relaxed);
   due_ = hop && welch_.n_hops() % period_hops_ == 0;
 }
 
@@ -65,6 +88,48 @@ rt::StepStatus SpectrumStage::end_record() noexcept {
   flushed_ = true;
   due_ = true;
   return rt::StepStatus::kWorked;
+}
+
+void SpectrumStage::keep_state(rt::TripleBuffer<StateBytes>& states, double period_s) noexcept {
+  states_ = &states;
+  constexpr double kShareUntilWritten = 0.5;  // the rest is the disk's
+  state_period_cells_ =
+      static_cast<std::uint64_t>(std::max(1.0, std::floor(kShareUntilWritten * period_s * camera_rate_hz_)));
+  next_state_cell_ = welch_.sums().n_samples + state_period_cells_;
+}
+
+void SpectrumStage::hand_over_state_when_due() noexcept {
+  // A sample that has its cell but is not in the sums yet would be lost to the next run.
+  const bool between_samples = n_to_mask_ == 0 && !front_placed_;
+  if (states_ == nullptr || stride_ != 1 || !between_samples || welch_.sums().n_samples < next_state_cell_) return;
+  next_state_cell_ = welch_.sums().n_samples + state_period_cells_;
+  StateBytes& state = states_->back();
+  core::StateWriter out(state.bytes);
+  grid_.save(out);
+  welch_.save(out);
+  if (!out.ok()) return;
+  state.n_used = out.n_used();
+  states_->publish();
+}
+
+bool SpectrumStage::resume(std::span<const std::uint8_t> bytes, bool clock_goes_on) noexcept {
+  core::StateReader in(bytes);
+  core::TimeGrid grid(camera_rate_hz_);
+  grid.restore(in);
+  if (!welch_.restore(in)) return false;
+  if (clock_goes_on) {
+    grid_ = grid;
+  } else {
+    n_masked_on_resume_ = static_cast<std::uint64_t>(welch_.sums().n_fft / 2);  // at least a segment
+  }
+  note_hop(false);
+  if (states_ != nullptr) next_state_cell_ = welch_.sums().n_samples + state_period_cells_;
+  return true;
+}
+
+void SpectrumStage::finish() noexcept {
+  snapshots_.close();
+  if (states_ != nullptr) states_->close();
 }
 
 rt::StepStatus SpectrumStage::hand_over() noexcept {
@@ -78,6 +143,8 @@ rt::StepStatus SpectrumStage::hand_over() noexcept {
   snapshot.t_last_ns = t_stream_ns_.load(std::memory_order_relaxed);
   snapshot.final = flushed_;
   snapshot.readout = readout_;
+  snapshot.readout.frames /= stride_;  // frames are longer now
+  snapshot.readout.std_frames /= stride_;
   snapshots_.publish();
   rt::StageStats::add(stats().n_out);
   due_ = false;

@@ -1,11 +1,13 @@
 #include "firmware_app/stages/tracking_stage.h"
 
+#include "rt/clock.h"
+
 namespace app {
 
 TrackingStage::TrackingStage(rt::RingReader<core::Frame> frames, core::StructureTracker& tracker,
                              core::ChannelDisplacement& channels, core::ReadoutEstimator& readout,
                              rt::RingWriter<core::DisplacementSample> samples, rt::RingWriter<FrameRecord> records,
-                             bool lossless)
+                             bool lossless, const ThinningSchedule& thinning)
     : frames_(frames),
       tracker_(tracker),
       channels_(channels),
@@ -13,6 +15,7 @@ TrackingStage::TrackingStage(rt::RingReader<core::Frame> frames, core::Structure
       samples_(samples),
       records_(records),
       lossless_(lossless),
+      thinning_(thinning),
       regions_(tracker.regions().n_regions()) {
   for (std::size_t r = 0; r < regions_.size(); ++r) regions_[r].points_total = tracker.regions().n_points(r);
   scratch_.tracks.points.resize(tracker.n_points());
@@ -26,6 +29,7 @@ rt::StepStatus TrackingStage::step() noexcept {
   FrameRecord* record = records_.try_claim();
   if (lossless_ && (sample == nullptr || record == nullptr)) return rt::StepStatus::kIdle;
 
+  const std::int64_t t_taken_ns = frame->t_taken_ns;
   measure(*frame);
   frames_.pop();
   rt::StageStats::add(stats().n_in);
@@ -33,6 +37,7 @@ rt::StepStatus TrackingStage::step() noexcept {
     *sample = scratch_.sample;  // same sizes: copies values, allocates nothing
     sample->gap_before = sample->gap_before || gap_before_next_;
     samples_.publish();
+    if (t_taken_ns != 0) frame_latency_.add(rt::monotonic_ns() - t_taken_ns);
     rt::StageStats::add(stats().n_out);
   } else {
     rt::StageStats::add(stats().n_dropped);
@@ -51,7 +56,8 @@ void TrackingStage::measure(const core::Frame& frame) noexcept {
   if (!tracker_.track(frame, scratch_.tracks))
     n_failed_.store(n_failed_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   channels_.update(scratch_.tracks, scratch_.sample);
-  readout_.update(scratch_.tracks);
+  // Its filters are made for the camera's own rate; the readout is the same at any.
+  if (thinning_.at(frame.sequence).stride == 1) readout_.update(scratch_.tracks);
   scratch_.sample.readout = readout_.estimate();
   tracker_.learn(scratch_.tracks);
   count_regions();

@@ -9,6 +9,7 @@
 #include "core/types/frame.h"
 #include "core/types/health.h"
 #include "firmware_app/stages/items.h"
+#include "firmware_app/stages/thinning.h"
 #include "rt/spsc_ring.h"
 #include "rt/stage.h"
 
@@ -19,7 +20,8 @@ class TrackingStage : public rt::Stage {
  public:
   TrackingStage(rt::RingReader<core::Frame> frames, core::StructureTracker& tracker,
                 core::ChannelDisplacement& channels, core::ReadoutEstimator& readout,
-                rt::RingWriter<core::DisplacementSample> samples, rt::RingWriter<FrameRecord> records, bool lossless);
+                rt::RingWriter<core::DisplacementSample> samples, rt::RingWriter<FrameRecord> records, bool lossless,
+                const ThinningSchedule& thinning);
 
   [[nodiscard]] std::string_view name() const noexcept override { return "tracking"; }
   [[nodiscard]] rt::StepStatus step() noexcept override;
@@ -32,6 +34,8 @@ class TrackingStage : public rt::Stage {
   [[nodiscard]] std::uint64_t points_total() const noexcept { return scratch_.tracks.points.size(); }
   // Any thread: of the newest frame, and since start.
   [[nodiscard]] std::vector<core::RegionHealth> regions() const;
+  // Any thread: from a frame taken to its displacement handed on; the first frame, taken at set-up, is left out.
+  [[nodiscard]] const rt::LatencyHistogram& frame_latency() const noexcept { return frame_latency_; }
   [[nodiscard]] bool camera_given_up() const noexcept { return camera_given_up_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t n_failed_frames() const noexcept { return n_failed_.load(std::memory_order_relaxed); }
   // Any thread: frames that publish never saw, because its ring was full.
@@ -56,8 +60,10 @@ class TrackingStage : public rt::Stage {
   rt::RingWriter<core::DisplacementSample> samples_;
   rt::RingWriter<FrameRecord> records_;
   bool lossless_;
+  const ThinningSchedule& thinning_;
   FrameRecord scratch_;
   bool gap_before_next_ = false;
+  rt::LatencyHistogram frame_latency_;
   std::vector<RegionCounts> regions_;
   std::atomic<bool> camera_given_up_{false};
   std::atomic<std::uint64_t> points_tracked_{0};  // written here only; relaxed: a count on its own

@@ -102,6 +102,20 @@ TEST(LcmSpy, AnEventLogReadsBackWholeWithoutANetwork) {
   expect_complete(read_json(count_file), "HOVERMODAL", n_sent);
 }
 
+TEST(LcmSpy, InspectShowsEveryStageWithItsRateLatenciesAndTheComputer) {
+  const auto log = test_folder() / "run.lcm";
+  {
+    drivers::LcmPublisher publisher({"", "HOVERMODAL", log.string(), {"tower", 1}});
+    publish_run(publisher, {});
+  }
+  tests::ChildProcess inspect({kSpy, "inspect", "--url", "file://" + log.string() + "?speed=0", "--plain", "--once"});
+  EXPECT_EQ(inspect.wait_for_exit(), 0) << inspect.output();
+  for (const char* text : {"stream tower", "finished", "CPU 61.5 C", "disk 5000 MB left", "p99.9", "capture", "tracking",
+                           "spectrum", "identification", "publish", "3.000", "real-time priority refused"}) {
+    EXPECT_NE(inspect.output().find(text), std::string::npos) << text << " in\n" << inspect.output();
+  }
+}
+
 TEST(LcmSpy, ALogPlayerReplaysEveryMessage) {
   constexpr const char* kPlayer = "/usr/bin/lcm-logplayer";
   if (!std::filesystem::exists(kPlayer)) GTEST_SKIP() << "needs lcm-logplayer (Debian: liblcm-bin)";

@@ -33,7 +33,7 @@ TEST(PipelineTrouble, OverloadDropsFramesCountsThemAndMasksTheGaps) {
   CameraScript script = frames(400);
   script.lossless = false;
   script.frame_time = std::chrono::microseconds(100);
-  Rig rig(script, {"spectrum.segment=64", "rt.frame_slots=2"});
+  Rig rig(script, {"spectrum.segment=64", "rt.frame_slots=2", "rt.thin_overload=false"});
   const auto outcome = rig.run();
   EXPECT_EQ(outcome.fault, "");
   EXPECT_EQ(outcome.health.frames_in, 400U);

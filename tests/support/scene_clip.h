@@ -26,7 +26,9 @@ inline core::simulation::Scene small_scene(double duration_s, std::uint64_t seed
 // The first n frames of the small scene, drawn once and shared: a camera can then be as fast as memory.
 struct SceneClip {
   explicit SceneClip(std::uint64_t n_frames)
-      : motion(small_scene(static_cast<double>(n_frames) / core::simulation::CameraParameters{}.rate_hz)) {
+      : SceneClip(small_scene(static_cast<double>(n_frames) / core::simulation::CameraParameters{}.rate_hz), n_frames) {
+  }
+  SceneClip(const core::simulation::Scene& scene, std::uint64_t n_frames) : motion(scene) {
     const core::simulation::Renderer renderer(motion.scene());
     auto scratch = renderer.make_scratch();
     const auto& camera = motion.scene().camera;

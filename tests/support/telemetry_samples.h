@@ -108,12 +108,16 @@ inline core::Health sample_health(const std::string& state, std::uint64_t n) {
   out.points_tracked = 58;
   out.points_total = 60;
   out.state = state;
+  out.frame_latency = {25 * n, 5, 7, 8, 9};
+  out.host.cpu_temperature_c = 61.5;
+  out.host.disk_left_bytes = 5'000'000'000;
   out.warnings = {"real-time priority refused"};
   for (const char* name : {"capture", "tracking", "spectrum", "identification", "publish"}) {
     core::StageHealth stage;
     stage.name = name;
     stage.n_in = stage.n_out = 25 * n;
-    stage.worst_step_ns = 3'000'000;
+    stage.cpu_ns = 2'000'000 * n;
+    stage.step = {n, 1'000'000, 2'000'000, 2'500'000, 3'000'000};
     stage.queue_slots = 8;
     out.stages.push_back(stage);
   }

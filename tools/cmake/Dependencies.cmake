@@ -16,6 +16,15 @@ target_link_libraries(hovermodal_opencv INTERFACE opencv_core opencv_imgproc ope
 add_library(hovermodal_videoio INTERFACE)
 target_link_libraries(hovermodal_videoio INTERFACE hovermodal_opencv opencv_videoio opencv_imgcodecs)
 
+option(WITH_SYSTEMD "Tell systemd when the service is ready and alive" ON)
+if(WITH_SYSTEMD)
+  pkg_check_modules(SYSTEMD IMPORTED_TARGET libsystemd)
+  if(NOT SYSTEMD_FOUND)
+    message(STATUS "libsystemd not found (libsystemd-dev): built without readiness and watchdog messages")
+    set(WITH_SYSTEMD OFF)
+  endif()
+endif()
+
 option(WITH_LCM "Publish over LCM" ON)
 if(WITH_LCM)
   pkg_check_modules(LCM IMPORTED_TARGET lcm)

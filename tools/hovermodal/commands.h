@@ -16,6 +16,7 @@ void add_closeloop(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_spy(CLI::App& app);
+void add_inspect(CLI::App& app);  // in spy.cpp: another view of the same messages
 void add_readout(CLI::App& app);
 void add_selftest(CLI::App& app);
 

@@ -61,7 +61,7 @@ std::string timing_section(const PictureInputs& inputs) {
                {std::to_string(stage.n_out), {}},
                {std::to_string(stage.n_dropped), {}},
                {n == 0 ? "–" : milliseconds(stage.busy_ns / n), {}},
-               {milliseconds(stage.worst_step_ns), {}},
+               {milliseconds(stage.step.max_ns), {}},
                {queue, {}}});
   }
   std::string body =

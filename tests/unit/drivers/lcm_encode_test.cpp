@@ -197,6 +197,14 @@ TEST(LcmEncode, HealthCarriesCountersWarningsStagesAndChannels) {
   EXPECT_EQ(back->warnings.at(0), "real-time priority refused");
   EXPECT_EQ(back->stages.at(1).name, "tracking");
   EXPECT_EQ(back->stages.at(1).worst_step_ns, 3'000'000);
+  EXPECT_EQ(back->stages.at(1).p50_step_ns, 1'000'000);
+  EXPECT_EQ(back->stages.at(1).p99_step_ns, 2'000'000);
+  EXPECT_EQ(back->stages.at(1).p999_step_ns, 2'500'000);
+  EXPECT_EQ(back->stages.at(1).cpu_ns, 8'000'000);
+  EXPECT_EQ(back->p99_latency_ns, 7);
+  EXPECT_EQ(back->host.cpu_temperature_c, 61.5F);
+  EXPECT_EQ(back->host.throttled, -1);
+  EXPECT_EQ(back->host.disk_left_bytes, 5'000'000'000);
   EXPECT_EQ(back->channels.at(11).name, "floor_12.u");
   ASSERT_EQ(back->n_regions, 2);
   EXPECT_EQ(back->regions.at(0).name, "roof");

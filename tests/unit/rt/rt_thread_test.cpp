@@ -102,5 +102,30 @@ TEST(RtThread, APriorityIsGrantedOrRefusedNeverIgnored) {
   }
 }
 
+TEST(RtThread, HasTheStackThatWasAskedForAndTouchesItBeforehand) {
+  constexpr std::size_t kStack = 1 << 20;
+  std::size_t stack_bytes = 0;
+  ThreadConfig config{"stack"};
+  config.stack_bytes = kStack;
+  config.prefault_bytes = 10 * kStack;  // at most half is touched
+  RtThread thread;
+  thread.start(config, [&stack_bytes] {
+    pthread_attr_t attributes;
+    pthread_getattr_np(pthread_self(), &attributes);
+    pthread_attr_getstacksize(&attributes, &stack_bytes);
+    pthread_attr_destroy(&attributes);
+  });
+  thread.join();
+  EXPECT_GE(stack_bytes, kStack / 2);
+  EXPECT_LE(stack_bytes, 2 * kStack);
+}
+
+TEST(RtThread, AStackTooSmallIsAnErrorInTheStartingThread) {
+  ThreadConfig config{"tiny"};
+  config.stack_bytes = 100;
+  RtThread thread;
+  EXPECT_THROW(thread.start(config, [] {}), std::system_error);
+}
+
 }  // namespace
 }  // namespace rt

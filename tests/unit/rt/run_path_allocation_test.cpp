@@ -4,7 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "rt/event_log.h"
 #include "rt/spsc_ring.h"
+#include "rt/stage_stats.h"
 #include "rt/triple_buffer.h"
 #include "rt/wakeup.h"
 #include "tests/support/alloc_guard.h"
@@ -89,6 +91,24 @@ TEST(RunPathAllocation, WakeupWaitsWithoutAllocating) {
     }
     n_calls = guard.n_new() + guard.n_delete();
   }
+  EXPECT_EQ(n_calls, 0U);
+}
+
+TEST(RunPathAllocation, EventsAndLatenciesAreNotedWithoutAllocating) {
+  EventLog log(8);
+  StageStats stats;
+  std::size_t n_calls = 0;
+  std::uint64_t n_seen = 0;
+  {
+    const AllocGuard guard;
+    for (int i = 0; i < 100; ++i) {
+      log.write("step {} took {}", i, 3);  // runs full, too
+      stats.step.add(i);
+      if (i % 20 == 0) n_seen += log.drain([](const Event&) {}) + stats.step.percentiles().n;
+    }
+    n_calls = guard.n_new() + guard.n_delete();
+  }
+  EXPECT_GT(n_seen, 0U);
   EXPECT_EQ(n_calls, 0U);
 }
 

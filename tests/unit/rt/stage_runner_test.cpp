@@ -7,6 +7,8 @@
 #include <thread>
 #include <vector>
 
+#include "rt/clock.h"
+
 namespace rt {
 namespace {
 
@@ -82,8 +84,10 @@ TEST(StageRunner, CountsTheTimeOfStepsThatWorkedOnly) {
   stage.stats().busy_ns.store(0);
   StageRunner runner(stage, {"worker", 0, -1});
   run(stage, runner);
-  EXPECT_EQ(stage.stats().busy_ns.load(), stage.stats().worst_step_ns.load()) << "only the last step counts";
+  EXPECT_EQ(stage.stats().step.percentiles().n, 1U) << "only the last step counts";
+  EXPECT_EQ(stage.stats().busy_ns.load(), stage.stats().step.percentiles().max_ns);
   EXPECT_GT(stage.stats().busy_ns.load(), 0U);
+  EXPECT_GT(stage.stats().cpu_ns.load(), 0U);
 }
 
 // A stage that is idle until told otherwise.
@@ -144,6 +148,44 @@ TEST(StageRunner, AbortBeforeTheStartTakesNoStep) {
   EXPECT_EQ(stage.n_steps.load(), 0);
 }
 
+// Hangs inside a step until told otherwise.
+class HangingStage : public Stage {
+ public:
+  [[nodiscard]] std::string_view name() const noexcept override { return "hanging"; }
+  StepStatus step() noexcept override {
+    inside.store(true);
+    while (!go.load()) std::this_thread::sleep_for(1ms);
+    return StepStatus::kFinished;
+  }
+
+  std::atomic<bool> inside{false}, go{false};
+};
+
+TEST(StageRunner, AStageThatHangsInAStepIsStalledUntilItGoesOn) {
+  HangingStage stage;
+  StageRunner runner(stage, {"hanging", 0, -1});
+  runner.set_stall_limit_ns(1'000'000'000);
+  EXPECT_EQ(runner.stalled_for_ns(monotonic_ns()), 0) << "not started";
+  runner.start();
+  while (!stage.inside.load()) std::this_thread::sleep_for(1ms);
+  EXPECT_GT(runner.stalled_for_ns(monotonic_ns() + 1'000'000'000), 1'000'000'000);
+  stage.go.store(true);
+  runner.join();
+  EXPECT_EQ(runner.stalled_for_ns(monotonic_ns() + 10'000'000'000), 0) << "ended";
+}
+
+TEST(StageRunner, AnIdleStageLooksForWorkAgainAndAgainAndIsNotStalled) {
+  WaitingStage stage;
+  StageRunner runner(stage, {"waiting", 0, -1});
+  runner.set_stall_limit_ns(20'000'000'000);
+  runner.start();
+  while (stage.n_steps.load() < 3) std::this_thread::sleep_for(1ms);  // woken by its time-out alone
+  EXPECT_EQ(runner.stalled_for_ns(monotonic_ns()), 0);
+  stage.go.store(true);
+  stage.wakeup().nudge();
+  runner.join();
+}
+
 TEST(StageRunner, JoinsInItsDestructor) {
   ScriptedStage stage({kWorked, kWorked, kFinished});
   {
@@ -153,14 +195,11 @@ TEST(StageRunner, JoinsInItsDestructor) {
   EXPECT_EQ(stage.n_finish, 1);
 }
 
-TEST(StageStats, AddsAndKeepsTheWorst) {
+TEST(StageStats, Adds) {
   StageStats stats;
   StageStats::add(stats.n_in);
   StageStats::add(stats.n_in, 4);
-  StageStats::raise(stats.worst_step_ns, 7);
-  StageStats::raise(stats.worst_step_ns, 3);
   EXPECT_EQ(stats.n_in.load(), 5U);
-  EXPECT_EQ(stats.worst_step_ns.load(), 7U);
 }
 
 }  // namespace

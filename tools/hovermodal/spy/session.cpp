@@ -27,6 +27,7 @@ void tools::run_spy(const SpyOptions&) {
 #include "drivers/telemetry/lcm_url.h"
 #include "drivers/telemetry/stream_monitor.h"
 #include "tools/hovermodal/spy/count.h"
+#include "tools/hovermodal/spy/stages.h"
 #include "tools/hovermodal/spy/terminal.h"
 #include "tools/hovermodal/spy/view.h"
 
@@ -95,10 +96,22 @@ class Listener {
   std::unique_ptr<lcm_t, decltype(&lcm_destroy)> lcm_;
 };
 
+std::vector<std::string> render(SpyView what, const drivers::StreamMonitor& monitor, const ViewOptions& view) {
+  return what == SpyView::kModes ? render_screen(monitor, view) : render_stages(monitor, view);
+}
+
 // Plain lines: a status each second, the modes whenever they are new and whole.
 class PlainOutput {
  public:
+  explicit PlainOutput(SpyView what) : what_(what) {}
+
   void update(const drivers::StreamMonitor& monitor, const ViewOptions& view) {
+    what_ == SpyView::kModes ? update_modes(monitor, view) : update_stages(monitor, view);
+    std::fflush(stdout);
+  }
+
+ private:
+  void update_modes(const drivers::StreamMonitor& monitor, const ViewOptions& view) {
     const auto& estimate = monitor.estimate();
     if (estimate && estimate->number != shown_estimate_ && monitor.parts_heard() >= estimate->n_parts) {
       shown_estimate_ = estimate->number;
@@ -108,10 +121,15 @@ class PlainOutput {
       last_line_ns_ = view.now_ns;
       std::printf("%s\n", render_status(monitor, view).c_str());
     }
-    std::fflush(stdout);
+  }
+  void update_stages(const drivers::StreamMonitor& monitor, const ViewOptions& view) {
+    if (!monitor.health() || monitor.health()->sequence == shown_health_) return;
+    shown_health_ = monitor.health()->sequence;
+    for (const auto& line : render_stages(monitor, view)) std::printf("%s\n", line.c_str());
   }
 
- private:
+  SpyView what_;
+  std::int64_t shown_health_ = -1;
   std::int64_t shown_estimate_ = -1;
   std::int64_t last_line_ns_ = 0;
 };
@@ -121,7 +139,7 @@ enum class End { kAsked, kTimeOver, kStreamEnded };
 
 End listen(const SpyOptions& options, Listener& listener, drivers::StreamMonitor& monitor, TerminalScreen* screen,
            ViewOptions view) {
-  PlainOutput plain;
+  PlainOutput plain(options.view);
   const std::int64_t begin_ns = now_ns();
   std::int64_t drawn_ns = 0;
   for (;;) {
@@ -133,7 +151,7 @@ End listen(const SpyOptions& options, Listener& listener, drivers::StreamMonitor
       drawn_ns = view.now_ns;
       view.columns = screen->columns();
       view.rows = screen->rows();
-      screen->draw(render_screen(monitor, view));
+      screen->draw(render(options.view, monitor, view));
     }
     if (stop_requested != 0) return End::kAsked;
     if (!has_more) return End::kStreamEnded;
@@ -176,7 +194,7 @@ void run_spy(const SpyOptions& options) {
   const End end = listen(options, listener, monitor, screen ? &*screen : nullptr, view);
   screen.reset();
   view.now_ns = now_ns();
-  for (const auto& line : render_screen(monitor, view)) std::printf("%s\n", line.c_str());
+  for (const auto& line : render(options.view, monitor, view)) std::printf("%s\n", line.c_str());
   count_file << (options.count_file.empty() ? "" : count_json(monitor)) << std::flush;
   if (!options.count_file.empty() && !count_file) {
     throw std::runtime_error(fmt::format("--count \"{}\": cannot be written", options.count_file));

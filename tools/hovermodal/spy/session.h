@@ -4,7 +4,10 @@
 
 namespace tools {
 
+enum class SpyView { kModes, kStages };
+
 struct SpyOptions {
+  SpyView view = SpyView::kModes;
   std::string url = "udpm://239.255.76.67:7667?ttl=0";
   std::string prefix = "HOVERMODAL";
   bool once = false;

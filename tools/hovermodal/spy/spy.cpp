@@ -8,8 +8,9 @@
 
 namespace tools {
 
-void add_spy(CLI::App& app) {
-  CLI::App* spy = app.add_subcommand("spy", "Show modes, displacements, losses and health live, from LCM alone");
+namespace {
+
+std::shared_ptr<SpyOptions> add_listener(CLI::App* spy) {
   const auto options = std::make_shared<SpyOptions>();
   spy->add_option("--url", options->url, "LCM URL to listen on; file://LOG?speed=0 reads an event log")
       ->capture_default_str();
@@ -21,6 +22,19 @@ void add_spy(CLI::App& app) {
   spy->add_flag("--plain", options->plain, "Plain lines, ASCII only, also on a terminal");
   spy->add_option("--count", options->count_file, "Write the messages heard and missed to this JSON file at the end");
   spy->callback([options] { run_spy(*options); });
+  return options;
+}
+
+}  // namespace
+
+void add_spy(CLI::App& app) {
+  add_listener(app.add_subcommand("spy", "Show modes, displacements, losses and health live, from LCM alone"));
+}
+
+void add_inspect(CLI::App& app) {
+  add_listener(app.add_subcommand(
+                   "inspect", "Show every stage live, like top: rate, ring, losses, latencies, CPU; from LCM alone"))
+      ->view = SpyView::kStages;
 }
 
 }  // namespace tools

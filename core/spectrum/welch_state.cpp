@@ -1,0 +1,71 @@
+#include "core/spectrum/welch_cpsd.h"
+
+namespace core {
+
+namespace {
+using Complex = std::complex<double>;
+}
+
+// What fixes the sizes comes first, so that another configuration is found out before anything is taken.
+template <class Archive, class Self>
+void WelchCpsd::describe(Archive& archive, Self& self) noexcept {
+  auto& sums = self.sums_;
+  archive.value(sums.n_segments);
+  archive.value(sums.weight);
+  archive.value(sums.n_samples);
+  archive.value(sums.n_missing);
+  archive.array(sums.data_sum);
+  archive.array(sums.mask_sum);
+  archive.value(sums.n_blocks);
+  for (std::size_t b = 0; b < sums.n_blocks && b < sums.blocks.size() && archive.ok(); ++b) {
+    auto& block = sums.blocks[b];
+    archive.value(block.n_segments);
+    archive.value(block.weight);
+    archive.array(block.data_sum);
+    archive.array(block.mask_sum);
+  }
+  archive.value(self.n_filled_);
+  archive.value(self.n_new_);
+  archive.value(self.segments_per_block_);
+  archive.array(self.value_);
+  archive.array(self.seen_);
+}
+
+void WelchCpsd::save(StateWriter& out) const noexcept {
+  out.value(sums_.n_channels);
+  out.value(config_.segment);
+  out.value(hop_);
+  out.value(sums_.n_fft);
+  out.value(sums_.rate_hz);
+  out.value(sums_.window_power);
+  out.value(kept_per_hop_);
+  describe(out, *this);
+}
+
+std::size_t WelchCpsd::state_bytes() const noexcept {
+  const std::size_t sums = 2 * (sums_.data_sum.size() * sizeof(Complex) + 64);
+  return 512 + (1 + sums_.blocks.size()) * sums + value_.size() * (sizeof(double) + 1);
+}
+
+bool WelchCpsd::restore(StateReader& in) noexcept {
+  int n_channels = 0, segment = 0, hop = 0, n_fft = 0;
+  double rate_hz = 0.0, window_power = 0.0, kept_per_hop = 0.0;
+  in.value(n_channels), in.value(segment), in.value(hop), in.value(n_fft);
+  in.value(rate_hz), in.value(window_power), in.value(kept_per_hop);
+  const bool same = in.ok() && n_channels == sums_.n_channels && segment == config_.segment && hop == hop_ &&
+                    n_fft == sums_.n_fft && rate_hz == sums_.rate_hz && window_power == sums_.window_power &&
+                    kept_per_hop == kept_per_hop_;
+  if (same) describe(in, *this);
+  if (same && in.ok() && is_consistent()) return true;
+  in.fail();
+  restart(sums_.rate_hz);
+  return false;
+}
+
+// Indices that later steps trust.
+bool WelchCpsd::is_consistent() const noexcept {
+  return sums_.n_blocks <= sums_.blocks.size() && n_filled_ >= 0 && n_filled_ < config_.segment && n_new_ >= 0 &&
+         n_new_ <= n_filled_ && segments_per_block_ > 0;
+}
+
+}  // namespace core

@@ -1,0 +1,112 @@
+#include "drivers/host/host_status.h"
+
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace drivers {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string first_line(const fs::path& path) {
+  std::ifstream in(path);
+  std::string line;
+  std::getline(in, line);
+  return line;
+}
+
+std::optional<double> number_in(const fs::path& path) {
+  const std::string line = first_line(path);
+  char* end = nullptr;
+  const double value = std::strtod(line.c_str(), &end);
+  if (end == line.c_str() || !std::isfinite(value)) return {};
+  return value;
+}
+
+// Entries of a folder whose name begins with `prefix`; none where it cannot be read.
+std::vector<fs::path> entries(const fs::path& folder, const std::string& prefix) {
+  std::vector<fs::path> out;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    if (it->path().filename().string().starts_with(prefix)) out.push_back(it->path());
+  }
+  return out;
+}
+
+double hottest_c(const fs::path& root) {
+  double hottest = std::numeric_limits<double>::quiet_NaN();
+  for (const fs::path& zone : entries(root / "sys/class/thermal", "thermal_zone")) {
+    const auto milli = number_in(zone / "temp");
+    if (milli) hottest = std::fmax(hottest, *milli * 1e-3);  // fmax: a number beats NaN
+  }
+  return hottest;
+}
+
+double mean_frequency_mhz(const fs::path& root) {
+  double sum = 0.0;
+  int n = 0;
+  for (const fs::path& cpu : entries(root / "sys/devices/system/cpu", "cpu")) {
+    if (const auto khz = number_in(cpu / "cpufreq/scaling_cur_freq")) sum += *khz * 1e-3, ++n;
+  }
+  return n > 0 ? sum / n : std::numeric_limits<double>::quiet_NaN();
+}
+
+int throttled(const fs::path& root) {
+  const std::string firmware = first_line(root / "sys/devices/platform/soc/soc:firmware/get_throttled");
+  if (!firmware.empty()) return (std::strtoul(firmware.c_str(), nullptr, 16) & 0xFU) != 0 ? 1 : 0;
+  int known = -1;
+  for (const fs::path& device : entries(root / "sys/class/thermal", "cooling_device")) {
+    const std::string type = first_line(device / "type");
+    if (type.find("cpufreq") == type.npos && type != "Processor") continue;
+    if (const auto state = number_in(device / "cur_state")) known = std::max(known, *state > 0.0 ? 1 : 0);
+  }
+  return known;
+}
+
+// "MemAvailable:  123 kB"
+std::int64_t available_bytes(const fs::path& root) {
+  std::ifstream in(root / "proc/meminfo");
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("MemAvailable:")) return std::strtoll(line.c_str() + 13, nullptr, 10) * 1024;
+  }
+  return -1;
+}
+
+std::int64_t resident_bytes(const fs::path& root) {
+  std::ifstream in(root / "proc/self/statm");
+  std::int64_t total_pages = 0, resident_pages = 0;
+  if (!(in >> total_pages >> resident_pages)) return -1;
+  return resident_pages * sysconf(_SC_PAGESIZE);
+}
+
+std::int64_t disk_left_bytes(const std::string& path) {
+  struct statvfs disk {};
+  if (statvfs(path.empty() ? "." : path.c_str(), &disk) != 0) return -1;
+  return static_cast<std::int64_t>(disk.f_bavail) * static_cast<std::int64_t>(disk.f_frsize);
+}
+
+}  // namespace
+
+core::HostHealth read_host_status(const std::string& disk_path, const std::string& root_path) {
+  const fs::path root = root_path.empty() ? "/" : root_path;
+  core::HostHealth host;
+  host.cpu_temperature_c = hottest_c(root);
+  host.cpu_frequency_mhz = mean_frequency_mhz(root);
+  host.throttled = throttled(root);
+  host.resident_bytes = resident_bytes(root);
+  host.available_bytes = available_bytes(root);
+  host.disk_left_bytes = disk_left_bytes(disk_path);
+  return host;
+}
+
+}  // namespace drivers

@@ -1,0 +1,143 @@
+#include "drivers/storage/checkpoint_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+
+namespace drivers {
+
+namespace {
+
+constexpr std::array<char, 8> kMagic{'H', 'M', 'S', 'T', 'A', 'T', 'E', '\n'};
+constexpr std::uint64_t kMostBytes = 4ULL << 30;
+
+struct Head {
+  std::array<char, 8> magic = kMagic;
+  std::uint32_t version = kCheckpointVersion;
+  std::uint32_t reserved = 0;
+  std::uint64_t n_bytes = 0;
+  std::uint64_t checksum = 0;
+};
+
+// FNV-1a over 64-bit words, the rest by bytes: a large file is checked in passing.
+std::uint64_t checksum(std::span<const std::uint8_t> bytes) noexcept {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  constexpr std::uint64_t kPrime = 0x100000001b3U;
+  std::size_t at = 0;
+  for (; at + 8 <= bytes.size(); at += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + at, 8);
+    hash = (hash ^ word) * kPrime;
+    hash ^= hash >> 29;  // so that high bits of a word reach low bits of the sum
+  }
+  for (; at < bytes.size(); ++at) hash = (hash ^ bytes[at]) * kPrime;
+  return hash;
+}
+
+// A descriptor that closes itself.
+class File {
+ public:
+  File(const char* path, int flags) noexcept : descriptor_(::open(path, flags | O_CLOEXEC, 0644)) {}
+  ~File() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+
+  [[nodiscard]] bool is_open() const noexcept { return descriptor_ >= 0; }
+  [[nodiscard]] bool write(const void* data, std::size_t n_bytes) const noexcept {
+    const auto* at = static_cast<const char*>(data);
+    while (n_bytes > 0) {
+      const ssize_t n = ::write(descriptor_, at, n_bytes);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) return false;
+      at += n, n_bytes -= static_cast<std::size_t>(n);
+    }
+    return true;
+  }
+  // File systems that cannot (EINVAL) are as safe as they get.
+  [[nodiscard]] bool sync() const noexcept { return ::fsync(descriptor_) == 0 || errno == EINVAL; }
+
+ private:
+  int descriptor_;
+};
+
+std::string why(const std::string& path) { return path + ": " + std::strerror(errno); }
+
+std::string write_or_why(const std::string& path, const std::string& partial, std::span<const std::uint8_t> bytes) {
+  Head head;
+  head.n_bytes = bytes.size();
+  head.checksum = checksum(bytes);
+  {
+    const File file(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC);
+    if (!file.is_open()) return why(partial);
+    if (!file.write(&head, sizeof head) || !file.write(bytes.data(), bytes.size()) || !file.sync()) return why(partial);
+  }
+  if (std::rename(partial.c_str(), path.c_str()) != 0) return why(path);
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  const File directory(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
+  if (directory.is_open()) (void)directory.sync();
+  return {};
+}
+
+}  // namespace
+
+std::string write_checkpoint(const std::string& path, std::span<const std::uint8_t> bytes) noexcept {
+  try {
+    const std::string partial = path + ".partial";
+    std::string refused = write_or_why(path, partial, bytes);
+    if (!refused.empty()) (void)::unlink(partial.c_str());  // a full disk gets its room back
+    return refused;
+  } catch (const std::exception&) {
+    return "out of memory";
+  }
+}
+
+CheckpointRead read_checkpoint(const std::string& path) {
+  CheckpointRead out;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) {
+    out.exists = std::filesystem::exists(path);
+    if (out.exists) out.refused = "it cannot be read";
+    return out;
+  }
+  out.exists = true;
+  Head head;
+  const auto refuse = [&out](std::string reason) {
+    out.refused = std::move(reason);
+    out.bytes.clear();
+    return out;
+  };
+  if (!in.read(reinterpret_cast<char*>(&head), sizeof head)) return refuse("it is cut off in its head");
+  if (head.magic != kMagic || head.reserved != 0) return refuse("it is not a state of hovermodal");
+  if (head.version != kCheckpointVersion) {
+    return refuse("its version is " + std::to_string(head.version) + ", ours is " + std::to_string(kCheckpointVersion));
+  }
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error || head.n_bytes > kMostBytes || size != sizeof head + head.n_bytes) {
+    return refuse("it is " + std::to_string(size) + " bytes long and should be " +
+                  std::to_string(sizeof head + head.n_bytes));
+  }
+  out.bytes.resize(static_cast<std::size_t>(head.n_bytes));
+  if (!in.read(reinterpret_cast<char*>(out.bytes.data()), static_cast<std::streamsize>(out.bytes.size())))
+    return refuse("it cannot be read to its end");
+  if (checksum(out.bytes) != head.checksum) return refuse("its checksum is wrong: it is damaged");
+  return out;
+}
+
+std::string boot_id() {
+  std::ifstream in("/proc/sys/kernel/random/boot_id");
+  std::string id;
+  std::getline(in, id);
+  return id;
+}
+
+}  // namespace drivers

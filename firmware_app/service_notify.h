@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace app {
+
+// What the service manager (systemd, Type=notify) is told: ready, a line of status, still alive, stopping. The watchdog
+// is fed only while every stage goes on, so that a hung stage ends in a restart. Without a service manager
+// (NOTIFY_SOCKET unset), or built without libsystemd, nothing is sent. Main thread.
+class ServiceNotify {
+ public:
+  ServiceNotify();
+
+  void ready(const std::string& status) const;
+  // Call it often. `stall`: Pipeline::stall(). Feeds the watchdog every quarter of its period (WatchdogSec).
+  void tick(const std::string& stall);
+  void stopping() const;
+
+  [[nodiscard]] std::int64_t feed_period_ns() const noexcept { return feed_period_ns_; }  // 0 = no watchdog asked for
+
+ private:
+  std::int64_t feed_period_ns_ = 0;
+  std::int64_t next_feed_ns_ = 0;
+  bool stall_told_ = false;
+};
+
+}  // namespace app

@@ -1,0 +1,211 @@
+// The whole pipeline under pressure, over frames that lie in memory. Lines of "name<TAB>value"; exit code 1 where what
+// must hold does not.
+//   overload_run overload SECONDS          a source four times faster than tracking can follow; SECONDS of stream
+//   overload_run loss SECONDS              30 % of the frames lost at random before they reach us
+//   overload_run soak FRAMES               as fast as possible
+//   overload_run latency SECONDS CPUS PRIORITY   1920 x 1080 at 60 frames a second, CPUS kept busy, SCHED_FIFO PRIORITY
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <thread>
+
+#include "rt/clock.h"
+#include "tests/support/pipeline_run.h"
+
+namespace {
+
+using tests::SceneClip;
+
+std::uint64_t resident_bytes() {
+  std::uint64_t total = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> total >> resident;
+  return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+// Plays frames from memory. period_ns > 0: one each period of wall time, whether it is taken or not.
+struct Play {
+  std::uint64_t n_frames = 0;
+  std::int64_t period_ns = 0;
+  bool lossless = false;
+  bool loses_30_percent = false;
+};
+
+class MemoryCamera : public drivers::Camera {
+ public:
+  MemoryCamera(std::shared_ptr<const SceneClip> clip, Play play, double rate_hz)
+      : clip_(std::move(clip)), play_(play), info_(clip_->motion.scene().camera_info()) {
+    info_.lossless = play.lossless;
+    info_.rate_hz = rate_hz;
+    info_.frame_count = 0;
+    info_.description = "frames in memory";
+  }
+  [[nodiscard]] core::CameraInfo info() const override { return info_; }
+  void start() override { begin_ns_ = rt::monotonic_ns(); }
+  void stop() noexcept override {}
+  [[nodiscard]] std::string fault() const override { return {}; }
+  drivers::CaptureStatus capture(core::Frame& out, std::chrono::milliseconds) noexcept override {
+    const std::uint64_t before = next_;
+    while (play_.loses_30_percent && next_ > 0 && next_ < play_.n_frames && is_lost(next_)) ++next_;
+    if (next_ >= play_.n_frames) return drivers::CaptureStatus::kEndOfStream;
+    const std::int64_t due_ns = begin_ns_ + static_cast<std::int64_t>(next_) * play_.period_ns;
+    while (play_.period_ns > 0 && rt::monotonic_ns() < due_ns) {
+      std::this_thread::sleep_for(std::chrono::nanoseconds(std::max<std::int64_t>(1000, due_ns - rt::monotonic_ns())));
+    }
+    const auto& pixels = clip_->frames[next_ % clip_->frames.size()];
+    std::copy(pixels.begin(), pixels.end(), out.pixels.begin());
+    out.sequence = next_;
+    out.t_start_ns = static_cast<std::int64_t>(std::llround(static_cast<double>(next_) / info_.rate_hz * 1e9));
+    out.gap_before = next_ != before;
+    out.width_px = info_.width_px;
+    out.height_px = info_.height_px;
+    ++next_;
+    return drivers::CaptureStatus::kFrame;
+  }
+
+ private:
+  static bool is_lost(std::uint64_t k) noexcept {
+    std::uint64_t x = k * 0x9E3779B97F4A7C15U;  // splitmix64
+    x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
+    x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
+    return (x ^ (x >> 31U)) % 10 < 3;
+  }
+
+  std::shared_ptr<const SceneClip> clip_;
+  Play play_;
+  core::CameraInfo info_;
+  std::uint64_t next_ = 0;
+  std::int64_t begin_ns_ = 0;
+};
+
+struct Run {
+  app::Pipeline::Outcome outcome;
+  double seconds = 0.0;
+  std::uint64_t resident_begin = 0, resident_end = 0;  // after start-up, and the largest afterwards
+};
+
+Run run(const std::shared_ptr<const SceneClip>& clip, const Play& play, double rate_hz,
+        const std::vector<std::string>& overrides, std::uint64_t settled_after) {
+  const app::AppConfig config = app::parse_config(tests::scene_config(clip->motion), "scene", overrides);
+  class Silent : public tests::MemoryPublisher {  // keeps nothing
+   public:
+    bool publish(const core::ModalEstimate&, const std::vector<core::ChannelInfo>&) noexcept override { return true; }
+    bool publish(const core::DisplacementSample&, const std::vector<core::ChannelInfo>&) noexcept override {
+      return true;
+    }
+    bool publish(const core::TrackFrame&) noexcept override { return true; }
+    bool publish(const core::CpsdSums&, const std::vector<core::ChannelInfo>&) noexcept override { return true; }
+    bool publish(const core::Health&) noexcept override { return true; }
+  };
+  app::Pipeline pipeline(config, std::make_unique<MemoryCamera>(clip, play, rate_hz), std::make_unique<Silent>());
+  Run out;
+  const std::int64_t begin_ns = rt::monotonic_ns();
+  pipeline.start();
+  while (pipeline.running()) {
+    if (out.resident_begin == 0 && pipeline.health().frames_in >= settled_after)
+      out.resident_begin = out.resident_end = resident_bytes();
+    if (out.resident_begin != 0) out.resident_end = std::max(out.resident_end, resident_bytes());
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  out.outcome = pipeline.join();
+  out.seconds = static_cast<double>(rt::monotonic_ns() - begin_ns) * 1e-9;
+  return out;
+}
+
+std::shared_ptr<const SceneClip> draw(double seconds) {
+  return std::make_shared<const SceneClip>(
+      static_cast<std::uint64_t>(seconds * core::simulation::CameraParameters{}.rate_hz));
+}
+
+// The lowest three modes, as far as the rate that was kept shows them.
+bool modes_right(const SceneClip& clip, const core::ModalEstimate& estimate) {
+  int n_right = 0, n_visible = 0;
+  for (const auto& truth : core::simulation::modes_of(clip.motion.scene().structure)) {
+    if (truth.frequency_hz > 0.45 * estimate.rate_hz || n_visible == 3) continue;
+    ++n_visible;
+    for (const core::Mode& mode : estimate.modes) {
+      if (std::abs(mode.frequency_hz / truth.frequency_hz - 1.0) < 0.02) {
+        ++n_right;
+        break;
+      }
+    }
+  }
+  std::printf("modes\t%d of %d within 2 %%\n", n_right, n_visible);
+  return n_visible > 0 && n_right == n_visible;
+}
+
+bool tell(const Run& run) {
+  const core::Health& h = run.outcome.health;
+  const auto growth = static_cast<double>(run.resident_end - run.resident_begin) * 1e-6;
+  std::printf("frames\t%llu in, %llu processed, %llu dropped, %llu missing\n",
+              static_cast<unsigned long long>(h.frames_in), static_cast<unsigned long long>(h.frames_processed),
+              static_cast<unsigned long long>(h.frames_dropped), static_cast<unsigned long long>(h.frames_missing));
+  std::printf("rate\t%.4g Hz\nmemory\t%.1f MB growth\ntime\t%.1f s\n", h.rate_hz, growth, run.seconds);
+  return run.outcome.fault.empty() && h.frames_in == h.frames_processed + h.frames_dropped;
+}
+
+int overload(double seconds, bool loss) {
+  const auto clip = draw(seconds);
+  const double rate_hz = core::simulation::CameraParameters{}.rate_hz;
+  Play play{clip->frames.size(), 0, true, loss};
+  Run result = run(clip, play, rate_hz, {"spectrum.segment=128"}, play.n_frames / 2);
+  if (!loss) {  // how fast tracking is, and then four times that
+    play.lossless = false;
+    play.period_ns = static_cast<std::int64_t>(result.seconds / 4.0 / static_cast<double>(play.n_frames) * 1e9);
+    result = run(clip, play, rate_hz, {"spectrum.segment=32"}, play.n_frames / 2);
+  }
+  const bool counted = tell(result);
+  const bool right = modes_right(*clip, result.outcome.estimate);
+  const bool pressed = loss ? result.outcome.health.frames_missing > 0 : result.outcome.health.frames_dropped > 0;
+  return counted && right && pressed && result.resident_end - result.resident_begin < 4'000'000 ? 0 : 1;
+}
+
+int soak(std::uint64_t n_frames) {
+  const auto clip = draw(6.0);
+  const Run result = run(clip, {n_frames, 0, true, false}, core::simulation::CameraParameters{}.rate_hz,
+                         {"spectrum.segment=256", "identification.period=1000"}, n_frames / 5);
+  const bool counted = tell(result);
+  return counted && result.outcome.health.frames_processed == n_frames && result.resident_end == result.resident_begin
+             ? 0
+             : 1;
+}
+
+int latency(double seconds, int n_busy, const std::string& priority) {
+  core::simulation::Scene scene = core::simulation::make_paper_scene(1, 1.0);
+  scene.camera.rate_hz = 60.0;
+  const auto clip = std::make_shared<const SceneClip>(scene, 30);
+  std::atomic<bool> stop{false};
+  std::vector<std::thread> busy;
+  for (int i = 0; i < n_busy; ++i) {
+    busy.emplace_back([&stop] {
+      while (!stop.load(std::memory_order_relaxed)) {
+      }
+    });
+  }
+  const auto n_frames = static_cast<std::uint64_t>(60.0 * seconds);
+  const Run result = run(clip, {n_frames, 16'666'667, false, false}, 60.0,
+                         {"spectrum.segment=64", "rt.priority=" + priority, "rt.lock_memory=true"}, n_frames / 2);
+  stop = true;
+  for (std::thread& thread : busy) thread.join();
+  const core::LatencyHealth& l = result.outcome.health.frame_latency;
+  const auto ms = [](std::uint64_t ns) { return static_cast<double>(ns) * 1e-6; };
+  std::printf("p50\t%.1f ms\np99\t%.1f ms\np99.9\t%.1f ms\nworst\t%.1f ms\n", ms(l.p50_ns), ms(l.p99_ns), ms(l.p999_ns),
+              ms(l.max_ns));
+  for (const std::string& warning : result.outcome.health.warnings) std::fprintf(stderr, "%s\n", warning.c_str());
+  return tell(result) ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string what = argc > 2 ? argv[1] : "";
+  const double amount = argc > 2 ? std::atof(argv[2]) : 0.0;
+  if (what == "overload" || what == "loss") return overload(amount, what == "loss");
+  if (what == "soak") return soak(static_cast<std::uint64_t>(amount));
+  if (what == "latency") return latency(amount, argc > 3 ? std::atoi(argv[3]) : 0, argc > 4 ? argv[4] : "0");
+  std::fprintf(stderr, "usage: overload_run overload|loss|latency SECONDS, or soak FRAMES\n");
+  return 2;
+}

@@ -1,0 +1,141 @@
+// The ring beside boost::lockfree::spsc_queue in one program: items of one word, and frames. Both ends spin, both hold
+// as many items, and the two take turns. Each line: what, nanoseconds per item of ours and of Boost's (the best of all
+// rounds: what else the machine does only ever adds), and their ratio.
+//   ring_speed [ROUNDS [ITEMS [FRAMES]]]
+#include <algorithm>
+#include <boost/lockfree/spsc_queue.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "rt/clock.h"
+#include "rt/spsc_ring.h"
+
+namespace {
+
+constexpr std::size_t kSlots = 1024, kFrameSlots = 8, kFrameBytes = 1280 * 720;
+
+struct Frame {
+  std::uint64_t number = 0;
+  unsigned char pixels[kFrameBytes]{};
+};
+
+// What a camera does: writes every pixel of where it is told to.
+void expose(Frame& frame, std::uint64_t number) noexcept {
+  frame.number = number;
+  std::memset(frame.pixels, static_cast<int>(number & 0xFFU), sizeof frame.pixels);
+}
+// What a tracker does: looks at it where it lies.
+std::uint64_t look(const Frame& frame) noexcept { return frame.number + frame.pixels[frame.number % kFrameBytes]; }
+
+volatile std::uint64_t sink = 0;
+
+double time_ns(std::uint64_t n, const std::function<void()>& write, const std::function<std::uint64_t()>& read) {
+  const std::int64_t begin_ns = rt::monotonic_ns();
+  std::thread writer(write);
+  sink = read();
+  writer.join();
+  return static_cast<double>(rt::monotonic_ns() - begin_ns) / static_cast<double>(n);
+}
+
+double ours_words(std::uint64_t n) {
+  rt::SpscRing<std::uint64_t> ring(kSlots, 0);
+  return time_ns(
+      n,
+      [&] {
+        auto writer = ring.writer();
+        for (std::uint64_t i = 0; i < n;) {
+          if (std::uint64_t* slot = writer.try_claim()) *slot = i++, writer.publish();
+        }
+      },
+      [&] {
+        auto reader = ring.reader();
+        std::uint64_t sum = 0;
+        for (std::uint64_t i = 0; i < n;) {
+          if (const std::uint64_t* item = reader.front()) sum += *item, reader.pop(), ++i;
+        }
+        return sum;
+      });
+}
+
+double boost_words(std::uint64_t n) {
+  boost::lockfree::spsc_queue<std::uint64_t, boost::lockfree::capacity<kSlots>> queue;
+  return time_ns(
+      n,
+      [&] {
+        for (std::uint64_t i = 0; i < n;) i += queue.push(i) ? 1U : 0U;
+      },
+      [&] {
+        std::uint64_t sum = 0;
+        std::uint64_t item = 0;
+        for (std::uint64_t i = 0; i < n;) {
+          if (queue.pop(item)) sum += item, ++i;
+        }
+        return sum;
+      });
+}
+
+double ours_frames(std::uint64_t n) {
+  const auto prototype = std::make_unique<Frame>();
+  rt::SpscRing<Frame> ring(kFrameSlots, *prototype);
+  return time_ns(
+      n,
+      [&] {
+        auto writer = ring.writer();
+        for (std::uint64_t i = 0; i < n;) {
+          if (Frame* slot = writer.try_claim()) expose(*slot, i++), writer.publish();
+        }
+      },
+      [&] {
+        auto reader = ring.reader();
+        std::uint64_t sum = 0;
+        for (std::uint64_t i = 0; i < n;) {
+          if (const Frame* frame = reader.front()) sum += look(*frame), reader.pop(), ++i;
+        }
+        return sum;
+      });
+}
+
+// Boost's reader can look in place too (consume_one); its writer has nowhere to put a frame but a copy.
+double boost_frames(std::uint64_t n) {
+  const auto queue = std::make_unique<boost::lockfree::spsc_queue<Frame, boost::lockfree::capacity<kFrameSlots>>>();
+  return time_ns(
+      n,
+      [&] {
+        const auto frame = std::make_unique<Frame>();
+        for (std::uint64_t i = 0; i < n; ++i) {
+          expose(*frame, i);
+          while (!queue->push(*frame)) {
+          }
+        }
+      },
+      [&] {
+        std::uint64_t sum = 0;
+        for (std::uint64_t i = 0; i < n;) i += queue->consume_one([&](const Frame& frame) { sum += look(frame); });
+        return sum;
+      });
+}
+
+void compare(const char* what, int rounds, std::uint64_t n, double (*ours)(std::uint64_t),
+             double (*theirs)(std::uint64_t)) {
+  double our_ns = 1e30, their_ns = 1e30;
+  for (int round = 0; round < rounds; ++round) {
+    our_ns = std::min(our_ns, ours(n));
+    their_ns = std::min(their_ns, theirs(n));
+  }
+  std::printf("%s\t%.2f\t%.2f\t%.2f\n", what, our_ns, their_ns, their_ns / our_ns);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto number = [&](int i, long fallback) { return argc > i ? std::atol(argv[i]) : fallback; };
+  const int rounds = static_cast<int>(number(1, 40));
+  compare("words", rounds, static_cast<std::uint64_t>(number(2, 1'000'000)), ours_words, boost_words);
+  compare("frames", rounds, static_cast<std::uint64_t>(number(3, 100)), ours_frames, boost_frames);
+  return 0;
+}

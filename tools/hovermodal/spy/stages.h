@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "drivers/telemetry/stream_monitor.h"
+#include "tools/hovermodal/spy/view.h"
+
+namespace tools {
+
+// The service at work, from health_t alone: the computer, the way of a frame, and a line for every stage. Rates and CPU
+// are between the last two status messages. At most `rows` lines of at most `columns` characters.
+[[nodiscard]] std::vector<std::string> render_stages(const drivers::StreamMonitor& monitor, const ViewOptions& options);
+
+}  // namespace tools
