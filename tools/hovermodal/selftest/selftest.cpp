@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tools/hovermodal/commands.h"
+#include "tools/hovermodal/selftest/closure_tracks.h"
 #include "tools/hovermodal/selftest/geometry.h"
 #include "tools/hovermodal/selftest/identification.h"
 #include "tools/hovermodal/selftest/peaks.h"
@@ -94,6 +95,12 @@ void geometry(const Options& options) {
   print({options.n_seeds, options.n_threads, options.duration_s, options.report, options.flight});
 }
 
+// Closing the loop on tracks.
+template <void (*print)(const ClosureTracksOptions&)>
+void closure_tracks(const Options& options) {
+  print({options.n_seeds, options.n_threads, options.duration_s});
+}
+
 struct Check {
   const char *name, *meaning;
   void (*print)(const Options&);
@@ -113,6 +120,10 @@ constexpr std::array kChecks{
     Check{"readout", "readout time estimated from tracks", identification<print_readout>},
     Check{"closure", "closing the loop on structures that lack one known effect", identification<print_closure>},
     Check{"closure-null", "closing the loop on a structure that lacks none", identification<print_closure_null>},
+    Check{"closure-tracks", "closing the loop on tracks with an undeclared effect", closure_tracks<print_closure_tracks>},
+    Check{"closure-tracks-null", "closing the loop on tracks without one", closure_tracks<print_closure_tracks_null>},
+    Check{"closure-tracks-outside", "the same with that effect taken out of the catalogue",
+          closure_tracks<print_closure_tracks_outside>},
     Check{"geometry", "the paper's experiment, one correction after the other", geometry<print_geometry>},
     Check{"geometry-pixels", "the same from rendered clips through the service", geometry<print_geometry_pixels>},
     Check{"table1", "the paper's Table 1 and Figures 6 to 9, sensor by sensor", geometry<print_table1>},

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/closure/observation/frame_model.h"
+
+namespace core::closure {
+
+// Rotation of the camera in a narrow band, as rotors cause it: seen row by row, its phase runs with the readout, so
+// that the true frequency among those that look alike at the frame rate can be told. For a bin at nu of the residual's
+// spectrum and the hypothesis n the pattern is (roll, pitch, yaw)_j exp(2 pi i (nu + n f_s) rho s_j / f_s).
+struct LineFinding {
+  double apparent_hz = 0.0;  // 0 .. f_s / 2; 0 = none was looked for
+  int fold = 0;
+  double half_width_hz = 0.0;
+  double gain = 0.0;        // drop of the held-out squares, in noise variances
+  double next_gain = 0.0;   // of the best other fold
+  Eigen::MatrixXcd fields;  // 2 points x 3, px per rad, with their phases
+
+  [[nodiscard]] double true_hz(double rate_hz) const noexcept;
+};
+
+class LineSearch {
+ public:
+  static constexpr int kMostFolds = 8;
+  // fields: 2 points x 3, px per rad. The model must outlive it.
+  LineSearch(const FrameModel& model, double rate_hz, double readout_frames, Eigen::MatrixXd fields,
+             Eigen::Index n_frames);
+
+  // residual: 2 points x frames, in sigmas, as the model leaves it.
+  [[nodiscard]] LineFinding find(const Eigen::MatrixXd& residual) const;
+  // The finding's motion in px, fitted to this residual.
+  [[nodiscard]] Eigen::MatrixXd motion(const Eigen::MatrixXd& residual, const LineFinding& finding) const;
+
+ private:
+  struct Band {
+    Eigen::Index first = 0, count = 0;
+  };
+  [[nodiscard]] Eigen::MatrixXcd spectrum(const Eigen::MatrixXd& residual) const;
+  [[nodiscard]] Band band(double centre_hz, double half_width_hz) const;
+  [[nodiscard]] std::vector<double> peaks(const Eigen::MatrixXcd& spectrum) const;
+  [[nodiscard]] Eigen::MatrixXcd fields_of(double apparent_hz, int fold) const;
+  [[nodiscard]] double gain(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& fields) const;
+  void try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz, LineFinding& best) const;
+
+  const FrameModel& model_;
+  double rate_hz_, readout_frames_;
+  Eigen::MatrixXd fields_;
+  int n_fft_;
+};
+
+}  // namespace core::closure
