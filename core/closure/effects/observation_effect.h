@@ -11,7 +11,7 @@ namespace core::closure {
 // What a parametric correction may look at.
 struct CorrectionView {
   const ObservationRecord& record;
-  const Eigen::MatrixXd& predicted_px;  // 2 points x frames: where the model puts the points in the raw image
+  const Eigen::MatrixXd& predicted_px;  // 2 points x frames: where the points are in the raw image, as the model has it
 };
 
 // One effect that the observation level knows. A field is an amplitude per frame on a pattern over the image; a global
@@ -25,7 +25,9 @@ struct ObservationEffect {
   std::string unit;
   double per_unit = 1.0;   // printed value = internal value * per_unit
   double plausible = 0.0;  // largest magnitude of an internal value
+  bool of_tracker = false;  // an error of the tracker's: the points are elsewhere than it says
   double step = 0.0;       // internal, for derivatives: small against what can be seen
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();  // of the camera per internal unit, where the field is its first order
   // Field: px per internal unit, 2 points long.
   Eigen::VectorXd (*field)(const PointGeometry&) = nullptr;
   // Global: takes the effect of these values out of positions (2 points x frames, px).

@@ -23,6 +23,7 @@ ObservationEffect pitch_effect() {
   effect.unit = "deg";
   effect.per_unit = 180.0 / std::numbers::pi;
   effect.plausible = 0.5;
+  effect.turn = {-1.0, 0.0, 0.0};
   effect.field = field;
   return effect;
 }

@@ -27,6 +27,7 @@ ObservationEffect pixel_locking_effect() {
   effect.parameters = {"sin", "cos", "sin 2", "cos 2"};
   effect.unit = "px";
   effect.plausible = 1.0;
+  effect.of_tracker = true;
   effect.step = 1e-2;
   effect.correct = correct;
   return effect;

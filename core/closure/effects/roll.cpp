@@ -22,6 +22,7 @@ ObservationEffect roll_effect() {
   effect.unit = "deg";
   effect.per_unit = 180.0 / std::numbers::pi;
   effect.plausible = 0.5;
+  effect.turn = {0.0, 0.0, -1.0};
   effect.field = field;
   return effect;
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/closure/observation/time_filter.h"
+#include "core/linear/dense.h"
 
 namespace core::closure {
 namespace {
@@ -26,16 +27,22 @@ double mean_seen(const Eigen::MatrixXd& values, Eigen::Index j) {
   return n > 0 ? sum / static_cast<double>(n) : 0.0;
 }
 
-// Orthonormal basis of columns in their order; which of them add to those before.
+Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(a.rows(), b.cols());
+  add_product(out, 1.0, a, b);
+  return out;
+}
+
+// Orthonormal basis of columns in their order; which of them add to those before; R of X = Q R.
 struct Factor {
   std::vector<Eigen::Index> kept;
-  Eigen::MatrixXd q, solve;
+  Eigen::MatrixXd q, r;
 };
 
-Factor factorise_columns(const Eigen::MatrixXd& x, const std::vector<Eigen::Index>& use) {
+Factor factorise_columns(const Eigen::MatrixXd& x) {
   Factor factor;
   factor.q.resize(x.rows(), 0);
-  for (const Eigen::Index c : use) {
+  for (Eigen::Index c = 0; c < x.cols(); ++c) {
     Eigen::VectorXd v = x.col(c);
     const double norm = v.norm();
     for (int twice = 0; twice < 2; ++twice) v -= factor.q * (factor.q.transpose() * v);
@@ -46,15 +53,8 @@ Factor factorise_columns(const Eigen::MatrixXd& x, const std::vector<Eigen::Inde
   }
   Eigen::MatrixXd kept(x.rows(), factor.q.cols());
   for (Eigen::Index i = 0; i < kept.cols(); ++i) kept.col(i) = x.col(factor.kept[static_cast<std::size_t>(i)]);
-  const Eigen::MatrixXd r = factor.q.transpose() * kept;  // upper triangular
-  factor.solve = r.triangularView<Eigen::Upper>().solve(factor.q.transpose());
+  factor.r = factor.q.transpose() * kept;  // upper triangular
   return factor;
-}
-
-std::vector<Eigen::Index> first(Eigen::Index n) {
-  std::vector<Eigen::Index> index;
-  for (Eigen::Index i = 0; i < n; ++i) index.push_back(i);
-  return index;
 }
 
 }  // namespace
@@ -79,6 +79,7 @@ FrameModel::FrameModel(const ObservationRecord& record)
       region_row_(2 * record.regions.size(), -1) {
   for (Eigen::Index j = 0; j < record.n_points(); ++j)
     weight_.segment<2>(2 * j).setConstant(1.0 / record.sigma_px[static_cast<std::size_t>(j)]);
+  sigma_px_ = weight_.cwiseInverse();
   add_region_columns(record);
   n_region_ = static_cast<Eigen::Index>(own_.size());
   add_plane_columns(record);
@@ -111,6 +112,7 @@ void FrameModel::add_region_columns(const ObservationRecord& record) {
 }
 
 void FrameModel::add_plane_columns(const ObservationRecord& record) {
+  zoom_row_of_point_.assign(static_cast<std::size_t>(record.n_points()), -1);
   for (const bool background : {false, true}) {
     Eigen::VectorXd along = Eigen::VectorXd::Zero(weight_.size()), across = along, zoom = along;
     for (Eigen::Index j = 0; j < record.n_points(); ++j) {
@@ -122,13 +124,19 @@ void FrameModel::add_plane_columns(const ObservationRecord& record) {
     for (const Eigen::VectorXd& field : {along, across, zoom}) {
       if (field.squaredNorm() > 0.0) add_column(field, false);
     }
+    if (!(zoom.squaredNorm() > 0.0)) continue;
+    for (Eigen::Index j = 0; j < record.n_points(); ++j) {
+      if (along(2 * j) > 0.0) zoom_row_of_point_[static_cast<std::size_t>(j)] = static_cast<Eigen::Index>(own_.size()) - 1;
+    }
   }
 }
 
-void FrameModel::set_places(const ObservationRecord& record, const Eigen::VectorXd& places_px) {
+void FrameModel::set_places(const ObservationRecord& record, const Eigen::VectorXd& places_px,
+                            const Eigen::VectorXd& magnification) {
   for (Eigen::Index j = 0; j < geometry_.x.size(); ++j) {
     geometry_.x(j) = (places_px(2 * j) - record.cx_px) / record.alpha_px;
     geometry_.y(j) = (places_px(2 * j + 1) - record.cy_px) / record.alpha_px;
+    weight_.segment<2>(2 * j) = (magnification(j) * sigma_px_.segment<2>(2 * j)).cwiseInverse();
   }
   own_.clear(), is_region_.clear(), full_.clear(), low_.clear();
   add_region_columns(record);
@@ -146,15 +154,32 @@ void FrameModel::set_added(const std::vector<Eigen::VectorXd>& full, const std::
 
 void FrameModel::factorise() {
   const auto n_full = n_own_ + static_cast<Eigen::Index>(full_.size());
-  const auto n_all = n_full + static_cast<Eigen::Index>(low_.size());
-  x_.resize(weight_.size(), n_all);
+  x_.resize(weight_.size(), n_full + static_cast<Eigen::Index>(low_.size()));
   Eigen::Index at = 0;
   for (const auto* list : {&own_, &full_, &low_}) {
     for (const Eigen::VectorXd& field : *list) x_.col(at++) = field;
   }
-  share_.resize(n_all);
+  place_in_readout();
+  Factor factor = factorise_columns(x_);
+  kept_ = std::move(factor.kept);
+  const auto below = [&](Eigen::Index limit) {
+    return std::count_if(kept_.begin(), kept_.end(), [&](Eigen::Index c) { return c < limit; });
+  };
+  own_rank_ = below(n_own_);
+  const Eigen::Index n_high = below(n_full), n_extra = factor.q.cols() - n_high;
+  q_low_ = std::move(factor.q);
+  q_high_ = q_low_.leftCols(n_high);
+  extra_ = q_low_.rightCols(n_extra);
+  const auto high = factor.r.topLeftCorner(n_high, n_high).triangularView<Eigen::Upper>();
+  solve_high_ = high.solve(q_high_.transpose());
+  solve_extra_ = factor.r.bottomRightCorner(n_extra, n_extra).triangularView<Eigen::Upper>().solve(extra_.transpose());
+  give_back_ = high.solve(factor.r.topRightCorner(n_high, n_extra));
+}
+
+void FrameModel::place_in_readout() {
+  share_.resize(x_.cols());
   x_first_ = x_second_ = x_;
-  for (Eigen::Index c = 0; c < n_all; ++c) {
+  for (Eigen::Index c = 0; c < x_.cols(); ++c) {
     double sum = 0.0, weights = 0.0;
     for (Eigen::Index j = 0; j < geometry_.x.size(); ++j) {
       const double w = x_.col(c).segment<2>(2 * j).squaredNorm() > 0.0 ? weight_(2 * j) * weight_(2 * j) : 0.0;
@@ -167,29 +192,21 @@ void FrameModel::factorise() {
       x_second_.col(c).segment<2>(2 * j) *= 0.5 * later * later;
     }
   }
-  Factor high = factorise_columns(x_, first(n_full)), low = factorise_columns(x_, first(n_all));
-  own_rank_ = std::count_if(high.kept.begin(), high.kept.end(), [&](Eigen::Index c) { return c < n_own_; });
-  kept_high_ = std::move(high.kept), q_high_ = std::move(high.q), solve_high_ = std::move(high.solve);
-  kept_low_ = std::move(low.kept), q_low_ = std::move(low.q), solve_low_ = std::move(low.solve);
 }
 
 // Amplitudes of all columns; what is left goes to residual_.
 Eigen::MatrixXd FrameModel::fit_columns(const Eigen::MatrixXd& z) {
   Eigen::MatrixXd amplitude = Eigen::MatrixXd::Zero(x_.cols(), z.cols());
-  const Eigen::MatrixXd high = solve_high_ * z;
-  for (std::size_t i = 0; i < kept_high_.size(); ++i)
-    amplitude.row(kept_high_[i]) = high.row(static_cast<Eigen::Index>(i));
-  if (!low_.empty()) {
-    const Eigen::MatrixXd z_low = z * cosines_;
-    Eigen::MatrixXd change = Eigen::MatrixXd::Zero(x_.cols(), z_low.cols());
-    const Eigen::MatrixXd with = solve_low_ * z_low, without = solve_high_ * z_low;
-    for (std::size_t i = 0; i < kept_low_.size(); ++i)
-      change.row(kept_low_[i]) += with.row(static_cast<Eigen::Index>(i));
-    for (std::size_t i = 0; i < kept_high_.size(); ++i)
-      change.row(kept_high_[i]) -= without.row(static_cast<Eigen::Index>(i));
-    amplitude += change * cosines_.transpose();
+  Eigen::MatrixXd high = product(solve_high_, z);
+  if (extra_.cols() > 0) {
+    const Eigen::MatrixXd extra = solve_extra_ * z * cosines_ * cosines_.transpose();
+    high -= give_back_ * extra;
+    for (Eigen::Index i = 0; i < extra.rows(); ++i)
+      amplitude.row(kept_[static_cast<std::size_t>(high.rows() + i)]) = extra.row(i);
   }
-  residual_ = z - x_ * amplitude;
+  for (Eigen::Index i = 0; i < high.rows(); ++i) amplitude.row(kept_[static_cast<std::size_t>(i)]) = high.row(i);
+  residual_ = z;
+  add_product(residual_, -1.0, x_, amplitude);
   return amplitude;
 }
 
@@ -213,27 +230,30 @@ void FrameModel::solve(const Eigen::MatrixXd& positions, double readout_frames, 
   differentiate(rate_hz_);
   if (readout_frames == 0.0) return;
   for (int round = 0; round < rounds; ++round) {
-    Eigen::MatrixXd left =
-        z - readout_frames * (x_first_ * first_) - readout_frames * readout_frames * (x_second_ * second_);
+    Eigen::MatrixXd left = z;
+    add_product(left, -readout_frames, x_first_, first_);
+    add_product(left, -readout_frames * readout_frames, x_second_, second_);
     left.colwise() -= left.rowwise().mean().eval();
     amplitude_ = fit_columns(left);
     differentiate(rate_hz_);
   }
 }
 
-Eigen::MatrixXd FrameModel::residual_px() const { return (residual_.array().colwise() / weight_.array()).matrix(); }
+Eigen::MatrixXd FrameModel::residual_px() const { return (residual_.array().colwise() * sigma_px_.array()).matrix(); }
+
+Eigen::RowVectorXd FrameModel::zoom_of_point(Eigen::Index point) const {
+  const Eigen::Index row = zoom_row_of_point_[static_cast<std::size_t>(point)];
+  return row < 0 ? Eigen::RowVectorXd::Zero(amplitude_.cols()).eval() : amplitude_.row(row).eval();
+}
 
 Eigen::MatrixXd FrameModel::readout_field() const {
   return x_first_ * first_ + 2.0 * readout_frames_ * (x_second_ * second_);
 }
 
 Eigen::MatrixXd FrameModel::left_of(const Eigen::MatrixXd& values) const {
-  Eigen::MatrixXd left = values - q_high_ * (q_high_.transpose() * values);
-  if (!low_.empty()) {
-    const Eigen::MatrixXd v = values * cosines_;
-    const Eigen::MatrixXd more = q_low_ * (q_low_.transpose() * v) - q_high_ * (q_high_.transpose() * v);
-    left -= more * cosines_.transpose();
-  }
+  Eigen::MatrixXd left = values;
+  add_product(left, -1.0, q_high_, product(q_high_.transpose(), values));
+  if (extra_.cols() > 0) left -= extra_ * (extra_.transpose() * values * cosines_ * cosines_.transpose());
   left.colwise() -= left.rowwise().mean().eval();
   return left;
 }

@@ -32,7 +32,9 @@ class FrameModel {
   explicit FrameModel(const ObservationRecord& record);  // of a checked record
   // The same with the points at these mean places (2 points long, px): where a lens is taken out, zoom acts on the
   // undistorted image. Added columns are lost; when a pixel is seen stays as it was.
-  void set_places(const ObservationRecord& record, const Eigen::VectorXd& places_px);
+  // magnification: per point, of the noise on the way there.
+  void set_places(const ObservationRecord& record, const Eigen::VectorXd& places_px,
+                  const Eigen::VectorXd& magnification);
 
   // Fields in px per unit, 2 points long.
   void set_added(const std::vector<Eigen::VectorXd>& full, const std::vector<Eigen::VectorXd>& low);
@@ -40,15 +42,18 @@ class FrameModel {
   void solve(const Eigen::MatrixXd& positions, double readout_frames, int rounds);
 
   [[nodiscard]] const Eigen::MatrixXd& residual() const noexcept { return residual_; }  // in sigmas
-  [[nodiscard]] Eigen::MatrixXd residual_px() const;
+  [[nodiscard]] Eigen::MatrixXd residual_px() const;  // of the raw image
   // Series over frames, px (added columns: their unit), one row per column as given; zero where it fell out.
   [[nodiscard]] const Eigen::MatrixXd& amplitudes() const noexcept { return amplitude_; }
+  [[nodiscard]] const Eigen::MatrixXd& rates() const noexcept { return first_; }  // their changes per frame
   [[nodiscard]] Eigen::Index row_of_region(std::size_t region) const noexcept {
     return region_row_[region];
   }                                                                     // -1: none
   [[nodiscard]] Eigen::Index n_own() const noexcept { return n_own_; }  // columns before the added ones, full, then low
   // Rows of the structure's plane among the own columns: its translation along u and v, its zoom.
   [[nodiscard]] Eigen::Index first_plane_row() const noexcept { return n_region_; }
+  // Series of the zoom that moves this point: of the structure's plane, or of the background; relative.
+  [[nodiscard]] Eigen::RowVectorXd zoom_of_point(Eigen::Index point) const;
   // Leading columns of q_high() and q_low() that come from own columns.
   [[nodiscard]] Eigen::Index own_rank() const noexcept { return own_rank_; }
   [[nodiscard]] double share_of_column(Eigen::Index column) const { return share_(column); }
@@ -69,22 +74,25 @@ class FrameModel {
   void add_plane_columns(const ObservationRecord& record);
   void add_column(const Eigen::VectorXd& field, bool is_region);
   void factorise();
+  void place_in_readout();
   [[nodiscard]] Eigen::MatrixXd fit_columns(const Eigen::MatrixXd& z);
   void differentiate(double rate_hz);
 
   double rate_hz_;
   double readout_frames_ = 0.0;
   PointGeometry geometry_;
-  Eigen::VectorXd weight_;
+  Eigen::VectorXd weight_, sigma_px_;
   Eigen::MatrixXd cosines_;
   std::vector<Eigen::VectorXd> own_, full_, low_;  // whitened fields
   std::vector<char> is_region_;
-  std::vector<Eigen::Index> region_row_;
+  std::vector<Eigen::Index> region_row_, zoom_row_of_point_;
   Eigen::Index n_own_ = 0, n_region_ = 0, own_rank_ = 0;
   Eigen::VectorXd share_;                   // s_c
   Eigen::MatrixXd x_, x_first_, x_second_;  // fields; times (s_j - s_c); times its square / 2
-  std::vector<Eigen::Index> kept_high_, kept_low_;
-  Eigen::MatrixXd q_high_, q_low_, solve_high_, solve_low_;  // columns; z -> amplitudes of the kept columns
+  std::vector<Eigen::Index> kept_;  // those of q_high_ first, then what the low band adds
+  // q_low_ = [q_high_, extra_]. solve_high_: z -> amplitudes; solve_extra_: z in the low band -> amplitudes of what it
+  // adds; give_back_: those -> what they take from the amplitudes before.
+  Eigen::MatrixXd q_high_, q_low_, extra_, solve_high_, solve_extra_, give_back_;
   Eigen::MatrixXd amplitude_, first_, second_, residual_;
 };
 

@@ -9,17 +9,32 @@
 #include <numbers>
 #include <utility>
 
+#include "core/linear/dense.h"
 #include "core/spectrum/real_fft.h"
 
 namespace core::closure {
 namespace {
 
-constexpr std::array<double, 2> kHalfWidth_hz{1.0, 0.3};  // the widest decides on the fold
+constexpr std::array<double, 4> kHalfWidth_hz{3.0, 2.0, 1.0, 0.3};
+constexpr double kFoldWidth_hz = 1.0;                     // in which the fold is told
+constexpr double kStrip_hz = 0.25;                        // of one phase, while widths are compared
+constexpr int kStretches = 8;
 constexpr double kLowest_hz = 1.8;                        // below, slow rotations are effects of their own
 constexpr std::size_t kPeaks = 2;
 constexpr double kPeakApart_hz = 1.0, kPeakWidth_hz = 0.3;
 
 using Block = Eigen::Matrix2cd;
+
+// P P^H.
+Eigen::MatrixXcd moments_of(const Eigen::MatrixXcd& p) {
+  const Eigen::MatrixXd re = p.real(), im = p.imag();
+  const Eigen::MatrixXd even = gram(re) + gram(im);
+  Eigen::MatrixXd odd = Eigen::MatrixXd::Zero(p.rows(), p.rows());
+  add_product_transposed(odd, 1.0, im, re);
+  Eigen::MatrixXcd out(p.rows(), p.rows());
+  out.real() = even, out.imag() = odd - odd.transpose();
+  return out;
+}
 
 double squares(const Block& hat, const Block& moments) {
   const Block freedom = Block::Identity() - hat;
@@ -42,8 +57,6 @@ Eigen::MatrixXcd orthonormal(const Eigen::MatrixXcd& columns, const Eigen::Vecto
 }
 
 }  // namespace
-
-double LineFinding::true_hz(double rate_hz) const noexcept { return std::abs(apparent_hz + fold * rate_hz); }
 
 LineSearch::LineSearch(const FrameModel& model, double rate_hz, double readout_frames, Eigen::MatrixXd fields,
                        Eigen::Index n_frames)
@@ -101,11 +114,16 @@ Eigen::MatrixXcd LineSearch::fields_of(double apparent_hz, int fold) const {
   return fields;
 }
 
-double LineSearch::gain(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& fields) const {
+Eigen::MatrixXcd LineSearch::left_of(const Eigen::MatrixXcd& fields) const {
   Eigen::MatrixXcd w = fields;
   w.array().colwise() *= model_.weight().array().cast<std::complex<double>>();
-  const Eigen::VectorXd norms = w.colwise().norm().transpose();
-  const Eigen::MatrixXcd g = orthonormal(w - model_.q_high() * (model_.q_high().transpose() * w), norms);
+  w -= (model_.q_high() * (model_.q_high().transpose() * w)).eval();
+  return w;
+}
+
+double LineSearch::gain(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& fields) const {
+  const Eigen::VectorXd norms = (fields.array().colwise() * model_.weight().array().cast<std::complex<double>>()).matrix().colwise().norm();
+  const Eigen::MatrixXcd g = orthonormal(left_of(fields), norms);
   const Eigen::MatrixXcd sg = moments * g, gsg = g.adjoint() * sg;
   double drop = 0.0;
   for (Eigen::Index i = 0; i < g.rows(); i += 2) {
@@ -119,43 +137,64 @@ double LineSearch::gain(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd&
   return drop;
 }
 
+// Strip by strip, each with the phase of its own middle.
+double LineSearch::band_gain(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const {
+  const double low = finding.apparent_hz - finding.half_width_hz;
+  double sum = 0.0;
+  for (double at = low; at < low + 2.0 * finding.half_width_hz - 1e-9; at += kStrip_hz) {
+    const Band b = band(at + 0.5 * kStrip_hz, 0.5 * kStrip_hz);
+    if (b.count < 1) continue;
+    sum += gain(moments_of(spectrum.middleCols(b.first, b.count)), fields_of(at + 0.5 * kStrip_hz, finding.fold));
+  }
+  return sum;
+}
+
 void LineSearch::try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz, LineFinding& best) const {
   const int most = readout_frames_ == 0.0 ? 0 : kMostFolds;
-  for (const double half_width_hz : kHalfWidth_hz) {
-    const Band b = band(apparent_hz, half_width_hz);
-    if (b.count < 1) continue;
-    const Eigen::MatrixXcd part = spectrum.middleCols(b.first, b.count);
-    const Eigen::MatrixXcd moments = part * part.adjoint();
-    LineFinding own;
-    own.apparent_hz = apparent_hz, own.half_width_hz = half_width_hz;
-    own.gain = own.next_gain = -1e300;
-    for (int fold = -most; fold <= most; ++fold) {
-      const double g = gain(moments, fields_of(apparent_hz, fold));
-      if (g > own.gain)
-        own.next_gain = own.gain, own.gain = g, own.fold = fold;
-      else
-        own.next_gain = std::max(own.next_gain, g);
-    }
-    if (best.apparent_hz == 0.0 || own.gain > best.gain) best = own;
+  const Band middle = band(apparent_hz, kFoldWidth_hz);
+  if (middle.count < 1) return;
+  const Eigen::MatrixXcd moments = moments_of(spectrum.middleCols(middle.first, middle.count));
+  LineFinding own;
+  own.apparent_hz = apparent_hz;
+  own.gain = own.next_gain = -1e300;
+  for (int fold = -most; fold <= most; ++fold) {
+    const double g = gain(moments, fields_of(apparent_hz, fold));
+    if (g > own.gain)
+      own.next_gain = own.gain, own.gain = g, own.fold = fold;
+    else
+      own.next_gain = std::max(own.next_gain, g);
   }
+  const double margin = own.gain - own.next_gain;
+  if (best.apparent_hz > 0.0 && !(own.gain > 0.0)) return;
+  LineFinding trial = own;
+  own.gain = -1e300;
+  for (const double half_width_hz : kHalfWidth_hz) {
+    trial.half_width_hz = half_width_hz;
+    trial.n_bins = band(apparent_hz, half_width_hz).count;
+    trial.gain = band_gain(spectrum, trial);
+    if (trial.gain > own.gain) own = trial;
+  }
+  own.next_gain = own.gain - margin;
+  if (best.apparent_hz == 0.0 || own.gain > best.gain) best = own;
 }
 
 LineFinding LineSearch::find(const Eigen::MatrixXd& residual) const {
   const Eigen::MatrixXcd bins = spectrum(residual);
   LineFinding best;
   for (const double peak : peaks(bins)) try_folds(bins, peak, best);
-  if (best.apparent_hz > 0.0) best.fields = fields_of(best.apparent_hz, best.fold);
   return best;
 }
 
 Eigen::MatrixXd LineSearch::motion(const Eigen::MatrixXd& residual, const LineFinding& finding) const {
   const Band b = band(finding.apparent_hz, finding.half_width_hz);
   const Eigen::MatrixXcd bins = spectrum(residual).middleCols(b.first, b.count);
-  Eigen::MatrixXcd w = finding.fields;
-  w.array().colwise() *= model_.weight().array().cast<std::complex<double>>();
-  w -= (model_.q_high() * (model_.q_high().transpose() * w)).eval();
-  const Eigen::MatrixXcd normal = w.adjoint() * w;
-  const Eigen::MatrixXcd motion = finding.fields * normal.ldlt().solve(w.adjoint() * bins);
+  Eigen::MatrixXcd motion(bins.rows(), bins.cols());
+  for (Eigen::Index c = 0; c < b.count; ++c) {
+    const double bin_hz = rate_hz_ / n_fft_ * static_cast<double>(b.first + c);
+    const Eigen::MatrixXcd fields = fields_of(bin_hz, finding.fold), w = left_of(fields);
+    const Eigen::Vector3cd amplitude = (w.adjoint() * w).ldlt().solve(w.adjoint() * bins.col(c));
+    motion.col(c) = fields * amplitude;
+  }
   RealFft fft(n_fft_);
   std::vector<std::complex<double>> full(static_cast<std::size_t>(fft.n_bins()));
   std::vector<double> series(static_cast<std::size_t>(n_fft_));
@@ -168,6 +207,37 @@ Eigen::MatrixXd LineSearch::motion(const Eigen::MatrixXd& residual, const LineFi
     for (Eigen::Index k = 0; k < out.cols(); ++k) out(i, k) = series[static_cast<std::size_t>(k)];
   }
   return out;
+}
+
+// Phase advance of the strongest row's analytic signal, stretch by stretch.
+LineFrequency LineSearch::frequency(const Eigen::MatrixXd& motion_px, const LineFinding& finding) const {
+  Eigen::Index row = 0;
+  motion_px.rowwise().squaredNorm().maxCoeff(&row);
+  const Eigen::RowVectorXd series = motion_px.row(row);
+  const double turn = 2.0 * std::numbers::pi * finding.apparent_hz / rate_hz_;
+  const Eigen::Index n = series.size(), smooth = std::max<Eigen::Index>(2, static_cast<Eigen::Index>(rate_hz_ / 4.0));
+  std::vector<std::complex<double>> slow(static_cast<std::size_t>(n)), mixed = slow;
+  for (Eigen::Index k = 0; k < n; ++k)
+    mixed[static_cast<std::size_t>(k)] = series(k) * std::polar(1.0, -turn * static_cast<double>(k));
+  // A Hann window over half a second keeps the mixed-up image of the line out.
+  for (Eigen::Index k = smooth; k + smooth < n; ++k) {
+    for (Eigen::Index d = -smooth; d <= smooth; ++d)
+      slow[static_cast<std::size_t>(k)] +=
+          mixed[static_cast<std::size_t>(k + d)] *
+          (1.0 + std::cos(std::numbers::pi * static_cast<double>(d) / static_cast<double>(smooth + 1)));
+  }
+  const Eigen::Index length = (n - 2 * smooth - 1) / kStretches;
+  std::array<double, kStretches> hz{};
+  double mean = 0.0, squares = 0.0;
+  for (int s = 0; s < kStretches; ++s) {
+    std::complex<double> advance = 0.0;
+    for (Eigen::Index k = smooth + s * length; k < smooth + (s + 1) * length; ++k)
+      advance += slow[static_cast<std::size_t>(k + 1)] * std::conj(slow[static_cast<std::size_t>(k)]);
+    hz[static_cast<std::size_t>(s)] = std::arg(advance) * rate_hz_ / (2.0 * std::numbers::pi);
+    mean += hz[static_cast<std::size_t>(s)] / kStretches;
+  }
+  for (const double f : hz) squares += (f - mean) * (f - mean);
+  return {finding.apparent_hz + mean, std::sqrt(squares / (kStretches * (kStretches - 1.0)))};
 }
 
 }  // namespace core::closure

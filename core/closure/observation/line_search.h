@@ -11,14 +11,17 @@ namespace core::closure {
 // that the true frequency among those that look alike at the frame rate can be told. For a bin at nu of the residual's
 // spectrum and the hypothesis n the pattern is (roll, pitch, yaw)_j exp(2 pi i (nu + n f_s) rho s_j / f_s).
 struct LineFinding {
-  double apparent_hz = 0.0;  // 0 .. f_s / 2; 0 = none was looked for
+  double apparent_hz = 0.0;  // middle of the band, 0 .. f_s / 2; 0 = none was looked for
   int fold = 0;
   double half_width_hz = 0.0;
+  Eigen::Index n_bins = 0;  // of the spectrum, in the band
   double gain = 0.0;        // drop of the held-out squares, in noise variances
   double next_gain = 0.0;   // of the best other fold
-  Eigen::MatrixXcd fields;  // 2 points x 3, px per rad, with their phases
+};
 
-  [[nodiscard]] double true_hz(double rate_hz) const noexcept;
+// Mean frequency as seen (0 .. f_s / 2) and its standard deviation from eight stretches of the record.
+struct LineFrequency {
+  double apparent_hz = 0.0, sigma_hz = 0.0;
 };
 
 class LineSearch {
@@ -32,6 +35,7 @@ class LineSearch {
   [[nodiscard]] LineFinding find(const Eigen::MatrixXd& residual) const;
   // The finding's motion in px, fitted to this residual.
   [[nodiscard]] Eigen::MatrixXd motion(const Eigen::MatrixXd& residual, const LineFinding& finding) const;
+  [[nodiscard]] LineFrequency frequency(const Eigen::MatrixXd& motion_px, const LineFinding& finding) const;
 
  private:
   struct Band {
@@ -41,7 +45,10 @@ class LineSearch {
   [[nodiscard]] Band band(double centre_hz, double half_width_hz) const;
   [[nodiscard]] std::vector<double> peaks(const Eigen::MatrixXcd& spectrum) const;
   [[nodiscard]] Eigen::MatrixXcd fields_of(double apparent_hz, int fold) const;
+  // Part of them that the model's own columns leave, whitened.
+  [[nodiscard]] Eigen::MatrixXcd left_of(const Eigen::MatrixXcd& fields) const;
   [[nodiscard]] double gain(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& fields) const;
+  [[nodiscard]] double band_gain(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const;
   void try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz, LineFinding& best) const;
 
   const FrameModel& model_;

@@ -42,8 +42,9 @@ std::vector<ParameterValue> ObservationLevel::parameters(std::size_t adopted) co
   const Adopted& a = adopted_.at(adopted);
   std::vector<ParameterValue> out;
   if (a.effect.form == Form::kLine) {
-    out.push_back({"frequency", "Hz", a.line.true_hz(record_.rate_hz), a.line.half_width_hz});
-    out.push_back({"apparent frequency", "Hz", a.line.apparent_hz, a.line.half_width_hz});
+    out.push_back({"frequency", "Hz", std::abs(a.line_hz.apparent_hz + a.line.fold * record_.rate_hz),
+                   a.line_hz.sigma_hz});
+    out.push_back({"apparent frequency", "Hz", a.line_hz.apparent_hz, a.line_hz.sigma_hz});
     out.push_back({"gain over the next fold", "", a.line.gain - a.line.next_gain, std::nullopt});
     return out;
   }
@@ -55,12 +56,7 @@ std::vector<ParameterValue> ObservationLevel::parameters(std::size_t adopted) co
                          : std::nullopt});
     return out;
   }
-  Eigen::Index full = model_.n_own(), low = full;
-  for (const Adopted& other : adopted_) low += other.effect.form == Form::kField && !other.low_band ? 1 : 0;
-  for (std::size_t i = 0; i < adopted; ++i) {
-    if (adopted_[i].effect.form == Form::kField) ++(adopted_[i].low_band ? low : full);
-  }
-  const Eigen::RowVectorXd amplitude = model_.amplitudes().row(a.low_band ? low : full);
+  const Eigen::RowVectorXd amplitude = model_.amplitudes().row(amplitude_row(adopted));
   const Eigen::VectorXd w = a.field.cwiseProduct(model_.weight());
   const Eigen::MatrixXd& q = a.low_band ? model_.q_low() : model_.q_high();
   const auto own = q.leftCols(model_.own_rank());

@@ -1,17 +1,20 @@
 #include "core/closure/observation/observation_level.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "core/closure/effects/registry.h"
+#include "core/closure/observation/rotation_remainder.h"
 
 namespace core::closure {
 namespace {
 
-constexpr int kReadoutRounds = 3, kConstantRounds = 4, kFillRounds = 3;
+constexpr int kReadoutRounds = 3, kConstantRounds = 8, kFillRounds = 3, kTurnRounds = 2;
+constexpr double kStill = 0.05;  // of its sigma: a constant that has arrived
 
 ObservationRecord checked(const ObservationRecord& record, std::vector<std::string>& warnings) {
   RecordCheck check = check_record(record);
@@ -103,21 +106,77 @@ std::vector<std::string> ObservationLevel::candidates() const {
 }
 
 // Measured positions less the adopted constants' and lines' part.
-Eigen::MatrixXd ObservationLevel::corrected() const {
-  Eigen::MatrixXd positions = measured_;
+Eigen::MatrixXd ObservationLevel::corrected(bool solved) {
+  Eigen::MatrixXd positions = measured_, error = Eigen::MatrixXd::Zero(measured_.rows(), measured_.cols());
   const CorrectionView view{record_, predicted_px_};
   for (const Adopted& a : adopted_) {
     if (a.effect.form == ObservationEffect::Form::kLine && a.line_motion.size() > 0) positions -= a.line_motion;
   }
-  for (const Adopted& a : adopted_) {
-    if (a.effect.correct != nullptr) a.effect.correct(a.values, view, positions);
+  for (const bool of_tracker : {true, false}) {
+    for (const Adopted& a : adopted_) {
+      if (a.effect.correct == nullptr || a.effect.of_tracker != of_tracker) continue;
+      const Eigen::MatrixXd before = of_tracker ? positions : Eigen::MatrixXd{};
+      a.effect.correct(a.values, view, positions);
+      if (of_tracker) error += before - positions;
+    }
   }
+  tracker_error_px_ = std::move(error);
+  if (solved) take_out_turns(positions);
   return positions;
+}
+
+// How much the adopted lens stretches the image at the points when it is taken out; noise is stretched alike.
+Eigen::VectorXd ObservationLevel::magnification(const Eigen::VectorXd& places_px) const {
+  constexpr double kApart_px = 1.0;
+  const Eigen::Index n = places_px.size() / 2;
+  Eigen::MatrixXd around(places_px.size(), 4);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    around.middleRows(2 * j, 2).colwise() = places_px.segment<2>(2 * j);
+    around.block<2, 2>(2 * j, 0) += kApart_px * Eigen::Matrix2d::Identity();
+    around.block<2, 2>(2 * j, 2) -= kApart_px * Eigen::Matrix2d::Identity();
+  }
+  const CorrectionView view{record_, predicted_px_};
+  for (const Adopted& a : adopted_) {
+    if (a.effect.correct != nullptr && !a.effect.of_tracker) a.effect.correct(a.values, view, around);
+  }
+  Eigen::VectorXd out(n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const Eigen::Matrix2d stretch = (around.block<2, 2>(2 * j, 0) - around.block<2, 2>(2 * j, 2)) / (2.0 * kApart_px);
+    const double area = std::abs(stretch.determinant());
+    out(j) = area > 0.1 && area < 10.0 ? std::sqrt(area) : 1.0;
+  }
+  return out;
+}
+
+Eigen::Index ObservationLevel::amplitude_row(std::size_t adopted) const {
+  Eigen::Index full = model_.n_own(), low = full;
+  for (const Adopted& other : adopted_) low += other.field.size() > 0 && !other.low_band ? 1 : 0;
+  for (std::size_t i = 0; i < adopted; ++i) {
+    if (adopted_[i].field.size() > 0) ++(adopted_[i].low_band ? low : full);
+  }
+  return adopted_[adopted].low_band ? low : full;
+}
+
+// The series are those of the solution before.
+void ObservationLevel::take_out_turns(Eigen::MatrixXd& positions) const {
+  Eigen::MatrixXd turns = Eigen::MatrixXd::Zero(3, positions.cols()), rates = turns;
+  double share = 0.0;
+  bool any = false;
+  for (std::size_t i = 0; i < adopted_.size(); ++i) {
+    if (adopted_[i].effect.turn.isZero() || amplitude_row(i) >= model_.amplitudes().rows()) continue;
+    const Eigen::Index row = amplitude_row(i);
+    turns += adopted_[i].effect.turn * model_.amplitudes().row(row);
+    rates += adopted_[i].effect.turn * model_.rates().row(row);
+    share = model_.share_of_column(row);
+    any = true;
+  }
+  if (any) take_out_remainder(record_, model_.geometry(), turns, rates, readout_frames_, share, positions);
 }
 
 void ObservationLevel::set_columns() {
   std::vector<Eigen::VectorXd> full, low;
-  for (const Adopted& a : adopted_) {
+  for (Adopted& a : adopted_) {
+    if (a.effect.field != nullptr) a.field = a.effect.field(model_.geometry());
     if (a.effect.form == ObservationEffect::Form::kField) (a.low_band ? low : full).push_back(a.field);
   }
   model_.set_added(full, low);
@@ -126,7 +185,8 @@ void ObservationLevel::set_columns() {
 }
 
 void ObservationLevel::fill_missing() {
-  for (const auto& [row, frame] : missing_) measured_(row, frame) = predicted_px_(row, frame);
+  for (const auto& [row, frame] : missing_)
+    measured_(row, frame) = predicted_px_(row, frame) + tracker_error_px_(row, frame);
 }
 
 std::vector<Eigen::MatrixXd> ObservationLevel::derivatives_of(const ObservationEffect& effect,
@@ -144,6 +204,9 @@ std::vector<Eigen::MatrixXd> ObservationLevel::derivatives_of(const ObservationE
     effect.correct(up, view, more);
     effect.correct(down, view, less);
     Eigen::MatrixXd field = (less - more) / (2.0 * effect.step);
+    // The mean places move as well, and the zoom with them.
+    for (Eigen::Index j = 0; j < record_.n_points(); ++j)
+      field.middleRows(2 * j, 2) -= field.middleRows(2 * j, 2).rowwise().mean().eval() * model_.zoom_of_point(j);
     field.array().colwise() *= model_.weight().array();
     out.push_back(model_.left_of(field));
   }
@@ -151,13 +214,13 @@ std::vector<Eigen::MatrixXd> ObservationLevel::derivatives_of(const ObservationE
 }
 
 // One Gauss-Newton step of all constants together.
-void ObservationLevel::refine_constants() {
+bool ObservationLevel::refine_constants() {
   std::vector<Eigen::MatrixXd> fields;
   for (const Adopted& a : adopted_) {
     if (a.values.size() == 0) continue;
     for (Eigen::MatrixXd& field : derivatives_of(a.effect, a.values)) fields.push_back(std::move(field));
   }
-  if (fields.empty()) return;
+  if (fields.empty()) return false;
   const auto n = static_cast<Eigen::Index>(fields.size());
   Eigen::MatrixXd normal(n, n);
   Eigen::VectorXd right(n);
@@ -169,7 +232,7 @@ void ObservationLevel::refine_constants() {
   }
   const Eigen::MatrixXd covariance = normal.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
   const Eigen::VectorXd change = covariance * right;
-  if (!change.allFinite()) return;
+  if (!change.allFinite()) return false;
   Eigen::Index at = 0;
   for (Adopted& a : adopted_) {
     const Eigen::Index count = a.values.size();
@@ -179,6 +242,7 @@ void ObservationLevel::refine_constants() {
     a.covariance = covariance.block(at, at, count, count);
     at += count;
   }
+  return (change.array().square() > kStill * kStill * covariance.diagonal().array()).any();
 }
 
 void ObservationLevel::refine_lines() {
@@ -188,32 +252,35 @@ void ObservationLevel::refine_lines() {
                             record_.n_frames());
     const Eigen::MatrixXd more = search.motion(model_.residual(), a.line);
     a.line_motion = a.line_motion.size() > 0 ? (a.line_motion + more).eval() : more;
+    a.line_hz = search.frequency(a.line_motion, a.line);
   }
 }
 
 LevelFit ObservationLevel::fit() {
-  model_.set_places(record_, measured_.rowwise().mean());
+  model_.set_places(record_, measured_.rowwise().mean(), magnification(measured_.rowwise().mean()));
   set_columns();
   const bool constants = std::any_of(adopted_.begin(), adopted_.end(), [](const Adopted& a) {
     return a.values.size() > 0 || a.effect.form == ObservationEffect::Form::kLine;
   });
-  const int rounds = std::max(constants ? kConstantRounds : 1, missing_.empty() ? 1 : kFillRounds);
+  const bool turns =
+      std::any_of(adopted_.begin(), adopted_.end(), [](const Adopted& a) { return !a.effect.turn.isZero(); });
+  int rounds = std::max({constants ? kConstantRounds : 1, turns ? kTurnRounds : 1, missing_.empty() ? 1 : kFillRounds});
   for (int round = 0; round <= rounds; ++round) {
     readout_frames_ = record_.readout_frames;
     for (const Adopted& a : adopted_) {
       if (a.effect.form == ObservationEffect::Form::kReadout) readout_frames_ += a.values(0);
     }
-    const Eigen::MatrixXd positions = corrected();
-    if (constants) {
-      model_.set_places(record_, positions.rowwise().mean());
+    const Eigen::MatrixXd positions = corrected(round > 0);
+    if (constants || turns) {
+      model_.set_places(record_, positions.rowwise().mean(), magnification(measured_.rowwise().mean()));
       set_columns();
     }
     model_.solve(positions, readout_frames_, kReadoutRounds);
-    predicted_px_ = measured_ - model_.residual_px();
+    predicted_px_ = measured_ - model_.residual_px() - tracker_error_px_;
     if (round == rounds) break;
     fill_missing();
     refine_lines();
-    refine_constants();
+    if (!refine_constants() && round >= kFillRounds) rounds = round + 1;
   }
   derivatives_.clear();
   trials_.clear();
@@ -248,6 +315,7 @@ void ObservationLevel::adopt(std::size_t candidate) {
     a.effect.name = "latent " + std::to_string(n_latent() + 1);
     const Moments moments = moments_of(model_.residual());
     a.field = leading_pattern(a.low_band ? moments.low_sum : moments.all_sum).cwiseQuotient(model_.weight());
+    a.field *= std::sqrt(static_cast<double>(a.field.size())) / a.field.norm();  // 1 px rms over the points
   }
   adopted_.push_back(std::move(a));
 }

@@ -73,6 +73,7 @@ class ObservationLevel final : public ClosureLevel {
     Eigen::VectorXd values;  // constants
     Eigen::MatrixXd covariance;
     LineFinding line;
+    LineFrequency line_hz;
     Eigen::MatrixXd line_motion;
   };
 
@@ -96,10 +97,13 @@ class ObservationLevel final : public ClosureLevel {
 
   [[nodiscard]] std::vector<ObservationEffect> open() const;  // named, not adopted
   [[nodiscard]] std::size_t n_latent() const;
-  [[nodiscard]] Eigen::MatrixXd corrected() const;
+  [[nodiscard]] Eigen::MatrixXd corrected(bool solved);  // solved: with these effects before
   void fill_missing();
   void set_columns();
-  void refine_constants();
+  [[nodiscard]] Eigen::Index amplitude_row(std::size_t adopted) const;  // of an adopted field
+  [[nodiscard]] Eigen::VectorXd magnification(const Eigen::VectorXd& places_px) const;
+  void take_out_turns(Eigen::MatrixXd& positions) const;
+  bool refine_constants();  // false: nothing moved by more than a twentieth of its sigma
   void refine_lines();
   [[nodiscard]] std::vector<Eigen::MatrixXd> derivatives_of(const ObservationEffect& effect,
                                                             const Eigen::VectorXd& values) const;
@@ -129,7 +133,8 @@ class ObservationLevel final : public ClosureLevel {
   std::optional<LeaveOneOut> high_, low_;
   std::vector<Adopted> adopted_;
   double readout_frames_ = 0.0;
-  Eigen::MatrixXd predicted_px_;          // in the raw image
+  Eigen::MatrixXd predicted_px_;          // in the raw image, without the tracker's errors
+  Eigen::MatrixXd tracker_error_px_;      // of the adopted effects
   double sigma_px_ = 0.0;                 // rms over points
   std::vector<Derivatives> derivatives_;  // per open candidate; prepared once per fit
   std::vector<Trial> trials_;             // of the last score(), latent last

@@ -9,6 +9,7 @@
 #include "core/closure/effects/registry.h"
 #include "core/closure/noise_stream.h"
 #include "core/closure/observation/observation_level.h"
+#include "core/linear/dense.h"
 
 namespace core::closure {
 namespace {
@@ -47,17 +48,16 @@ ObservationLevel::Moments ObservationLevel::moments_of(const Eigen::MatrixXd& re
   Moments m;
   const Eigen::Index n = residual.cols(), rows = residual.rows();
   m.all_sum = m.low_sum = Eigen::MatrixXd::Zero(rows, rows);
-  const Eigen::MatrixXd low = residual * model_.cosines();
+  Eigen::MatrixXd low = Eigen::MatrixXd::Zero(rows, model_.cosines().cols());
+  add_product(low, 1.0, residual, model_.cosines());
   for (Eigen::Index b = 0; b < kLatentBlocks; ++b) {
     const Eigen::Index from = b * n / kLatentBlocks, to = (b + 1) * n / kLatentBlocks;
-    m.all.emplace_back(Eigen::MatrixXd::Zero(rows, rows));
-    m.all.back().selfadjointView<Eigen::Lower>().rankUpdate(residual.middleCols(from, to - from));
+    m.all.push_back(gram(residual.middleCols(from, to - from)));
     Eigen::MatrixXd part(rows, 0);
     const Eigen::Index count = (low.cols() - b + kLatentBlocks - 1) / kLatentBlocks;
     part.resize(rows, std::max<Eigen::Index>(count, 0));
     for (Eigen::Index c = 0; c < part.cols(); ++c) part.col(c) = low.col(b + c * kLatentBlocks);
-    m.low.emplace_back(part * part.transpose());
-    m.all.back().triangularView<Eigen::StrictlyUpper>() = m.all.back().transpose();
+    m.low.emplace_back(gram(part));
     m.all_sum += m.all.back();
     m.low_sum += m.low.back();
   }

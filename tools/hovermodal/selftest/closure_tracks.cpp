@@ -39,6 +39,17 @@ Outcome close(const core::closure::ObservationRecord& record, std::uint64_t seed
   return out;
 }
 
+std::uint64_t seed_of(const ClosureTracksOptions& options, std::uint64_t index) {
+  return index + static_cast<std::uint64_t>(options.first_seed) - 1;
+}
+
+// The last round's candidates: share of the noise, why not.
+std::string refused(const ClosureResult& result, double n_values) {
+  std::string text;
+  for (const auto& s : result.refused) text += fmt::format("[{} {:.4f} {}]", s.effect, s.score / n_values, s.refusal);
+  return text;
+}
+
 std::string names(const ClosureResult& result) {
   std::string text;
   for (const auto& step : result.steps) text += (text.empty() ? "" : " + ") + step.effect;
@@ -78,13 +89,16 @@ void print_closure_tracks(const ClosureTracksOptions& options) {
       "floor (px), error of the first parameter in its sigma, parameters, seconds\n"
       "# strength: rms of what the free motions cannot hold / rms of the noise; plain: of the whole change\n");
   for (const HiddenEffect& effect : hidden_effects()) {
+    if (!options.effect.empty() && options.effect != effect.name) continue;
     if (effect.name == "readout time")
       setup.readout_frames = 0.0;
     else
       setup.readout_frames = 0.65;
     for (const double strength : kStrengths) {
+      if (options.strength > 0.0 && options.strength != strength) continue;
       const EffectSize size = size_for(effect, setup, strength);
-      const auto outcomes = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t seed) {
+      const auto outcomes = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t index) {
+        const std::uint64_t seed = seed_of(options, index);
         const core::simulation::Scene declared = closure_scene(setup, seed);
         core::simulation::Scene scene = declared;
         effect.set(scene, size.size);
@@ -97,10 +111,10 @@ void print_closure_tracks(const ClosureTracksOptions& options) {
         const Outcome& o = outcomes[i];
         n_right += names(o.result) == effect.name ? 1 : 0;
         const double after = o.result.steps.empty() ? o.result.baseline_rms : o.result.steps.back().heldout_after;
-        fmt::print("closure\t{}\t{}\t{:.2f}\t{:.2f}\t{:.5g}\t{}\t{}\t{:.5f}\t{:.5f}\t{:.5f}\t{:+.2f}\t{}\t{:.1f}\n",
-                   effect.name, strength, size.strength, size.plain_strength, size.size, i + 1, names(o.result),
+        fmt::print("closure\t{}\t{}\t{:.2f}\t{:.2f}\t{:.5g}\t{}\t{}\t{:.5f}\t{:.5f}\t{:.5f}\t{:+.2f}\t{}\t{}\t{:.1f}\n",
+                   effect.name, strength, size.strength, size.plain_strength, size.size, seed_of(options, i + 1), names(o.result),
                    o.result.baseline_rms, after, o.floor, error_in_sigma(o, effect.name), parameters(o.result),
-                   o.seconds);
+                   refused(o.result, 480000.0), o.seconds);
       }
       fmt::print("closure-named\t{}\t{}\t{} of {}\n", effect.name, strength, n_right, options.n_seeds);
       std::fflush(stdout);
@@ -117,7 +131,8 @@ void print_closure_tracks_null(const ClosureTracksOptions& options) {
     for (const bool background : {true, false}) {
       for (const double readout : {0.0, 0.7, 1.0}) {
         RecordSetup setup{shaking, background, readout, options.duration_s > 0.0 ? options.duration_s : 120.0};
-        const auto outcomes = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t seed) {
+        const auto outcomes = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t index) {
+        const std::uint64_t seed = seed_of(options, index);
           const core::simulation::Scene scene = closure_scene(setup, seed);
           return close(observation_record(scene, scene, background), seed);
         });
@@ -150,11 +165,13 @@ void print_closure_tracks_outside(const ClosureTracksOptions& options) {
       "# closure-outside: effect taken out of the catalogue, strength, seed, adopted, held-out before, after, "
       "floor (px), words\n");
   for (const HiddenEffect& effect : hidden_effects()) {
+    if (!options.effect.empty() && options.effect != effect.name) continue;
     RecordSetup setup;
     setup.readout_frames = effect.name == "readout time" ? 0.0 : 0.65;
     if (options.duration_s > 0.0) setup.duration_s = options.duration_s;
     const EffectSize size = size_for(effect, setup, 1.0);
-    const auto outcomes = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t seed) {
+    const auto outcomes = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t index) {
+        const std::uint64_t seed = seed_of(options, index);
       const core::simulation::Scene declared = closure_scene(setup, seed);
       core::simulation::Scene scene = declared;
       effect.set(scene, size.size);
@@ -162,7 +179,7 @@ void print_closure_tracks_outside(const ClosureTracksOptions& options) {
     });
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       const ClosureResult& r = outcomes[i].result;
-      fmt::print("closure-outside\t{}\t{:.2f}\t{}\t{}\t{:.5f}\t{:.5f}\t{:.5f}\t{}\n", effect.name, size.strength, i + 1,
+      fmt::print("closure-outside\t{}\t{:.2f}\t{}\t{}\t{:.5f}\t{:.5f}\t{:.5f}\t{}\n", effect.name, size.strength, seed_of(options, i + 1),
                  names(r), r.baseline_rms, r.steps.empty() ? r.baseline_rms : r.steps.back().heldout_after,
                  r.noise_floor, r.unexplained);
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 namespace tools {
 
 // The observation level of closing the loop on simulated tracks of known truth. Prints tab-separated lines, with
@@ -9,6 +11,9 @@ struct ClosureTracksOptions {
   int n_seeds = 4;
   int n_threads = 2;
   double duration_s = 0.0;  // 0 = 120
+  int first_seed = 1;
+  std::string effect;     // that one only; empty = all
+  double strength = 0.0;  // that one only; 0 = all
 };
 
 void print_closure_tracks(const ClosureTracksOptions& options);          // undeclared effects: which are named

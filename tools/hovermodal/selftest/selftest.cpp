@@ -22,8 +22,9 @@ namespace {
 struct Options {
   std::string what;
   int n_seeds = 20, n_frames = 40, n_threads = 2;
-  double duration_s = 0.0;
-  std::string flight, report;
+  double duration_s = 0.0, strength = 0.0;
+  int first_seed = 1;
+  std::string flight, report, effect;
 };
 
 void print_signatures(const Options&) {
@@ -98,7 +99,7 @@ void geometry(const Options& options) {
 // Closing the loop on tracks.
 template <void (*print)(const ClosureTracksOptions&)>
 void closure_tracks(const Options& options) {
-  print({options.n_seeds, options.n_threads, options.duration_s});
+  print({options.n_seeds, options.n_threads, options.duration_s, options.first_seed, options.effect, options.strength});
 }
 
 struct Check {
@@ -170,6 +171,11 @@ void add_selftest(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--duration", options->duration_s, "checks of the geometry: seconds; 0 = that of the figure")
       ->check(CLI::Range(0.0, 3600.0));
+  command->add_option("--first-seed", options->first_seed, "closure-tracks: seeds are those from this one on")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--effect", options->effect, "closure-tracks: this effect only")->type_name("NAME");
+  command->add_option("--strength", options->strength, "closure-tracks: this strength only; 0 = all")
+      ->check(CLI::Range(0.0, 100.0));
   command->add_option("--flight", options->flight, "checks of the geometry: the recorded flight that moves the camera")
       ->type_name("FILE");
   command
