@@ -66,7 +66,8 @@ PointGeometry point_geometry(const ObservationRecord& record) {
     const double u = mean_seen(record.u_px, j), v = mean_seen(record.v_px, j);
     geometry.x(j) = (u - record.cx_px) / record.alpha_px;
     geometry.y(j) = (v - record.cy_px) / record.alpha_px;
-    geometry.share(j) = record.readout_share(u, v);
+    geometry.share(j) =
+        record.raw_share.empty() ? record.readout_share(u, v) : record.raw_share[static_cast<std::size_t>(j)];
   }
   return geometry;
 }

@@ -27,7 +27,7 @@ struct PointGeometry {
 // zero. Cosines make this exact.
 class FrameModel {
  public:
-  static constexpr double kLowBand_hz = 1.5;
+  static constexpr double kLowBand_hz = 3.0;
 
   explicit FrameModel(const ObservationRecord& record);  // of a checked record
   // The same with the points at these mean places (2 points long, px): where a lens is taken out, zoom acts on the

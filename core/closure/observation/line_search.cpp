@@ -19,7 +19,7 @@ constexpr std::array<double, 4> kHalfWidth_hz{3.0, 2.0, 1.0, 0.3};
 constexpr double kFoldWidth_hz = 1.0;                     // in which the fold is told
 constexpr double kStrip_hz = 0.25;                        // of one phase, while widths are compared
 constexpr int kStretches = 8;
-constexpr double kLowest_hz = 1.8;                        // below, slow rotations are effects of their own
+constexpr double kLowest_hz = 3.5;                        // below, slow rotations are effects of their own
 constexpr std::size_t kPeaks = 2;
 constexpr double kPeakApart_hz = 1.0, kPeakWidth_hz = 0.3;
 
@@ -64,6 +64,7 @@ LineSearch::LineSearch(const FrameModel& model, double rate_hz, double readout_f
       rate_hz_(rate_hz),
       readout_frames_(readout_frames),
       fields_(std::move(fields)),
+      n_frames_(n_frames),
       n_fft_(next_power_of_two(static_cast<int>(n_frames))) {}
 
 Eigen::MatrixXcd LineSearch::spectrum(const Eigen::MatrixXd& residual) const {
@@ -170,7 +171,7 @@ void LineSearch::try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz,
   own.gain = -1e300;
   for (const double half_width_hz : kHalfWidth_hz) {
     trial.half_width_hz = half_width_hz;
-    trial.n_bins = band(apparent_hz, half_width_hz).count;
+    trial.freedom = 6.0 * static_cast<double>(band(apparent_hz, half_width_hz).count * n_frames_) / n_fft_;
     trial.gain = band_gain(spectrum, trial);
     if (trial.gain > own.gain) own = trial;
   }
@@ -185,7 +186,23 @@ LineFinding LineSearch::find(const Eigen::MatrixXd& residual) const {
   return best;
 }
 
-Eigen::MatrixXd LineSearch::motion(const Eigen::MatrixXd& residual, const LineFinding& finding) const {
+Eigen::RowVectorXcd LineSearch::analytic(const Eigen::RowVectorXcd& bins, const Band& at, Eigen::Index n) const {
+  RealFft fft(n_fft_);
+  std::vector<std::complex<double>> part(static_cast<std::size_t>(fft.n_bins()), 0.0);
+  std::vector<double> cosine(static_cast<std::size_t>(n_fft_)), sine = cosine;
+  for (Eigen::Index i = 0; i < at.count; ++i)
+    part[static_cast<std::size_t>(at.first + i)] = bins(i) / std::sqrt(2.0 / n_fft_);
+  fft.inverse(part, cosine);
+  for (std::complex<double>& bin : part) bin *= std::complex<double>(0.0, -1.0);
+  fft.inverse(part, sine);
+  Eigen::RowVectorXcd out(n);
+  for (Eigen::Index k = 0; k < n; ++k)
+    out(k) = {cosine[static_cast<std::size_t>(k)], sine[static_cast<std::size_t>(k)]};
+  return out;
+}
+
+Eigen::MatrixXd LineSearch::motion(const Eigen::MatrixXd& residual, const LineFinding& finding,
+                                   const Eigen::MatrixXd& later) const {
   const Band b = band(finding.apparent_hz, finding.half_width_hz);
   const Eigen::MatrixXcd bins = spectrum(residual).middleCols(b.first, b.count);
   Eigen::MatrixXcd motion(bins.rows(), bins.cols());
@@ -195,16 +212,12 @@ Eigen::MatrixXd LineSearch::motion(const Eigen::MatrixXd& residual, const LineFi
     const Eigen::Vector3cd amplitude = (w.adjoint() * w).ldlt().solve(w.adjoint() * bins.col(c));
     motion.col(c) = fields * amplitude;
   }
-  RealFft fft(n_fft_);
-  std::vector<std::complex<double>> full(static_cast<std::size_t>(fft.n_bins()));
-  std::vector<double> series(static_cast<std::size_t>(n_fft_));
+  const double turns = (finding.apparent_hz + finding.fold * rate_hz_) / rate_hz_ * readout_frames_;
   Eigen::MatrixXd out(residual.rows(), residual.cols());
   for (Eigen::Index i = 0; i < out.rows(); ++i) {
-    std::fill(full.begin(), full.end(), 0.0);
-    for (Eigen::Index c = 0; c < b.count; ++c)
-      full[static_cast<std::size_t>(b.first + c)] = motion(i, c) / std::sqrt(2.0 / n_fft_);
-    fft.inverse(full, series);
-    for (Eigen::Index k = 0; k < out.cols(); ++k) out(i, k) = series[static_cast<std::size_t>(k)];
+    const Eigen::RowVectorXcd series = analytic(motion.row(i), b, out.cols());
+    for (Eigen::Index k = 0; k < out.cols(); ++k)
+      out(i, k) = (series(k) * std::polar(1.0, 2.0 * std::numbers::pi * turns * later(i / 2, k))).real();
   }
   return out;
 }
@@ -213,31 +226,20 @@ Eigen::MatrixXd LineSearch::motion(const Eigen::MatrixXd& residual, const LineFi
 LineFrequency LineSearch::frequency(const Eigen::MatrixXd& motion_px, const LineFinding& finding) const {
   Eigen::Index row = 0;
   motion_px.rowwise().squaredNorm().maxCoeff(&row);
-  const Eigen::RowVectorXd series = motion_px.row(row);
-  const double turn = 2.0 * std::numbers::pi * finding.apparent_hz / rate_hz_;
-  const Eigen::Index n = series.size(), smooth = std::max<Eigen::Index>(2, static_cast<Eigen::Index>(rate_hz_ / 4.0));
-  std::vector<std::complex<double>> slow(static_cast<std::size_t>(n)), mixed = slow;
-  for (Eigen::Index k = 0; k < n; ++k)
-    mixed[static_cast<std::size_t>(k)] = series(k) * std::polar(1.0, -turn * static_cast<double>(k));
-  // A Hann window over half a second keeps the mixed-up image of the line out.
-  for (Eigen::Index k = smooth; k + smooth < n; ++k) {
-    for (Eigen::Index d = -smooth; d <= smooth; ++d)
-      slow[static_cast<std::size_t>(k)] +=
-          mixed[static_cast<std::size_t>(k + d)] *
-          (1.0 + std::cos(std::numbers::pi * static_cast<double>(d) / static_cast<double>(smooth + 1)));
-  }
-  const Eigen::Index length = (n - 2 * smooth - 1) / kStretches;
+  const Eigen::Index n = motion_px.cols(), length = (n - 1) / kStretches;
+  const Band b = band(finding.apparent_hz, finding.half_width_hz);
+  const Eigen::RowVectorXcd bins = spectrum(motion_px.row(row)).row(0).segment(b.first, b.count);
+  const Eigen::RowVectorXcd series = analytic(bins, b, n);
   std::array<double, kStretches> hz{};
   double mean = 0.0, squares = 0.0;
   for (int s = 0; s < kStretches; ++s) {
     std::complex<double> advance = 0.0;
-    for (Eigen::Index k = smooth + s * length; k < smooth + (s + 1) * length; ++k)
-      advance += slow[static_cast<std::size_t>(k + 1)] * std::conj(slow[static_cast<std::size_t>(k)]);
+    for (Eigen::Index k = s * length; k < (s + 1) * length; ++k) advance += series(k + 1) * std::conj(series(k));
     hz[static_cast<std::size_t>(s)] = std::arg(advance) * rate_hz_ / (2.0 * std::numbers::pi);
     mean += hz[static_cast<std::size_t>(s)] / kStretches;
   }
   for (const double f : hz) squares += (f - mean) * (f - mean);
-  return {finding.apparent_hz + mean, std::sqrt(squares / (kStretches * (kStretches - 1.0)))};
+  return {mean, std::sqrt(squares / (kStretches * (kStretches - 1.0)))};
 }
 
 }  // namespace core::closure

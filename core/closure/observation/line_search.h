@@ -14,7 +14,7 @@ struct LineFinding {
   double apparent_hz = 0.0;  // middle of the band, 0 .. f_s / 2; 0 = none was looked for
   int fold = 0;
   double half_width_hz = 0.0;
-  Eigen::Index n_bins = 0;  // of the spectrum, in the band
+  double freedom = 0.0;     // numbers that its motion takes from the noise
   double gain = 0.0;        // drop of the held-out squares, in noise variances
   double next_gain = 0.0;   // of the best other fold
 };
@@ -34,7 +34,9 @@ class LineSearch {
   // residual: 2 points x frames, in sigmas, as the model leaves it.
   [[nodiscard]] LineFinding find(const Eigen::MatrixXd& residual) const;
   // The finding's motion in px, fitted to this residual.
-  [[nodiscard]] Eigen::MatrixXd motion(const Eigen::MatrixXd& residual, const LineFinding& finding) const;
+  // later: points x frames, how much later in the readout a point is seen than on the average, in readouts.
+  [[nodiscard]] Eigen::MatrixXd motion(const Eigen::MatrixXd& residual, const LineFinding& finding,
+                                       const Eigen::MatrixXd& later) const;
   [[nodiscard]] LineFrequency frequency(const Eigen::MatrixXd& motion_px, const LineFinding& finding) const;
 
  private:
@@ -42,6 +44,8 @@ class LineSearch {
     Eigen::Index first = 0, count = 0;
   };
   [[nodiscard]] Eigen::MatrixXcd spectrum(const Eigen::MatrixXd& residual) const;
+  // Inverse of one-sided bins, as a complex (analytic) series.
+  [[nodiscard]] Eigen::RowVectorXcd analytic(const Eigen::RowVectorXcd& bins, const Band& at, Eigen::Index n) const;
   [[nodiscard]] Band band(double centre_hz, double half_width_hz) const;
   [[nodiscard]] std::vector<double> peaks(const Eigen::MatrixXcd& spectrum) const;
   [[nodiscard]] Eigen::MatrixXcd fields_of(double apparent_hz, int fold) const;
@@ -54,6 +58,7 @@ class LineSearch {
   const FrameModel& model_;
   double rate_hz_, readout_frames_;
   Eigen::MatrixXd fields_;
+  Eigen::Index n_frames_;
   int n_fft_;
 };
 

@@ -5,9 +5,6 @@
 
 #include "core/closure/effects/registry.h"
 #include "core/closure/observation/observation_level.h"
-#include "core/identification/identifier.h"
-#include "core/identification/mac.h"
-#include "core/spectrum/welch_cpsd.h"
 
 namespace core::closure {
 namespace {
@@ -92,71 +89,6 @@ std::vector<std::string> ObservationLevel::rivals(std::size_t adopted, std::uint
   adopted_ = kept;
   (void)fit();
   return out;
-}
-
-std::vector<ClosureMode> ObservationLevel::modes() const {
-  std::vector<core::ChannelInfo> channels;
-  std::vector<Eigen::Index> rows;
-  for (std::size_t r = 0; r < record_.regions.size(); ++r) {
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      const Eigen::Index row = model_.row_of_region(2 * r + axis);
-      if (row < 0) continue;
-      core::ChannelInfo channel;
-      channel.region = static_cast<std::uint16_t>(r);
-      channel.name = record_.regions[r].name + (axis == 1 ? ".v" : "");
-      channel.row_delay_s = readout_frames_ * model_.share_of_column(row) / record_.rate_hz;
-      channel.is_base = record_.regions[r].role == RegionRole::kBase;
-      channels.push_back(channel);
-      rows.push_back(row);
-    }
-  }
-  if (channels.empty()) return {};
-  core::WelchConfig config;
-  config.n_channels = static_cast<int>(channels.size());
-  config.segment = static_cast<int>(std::min<Eigen::Index>(1024, record_.n_frames() / 2));
-  config.rate_hz = record_.rate_hz;
-  core::WelchCpsd welch(config);
-  std::vector<double> value(channels.size());
-  const std::vector<std::uint8_t> seen(channels.size(), 1);
-  for (Eigen::Index k = 0; k < record_.n_frames(); ++k) {
-    for (std::size_t c = 0; c < rows.size(); ++c) value[c] = model_.amplitudes()(rows[c], k);
-    welch.push(value, seen);
-  }
-  welch.flush();
-  const core::ModalEstimate estimate = core::Identifier(core::IdentifierConfig{}, channels).identify(welch.sums());
-  std::vector<ClosureMode> out;
-  for (const core::Mode& mode : estimate.modes) {
-    ClosureMode m;
-    m.number = static_cast<int>(out.size()) + 1;
-    m.frequency_hz = mode.frequency_hz;
-    m.damping_ratio = mode.damping_ratio;
-    if (mode.frequency_std_hz) m.sigma_percent = 100.0 * *mode.frequency_std_hz / mode.frequency_hz;
-    const core::Mode* nearest = nullptr;
-    for (const core::Mode& reference : reference_) {
-      const double off = std::abs(reference.frequency_hz - mode.frequency_hz);
-      if (off < 0.1 * reference.frequency_hz &&
-          (nearest == nullptr || off < std::abs(nearest->frequency_hz - mode.frequency_hz)))
-        nearest = &reference;
-    }
-    if (nearest != nullptr) {
-      m.reference_hz = nearest->frequency_hz;
-      m.error_percent = 100.0 * (mode.frequency_hz / nearest->frequency_hz - 1.0);
-      if (nearest->shape.size() == mode.shape.size()) m.mac = core::mac(nearest->shape, mode.shape);
-    }
-    out.push_back(m);
-  }
-  return out;
-}
-
-std::optional<double> ObservationLevel::reference_error() const {
-  double squares = 0.0;
-  int n = 0;
-  for (const ClosureMode& mode : modes()) {
-    if (!mode.error_percent) continue;
-    squares += *mode.error_percent * *mode.error_percent;
-    ++n;
-  }
-  return n > 0 ? std::optional<double>(std::sqrt(squares / n)) : std::nullopt;
 }
 
 std::string ObservationLevel::describe_residual() const {

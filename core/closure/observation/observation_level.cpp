@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/closure/effects/registry.h"
+#include "core/closure/effects/rotor_line.h"
 #include "core/closure/observation/rotation_remainder.h"
 
 namespace core::closure {
@@ -55,20 +56,10 @@ Eigen::MatrixXd stacked(const ObservationRecord& record, std::vector<std::pair<E
   return out;
 }
 
-Eigen::MatrixXd rotation_fields(const PointGeometry& geometry) {
-  Eigen::MatrixXd fields(2 * geometry.x.size(), 3);
-  Eigen::Index c = 0;
-  for (const ObservationEffect& effect : observation_effects()) {
-    if (effect.form == ObservationEffect::Form::kField && c < 3) fields.col(c++) = effect.field(geometry);
-  }
-  return fields;
-}
-
 }  // namespace
 
-ObservationLevel::ObservationLevel(const ObservationRecord& record, std::vector<core::Mode> reference)
+ObservationLevel::ObservationLevel(const ObservationRecord& record)
     : record_(checked(record, warnings_)),
-      reference_(std::move(reference)),
       registry_(observation_effects()),
       measured_(stacked(record_, missing_)),
       model_(record_),
@@ -198,7 +189,7 @@ std::vector<Eigen::MatrixXd> ObservationLevel::derivatives_of(const ObservationE
   }
   const CorrectionView view{record_, predicted_px_};
   for (Eigen::Index p = 0; p < values.size(); ++p) {
-    Eigen::MatrixXd more = measured_, less = measured_;
+    Eigen::MatrixXd more = predicted_px_, less = more;  // noise in them would be taken for the effect
     Eigen::VectorXd up = values, down = values;
     up(p) += effect.step, down(p) -= effect.step;
     effect.correct(up, view, more);
@@ -245,12 +236,23 @@ bool ObservationLevel::refine_constants() {
   return (change.array().square() > kStill * kStill * covariance.diagonal().array()).any();
 }
 
+// As the points drift over the lines.
+Eigen::MatrixXd ObservationLevel::later_in_readout() const {
+  Eigen::MatrixXd later(record_.n_points(), record_.n_frames());
+  for (Eigen::Index j = 0; j < later.rows(); ++j) {
+    for (Eigen::Index k = 0; k < later.cols(); ++k)
+      later(j, k) = record_.readout_share(predicted_px_(2 * j, k), predicted_px_(2 * j + 1, k));
+    later.row(j).array() -= later.row(j).mean();
+  }
+  return later;
+}
+
 void ObservationLevel::refine_lines() {
   for (Adopted& a : adopted_) {
     if (a.effect.form != ObservationEffect::Form::kLine) continue;
-    const LineSearch search(model_, record_.rate_hz, readout_frames_, rotation_fields(model_.geometry()),
+    const LineSearch search(model_, record_.rate_hz, readout_frames_, rotor_fields(model_.geometry(), readout_frames_),
                             record_.n_frames());
-    const Eigen::MatrixXd more = search.motion(model_.residual(), a.line);
+    const Eigen::MatrixXd more = search.motion(model_.residual(), a.line, later_in_readout());
     a.line_motion = a.line_motion.size() > 0 ? (a.line_motion + more).eval() : more;
     a.line_hz = search.frequency(a.line_motion, a.line);
   }
@@ -284,17 +286,25 @@ LevelFit ObservationLevel::fit() {
   }
   derivatives_.clear();
   trials_.clear();
+  modes_.reset();
   const Moments moments = moments_of(model_.residual());
   LevelFit fit;
-  fit.heldout = sigma_px_ * std::sqrt(heldout_squares(moments) / n_values());
-  fit.noise_floor =
-      sigma_px_ * std::sqrt((1.0 - low_share()) * high_->noise_variance() + low_share() * low_->noise_variance());
+  fit.heldout = sigma_px_ * std::sqrt((heldout_squares(moments) + 2.0 * line_freedom()) / n_values());
+  fit.noise_floor = sigma_px_ * std::sqrt((1.0 - low_share()) * high_->noise_variance() +
+                                          low_share() * low_->noise_variance() + line_freedom() / n_values());
   fit.residual_rms = fit.heldout;
   const double excess = fit.heldout / fit.noise_floor;
   fit.structured = true;  // what noise can do is told by the surrogates
   fit.words = "held-out residual is " + std::to_string(excess) + " of the floor of the declared noise";
   if (!std::isfinite(fit.heldout)) throw std::runtime_error("observation level: the fit did not stay finite");
   return fit;
+}
+
+// Lines are no columns of the model, which does not count them.
+double ObservationLevel::line_freedom() const {
+  double sum = 0.0;
+  for (const Adopted& a : adopted_) sum += a.line.freedom;
+  return sum;
 }
 
 void ObservationLevel::adopt(std::size_t candidate) {

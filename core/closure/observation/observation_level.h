@@ -12,6 +12,7 @@
 #include "core/closure/observation/leave_one_out.h"
 #include "core/closure/observation/line_search.h"
 #include "core/closure/observation/observation_record.h"
+#include "core/types/displacement.h"
 #include "core/types/modal_estimate.h"
 
 namespace core::closure {
@@ -35,9 +36,13 @@ class ObservationLevel final : public ClosureLevel {
   static constexpr double kRival = 0.9;  // of the score of the effect in whose place it stands
   static constexpr std::size_t kMostLatent = 8;
 
-  // reference: modes in the order of the channels of modes(); may be empty. Throws std::invalid_argument with what
-  // check_record() says.
-  explicit ObservationLevel(const ObservationRecord& record, std::vector<core::Mode> reference = {});
+  // Throws std::invalid_argument with what check_record() says.
+  explicit ObservationLevel(const ObservationRecord& record);
+
+  // Modes known from elsewhere; their shapes in the order of channel_names(), or empty. modes() are then theirs, with
+  // frequency 0 where none was found.
+  void set_reference(std::vector<core::Mode> reference) { reference_ = std::move(reference); }
+  [[nodiscard]] std::vector<std::string> channel_names() const;
 
   // Without some effects of the registry, as if nobody had thought of them.
   void forget(const std::string& effect);
@@ -60,6 +65,9 @@ class ObservationLevel final : public ClosureLevel {
   // Of the last fit.
   [[nodiscard]] const FrameModel& model() const noexcept { return model_; }
   [[nodiscard]] double readout_frames() const noexcept { return readout_frames_; }
+  [[nodiscard]] const ObservationRecord& record() const noexcept { return record_; }  // of the usable points
+  [[nodiscard]] Eigen::VectorXd mean_places_px() const { return measured_.rowwise().mean(); }
+  [[nodiscard]] const core::ModalEstimate& estimate() const;  // of the regions' motion
   [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
  private:
@@ -95,6 +103,11 @@ class ObservationLevel final : public ClosureLevel {
     LineFinding line;
   };
 
+  struct Channels {
+    std::vector<core::ChannelInfo> info;
+    std::vector<Eigen::Index> rows;  // of the model's amplitudes
+  };
+  [[nodiscard]] Channels channels() const;
   [[nodiscard]] std::vector<ObservationEffect> open() const;  // named, not adopted
   [[nodiscard]] std::size_t n_latent() const;
   [[nodiscard]] Eigen::MatrixXd corrected(bool solved);  // solved: with these effects before
@@ -103,6 +116,7 @@ class ObservationLevel final : public ClosureLevel {
   [[nodiscard]] Eigen::Index amplitude_row(std::size_t adopted) const;  // of an adopted field
   [[nodiscard]] Eigen::VectorXd magnification(const Eigen::VectorXd& places_px) const;
   void take_out_turns(Eigen::MatrixXd& positions) const;
+  [[nodiscard]] Eigen::MatrixXd later_in_readout() const;
   bool refine_constants();  // false: nothing moved by more than a twentieth of its sigma
   void refine_lines();
   [[nodiscard]] std::vector<Eigen::MatrixXd> derivatives_of(const ObservationEffect& effect,
@@ -122,6 +136,7 @@ class ObservationLevel final : public ClosureLevel {
   [[nodiscard]] std::string follows_motion(const ObservationEffect& effect, bool low_band) const;
   [[nodiscard]] double low_share() const;  // of the record's degrees of freedom in time
   [[nodiscard]] double n_values() const;
+  [[nodiscard]] double line_freedom() const;
 
   std::vector<std::string> warnings_;  // before record_, whose making fills it
   ObservationRecord record_;
@@ -138,6 +153,7 @@ class ObservationLevel final : public ClosureLevel {
   double sigma_px_ = 0.0;                 // rms over points
   std::vector<Derivatives> derivatives_;  // per open candidate; prepared once per fit
   std::vector<Trial> trials_;             // of the last score(), latent last
+  mutable std::optional<core::ModalEstimate> modes_;  // of the last fit(), once asked for
 };
 
 }  // namespace core::closure

@@ -32,7 +32,7 @@ void check_declared(const ObservationRecord& r, std::vector<std::string>& faults
     faults.push_back("readout of " + number(r.readout_frames) + " frames: must lie between -1 and 1");
   const auto n = static_cast<std::size_t>(r.n_points());
   if (r.v_px.rows() != r.u_px.rows() || r.v_px.cols() != r.u_px.cols() || r.region_of_point.size() != n ||
-      r.sigma_px.size() != n)
+      r.sigma_px.size() != n || (!r.raw_share.empty() && r.raw_share.size() != n))
     faults.emplace_back("ragged record: u, v, regions and sigmas speak of different numbers of points or frames");
   for (const std::size_t region : r.region_of_point) {
     if (region >= r.regions.size()) {
@@ -135,12 +135,14 @@ ObservationRecord select_points(const ObservationRecord& record, const std::vect
   out.v_px.resize(record.n_frames(), n);
   out.region_of_point.clear();
   out.sigma_px.clear();
+  out.raw_share.clear();
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::Index j = points[static_cast<std::size_t>(i)];
     out.u_px.col(i) = record.u_px.col(j);
     out.v_px.col(i) = record.v_px.col(j);
     out.region_of_point.push_back(record.region_of_point[static_cast<std::size_t>(j)]);
     out.sigma_px.push_back(record.sigma_px[static_cast<std::size_t>(j)]);
+    if (!record.raw_share.empty()) out.raw_share.push_back(record.raw_share[static_cast<std::size_t>(j)]);
   }
   return out;
 }

@@ -7,24 +7,16 @@
 #include <utility>
 
 #include "core/closure/effects/registry.h"
+#include "core/closure/effects/rotor_line.h"
 #include "core/closure/noise_stream.h"
 #include "core/closure/observation/observation_level.h"
+#include "core/closure/observation/time_filter.h"
 #include "core/linear/dense.h"
 
 namespace core::closure {
 namespace {
 
 using Form = ObservationEffect::Form;
-
-Eigen::MatrixXd rotations(const PointGeometry& geometry) {
-  Eigen::MatrixXd fields(2 * geometry.x.size(), 0);
-  for (const ObservationEffect& effect : observation_effects()) {
-    if (effect.form != Form::kField) continue;
-    fields.conservativeResize(Eigen::NoChange, fields.cols() + 1);
-    fields.col(fields.cols() - 1) = effect.field(geometry);
-  }
-  return fields;
-}
 
 }  // namespace
 
@@ -48,8 +40,7 @@ ObservationLevel::Moments ObservationLevel::moments_of(const Eigen::MatrixXd& re
   Moments m;
   const Eigen::Index n = residual.cols(), rows = residual.rows();
   m.all_sum = m.low_sum = Eigen::MatrixXd::Zero(rows, rows);
-  Eigen::MatrixXd low = Eigen::MatrixXd::Zero(rows, model_.cosines().cols());
-  add_product(low, 1.0, residual, model_.cosines());
+  const Eigen::MatrixXd low = low_amplitudes(residual, model_.cosines());
   for (Eigen::Index b = 0; b < kLatentBlocks; ++b) {
     const Eigen::Index from = b * n / kLatentBlocks, to = (b + 1) * n / kLatentBlocks;
     m.all.push_back(gram(residual.middleCols(from, to - from)));
@@ -159,7 +150,7 @@ ObservationLevel::Trial ObservationLevel::trial(std::size_t i, const Eigen::Matr
   if (effect.form == Form::kField) return try_field(effect.field(model_.geometry()), moments);
   Trial out;
   if (effect.form == Form::kLine) {
-    const LineSearch search(model_, record_.rate_hz, readout_frames_, rotations(model_.geometry()), record_.n_frames());
+    const LineSearch search(model_, record_.rate_hz, readout_frames_, rotor_fields(model_.geometry(), readout_frames_), record_.n_frames());
     out.line = search.find(residual);
     out.gain = out.line.gain;
   } else {
@@ -213,9 +204,9 @@ std::vector<CandidateScore> ObservationLevel::score() {
   const Eigen::MatrixXd& residual = model_.residual();
   const Moments moments = moments_of(residual);
   const std::vector<ObservationEffect> named = open();
-  const double squares = heldout_squares(moments);
+  const double squares = heldout_squares(moments) + 2.0 * line_freedom();
   const double floor =
-      n_values() * ((1.0 - low_share()) * high_->noise_variance() + low_share() * low_->noise_variance());
+      n_values() * ((1.0 - low_share()) * high_->noise_variance() + low_share() * low_->noise_variance()) + line_freedom();
   const Trial latent = try_latent(moments);
   trials_.clear();
   std::vector<CandidateScore> out;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/linear/dense.h"
+
 namespace core::closure {
 namespace {
 
@@ -89,6 +91,22 @@ Eigen::MatrixXd low_cosines(Eigen::Index n_frames, double rate_hz, double limit_
       cosines(k, m) = scale * std::cos(kPi * static_cast<double>(m) * (static_cast<double>(k) + 0.5) / n);
   }
   return cosines;
+}
+
+Eigen::MatrixXd low_amplitudes(const Eigen::MatrixXd& values, const Eigen::MatrixXd& cosines) {
+  const Eigen::Index n = values.cols(), half = n / 2, count = cosines.cols();
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(values.rows(), count);
+  const Eigen::MatrixXd first = values.leftCols(half), last = values.rightCols(half).rowwise().reverse();
+  for (const Eigen::Index odd : {0, 1}) {
+    const Eigen::Index n_part = (count + 1 - odd) / 2;
+    if (n_part == 0) continue;
+    Eigen::MatrixXd part(half, n_part), sum = Eigen::MatrixXd::Zero(values.rows(), n_part);
+    for (Eigen::Index c = 0; c < n_part; ++c) part.col(c) = cosines.col(2 * c + odd).head(half);
+    add_product(sum, 1.0, odd == 0 ? (first + last).eval() : (first - last).eval(), part);
+    for (Eigen::Index c = 0; c < n_part; ++c) out.col(2 * c + odd) = sum.col(c);
+  }
+  if (n % 2 == 1) out += values.col(half) * cosines.row(half);
+  return out;
 }
 
 }  // namespace core::closure

@@ -21,4 +21,7 @@ namespace core::closure {
 // on them is a low-pass without phase that needs no periodic record.
 [[nodiscard]] Eigen::MatrixXd low_cosines(Eigen::Index n_frames, double rate_hz, double limit_hz);
 
+// values * cosines for cosines of low_cosines(); half the work, as they are even or odd about the middle.
+[[nodiscard]] Eigen::MatrixXd low_amplitudes(const Eigen::MatrixXd& values, const Eigen::MatrixXd& cosines);
+
 }  // namespace core::closure

@@ -46,6 +46,11 @@ std::uint64_t seed_of(const ClosureTracksOptions& options, std::uint64_t index) 
 // The last round's candidates: share of the noise, why not.
 std::string refused(const ClosureResult& result, double n_values) {
   std::string text;
+  for (const auto& step : result.steps) {
+    text += fmt::format("{} {:.4f} before ", step.effect, step.score / n_values);
+    for (const auto& s : step.others) text += fmt::format("[{} {:.4f} {}]", s.effect, s.score / n_values, s.refusal);
+    text += "; ";
+  }
   for (const auto& s : result.refused) text += fmt::format("[{} {:.4f} {}]", s.effect, s.score / n_values, s.refusal);
   return text;
 }
