@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kCamera_hz = 3.0;      // camera motion above it is not differentiated
 constexpr double kRegionCutoff = 0.48;  // cycles per frame
+constexpr double kParallel_deg = 2.0;
 constexpr int kTaps = 25;
 constexpr double kLeastNorm = 1e-3;  // of a column beside those before it, else it falls out
 
@@ -57,6 +58,16 @@ Factor factorise_columns(const Eigen::MatrixXd& x) {
   return factor;
 }
 
+// Mean of the regions' axes. Axes that differ by less than they can be declared are taken to be parallel: a shift of
+// the camera would else be the tiny difference of large motions.
+double common_axis_deg(const ObservationRecord& record) {
+  double sum = 0.0, n = 0.0;
+  for (const Region& region : record.regions) {
+    if (makes_channel(region.role) && !region.both_axes) sum += region.axis_deg, n += 1.0;
+  }
+  return n > 0.0 ? sum / n : 0.0;
+}
+
 }  // namespace
 
 PointGeometry point_geometry(const ObservationRecord& record) {
@@ -94,10 +105,13 @@ void FrameModel::add_column(const Eigen::VectorXd& field, bool is_region) {
 }
 
 void FrameModel::add_region_columns(const ObservationRecord& record) {
+  const double common_deg = common_axis_deg(record);
   for (std::size_t r = 0; r < record.regions.size(); ++r) {
     const Region& region = record.regions[r];
     if (!makes_channel(region.role)) continue;
-    const double angle = region.both_axes ? 0.0 : region.axis_deg * std::numbers::pi / 180.0;
+    const double axis_deg =
+        std::abs(region.axis_deg - common_deg) < kParallel_deg ? common_deg : region.axis_deg;
+    const double angle = region.both_axes ? 0.0 : axis_deg * std::numbers::pi / 180.0;
     for (int axis = 0; axis < (region.both_axes ? 2 : 1); ++axis) {
       Eigen::VectorXd field = Eigen::VectorXd::Zero(weight_.size());
       const double turn = angle + axis * 0.5 * std::numbers::pi;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/closure/effects/registry.h"
+#include "core/closure/observation/latent_words.h"
 #include "core/closure/observation/observation_level.h"
 
 namespace core::closure {
@@ -67,6 +68,30 @@ std::vector<ParameterValue> ObservationLevel::parameters(std::size_t adopted) co
   if (!latent)
     out.push_back({"band", "Hz", a.low_band ? FrameModel::kLowBand_hz : 0.5 * record_.rate_hz, std::nullopt});
   return out;
+}
+
+std::string ObservationLevel::meaning(std::size_t adopted) const {
+  const Adopted& a = adopted_.at(adopted);
+  if (a.kind != EffectKind::kLatent) return {};
+  const Eigen::MatrixXd& amplitudes = model_.amplitudes();
+  std::vector<KnownSignal> known;
+  const Channels all = channels();
+  for (std::size_t c = 0; c < all.rows.size(); ++c)
+    known.push_back({"the motion of " + all.info[c].name, amplitudes.row(all.rows[c])});
+  const Eigen::Index plane = model_.first_plane_row();
+  const char* names[] = {"the camera's shift along u", "the camera's shift along v", "the camera's distance"};
+  for (Eigen::Index i = 0; i < 3 && plane + i < model_.n_own(); ++i)
+    known.push_back({names[i], amplitudes.row(plane + i)});
+  const std::size_t n_plain = known.size();
+  for (std::size_t i = 0; i < n_plain; ++i) {
+    const Eigen::RowVectorXd s = known[i].series.array() - known[i].series.mean();
+    known.push_back({"the square of " + known[i].name, s.cwiseAbs2()});
+  }
+  for (std::size_t i = 0; i < adopted_.size(); ++i) {
+    if (i != adopted && adopted_[i].field.size() > 0)
+      known.push_back({adopted_[i].effect.name, amplitudes.row(amplitude_row(i))});
+  }
+  return latent_words(a.field, amplitudes.row(amplitude_row(adopted)), record_, model_.geometry(), known);
 }
 
 std::vector<std::string> ObservationLevel::rivals(std::size_t adopted, std::uint64_t) {

@@ -62,6 +62,9 @@ class ObservationLevel final : public ClosureLevel {
   [[nodiscard]] std::optional<double> reference_error() const override;
   [[nodiscard]] std::string describe_residual() const override;
 
+  // A latent effect in words; of others what else must be known. May be empty.
+  [[nodiscard]] std::string meaning(std::size_t adopted) const;
+
   // Of the last fit.
   [[nodiscard]] const FrameModel& model() const noexcept { return model_; }
   [[nodiscard]] double readout_frames() const noexcept { return readout_frames_; }

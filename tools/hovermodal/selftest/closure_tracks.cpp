@@ -22,6 +22,7 @@ constexpr double kStrengths[] = {0.2, 1.0, 5.0};
 
 struct Outcome {
   ClosureResult result;
+  std::string words;  // of the latent ones
   double seconds = 0.0, floor = 0.0, truth = 0.0;
 };
 
@@ -35,6 +36,9 @@ Outcome close(const core::closure::ObservationRecord& record, std::uint64_t seed
   Outcome out;
   out.result = close_loop(level, options);
   out.floor = out.result.noise_floor;
+  for (std::size_t i = 0; i < out.result.steps.size(); ++i) {
+    if (const std::string words = level.meaning(i); !words.empty()) out.words += "{" + words + "}";
+  }
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return out;
 }
@@ -119,7 +123,7 @@ void print_closure_tracks(const ClosureTracksOptions& options) {
         fmt::print("closure\t{}\t{}\t{:.2f}\t{:.2f}\t{:.5g}\t{}\t{}\t{:.5f}\t{:.5f}\t{:.5f}\t{:+.2f}\t{}\t{}\t{:.1f}\n",
                    effect.name, strength, size.strength, size.plain_strength, size.size, seed_of(options, i + 1), names(o.result),
                    o.result.baseline_rms, after, o.floor, error_in_sigma(o, effect.name), parameters(o.result),
-                   refused(o.result, 480000.0), o.seconds);
+                   o.words + refused(o.result, 480000.0), o.seconds);
       }
       fmt::print("closure-named\t{}\t{}\t{} of {}\n", effect.name, strength, n_right, options.n_seeds);
       std::fflush(stdout);

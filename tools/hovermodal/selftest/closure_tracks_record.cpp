@@ -88,7 +88,8 @@ core::closure::ObservationRecord observation_record(const Scene& scene, const Sc
   record.width_px = declared.camera.width_px, record.height_px = declared.camera.height_px;
   record.readout_frames = declared.camera.readout_s * declared.camera.rate_hz;
   record.readout_direction = declared.camera.readout_direction;
-  for (const auto& region : generator.regions()) record.regions.push_back(region.region);
+  const core::simulation::TrackGenerator as_declared(declared);
+  for (const auto& region : as_declared.regions()) record.regions.push_back(region.region);
   std::vector<std::size_t> use;
   for (std::size_t i = 0; i < generator.points().size(); ++i) {
     const std::size_t region = generator.points()[i].region;
