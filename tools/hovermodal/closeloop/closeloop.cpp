@@ -14,6 +14,7 @@
 #include "drivers/storage/structure_file.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/closure_json.h"
+#include "tools/hovermodal/closeloop/closeloop_tracks.h"
 #include "tools/hovermodal/closeloop/reference.h"
 #include "tools/hovermodal/closeloop/words.h"
 #include "tools/hovermodal/commands.h"
@@ -25,6 +26,7 @@ struct Options {
   std::string structure, reference, check, report;
   std::uint64_t seed = 1;
   std::size_t n_surrogates = 333;
+  TracksLoop tracks;
 };
 
 std::string help() {
@@ -43,6 +45,9 @@ std::string help() {
          "true;\n"
          "then all is fitted again, until nothing helps. Effects that would do as well are named beside it: then the\n"
          "data do not tell which is the cause.\n"
+         "\nWith --record the points' tracks themselves are modelled instead: motion of each region and of the camera; what\n"
+         "that leaves is traced to rotation, lens, readout time, the tracker, rotors, or told as a pattern of its own:\n"
+         "  hovermodal closeloop --record out --config flight.yaml --report loop\n"
          "\nKeys of frame.yaml, under `structure:`\n" +
          drivers::structure_keys_help() +
          "\nColumns of modes.csv: frequency_hz or frequency_rad_s; optional: mode (number from 1), sigma_hz, one a "
@@ -69,7 +74,20 @@ std::string check_text(const core::closure::StructureLevel& level) {
   return out;
 }
 
+void run_tracks(const Options& options) {
+  if (!options.structure.empty()) throw std::invalid_argument("--structure is for modes; --record is a record");
+  if (!is_tracks_record(options.tracks.record))
+    throw std::invalid_argument("--record " + options.tracks.record + ": neither a folder of a run nor a tracks.csv");
+  if (!options.report.empty()) make_folder(options.report);
+  TracksLoop request = options.tracks;
+  request.reference = options.reference, request.report = options.report, request.seed = options.seed;
+  close_tracks(request);
+}
+
 void run(const Options& options) {
+  if (!options.tracks.record.empty()) return run_tracks(options);
+  if (options.structure.empty() || options.reference.empty())
+    throw std::invalid_argument("closeloop needs --structure with --reference, or --record");
   const core::structure::DeclaredFrame declared = drivers::read_structure(options.structure);
   auto reference = read_reference(options.reference, declared);
   auto check =
@@ -106,11 +124,15 @@ void run(const Options& options) {
 void add_closeloop(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("closeloop", help());
+  command->add_option("--record", options->tracks.record, "A record in place of modes: tracks.csv, or a run's folder")
+      ->type_name("DIR|FILE");
+  command->add_option("--config", options->tracks.config, "Of --record: configuration of that run")->type_name("FILE");
+  command->add_option("--set", options->tracks.overrides, "Of --record: override one key of it")
+      ->type_name("section.key=value")
+      ->take_all();
   command->add_option("--structure", options->structure, "What is known of the structure")
-      ->required()
       ->type_name("FILE.yaml");
   command->add_option("--reference", options->reference, "Measured modes: modal.json or modes.csv")
-      ->required()
       ->type_name("FILE");
   command
       ->add_option("--check", options->check, "Other measured modes, which no fit sees: the model's error against them")

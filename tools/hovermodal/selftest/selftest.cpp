@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tools/hovermodal/commands.h"
+#include "tools/hovermodal/selftest/closure_tracks.h"
 #include "tools/hovermodal/selftest/geometry.h"
 #include "tools/hovermodal/selftest/identification.h"
 #include "tools/hovermodal/selftest/peaks.h"
@@ -21,8 +22,9 @@ namespace {
 struct Options {
   std::string what;
   int n_seeds = 20, n_frames = 40, n_threads = 2;
-  double duration_s = 0.0;
-  std::string flight, report;
+  double duration_s = 0.0, strength = 0.0;
+  int first_seed = 1;
+  std::string flight, report, effect;
 };
 
 void print_signatures(const Options&) {
@@ -94,6 +96,12 @@ void geometry(const Options& options) {
   print({options.n_seeds, options.n_threads, options.duration_s, options.report, options.flight});
 }
 
+// Closing the loop on tracks.
+template <void (*print)(const ClosureTracksOptions&)>
+void closure_tracks(const Options& options) {
+  print({options.n_seeds, options.n_threads, options.duration_s, options.first_seed, options.effect, options.strength});
+}
+
 struct Check {
   const char *name, *meaning;
   void (*print)(const Options&);
@@ -113,6 +121,10 @@ constexpr std::array kChecks{
     Check{"readout", "readout time estimated from tracks", identification<print_readout>},
     Check{"closure", "closing the loop on structures that lack one known effect", identification<print_closure>},
     Check{"closure-null", "closing the loop on a structure that lacks none", identification<print_closure_null>},
+    Check{"closure-tracks", "closing the loop on tracks with an undeclared effect", closure_tracks<print_closure_tracks>},
+    Check{"closure-tracks-null", "closing the loop on tracks without one", closure_tracks<print_closure_tracks_null>},
+    Check{"closure-tracks-outside", "the same with that effect taken out of the catalogue",
+          closure_tracks<print_closure_tracks_outside>},
     Check{"geometry", "the paper's experiment, one correction after the other", geometry<print_geometry>},
     Check{"geometry-pixels", "the same from rendered clips through the service", geometry<print_geometry_pixels>},
     Check{"table1", "the paper's Table 1 and Figures 6 to 9, sensor by sensor", geometry<print_table1>},
@@ -159,6 +171,11 @@ void add_selftest(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--duration", options->duration_s, "checks of the geometry: seconds; 0 = that of the figure")
       ->check(CLI::Range(0.0, 3600.0));
+  command->add_option("--first-seed", options->first_seed, "closure-tracks: seeds are those from this one on")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--effect", options->effect, "closure-tracks: this effect only")->type_name("NAME");
+  command->add_option("--strength", options->strength, "closure-tracks: this strength only; 0 = all")
+      ->check(CLI::Range(0.0, 100.0));
   command->add_option("--flight", options->flight, "checks of the geometry: the recorded flight that moves the camera")
       ->type_name("FILE");
   command

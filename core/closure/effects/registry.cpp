@@ -1,0 +1,46 @@
+#include "core/closure/effects/registry.h"
+
+#include "core/closure/effects/pitch.h"
+#include "core/closure/effects/pixel_locking.h"
+#include "core/closure/effects/radial_distortion.h"
+#include "core/closure/effects/readout.h"
+#include "core/closure/effects/roll.h"
+#include "core/closure/effects/rotor_line.h"
+#include "core/closure/effects/tangential_distortion.h"
+#include "core/closure/effects/yaw.h"
+
+namespace core::closure {
+
+std::vector<ObservationEffect> observation_effects() {
+  return {
+      roll_effect(),                   //
+      pitch_effect(),                  //
+      yaw_effect(),                    //
+      readout_effect(),                //
+      radial_distortion_effect(),      //
+      tangential_distortion_effect(),  //
+      pixel_locking_effect(),          //
+      rotor_line_effect(),             //
+  };
+}
+
+std::vector<NotObservable> never_observable() {
+  return {
+      {"time stamp jitter, dropped and duplicated frames",
+       "the displacement of every region is free in each frame and absorbs an error of the frame's time",
+       "trust the source's stamps and sequence numbers, or film a clock; a predictor over time of the regions' motion "
+       "could show them"},
+      {"clock rate", "a record that runs slow as a whole is a record of lower frequencies",
+       "film a clock, or give reference frequencies"},
+      {"scale, and its slow change", "zoom of the structure's plane is free in each frame",
+       "declare a known length per region"},
+      {"zoom about a displaced centre", "it is zoom about the principal point and a translation, both free",
+       "film points at several known depths"},
+      {"constant part of yaw and pitch", "it is a translation of the whole image, which is free in each frame",
+       "nothing is lost for modes: displacement relative to the base stays"},
+      {"tilt of single floors", "the model has no turn per region; a tilt shows as a latent effect",
+       "declare larger regions, or several on one floor"},
+  };
+}
+
+}  // namespace core::closure

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "core/closure/closure_result.h"
+#include "core/closure/effects/observation_effect.h"
+
+namespace core::closure {
+
+// All named effects of the observation level.
+[[nodiscard]] std::vector<ObservationEffect> observation_effects();
+
+// What no record of tracks can show at this level, whatever its size.
+[[nodiscard]] std::vector<NotObservable> never_observable();
+
+}  // namespace core::closure

@@ -1,0 +1,245 @@
+#include "core/closure/observation/line_search.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <utility>
+
+#include "core/linear/dense.h"
+#include "core/spectrum/real_fft.h"
+
+namespace core::closure {
+namespace {
+
+constexpr std::array<double, 4> kHalfWidth_hz{3.0, 2.0, 1.0, 0.3};
+constexpr double kFoldWidth_hz = 1.0;                     // in which the fold is told
+constexpr double kStrip_hz = 0.25;                        // of one phase, while widths are compared
+constexpr int kStretches = 8;
+constexpr double kLowest_hz = 3.5;                        // below, slow rotations are effects of their own
+constexpr std::size_t kPeaks = 2;
+constexpr double kPeakApart_hz = 1.0, kPeakWidth_hz = 0.3;
+
+using Block = Eigen::Matrix2cd;
+
+// P P^H.
+Eigen::MatrixXcd moments_of(const Eigen::MatrixXcd& p) {
+  const Eigen::MatrixXd re = p.real(), im = p.imag();
+  const Eigen::MatrixXd even = gram(re) + gram(im);
+  Eigen::MatrixXd odd = Eigen::MatrixXd::Zero(p.rows(), p.rows());
+  add_product_transposed(odd, 1.0, im, re);
+  Eigen::MatrixXcd out(p.rows(), p.rows());
+  out.real() = even, out.imag() = odd - odd.transpose();
+  return out;
+}
+
+double squares(const Block& hat, const Block& moments) {
+  const Block freedom = Block::Identity() - hat;
+  if (std::abs(freedom.determinant()) < 1e-4) return 0.0;
+  const Block m = freedom.inverse();
+  return (m * moments * m.adjoint()).trace().real();
+}
+
+// Orthonormal columns with the same span; columns that add nothing fall out.
+Eigen::MatrixXcd orthonormal(const Eigen::MatrixXcd& columns, const Eigen::VectorXd& norms) {
+  Eigen::MatrixXcd q(columns.rows(), 0);
+  for (Eigen::Index c = 0; c < columns.cols(); ++c) {
+    Eigen::VectorXcd v = columns.col(c);
+    for (int twice = 0; twice < 2; ++twice) v -= q * (q.adjoint() * v);
+    if (!(v.norm() > 1e-3 * norms(c))) continue;
+    q.conservativeResize(Eigen::NoChange, q.cols() + 1);
+    q.col(q.cols() - 1) = v.normalized();
+  }
+  return q;
+}
+
+}  // namespace
+
+LineSearch::LineSearch(const FrameModel& model, double rate_hz, double readout_frames, Eigen::MatrixXd fields,
+                       Eigen::Index n_frames)
+    : model_(model),
+      rate_hz_(rate_hz),
+      readout_frames_(readout_frames),
+      fields_(std::move(fields)),
+      n_frames_(n_frames),
+      n_fft_(next_power_of_two(static_cast<int>(n_frames))) {}
+
+Eigen::MatrixXcd LineSearch::spectrum(const Eigen::MatrixXd& residual) const {
+  RealFft fft(n_fft_);
+  std::vector<double> series(static_cast<std::size_t>(n_fft_), 0.0);
+  std::vector<std::complex<double>> bins(static_cast<std::size_t>(fft.n_bins()));
+  Eigen::MatrixXcd out(residual.rows(), fft.n_bins());
+  const double scale = std::sqrt(2.0 / n_fft_);  // one side of the spectrum holds all squares
+  for (Eigen::Index i = 0; i < residual.rows(); ++i) {
+    for (Eigen::Index k = 0; k < residual.cols(); ++k) series[static_cast<std::size_t>(k)] = residual(i, k);
+    fft.forward(series, bins);
+    for (Eigen::Index b = 0; b < out.cols(); ++b) out(i, b) = scale * bins[static_cast<std::size_t>(b)];
+  }
+  return out;
+}
+
+LineSearch::Band LineSearch::band(double centre_hz, double half_width_hz) const {
+  const double bin_hz = rate_hz_ / n_fft_;
+  const auto low = static_cast<Eigen::Index>(std::ceil(std::max(centre_hz - half_width_hz, 0.5) / bin_hz));
+  const auto high =
+      static_cast<Eigen::Index>(std::floor(std::min(centre_hz + half_width_hz, 0.5 * rate_hz_ - bin_hz) / bin_hz));
+  return {low, std::max<Eigen::Index>(high - low + 1, 0)};
+}
+
+std::vector<double> LineSearch::peaks(const Eigen::MatrixXcd& spectrum) const {
+  const Eigen::VectorXd power = spectrum.colwise().squaredNorm().transpose();
+  const double bin_hz = rate_hz_ / n_fft_;
+  std::vector<std::pair<double, double>> found;  // power, Hz
+  for (double f = kLowest_hz; f < 0.5 * rate_hz_ - kPeakWidth_hz; f += 0.25 * kPeakWidth_hz) {
+    const Band b = band(f, 0.5 * kPeakWidth_hz);
+    if (b.count > 0) found.emplace_back(power.segment(b.first, b.count).mean(), f);
+  }
+  std::sort(found.rbegin(), found.rend());
+  std::vector<double> out;
+  for (const auto& [_, f] : found) {
+    const bool apart = std::all_of(out.begin(), out.end(), [&](double o) { return std::abs(o - f) > kPeakApart_hz; });
+    if (apart) out.push_back(std::round(f / bin_hz) * bin_hz);
+    if (out.size() == kPeaks) break;
+  }
+  return out;
+}
+
+Eigen::MatrixXcd LineSearch::fields_of(double apparent_hz, int fold) const {
+  Eigen::MatrixXcd fields = fields_.cast<std::complex<double>>();
+  const double turns = (apparent_hz + fold * rate_hz_) / rate_hz_ * readout_frames_;
+  for (Eigen::Index j = 0; j < fields.rows() / 2; ++j)
+    fields.middleRows(2 * j, 2) *= std::polar(1.0, 2.0 * std::numbers::pi * turns * model_.geometry().share(j));
+  return fields;
+}
+
+Eigen::MatrixXcd LineSearch::left_of(const Eigen::MatrixXcd& fields) const {
+  Eigen::MatrixXcd w = fields;
+  w.array().colwise() *= model_.weight().array().cast<std::complex<double>>();
+  w -= (model_.q_high() * (model_.q_high().transpose() * w)).eval();
+  return w;
+}
+
+double LineSearch::gain(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& fields) const {
+  const Eigen::VectorXd norms = (fields.array().colwise() * model_.weight().array().cast<std::complex<double>>()).matrix().colwise().norm();
+  const Eigen::MatrixXcd g = orthonormal(left_of(fields), norms);
+  const Eigen::MatrixXcd sg = moments * g, gsg = g.adjoint() * sg;
+  double drop = 0.0;
+  for (Eigen::Index i = 0; i < g.rows(); i += 2) {
+    const auto q = model_.q_high().middleRows(i, 2);
+    const Block hat = (q * q.transpose()).cast<std::complex<double>>();
+    const Eigen::MatrixXcd gj = g.middleRows(i, 2), sj = sg.middleRows(i, 2);
+    const Block before = moments.block<2, 2>(i, i);
+    const Block after = before - gj * sj.adjoint() - sj * gj.adjoint() + gj * gsg * gj.adjoint();
+    drop += squares(hat, before) - squares(hat + gj * gj.adjoint(), after);
+  }
+  return drop;
+}
+
+// Strip by strip, each with the phase of its own middle.
+double LineSearch::band_gain(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const {
+  const double low = finding.apparent_hz - finding.half_width_hz;
+  double sum = 0.0;
+  for (double at = low; at < low + 2.0 * finding.half_width_hz - 1e-9; at += kStrip_hz) {
+    const Band b = band(at + 0.5 * kStrip_hz, 0.5 * kStrip_hz);
+    if (b.count < 1) continue;
+    sum += gain(moments_of(spectrum.middleCols(b.first, b.count)), fields_of(at + 0.5 * kStrip_hz, finding.fold));
+  }
+  return sum;
+}
+
+void LineSearch::try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz, LineFinding& best) const {
+  const int most = readout_frames_ == 0.0 ? 0 : kMostFolds;
+  const Band middle = band(apparent_hz, kFoldWidth_hz);
+  if (middle.count < 1) return;
+  const Eigen::MatrixXcd moments = moments_of(spectrum.middleCols(middle.first, middle.count));
+  LineFinding own;
+  own.apparent_hz = apparent_hz;
+  own.gain = own.next_gain = -1e300;
+  for (int fold = -most; fold <= most; ++fold) {
+    const double g = gain(moments, fields_of(apparent_hz, fold));
+    if (g > own.gain)
+      own.next_gain = own.gain, own.gain = g, own.fold = fold;
+    else
+      own.next_gain = std::max(own.next_gain, g);
+  }
+  const double margin = own.gain - own.next_gain;
+  if (best.apparent_hz > 0.0 && !(own.gain > 0.0)) return;
+  LineFinding trial = own;
+  own.gain = -1e300;
+  for (const double half_width_hz : kHalfWidth_hz) {
+    trial.half_width_hz = half_width_hz;
+    trial.freedom = 6.0 * static_cast<double>(band(apparent_hz, half_width_hz).count * n_frames_) / n_fft_;
+    trial.gain = band_gain(spectrum, trial);
+    if (trial.gain > own.gain) own = trial;
+  }
+  own.next_gain = own.gain - margin;
+  if (best.apparent_hz == 0.0 || own.gain > best.gain) best = own;
+}
+
+LineFinding LineSearch::find(const Eigen::MatrixXd& residual) const {
+  const Eigen::MatrixXcd bins = spectrum(residual);
+  LineFinding best;
+  for (const double peak : peaks(bins)) try_folds(bins, peak, best);
+  return best;
+}
+
+Eigen::RowVectorXcd LineSearch::analytic(const Eigen::RowVectorXcd& bins, const Band& at, Eigen::Index n) const {
+  RealFft fft(n_fft_);
+  std::vector<std::complex<double>> part(static_cast<std::size_t>(fft.n_bins()), 0.0);
+  std::vector<double> cosine(static_cast<std::size_t>(n_fft_)), sine = cosine;
+  for (Eigen::Index i = 0; i < at.count; ++i)
+    part[static_cast<std::size_t>(at.first + i)] = bins(i) / std::sqrt(2.0 / n_fft_);
+  fft.inverse(part, cosine);
+  for (std::complex<double>& bin : part) bin *= std::complex<double>(0.0, -1.0);
+  fft.inverse(part, sine);
+  Eigen::RowVectorXcd out(n);
+  for (Eigen::Index k = 0; k < n; ++k)
+    out(k) = {cosine[static_cast<std::size_t>(k)], sine[static_cast<std::size_t>(k)]};
+  return out;
+}
+
+Eigen::MatrixXd LineSearch::motion(const Eigen::MatrixXd& residual, const LineFinding& finding,
+                                   const Eigen::MatrixXd& later) const {
+  const Band b = band(finding.apparent_hz, finding.half_width_hz);
+  const Eigen::MatrixXcd bins = spectrum(residual).middleCols(b.first, b.count);
+  Eigen::MatrixXcd motion(bins.rows(), bins.cols());
+  for (Eigen::Index c = 0; c < b.count; ++c) {
+    const double bin_hz = rate_hz_ / n_fft_ * static_cast<double>(b.first + c);
+    const Eigen::MatrixXcd fields = fields_of(bin_hz, finding.fold), w = left_of(fields);
+    const Eigen::Vector3cd amplitude = (w.adjoint() * w).ldlt().solve(w.adjoint() * bins.col(c));
+    motion.col(c) = fields * amplitude;
+  }
+  const double turns = (finding.apparent_hz + finding.fold * rate_hz_) / rate_hz_ * readout_frames_;
+  Eigen::MatrixXd out(residual.rows(), residual.cols());
+  for (Eigen::Index i = 0; i < out.rows(); ++i) {
+    const Eigen::RowVectorXcd series = analytic(motion.row(i), b, out.cols());
+    for (Eigen::Index k = 0; k < out.cols(); ++k)
+      out(i, k) = (series(k) * std::polar(1.0, 2.0 * std::numbers::pi * turns * later(i / 2, k))).real();
+  }
+  return out;
+}
+
+// Phase advance of the strongest row's analytic signal, stretch by stretch.
+LineFrequency LineSearch::frequency(const Eigen::MatrixXd& motion_px, const LineFinding& finding) const {
+  Eigen::Index row = 0;
+  motion_px.rowwise().squaredNorm().maxCoeff(&row);
+  const Eigen::Index n = motion_px.cols(), length = (n - 1) / kStretches;
+  const Band b = band(finding.apparent_hz, finding.half_width_hz);
+  const Eigen::RowVectorXcd bins = spectrum(motion_px.row(row)).row(0).segment(b.first, b.count);
+  const Eigen::RowVectorXcd series = analytic(bins, b, n);
+  std::array<double, kStretches> hz{};
+  double mean = 0.0, squares = 0.0;
+  for (int s = 0; s < kStretches; ++s) {
+    std::complex<double> advance = 0.0;
+    for (Eigen::Index k = s * length; k < (s + 1) * length; ++k) advance += series(k + 1) * std::conj(series(k));
+    hz[static_cast<std::size_t>(s)] = std::arg(advance) * rate_hz_ / (2.0 * std::numbers::pi);
+    mean += hz[static_cast<std::size_t>(s)] / kStretches;
+  }
+  for (const double f : hz) squares += (f - mean) * (f - mean);
+  return {mean, std::sqrt(squares / (kStretches * (kStretches - 1.0)))};
+}
+
+}  // namespace core::closure

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/closure/observation/frame_model.h"
+
+namespace core::closure {
+
+// Rotation of the camera in a narrow band, as rotors cause it: seen row by row, its phase runs with the readout, so
+// that the true frequency among those that look alike at the frame rate can be told. For a bin at nu of the residual's
+// spectrum and the hypothesis n the pattern is (roll, pitch, yaw)_j exp(2 pi i (nu + n f_s) rho s_j / f_s).
+struct LineFinding {
+  double apparent_hz = 0.0;  // middle of the band, 0 .. f_s / 2; 0 = none was looked for
+  int fold = 0;
+  double half_width_hz = 0.0;
+  double freedom = 0.0;     // numbers that its motion takes from the noise
+  double gain = 0.0;        // drop of the held-out squares, in noise variances
+  double next_gain = 0.0;   // of the best other fold
+};
+
+// Mean frequency as seen (0 .. f_s / 2) and its standard deviation from eight stretches of the record.
+struct LineFrequency {
+  double apparent_hz = 0.0, sigma_hz = 0.0;
+};
+
+class LineSearch {
+ public:
+  static constexpr int kMostFolds = 8;
+  // fields: 2 points x 3, px per rad. The model must outlive it.
+  LineSearch(const FrameModel& model, double rate_hz, double readout_frames, Eigen::MatrixXd fields,
+             Eigen::Index n_frames);
+
+  // residual: 2 points x frames, in sigmas, as the model leaves it.
+  [[nodiscard]] LineFinding find(const Eigen::MatrixXd& residual) const;
+  // The finding's motion in px, fitted to this residual.
+  // later: points x frames, how much later in the readout a point is seen than on the average, in readouts.
+  [[nodiscard]] Eigen::MatrixXd motion(const Eigen::MatrixXd& residual, const LineFinding& finding,
+                                       const Eigen::MatrixXd& later) const;
+  [[nodiscard]] LineFrequency frequency(const Eigen::MatrixXd& motion_px, const LineFinding& finding) const;
+
+ private:
+  struct Band {
+    Eigen::Index first = 0, count = 0;
+  };
+  [[nodiscard]] Eigen::MatrixXcd spectrum(const Eigen::MatrixXd& residual) const;
+  // Inverse of one-sided bins, as a complex (analytic) series.
+  [[nodiscard]] Eigen::RowVectorXcd analytic(const Eigen::RowVectorXcd& bins, const Band& at, Eigen::Index n) const;
+  [[nodiscard]] Band band(double centre_hz, double half_width_hz) const;
+  [[nodiscard]] std::vector<double> peaks(const Eigen::MatrixXcd& spectrum) const;
+  [[nodiscard]] Eigen::MatrixXcd fields_of(double apparent_hz, int fold) const;
+  // Part of them that the model's own columns leave, whitened.
+  [[nodiscard]] Eigen::MatrixXcd left_of(const Eigen::MatrixXcd& fields) const;
+  [[nodiscard]] double gain(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& fields) const;
+  [[nodiscard]] double band_gain(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const;
+  void try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz, LineFinding& best) const;
+
+  const FrameModel& model_;
+  double rate_hz_, readout_frames_;
+  Eigen::MatrixXd fields_;
+  Eigen::Index n_frames_;
+  int n_fft_;
+};
+
+}  // namespace core::closure

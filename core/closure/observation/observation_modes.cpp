@@ -1,0 +1,106 @@
+// What is said of the regions' motion: modes, beside those known from elsewhere.
+#include <algorithm>
+#include <cmath>
+
+#include "core/closure/observation/observation_level.h"
+#include "core/identification/identifier.h"
+#include "core/identification/mac.h"
+#include "core/spectrum/welch_cpsd.h"
+
+namespace core::closure {
+namespace {
+
+constexpr double kSameMode = 0.05;  // of the reference's frequency
+
+ClosureMode told(const core::Mode& mode) {
+  ClosureMode out;
+  out.frequency_hz = mode.frequency_hz;
+  out.damping_ratio = mode.damping_ratio;
+  if (mode.frequency_std_hz) out.sigma_percent = 100.0 * *mode.frequency_std_hz / mode.frequency_hz;
+  return out;
+}
+
+ClosureMode beside(const core::Mode& reference, const std::vector<core::Mode>& found) {
+  const core::Mode* nearest = nullptr;
+  double least = kSameMode * reference.frequency_hz;
+  for (const core::Mode& mode : found) {
+    const double off = std::abs(mode.frequency_hz - reference.frequency_hz);
+    if (off < least) least = off, nearest = &mode;
+  }
+  ClosureMode out = nearest != nullptr ? told(*nearest) : ClosureMode{};
+  out.reference_hz = reference.frequency_hz;
+  if (nearest == nullptr) return out;
+  out.error_percent = 100.0 * (nearest->frequency_hz / reference.frequency_hz - 1.0);
+  if (!reference.shape.empty() && reference.shape.size() == nearest->shape.size())
+    out.mac = core::mac(reference.shape, nearest->shape);
+  return out;
+}
+
+}  // namespace
+
+ObservationLevel::Channels ObservationLevel::channels() const {
+  Channels out;
+  for (std::size_t r = 0; r < record_.regions.size(); ++r) {
+    const Region& region = record_.regions[r];
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const Eigen::Index row = model_.row_of_region(2 * r + axis);
+      if (row < 0) continue;
+      core::ChannelInfo channel;
+      channel.region = static_cast<std::uint16_t>(r);
+      channel.name = region.name + (!region.both_axes ? "" : axis == 0 ? ".u" : ".v");
+      channel.row_delay_s = readout_frames_ * model_.share_of_column(row) / record_.rate_hz;
+      channel.is_base = region.role == RegionRole::kBase;
+      out.info.push_back(std::move(channel));
+      out.rows.push_back(row);
+    }
+  }
+  return out;
+}
+
+std::vector<std::string> ObservationLevel::channel_names() const {
+  std::vector<std::string> names;
+  for (const core::ChannelInfo& channel : channels().info) names.push_back(channel.name);
+  return names;
+}
+
+const core::ModalEstimate& ObservationLevel::estimate() const {
+  if (modes_) return *modes_;
+  const Channels all = channels();
+  if (all.info.empty()) return modes_.emplace();
+  core::WelchConfig config;
+  config.n_channels = static_cast<int>(all.info.size());
+  config.segment = static_cast<int>(std::min<Eigen::Index>(1024, record_.n_frames() / 2));
+  config.rate_hz = record_.rate_hz;
+  core::WelchCpsd welch(config);
+  std::vector<double> value(all.info.size());
+  const std::vector<std::uint8_t> seen(all.info.size(), 1);
+  for (Eigen::Index k = 0; k < record_.n_frames(); ++k) {
+    for (std::size_t c = 0; c < value.size(); ++c) value[c] = model_.amplitudes()(all.rows[c], k);
+    welch.push(value, seen);
+  }
+  welch.flush();
+  return modes_.emplace(core::Identifier(core::IdentifierConfig{}, all.info).identify(welch.sums()));
+}
+
+std::vector<ClosureMode> ObservationLevel::modes() const {
+  std::vector<ClosureMode> out;
+  if (reference_.empty()) {
+    for (const core::Mode& mode : estimate().modes) out.push_back(told(mode));
+  }
+  for (const core::Mode& reference : reference_) out.push_back(beside(reference, estimate().modes));
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].number = static_cast<int>(i) + 1;
+  return out;
+}
+
+std::optional<double> ObservationLevel::reference_error() const {
+  double squares = 0.0;
+  int n = 0;
+  for (const ClosureMode& mode : modes()) {
+    if (!mode.error_percent) continue;
+    squares += *mode.error_percent * *mode.error_percent;
+    ++n;
+  }
+  return n > 0 ? std::optional<double>(std::sqrt(squares / n)) : std::nullopt;
+}
+
+}  // namespace core::closure

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "core/closure/observation/residual_view.h"
+
+namespace app {
+
+struct ResidualPair {
+  core::closure::ResidualView before, after;
+  int width_px = 0, height_px = 0;  // of the image
+  double noise_px = 0.0;            // stated, per axis
+};
+
+// Leading pattern of what the model leaves, over the image, before and after; arrows in one scale, which is stated.
+[[nodiscard]] std::string closure_field_svg(const ResidualPair& residual);
+// Its spectrum and the rms of its patterns, before and after, beside the stated noise.
+[[nodiscard]] std::string closure_residual_svg(const ResidualPair& residual);
+
+}  // namespace app

@@ -1,0 +1,151 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/QR>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "core/closure/closure_loop.h"
+#include "core/closure/observation/leave_one_out.h"
+#include "core/closure/noise_stream.h"
+#include "core/closure/observation/observation_level.h"
+#include "core/closure/observation/time_filter.h"
+
+namespace core::closure {
+namespace {
+
+constexpr double kPi = 3.14159265358979;
+
+// Three floors and a base, eight points each, that sway and hover; noise of 0.03 px.
+ObservationRecord swaying_record(Eigen::Index n_frames, double roll_rms_rad) {
+  ObservationRecord r;
+  r.rate_hz = 25.0, r.alpha_px = 2000.0, r.cx_px = 960.0, r.cy_px = 540.0, r.width_px = 1920, r.height_px = 1080;
+  const std::size_t n = 32;
+  r.u_px.resize(n_frames, static_cast<Eigen::Index>(n));
+  r.v_px = r.u_px;
+  NoiseStream noise(7);
+  for (int floor = 0; floor < 4; ++floor) {
+    Region region;
+    region.name = "floor" + std::to_string(floor);
+    region.role = floor == 0 ? RegionRole::kBase : RegionRole::kStructure;
+    r.regions.push_back(region);
+  }
+  for (std::size_t j = 0; j < n; ++j) {
+    const std::size_t floor = j / 8, i = j % 8;
+    r.region_of_point.push_back(floor);
+    r.sigma_px.push_back(0.03);
+    const double x = -150.0 + 43.0 * static_cast<double>(i);
+    const double y = 400.0 - 260.0 * static_cast<double>(floor) + 17.0 * static_cast<double>((i * 3) % 8) - 60.0;
+    for (Eigen::Index k = 0; k < n_frames; ++k) {
+      const double t = static_cast<double>(k) / r.rate_hz;
+      const double sway = 2.0 * static_cast<double>(floor) * std::sin(2.0 * kPi * 1.7 * t);
+      const double roll = roll_rms_rad * std::sqrt(2.0) * std::sin(2.0 * kPi * 0.23 * t + 1.0);
+      const double du = sway + 8.0 * std::sin(0.9 * t) + roll * y, dv = 5.0 * std::cos(0.7 * t) - roll * x;
+      r.u_px(k, static_cast<Eigen::Index>(j)) = r.cx_px + x + du + 0.03 * noise.gaussian();
+      r.v_px(k, static_cast<Eigen::Index>(j)) = r.cy_px + y + dv + 0.03 * noise.gaussian();
+    }
+  }
+  return r;
+}
+
+ClosureResult closed(const ObservationRecord& record) {
+  ObservationLevel level(record);
+  ClosureOptions options;
+  options.n_surrogates = 8;
+  return close_loop(level, options);
+}
+
+std::string fault(const ObservationRecord& record) {
+  try {
+    const ObservationLevel level(record);
+  } catch (const std::invalid_argument& e) {
+    return e.what();
+  }
+  return {};
+}
+
+TEST(LeaveOneOut, ClosedFormIsTheFitWithoutThePoint) {
+  Eigen::MatrixXd x(12, 3);
+  NoiseStream noise(3);
+  for (double& value : x.reshaped()) value = noise.gaussian();
+  Eigen::VectorXd z(12);
+  for (double& value : z) value = noise.gaussian();
+  const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(x).householderQ() * Eigen::MatrixXd::Identity(12, 3);
+  double direct = 0.0;
+  for (Eigen::Index j = 0; j < 6; ++j) {
+    Eigen::MatrixXd rest = x;
+    Eigen::VectorXd rest_z = z;
+    rest.middleRows(2 * j, 2).setZero();
+    rest_z.segment(2 * j, 2).setZero();
+    const Eigen::VectorXd a = rest.colPivHouseholderQr().solve(rest_z);
+    direct += (z.segment(2 * j, 2) - x.middleRows(2 * j, 2) * a).squaredNorm();
+  }
+  const Eigen::VectorXd r = z - q * (q.transpose() * z);
+  EXPECT_NEAR(LeaveOneOut(q).squares(r * r.transpose()), direct, 1e-9);
+}
+
+TEST(TimeFilter, DerivativeOfASineInItsBand) {
+  Eigen::MatrixXd sine(1, 400), cosine(1, 400);
+  for (Eigen::Index k = 0; k < 400; ++k) {
+    sine(0, k) = std::sin(0.3 * static_cast<double>(k));
+    cosine(0, k) = 0.3 * std::cos(0.3 * static_cast<double>(k));
+  }
+  const Eigen::MatrixXd found = filter_odd(sine, derivative_taps(0.48, 25));
+  EXPECT_LT((found - cosine).middleCols(30, 340).cwiseAbs().maxCoeff(), 2e-3 * 0.3);
+}
+
+TEST(ObservationLevel, RollIsNamedAndItsSizeFound) {
+  const double truth_deg = 0.03;
+  const ClosureResult result = closed(swaying_record(1000, truth_deg * kPi / 180.0));
+  ASSERT_EQ(result.steps.size(), 1U);
+  EXPECT_EQ(result.steps[0].effect, "camera roll");
+  ASSERT_FALSE(result.steps[0].parameters.empty());
+  EXPECT_NEAR(result.steps[0].parameters[0].value, truth_deg, 0.002);
+  EXPECT_LT(result.steps[0].heldout_after, 1.05 * result.noise_floor);
+}
+
+TEST(ObservationLevel, NothingIsNamedWithoutAnEffect) {
+  const ClosureResult result = closed(swaying_record(1000, 0.0));
+  EXPECT_TRUE(result.steps.empty()) << result.steps[0].effect;
+  EXPECT_NEAR(result.baseline_rms, result.noise_floor, 0.03 * result.noise_floor);
+}
+
+TEST(ObservationLevel, LostSamplesAreFilledByTheModel) {
+  ObservationRecord record = swaying_record(1000, 0.0);
+  for (Eigen::Index k = 0; k < 1000; ++k) record.u_px(k, k % 32) = std::numeric_limits<double>::quiet_NaN();
+  const ClosureResult result = closed(record);
+  EXPECT_TRUE(result.steps.empty());
+  EXPECT_NEAR(result.baseline_rms, result.noise_floor, 0.06 * result.noise_floor);
+}
+
+TEST(ObservationLevel, BadRecordsAreRefusedInWords) {
+  EXPECT_NE(fault({}).find("frame rate"), std::string::npos);
+  EXPECT_NE(fault(swaying_record(100, 0.0)).find("too short"), std::string::npos);
+  ObservationRecord record = swaying_record(600, 0.0);
+  record.sigma_px.assign(32, std::nan(""));
+  EXPECT_NE(fault(record).find("usable points"), std::string::npos);
+  record = swaying_record(600, 0.0);
+  record.u_px.setConstant(500.0);
+  EXPECT_NE(fault(record).find("one line"), std::string::npos);
+  record = swaying_record(600, 0.0);
+  record.region_of_point[3] = 99;
+  EXPECT_NE(fault(record).find("no declared region"), std::string::npos);
+  record = swaying_record(600, 0.0);
+  record.v_px.setConstant(std::numeric_limits<double>::infinity());
+  EXPECT_NE(fault(record).find("usable points"), std::string::npos);
+}
+
+TEST(ObservationLevel, SaysWhatOneRegionWithoutBackgroundCannotTell) {
+  ObservationRecord record = swaying_record(600, 0.0);
+  record.region_of_point.assign(32, 1);
+  const RecordCheck check = check_record(record);
+  EXPECT_TRUE(check.faults.empty());
+  ASSERT_EQ(check.warnings.size(), 2U);
+  EXPECT_NE(check.warnings[0].find("one region"), std::string::npos);
+  EXPECT_NE(check.warnings[1].find("no background"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace core::closure

@@ -1,0 +1,96 @@
+// hovermodal closeloop --record tracks.csv: what the model of the points' places leaves, traced to what it lacks.
+#include "tools/hovermodal/closeloop/closeloop_tracks.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "core/closure/closure_loop.h"
+#include "core/closure/observation/observation_level.h"
+#include "core/closure/observation/residual_view.h"
+#include "drivers/storage/json.h"
+#include "drivers/storage/text_file.h"
+#include "firmware_app/report/closure_json.h"
+#include "firmware_app/report/closure_pictures.h"
+#include "tools/hovermodal/closeloop/tracks_input.h"
+#include "tools/hovermodal/closeloop/words.h"
+
+namespace tools {
+namespace {
+
+using core::closure::ClosureResult;
+using core::closure::ObservationLevel;
+using core::closure::ResidualView;
+
+constexpr std::size_t kSurrogates = 12;  // read by a Gumbel distribution; the bars decide long before
+
+ResidualView view_of(const ObservationLevel& level) {
+  return core::closure::residual_view(level.model().residual_px(), level.mean_places_px(), level.record().rate_hz);
+}
+
+void write_pictures_of(const TracksLoop& request, const ObservationLevel& level, const ClosureResult& result,
+                       const ResidualView& before) {
+  const std::filesystem::path folder = request.report;
+  const auto write = [&](const char* name, const std::string& text) {
+    if (!text.empty()) drivers::write_file_atomically((folder / name).string(), text);
+  };
+  double squares = 0.0;
+  for (const double sigma : level.record().sigma_px) squares += sigma * sigma;
+  const app::ResidualPair pair{before, view_of(level), level.record().width_px, level.record().height_px,
+                               std::sqrt(squares / static_cast<double>(level.record().sigma_px.size()))};
+  write("closure.json", app::closure_json(result));
+  write("closure_field.svg", app::closure_field_svg(pair));
+  write("closure_residual.svg", app::closure_residual_svg(pair));
+  if (!result.reference_error_before || !result.reference_error_after) return;
+  ClosureResult modes = result;  // that picture speaks of percent of frequency
+  modes.baseline_rms = *result.reference_error_before;
+  modes.residual_rms = *result.reference_error_after;
+  write("closure_modes.svg", app::closure_modes_svg(modes));
+}
+
+}  // namespace
+
+bool is_tracks_record(const std::string& path) {
+  if (std::filesystem::is_directory(path)) return true;
+  std::ifstream file(path);
+  std::string line;
+  while (std::getline(file, line)) {
+    if (!line.starts_with('#')) return line.starts_with("frame,t_s,point,region,");
+  }
+  return false;
+}
+
+void close_tracks(const TracksLoop& request) {
+  if (request.config.empty())
+    throw std::invalid_argument("--record of tracks needs --config: the regions and the camera of that run");
+  const app::AppConfig config = app::load_config(request.config, request.overrides);
+  const TracksInput input = read_tracks_input(request.record, config);
+  ObservationLevel level(input.record);
+  level.set_reference(read_known_modes(request.reference, level.channel_names()));
+  for (const auto* list : {&input.warnings, &level.warnings()}) {
+    for (const std::string& warning : *list) fmt::print("note: {}\n", warning);
+  }
+  core::closure::ClosureOptions loop;
+  loop.n_surrogates = request.n_surrogates > 0 ? request.n_surrogates : kSurrogates;
+  loop.seed = request.seed;
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  loop.progress = [terminal](const std::string& words) {
+    if (terminal) fmt::print(stderr, "\r\033[K{}", words);
+  };
+  (void)level.fit();
+  const ResidualView before = view_of(level);
+  const ClosureResult result = core::closure::close_loop(level, loop);
+  if (terminal) fmt::print(stderr, "\r\033[K");
+  std::vector<std::string> meanings;
+  for (std::size_t i = 0; i < result.steps.size(); ++i) meanings.push_back(level.meaning(i));
+  fmt::print("{}", closure_text(result, meanings));
+  if (request.report.empty()) return;
+  write_pictures_of(request, level, result, before);
+  fmt::print("{} written\n", (std::filesystem::path(request.report) / "closure.json").string());
+}
+
+}  // namespace tools

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+namespace tools {
+
+// The observation level of closing the loop on simulated tracks of known truth. Prints tab-separated lines, with
+// comment lines (#) that name their columns. Records are those of seeds 1 to n_seeds, made on n_threads; what is
+// printed does not depend on the number of threads, but for the seconds taken.
+struct ClosureTracksOptions {
+  int n_seeds = 4;
+  int n_threads = 2;
+  double duration_s = 0.0;  // 0 = 120
+  int first_seed = 1;
+  std::string effect;     // that one only; empty = all
+  double strength = 0.0;  // that one only; 0 = all
+};
+
+void print_closure_tracks(const ClosureTracksOptions& options);          // undeclared effects: which are named
+void print_closure_tracks_null(const ClosureTracksOptions& options);    // records without an effect
+void print_closure_tracks_outside(const ClosureTracksOptions& options);  // each effect taken out of the catalogue
+
+}  // namespace tools
