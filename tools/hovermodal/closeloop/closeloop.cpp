@@ -14,6 +14,7 @@
 #include "drivers/storage/structure_file.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/closure_json.h"
+#include "tools/hovermodal/closeloop/closeloop_series.h"
 #include "tools/hovermodal/closeloop/reference.h"
 #include "tools/hovermodal/closeloop/words.h"
 #include "tools/hovermodal/commands.h"
@@ -22,9 +23,9 @@ namespace tools {
 namespace {
 
 struct Options {
-  std::string structure, reference, check, report;
-  std::uint64_t seed = 1;
-  std::size_t n_surrogates = 333;
+  std::string structure, check;
+  LoopRequest loop;
+  SeriesLoop series;
 };
 
 std::string help() {
@@ -70,23 +71,30 @@ std::string check_text(const core::closure::StructureLevel& level) {
 }
 
 void run(const Options& options) {
+  if (!options.loop.records.empty()) {
+    if (!options.structure.empty()) throw std::invalid_argument("--structure is for modes; --record is a record");
+    if (!options.loop.report.empty()) make_folder(options.loop.report);
+    return close_series(options.loop, options.series);
+  }
+  if (options.structure.empty() || options.loop.reference.empty())
+    throw std::invalid_argument("closeloop needs --structure with --reference, or --record");
   const core::structure::DeclaredFrame declared = drivers::read_structure(options.structure);
-  auto reference = read_reference(options.reference, declared);
+  auto reference = read_reference(options.loop.reference, declared);
   auto check =
       options.check.empty() ? std::vector<core::structure::ReferenceMode>{} : read_reference(options.check, declared);
   const auto make_level = [&] {
     try {
       return std::make_unique<core::closure::StructureLevel>(declared, std::move(reference), std::move(check));
     } catch (const std::invalid_argument& error) {
-      throw drivers::FileError(options.reference + (options.check.empty() ? "" : " or " + options.check) + ": " +
+      throw drivers::FileError(options.loop.reference + (options.check.empty() ? "" : " or " + options.check) + ": " +
                                error.what());
     }
   };
   const auto level = make_level();
-  if (!options.report.empty()) make_folder(options.report);
+  if (!options.loop.report.empty()) make_folder(options.loop.report);
   core::closure::ClosureOptions loop;
-  loop.n_surrogates = options.n_surrogates;
-  loop.seed = options.seed;
+  loop.n_surrogates = options.loop.n_surrogates;
+  loop.seed = options.loop.seed;
   const bool terminal = isatty(STDERR_FILENO) != 0;
   if (terminal) loop.progress = [](const std::string& words) { fmt::print(stderr, "\r\033[K{}", words); };
   const core::closure::ClosureResult result = core::closure::close_loop(*level, loop);
@@ -94,8 +102,8 @@ void run(const Options& options) {
   std::vector<std::string> meanings;
   for (std::size_t i = 0; i < result.steps.size(); ++i) meanings.push_back(level->meaning(i));
   fmt::print("{}{}", closure_text(result, meanings), check_text(*level));
-  if (options.report.empty()) return;
-  const std::filesystem::path folder = options.report;
+  if (options.loop.report.empty()) return;
+  const std::filesystem::path folder = options.loop.report;
   drivers::write_file_atomically((folder / "closure.json").string(), app::closure_json(result));
   drivers::write_file_atomically((folder / "closure_modes.svg").string(), app::closure_modes_svg(result));
   fmt::print("{} written\n", (folder / "closure.json").string());
@@ -106,20 +114,21 @@ void run(const Options& options) {
 void add_closeloop(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("closeloop", help());
-  command->add_option("--structure", options->structure, "What is known of the structure")
-      ->required()
-      ->type_name("FILE.yaml");
-  command->add_option("--reference", options->reference, "Measured modes: modal.json or modes.csv")
-      ->required()
+  command->add_option("--record", options->loop.records, "A record in place of modes: a table of samples")
+      ->type_name("FILE.csv...");
+  command->add_option("--structure", options->structure, "What is known of the structure")->type_name("FILE.yaml");
+  command->add_option("--reference", options->loop.reference, "Measured modes: modal.json or modes.csv")
       ->type_name("FILE");
   command
       ->add_option("--check", options->check, "Other measured modes, which no fit sees: the model's error against them")
       ->type_name("FILE");
-  command->add_option("--report", options->report, "Folder for closure.json and closure_modes.svg")->type_name("DIR");
-  command->add_option("--surrogates", options->n_surrogates, "Made-up records a step, to learn what chance reaches")
+  command->add_option("--report", options->loop.report, "Folder for closure.json and pictures")->type_name("DIR");
+  command
+      ->add_option("--surrogates", options->loop.n_surrogates, "Made-up records a step, to learn what chance reaches")
       ->check(CLI::Range(8, 100000))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "Of those records")->capture_default_str();
+  command->add_option("--seed", options->loop.seed, "Of those records")->capture_default_str();
+  add_series_options(*command, options->series);
   command->callback([options] { run(*options); });
 }
 
