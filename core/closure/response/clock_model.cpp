@@ -89,7 +89,7 @@ ClockModel::ClockModel(ClockReadings readings, DeclaredTime declared) : declared
     refuse("the readings go " + number(slope) +
            " s per frame: the clock stands still or runs backward; is it a countdown, or are the columns swapped?");
   const VectorXd off = from_neighbours(reading_s_ - slope * frame_);
-  const double deviation = std::max(robust_deviation(off), 1e-6);
+  const double deviation = std::max({robust_deviation(off), readings.sigma_s, 1e-6});
   std::vector<Index> good;
   for (Index i = 0; i < off.size(); ++i) {
     if (std::abs(off(i)) <= kMisread * deviation) good.push_back(i);

@@ -15,7 +15,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr int kIterations = 60, kIterationsLeftOut = 12;
+constexpr int kIterations = 60, kIterationsLeftOut = 12, kIterationsMadeUp = 8, kIterationsMadeUpLeftOut = 3;
 constexpr double kMoreThanNoise = 1.1;
 
 std::vector<const DecayEffect*> by_names(const std::vector<std::string>& names) {
@@ -43,6 +43,9 @@ std::string implausible(const FreeDecayFit& fit, const FreeDecayFit::State& stat
     if (!(hz > 0.0 && hz < 0.5 * rate_hz)) return "the frequency leaves 0 .. half the rate within the decay";
   }
   if (!kind.adds_mode()) return {};
+  const DecayRates rates = fit.further_rates(state);
+  const double rate = std::exp(rates.log_rate), w = 2.0 * std::numbers::pi * rates.frequency_hz;
+  if (rate > FreeDecayModel::kMostDamping * std::hypot(w, rate)) return "it creeps and does not swing";
   const double likeness = mac(fit.shape(state, false), fit.shape(state, true));
   return likeness <= FreeDecayModel::kTwinMac ? ""
                                               : "it has the first mode's shape (MAC " + number(likeness) +
@@ -79,8 +82,10 @@ const FreeDecayModel::State& FreeDecayModel::state_of(const std::vector<std::str
     fit.refine(best, -1, kIterations);
   } else {
     double least = std::numeric_limits<double>::infinity();
-    for (State& start : fit.starts_from(state_of({effects.begin(), effects.end() - 1}))) {
-      fit.refine(start, -1, kIterations);
+    std::vector<State> starts = fit.starts_from(state_of({effects.begin(), effects.end() - 1}));
+    if (made_up_) starts.resize(1);
+    for (State& start : starts) {
+      fit.refine(start, -1, made_up_ ? kIterationsMadeUp : kIterations);
       const double squares = fit.squares(start);
       if (squares < least) least = squares, best = std::move(start);
     }
@@ -94,7 +99,7 @@ ResponseFit FreeDecayModel::fit(const std::vector<std::string>& effects) const {
   std::vector<State> without;
   for (std::size_t r = 0; r < decays_.release.size(); ++r) {
     without.push_back(whole);
-    fit.refine(without.back(), static_cast<int>(r), kIterationsLeftOut);
+    fit.refine(without.back(), static_cast<int>(r), made_up_ ? kIterationsMadeUpLeftOut : kIterationsLeftOut);
   }
   ResponseFit out = describe(fit, whole, without);
   for (std::size_t e = 0; e < effects.size(); ++e) {
@@ -148,7 +153,12 @@ std::unique_ptr<ResponseModel> FreeDecayModel::surrogate(const std::vector<std::
                                                          std::uint64_t seed) const {
   const FreeDecayFit fit(decays_, by_names(effects));
   const State& state = state_of(effects);
-  const double scatter = this->fit(effects).residual_rms;
+  double squares = 0.0, n = 0.0;
+  for (std::size_t r = 0; r < decays_.release.size(); ++r) {
+    squares += fit.residual(state, r).squaredNorm();
+    n += static_cast<double>(decays_.release[r].size());
+  }
+  const double scatter = std::sqrt(squares / n);
   NoiseStream noise(seed);
   FreeDecays made = decays_;
   for (std::size_t r = 0; r < made.release.size(); ++r) {
@@ -158,6 +168,7 @@ std::unique_ptr<ResponseModel> FreeDecayModel::surrogate(const std::vector<std::
     }
   }
   auto out = std::make_unique<FreeDecayModel>(std::move(made));
+  out->made_up_ = true;
   out->states_.emplace(effects, state);
   return out;
 }

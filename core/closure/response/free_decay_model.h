@@ -15,8 +15,9 @@ namespace core::closure {
 // are fitted to it. Unit: the record's.
 class FreeDecayModel final : public ResponseModel {
  public:
-  static constexpr double kMaterial = 0.1;  // of the held-out squares
-  static constexpr double kTwinMac = 0.9;   // a further mode of the first one's shape is none
+  static constexpr double kMaterial = 0.1;     // of the held-out squares
+  static constexpr double kTwinMac = 0.9;      // a further mode of the first one's shape is none ...
+  static constexpr double kMostDamping = 0.3;  // ... nor is one that does not swing
 
   explicit FreeDecayModel(FreeDecays decays) : decays_(std::move(decays)) {}
 
@@ -38,7 +39,7 @@ class FreeDecayModel final : public ResponseModel {
                                      const std::vector<State>& without) const;
 
   FreeDecays decays_;
-  std::vector<Eigen::VectorXd> own_start_;
+  bool made_up_ = false;  // a surrogate: begins at the state it was made from, with few iterations
   mutable std::map<std::vector<std::string>, State> states_;
 };
 

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 using Complex = FreeDecayFit::Complex;
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
-constexpr int kFrequencies = 240, kPhases = 16;
+constexpr int kFrequencies = 120, kPhases = 16;
 
 // What a decaying sine of any amplitude and phase, per channel, and a constant leave of `data`.
 struct SineFit {
@@ -49,7 +49,7 @@ ModeStart search_mode(const std::vector<MatrixXd>& data, double sample_hz) {
   ModeStart best;
   for (int i = 1; i < kFrequencies; ++i) {
     const double hz = 0.5 * sample_hz * i / kFrequencies;
-    for (const double rate : {0.25, 0.5, 1.0, 2.0, 4.0, 8.0}) {
+    for (const double rate : {0.5, 1.5, 4.0, 8.0}) {
       double squares = 0.0;
       for (const MatrixXd& decay : data) squares += fit_sine(decay, hz, rate * sample_hz / 25.0, sample_hz).squares;
       if (squares < best.squares) best = {std::log(rate * sample_hz / 25.0), hz, squares, {}};

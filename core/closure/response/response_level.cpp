@@ -95,8 +95,8 @@ std::vector<std::string> ResponseLevel::rivals(std::size_t adopted, std::uint64_
     const ResponseFit fit = model_.fit(effects);
     const bool plausible =
         std::all_of(fit.implausible.begin(), fit.implausible.end(), [](const auto& words) { return words.empty(); });
-    if (plausible && std::isfinite(fit.heldout_rms) && difference_in_errors(fit_, fit) <= kRivalErrors)
-      out.push_back(effect);
+    const bool alike = fit.heldout_rms <= kRivalRms * fit_.heldout_rms;
+    if (plausible && alike && difference_in_errors(fit_, fit) <= kRivalErrors) out.push_back(effect);
   }
   return out;
 }

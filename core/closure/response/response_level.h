@@ -11,10 +11,12 @@ namespace core::closure {
 
 // The response level: a ResponseModel (clock readings, free decays, loggers, series of channels) in the one loop.
 // Score = drop of the held-out squares in units of the noise variance. Rival: its held-out squares exceed those of the
-// adopted model by no more than three standard errors of their difference over the left-out parts.
+// adopted model by no more than three standard errors of their difference over the left-out parts, and its held-out rms
+// is at most a quarter larger.
 class ResponseLevel final : public ClosureLevel {
  public:
   static constexpr double kRivalErrors = 3.0;
+  static constexpr double kRivalRms = 1.25;
 
   // The model must outlive the level.
   explicit ResponseLevel(const ResponseModel& model) : model_(model) {}

@@ -48,7 +48,17 @@ std::string help() {
          drivers::structure_keys_help() +
          "\nColumns of modes.csv: frequency_hz or frequency_rad_s; optional: mode (number from 1), sigma_hz, one a "
          "floor\n"
-         "(named as in `floors`) with the shape. The report holds closure.json and closure_modes.svg.";
+         "(named as in `floors`) with the shape. The report holds closure.json and closure_modes.svg.\n"
+         "\nA record in place of modes (tables as `hovermodal identify` takes them):\n"
+         "  hovermodal closeloop --record out/displacements.csv --rate 20 --clock readings.csv --report loop\n"
+         "      the frames' times against a clock that was filmed: rate, lost frames; modes before and after\n"
+         "  ... --free-decay    a structure pulled and released: does one linear mode explain every decay?\n"
+         "  hovermodal closeloop --record out/displacements.csv --base base --report loop\n"
+         "      lost, repeated and late frames, drift and softening of the frequencies\n"
+         "  hovermodal closeloop --record table.csv --quantity a --input ground --input-unknown --report loop\n"
+         "      are some of the modes peaks of the ground's motion?\n"
+         "  hovermodal closeloop --record ground.csv floor1.csv floor2.csv --quantity a --input-record ground\n"
+         "      --reference modal.json    loggers with a clock of their own";
 }
 
 void make_folder(const std::string& folder) {

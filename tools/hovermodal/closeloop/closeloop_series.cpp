@@ -2,31 +2,27 @@
 #include "tools/hovermodal/closeloop/closeloop_series.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <stdexcept>
 
 #include "core/closure/closure_loop.h"
 #include "core/closure/response/clock_model.h"
 #include "core/closure/response/free_decay_model.h"
-#include "core/closure/response/response_level.h"
 #include "drivers/storage/csv.h"
-#include "drivers/storage/json.h"
 #include "drivers/storage/text_file.h"
-#include "firmware_app/report/closure_json.h"
+#include "tools/hovermodal/closeloop/series_loop.h"
 #include "tools/hovermodal/closeloop/series_modes.h"
-#include "tools/hovermodal/closeloop/words.h"
 
 namespace tools {
 namespace {
 
 using core::closure::ClockModel;
 using core::closure::ClosureResult;
-using core::closure::ResponseLevel;
-using core::closure::ResponseModel;
+
+constexpr std::size_t kMostOfDecays = 32;  // they take long to fit
 
 class SeriesCloser {
  public:
@@ -36,30 +32,10 @@ class SeriesCloser {
   void run() {
     if (!options_.clock.empty()) close_clock();
     if (options_.free_decay) close_decays();
+    if (!options_.free_decay && options_.clock.empty()) close_channels(request_, options_, loaded_.series);
   }
 
  private:
-  [[nodiscard]] ClosureResult close(const ResponseModel& model, std::vector<std::string>* adopted = nullptr) const {
-    core::closure::ClosureOptions loop;
-    loop.n_surrogates = request_.n_surrogates;
-    loop.seed = request_.seed;
-    const bool terminal = isatty(STDERR_FILENO) != 0;
-    if (terminal) loop.progress = [](const std::string& words) { fmt::print(stderr, "\r\033[K{}", words); };
-    ResponseLevel level(model);
-    ClosureResult result = core::closure::close_loop(level, loop);
-    if (terminal) fmt::print(stderr, "\r\033[K");
-    if (adopted != nullptr) *adopted = level.adopted();
-    return result;
-  }
-
-  void show(const ClosureResult& result, const std::string& file) const {
-    fmt::print("{}", closure_text(result, {}));
-    if (request_.report.empty()) return;
-    const auto path = (std::filesystem::path(request_.report) / file).string();
-    drivers::write_file_atomically(path, app::closure_json(result));
-    fmt::print("{} written\n", path);
-  }
-
   // The clock's own loop; the record's times are then those that it tells.
   void close_clock() {
     const drivers::SeriesFile file = drivers::read_foreign_series(options_.clock);
@@ -80,15 +56,13 @@ class SeriesCloser {
     fmt::print("{} readings of the clock, {} more were misread; declared {:g} Hz\n", model.n_readings(),
                model.n_misread(), loaded_.series.rate_hz);
     std::vector<std::string> adopted;
-    ClosureResult result = close(model, &adopted);
+    ClosureResult result = close_response(request_, model, request_.n_surrogates, &adopted);
     const app::ChannelSeries declared = loaded_.series;
     apply(model, adopted);
     if (!options_.free_decay) {
-      const auto reference = read_reference_modes(request_.reference);
-      result.modes_before = modes_of_series(declared, options_.max_frequency_hz, reference);
-      result.modes_after = modes_of_series(loaded_.series, options_.max_frequency_hz, reference);
+      add_modes(result, declared, loaded_.series, options_.max_frequency_hz, request_.reference);
     }
-    show(result, options_.free_decay ? "closure_clock.json" : "closure.json");
+    show_response(request_, result, options_.free_decay ? "closure_clock.json" : "closure.json");
   }
 
   // Frames at their true times: the mean rate, and empty cells where frames were lost.
@@ -128,7 +102,7 @@ class SeriesCloser {
         core::closure::find_free_decays(values, loaded_.series.rate_hz, names, loaded_.series.unit, search));
     fmt::print("{} releases at {:.4f} Hz, {} samples or fewer each\n", model.decays().release.size(),
                model.decays().rate_hz, model.decays().release.front().rows());
-    show(close(model), "closure.json");
+    show_response(request_, close_response(request_, model, kMostOfDecays), "closure.json");
   }
 
   const LoopRequest& request_;
@@ -160,11 +134,18 @@ void add_series_options(CLI::App& command, SeriesLoop& options) {
       ->check(CLI::NonNegativeNumber);
   command.add_flag("--free-decay", options.free_decay,
                    "The record shows a structure that is pulled and released, three times or more");
+  command.add_option("--input-record", options.input_record, "Of several --record: name of the one at the base")
+      ->type_name("NAME");
+  command.add_flag("--input-unknown", options.input_unknown,
+                   "Begin as if the measured --input were white noise: is its colour an effect that the model lacks?");
   command.add_option("--decay-s", options.decay_s, "Length of a decay, at most")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
 }
 
-void close_series(const LoopRequest& request, const SeriesLoop& options) { SeriesCloser(request, options).run(); }
+void close_series(const LoopRequest& request, const SeriesLoop& options) {
+  if (request.records.size() > 1) return close_loggers(request, options);
+  SeriesCloser(request, options).run();
+}
 
 }  // namespace tools

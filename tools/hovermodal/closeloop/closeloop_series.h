@@ -13,8 +13,9 @@ namespace tools {
 struct SeriesLoop {
   SeriesRequest request;
   std::string clock;
+  std::string input_record;
   double clock_sigma_ms = 0.0;
-  bool free_decay = false;
+  bool free_decay = false, input_unknown = false;
   double decay_s = 1.3, max_frequency_hz = 0.0;
 };
 

@@ -97,6 +97,20 @@ std::vector<ClosureMode> modes_of_series(const app::ChannelSeries& series, doubl
   return out;
 }
 
+std::string identified_text(const core::closure::ClosureResult& result) {
+  std::string out;
+  for (const bool after : {false, true}) {
+    for (const ClosureMode& mode : after ? result.modes_after : result.modes_before) {
+      out += fmt::format("mode {} {:.4f} Hz", after ? "after " : "before", mode.frequency_hz);
+      if (mode.damping_ratio) out += fmt::format(", damping {:.2f} %", 100.0 * *mode.damping_ratio);
+      if (mode.error_percent) out += fmt::format(", {:+.2f} % off its reference", *mode.error_percent);
+      if (mode.mac) out += fmt::format(", MAC {:.4f}", *mode.mac);
+      out += "\n";
+    }
+  }
+  return out;
+}
+
 double rms_error_percent(const std::vector<ClosureMode>& modes) {
   double squares = 0.0, n = 0.0;
   for (const ClosureMode& mode : modes) {

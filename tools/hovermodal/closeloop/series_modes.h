@@ -25,6 +25,9 @@ struct KnownMode {
                                                                       double max_frequency_hz,
                                                                       const std::vector<KnownMode>& reference);
 
+// The identified modes before and after, where a result has such beside its own, for a terminal.
+[[nodiscard]] std::string identified_text(const core::closure::ClosureResult& result);
+
 // rms of the errors of frequency of the modes that have a reference, percent; NaN without any.
 [[nodiscard]] double rms_error_percent(const std::vector<core::closure::ClosureMode>& modes);
 

@@ -1,5 +1,6 @@
 #include <stdexcept>
 
+#include "core/closure/response/effects/channel_effect.h"
 #include "core/closure/response/effects/clock_effect.h"
 #include "core/closure/response/effects/decay_effect.h"
 
@@ -38,6 +39,22 @@ const std::vector<std::unique_ptr<DecayEffect>>& decay_effects() {
   }();
   return kAll;
 }
+
+const std::vector<std::unique_ptr<ChannelEffect>>& channel_effects() {
+  static const std::vector<std::unique_ptr<ChannelEffect>> kAll = [] {
+    std::vector<std::unique_ptr<ChannelEffect>> all;
+    all.push_back(make_duplicated_frames());
+    all.push_back(make_dropped_frames());
+    all.push_back(make_time_stamp_jitter());
+    all.push_back(make_frequency_drift());
+    all.push_back(make_softening());
+    all.push_back(make_input_colour());
+    return all;
+  }();
+  return kAll;
+}
+
+const ChannelEffect& channel_effect(const std::string& name) { return by_name(channel_effects(), name); }
 
 const DecayEffect& decay_effect(const std::string& name) { return by_name(decay_effects(), name); }
 
