@@ -69,6 +69,8 @@ const std::vector<Effect> kEffects{
     {"brightness_bias", {"tracks.brightness_bias_px"}, {at<&S::tracks, &T::brightness_bias_px>}},
     {"harmonic", {"excitation.harmonics"}, {}, kHarmonics},
     {"base_colour", {"excitation.base_peaks"}, {}, kBaseColour},
+    {"frequency_drift", {"change.frequency_drift"}, {at<&S::change, &ChangeParameters::frequency_drift>}},
+    {"softening", {"change.softening"}, {at<&S::change, &ChangeParameters::softening>}},
     {"sensor_noise", {"camera.noise_sigma"}, {at<&S::camera, &C::noise_sigma>}},
     {"track_noise", {"tracks.noise_px"}, {at<&S::tracks, &T::noise_px>}},
     {"track_loss", {"tracks.loss_probability"}, {at<&S::tracks, &T::loss_probability>}},

@@ -56,6 +56,12 @@ struct ExcitationParameters {
   std::vector<Harmonic> harmonics;
 };
 
+// A structure that does not stay what it is (changing_stiffness.h).
+struct ChangeParameters {
+  double frequency_drift = 0.0;  // of all frequencies over the clip, relative, about their mean
+  double softening = 0.0;        // share of stiffness lost at an amplitude of sqrt(2) times the last body's rms
+};
+
 // Texture: cubic B-spline with independent Gaussian coefficients on a grid of this pitch.
 struct TextureParameters {
   double pitch_mm = 2.62;                    // content up to about 0.55 / pitch
@@ -134,6 +140,7 @@ struct Scene {
   CameraParameters camera;
   StructureModel structure;
   ExcitationParameters excitation;
+  ChangeParameters change;
   std::vector<Plate> plates;  // by body: plates[0] stands on the ground
   BackgroundParameters background;
   HoverParameters hover;

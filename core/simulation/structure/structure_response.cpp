@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/simulation/random_stream.h"
+#include "core/simulation/structure/changing_stiffness.h"
 #include "core/simulation/structure/modal_form.h"
 
 namespace core::simulation {
@@ -78,13 +79,16 @@ class Transfer {
         influence_(form_.shapes.transpose() * model.influence) {}
 
   [[nodiscard]] Eigen::VectorXcd modes_at(double w, const Input& input, std::size_t k) const {
+    return modal_response(form_, w, load_at(input, k));
+  }
+  [[nodiscard]] Eigen::VectorXcd load_at(const Input& input, std::size_t k) const {
     Eigen::VectorXcd load = Eigen::VectorXcd::Zero(influence_.size());
     if (!input.acceleration.empty()) load -= input.acceleration[k] * influence_;
-    for (std::size_t i = 0; i < input.force.size(); ++i) {
+    for (std::size_t i = 0; i < input.force.size(); ++i)
       load += input.force[i][k] * displacement_.row(static_cast<Eigen::Index>(i)).transpose();
-    }
-    return modal_response(form_, w, load);
+    return load;
   }
+  [[nodiscard]] const ModalForm& form() const noexcept { return form_; }
   [[nodiscard]] const Eigen::MatrixXd& displacement() const noexcept { return displacement_; }  // bodies x modes
   [[nodiscard]] const Eigen::MatrixXd& tilt() const noexcept { return tilt_; }
 
@@ -138,19 +142,58 @@ void bring_to_level(Input& input, const ExcitationParameters& excitation, const 
   for (Spectrum& force : input.force) multiply(force, factor);
 }
 
+// Relative displacement (or tilt) of every body where the stiffness changes, under the same input.
+Eigen::MatrixXd integrated(const Transfer& transfer, const Input& input, const Bins& bins, std::size_t n_grid,
+                           double roof_rms_mm, double duration_s, double rate_hz, const ChangeParameters& change) {
+  const auto n_modes = static_cast<std::size_t>(transfer.form().w.size());
+  std::vector<Spectrum> force(n_modes, Spectrum(bins.end)), place = force, speed = force;
+  for (std::size_t k = bins.first; k < bins.end; ++k) {
+    const Eigen::VectorXcd load = transfer.load_at(input, k), z = transfer.modes_at(bins.w(k), input, k);
+    for (std::size_t r = 0; r < n_modes; ++r) {
+      const auto i = static_cast<Eigen::Index>(r);
+      force[r][k] = load(i), place[r][k] = z(i), speed[r][k] = Complex(0.0, bins.w(k)) * z(i);
+    }
+  }
+  ChangingInput changing;
+  changing.form = &transfer.form();
+  changing.position.resize(static_cast<Eigen::Index>(n_modes));
+  changing.velocity.resize(static_cast<Eigen::Index>(n_modes));
+  for (std::size_t r = 0; r < n_modes; ++r) {
+    const auto i = static_cast<Eigen::Index>(r);
+    changing.force.emplace_back(force[r], bins.period_s, n_grid);
+    changing.position(i) = PeriodicSignal(place[r], bins.period_s, n_grid).at(0.0);
+    changing.velocity(i) = PeriodicSignal(speed[r], bins.period_s, n_grid).at(0.0);
+  }
+  changing.roof = transfer.displacement().row(transfer.displacement().rows() - 1);
+  changing.roof_rms_mm = roof_rms_mm;
+  changing.duration_s = duration_s;
+  changing.rate_hz = rate_hz;
+  return integrate_changing(changing, change);
+}
+
+std::vector<UniformSpline> splines(const Eigen::MatrixXd& modes, const Eigen::MatrixXd& per_mode, double rate_hz) {
+  std::vector<UniformSpline> out;
+  for (Eigen::Index body = 0; body < per_mode.rows(); ++body) {
+    const Eigen::VectorXd samples = modes * per_mode.row(body).transpose();
+    out.emplace_back(std::vector<double>(samples.begin(), samples.end()), rate_hz);
+  }
+  return out;
+}
+
 }  // namespace
 
 StructureResponse::StructureResponse(const Scene& scene, double grid_rate_hz)
-    : StructureResponse(scene.structure, scene.excitation, scene.seed, scene.duration_s, grid_rate_hz) {}
+    : StructureResponse(scene.structure, scene.excitation, scene.seed, scene.duration_s, grid_rate_hz, scene.change) {}
 
 StructureResponse::StructureResponse(const StructureModel& model, const ExcitationParameters& excitation,
-                                     std::uint64_t seed, double duration_s, double grid_rate_hz)
+                                     std::uint64_t seed, double duration_s, double grid_rate_hz,
+                                     const ChangeParameters& change)
     : duration_s_(duration_s),
       tilts_(model.tilt.cwiseAbs().maxCoeff() > 0.0),
       displacement_(static_cast<std::size_t>(model.n_bodies()) + 1),
       tilt_(displacement_.size()) {
   if (excitation.rms_mm > 0.0 && (excitation.base > 0.0 || excitation.forces > 0.0)) {
-    add_broadband(model, excitation, seed, grid_rate_hz);
+    add_broadband(model, excitation, seed, grid_rate_hz, change);
   }
   for (std::size_t i = 0; i < excitation.harmonics.size(); ++i) {
     RandomStream phase(seed, "harmonic_phase", i);
@@ -159,7 +202,7 @@ StructureResponse::StructureResponse(const StructureModel& model, const Excitati
 }
 
 void StructureResponse::add_broadband(const StructureModel& model, const ExcitationParameters& excitation,
-                                      std::uint64_t seed, double grid_rate_hz) {
+                                      std::uint64_t seed, double grid_rate_hz, const ChangeParameters& change) {
   const double period_s = record_period_s(model, excitation, duration_s_);
   const std::size_t n_grid = grid_size(period_s, std::max(grid_rate_hz, 10.0 * excitation.band_high_hz));
   const Bins bins{period_s, static_cast<std::size_t>(std::ceil(excitation.band_low_hz * period_s)),
@@ -188,6 +231,13 @@ void StructureResponse::add_broadband(const StructureModel& model, const Excitat
   Spectrum& roof = absolute.back();
   for (std::size_t k = bins.first; k < bins.end; ++k) roof[k] -= absolute[0][k];
   roof_relative_rms_ = PeriodicSignal(roof, period_s, n_grid).rms(0.0, duration_s_);
+  if (change.frequency_drift != 0.0 || change.softening != 0.0) {
+    const double rate_hz = std::max(grid_rate_hz, 10.0 * excitation.band_high_hz);
+    const Eigen::MatrixXd modes =
+        integrated(transfer, input, bins, n_grid, roof_relative_rms_, duration_s_, rate_hz, change);
+    changed_ = splines(modes, transfer.displacement(), rate_hz);
+    if (tilts_) changed_tilt_ = splines(modes, transfer.tilt(), rate_hz);
+  }
   if (input.acceleration.empty()) return;
   base_acceleration_rms_ = PeriodicSignal(input.acceleration, period_s, n_grid).rms(0.0, duration_s_);
 }
@@ -214,7 +264,8 @@ void StructureResponse::add_line(const StructureModel& model, const ExcitationPa
 
 double StructureResponse::displacement_mm(int body, double t_s) const noexcept {
   const auto i = static_cast<std::size_t>(body);
-  double value = displacement_[i].at(t_s);
+  double value =
+      changed_.empty() || body == 0 ? displacement_[i].at(t_s) : displacement_[0].at(t_s) + changed_[i - 1].at(t_s);
   for (const Line& line : lines_) value += (line.displacement[i] * std::polar(1.0, line.w * t_s)).real();
   return value;
 }
@@ -222,7 +273,7 @@ double StructureResponse::displacement_mm(int body, double t_s) const noexcept {
 double StructureResponse::tilt_rad(int body, double t_s) const noexcept {
   if (!tilts_) return 0.0;
   const auto i = static_cast<std::size_t>(body);
-  double value = tilt_[i].at(t_s);
+  double value = changed_tilt_.empty() || body == 0 ? tilt_[i].at(t_s) : changed_tilt_[i - 1].at(t_s);
   for (const Line& line : lines_) value += (line.tilt[i] * std::polar(1.0, line.w * t_s)).real();
   return value;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/simulation/camera/uniform_spline.h"
 #include "core/simulation/scene.h"
 #include "core/simulation/structure/periodic_signal.h"
 
@@ -18,13 +19,14 @@ namespace core::simulation {
 // and figures at a stated amplitude would not be at it. The bins make the record periodic; its correlation is the true
 // one plus copies shifted by multiples of the period. The period exceeds the duration by at least 12 time constants of
 // the slowest mode, so within the clip the modal part of those copies stays below exp(-12), and lags up to the duration
-// are never repeated.
+// are never repeated. Where the stiffness changes (changing_stiffness.h) the motion is integrated, under the same
+// input.
 class StructureResponse {
  public:
   // grid_rate_hz: of the interpolation grid; 200 keeps the interpolation error below 1e-5 of the roof's rms.
   explicit StructureResponse(const Scene& scene, double grid_rate_hz = 200.0);
   StructureResponse(const StructureModel& model, const ExcitationParameters& excitation, std::uint64_t seed,
-                    double duration_s, double grid_rate_hz = 200.0);
+                    double duration_s, double grid_rate_hz = 200.0, const ChangeParameters& change = {});
 
   [[nodiscard]] int n_bodies() const noexcept { return static_cast<int>(displacement_.size()); }  // with the ground
   // Body 0 is the ground. True absolute displacement along the structure's axis, and tilt (rad), at any time.
@@ -41,13 +43,14 @@ class StructureResponse {
     std::vector<std::complex<double>> displacement, tilt;
   };
   void add_broadband(const StructureModel& model, const ExcitationParameters& excitation, std::uint64_t seed,
-                     double grid_rate_hz);
+                     double grid_rate_hz, const ChangeParameters& change);
   void add_line(const StructureModel& model, const ExcitationParameters::Harmonic& harmonic, double phase_rad);
 
   double duration_s_;
   bool tilts_;
   double base_acceleration_rms_ = 0.0, roof_relative_rms_ = 0.0;
   std::vector<PeriodicSignal> displacement_, tilt_;
+  std::vector<UniformSpline> changed_, changed_tilt_;  // per body to the ground, in place of those; empty = none
   std::vector<Line> lines_;
 };
 

@@ -10,6 +10,7 @@ using core::simulation::Scene;
 using H = core::simulation::HoverParameters;
 using R = core::simulation::RotorParameters;
 using Ti = core::simulation::TimingParameters;
+using Ch = core::simulation::ChangeParameters;
 using L = core::simulation::LightParameters;
 using T = core::simulation::TrackParameters;
 using Ch = core::simulation::ChannelParameters;
@@ -93,6 +94,14 @@ void add_timing_keys(std::vector<SceneKey>& keys) {
                               "a frame shows the picture before it"));
 }
 
+void add_change_keys(std::vector<SceneKey>& keys) {
+  constexpr auto s = &Scene::change;
+  keys.push_back(scene_number("change.frequency_drift", "", of<s, &Ch::frequency_drift>, {-0.5, 0.5},
+                              "of all frequencies over the clip, relative"));
+  keys.push_back(scene_number("change.softening", "", of<s, &Ch::softening>, {-0.1, 0.1},
+                              "share of stiffness lost at an amplitude of 1.41 times the last body's rms"));
+}
+
 void add_light_keys(std::vector<SceneKey>& keys) {
   constexpr auto s = &Scene::light;
   keys.push_back(scene_number("light.gain_rms", "", of<s, &L::gain_rms>, {0.0, 0.3},
@@ -143,6 +152,7 @@ void add_motion_keys(std::vector<SceneKey>& keys) {
 
 void add_record_keys(std::vector<SceneKey>& keys) {
   add_timing_keys(keys);
+  add_change_keys(keys);
   add_light_keys(keys);
   add_measurement_keys(keys);
   add_declare_keys(keys);

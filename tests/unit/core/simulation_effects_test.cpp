@@ -27,6 +27,7 @@ Scene troubled_scene() {
   scene.tracks.loss_probability = scene.channels.loss_probability = 0.01;
   scene.excitation.base_peaks.push_back({6.0, 0.05, 2.0});
   scene.excitation.harmonics.push_back({2, 3.3, 0.5});
+  scene.change.frequency_drift = scene.change.softening = 0.02;
   return scene;
 }
 

@@ -14,6 +14,7 @@
 #include "drivers/storage/structure_file.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/closure_json.h"
+#include "tools/hovermodal/closeloop/closeloop_series.h"
 #include "tools/hovermodal/closeloop/closeloop_tracks.h"
 #include "tools/hovermodal/closeloop/reference.h"
 #include "tools/hovermodal/closeloop/words.h"
@@ -23,9 +24,9 @@ namespace tools {
 namespace {
 
 struct Options {
-  std::string structure, reference, check, report;
-  std::uint64_t seed = 1;
-  std::size_t n_surrogates = 333;
+  std::string structure, check;
+  LoopRequest loop;
+  SeriesLoop series;
   TracksLoop tracks;
 };
 
@@ -45,14 +46,26 @@ std::string help() {
          "true;\n"
          "then all is fitted again, until nothing helps. Effects that would do as well are named beside it: then the\n"
          "data do not tell which is the cause.\n"
-         "\nWith --record the points' tracks themselves are modelled instead: motion of each region and of the camera; what\n"
-         "that leaves is traced to rotation, lens, readout time, the tracker, rotors, or told as a pattern of its own:\n"
+         "\nWith --record the points' tracks themselves are modelled instead: motion of each region and of the camera; "
+         "what\n"
+         "that leaves is traced to rotation, lens, readout time, the tracker, rotors, or told as a pattern of its "
+         "own:\n"
          "  hovermodal closeloop --record out --config flight.yaml --report loop\n"
          "\nKeys of frame.yaml, under `structure:`\n" +
          drivers::structure_keys_help() +
          "\nColumns of modes.csv: frequency_hz or frequency_rad_s; optional: mode (number from 1), sigma_hz, one a "
          "floor\n"
-         "(named as in `floors`) with the shape. The report holds closure.json and closure_modes.svg.";
+         "(named as in `floors`) with the shape. The report holds closure.json and closure_modes.svg.\n"
+         "\nA record in place of modes (tables as `hovermodal identify` takes them):\n"
+         "  hovermodal closeloop --record out/displacements.csv --rate 20 --clock readings.csv --report loop\n"
+         "      the frames' times against a clock that was filmed: rate, lost frames; modes before and after\n"
+         "  ... --free-decay    a structure pulled and released: does one linear mode explain every decay?\n"
+         "  hovermodal closeloop --record out/displacements.csv --base base --report loop\n"
+         "      lost, repeated and late frames, drift and softening of the frequencies\n"
+         "  hovermodal closeloop --record table.csv --quantity a --input ground --input-unknown --report loop\n"
+         "      are some of the modes peaks of the ground's motion?\n"
+         "  hovermodal closeloop --record ground.csv floor1.csv floor2.csv --quantity a --input-record ground\n"
+         "      --reference modal.json    loggers with a clock of their own";
 }
 
 void make_folder(const std::string& folder) {
@@ -74,37 +87,38 @@ std::string check_text(const core::closure::StructureLevel& level) {
   return out;
 }
 
-void run_tracks(const Options& options) {
+void run_record(const Options& options) {
+  const LoopRequest& loop = options.loop;
   if (!options.structure.empty()) throw std::invalid_argument("--structure is for modes; --record is a record");
-  if (!is_tracks_record(options.tracks.record))
-    throw std::invalid_argument("--record " + options.tracks.record + ": neither a folder of a run nor a tracks.csv");
-  if (!options.report.empty()) make_folder(options.report);
+  if (!loop.report.empty()) make_folder(loop.report);
+  if (loop.records.size() > 1 || !is_tracks_record(loop.records.front())) return close_series(loop, options.series);
   TracksLoop request = options.tracks;
-  request.reference = options.reference, request.report = options.report, request.seed = options.seed;
+  request.record = loop.records.front();
+  request.reference = loop.reference, request.report = loop.report, request.seed = loop.seed;
   close_tracks(request);
 }
 
 void run(const Options& options) {
-  if (!options.tracks.record.empty()) return run_tracks(options);
-  if (options.structure.empty() || options.reference.empty())
+  if (!options.loop.records.empty()) return run_record(options);
+  if (options.structure.empty() || options.loop.reference.empty())
     throw std::invalid_argument("closeloop needs --structure with --reference, or --record");
   const core::structure::DeclaredFrame declared = drivers::read_structure(options.structure);
-  auto reference = read_reference(options.reference, declared);
+  auto reference = read_reference(options.loop.reference, declared);
   auto check =
       options.check.empty() ? std::vector<core::structure::ReferenceMode>{} : read_reference(options.check, declared);
   const auto make_level = [&] {
     try {
       return std::make_unique<core::closure::StructureLevel>(declared, std::move(reference), std::move(check));
     } catch (const std::invalid_argument& error) {
-      throw drivers::FileError(options.reference + (options.check.empty() ? "" : " or " + options.check) + ": " +
+      throw drivers::FileError(options.loop.reference + (options.check.empty() ? "" : " or " + options.check) + ": " +
                                error.what());
     }
   };
   const auto level = make_level();
-  if (!options.report.empty()) make_folder(options.report);
+  if (!options.loop.report.empty()) make_folder(options.loop.report);
   core::closure::ClosureOptions loop;
-  loop.n_surrogates = options.n_surrogates;
-  loop.seed = options.seed;
+  loop.n_surrogates = options.loop.n_surrogates;
+  loop.seed = options.loop.seed;
   const bool terminal = isatty(STDERR_FILENO) != 0;
   if (terminal) loop.progress = [](const std::string& words) { fmt::print(stderr, "\r\033[K{}", words); };
   const core::closure::ClosureResult result = core::closure::close_loop(*level, loop);
@@ -112,8 +126,8 @@ void run(const Options& options) {
   std::vector<std::string> meanings;
   for (std::size_t i = 0; i < result.steps.size(); ++i) meanings.push_back(level->meaning(i));
   fmt::print("{}{}", closure_text(result, meanings), check_text(*level));
-  if (options.report.empty()) return;
-  const std::filesystem::path folder = options.report;
+  if (options.loop.report.empty()) return;
+  const std::filesystem::path folder = options.loop.report;
   drivers::write_file_atomically((folder / "closure.json").string(), app::closure_json(result));
   drivers::write_file_atomically((folder / "closure_modes.svg").string(), app::closure_modes_svg(result));
   fmt::print("{} written\n", (folder / "closure.json").string());
@@ -124,24 +138,27 @@ void run(const Options& options) {
 void add_closeloop(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("closeloop", help());
-  command->add_option("--record", options->tracks.record, "A record in place of modes: tracks.csv, or a run's folder")
-      ->type_name("DIR|FILE");
-  command->add_option("--config", options->tracks.config, "Of --record: configuration of that run")->type_name("FILE");
-  command->add_option("--set", options->tracks.overrides, "Of --record: override one key of it")
+  command
+      ->add_option("--record", options->loop.records,
+                   "A record in place of modes: a run's folder or tracks.csv, or tables of samples")
+      ->type_name("DIR|FILE.csv...");
+  command->add_option("--config", options->tracks.config, "Of tracks: configuration of that run")->type_name("FILE");
+  command->add_option("--set", options->tracks.overrides, "Of tracks: override one key of it")
       ->type_name("section.key=value")
       ->take_all();
-  command->add_option("--structure", options->structure, "What is known of the structure")
-      ->type_name("FILE.yaml");
-  command->add_option("--reference", options->reference, "Measured modes: modal.json or modes.csv")
+  command->add_option("--structure", options->structure, "What is known of the structure")->type_name("FILE.yaml");
+  command->add_option("--reference", options->loop.reference, "Measured modes: modal.json or modes.csv")
       ->type_name("FILE");
   command
       ->add_option("--check", options->check, "Other measured modes, which no fit sees: the model's error against them")
       ->type_name("FILE");
-  command->add_option("--report", options->report, "Folder for closure.json and closure_modes.svg")->type_name("DIR");
-  command->add_option("--surrogates", options->n_surrogates, "Made-up records a step, to learn what chance reaches")
+  command->add_option("--report", options->loop.report, "Folder for closure.json and pictures")->type_name("DIR");
+  command
+      ->add_option("--surrogates", options->loop.n_surrogates, "Made-up records a step, to learn what chance reaches")
       ->check(CLI::Range(8, 100000))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "Of those records")->capture_default_str();
+  command->add_option("--seed", options->loop.seed, "Of those records")->capture_default_str();
+  add_series_options(*command, options->series);
   command->callback([options] { run(*options); });
 }
 

@@ -22,4 +22,7 @@ void print_readout(const IdentificationOptions& options);    // readout time fro
 void print_closure(const IdentificationOptions& options);    // closing the loop on structures that lack one effect
 void print_closure_null(const IdentificationOptions& options);  // and on one that lacks none
 
+void print_closure_series(const IdentificationOptions& options);  // and on series of channels, with and without effects
+void print_closure_series_null(const IdentificationOptions& options);
+
 }  // namespace tools

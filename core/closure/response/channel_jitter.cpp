@@ -1,0 +1,142 @@
+#include "core/closure/response/channel_jitter.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace core::closure {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::RowVectorXd;
+using Eigen::VectorXd;
+
+// Central differences of sixth order; the samples ahead are predicted.
+constexpr double kTap[3] = {3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0};
+constexpr Index kAhead = 3;
+constexpr int kGrid = 33;
+constexpr double kLeast_s = 1e-4, kMostOfStep = 0.25, kLeastLeft = 0.05;
+
+class Velocities {
+ public:
+  Velocities(const ChannelRecord& scaled, const ChannelPredictor& predictor) : scaled_(scaled), predictor_(predictor) {}
+
+  // Of the innovation's error per second, whitened; empty where it cannot be told.
+  [[nodiscard]] VectorXd at(Index k) const {
+    const Index p = predictor_.order;
+    if (k < std::max(p, kAhead) || k + kAhead >= scaled_.n_samples()) return {};
+    for (Index i = -kAhead; i <= kAhead && predictor_.n_inputs > 0; ++i) {
+      if (!scaled_.input.row(k + i).allFinite()) return {};
+    }
+    MatrixXd history(p, predictor_.n_channels), input(p + 1, predictor_.n_inputs);
+    for (Index i = 0; i < p; ++i) history.row(i) = scaled_.value.row(k - 1 - i);
+    RowVectorXd velocity = RowVectorXd::Zero(predictor_.n_channels);
+    for (Index step = 0; step <= kAhead; ++step) {
+      for (Index i = 0; i <= p && predictor_.n_inputs > 0; ++i) {
+        if (k + step < i) return {};
+        input.row(i) = scaled_.input.row(k + step - i);
+      }
+      const RowVectorXd next = predict(predictor_, history, input).transpose();
+      if (step > 0) velocity += kTap[step - 1] * (next - scaled_.value.row(k - step));
+      for (Index i = p - 1; i > 0; --i) history.row(i) = history.row(i - 1).eval();
+      history.row(0) = next;
+    }
+    if (predictor_.n_inputs > 0) {
+      RowVectorXd input_velocity = RowVectorXd::Zero(predictor_.n_inputs);
+      for (Index step = 1; step <= kAhead; ++step)
+        input_velocity += kTap[step - 1] * (scaled_.input.row(k + step) - scaled_.input.row(k - step));
+      const Index first = 1 + predictor_.order * predictor_.n_channels;
+      velocity -= input_velocity * predictor_.whole.middleRows(first, predictor_.n_inputs);
+    }
+    if (!velocity.allFinite()) return {};
+    return scaled_.rate_hz * (predictor_.whitener * velocity.transpose());
+  }
+
+ private:
+  const ChannelRecord& scaled_;
+  const ChannelPredictor& predictor_;
+};
+
+struct Rows {
+  std::vector<Index> sample;
+  std::vector<VectorXd> velocity;
+};
+
+// -2 ln likelihood of each row at one sigma; infinite where the mean covariance cannot hold so much.
+VectorXd squares_at(double sigma_s, const Rows& rows, const MatrixXd& whitened, const MatrixXd& mean_outer) {
+  const Index n = whitened.cols();
+  const double variance = sigma_s * sigma_s;
+  const MatrixXd left = MatrixXd::Identity(n, n) - variance * mean_outer;
+  VectorXd out = VectorXd::Constant(static_cast<Index>(rows.sample.size()), std::numeric_limits<double>::infinity());
+  if (Eigen::SelfAdjointEigenSolver<MatrixXd>(left, Eigen::EigenvaluesOnly).eigenvalues()(0) < kLeastLeft) return out;
+  const Eigen::LLT<MatrixXd> factor(left);
+  const MatrixXd lower = factor.matrixL();
+  const double log_det = 2.0 * lower.diagonal().array().log().sum();
+  for (std::size_t i = 0; i < rows.sample.size(); ++i) {
+    const VectorXd e = factor.matrixL().solve(whitened.row(rows.sample[i]).transpose());
+    const VectorXd v = factor.matrixL().solve(rows.velocity[i]);
+    const double along = v.dot(e), size = 1.0 + variance * v.squaredNorm();
+    out(static_cast<Index>(i)) = e.squaredNorm() - variance * along * along / size + std::log(size) + log_det;
+  }
+  return out;
+}
+
+}  // namespace
+
+JitterFit fit_jitter(const ChannelRecord& scaled, const ChannelPredictor& predictor, const MatrixXd& whitened) {
+  JitterFit out;
+  out.squares = whitened.rowwise().squaredNorm();
+  const Velocities velocities(scaled, predictor);
+  Rows rows;
+  MatrixXd mean_outer = MatrixXd::Zero(whitened.cols(), whitened.cols());
+  double n_plain = 0.0;
+  for (Index k = 0; k < whitened.rows(); ++k) {
+    if (predictor.usable[static_cast<std::size_t>(k)] == 0) continue;
+    VectorXd velocity = velocities.at(k);
+    if (velocity.size() == 0) continue;
+    if (predictor.plain[static_cast<std::size_t>(k)] != 0)
+      mean_outer += velocity * velocity.transpose(), n_plain += 1.0;
+    rows.sample.push_back(k);
+    rows.velocity.push_back(std::move(velocity));
+  }
+  if (n_plain < 100.0) return out;
+  mean_outer /= n_plain;
+  constexpr Index kParts = ChannelPredictor::kParts;
+  const double ratio = std::pow(kMostOfStep / scaled.rate_hz / kLeast_s, 1.0 / (kGrid - 1));
+  VectorXd best = VectorXd::Zero(kParts + 1);  // drop of the sum without each part, and of all
+  std::vector<double> sigma(static_cast<std::size_t>(kParts) + 1, 0.0);
+  VectorXd plain_squares(static_cast<Index>(rows.sample.size()));
+  for (std::size_t i = 0; i < rows.sample.size(); ++i)
+    plain_squares(static_cast<Index>(i)) = out.squares(rows.sample[i]);
+  std::vector<VectorXd> at_best(static_cast<std::size_t>(kParts) + 1, plain_squares);
+  double candidate = kLeast_s;
+  for (int g = 0; g < kGrid; ++g, candidate *= ratio) {
+    const VectorXd squares = squares_at(candidate, rows, whitened, mean_outer);
+    if (!std::isfinite(squares(0))) break;
+    VectorXd gain = VectorXd::Zero(kParts + 1);
+    for (std::size_t i = 0; i < rows.sample.size(); ++i) {
+      if (predictor.plain[static_cast<std::size_t>(rows.sample[i])] == 0) continue;
+      const double drop = plain_squares(static_cast<Index>(i)) - squares(static_cast<Index>(i));
+      gain(kParts) += drop;
+      gain(predictor.part_of(rows.sample[i])) -= drop;
+    }
+    for (Index part = 0; part <= kParts; ++part) {
+      const double total = part < kParts ? gain(kParts) + gain(part) : gain(kParts);
+      if (total <= best(part)) continue;
+      best(part) = total;
+      sigma[static_cast<std::size_t>(part)] = candidate;
+      at_best[static_cast<std::size_t>(part)] = squares;
+    }
+  }
+  out.sigma_s = sigma.back();
+  for (std::size_t i = 0; i < rows.sample.size(); ++i) {
+    const auto part = static_cast<std::size_t>(predictor.part_of(rows.sample[i]));
+    out.squares(rows.sample[i]) = at_best[part](static_cast<Index>(i));
+  }
+  return out;
+}
+
+}  // namespace core::closure

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/closure/response/channel_predictor.h"
+
+namespace core::closure {
+
+// Sample times that scatter by sigma: the innovation's covariance is C + sigma^2 v v^T, v = velocity predicted from the
+// samples before (the sample itself holds the error). C is what is left of the mean covariance once the jitter's mean
+// share is taken out. Everything in whitened coordinates.
+struct JitterFit {
+  double sigma_s = 0.0;
+  Eigen::VectorXd squares;  // per sample, held out: -2 ln likelihood; as |whitened|^2 where sigma = 0
+};
+
+// `whitened`: samples x channels, the innovations times the whitener.
+[[nodiscard]] JitterFit fit_jitter(const ChannelRecord& scaled, const ChannelPredictor& predictor,
+                                   const Eigen::MatrixXd& whitened);
+
+}  // namespace core::closure

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/closure/response/channel_predictor.h"
+#include "core/closure/response/effects/channel_effect.h"
+#include "core/closure/response/response_model.h"
+
+namespace core::closure {
+
+enum class InputUse : std::uint8_t {
+  kKnown,    // the measured base is part of the model from the start
+  kUnknown,  // the model takes its input for white; the measured one is an effect that may be adopted
+};
+
+// A series of channels against a linear structure under white forces: the predictor of channel_predictor.h. Squares are
+// those of the whitened innovations; a sample that an effect takes out counts as if it were noise. Held out: ten
+// contiguous parts. Unit: the innovations' own deviation.
+class ChannelModel final : public ResponseModel {
+ public:
+  static constexpr Eigen::Index kOrder = 6;
+  static constexpr double kInputMaterial = 0.05;  // of the held-out squares
+
+  // Throws std::invalid_argument: no rate, one channel or none that moves, fewer than 60 samples per regressor.
+  explicit ChannelModel(ChannelRecord record, InputUse use = InputUse::kKnown);
+
+  [[nodiscard]] std::string unit() const override { return "innovation sd"; }
+  [[nodiscard]] std::vector<std::string> effects() const override;
+  [[nodiscard]] std::vector<NotObservable> not_observable() const override;
+  [[nodiscard]] double material_share(const std::string& effect) const override;
+  [[nodiscard]] ResponseFit fit(const std::vector<std::string>& effects) const override;
+  [[nodiscard]] std::unique_ptr<ResponseModel> surrogate(const std::vector<std::string>& effects,
+                                                         std::uint64_t seed) const override;
+
+  // The record with the adopted effects' lost samples put in as gaps, and repeated ones taken out.
+  [[nodiscard]] ChannelRecord corrected(const std::vector<std::string>& effects) const;
+
+ private:
+  // The record as the effects that change its samples leave it, and its predictor: shared by many sets of effects.
+  struct Prepared {
+    ChannelRecord record, scaled;
+    ChannelPredictor predictor;
+    std::vector<std::size_t> n_places;  // per effect that corrects
+    Eigen::MatrixXd derivative;         // frequency_derivative
+    double log_det = 0.0;               // of the whitener
+  };
+  using Key = std::vector<std::string>;
+  [[nodiscard]] Key key_of(const std::vector<std::string>& effects) const;
+  [[nodiscard]] const Prepared& prepared(const Key& key) const;
+  [[nodiscard]] double predictable_share_of_input() const;
+
+  // The innovations once a course of frequencies is taken out; its coefficient, of all parts and without each.
+  struct CourseFit {
+    double coefficient = 0.0;
+    std::vector<double> without;
+    Eigen::MatrixXd innovation;
+  };
+  [[nodiscard]] static CourseFit fit_course(const Prepared& prepared, const Eigen::VectorXd& course,
+                                            const Eigen::MatrixXd& innovation);
+
+  ChannelRecord record_;
+  InputUse use_;
+  mutable std::map<Key, std::unique_ptr<Prepared>> prepared_;
+};
+
+}  // namespace core::closure

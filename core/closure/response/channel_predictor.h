@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace core::closure {
+
+// Channels on a uniform grid, for the predictor.
+struct ChannelRecord {
+  double rate_hz = 0.0;
+  Eigen::MatrixXd value;  // samples x channels; a row with NaN is missing
+  Eigen::MatrixXd input;  // samples x inputs (measured base); may have no columns
+  [[nodiscard]] Eigen::Index n_samples() const noexcept { return value.rows(); }
+};
+
+// Linear prediction of every sample from the `order` samples before it and the measured input up to its own time: what
+// a linear structure under white forces obeys (a vector autoregression with input, Ljung, System Identification, 4.2).
+// Innovations are held out: each of ten contiguous parts is predicted by a fit to the other nine. Rows whose innovation
+// is far out (more than 6 deviations of chi-square) take no part in the fits, but all are judged.
+struct ChannelPredictor {
+  static constexpr Eigen::Index kParts = 10;
+
+  Eigen::Index order = 0, n_channels = 0, n_inputs = 0;
+  Eigen::MatrixXd whole;            // regressors x channels, of all parts
+  Eigen::MatrixXd innovation;       // samples x channels, held out
+  std::vector<char> usable;         // per sample: it and all that predicts it was seen
+  std::vector<char> plain;          // ... and its innovation is not far out
+  Eigen::MatrixXd whitener;         // L^-1 of the innovations' covariance S = L L^T, of the plain rows
+  Eigen::VectorXd mean, deviation;  // of the channels, taken out before
+  bool ok = false;
+
+  [[nodiscard]] Eigen::Index part_of(Eigen::Index sample) const noexcept {
+    return std::min(sample * kParts / std::max<Eigen::Index>(innovation.rows(), 1), kParts - 1);
+  }
+  // Coefficients of lag 1 .. order, channels x channels: x[k] = sum A_i x[k - i] + ...
+  [[nodiscard]] Eigen::MatrixXd lag(Eigen::Index i) const;
+};
+
+// `scaled`: filled with the record as the predictor sees it (about the mean, per deviation; inputs alike).
+[[nodiscard]] ChannelPredictor fit_predictor(const ChannelRecord& record, Eigen::Index order, ChannelRecord& scaled);
+
+// One step ahead from `history` (row 0 the newest) and the inputs of the step and before (row 0 of the step).
+[[nodiscard]] Eigen::VectorXd predict(const ChannelPredictor& predictor, const Eigen::MatrixXd& history,
+                                      const Eigen::MatrixXd& input);
+
+// By how much the prediction changes where all frequencies of lightly damped poles below 0.36 of the rate grow by the
+// same small share: derivative of the lags' coefficients, channels x (order * channels), newest lag first. Poles above
+// may be folded, whose apparent frequency would fall. Empty where there is no such pole.
+[[nodiscard]] Eigen::MatrixXd frequency_derivative(const ChannelPredictor& predictor, double rate_hz);
+
+}  // namespace core::closure

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/closure/closure_result.h"
+#include "core/closure/response/channel_predictor.h"
+
+namespace core::closure {
+
+// What an effect may look at: the record, and what a linear predictor makes of it.
+struct ChannelContext {
+  const ChannelRecord& record;
+  const ChannelRecord& scaled;
+  const ChannelPredictor& predictor;
+};
+
+// What a series of channels may show beside a linear structure that is fed white noise. An effect is one of: another
+// set of sample times (corrected), a course along which all frequencies change (course), uncertain sample times
+// (jitters), a measured input that is not white (adds_input).
+class ChannelEffect {
+ public:
+  struct Corrected {
+    ChannelRecord record;
+    std::size_t n_places = 0;  // samples that were changed
+  };
+
+  ChannelEffect() = default;
+  ChannelEffect(const ChannelEffect&) = delete;
+  ChannelEffect& operator=(const ChannelEffect&) = delete;
+  virtual ~ChannelEffect() = default;
+
+  [[nodiscard]] virtual std::string name() const = 0;
+
+  [[nodiscard]] virtual bool corrects() const { return false; }
+  [[nodiscard]] virtual Corrected corrected(const ChannelContext& context) const { return {context.record, 0}; }
+
+  [[nodiscard]] virtual bool has_course() const { return false; }
+  [[nodiscard]] virtual Eigen::VectorXd course(const ChannelContext& /*context*/) const { return {}; }
+
+  [[nodiscard]] virtual bool jitters() const { return false; }
+  [[nodiscard]] virtual bool adds_input() const { return false; }
+
+  // Of its number: places per record, relative change of frequency per unit of the course, s of jitter.
+  [[nodiscard]] virtual ParameterValue describe(double value) const = 0;
+  [[nodiscard]] virtual std::string immaterial(double /*value*/) const { return {}; }
+};
+
+[[nodiscard]] std::unique_ptr<ChannelEffect> make_duplicated_frames();
+[[nodiscard]] std::unique_ptr<ChannelEffect> make_dropped_frames();
+[[nodiscard]] std::unique_ptr<ChannelEffect> make_time_stamp_jitter();
+[[nodiscard]] std::unique_ptr<ChannelEffect> make_frequency_drift();
+[[nodiscard]] std::unique_ptr<ChannelEffect> make_softening();
+[[nodiscard]] std::unique_ptr<ChannelEffect> make_input_colour();
+
+// All of them, one line each.
+[[nodiscard]] const std::vector<std::unique_ptr<ChannelEffect>>& channel_effects();
+// Throws std::invalid_argument.
+[[nodiscard]] const ChannelEffect& channel_effect(const std::string& name);
+
+}  // namespace core::closure

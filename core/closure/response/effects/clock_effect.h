@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/closure/closure_result.h"
+
+namespace core::closure {
+
+// What a filmed clock may show beside a constant offset: columns that add to the predicted readings, in s.
+class ClockEffect {
+ public:
+  ClockEffect() = default;
+  ClockEffect(const ClockEffect&) = delete;
+  ClockEffect& operator=(const ClockEffect&) = delete;
+  virtual ~ClockEffect() = default;
+
+  [[nodiscard]] virtual std::string name() const = 0;
+  // What is not linear, found from the residuals (s) of the model so far at the readings that may be seen; may be
+  // empty.
+  [[nodiscard]] virtual Eigen::VectorXd place(const Eigen::VectorXd& /*frame*/, const Eigen::VectorXd& /*residual_s*/,
+                                              const std::vector<char>& /*seen*/) const {
+    return {};
+  }
+  // One column per linear parameter at any frames; `last` = the record's last frame.
+  [[nodiscard]] virtual Eigen::MatrixXd columns(const Eigen::VectorXd& frame, double last,
+                                                const Eigen::VectorXd& place) const = 0;
+  // Names, units, values: of these coefficients, at this declared rate.
+  [[nodiscard]] virtual std::vector<ParameterValue> parameters(const Eigen::VectorXd& coefficients,
+                                                               const Eigen::VectorXd& place, double rate_hz,
+                                                               double last) const = 0;
+  [[nodiscard]] virtual std::string implausible(const Eigen::VectorXd& /*coefficients*/, double /*rate_hz*/) const {
+    return {};
+  }
+};
+
+[[nodiscard]] std::unique_ptr<ClockEffect> make_clock_rate();
+[[nodiscard]] std::unique_ptr<ClockEffect> make_clock_rate_drift();
+[[nodiscard]] std::unique_ptr<ClockEffect> make_clock_lost_frames();
+
+// All of them, one line each.
+[[nodiscard]] const std::vector<std::unique_ptr<ClockEffect>>& clock_effects();
+// Throws std::invalid_argument.
+[[nodiscard]] const ClockEffect& clock_effect(const std::string& name);
+
+}  // namespace core::closure

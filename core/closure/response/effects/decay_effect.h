@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/closure/closure_result.h"
+
+namespace core::closure {
+
+// Of one mode at one amplitude.
+struct DecayRates {
+  double log_rate = 0.0;      // ln of the decay rate, 1/s
+  double frequency_hz = 0.0;  // damped
+};
+
+// What a free decay may show beside one linear mode.
+class DecayEffect {
+ public:
+  DecayEffect() = default;
+  DecayEffect(const DecayEffect&) = delete;
+  DecayEffect& operator=(const DecayEffect&) = delete;
+  virtual ~DecayEffect() = default;
+
+  [[nodiscard]] virtual std::string name() const = 0;
+  // Those that change the mode's rates with x = ln(amplitude / reference amplitude).
+  [[nodiscard]] virtual std::size_t n_parameters() const { return 0; }
+  [[nodiscard]] virtual double start() const { return 0.0; }  // of the first parameter, tried with both signs
+  virtual void apply(const double* /*parameters*/, double /*x*/, DecayRates& /*rates*/) const {}
+  [[nodiscard]] virtual std::vector<ParameterValue> describe(const double* /*parameters*/) const { return {}; }
+  // Others change the model's form.
+  [[nodiscard]] virtual bool adds_mode() const { return false; }
+  [[nodiscard]] virtual bool rest_drifts() const { return false; }
+};
+
+[[nodiscard]] std::unique_ptr<DecayEffect> make_amplitude_frequency();
+[[nodiscard]] std::unique_ptr<DecayEffect> make_amplitude_damping();
+[[nodiscard]] std::unique_ptr<DecayEffect> make_further_mode();
+[[nodiscard]] std::unique_ptr<DecayEffect> make_rest_drift();
+
+// All of them, one line each.
+[[nodiscard]] const std::vector<std::unique_ptr<DecayEffect>>& decay_effects();
+// Throws std::invalid_argument.
+[[nodiscard]] const DecayEffect& decay_effect(const std::string& name);
+
+}  // namespace core::closure

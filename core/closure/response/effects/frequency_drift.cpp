@@ -1,0 +1,31 @@
+#include <cmath>
+
+#include "core/closure/response/effects/channel_effect.h"
+#include "core/closure/structure_words.h"
+
+namespace core::closure {
+namespace {
+
+constexpr double kMaterial = 0.012;  // records without drift show up to so much
+
+// All frequencies change steadily by the same share over the record.
+class FrequencyDrift final : public ChannelEffect {
+ public:
+  [[nodiscard]] std::string name() const override { return "frequency_drift"; }
+  [[nodiscard]] bool has_course() const override { return true; }
+  [[nodiscard]] Eigen::VectorXd course(const ChannelContext& context) const override {
+    return Eigen::VectorXd::LinSpaced(context.record.n_samples(), -0.5, 0.5);
+  }
+  [[nodiscard]] ParameterValue describe(double value) const override {
+    return {"change_over_record", "%", 100.0 * value, {}};
+  }
+  [[nodiscard]] std::string immaterial(double value) const override {
+    return std::abs(value) >= kMaterial ? "" : "records without drift show as much: " + number(100.0 * value) + " %";
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<ChannelEffect> make_frequency_drift() { return std::make_unique<FrequencyDrift>(); }
+
+}  // namespace core::closure

@@ -1,0 +1,18 @@
+#include "core/closure/response/effects/decay_effect.h"
+
+namespace core::closure {
+namespace {
+
+// A second linear mode with a shape of its own. With the first one's shape it is none: so an amplitude-dependent mode
+// looks to a linear model.
+class FurtherMode final : public DecayEffect {
+ public:
+  [[nodiscard]] std::string name() const override { return "further_mode"; }
+  [[nodiscard]] bool adds_mode() const override { return true; }
+};
+
+}  // namespace
+
+std::unique_ptr<DecayEffect> make_further_mode() { return std::make_unique<FurtherMode>(); }
+
+}  // namespace core::closure

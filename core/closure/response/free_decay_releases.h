@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace core::closure {
+
+// Free decays cut out of a record: after each release samples x channels, in the record's unit.
+struct FreeDecays {
+  double rate_hz = 0.0;
+  std::vector<std::string> channels;
+  std::string unit;
+  std::vector<Eigen::MatrixXd> release;
+  std::vector<std::size_t> start;  // of each, sample of the record
+  double noise_rms = 0.0;          // of a sample, from the quietest part of the record; 0 = unknown
+};
+
+struct ReleaseSearch {
+  double length_s = 1.3;  // of a decay, at most
+  double sudden = 0.2;    // a release begins with a step so large, of the record's largest ...
+  double quiet = 0.1;     // ... after five steps smaller than this
+};
+
+// A structure that is pulled, released and left to itself: a decay begins where a sudden step has taken the largest
+// channel across its place of rest, and lasts length_s, or until the next release, or until a sample is missing.
+// `value`: per channel, NaN = missing. Throws std::invalid_argument: fewer than three releases of 12 samples or more,
+// ragged channels, no rate.
+[[nodiscard]] FreeDecays find_free_decays(const std::vector<std::vector<double>>& value, double rate_hz,
+                                          const std::vector<std::string>& channels, const std::string& unit,
+                                          const ReleaseSearch& search = {});
+
+}  // namespace core::closure

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "core/closure/closure_result.h"
+
+namespace core::closure {
+
+// Standard deviations from estimates that each lack one part of the record (the delete-one jackknife, Quenouille 1956):
+// it minds neither coloured residuals nor how the estimate was found. `without[k]` as `whole`, in the same order.
+inline void add_jackknife_sigmas(std::vector<ParameterValue>& whole,
+                                 const std::vector<std::vector<ParameterValue>>& without) {
+  const auto n = static_cast<double>(without.size());
+  if (without.size() < 2) return;
+  for (std::size_t p = 0; p < whole.size(); ++p) {
+    double mean = 0.0, squares = 0.0;
+    for (const auto& one : without) mean += one[p].value / n;
+    for (const auto& one : without) squares += (one[p].value - mean) * (one[p].value - mean);
+    const double sigma = std::sqrt(squares * (n - 1.0) / n);
+    if (std::isfinite(sigma)) whole[p].sigma = sigma;
+  }
+}
+
+}  // namespace core::closure

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/closure/response/response_model.h"
+
+namespace core::closure {
+
+// Records of loggers on one structure, each with a clock of its own: the same rate, started together, so it is said.
+struct LoggerRecords {
+  double rate_hz = 0.0;
+  std::vector<std::string> name;
+  std::vector<std::vector<double>> value;        // per logger; lengths may differ; NaN is taken as 0 (the mean)
+  double band_low_hz = 0.5, band_high_hz = 0.0;  // 0 = 0.2 of the rate
+  double rigid_below_hz = 0.0;                   // well below the first mode, where all move as one; 0 = not known
+};
+
+// Proportionally damped structures answer in phase or against each other: the phase of a cross-spectrum between two
+// loggers, doubled, is 0 at every frequency, whatever the modes. What a clock's offset tau leaves is 2 pi f tau.
+// Residual: that phase, folded to +-90 degrees, over all bins of the parts of the record in which both loggers move,
+// the first logger against each other. Held out: one part in time at a time. Unit: degrees (52 = any phase).
+class LoggerModel final : public ResponseModel {
+ public:
+  static constexpr double kMaterial = 0.1;
+  static constexpr std::size_t kParts = 5;
+
+  // Throws std::invalid_argument: fewer than two loggers, no rate, records shorter than 5 s or 256 samples.
+  explicit LoggerModel(const LoggerRecords& records);
+
+  [[nodiscard]] std::string unit() const override { return "deg"; }
+  [[nodiscard]] std::vector<std::string> effects() const override;
+  [[nodiscard]] std::vector<NotObservable> not_observable() const override;
+  [[nodiscard]] double material_share(const std::string& /*effect*/) const override { return kMaterial; }
+  [[nodiscard]] ResponseFit fit(const std::vector<std::string>& effects) const override;
+  [[nodiscard]] std::unique_ptr<ResponseModel> surrogate(const std::vector<std::string>& effects,
+                                                         std::uint64_t seed) const override;
+
+  // Mounted the other way round than the first one.
+  [[nodiscard]] std::vector<bool> inverted(const std::vector<std::string>& effects) const;
+
+  // By how much each logger's samples are later than the first one's of the same number; 0 without the effect.
+  [[nodiscard]] std::vector<double> offsets_s(const std::vector<std::string>& effects) const;
+
+ private:
+  LoggerModel(const LoggerModel& other, std::vector<std::vector<Eigen::VectorXd>> phase);
+
+  // Of one logger against the first, without these parts.
+  struct Line {
+    double offset_s = 0.0, rate_error = 0.0;
+    bool inverted = false;
+  };
+  [[nodiscard]] Line find(std::size_t logger, const std::vector<std::string>& effects, int without) const;
+  [[nodiscard]] double offset_of(std::size_t logger, const Eigen::VectorXcd& sum, double around_s) const;
+  [[nodiscard]] Eigen::VectorXd residual(std::size_t logger, std::size_t part, const Line& line) const;  // rad, folded
+
+  [[nodiscard]] bool inverted(std::size_t logger, const Line& line, int without) const;
+
+  double rate_hz_ = 0.0, rigid_below_hz_ = 0.0;
+  std::vector<std::string> name_;
+  std::vector<double> coarse_s_;                              // per logger
+  Eigen::VectorXd frequency_hz_;                              // of the bins
+  std::vector<double> part_time_s_;                           // middle of each part, from the record's middle
+  std::vector<std::vector<Eigen::VectorXd>> phase_, weight_;  // logger, part: per bin, rad (of the samples' numbers)
+};
+
+}  // namespace core::closure

@@ -1,0 +1,52 @@
+#include "tools/hovermodal/closeloop/series_loop.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/closure/closure_loop.h"
+#include "core/closure/response/response_level.h"
+#include "drivers/storage/json.h"
+#include "firmware_app/report/closure_json.h"
+#include "tools/hovermodal/closeloop/series_modes.h"
+#include "tools/hovermodal/closeloop/words.h"
+
+namespace tools {
+
+using core::closure::ClosureResult;
+using core::closure::ResponseLevel;
+using core::closure::ResponseModel;
+
+ClosureResult close_response(const LoopRequest& request, const ResponseModel& model, std::size_t most_surrogates,
+                             std::vector<std::string>* adopted) {
+  core::closure::ClosureOptions loop;
+  loop.n_surrogates = std::min(request.n_surrogates, most_surrogates);
+  loop.seed = request.seed;
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  if (terminal) loop.progress = [](const std::string& words) { fmt::print(stderr, "\r\033[K{}", words); };
+  ResponseLevel level(model);
+  ClosureResult result = core::closure::close_loop(level, loop);
+  if (terminal) fmt::print(stderr, "\r\033[K");
+  if (adopted != nullptr) *adopted = level.adopted();
+  return result;
+}
+
+void show_response(const LoopRequest& request, const ClosureResult& result, const std::string& file) {
+  fmt::print("{}{}", closure_text(result, {}), identified_text(result));
+  if (request.report.empty()) return;
+  const auto path = (std::filesystem::path(request.report) / file).string();
+  drivers::write_file_atomically(path, app::closure_json(result));
+  fmt::print("{} written\n", path);
+}
+
+// Both sets of modes beside the reference; its error before and after where there is one.
+void add_modes(ClosureResult& result, const app::ChannelSeries& before, const app::ChannelSeries& after,
+               double max_frequency_hz, const std::string& reference_path) {
+  const auto reference = read_reference_modes(reference_path);
+  result.modes_before = modes_of_series(before, max_frequency_hz, reference);
+  result.modes_after = modes_of_series(after, max_frequency_hz, reference);
+}
+
+}  // namespace tools

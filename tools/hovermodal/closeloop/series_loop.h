@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/closure/closure_result.h"
+#include "core/closure/response/response_model.h"
+#include "tools/hovermodal/closeloop/closeloop_series.h"
+
+namespace tools {
+
+// The loop on a response model, at most so many surrogates a step; progress on a terminal.
+[[nodiscard]] core::closure::ClosureResult close_response(const LoopRequest& request,
+                                                          const core::closure::ResponseModel& model,
+                                                          std::size_t most_surrogates,
+                                                          std::vector<std::string>* adopted = nullptr);
+// On the terminal, and as a file of the report where one is wanted.
+void show_response(const LoopRequest& request, const core::closure::ClosureResult& result, const std::string& file);
+
+// The modes of both series beside the reference.
+void add_modes(core::closure::ClosureResult& result, const app::ChannelSeries& before, const app::ChannelSeries& after,
+               double max_frequency_hz, const std::string& reference_path);
+
+// One file a logger.
+void close_loggers(const LoopRequest& request, const SeriesLoop& options);
+// Ambient response or a measured input.
+void close_channels(const LoopRequest& request, const SeriesLoop& options, const app::ChannelSeries& series);
+
+}  // namespace tools
