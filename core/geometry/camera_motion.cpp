@@ -56,7 +56,7 @@ CameraMotion::CameraMotion(const CameraMotionConfig& config, const std::vector<K
   learns_tilt_ = !rests;
   if (rests) tilt_variance_ = 1.0;  // free: what rests tells roll from bending
   const double d = config.distance_mm, face = config.perspective ? kFace_rad : 0.0;
-  const double turn = config.perspective && rests ? 1.0 : 0.0;
+  const double turn = config.perspective && (rests || config.turns_measured) ? 1.0 : 0.0;
   base_ << turn, turn, 1.0, d, d, d, face, face;
   log_variance_ = {2.0 * std::log(kTurn_rad), 2.0 * std::log(kShift)};
   set_sd();
@@ -163,7 +163,10 @@ void CameraMotion::iterate(const MotionObservation& seen) noexcept {
   for (int pass = 0; pass < kIterations; ++pass) {
     equations_.build(linear, points_, regions_, seen, pass > 0);
     const MotionVector ahead = (linear - before_.mean()).head<n>();
-    if (!process_.step(equations_.information(), equations_.gradient() + equations_.information() * ahead, step)) {
+    MotionMatrix information = equations_.information();
+    MotionVector gradient = equations_.gradient();
+    add_turn(linear, information, gradient);
+    if (!process_.step(information, gradient + information * ahead, step)) {
       ++n_failed_;
       process_ = before_;
       return;
@@ -172,6 +175,14 @@ void CameraMotion::iterate(const MotionObservation& seen) noexcept {
     linear = before_.mean() + step;
   }
   process_.accept(step);
+}
+
+void CameraMotion::add_turn(const MotionStateVector& linear, MotionMatrix& information,
+                            MotionVector& gradient) const noexcept {
+  if (!turn_ || !config_.perspective) return;
+  const double weight = 1.0 / (turn_->sigma_rad * turn_->sigma_rad);
+  information.diagonal().segment<3>(kPitch).array() += weight;
+  gradient.segment<3>(kPitch) += weight * (turn_->turn_rad - linear.segment<3>(kPitch));
 }
 
 void CameraMotion::correct(const MotionObservation& seen) noexcept {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,13 @@ struct CameraMotionConfig {
   double distance_mm = 1000.0;  // to the structure: size of what a translation may be
   double readout_s = 0.0;       // signed
   bool perspective = true;      // false: focal length unknown: roll, zoom and common shift only
+  bool turns_measured = false;  // measure_turn() tells turns where nothing rests
+};
+
+// The turn w against the keyframe from elsewhere (attitude_prior.h); the same standard deviation about each axis.
+struct TurnMeasurement {
+  Eigen::Vector3d turn_rad = Eigen::Vector3d::Zero();
+  double sigma_rad = 1.0;
 };
 
 // Motion of the camera against the keyframe on the full projection. For a point with ray r and inverse depth q:
@@ -63,6 +71,9 @@ class CameraMotion {
 
   // To the frame whose row 0 is read at t_s. Time that runs back counts as standing still.
   void predict(double t_s) noexcept;
+  // What correct() takes for the camera's turn beside the points; empty (as at first): nothing.
+  void measure_turn(const std::optional<TurnMeasurement>& turn) noexcept { turn_ = turn; }
+  [[nodiscard]] bool sees_turns() const noexcept { return !learns_tilt_; }  // something rests
   // Works from the last prediction; may be called again with another choice of points.
   void correct(const MotionObservation& seen) noexcept;
   // The frame is done: learn from it.
@@ -94,6 +105,7 @@ class CameraMotion {
   void set_sd() noexcept;
   void learn() noexcept;
   void iterate(const MotionObservation& seen) noexcept;
+  void add_turn(const MotionStateVector& linear, MotionMatrix& information, MotionVector& gradient) const noexcept;
   [[nodiscard]] bool surprised() noexcept;
   void find_open() noexcept;
 
@@ -111,6 +123,7 @@ class CameraMotion {
   std::array<bool, kMotionSize> open_{};
   std::uint64_t n_failed_ = 0;
   MotionEquations equations_;
+  std::optional<TurnMeasurement> turn_;
 };
 
 }  // namespace core

@@ -69,8 +69,9 @@ bool tells_camera_motion(const std::vector<Region>& regions, const CameraModel& 
 
 CameraMotion make_camera_motion(const std::vector<Region>& regions, const CameraModel& camera,
                                 const ReadoutModel& readout, double scale_mm_per_px, const TrackFrame& keyframe,
-                                const std::optional<PlanePose>& plane) {
+                                const std::optional<PlanePose>& plane, bool turns_measured) {
   CameraMotionConfig config;
+  config.turns_measured = turns_measured;
   config.perspective = camera.calibrated();
   const double narrow_px = kNarrowView * std::max(readout.width_px, readout.height_px);
   config.fx = config.perspective ? camera.fx : narrow_px;

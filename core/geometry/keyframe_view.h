@@ -22,6 +22,7 @@ namespace core {
 [[nodiscard]] CameraMotion make_camera_motion(const std::vector<Region>& regions, const CameraModel& camera,
                                               const ReadoutModel& readout, double scale_mm_per_px,
                                               const TrackFrame& keyframe,
-                                              const std::optional<PlanePose>& plane = std::nullopt);
+                                              const std::optional<PlanePose>& plane = std::nullopt,
+                                              bool turns_measured = false);
 
 }  // namespace core
