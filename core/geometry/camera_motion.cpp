@@ -46,6 +46,8 @@ CameraMotion::CameraMotion(const CameraMotionConfig& config, const std::vector<K
   }
   place_middles(points);
   add_own_columns(points);
+  rests_ = std::any_of(regions.begin(), regions.end(),
+                       [](const KeyframeRegion& region) { return region.kind != KeyframeRegion::Kind::kMoving; });
   const double d = config.distance_mm;
   base_ << 1.0, 1.0, 1.0, d, d, d, kFace_rad, kFace_rad;
   log_variance_ = {2.0 * std::log(kTurn_rad), 2.0 * std::log(kShift)};
@@ -86,7 +88,10 @@ void CameraMotion::iterate(const MotionObservation& seen) noexcept {
   for (int pass = 0; pass < kIterations; ++pass) {
     equations_.build(linear, points_, regions_, seen, pass > 0);
     const MotionVector ahead = (linear - before_.mean()).head<n>();
-    if (!process_.step(equations_.information(), equations_.gradient() + equations_.information() * ahead, step)) {
+    information_ = equations_.information();
+    MotionVector gradient = equations_.gradient();
+    add_turn(linear, gradient);
+    if (!process_.step(information_, gradient + information_ * ahead, step)) {
       ++n_failed_;
       process_ = before_;
       taken_ = process_.mean();
@@ -97,6 +102,13 @@ void CameraMotion::iterate(const MotionObservation& seen) noexcept {
   }
   process_.accept(step);
   taken_ = process_.mean();
+}
+
+void CameraMotion::add_turn(const MotionStateVector& linear, MotionVector& gradient) noexcept {
+  if (!turn_) return;
+  const double weight = 1.0 / (turn_->sigma_rad * turn_->sigma_rad);
+  information_.diagonal().segment<3>(kPitch).array() += weight;
+  gradient.segment<3>(kPitch) += weight * (turn_->turn_rad - linear.segment<3>(kPitch));
 }
 
 void CameraMotion::correct(const MotionObservation& seen) noexcept {
@@ -174,7 +186,7 @@ void CameraMotion::give_up(int component) noexcept {
 // moved along it to where the shift is zero, and fits the frame as before.
 void CameraMotion::leave_out_poorly_told() noexcept {
   const auto scale = sd_.asDiagonal();
-  MotionMatrix scaled = scale * equations_.information() * scale;
+  MotionMatrix scaled = scale * information_ * scale;
   scaled.diagonal().array() += 1.0;
   MotionMatrix frame = scale * scaled.llt().solve(MotionMatrix(scale));
   for (int round = 0; round < 2; ++round) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,12 @@ struct CameraMotionConfig {
   double fx = 0.0, fy = 0.0;    // px
   double distance_mm = 1000.0;  // to the structure: size of what a translation may be
   double readout_s = 0.0;       // signed
+};
+
+// The turn w against the keyframe from elsewhere (attitude_prior.h); the same standard deviation about each axis.
+struct TurnMeasurement {
+  Eigen::Vector3d turn_rad = Eigen::Vector3d::Zero();
+  double sigma_rad = 1.0;
 };
 
 // Motion of the camera against the keyframe on the full projection. For a point with ray r and inverse depth q:
@@ -56,12 +63,15 @@ struct CameraMotionConfig {
 // finite are counted and left at the prediction.
 class CameraMotion {
  public:
-  // t_keyframe_s: when row 0 of the keyframe was read, any origin. At least one region rests.
+  // t_keyframe_s: when row 0 of the keyframe was read, any origin. At least one region rests, or turns are measured.
   CameraMotion(const CameraMotionConfig& config, const std::vector<KeyframePoint>& points,
                const std::vector<KeyframeRegion>& regions, double t_keyframe_s);
 
   // To the frame whose row 0 is read at t_s. Time that runs back counts as standing still.
   void predict(double t_s) noexcept;
+  // What correct() takes for the camera's turn beside the points; empty (as at first): nothing.
+  void measure_turn(const std::optional<TurnMeasurement>& turn) noexcept { turn_ = turn; }
+  [[nodiscard]] bool sees_turns() const noexcept { return rests_; }  // something rests
   // Works from the last prediction; may be called again with another choice of points.
   void correct(const MotionObservation& seen) noexcept;
   // The frame is done: learn from it, and leave out what it tells too poorly.
@@ -72,6 +82,8 @@ class CameraMotion {
   [[nodiscard]] Vector2 stabilised(std::size_t i, const Vector2& position, double share) const noexcept;
 
   [[nodiscard]] const MotionStateVector& state() const noexcept { return taken_; }
+  // The same with what is open.
+  [[nodiscard]] const MotionStateVector& estimate() const noexcept { return process_.mean(); }
   [[nodiscard]] const MotionStateMatrix& covariance() const noexcept { return process_.covariance(); }
   [[nodiscard]] const MotionVector& prior_sd() const noexcept { return sd_; }
   // Magnification against the keyframe at the structure's middle: < 1 farther away.
@@ -94,6 +106,7 @@ class CameraMotion {
   void set_sd() noexcept;
   void learn() noexcept;
   void iterate(const MotionObservation& seen) noexcept;
+  void add_turn(const MotionStateVector& linear, MotionVector& gradient) noexcept;
   [[nodiscard]] bool surprised() noexcept;
   void leave_out_poorly_told() noexcept;
   void find_open() noexcept;
@@ -106,14 +119,16 @@ class CameraMotion {
   MotionProcess process_, before_, settled_;
   MotionVector base_, sd_;
   std::array<double, 2> log_variance_{};  // of turns and of shifts, in units of base_
-  bool raised_ = false;
+  bool raised_ = false, rests_ = false;
   MotionStateVector taken_ = MotionStateVector::Zero();  // what is taken from the points
   double t_s_, dt_s_ = 0.0;
   Eigen::Vector3d middle_ = Eigen::Vector3d::UnitZ();  // of the structure: ray
   MotionMatrix position_covariance_ = MotionMatrix::Zero();
+  MotionMatrix information_ = MotionMatrix::Zero();  // of this frame, any measured turn included
   std::array<bool, kMotionSize> open_{};
   std::uint64_t n_failed_ = 0;
   MotionEquations equations_;
+  std::optional<TurnMeasurement> turn_;
 };
 
 }  // namespace core

@@ -34,6 +34,12 @@ std::vector<ScaleFactor::Point> scale_points(const std::vector<Region>& regions,
   return points;
 }
 
+double mean_of(const std::vector<double>& values) noexcept {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
+}
+
 }  // namespace
 
 ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const TrackFrame& keyframe)
@@ -63,9 +69,14 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
   has_last_.assign(config_.regions.size(), 0);
   make_channels();
   if (!config_.adaptive_scale || config_.scale_only || config_.paper_method) return;
-  if (!tells_camera_motion(config_.regions, config_.camera)) return;
+  const bool turns_measured = config_.attitude && config_.camera.calibrated();
+  if (!turns_measured && !tells_camera_motion(config_.regions, config_.camera)) return;
   camera_motion_.emplace(make_camera_motion(config_.regions, config_.camera, config_.readout, config_.scale_mm_per_px,
                                             keyframe, config_.plane));
+  if (!turns_measured) return;
+  config_.attitude->delay_s += config_.readout.readout_s * mean_of(readout_share_);  // where the motion's state counts
+  attitude_.emplace(*config_.attitude);
+  attitude_->before(*camera_motion_, static_cast<double>(keyframe.t_start_ns) * 1e-9);
 }
 
 void ChannelDisplacement::make_channels() {
@@ -160,6 +171,7 @@ double ChannelDisplacement::estimate_scale() noexcept {
 // are seen take part (with Huber's weights), and are judged by what they give.
 double ChannelDisplacement::follow_camera(std::int64_t t_start_ns) noexcept {
   camera_motion_->predict(static_cast<double>(t_start_ns) * 1e-9);
+  if (attitude_) attitude_->before(*camera_motion_, static_cast<double>(t_start_ns) * 1e-9);
   stabilise();
   reject_outliers();
   const auto count = [](const std::vector<std::uint8_t>& flags) {
@@ -175,6 +187,7 @@ double ChannelDisplacement::follow_camera(std::int64_t t_start_ns) noexcept {
     stabilise();
   }
   camera_motion_->settle();
+  if (attitude_) attitude_->after(*camera_motion_);
   stabilise();
   // A datum that does not rest, or a view that the model cannot hold: most points contradict it for long.
   n_contradicted_ = 4 * count(inlier_) < count(seen_) ? n_contradicted_ + 1 : 0;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/geometry/attitude_prior.h"
 #include "core/geometry/camera_model.h"
 #include "core/geometry/camera_motion.h"
 #include "core/geometry/plane_pose.h"
@@ -26,6 +27,7 @@ struct ChannelDisplacementConfig {
   bool adaptive_scale = true;           // follow the camera; false: it stands still
   bool scale_only = false;              // of its motion only the distance (paper Eq. 6), from all points
   bool paper_method = false;            // two-point scale; rolling shutter by Eqs. 7-8 on the samples, with rho = 1
+  std::optional<AttitudeConfig> attitude = {};  // an attitude is measured beside; delay_s counts for half the exposure
   double inlier_sigma_px = 0.3;
   int min_points = 3;  // fewer inliers: the channel has no sample in this frame
 };
@@ -53,6 +55,12 @@ class ChannelDisplacement {
   // Most points contradicted it for two seconds and more (something was declared to rest that does not): only the scale
   // has been followed since.
   [[nodiscard]] bool camera_given_up() const noexcept { return camera_given_up_; }
+  // An attitude sample that came since, before the frames it tells of; ignored without config.attitude.
+  void take(const AttitudeSample& sample) noexcept {
+    if (attitude_) attitude_->take(sample);
+  }
+  // null: none was announced, or no camera motion is estimated.
+  [[nodiscard]] const AttitudePrior* attitude() const noexcept { return attitude_ ? &*attitude_ : nullptr; }
   // null: not estimated.
   [[nodiscard]] const CameraMotion* camera_motion() const noexcept {
     return camera_motion_ ? &*camera_motion_ : nullptr;
@@ -85,9 +93,10 @@ class ChannelDisplacement {
   int n_contradicted_ = 0;
   bool camera_given_up_ = false;
   std::optional<CameraMotion> camera_motion_;  // none: scale only, paper, or a camera that stands still
-  std::vector<Vector2> position_, motion_;     // undistorted px from the principal point; step since the keyframe with
-                                               // the camera's motion taken away, keyframe px
-  std::vector<double> share_now_, sigma_px_;   // of the row where the point is now; of this frame
+  std::optional<AttitudePrior> attitude_;
+  std::vector<Vector2> position_, motion_;    // undistorted px from the principal point; step since the keyframe with
+                                              // the camera's motion taken away, keyframe px
+  std::vector<double> share_now_, sigma_px_;  // of the row where the point is now; of this frame
   std::vector<std::uint8_t> seen_, inlier_, inlier_before_;
   std::vector<Vector2> last_region_motion_;  // paper mode: for V_rel
   std::vector<std::uint8_t> has_last_;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
+#include <array>
 #include <vector>
 
 #include "core/types/readout.h"
@@ -9,14 +9,16 @@
 
 namespace core {
 
-// The readout time of a camera that is turned by hand, from what a gyro says and how the picture moves. A far point at
-// bearing p_1 in one frame is seen in the next at
-//     p_2 = R G(t_2)^T G(t_1) R^T p_1      t = frame's stamp + T_r x readout fraction of the point + clock offset
+// The readout time of a camera that is turned by hand, from what a gyro says and how the picture moves. By rotation
+// alone a point at bearing p_1 in one frame is seen in the next at
+//     R G(t_2)^T G(t_1) R^T p_1      t = frame's stamp + T_r x readout fraction of the point + clock offset
 // G the gyro's attitude (rates integrated, less a constant bias), R from gyro axes to camera axes (X right, Y down, Z
-// forward), pinhole of focal length f. Unknown: T_r, clock offset, f where it is not given, bias, R. Start: R by
-// Wahba's problem between the rotations of frame pairs and the gyro's, over a grid of offsets; then robust Gauss-Newton
-// (Cauchy weights at the residuals' own scale). Standard deviations: sandwich over frame pairs, whose residuals go
-// together (translation, parallax).
+// forward), pinhole of focal length f. Unknown: T_r, clock offset, f where it is not given, bias, R [Karpenko et al.
+// 2011; Jia & Evans 2014]. A camera that is carried also shifts: every pair has its own shift, and a point its own,
+// unknown depth, so that what counts is how far points are from their epipolar lines (rest_flow.h).
+// Start: start_from_turns; then maximum likelihood by Levenberg-Marquardt, the shifts eliminated (Schur complement),
+// the noise of the points estimated with it; from three readouts, the most likely wins. Standard deviations: sandwich
+// over frame pairs, the scores of neighbours going together [Newey & West 1987].
 
 struct GyroSample {
   double t_s = 0.0;
@@ -44,11 +46,14 @@ struct GyroReadoutConfig {
 
 struct GyroReadout {
   ReadoutValue readout;
+  std::array<ReadoutValue, 2> halves;         // from the first and the second half of the record alone
   double offset_s = 0.0, offset_std_s = 0.0;  // what to add to stamps to be on the gyro's clock
   double focal_px = 0.0, focal_std_px = 0.0;
   Eigen::Vector3d bias_rad_s = Eigen::Vector3d::Zero();
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // R
-  // Of held-out frames, per axis: everything else fitted with a readout of zero; with the readout.
+  double sigma_px = 0.0;                               // of a point, per axis
+  // Of held-out frames: distance of points from their epipolar lines, everything else fitted with a readout of zero;
+  // with the readout. Of the points that lie within 5 sigma_px in one of the two: the others move by themselves.
   double rms_without_px = 0.0, rms_with_px = 0.0;
   std::vector<double> pair_rms_without_px, pair_rms_with_px;  // every pair
 };

@@ -123,6 +123,32 @@ figure_4() {
     END { print n + 0, missing + 0, w + 0, s + 0 }' "$out/readout.txt")
   judge 4a "worst $worst of a frame, worst $sigmas of the stated deviation, $missing records without an estimate" "$bar" \
     "$what, $rows readouts" "$rows > 0 && $missing == 0 && $worst <= 0.02 && $sigmas <= 2.5"
+  figure_4_measured
+}
+# A phone in a moving car. Nothing tells the true readout; that the program which came with the clip takes a whole frame
+# time (33.312 ms, with a focal length of 574.4 px) is printed beside it.
+figure_4_measured() {
+  local clip=$data/phone_rolling_shutter_gyro
+  local what="measured clip, phone in a car, gyro beside it" bar="sigma 1.5 ms, halves within 2.5 sigma, less residual with the readout than with none"
+  if [ ! -d "$clip/frames" ]; then
+    line 4b SKIP "no data at $clip" "$bar" "$what"
+    return
+  fi
+  "$bin/hovermodal" readout --clip "$clip/frames" --stamps "$clip/framestamp.txt" --first-stamp 99 --gyro "$clip/gyro.txt" \
+    --focal-px 574.4 --ignore 0,400,800,200 --picture "$out/readout_measured.svg" >"$out/readout_measured.txt" || true
+  local ms=nan sigma=nan row=nan row_sigma=nan before=nan after=nan apart=nan
+  read -r ms sigma row row_sigma before after apart < <(awk -F'\t' '
+    $1 == "readout_ms" { ms = $2; s = $3 } $1 == "row_delay_us" { row = $2; rs = $3 } $1 == "held_out_rms_px" { b = $2; a = $3 }
+    $1 == "half_readout_ms" { v[++n] = $2; w[n] = $3 }
+    END { if (n == 2) { d = v[1] - v[2]; z = (d < 0 ? -d : d) / sqrt(w[1] ^ 2 + w[2] ^ 2); print ms, s, row, rs, b, a, z } }' "$out/readout_measured.txt") || true
+  if all_finite "$ms" "$sigma" "$before" "$after" "$apart"; then
+    judge 4b "readout $ms +- $sigma ms, row delay $row +- $row_sigma us; halves $apart sigma apart; held-out frames $before px with none, $after px with it" \
+      "$bar" "$what" "$sigma <= 1.5 && $sigma > 0 && $apart <= 2.5 && $after < $before"
+    line 4b beside "$(awk "BEGIN { printf \"%.1f\", ($ms - 33.312) / $sigma }") sigma from it" "none" \
+      "33.312 ms, a whole frame time, which the clip's own program assumes"
+  else
+    line 4b MISS "no estimate" "$bar" "$what"
+  fi
 }
 
 # --- 5: a bridge deck ---------------------------------------------------------------------------------------------------

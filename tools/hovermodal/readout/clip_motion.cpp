@@ -88,10 +88,18 @@ core::PointPair point_pair(const Step& step, const core::CameraModel& camera, co
   return {camera.undistort(from), camera.undistort(to), readout.fraction(from.u, from.v), readout.fraction(to.u, to.v)};
 }
 
+bool inside_any(const cv::Point2f& point, const std::vector<std::array<double, 4>>& rectangles) {
+  const auto u = static_cast<double>(point.x), v = static_cast<double>(point.y);
+  return std::any_of(rectangles.begin(), rectangles.end(), [&](const std::array<double, 4>& r) {
+    return u >= r[0] && v >= r[1] && u < r[0] + r[2] && v < r[1] + r[3];
+  });
+}
+
 }  // namespace
 
 ClipMotion track_clip(const std::string& path, const std::vector<double>& stamps_s, const core::CameraModel& camera,
-                      core::ReadoutDirection direction, int hold_out_every) {
+                      core::ReadoutDirection direction, int hold_out_every,
+                      const std::vector<std::array<double, 4>>& ignored) {
   drivers::silence_media_libraries();
   const auto source = drivers::open_frame_source(path);
   ClipMotion clip{source->info().width_px, source->info().height_px, {}};
@@ -110,7 +118,9 @@ ClipMotion track_clip(const std::string& path, const std::vector<double>& stamps
     if (n > 0) {
       pair.from_s = stamps_s[n - 1];
       pair.to_s = stamps_s[n];
-      for (const Step& step : steps_between(last, now)) pair.points.push_back(point_pair(step, camera, readout));
+      for (const Step& step : steps_between(last, now)) {
+        if (!inside_any(step.from, ignored)) pair.points.push_back(point_pair(step, camera, readout));
+      }
     }
     if (pair.points.size() >= kLeastPoints) clip.pairs.push_back(std::move(pair));
     last = now;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -21,6 +22,7 @@ namespace {
 
 struct Options {
   std::string clip, stamps, gyro, calibration, picture;
+  std::vector<std::array<double, 4>> ignored;
   double time_unit_s = 1.0, focal_px = 0.0, most_offset_s = 0.1;
   int first_stamp = 0, hold_out_every = 4;
   core::ReadoutDirection direction = core::ReadoutDirection::kDown;
@@ -84,22 +86,27 @@ void print(const Options& options, const ClipMotion& clip, const core::GyroReado
   fmt::print("readout_ms\t{:.3f}\t{:.3f}\n", 1e3 * found.readout.readout_s, 1e3 * found.readout.std_s);
   fmt::print("row_delay_us\t{:.3f}\t{:.3f}\n", 1e6 * found.readout.readout_s / lines,
              1e6 * found.readout.std_s / lines);
+  for (const core::ReadoutValue& half : found.halves)
+    fmt::print("half_readout_ms\t{:.3f}\t{:.3f}\n", 1e3 * half.readout_s, 1e3 * half.std_s);
   fmt::print("focal_px\t{:.1f}\t{:.1f}\n", found.focal_px, found.focal_std_px);
   fmt::print("clock_offset_ms\t{:.3f}\t{:.3f}\n", 1e3 * found.offset_s, 1e3 * found.offset_std_s);
   fmt::print("gyro_bias_deg_s\t{:.3f}\t{:.3f}\t{:.3f}\n", deg * found.bias_rad_s.x(), deg * found.bias_rad_s.y(),
              deg * found.bias_rad_s.z());
+  fmt::print("point_sigma_px\t{:.3f}\n", found.sigma_px);
   fmt::print("held_out_rms_px\t{:.3f}\t{:.3f}\n", found.rms_without_px, found.rms_with_px);
   fmt::print("# {} frame pairs, {} of them held out, {} points; value, standard deviation\n", clip.pairs.size(), n_held,
              n_points);
   fmt::print(
-      "# held_out_rms_px: the gyro's motion against the picture's, per axis, with a readout of 0 and with that\n"
-      "#   found; all else is fitted in both. In hovermodald: camera.readout_ms, camera.readout_sigma_ms\n");
+      "# held_out_rms_px: points' distance from where the gyro and a shift of the camera put their epipolar lines, "
+      "with a\n"
+      "#   readout of 0 and with that found; all else is fitted in both. In hovermodald: camera.readout_ms,\n"
+      "#   camera.readout_sigma_ms\n");
 }
 
 void run(const Options& options) {
   const core::CameraModel camera = camera_model(options);
-  const ClipMotion clip =
-      track_clip(options.clip, read_stamps(options), camera, options.direction, options.hold_out_every);
+  const ClipMotion clip = track_clip(options.clip, read_stamps(options), camera, options.direction,
+                                     options.hold_out_every, options.ignored);
   core::GyroReadoutConfig config;
   config.focal_px = camera.calibrated() ? 0.5 * (camera.fx + camera.fy) : options.focal_px;
   config.cx_px = camera.calibrated() ? camera.cx : 0.5 * (clip.width_px - 1);
@@ -115,10 +122,11 @@ void run(const Options& options) {
 
 void add_readout(CLI::App& app) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("readout",
-                                         "Readout time of a camera that is shaken by hand beside a gyro (a phone: film "
-                                         "for ten seconds something far away)\n"
-                                         "  hovermodal readout --clip frames --stamps framestamp.txt --gyro gyro.txt");
+  CLI::App* command =
+      app.add_subcommand("readout",
+                         "Readout time of a camera that is shaken beside a gyro (a phone: shake it about "
+                         "all axes for ten seconds; it may be carried or driven forward)\n"
+                         "  hovermodal readout --clip frames --stamps framestamp.txt --gyro gyro.txt");
   command->add_option("--clip", options->clip, "Video or folder of images")->required()->type_name("PATH");
   command->add_option("--stamps", options->stamps, "Start of exposure of every frame's first line, one a line")
       ->required()
@@ -151,6 +159,12 @@ void add_readout(CLI::App& app) {
   command->add_option("--readout-direction", options->direction, "The way lines are read in the picture")
       ->transform(CLI::CheckedTransformer(directions))
       ->type_name("down|up|left|right");
+  command
+      ->add_option(
+          "--ignore", options->ignored,
+          "left,top,width,height (px) of what moves with the camera (a dashboard, a landing leg); may be repeated")
+      ->delimiter(',')
+      ->type_name("RECT");
   command->add_option("--picture", options->picture, "SVG of the residual per frame")->type_name("FILE");
   command->callback([options] { run(*options); });
 }

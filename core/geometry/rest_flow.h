@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+namespace core {
+
+// What a point's motion between two frames leaves when the camera's rotation is taken away. A camera that also shifts,
+// by t, moves a point at x (px from the principal point) that rests by
+//     d (1 + delta),    d = (t_x - t_z x / f, t_y - t_z y / f),    1 + delta = mean depth over the point's depth
+// t in px: f times the shift over the mean depth. Depths are not known: delta ~ N(0, 1). So along d, the epipolar line,
+// a point has the variance sigma^2 + |d|^2, across it sigma^2, and a far point, or one near the point that the camera
+// moves towards, tells both axes. Student's t of three degrees for what moves by itself and for false tracks.
+
+struct RestFlow {
+  Eigen::Vector2d at_px = Eigen::Vector2d::Zero();  // where the rotation alone takes the point
+  Eigen::Vector2d flow_px = Eigen::Vector2d::Zero();
+};
+
+struct RestFlowModel {
+  double focal_px = 1.0;
+  double sigma_px = 1.0;
+};
+
+// One point: minus log likelihood, and its derivatives by d.
+struct RestFlowTerm {
+  double cost = 0.0;
+  double across_px = 0.0;  // from the epipolar line
+  double weight = 0.0;     // at most 5/3; falls with the distance
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();       // of d
+  Eigen::Matrix2d flow_information = Eigen::Matrix2d::Zero();  // of the flow, d held
+};
+
+[[nodiscard]] Eigen::Matrix<double, 2, 3> shift_effect(const RestFlow& point, double focal_px) noexcept;  // d(d) / d(t)
+[[nodiscard]] RestFlowTerm judge(const RestFlow& point, const Eigen::Vector3d& shift_px,
+                                 const RestFlowModel& model) noexcept;
+[[nodiscard]] double cost(std::span<const RestFlow> points, const Eigen::Vector3d& shift_px,
+                          const RestFlowModel& model) noexcept;
+// The most likely shift, from the one given; returns its cost.
+double fit_shift(std::span<const RestFlow> points, const RestFlowModel& model, Eigen::Vector3d& shift_px) noexcept;
+
+}  // namespace core
