@@ -60,7 +60,6 @@ std::vector<std::string> LoggerModel::effects() const {
   std::vector<std::string> out{kOffset, kRate};
   if (rigid_below_hz_ > 0.0) out.emplace_back(kPolarity);
   return out;
-};
 }
 
 std::vector<NotObservable> LoggerModel::not_observable() const {

@@ -10,7 +10,7 @@ using core::simulation::Scene;
 using H = core::simulation::HoverParameters;
 using R = core::simulation::RotorParameters;
 using Ti = core::simulation::TimingParameters;
-using Ch = core::simulation::ChangeParameters;
+using Chg = core::simulation::ChangeParameters;
 using L = core::simulation::LightParameters;
 using T = core::simulation::TrackParameters;
 using Ch = core::simulation::ChannelParameters;
@@ -96,9 +96,9 @@ void add_timing_keys(std::vector<SceneKey>& keys) {
 
 void add_change_keys(std::vector<SceneKey>& keys) {
   constexpr auto s = &Scene::change;
-  keys.push_back(scene_number("change.frequency_drift", "", of<s, &Ch::frequency_drift>, {-0.5, 0.5},
+  keys.push_back(scene_number("change.frequency_drift", "", of<s, &Chg::frequency_drift>, {-0.5, 0.5},
                               "of all frequencies over the clip, relative"));
-  keys.push_back(scene_number("change.softening", "", of<s, &Ch::softening>, {-0.1, 0.1},
+  keys.push_back(scene_number("change.softening", "", of<s, &Chg::softening>, {-0.1, 0.1},
                               "share of stiffness lost at an amplitude of 1.41 times the last body's rms"));
 }
 
