@@ -56,6 +56,8 @@ void print_wind(const GeometryOptions& options) {
   which.ways = {{"ours", {"scale.only=false"}},
                 {"scale"},
                 {"ours-no-background", {"scale.only=false"}, StatedReadout::kTrue, false},
+                {"ours-attitude", {"scale.only=false"}, StatedReadout::kTrue, false, 0.05},
+                {"ours-attitude-0.1", {"scale.only=false"}, StatedReadout::kTrue, false, 0.1},
                 paper()};
   print_score_columns("wind", "modes 1-3");
   print_case(which, options);
