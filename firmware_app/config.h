@@ -24,8 +24,12 @@ struct CameraConfig {
   double readout_ms = 0.0;         // signed
   double readout_sigma_ms = -1.0;  // of readout_ms; 0 = exact, below 0 = chosen (readout_use.h)
   core::ReadoutDirection readout_direction = core::ReadoutDirection::kDown;
-  double exposure_ms = 0.0;            // 0 = unknown
-  double synthetic_duration_s = 30.0;  // synthetic driver only
+  double exposure_ms = 0.0;               // 0 = unknown
+  std::string attitude_file;              // CSV on the frames' clock; empty = none
+  std::string attitude_channel;           // LCM channel of attitude_t; empty = none
+  double attitude_sigma_deg = 0.1;        // white noise of a sample, per axis
+  std::array<double, 3> mount_rpy_deg{};  // of the camera against the body of the attitude
+  double synthetic_duration_s = 30.0;     // synthetic driver only
   std::uint64_t synthetic_seed = 1;
 };
 

@@ -55,6 +55,23 @@ class Checker {
              driver == CameraDriver::kFile ? "a video or image folder" : "a device such as /dev/video0",
              "set it, or use `driver: synthetic` to try without a camera");
     }
+    check_attitude();
+  }
+
+  void check_attitude() const {
+    const std::string key = config_.camera.attitude_file.empty() ? "camera.attitude_channel" : "camera.attitude_file";
+    const std::string& value =
+        config_.camera.attitude_file.empty() ? config_.camera.attitude_channel : config_.camera.attitude_file;
+    if (value.empty()) return;
+    if (!config_.camera.attitude_file.empty() && !config_.camera.attitude_channel.empty())
+      refuse("camera.attitude_channel", config_.camera.attitude_channel, "a file or a channel, not both", "remove one");
+    if (config_.scale.only || !config_.scale.adaptive || config_.method == Method::kPaper)
+      refuse(key, value, "where the camera's turns are estimated",
+             "write `scale: {only: false}`, without method: paper");
+    if (config_.calibration.file.empty() && !(config_.calibration.fx > 0.0))
+      refuse(key, value, "where a focal length is known", "add a calibration: an angle is no pixel without one");
+    if (config_.camera.attitude_file.empty() && config_.telemetry.lcm_url.empty())
+      refuse(key, value, "where telemetry.lcm_url names a network", "set telemetry.lcm_url");
   }
 
   void check_regions() const {

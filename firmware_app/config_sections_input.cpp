@@ -60,6 +60,33 @@ ConfigKey axis_key() {
   return key;
 }
 
+void add_attitude_keys(std::vector<ConfigKey>& keys) {
+  using C = CameraConfig;
+  keys.push_back(with_default(
+      text_key(
+          "camera.attitude_file", at(&A::camera, &C::attitude_file), {},
+          "CSV of the aircraft's or gimbal's attitude on the frames' clock: t_s, and roll_deg, pitch_deg, yaw_deg "
+          "or qw, qx, qy, qz; tells the camera's turns where nothing rests (needs a calibration, scale.only: false)"),
+      "none"));
+  keys.push_back(with_default(text_key("camera.attitude_channel", at(&A::camera, &C::attitude_channel), {0, 63, true},
+                                       "the same live: LCM channel of attitude_t messages, at telemetry.lcm_url"),
+                              "none"));
+  keys.push_back(number_key("camera.attitude_sigma_deg", "deg", at(&A::camera, &C::attitude_sigma_deg), {1e-4, 45},
+                            "standard deviation of one sample about each axis; slow drift is not meant"));
+  NumberList mount;
+  mount.ranges.assign(3, NumberRange{-360, 360});
+  mount.n_min = 3;
+  mount.put = [](AppConfig& config, std::size_t, const std::vector<double>& v) {
+    std::copy(v.begin(), v.end(), config.camera.mount_rpy_deg.begin());
+  };
+  mount.get = [](AppConfig& config, std::size_t) {
+    return std::vector<double>(config.camera.mount_rpy_deg.begin(), config.camera.mount_rpy_deg.end());
+  };
+  keys.push_back(numbers_key("camera.mount_rpy_deg", "deg", std::move(mount), "[roll, pitch, yaw], -360 .. 360",
+                             "camera against the body whose attitude is told: [0, 0, 0] looks ahead, top up; "
+                             "[0, -90, 0] down; [0, 0, 90] to the right"));
+}
+
 }  // namespace
 
 void add_camera_keys(std::vector<ConfigKey>& keys) {
@@ -98,6 +125,7 @@ void add_camera_keys(std::vector<ConfigKey>& keys) {
                                    "the way the lines are read, in the image as stored; rotation metadata turns it"));
   keys.push_back(number_key("camera.exposure_ms", "ms", at(&A::camera, &C::exposure_ms), {0, 10000},
                             "exposure time; 0 = unknown"));
+  add_attitude_keys(keys);
   keys.push_back(number_key("camera.synthetic.duration_s", "s", at(&A::camera, &C::synthetic_duration_s), {0.1, 21600},
                             "length of the synthetic record"));
   keys.push_back(seed_key("camera.synthetic.seed", at(&A::camera, &C::synthetic_seed),

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 #include "core/geometry/keyframe_view.h"
+#include "drivers/storage/attitude_file.h"
 #include "firmware_app/calibration.h"
 #include "firmware_app/structure_scale.h"
 
@@ -21,11 +24,27 @@ bool undistorts(const CalibrationConfig& calibration) {
                                    std::any_of(k.begin(), k.end(), [](double value) { return value != 0.0; })));
 }
 
+std::optional<core::AttitudeConfig> attitude_config(const AppConfig& config, const core::CameraInfo& camera) {
+  const CameraConfig& c = config.camera;
+  if (c.attitude_file.empty() && c.attitude_channel.empty()) return std::nullopt;
+  constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+  core::AttitudeConfig out;
+  out.sigma_rad = c.attitude_sigma_deg * kRadPerDeg;
+  for (std::size_t i = 0; i < 3; ++i) out.mount_rpy_rad[i] = c.mount_rpy_deg[i] * kRadPerDeg;
+  out.delay_s = 0.5e-9 * static_cast<double>(camera.exposure_ns);
+  if (!c.attitude_file.empty()) out.record = drivers::read_attitude_csv(c.attitude_file);
+  return out;
+}
+
 // What is removed of the camera's motion, and what cannot be.
 std::string camera_correction(const AppConfig& config, const core::CameraModel& camera) {
   if (config.method == Method::kPaper) return "scale per frame, two points (Eq. 6)";
   const std::string scale = "scale per frame, least squares over all points";
   if (config.scale.only) return scale;
+  const bool told = !config.camera.attitude_file.empty() || !config.camera.attitude_channel.empty();
+  if (told && !core::tells_camera_motion(config.regions, camera))
+    return "camera motion per frame from all points and a measured attitude: distance, turns; shifts along the "
+           "channels' axes stay";
   if (!core::tells_camera_motion(config.regions, camera)) {
     return scale + (camera.calibrated() ? "; no region rests (role background or ground): the camera's turns stay"
                                         : "; no focal length is known: the camera's turns stay");
@@ -65,6 +84,7 @@ core::ChannelDisplacementConfig displacement_config(const AppConfig& config, con
   out.adaptive_scale = config.scale.adaptive;
   out.scale_only = config.scale.only;
   out.paper_method = config.method == Method::kPaper;
+  out.attitude = attitude_config(config, camera);
   out.inlier_sigma_px = config.tracking.inlier_sigma_px;
   out.min_points = config.tracking.min_points;
   return out;

@@ -49,6 +49,18 @@ void warn_of_regions(core::Health& health) {
   }
 }
 
+void warn_of_attitude(const TrackingStage& tracking, core::Health& health) {
+  if (tracking.attitude_given_up()) {
+    health.warnings.emplace_back(
+        "the picture contradicts the attitude, which is not used since: is camera.mount_rpy_deg right, are both on one "
+        "clock, is camera.attitude_sigma_deg large enough?");
+  }
+  if (const std::uint64_t n = tracking.n_without_attitude(); n > 0) {
+    health.warnings.push_back(
+        fmt::format("no attitude within 0.25 s of {} frames ({} had one)", n, tracking.n_with_attitude()));
+  }
+}
+
 }  // namespace
 
 core::Health HealthCollector::collect(const drivers::Publisher& publisher) const {
@@ -91,6 +103,7 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
   }
   if (const std::string failure = checkpoint_ != nullptr ? checkpoint_->failure() : ""; !failure.empty())
     health.warnings.push_back("the run's state could not be kept: " + failure);
+  warn_of_attitude(tracking_, health);
   if (const double jitter = spectrum_.worst_jitter_cells(); jitter > kJitterWorthAWord) {
     health.warnings.push_back(fmt::format(
         "time stamps stray by up to {:.2f} of a frame from even spacing; spectra take them as even", jitter));

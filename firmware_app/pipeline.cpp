@@ -28,6 +28,7 @@ struct Pipeline::Parts {
 
   AppConfig config;
   Source source;  // camera, its first frame, the points seeded in it, the channels
+  std::unique_ptr<drivers::AttitudeListener> attitude = open_attitude(config);  // null: none comes live
   std::unique_ptr<drivers::Publisher> out;
   std::unique_ptr<RunReport> report = open_report(config, source);
 
@@ -103,6 +104,7 @@ struct Pipeline::Parts {
 
   // Who is nudged when an item arrives, and when a slot becomes free.
   void connect() {
+    if (attitude) tracking.hear_attitude(attitude->samples());
     frames.set_writer_wakeup(&capture.wakeup());
     frames.set_reader_wakeup(&tracking.wakeup());
     samples.set_writer_wakeup(&tracking.wakeup());

@@ -100,6 +100,11 @@ std::unique_ptr<drivers::Camera> open_camera(const AppConfig& config) {
   return drivers::make_camera(options);
 }
 
+std::unique_ptr<drivers::AttitudeListener> open_attitude(const AppConfig& config) {
+  if (config.camera.attitude_channel.empty()) return nullptr;
+  return drivers::listen_for_attitude(config.telemetry.lcm_url, config.camera.attitude_channel);
+}
+
 std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config, std::string& warning) {
   const TelemetryConfig& t = config.telemetry;
   return drivers::make_publisher({t.lcm_url, t.channel_prefix, t.log_file, {t.stream_id, config.hash}}, &warning);

@@ -10,6 +10,7 @@
 #include "core/tracking/structure_tracker.h"
 #include "core/types/frame.h"
 #include "drivers/camera/camera.h"
+#include "drivers/telemetry/attitude_listener.h"
 #include "drivers/telemetry/publisher.h"
 #include "firmware_app/config.h"
 #include "firmware_app/health.h"
@@ -39,6 +40,7 @@ struct Source {
 };
 
 [[nodiscard]] std::unique_ptr<drivers::Camera> open_camera(const AppConfig& config);
+[[nodiscard]] std::unique_ptr<drivers::AttitudeListener> open_attitude(const AppConfig& config);  // null: none wanted
 [[nodiscard]] std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config, std::string& warning);
 [[nodiscard]] std::unique_ptr<RunReport> open_report(const AppConfig& config,
                                                      const Source& source);  // null: none wanted

@@ -71,6 +71,8 @@ class TrackAnalysis {
   // keyframe: the first frame's tracks; every point that will come, seen.
   TrackAnalysis(const AppConfig& config, const core::CameraInfo& camera, const core::TrackFrame& keyframe);
 
+  // An attitude that came since (camera.attitude_channel), before the frames it tells of.
+  void take(const core::AttitudeSample& sample) noexcept { displacement_.take(sample); }
   // Points as in the keyframe, in its order; their inliers are marked. False as ChannelAnalysis::push.
   bool push(core::TrackFrame& tracks);
 

@@ -39,13 +39,6 @@ Quaterniond rotation(const Vector3d& w) noexcept {
 
 }  // namespace
 
-std::array<double, 4> attitude_of(double roll_rad, double pitch_rad, double yaw_rad) noexcept {
-  const Quaterniond q = Eigen::AngleAxisd(yaw_rad, Vector3d::UnitZ()) *
-                        Eigen::AngleAxisd(pitch_rad, Vector3d::UnitY()) *
-                        Eigen::AngleAxisd(roll_rad, Vector3d::UnitX());
-  return {q.w(), q.x(), q.y(), q.z()};
-}
-
 AttitudePrior::AttitudePrior(AttitudeConfig config)
     : config_(std::move(config)),
       to_body_(quaternion(attitude_of(config_.mount_rpy_rad[0], config_.mount_rpy_rad[1], config_.mount_rpy_rad[2])) *

@@ -20,9 +20,6 @@ struct AttitudeConfig {
   std::vector<AttitudeSample> record = {};  // known beforehand
 };
 
-// Turns roll, pitch, yaw (aerospace: body to resting axes by R_z(yaw) R_y(pitch) R_x(roll)) into a quaternion w x y z.
-[[nodiscard]] std::array<double, 4> attitude_of(double roll_rad, double pitch_rad, double yaw_rad) noexcept;
-
 // Attitude as a measurement of the camera's turns. With C(t) = A(t) M^T, A the attitude, M from body to camera axes, a
 // camera turns against the keyframe by
 //     R(w(t)) = C(t)^T C_ref,      C_ref = C(t_1) R(w(t_1)) at the first frame t_1 with an attitude

@@ -70,6 +70,11 @@ void compare(const GyroProblem& problem, const GyroState& without, const GyroSta
   out.rms_with_px = std::sqrt(sum_after / std::max(1.0, count));
 }
 
+// Infinite where the data leave it open.
+double deviation(const GyroMatrix& errors, Index i) {
+  return errors(i, i) > 0.0 ? std::sqrt(errors(i, i)) : std::numeric_limits<double>::infinity();
+}
+
 // Of the pairs that are fitted, the first or the second half alone.
 ReadoutValue of_half(std::vector<FramePair> pairs, bool second, const std::vector<GyroSample>& gyro,
                      const GyroReadoutConfig& config, const std::vector<Index>& held, GyroState state) {
@@ -78,7 +83,7 @@ ReadoutValue of_half(std::vector<FramePair> pairs, bool second, const std::vecto
   const GyroProblem problem(pairs, gyro, config);
   (void)problem.minimise(held, kRounds, state);
   const GyroMatrix errors = problem.covariance(state, held);
-  return {state.p[kReadout], std::sqrt(std::max(0.0, errors(kReadout, kReadout)))};
+  return {state.p[kReadout], deviation(errors, kReadout)};
 }
 
 }  // namespace
@@ -114,7 +119,7 @@ GyroReadout fit_gyro_readout(const std::vector<FramePair>& pairs, const std::vec
   const GyroMatrix errors = problem.covariance(with, held);
 
   GyroReadout out;
-  const auto std_of = [&](Index i) { return std::sqrt(std::max(0.0, errors(i, i))); };
+  const auto std_of = [&](Index i) { return deviation(errors, i); };
   out.readout = {with.p[kReadout], std_of(kReadout)};
   out.offset_s = with.p[kOffset];
   out.offset_std_s = std_of(kOffset);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 namespace core {
 
@@ -10,5 +11,14 @@ struct AttitudeSample {
   double t_s = 0.0;  // on the frames' clock
   std::array<double, 4> wxyz{1.0, 0.0, 0.0, 0.0};
 };
+
+// Of roll, pitch, yaw (aerospace): R_z(yaw) R_y(pitch) R_x(roll).
+[[nodiscard]] inline std::array<double, 4> attitude_of(double roll_rad, double pitch_rad, double yaw_rad) noexcept {
+  const double cr = std::cos(0.5 * roll_rad), sr = std::sin(0.5 * roll_rad);
+  const double cp = std::cos(0.5 * pitch_rad), sp = std::sin(0.5 * pitch_rad);
+  const double cy = std::cos(0.5 * yaw_rad), sy = std::sin(0.5 * yaw_rad);
+  return {cr * cp * cy + sr * sp * sy, sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy,
+          cr * cp * sy - sr * sp * cy};
+}
 
 }  // namespace core

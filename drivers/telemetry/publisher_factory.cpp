@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "drivers/telemetry/attitude_listener.h"
+
 #ifdef HOVERMODAL_WITH_LCM
 #include "drivers/telemetry/lcm_publisher.h"
 #endif
@@ -22,5 +24,12 @@ std::unique_ptr<Publisher> make_publisher(const LcmOptions& options, std::string
       "-DWITH_LCM=ON, or leave telemetry.lcm_url and telemetry.log_file empty.");
 #endif
 }
+
+#ifndef HOVERMODAL_WITH_LCM
+std::unique_ptr<AttitudeListener> listen_for_attitude(const std::string& url, const std::string& channel) {
+  throw std::runtime_error("camera.attitude_channel: \"" + channel + "\" at \"" + url +
+                           "\": this build has no LCM; use camera.attitude_file");
+}
+#endif
 
 }  // namespace drivers

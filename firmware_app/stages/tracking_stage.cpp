@@ -55,7 +55,9 @@ rt::StepStatus TrackingStage::step() noexcept {
 void TrackingStage::measure(const core::Frame& frame) noexcept {
   if (!tracker_.track(frame, scratch_.tracks))
     n_failed_.store(n_failed_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  take_attitude();
   channels_.update(scratch_.tracks, scratch_.sample);
+  count_attitude();
   // Its filters are made for the camera's own rate; the readout is the same at any.
   if (thinning_.at(frame.sequence).stride == 1) readout_.update(scratch_.tracks);
   scratch_.sample.readout = readout_.estimate();
@@ -65,6 +67,26 @@ void TrackingStage::measure(const core::Frame& frame) noexcept {
   std::uint64_t n_tracked = 0;
   for (const core::TrackPoint& point : scratch_.tracks.points) n_tracked += point.inlier ? 1U : 0U;
   points_tracked_.store(n_tracked, std::memory_order_relaxed);
+}
+
+// What is in the ring now, and no more: a flood does not hold up a frame.
+void TrackingStage::take_attitude() noexcept {
+  if (!attitude_) return;
+  constexpr int kMost = 1024;
+  for (int i = 0; i < kMost; ++i) {
+    const core::AttitudeSample* sample = attitude_->front();
+    if (sample == nullptr) return;
+    channels_.take(*sample);
+    attitude_->pop();
+  }
+}
+
+void TrackingStage::count_attitude() noexcept {
+  const core::AttitudePrior* attitude = channels_.attitude();
+  if (attitude == nullptr) return;
+  attitude_given_up_.store(attitude->given_up(), std::memory_order_relaxed);
+  n_with_attitude_.store(attitude->n_used(), std::memory_order_relaxed);
+  n_without_attitude_.store(attitude->n_without(), std::memory_order_relaxed);
 }
 
 void TrackingStage::count_regions() noexcept {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
 #include <vector>
 
 #include "core/geometry/channel_displacement.h"
@@ -23,6 +24,9 @@ class TrackingStage : public rt::Stage {
                 rt::RingWriter<core::DisplacementSample> samples, rt::RingWriter<FrameRecord> records, bool lossless,
                 const ThinningSchedule& thinning);
 
+  // Set-up only: taken in before each frame.
+  void hear_attitude(rt::RingReader<core::AttitudeSample> samples) { attitude_.emplace(samples); }
+
   [[nodiscard]] std::string_view name() const noexcept override { return "tracking"; }
   [[nodiscard]] rt::StepStatus step() noexcept override;
   void finish() noexcept override;
@@ -37,6 +41,14 @@ class TrackingStage : public rt::Stage {
   // Any thread: from a frame taken to its displacement handed on; the first frame, taken at set-up, is left out.
   [[nodiscard]] const rt::LatencyHistogram& frame_latency() const noexcept { return frame_latency_; }
   [[nodiscard]] bool camera_given_up() const noexcept { return camera_given_up_.load(std::memory_order_relaxed); }
+  [[nodiscard]] bool attitude_given_up() const noexcept { return attitude_given_up_.load(std::memory_order_relaxed); }
+  // Frames whose camera motion rests on a measured attitude too, and those that had none though it was announced.
+  [[nodiscard]] std::uint64_t n_with_attitude() const noexcept {
+    return n_with_attitude_.load(std::memory_order_relaxed);
+  }
+  [[nodiscard]] std::uint64_t n_without_attitude() const noexcept {
+    return n_without_attitude_.load(std::memory_order_relaxed);
+  }
   [[nodiscard]] std::uint64_t n_failed_frames() const noexcept { return n_failed_.load(std::memory_order_relaxed); }
   // Any thread: frames that publish never saw, because its ring was full.
   [[nodiscard]] std::uint64_t n_records_lost() const noexcept {
@@ -65,6 +77,12 @@ class TrackingStage : public rt::Stage {
   bool gap_before_next_ = false;
   rt::LatencyHistogram frame_latency_;
   std::vector<RegionCounts> regions_;
+  void take_attitude() noexcept;
+  void count_attitude() noexcept;
+
+  std::optional<rt::RingReader<core::AttitudeSample>> attitude_;
+  std::atomic<bool> attitude_given_up_{false};
+  std::atomic<std::uint64_t> n_with_attitude_{0}, n_without_attitude_{0};
   std::atomic<bool> camera_given_up_{false};
   std::atomic<std::uint64_t> points_tracked_{0};  // written here only; relaxed: a count on its own
   std::atomic<std::uint64_t> n_failed_{0};

@@ -58,6 +58,8 @@ void print_wind(const GeometryOptions& options) {
   which.ways = {{"ours", {kWholeMotion}},
                 {"scale"},
                 {"ours-no-background", {kWholeMotion}, StatedReadout::kTrue, false},
+                {"ours-attitude", {kWholeMotion}, StatedReadout::kTrue, false, 0.05},
+                {"ours-attitude-0.1", {kWholeMotion}, StatedReadout::kTrue, false, 0.1},
                 paper()};
   print_score_columns("wind", "modes 1-3");
   print_case(which, options);

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "core/simulation/camera/recorded_motion.h"
@@ -14,6 +15,7 @@
 #include "core/simulation/random_stream.h"
 #include "drivers/storage/flight_log.h"
 #include "firmware_app/track_analysis.h"
+#include "tools/hovermodal/selftest/geometry_attitude.h"
 #include "tools/hovermodal/simulate/config.h"
 
 namespace tools {
@@ -123,13 +125,24 @@ std::string plane_points(const core::simulation::SceneMotion& motion) {
 // One way, fed frame by frame.
 class Run {
  public:
-  Run(const DeclaredRun& declared, const Way& way, const core::TrackFrame& keyframe)
+  Run(const DeclaredRun& declared, const Way& way, const core::TrackFrame& keyframe,
+      const core::simulation::SceneMotion& motion)
       : without_(way.with_background ? -1 : background_of(declared.config)),
         config_(without_ < 0 ? declared.config : without_background(declared.config)),
         tracks_(keyframe),
-        analysis_(config_, declared.camera, kept(keyframe)) {}
+        analysis_(config_, declared.camera, kept(keyframe)) {
+    if (way.attitude_sigma_deg > 0.0) attitude_.emplace(motion.camera(), way.attitude_sigma_deg, motion.scene().seed);
+  }
 
-  void push(const core::TrackFrame& frame) { (void)analysis_.push(kept(frame)); }
+  void push(const core::TrackFrame& frame) {
+    constexpr double kAhead_s = 0.05;  // of the frame: what has come by the time that it is tracked
+    if (attitude_) {
+      for (const core::AttitudeSample& sample :
+           attitude_->until(1e-9 * static_cast<double>(frame.t_start_ns) + kAhead_s))
+        analysis_.take(sample);
+    }
+    (void)analysis_.push(kept(frame));
+  }
   [[nodiscard]] app::TrackAnalysis& analysis() noexcept { return analysis_; }
 
  private:
@@ -152,6 +165,7 @@ class Run {
   app::AppConfig config_;
   core::TrackFrame tracks_;
   app::TrackAnalysis analysis_;
+  std::optional<ToldAttitude> attitude_;
 };
 
 // The true motion's spectra are made once; it is identified with each prewhitening that a way chose.
@@ -217,6 +231,12 @@ DeclaredRun declared_run(const SimulateJob& job, const FlightSetup& setup, const
   std::vector<std::string> overrides = setup.configuration;
   overrides.insert(overrides.end(), way.overrides.begin(), way.overrides.end());
   if (way.plane_points) overrides.push_back(plane_points(motion));
+  if (way.attitude_sigma_deg > 0.0) {  // comes frame by frame, from no network
+    for (const std::string& text :
+         {fmt::format("camera.attitude_sigma_deg={}", way.attitude_sigma_deg),
+          std::string("camera.attitude_channel=SIM"), std::string("telemetry.lcm_url=udpm://239.255.76.67:7667?ttl=0")})
+      overrides.push_back(text);
+  }
   const bool is_paper = std::find(overrides.begin(), overrides.end(), "method=paper") != overrides.end();
   std::string text =
       with_region_facts(config_text(declared, motion, "tracks.csv"), job.scene(), setup.ground_rests && !is_paper);
@@ -238,7 +258,8 @@ FlightResult analyse_flight(const SimulateJob& job, const FlightSetup& setup, co
     generator.generate(delivered, frame);
     if (runs.empty()) {
       for (const Way& way : ways) {
-        runs.push_back(std::make_unique<Run>(declared_run(job, setup, way, generator.motion()), way, frame));
+        runs.push_back(
+            std::make_unique<Run>(declared_run(job, setup, way, generator.motion()), way, frame, generator.motion()));
       }
     }
     truth.push(delivered);

@@ -25,8 +25,9 @@ struct Way {
   std::string name = "ours";
   std::vector<std::string> overrides = {};  // "section.key=value"
   StatedReadout readout = StatedReadout::kTrue;
-  bool with_background = true;  // false: neither its region nor its points
-  bool plane_points = false;    // the corners of three plates are told in mm, each read to half a pixel
+  bool with_background = true;      // false: neither its region nor its points
+  double attitude_sigma_deg = 0.0;  // an attitude with this noise is told as well; 0 = none
+  bool plane_points = false;        // the corners of three plates are told in mm, each read to half a pixel
 };
 
 struct FlightSetup {
