@@ -20,7 +20,8 @@ class RingReader;
 // Slots are borrowed in place at both ends, so an item is written and read where it lies and nothing is copied.
 // Indices grow without wrapping (64 bit); each end counts its slot along beside them, which spares a division. The
 // opposite index is cached (as in rigtorp's SPSCQueue): the shared line is touched only when the cached value says full
-// or empty, and what one end keeps for itself lies on a line that the other never looks at.
+// or empty. What an end keeps for itself lies beside its index, on one line: a line more for each end was slower in
+// most runs of tests/bench/ring_speed.cpp.
 template <class T>
 class SpscRing {
  public:
@@ -49,7 +50,7 @@ class SpscRing {
   friend class RingReader<T>;
 
   // What one end alone reads and writes.
-  struct alignas(kCacheLineBytes) End {
+  struct End {
     std::uint64_t cached_opposite_index = 0;
     std::size_t slot = 0;  // = own index % N
 
@@ -63,8 +64,9 @@ class SpscRing {
   alignas(kCacheLineBytes) std::atomic<std::uint64_t> write_index_{0};
   std::atomic<bool> closed_{false};  // release in close(), acquire in finished(): after the last publish
   // Release by the reader in pop(), acquire by the writer in try_claim(): the reader's last look at the slot is over.
+  End writer_end_;
   alignas(kCacheLineBytes) std::atomic<std::uint64_t> read_index_{0};
-  End writer_end_, reader_end_;
+  End reader_end_;
 };
 
 // Held by the producing stage only.

@@ -1,6 +1,6 @@
 // The ring beside boost::lockfree::spsc_queue in one program: items of one word, and frames. Both ends spin, both hold
-// as many items, and the two take turns. Each line: what, nanoseconds per item of ours and of Boost's (the best of all
-// rounds: what else the machine does only ever adds), and their ratio.
+// as many, and the two take turns. Each line: what, nanoseconds per item of ours and of Boost's, and the ratio of one
+// round's two times: medians over all rounds.
 //   ring_speed [ROUNDS [ITEMS [FRAMES]]]
 #include <algorithm>
 #include <boost/lockfree/spsc_queue.hpp>
@@ -120,14 +120,20 @@ double boost_frames(std::uint64_t n) {
       });
 }
 
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
 void compare(const char* what, int rounds, std::uint64_t n, double (*ours)(std::uint64_t),
              double (*theirs)(std::uint64_t)) {
-  double our_ns = 1e30, their_ns = 1e30;
+  std::vector<double> our_ns, their_ns, ratio;
   for (int round = 0; round < rounds; ++round) {
-    our_ns = std::min(our_ns, ours(n));
-    their_ns = std::min(their_ns, theirs(n));
+    our_ns.push_back(ours(n));
+    their_ns.push_back(theirs(n));
+    ratio.push_back(their_ns.back() / our_ns.back());
   }
-  std::printf("%s\t%.2f\t%.2f\t%.2f\n", what, our_ns, their_ns, their_ns / our_ns);
+  std::printf("%s\t%.2f\t%.2f\t%.2f\n", what, median(our_ns), median(their_ns), median(ratio));
 }
 
 }  // namespace
