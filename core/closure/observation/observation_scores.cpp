@@ -150,7 +150,8 @@ ObservationLevel::Trial ObservationLevel::trial(std::size_t i, const Eigen::Matr
   if (effect.form == Form::kField) return try_field(effect.field(model_.geometry()), moments);
   Trial out;
   if (effect.form == Form::kLine) {
-    const LineSearch search(model_, record_.rate_hz, readout_frames_, rotor_fields(model_.geometry(), readout_frames_), record_.n_frames());
+    const LineSearch search(model_, record_.rate_hz, readout_frames_, rotor_fields(model_.geometry(), readout_frames_),
+                            record_.n_frames());
     out.line = search.find(residual);
     out.gain = out.line.gain;
   } else {
@@ -167,9 +168,14 @@ std::string ObservationLevel::follows_motion(const ObservationEffect& effect, bo
   Eigen::RowVectorXd a = g.normalized().transpose() * model_.residual();
   // Single regions are no motion of the camera: a turn moves each of them by its own height.
   const Eigen::Index plane = model_.first_plane_row(), rows = std::min<Eigen::Index>(3, model_.n_own() - plane);
-  Eigen::MatrixXd motions(rows + (plane > 0 ? 1 : 0), record_.n_frames());
+  Eigen::MatrixXd motions(2 * (rows + (plane > 0 ? 1 : 0)), record_.n_frames());
+  // Their rates too: with a readout a wrong time shows as a motion's velocity.
   motions.topRows(rows) = model_.amplitudes().middleRows(plane, rows);
-  if (plane > 0) motions.row(rows) = model_.amplitudes().topRows(plane).colwise().mean();
+  motions.middleRows(rows, rows) = model_.rates().middleRows(plane, rows);
+  if (plane > 0) {
+    motions.row(2 * rows) = model_.amplitudes().topRows(plane).colwise().mean();
+    motions.row(2 * rows + 1) = model_.rates().topRows(plane).colwise().mean();
+  }
   double noise = static_cast<double>(a.size());
   if (low_band) {
     motions = (motions * model_.cosines()).eval();
@@ -196,6 +202,12 @@ std::string ObservationLevel::refusal(const ObservationEffect& effect, const Tri
   if (trial.gain < kOfLatent * latent && latent > kLowBandBar * n_values())
     return "a projection of something else: the best learned pattern does better";
   if (trial.gain < kOfExcess * excess) return "explains less than a tenth of the structured part";
+  if (effect.form == Form::kLine) {
+    const LineSearch search(model_, record_.rate_hz, readout_frames_,
+                            rotor_fields(model_.geometry(), readout_frames_), record_.n_frames());
+    if (trial.gain < kOfLatent * search.pattern_gain(model_.residual(), trial.line))
+      return "a projection of something else: in its band the best learned pattern does better";
+  }
   return field ? follows_motion(effect, trial.low_band) : std::string{};
 }
 
@@ -206,7 +218,8 @@ std::vector<CandidateScore> ObservationLevel::score() {
   const std::vector<ObservationEffect> named = open();
   const double squares = heldout_squares(moments) + 2.0 * line_freedom();
   const double floor =
-      n_values() * ((1.0 - low_share()) * high_->noise_variance() + low_share() * low_->noise_variance()) + line_freedom();
+      n_values() * ((1.0 - low_share()) * high_->noise_variance() + low_share() * low_->noise_variance()) +
+      line_freedom();
   const Trial latent = try_latent(moments);
   trials_.clear();
   std::vector<CandidateScore> out;

@@ -45,8 +45,10 @@ std::string help() {
          "true;\n"
          "then all is fitted again, until nothing helps. Effects that would do as well are named beside it: then the\n"
          "data do not tell which is the cause.\n"
-         "\nWith --record the points' tracks themselves are modelled instead: motion of each region and of the camera; what\n"
-         "that leaves is traced to rotation, lens, readout time, the tracker, rotors, or told as a pattern of its own:\n"
+         "\nWith --record the points' tracks themselves are modelled instead: motion of each region and of the camera; "
+         "what\n"
+         "that leaves is traced to rotation, lens, readout time, the tracker, rotors, or told as a pattern of its "
+         "own:\n"
          "  hovermodal closeloop --record out --config flight.yaml --report loop\n"
          "\nKeys of frame.yaml, under `structure:`\n" +
          drivers::structure_keys_help() +
@@ -130,10 +132,8 @@ void add_closeloop(CLI::App& app) {
   command->add_option("--set", options->tracks.overrides, "Of --record: override one key of it")
       ->type_name("section.key=value")
       ->take_all();
-  command->add_option("--structure", options->structure, "What is known of the structure")
-      ->type_name("FILE.yaml");
-  command->add_option("--reference", options->reference, "Measured modes: modal.json or modes.csv")
-      ->type_name("FILE");
+  command->add_option("--structure", options->structure, "What is known of the structure")->type_name("FILE.yaml");
+  command->add_option("--reference", options->reference, "Measured modes: modal.json or modes.csv")->type_name("FILE");
   command
       ->add_option("--check", options->check, "Other measured modes, which no fit sees: the model's error against them")
       ->type_name("FILE");
