@@ -18,6 +18,8 @@ namespace {
 
 using Form = ObservationEffect::Form;
 
+constexpr double kSignStretch_s = 2.0;
+
 }  // namespace
 
 Eigen::VectorXd leading_pattern(const Eigen::MatrixXd& moments) {
@@ -203,8 +205,8 @@ std::string ObservationLevel::refusal(const ObservationEffect& effect, const Tri
     return "a projection of something else: the best learned pattern does better";
   if (trial.gain < kOfExcess * excess) return "explains less than a tenth of the structured part";
   if (effect.form == Form::kLine) {
-    const LineSearch search(model_, record_.rate_hz, readout_frames_,
-                            rotor_fields(model_.geometry(), readout_frames_), record_.n_frames());
+    const LineSearch search(model_, record_.rate_hz, readout_frames_, rotor_fields(model_.geometry(), readout_frames_),
+                            record_.n_frames());
     if (trial.gain < kOfLatent * search.pattern_gain(model_.residual(), trial.line))
       return "a projection of something else: in its band the best learned pattern does better";
   }
@@ -260,6 +262,13 @@ double ObservationLevel::surrogate_score(std::uint64_t seed) {
     const auto lag = static_cast<Eigen::Index>(engine() % static_cast<std::uint64_t>(n));
     shifted.middleRows(2 * j, 2).leftCols(n - lag) = residual.middleRows(2 * j, 2).rightCols(n - lag);
     shifted.middleRows(2 * j, 2).rightCols(lag) = residual.middleRows(2 * j, 2).leftCols(lag);
+  }
+  // A shift alone leaves what is a steady sine in all points coherent: signs by the stretch break it.
+  const auto stretch = std::max<Eigen::Index>(8, static_cast<Eigen::Index>(kSignStretch_s * record_.rate_hz));
+  for (Eigen::Index j = 0; j < residual.rows() / 2; ++j) {
+    for (Eigen::Index from = 0; from < n; from += stretch) {
+      if (engine() % 2 == 0) shifted.block(2 * j, from, 2, std::min(stretch, n - from)) *= -1.0;
+    }
   }
   Eigen::MatrixXd left = model_.left_of(shifted);
   const double norm = left.norm();

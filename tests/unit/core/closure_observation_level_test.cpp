@@ -39,8 +39,8 @@ ObservationRecord swaying_record(Eigen::Index n_frames, const Hidden& hidden) {
     const std::size_t floor = j / 8, i = j % 8;
     r.region_of_point.push_back(floor);
     r.sigma_px.push_back(0.03);
-    const double x = -150.0 + 43.0 * static_cast<double>(i);
-    const double y = 400.0 - 260.0 * static_cast<double>(floor) + 17.0 * static_cast<double>((i * 3) % 8) - 60.0;
+    const double x = -150.0 + 43.3 * static_cast<double>(i);  // at all places within a pixel
+    const double y = 400.0 - 260.0 * static_cast<double>(floor) + 17.4 * static_cast<double>((i * 3) % 8) - 60.0;
     for (Eigen::Index k = 0; k < n_frames; ++k) {
       const double t = (static_cast<double>(k) + hidden.readout_frames * (r.cy_px + y) / r.height_px) / r.rate_hz;
       const double sway = 2.0 * static_cast<double>(floor) * std::sin(2.0 * kPi * 1.7 * t);
@@ -61,6 +61,14 @@ ClosureResult closed(const ObservationRecord& record) {
   ClosureOptions options;
   options.n_surrogates = 8;
   return close_loop(level, options);
+}
+
+std::string words(const ClosureResult& result) {
+  std::string text = result.stop_reason;
+  for (const CandidateScore& s : result.refused)
+    text += "; " + s.effect + " " + std::to_string(s.score) + " " + s.refusal;
+  for (const ClosureStep& s : result.steps) text += "; adopted " + s.effect;
+  return text;
 }
 
 std::string fault(const ObservationRecord& record) {
@@ -105,7 +113,7 @@ TEST(TimeFilter, DerivativeOfASineInItsBand) {
 TEST(ObservationLevel, RollIsNamedAndItsSizeFound) {
   const double truth_deg = 0.03;
   const ClosureResult result = closed(swaying_record(1000, {.roll_rms_rad = truth_deg * kPi / 180.0}));
-  ASSERT_EQ(result.steps.size(), 1U);
+  ASSERT_EQ(result.steps.size(), 1U) << words(result);
   EXPECT_EQ(result.steps[0].effect, "camera roll");
   ASSERT_FALSE(result.steps[0].parameters.empty());
   EXPECT_NEAR(result.steps[0].parameters[0].value, truth_deg, 0.002);
@@ -114,7 +122,7 @@ TEST(ObservationLevel, RollIsNamedAndItsSizeFound) {
 
 TEST(ObservationLevel, RadialDistortionIsNamedWithItsCoefficient) {
   const ClosureResult result = closed(swaying_record(1000, {.k1 = -0.2}));
-  ASSERT_EQ(result.steps.size(), 1U);
+  ASSERT_EQ(result.steps.size(), 1U) << words(result);
   EXPECT_EQ(result.steps[0].effect, "radial distortion");
   const ParameterValue& k1 = result.steps[0].parameters.at(0);
   EXPECT_NEAR(k1.value, -0.2, 4.0 * k1.sigma.value_or(0.0));
@@ -123,14 +131,14 @@ TEST(ObservationLevel, RadialDistortionIsNamedWithItsCoefficient) {
 
 TEST(ObservationLevel, PixelLockingIsNamedWithItsAmplitude) {
   const ClosureResult result = closed(swaying_record(1000, {.locking_px = 0.05}));
-  ASSERT_EQ(result.steps.size(), 1U);
+  ASSERT_EQ(result.steps.size(), 1U) << words(result);
   EXPECT_EQ(result.steps[0].effect, "pixel locking");
   EXPECT_NEAR(result.steps[0].parameters.at(0).value, 0.05, 0.001);
 }
 
 TEST(ObservationLevel, UndeclaredReadoutTimeIsNamedAndFound) {
   const ClosureResult result = closed(swaying_record(1000, {.readout_frames = 0.6}));
-  ASSERT_EQ(result.steps.size(), 1U);
+  ASSERT_EQ(result.steps.size(), 1U) << words(result);
   EXPECT_EQ(result.steps[0].effect, "readout time");
   EXPECT_NEAR(result.steps[0].parameters.at(0).value, 0.6, 0.03);
 }
@@ -142,7 +150,7 @@ TEST(ObservationLevel, AnEffectOutsideTheCatalogueIsLatentAndDescribed) {
   ClosureOptions options;
   options.n_surrogates = 8;
   const ClosureResult result = close_loop(level, options);
-  ASSERT_EQ(result.steps.size(), 1U);
+  ASSERT_EQ(result.steps.size(), 1U) << words(result);
   EXPECT_EQ(result.steps[0].kind, EffectKind::kLatent);
   EXPECT_LT(result.steps[0].heldout_after, 1.05 * result.noise_floor);
   EXPECT_NE(level.meaning(0).find("strongest at 0.2"), std::string::npos) << level.meaning(0);
