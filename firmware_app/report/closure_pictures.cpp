@@ -23,7 +23,7 @@ double longest(const ResidualView& view) {
 void draw_field(SvgDocument& svg, const ResidualPair& pair, const ResidualView& view, const Box& box,
                 const std::string& title, double arrow_per_px) {
   svg.text(box.x, box.y - 10.0, title);
-  svg.rect(box, "f");
+  svg.rect(box, "x");
   const double scale = box.width / std::max(pair.width_px, 1);
   for (Eigen::Index j = 0; j < view.place_px.rows(); ++j) {
     const double x = box.x + scale * view.place_px(j, 0), y = box.y + scale * view.place_px(j, 1);
@@ -36,8 +36,8 @@ void draw_field(SvgDocument& svg, const ResidualPair& pair, const ResidualView& 
 std::vector<PlotPoint> spectrum_of(const ResidualView& view) {
   std::vector<PlotPoint> out;
   for (std::size_t i = 0; i < view.frequency_hz.size(); ++i)
-    out.push_back({view.frequency_hz[i],
-                   view.level_px[i] > 0.0 ? view.level_px[i] : std::numeric_limits<double>::quiet_NaN()});
+    out.push_back(
+        {view.frequency_hz[i], view.level_px[i] > 0.0 ? view.level_px[i] : std::numeric_limits<double>::quiet_NaN()});
   return out;
 }
 

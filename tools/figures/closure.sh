@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The figures of closing the loop: residual, effect, error before and after. One line a figure.
-#   tools/figures/closure.sh [--quick]      --quick takes a tenth of the seeds
+#   tools/figures/closure.sh [--quick]      --quick takes a tenth of the seeds; CLOSURE_FIRST_SEED=N draws unseen ones
 # Reports stay in build/figures/closure. SKIP where measured data (HOVERMODAL_DATA) are absent.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -106,6 +106,63 @@ while IFS=$'\t' read -r _ effect n rms alone first among wrong nothing; do
   judge "1s.$effect" "named $((alone + first)) (alone $alone), among the rivals $among, wrong $wrong, nothing $nothing of $n" \
     "true effect named or among those not told apart in 95 %" "residual $rms % rms without it" "$alone + $first + $among >= 0.95 * $n"
 done < <(grep '^closure' "$out/known.txt")
+
+# --- 1, 2, 3: tracks ---------------------------------------------------------------------------------------------------
+tracks=40 tracks_null=25
+[ "${1:-}" != --quick ] || { tracks=2; tracks_null=1; }
+first=${CLOSURE_FIRST_SEED:-1}
+selftest() { "$bin/hovermodal" selftest "$1" --first-seed "$first" --seeds "$2" --threads "$(nproc)"; }
+selftest closure-tracks "$tracks" >"$out/tracks.txt"
+echo "# confusion: effect, strength, what was named, records"
+awk -F'\t' '$1 == "closure-tracks" { n[$2 "\t" $3 "\t" $8]++ } END { for (k in n) print "#\t" k "\t" n[k] }' "$out/tracks.txt" | sort
+while IFS=$'\t' read -r effect strength n exact within after bias before modal twin; do
+  share=0.95 most=1.1
+  [ "$effect" != "rotor line" ] || share=0.9
+  [ "$effect" != "camera yaw" ] || most=1.25
+  what="modal error $before -> $modal %, without the effect $twin % (median rms)"
+  if [ "$strength" = 0.2 ]; then
+    line "1.${effect// /_}.$strength" beside "alone and right $exact of $n, within 3 sigma $within, after $after of the floor" "-" "$what"
+  else
+    judge "1.${effect// /_}.$strength" "alone and right $exact of $n, within 3 sigma $within, after $after of the floor, bias $bias" \
+      "$share of records, all, $most" "$what" \
+      "$exact >= $share * $n && $within >= $exact && $after <= $most && (\"$effect\" != \"readout time\" || ($bias <= 0.03 && $bias >= -0.03))"
+  fi
+done < <(python3 - "$out/tracks.txt" <<'PY'
+import collections, statistics, sys
+cells = collections.OrderedDict()
+for row in open(sys.argv[1]):
+    f = row.rstrip("\n").split("\t")
+    if f[0] == "closure-tracks":
+        cells.setdefault((f[1], f[2]), []).append(f)
+def middle(rows, i):
+    values = [float(r[i]) for r in rows if r[i] not in ("nan", "-nan")]
+    return statistics.median(values) if values else float("nan")
+for (effect, strength), rows in cells.items():
+    exact = [r for r in rows if r[7] == effect]
+    within = [r for r in exact if abs(float(r[11])) <= 3.0]
+    after = max(float(r[9]) / float(r[10]) for r in rows)
+    bias = statistics.mean(float(r[12]) for r in exact) if exact else float("nan")
+    print(effect, strength, len(rows), len(exact), len(within), f"{after:.3f}", f"{bias:.4g}",
+          *(f"{middle(rows, i):.3f}" for i in (13, 14, 15)), sep="\t")
+PY
+)
+selftest closure-tracks-pairs "$tracks" >"$out/tracks_pairs.txt"
+while IFS=$'\t' read -r pair n both; do
+  judge "1p.${pair// /_}" "both and nothing else in $both of $n" "0.85 of records" "two effects of strength 1" "$both >= 0.85 * $n"
+done < <(awk -F'\t' '$1 == "closure-tracks-pair" { n[$2]++; split($2, a, " \\+ "); if ($5 == a[1] " + " a[2] || $5 == a[2] " + " a[1]) both[$2]++ }
+  END { for (p in n) print p "\t" n[p] "\t" both[p] + 0 }' "$out/tracks_pairs.txt" | sort)
+selftest closure-tracks-null "$tracks_null" >"$out/tracks_null.txt"
+IFS=$'\t' read -r _ false_ones n < <(grep '^closure-tracks-false' "$out/tracks_null.txt")
+judge 2t "$false_ones of $n" "3 of 300" "false adoptions on tracks: shaken and wind, with and without background, readout 0, 0.7, 1 of a frame" \
+  "$false_ones <= 0.01 * $n"
+grep '^# bars' "$out/tracks.txt"
+selftest closure-tracks-outside "$((tracks / 2))" >"$out/tracks_outside.txt"
+while IFS=$'\t' read -r effect n latent half modal; do
+  judge "3.${effect// /_}" "latent in $latent of $n, half of the named effect's gain in $half, modal error not worse in $modal" "all" \
+    "not in the catalogue" "$latent == $n && $half == $n && $modal == $n"
+done < <(awk -F'\t' '$1 == "closure-tracks-outside" { n[$2]++; names = $5; gsub(/latent [0-9]+|\+| /, "", names);
+    if (names == "") latent[$2]++; if ($6 ^ 2 - $7 ^ 2 >= 0.5 * ($6 ^ 2 - $9 ^ 2)) half[$2]++; if ($11 <= 1.05 * $10 + 0.01) modal[$2]++ }
+  END { for (e in n) print e "\t" n[e] "\t" latent[e] + 0 "\t" half[e] + 0 "\t" modal[e] + 0 }' "$out/tracks_outside.txt" | sort)
 
 # --- 6: measured video: the clock, then the free decays ------------------------------------------------------------------
 response_video() {

@@ -23,11 +23,13 @@ struct ObservationEffect {
   Form form = Form::kField;
   std::vector<std::string> parameters;
   std::string unit;
-  double per_unit = 1.0;   // printed value = internal value * per_unit
-  double plausible = 0.0;  // largest magnitude of an internal value
-  bool of_tracker = false;  // an error of the tracker's: the points are elsewhere than it says
-  double step = 0.0;       // internal, for derivatives: small against what can be seen
-  Eigen::Vector3d turn = Eigen::Vector3d::Zero();  // of the camera per internal unit, where the field is its first order
+  std::vector<double> waves_per_px;  // of parameters that multiply a wave over the image: an uncertain place blurs it
+  double per_unit = 1.0;             // printed value = internal value * per_unit
+  double plausible = 0.0;            // largest magnitude of an internal value
+  bool of_tracker = false;           // an error of the tracker's: the points are elsewhere than it says
+  double step = 0.0;                 // internal, for derivatives: small against what can be seen
+  Eigen::Vector3d turn =
+      Eigen::Vector3d::Zero();  // of the camera per internal unit, where the field is its first order
   // Field: px per internal unit, 2 points long.
   Eigen::VectorXd (*field)(const PointGeometry&) = nullptr;
   // Global: takes the effect of these values out of positions (2 points x frames, px).

@@ -26,6 +26,7 @@ ObservationEffect pixel_locking_effect() {
   effect.form = ObservationEffect::Form::kGlobal;
   effect.parameters = {"sin", "cos", "sin 2", "cos 2"};
   effect.unit = "px";
+  effect.waves_per_px = {1.0, 1.0, 2.0, 2.0};
   effect.plausible = 1.0;
   effect.of_tracker = true;
   effect.step = 1e-2;

@@ -38,6 +38,11 @@ std::vector<NotObservable> never_observable() {
        "film points at several known depths"},
       {"constant part of yaw and pitch", "it is a translation of the whole image, which is free in each frame",
        "nothing is lost for modes: displacement relative to the base stays"},
+      {"stabilisation warp",
+       "its translation and zoom are free in each frame; what it does beyond shows as a latent effect",
+       "switch the camera's stabilisation off"},
+      {"flicker bands", "tracks hold no brightness; what bands do to single points shows as a latent effect",
+       "look at the frames themselves, or expose for a whole period of the lamps"},
       {"tilt of single floors", "the model has no turn per region; a tilt shows as a latent effect",
        "declare larger regions, or several on one floor"},
   };

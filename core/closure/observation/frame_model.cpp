@@ -109,8 +109,7 @@ void FrameModel::add_region_columns(const ObservationRecord& record) {
   for (std::size_t r = 0; r < record.regions.size(); ++r) {
     const Region& region = record.regions[r];
     if (!makes_channel(region.role)) continue;
-    const double axis_deg =
-        std::abs(region.axis_deg - common_deg) < kParallel_deg ? common_deg : region.axis_deg;
+    const double axis_deg = std::abs(region.axis_deg - common_deg) < kParallel_deg ? common_deg : region.axis_deg;
     const double angle = region.both_axes ? 0.0 : axis_deg * std::numbers::pi / 180.0;
     for (int axis = 0; axis < (region.both_axes ? 2 : 1); ++axis) {
       Eigen::VectorXd field = Eigen::VectorXd::Zero(weight_.size());
@@ -141,7 +140,8 @@ void FrameModel::add_plane_columns(const ObservationRecord& record) {
     }
     if (!(zoom.squaredNorm() > 0.0)) continue;
     for (Eigen::Index j = 0; j < record.n_points(); ++j) {
-      if (along(2 * j) > 0.0) zoom_row_of_point_[static_cast<std::size_t>(j)] = static_cast<Eigen::Index>(own_.size()) - 1;
+      if (along(2 * j) > 0.0)
+        zoom_row_of_point_[static_cast<std::size_t>(j)] = static_cast<Eigen::Index>(own_.size()) - 1;
     }
   }
 }

@@ -42,7 +42,7 @@ class FrameModel {
   void solve(const Eigen::MatrixXd& positions, double readout_frames, int rounds);
 
   [[nodiscard]] const Eigen::MatrixXd& residual() const noexcept { return residual_; }  // in sigmas
-  [[nodiscard]] Eigen::MatrixXd residual_px() const;  // of the raw image
+  [[nodiscard]] Eigen::MatrixXd residual_px() const;                                    // of the raw image
   // Series over frames, px (added columns: their unit), one row per column as given; zero where it fell out.
   [[nodiscard]] const Eigen::MatrixXd& amplitudes() const noexcept { return amplitude_; }
   [[nodiscard]] const Eigen::MatrixXd& rates() const noexcept { return first_; }  // their changes per frame
@@ -89,7 +89,7 @@ class FrameModel {
   Eigen::Index n_own_ = 0, n_region_ = 0, own_rank_ = 0;
   Eigen::VectorXd share_;                   // s_c
   Eigen::MatrixXd x_, x_first_, x_second_;  // fields; times (s_j - s_c); times its square / 2
-  std::vector<Eigen::Index> kept_;  // those of q_high_ first, then what the low band adds
+  std::vector<Eigen::Index> kept_;          // those of q_high_ first, then what the low band adds
   // q_low_ = [q_high_, extra_]. solve_high_: z -> amplitudes; solve_extra_: z in the low band -> amplitudes of what it
   // adds; give_back_: those -> what they take from the amplitudes before.
   Eigen::MatrixXd q_high_, q_low_, extra_, solve_high_, solve_extra_, give_back_;

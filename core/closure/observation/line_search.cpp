@@ -16,10 +16,10 @@ namespace core::closure {
 namespace {
 
 constexpr std::array<double, 4> kHalfWidth_hz{3.0, 2.0, 1.0, 0.3};
-constexpr double kFoldWidth_hz = 1.0;                     // in which the fold is told
-constexpr double kStrip_hz = 0.25;                        // of one phase, while widths are compared
+constexpr double kFoldWidth_hz = 1.0;  // in which the fold is told
+constexpr double kStrip_hz = 0.25;     // of one phase, while widths are compared
 constexpr int kStretches = 8;
-constexpr double kLowest_hz = 3.5;                        // below, slow rotations are effects of their own
+constexpr double kLowest_hz = 3.5;  // below, slow rotations are effects of their own
 constexpr std::size_t kPeaks = 2;
 constexpr double kPeakApart_hz = 1.0, kPeakWidth_hz = 0.3;
 
@@ -123,8 +123,13 @@ Eigen::MatrixXcd LineSearch::left_of(const Eigen::MatrixXcd& fields) const {
 }
 
 double LineSearch::gain(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& fields) const {
-  const Eigen::VectorXd norms = (fields.array().colwise() * model_.weight().array().cast<std::complex<double>>()).matrix().colwise().norm();
-  const Eigen::MatrixXcd g = orthonormal(left_of(fields), norms);
+  const Eigen::VectorXd norms =
+      (fields.array().colwise() * model_.weight().array().cast<std::complex<double>>()).matrix().colwise().norm();
+  return gain_of_columns(moments, orthonormal(left_of(fields), norms));
+}
+
+// g: orthonormal, beside the model's own columns.
+double LineSearch::gain_of_columns(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& g) const {
   const Eigen::MatrixXcd sg = moments * g, gsg = g.adjoint() * sg;
   double drop = 0.0;
   for (Eigen::Index i = 0; i < g.rows(); i += 2) {
@@ -136,6 +141,32 @@ double LineSearch::gain(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd&
     drop += squares(hat, before) - squares(hat + gj * gj.adjoint(), after);
   }
   return drop;
+}
+
+double LineSearch::pattern_gain(const Eigen::MatrixXd& residual, const LineFinding& finding) const {
+  constexpr Eigen::Index kParts = 5;
+  constexpr int kSteps = 40;
+  const Band b = band(finding.apparent_hz, finding.half_width_hz);
+  const Eigen::MatrixXcd bins = spectrum(residual).middleCols(b.first, b.count);
+  std::vector<Eigen::MatrixXcd> parts;
+  Eigen::MatrixXcd sum = Eigen::MatrixXcd::Zero(bins.rows(), bins.rows());
+  for (Eigen::Index p = 0; p < kParts; ++p) {
+    // Every fifth bin: a narrow peak is in all parts.
+    Eigen::MatrixXcd part(bins.rows(), (b.count - p + kParts - 1) / kParts);
+    for (Eigen::Index c = 0; c < part.cols(); ++c) part.col(c) = bins.col(p + c * kParts);
+    parts.push_back(moments_of(part));
+    sum += parts.back();
+  }
+  double gained = 0.0;
+  for (const Eigen::MatrixXcd& part : parts) {
+    const Eigen::MatrixXcd others = sum - part;
+    Eigen::Index start = 0;
+    others.diagonal().real().maxCoeff(&start);
+    Eigen::VectorXcd v = others.col(start);
+    for (int step = 0; step < kSteps && v.norm() > 0.0; ++step) v = (others * v.normalized()).eval();
+    if (v.norm() > 0.0) gained += gain_of_columns(part, v.normalized());
+  }
+  return gained;
 }
 
 // Strip by strip, each with the phase of its own middle.

@@ -14,9 +14,9 @@ struct LineFinding {
   double apparent_hz = 0.0;  // middle of the band, 0 .. f_s / 2; 0 = none was looked for
   int fold = 0;
   double half_width_hz = 0.0;
-  double freedom = 0.0;     // numbers that its motion takes from the noise
-  double gain = 0.0;        // drop of the held-out squares, in noise variances
-  double next_gain = 0.0;   // of the best other fold
+  double freedom = 0.0;    // numbers that its motion takes from the noise
+  double gain = 0.0;       // drop of the held-out squares, in noise variances
+  double next_gain = 0.0;  // of the best other fold
 };
 
 // Mean frequency as seen (0 .. f_s / 2) and its standard deviation from eight stretches of the record.
@@ -33,6 +33,9 @@ class LineSearch {
 
   // residual: 2 points x frames, in sigmas, as the model leaves it.
   [[nodiscard]] LineFinding find(const Eigen::MatrixXd& residual) const;
+  // What the best pattern of any other kind gains in the finding's band, learned on four fifths of its bins and judged
+  // on the fifth.
+  [[nodiscard]] double pattern_gain(const Eigen::MatrixXd& residual, const LineFinding& finding) const;
   // The finding's motion in px, fitted to this residual.
   // later: points x frames, how much later in the readout a point is seen than on the average, in readouts.
   [[nodiscard]] Eigen::MatrixXd motion(const Eigen::MatrixXd& residual, const LineFinding& finding,
@@ -52,6 +55,7 @@ class LineSearch {
   // Part of them that the model's own columns leave, whitened.
   [[nodiscard]] Eigen::MatrixXcd left_of(const Eigen::MatrixXcd& fields) const;
   [[nodiscard]] double gain(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& fields) const;
+  [[nodiscard]] double gain_of_columns(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& g) const;
   [[nodiscard]] double band_gain(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const;
   void try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz, LineFinding& best) const;
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/closure/effects/registry.h"
 #include "core/closure/observation/latent_words.h"
@@ -36,22 +37,32 @@ std::vector<NotObservable> ObservationLevel::not_observable() const {
   return out;
 }
 
+// What is left of a wave over the image where places have the model's own uncertainty: exp(-(2 pi waves sigma)^2 / 2).
+double ObservationLevel::blur(double waves_per_px) const {
+  const double share = static_cast<double>(model_.q_high().cols()) / static_cast<double>(model_.q_high().rows());
+  const double phase = 2.0 * std::numbers::pi * waves_per_px * sigma_px_ * std::sqrt(share);
+  return std::exp(-0.5 * phase * phase);
+}
+
 std::vector<ParameterValue> ObservationLevel::parameters(std::size_t adopted) const {
   const Adopted& a = adopted_.at(adopted);
   std::vector<ParameterValue> out;
   if (a.effect.form == Form::kLine) {
-    out.push_back({"frequency", "Hz", std::abs(a.line_hz.apparent_hz + a.line.fold * record_.rate_hz),
-                   a.line_hz.sigma_hz});
+    out.push_back(
+        {"frequency", "Hz", std::abs(a.line_hz.apparent_hz + a.line.fold * record_.rate_hz), a.line_hz.sigma_hz});
     out.push_back({"apparent frequency", "Hz", a.line_hz.apparent_hz, a.line_hz.sigma_hz});
     out.push_back({"gain over the next fold", "", a.line.gain - a.line.next_gain, std::nullopt});
     return out;
   }
   if (a.effect.form != Form::kField) {
-    for (Eigen::Index p = 0; p < a.values.size(); ++p)
-      out.push_back({a.effect.parameters[static_cast<std::size_t>(p)], a.effect.unit, a.values(p) * a.effect.per_unit,
-                     a.covariance.size() > 0
-                         ? std::optional<double>(std::sqrt(a.covariance(p, p)) * std::abs(a.effect.per_unit))
-                         : std::nullopt});
+    for (Eigen::Index p = 0; p < a.values.size(); ++p) {
+      const auto i = static_cast<std::size_t>(p);
+      const double waves = i < a.effect.waves_per_px.size() ? a.effect.waves_per_px[i] : 0.0;
+      const double factor = a.effect.per_unit / blur(waves);
+      ParameterValue value{a.effect.parameters[i], a.effect.unit, a.values(p) * factor, std::nullopt};
+      if (a.covariance.size() > 0) value.sigma = std::sqrt(a.covariance(p, p)) * std::abs(factor);
+      out.push_back(std::move(value));
+    }
     return out;
   }
   const Eigen::RowVectorXd amplitude = model_.amplitudes().row(amplitude_row(adopted));

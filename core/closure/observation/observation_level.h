@@ -140,6 +140,7 @@ class ObservationLevel final : public ClosureLevel {
   [[nodiscard]] double low_share() const;  // of the record's degrees of freedom in time
   [[nodiscard]] double n_values() const;
   [[nodiscard]] double line_freedom() const;
+  [[nodiscard]] double blur(double waves_per_px) const;
 
   std::vector<std::string> warnings_;  // before record_, whose making fills it
   ObservationRecord record_;
@@ -151,11 +152,11 @@ class ObservationLevel final : public ClosureLevel {
   std::optional<LeaveOneOut> high_, low_;
   std::vector<Adopted> adopted_;
   double readout_frames_ = 0.0;
-  Eigen::MatrixXd predicted_px_;          // in the raw image, without the tracker's errors
-  Eigen::MatrixXd tracker_error_px_;      // of the adopted effects
-  double sigma_px_ = 0.0;                 // rms over points
-  std::vector<Derivatives> derivatives_;  // per open candidate; prepared once per fit
-  std::vector<Trial> trials_;             // of the last score(), latent last
+  Eigen::MatrixXd predicted_px_;                      // in the raw image, without the tracker's errors
+  Eigen::MatrixXd tracker_error_px_;                  // of the adopted effects
+  double sigma_px_ = 0.0;                             // rms over points
+  std::vector<Derivatives> derivatives_;              // per open candidate; prepared once per fit
+  std::vector<Trial> trials_;                         // of the last score(), latent last
   mutable std::optional<core::ModalEstimate> modes_;  // of the last fit(), once asked for
 };
 

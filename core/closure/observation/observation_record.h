@@ -24,7 +24,7 @@ struct ObservationRecord {
   std::vector<std::size_t> region_of_point;
   std::vector<double> sigma_px;   // per point and axis
   std::vector<double> raw_share;  // per point, where in the readout it is; empty: as its place says
-  Eigen::MatrixXd u_px, v_px;    // frames x points; NaN = missing
+  Eigen::MatrixXd u_px, v_px;     // frames x points; NaN = missing
 
   [[nodiscard]] Eigen::Index n_frames() const noexcept { return u_px.rows(); }
   [[nodiscard]] Eigen::Index n_points() const noexcept { return u_px.cols(); }

@@ -18,6 +18,8 @@ namespace {
 
 using Form = ObservationEffect::Form;
 
+constexpr double kSignStretch_s = 2.0;
+
 }  // namespace
 
 Eigen::VectorXd leading_pattern(const Eigen::MatrixXd& moments) {
@@ -150,7 +152,8 @@ ObservationLevel::Trial ObservationLevel::trial(std::size_t i, const Eigen::Matr
   if (effect.form == Form::kField) return try_field(effect.field(model_.geometry()), moments);
   Trial out;
   if (effect.form == Form::kLine) {
-    const LineSearch search(model_, record_.rate_hz, readout_frames_, rotor_fields(model_.geometry(), readout_frames_), record_.n_frames());
+    const LineSearch search(model_, record_.rate_hz, readout_frames_, rotor_fields(model_.geometry(), readout_frames_),
+                            record_.n_frames());
     out.line = search.find(residual);
     out.gain = out.line.gain;
   } else {
@@ -167,9 +170,14 @@ std::string ObservationLevel::follows_motion(const ObservationEffect& effect, bo
   Eigen::RowVectorXd a = g.normalized().transpose() * model_.residual();
   // Single regions are no motion of the camera: a turn moves each of them by its own height.
   const Eigen::Index plane = model_.first_plane_row(), rows = std::min<Eigen::Index>(3, model_.n_own() - plane);
-  Eigen::MatrixXd motions(rows + (plane > 0 ? 1 : 0), record_.n_frames());
+  Eigen::MatrixXd motions(2 * (rows + (plane > 0 ? 1 : 0)), record_.n_frames());
+  // Their rates too: with a readout a wrong time shows as a motion's velocity.
   motions.topRows(rows) = model_.amplitudes().middleRows(plane, rows);
-  if (plane > 0) motions.row(rows) = model_.amplitudes().topRows(plane).colwise().mean();
+  motions.middleRows(rows, rows) = model_.rates().middleRows(plane, rows);
+  if (plane > 0) {
+    motions.row(2 * rows) = model_.amplitudes().topRows(plane).colwise().mean();
+    motions.row(2 * rows + 1) = model_.rates().topRows(plane).colwise().mean();
+  }
   double noise = static_cast<double>(a.size());
   if (low_band) {
     motions = (motions * model_.cosines()).eval();
@@ -196,6 +204,12 @@ std::string ObservationLevel::refusal(const ObservationEffect& effect, const Tri
   if (trial.gain < kOfLatent * latent && latent > kLowBandBar * n_values())
     return "a projection of something else: the best learned pattern does better";
   if (trial.gain < kOfExcess * excess) return "explains less than a tenth of the structured part";
+  if (effect.form == Form::kLine) {
+    const LineSearch search(model_, record_.rate_hz, readout_frames_, rotor_fields(model_.geometry(), readout_frames_),
+                            record_.n_frames());
+    if (trial.gain < kOfLatent * search.pattern_gain(model_.residual(), trial.line))
+      return "a projection of something else: in its band the best learned pattern does better";
+  }
   return field ? follows_motion(effect, trial.low_band) : std::string{};
 }
 
@@ -206,7 +220,8 @@ std::vector<CandidateScore> ObservationLevel::score() {
   const std::vector<ObservationEffect> named = open();
   const double squares = heldout_squares(moments) + 2.0 * line_freedom();
   const double floor =
-      n_values() * ((1.0 - low_share()) * high_->noise_variance() + low_share() * low_->noise_variance()) + line_freedom();
+      n_values() * ((1.0 - low_share()) * high_->noise_variance() + low_share() * low_->noise_variance()) +
+      line_freedom();
   const Trial latent = try_latent(moments);
   trials_.clear();
   std::vector<CandidateScore> out;
@@ -247,6 +262,13 @@ double ObservationLevel::surrogate_score(std::uint64_t seed) {
     const auto lag = static_cast<Eigen::Index>(engine() % static_cast<std::uint64_t>(n));
     shifted.middleRows(2 * j, 2).leftCols(n - lag) = residual.middleRows(2 * j, 2).rightCols(n - lag);
     shifted.middleRows(2 * j, 2).rightCols(lag) = residual.middleRows(2 * j, 2).leftCols(lag);
+  }
+  // A shift alone leaves what is a steady sine in all points coherent: signs by the stretch break it.
+  const auto stretch = std::max<Eigen::Index>(8, static_cast<Eigen::Index>(kSignStretch_s * record_.rate_hz));
+  for (Eigen::Index j = 0; j < residual.rows() / 2; ++j) {
+    for (Eigen::Index from = 0; from < n; from += stretch) {
+      if (engine() % 2 == 0) shifted.block(2 * j, from, 2, std::min(stretch, n - from)) *= -1.0;
+    }
   }
   Eigen::MatrixXd left = model_.left_of(shifted);
   const double norm = left.norm();

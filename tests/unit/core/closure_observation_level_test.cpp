@@ -8,8 +8,8 @@
 #include <string>
 
 #include "core/closure/closure_loop.h"
-#include "core/closure/observation/leave_one_out.h"
 #include "core/closure/noise_stream.h"
+#include "core/closure/observation/leave_one_out.h"
 #include "core/closure/observation/observation_level.h"
 #include "core/closure/observation/time_filter.h"
 
@@ -19,7 +19,10 @@ namespace {
 constexpr double kPi = 3.14159265358979;
 
 // Three floors and a base, eight points each, that sway and hover; noise of 0.03 px.
-ObservationRecord swaying_record(Eigen::Index n_frames, double roll_rms_rad) {
+struct Hidden {
+  double roll_rms_rad = 0.0, k1 = 0.0, locking_px = 0.0, readout_frames = 0.0;
+};
+ObservationRecord swaying_record(Eigen::Index n_frames, const Hidden& hidden) {
   ObservationRecord r;
   r.rate_hz = 25.0, r.alpha_px = 2000.0, r.cx_px = 960.0, r.cy_px = 540.0, r.width_px = 1920, r.height_px = 1080;
   const std::size_t n = 32;
@@ -36,15 +39,18 @@ ObservationRecord swaying_record(Eigen::Index n_frames, double roll_rms_rad) {
     const std::size_t floor = j / 8, i = j % 8;
     r.region_of_point.push_back(floor);
     r.sigma_px.push_back(0.03);
-    const double x = -150.0 + 43.0 * static_cast<double>(i);
-    const double y = 400.0 - 260.0 * static_cast<double>(floor) + 17.0 * static_cast<double>((i * 3) % 8) - 60.0;
+    const double x = -150.0 + 43.3 * static_cast<double>(i);  // at all places within a pixel
+    const double y = 400.0 - 260.0 * static_cast<double>(floor) + 17.4 * static_cast<double>((i * 3) % 8) - 60.0;
     for (Eigen::Index k = 0; k < n_frames; ++k) {
-      const double t = static_cast<double>(k) / r.rate_hz;
+      const double t = (static_cast<double>(k) + hidden.readout_frames * (r.cy_px + y) / r.height_px) / r.rate_hz;
       const double sway = 2.0 * static_cast<double>(floor) * std::sin(2.0 * kPi * 1.7 * t);
-      const double roll = roll_rms_rad * std::sqrt(2.0) * std::sin(2.0 * kPi * 0.23 * t + 1.0);
-      const double du = sway + 8.0 * std::sin(0.9 * t) + roll * y, dv = 5.0 * std::cos(0.7 * t) - roll * x;
-      r.u_px(k, static_cast<Eigen::Index>(j)) = r.cx_px + x + du + 0.03 * noise.gaussian();
-      r.v_px(k, static_cast<Eigen::Index>(j)) = r.cy_px + y + dv + 0.03 * noise.gaussian();
+      const double roll = hidden.roll_rms_rad * std::sqrt(2.0) * std::sin(2.0 * kPi * 0.23 * t + 1.0);
+      const double du = x + sway + 8.0 * std::sin(0.9 * t) + roll * y, dv = y + 5.0 * std::cos(0.7 * t) - roll * x;
+      const double bent = 1.0 + hidden.k1 * (du * du + dv * dv) / (r.alpha_px * r.alpha_px);
+      const double u = r.cx_px + bent * du, v = r.cy_px + bent * dv;
+      const auto j_point = static_cast<Eigen::Index>(j);
+      r.u_px(k, j_point) = u + hidden.locking_px * std::sin(2.0 * kPi * u) + 0.03 * noise.gaussian();
+      r.v_px(k, j_point) = v + hidden.locking_px * std::sin(2.0 * kPi * v) + 0.03 * noise.gaussian();
     }
   }
   return r;
@@ -55,6 +61,14 @@ ClosureResult closed(const ObservationRecord& record) {
   ClosureOptions options;
   options.n_surrogates = 8;
   return close_loop(level, options);
+}
+
+std::string words(const ClosureResult& result) {
+  std::string text = result.stop_reason;
+  for (const CandidateScore& s : result.refused)
+    text += "; " + s.effect + " " + std::to_string(s.score) + " " + s.refusal;
+  for (const ClosureStep& s : result.steps) text += "; adopted " + s.effect;
+  return text;
 }
 
 std::string fault(const ObservationRecord& record) {
@@ -98,22 +112,66 @@ TEST(TimeFilter, DerivativeOfASineInItsBand) {
 
 TEST(ObservationLevel, RollIsNamedAndItsSizeFound) {
   const double truth_deg = 0.03;
-  const ClosureResult result = closed(swaying_record(1000, truth_deg * kPi / 180.0));
-  ASSERT_EQ(result.steps.size(), 1U);
+  const ClosureResult result = closed(swaying_record(1000, {.roll_rms_rad = truth_deg * kPi / 180.0}));
+  ASSERT_EQ(result.steps.size(), 1U) << words(result);
   EXPECT_EQ(result.steps[0].effect, "camera roll");
   ASSERT_FALSE(result.steps[0].parameters.empty());
   EXPECT_NEAR(result.steps[0].parameters[0].value, truth_deg, 0.002);
   EXPECT_LT(result.steps[0].heldout_after, 1.05 * result.noise_floor);
 }
 
+TEST(ObservationLevel, RadialDistortionIsNamedWithItsCoefficient) {
+  const ClosureResult result = closed(swaying_record(1000, {.k1 = -0.2}));
+  ASSERT_EQ(result.steps.size(), 1U) << words(result);
+  EXPECT_EQ(result.steps[0].effect, "radial distortion");
+  const ParameterValue& k1 = result.steps[0].parameters.at(0);
+  EXPECT_NEAR(k1.value, -0.2, 4.0 * k1.sigma.value_or(0.0));
+  EXPECT_LT(result.steps[0].heldout_after, 1.05 * result.noise_floor);
+}
+
+TEST(ObservationLevel, PixelLockingIsNamedWithItsAmplitude) {
+  const ClosureResult result = closed(swaying_record(1000, {.locking_px = 0.05}));
+  ASSERT_EQ(result.steps.size(), 1U) << words(result);
+  EXPECT_EQ(result.steps[0].effect, "pixel locking");
+  EXPECT_NEAR(result.steps[0].parameters.at(0).value, 0.05, 0.001);
+}
+
+TEST(ObservationLevel, UndeclaredReadoutTimeIsNamedAndFound) {
+  const ClosureResult result = closed(swaying_record(1000, {.readout_frames = 0.6}));
+  ASSERT_EQ(result.steps.size(), 1U) << words(result);
+  EXPECT_EQ(result.steps[0].effect, "readout time");
+  EXPECT_NEAR(result.steps[0].parameters.at(0).value, 0.6, 0.03);
+}
+
+TEST(ObservationLevel, AnEffectOutsideTheCatalogueIsLatentAndDescribed) {
+  const ObservationRecord record = swaying_record(1000, {.roll_rms_rad = 0.03 * kPi / 180.0});
+  ObservationLevel level(record);
+  level.forget("camera roll");
+  ClosureOptions options;
+  options.n_surrogates = 8;
+  const ClosureResult result = close_loop(level, options);
+  ASSERT_EQ(result.steps.size(), 1U) << words(result);
+  EXPECT_EQ(result.steps[0].kind, EffectKind::kLatent);
+  EXPECT_LT(result.steps[0].heldout_after, 1.05 * result.noise_floor);
+  EXPECT_NE(level.meaning(0).find("strongest at 0.2"), std::string::npos) << level.meaning(0);
+}
+
+TEST(ObservationLevel, AxesThatDifferByATenthOfADegreeChangeNothing) {
+  ObservationRecord record = swaying_record(1000, {});
+  for (std::size_t i = 0; i < record.regions.size(); ++i) record.regions[i].axis_deg = 0.1 * static_cast<double>(i);
+  const ClosureResult result = closed(record);
+  EXPECT_TRUE(result.steps.empty());
+  EXPECT_NEAR(result.baseline_rms, result.noise_floor, 0.05 * result.noise_floor);
+}
+
 TEST(ObservationLevel, NothingIsNamedWithoutAnEffect) {
-  const ClosureResult result = closed(swaying_record(1000, 0.0));
+  const ClosureResult result = closed(swaying_record(1000, {}));
   EXPECT_TRUE(result.steps.empty()) << result.steps[0].effect;
   EXPECT_NEAR(result.baseline_rms, result.noise_floor, 0.03 * result.noise_floor);
 }
 
 TEST(ObservationLevel, LostSamplesAreFilledByTheModel) {
-  ObservationRecord record = swaying_record(1000, 0.0);
+  ObservationRecord record = swaying_record(1000, {});
   for (Eigen::Index k = 0; k < 1000; ++k) record.u_px(k, k % 32) = std::numeric_limits<double>::quiet_NaN();
   const ClosureResult result = closed(record);
   EXPECT_TRUE(result.steps.empty());
@@ -122,23 +180,23 @@ TEST(ObservationLevel, LostSamplesAreFilledByTheModel) {
 
 TEST(ObservationLevel, BadRecordsAreRefusedInWords) {
   EXPECT_NE(fault({}).find("frame rate"), std::string::npos);
-  EXPECT_NE(fault(swaying_record(100, 0.0)).find("too short"), std::string::npos);
-  ObservationRecord record = swaying_record(600, 0.0);
+  EXPECT_NE(fault(swaying_record(100, {})).find("too short"), std::string::npos);
+  ObservationRecord record = swaying_record(600, {});
   record.sigma_px.assign(32, std::nan(""));
   EXPECT_NE(fault(record).find("usable points"), std::string::npos);
-  record = swaying_record(600, 0.0);
+  record = swaying_record(600, {});
   record.u_px.setConstant(500.0);
   EXPECT_NE(fault(record).find("one line"), std::string::npos);
-  record = swaying_record(600, 0.0);
+  record = swaying_record(600, {});
   record.region_of_point[3] = 99;
   EXPECT_NE(fault(record).find("no declared region"), std::string::npos);
-  record = swaying_record(600, 0.0);
+  record = swaying_record(600, {});
   record.v_px.setConstant(std::numeric_limits<double>::infinity());
   EXPECT_NE(fault(record).find("usable points"), std::string::npos);
 }
 
 TEST(ObservationLevel, SaysWhatOneRegionWithoutBackgroundCannotTell) {
-  ObservationRecord record = swaying_record(600, 0.0);
+  ObservationRecord record = swaying_record(600, {});
   record.region_of_point.assign(32, 1);
   const RecordCheck check = check_record(record);
   EXPECT_TRUE(check.faults.empty());

@@ -5,8 +5,8 @@
 namespace tools {
 
 // The observation level of closing the loop on simulated tracks of known truth. Prints tab-separated lines, with
-// comment lines (#) that name their columns. Records are those of seeds 1 to n_seeds, made on n_threads; what is
-// printed does not depend on the number of threads, but for the seconds taken.
+// comment lines (#) that name their columns. Records are those of n_seeds seeds from first_seed on, made on n_threads;
+// what is printed does not depend on the number of threads, but for the seconds taken.
 struct ClosureTracksOptions {
   int n_seeds = 4;
   int n_threads = 2;
@@ -17,7 +17,8 @@ struct ClosureTracksOptions {
 };
 
 void print_closure_tracks(const ClosureTracksOptions& options);          // undeclared effects: which are named
-void print_closure_tracks_null(const ClosureTracksOptions& options);    // records without an effect
+void print_closure_tracks_pairs(const ClosureTracksOptions& options);    // two of them at once
+void print_closure_tracks_null(const ClosureTracksOptions& options);     // records without an effect
 void print_closure_tracks_outside(const ClosureTracksOptions& options);  // each effect taken out of the catalogue
 
 }  // namespace tools

@@ -1,0 +1,88 @@
+#include "core/closure/observation/latent_words.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "core/spectrum/real_fft.h"
+
+namespace core::closure {
+namespace {
+
+constexpr double kToldSignal = 0.3;  // of the amplitude's variance: a signal worth telling
+
+std::string percent(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
+
+// Share of the field's squares within the span of 1, x, y (, x^2, xy, y^2), along u and v apart.
+double smooth_share(const Eigen::VectorXd& field, const PointGeometry& g, bool quadratic) {
+  const Eigen::Index n = g.x.size();
+  Eigen::MatrixXd basis(n, quadratic ? 6 : 3);
+  basis.col(0).setOnes();
+  basis.col(1) = g.x, basis.col(2) = g.y;
+  if (quadratic) {
+    basis.col(3) = g.x.cwiseAbs2(), basis.col(4) = g.x.cwiseProduct(g.y), basis.col(5) = g.y.cwiseAbs2();
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(basis);
+  const Eigen::MatrixXd values = Eigen::Map<const Eigen::MatrixXd>(field.data(), 2, n).transpose();
+  const Eigen::MatrixXd left = values - basis * qr.solve(values);
+  return 1.0 - left.squaredNorm() / std::max(values.squaredNorm(), 1e-300);
+}
+
+double strongest_hz(const Eigen::RowVectorXd& amplitude, double rate_hz) {
+  int n = 16;
+  while (n < amplitude.size()) n *= 2;
+  RealFft fft(n);
+  std::vector<double> series(static_cast<std::size_t>(n), 0.0);
+  const double mean = amplitude.mean();
+  for (Eigen::Index k = 0; k < amplitude.size(); ++k) series[static_cast<std::size_t>(k)] = amplitude(k) - mean;
+  std::vector<std::complex<double>> bins(static_cast<std::size_t>(fft.n_bins()));
+  fft.forward(series, bins);
+  // Summed over neighbours: one bin of a wide peak is chance.
+  constexpr std::ptrdiff_t kHalf = 4;
+  double most = -1.0;
+  std::ptrdiff_t at = 0;
+  for (std::ptrdiff_t b = kHalf; b + kHalf < std::ssize(bins); ++b) {
+    double sum = 0.0;
+    for (std::ptrdiff_t d = -kHalf; d <= kHalf; ++d) sum += std::norm(bins[static_cast<std::size_t>(b + d)]);
+    if (sum > most) most = sum, at = b;
+  }
+  return rate_hz * static_cast<double>(at) / n;
+}
+
+std::string place_words(const Eigen::VectorXd& field, const ObservationRecord& record) {
+  std::vector<double> share(record.regions.size(), 0.0);
+  double along_v = 0.0;
+  const double whole = std::max(field.squaredNorm(), 1e-300);
+  for (Eigen::Index j = 0; j < record.n_points(); ++j) {
+    share[record.region_of_point[static_cast<std::size_t>(j)]] += field.segment<2>(2 * j).squaredNorm() / whole;
+    along_v += field(2 * j + 1) * field(2 * j + 1) / whole;
+  }
+  const auto most = static_cast<std::size_t>(std::max_element(share.begin(), share.end()) - share.begin());
+  return "most (" + percent(share[most]) + ") in region " + record.regions[most].name + ", " + percent(along_v) +
+         " of it along v";
+}
+
+}  // namespace
+
+std::string latent_words(const Eigen::VectorXd& field, const Eigen::RowVectorXd& amplitude,
+                         const ObservationRecord& record, const PointGeometry& geometry,
+                         const std::vector<KnownSignal>& known) {
+  std::string out = place_words(field, record);
+  const double plane = smooth_share(field, geometry, false), curved = smooth_share(field, geometry, true);
+  out += "; a plane field over the image holds " + percent(plane) + " of it, a quadratic one " + percent(curved);
+  std::string hz = std::to_string(strongest_hz(amplitude, record.rate_hz));
+  out += "; strongest at " + hz.substr(0, hz.find('.') + 3) + " Hz";
+  const Eigen::RowVectorXd a = amplitude.array() - amplitude.mean();
+  double best = kToldSignal;
+  std::string words;
+  for (const KnownSignal& signal : known) {
+    const Eigen::RowVectorXd s = signal.series.array() - signal.series.mean();
+    const double norm = s.squaredNorm() * a.squaredNorm();
+    const double share = norm > 0.0 ? s.dot(a) * s.dot(a) / norm : 0.0;
+    if (share > best) best = share, words = "; goes with " + signal.name + " (" + percent(share) + " of its variance)";
+  }
+  return out + words;
+}
+
+}  // namespace core::closure
