@@ -151,7 +151,7 @@ int overload(double seconds, bool loss) {
   const auto clip = draw(seconds);
   const double rate_hz = core::simulation::CameraParameters{}.rate_hz;
   Play play{clip->frames.size(), 0, true, loss};
-  Run result = run(clip, play, rate_hz, {"spectrum.segment=128"}, play.n_frames / 2);
+  Run result = run(clip, play, rate_hz, {}, play.n_frames / 2);
   if (!loss) {  // how fast tracking is, and then four times that
     play.lossless = false;
     play.period_ns = static_cast<std::int64_t>(result.seconds / 4.0 / static_cast<double>(play.n_frames) * 1e9);
