@@ -54,14 +54,6 @@ TEST(ClockModel, WrongDeclaredRateIsFoundFromTheFilmedClock) {
   EXPECT_NEAR(times.back(), (kFrames - 1) / 22.67, 0.005);
 }
 
-TEST(ClockModel, LostFramesAreCountedAndPlaced) {
-  const ClosureResult result = close(ClockModel(filmed(20.0, 2, 3.0), {20.0}));
-  ASSERT_EQ(result.steps.size(), 1U);
-  EXPECT_EQ(result.steps[0].effect, "lost_frames");
-  EXPECT_NEAR(result.steps[0].parameters.at(0).value, 3.0, 0.1);
-  EXPECT_NEAR(result.steps[0].parameters.at(1).value, 300.0, 3.0);
-}
-
 TEST(ClockModel, RightRateLeavesNothingToAdopt) {
   int adopted = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed)
