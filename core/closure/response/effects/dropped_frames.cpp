@@ -13,6 +13,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kLogLikelihood = 6.0;  // by which two steps must be likelier than one
+constexpr double kExplained = 6.0;      // deviations of chi-square
 constexpr Index kCluster = 6;           // samples that one drop disturbs
 
 // Two steps ahead, the input of the lost sample taken halfway between its neighbours.
@@ -41,6 +42,9 @@ class TwoSteps {
     const VectorXd e = scaled_.value.row(k).transpose() - ahead(k, k);
     const MatrixXd lower = factor_.matrixL();
     const VectorXd two = factor_.matrixL().solve(e);
+    // Two steps must explain the sample: where it is merely wild, neither does.
+    const auto n = static_cast<double>(e.size());
+    if (two.squaredNorm() > n + kExplained * std::sqrt(2.0 * n)) return 0.0;
     const double log_one = predictor_.whitener.diagonal().array().log().sum() - 0.5 * one.squaredNorm();
     return -lower.diagonal().array().log().sum() - 0.5 * two.squaredNorm() - log_one;
   }
