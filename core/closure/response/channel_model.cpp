@@ -112,13 +112,10 @@ const ChannelModel::Prepared& ChannelModel::prepared(const Key& key) const {
   return *prepared_.emplace(key, std::move(out)).first->second;
 }
 
-ChannelModel::CourseFit ChannelModel::fit_course(const Prepared& prepared, const VectorXd& course,
-                                                 const MatrixXd& innovation) {
+MatrixXd ChannelModel::without_course(const Prepared& prepared, const VectorXd& course, const MatrixXd& innovation) {
   const ChannelPredictor& predictor = prepared.predictor;
   constexpr Index kParts = ChannelPredictor::kParts;
-  CourseFit out;
-  out.innovation = innovation;
-  out.without.assign(kParts, 0.0);
+  MatrixXd out = innovation;
   if (prepared.derivative.size() == 0 || course.size() != innovation.rows()) return out;
   MatrixXd direction = MatrixXd::Zero(innovation.rows(), innovation.cols());
   VectorXd along = VectorXd::Zero(kParts), size = VectorXd::Zero(kParts);
@@ -136,13 +133,11 @@ ChannelModel::CourseFit ChannelModel::fit_course(const Prepared& prepared, const
     size(predictor.part_of(k)) += g.squaredNorm();
   }
   if (!(size.sum() > 0.0)) return out;
-  out.coefficient = along.sum() / size.sum();
-  for (Index part = 0; part < kParts; ++part) {
+  for (Index k = 0; k < innovation.rows(); ++k) {
+    const Index part = predictor.part_of(k);
     const double left = size.sum() - size(part);
-    out.without[static_cast<std::size_t>(part)] = left > 0.0 ? (along.sum() - along(part)) / left : 0.0;
+    if (left > 0.0) out.row(k) -= (along.sum() - along(part)) / left * direction.row(k);
   }
-  for (Index k = 0; k < innovation.rows(); ++k)
-    out.innovation.row(k) -= out.without[static_cast<std::size_t>(predictor.part_of(k))] * direction.row(k);
   return out;
 }
 
@@ -169,10 +164,11 @@ ResponseFit ChannelModel::fit(const std::vector<std::string>& effects) const {
     if (effect.corrects()) value = static_cast<double>(here.n_places[place++]);
     if (effect.adds_input()) value = predictable_share_of_input();
     if (effect.has_course()) {
-      CourseFit course = fit_course(here, effect.course({here.record, here.scaled, predictor}), innovation);
-      innovation = std::move(course.innovation);
-      value = course.coefficient;
-      for (const double without : course.without) others.push_back({effect.describe(without)});
+      const VectorXd course = effect.course({here.record, here.scaled, predictor});
+      innovation = without_course(here, course, innovation);
+      if (!made_up_) value = frequency_change(here.scaled, predictor, course, -1);
+      for (Index part = 0; part < ChannelPredictor::kParts && !made_up_; ++part)
+        others.push_back({effect.describe(frequency_change(here.scaled, predictor, course, part))});
     }
     jitters = jitters || effect.jitters();
     out.parameters.push_back({effect.describe(value)});
@@ -256,7 +252,9 @@ std::unique_ptr<ResponseModel> ChannelModel::surrogate(const std::vector<std::st
     const VectorXd next = predict(predictor, history, input) + shape * draw;
     made.value.row(k) = next.cwiseMax(-kWild).cwiseMin(kWild).transpose();
   }
-  return std::make_unique<ChannelModel>(std::move(made), use_);
+  auto out = std::make_unique<ChannelModel>(std::move(made), use_);
+  out->made_up_ = true;
+  return out;
 }
 
 ChannelRecord ChannelModel::corrected(const std::vector<std::string>& effects) const {

@@ -52,17 +52,13 @@ class ChannelModel final : public ResponseModel {
   [[nodiscard]] const Prepared& prepared(const Key& key) const;
   [[nodiscard]] double predictable_share_of_input() const;
 
-  // The innovations once a course of frequencies is taken out; its coefficient, of all parts and without each.
-  struct CourseFit {
-    double coefficient = 0.0;
-    std::vector<double> without;
-    Eigen::MatrixXd innovation;
-  };
-  [[nodiscard]] static CourseFit fit_course(const Prepared& prepared, const Eigen::VectorXd& course,
-                                            const Eigen::MatrixXd& innovation);
+  // The innovations once a course of the frequencies is taken out, each part by the coefficient of the others.
+  [[nodiscard]] static Eigen::MatrixXd without_course(const Prepared& prepared, const Eigen::VectorXd& course,
+                                                      const Eigen::MatrixXd& innovation);
 
   ChannelRecord record_;
   InputUse use_;
+  bool made_up_ = false;  // a surrogate: only its score is asked for
   mutable std::map<Key, std::unique_ptr<Prepared>> prepared_;
 };
 

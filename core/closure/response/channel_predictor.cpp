@@ -40,7 +40,7 @@ class Fitter {
  public:
   Fitter(const ChannelRecord& scaled, ChannelPredictor& out) : record_(scaled), out_(out) {
     const Index n = record_.n_samples(), width = 1 + out.order * out.n_channels + (out.order + 1) * out.n_inputs;
-    rows_ = MatrixXd::Zero(n, width);
+    out.regressors = MatrixXd::Zero(n, width);
     out.usable.assign(static_cast<std::size_t>(n), 0);
     std::vector<char> whole_row(static_cast<std::size_t>(n), 0);
     for (Index k = 0; k < n; ++k)
@@ -70,16 +70,16 @@ class Fitter {
  private:
   void fill(Index k) {
     Index at = 0;
-    rows_(k, at++) = 1.0;
+    out_.regressors(k, at++) = 1.0;
     for (Index i = 1; i <= out_.order; ++i, at += out_.n_channels)
-      rows_.row(k).segment(at, out_.n_channels) = record_.value.row(k - i);
+      out_.regressors.row(k).segment(at, out_.n_channels) = record_.value.row(k - i);
     for (Index i = 0; i <= out_.order && out_.n_inputs > 0; ++i, at += out_.n_inputs)
-      rows_.row(k).segment(at, out_.n_inputs) = record_.input.row(k - i);
+      out_.regressors.row(k).segment(at, out_.n_inputs) = record_.input.row(k - i);
   }
 
   bool solve() {
     constexpr Index kParts = ChannelPredictor::kParts;
-    const Index n = rows_.rows(), width = rows_.cols();
+    const Index n = out_.regressors.rows(), width = out_.regressors.cols();
     std::vector<MatrixXd> gram(kParts, MatrixXd::Zero(width, width)),
         cross(kParts, MatrixXd::Zero(width, out_.n_channels));
     out_.innovation.setZero(n, out_.n_channels);
@@ -89,7 +89,7 @@ class Fitter {
         if (out_.plain[static_cast<std::size_t>(k)] != 0 && out_.part_of(k) == part) mine.push_back(k);
       }
       if (mine.empty()) continue;
-      const MatrixXd z = rows_(mine, Eigen::all), y = record_.value(mine, Eigen::all);
+      const MatrixXd z = out_.regressors(mine, Eigen::all), y = record_.value(mine, Eigen::all);
       gram[static_cast<std::size_t>(part)].noalias() = z.transpose() * z;
       cross[static_cast<std::size_t>(part)].noalias() = z.transpose() * y;
     }
@@ -103,7 +103,7 @@ class Fitter {
       const MatrixXd without = solved(all_gram - gram[p], ridge, all_cross - cross[p]);
       for (Index k = 0; k < n; ++k) {
         if (out_.usable[static_cast<std::size_t>(k)] == 0 || out_.part_of(k) != static_cast<Index>(p)) continue;
-        out_.innovation.row(k) = record_.value.row(k) - rows_.row(k) * without;
+        out_.innovation.row(k) = record_.value.row(k) - out_.regressors.row(k) * without;
       }
     }
     return whiten(n_plain);
@@ -140,7 +140,6 @@ class Fitter {
 
   const ChannelRecord& record_;
   ChannelPredictor& out_;
-  MatrixXd rows_;
   double typical_ = 1.0;
 };
 

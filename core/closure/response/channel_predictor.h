@@ -24,6 +24,7 @@ struct ChannelPredictor {
 
   Eigen::Index order = 0, n_channels = 0, n_inputs = 0;
   Eigen::MatrixXd whole;            // regressors x channels, of all parts
+  Eigen::MatrixXd regressors;       // samples x regressors; rows of unusable samples are 0
   Eigen::MatrixXd innovation;       // samples x channels, held out
   std::vector<char> usable;         // per sample: it and all that predicts it was seen
   std::vector<char> plain;          // ... and its innovation is not far out
@@ -49,5 +50,12 @@ struct ChannelPredictor {
 // same small share: derivative of the lags' coefficients, channels x (order * channels), newest lag first. Poles above
 // may be folded, whose apparent frequency would fall. Empty where there is no such pole.
 [[nodiscard]] Eigen::MatrixXd frequency_derivative(const ChannelPredictor& predictor, double rate_hz);
+
+// By how much the same poles' frequencies differ, relative, per unit of the course, between the samples where it lies
+// above its median and those below: each half fitted by itself, modes weighted by f / damping (the inverse of their
+// frequencies' least variance). The derivative's own coefficient tells that there is a change, and is too small where
+// noise is in what predicts. `without`: a part that takes no share, -1 = none. 0 where it cannot be told.
+[[nodiscard]] double frequency_change(const ChannelRecord& scaled, const ChannelPredictor& predictor,
+                                      const Eigen::VectorXd& course, Eigen::Index without);
 
 }  // namespace core::closure

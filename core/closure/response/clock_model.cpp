@@ -18,7 +18,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kParts = 10;
+constexpr Index kParts = 30;
 constexpr Index kNeighbours = 5;      // to both sides, for the median
 constexpr double kPerSigma = 1.4826;  // median absolute deviation of a Gaussian
 constexpr double kMostMisread = 0.25;

@@ -23,12 +23,15 @@ class ClockLostFrames final : public ClockEffect {
       sum += residual_s(i);
     }
     double before_n = 0.0, before_sum = 0.0, best = -1.0;
+    Eigen::Index first = 0;
     Eigen::VectorXd out = Eigen::VectorXd::Constant(1, frame(frame.size() / 2));
     for (Eigen::Index i = 0; i < frame.size(); ++i) {
       const double after_n = n - before_n, after_sum = sum - before_sum;
       if (before_n >= kEdge && after_n >= kEdge) {
         const double gain = before_sum * before_sum / before_n + after_sum * after_sum / after_n;
-        if (gain > best) best = gain, out(0) = frame(i);
+        // A step among readings that are not seen may be anywhere there: the middle.
+        if (gain > best) best = gain, first = i;
+        if (gain == best) out(0) = frame((first + i) / 2);
       }
       if (seen[static_cast<std::size_t>(i)] == 0) continue;
       before_n += 1.0;

@@ -1,4 +1,5 @@
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -12,8 +13,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kLogLikelihood = 6.0;  // by which two steps must be likelier than one
-constexpr Index kCluster = 6;           // samples that one drop disturbs
+// By which two steps must be likelier than one, beside the logarithm of the number of samples: by chance a ratio above
+// c has a probability below 1 / c, so a record without drops shows one with a probability below exp(-6).
+constexpr double kLogLikelihood = 6.0;
+constexpr double kExplained = 6.0;  // deviations of chi-square
+constexpr Index kCluster = 6;       // samples that one drop disturbs
 
 // Two steps ahead, the input of the lost sample taken halfway between its neighbours.
 class TwoSteps {
@@ -41,6 +45,9 @@ class TwoSteps {
     const VectorXd e = scaled_.value.row(k).transpose() - ahead(k, k);
     const MatrixXd lower = factor_.matrixL();
     const VectorXd two = factor_.matrixL().solve(e);
+    // Two steps must explain the sample: where it is merely wild, neither does.
+    const auto n = static_cast<double>(e.size());
+    if (two.squaredNorm() > n + kExplained * std::sqrt(2.0 * n)) return 0.0;
     const double log_one = predictor_.whitener.diagonal().array().log().sum() - 0.5 * one.squaredNorm();
     return -lower.diagonal().array().log().sum() - 0.5 * two.squaredNorm() - log_one;
   }
@@ -88,11 +95,12 @@ class DroppedFrames final : public ChannelEffect {
       at = -1, best = 0.0;
     };
     Index opened = 0;
+    const double least = kLogLikelihood + std::log(std::max(1.0, static_cast<double>(context.record.n_samples())));
     for (Index k = context.predictor.order; k < context.record.n_samples(); ++k) {
       if (at >= 0 && k - opened >= kCluster) settle();
       if (context.predictor.usable[static_cast<std::size_t>(k)] == 0) continue;
       const double ratio = two.log_ratio(k);
-      if (!(ratio > kLogLikelihood)) continue;
+      if (!(ratio > least)) continue;
       if (at < 0) opened = k;
       if (ratio > best) best = ratio, at = k;
     }
