@@ -95,16 +95,18 @@ class DroppedFrames final : public ChannelEffect {
       at = -1, best = 0.0;
     };
     Index opened = 0;
-    const double least = kLogLikelihood + std::log(std::max(1.0, static_cast<double>(context.record.n_samples())));
+    bool occur = false;
     for (Index k = context.predictor.order; k < context.record.n_samples(); ++k) {
       if (at >= 0 && k - opened >= kCluster) settle();
       if (context.predictor.usable[static_cast<std::size_t>(k)] == 0) continue;
       const double ratio = two.log_ratio(k);
-      if (!(ratio > least)) continue;
+      if (!(ratio > kLogLikelihood)) continue;
+      occur = occur || ratio > kLogLikelihood + std::log(static_cast<double>(context.record.n_samples()));
       if (at < 0) opened = k;
       if (ratio > best) best = ratio, at = k;
     }
     settle();
+    if (!occur) before.clear();
     return {with_gaps(context.record, before), before.size()};
   }
   [[nodiscard]] ParameterValue describe(double value) const override { return {"drops", "frames", value, {}}; }
