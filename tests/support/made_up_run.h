@@ -141,7 +141,13 @@ inline void fill_health(RunData& run, std::size_t n_samples) {
   health.state = "running";
   health.frames_in = health.frames_processed = n_samples;
   health.frames_missing = 20;
-  health.stages.push_back({"tracking", n_samples, n_samples, 0, 1'000'000 * n_samples, 7'654'321, 0, 8});
+  core::StageHealth tracking;
+  tracking.name = "tracking";
+  tracking.n_in = tracking.n_out = n_samples;
+  tracking.busy_ns = 1'000'000 * n_samples;
+  tracking.step = {n_samples, 1'000'000, 2'000'000, 5'000'000, 7'654'321};
+  tracking.queue_slots = 8;
+  health.stages.push_back(tracking);
 }
 
 // A complete run: channels on a vertical line, three modes of which the last is folded, and all that its page shows.

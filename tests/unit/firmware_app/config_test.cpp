@@ -89,6 +89,7 @@ TEST(Config, EachKeySetsItsOwnMemberOnly) {
       {"scale.adaptive", "false"},
       {"scale.only", "false"},
       {"rt.required", "true"},
+      {"rt.thin_overload", "false"},
       {"rt.lock_memory", "true"},
       {"spectrum.segment", "64"}};
   for (const ConfigKey& key : config_keys()) {
