@@ -153,13 +153,14 @@ void CameraMotion::learn() noexcept {
   }
 }
 
-void CameraMotion::settle() noexcept {
+bool CameraMotion::settle() noexcept {
   position_covariance_ = process_.covariance().topLeftCorner<n, n>();
   open_.fill(false);
-  leave_out_poorly_told();
+  const bool left_out = leave_out_poorly_told();
   find_open();
   learn();
   set_sd();
+  return left_out;
 }
 
 // Greatest effect along an axis of the region.
@@ -184,11 +185,12 @@ void CameraMotion::give_up(int component) noexcept {
 
 // This frame alone (and the prior's size) leaves a shift and what goes with it the direction `along`: the state is
 // moved along it to where the shift is zero, and fits the frame as before.
-void CameraMotion::leave_out_poorly_told() noexcept {
+bool CameraMotion::leave_out_poorly_told() noexcept {
   const auto scale = sd_.asDiagonal();
   MotionMatrix scaled = scale * information_ * scale;
   scaled.diagonal().array() += 1.0;
   MotionMatrix frame = scale * scaled.llt().solve(MotionMatrix(scale));
+  bool any = false;
   for (int round = 0; round < 2; ++round) {
     int worst = -1;
     double most = kPoorlyTold;
@@ -200,12 +202,14 @@ void CameraMotion::leave_out_poorly_told() noexcept {
         if (ratio > most) worst = i, most = ratio;
       }
     }
-    if (worst < 0) return;
+    if (worst < 0) break;
+    any = true;
     const MotionVector along = frame.col(worst) / frame(worst, worst);
     for (int d = 0; d < 3; ++d) taken_.segment<n>(d * n) -= taken_(d * n + worst) * along;
     frame -= frame(worst, worst) * (along * along.transpose());
     give_up(worst);
   }
+  return any;
 }
 
 // From the component that is known worst, in px at the channels: what is open is taken as given, the rest judged again.

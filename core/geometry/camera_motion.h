@@ -74,8 +74,8 @@ class CameraMotion {
   [[nodiscard]] bool sees_turns() const noexcept { return rests_; }  // something rests
   // Works from the last prediction; may be called again with another choice of points.
   void correct(const MotionObservation& seen) noexcept;
-  // The frame is done: learn from it, and leave out what it tells too poorly.
-  void settle() noexcept;
+  // The frame is done: learn from it, and leave out what it tells too poorly. True: state() is no longer the estimate.
+  bool settle() noexcept;
 
   // Motion of a point in its plane with the camera's motion taken away, px of the keyframe. Before settle() with all
   // components, after it without those that are open.
@@ -108,7 +108,7 @@ class CameraMotion {
   void iterate(const MotionObservation& seen) noexcept;
   void add_turn(const MotionStateVector& linear, MotionVector& gradient) noexcept;
   [[nodiscard]] bool surprised() noexcept;
-  void leave_out_poorly_told() noexcept;
+  [[nodiscard]] bool leave_out_poorly_told() noexcept;
   void find_open() noexcept;
   [[nodiscard]] double effect_px(const MotionVector& motion, std::size_t region) const noexcept;
   void give_up(int component) noexcept;

@@ -186,9 +186,8 @@ double ChannelDisplacement::follow_camera(std::int64_t t_start_ns) noexcept {
     camera_motion_->correct({position_, share_now_, sigma_px_, inlier_});
     stabilise();
   }
-  camera_motion_->settle();
+  if (camera_motion_->settle()) stabilise();
   if (attitude_) attitude_->after(*camera_motion_);
-  stabilise();
   // A datum that does not rest, or a view that the model cannot hold: most points contradict it for long.
   n_contradicted_ = 4 * count(inlier_) < count(seen_) ? n_contradicted_ + 1 : 0;
   if (n_contradicted_ > kMostContradicted) camera_given_up_ = true;

@@ -55,13 +55,14 @@ struct Errors {
   double common_px, between_px;
 };
 
-Errors errors_of(const TrackGenerator& tracks, const ChannelDisplacementConfig& config) {
+// visit(channels, frame, sample) for every frame.
+template <class Visit>
+void for_each_sample(const TrackGenerator& tracks, const ChannelDisplacementConfig& config, const Visit& visit) {
   auto timing = tracks.timing();
   simulation::DeliveredFrame frame;
   TrackFrame points;
   std::unique_ptr<ChannelDisplacement> channels;
   DisplacementSample sample;
-  std::vector<double> common, between;
   while (timing.next(frame)) {
     tracks.generate(frame, points);
     if (!channels) {
@@ -69,17 +70,32 @@ Errors errors_of(const TrackGenerator& tracks, const ChannelDisplacementConfig& 
       sample = channels->sample_prototype();
     }
     channels->update(points, sample);
+    visit(*channels, frame, sample);
+  }
+}
+
+Errors errors_of(const TrackGenerator& tracks, const ChannelDisplacementConfig& config) {
+  std::vector<double> common, between;
+  for_each_sample(tracks, config, [&](const auto& channels, const auto& frame, const auto& sample) {
     const auto error = [&](std::size_t c) {
-      const ChannelInfo& info = channels->channels()[c];
+      const ChannelInfo& info = channels.channels()[c];
       const double t_s = frame.t_s + info.row_delay_s + 0.5 * tracks.motion().scene().camera.exposure_s;
       const int body = tracks.regions()[info.region].body;
       return (sample.value_mm[c] - tracks.motion().body_at(body, t_s).x_mm) / config.scale_mm_per_px;
     };
-    const std::size_t last = channels->channels().size() - 1;
+    const std::size_t last = channels.channels().size() - 1;
     common.push_back(error(last));
     between.push_back(error(0) - error(last));
-  }
+  });
   return {rms(common), rms(between)};
+}
+
+// The base rests, and the operator says so.
+ChannelDisplacementConfig with_ground(ChannelDisplacementConfig config) {
+  for (Region& region : config.regions) {
+    if (region.role == RegionRole::kBase) region.role = RegionRole::kGround;
+  }
+  return config;
 }
 
 TEST(CameraMotionEstimate, GustsAreTakenAwayByABackgroundOfKnownDistance) {
@@ -103,9 +119,7 @@ TEST(CameraMotionEstimate, DriftIsHalvedByABackgroundAndTakenAwayByGroundInTheSt
   config.scale_only = true;
   const Errors scale_only = errors_of(tracks, config);
   config.scale_only = false;
-  for (Region& region : config.regions)
-    region.role = region.role == RegionRole::kBase ? RegionRole::kGround : region.role;
-  const Errors by_ground = errors_of(tracks, config);
+  const Errors by_ground = errors_of(tracks, with_ground(config));
   EXPECT_LT(by_background.common_px, 0.6 * scale_only.common_px);
   EXPECT_LT(by_ground.common_px, 0.02 * scale_only.common_px);
 }
@@ -135,28 +149,16 @@ TEST(CameraMotionEstimate, StatesHowFarItMayBeOff) {
     Scene scene = simulation::make_paper_scene(seed, 16.0);
     scene.excitation.rms_mm = 0.0;
     const TrackGenerator tracks(scene);
-    ChannelDisplacementConfig config = config_of(tracks, 4.0);
-    for (Region& region : config.regions) {
-      if (region.role == RegionRole::kBase) region.role = RegionRole::kGround;
-    }
-    auto timing = tracks.timing();
-    simulation::DeliveredFrame frame;
-    TrackFrame points;
-    std::unique_ptr<ChannelDisplacement> channels;
-    DisplacementSample sample;
     std::vector<std::vector<double>> ratio;
-    for (int k = 0; timing.next(frame); ++k) {
-      tracks.generate(frame, points);
-      if (!channels) {
-        channels = std::make_unique<ChannelDisplacement>(config, points);
-        sample = channels->sample_prototype();
-        ratio.resize(channels->channels().size());
-      }
-      channels->update(points, sample);
-      for (std::size_t c = 0; k > 100 && c < ratio.size(); ++c) {
-        ratio[c].push_back(sample.value_mm[c] / sample.sigma_mm[c]);
-      }
-    }
+    int k = 0;
+    for_each_sample(tracks, with_ground(config_of(tracks, 4.0)),
+                    [&](const auto& channels, const auto&, const auto& sample) {
+                      ratio.resize(channels.channels().size());
+                      for (std::size_t c = 0; k > 100 && c < ratio.size(); ++c) {
+                        ratio[c].push_back(sample.value_mm[c] / sample.sigma_mm[c]);
+                      }
+                      ++k;
+                    });
     for (const auto& values : ratio) square += step_rms(values) * step_rms(values) / 2.0, n += 1.0;
   }
   EXPECT_GT(std::sqrt(square / n), 0.6);
