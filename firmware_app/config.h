@@ -68,6 +68,7 @@ struct SpectrumConfig {
   int segment = 512;  // samples
   double overlap = 0.5;
   std::string window = "hann";  // hann | hamming | boxcar
+  bool witness = true;          // what rests tells the camera's part of a shape
   double forget_s = 0.0;        // a segment counts exp(-age / forget_s); 0 = never forgets
 };
 

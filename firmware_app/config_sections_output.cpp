@@ -44,6 +44,9 @@ void add_analysis_keys(std::vector<ConfigKey>& keys) {
                                  "taper of a segment"));
   keys.push_back(number_key("spectrum.forget_s", "s", at(&A::spectrum, &S::forget_s), {1, 1e7, true},
                             "a segment counts exp(-age / this), for a structure that changes; 0 = never forgets"));
+  keys.push_back(switch_key("spectrum.witness", at(&A::spectrum, &S::witness),
+                            "where the scale alone is followed: take what moves with a region that rests (background, "
+                            "ground) for the camera's, and out of the shapes"));
   using I = IdentificationConfig;
   keys.push_back(
       whole_key("identification.period", "hops", at(&A::identification, &I::period_hops), {1, 1000000},

@@ -83,6 +83,7 @@ core::ChannelDisplacementConfig displacement_config(const AppConfig& config, con
   }
   out.adaptive_scale = config.scale.adaptive;
   out.scale_only = config.scale.only;
+  out.witness = config.spectrum.witness;
   out.paper_method = config.method == Method::kPaper;
   out.attitude = attitude_config(config, camera);
   out.inlier_sigma_px = config.tracking.inlier_sigma_px;

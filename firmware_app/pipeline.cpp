@@ -42,7 +42,7 @@ struct Pipeline::Parts {
   TrackingStage tracking{frames.reader(),  source.tracker,   source.displacement,  source.readout,
                          samples.writer(), records.writer(), source.info.lossless, capture.thinning()};
 
-  core::WelchConfig welch = welch_config(config.spectrum, source.channels().size(), source.info.rate_hz);
+  core::WelchConfig welch = welch_config(config.spectrum, source.displacement.spectra().size(), source.info.rate_hz);
   rt::TripleBuffer<SpectrumSnapshot> snapshots{SpectrumSnapshot{core::WelchCpsd::empty_sums(welch), 0, 0, false, {}}};
   SpectrumStage spectrum{samples.reader(),  welch, config.identification.period_hops, snapshots, source.info.lossless,
                          capture.thinning()};
@@ -74,7 +74,7 @@ struct Pipeline::Parts {
   [[nodiscard]] std::unique_ptr<const ReadoutUse> identifier(double rate_hz) const {
     core::CameraInfo info = source.info;
     info.rate_hz = rate_hz;
-    return std::make_unique<const ReadoutUse>(config, info, source.keyframe, source.channels());
+    return std::make_unique<const ReadoutUse>(config, info, source.keyframe, source.displacement.spectra());
   }
   // Before anything is allocated.
   static const AppConfig& keep_memory(const AppConfig& config) noexcept {

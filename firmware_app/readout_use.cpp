@@ -34,7 +34,7 @@ std::vector<double> row_shares(const AppConfig& config, const core::CameraInfo& 
   unit.readout.readout_s = 1.0;
   std::vector<double> shares;
   const core::ChannelDisplacement displacement(unit, keyframe);
-  for (const core::ChannelInfo& channel : displacement.channels()) shares.push_back(channel.row_delay_s);
+  for (const core::ChannelInfo& channel : displacement.spectra()) shares.push_back(channel.row_delay_s);
   return shares;
 }
 
@@ -52,10 +52,11 @@ core::ReadoutEstimator::Config readout_config(const AppConfig& config, const cor
 }
 
 ReadoutUse::ReadoutUse(const AppConfig& config, const core::CameraInfo& camera, const core::TrackFrame& keyframe,
-                       std::vector<core::ChannelInfo> channels)
-    : identifier_(identifier_config(config, channels, camera.rate_hz)),
-      channels_(std::move(channels)),
+                       std::vector<core::ChannelInfo> spectra)
+    : identifier_(identifier_config(config, spectra, camera.rate_hz)),
+      channels_(std::move(spectra)),
       row_share_(row_shares(config, camera, keyframe)),
+      n_outputs_(core::Identifier(identifier_, channels_).n_outputs()),
       rate_hz_(camera.rate_hz),
       declared_(declared_readout(config, camera)) {}
 
@@ -78,7 +79,8 @@ std::optional<core::ReadoutValue> ReadoutUse::read_shapes(const core::ModalEstim
       if (can_be_read(mode)) poles.push_back(core::observed_pole(mode, channels, rate_hz_));
     }
   }
-  const auto read = core::readout_from_shapes(poles, row_share_, {rate_hz_, identifier_.max_frequency_hz, 1.0});
+  const auto read =
+      core::readout_from_shapes(poles, {row_share_.data(), n_outputs_}, {rate_hz_, identifier_.max_frequency_hz, 1.0});
   if (!read || !read->scatter_known || read->n_poles < kLeastPoles || read->mean_mpc < kLeastMpc) return {};
   return core::ReadoutValue{read->readout_frames / rate_hz_, read->std_frames / rate_hz_};
 }

@@ -23,13 +23,14 @@ class ReadoutUse {
  public:
   // Throws as identifier_config() does.
   ReadoutUse(const AppConfig& config, const core::CameraInfo& camera, const core::TrackFrame& keyframe,
-             std::vector<core::ChannelInfo> channels);
+             std::vector<core::ChannelInfo> spectra);
 
   [[nodiscard]] core::ModalEstimate identify(const core::CpsdSums& sums,
                                              const core::ReadoutEstimate& from_tracks) const;
 
   // Row delay of every channel as it was undone in the estimate's shapes, or would be as declared; 0 in paper mode.
   [[nodiscard]] std::vector<double> delay_s(const core::ModalEstimate& estimate) const;
+  [[nodiscard]] int n_outputs() const noexcept { return static_cast<int>(n_outputs_); }
   [[nodiscard]] std::vector<double> declared_delay_s() const { return delay_s({}); }
 
  private:
@@ -40,6 +41,7 @@ class ReadoutUse {
   core::IdentifierConfig identifier_;
   std::vector<core::ChannelInfo> channels_;
   std::vector<double> row_share_;  // part of the readout that has passed when each channel is seen
+  std::size_t n_outputs_;          // channels that are no witnesses
   double rate_hz_;
   core::ReadoutValue declared_;
 };

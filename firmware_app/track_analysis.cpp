@@ -39,7 +39,7 @@ bool ChannelAnalysis::push(const core::DisplacementSample& sample) {
   for (std::uint64_t k = 0; k < placement.n_missing_before; ++k) note(cpsd_.push_missing());
   losses_.frames_missing += placement.n_missing_before;
   readout_ = sample.readout;
-  note(cpsd_.push(sample.value_mm, sample.seen));
+  note(cpsd_.push(sample));
   return true;
 }
 
@@ -48,6 +48,7 @@ core::ModalEstimate ChannelAnalysis::finish() {
   losses_.samples_masked = cpsd_.sums().n_missing;
   core::ModalEstimate estimate = make();
   estimate.final = true;
+  totals_.copy_totals(cpsd_.sums(), static_cast<int>(identifier_.n_outputs()));
   return estimate;
 }
 
@@ -61,8 +62,8 @@ TrackAnalysis::TrackAnalysis(const AppConfig& config, const core::CameraInfo& ca
     : displacement_(displacement_config(config, camera), keyframe),
       readout_(readout_config(config, camera), keyframe),
       sample_(displacement_.sample_prototype()),
-      analysis_(config, displacement_.channels(), camera.rate_hz) {
-  analysis_.find_readout(ReadoutUse(config, camera, keyframe, displacement_.channels()));
+      analysis_(config, displacement_.spectra(), camera.rate_hz) {
+  analysis_.find_readout(ReadoutUse(config, camera, keyframe, displacement_.spectra()));
 }
 
 bool TrackAnalysis::push(core::TrackFrame& tracks) {

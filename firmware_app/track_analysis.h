@@ -30,6 +30,7 @@ class RunReport;
 // makes, so that modes get the same history.
 class ChannelAnalysis {
  public:
+  // channels: of the samples; their witnesses, if any, last.
   ChannelAnalysis(const AppConfig& config, const std::vector<core::ChannelInfo>& channels, double rate_hz);
 
   // Find the readout time on the way; else row delays are undone as declared.
@@ -47,7 +48,8 @@ class ChannelAnalysis {
   [[nodiscard]] core::ModalEstimate identified(int n_differences) const;
 
   [[nodiscard]] const core::Health& losses() const noexcept { return losses_; }
-  [[nodiscard]] const core::CpsdSums& sums() const noexcept { return cpsd_.sums(); }  // whole after finish()
+  // Totals of the channels without witnesses, after finish().
+  [[nodiscard]] const core::CpsdSums& sums() const noexcept { return totals_; }
 
  private:
   void note(bool hop);
@@ -59,6 +61,7 @@ class ChannelAnalysis {
   core::ReadoutEstimate readout_;  // with the last sample
   core::ModeTracker tracker_;
   core::WelchCpsd cpsd_;
+  core::CpsdSums totals_;
   core::TimeGrid grid_;
   core::Health losses_;
   std::uint64_t period_hops_, n_estimates_ = 0;

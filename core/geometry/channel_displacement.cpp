@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "core/geometry/keyframe_view.h"
 #include "core/tracking/outlier_rejection.h"
@@ -40,6 +41,34 @@ double mean_of(const std::vector<double>& values) noexcept {
   return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
 }
 
+// Motion of points since the keyframe without the zoom about their keyframe centre that `counts` agree on: least
+// squares.
+void remove_zoom(std::span<const Vector2> position, std::span<const Vector2> keyframe,
+                 std::span<const std::uint8_t> counts, std::span<Vector2> motion) noexcept {
+  Vector2 now, then, centre;
+  double n = 0.0, n_all = 0.0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    centre.u += keyframe[i].u, centre.v += keyframe[i].v, n_all += 1.0;
+    if (counts[i] == 0) continue;
+    now.u += position[i].u, now.v += position[i].v, n += 1.0;
+    then.u += keyframe[i].u, then.v += keyframe[i].v;
+  }
+  if (n == 0.0) return;
+  now = {now.u / n, now.v / n}, then = {then.u / n, then.v / n}, centre = {centre.u / n_all, centre.v / n_all};
+  double product = 0.0, square = 0.0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] == 0) continue;
+    const Vector2 from{keyframe[i].u - then.u, keyframe[i].v - then.v};
+    product += from.u * (position[i].u - now.u) + from.v * (position[i].v - now.v);
+    square += from.u * from.u + from.v * from.v;
+  }
+  const double growth = square > 0.0 ? product / square - 1.0 : 0.0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    motion[i] = {position[i].u - keyframe[i].u - growth * (keyframe[i].u - centre.u),
+                 position[i].v - keyframe[i].v - growth * (keyframe[i].v - centre.v)};
+  }
+}
+
 }  // namespace
 
 ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const TrackFrame& keyframe)
@@ -68,6 +97,8 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
   last_region_motion_.resize(config_.regions.size());
   has_last_.assign(config_.regions.size(), 0);
   make_channels();
+  spectra_ = channels_;
+  if (config_.witness && config_.scale_only && !config_.paper_method) make_witnesses();
   if (!config_.adaptive_scale || config_.scale_only || config_.paper_method) return;
   const bool turns_measured = config_.attitude && config_.camera.calibrated();
   if (!turns_measured && !tells_camera_motion(config_.regions, config_.camera)) return;
@@ -79,18 +110,42 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
   attitude_->before(*camera_motion_, static_cast<double>(keyframe.t_start_ns) * 1e-9);
 }
 
+// Of the same weighted mean as the channel's.
+double ChannelDisplacement::delay_s(const RegionRange& range) const noexcept {
+  double share = 0.0, weight = 0.0;
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    share += weight_[i] * readout_share_[i];
+    weight += weight_[i];
+  }
+  return weight > 0.0 && !config_.paper_method ? config_.readout.readout_s * share / weight : 0.0;
+}
+
+void ChannelDisplacement::make_witnesses() {
+  constexpr double kSameDirection = 0.99;
+  std::size_t best = ranges_.size(), most = static_cast<std::size_t>(std::max(3, config_.min_points)) - 1;
+  for (std::size_t r = 0; r < ranges_.size(); ++r) {
+    const std::size_t n = ranges_[r].end - ranges_[r].begin;
+    if (!makes_channel(config_.regions[r].role) && n > most) best = r, most = n;
+  }
+  if (best == ranges_.size()) return;
+  for (const ChannelInfo& channel : channels_) {
+    const auto is_alike = [&](const ChannelInfo& other) {
+      return other.is_witness && std::abs(other.direction_u * channel.direction_u +
+                                          other.direction_v * channel.direction_v) > kSameDirection;
+    };
+    if (std::any_of(spectra_.begin(), spectra_.end(), is_alike)) continue;
+    ChannelInfo info{static_cast<std::uint16_t>(best), config_.regions[best].name, channel.direction_u,
+                     channel.direction_v, delay_s(ranges_[best])};
+    info.is_witness = true;
+    spectra_.push_back(std::move(info));
+  }
+}
+
 void ChannelDisplacement::make_channels() {
   for (std::size_t r = 0; r < config_.regions.size(); ++r) {
     const Region& region = config_.regions[r];
     if (!makes_channel(region.role)) continue;
-    double share = 0.0;  // the same weighted mean as the channel's
-    double weight = 0.0;
-    for (std::size_t i = ranges_[r].begin; i < ranges_[r].end; ++i) {
-      share += weight_[i] * readout_share_[i];
-      weight += weight_[i];
-    }
-    const double delay_s = weight > 0.0 ? config_.readout.readout_s * share / weight : 0.0;
-    ChannelInfo info{static_cast<std::uint16_t>(r),   region.name, 1.0, 0.0, config_.paper_method ? 0.0 : delay_s,
+    ChannelInfo info{static_cast<std::uint16_t>(r),   region.name, 1.0, 0.0, delay_s(ranges_[r]),
                      region.role == RegionRole::kBase};
     if (!region.both_axes) {
       const Vector2 axis = axis_of(region);
@@ -114,6 +169,8 @@ DisplacementSample ChannelDisplacement::sample_prototype() const {
   sample.sigma_mm.assign(channels_.size(), 0.0);
   sample.seen.assign(channels_.size(), 0);
   sample.n_points.assign(channels_.size(), 0);
+  sample.witness_mm.assign(spectra_.size() - channels_.size(), 0.0);
+  sample.witness_seen.assign(spectra_.size() - channels_.size(), 0);
   return sample;
 }
 
@@ -229,31 +286,55 @@ double ChannelDisplacement::scale_of(std::uint16_t region) const noexcept {
                                                         : config_.scale_mm_per_px;
 }
 
-void ChannelDisplacement::average_channel(std::size_t channel, double magnification,
-                                          DisplacementSample& out) const noexcept {
-  const ChannelInfo& info = channels_[channel];
+ChannelDisplacement::Average ChannelDisplacement::average(const ChannelInfo& info) const noexcept {
   const RegionRange& range = ranges_[info.region];
-  double sum = 0.0;
-  double weight = 0.0;
-  double variance = 0.0;
-  std::uint16_t count = 0;
+  double sum = 0.0, weight = 0.0, variance = 0.0;
+  Average out;
   for (std::size_t i = range.begin; i < range.end; ++i) {
     if (inlier_[i] == 0) continue;
     sum += weight_[i] * (motion_[i].u * info.direction_u + motion_[i].v * info.direction_v);
     weight += weight_[i];
     variance += weight_[i] * weight_[i] * sigma_px_[i] * sigma_px_[i];
-    ++count;
+    ++out.n_points;
   }
-  const bool enough = weight > 0.0 && count >= config_.min_points;
+  if (!(weight > 0.0)) return out;
+  out.enough = out.n_points >= config_.min_points;
+  out.mean_px = sum / weight;
+  out.sigma_px = std::sqrt(variance) / weight;
+  return out;
+}
+
+void ChannelDisplacement::average_channel(std::size_t channel, double magnification,
+                                          DisplacementSample& out) const noexcept {
+  const ChannelInfo& info = channels_[channel];
+  const Average mean = average(info);
   const double s0 = scale_of(info.region);
-  const double mean_px = weight > 0.0 ? std::sqrt(variance) / weight / magnification : 0.0;
   const double camera_px =
-      follows_camera() ? camera_motion_->sigma_px(info.region, info.direction_u, info.direction_v) / magnification
-                       : 0.0;
-  out.seen[channel] = enough ? 1 : 0;
-  out.n_points[channel] = count;
-  out.value_mm[channel] = enough ? s0 * sum / weight : 0.0;
-  out.sigma_mm[channel] = enough ? s0 * std::hypot(mean_px, camera_px) : 0.0;
+      follows_camera() ? camera_motion_->sigma_px(info.region, info.direction_u, info.direction_v) : 0.0;
+  out.seen[channel] = mean.enough ? 1 : 0;
+  out.n_points[channel] = mean.n_points;
+  out.value_mm[channel] = mean.enough ? s0 * mean.mean_px : 0.0;
+  out.sigma_mm[channel] = mean.enough ? s0 * std::hypot(mean.sigma_px, camera_px) / magnification : 0.0;
+}
+
+// What rests at another distance has another zoom: its points agree about a motion only without their own.
+void ChannelDisplacement::follow_what_rests() noexcept {
+  MlesacConfig mlesac;
+  mlesac.sigma_px = config_.inlier_sigma_px;
+  std::size_t last = ranges_.size();
+  for (std::size_t w = channels_.size(); w < spectra_.size(); ++w) {
+    if (spectra_[w].region == last) continue;
+    last = spectra_[w].region;
+    const std::size_t begin = ranges_[last].begin, n = ranges_[last].end - begin;
+    const std::span<Vector2> motion(motion_.data() + begin, n);
+    const std::span<const Vector2> position(position_.data() + begin, n), keyframe(keyframe_.data() + begin, n);
+    const std::span<const std::uint8_t> seen(seen_.data() + begin, n);
+    const std::span<std::uint8_t> inlier(inlier_.data() + begin, n);
+    remove_zoom(position, keyframe, seen, motion);
+    (void)mlesac_translation(motion, seen, mlesac, inlier);
+    remove_zoom(position, keyframe, inlier, motion);
+    (void)mlesac_translation(motion, seen, mlesac, inlier);
+  }
 }
 
 void ChannelDisplacement::update(TrackFrame& tracks, DisplacementSample& out) noexcept {
@@ -262,11 +343,17 @@ void ChannelDisplacement::update(TrackFrame& tracks, DisplacementSample& out) no
   out.gap_before = tracks.gap_before;
   place_points(tracks);
   const double magnification = follows_camera() ? follow_camera(tracks.t_start_ns) : estimate_scale();
+  follow_what_rests();
   for (std::size_t i = 0; i < keyframe_.size() && i < tracks.points.size(); ++i)
     tracks.points[i].inlier = inlier_[i] != 0;
   if (config_.paper_method) compensate_rolling_shutter();
   out.scale_mm_per_px = config_.scale_mm_per_px / magnification;
   for (std::size_t c = 0; c < channels_.size(); ++c) average_channel(c, magnification, out);
+  for (std::size_t w = 0; w < out.witness_mm.size(); ++w) {
+    const Average mean = average(spectra_[channels_.size() + w]);
+    out.witness_mm[w] = mean.enough ? config_.scale_mm_per_px * mean.mean_px : 0.0;
+    out.witness_seen[w] = mean.enough ? 1 : 0;
+  }
 }
 
 }  // namespace core

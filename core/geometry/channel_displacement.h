@@ -26,6 +26,7 @@ struct ChannelDisplacementConfig {
   std::optional<PlanePose> plane = {};  // of the structure; empty: it faces the camera
   bool adaptive_scale = true;           // follow the camera; false: it stands still
   bool scale_only = false;              // of its motion only the distance (paper Eq. 6), from all points
+  bool witness = true;                  // where only the scale is followed: what rests is followed beside
   bool paper_method = false;            // two-point scale; rolling shutter by Eqs. 7-8 on the samples, with rho = 1
   std::optional<AttitudeConfig> attitude = {};  // an attitude is measured beside; delay_s counts for half the exposure
   double inlier_sigma_px = 0.3;
@@ -37,7 +38,9 @@ struct ChannelDisplacementConfig {
 // along the region's axis. Scale only, and `paper` (Eq. 4): d = S_i (p_i - c) - S_0 (p_0 - c), c = principal point.
 // Points are undistorted; outliers are rejected per region by MLESAC about the predicted, then the estimated motion.
 // `hovermodal` leaves the samples at the instants at which rows were read and states the delay of each channel
-// (ARCHITECTURE.md); `paper` moves them to row 0 with Eqs. 7-8. What rests (background, ground) makes no channel.
+// (ARCHITECTURE.md); `paper` moves them to row 0 with Eqs. 7-8. What rests (background, ground) makes no channel, but
+// where only the scale is followed a witness of the camera's shift along each direction of the channels: the resting
+// region with the most points, its own zoom taken away.
 // What no data tell of the camera's motion (its sideways shift, where nothing but the structure is seen) stays in all
 // channels alike; sigma_mm is without it.
 // One thread; nothing allocates after construction.
@@ -47,6 +50,8 @@ class ChannelDisplacement {
   ChannelDisplacement(ChannelDisplacementConfig config, const TrackFrame& keyframe);
 
   [[nodiscard]] const std::vector<ChannelInfo>& channels() const noexcept { return channels_; }
+  // The channels, then the witnesses.
+  [[nodiscard]] const std::vector<ChannelInfo>& spectra() const noexcept { return spectra_; }
 
   // Sets `inlier` of the points and fills `out` (sized by sample_prototype()).
   void update(TrackFrame& tracks, DisplacementSample& out) noexcept;
@@ -73,6 +78,9 @@ class ChannelDisplacement {
   };
 
   void make_channels();
+  void make_witnesses();
+  [[nodiscard]] double delay_s(const RegionRange& range) const noexcept;
+  void follow_what_rests() noexcept;
   void place_points(const TrackFrame& tracks) noexcept;
   [[nodiscard]] double follow_camera(std::int64_t t_start_ns) noexcept;
   [[nodiscard]] double estimate_scale() noexcept;
@@ -81,10 +89,17 @@ class ChannelDisplacement {
   void compensate_rolling_shutter() noexcept;
   [[nodiscard]] double scale_of(std::uint16_t region) const noexcept;
   void remove_scale(double magnification) noexcept;
+  // Weighted mean of a region's inliers along an axis.
+  struct Average {
+    double mean_px = 0.0, sigma_px = 0.0;
+    std::uint16_t n_points = 0;
+    bool enough = false;
+  };
+  [[nodiscard]] Average average(const ChannelInfo& info) const noexcept;
   void average_channel(std::size_t channel, double magnification, DisplacementSample& out) const noexcept;
 
   ChannelDisplacementConfig config_;
-  std::vector<ChannelInfo> channels_;
+  std::vector<ChannelInfo> channels_, spectra_;
   std::vector<RegionRange> ranges_;    // per region
   std::vector<Vector2> keyframe_;      // undistorted px
   std::vector<double> weight_;         // of a point in its channel: inverse variance by its texture, constant

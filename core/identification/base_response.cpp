@@ -20,7 +20,7 @@ class BaseSpectra {
     const int centre = std::clamp(static_cast<int>(std::lround(position)), 1, sums_.n_bins() - 2);
     double largest = 0.0;
     for (int r = 0; r < sums_.n_channels; ++r) {
-      if (channels_[static_cast<std::size_t>(r)].is_base) continue;
+      if (channels_[static_cast<std::size_t>(r)].is_base || channels_[static_cast<std::size_t>(r)].is_witness) continue;
       std::complex<double> cross = 0.0;
       double power = 0.0;
       for (int k = centre - 1; k <= centre + 1; ++k) {

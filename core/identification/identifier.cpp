@@ -5,6 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "core/identification/camera_share.h"
 #include "core/identification/line_evidence.h"
 #include "core/identification/model_fit.h"
 #include "core/identification/uncertainty.h"
@@ -31,11 +32,25 @@ struct Poles {
   std::vector<OrderPole> unfolded;
 };
 
-Poles poles_of_orders(const Realisation& realisation, const std::vector<int>& orders, const FoldingConfig& folding) {
+double apparent_hz(const DiscretePole& pole, double rate_hz) {
+  return std::abs(std::arg(pole.lambda)) * rate_hz / (2.0 * std::numbers::pi);
+}
+
+// Of the outputs, as the pole's own shape asks for.
+std::vector<std::complex<double>> without_camera(const std::vector<std::complex<double>>& shape,
+                                                 const DiscretePole& pole, double rate_hz, const CameraShare& camera) {
+  const double hz = apparent_hz(pole, rate_hz);
+  return camera.without(shape, hz, camera.is_doubtful(pole.shape, hz));
+}
+
+Poles poles_of_orders(const Realisation& realisation, const std::vector<int>& orders, const FoldingConfig& folding,
+                      const CameraShare& camera) {
   Poles poles;
   for (std::size_t i = 0; i < orders.size(); ++i) {
     for (DiscretePole& pole : poles_of_order(realisation, orders[i])) {
-      poles.unfolded.push_back({static_cast<int>(i), unfold(pole.lambda, pole.shape, folding)});
+      poles.unfolded.push_back(
+          {static_cast<int>(i),
+           unfold(pole.lambda, without_camera(pole.shape, pole, folding.rate_hz, camera), folding)});
       poles.unfolded.back().pole.emac = pole.emac;
       poles.observed.push_back({orders[i], std::move(pole)});
     }
@@ -69,6 +84,7 @@ struct FitScatter {
   const CpsdSums& sums;
   const ModelFit& fit;
   const FoldingConfig& folding;
+  const CameraShare& camera;
 };
 
 // Degrees of freedom. modes[i] belongs to lines[i]. What scatter a numerical pole has says nothing; it is not computed.
@@ -84,9 +100,15 @@ double state_scatter(const FitScatter& scatters, const Poles& poles, const std::
   const ModelFit& fit = scatters.fit;
   const DeviationLags lags{fit.era.first_lag, 2 * fit.era.block_rows, fit.n_differences};
   const auto deviations = block_deviations(scatters.sums, fit.era.references, lags, kScatterBlocks);
-  const auto changes = pole_changes(fit.realisation, fit.era, deviations, chosen);
+  auto changes = pole_changes(fit.realisation, fit.era, deviations, chosen);
   for (std::size_t c = 0; c < chosen.size(); ++c) {
     const std::size_t i = line_of[c];
+    const DiscretePole whole = chosen[c].pole;
+    const auto outputs = [&](std::vector<std::complex<double>>& shape) {
+      shape = without_camera(shape, whole, scatters.sums.rate_hz, scatters.camera);
+    };
+    outputs(chosen[c].pole.shape);
+    for (PoleChange& change : changes[c]) outputs(change.shape);
     const auto scatter = mode_scatter(chosen[c], lines[i].representative, scatters.folding, changes[c]);
     if (!scatter) continue;
     modes[i].frequency_std_hz = scatter->frequency_hz;
@@ -119,25 +141,39 @@ void list_modes(std::vector<Mode> modes, const std::vector<PoleCluster>& cluster
 
 Identifier::Identifier(IdentifierConfig config, std::vector<ChannelInfo> channels)
     : config_(std::move(config)), channels_(std::move(channels)) {
-  if (channels_.empty()) throw std::invalid_argument("Identifier: no channel");
+  outputs_.assign(channels_.begin(), channels_.begin() + static_cast<std::ptrdiff_t>(n_outputs()));
+  if (outputs_.empty()) throw std::invalid_argument("Identifier: no channel");
   for (const int reference : config_.references) {
-    if (reference < 0 || reference >= static_cast<int>(channels_.size())) {
+    if (reference < 0 || reference >= static_cast<int>(n_outputs())) {
       throw std::invalid_argument("Identifier: reference " + std::to_string(reference) + " is no channel");
     }
   }
 }
 
+std::size_t Identifier::n_outputs() const noexcept {
+  return static_cast<std::size_t>(
+      std::count_if(channels_.begin(), channels_.end(), [](const ChannelInfo& c) { return !c.is_witness; }));
+}
+
 std::vector<double> Identifier::undone_delay_s() const {
   std::vector<double> delay_s;
-  for (const ChannelInfo& channel : channels_) {
+  for (const ChannelInfo& channel : outputs_) {
     delay_s.push_back(config_.undo_row_delays ? channel.row_delay_s : 0.0);
   }
   return delay_s;
 }
 
+std::vector<ChannelInfo> Identifier::delays_as_undone() const {
+  std::vector<ChannelInfo> channels = channels_;
+  for (ChannelInfo& channel : channels) {
+    if (!config_.undo_row_delays) channel.row_delay_s = 0.0;
+  }
+  return channels;
+}
+
 FoldingConfig Identifier::folding_config(double rate_hz) const {
   FoldingConfig folding{rate_hz, config_.max_frequency_hz, undone_delay_s()};
-  for (const ChannelInfo& channel : channels_) folding.n_integrations.push_back(channel.n_integrations);
+  for (const ChannelInfo& channel : outputs_) folding.n_integrations.push_back(channel.n_integrations);
   return folding;
 }
 
@@ -155,7 +191,8 @@ ModalEstimate Identifier::identify(const CpsdSums& sums) const {
   }
   const std::vector<int> orders = orders_from(fit.order, fit.realisation);
   const FoldingConfig folding = folding_config(sums.rate_hz);
-  const Poles poles = poles_of_orders(fit.realisation, orders, folding);
+  const CameraShare camera(sums, delays_as_undone());
+  const Poles poles = poles_of_orders(fit.realisation, orders, folding, camera);
   const std::vector<PoleCluster> lines = lines_of(poles.unfolded, static_cast<int>(orders.size()));
 
   VerdictRules rules;
@@ -166,11 +203,14 @@ ModalEstimate Identifier::identify(const CpsdSums& sums) const {
   std::vector<Mode> modes;
   LineExaminer examiner(sums, folding);
   for (const PoleCluster& line : lines) {
-    modes.push_back(judge(line, base_response(sums, channels_, line.apparent_hz), channels_, orders, rules,
-                          examiner.examine(line.representative)));
+    LineEvidence evidence = examiner.examine(line.representative);
+    const DiscretePole& observed = poles.observed[line.i_representative].pole;
+    evidence.witness_share = camera.of(observed.shape, line.apparent_hz);
+    evidence.witness_moves = camera.is_doubtful(observed.shape, line.apparent_hz);
+    modes.push_back(judge(line, base_response(sums, channels_, line.apparent_hz), outputs_, orders, rules, evidence));
   }
   if (sums.n_blocks >= kScatterBlocks) {
-    estimate.degrees_of_freedom = state_scatter({sums, fit, folding}, poles, lines, modes);
+    estimate.degrees_of_freedom = state_scatter({sums, fit, folding, camera}, poles, lines, modes);
   }
   reject_twins(modes);
   note_poles(poles.unfolded, orders, estimate);

@@ -30,6 +30,7 @@ struct IdentifierConfig {
 // (ARCHITECTURE.md). A pure function of its arguments: same sums, same bits.
 class Identifier {
  public:
+  // channels: of the sums that will come; witnesses, if any, last: shapes are without them (camera_share.h).
   // Throws std::invalid_argument: a reference that is no channel, no channel at all.
   Identifier(IdentifierConfig config, std::vector<ChannelInfo> channels);
 
@@ -37,14 +38,16 @@ class Identifier {
   [[nodiscard]] ModalEstimate identify(const CpsdSums& sums) const;
 
   [[nodiscard]] const std::vector<ChannelInfo>& channels() const noexcept { return channels_; }
+  [[nodiscard]] std::size_t n_outputs() const noexcept;  // of them no witnesses
   // Per channel, as it is undone at every mode; 0 where the samples were compensated before.
   [[nodiscard]] std::vector<double> undone_delay_s() const;
 
  private:
+  [[nodiscard]] std::vector<ChannelInfo> delays_as_undone() const;
   [[nodiscard]] FoldingConfig folding_config(double rate_hz) const;
 
   IdentifierConfig config_;
-  std::vector<ChannelInfo> channels_;
+  std::vector<ChannelInfo> channels_, outputs_;
 };
 
 }  // namespace core

@@ -89,7 +89,7 @@ void LineExaminer::find_camera(const std::vector<Complex>& observed, double appa
 // frequency.
 double LineExaminer::envelope(const std::vector<Complex>& observed, double apparent_hz, int first_lag,
                               int n_lags) const {
-  const int n = correlations_.n_channels();
+  const auto n = static_cast<int>(observed.size());  // witnesses come after
   const double turn = kTwoPi * apparent_hz / sums_.rate_hz;
   Complex sum = 0.0;
   for (int k = 0; k < n_lags; ++k) {

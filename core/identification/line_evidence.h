@@ -23,6 +23,8 @@ struct LineEvidence {
   std::optional<double> late_damping_ratio;
   // What is left of the correlation by then, 0..1 and scatter: of a mode that has decayed, the scatter of its estimate.
   double late_share = 0.0;
+  double witness_share = 0.0;  // of the shape's square that goes with what rests (camera_share.h)
+  bool witness_moves = false;  // ... which does not rest at this frequency
 };
 
 // Of one spectrum; keeps references to its arguments. One thread.

@@ -40,7 +40,7 @@ std::vector<int> choose_references(const IdentifierConfig& config, const std::ve
   if (!config.references.empty()) return config.references;
   std::vector<int> structure;
   for (std::size_t c = 0; c < channels.size(); ++c) {
-    if (!channels[c].is_base) structure.push_back(static_cast<int>(c));
+    if (!channels[c].is_base && !channels[c].is_witness) structure.push_back(static_cast<int>(c));
   }
   if (structure.empty()) structure.push_back(0);
   const auto n = static_cast<int>(structure.size());

@@ -73,6 +73,9 @@ void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response
   } else if (rules.max_apparent_hz > 0.0 && mode.apparent_hz > rules.max_apparent_hz) {
     set(mode, Verdict::kNumerical,
         text("filter edge: above the %.4g Hz that the decimation lets through", rules.max_apparent_hz));
+  } else if (line.witness_share > rules.max_witness_share) {
+    set(mode, Verdict::kCameraMotion,
+        text("what rests moves with it: %.0f %% of the shape is the camera's", 100.0 * line.witness_share));
   } else if (uniform > rules.max_uniform_mac) {
     set(mode, Verdict::kCameraMotion,
         text("all channels move alike (MAC %.3f with a translation of the camera)", uniform));
@@ -104,6 +107,8 @@ void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response
         text("found in %.0f %% of the orders from order %d on, MPC %.3f", 100.0 * cluster.presence, first_order,
              mode.mpc));
   }
+  if (line.witness_moves)
+    mode.reason += "; what was declared to rest moves with it: nothing was taken for the camera's";
 }
 
 }  // namespace

@@ -108,17 +108,28 @@ void WelchCpsd::restart(double rate_hz) noexcept {
   std::fill(seen_.begin(), seen_.end(), std::uint8_t{0});
 }
 
-bool WelchCpsd::push(std::span<const double> value, std::span<const std::uint8_t> seen) noexcept {
-  const auto n_channels = static_cast<std::size_t>(config_.n_channels);
+void WelchCpsd::put(std::size_t first_channel, std::span<const double> value,
+                    std::span<const std::uint8_t> seen) noexcept {
   const auto segment = static_cast<std::size_t>(config_.segment);
-  assert(value.size() == n_channels && seen.size() == n_channels);
-  for (std::size_t c = 0; c < n_channels; ++c) {
+  for (std::size_t c = 0; c < value.size(); ++c) {
     const bool valid = seen[c] != 0 && std::isfinite(value[c]);
-    const std::size_t at = c * segment + static_cast<std::size_t>(n_filled_);
+    const std::size_t at = (first_channel + c) * segment + static_cast<std::size_t>(n_filled_);
     value_[at] = valid ? value[c] : 0.0;
     seen_[at] = valid ? 1 : 0;
     if (!valid) ++sums_.n_missing;
   }
+}
+
+bool WelchCpsd::push(std::span<const double> value, std::span<const std::uint8_t> seen) noexcept {
+  assert(value.size() == static_cast<std::size_t>(config_.n_channels) && seen.size() == value.size());
+  put(0, value, seen);
+  return advance();
+}
+
+bool WelchCpsd::push(const DisplacementSample& sample) noexcept {
+  assert(sample.value_mm.size() + sample.witness_mm.size() == static_cast<std::size_t>(config_.n_channels));
+  put(0, sample.value_mm, sample.seen);
+  put(sample.value_mm.size(), sample.witness_mm, sample.witness_seen);
   return advance();
 }
 

@@ -8,6 +8,7 @@
 #include "core/spectrum/real_fft.h"
 #include "core/spectrum/window.h"
 #include "core/types/cpsd.h"
+#include "core/types/displacement.h"
 #include "core/types/state_bytes.h"
 
 namespace core {
@@ -38,6 +39,8 @@ class WelchCpsd {
 
   // One grid cell of all channels. Returns true when this sample completed a segment (a "hop").
   bool push(std::span<const double> value, std::span<const std::uint8_t> seen) noexcept;
+  // The sample's channels, then its witnesses.
+  bool push(const DisplacementSample& sample) noexcept;
   bool push_missing() noexcept;
   // The end of the record: what lies beyond the last full segment enters as a segment whose rest is masked.
   void flush() noexcept;
@@ -61,6 +64,7 @@ class WelchCpsd {
   template <class Archive, class Self>
   static void describe(Archive& archive, Self& self) noexcept;
   [[nodiscard]] bool is_consistent() const noexcept;
+  void put(std::size_t first_channel, std::span<const double> value, std::span<const std::uint8_t> seen) noexcept;
   bool advance() noexcept;
   void accumulate_segment() noexcept;
   void transform_channel(int channel) noexcept;

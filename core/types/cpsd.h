@@ -48,15 +48,30 @@ struct CpsdSums {
     const double share = n_segments > 0 ? weight.effective() / static_cast<double>(n_segments) : 1.0;
     return share * static_cast<double>(n_samples);
   }
-  // Everything but the blocks.
-  void copy_totals(const CpsdSums& other) {
-    n_channels = other.n_channels, n_fft = other.n_fft, rate_hz = other.rate_hz;
+  // Everything but the blocks, of the first channels.
+  void copy_totals(const CpsdSums& other, int n_first) {
+    n_channels = n_first, n_fft = other.n_fft, rate_hz = other.rate_hz;
     n_segments = other.n_segments, n_samples = other.n_samples, n_missing = other.n_missing;
     window_power = other.window_power, weight = other.weight;
-    data_sum = other.data_sum, mask_sum = other.mask_sum;
+    copy_pairs(other.data_sum, other.n_channels, data_sum);
+    copy_pairs(other.mask_sum, other.n_channels, mask_sum);
     blocks.clear(), n_blocks = 0;
   }
   [[nodiscard]] static int pair_index(int i, int j, int n) noexcept { return i * n - i * (i - 1) / 2 + (j - i); }
+
+ private:
+  void copy_pairs(const std::vector<std::complex<double>>& from, int n_all,
+                  std::vector<std::complex<double>>& to) const {
+    const auto per_bin = static_cast<std::size_t>(n_all * (n_all + 1) / 2);
+    to.clear();
+    to.reserve(per_bin > 0 ? from.size() / per_bin * static_cast<std::size_t>(n_pairs()) : 0);
+    for (std::size_t first = 0; first + per_bin <= from.size() && per_bin > 0; first += per_bin) {
+      for (int i = 0; i < n_channels; ++i) {
+        for (int j = i; j < n_channels; ++j)
+          to.push_back(from[first + static_cast<std::size_t>(pair_index(i, j, n_all))]);
+      }
+    }
+  }
 };
 
 }  // namespace core

@@ -16,6 +16,7 @@ struct ChannelInfo {
   double direction_v = 0.0;
   double row_delay_s = 0.0;  // tau: the channel is seen this long after the frame's time stamp (ARCHITECTURE.md)
   bool is_base = false;      // region role `base`: measured input, kept as an output
+  bool is_witness = false;   // what rests, seen to move as the camera does: tells the camera's part of the others
   int n_integrations = 0;    // from its samples to a displacement: 0 displacement, 1 velocity, 2 acceleration
 };
 
@@ -29,7 +30,10 @@ struct DisplacementSample {
   std::vector<double> sigma_mm;         // n_channels
   std::vector<std::uint8_t> seen;       // n_channels; 1 = a sample
   std::vector<std::uint16_t> n_points;  // n_channels: inlier points behind the sample
-  ReadoutEstimate readout{};            // from the tracks up to this frame
+  // Witnesses beside the channels (ChannelDisplacement::spectra()); no displacement of anything.
+  std::vector<double> witness_mm;
+  std::vector<std::uint8_t> witness_seen;
+  ReadoutEstimate readout{};  // from the tracks up to this frame
 };
 
 }  // namespace core

@@ -29,7 +29,7 @@ bool IdentificationStage::identify(const SpectrumSnapshot& snapshot, Identificat
     follow_rate(snapshot.sums.rate_hz);
     out.estimate = identifier_->identify(snapshot.sums, snapshot.readout);
     tracker_.set_row_delays(identifier_->delay_s(out.estimate));
-    out.sums.copy_totals(snapshot.sums);
+    out.sums.copy_totals(snapshot.sums, identifier_->n_outputs());
   } catch (...) {  // out of memory: this estimate is lost and counted, the next may succeed
     return false;
   }

@@ -69,7 +69,7 @@ void SpectrumStage::take(const core::DisplacementSample& sample) noexcept {
   }
   t_stream_ns_.store(sample.t_start_ns, std::memory_order_relaxed);
   readout_ = sample.readout;
-  note_hop(welch_.push(sample.value_mm, sample.seen));
+  note_hop(welch_.push(sample));
 }
 
 bool SpectrumStage::mask_one_missing() noexcept {

@@ -1,0 +1,147 @@
+#include "core/identification/camera_share.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace core {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+constexpr double kSameDirection = 0.99;
+constexpr int kHalfWidth_bins = 8;    // of averages over bins
+constexpr double kQuietShare = 0.25;  // of the bins hold no more than noise
+constexpr double kNoiseAboveQuiet = 1.05;
+constexpr double kNoticeable = 0.1, kMostLeft = 0.5;  // of a shape's square
+
+std::vector<double> smoothed(const std::vector<double>& values) {
+  const auto n = static_cast<int>(values.size());
+  std::vector<double> out;
+  for (int k = 0; k < n; ++k) {
+    const int first = std::max(0, k - kHalfWidth_bins), last = std::min(n - 1, k + kHalfWidth_bins);
+    double sum = 0.0;
+    for (int m = first; m <= last; ++m) sum += values[static_cast<std::size_t>(m)];
+    out.push_back(sum / (last - first + 1));
+  }
+  return out;
+}
+
+double square(const std::vector<Complex>& shape, std::size_t n) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < n; ++i) sum += std::norm(shape[i]);
+  return sum;
+}
+
+}  // namespace
+
+CameraShare::CameraShare(const CpsdSums& sums, const std::vector<ChannelInfo>& channels)
+    : hz_per_bin_(sums.n_fft > 0 ? sums.rate_hz / sums.n_fft : 0.0) {
+  list(channels);
+  for (std::size_t w = 0; w < witnesses_.size(); ++w) measure(sums, static_cast<int>(w));
+}
+
+void CameraShare::list(const std::vector<ChannelInfo>& channels) {
+  const auto first =
+      std::find_if(channels.begin(), channels.end(), [](const ChannelInfo& channel) { return channel.is_witness; });
+  for (auto w = first; w != channels.end(); ++w) {
+    witnesses_.push_back({static_cast<std::size_t>(w - channels.begin()), w->row_delay_s, 0.0, {}});
+  }
+  for (auto channel = channels.begin(); channel != first; ++channel) {
+    Output output{-1, 1.0, channel->row_delay_s};
+    for (auto w = first; w != channels.end(); ++w) {
+      const double cosine = channel->direction_u * w->direction_u + channel->direction_v * w->direction_v;
+      if (std::abs(cosine) < kSameDirection) continue;
+      output.witness = static_cast<int>(w - first);
+      output.sign = cosine < 0.0 ? -1.0 : 1.0;
+    }
+    outputs_.push_back(output);
+  }
+}
+
+// The gain is the mean of S_mw / S_ww, m the mean of the outputs, over bins weighted by the square of their coherence:
+// there both see the camera, and hardly anything else.
+void CameraShare::measure(const CpsdSums& sums, int w) {
+  Witness& witness = witnesses_[static_cast<std::size_t>(w)];
+  const int n = sums.n_channels, n_bins = sums.n_bins();
+  const auto at = [&](int bin, int i, int j) {
+    return sums.data_sum[static_cast<std::size_t>(bin * sums.n_pairs() + CpsdSums::pair_index(i, j, n))];
+  };
+  std::vector<int> alike;
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    if (outputs_[i].witness == w) alike.push_back(static_cast<int>(i));
+  }
+  if (alike.empty() || sums.data_sum.empty()) return;
+  const double count = static_cast<double>(alike.size());
+  const auto turned = [&](int i, double delay_s, double omega) {
+    const Output& output = outputs_[static_cast<std::size_t>(i)];
+    return output.sign * std::polar(1.0, -omega * (output.delay_s - delay_s));
+  };
+  std::vector<double> own, mean, re, im;
+  for (int k = 0; k < n_bins; ++k) {
+    const double omega = kTwoPi * k * hz_per_bin_;
+    Complex cross = 0.0, outputs = 0.0;
+    for (const int i : alike) {
+      cross += at(k, i, static_cast<int>(witness.channel)) * turned(i, witness.delay_s, omega) / count;
+      for (const int j : alike) {
+        const Complex s = i <= j ? at(k, i, j) : std::conj(at(k, j, i));
+        outputs += s * turned(i, 0.0, omega) * std::conj(turned(j, 0.0, omega)) / (count * count);
+      }
+    }
+    own.push_back(at(k, static_cast<int>(witness.channel), static_cast<int>(witness.channel)).real());
+    mean.push_back(outputs.real());
+    re.push_back(cross.real());
+    im.push_back(cross.imag());
+  }
+  own = smoothed(own), mean = smoothed(mean), re = smoothed(re), im = smoothed(im);
+  double weights = 0.0, sum = 0.0;
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    const double power = own[k] * mean[k];
+    if (!(power > 0.0)) continue;
+    const double coherence = (re[k] * re[k] + im[k] * im[k]) / power, weight = std::pow(coherence, 4);
+    weights += weight;
+    sum += weight * re[k] / own[k];
+  }
+  witness.gain = weights > 0.0 ? sum / weights : 0.0;
+  std::vector<double> ordered = own;
+  const auto quiet = ordered.begin() + static_cast<std::ptrdiff_t>(kQuietShare * static_cast<double>(ordered.size()));
+  std::nth_element(ordered.begin(), quiet, ordered.end());
+  const double noise = kNoiseAboveQuiet * *quiet;
+  for (const double power : own) witness.certainty.push_back(power > noise ? 1.0 - noise / power : 0.0);
+}
+
+Complex CameraShare::part(std::size_t output, const std::vector<Complex>& shape, double apparent_hz) const {
+  const Output& own = outputs_[output];
+  if (own.witness < 0) return 0.0;
+  const Witness& witness = witnesses_[static_cast<std::size_t>(own.witness)];
+  if (witness.certainty.empty() || !(hz_per_bin_ > 0.0)) return 0.0;
+  const auto bin = std::clamp<std::ptrdiff_t>(std::lround(apparent_hz / hz_per_bin_), 0,
+                                              static_cast<std::ptrdiff_t>(witness.certainty.size()) - 1);
+  const Complex turn = std::polar(own.sign, kTwoPi * apparent_hz * (own.delay_s - witness.delay_s));
+  return witness.gain * witness.certainty[static_cast<std::size_t>(bin)] * turn * shape[witness.channel];
+}
+
+double CameraShare::of(const std::vector<Complex>& shape, double apparent_hz) const {
+  const double whole = square(shape, outputs_.size());
+  if (!(whole > 0.0)) return 0.0;
+  return std::clamp(1.0 - square(without(shape, apparent_hz, false), outputs_.size()) / whole, 0.0, 1.0);
+}
+
+std::vector<Complex> CameraShare::without(const std::vector<Complex>& shape, double apparent_hz, bool leave) const {
+  std::vector<Complex> out(shape.begin(), shape.begin() + static_cast<std::ptrdiff_t>(outputs_.size()));
+  if (leave) return out;
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] -= part(i, shape, apparent_hz);
+  return out;
+}
+
+bool CameraShare::is_doubtful(const std::vector<Complex>& shape, double apparent_hz) const {
+  const double whole = square(shape, outputs_.size());
+  double taken = 0.0;
+  for (std::size_t i = 0; i < outputs_.size(); ++i) taken += std::norm(part(i, shape, apparent_hz));
+  const double left = square(without(shape, apparent_hz, false), outputs_.size());
+  return taken > kNoticeable * whole && left > kMostLeft * whole;
+}
+
+}  // namespace core

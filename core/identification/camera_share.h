@@ -1,0 +1,55 @@
+#pragma once
+
+#include <complex>
+#include <vector>
+
+#include "core/types/cpsd.h"
+#include "core/types/displacement.h"
+
+namespace core {
+
+// What of a shape is the camera's. Regions that rest (witnesses) are outputs of the identification like any other. They
+// have no part in a structure's modes: where a shape shows them moving, a shift of the camera has leaked into it, by
+// the same amount in all channels of that direction,
+//     phi_i -= g q(f) exp(i w (tau_i - tau_w)) phi_w.
+// g: what the channels move when the witness moves by one (its distance against theirs), read off the bins where
+// both move together. q = 1 - N / S_ww(f): the part of the witness that is no tracking noise N (white, read off its
+// quiet bins) [Wiener]. Neither depth nor focal length is asked for, and nothing is added to the spectra. A shape that
+// would lose a noticeable part and is still no camera's is left alone: there the witness itself moves.
+class CameraShare {
+ public:
+  // channels: of the sums; witnesses, if any, last.
+  CameraShare(const CpsdSums& sums, const std::vector<ChannelInfo>& channels);
+
+  [[nodiscard]] std::size_t n_outputs() const noexcept { return outputs_.size(); }
+
+  // Of a shape as observed, of all channels, at that apparent frequency: 0 ... 1 of its square.
+  [[nodiscard]] double of(const std::vector<std::complex<double>>& shape, double apparent_hz) const;
+  // The outputs' part of it without the camera's. Linear in the shape but for `leave`, which leaves the camera's.
+  [[nodiscard]] std::vector<std::complex<double>> without(const std::vector<std::complex<double>>& shape,
+                                                          double apparent_hz, bool leave) const;
+  // Noticeable, and yet what is left is no small part: the witness moves with the structure.
+  [[nodiscard]] bool is_doubtful(const std::vector<std::complex<double>>& shape, double apparent_hz) const;
+
+ private:
+  struct Output {
+    int witness = -1;  // index into witnesses_; -1: none sees its direction
+    double sign = 1.0, delay_s = 0.0;
+  };
+  struct Witness {
+    std::size_t channel = 0;
+    double delay_s = 0.0, gain = 0.0;
+    std::vector<double> certainty;  // q per bin
+  };
+
+  void list(const std::vector<ChannelInfo>& channels);
+  void measure(const CpsdSums& sums, int w);
+  [[nodiscard]] std::complex<double> part(std::size_t output, const std::vector<std::complex<double>>& shape,
+                                          double apparent_hz) const;
+
+  std::vector<Output> outputs_;
+  std::vector<Witness> witnesses_;
+  double hz_per_bin_ = 0.0;
+};
+
+}  // namespace core
