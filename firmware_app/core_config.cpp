@@ -91,9 +91,12 @@ core::ChannelDisplacementConfig displacement_config(const AppConfig& config, con
   return out;
 }
 
-core::WelchConfig welch_config(const SpectrumConfig& spectrum, std::size_t n_channels, double rate_hz) {
+core::WelchConfig welch_config(const SpectrumConfig& spectrum, std::size_t n_channels, double rate_hz,
+                               std::size_t n_witnesses) {
   const core::WindowKind window = core::window_kind(spectrum.window).value_or(core::WindowKind::kHann);
-  core::WelchConfig out{static_cast<int>(n_channels), spectrum.segment, spectrum.overlap, window, rate_hz};
+  core::WelchConfig out;
+  out.n_channels = static_cast<int>(n_channels), out.n_witnesses = static_cast<int>(n_witnesses);
+  out.segment = spectrum.segment, out.overlap = spectrum.overlap, out.window = window, out.rate_hz = rate_hz;
   out.bridge_losses = true;
   out.forget_s = spectrum.forget_s;
   return out;

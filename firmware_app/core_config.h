@@ -17,7 +17,8 @@ namespace app {
 // Reads calibration.file when given; throws ConfigError / FileError, also when it does not fit the image.
 [[nodiscard]] core::ChannelDisplacementConfig displacement_config(const AppConfig& config,
                                                                   const core::CameraInfo& camera);
-[[nodiscard]] core::WelchConfig welch_config(const SpectrumConfig& spectrum, std::size_t n_channels, double rate_hz);
+[[nodiscard]] core::WelchConfig welch_config(const SpectrumConfig& spectrum, std::size_t n_channels, double rate_hz,
+                                             std::size_t n_witnesses = 0);
 // Throws ConfigError when identification.references names no channel.
 [[nodiscard]] core::IdentifierConfig identifier_config(const AppConfig& config,
                                                        const std::vector<core::ChannelInfo>& channels, double rate_hz);

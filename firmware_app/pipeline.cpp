@@ -42,7 +42,8 @@ struct Pipeline::Parts {
   TrackingStage tracking{frames.reader(),  source.tracker,   source.displacement,  source.readout,
                          samples.writer(), records.writer(), source.info.lossless, capture.thinning()};
 
-  core::WelchConfig welch = welch_config(config.spectrum, source.displacement.spectra().size(), source.info.rate_hz);
+  core::WelchConfig welch = welch_config(config.spectrum, source.displacement.spectra().size(), source.info.rate_hz,
+                                         source.displacement.n_witnesses());
   rt::TripleBuffer<SpectrumSnapshot> snapshots{SpectrumSnapshot{core::WelchCpsd::empty_sums(welch), 0, 0, false, {}}};
   SpectrumStage spectrum{samples.reader(),  welch, config.identification.period_hops, snapshots, source.info.lossless,
                          capture.thinning()};

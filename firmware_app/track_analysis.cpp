@@ -13,7 +13,7 @@ ChannelAnalysis::ChannelAnalysis(const AppConfig& config, const std::vector<core
     : config_(identifier_config(config, channels, rate_hz)),
       identifier_(config_, channels),
       tracker_({.row_delay_s = identifier_.undone_delay_s()}),
-      cpsd_(welch_config(config.spectrum, identifier_.channels().size(), rate_hz)),
+      cpsd_(welch_config(config.spectrum, channels.size(), rate_hz, channels.size() - identifier_.n_outputs())),
       grid_(rate_hz),
       period_hops_(static_cast<std::uint64_t>(std::max(1, config.identification.period_hops))) {}
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <span>
 
 #include "core/geometry/keyframe_view.h"
+#include "core/geometry/resting_region.h"
 #include "core/tracking/outlier_rejection.h"
 
 namespace core {
@@ -39,34 +39,6 @@ double mean_of(const std::vector<double>& values) noexcept {
   double sum = 0.0;
   for (const double value : values) sum += value;
   return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
-}
-
-// Motion of points since the keyframe without the zoom about their keyframe centre that `counts` agree on: least
-// squares.
-void remove_zoom(std::span<const Vector2> position, std::span<const Vector2> keyframe,
-                 std::span<const std::uint8_t> counts, std::span<Vector2> motion) noexcept {
-  Vector2 now, then, centre;
-  double n = 0.0, n_all = 0.0;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    centre.u += keyframe[i].u, centre.v += keyframe[i].v, n_all += 1.0;
-    if (counts[i] == 0) continue;
-    now.u += position[i].u, now.v += position[i].v, n += 1.0;
-    then.u += keyframe[i].u, then.v += keyframe[i].v;
-  }
-  if (n == 0.0) return;
-  now = {now.u / n, now.v / n}, then = {then.u / n, then.v / n}, centre = {centre.u / n_all, centre.v / n_all};
-  double product = 0.0, square = 0.0;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (counts[i] == 0) continue;
-    const Vector2 from{keyframe[i].u - then.u, keyframe[i].v - then.v};
-    product += from.u * (position[i].u - now.u) + from.v * (position[i].v - now.v);
-    square += from.u * from.u + from.v * from.v;
-  }
-  const double growth = square > 0.0 ? product / square - 1.0 : 0.0;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    motion[i] = {position[i].u - keyframe[i].u - growth * (keyframe[i].u - centre.u),
-                 position[i].v - keyframe[i].v - growth * (keyframe[i].v - centre.v)};
-  }
 }
 
 }  // namespace
@@ -124,7 +96,7 @@ void ChannelDisplacement::make_witnesses() {
   constexpr double kSameDirection = 0.99;
   std::size_t best = ranges_.size(), most = static_cast<std::size_t>(std::max(3, config_.min_points)) - 1;
   for (std::size_t r = 0; r < ranges_.size(); ++r) {
-    const std::size_t n = ranges_[r].end - ranges_[r].begin;
+    const std::size_t n = ranges_[r].size();
     if (!makes_channel(config_.regions[r].role) && n > most) best = r, most = n;
   }
   if (best == ranges_.size()) return;
@@ -169,8 +141,8 @@ DisplacementSample ChannelDisplacement::sample_prototype() const {
   sample.sigma_mm.assign(channels_.size(), 0.0);
   sample.seen.assign(channels_.size(), 0);
   sample.n_points.assign(channels_.size(), 0);
-  sample.witness_mm.assign(spectra_.size() - channels_.size(), 0.0);
-  sample.witness_seen.assign(spectra_.size() - channels_.size(), 0);
+  sample.witness_mm.assign(n_witnesses(), 0.0);
+  sample.witness_seen.assign(n_witnesses(), 0);
   return sample;
 }
 
@@ -319,22 +291,11 @@ void ChannelDisplacement::average_channel(std::size_t channel, double magnificat
 
 // What rests at another distance has another zoom: its points agree about a motion only without their own.
 void ChannelDisplacement::follow_what_rests() noexcept {
-  MlesacConfig mlesac;
-  mlesac.sigma_px = config_.inlier_sigma_px;
-  std::size_t last = ranges_.size();
-  for (std::size_t w = channels_.size(); w < spectra_.size(); ++w) {
-    if (spectra_[w].region == last) continue;
-    last = spectra_[w].region;
-    const std::size_t begin = ranges_[last].begin, n = ranges_[last].end - begin;
-    const std::span<Vector2> motion(motion_.data() + begin, n);
-    const std::span<const Vector2> position(position_.data() + begin, n), keyframe(keyframe_.data() + begin, n);
-    const std::span<const std::uint8_t> seen(seen_.data() + begin, n);
-    const std::span<std::uint8_t> inlier(inlier_.data() + begin, n);
-    remove_zoom(position, keyframe, seen, motion);
-    (void)mlesac_translation(motion, seen, mlesac, inlier);
-    remove_zoom(position, keyframe, inlier, motion);
-    (void)mlesac_translation(motion, seen, mlesac, inlier);
-  }
+  if (n_witnesses() == 0) return;
+  const RegionRange& range = ranges_[spectra_.back().region];
+  const std::size_t begin = range.begin, n = range.size();
+  follow_resting_region({{position_.data() + begin, n}, {keyframe_.data() + begin, n}, {seen_.data() + begin, n}},
+                        config_.inlier_sigma_px, {motion_.data() + begin, n}, {inlier_.data() + begin, n});
 }
 
 void ChannelDisplacement::update(TrackFrame& tracks, DisplacementSample& out) noexcept {

@@ -53,6 +53,8 @@ class ChannelDisplacement {
   // The channels, then the witnesses.
   [[nodiscard]] const std::vector<ChannelInfo>& spectra() const noexcept { return spectra_; }
 
+  [[nodiscard]] std::size_t n_witnesses() const noexcept { return spectra_.size() - channels_.size(); }
+
   // Sets `inlier` of the points and fills `out` (sized by sample_prototype()).
   void update(TrackFrame& tracks, DisplacementSample& out) noexcept;
   [[nodiscard]] DisplacementSample sample_prototype() const;
@@ -75,6 +77,7 @@ class ChannelDisplacement {
   [[nodiscard]] bool follows_camera() const noexcept { return camera_motion_ && !camera_given_up_; }
   struct RegionRange {
     std::size_t begin = 0, end = 0;  // of the points
+    [[nodiscard]] std::size_t size() const noexcept { return end - begin; }
   };
 
   void make_channels();

@@ -15,7 +15,7 @@ constexpr double kSameDirection = 0.99;
 constexpr int kHalfWidth_bins = 8;    // of averages over bins
 constexpr double kQuietShare = 0.25;  // of the bins hold no more than noise
 constexpr double kNoiseAboveQuiet = 1.05;
-constexpr double kNoticeable = 0.1, kMostLeft = 0.5;  // of a shape's square
+constexpr double kNoticeable = 0.1, kMostLeft = 0.1;  // of a shape's square
 
 std::vector<double> smoothed(const std::vector<double>& values) {
   const auto n = static_cast<int>(values.size());

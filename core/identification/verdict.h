@@ -21,7 +21,7 @@ struct VerdictRules {
   double open_base_share = 0.3;     // up to here a clear answer of the structure to its base decides
   double least_base_gain = 3.0;     // ... of at least this gain, and a local maximum
   double max_uniform_mac = 0.98;    // MAC with all channels moving alike: the camera's own translation
-  double max_witness_share = 0.75;  // of the shape's square that is the camera's by what rests
+  double max_witness_share = 0.9;   // of the shape's square that is the camera's by what rests
   double min_camera_mac = 0.95;     // with a shaking camera, at a frequency where no mode is expected
   double max_late_damping = 0.001;  // of a steady force, over the longest lags that a segment has
   double min_late_share = 0.86;     // ... and so much of the correlation must be left there: it goes on

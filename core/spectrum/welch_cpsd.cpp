@@ -17,7 +17,8 @@ namespace {
 using Complex = std::complex<double>;
 
 void check(const WelchConfig& config) {
-  if (config.n_channels < 1) throw std::invalid_argument("WelchCpsd: no channel");
+  if (config.n_witnesses < 0 || config.n_channels <= config.n_witnesses)
+    throw std::invalid_argument("WelchCpsd: no channel");
   if (config.segment < 4)
     throw std::invalid_argument("WelchCpsd: segment of " + std::to_string(config.segment) + " samples; at least 4");
   if (!(config.overlap >= 0.0 && config.overlap < 1.0))
@@ -108,15 +109,14 @@ void WelchCpsd::restart(double rate_hz) noexcept {
   std::fill(seen_.begin(), seen_.end(), std::uint8_t{0});
 }
 
-void WelchCpsd::put(std::size_t first_channel, std::span<const double> value,
-                    std::span<const std::uint8_t> seen) noexcept {
+void WelchCpsd::put(std::size_t first, std::span<const double> value, std::span<const std::uint8_t> seen) noexcept {
   const auto segment = static_cast<std::size_t>(config_.segment);
   for (std::size_t c = 0; c < value.size(); ++c) {
     const bool valid = seen[c] != 0 && std::isfinite(value[c]);
-    const std::size_t at = (first_channel + c) * segment + static_cast<std::size_t>(n_filled_);
+    const std::size_t at = (first + c) * segment + static_cast<std::size_t>(n_filled_);
     value_[at] = valid ? value[c] : 0.0;
     seen_[at] = valid ? 1 : 0;
-    if (!valid) ++sums_.n_missing;
+    if (!valid && first + c < n_counted()) ++sums_.n_missing;
   }
 }
 
@@ -137,10 +137,9 @@ bool WelchCpsd::push_missing() noexcept {
   const auto segment = static_cast<std::size_t>(config_.segment);
   for (std::size_t c = 0; c < static_cast<std::size_t>(config_.n_channels); ++c) {
     const std::size_t at = c * segment + static_cast<std::size_t>(n_filled_);
-    value_[at] = 0.0;
-    seen_[at] = 0;
-    ++sums_.n_missing;
+    value_[at] = 0.0, seen_[at] = 0;
   }
+  sums_.n_missing += n_counted();
   return advance();
 }
 

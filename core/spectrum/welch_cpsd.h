@@ -15,6 +15,7 @@ namespace core {
 
 struct WelchConfig {
   int n_channels = 1;
+  int n_witnesses = 0;   // of them, the last: their losses are not counted
   int segment = 512;     // samples
   double overlap = 0.5;  // 0 <= overlap < 1
   WindowKind window = WindowKind::kHann;
@@ -64,7 +65,10 @@ class WelchCpsd {
   template <class Archive, class Self>
   static void describe(Archive& archive, Self& self) noexcept;
   [[nodiscard]] bool is_consistent() const noexcept;
-  void put(std::size_t first_channel, std::span<const double> value, std::span<const std::uint8_t> seen) noexcept;
+  void put(std::size_t first, std::span<const double> value, std::span<const std::uint8_t> seen) noexcept;
+  [[nodiscard]] std::size_t n_counted() const noexcept {
+    return static_cast<std::size_t>(config_.n_channels - config_.n_witnesses);
+  }
   bool advance() noexcept;
   void accumulate_segment() noexcept;
   void transform_channel(int channel) noexcept;

@@ -31,8 +31,8 @@ struct DisplacementSample {
   std::vector<std::uint8_t> seen;       // n_channels; 1 = a sample
   std::vector<std::uint16_t> n_points;  // n_channels: inlier points behind the sample
   // Witnesses beside the channels (ChannelDisplacement::spectra()); no displacement of anything.
-  std::vector<double> witness_mm;
-  std::vector<std::uint8_t> witness_seen;
+  std::vector<double> witness_mm{};
+  std::vector<std::uint8_t> witness_seen{};
   ReadoutEstimate readout{};  // from the tracks up to this frame
 };
 

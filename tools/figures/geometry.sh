@@ -52,7 +52,7 @@ bar() { # NUMBER MEASURED BAR WHAT CONDITION: a comparison with nan is no pass
 figure_1() {
   check geometry "$seeds" "${shorter[@]}"
   local way
-  for way in raw scale rho-1 paper; do
+  for way in raw scale rho-1 paper no-witness; do
     read_row geometry paper-300s "$way"
     line 1a beside "$(errors); found median $found fewest $fewest of $all; $(truth)" "none" "ablation: $way"
   done

@@ -52,6 +52,33 @@ TEST(ChannelDisplacement, MeasuresEachPlateUnderMotionAndZoom) {
   }
 }
 
+// The third plate is a wall that rests: it sways as the camera shifts, and zooms as it nears.
+TEST(ChannelDisplacement, FollowsWhatRestsAsAWitnessOfTheCamerasShift) {
+  const PlateView view;
+  ChannelDisplacementConfig config = view.config();
+  config.scale_only = true;
+  config.regions[2].role = RegionRole::kBackground;
+  const TrackFrame keyframe = view.frame(0.0, sway, drift);
+  double centre_px = 0.0;  // of the wall, from the optical axis: it goes outward as the camera nears
+  for (std::size_t i = 32; i < 48; ++i) centre_px += (keyframe.points[i].u_px - view.camera.cx) / 16.0;
+  Measured measure(config, keyframe);
+  ASSERT_EQ(measure.channels.channels().size(), 2U);
+  ASSERT_EQ(measure.channels.spectra().size(), 3U);
+  EXPECT_TRUE(measure.channels.spectra()[2].is_witness);
+  for (int k = 1; k < 50; ++k) {
+    const double t = k / view.rate_hz;
+    TrackFrame tracks = view.frame(t, sway, drift);
+    tracks.points[40].seen = k % 2 == 0;             // comes and goes: the mean of the others must not jump
+    if (k % 3 == 0) tracks.points[45].u_px += 20.0;  // jumps
+    const DisplacementSample& sample = measure(tracks);
+    ASSERT_EQ(sample.witness_mm.size(), 1U);
+    EXPECT_EQ(sample.witness_seen[0], 1);
+    EXPECT_NEAR(sample.witness_mm[0], sway(2, t) / drift(t) + 2.0 * centre_px * (1.0 / drift(t) - 1.0), 0.02) << t;
+  }
+  config.witness = false;
+  EXPECT_EQ(Measured(config, view.frame(0.0, sway, drift)).channels.spectra().size(), 2U);
+}
+
 TEST(ChannelDisplacement, UndistortsPoints) {
   PlateView view;
   view.camera.distortion = {-0.3, 0.1, 0.001, -0.001, 0.0};

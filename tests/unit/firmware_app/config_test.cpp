@@ -79,6 +79,7 @@ TEST(Config, EachKeySetsItsOwnMemberOnly) {
       {"scale.from", "[3, 4]"},
       {"scale.to", "[3, 4]"},
       {"spectrum.window", "boxcar"},
+      {"spectrum.witness", "false"},
       {"spectrum.overlap", "0.25"},
       {"identification.references", "[a, b]"},
       {"identification.min_mpc", "0.5"},

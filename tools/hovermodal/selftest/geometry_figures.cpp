@@ -37,10 +37,12 @@ void print_geometry(const GeometryOptions& options) {
   FigureCase which{"geometry", "paper-300s", paper_flight(), 300.0, 3, {}};
   // Without delays nothing above half the rate can be told: nobody would look there.
   const std::string half_rate = "identification.max_frequency_hz=0";
-  which.ways = {{"raw", {"scale.adaptive=false", half_rate}, StatedReadout::kNone},
-                {"scale", {half_rate}, StatedReadout::kNone},
-                {"rho-1", {}, StatedReadout::kWholeFrame},
+  const std::string no_witness = "spectrum.witness=false";
+  which.ways = {{"raw", {"scale.adaptive=false", half_rate, no_witness}, StatedReadout::kNone},
+                {"scale", {half_rate, no_witness}, StatedReadout::kNone},
+                {"rho-1", {no_witness}, StatedReadout::kWholeFrame},
                 paper(),
+                {"no-witness", {no_witness}},
                 {"ours", {}},
                 {"ours-motion", {kWholeMotion}}};
   print_score_columns("geometry", "modes 1-3");
