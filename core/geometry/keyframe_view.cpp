@@ -1,8 +1,8 @@
 #include "core/geometry/keyframe_view.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
+#include <cmath>
 
 namespace core {
 
@@ -99,6 +99,11 @@ CameraMotion make_camera_motion(const std::vector<Region>& regions, const Camera
     points.push_back(point);
   }
   return {config, points, about, static_cast<double>(keyframe.t_start_ns) * 1e-9};
+}
+
+Vector2 axis_of(const Region& region) noexcept {
+  const double angle = region.axis_deg * std::numbers::pi / 180.0;
+  return {std::cos(angle), std::sin(angle)};
 }
 
 }  // namespace core

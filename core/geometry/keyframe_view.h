@@ -24,4 +24,7 @@ namespace core {
                                               const TrackFrame& keyframe,
                                               const std::optional<PlanePose>& plane = std::nullopt);
 
+// Unit vector of the axis that a region moves along (Region::axis_deg).
+[[nodiscard]] Vector2 axis_of(const Region& region) noexcept;
+
 }  // namespace core

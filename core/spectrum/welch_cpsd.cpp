@@ -17,8 +17,7 @@ namespace {
 using Complex = std::complex<double>;
 
 void check(const WelchConfig& config) {
-  if (config.n_witnesses < 0 || config.n_channels <= config.n_witnesses)
-    throw std::invalid_argument("WelchCpsd: no channel");
+  if (config.n_channels <= std::max(0, config.n_witnesses)) throw std::invalid_argument("WelchCpsd: no channel");
   if (config.segment < 4)
     throw std::invalid_argument("WelchCpsd: segment of " + std::to_string(config.segment) + " samples; at least 4");
   if (!(config.overlap >= 0.0 && config.overlap < 1.0))
