@@ -1,8 +1,8 @@
 #include "core/geometry/keyframe_view.h"
 
 #include <algorithm>
-#include <numbers>
 #include <cmath>
+#include <numbers>
 
 namespace core {
 
