@@ -104,11 +104,14 @@ Outcome close(const Scene& scene, std::uint64_t seed, const std::string& effect)
 }
 
 void print_case(const Case& one, const IdentificationOptions& options) {
-  const auto results = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t seed) {
-    Scene scene = scene_of(seed, false);
-    one.apply(scene);
-    return close(scene, seed, one.effect);
-  });
+  const auto results = for_each_seed(
+      options.n_seeds, options.n_threads,
+      [&](std::uint64_t seed) {
+        Scene scene = scene_of(seed, false);
+        one.apply(scene);
+        return close(scene, seed, one.effect);
+      },
+      options.first_seed);
   int alone = 0, beside = 0, wrong = 0, nothing = 0, within = 0;
   double sum = 0.0, before = 0.0, after = 0.0;
   for (const Outcome& result : results) {
@@ -138,8 +141,9 @@ void print_closure_series(const IdentificationOptions& options) {
 void print_closure_series_null(const IdentificationOptions& options) {
   fmt::print("# no effect: input, records, false adoptions, which\n");
   for (const bool wind : {false, true}) {
-    const auto results = for_each_seed(options.n_seeds, options.n_threads,
-                                       [&](std::uint64_t seed) { return close(scene_of(seed, wind), seed, ""); });
+    const auto results = for_each_seed(
+        options.n_seeds, options.n_threads, [&](std::uint64_t seed) { return close(scene_of(seed, wind), seed, ""); },
+        options.first_seed);
     int n_false = 0;
     std::string which;
     for (const Outcome& result : results) {
