@@ -48,9 +48,9 @@ figure_7() {
   judge 7a "false modes $before -> $after, true ones $all of $(($(wc -l <"$out/shake_peaks.csv") - 1)); held-out innovations $(ask shake_input 'f"""{c["reference_error_before"]:.2f} -> {c["reference_error_after"]:.2f}"""'): $(ask shake_input '", ".join(s) or "nothing"')" \
     "fewer false modes, traced to input_colour" "shake table under an earthquake, the ground not declared" \
     "$after < $before && $(ask shake_input 'int("input_colour" in s)') == 1"
-  mkdir -p "$out/loggers"
-  for name in ground floor1 floor2 floor3; do ln -sf "$(realpath "$shake/flexible_bonus_$name.csv")" "$out/loggers/${name}_m_s2.csv"; done
-  closeloop loggers --record "$out"/loggers/{ground,floor1,floor2,floor3}_m_s2.csv --quantity a --input-record ground_m_s2 --max-frequency 24 \
+  mkdir -p "$out/logger_tables"
+  for name in ground floor1 floor2 floor3; do ln -sf "$(realpath "$shake/flexible_bonus_$name.csv")" "$out/logger_tables/${name}_m_s2.csv"; done
+  closeloop loggers --record "$out"/logger_tables/{ground,floor1,floor2,floor3}_m_s2.csv --quantity a --input-record ground_m_s2 --max-frequency 24 \
     --reference "$out/shake_identified/modal.json"
   judge 7b "MAC $(ask loggers 'macs("modes_before") + " -> " + macs("modes_after")'); offsets $(ask loggers '", ".join(f"""{n} {p["value"]:+.1f} +- {p["sigma"]:.1f} ms""" for n, p in s["clock_offset"]["parameters"].items()) if "clock_offset" in s else "none"'); $(ask loggers '", ".join(s)')" \
     "MAC >= 0.98 against Northridge's, three modes" "four loggers that were not synchronised" \
