@@ -45,6 +45,10 @@ def modes_hz(key):
     return " ".join(f'{m["frequency_hz"]:.2f}' for m in c[key]) or "none"
 def macs(key):
     return " ".join(f'{m["mac"]:.3f}' for m in c[key] if m["mac"] is not None) or "none"
+def common():
+    after = {m["reference_hz"]: m["error_percent"] for m in c["modes_after"]}
+    return [(m["error_percent"], after[m["reference_hz"]]) for m in c["modes_before"]
+            if m["error_percent"] is not None and after.get(m["reference_hz"]) is not None]
 def told():
     return "; ".join(f'{e["effect"]} ({e["heldout_before"]:.2f} -> {e["heldout_after"]:.2f} %' +
         (", cannot be told from " + ", ".join(e["rivals"]) if e["rivals"] else "") + ")" for e in c["steps"]) or "nothing"
