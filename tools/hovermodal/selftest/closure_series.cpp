@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "core/closure/closure_loop.h"
@@ -20,7 +21,7 @@ using core::closure::ChannelRecord;
 using core::simulation::Scene;
 
 constexpr double kDuration_s = 120.0;
-constexpr std::size_t kSurrogates = 64;
+constexpr std::size_t kSurrogates = 64, kWhenPlain = 12;
 
 struct Case {
   const char* effect;  // as closing the loop calls it
@@ -91,6 +92,7 @@ Outcome close(const Scene& scene, std::uint64_t seed, const std::string& effect)
   core::closure::ClosureOptions options;
   options.seed = seed;
   options.n_surrogates = kSurrogates;
+  options.n_surrogates_when_plain = kWhenPlain;
   const core::closure::ClosureResult result = core::closure::close_loop(level, options);
   out.before = result.reference_error_before.value_or(0.0);
   out.after = result.reference_error_after.value_or(0.0);
@@ -125,6 +127,7 @@ void print_case(const Case& one, const IdentificationOptions& options) {
   fmt::print("series\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.3g}\t{}\t{:.4f}\t{:.4f}\n", one.effect, one.strength,
              options.n_seeds, alone, beside, wrong, nothing, alone + beside > 0 ? sum / (alone + beside) : std::nan(""),
              within, before, after);
+  std::fflush(stdout);
 }
 
 }  // namespace
