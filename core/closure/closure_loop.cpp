@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 constexpr double kTie = 0.01;         // of the score: as good as equal
+constexpr double kPlain = 3.0;        // times what few surrogates say of chance
 constexpr double kKeptOfScore = 0.5;  // a refit must keep so much of the predicted drop in held-out squares
 
 class Loop {
@@ -49,7 +50,7 @@ class Loop {
     result_.refused = ranked(scores, kNone);
     const std::size_t best = best_of(scores);
     if (best == kNone) return stop("no candidate lowers the held-out error materially and plausibly");
-    const double threshold = threshold_of_step();
+    const double threshold = threshold_of_step(scores[best].score);
     if (!(scores[best].score > threshold)) {
       for (CandidateScore& score : result_.refused) {
         if (score.refusal.empty()) score.refusal = "not above what chance reaches";
@@ -84,11 +85,12 @@ class Loop {
     return true;
   }
 
-  [[nodiscard]] double threshold_of_step() {
-    std::vector<double> scores(options_.n_surrogates);
-    for (std::size_t i = 0; i < scores.size(); ++i) {
-      if (i % 32 == 0) tell("surrogate " + std::to_string(i + 1) + " of " + std::to_string(scores.size()));
-      scores[i] = level_.surrogate_score(next_seed());
+  [[nodiscard]] double threshold_of_step(double best) {
+    std::vector<double> scores;
+    for (std::size_t i = 0; i < options_.n_surrogates; ++i) {
+      if (i % 32 == 0) tell("surrogate " + std::to_string(i + 1) + " of " + std::to_string(options_.n_surrogates));
+      scores.push_back(level_.surrogate_score(next_seed()));
+      if (scores.size() == options_.n_surrogates_when_plain && best > kPlain * chance_threshold(scores)) break;
     }
     result_.n_surrogates += scores.size();
     return chance_threshold(std::move(scores));

@@ -12,6 +12,9 @@ namespace core::closure {
 
 struct ClosureOptions {
   std::size_t n_surrogates = 333;  // per step; the fewest whose largest score is the 99.7 % level
+  // A step whose best score is three times what the first so many say of chance draws no more of them; 0 = it draws
+  // all. For levels whose surrogates are costly.
+  std::size_t n_surrogates_when_plain = 0;
   std::uint64_t seed = 1;
   std::size_t max_steps = 8;
   std::function<void(const std::string&)> progress = {};  // told in words what is being done

@@ -20,28 +20,6 @@ constexpr int kRounds = 80, kStartRounds = 12;
 constexpr double kOutlier_sigmas = 5.0;
 constexpr double kFocalPerWidth = 0.75;  // to begin with
 
-void check(const std::vector<FramePair>& pairs, const std::vector<GyroSample>& gyro, const GyroReadoutConfig& config) {
-  const auto fitted = std::count_if(pairs.begin(), pairs.end(), [](const FramePair& p) { return !p.held_out; });
-  if (static_cast<std::size_t>(fitted) < kLeastPairs)
-    throw std::invalid_argument("gyro readout: " + std::to_string(fitted) + " frame pairs to fit; give at least " +
-                                std::to_string(kLeastPairs));
-  double from_s = std::numeric_limits<double>::infinity(), to_s = -from_s;
-  for (const FramePair& pair : pairs) {
-    if (pair.points.size() < kLeastPoints) throw std::invalid_argument("gyro readout: a frame pair with few points");
-    from_s = std::min(from_s, pair.from_s);
-    to_s = std::max(to_s, pair.to_s);
-  }
-  const double beyond_s = config.most_offset_s + 0.1;
-  if (gyro.size() < 16 || gyro.front().t_s > from_s - beyond_s || gyro.back().t_s < to_s + beyond_s)
-    throw std::invalid_argument("gyro readout: the gyro record does not hold the frames and " +
-                                std::to_string(beyond_s) + " s on either side: are both in the same unit and clock?");
-  for (std::size_t i = 1; i < gyro.size(); ++i) {
-    if (!(gyro[i].t_s > gyro[i - 1].t_s) || !gyro[i].rate_rad_s.allFinite())
-      throw std::invalid_argument("gyro readout: gyro sample " + std::to_string(i) +
-                                  ": time does not go on, or a rate is no number");
-  }
-}
-
 // Distances from the epipolar lines, per pair.
 std::vector<std::vector<double>> distances(const GyroProblem& problem, GyroState state) {
   const RestFlows flows = problem.flows(state);
@@ -88,9 +66,32 @@ ReadoutValue of_half(std::vector<FramePair> pairs, bool second, const std::vecto
 
 }  // namespace
 
+void check_gyro_record(const std::vector<FramePair>& pairs, const std::vector<GyroSample>& gyro,
+                       const GyroReadoutConfig& config) {
+  const auto fitted = std::count_if(pairs.begin(), pairs.end(), [](const FramePair& p) { return !p.held_out; });
+  if (static_cast<std::size_t>(fitted) < kLeastPairs)
+    throw std::invalid_argument("gyro readout: " + std::to_string(fitted) + " frame pairs to fit; give at least " +
+                                std::to_string(kLeastPairs));
+  double from_s = std::numeric_limits<double>::infinity(), to_s = -from_s;
+  for (const FramePair& pair : pairs) {
+    if (pair.points.size() < kLeastPoints) throw std::invalid_argument("gyro readout: a frame pair with few points");
+    from_s = std::min(from_s, pair.from_s);
+    to_s = std::max(to_s, pair.to_s);
+  }
+  const double beyond_s = config.most_offset_s + 0.1;
+  if (gyro.size() < 16 || gyro.front().t_s > from_s - beyond_s || gyro.back().t_s < to_s + beyond_s)
+    throw std::invalid_argument("gyro readout: the gyro record does not hold the frames and " +
+                                std::to_string(beyond_s) + " s on either side: are both in the same unit and clock?");
+  for (std::size_t i = 1; i < gyro.size(); ++i) {
+    if (!(gyro[i].t_s > gyro[i - 1].t_s) || !gyro[i].rate_rad_s.allFinite())
+      throw std::invalid_argument("gyro readout: gyro sample " + std::to_string(i) +
+                                  ": time does not go on, or a rate is no number");
+  }
+}
+
 GyroReadout fit_gyro_readout(const std::vector<FramePair>& pairs, const std::vector<GyroSample>& gyro,
                              const GyroReadoutConfig& config) {
-  check(pairs, gyro, config);
+  check_gyro_record(pairs, gyro, config);
   const GyroProblem problem(pairs, gyro, config);
   std::vector<Index> held;
   if (config.focal_px > 0.0) held.push_back(kFocal);

@@ -58,8 +58,11 @@ struct GyroReadout {
   std::vector<double> pair_rms_without_px, pair_rms_with_px;  // every pair
 };
 
-// Throws std::invalid_argument: fewer than eight pairs with points, a gyro record that does not hold them, or no
-// turning.
+// Throws std::invalid_argument: fewer than eight pairs with points, or a gyro record that does not hold them.
+void check_gyro_record(const std::vector<FramePair>& pairs, const std::vector<GyroSample>& gyro,
+                       const GyroReadoutConfig& config);
+
+// Throws what check_gyro_record() does, and std::invalid_argument: no turning.
 [[nodiscard]] GyroReadout fit_gyro_readout(const std::vector<FramePair>& pairs, const std::vector<GyroSample>& gyro,
                                            const GyroReadoutConfig& config);
 

@@ -8,6 +8,7 @@
 
 #include "core/closure/effects/registry.h"
 #include "core/closure/effects/rotor_line.h"
+#include "core/closure/observation/point_screening.h"
 
 namespace core::closure {
 namespace {
@@ -15,15 +16,24 @@ namespace {
 constexpr int kReadoutRounds = 3, kConstantRounds = 8, kFillRounds = 3, kTurnRounds = 2;
 constexpr double kStill = 0.05;  // of its sigma: a constant that has arrived
 
-ObservationRecord checked(const ObservationRecord& record, std::vector<std::string>& warnings) {
+RecordCheck without_fault(const ObservationRecord& record) {
   RecordCheck check = check_record(record);
-  if (!check.faults.empty()) {
-    std::string text = "this record cannot be used at the observation level";
-    for (const std::string& fault : check.faults) text += "; " + fault;
-    throw std::invalid_argument(text);
+  if (check.faults.empty()) return check;
+  std::string text = "this record cannot be used at the observation level";
+  for (const std::string& fault : check.faults) text += "; " + fault;
+  throw std::invalid_argument(text);
+}
+
+ObservationRecord checked(const ObservationRecord& record, std::vector<std::string>& warnings) {
+  RecordCheck check = without_fault(record);
+  ObservationRecord usable = select_points(record, check.points);
+  warnings = screen_points(usable);
+  if (!warnings.empty()) {
+    check = without_fault(usable);
+    usable = select_points(usable, check.points);
   }
-  warnings = std::move(check.warnings);
-  return select_points(record, check.points);
+  warnings.insert(warnings.end(), check.warnings.begin(), check.warnings.end());
+  return usable;
 }
 
 // Rows 2j, 2j+1 = u, v of point j; gaps by straight lines between what was seen.

@@ -11,6 +11,7 @@
 #include "core/closure/noise_stream.h"
 #include "core/closure/observation/leave_one_out.h"
 #include "core/closure/observation/observation_level.h"
+#include "core/closure/observation/point_screening.h"
 #include "core/closure/observation/time_filter.h"
 
 namespace core::closure {
@@ -168,6 +169,48 @@ TEST(ObservationLevel, NothingIsNamedWithoutAnEffect) {
   const ClosureResult result = closed(swaying_record(1000, {}));
   EXPECT_TRUE(result.steps.empty()) << result.steps[0].effect;
   EXPECT_NEAR(result.baseline_rms, result.noise_floor, 0.03 * result.noise_floor);
+}
+
+// A point that slides over its texture, and one that jumps for a second.
+void spoil(ObservationRecord& record) {
+  NoiseStream noise(11);
+  double slid_px = 0.0;
+  for (Eigen::Index k = 0; k < record.n_frames(); ++k) {
+    slid_px = 0.98 * slid_px + 0.1 * noise.gaussian();
+    record.u_px(k, 13) += slid_px;
+    if (k >= 300 && k < 325) record.v_px(k, 20) += 4.0;
+  }
+}
+
+TEST(PointScreening, FindsTheBadPointAndTheJumpAndNothingElse) {
+  ObservationRecord record = swaying_record(1000, {.roll_rms_rad = 0.1 * kPi / 180.0, .k1 = -0.3});
+  ObservationRecord sound = record;
+  EXPECT_TRUE(screen_points(sound).empty());
+  EXPECT_EQ(sound.u_px, record.u_px);
+  EXPECT_EQ(sound.sigma_px, record.sigma_px);
+  spoil(record);
+  EXPECT_EQ(screen_points(record).size(), 2U);
+  for (Eigen::Index j = 0; j < record.n_points(); ++j)
+    EXPECT_EQ(record.u_px.col(j).array().isNaN().count(), j == 13 ? 1000 : j == 20 ? 25 : 0) << j;
+}
+
+TEST(PointScreening, ADoubtfulPointCountsLess) {
+  ObservationRecord record = swaying_record(1000, {});
+  NoiseStream noise(12);
+  for (Eigen::Index k = 0; k < record.n_frames(); ++k)
+    record.u_px(k, 13) += 0.115 * noise.gaussian(), record.v_px(k, 13) += 0.115 * noise.gaussian();
+  ASSERT_EQ(screen_points(record).size(), 1U);
+  EXPECT_NEAR(record.sigma_px[13], 0.12, 0.015);
+  EXPECT_FALSE(record.u_px.hasNaN());
+}
+
+TEST(ObservationLevel, ABadPointIsNotTakenForAnEffect) {
+  ObservationRecord record = swaying_record(1000, {.roll_rms_rad = 0.03 * kPi / 180.0});
+  spoil(record);
+  const ClosureResult result = closed(record);
+  ASSERT_EQ(result.steps.size(), 1U) << words(result);
+  EXPECT_EQ(result.steps[0].effect, "camera roll");
+  EXPECT_LT(result.steps[0].heldout_after, 1.05 * result.noise_floor);
 }
 
 TEST(ObservationLevel, LostSamplesAreFilledByTheModel) {

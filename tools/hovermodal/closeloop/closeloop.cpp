@@ -16,6 +16,7 @@
 #include "firmware_app/report/closure_json.h"
 #include "tools/hovermodal/closeloop/closeloop_series.h"
 #include "tools/hovermodal/closeloop/closeloop_tracks.h"
+#include "tools/hovermodal/closeloop/closeloop_turning.h"
 #include "tools/hovermodal/closeloop/reference.h"
 #include "tools/hovermodal/closeloop/words.h"
 #include "tools/hovermodal/commands.h"
@@ -28,6 +29,7 @@ struct Options {
   LoopRequest loop;
   SeriesLoop series;
   TracksLoop tracks;
+  GyroClipOptions clip;
 };
 
 std::string help() {
@@ -65,7 +67,10 @@ std::string help() {
          "  hovermodal closeloop --record table.csv --quantity a --input ground --input-unknown --report loop\n"
          "      are some of the modes peaks of the ground's motion?\n"
          "  hovermodal closeloop --record ground.csv floor1.csv floor2.csv --quantity a --input-record ground\n"
-         "      --reference modal.json    loggers with a clock of their own";
+         "      --reference modal.json    loggers with a clock of their own\n"
+         "\nA clip of a camera that is turned beside a gyro (files as `hovermodal readout` takes them):\n"
+         "  hovermodal closeloop --clip frames --stamps framestamp.txt --gyro gyro.txt --focal-px 574 --report loop\n"
+         "      does the camera turn, and are its lines read one after the other?";
 }
 
 void make_folder(const std::string& folder) {
@@ -99,9 +104,15 @@ void run_record(const Options& options) {
 }
 
 void run(const Options& options) {
+  if (!options.clip.clip.empty()) {
+    if (!options.loop.records.empty() || !options.structure.empty())
+      throw std::invalid_argument("--clip is a record of its own: no --record, no --structure beside it");
+    if (!options.loop.report.empty()) make_folder(options.loop.report);
+    return close_turning(options.loop, options.clip);
+  }
   if (!options.loop.records.empty()) return run_record(options);
   if (options.structure.empty() || options.loop.reference.empty())
-    throw std::invalid_argument("closeloop needs --structure with --reference, or --record");
+    throw std::invalid_argument("closeloop needs --structure with --reference, --record, or --clip");
   const core::structure::DeclaredFrame declared = drivers::read_structure(options.structure);
   auto reference = read_reference(options.loop.reference, declared);
   auto check =
@@ -159,6 +170,7 @@ void add_closeloop(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--seed", options->loop.seed, "Of those records")->capture_default_str();
   add_series_options(*command, options->series);
+  add_gyro_clip_options(*command, options->clip, false);
   command->callback([options] { run(*options); });
 }
 

@@ -14,6 +14,11 @@
 #include "tools/hovermodal/closeloop/words.h"
 
 namespace tools {
+namespace {
+
+constexpr std::size_t kWhenPlain = 12;
+
+}  // namespace
 
 using core::closure::ClosureResult;
 using core::closure::ResponseLevel;
@@ -23,6 +28,7 @@ ClosureResult close_response(const LoopRequest& request, const ResponseModel& mo
                              std::vector<std::string>* adopted) {
   core::closure::ClosureOptions loop;
   loop.n_surrogates = std::min(request.n_surrogates, most_surrogates);
+  loop.n_surrogates_when_plain = kWhenPlain;
   loop.seed = request.seed;
   const bool terminal = isatty(STDERR_FILENO) != 0;
   if (terminal) loop.progress = [](const std::string& words) { fmt::print(stderr, "\r\033[K{}", words); };

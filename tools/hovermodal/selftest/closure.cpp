@@ -65,8 +65,9 @@ void print(const IdentificationOptions& options, bool null) {
       1e2 * kSigma);
   for (const KnownStructure& structure : known_structures()) {
     if ((structure.effect == "none") != null) continue;
-    const auto results =
-        for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t seed) { return close(structure, seed); });
+    const auto results = for_each_seed(
+        options.n_seeds, options.n_threads, [&](std::uint64_t seed) { return close(structure, seed); },
+        options.first_seed);
     Counts counts;
     double rms = 0.0;
     for (const ClosureResult& result : results) {

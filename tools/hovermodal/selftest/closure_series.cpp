@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "core/closure/closure_loop.h"
@@ -20,7 +21,7 @@ using core::closure::ChannelRecord;
 using core::simulation::Scene;
 
 constexpr double kDuration_s = 120.0;
-constexpr std::size_t kSurrogates = 64;
+constexpr std::size_t kSurrogates = 64, kWhenPlain = 12;
 
 struct Case {
   const char* effect;  // as closing the loop calls it
@@ -91,6 +92,7 @@ Outcome close(const Scene& scene, std::uint64_t seed, const std::string& effect)
   core::closure::ClosureOptions options;
   options.seed = seed;
   options.n_surrogates = kSurrogates;
+  options.n_surrogates_when_plain = kWhenPlain;
   const core::closure::ClosureResult result = core::closure::close_loop(level, options);
   out.before = result.reference_error_before.value_or(0.0);
   out.after = result.reference_error_after.value_or(0.0);
@@ -104,11 +106,14 @@ Outcome close(const Scene& scene, std::uint64_t seed, const std::string& effect)
 }
 
 void print_case(const Case& one, const IdentificationOptions& options) {
-  const auto results = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t seed) {
-    Scene scene = scene_of(seed, false);
-    one.apply(scene);
-    return close(scene, seed, one.effect);
-  });
+  const auto results = for_each_seed(
+      options.n_seeds, options.n_threads,
+      [&](std::uint64_t seed) {
+        Scene scene = scene_of(seed, false);
+        one.apply(scene);
+        return close(scene, seed, one.effect);
+      },
+      options.first_seed);
   int alone = 0, beside = 0, wrong = 0, nothing = 0, within = 0;
   double sum = 0.0, before = 0.0, after = 0.0;
   for (const Outcome& result : results) {
@@ -122,6 +127,7 @@ void print_case(const Case& one, const IdentificationOptions& options) {
   fmt::print("series\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.3g}\t{}\t{:.4f}\t{:.4f}\n", one.effect, one.strength,
              options.n_seeds, alone, beside, wrong, nothing, alone + beside > 0 ? sum / (alone + beside) : std::nan(""),
              within, before, after);
+  std::fflush(stdout);
 }
 
 }  // namespace
@@ -138,8 +144,9 @@ void print_closure_series(const IdentificationOptions& options) {
 void print_closure_series_null(const IdentificationOptions& options) {
   fmt::print("# no effect: input, records, false adoptions, which\n");
   for (const bool wind : {false, true}) {
-    const auto results = for_each_seed(options.n_seeds, options.n_threads,
-                                       [&](std::uint64_t seed) { return close(scene_of(seed, wind), seed, ""); });
+    const auto results = for_each_seed(
+        options.n_seeds, options.n_threads, [&](std::uint64_t seed) { return close(scene_of(seed, wind), seed, ""); },
+        options.first_seed);
     int n_false = 0;
     std::string which;
     for (const Outcome& result : results) {

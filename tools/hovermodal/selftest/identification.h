@@ -7,10 +7,12 @@ namespace tools {
 
 // The identification on simulated records of known truth: structure -> channel samples -> spectra -> modes, in process.
 // Each prints tab-separated lines, with a comment line (#) that names their columns. Records are those of seeds 1 to
-// n_seeds, made on n_threads; what is printed does not depend on the number of threads.
+// n_seeds, made on n_threads; what is printed does not depend on the number of threads. Closing the loop begins with
+// first_seed instead of 1.
 struct IdentificationOptions {
   int n_seeds = 20;
   int n_threads = 2;
+  int first_seed = 1;
 };
 
 void print_bias(const IdentificationOptions& options);       // bias, scatter and stated intervals, six storeys at 60 Hz

@@ -9,16 +9,17 @@
 
 namespace tools {
 
-// One result per seed 1 .. n_seeds, in their order, whichever thread made it. The first exception is rethrown.
+// One result per seed first .. first + n_seeds - 1, in their order, whichever thread made it. The first exception is
+// rethrown.
 template <class Make>
-[[nodiscard]] auto for_each_seed(int n_seeds, int n_threads, Make make) {
+[[nodiscard]] auto for_each_seed(int n_seeds, int n_threads, Make make, int first = 1) {
   std::vector<decltype(make(std::uint64_t{1}))> results(static_cast<std::size_t>(n_seeds));
   std::vector<std::exception_ptr> failures(results.size());
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
     for (std::size_t i = next++; i < results.size(); i = next++) {
       try {
-        results[i] = make(static_cast<std::uint64_t>(i) + 1);
+        results[i] = make(static_cast<std::uint64_t>(i) + static_cast<std::uint64_t>(first));
       } catch (...) {
         failures[i] = std::current_exception();
       }

@@ -87,7 +87,7 @@ void print_speed(const Options& options) {
 // The identification on simulated records.
 template <void (*print)(const IdentificationOptions&)>
 void identification(const Options& options) {
-  print({options.n_seeds, options.n_threads});
+  print({options.n_seeds, options.n_threads, options.first_seed});
 }
 
 // The whole chain behind the tracker on simulated flights.
@@ -176,7 +176,7 @@ void add_selftest(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--duration", options->duration_s, "checks of the geometry: seconds; 0 = that of the figure")
       ->check(CLI::Range(0.0, 3600.0));
-  command->add_option("--first-seed", options->first_seed, "closure-tracks: seeds are those from this one on")
+  command->add_option("--first-seed", options->first_seed, "closing the loop: seeds are those from this one on")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--effect", options->effect, "closure-tracks: this effect only")->type_name("NAME");
   command->add_option("--strength", options->strength, "closure-tracks: this strength only; 0 = all")

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/closure/closure_level.h"
+#include "core/geometry/gyro_problem.h"
+
+namespace core::closure {
+
+// The observation level of a camera that is turned beside a gyro: where the points of one frame are in the next. The
+// model without effects is a global shutter that does not turn: all motion is a shift of the camera, of its own in
+// every frame pair, and what counts is how far points are from their epipolar lines. The effects are those of
+// core/geometry/gyro_problem.h, which fits them: the camera turns as the gyro says (its axes, clock offset and bias
+// fitted with it); lines are read one after the other. Held out are whole frame pairs: they take no part in the fit,
+// only their shifts are their own.
+// Score: drop of the held-out squares over the variance of a point, of the points that lie within five of its
+// deviations in the model with all effects: others move by themselves.
+// Surrogates: the gyro's record moved on in time, in a circle; readout places exchanged between the points of a pair.
+class TurningLevel final : public ClosureLevel {
+ public:
+  static constexpr double kBar = 0.003;  // least score per held-out point, as for constants of the record
+
+  // Throws what core::fit_gyro_readout() does.
+  TurningLevel(std::vector<core::FramePair> pairs, std::vector<core::GyroSample> gyro,
+               const core::GyroReadoutConfig& config);
+
+  [[nodiscard]] std::string name() const override { return "observation"; }
+  [[nodiscard]] std::string unit() const override { return "px"; }
+  [[nodiscard]] std::vector<NotObservable> not_observable() const override;
+  [[nodiscard]] std::vector<std::string> candidates() const override;
+  LevelFit fit() override;
+  [[nodiscard]] std::vector<CandidateScore> score() override;
+  [[nodiscard]] double surrogate_score(std::uint64_t seed) override;
+  void adopt(std::size_t candidate) override;
+  void drop() override;
+  [[nodiscard]] std::vector<ParameterValue> parameters(std::size_t adopted) const override;
+  [[nodiscard]] std::vector<std::string> rivals(std::size_t, std::uint64_t) override { return {}; }
+  [[nodiscard]] std::vector<ClosureMode> modes() const override { return {}; }
+  // Degrees rms per frame pair and axis: how far the picture turns beyond what the model says, over the held-out pairs,
+  // from the picture alone, weighted by what each pair tells; without the mean, which a steady shift bends.
+  [[nodiscard]] std::optional<double> reference_error() const override { return remaining_turn_deg_; }
+  [[nodiscard]] std::string describe_residual() const override;
+
+ private:
+  enum class Effect : std::uint8_t { kRotation, kReadout };
+  struct Fitted {
+    core::GyroState state;
+    double cost = 0.0;
+    std::vector<Eigen::Index> held;
+  };
+  [[nodiscard]] std::vector<Effect> open() const;
+  [[nodiscard]] bool has(Effect effect) const;
+  // brief: from one start, few rounds.
+  [[nodiscard]] Fitted fit_with(const std::vector<Effect>& effects, const std::vector<core::FramePair>& pairs,
+                                const std::vector<core::GyroSample>& gyro, bool brief) const;
+  [[nodiscard]] const Fitted& fit_of(const std::vector<Effect>& effects);  // of the record itself, fitted once
+  [[nodiscard]] double heldout_squares(const Fitted& fitted, const std::vector<Effect>& effects,
+                                       const std::vector<core::FramePair>& pairs,
+                                       const std::vector<core::GyroSample>& gyro) const;
+  [[nodiscard]] core::GyroProblem problem(const std::vector<Effect>& effects) const;
+  [[nodiscard]] double remaining_turn_deg() const;
+
+  std::vector<core::FramePair> pairs_;
+  std::vector<core::GyroSample> gyro_, still_;  // still_: a gyro that never turns
+  core::GyroReadoutConfig config_;
+  double sigma_px_ = 0.0;                   // of a point, with all effects
+  std::vector<std::vector<char>> at_rest_;  // per pair and point
+  double n_heldout_ = 0.0;                  // of these in held-out pairs
+  std::vector<Effect> adopted_;
+  std::array<std::optional<Fitted>, 3> known_;  // by the number of effects: readout only beside rotation
+  Fitted fitted_;
+  double squares_ = 0.0, remaining_turn_deg_ = 0.0;
+};
+
+}  // namespace core::closure

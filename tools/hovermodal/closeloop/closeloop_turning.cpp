@@ -1,0 +1,44 @@
+#include "tools/hovermodal/closeloop/closeloop_turning.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "core/closure/closure_loop.h"
+#include "core/closure/observation/turning_level.h"
+#include "drivers/storage/json.h"
+#include "firmware_app/report/closure_json.h"
+#include "tools/hovermodal/closeloop/words.h"
+
+namespace tools {
+namespace {
+
+constexpr std::size_t kSurrogates = 8;  // each is a fit of its own; read by a Gumbel distribution
+
+}  // namespace
+
+void close_turning(const LoopRequest& request, const GyroClipOptions& options) {
+  if (options.stamps.empty() || options.gyro.empty()) throw std::invalid_argument("--clip needs --stamps and --gyro");
+  GyroClip clip = read_gyro_clip(options);
+  core::closure::TurningLevel level(std::move(clip.motion.pairs), std::move(clip.gyro), clip.config);
+  core::closure::ClosureOptions loop;
+  loop.n_surrogates = kSurrogates;
+  loop.seed = request.seed;
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  if (terminal) loop.progress = [](const std::string& words) { fmt::print(stderr, "\r\033[K{}", words); };
+  const core::closure::ClosureResult result = core::closure::close_loop(level, loop);
+  if (terminal) fmt::print(stderr, "\r\033[K");
+  fmt::print("{}", closure_text(result, {}));
+  if (result.reference_error_before && result.reference_error_after)
+    fmt::print("the picture turns beyond the model, held-out frames: {:.4f} -> {:.4f} deg rms a frame\n",
+               *result.reference_error_before, *result.reference_error_after);
+  if (request.report.empty()) return;
+  const auto path = (std::filesystem::path(request.report) / "closure.json").string();
+  drivers::write_file_atomically(path, app::closure_json(result));
+  fmt::print("{} written\n", path);
+}
+
+}  // namespace tools

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "tools/hovermodal/closeloop/closeloop_series.h"
+#include "tools/hovermodal/readout/gyro_clip.h"
+
+namespace tools {
+
+// `closeloop --clip FRAMES --stamps FILE --gyro FILE`: a camera declared as a global shutter that does not turn.
+// Throws what read_gyro_clip() and core::closure::TurningLevel do.
+void close_turning(const LoopRequest& request, const GyroClipOptions& options);
+
+}  // namespace tools

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/geometry/gyro_readout.h"
+#include "core/types/frame.h"
+#include "tools/hovermodal/readout/clip_motion.h"
+
+namespace tools {
+
+// A clip, its frames' stamps and a gyro's record beside it, as the command line names them.
+struct GyroClipOptions {
+  std::string clip, stamps, gyro, calibration;
+  std::vector<std::array<double, 4>> ignored;
+  double time_unit_s = 1.0, focal_px = 0.0, most_offset_s = 0.1;
+  int first_stamp = 0, hold_out_every = 4;
+  core::ReadoutDirection direction = core::ReadoutDirection::kDown;
+};
+void add_gyro_clip_options(CLI::App& command, GyroClipOptions& options, bool required);
+
+struct GyroClip {
+  ClipMotion motion;
+  std::vector<core::GyroSample> gyro;
+  core::GyroReadoutConfig config;
+};
+// Throws drivers::FileError, std::invalid_argument, and what track_clip() does.
+[[nodiscard]] GyroClip read_gyro_clip(const GyroClipOptions& options);
+
+}  // namespace tools
