@@ -123,6 +123,7 @@ struct Pipeline::Parts {
     identification.keep_state(mode_states);
     health.watch_state(checkpoint);
     health.watch({&run_checkpoint, {}, 0});
+    keep_keyframe(config, source, health);
     resume_state(state_path(config), view_of(config, source), spectrum, identification, health);
   }
   void watch() {
@@ -208,7 +209,10 @@ Pipeline::Outcome Pipeline::join() {
   outcome.fault = parts_->fault();
   if (outcome.fault.empty()) {
     outcome.health.state = "finished";
-    if (parts_->keeps_state()) std::remove(state_path(parts_->config).c_str());  // the next run is another one
+    if (parts_->keeps_state()) {  // the next run is another one
+      std::remove(state_path(parts_->config).c_str());
+      std::remove(keyframe_path(parts_->config).c_str());
+    }
   }
   if (outcome.fault.empty() && !parts_->source.camera->fault().empty())
     outcome.notes.push_back(parts_->source.camera->fault());

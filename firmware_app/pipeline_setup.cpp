@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/tracking/view_match.h"
 #include "drivers/camera/camera_factory.h"
 #include "drivers/storage/checkpoint_file.h"
 #include "drivers/telemetry/publisher_factory.h"
@@ -51,7 +52,39 @@ core::Frame take_first_frame(drivers::Camera& camera, const core::CameraInfo& in
   return frame;
 }
 
-core::StructureTracker seeded_tracker(const AppConfig& config, const core::Frame& first) {
+// The kept points as they are found in the first frame; `kept` is emptied, and `datum` says why, where they are not.
+core::StructureTracker tracker_of_kept(const AppConfig& config, const core::Frame& first,
+                                       std::optional<KeptKeyframe>& kept, std::string& datum) {
+  core::StructureTracker tracker(tracker_config(config));
+  tracker.set_keyframe(kept->image, kept->points);
+  core::TrackFrame found = kept->points;
+  (void)tracker.track(first, found);
+  const std::string other = core::why_other_view(kept->points, found, config.tracking.min_points);
+  datum = other.empty() ? "displacements are measured from the keyframe of the run before"
+                        : "points are seeded anew: " + other;
+  if (!other.empty()) {
+    kept.reset();
+    return tracker;
+  }
+  tracker.learn(found);  // the next frame's points are looked for where these are
+  kept->points.sequence = first.sequence;
+  kept->points.t_start_ns = first.t_start_ns;
+  return tracker;
+}
+
+std::optional<KeptKeyframe> find_kept(const AppConfig& config, const core::CameraInfo& info, std::string& datum) {
+  if (config.state.directory.empty()) return {};
+  KeyframeRead read = read_keyframe(keyframe_path(config), config.hash, info, config.regions.size());
+  if (!read.refused.empty()) datum = "points are seeded anew: " + read.refused;
+  return std::move(read.keyframe);
+}
+
+core::StructureTracker started_tracker(const AppConfig& config, const core::Frame& first,
+                                       std::optional<KeptKeyframe>& kept, std::string& datum) {
+  if (kept) {
+    core::StructureTracker tracker = tracker_of_kept(config, first, kept, datum);
+    if (kept) return tracker;
+  }
   core::StructureTracker tracker(tracker_config(config));
   if (const std::string refused = tracker.seed(first); !refused.empty()) throw ConfigError("regions: " + refused);
   return tracker;
@@ -80,8 +113,9 @@ Source::Source(std::unique_ptr<drivers::Camera> opened, const AppConfig& config)
     : camera(std::move(opened)),
       info(checked_info(*camera, config)),
       first_frame(take_first_frame(*camera, info)),
-      tracker(seeded_tracker(config, first_frame)),
-      keyframe(track_keyframe(tracker, first_frame)),
+      kept(find_kept(config, info, datum)),
+      tracker(started_tracker(config, first_frame, kept, datum)),
+      keyframe(kept ? kept->points : track_keyframe(tracker, first_frame)),
       displacement(displacement_config(config, info), keyframe),
       readout(readout_config(config, info), keyframe) {}
 
@@ -132,7 +166,7 @@ std::function<void(const core::ModalEstimate&, const core::CpsdSums&, const core
   return [&config, &source, report](const core::ModalEstimate& estimate, const core::CpsdSums& spectrum,
                                     const core::Health& health) {
     PictureInputs inputs = picture_inputs(config, source.info, source.channels());
-    inputs.first_frame = &source.first_frame;
+    inputs.first_frame = &source.keyframe_image();
     inputs.keyframe = &source.keyframe;
     inputs.spectrum = &spectrum;
     inputs.estimate = &estimate;
@@ -151,7 +185,6 @@ RunState view_of(const AppConfig& config, const Source& source) {
   view.rate_hz = source.info.rate_hz;
   view.scale_mm_per_px = structure_scale(config, camera_model(config, source.info)).mm_per_px;
   view.channels = source.channels();
-  view.keyframe = source.keyframe;
   const bool is_file = config.camera.driver == CameraDriver::kFile || config.camera.driver == CameraDriver::kSynthetic;
   if (!is_file) view.boot_id = drivers::boot_id();
   return view;
@@ -159,6 +192,17 @@ RunState view_of(const AppConfig& config, const Source& source) {
 
 std::string state_path(const AppConfig& config) {
   return config.state.directory.empty() ? "" : config.state.directory + "/hovermodal.state";
+}
+
+std::string keyframe_path(const AppConfig& config) {
+  return config.state.directory.empty() ? "" : config.state.directory + "/hovermodal.keyframe";
+}
+
+void keep_keyframe(const AppConfig& config, const Source& source, HealthCollector& health) {
+  if (!source.datum.empty()) health.warn(source.datum);
+  if (source.kept) return;  // it stands there
+  const std::string failure = write_keyframe(keyframe_path(config), config.hash, source.first_frame, source.keyframe);
+  if (!failure.empty()) health.warn("the keyframe could not be kept: " + failure);
 }
 
 void resume_state(const std::string& path, const RunState& view, SpectrumStage& spectrum,

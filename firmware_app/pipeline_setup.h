@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,6 +15,7 @@
 #include "drivers/telemetry/publisher.h"
 #include "firmware_app/config.h"
 #include "firmware_app/health.h"
+#include "firmware_app/kept_keyframe.h"
 #include "firmware_app/report/run_report.h"
 #include "firmware_app/run_state.h"
 #include "firmware_app/stages/identification_stage.h"
@@ -24,15 +26,19 @@ namespace app {
 
 // The beginning of the data flow, once the first frame is there: everything behind it can then be sized.
 struct Source {
-  // Starts the camera, takes one frame, seeds the points. Throws ConfigError when configuration and source do not fit,
-  // std::runtime_error when no frame comes.
+  // Starts the camera, takes one frame, seeds the points, or finds those of an earlier run's keyframe. Throws
+  // ConfigError when configuration and source do not fit, std::runtime_error when no frame comes.
   Source(std::unique_ptr<drivers::Camera> opened, const AppConfig& config);
 
   [[nodiscard]] const std::vector<core::ChannelInfo>& channels() const noexcept { return displacement.channels(); }
+  // What displacements are measured from.
+  [[nodiscard]] const core::Frame& keyframe_image() const noexcept { return kept ? kept->image : first_frame; }
 
   std::unique_ptr<drivers::Camera> camera;
   core::CameraInfo info;
   core::Frame first_frame;
+  std::string datum;                 // what became of an earlier run's keyframe; empty: there was none
+  std::optional<KeptKeyframe> kept;  // that keyframe, where the view is still the same
   core::StructureTracker tracker;
   core::TrackFrame keyframe;
   core::ChannelDisplacement displacement;
@@ -54,7 +60,10 @@ picture_drawer(const AppConfig& config, const Source& source, const RunReport* r
 
 // What a kept state must agree with.
 [[nodiscard]] RunState view_of(const AppConfig& config, const Source& source);
-[[nodiscard]] std::string state_path(const AppConfig& config);  // empty: none is kept
+[[nodiscard]] std::string state_path(const AppConfig& config);     // empty: none is kept
+[[nodiscard]] std::string keyframe_path(const AppConfig& config);  // beside it
+// Keeps the keyframe for a later run; tells in health what became of the last one's, and a failure.
+void keep_keyframe(const AppConfig& config, const Source& source, HealthCollector& health);
 // Goes on with the state found at `path`; says so, or why not, in health.
 void resume_state(const std::string& path, const RunState& view, SpectrumStage& spectrum,
                   IdentificationStage& identification, HealthCollector& health);

@@ -3,70 +3,15 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <cstring>
-#include <stdexcept>
-#include <type_traits>
 
 #include "core/spectrum/merge_sums.h"
+#include "firmware_app/byte_archive.h"
 
 namespace app {
 
 namespace {
 
 constexpr double kMostScaleApart = 0.05, kSameRate = 1e-9;
-constexpr std::uint64_t kMostItems = 1'000'000'000;
-
-class Out {
- public:
-  std::vector<std::uint8_t> bytes;
-
-  template <class T>
-  void value(const T& x) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    const auto* at = reinterpret_cast<const std::uint8_t*>(&x);
-    bytes.insert(bytes.end(), at, at + sizeof x);
-  }
-  template <class Container>
-  void list(const Container& items) {
-    using Item = typename Container::value_type;
-    static_assert(std::is_trivially_copyable_v<Item>);
-    value(static_cast<std::uint64_t>(items.size()));
-    const auto* at = reinterpret_cast<const std::uint8_t*>(items.data());
-    bytes.insert(bytes.end(), at, at + items.size() * sizeof(Item));
-  }
-};
-
-class In {
- public:
-  explicit In(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-
-  template <class T>
-  void value(T& x) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    if (bytes_.size() < sizeof x) throw std::runtime_error("it ends too early");
-    std::memcpy(&x, bytes_.data(), sizeof x);
-    bytes_ = bytes_.subspan(sizeof x);
-  }
-  template <class Container>
-  void list(Container& items) {
-    using Item = typename Container::value_type;
-    static_assert(std::is_trivially_copyable_v<Item>);
-    const std::size_t n = count();
-    if (bytes_.size() / sizeof(Item) < n) throw std::runtime_error("it ends too early");
-    items.resize(n);
-    if (n > 0) std::memcpy(items.data(), bytes_.data(), n * sizeof(Item));
-    bytes_ = bytes_.subspan(n * sizeof(Item));
-  }
-  [[nodiscard]] std::size_t count() {
-    std::uint64_t n = 0;
-    value(n);
-    if (n > kMostItems || n > bytes_.size()) throw std::runtime_error("it ends too early");
-    return static_cast<std::size_t>(n);
-  }
-
- private:
-  std::span<const std::uint8_t> bytes_;
-};
 
 template <class Archive, class State>
 void describe_numbers(Archive& archive, State& state) {
@@ -74,9 +19,6 @@ void describe_numbers(Archive& archive, State& state) {
   archive.value(state.rate_hz);
   archive.value(state.scale_mm_per_px);
   archive.list(state.boot_id);
-  archive.value(state.keyframe.sequence);
-  archive.value(state.keyframe.t_start_ns);
-  archive.list(state.keyframe.points);
   archive.list(state.spectrum);
   archive.list(state.modes);
 }
@@ -95,8 +37,8 @@ void describe_channel(Archive& archive, Channel& channel) {
 }  // namespace
 
 std::vector<std::uint8_t> to_bytes(const RunState& state) {
-  Out out;
-  out.bytes.reserve(state.spectrum.size() + state.modes.size() + 64 * state.keyframe.points.size() + 4096);
+  ByteWriter out;
+  out.bytes.reserve(state.spectrum.size() + state.modes.size() + 4096);
   out.value(static_cast<std::uint64_t>(state.channels.size()));
   for (const core::ChannelInfo& channel : state.channels) describe_channel(out, channel);
   describe_numbers(out, state);
@@ -104,7 +46,7 @@ std::vector<std::uint8_t> to_bytes(const RunState& state) {
 }
 
 RunState run_state_of(std::span<const std::uint8_t> bytes) {
-  In in(bytes);
+  ByteReader in(bytes);
   RunState state;
   state.channels.resize(in.count());
   for (core::ChannelInfo& channel : state.channels) describe_channel(in, channel);

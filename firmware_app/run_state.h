@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/types/displacement.h"
-#include "core/types/track.h"
 
 namespace app {
 
@@ -20,7 +19,6 @@ struct RunState {
   std::vector<core::ChannelInfo> channels;
   // Where stamps may be compared: the boot whose CLOCK_MONOTONIC they are on; empty: stream time of a file.
   std::string boot_id;
-  core::TrackFrame keyframe;  // the points that displacements were measured from
   std::vector<std::uint8_t> spectrum, modes;
 };
 

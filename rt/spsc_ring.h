@@ -18,10 +18,10 @@ class RingReader;
 
 // One writer thread, one reader thread, N slots built once. Lock-free: both ends only ever load the other's index.
 // Slots are borrowed in place at both ends, so an item is written and read where it lies and nothing is copied.
-// Indices grow without wrapping (64 bit); each end counts its slot along beside them, which spares a division. The
-// opposite index is cached (as in rigtorp's SPSCQueue): the shared line is touched only when the cached value says full
-// or empty. What an end keeps for itself lies beside its index, on one line: a line more for each end was slower in
-// most runs of tests/bench/ring_speed.cpp.
+// What an end needs for a step it keeps in its handle, which its thread alone touches: its index, the slot that goes
+// with it (a pointer that goes round: neither division nor mask, and any N), and how far it may go by what it last saw
+// of the opposite index (as in rigtorp's SPSCQueue). The shared lines are stored to once an item, and loaded only when
+// the ring looks full or empty. Indices grow without wrapping (64 bit).
 template <class T>
 class SpscRing {
  public:
@@ -34,6 +34,7 @@ class SpscRing {
   void set_reader_wakeup(Wakeup* wakeup) noexcept { reader_wakeup_ = wakeup; }
   void set_writer_wakeup(Wakeup* wakeup) noexcept { writer_wakeup_ = wakeup; }
 
+  // One of each at a time. A later one goes on where the one before ended.
   [[nodiscard]] RingWriter<T> writer() noexcept { return RingWriter<T>(*this); }
   [[nodiscard]] RingReader<T> reader() noexcept { return RingReader<T>(*this); }
 
@@ -49,14 +50,6 @@ class SpscRing {
   friend class RingWriter<T>;
   friend class RingReader<T>;
 
-  // What one end alone reads and writes.
-  struct End {
-    std::uint64_t cached_opposite_index = 0;
-    std::size_t slot = 0;  // = own index % N
-
-    void advance(std::size_t n_slots) noexcept { slot = slot + 1 == n_slots ? 0 : slot + 1; }
-  };
-
   std::vector<T> slots_;
   Wakeup* reader_wakeup_ = nullptr;
   Wakeup* writer_wakeup_ = nullptr;
@@ -64,34 +57,57 @@ class SpscRing {
   alignas(kCacheLineBytes) std::atomic<std::uint64_t> write_index_{0};
   std::atomic<bool> closed_{false};  // release in close(), acquire in finished(): after the last publish
   // Release by the reader in pop(), acquire by the writer in try_claim(): the reader's last look at the slot is over.
-  End writer_end_;
   alignas(kCacheLineBytes) std::atomic<std::uint64_t> read_index_{0};
-  End reader_end_;
+};
+
+// Where one end stands.
+template <class T>
+class RingEnd {
+ public:
+  RingEnd(std::vector<T>& slots, std::uint64_t index, std::uint64_t limit) noexcept
+      : index_(index),
+        limit_(limit),
+        first_(slots.data()),
+        end_(first_ + slots.size()),
+        slot_(first_ + index % slots.size()) {}
+
+  [[nodiscard]] bool at_limit() const noexcept { return index_ == limit_; }
+  void set_limit(std::uint64_t limit) noexcept { limit_ = limit; }
+  [[nodiscard]] T* slot() const noexcept { return slot_; }
+  [[nodiscard]] std::uint64_t advance() noexcept {  // the new index
+    if (++slot_ == end_) slot_ = first_;
+    return ++index_;
+  }
+
+ private:
+  std::uint64_t index_, limit_;  // of the next item; the opposite end has seen to all before it, and maybe to more
+  T *first_, *end_, *slot_;
 };
 
 // Held by the producing stage only.
 template <class T>
 class RingWriter {
  public:
-  explicit RingWriter(SpscRing<T>& ring) noexcept : ring_(&ring) {}
+  explicit RingWriter(SpscRing<T>& ring) noexcept
+      : ring_(&ring),
+        end_(ring.slots_, ring.write_index_.load(std::memory_order_relaxed),
+             ring.read_index_.load(std::memory_order_acquire) + ring.slots_.size()) {}
+  RingWriter(RingWriter&&) noexcept = default;
+  RingWriter& operator=(RingWriter&&) noexcept = default;
 
   // Next free slot, nullptr when full. Claiming twice without publish gives the same slot.
   [[nodiscard]] T* try_claim() noexcept {
-    const std::uint64_t index = ring_->write_index_.load(std::memory_order_relaxed);  // only we write it
-    auto& own = ring_->writer_end_;
-    if (index - own.cached_opposite_index >= ring_->slots_.size()) {
-      own.cached_opposite_index = ring_->read_index_.load(std::memory_order_acquire);
-      if (index - own.cached_opposite_index >= ring_->slots_.size()) return nullptr;
+    if (end_.at_limit()) [[unlikely]] {
+      end_.set_limit(ring_->read_index_.load(std::memory_order_acquire) + ring_->slots_.size());
+      if (end_.at_limit()) return nullptr;
     }
-    return &ring_->slots_[own.slot];
+    return end_.slot();
   }
 
   // Hands the claimed slot over and nudges the reader.
   void publish() noexcept {
-    const std::uint64_t index = ring_->write_index_.load(std::memory_order_relaxed);
-    assert(index - ring_->read_index_.load(std::memory_order_relaxed) < ring_->slots_.size());
-    ring_->writer_end_.advance(ring_->slots_.size());
-    ring_->write_index_.store(index + 1, std::memory_order_release);
+    assert(!end_.at_limit());
+    ring_->write_index_.store(end_.advance(), std::memory_order_release);
     if (ring_->reader_wakeup_ != nullptr) ring_->reader_wakeup_->nudge();
   }
 
@@ -103,31 +119,33 @@ class RingWriter {
 
  private:
   SpscRing<T>* ring_;
+  RingEnd<T> end_;
 };
 
 // Held by the consuming stage only.
 template <class T>
 class RingReader {
  public:
-  explicit RingReader(SpscRing<T>& ring) noexcept : ring_(&ring) {}
+  explicit RingReader(SpscRing<T>& ring) noexcept
+      : ring_(&ring),
+        end_(ring.slots_, ring.read_index_.load(std::memory_order_relaxed),
+             ring.write_index_.load(std::memory_order_acquire)) {}
+  RingReader(RingReader&&) noexcept = default;
+  RingReader& operator=(RingReader&&) noexcept = default;
 
   // Oldest item, nullptr when empty. Valid until pop().
   [[nodiscard]] const T* front() noexcept {
-    const std::uint64_t index = ring_->read_index_.load(std::memory_order_relaxed);  // only we write it
-    auto& own = ring_->reader_end_;
-    if (index == own.cached_opposite_index) {
-      own.cached_opposite_index = ring_->write_index_.load(std::memory_order_acquire);
-      if (index == own.cached_opposite_index) return nullptr;
+    if (end_.at_limit()) [[unlikely]] {
+      end_.set_limit(ring_->write_index_.load(std::memory_order_acquire));
+      if (end_.at_limit()) return nullptr;
     }
-    return &ring_->slots_[own.slot];
+    return end_.slot();
   }
 
   // Gives the slot back and nudges the writer. Only after front() returned an item.
   void pop() noexcept {
-    const std::uint64_t index = ring_->read_index_.load(std::memory_order_relaxed);
-    assert(index != ring_->reader_end_.cached_opposite_index);
-    ring_->reader_end_.advance(ring_->slots_.size());
-    ring_->read_index_.store(index + 1, std::memory_order_release);
+    assert(!end_.at_limit());
+    ring_->read_index_.store(end_.advance(), std::memory_order_release);
     if (ring_->writer_wakeup_ != nullptr) ring_->writer_wakeup_->nudge();
   }
 
@@ -142,6 +160,7 @@ class RingReader {
 
  private:
   SpscRing<T>* ring_;
+  RingEnd<T> end_;
 };
 
 }  // namespace rt

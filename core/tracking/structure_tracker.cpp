@@ -31,7 +31,22 @@ std::string StructureTracker::seed(const Frame& frame) {
     points.insert(points.end(), corners.begin(), corners.end());
     region_of_point_.insert(region_of_point_.end(), corners.size(), static_cast<std::uint16_t>(r));
   }
-  klt_.set_keyframe(gray, points);
+  begin(frame, points);
+  return {};
+}
+
+void StructureTracker::set_keyframe(const Frame& image, const TrackFrame& keyframe) {
+  std::vector<cv::Point2f> points;
+  region_of_point_.clear();
+  for (const TrackPoint& point : keyframe.points) {
+    points.emplace_back(static_cast<float>(point.u_px), static_cast<float>(point.v_px));
+    region_of_point_.push_back(point.region);
+  }
+  begin(image, points);
+}
+
+void StructureTracker::begin(const Frame& frame, const std::vector<cv::Point2f>& points) {
+  klt_.set_keyframe(gray_view(frame), points);
   predicted_ = points;
   std::vector<Vector2> keyframe;
   for (const cv::Point2f& point : points)
@@ -40,7 +55,6 @@ std::string StructureTracker::seed(const Frame& frame) {
       RegionFollowerConfig{frame.width_px, frame.height_px, config_.min_points, config_.lost_after}, keyframe,
       region_of_point_, config_.regions.size());
   tracked_.resize(points.size());
-  return {};
 }
 
 bool StructureTracker::track(const Frame& frame, TrackFrame& out) noexcept {

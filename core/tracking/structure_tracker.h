@@ -24,13 +24,15 @@ struct StructureTrackerConfig {
 
 // All points of all regions through the frames: seeds them in the first frame (the keyframe), tracks them against it,
 // and predicts where to look from what the outlier rejection made of the previous frame (region_follower.h).
-// One thread: seed() once, then track() per frame followed by learn().
+// One thread: seed() or set_keyframe() once, then track() per frame followed by learn().
 class StructureTracker {
  public:
   explicit StructureTracker(StructureTrackerConfig config) : config_(std::move(config)), klt_(config_.klt) {}
 
   // Returns an empty text, or which region lies where and has too little texture, and what to try.
   [[nodiscard]] std::string seed(const Frame& frame);
+  // Instead of seed(): the keyframe of an earlier run, and its points, grouped by region.
+  void set_keyframe(const Frame& image, const TrackFrame& keyframe);
   [[nodiscard]] std::size_t n_points() const noexcept { return region_of_point_.size(); }
 
   // Fills `out.points` (sized n_points() beforehand). False: the tracker itself failed; no point is seen.
@@ -42,6 +44,8 @@ class StructureTracker {
   [[nodiscard]] const RegionFollower& regions() const noexcept { return *follower_; }
 
  private:
+  void begin(const Frame& frame, const std::vector<cv::Point2f>& points);
+
   StructureTrackerConfig config_;
   KltTracker klt_;
   std::vector<std::uint16_t> region_of_point_;

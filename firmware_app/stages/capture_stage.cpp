@@ -14,7 +14,7 @@ constexpr std::chrono::milliseconds kCaptureTimeout{100};
 CaptureStage::CaptureStage(drivers::Camera& camera, rt::RingWriter<core::Frame> frames, core::Frame first,
                            bool thin_overload)
     : camera_(camera),
-      frames_(frames),
+      frames_(std::move(frames)),
       first_(std::move(first)),
       spare_(first_),
       lossless_(camera.info().lossless),

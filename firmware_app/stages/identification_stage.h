@@ -28,7 +28,7 @@ class IdentificationStage : public rt::Stage {
         rate_hz_(rate_hz),
         identifier_(make_identifier_(rate_hz)),
         tracker_({.row_delay_s = identifier_->declared_delay_s()}),
-        results_(results) {}
+        results_(std::move(results)) {}
 
   // Set-up only: the modes followed are handed over after every estimate, for a later run's resume().
   void keep_state(rt::TripleBuffer<StateBytes>& states) noexcept { states_ = &states; }

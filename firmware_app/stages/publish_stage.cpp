@@ -13,7 +13,7 @@ constexpr std::int64_t kHealthPeriodNs = 1'000'000'000;
 
 PublishStage::PublishStage(rt::RingReader<FrameRecord> records, rt::RingReader<IdentificationResult> results,
                            Outlets outlets)
-    : records_(records), results_(results), outlets_(std::move(outlets)) {}
+    : records_(std::move(records)), results_(std::move(results)), outlets_(std::move(outlets)) {}
 
 rt::StepStatus PublishStage::step() noexcept {
   publish_health_when_due();

@@ -9,7 +9,7 @@ namespace app {
 SpectrumStage::SpectrumStage(rt::RingReader<core::DisplacementSample> samples, const core::WelchConfig& config,
                              int period_hops, rt::TripleBuffer<SpectrumSnapshot>& snapshots, bool lossless,
                              const ThinningSchedule& thinning)
-    : samples_(samples),
+    : samples_(std::move(samples)),
       camera_rate_hz_(config.rate_hz),
       grid_(config.rate_hz),
       welch_(config),

@@ -1,5 +1,7 @@
 #include "firmware_app/stages/tracking_stage.h"
 
+#include <utility>
+
 #include "rt/clock.h"
 
 namespace app {
@@ -8,12 +10,12 @@ TrackingStage::TrackingStage(rt::RingReader<core::Frame> frames, core::Structure
                              core::ChannelDisplacement& channels, core::ReadoutEstimator& readout,
                              rt::RingWriter<core::DisplacementSample> samples, rt::RingWriter<FrameRecord> records,
                              bool lossless, const ThinningSchedule& thinning)
-    : frames_(frames),
+    : frames_(std::move(frames)),
       tracker_(tracker),
       channels_(channels),
       readout_(readout),
-      samples_(samples),
-      records_(records),
+      samples_(std::move(samples)),
+      records_(std::move(records)),
       lossless_(lossless),
       thinning_(thinning),
       regions_(tracker.regions().n_regions()) {

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/channel_displacement.h"
@@ -25,7 +26,7 @@ class TrackingStage : public rt::Stage {
                 const ThinningSchedule& thinning);
 
   // Set-up only: taken in before each frame.
-  void hear_attitude(rt::RingReader<core::AttitudeSample> samples) { attitude_.emplace(samples); }
+  void hear_attitude(rt::RingReader<core::AttitudeSample> samples) { attitude_.emplace(std::move(samples)); }
 
   [[nodiscard]] std::string_view name() const noexcept override { return "tracking"; }
   [[nodiscard]] rt::StepStatus step() noexcept override;

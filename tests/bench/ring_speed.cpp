@@ -1,12 +1,14 @@
 // The ring beside boost::lockfree::spsc_queue in one program: items of one word, and frames. Both ends spin, both hold
-// as many, and the two take turns. Each line: what, nanoseconds per item of ours and of Boost's, and the ratio of one
-// round's two times: medians over all rounds.
+// as many, and the two take turns. "burst": one thread fills and empties, in CPU time, which other load hardly changes:
+// the instructions alone. Each line: what, nanoseconds per item of ours and of Boost's, and the ratio of one round's
+// two times: medians over all rounds.
 //   ring_speed [ROUNDS [ITEMS [FRAMES]]]
 #include <algorithm>
 #include <boost/lockfree/spsc_queue.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <functional>
 #include <memory>
 #include <thread>
@@ -40,6 +42,38 @@ double time_ns(std::uint64_t n, const std::function<void()>& write, const std::f
   sink = read();
   writer.join();
   return static_cast<double>(rt::monotonic_ns() - begin_ns) / static_cast<double>(n);
+}
+
+double cpu_time_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
+}
+
+double ours_burst(std::uint64_t n) {
+  rt::SpscRing<std::uint64_t> ring(kSlots, 0);
+  auto writer = ring.writer();
+  auto reader = ring.reader();
+  const double begin_ns = cpu_time_ns();
+  std::uint64_t sum = 0;
+  for (std::uint64_t i = 0; i < n;) {
+    while (std::uint64_t* slot = writer.try_claim()) *slot = i++, writer.publish();
+    while (const std::uint64_t* item = reader.front()) sum += *item, reader.pop();
+  }
+  sink = sum;
+  return (cpu_time_ns() - begin_ns) / static_cast<double>(n);
+}
+
+double boost_burst(std::uint64_t n) {
+  boost::lockfree::spsc_queue<std::uint64_t, boost::lockfree::capacity<kSlots>> queue;
+  const double begin_ns = cpu_time_ns();
+  std::uint64_t sum = 0, item = 0;
+  for (std::uint64_t i = 0; i < n;) {
+    while (queue.push(i)) ++i;
+    while (queue.pop(item)) sum += item;
+  }
+  sink = sum;
+  return (cpu_time_ns() - begin_ns) / static_cast<double>(n);
 }
 
 double ours_words(std::uint64_t n) {
@@ -141,6 +175,7 @@ void compare(const char* what, int rounds, std::uint64_t n, double (*ours)(std::
 int main(int argc, char** argv) {
   const auto number = [&](int i, long fallback) { return argc > i ? std::atol(argv[i]) : fallback; };
   const int rounds = static_cast<int>(number(1, 40));
+  compare("burst", rounds, static_cast<std::uint64_t>(number(2, 1'000'000)), ours_burst, boost_burst);
   compare("words", rounds, static_cast<std::uint64_t>(number(2, 1'000'000)), ours_words, boost_words);
   compare("frames", rounds, static_cast<std::uint64_t>(number(3, 100)), ours_frames, boost_frames);
   return 0;

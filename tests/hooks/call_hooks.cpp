@@ -27,7 +27,7 @@ namespace {
 
 enum Kind : std::uint8_t { kAllocation, kLock, kWait, kFree };
 constexpr std::array<const char*, 4> kKindNames{"allocation", "lock", "wait", "free"};
-constexpr std::size_t kThreads = 32, kSites = 1024, kDepth = 16;
+constexpr std::size_t kThreads = 32, kSites = 1024, kDepth = 32;
 
 struct Site {
   Kind kind = kAllocation;
@@ -115,11 +115,12 @@ hooks::CallSite resolve(const ThreadRecord& record, const Site& site) {
     if (is_plumbing(library, function)) continue;
     const bool is_ours = library.find(".so") == library.npos;
     if (out.library.empty()) out.library = library, out.function = function;
-    if (is_ours && function.find("cv::") != 0) {
-      out.through = function;
+    if (!is_ours || function.find("cv::") == 0) {
+      out.in_opencv = true;
+    } else if (function != "(internal)" || i + 1 == static_cast<std::size_t>(site.n_frames)) {
+      out.through = function;  // the nearest of ours that has a name
       break;
     }
-    out.in_opencv = true;
   }
   return out;
 }

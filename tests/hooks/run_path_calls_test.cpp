@@ -35,7 +35,7 @@ void write_report(std::uint64_t frames) {
 TEST(RunPathCalls, CaptureTrackingAndSpectrumNeitherAllocateNorLockBeyondOpenCv) {
   tests::Rig rig(tests::frames(n_frames()));  // served from memory
   hooks::start_counting();
-  const auto outcome = rig.run();
+  const auto outcome = rig.run(tests::kPatience + std::chrono::seconds(n_frames() / 10));  // every call is traced back
   hooks::stop_counting();
   ASSERT_EQ(outcome.health.frames_processed, n_frames());
   write_report(n_frames());

@@ -30,7 +30,16 @@ class PipelineState : public ::testing::Test {
 
   fs::path folder = tests::own_folder();
   fs::path file = folder / "hovermodal.state";
+  fs::path keyframe = folder / "hovermodal.keyframe";
 };
+
+double value_at(const tests::Heard& heard, std::uint64_t sequence, std::size_t channel) {
+  for (const auto& sample : heard.samples) {
+    if (sample.sequence == sequence) return sample.value_mm[channel];
+  }
+  ADD_FAILURE() << "no sample of frame " << sequence;
+  return 0.0;
+}
 
 TEST_F(PipelineState, ARunThatWasCutOffIsGoneOnWithAndItsRecordCounts) {
   const auto before = cut_off();
@@ -45,6 +54,56 @@ TEST_F(PipelineState, ARunThatWasCutOffIsGoneOnWithAndItsRecordCounts) {
   EXPECT_LE(after.estimate.n_samples, 300U + 128U + 200U);
   EXPECT_GT(after.estimate.n_segments, before.estimate.n_segments);
   EXPECT_FALSE(fs::exists(file)) << "it ended by itself: the next run is another one";
+}
+
+// The clip is played over and over: frame 340 of the second run is frame 40 of the clip.
+TEST_F(PipelineState, DisplacementsAreMeasuredFromTheSameKeyframeAsBefore) {
+  Rig whole(frames(400), {"spectrum.segment=64"});
+  (void)whole.run();
+  (void)cut_off();
+  ASSERT_TRUE(fs::exists(keyframe));
+  CameraScript script = frames(400);
+  script.first = 335;
+  Rig rig(script, overrides());
+  const auto after = rig.run();
+  EXPECT_THAT(after.health.warnings, Contains(HasSubstr("measured from the keyframe of the run before")));
+  EXPECT_FALSE(fs::exists(keyframe)) << "it ended by itself: the next run is another one";
+  constexpr std::size_t kRoof = tests::kChannels - 2;
+  double largest = 0.0;
+  for (std::uint64_t k = 345; k < 400; ++k) {
+    const double expected = value_at(*whole.heard, k, kRoof);
+    EXPECT_NEAR(value_at(*rig.heard, k, kRoof), expected, 1.0) << k;
+    largest = std::max(largest, std::abs(expected));
+  }
+  EXPECT_GT(largest, 5.0) << "it moves at all";
+}
+
+TEST_F(PipelineState, AnotherViewIsSeededAnewAndTheReasonTold) {
+  (void)cut_off();
+  const std::string bytes = tests::file_text(keyframe);
+  ASSERT_GT(bytes.size(), 480U * 270U);
+  // The same points, in an image of something else; hash, number, time, width and height and a count come before it.
+  drivers::CheckpointRead read = drivers::read_checkpoint(keyframe.string());
+  for (std::size_t i = 0; i < 480U * 270U; ++i) read.bytes[40 + i] = static_cast<std::uint8_t>((i * i / 7) & 0xFFU);
+  ASSERT_EQ(drivers::write_checkpoint(keyframe.string(), read.bytes), "");
+  Rig rig(frames(200), overrides());
+  const auto after = rig.run();
+  EXPECT_THAT(after.health.warnings, Contains(HasSubstr("points are seeded anew")));
+  EXPECT_THAT(after.health.warnings, Contains(HasSubstr("goes on with the state in")));
+  EXPECT_EQ(after.fault, "");
+}
+
+TEST_F(PipelineState, ModesKeepTheirNumbers) {
+  (void)cut_off();
+  Rig rig(frames(200), overrides());
+  const auto after = rig.run();
+  EXPECT_THAT(after.health.warnings, Not(Contains(HasSubstr("its modes begin anew"))));
+  ASSERT_FALSE(after.estimate.modes.empty());
+  bool followed_from_before = false;
+  for (const core::Mode& mode : after.estimate.modes)
+    followed_from_before =
+        followed_from_before || (mode.history && mode.history->n_estimates > rig.heard->estimates.size());
+  EXPECT_TRUE(followed_from_before);
 }
 
 TEST_F(PipelineState, AStateOfAnotherConfigurationIsRefusedAndTheReasonTold) {

@@ -35,12 +35,13 @@ struct Rig {
   }
 
   // Starts, waits for the end, and lets go of the pipeline, so that `heard` is complete.
-  app::Pipeline::Outcome run() {
+  app::Pipeline::Outcome run(std::chrono::seconds patience = kPatience) {
     pipeline->start();
-    return finish();
+    return finish(patience);
   }
-  app::Pipeline::Outcome finish() {
-    EXPECT_TRUE(runs_to_its_end(*pipeline)) << "still running: " << pipeline->health().frames_processed << " frames";
+  app::Pipeline::Outcome finish(std::chrono::seconds patience = kPatience) {
+    EXPECT_TRUE(runs_to_its_end(*pipeline, patience))
+        << "still running: " << pipeline->health().frames_processed << " frames";
     app::Pipeline::Outcome outcome = pipeline->join();
     expect_accounted(outcome.health);
     pipeline.reset();

@@ -68,8 +68,10 @@ inline std::string file_text(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
+inline constexpr std::chrono::seconds kPatience{60};
+
 // True when every stage has ended; false when the patience ended first: a hang.
-inline bool runs_to_its_end(app::Pipeline& pipeline, std::chrono::seconds patience = std::chrono::seconds(60)) {
+inline bool runs_to_its_end(app::Pipeline& pipeline, std::chrono::seconds patience = kPatience) {
   const auto deadline = std::chrono::steady_clock::now() + patience;
   while (pipeline.running()) {
     if (std::chrono::steady_clock::now() > deadline) return false;

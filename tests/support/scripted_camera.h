@@ -19,6 +19,7 @@ namespace tests {
 // What a camera does to its user. Frames are counted at the source, lost ones included.
 struct CameraScript {
   std::uint64_t n_frames = 0;  // then the stream ends
+  std::uint64_t first = 0;     // frame that it begins with
   bool lossless = true;        // false: does not wait for us
   bool knows_length = true;
   std::optional<std::uint64_t> fault_at;       // this frame never comes
@@ -35,6 +36,7 @@ class ScriptedCamera : public drivers::Camera {
  public:
   ScriptedCamera(std::shared_ptr<const SceneClip> clip, CameraScript script)
       : clip_(std::move(clip)), script_(std::move(script)), info_(clip_->motion.scene().camera_info()) {
+    next_ = script_.first;
     info_.lossless = script_.lossless;
     info_.frame_count = script_.knows_length ? script_.n_frames : 0;
     info_.description = "scripted camera";

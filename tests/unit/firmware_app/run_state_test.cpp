@@ -23,9 +23,6 @@ RunState sample_state() {
     channel.row_delay_s = 0.01;
     state.channels.push_back(channel);
   }
-  state.keyframe.sequence = 3;
-  state.keyframe.points.resize(2);
-  state.keyframe.points[1].u_px = 12.5;
   state.spectrum = {1, 2, 3};
   state.modes = {4, 5};
   return state;
@@ -35,7 +32,6 @@ TEST(RunState, ReadsBackWhatWasWritten) {
   const RunState back = run_state_of(to_bytes(sample_state()));
   EXPECT_EQ(to_bytes(back), to_bytes(sample_state()));
   EXPECT_EQ(back.channels.at(1).name, "floor_2");
-  EXPECT_EQ(back.keyframe.points.at(1).u_px, 12.5);
   EXPECT_EQ(back.boot_id, "0b1c");
   EXPECT_EQ(back.modes, sample_state().modes);
   EXPECT_EQ(why_foreign(back, sample_state()), "");

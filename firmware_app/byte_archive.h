@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <stdexcept>
+#include <type_traits>
+#include <vector>
+
+namespace app {
+
+// Plain values and lists of them as bytes of the machine's own order, for files that one machine writes and reads. The
+// same function describes an object to both: `archive.value(x)`, `archive.list(v)`. (core::StateWriter is for the run
+// path: of fixed size.)
+
+// Grows as needed.
+class ByteWriter {
+ public:
+  std::vector<std::uint8_t> bytes;
+
+  template <class T>
+  void value(const T& x) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const auto* at = reinterpret_cast<const std::uint8_t*>(&x);
+    bytes.insert(bytes.end(), at, at + sizeof x);
+  }
+  template <class Container>
+  void list(const Container& items) {
+    using Item = typename Container::value_type;
+    static_assert(std::is_trivially_copyable_v<Item>);
+    value(static_cast<std::uint64_t>(items.size()));
+    const auto* at = reinterpret_cast<const std::uint8_t*>(items.data());
+    bytes.insert(bytes.end(), at, at + items.size() * sizeof(Item));
+  }
+};
+
+// Throws std::runtime_error where the bytes end too early.
+class ByteReader {
+ public:
+  explicit ByteReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  template <class T>
+  void value(T& x) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    if (bytes_.size() < sizeof x) throw std::runtime_error("it ends too early");
+    std::memcpy(&x, bytes_.data(), sizeof x);
+    bytes_ = bytes_.subspan(sizeof x);
+  }
+  template <class Container>
+  void list(Container& items) {
+    using Item = typename Container::value_type;
+    static_assert(std::is_trivially_copyable_v<Item>);
+    const std::size_t n = count();
+    if (bytes_.size() / sizeof(Item) < n) throw std::runtime_error("it ends too early");
+    items.resize(n);
+    if (n > 0) std::memcpy(items.data(), bytes_.data(), n * sizeof(Item));
+    bytes_ = bytes_.subspan(n * sizeof(Item));
+  }
+  [[nodiscard]] std::size_t count() {
+    constexpr std::uint64_t kMostItems = 1'000'000'000;
+    std::uint64_t n = 0;
+    value(n);
+    if (n > kMostItems || n > bytes_.size()) throw std::runtime_error("it ends too early");
+    return static_cast<std::size_t>(n);
+  }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+};
+
+}  // namespace app
