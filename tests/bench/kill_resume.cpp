@@ -2,7 +2,8 @@
 // time, and compares the sums in the end with those of a run that was never interrupted and lacks the same samples.
 //   kill_resume FOLDER [KILLS [SEED]]
 // Prints: kills, states refused, largest loss in share of the period, resumes, and whether the sums are equal bit by
-// bit. Exit code 1 unless no state was refused, no loss exceeds the period, and the sums are equal.
+// bit. Exit code 1 unless half of the runs were resumed, no state was refused, no loss exceeds the period, and the sums
+// are equal.
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -216,7 +217,9 @@ bool run_and_kill(Stream& stream, const std::string& folder, std::uint32_t n_kil
     const pid_t child = fork();
     if (child == 0) _exit(run(stream, folder));
     if (!last) {
-      std::this_thread::sleep_for(std::chrono::microseconds(20'000 + random() % 1'200'000));
+      // A moment of the stream, not of the wall clock: on a busy machine too the child gets that far.
+      const std::uint64_t until = stream.next_cell.load() + 200 + random() % 12'000;
+      while (stream.next_cell.load() < until) std::this_thread::sleep_for(std::chrono::microseconds(200));
       kill(child, SIGKILL);
     }
     int status = 0;
@@ -250,5 +253,6 @@ int main(int argc, char** argv) {
                      std::memcmp(sums.data(), expected.data(), sums.size() * sizeof(double)) == 0;
   std::printf("%u kills\t%u resumed\t%u refused\t%.2f of the period lost at most\t%s\n", n_kills,
               stream.n_resumed.load(), stream.n_refused.load(), share, equal ? "equal" : "DIFFERENT");
-  return equal && stream.n_refused.load() == 0 && share <= 1.0 ? 0 : 1;
+  const bool went_on = 2 * stream.n_resumed.load() >= n_kills;  // else it shows nothing
+  return equal && went_on && stream.n_refused.load() == 0 && share <= 1.0 ? 0 : 1;
 }
