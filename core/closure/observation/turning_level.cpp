@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/closure/observation/remaining_turn.h"
 #include "core/geometry/gyro_start.h"
 
 namespace core::closure {
@@ -21,53 +22,11 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int kStartRounds = 12, kRounds = 60, kTurnRounds = 8;
+constexpr int kStartRounds = 12, kRounds = 60;
 constexpr double kOutlier_sigmas = 5.0, kFocalPerWidth = 0.75;
 constexpr double kDegree = 180.0 / std::numbers::pi;
 
 const char* name_of(bool rotation) { return rotation ? "camera rotation" : "readout time"; }
-
-// Rotation of the picture that the model leaves in one pair, radians, and what the pair tells of it; the rest could be
-// shift as well.
-struct RemainingTurn {
-  Vector3d turn = Vector3d::Zero();
-  Matrix3d information = Matrix3d::Zero();
-};
-
-// Gauss-Newton, the pair's shift refitted.
-RemainingTurn remaining_turn(std::vector<RestFlow> flows, const RestFlowModel& model, Vector3d shift_px) {
-  constexpr double kStep_px = 1e-3;
-  const double f = model.focal_px;
-  RemainingTurn out;
-  for (int round = 0; round < kTurnRounds; ++round) {
-    (void)fit_shift(flows, model, shift_px);
-    Matrix3d turns = 1e-9 * Matrix3d::Identity(), mixed = Matrix3d::Zero(), shifts = turns;
-    Vector3d slope = Vector3d::Zero();
-    std::vector<Eigen::Matrix<double, 2, 3>> fields;
-    for (const RestFlow& flow : flows) {
-      const double x = flow.at_px.x(), y = flow.at_px.y();
-      fields.emplace_back();
-      fields.back() << x * y / f, -(f + x * x / f), y, f + y * y / f, -x * y / f, -x;
-      const RestFlowTerm term = judge(flow, shift_px, model);
-      const Eigen::Matrix<double, 2, 3> effect = shift_effect(flow, f);
-      for (Index axis = 0; axis < 2; ++axis) {
-        RestFlow less = flow;
-        less.flow_px[axis] -= kStep_px;
-        slope += fields.back().row(axis).transpose() * (judge(less, shift_px, model).cost - term.cost) / kStep_px;
-      }
-      turns += fields.back().transpose() * term.flow_information * fields.back();
-      mixed += fields.back().transpose() * term.flow_information * effect;
-      shifts += effect.transpose() * term.information * effect;
-    }
-    out.information = turns - mixed * shifts.ldlt().solve(mixed.transpose());
-    const Vector3d change = -out.information.ldlt().solve(slope);
-    if (!change.allFinite()) break;
-    out.turn += change;
-    for (std::size_t j = 0; j < flows.size(); ++j) flows[j].flow_px -= fields[j] * change;
-    if (change.norm() < 1e-6) break;
-  }
-  return out;
-}
 
 }  // namespace
 

@@ -1,0 +1,79 @@
+#include "core/closure/observation/remaining_turn.h"
+
+#include <Eigen/Cholesky>
+#include <utility>
+
+namespace core::closure {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Field = Eigen::Matrix<double, 2, 3>;  // px per radian about the camera's axes
+
+constexpr int kRounds = 12, kHalvings = 6;
+constexpr double kStep_px = 1e-3, kStill_rad = 1e-7;
+
+Field field_at(const Eigen::Vector2d& at_px, double f) {
+  const double x = at_px.x(), y = at_px.y();
+  Field out;
+  out << x * y / f, -(f + x * x / f), y, f + y * y / f, -x * y / f, -x;
+  return out;
+}
+
+struct Normal {
+  Matrix3d information = Matrix3d::Zero();  // the shift eliminated
+  Vector3d slope = Vector3d::Zero();        // of the cost by the turn that is taken away
+};
+
+Normal linearise(const std::vector<RestFlow>& flows, const RestFlowModel& model, const Vector3d& shift_px) {
+  Normal out;
+  Matrix3d turns = Matrix3d::Zero(), mixed = Matrix3d::Zero(), shifts = 1e-9 * Matrix3d::Identity();
+  for (const RestFlow& flow : flows) {
+    const Field field = field_at(flow.at_px, model.focal_px);
+    const Field effect = shift_effect(flow, model.focal_px);
+    const RestFlowTerm term = judge(flow, shift_px, model);
+    for (Index axis = 0; axis < 2; ++axis) {
+      RestFlow less = flow;
+      less.flow_px[axis] -= kStep_px;
+      out.slope += field.row(axis).transpose() * (judge(less, shift_px, model).cost - term.cost) / kStep_px;
+    }
+    turns += field.transpose() * term.flow_information * field;
+    mixed += field.transpose() * term.flow_information * effect;
+    shifts += effect.transpose() * term.information * effect;
+  }
+  out.information = turns - mixed * shifts.ldlt().solve(mixed.transpose());
+  return out;
+}
+
+std::vector<RestFlow> without(std::vector<RestFlow> flows, const Vector3d& turn, double f) {
+  for (RestFlow& flow : flows) flow.flow_px -= field_at(flow.at_px, f) * turn;
+  return flows;
+}
+
+}  // namespace
+
+RemainingTurn remaining_turn(std::vector<RestFlow> flows, const RestFlowModel& model, Vector3d shift_px) {
+  RemainingTurn out;
+  double before = fit_shift(flows, model, shift_px);
+  for (int round = 0; round < kRounds; ++round) {
+    const Normal normal = linearise(flows, model, shift_px);
+    out.information = normal.information;
+    Vector3d change = -normal.information.ldlt().solve(normal.slope);
+    if (!change.allFinite()) break;
+    bool went = false;
+    for (int halving = 0; halving < kHalvings && !went; ++halving, change *= 0.5) {
+      std::vector<RestFlow> next = without(flows, change, model.focal_px);
+      Vector3d shift = shift_px;
+      const double now = fit_shift(next, model, shift);
+      if (!(now < before)) continue;
+      went = true;
+      before = now, shift_px = shift, flows = std::move(next);
+      out.turn += change;
+    }
+    if (!went || change.norm() < kStill_rad) break;
+  }
+  return out;
+}
+
+}  // namespace core::closure
