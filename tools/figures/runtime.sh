@@ -25,7 +25,7 @@ flags=(-std=c++20 -O2 -I. -pthread)
 transfer_line() { # NUMBER FILE WHAT: of ring_transfers
   local verdict=MISS
   [ "$(awk -F'\t' '$6 == 0 && $3 == "written" { n++ } END { print n + 0 }' "$2")" != 2 ] || verdict=ok
-  line "$1" $verdict "$(awk -F'\t' '{ printf "%s%s: %s read, %s bad, %s s", NR > 1 ? "; " : "", $1, $4, $6, $8 }' "$2")" "0 bad" "$3"
+  line "$1" $verdict "$(awk -F'\t' '{ printf "%s%s: %s read, %s bad, %s s", (NR > 1 ? "; " : ""), $1, $4, $6, $8 }' "$2")" "0 bad" "$3"
 }
 model_line() { # MODEL VARIANT... : the protocol passes, each weaker variant is caught
   local model=$1 states caught=0 n=0
