@@ -40,7 +40,12 @@ std::optional<core::AttitudeConfig> attitude_config(const AppConfig& config, con
 std::string camera_correction(const AppConfig& config, const core::CameraModel& camera) {
   if (config.method == Method::kPaper) return "scale per frame, two points (Eq. 6)";
   const std::string scale = "scale per frame, least squares over all points";
-  if (config.scale.only) return scale;
+  const bool rests = std::any_of(config.regions.begin(), config.regions.end(),
+                                 [](const auto& r) { return !core::makes_channel(r.role); });
+  if (config.scale.only) {
+    return rests && config.spectrum.witness ? scale + "; what of a mode's shape goes with what rests is the camera's"
+                                            : scale;
+  }
   const bool told = !config.camera.attitude_file.empty() || !config.camera.attitude_channel.empty();
   if (told && !core::tells_camera_motion(config.regions, camera))
     return "camera motion per frame from all points and a measured attitude: distance, turns; shifts along the "

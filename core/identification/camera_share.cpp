@@ -61,55 +61,61 @@ void CameraShare::list(const std::vector<ChannelInfo>& channels) {
   }
 }
 
-// The gain is the mean of S_mw / S_ww, m the mean of the outputs, over bins weighted by the square of their coherence:
-// there both see the camera, and hardly anything else.
-void CameraShare::measure(const CpsdSums& sums, int w) {
-  Witness& witness = witnesses_[static_cast<std::size_t>(w)];
-  const int n = sums.n_channels, n_bins = sums.n_bins();
+// Of a witness (w) and the mean of the outputs that it speaks for (m), row delays undone; smoothed over bins.
+CameraShare::Spectra CameraShare::spectra_of(const CpsdSums& sums, int w) const {
+  const Witness& witness = witnesses_[static_cast<std::size_t>(w)];
+  const auto own = static_cast<int>(witness.channel);
   const auto at = [&](int bin, int i, int j) {
-    return sums.data_sum[static_cast<std::size_t>(bin * sums.n_pairs() + CpsdSums::pair_index(i, j, n))];
+    const Complex s = sums.data_sum[static_cast<std::size_t>(
+        bin * sums.n_pairs() + CpsdSums::pair_index(std::min(i, j), std::max(i, j), sums.n_channels))];
+    return i <= j ? s : std::conj(s);
   };
   std::vector<int> alike;
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
     if (outputs_[i].witness == w) alike.push_back(static_cast<int>(i));
   }
-  if (alike.empty() || sums.data_sum.empty()) return;
-  const double count = static_cast<double>(alike.size());
-  const auto turned = [&](int i, double delay_s, double omega) {
-    const Output& output = outputs_[static_cast<std::size_t>(i)];
-    return output.sign * std::polar(1.0, -omega * (output.delay_s - delay_s));
-  };
-  std::vector<double> own, mean, re, im;
-  for (int k = 0; k < n_bins; ++k) {
-    const double omega = kTwoPi * k * hz_per_bin_;
-    Complex cross = 0.0, outputs = 0.0;
+  const double share = 1.0 / static_cast<double>(std::max<std::size_t>(1, alike.size()));
+  Spectra out;
+  for (int k = 0; k < sums.n_bins(); ++k) {
+    const auto seen_at = [&](int i) {
+      const Output& output = outputs_[static_cast<std::size_t>(i)];
+      return share * output.sign * std::polar(1.0, -kTwoPi * k * hz_per_bin_ * (output.delay_s - witness.delay_s));
+    };
+    Complex cross = 0.0, mean = 0.0;
     for (const int i : alike) {
-      cross += at(k, i, static_cast<int>(witness.channel)) * turned(i, witness.delay_s, omega) / count;
-      for (const int j : alike) {
-        const Complex s = i <= j ? at(k, i, j) : std::conj(at(k, j, i));
-        outputs += s * turned(i, 0.0, omega) * std::conj(turned(j, 0.0, omega)) / (count * count);
-      }
+      cross += at(k, i, own) * seen_at(i);
+      for (const int j : alike) mean += at(k, i, j) * seen_at(i) * std::conj(seen_at(j));
     }
-    own.push_back(at(k, static_cast<int>(witness.channel), static_cast<int>(witness.channel)).real());
-    mean.push_back(outputs.real());
-    re.push_back(cross.real());
-    im.push_back(cross.imag());
+    out.own.push_back(at(k, own, own).real());
+    out.mean.push_back(mean.real());
+    out.in_phase.push_back(cross.real());
+    out.out_of_phase.push_back(cross.imag());
   }
-  own = smoothed(own), mean = smoothed(mean), re = smoothed(re), im = smoothed(im);
+  for (auto* values : {&out.own, &out.mean, &out.in_phase, &out.out_of_phase}) *values = smoothed(*values);
+  return out;
+}
+
+// The gain is the mean of S_mw / S_ww over bins weighted by the fourth power of their coherence: there both see the
+// camera, and hardly anything else.
+void CameraShare::measure(const CpsdSums& sums, int w) {
+  if (sums.data_sum.empty()) return;
+  Witness& witness = witnesses_[static_cast<std::size_t>(w)];
+  const Spectra s = spectra_of(sums, w);
   double weights = 0.0, sum = 0.0;
-  for (std::size_t k = 0; k < own.size(); ++k) {
-    const double power = own[k] * mean[k];
+  for (std::size_t k = 0; k < s.own.size(); ++k) {
+    const double power = s.own[k] * s.mean[k];
     if (!(power > 0.0)) continue;
-    const double coherence = (re[k] * re[k] + im[k] * im[k]) / power, weight = std::pow(coherence, 4);
+    const double coherence = (s.in_phase[k] * s.in_phase[k] + s.out_of_phase[k] * s.out_of_phase[k]) / power;
+    const double weight = std::pow(coherence, 4);
     weights += weight;
-    sum += weight * re[k] / own[k];
+    sum += weight * s.in_phase[k] / s.own[k];
   }
   witness.gain = weights > 0.0 ? sum / weights : 0.0;
-  std::vector<double> ordered = own;
+  std::vector<double> ordered = s.own;
   const auto quiet = ordered.begin() + static_cast<std::ptrdiff_t>(kQuietShare * static_cast<double>(ordered.size()));
   std::nth_element(ordered.begin(), quiet, ordered.end());
   const double noise = kNoiseAboveQuiet * *quiet;
-  for (const double power : own) witness.certainty.push_back(power > noise ? 1.0 - noise / power : 0.0);
+  for (const double power : s.own) witness.certainty.push_back(power > noise ? 1.0 - noise / power : 0.0);
 }
 
 Complex CameraShare::part(std::size_t output, const std::vector<Complex>& shape, double apparent_hz) const {

@@ -42,7 +42,12 @@ class CameraShare {
     std::vector<double> certainty;  // q per bin
   };
 
+  struct Spectra {
+    std::vector<double> own, mean, in_phase, out_of_phase;  // S_ww, S_mm, Re and Im S_mw per bin
+  };
+
   void list(const std::vector<ChannelInfo>& channels);
+  [[nodiscard]] Spectra spectra_of(const CpsdSums& sums, int w) const;
   void measure(const CpsdSums& sums, int w);
   [[nodiscard]] std::complex<double> part(std::size_t output, const std::vector<std::complex<double>>& shape,
                                           double apparent_hz) const;
