@@ -107,7 +107,7 @@ void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response
         text("found in %.0f %% of the orders from order %d on, MPC %.3f", 100.0 * cluster.presence, first_order,
              mode.mpc));
   }
-  if (line.witness_moves)
+  if (line.witness_moves && mode.verdict == Verdict::kStructural)
     mode.reason += "; what was declared to rest moves with it: nothing was taken for the camera's";
 }
 
