@@ -75,16 +75,19 @@ CameraShare::Spectra CameraShare::spectra_of(const CpsdSums& sums, int w) const 
     if (outputs_[i].witness == w) alike.push_back(static_cast<int>(i));
   }
   const double share = 1.0 / static_cast<double>(std::max<std::size_t>(1, alike.size()));
+  std::vector<Complex> turns;  // of each, undone
   Spectra out;
   for (int k = 0; k < sums.n_bins(); ++k) {
-    const auto seen_at = [&](int i) {
-      const Output& output = outputs_[static_cast<std::size_t>(i)];
-      return share * output.sign * std::polar(1.0, -kTwoPi * k * hz_per_bin_ * (output.delay_s - witness.delay_s));
-    };
-    Complex cross = 0.0, mean = 0.0;
+    turns.clear();
     for (const int i : alike) {
-      cross += at(k, i, own) * seen_at(i);
-      for (const int j : alike) mean += at(k, i, j) * seen_at(i) * std::conj(seen_at(j));
+      const Output& output = outputs_[static_cast<std::size_t>(i)];
+      turns.push_back(share * output.sign *
+                      std::polar(1.0, -kTwoPi * k * hz_per_bin_ * (output.delay_s - witness.delay_s)));
+    }
+    Complex cross = 0.0, mean = 0.0;
+    for (std::size_t a = 0; a < alike.size(); ++a) {
+      cross += at(k, alike[a], own) * turns[a];
+      for (std::size_t b = 0; b < alike.size(); ++b) mean += at(k, alike[a], alike[b]) * turns[a] * std::conj(turns[b]);
     }
     out.own.push_back(at(k, own, own).real());
     out.mean.push_back(mean.real());
@@ -129,12 +132,6 @@ Complex CameraShare::part(std::size_t output, const std::vector<Complex>& shape,
   return witness.gain * witness.certainty[static_cast<std::size_t>(bin)] * turn * shape[witness.channel];
 }
 
-double CameraShare::of(const std::vector<Complex>& shape, double apparent_hz) const {
-  const double whole = square(shape, outputs_.size());
-  if (!(whole > 0.0)) return 0.0;
-  return std::clamp(1.0 - square(without(shape, apparent_hz, false), outputs_.size()) / whole, 0.0, 1.0);
-}
-
 std::vector<Complex> CameraShare::without(const std::vector<Complex>& shape, double apparent_hz, bool leave) const {
   std::vector<Complex> out(shape.begin(), shape.begin() + static_cast<std::ptrdiff_t>(outputs_.size()));
   if (leave) return out;
@@ -142,12 +139,13 @@ std::vector<Complex> CameraShare::without(const std::vector<Complex>& shape, dou
   return out;
 }
 
-bool CameraShare::is_doubtful(const std::vector<Complex>& shape, double apparent_hz) const {
+CameraShare::Finding CameraShare::examine(const std::vector<Complex>& shape, double apparent_hz) const {
   const double whole = square(shape, outputs_.size());
+  if (!(whole > 0.0)) return {};
   double taken = 0.0;
   for (std::size_t i = 0; i < outputs_.size(); ++i) taken += std::norm(part(i, shape, apparent_hz));
   const double left = square(without(shape, apparent_hz, false), outputs_.size());
-  return taken > kNoticeable * whole && left > kMostLeft * whole;
+  return {std::clamp(1.0 - left / whole, 0.0, 1.0), taken > kNoticeable * whole && left > kMostLeft * whole};
 }
 
 }  // namespace core

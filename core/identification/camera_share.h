@@ -21,15 +21,16 @@ class CameraShare {
   // channels: of the sums; witnesses, if any, last.
   CameraShare(const CpsdSums& sums, const std::vector<ChannelInfo>& channels);
 
-  [[nodiscard]] std::size_t n_outputs() const noexcept { return outputs_.size(); }
-
-  // Of a shape as observed, of all channels, at that apparent frequency: 0 ... 1 of its square.
-  [[nodiscard]] double of(const std::vector<std::complex<double>>& shape, double apparent_hz) const;
+  struct Finding {
+    double share = 0.0;  // of the shape's square that is the camera's, 0 ... 1
+    bool is_doubtful =
+        false;  // noticeable, and yet what is left is no small part: the witness moves with the structure
+  };
+  // Of a shape as observed, of all channels, at that apparent frequency.
+  [[nodiscard]] Finding examine(const std::vector<std::complex<double>>& shape, double apparent_hz) const;
   // The outputs' part of it without the camera's. Linear in the shape but for `leave`, which leaves the camera's.
   [[nodiscard]] std::vector<std::complex<double>> without(const std::vector<std::complex<double>>& shape,
                                                           double apparent_hz, bool leave) const;
-  // Noticeable, and yet what is left is no small part: the witness moves with the structure.
-  [[nodiscard]] bool is_doubtful(const std::vector<std::complex<double>>& shape, double apparent_hz) const;
 
  private:
   struct Output {

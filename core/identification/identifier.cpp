@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <stdexcept>
 
@@ -36,21 +37,15 @@ double apparent_hz(const DiscretePole& pole, double rate_hz) {
   return std::abs(std::arg(pole.lambda)) * rate_hz / (2.0 * std::numbers::pi);
 }
 
-// Of the outputs, as the pole's own shape asks for.
-std::vector<std::complex<double>> without_camera(const std::vector<std::complex<double>>& shape,
-                                                 const DiscretePole& pole, double rate_hz, const CameraShare& camera) {
-  const double hz = apparent_hz(pole, rate_hz);
-  return camera.without(shape, hz, camera.is_doubtful(pole.shape, hz));
-}
-
 Poles poles_of_orders(const Realisation& realisation, const std::vector<int>& orders, const FoldingConfig& folding,
                       const CameraShare& camera) {
   Poles poles;
   for (std::size_t i = 0; i < orders.size(); ++i) {
     for (DiscretePole& pole : poles_of_order(realisation, orders[i])) {
-      poles.unfolded.push_back(
-          {static_cast<int>(i),
-           unfold(pole.lambda, without_camera(pole.shape, pole, folding.rate_hz, camera), folding)});
+      const double hz = apparent_hz(pole, folding.rate_hz);
+      const bool leave = camera.examine(pole.shape, hz).is_doubtful;
+      const auto shape = camera.without(pole.shape, hz, leave);
+      poles.unfolded.push_back({static_cast<int>(i), unfold(pole.lambda, shape, folding)});
       poles.unfolded.back().pole.emac = pole.emac;
       poles.observed.push_back({orders[i], std::move(pole)});
     }
@@ -103,12 +98,11 @@ double state_scatter(const FitScatter& scatters, const Poles& poles, const std::
   auto changes = pole_changes(fit.realisation, fit.era, deviations, chosen);
   for (std::size_t c = 0; c < chosen.size(); ++c) {
     const std::size_t i = line_of[c];
-    const DiscretePole whole = chosen[c].pole;
-    const auto outputs = [&](std::vector<std::complex<double>>& shape) {
-      shape = without_camera(shape, whole, scatters.sums.rate_hz, scatters.camera);
-    };
-    outputs(chosen[c].pole.shape);
-    for (PoleChange& change : changes[c]) outputs(change.shape);
+    std::vector<std::complex<double>>& shape = chosen[c].pole.shape;
+    const double hz = apparent_hz(chosen[c].pole, scatters.sums.rate_hz);
+    const bool leave = scatters.camera.examine(shape, hz).is_doubtful;
+    shape = scatters.camera.without(shape, hz, leave);
+    for (PoleChange& change : changes[c]) change.shape = scatters.camera.without(change.shape, hz, leave);
     const auto scatter = mode_scatter(chosen[c], lines[i].representative, scatters.folding, changes[c]);
     if (!scatter) continue;
     modes[i].frequency_std_hz = scatter->frequency_hz;
@@ -141,18 +135,14 @@ void list_modes(std::vector<Mode> modes, const std::vector<PoleCluster>& cluster
 
 Identifier::Identifier(IdentifierConfig config, std::vector<ChannelInfo> channels)
     : config_(std::move(config)), channels_(std::move(channels)) {
-  outputs_.assign(channels_.begin(), channels_.begin() + static_cast<std::ptrdiff_t>(n_outputs()));
+  std::copy_if(channels_.begin(), channels_.end(), std::back_inserter(outputs_),
+               [](const ChannelInfo& channel) { return !channel.is_witness; });
   if (outputs_.empty()) throw std::invalid_argument("Identifier: no channel");
   for (const int reference : config_.references) {
     if (reference < 0 || reference >= static_cast<int>(n_outputs())) {
       throw std::invalid_argument("Identifier: reference " + std::to_string(reference) + " is no channel");
     }
   }
-}
-
-std::size_t Identifier::n_outputs() const noexcept {
-  return static_cast<std::size_t>(
-      std::count_if(channels_.begin(), channels_.end(), [](const ChannelInfo& c) { return !c.is_witness; }));
 }
 
 std::vector<double> Identifier::undone_delay_s() const {
@@ -205,8 +195,8 @@ ModalEstimate Identifier::identify(const CpsdSums& sums) const {
   for (const PoleCluster& line : lines) {
     LineEvidence evidence = examiner.examine(line.representative);
     const DiscretePole& observed = poles.observed[line.i_representative].pole;
-    evidence.witness_share = camera.of(observed.shape, line.apparent_hz);
-    evidence.witness_moves = camera.is_doubtful(observed.shape, line.apparent_hz);
+    const CameraShare::Finding found = camera.examine(observed.shape, line.apparent_hz);
+    evidence.witness_share = found.share, evidence.witness_moves = found.is_doubtful;
     modes.push_back(judge(line, base_response(sums, channels_, line.apparent_hz), outputs_, orders, rules, evidence));
   }
   if (sums.n_blocks >= kScatterBlocks) {

@@ -38,7 +38,7 @@ class Identifier {
   [[nodiscard]] ModalEstimate identify(const CpsdSums& sums) const;
 
   [[nodiscard]] const std::vector<ChannelInfo>& channels() const noexcept { return channels_; }
-  [[nodiscard]] std::size_t n_outputs() const noexcept;  // of them no witnesses
+  [[nodiscard]] std::size_t n_outputs() const noexcept { return outputs_.size(); }  // of them no witnesses
   // Per channel, as it is undone at every mode; 0 where the samples were compensated before.
   [[nodiscard]] std::vector<double> undone_delay_s() const;
 

@@ -11,6 +11,7 @@
 
 #include "core/identification/average_linkage.h"
 #include "core/identification/mac.h"
+#include "core/linear/median.h"
 
 namespace core {
 
@@ -21,12 +22,6 @@ constexpr double kMacTolerance = 0.3;
 constexpr double kFarApart = 2.0;
 constexpr double kSplitFrequency = 0.03;  // relative
 constexpr double kSplitMac = 0.95;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double frequency_distance(const UnfoldedPole& a, const UnfoldedPole& b) noexcept {
   const double mean_hz = 0.5 * (a.apparent_hz + b.apparent_hz);

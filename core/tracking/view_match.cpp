@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "core/linear/median.h"
+
 namespace core {
 
 namespace {
@@ -39,12 +41,6 @@ struct Similarity {
     shift = to - turn * from;
   }
 };
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Of the region's points [begin, end): those that stand off the similarity alike, as the structure moves.
 std::size_t count_agreeing(const TrackFrame& keyframe, TrackFrame& now, const Similarity& common, std::size_t begin,

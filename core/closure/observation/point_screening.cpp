@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/linear/median.h"
+
 namespace core::closure {
 namespace {
 
@@ -16,13 +18,6 @@ constexpr double kLarge = 0.4;          // of the image's height: there turns an
 using Terms = Eigen::Matrix<double, 6, 1>;
 constexpr double kRidge = 1e-9;
 constexpr double kNormalMad = 1.4826;
-
-double median_of(std::vector<double>& values) {
-  if (values.empty()) return kNan;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // One region's points: what each does beyond the smooth motion of the rest, in sigmas.
 class RegionScreen {
@@ -106,7 +101,7 @@ class RegionScreen {
           for (const double value : off->col(c)) {
             if (std::isfinite(value)) seen.push_back(value);
           }
-          if (!seen.empty()) series->col(c).array() -= scale * median_of(seen);
+          if (!seen.empty()) series->col(c).array() -= scale * median(std::move(seen));
         }
       }
     }
@@ -142,7 +137,7 @@ class RegionScreen {
         for (const double value : off->col(static_cast<Eigen::Index>(i))) {
           if (std::isfinite(value)) all.push_back(std::abs(value));
         }
-        const double middle = kNormalMad * median_of(all);
+        const double middle = kNormalMad * median(std::move(all));
         if (std::isfinite(middle)) scatter_[i] = std::max(scatter_[i], middle);
       }
     }
@@ -192,7 +187,7 @@ class RegionScreen {
     for (std::size_t i = 0; i < points_.size(); ++i) {
       if (in_fit_[i] != 0) all.push_back(scatter_[i]);
     }
-    return median_of(all);
+    return median(std::move(all));
   }
 
   // Of the points in the fit; their number where none is far.

@@ -26,9 +26,15 @@ constexpr int kStartRounds = 12, kRounds = 60;
 constexpr double kOutlier_sigmas = 5.0, kFocalPerWidth = 0.75;
 constexpr double kDegree = 180.0 / std::numbers::pi;
 
-const char* name_of(bool rotation) { return rotation ? "camera rotation" : "readout time"; }
-
 }  // namespace
+
+const char* TurningLevel::name_of(Effect effect) {
+  return effect == Effect::kRotation ? "camera rotation" : "readout time";
+}
+
+bool TurningLevel::holds(const std::vector<Effect>& effects, Effect effect) {
+  return std::find(effects.begin(), effects.end(), effect) != effects.end();
+}
 
 TurningLevel::TurningLevel(std::vector<FramePair> pairs, std::vector<GyroSample> gyro,
                            const core::GyroReadoutConfig& config)
@@ -55,18 +61,14 @@ TurningLevel::TurningLevel(std::vector<FramePair> pairs, std::vector<GyroSample>
 std::vector<TurningLevel::Effect> TurningLevel::open() const {
   std::vector<Effect> out;
   for (const Effect effect : {Effect::kRotation, Effect::kReadout}) {
-    if (!has(effect)) out.push_back(effect);
+    if (!holds(adopted_, effect)) out.push_back(effect);
   }
   return out;
 }
 
-bool TurningLevel::has(Effect effect) const {
-  return std::find(adopted_.begin(), adopted_.end(), effect) != adopted_.end();
-}
-
 std::vector<std::string> TurningLevel::candidates() const {
   std::vector<std::string> names;
-  for (const Effect effect : open()) names.emplace_back(name_of(effect == Effect::kRotation));
+  for (const Effect effect : open()) names.emplace_back(name_of(effect));
   return names;
 }
 
@@ -74,8 +76,8 @@ std::vector<std::string> TurningLevel::candidates() const {
 // where the readout is free.
 TurningLevel::Fitted TurningLevel::fit_with(const std::vector<Effect>& effects, const std::vector<FramePair>& pairs,
                                             const std::vector<GyroSample>& gyro, bool brief) const {
-  const bool turns = std::find(effects.begin(), effects.end(), Effect::kRotation) != effects.end();
-  const bool reads = turns && std::find(effects.begin(), effects.end(), Effect::kReadout) != effects.end();
+  const bool turns = holds(effects, Effect::kRotation);
+  const bool reads = turns && holds(effects, Effect::kReadout);
   const double focal_px = config_.focal_px > 0.0 ? config_.focal_px : kFocalPerWidth * config_.width_px;
   Fitted best;
   GyroState start;
@@ -113,8 +115,7 @@ const TurningLevel::Fitted& TurningLevel::fit_of(const std::vector<Effect>& effe
 
 double TurningLevel::heldout_squares(const Fitted& fitted, const std::vector<Effect>& effects,
                                      const std::vector<FramePair>& pairs, const std::vector<GyroSample>& gyro) const {
-  const bool turns = std::find(effects.begin(), effects.end(), Effect::kRotation) != effects.end();
-  const GyroProblem problem(pairs, turns ? gyro : still_, config_);
+  const GyroProblem problem(pairs, holds(effects, Effect::kRotation) ? gyro : still_, config_);
   GyroState state = fitted.state;
   const RestFlows flows = problem.flows(state);
   (void)problem.cost(state, flows, true);
@@ -145,10 +146,10 @@ std::vector<CandidateScore> TurningLevel::score() {
   std::vector<CandidateScore> out;
   for (const Effect effect : open()) {
     CandidateScore s;
-    s.effect = name_of(effect == Effect::kRotation);
+    s.effect = name_of(effect);
     s.n_parameters = effect == Effect::kRotation ? 7 : 1;
     s.heldout = std::sqrt(squares_ / n_heldout_);
-    if (effect == Effect::kReadout && !has(Effect::kRotation)) {
+    if (effect == Effect::kReadout && !holds(adopted_, Effect::kRotation)) {
       s.refusal = "acts on turns, and the model has none";
       out.push_back(std::move(s));
       continue;
@@ -170,7 +171,7 @@ std::vector<CandidateScore> TurningLevel::score() {
 double TurningLevel::surrogate_score(std::uint64_t seed) {
   std::mt19937_64 engine(seed);
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(engine() % n); };
-  const bool turns = has(Effect::kRotation);
+  const bool turns = holds(adopted_, Effect::kRotation);
   std::vector<FramePair> pairs = pairs_;
   std::vector<GyroSample> gyro = gyro_;
   if (turns) {
@@ -203,8 +204,7 @@ void TurningLevel::drop() {
 }
 
 core::GyroProblem TurningLevel::problem(const std::vector<Effect>& effects) const {
-  const bool turns = std::find(effects.begin(), effects.end(), Effect::kRotation) != effects.end();
-  return {pairs_, turns ? gyro_ : still_, config_};
+  return {pairs_, holds(effects, Effect::kRotation) ? gyro_ : still_, config_};
 }
 
 std::vector<ParameterValue> TurningLevel::parameters(std::size_t adopted) const {

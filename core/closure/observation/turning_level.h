@@ -54,7 +54,8 @@ class TurningLevel final : public ClosureLevel {
     std::vector<Eigen::Index> held;
   };
   [[nodiscard]] std::vector<Effect> open() const;
-  [[nodiscard]] bool has(Effect effect) const;
+  [[nodiscard]] static const char* name_of(Effect effect);
+  [[nodiscard]] static bool holds(const std::vector<Effect>& effects, Effect effect);
   // brief: from one start, few rounds.
   [[nodiscard]] Fitted fit_with(const std::vector<Effect>& effects, const std::vector<core::FramePair>& pairs,
                                 const std::vector<core::GyroSample>& gyro, bool brief) const;

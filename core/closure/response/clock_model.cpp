@@ -10,6 +10,7 @@
 #include "core/closure/response/effects/clock_effect.h"
 #include "core/closure/response/jackknife.h"
 #include "core/closure/structure_words.h"
+#include "core/linear/median.h"
 
 namespace core::closure {
 namespace {
@@ -23,12 +24,6 @@ constexpr Index kNeighbours = 5;      // to both sides, for the median
 constexpr double kPerSigma = 1.4826;  // median absolute deviation of a Gaussian
 constexpr double kMostMisread = 0.25;
 constexpr double kColoured = 0.25;  // correlation of successive residuals beyond that of chance
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // The median slope between readings half the record apart: misread ones do not bend it.
 double robust_slope(const VectorXd& x, const VectorXd& y) {

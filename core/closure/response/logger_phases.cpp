@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/linear/median.h"
 #include "core/spectrum/real_fft.h"
 
 namespace core::closure {
@@ -77,18 +78,12 @@ void check(const LoggerRecords& records) {
   }
 }
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // The stronger half of the bins counts; those where all move as one by themselves.
 void weigh(const std::vector<double>& size, const VectorXd& frequency_hz, double rigid_below_hz, VectorXd& weight) {
   std::vector<double> low, high;
   for (std::size_t b = 0; b < size.size(); ++b)
     (frequency_hz(static_cast<Index>(b)) < rigid_below_hz ? low : high).push_back(size[b]);
-  const double least_low = low.empty() ? 0.0 : median_of(low), least_high = high.empty() ? 0.0 : median_of(high);
+  const double least_low = low.empty() ? 0.0 : median(low), least_high = high.empty() ? 0.0 : median(high);
   for (std::size_t b = 0; b < size.size(); ++b) {
     const double least = frequency_hz(static_cast<Index>(b)) < rigid_below_hz ? least_low : least_high;
     weight(static_cast<Index>(b)) = size[b] >= least && size[b] > 0.0 ? 1.0 : 0.0;

@@ -146,8 +146,8 @@ TEST(CameraShare, WithoutWitnessNothingChanges) {
   const CameraShare share(sums, SimulatedStructure{}.channels());
   const std::vector<std::complex<double>> shape{{1.0, 0.1}, 0.9, 0.8, 0.7, 0.6, 0.5, {0.4, -0.2}};
   EXPECT_EQ(share.without(shape, 2.0, false), shape);
-  EXPECT_EQ(share.of(shape, 2.0), 0.0);
-  EXPECT_FALSE(share.is_doubtful(shape, 2.0));
+  EXPECT_EQ(share.examine(shape, 2.0).share, 0.0);
+  EXPECT_FALSE(share.examine(shape, 2.0).is_doubtful);
 }
 
 TEST(CpsdSums, CopiesTheTotalsOfItsFirstChannels) {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/geometry/rolling_shutter.h"
+#include "core/linear/median.h"
 #include "core/tracking/klt_tracker.h"
 #include "core/tracking/point_seeder.h"
 #include "drivers/camera/frame_source.h"
@@ -35,12 +36,6 @@ std::vector<cv::Point2f> seeds(const cv::Mat& gray) {
   return all;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 struct Step {
   cv::Point2f from, to;
 };
@@ -60,8 +55,8 @@ bool goes_along(const std::vector<Step>& steps, std::size_t i) {
     u.push_back(static_cast<double>(other.to.x - other.from.x));
     v.push_back(static_cast<double>(other.to.y - other.from.y));
   }
-  return std::hypot(static_cast<double>(steps[i].to.x - steps[i].from.x) - median(u),
-                    static_cast<double>(steps[i].to.y - steps[i].from.y) - median(v)) < kMostApart_px;
+  return std::hypot(static_cast<double>(steps[i].to.x - steps[i].from.x) - core::median(u),
+                    static_cast<double>(steps[i].to.y - steps[i].from.y) - core::median(v)) < kMostApart_px;
 }
 
 std::vector<Step> steps_between(const cv::Mat& first, const cv::Mat& second) {
