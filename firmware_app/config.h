@@ -56,10 +56,11 @@ struct TrackingConfig {
   double min_distance_px = 8.0;
   double corner_quality = 0.01;  // Harris response relative to the region's strongest
   int window_px = 21;
-  int pyramid_levels = 4;
-  int max_iterations = 30;
+  int max_iterations = 12;
   double epsilon_px = 0.003;
-  double forward_backward_px = 0.5;
+  double reach_px = 8.0;
+  double search_px = 200.0;
+  double least_correlation = 0.75;
   double inlier_sigma_px = 0.3;
   int min_points = 3;  // a region with fewer inliers has no sample
 };

@@ -22,13 +22,14 @@ void add_tracking_keys(std::vector<ConfigKey>& keys) {
   number("min_distance_px", "px", &C::min_distance_px, {1, 1000}, "between two corners");
   number("corner_quality", "", &C::corner_quality, {1e-6, 1},
          "Harris response relative to the region's strongest corner");
-  whole("window_px", "px", &C::window_px, {5, 101}, "side of the tracked patch");
-  whole("pyramid_levels", "", &C::pyramid_levels, {1, 10},
-        "image pyramid: each level doubles the motion that is followed");
-  whole("max_iterations", "", &C::max_iterations, {1, 1000}, "of the tracker per level");
+  whole("window_px", "px", &C::window_px, {5, 21}, "side of the tracked patch");
+  whole("max_iterations", "", &C::max_iterations, {2, 1000}, "of the tracker");
   number("epsilon_px", "px", &C::epsilon_px, {1e-6, 1}, "the tracker stops when a step is smaller");
-  number("forward_backward_px", "px", &C::forward_backward_px, {1e-3, 100},
-         "a point that misses its start by more on the way back is lost");
+  number("reach_px", "px", &C::reach_px, {0.5, 16}, "how far from its prediction a point is looked for");
+  number("search_px", "px", &C::search_px, {16, 1000},
+         "how far a whole region is searched for when most of its points are not where they were expected");
+  number("least_correlation", "", &C::least_correlation, {0.1, 1},
+         "of a point with its template, relative to what their noise allows; below it is lost");
   number("inlier_sigma_px", "px", &C::inlier_sigma_px, {1e-3, 100},
          "spread of points that agree with their region's motion");
   whole("min_points", "", &C::min_points, {1, 1000}, "a region with fewer agreeing points has no sample in that frame");

@@ -69,7 +69,8 @@ core::StructureTrackerConfig tracker_config(const AppConfig& config) {
   tracker.regions = config.regions;
   tracker.min_points = t.min_points;
   tracker.seed = {t.points_per_region, t.min_distance_px, t.corner_quality, t.window_px};
-  tracker.klt = {t.window_px, t.pyramid_levels, t.max_iterations, t.epsilon_px, t.forward_backward_px};
+  tracker.klt = {t.window_px, t.max_iterations, t.epsilon_px, t.reach_px, t.least_correlation};
+  tracker.search_px = t.search_px;
   return tracker;
 }
 

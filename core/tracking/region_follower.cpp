@@ -63,6 +63,13 @@ void RegionFollower::measure_regions(const TrackFrame& judged) noexcept {
     }
     region.offset = {sum.u / region.n_inliers, sum.v / region.n_inliers};
   }
+  for (std::size_t r = 0; r < regions_.size(); ++r) {
+    Watched& region = regions_[r];
+    if (is_measured(r))
+      region.prediction.update(region.offset, judged.gap_before);
+    else
+      region.prediction.forget();
+  }
 }
 
 // Least squares of p = turn k + shift over the inliers of all measured regions. Stays as it was where none is.
@@ -115,18 +122,22 @@ void RegionFollower::note_distances(const TrackFrame& judged) noexcept {
 }
 
 void RegionFollower::predict(const TrackFrame& judged) noexcept {
-  for (Watched& region : regions_) region.n_inside = 0;
+  for (Watched& region : regions_) region.n_inside = 0, region.expected = {};
   for (std::size_t i = 0; i < keyframe_.size(); ++i) {
     Watched& region = regions_[region_of_point_[i]];
+    const Vector2 step = region.prediction.step();
     if (!is_measured(region_of_point_[i])) {
       const Vector2 common = common_.of(keyframe_[i]);
       expected_[i] = {common.u + region.off_common.u, common.v + region.off_common.v};
     } else if (i < judged.points.size() && is_used(judged.points[i])) {
-      expected_[i] = {judged.points[i].u_px, judged.points[i].v_px};
+      expected_[i] = {judged.points[i].u_px + step.u, judged.points[i].v_px + step.v};
     } else {
-      expected_[i] = {keyframe_[i].u + region.offset.u, keyframe_[i].v + region.offset.v};
+      expected_[i] = {keyframe_[i].u + region.offset.u + step.u, keyframe_[i].v + region.offset.v + step.v};
     }
     const Vector2& at = expected_[i];
+    const double share = 1.0 / region.n_points;
+    region.expected = {region.expected.u + share * (at.u - keyframe_[i].u),
+                       region.expected.v + share * (at.v - keyframe_[i].v)};
     if (at.u >= 0.0 && at.v >= 0.0 && at.u < config_.width_px && at.v < config_.height_px) ++region.n_inside;
   }
 }

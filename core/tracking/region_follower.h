@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/tracking/motion_predictor.h"
 #include "core/types/region.h"
 #include "core/types/track.h"
 #include "core/types/vector2.h"
@@ -16,11 +17,12 @@ struct RegionFollowerConfig {
   double least_share_inside = 0.5;  // of a region's points that should lie in the image: with fewer it has left it
 };
 
-// Where the points of every region are to be looked for in the next frame, and what has become of the region. A region
-// that is not measured goes where the others go: the similarity (shift, turn, magnification) that takes the keyframe to
-// the other regions' points by least squares, plus what it was off from that when it was last measured. So it is found
-// again after an occlusion, or once the drifting camera has it back in the image; its points keep their keyframe, and
-// the channel its datum. Fixed memory; nothing allocates after construction. One thread.
+// Where the points of every region are to be looked for in the next frame, and what has become of the region. A point
+// of a measured region goes on from where it is as its region goes (motion_predictor.h). A region that is not measured
+// goes where the others go: the similarity (shift, turn, magnification) that takes the keyframe to the other regions'
+// points by least squares, plus what it was off from that when it was last measured. So it is found again after an
+// occlusion, or once the drifting camera has it back in the image; its points keep their keyframe, and the channel its
+// datum. Fixed memory; nothing allocates after construction. One thread.
 class RegionFollower {
  public:
   // keyframe: where the points of all regions were, in any order of regions; region_of_point: < n_regions.
@@ -31,6 +33,10 @@ class RegionFollower {
   void update(const TrackFrame& judged) noexcept;
 
   [[nodiscard]] const Vector2& expected(std::size_t point) const noexcept { return expected_[point]; }
+  // Of the region since the keyframe, in the next frame.
+  [[nodiscard]] Vector2 expected_motion(std::size_t region) const noexcept { return regions_[region].expected; }
+  // When last measured.
+  [[nodiscard]] Vector2 last_motion(std::size_t region) const noexcept { return regions_[region].offset; }
   [[nodiscard]] RegionState state(std::size_t region) const noexcept { return regions_[region].state; }
   [[nodiscard]] std::uint32_t n_inliers(std::size_t region) const noexcept { return regions_[region].n_inliers; }
   [[nodiscard]] std::uint32_t n_points(std::size_t region) const noexcept { return regions_[region].n_points; }
@@ -41,8 +47,10 @@ class RegionFollower {
     RegionState state = RegionState::kMeasuring;
     std::uint32_t n_points = 0, n_inliers = 0, n_inside = 0;
     std::uint32_t n_unmeasured = 0;  // frames in a row
+    Vector2 expected;                // mean motion of its points since the keyframe, in the next frame
     Vector2 offset;                  // mean motion of the inliers since the keyframe
-    Vector2 off_common;              // of the inliers' mean from the common motion, when last measured
+    MotionPredictor prediction;
+    Vector2 off_common;  // of the inliers' mean from the common motion, when last measured
   };
   // p = turn k + shift as complex numbers u + i v.
   struct Similarity {

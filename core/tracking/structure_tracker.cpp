@@ -24,7 +24,10 @@ std::string StructureTracker::seed(const Frame& frame) {
   std::vector<cv::Point2f> points;
   region_of_point_.clear();
   for (std::size_t r = 0; r < config_.regions.size(); ++r) {
-    const std::vector<cv::Point2f> corners = seed_points(gray, config_.regions[r], config_.seed);
+    std::vector<cv::Point2f> corners = seed_points(gray, config_.regions[r], config_.seed);
+    std::erase_if(corners, [&](const cv::Point2f& p) {
+      return !is_trackable(gray, {static_cast<double>(p.x), static_cast<double>(p.y)}, config_.klt.window_px);
+    });
     if (static_cast<int>(corners.size()) < config_.min_points) {
       return too_few_corners(config_.regions[r], corners.size(), config_.min_points);
     }
@@ -46,41 +49,41 @@ void StructureTracker::set_keyframe(const Frame& image, const TrackFrame& keyfra
 }
 
 void StructureTracker::begin(const Frame& frame, const std::vector<cv::Point2f>& points) {
-  klt_.set_keyframe(gray_view(frame), points);
-  predicted_ = points;
   std::vector<Vector2> keyframe;
   for (const cv::Point2f& point : points)
     keyframe.push_back({static_cast<double>(point.x), static_cast<double>(point.y)});
+  finder_ = std::make_unique<PointFinder>(PointFinderConfig{config_.klt, config_.min_points, config_.search_px},
+                                          gray_view(frame), keyframe, region_of_point_, config_.regions.size());
   follower_ = std::make_unique<RegionFollower>(
       RegionFollowerConfig{frame.width_px, frame.height_px, config_.min_points, config_.lost_after}, keyframe,
       region_of_point_, config_.regions.size());
-  tracked_.resize(points.size());
 }
 
 bool StructureTracker::track(const Frame& frame, TrackFrame& out) noexcept {
   out.sequence = frame.sequence;
   out.t_start_ns = frame.t_start_ns;
   out.gap_before = frame.gap_before;
-  const bool worked = klt_.track(gray_view(frame), predicted_, tracked_);
-  for (std::size_t i = 0; i < out.points.size() && i < tracked_.size(); ++i) {
+  const std::vector<KltPoint>& found = finder_->points();
+  const bool is_image =
+      frame.width_px > 0 && frame.height_px > 0 &&
+      frame.pixels.size() >= static_cast<std::size_t>(frame.width_px) * static_cast<std::size_t>(frame.height_px);
+  if (is_image) finder_->find(gray_view(frame), *follower_);
+  for (std::size_t i = 0; i < out.points.size() && i < found.size(); ++i) {
     TrackPoint& point = out.points[i];
     point.id = static_cast<std::uint32_t>(i);
     point.region = region_of_point_[i];
-    point.u_px = static_cast<double>(tracked_[i].position.x);
-    point.v_px = static_cast<double>(tracked_[i].position.y);
-    point.sigma_px = tracked_[i].sigma_px;
-    point.seen = worked && tracked_[i].seen;
+    point.u_px = found[i].position.u;
+    point.v_px = found[i].position.v;
+    point.sigma_px = found[i].sigma_px;
+    point.seen = is_image && found[i].seen;
     point.inlier = false;
   }
-  return worked;
+  return is_image;
 }
 
 void StructureTracker::learn(const TrackFrame& judged) noexcept {
   follower_->update(judged);
-  for (std::size_t i = 0; i < predicted_.size(); ++i) {
-    const Vector2& at = follower_->expected(i);
-    predicted_[i] = {static_cast<float>(at.u), static_cast<float>(at.v)};
-  }
+  finder_->learn(judged);
 }
 
 }  // namespace core

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/tracking/klt_tracker.h"
+#include "core/tracking/point_finder.h"
 #include "core/tracking/point_seeder.h"
 #include "core/tracking/region_follower.h"
 #include "core/types/frame.h"
@@ -20,14 +20,16 @@ struct StructureTrackerConfig {
   std::vector<Region> regions;
   int min_points = 3;             // a region that seeds fewer is an error; with fewer inliers it is not measured
   std::uint32_t lost_after = 50;  // frames of search until a region counts as lost
+  double search_px = 200.0;       // how far a region that is not where it was expected is searched for
 };
 
 // All points of all regions through the frames: seeds them in the first frame (the keyframe), tracks them against it,
-// and predicts where to look from what the outlier rejection made of the previous frame (region_follower.h).
+// and predicts where to look from what the outlier rejection made of the previous frame (region_follower.h). Nothing
+// allocates in track() and learn().
 // One thread: seed() or set_keyframe() once, then track() per frame followed by learn().
 class StructureTracker {
  public:
-  explicit StructureTracker(StructureTrackerConfig config) : config_(std::move(config)), klt_(config_.klt) {}
+  explicit StructureTracker(StructureTrackerConfig config) : config_(std::move(config)) {}
 
   // Returns an empty text, or which region lies where and has too little texture, and what to try.
   [[nodiscard]] std::string seed(const Frame& frame);
@@ -47,11 +49,9 @@ class StructureTracker {
   void begin(const Frame& frame, const std::vector<cv::Point2f>& points);
 
   StructureTrackerConfig config_;
-  KltTracker klt_;
-  std::vector<std::uint16_t> region_of_point_;
-  std::vector<cv::Point2f> predicted_;
+  std::vector<std::uint16_t> region_of_point_;  // points of a region follow one another
+  std::unique_ptr<PointFinder> finder_;
   std::unique_ptr<RegionFollower> follower_;
-  std::vector<KltPoint> tracked_;
 };
 
 // The pixels of a frame as an OpenCV image, not copied.

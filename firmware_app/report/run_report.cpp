@@ -25,8 +25,8 @@ using drivers::append_seconds;
 using drivers::append_text;
 
 // 1e-4 px and 1e-6 mm lie far below what any track resolves.
-constexpr int kPixelDecimals = 4;
-constexpr int kSigmaDecimals = 5;
+constexpr int kPixelDecimals = 5;
+constexpr int kSigmaDecimals = 6;
 constexpr int kDisplacementDecimals = 6;
 
 void make_directory(const std::string& directory) {

@@ -8,7 +8,7 @@
 
 #include "core/geometry/rolling_shutter.h"
 #include "core/linear/median.h"
-#include "core/tracking/klt_tracker.h"
+#include "core/tracking/pyramid_klt.h"
 #include "core/tracking/point_seeder.h"
 #include "drivers/camera/frame_source.h"
 
@@ -60,12 +60,12 @@ bool goes_along(const std::vector<Step>& steps, std::size_t i) {
 }
 
 std::vector<Step> steps_between(const cv::Mat& first, const cv::Mat& second) {
-  core::KltTracker tracker(core::KltConfig{});
+  core::PyramidKlt tracker(core::PyramidKltConfig{});
   const std::vector<cv::Point2f> points = seeds(first);
   std::vector<Step> steps, kept;
   if (points.size() < kLeastPoints) return kept;
   tracker.set_keyframe(first, points);
-  std::vector<core::KltPoint> found;
+  std::vector<core::TrackedPoint> found;
   if (!tracker.track(second, points, found)) return kept;
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (found[i].seen) steps.push_back({points[i], found[i].position});

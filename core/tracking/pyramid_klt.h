@@ -3,9 +3,11 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "core/tracking/tracked_point.h"
+
 namespace core {
 
-struct KltConfig {
+struct PyramidKltConfig {
   int window_px = 21;
   int pyramid_levels = 4;  // above the full image
   int max_iterations = 30;
@@ -13,20 +15,14 @@ struct KltConfig {
   double forward_backward_px = 0.5;  // a point tracked there and back must return this near
 };
 
-struct KltPoint {
-  cv::Point2f position;   // in the current image
-  double sigma_px = 0.0;  // standard deviation per axis, from the residual and the texture (ARCHITECTURE.md)
-  bool seen = false;
-};
-
 // Pyramidal Lucas-Kanade tracking (Bouguet 2001, OpenCV's implementation) of points of a keyframe in later images:
 // always against the keyframe, never frame to frame, so errors do not add up to drift. Points are first looked for near
 // their prediction, on the full image and the level above; only those not found there are looked for through the whole
 // pyramid, because its coarse windows also see what lies behind a plate and moves otherwise.
 // One thread. After the first image nothing of ours allocates; OpenCV's own routine does.
-class KltTracker {
+class PyramidKlt {
  public:
-  explicit KltTracker(const KltConfig& config);
+  explicit PyramidKlt(const PyramidKltConfig& config);
 
   // The template image; `points` are tracked from now on.
   void set_keyframe(const cv::Mat& gray, const std::vector<cv::Point2f>& points);
@@ -34,7 +30,7 @@ class KltTracker {
   // predicted: where each point is expected (same order as in set_keyframe). Returns false when
   // OpenCV failed or the image is not 8-bit of the keyframe's size; `out` then holds nothing.
   [[nodiscard]] bool track(const cv::Mat& gray, const std::vector<cv::Point2f>& predicted,
-                           std::vector<KltPoint>& out) noexcept;
+                           std::vector<TrackedPoint>& out) noexcept;
 
   [[nodiscard]] const std::vector<cv::Point2f>& keyframe_points() const noexcept { return keyframe_points_; }
 
@@ -48,10 +44,10 @@ class KltTracker {
   };
 
   void run(Pass& pass, int levels);
-  void report(const Pass& pass, std::vector<KltPoint>& out) const noexcept;
-  void gather_lost(const std::vector<cv::Point2f>& predicted, const std::vector<KltPoint>& out);
+  void report(const Pass& pass, std::vector<TrackedPoint>& out) const noexcept;
+  void gather_lost(const std::vector<cv::Point2f>& predicted, const std::vector<TrackedPoint>& out);
 
-  KltConfig config_;
+  PyramidKltConfig config_;
   cv::TermCriteria criteria_;
   std::vector<cv::Mat> keyframe_pyramid_, pyramid_;
   cv::Size keyframe_size_;

@@ -1,4 +1,4 @@
-#include "core/tracking/klt_tracker.h"
+#include "core/tracking/pyramid_klt.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,11 +37,11 @@ double texture_sigma(const cv::Mat& gray, cv::Point2f centre, int window_px) {
 
 }  // namespace
 
-KltTracker::KltTracker(const KltConfig& config)
+PyramidKlt::PyramidKlt(const PyramidKltConfig& config)
     : config_(config),
       criteria_(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, config.max_iterations, config.epsilon_px) {}
 
-void KltTracker::set_keyframe(const cv::Mat& gray, const std::vector<cv::Point2f>& points) {
+void PyramidKlt::set_keyframe(const cv::Mat& gray, const std::vector<cv::Point2f>& points) {
   keyframe_points_ = points;
   keyframe_size_ = gray.size();
   cv::buildOpticalFlowPyramid(gray, keyframe_pyramid_, cv::Size(config_.window_px, config_.window_px),
@@ -60,8 +60,8 @@ void KltTracker::set_keyframe(const cv::Mat& gray, const std::vector<cv::Point2f
   }
 }
 
-bool KltTracker::track(const cv::Mat& gray, const std::vector<cv::Point2f>& predicted,
-                       std::vector<KltPoint>& out) noexcept {
+bool PyramidKlt::track(const cv::Mat& gray, const std::vector<cv::Point2f>& predicted,
+                       std::vector<TrackedPoint>& out) noexcept {
   try {
     out.resize(keyframe_points_.size());
     if (keyframe_points_.empty()) return true;
@@ -81,7 +81,7 @@ bool KltTracker::track(const cv::Mat& gray, const std::vector<cv::Point2f>& pred
   return true;
 }
 
-void KltTracker::gather_lost(const std::vector<cv::Point2f>& predicted, const std::vector<KltPoint>& out) {
+void PyramidKlt::gather_lost(const std::vector<cv::Point2f>& predicted, const std::vector<TrackedPoint>& out) {
   far_.origin.clear();
   far_.start.clear();
   far_.index.clear();
@@ -96,7 +96,7 @@ void KltTracker::gather_lost(const std::vector<cv::Point2f>& predicted, const st
 
 // The way back starts as far from the keyframe point as the way there ended from its prediction: a point that slipped
 // onto a neighbour does not find home by being put there.
-void KltTracker::run(Pass& pass, int levels) {
+void PyramidKlt::run(Pass& pass, int levels) {
   if (pass.origin.empty()) return;
   const cv::Size window(config_.window_px, config_.window_px);
   pass.forward = pass.start;
@@ -110,9 +110,9 @@ void KltTracker::run(Pass& pass, int levels) {
                            kLeastEigenvalue);
 }
 
-void KltTracker::report(const Pass& pass, std::vector<KltPoint>& out) const noexcept {
+void PyramidKlt::report(const Pass& pass, std::vector<TrackedPoint>& out) const noexcept {
   for (std::size_t k = 0; k < pass.origin.size(); ++k) {
-    KltPoint& point = out[pass.index[k]];
+    TrackedPoint& point = out[pass.index[k]];
     const cv::Point2f miss = pass.backward[k] - pass.origin[k];
     const double miss_px = std::hypot(static_cast<double>(miss.x), static_cast<double>(miss.y));
     point.position = pass.forward[k];

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <opencv2/core.hpp>
+
+#include "core/tracking/klt/point_template.h"
+
+namespace core {
+
+// How well an image shows what a template shows: I = gain T + offset, by least squares.
+struct TemplateMatch {
+  double gain = 0.0;
+  double residual = 0.0;     // variance of what is left, grey^2, of one pixel of the raw image if it is white noise
+  double correlation = 0.0;  // over the window, both smoothed by the spline
+};
+
+// What an image shows about a position, beside a template: the raw pixels interpolated at a fraction of a pixel (spline
+// weights only: the prefilter is in the template). 16-bit integers throughout, grey values in 128ths: the same bits on
+// every machine. Reused from point to point; no allocation. One thread.
+class InterpolatedWindow {
+ public:
+  // px, from the position towards the template, for gain 1.
+  struct Step {
+    double u = 0.0, v = 0.0;
+  };
+
+  void begin(const cv::Mat& gray, const PointTemplate& point) noexcept;
+  // With the template's middle at (cell + fraction), fraction 0 ... 1.
+  void move_to(int cell_u, int cell_v, double fraction_u, double fraction_v) noexcept;
+  [[nodiscard]] Step step() const noexcept;
+  [[nodiscard]] TemplateMatch match() const noexcept;
+
+ private:
+  static constexpr int kColumns = 40;  // of the image: 37 are needed, whole vectors are read
+  static constexpr int kImageRows = kFolded + kSplineTaps - 1;
+
+  void load(int cell_u, int cell_v) noexcept;
+
+  const cv::Mat* gray_ = nullptr;
+  const PointTemplate* point_ = nullptr;
+  int cell_u_ = 0, cell_v_ = 0;
+  bool is_loaded_ = false;
+  double passed_noise_ = 1.0;  // variance of white noise after the interpolation
+  alignas(64) std::array<std::int16_t, std::size_t{kImageRows} * kColumns> pixels_{};
+  alignas(64) PointTemplate::Factors window_{};
+};
+
+}  // namespace core

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "core/tracking/klt/interpolated_window.h"
+#include "core/types/vector2.h"
+
+namespace core {
+
+struct KltConfig {
+  int window_px = 21;  // side of what is compared, 5 ... 21
+  int max_iterations = 12;
+  double epsilon_px = 0.003;        // stop when a step is shorter, or half of what rounding to 8 bits does
+  double reach_px = 8.0;            // a point that is farther from its prediction is not looked for here
+  double least_correlation = 0.75;  // with the template, of what its noise lets one expect
+};
+
+// One point in one image.
+struct KltPoint {
+  Vector2 position;       // px
+  double sigma_px = 0.0;  // standard deviation per axis over images against one template (ARCHITECTURE.md)
+  double gain = 1.0;      // of the light, against the template
+  bool seen = false;
+};
+
+// Whether the patch about a point has texture in two directions, so that its place in other images can be told.
+[[nodiscard]] bool is_trackable(const cv::Mat& gray, const Vector2& point, int window_px);
+
+// Points of a keyframe in later images, each near its prediction: inverse-compositional Lucas-Kanade against a template
+// (point_template.h), always the keyframe's, never frame to frame, so errors do not add up to drift. The same bits on
+// every machine. After set_keyframe() nothing allocates. One thread.
+class KltTracker {
+ public:
+  explicit KltTracker(const KltConfig& config) : config_(config) {}
+
+  // Throws std::invalid_argument unless the image is 8-bit grey and not empty.
+  void set_keyframe(const cv::Mat& gray, const std::vector<Vector2>& points);
+  [[nodiscard]] std::size_t n_points() const noexcept { return points_.size(); }
+  [[nodiscard]] const PointTemplate& point_template(std::size_t i) const noexcept { return points_[i].pattern; }
+
+  // gray: 8-bit, of any size. Not seen: no texture, its window leaves the image, too far away, or it looks different.
+  [[nodiscard]] KltPoint find(const cv::Mat& gray, std::size_t i, const Vector2& predicted) noexcept;
+
+ private:
+  struct Point {
+    PointTemplate pattern;
+    Vector2 keyframe;  // as asked for; the pattern's middle is the pixel nearest to it
+    double u0 = 0.0, v0 = 0.0;
+    double gain = 1.0;  // when last seen
+    double least_correlation = 0.0;
+  };
+
+  void judge_texture(Point& point) const noexcept;
+
+  KltConfig config_;
+  std::vector<Point> points_;
+  InterpolatedWindow window_;
+};
+
+}  // namespace core

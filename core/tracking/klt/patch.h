@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <opencv2/core.hpp>
+
+#include "core/tracking/klt/quintic_spline.h"
+
+namespace core {
+
+// Sizes of the patches about a tracked point, px. Window: what is compared, at most. Folded: the window and what the
+// interpolation's prefilter reaches beyond it. Patch: what the interpolation needs for every position in a cell of one
+// pixel.
+inline constexpr int kWindowRadius = 10;
+inline constexpr int kWindow = 2 * kWindowRadius + 1;
+inline constexpr int kFoldedRadius = kWindowRadius + kPrefilterMargin;
+inline constexpr int kFolded = 2 * kFoldedRadius + 1;
+inline constexpr int kPatchRadius = kFoldedRadius + kSplineBefore + 1;
+inline constexpr int kPatch = 2 * kPatchRadius + 1;
+inline constexpr int kRow = 32;  // of folded windows in memory: whole vectors
+
+// Grey values, the point in the middle.
+using Patch = std::array<std::array<double, kPatch>, kPatch>;
+
+// Where the pixel at index `i` of a line of `n` is found; beyond the border as in a mirror.
+[[nodiscard]] inline int mirrored(int i, int n) noexcept {
+  if (n == 1) return 0;
+  const int period = 2 * (n - 1);
+  int k = i % period;
+  if (k < 0) k += period;
+  return k < n ? k : period - k;
+}
+
+// About the pixel (u, v).
+inline void cut_patch(const cv::Mat& gray, int u, int v, Patch& out) noexcept {
+  for (int y = 0; y < kPatch; ++y) {
+    const std::uint8_t* row = gray.ptr<std::uint8_t>(mirrored(v - kPatchRadius + y, gray.rows));
+    for (int x = 0; x < kPatch; ++x)
+      out[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] = row[mirrored(u - kPatchRadius + x, gray.cols)];
+  }
+}
+
+}  // namespace core

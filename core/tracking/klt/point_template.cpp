@@ -1,0 +1,247 @@
+#include "core/tracking/klt/point_template.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace core {
+
+namespace {
+
+constexpr std::array<double, 2 * kPrefilterMargin + 1> kPrefilter = spline_prefilter();
+
+// exp(-k^2 / (2 0.7^2)), k = 0 ... 3: the smoothing across, and, times k, the derivative along.
+constexpr std::array<double, 4> kGauss{1.0, 0.36044778859782, 0.01687989150494, 0.00010269492446};
+constexpr double kGaussSum = kGauss[0] + 2.0 * (kGauss[1] + kGauss[2] + kGauss[3]);
+constexpr double kSlopeSum = 2.0 * (kGauss[1] + 4.0 * kGauss[2] + 9.0 * kGauss[3]);
+
+// Sums over the folded window, of grey values in 128ths, stay within 32 bits, and each factor within 16.
+constexpr double kMostFactor = 32'000.0;
+constexpr double kMostSum = 2.1e9 / (255.0 * 128.0);
+
+// Weights of coefficients at a sample: those of spline_weights(0).
+constexpr std::array<double, 5> kAtSample{1.0 / 120.0, 26.0 / 120.0, 66.0 / 120.0, 26.0 / 120.0, 1.0 / 120.0};
+
+// Of a patch's variance: the rest of what looks like noise is fine texture.
+constexpr double kMostNoiseShare = 0.5;
+
+// Below this (smaller eigenvalue of the normal matrix, grey^2 a pixel) a patch has no second direction.
+constexpr double kLeastEigenvalue = 0.05;
+
+using Window = std::array<std::array<double, kWindow>, kWindow>;
+using Folded = std::array<std::array<double, kFolded>, kFolded>;
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+// out(y, x) = sum over taps at -radius ... radius of two filters, of a region of the patch about its middle.
+template <std::size_t kAcross, std::size_t kDown, class Out>
+void filter(const Patch& patch, const std::array<double, kAcross>& across, const std::array<double, kDown>& down,
+            int radius, Out& out) noexcept {
+  constexpr int kA = static_cast<int>(kAcross) / 2, kD = static_cast<int>(kDown) / 2;
+  std::array<std::array<double, kPatch>, kPatch> rows{};
+  for (int y = -radius - kD; y <= radius + kD; ++y) {
+    for (int x = -radius; x <= radius; ++x) {
+      double sum = 0.0;
+      for (int k = -kA; k <= kA; ++k)
+        sum += across[index(k + kA)] * patch[index(y + kPatchRadius)][index(x + k + kPatchRadius)];
+      rows[index(y + kPatchRadius)][index(x + radius)] = sum;
+    }
+  }
+  for (int y = -radius; y <= radius; ++y) {
+    for (int x = -radius; x <= radius; ++x) {
+      double sum = 0.0;
+      for (int k = -kD; k <= kD; ++k) sum += down[index(k + kD)] * rows[index(y + k + kPatchRadius)][index(x + radius)];
+      out[index(y + radius)][index(x + radius)] = sum;
+    }
+  }
+}
+
+constexpr std::array<double, 7> gaussian() {
+  std::array<double, 7> taps{};
+  for (int k = -3; k <= 3; ++k)
+    taps[static_cast<std::size_t>(k + 3)] = kGauss[static_cast<std::size_t>(k < 0 ? -k : k)] / kGaussSum;
+  return taps;
+}
+constexpr std::array<double, 7> gaussian_slope() {
+  std::array<double, 7> taps{};
+  for (int k = -3; k <= 3; ++k)
+    taps[static_cast<std::size_t>(k + 3)] = k * kGauss[static_cast<std::size_t>(k < 0 ? -k : k)] / kSlopeSum;
+  return taps;
+}
+// From samples to the spline's slope at a sample.
+constexpr std::array<double, 15> spline_slope() {
+  std::array<double, 15> taps{};
+  for (std::size_t i = 0; i < kPrefilter.size(); ++i)
+    for (std::size_t k = 0; k < kSplineSlope.size(); ++k) taps[i + k] += kPrefilter[i] * kSplineSlope[k];
+  return taps;
+}
+
+// Sum of the products of both gradients' taps: what white noise adds to H, a pixel.
+constexpr double noise_in_both() {
+  constexpr auto kSmooth = gaussian_slope();
+  constexpr auto kExact = spline_slope();
+  double sum = 0.0;
+  for (std::size_t k = 0; k < kSmooth.size(); ++k) sum += kSmooth[k] * kExact[k + 4];
+  return sum / kGaussSum;
+}
+constexpr double kNoiseInBoth = noise_in_both();
+constexpr double kLeastWithoutNoise =
+    0.6;  // what is taken for noise may be fine texture: steps stay shorter than twice the way
+
+template <class Function>
+void for_window(int radius, const Function& function) {
+  for (int y = kWindowRadius - radius; y <= kWindowRadius + radius; ++y)
+    for (int x = kWindowRadius - radius; x <= kWindowRadius + radius; ++x) function(index(y), index(x));
+}
+double area(int radius) { return static_cast<double>((2 * radius + 1) * (2 * radius + 1)); }
+
+// Takes out of `step` what the template (about its mean) and a constant explain.
+void make_orthogonal(Window& step, int radius, const Window& texture, double texture_square) {
+  double mean = 0.0, along = 0.0;
+  for_window(radius, [&](std::size_t y, std::size_t x) { mean += step[y][x], along += step[y][x] * texture[y][x]; });
+  mean /= area(radius);
+  for_window(radius,
+             [&](std::size_t y, std::size_t x) { step[y][x] -= mean + along / texture_square * texture[y][x]; });
+}
+
+// The window's factors, joined with the prefilter.
+void fold(const Window& step, Folded& out) {
+  std::array<std::array<double, kFolded>, kWindow> rows{};
+  for (int y = 0; y < kWindow; ++y)
+    for (int x = 0; x < kWindow; ++x)
+      for (std::size_t k = 0; k < kPrefilter.size(); ++k)
+        rows[index(y)][index(x) + k] += step[index(y)][index(x)] * kPrefilter[k];
+  out = {};
+  for (int y = 0; y < kWindow; ++y)
+    for (std::size_t k = 0; k < kPrefilter.size(); ++k)
+      for (std::size_t x = 0; x < kFolded; ++x) out[index(y) + k][x] += kPrefilter[k] * rows[index(y)][x];
+}
+
+double largest(const Folded& a) {
+  double most = 0.0;
+  for (const auto& row : a)
+    for (const double value : row) most = std::max(most, std::abs(value));
+  return most;
+}
+
+double sum_of_sizes(const Folded& a) {
+  double sum = 0.0;
+  for (const auto& row : a)
+    for (const double value : row) sum += std::abs(value);
+  return sum;
+}
+
+void round_to(const Folded& factors, double scale, PointTemplate::Factors& out) {
+  out.fill(0);
+  for (int y = 0; y < kFolded; ++y)
+    for (int x = 0; x < kFolded; ++x)
+      out[index(y * kRow + x)] = static_cast<std::int16_t>(std::lround(scale * factors[index(y)][index(x)]));
+}
+
+// The rounded sums at the template itself, so that rounding moves nothing. samples: the patch, interpolated at its
+// pixels.
+double sum_at_origin(const Folded& samples, const PointTemplate::Factors& step) {
+  double sum = 0.0;
+  for (int y = 0; y < kFolded; ++y)
+    for (int x = 0; x < kFolded; ++x) sum += step[index(y * kRow + x)] * samples[index(y)][index(x)];
+  return sum;
+}
+
+// The template as an interpolated window shows it.
+void keep_texture(const Folded& samples, PointTemplate& out) {
+  out.texture.fill(0);
+  out.mask.fill(0);
+  double sum = 0.0, square = 0.0;
+  constexpr double kUnit = 1 << kMatchBits;
+  for (int y = kFoldedRadius - out.radius; y <= kFoldedRadius + out.radius; ++y) {
+    for (int x = kFoldedRadius - out.radius; x <= kFoldedRadius + out.radius; ++x) {
+      const auto value = static_cast<std::int16_t>(std::lround(kUnit * (samples[index(y)][index(x)] - out.mean)));
+      out.texture[index(y * kRow + x)] = value;
+      out.mask[index(y * kRow + x)] = -1;
+      sum += value / kUnit, square += value / kUnit * (value / kUnit);
+    }
+  }
+  out.texture_mean = sum / area(out.radius);
+  out.texture_variance = square / area(out.radius) - out.texture_mean * out.texture_mean;
+}
+
+// From differences that a plane, and most of a smooth texture, does not have (Immerkaer 1996).
+double noise_variance(const Patch& patch, int radius) {
+  double sum = 0.0;
+  for (int y = kPatchRadius - radius; y <= kPatchRadius + radius; ++y) {
+    for (int x = kPatchRadius - radius; x <= kPatchRadius + radius; ++x) {
+      const auto at = [&](int dy, int dx) { return patch[index(y + dy)][index(x + dx)]; };
+      const double difference = at(-1, -1) + at(-1, 1) + at(1, -1) + at(1, 1) -
+                                2.0 * (at(-1, 0) + at(1, 0) + at(0, -1) + at(0, 1)) + 4.0 * at(0, 0);
+      sum += difference * difference;
+    }
+  }
+  return sum / (36.0 * area(radius));
+}
+
+}  // namespace
+
+void build_template(const Patch& patch, int radius, int n_averaged, PointTemplate& out) noexcept {
+  out.is_trackable = false;
+  out.n_averaged = n_averaged;
+  out.radius = radius;
+  constexpr std::array<double, 1> kSame{1.0};
+  Window texture{}, smooth_u{}, smooth_v{}, slope_u{}, slope_v{};
+  filter(patch, kSame, kSame, kWindowRadius, texture);
+  filter(patch, gaussian_slope(), gaussian(), kWindowRadius, smooth_u);
+  filter(patch, gaussian(), gaussian_slope(), kWindowRadius, smooth_v);
+  filter(patch, spline_slope(), kSame, kWindowRadius, slope_u);
+  filter(patch, kSame, spline_slope(), kWindowRadius, slope_v);
+
+  double mean = 0.0, square = 0.0;
+  for_window(radius, [&](std::size_t y, std::size_t x) { mean += texture[y][x]; });
+  mean /= area(radius);
+  for_window(radius,
+             [&](std::size_t y, std::size_t x) { texture[y][x] -= mean, square += texture[y][x] * texture[y][x]; });
+  out.mean = mean;
+  out.variance = square / area(radius);
+  if (n_averaged == 1) out.noise = noise_variance(patch, radius);
+  if (!(square > 0.0)) return;
+  make_orthogonal(smooth_u, radius, texture, square);
+  make_orthogonal(smooth_v, radius, texture, square);
+
+  double uu = 0.0, uv = 0.0, vu = 0.0, vv = 0.0;
+  for_window(radius, [&](std::size_t y, std::size_t x) {
+    uu += smooth_u[y][x] * slope_u[y][x], uv += smooth_u[y][x] * slope_v[y][x];
+    vu += smooth_v[y][x] * slope_u[y][x], vv += smooth_v[y][x] * slope_v[y][x];
+  });
+  // The template's own noise is in both gradients: without it, steps would be too short by as much.
+  const double own = area(radius) * kNoiseInBoth * std::min(out.noise, kMostNoiseShare * out.variance) / n_averaged;
+  uu = std::max(kLeastWithoutNoise * uu, uu - own), vv = std::max(kLeastWithoutNoise * vv, vv - own);
+  const double determinant = uu * vv - uv * vu;
+  const double trace = uu + vv;
+  const double least = 0.5 * (trace - std::sqrt(std::max(0.0, trace * trace - 4.0 * determinant)));
+  if (!(least > kLeastEigenvalue * area(radius))) return;
+
+  Window step_u{}, step_v{};
+  double var_u = 0.0, var_v = 0.0, cov = 0.0;
+  for_window(radius, [&](std::size_t y, std::size_t x) {
+    step_u[y][x] = (vv * smooth_u[y][x] - uv * smooth_v[y][x]) / determinant;
+    step_v[y][x] = (uu * smooth_v[y][x] - vu * smooth_u[y][x]) / determinant;
+    var_u += step_u[y][x] * step_u[y][x], var_v += step_v[y][x] * step_v[y][x], cov += step_u[y][x] * step_v[y][x];
+  });
+  out.variance_u = var_u, out.variance_v = var_v, out.covariance = cov;
+
+  Folded folded_u, folded_v;
+  fold(step_u, folded_u);
+  fold(step_v, folded_v);
+  const double scale = std::min(kMostFactor / std::max(largest(folded_u), largest(folded_v)),
+                                kMostSum / std::max(sum_of_sizes(folded_u), sum_of_sizes(folded_v)));
+  round_to(folded_u, scale, out.step_u);
+  round_to(folded_v, scale, out.step_v);
+  out.px_per_unit = 1.0 / scale;
+  Folded samples;
+  filter(patch, kAtSample, kAtSample, kFoldedRadius, samples);
+  out.origin_u = sum_at_origin(samples, out.step_u);
+  out.origin_v = sum_at_origin(samples, out.step_v);
+
+  keep_texture(samples, out);
+  out.is_trackable = true;
+}
+
+}  // namespace core

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/tracking/klt/patch.h"
+
+namespace core {
+
+// Fixed point, bits after the point: of interpolated grey values, and of those that are compared with the template.
+inline constexpr int kGreyBits = 7, kMatchBits = 3;
+
+// What a tracked point looks like, prepared so that a step towards it is linear in the raw image (inverse-compositional
+// Lucas-Kanade, Baker & Matthews 2004): step(p) = sum_x S(x) I(x + p). I(x + p) is interpolated by quintic splines
+// whose prefilter is folded into S once, so the image is never filtered. S is orthogonal to the template and to a
+// constant: gain and offset of the light move nothing. H = sum g_smooth g^T joins a gradient that noise disturbs little
+// (Gaussian derivative, 0.7 px) to the exact one, so that steps have the right length for fine texture too.
+struct PointTemplate {
+  using Factors = std::array<std::int16_t, std::size_t{kFolded} * kRow>;  // rows of the folded window
+
+  alignas(64) Factors step_u{}, step_v{};
+  alignas(64) Factors texture{};  // the spline's weights over the template, about its mean; 0 outside the window
+  alignas(64) Factors mask{};     // -1 in the window
+  int radius = kWindowRadius;     // of the window that is compared
+  double px_per_unit = 0.0;       // of the integer sums
+  double origin_u = 0.0, origin_v = 0.0;                        // the sums at the template itself, units
+  double mean = 0.0, variance = 0.0;                            // of the window's grey values
+  double texture_mean = 0.0, texture_variance = 0.0;            // of `texture`, grey and grey^2
+  double variance_u = 0.0, variance_v = 0.0, covariance = 0.0;  // px^2 for white noise of variance 1 in the image
+  double noise = 0.0;         // variance of an image's noise, at most: fine texture counts as noise
+  int n_averaged = 1;         // images in it
+  bool is_trackable = false;  // texture in two directions
+};
+
+// `patch`: of one image, or the mean of n_averaged. radius: 2 ... kWindowRadius.
+void build_template(const Patch& patch, int radius, int n_averaged, PointTemplate& out) noexcept;
+
+}  // namespace core

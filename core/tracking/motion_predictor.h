@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+
+#include "core/types/vector2.h"
+
+namespace core {
+
+// By how much a region moves from one frame to the next, from how it moved: the best so far, by axis, of "stays", "goes
+// on" and an autoregression of the steps (a sinusoid is one of order two). "Goes on" is worse than "stays" for motion
+// above a sixth of the frame rate. Fixed memory; no allocation.
+class MotionPredictor {
+ public:
+  // position: in this frame, px. after_gap: frames are missing before it, the steps across say nothing.
+  void update(const Vector2& position, bool after_gap) noexcept;
+  void forget() noexcept { *this = MotionPredictor(); }
+  [[nodiscard]] Vector2 step() const noexcept { return {u_.step(), v_.step()}; }
+
+ private:
+  class Axis {
+   public:
+    void update(double x) noexcept;
+    void forget_steps() noexcept { n_seen_ = 0; }
+    [[nodiscard]] double step() const noexcept;
+
+   private:
+    enum Rule { kStays, kGoesOn, kAutoregression, kRules };
+    void predict() noexcept;
+
+    double last_ = 0.0;
+    std::array<double, 2> steps_{};                              // newest first
+    std::array<double, kRules> predicted_{};                     // of the next step
+    std::array<double, kRules> mean_square_{};                   // of their errors
+    double aa_ = 0.0, ab_ = 0.0, bb_ = 0.0, a_ = 0.0, b_ = 0.0;  // normal equations of the autoregression
+    int n_seen_ = 0;                                             // positions in a row, at most 4
+  };
+  Axis u_, v_;
+};
+
+}  // namespace core

@@ -1,0 +1,160 @@
+#include "core/tracking/point_finder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace core {
+
+namespace {
+
+constexpr double kNoticeable_px = 1.0;  // a shorter way brings nothing that the prediction did not
+constexpr double kAgreeing_px = 3.0;    // points of one region, about their median
+constexpr double kUnusual = 5.0;        // times the usual sigma: another edge that looks alike
+constexpr double kLearning = 0.05;      // of the usual sigma, a frame
+constexpr int kSearchesPerFrame = 3;    // whole regions: about a millisecond each
+
+double median_of(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+PointFinder::PointFinder(const PointFinderConfig& config, const cv::Mat& image, const std::vector<Vector2>& keyframe,
+                         const std::vector<std::uint16_t>& region_of_point, std::size_t n_regions)
+    : config_(config), klt_(config.klt), keyframe_(keyframe) {
+  klt_.set_keyframe(image, keyframe);
+  std::size_t first = 0, most = 0;
+  for (std::size_t r = 0; r < n_regions; ++r) {
+    std::size_t end = first;
+    while (end < keyframe.size() && region_of_point[end] == r) ++end;
+    const auto begin = keyframe.begin();
+    regions_.push_back(
+        {first, end - first,
+         RegionSearch(image, {begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(end)},
+                      config.search_px)});
+    most = std::max(most, end - first);
+    first = end;
+  }
+  found_.resize(keyframe.size());
+  usual_sigma_px_.resize(keyframe.size());
+  best_.resize(most);
+  scratch_u_.reserve(most);
+  scratch_v_.reserve(most);
+}
+
+void PointFinder::find(const cv::Mat& gray, const RegionFollower& expected) noexcept {
+  const std::size_t n = regions_.size(), begin = next_search_;
+  Vector2 surprise;  // the greatest of a region that is found
+  for (std::size_t r = 0; r < n; ++r) {
+    look(gray, regions_[r], expected, {});
+    const Look first = judge(regions_[r]);
+    if (!is_good(regions_[r], first)) continue;
+    look_for_rest(gray, regions_[r], first);
+    const Vector2 motion = expected.expected_motion(r), off{first.motion.u - motion.u, first.motion.v - motion.v};
+    if (std::hypot(off.u, off.v) > std::hypot(surprise.u, surprise.v)) surprise = off;
+  }
+  int n_searches = kSearchesPerFrame;
+  Vector2 other_motion;  // of the region found last
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t r = (begin + k) % n;
+    const Region& region = regions_[r];
+    Look best = judge(region);
+    if (region.n == 0 || is_good(region, best)) continue;
+    const Vector2 motion = expected.expected_motion(r);
+    const auto to = [&](const Vector2& where) { return Vector2{where.u - motion.u, where.v - motion.v}; };
+    bool is_found = false;
+    for (const Vector2& shift : {surprise, to(expected.last_motion(r)), to(other_motion)})
+      is_found = is_found || improves(gray, region, expected, shift, best);
+    if (!is_found && n_searches > 0) {
+      --n_searches;
+      next_search_ = r + 1;
+      const RegionSearch::Found place = regions_[r].search.find(gray, motion);
+      is_found = place.is_clear && improves(gray, region, expected, to(place.motion), best);
+    }
+    if (!is_found) continue;
+    look_for_rest(gray, region, best);
+    surprise = to(best.motion), other_motion = best.motion;
+  }
+}
+
+void PointFinder::look(const cv::Mat& gray, const Region& region, const RegionFollower& expected,
+                       const Vector2& shift) noexcept {
+  for (std::size_t i = region.first; i < region.first + region.n; ++i) {
+    const Vector2& at = expected.expected(i);
+    found_[i] = klt_.find(gray, i, {at.u + shift.u, at.v + shift.v});
+  }
+}
+
+// Looks at the shifted place and keeps the better look of a region. True: good.
+bool PointFinder::improves(const cv::Mat& gray, const Region& region, const RegionFollower& expected,
+                           const Vector2& shift, Look& best) noexcept {
+  if (std::hypot(shift.u, shift.v) < kNoticeable_px) return false;
+  const auto first = found_.begin() + static_cast<std::ptrdiff_t>(region.first);
+  const auto end = first + static_cast<std::ptrdiff_t>(region.n);
+  std::copy(first, end, best_.begin());
+  look(gray, region, expected, shift);
+  const Look here = judge(region);
+  if (here.is_better_than(best))
+    best = here;
+  else
+    std::copy(best_.begin(), best_.begin() + static_cast<std::ptrdiff_t>(region.n), first);
+  return is_good(region, best);
+}
+
+Vector2 PointFinder::median_motion(const Region& region) noexcept {
+  scratch_u_.clear();
+  scratch_v_.clear();
+  for (std::size_t i = region.first; i < region.first + region.n; ++i) {
+    if (!found_[i].seen) continue;
+    scratch_u_.push_back(found_[i].position.u - keyframe_[i].u);
+    scratch_v_.push_back(found_[i].position.v - keyframe_[i].v);
+  }
+  if (scratch_u_.empty()) return {};
+  return {median_of(scratch_u_), median_of(scratch_v_)};
+}
+
+PointFinder::Look PointFinder::judge(const Region& region) noexcept {
+  Look look;
+  look.motion = median_motion(region);
+  for (std::size_t i = region.first; i < region.first + region.n; ++i) {
+    const KltPoint& point = found_[i];
+    if (!point.seen || std::abs(point.position.u - keyframe_[i].u - look.motion.u) > kAgreeing_px ||
+        std::abs(point.position.v - keyframe_[i].v - look.motion.v) > kAgreeing_px)
+      continue;
+    ++look.n_agreeing;
+    look.n_convincing += usual_sigma_px_[i] == 0.0 || point.sigma_px < kUnusual * usual_sigma_px_[i] ? 1 : 0;
+  }
+  return look;
+}
+
+// A third of the points is enough where the rest is hidden.
+bool PointFinder::is_good(const Region& region, const Look& look) const noexcept {
+  return look.n_agreeing >= config_.min_points && 3 * look.n_agreeing >= static_cast<int>(region.n) &&
+         2 * look.n_convincing > look.n_agreeing;
+}
+
+// Points that are elsewhere than the others, once more where these went; what is found elsewhere again is not it.
+void PointFinder::look_for_rest(const cv::Mat& gray, const Region& region, const Look& look) noexcept {
+  for (std::size_t i = region.first; i < region.first + region.n; ++i) {
+    const Vector2 place{keyframe_[i].u + look.motion.u, keyframe_[i].v + look.motion.v};
+    const auto off = [&](const KltPoint& point) {
+      return std::hypot(point.position.u - place.u, point.position.v - place.v);
+    };
+    if (found_[i].seen && off(found_[i]) < 2.0 * kAgreeing_px) continue;
+    if (!found_[i].seen && off(found_[i]) < kNoticeable_px) continue;
+    const KltPoint again = klt_.find(gray, i, place);
+    if (again.seen) found_[i] = again;
+  }
+}
+
+void PointFinder::learn(const TrackFrame& judged) noexcept {
+  for (std::size_t i = 0; i < usual_sigma_px_.size() && i < judged.points.size(); ++i) {
+    if (!judged.points[i].inlier || !(found_[i].sigma_px > 0.0)) continue;
+    double& usual = usual_sigma_px_[i];
+    usual = usual == 0.0 ? found_[i].sigma_px : usual + kLearning * (found_[i].sigma_px - usual);
+  }
+}
+
+}  // namespace core

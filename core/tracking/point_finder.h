@@ -1,0 +1,68 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <span>
+#include <vector>
+
+#include "core/tracking/klt/klt_tracker.h"
+#include "core/tracking/region_follower.h"
+#include "core/tracking/region_search.h"
+#include "core/types/track.h"
+
+namespace core {
+
+struct PointFinderConfig {
+  KltConfig klt;
+  int min_points = 3;        // a region with fewer is not measured
+  double search_px = 200.0;  // how far a region that is not where it was expected is searched for
+};
+
+// All points of all regions in one image. First where each is expected; where the points of a region then do not agree
+// with one another, or look less like themselves than they use to, the region was expected in the wrong place: it is
+// looked for where it was last, where the others' surprise would put it, and, in a few regions a frame, as a whole
+// (region_search.h). The place that convinces most points counts. Nothing allocates after construction. One thread.
+class PointFinder {
+ public:
+  // keyframe: where the points are in that image; those of a region follow one another.
+  PointFinder(const PointFinderConfig& config, const cv::Mat& image, const std::vector<Vector2>& keyframe,
+              const std::vector<std::uint16_t>& region_of_point, std::size_t n_regions);
+
+  void find(const cv::Mat& gray, const RegionFollower& expected) noexcept;
+  // The same frame after outlier rejection: how the inliers use to look.
+  void learn(const TrackFrame& judged) noexcept;
+
+  [[nodiscard]] const std::vector<KltPoint>& points() const noexcept { return found_; }
+
+ private:
+  struct Region {
+    std::size_t first = 0, n = 0;  // of the points
+    RegionSearch search;
+  };
+  // How a region's points look: more of either is better, the first first.
+  struct Look {
+    int n_convincing = 0, n_agreeing = 0;
+    Vector2 motion;  // the median
+    [[nodiscard]] bool is_better_than(const Look& other) const noexcept {
+      return n_convincing != other.n_convincing ? n_convincing > other.n_convincing : n_agreeing > other.n_agreeing;
+    }
+  };
+
+  void look(const cv::Mat& gray, const Region& region, const RegionFollower& expected, const Vector2& shift) noexcept;
+  [[nodiscard]] Look judge(const Region& region) noexcept;
+  [[nodiscard]] bool is_good(const Region& region, const Look& look) const noexcept;
+  void look_for_rest(const cv::Mat& gray, const Region& region, const Look& look) noexcept;
+  [[nodiscard]] bool improves(const cv::Mat& gray, const Region& region, const RegionFollower& expected,
+                              const Vector2& shift, Look& best) noexcept;
+  [[nodiscard]] Vector2 median_motion(const Region& region) noexcept;
+
+  PointFinderConfig config_;
+  KltTracker klt_;
+  std::vector<Vector2> keyframe_;
+  std::vector<Region> regions_;
+  std::vector<KltPoint> found_, best_;
+  std::vector<double> usual_sigma_px_;  // 0: not known yet
+  std::vector<double> scratch_u_, scratch_v_;
+  std::size_t next_search_ = 0;  // regions take turns
+};
+
+}  // namespace core

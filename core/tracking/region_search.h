@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "core/types/vector2.h"
+
+namespace core {
+
+// Where a whole region went when its points are no longer near where they were expected: its picture in the keyframe,
+// made eight times coarser (four, if it is small), against the image about the expected place by normalised
+// correlation, then less and less coarse about the best place. As the whole region counts, one of a row of equal dots
+// is not taken for another; of places that look alike, the one nearest to the expected place is taken if it is clearly
+// the nearest. A translation, to a px or two. Buffers are made in the constructor; find() allocates nothing. One
+// thread.
+class RegionSearch {
+ public:
+  // points: of the region, in the keyframe (8-bit grey). reach_px: how far from the expected place.
+  RegionSearch(const cv::Mat& keyframe, const std::vector<Vector2>& points, double reach_px);
+
+  struct Found {
+    Vector2 motion;            // since the keyframe
+    double correlation = 0.0;  // of the finest pictures, -1 ... 1
+    bool is_clear = false;     // high, and no other place is as good and about as near
+  };
+  [[nodiscard]] Found find(const cv::Mat& gray, const Vector2& expected_motion) noexcept;
+
+ private:
+  static constexpr std::array<int, 3> kScales{8, 4, 2};
+
+  // Mean grey values of squares of `scale` px.
+  struct Picture {
+    int scale = 0, width = 0, height = 0;
+    std::vector<float> cells;
+  };
+  static void reduce(const cv::Mat& gray, int left, int top, Picture& out) noexcept;
+  // A place for the pattern: px since the keyframe.
+  struct Place {
+    int du = 0, dv = 0;
+    double correlation = -1.0;
+  };
+  void correlate(const Picture& pattern, const Picture& area) noexcept;
+  void list_peaks(const Place& about) noexcept;
+  [[nodiscard]] Place refine(const cv::Mat& gray, Place place) noexcept;
+  [[nodiscard]] Found choose(const Vector2& expected_motion) const noexcept;
+  [[nodiscard]] double at(int u, int v) const noexcept { return correlations_[static_cast<std::size_t>(v * n_u_ + u)]; }
+
+  int left_ = 0, top_ = 0;  // of the pattern in the keyframe
+  std::array<Picture, kScales.size()> patterns_, areas_;
+  std::size_t first_ = 0;  // of the scales that is used
+  int n_u_ = 0, n_v_ = 0;
+  std::vector<double> correlations_;  // at all offsets of the last correlate()
+  static constexpr std::size_t kMostPlaces = 8;
+  std::array<Place, kMostPlaces> places_;
+  std::size_t n_places_ = 0;
+};
+
+}  // namespace core

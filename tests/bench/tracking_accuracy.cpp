@@ -1,0 +1,247 @@
+// Accuracy of the point tracker beside the Cramer-Rao bound and OpenCV, over texture that is evaluated where a pixel
+// looks, never interpolated. Lines of tab-separated values:
+//   bound  CYCLES_PER_PX  NOISE  CONTRAST  GRADIENT/NOISE  OURS/BOUND  OPENCV/BOUND  STATED/SCATTER  LOST  POINTS
+//   bias   CYCLES_PER_PX  OURS_PX  OPENCV_PX       largest mean error over the fractions of a pixel, noise-free
+//   drift  OURS_FIRST  OURS_LAST  OPENCV_FIRST  OPENCV_LAST    rms px of the first and the last tenth
+//   tracking_accuracy bound|bias|drift [FRAMES] [SEED]
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+#include <opencv2/video/tracking.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "core/tracking/klt/klt_tracker.h"
+
+namespace {
+
+constexpr int kWidth = 420, kHeight = 320, kBorder = 40, kApart = 30;
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+
+// 200 plane waves, frequencies evenly over a disk.
+class Texture {
+ public:
+  Texture(unsigned seed, double most_cycles_per_px, double contrast) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    constexpr int kWaves = 200;
+    for (int i = 0; i < kWaves; ++i) {
+      const double f = kTwoPi * most_cycles_per_px * std::sqrt(unit(random)), angle = kTwoPi * unit(random);
+      waves_.push_back({f * std::cos(angle), f * std::sin(angle), kTwoPi * unit(random)});
+    }
+    amplitude_ = contrast * std::sqrt(2.0 / kWaves);
+  }
+  struct Value {
+    double grey = 0.0, slope_u = 0.0, slope_v = 0.0;
+  };
+  [[nodiscard]] Value at(double u, double v) const {
+    Value out;
+    for (const Wave& w : waves_) {
+      const double phase = w.ku * u + w.kv * v + w.phase, slope = amplitude_ * std::cos(phase);
+      out.grey += amplitude_ * std::sin(phase);
+      out.slope_u += slope * w.ku, out.slope_v += slope * w.kv;
+    }
+    return out;
+  }
+  // Moved by (du, dv), with white noise, rounded to 8 bits.
+  [[nodiscard]] cv::Mat image(double du, double dv, double noise, unsigned seed) const {
+    std::vector<double> grey(std::size_t{kWidth} * kHeight, 128.0);
+    for (const Wave& w : waves_) {
+      const double turn_re = std::cos(w.ku), turn_im = std::sin(w.ku);
+      for (int v = 0; v < kHeight; ++v) {
+        const double phase = w.kv * (v - dv) + w.phase - w.ku * du;
+        double re = std::cos(phase), im = std::sin(phase);
+        for (int u = 0; u < kWidth; ++u) {
+          grey[static_cast<std::size_t>(v * kWidth + u)] += amplitude_ * im;
+          const double next = re * turn_re - im * turn_im;
+          im = im * turn_re + re * turn_im, re = next;
+        }
+      }
+    }
+    cv::Mat out(kHeight, kWidth, CV_8UC1);
+    std::mt19937 random(seed);
+    std::normal_distribution<double> gaussian(0.0, 1.0);
+    for (std::size_t i = 0; i < grey.size(); ++i)
+      out.data[i] = cv::saturate_cast<std::uint8_t>(grey[i] + (noise > 0.0 ? noise * gaussian(random) : 0.0));
+    return out;
+  }
+
+ private:
+  struct Wave {
+    double ku, kv, phase;
+  };
+  std::vector<Wave> waves_;
+  double amplitude_ = 0.0;
+};
+
+std::vector<core::Vector2> grid() {
+  std::vector<core::Vector2> points;
+  for (int v = kBorder; v < kHeight - kBorder; v += kApart)
+    for (int u = kBorder; u < kWidth - kBorder; u += kApart)
+      points.push_back({static_cast<double>(u), static_cast<double>(v)});
+  return points;
+}
+
+// Mean variance of the axes that white noise allows when shift, gain and offset are unknown, noise-free template.
+double bound_px2(const Texture& texture, const core::Vector2& point, double noise) {
+  std::array<std::array<double, 4>, 4> a{};
+  for (int y = -core::kWindowRadius; y <= core::kWindowRadius; ++y) {
+    for (int x = -core::kWindowRadius; x <= core::kWindowRadius; ++x) {
+      const Texture::Value t = texture.at(point.u + x, point.v + y);
+      const std::array<double, 4> row{t.slope_u, t.slope_v, t.grey, 1.0};
+      for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t j = 0; j < 4; ++j) a[i][j] += row[i] * row[j];
+    }
+  }
+  for (std::size_t k = 3; k >= 2; --k)  // eliminates offset, then gain
+    for (std::size_t i = 0; i < k; ++i)
+      for (std::size_t j = 0; j < k; ++j) a[i][j] -= a[i][k] * a[k][j] / a[k][k];
+  return (noise * noise + 1.0 / 12.0) * 0.5 * (a[0][0] + a[1][1]) / (a[0][0] * a[1][1] - a[0][1] * a[1][0]);
+}
+
+struct Error {
+  double u = 0.0, v = 0.0;
+  bool seen = false;
+};
+
+// Ours and OpenCV's of all points in an image moved by (du, dv). OpenCV: as many iterations as help, one level above.
+std::array<std::vector<Error>, 2> errors(core::KltTracker& tracker, const cv::Mat& keyframe, const cv::Mat& image,
+                                         const std::vector<core::Vector2>& points, double du, double dv,
+                                         std::vector<double>* stated = nullptr) {
+  std::array<std::vector<Error>, 2> out;
+  std::vector<cv::Point2f> from, to;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const core::Vector2 start{points[i].u + std::round(du), points[i].v + std::round(dv)};
+    const core::KltPoint found = tracker.find(image, i, start);
+    out[0].push_back({found.position.u - points[i].u - du, found.position.v - points[i].v - dv, found.seen});
+    if (stated != nullptr) stated->push_back(found.sigma_px);
+    from.emplace_back(static_cast<float>(points[i].u), static_cast<float>(points[i].v));
+    to.emplace_back(static_cast<float>(start.u), static_cast<float>(start.v));
+  }
+  std::vector<unsigned char> status;
+  std::vector<float> residual;
+  cv::calcOpticalFlowPyrLK(keyframe, image, from, to, status, residual, {core::kWindow, core::kWindow}, 1,
+                           {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 20, 0.001}, cv::OPTFLOW_USE_INITIAL_FLOW);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    out[1].push_back({static_cast<double>(to[i].x) - points[i].u - du, static_cast<double>(to[i].y) - points[i].v - dv,
+                      status[i] != 0});
+  return out;
+}
+
+struct Scatter {
+  double square = 0.0, u = 0.0, v = 0.0;
+  int n = 0;
+  void add(const Error& e) { square += e.u * e.u + e.v * e.v, u += e.u, v += e.v, ++n; }
+  // Sum over the images of the mean square of both axes about the point's own mean.
+  [[nodiscard]] double about_mean() const { return n > 1 ? 0.5 * (square - (u * u + v * v) / n) * n / (n - 1.0) : 0.0; }
+};
+
+void print_bound(int n_images, unsigned seed) {
+  const std::vector<core::Vector2> points = grid();
+  for (const double cycles : {0.05, 0.1, 0.2, 0.3, 0.35}) {
+    for (const double contrast : {10.0, 20.0, 30.0}) {
+      for (const double noise : {1.0, 2.0, 4.0}) {
+        const Texture texture(seed, cycles, contrast);
+        const cv::Mat keyframe = texture.image(0.0, 0.0, noise, seed + 1);
+        core::KltTracker tracker{core::KltConfig{}};
+        tracker.set_keyframe(keyframe, points);
+        std::array<std::vector<Scatter>, 2> scatter;
+        for (auto& s : scatter) s.resize(points.size());
+        std::vector<double> stated2(points.size());
+        int n_lost = 0;
+        for (int k = 0; k < n_images; ++k) {
+          const double du = 0.083 * k - 0.4, dv = 0.31 - 0.071 * k;
+          std::vector<double> stated;
+          const auto e = errors(tracker, keyframe, texture.image(du, dv, noise, seed + 100U + static_cast<unsigned>(k)),
+                                points, du, dv, &stated);
+          for (std::size_t i = 0; i < points.size(); ++i) {
+            if (!e[0][i].seen) {
+              ++n_lost;
+              continue;
+            }
+            stated2[i] += stated[i] * stated[i];
+            for (std::size_t which : {0U, 1U}) scatter[which][i].add(e[which][i]);
+          }
+        }
+        double bound = 0.0, ours = 0.0, theirs = 0.0, told = 0.0, slope = 0.0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+          bound += scatter[0][i].n * bound_px2(texture, points[i], noise);
+          ours += scatter[0][i].about_mean(), theirs += scatter[1][i].about_mean(), told += stated2[i];
+          const Texture::Value t = texture.at(points[i].u, points[i].v);
+          slope += 0.5 * (t.slope_u * t.slope_u + t.slope_v * t.slope_v) / static_cast<double>(points.size());
+        }
+        std::printf("bound\t%g\t%g\t%g\t%.2f\t%.3f\t%.3f\t%.3f\t%d\t%zu\n", cycles, noise, contrast,
+                    std::sqrt(slope) / noise, std::sqrt(ours / bound), std::sqrt(theirs / bound),
+                    std::sqrt(told / ours), n_lost, points.size() * static_cast<std::size_t>(n_images));
+        std::fflush(stdout);
+      }
+    }
+  }
+}
+
+// Contrast high and no noise: the mean over points of the error along its sign at each fraction is the tracker's own.
+void print_bias(unsigned seed) {
+  const std::vector<core::Vector2> points = grid();
+  for (const double cycles : {0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35}) {
+    const Texture texture(seed, cycles, 35.0);
+    const cv::Mat keyframe = texture.image(0.0, 0.0, 0.0, 1);
+    core::KltTracker tracker{core::KltConfig{}};
+    tracker.set_keyframe(keyframe, points);
+    std::array<double, 2> worst{};
+    for (int k = 1; k < 20; ++k) {
+      const double du = 0.05 * k;
+      const auto e = errors(tracker, keyframe, texture.image(du, du, 0.0, 1), points, du, du);
+      for (std::size_t which : {0U, 1U}) {
+        double mean = 0.0;
+        for (const Error& error : e[which]) mean += 0.5 * (error.u + error.v) / static_cast<double>(points.size());
+        worst[which] = std::max(worst[which], std::abs(mean));
+      }
+    }
+    std::printf("bias\t%g\t%.5f\t%.5f\n", cycles, worst[0], worst[1]);
+  }
+}
+
+void print_drift(int n_images, unsigned seed) {
+  const std::vector<core::Vector2> points = grid();
+  const Texture texture(seed, 0.15, 20.0);
+  const cv::Mat keyframe = texture.image(0.0, 0.0, 1.0, 1);
+  core::KltTracker tracker{core::KltConfig{}};
+  tracker.set_keyframe(keyframe, points);
+  std::array<std::array<Scatter, 2>, 2> tenths;
+  for (int k = 0; k < n_images; ++k) {
+    const bool is_first = k < n_images / 10, is_last = k >= n_images - n_images / 10;
+    if (!is_first && !is_last) continue;  // each image against the keyframe: those between change nothing
+    const double du = 2.1 * std::sin(kTwoPi * 1.66 * k / 30.0) + 0.7 * std::sin(kTwoPi * 5.04 * k / 30.0);
+    const auto e =
+        errors(tracker, keyframe, texture.image(du, 0.3 * du, 1.0, static_cast<unsigned>(k) + 2), points, du, 0.3 * du);
+    for (std::size_t which : {0U, 1U})
+      for (const Error& error : e[which])
+        if (error.seen) tenths[which][is_last ? 1U : 0U].add(error);
+  }
+  const auto rms = [](const Scatter& s) { return std::sqrt(0.5 * s.square / std::max(1, s.n)); };
+  std::printf("drift\t%.5f\t%.5f\t%.5f\t%.5f\n", rms(tenths[0][0]), rms(tenths[0][1]), rms(tenths[1][0]),
+              rms(tenths[1][1]));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cv::setNumThreads(1);
+  const std::string what = argc > 1 ? argv[1] : "";
+  const int n_images = argc > 2 ? std::atoi(argv[2]) : 12;
+  const auto seed = static_cast<unsigned>(argc > 3 ? std::atoi(argv[3]) : 1);
+  if (what == "bound")
+    print_bound(n_images, seed);
+  else if (what == "bias")
+    print_bias(seed);
+  else if (what == "drift")
+    print_drift(n_images, seed);
+  else {
+    std::fprintf(stderr, "usage: tracking_accuracy bound|bias|drift [FRAMES] [SEED]\n");
+    return 2;
+  }
+}

@@ -1,0 +1,178 @@
+// Time of the point tracker beside OpenCV's, one thread, same frames and points: 180 points in six regions. Medians and
+// minima over the rounds, microseconds. Lines of "what <TAB> ours <TAB> opencv <TAB> ratio":
+//   frame 1080p | 4K   ours: all points from their predictions; OpenCV: pyramid of each region's tight sub-image, once
+//   a
+//                      frame, the keyframe's kept, four levels, from the same starts
+//   point              of it, a point, without the pyramid
+//   kernel             the same start, one level
+//   fall-back          a frame in which every region jumped by 60 px, ours only
+//   tracking_speed [ROUNDS]         or   tracking_speed 0 FRAMES: ours only, prints nothing
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+#include <string>
+#include <vector>
+
+#include "core/tracking/point_finder.h"
+
+namespace {
+
+constexpr int kRegions = 6, kPerRegion = 30;
+constexpr int kJump_px = 60;
+
+// Smoothed noise at twice the resolution: every second pixel of it is an image, and the pixels between are the image
+// half a pixel further, so nothing is interpolated.
+cv::Mat fine_texture(int width, int height) {
+  cv::Mat out(2 * height, 2 * width, CV_8UC1);
+  cv::RNG random(7);
+  random.fill(out, cv::RNG::UNIFORM, 0, 255);
+  cv::GaussianBlur(out, out, {0, 0}, 3.0);
+  cv::normalize(out, out, 20, 235, cv::NORM_MINMAX);
+  return out;
+}
+
+// Moved by so many half pixels; beyond the border as in a mirror.
+cv::Mat moved(const cv::Mat& fine, int half_u, int half_v) {
+  cv::Mat out(fine.rows / 2, fine.cols / 2, CV_8UC1);
+  for (int v = 0; v < out.rows; ++v)
+    for (int u = 0; u < out.cols; ++u)
+      out.at<std::uint8_t>(v, u) =
+          fine.at<std::uint8_t>(core::mirrored(2 * v - half_v, fine.rows), core::mirrored(2 * u - half_u, fine.cols));
+  return out;
+}
+
+struct Scene {
+  cv::Mat keyframe, frame, jumped;
+  std::vector<core::Vector2> points;
+  std::vector<std::uint16_t> region;
+  std::vector<cv::Rect> boxes;
+};
+
+Scene scene(int width, int height) {
+  Scene s;
+  const cv::Mat fine = fine_texture(width, height);
+  s.keyframe = moved(fine, 0, 0);
+  s.frame = moved(fine, 1, -1);
+  s.jumped = moved(fine, 2 * kJump_px, 0);
+  for (int r = 0; r < kRegions; ++r) {
+    const int top = height * (r + 1) / (kRegions + 1) - 30, left = width / 2 - 100;
+    s.boxes.emplace_back(left - 40, top - 40, 280, 140);
+    for (int k = 0; k < kPerRegion; ++k) {
+      s.points.push_back({left + 20.0 * (k % 10), top + 20.0 * (k / 10)});
+      s.region.push_back(static_cast<std::uint16_t>(r));
+    }
+  }
+  return s;
+}
+
+struct Time {
+  double median = 0.0, least = 0.0;
+};
+Time time_us(int n, const std::function<void()>& work) {
+  std::vector<double> all;
+  for (int k = 0; k < n; ++k) {
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    all.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());
+  }
+  std::sort(all.begin(), all.end());
+  return {all[all.size() / 2], all.front()};
+}
+
+void print(const char* what, const Time& ours, const Time& theirs, double n = 1.0) {
+  std::printf("%s\t%.2f\t%.2f\t%.2f\t%.2f\t%.2f\n", what, ours.median / n, theirs.median / n,
+              theirs.median / ours.median, ours.least / n, theirs.least / n);
+}
+
+void compare(const char* name, int width, int height, int n_rounds) {
+  const Scene s = scene(width, height);
+  const core::RegionFollowerConfig follow{width, height};
+  core::RegionFollower follower(follow, s.points, s.region, kRegions);
+  core::PointFinder finder({}, s.keyframe, s.points, s.region, kRegions);
+  int n_seen = 0;
+  const Time ours = time_us(n_rounds, [&] { finder.find(s.frame, follower); });
+  for (const core::KltPoint& p : finder.points()) n_seen += p.seen ? 1 : 0;
+
+  const cv::Size window(core::kWindow, core::kWindow);
+  const cv::TermCriteria criteria(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 20, 0.001);
+  constexpr int kLevels = 4;
+  std::vector<std::vector<cv::Mat>> keyframes(kRegions), frames(kRegions);
+  std::vector<std::vector<cv::Point2f>> from(kRegions);
+  for (std::size_t i = 0; i < s.points.size(); ++i) {
+    const cv::Rect& box = s.boxes[s.region[i]];
+    from[s.region[i]].emplace_back(static_cast<float>(s.points[i].u - box.x),
+                                   static_cast<float>(s.points[i].v - box.y));
+  }
+  const auto pyramids = [&](const cv::Mat& image, std::vector<std::vector<cv::Mat>>& out, int levels) {
+    for (int r = 0; r < kRegions; ++r)
+      cv::buildOpticalFlowPyramid(image(s.boxes[static_cast<std::size_t>(r)]), out[static_cast<std::size_t>(r)], window,
+                                  levels, true, cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
+  };
+  const auto track = [&](int levels) {
+    std::vector<unsigned char> status;
+    std::vector<float> residual;
+    for (std::size_t r = 0; r < kRegions; ++r) {
+      std::vector<cv::Point2f> to = from[r];
+      cv::calcOpticalFlowPyrLK(keyframes[r], frames[r], from[r], to, status, residual, window, levels, criteria,
+                               cv::OPTFLOW_USE_INITIAL_FLOW);
+    }
+  };
+  pyramids(s.keyframe, keyframes, kLevels);
+  pyramids(s.frame, frames, kLevels);
+  const Time their_points = time_us(n_rounds, [&] { track(kLevels); });
+  const Time theirs = time_us(n_rounds, [&] {
+    pyramids(s.frame, frames, kLevels);
+    track(kLevels);
+  });
+  // The whole image's pyramid, as most programs do.
+  std::vector<cv::Mat> whole;
+  const Time whole_pyramid = time_us(std::max(3, n_rounds / 10), [&] {
+    cv::buildOpticalFlowPyramid(s.frame, whole, window, kLevels, true, cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT,
+                                false);
+  });
+  print((std::string("frame ") + name).c_str(), ours, theirs);
+  print((std::string("frame ") + name + ", whole image's pyramid").c_str(), ours,
+        {whole_pyramid.median + their_points.median, whole_pyramid.least + their_points.least});
+  if (std::string(name) != "1080p") return;
+  print("point", ours, their_points, static_cast<double>(s.points.size()));
+
+  core::KltTracker tracker{core::KltConfig{}};
+  tracker.set_keyframe(s.keyframe, s.points);
+  const Time kernel = time_us(n_rounds, [&] {
+    for (std::size_t i = 0; i < s.points.size(); ++i) (void)tracker.find(s.frame, i, s.points[i]);
+  });
+  pyramids(s.keyframe, keyframes, 0);
+  pyramids(s.frame, frames, 0);
+  print("kernel", kernel, time_us(n_rounds, [&] { track(0); }), static_cast<double>(s.points.size()));
+
+  const Time fall_back = time_us(std::max(3, n_rounds / 10), [&] { finder.find(s.jumped, follower); });
+  int n_found = 0;
+  for (const core::KltPoint& p : finder.points()) n_found += p.seen ? 1 : 0;
+  std::printf("fall-back\t%.0f\t\t\t%.0f\t\nseen\t%d of %zu, after the jump %d\n", fall_back.median, fall_back.least,
+              n_seen, s.points.size(), n_found);
+}
+
+// Frames of 180 points and nothing else, to count instructions.
+void follow_only(int n_frames) {
+  const Scene s = scene(1920, 1080);
+  core::RegionFollower follower(core::RegionFollowerConfig{1920, 1080}, s.points, s.region, kRegions);
+  core::PointFinder finder({}, s.keyframe, s.points, s.region, kRegions);
+  for (int k = 0; k < n_frames; ++k) finder.find(s.frame, follower);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cv::setNumThreads(1);
+  if (argc > 2) {
+    follow_only(std::atoi(argv[2]));
+    return 0;
+  }
+  const int n_rounds = argc > 1 ? std::max(3, std::atoi(argv[1])) : 200;
+  compare("1080p", 1920, 1080, n_rounds);
+  compare("4K", 3840, 2160, n_rounds);
+}

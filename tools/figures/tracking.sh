@@ -1,0 +1,90 @@
+#!/usr/bin/env bash
+# The point tracker, figure by figure; one line each, MISS where a bar is not met. About 10 minutes; --quick: 3.
+#   tools/figures/tracking.sh [--quick] [FIGURE...]      FIGURE: some of 1 ... 4
+# Figure 1 measures time: leave the machine alone meanwhile. TRACKING_SEED=N draws another texture. 4 needs measured data
+# (HOVERMODAL_DATA).
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+. tools/figures/lib.sh
+rounds=400 images=24 drift_images=10000
+[ "${1:-}" != --quick ] || { rounds=60 images=8 drift_images=1000 && shift; }
+wanted=" ${*:-1 2 3 4} "
+wants() { [[ $wanted == *" $1 "* ]]; }
+seed=${TRACKING_SEED:-1}
+out=$PWD/build/figures/tracking
+mkdir -p "$out"
+tools/setup.sh
+quietly tools/build.sh tracking_accuracy tracking_speed hovermodald
+
+# --- 1: time -------------------------------------------------------------------------------------------------------------
+figure_1() {
+  "$bin/tracking_speed" $rounds >"$out/speed.txt"
+  local what ours theirs ratio bar
+  while IFS=$'\t' read -r what ours theirs ratio _; do
+    case $what in
+    "frame 1080p, whole"*) bar=8 ;;
+    "frame 4K, whole"*) bar=15 ;;
+    frame*) line 1 beside "$ours us against $theirs us, ratio $ratio" "-" "$what, OpenCV's pyramids of tight sub-images" && continue ;;
+    point) bar=4 ;;
+    kernel) bar=1.7 ;;
+    fall-back) line 1 beside "$ours us" "-" "a frame in which all six regions jumped by 60 px" && continue ;;
+    *) echo "# $what: $ours" && continue ;;
+    esac
+    judge 1 "$ours us against $theirs us, ratio $ratio" ">= $bar" "$what beside OpenCV, median of $rounds" "$ratio >= $bar"
+  done <"$out/speed.txt"
+  if command -v valgrind >/dev/null; then
+    local few many
+    few=$(instructions 1) many=$(instructions 2)
+    judge 1 "$(((many - few) / 180)) instructions" "<= 30000" "of a point, beside its neighbours in a frame of 180" "($many - $few) / 180 <= 30000"
+  else
+    line 1 SKIP "no valgrind" "<= 30000" "instructions of a point"
+  fi
+}
+instructions() { # FRAMES: of that many frames
+  valgrind --tool=callgrind --callgrind-out-file=/dev/null "$bin/tracking_speed" 0 "$1" 2>&1 | awk '/Collected/ { print $4 }'
+}
+
+# --- 2, 3: accuracy ------------------------------------------------------------------------------------------------------
+figure_2() {
+  "$bin/tracking_accuracy" bound $images "$seed" >"$out/bound.txt"
+  local most ratio noise contrast steep theirs
+  echo "# cycles/px, noise, contrast, gradient/noise: ours and OpenCV's error over the bound, stated over scatter, lost"
+  awk -F'\t' '{ printf "#   %s\t%s\t%s\t%s\t%s\t%s\t%s\t%s of %s\n", $2, $3, $4, $5, $6, $7, $8, $9, $10 }' "$out/bound.txt"
+  read -r ratio theirs < <(awk -F'\t' '$2 <= 0.3 && $3 >= 1 && $5 >= 2 { if ($6 > m) m = $6; if ($7 > t) t = $7 } END { print m, t }' "$out/bound.txt")
+  judge 2 "worst $ratio (OpenCV $theirs)" "<= 1.2" "error over the Cramer-Rao bound, texture to 0.3 cycles/px, gradient twice the noise" "$ratio <= 1.2"
+  read -r ratio theirs < <(awk -F'\t' '$2 == 0.35 && $5 >= 2 { if ($6 > m) m = $6; if ($7 > t) t = $7 } END { print m, t }' "$out/bound.txt")
+  judge 2 "worst $ratio (OpenCV $theirs)" "<= 1.3" "the same at 0.35 cycles/px" "$ratio <= 1.3"
+  "$bin/tracking_accuracy" bias 1 "$seed" >"$out/bias.txt"
+  read -r ratio theirs < <(awk -F'\t' '$2 <= 0.25 { if ($3 > m) m = $3; if ($4 > t) t = $4 } END { print m, t }' "$out/bias.txt")
+  judge 2 "$ratio px (OpenCV $theirs)" "<= 0.001" "largest bias over the fractions of a pixel, to 0.25 cycles/px" "$ratio <= 0.001"
+  read -r ratio theirs < <(awk -F'\t' '$2 == 0.35 { print $3, $4 }' "$out/bias.txt")
+  judge 2 "$ratio px (OpenCV $theirs)" "<= 0.002" "the same at 0.35 cycles/px" "$ratio <= 0.002"
+}
+figure_3() {
+  [ -s "$out/bound.txt" ] || "$bin/tracking_accuracy" bound $images "$seed" >"$out/bound.txt"
+  local least most first last
+  read -r least most < <(awk -F'\t' '$5 >= 2 { if (!n++ || $8 < l) l = $8; if ($8 > m) m = $8 } END { print l, m }' "$out/bound.txt")
+  judge 3 "$least ... $most" "0.9 ... 1.1" "stated deviation over scatter, all textures with gradient twice the noise" "$least >= 0.9 && $most <= 1.1"
+  "$bin/tracking_accuracy" drift $drift_images "$seed" >"$out/drift.txt"
+  IFS=$'\t' read -r _ first last _ <"$out/drift.txt"
+  judge 3 "$first px, then $last px" "does not grow (5 %)" "error in the first and the last tenth of $drift_images frames" "$last <= 1.05 * $first"
+}
+
+# --- 4: measured dots ----------------------------------------------------------------------------------------------------
+figure_4() {
+  local knex=$data/knex_frame_video share lost what="28 dots of a released frame, a region for each row of seven, against the given centroids"
+  if [ ! -f "$knex/knex_1300x2046_gray.mp4" ]; then
+    line 4 SKIP "no data at $knex" ">= 95 % within 0.5 px, none lost" "$what"
+    return
+  fi
+  tools/figures/tracking_knex.py config "$knex" >"$out/knex.yaml"
+  rm -rf "$out/knex"
+  quietly "$bin/hovermodald" --config "$out/knex.yaml" --report "$out/knex"
+  read -r share lost < <(tools/figures/tracking_knex.py compare "$knex" "$out/knex/tracks.csv" | tee "$out/knex.txt" | tail -n 1)
+  judge 4 "$share % within 0.5 px, $lost dots lost for good" ">= 95 %, 0" "$what" "$share >= 95 && $lost == 0"
+}
+
+for figure in 1 2 3 4; do
+  ! wants $figure || figure_$figure
+done
+[ $misses -eq 0 ]
