@@ -3,7 +3,7 @@
 //   bound  CYCLES_PER_PX  NOISE  CONTRAST  GRADIENT/NOISE  OURS/BOUND  OPENCV/BOUND  STATED/SCATTER  LOST  POINTS
 //   bias   CYCLES_PER_PX  OURS_PX  OPENCV_PX       largest mean error over the fractions of a pixel, noise-free
 //   drift  OURS_FIRST  OURS_LAST  OPENCV_FIRST  OPENCV_LAST    rms px of the first and the last tenth
-//   tracking_accuracy bound|bias|drift [FRAMES] [SEED]
+//   tracking_accuracy bound|bias|drift [FRAMES, for bias TEXTURES] [SEED]
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -183,24 +183,28 @@ void print_bound(int n_images, unsigned seed) {
   }
 }
 
-// Contrast high and no noise: the mean over points of the error along its sign at each fraction is the tracker's own.
-void print_bias(unsigned seed) {
+// Contrast high and no noise: the mean over the points of several textures at each fraction is the tracker's own.
+void print_bias(int n_textures, unsigned seed) {
   const std::vector<core::Vector2> points = grid();
   for (const double cycles : {0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35}) {
-    const Texture texture(seed, cycles, 35.0);
-    const cv::Mat keyframe = texture.image(0.0, 0.0, 0.0, 1);
-    core::KltTracker tracker{core::KltConfig{}};
-    tracker.set_keyframe(keyframe, points);
-    std::array<double, 2> worst{};
-    for (int k = 1; k < 20; ++k) {
-      const double du = 0.05 * k;
-      const auto e = errors(tracker, keyframe, texture.image(du, du, 0.0, 1), points, du, du);
-      for (std::size_t which : {0U, 1U}) {
-        double mean = 0.0;
-        for (const Error& error : e[which]) mean += 0.5 * (error.u + error.v) / static_cast<double>(points.size());
-        worst[which] = std::max(worst[which], std::abs(mean));
+    constexpr std::size_t kFractions = 19;
+    std::array<std::array<double, kFractions>, 2> mean{};
+    for (int t = 0; t < n_textures; ++t) {
+      const Texture texture(seed + static_cast<unsigned>(t), cycles, 35.0);
+      const cv::Mat keyframe = texture.image(0.0, 0.0, 0.0, 1);
+      core::KltTracker tracker{core::KltConfig{}};
+      tracker.set_keyframe(keyframe, points);
+      for (std::size_t k = 0; k < kFractions; ++k) {
+        const double du = 0.05 * static_cast<double>(k + 1);
+        const auto e = errors(tracker, keyframe, texture.image(du, du, 0.0, 1), points, du, du);
+        for (std::size_t which : {0U, 1U})
+          for (const Error& error : e[which])
+            mean[which][k] += 0.5 * (error.u + error.v) / (static_cast<double>(points.size()) * n_textures);
       }
     }
+    std::array<double, 2> worst{};
+    for (std::size_t which : {0U, 1U})
+      for (const double at_fraction : mean[which]) worst[which] = std::max(worst[which], std::abs(at_fraction));
     std::printf("bias\t%g\t%.5f\t%.5f\n", cycles, worst[0], worst[1]);
   }
 }
@@ -237,7 +241,7 @@ int main(int argc, char** argv) {
   if (what == "bound")
     print_bound(n_images, seed);
   else if (what == "bias")
-    print_bias(seed);
+    print_bias(n_images, seed);
   else if (what == "drift")
     print_drift(n_images, seed);
   else {
