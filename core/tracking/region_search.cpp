@@ -7,10 +7,10 @@ namespace core {
 
 namespace {
 
-constexpr int kMargin_px = 12;  // about the points: their windows
-constexpr int kLeastCells =
-    10;                     // across and down the coarsest picture: fewer differ too little, and by fractions of a cell
-constexpr int kRefine = 3;  // cells on either side of the coarser place
+constexpr int kMargin_px = 12;    // about the points: their windows
+constexpr int kLeastCells = 100;  // of the coarsest picture: fewer differ too little, and by fractions of a cell
+constexpr std::size_t kMostCells = 4000;  // of a finer one: it is near enough for the points without
+constexpr int kRefine = 3;                // cells on either side of the coarser place
 constexpr double kLeastCorrelation = 0.6;
 constexpr double kLeastVariance = 1.0;  // grey^2: a level correlates with nothing
 constexpr double kNearlyAsGood = 0.3;   // below the highest correlation: looked at in finer pictures
@@ -31,7 +31,7 @@ RegionSearch::RegionSearch(const cv::Mat& keyframe, const std::vector<Vector2>& 
   left_ = within(left - kMargin_px, keyframe.cols), top_ = within(top - kMargin_px, keyframe.rows);
   const int width = within(right + kMargin_px + 1, keyframe.cols) - left_;
   const int height = within(bottom + kMargin_px + 1, keyframe.rows) - top_;
-  while (first_ + 2 < kScales.size() && std::min(width, height) < kLeastCells * kScales[first_]) ++first_;
+  while (first_ + 2 < kScales.size() && width * height < kLeastCells * kScales[first_] * kScales[first_]) ++first_;
   for (std::size_t s = first_; s < kScales.size(); ++s) {
     const int scale = kScales[s];
     const int around = s == first_ ? static_cast<int>(std::ceil(reach_px / scale)) : kRefine;
@@ -125,7 +125,7 @@ void RegionSearch::list_peaks(const Place& about) noexcept {
 }
 
 RegionSearch::Place RegionSearch::refine(const cv::Mat& gray, Place place) noexcept {
-  for (std::size_t s = first_ + 1; s < kScales.size(); ++s) {
+  for (std::size_t s = first_ + 1; s < kScales.size() && patterns_[s].cells.size() <= kMostCells; ++s) {
     Picture& area = areas_[s];
     reduce(gray, left_ + place.du - kRefine * area.scale, top_ + place.dv - kRefine * area.scale, area);
     correlate(patterns_[s], area);

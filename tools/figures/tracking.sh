@@ -72,7 +72,7 @@ figure_3() {
 
 # --- 4: measured dots ----------------------------------------------------------------------------------------------------
 figure_4() {
-  local knex=$data/knex_frame_video share lost what="28 dots of a released frame, a region for each row of seven, against the given centroids"
+  local knex=$data/knex_frame_video share lost what="28 dots of a released frame, a region each, against the given centroids"
   if [ ! -f "$knex/knex_1300x2046_gray.mp4" ]; then
     line 4 SKIP "no data at $knex" ">= 95 % within 0.5 px, none lost" "$what"
     return

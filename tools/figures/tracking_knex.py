@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A region for each row of seven dots of the knex clip, and how near its tracks come to the given centroids.
+"""A region for each dot of the knex clip, and how near its tracks come to the given centroids.
 
 tracking_knex.py config FOLDER             the service's configuration, on standard output
 tracking_knex.py compare FOLDER TRACKS     a line a row, then: share of positions within 0.5 px in percent, dots lost
@@ -22,13 +22,11 @@ def centroids(folder):
 def config(folder):
     first = centroids(folder)[0]
     print(f"camera: {{source: '{folder}/knex_1300x2046_gray.mp4', rate_hz: 20}}\nregions:")
-    for row in range(len(first) // PER_ROW):
-        dots = first[row * PER_ROW : (row + 1) * PER_ROW]
-        left, right = min(u for u, _ in dots) - HALF_PX, max(u for u, _ in dots) + HALF_PX
-        top, bottom = min(v for _, v in dots) - HALF_PX, max(v for _, v in dots) + HALF_PX
-        role = "base" if row == 0 else "structure"
-        print(f"  - {{name: row{row}, rect: [{left:.0f}, {top:.0f}, {right - left:.0f}, {bottom - top:.0f}], role: {role}, axis: both}}")
-    print("scale: {adaptive: false}\ntracking: {points_per_region: 42}\nspectrum: {segment: 64}")
+    for t, (u, v) in enumerate(first):
+        role = "base" if t < PER_ROW else "structure"
+        side = 2.0 * HALF_PX
+        print(f"  - {{name: t{t:02}, rect: [{u - HALF_PX:.0f}, {v - HALF_PX:.0f}, {side:.0f}, {side:.0f}], role: {role}, axis: both}}")
+    print("scale: {adaptive: false}\nspectrum: {segment: 64}")
     print("identification: {period: 1000}\ntelemetry: {lcm_url: ''}\nreport: {tracks: true}")
 
 
