@@ -111,7 +111,7 @@ constexpr std::array kChecks{
     Check{"peaks", "the true motion's frequencies and damping against those declared", print_peaks},
     Check{"shifts", "plates drawn at known shifts, measured again", print_shifts},
     Check{"pixels", "light of single pixels against brute force, flicker against the lamps'", print_pixels},
-    Check{"klt", "the point tracker in drawn frames against the true tracks", print_klt},
+    Check{"klt", "OpenCV's tracker in drawn frames against the true tracks", print_klt},
     Check{"speed", "1080p frames drawn per second", print_speed},
     Check{"bias", "bias, scatter and stated intervals of the identification", identification<print_bias>},
     Check{"losses", "what random losses of samples and frames do to the modes", identification<print_losses>},
