@@ -9,8 +9,6 @@ namespace core {
 
 namespace {
 
-constexpr int kColumns = 40;
-constexpr int kImageRows = kFolded + kSplineTaps - 1;
 constexpr double kWeightUnit = 32768.0;
 constexpr double kParameters = 4.0;  // shift, gain and offset
 constexpr double kLeastFreedom = 0.3;
@@ -24,8 +22,8 @@ inline std::int16_t weighed(std::int16_t value, std::int16_t weight) {
 
 HOVERMODAL_VECTOR_CLONES
 void widen(const std::uint8_t* __restrict pixels, std::size_t stride, std::int16_t* __restrict out) {
-  for (int y = 0; y < kImageRows; ++y, pixels += stride, out += kColumns)
-    for (int x = 0; x < kColumns; ++x) out[x] = static_cast<std::int16_t>(pixels[x] << kGreyBits);
+  for (int y = 0; y < kImageRows; ++y, pixels += stride, out += kImageColumns)
+    for (int x = 0; x < kImageColumns; ++x) out[x] = static_cast<std::int16_t>(pixels[x] << kGreyBits);
 }
 
 // Six rows of the image joined, then six columns.
@@ -34,12 +32,13 @@ void interpolate(const std::int16_t* __restrict rows, const std::int16_t* __rest
                  const std::int16_t* __restrict down, std::int16_t* __restrict out) {
   const std::int16_t a0 = across[0], a1 = across[1], a2 = across[2], a3 = across[3], a4 = across[4], a5 = across[5];
   const std::int16_t d0 = down[0], d1 = down[1], d2 = down[2], d3 = down[3], d4 = down[4], d5 = down[5];
-  alignas(64) std::int16_t joined[kColumns];
-  for (int y = 0; y < kFolded; ++y, rows += kColumns, out += kRow) {
-    for (int x = 0; x < kColumns; ++x)
-      joined[x] = static_cast<std::int16_t>(weighed(rows[x], d0) + weighed(rows[x + kColumns], d1) +
-                                            weighed(rows[x + 2 * kColumns], d2) + weighed(rows[x + 3 * kColumns], d3) +
-                                            weighed(rows[x + 4 * kColumns], d4) + weighed(rows[x + 5 * kColumns], d5));
+  alignas(64) std::int16_t joined[kImageColumns];
+  for (int y = 0; y < kFolded; ++y, rows += kImageColumns, out += kRow) {
+    for (int x = 0; x < kImageColumns; ++x)
+      joined[x] = static_cast<std::int16_t>(
+          weighed(rows[x], d0) + weighed(rows[x + kImageColumns], d1) + weighed(rows[x + 2 * kImageColumns], d2) +
+          weighed(rows[x + 3 * kImageColumns], d3) + weighed(rows[x + 4 * kImageColumns], d4) +
+          weighed(rows[x + 5 * kImageColumns], d5));
     for (int x = 0; x < kRow; ++x)
       out[x] = static_cast<std::int16_t>(weighed(joined[x], a0) + weighed(joined[x + 1], a1) +
                                          weighed(joined[x + 2], a2) + weighed(joined[x + 3], a3) +
@@ -109,14 +108,14 @@ void InterpolatedWindow::load(int cell_u, int cell_v) noexcept {
   cell_u_ = cell_u, cell_v_ = cell_v;
   is_loaded_ = true;
   const int first_u = cell_u - kFoldedRadius - kSplineBefore, first_v = cell_v - kFoldedRadius - kSplineBefore;
-  if (first_u >= 0 && first_v >= 0 && first_u + kColumns <= gray_->cols && first_v + kImageRows <= gray_->rows) {
+  if (first_u >= 0 && first_v >= 0 && first_u + kImageColumns <= gray_->cols && first_v + kImageRows <= gray_->rows) {
     widen(gray_->ptr<std::uint8_t>(first_v) + first_u, gray_->step[0], pixels_.data());
     return;
   }
   for (int y = 0; y < kImageRows; ++y) {
     const std::uint8_t* row = gray_->ptr<std::uint8_t>(mirrored(first_v + y, gray_->rows));
-    for (int x = 0; x < kColumns; ++x)
-      pixels_[static_cast<std::size_t>(y * kColumns + x)] =
+    for (int x = 0; x < kImageColumns; ++x)
+      pixels_[static_cast<std::size_t>(y * kImageColumns + x)] =
           static_cast<std::int16_t>(row[mirrored(first_u + x, gray_->cols)] << kGreyBits);
   }
 }

@@ -32,9 +32,6 @@ class InterpolatedWindow {
   [[nodiscard]] TemplateMatch match() const noexcept;
 
  private:
-  static constexpr int kColumns = 40;  // of the image: 37 are needed, whole vectors are read
-  static constexpr int kImageRows = kFolded + kSplineTaps - 1;
-
   void load(int cell_u, int cell_v) noexcept;
 
   const cv::Mat* gray_ = nullptr;
@@ -42,7 +39,7 @@ class InterpolatedWindow {
   int cell_u_ = 0, cell_v_ = 0;
   bool is_loaded_ = false;
   double passed_noise_ = 1.0;  // variance of white noise after the interpolation
-  alignas(64) std::array<std::int16_t, std::size_t{kImageRows} * kColumns> pixels_{};
+  alignas(64) std::array<std::int16_t, std::size_t{kImageRows} * kImageColumns> pixels_{};
   alignas(64) PointTemplate::Factors window_{};
 };
 

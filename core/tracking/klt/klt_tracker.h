@@ -11,7 +11,7 @@ namespace core {
 struct KltConfig {
   int window_px = 21;  // side of what is compared, 5 ... 21
   int max_iterations = 12;
-  double epsilon_px = 0.01;        // stop when a step is shorter, or half of what rounding to 8 bits does
+  double epsilon_px = 0.01;         // stop when a step is shorter, or half of what rounding to 8 bits does
   double reach_px = 8.0;            // a point that is farther from its prediction is not looked for here
   double least_correlation = 0.75;  // with the template, of what its noise lets one expect
 };

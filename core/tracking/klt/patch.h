@@ -17,7 +17,9 @@ inline constexpr int kFoldedRadius = kWindowRadius + kPrefilterMargin;
 inline constexpr int kFolded = 2 * kFoldedRadius + 1;
 inline constexpr int kPatchRadius = kFoldedRadius + kSplineBefore + 1;
 inline constexpr int kPatch = 2 * kPatchRadius + 1;
-inline constexpr int kRow = 32;  // of folded windows in memory: whole vectors
+inline constexpr int kImageRows = kFolded + kSplineTaps - 1;  // of the image about a cell, and as many columns: 37 are
+inline constexpr int kImageColumns = 40;                      // needed, whole vectors are read
+inline constexpr int kRow = 32;                               // of folded windows in memory: whole vectors
 
 // Grey values, the point in the middle.
 using Patch = std::array<std::array<double, kPatch>, kPatch>;
