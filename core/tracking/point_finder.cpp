@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear/median.h"
+
 namespace core {
 
 namespace {
@@ -12,12 +14,6 @@ constexpr double kAgreeing_px = 3.0;    // points of one region, about their med
 constexpr double kUnusual = 5.0;        // times the usual sigma: another edge that looks alike
 constexpr double kLearning = 0.05;      // of the usual sigma, a frame
 constexpr int kSearchesPerFrame = 3;    // whole regions: about a millisecond each
-
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -112,7 +108,7 @@ Vector2 PointFinder::median_motion(const Region& region) noexcept {
     scratch_v_.push_back(found_[i].position.v - keyframe_[i].v);
   }
   if (scratch_u_.empty()) return {};
-  return {median_of(scratch_u_), median_of(scratch_v_)};
+  return {median_in_place(scratch_u_), median_in_place(scratch_v_)};
 }
 
 PointFinder::Look PointFinder::judge(const Region& region) noexcept {

@@ -3,8 +3,6 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "core/tracking/tracked_point.h"
-
 namespace core {
 
 struct PyramidKltConfig {
@@ -13,6 +11,12 @@ struct PyramidKltConfig {
   int max_iterations = 30;
   double epsilon_px = 0.003;         // stop when a step is shorter
   double forward_backward_px = 0.5;  // a point tracked there and back must return this near
+};
+
+struct TrackedPoint {
+  cv::Point2f position;   // in the current image
+  double sigma_px = 0.0;  // standard deviation per axis, from the residual and the texture
+  bool seen = false;
 };
 
 // Pyramidal Lucas-Kanade tracking (Bouguet 2001, OpenCV's implementation) of points of a keyframe in later images:

@@ -55,7 +55,6 @@ inline std::string scene_config(const core::simulation::SceneMotion& motion) {
       "calibration: {{fx: {}, fy: {}, cx: {}, cy: {}}}\n",
       1e3 * scene.camera.readout_s, 1e3 * scene.camera.exposure_s, scene.camera.alpha_px, scene.camera.alpha_px,
       scene.camera.cx_px, scene.camera.cy_px);
-  // One pyramid level: on the next, a window would reach beyond its plate.
   text += "tracking: {window_px: 13, min_distance_px: 4, points_per_region: 15}\n";
   text += "telemetry: {lcm_url: \"\"}\nregions:\n";
   for (const auto& [body, region] : core::simulation::tracking_regions(motion)) {

@@ -127,7 +127,7 @@ void InterpolatedWindow::move_to(int cell_u, int cell_v, double fraction_u, doub
   passed_noise_ = sum_of_squares(across) * sum_of_squares(down);
 }
 
-InterpolatedWindow::Step InterpolatedWindow::step() const noexcept {
+Vector2 InterpolatedWindow::step() const noexcept {
   std::int32_t sums[2];
   add_products(window_.data(), point_->step_u.data(), point_->step_v.data(), sums);
   constexpr double kGreyUnit = 1.0 / (1 << kGreyBits);

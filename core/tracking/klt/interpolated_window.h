@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/tracking/klt/point_template.h"
+#include "core/types/vector2.h"
 
 namespace core {
 
@@ -20,15 +21,11 @@ struct TemplateMatch {
 // every machine. Reused from point to point; no allocation. One thread.
 class InterpolatedWindow {
  public:
-  // px, from the position towards the template, for gain 1.
-  struct Step {
-    double u = 0.0, v = 0.0;
-  };
-
   void begin(const cv::Mat& gray, const PointTemplate& point) noexcept;
   // With the template's middle at (cell + fraction), fraction 0 ... 1.
   void move_to(int cell_u, int cell_v, double fraction_u, double fraction_v) noexcept;
-  [[nodiscard]] Step step() const noexcept;
+  // px, from the position towards the template, for gain 1.
+  [[nodiscard]] Vector2 step() const noexcept;
   [[nodiscard]] TemplateMatch match() const noexcept;
 
  private:

@@ -10,7 +10,6 @@ namespace {
 constexpr double kLongestStep_px = 3.0;
 constexpr double kLeastGain = 0.2, kMostGain = 5.0;
 constexpr double kLeastCorrelation = 0.5;
-constexpr double kMostNoiseShare = 0.5;  // of a patch's variance: the rest of what looks like noise is fine texture
 constexpr double kRounding = 1.0 / 12.0;
 constexpr double kOfRounding = 0.5;  // steps within what rounding to 8 bits does anyway
 
@@ -50,10 +49,8 @@ void KltTracker::set_keyframe(const cv::Mat& gray, const std::vector<Vector2>& p
 
 void KltTracker::judge_texture(Point& point) const noexcept {
   const PointTemplate& pattern = point.pattern;
-  const double noise = std::min(pattern.noise, kMostNoiseShare * pattern.variance);
-  const double own_noise = noise / pattern.n_averaged;
-  const double signal = pattern.variance - own_noise;
-  const double expected = signal / std::sqrt(std::max(1e-12, pattern.variance * (signal + noise)));
+  const double signal = pattern.variance - pattern.noise / pattern.n_averaged;
+  const double expected = signal / std::sqrt(std::max(1e-12, pattern.variance * (signal + pattern.noise)));
   point.least_correlation = std::max(kLeastCorrelation, config_.least_correlation * expected);
 }
 
@@ -71,7 +68,7 @@ KltPoint KltTracker::find(const cv::Mat& gray, std::size_t i, const Vector2& pre
                kOfRounding * std::sqrt(kRounding * std::max(point.pattern.variance_u, point.pattern.variance_v)));
   bool is_settled = false;
   window_.begin(gray, point.pattern);
-  const auto advance = [&](const InterpolatedWindow::Step& step) {
+  const auto advance = [&](const Vector2& step) {
     const double length = std::hypot(step.u, step.v) / point.gain;
     const double share = (length > kLongestStep_px ? kLongestStep_px / length : 1.0) / point.gain;
     u -= share * step.u, v -= share * step.v;

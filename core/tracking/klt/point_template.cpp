@@ -200,7 +200,7 @@ void build_template(const Patch& patch, int radius, int n_averaged, PointTemplat
              [&](std::size_t y, std::size_t x) { texture[y][x] -= mean, square += texture[y][x] * texture[y][x]; });
   out.mean = mean;
   out.variance = square / area(radius);
-  if (n_averaged == 1) out.noise = noise_variance(patch, radius);
+  if (n_averaged == 1) out.noise = std::min(noise_variance(patch, radius), kMostNoiseShare * out.variance);
   if (!(square > 0.0)) return;
   make_orthogonal(smooth_u, radius, texture, square);
   make_orthogonal(smooth_v, radius, texture, square);
@@ -211,7 +211,7 @@ void build_template(const Patch& patch, int radius, int n_averaged, PointTemplat
     vu += smooth_v[y][x] * slope_u[y][x], vv += smooth_v[y][x] * slope_v[y][x];
   });
   // The template's own noise is in both gradients: without it, steps would be too short by as much.
-  const double own = area(radius) * kNoiseInBoth * std::min(out.noise, kMostNoiseShare * out.variance) / n_averaged;
+  const double own = area(radius) * kNoiseInBoth * out.noise / n_averaged;
   uu = std::max(kLeastWithoutNoise * uu, uu - own), vv = std::max(kLeastWithoutNoise * vv, vv - own);
   const double determinant = uu * vv - uv * vu;
   const double trace = uu + vv;
@@ -219,13 +219,13 @@ void build_template(const Patch& patch, int radius, int n_averaged, PointTemplat
   if (!(least > kLeastEigenvalue * area(radius))) return;
 
   Window step_u{}, step_v{};
-  double var_u = 0.0, var_v = 0.0, cov = 0.0;
+  double var_u = 0.0, var_v = 0.0;
   for_window(radius, [&](std::size_t y, std::size_t x) {
     step_u[y][x] = (vv * smooth_u[y][x] - uv * smooth_v[y][x]) / determinant;
     step_v[y][x] = (uu * smooth_v[y][x] - vu * smooth_u[y][x]) / determinant;
-    var_u += step_u[y][x] * step_u[y][x], var_v += step_v[y][x] * step_v[y][x], cov += step_u[y][x] * step_v[y][x];
+    var_u += step_u[y][x] * step_u[y][x], var_v += step_v[y][x] * step_v[y][x];
   });
-  out.variance_u = var_u, out.variance_v = var_v, out.covariance = cov;
+  out.variance_u = var_u, out.variance_v = var_v;
 
   Folded folded_u, folded_v;
   fold(step_u, folded_u);

@@ -23,11 +23,12 @@ struct PointTemplate {
   alignas(64) Factors mask{};     // -1 in the window
   int radius = kWindowRadius;     // of the window that is compared
   double px_per_unit = 0.0;       // of the integer sums
-  double origin_u = 0.0, origin_v = 0.0;                        // the sums at the template itself, units
-  double mean = 0.0, variance = 0.0;                            // of the window's grey values
-  double texture_mean = 0.0, texture_variance = 0.0;            // of `texture`, grey and grey^2
-  double variance_u = 0.0, variance_v = 0.0, covariance = 0.0;  // px^2 for white noise of variance 1 in the image
-  double noise = 0.0;         // variance of an image's noise, at most: fine texture counts as noise
+  double origin_u = 0.0, origin_v = 0.0;              // the sums at the template itself, units
+  double mean = 0.0, variance = 0.0;                  // of the window's grey values
+  double texture_mean = 0.0, texture_variance = 0.0;  // of `texture`, grey and grey^2
+  double variance_u = 0.0, variance_v = 0.0;          // px^2 for white noise of variance 1 in the image
+  double noise =
+      0.0;  // variance of an image's noise, at most: fine texture counts as noise, up to half of the variance
   int n_averaged = 1;         // images in it
   bool is_trackable = false;  // texture in two directions
 };
