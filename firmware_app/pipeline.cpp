@@ -20,14 +20,15 @@ namespace app {
 // The data flow, top to bottom. Members are destroyed in reverse: threads first, then stages, rings, devices.
 struct Pipeline::Parts {
   Parts(const AppConfig& c, std::unique_ptr<drivers::Camera> camera, std::unique_ptr<drivers::Publisher> publisher)
-      : config(keep_memory(c)), source(std::move(camera), config), out(std::move(publisher)) {
+      : config(c), lock_refused(keep_memory(config)), source(std::move(camera), config), out(std::move(publisher)) {
     connect();
     watch();
     if (keeps_state()) keep_state();
   }
 
   AppConfig config;
-  Source source;  // camera, its first frame, the points seeded in it, the channels
+  std::string lock_refused;  // why memory is not locked; empty: it is, or need not be
+  Source source;             // camera, its first frame, the points seeded in it, the channels
   std::unique_ptr<drivers::AttitudeListener> attitude = open_attitude(config);  // null: none comes live
   std::unique_ptr<drivers::Publisher> out;
   std::unique_ptr<RunReport> report = open_report(config, source);
@@ -77,10 +78,11 @@ struct Pipeline::Parts {
     info.rate_hz = rate_hz;
     return std::make_unique<const ReadoutUse>(config, info, source.keyframe, source.displacement.spectra());
   }
-  // Before anything is allocated.
-  static const AppConfig& keep_memory(const AppConfig& config) noexcept {
-    if (config.rt.lock_memory) rt::keep_freed_memory();
-    return config;
+  // Before anything is allocated and before the camera runs: locking takes as long as several frames.
+  [[nodiscard]] static std::string keep_memory(const AppConfig& config) {
+    if (!config.rt.lock_memory) return {};
+    rt::keep_freed_memory();
+    return rt::lock_memory();
   }
   [[nodiscard]] const std::vector<rt::StageRunner*>& runners() const noexcept { return all_runners; }
   [[nodiscard]] bool keeps_state() const noexcept { return !config.state.directory.empty(); }
@@ -175,10 +177,7 @@ Pipeline::~Pipeline() {
 
 void Pipeline::start() {
   const RtConfig& rt_config = parts_->config.rt;
-  if (rt_config.lock_memory) {
-    if (const std::string refused = rt::lock_memory(); !refused.empty())
-      refuse_or_warn(rt_config, refused, parts_->health);
-  }
+  if (!parts_->lock_refused.empty()) refuse_or_warn(rt_config, parts_->lock_refused, parts_->health);
   const auto& runners = parts_->runners();
   for (auto runner = runners.rbegin(); runner != runners.rend(); ++runner)
     start_runner(**runner, rt_config, parts_->health);

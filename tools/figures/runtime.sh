@@ -10,7 +10,7 @@ overload_s=60 latency_s=30 rounds=40
 quick=
 if [ "${1:-}" = --quick ]; then
   quick=1
-  transfers=2000000 tsan_transfers=200000 arm_transfers=100000 hook_frames=1000 kills=40 stops=20 soak_frames=20000
+  transfers=2000000 tsan_transfers=200000 arm_transfers=100000 hook_frames=1000 kills=40 stops=20 soak_frames=60000
   overload_s=10 latency_s=6 rounds=20
   shift
 fi
@@ -133,7 +133,7 @@ figure_6() {
   quietly tools/build.sh overload_run
   local verdict=MISS
   ! "$bin/overload_run" soak $soak_frames >"$out/soak.txt" || verdict=ok
-  line 6 $verdict "$(tr '\t\n' ' ;' <"$out/soak.txt")" "memory growth 0, counters consistent" "$soak_frames frames as fast as possible"
+  line 6 $verdict "$(tr '\t\n' ' ;' <"$out/soak.txt")" "memory growth 0 after 20 000 frames, counters consistent" "$soak_frames frames as fast as possible, estimates meanwhile"
 }
 ! wants 6 || figure_6
 
