@@ -12,7 +12,6 @@ constexpr double kLeastPairPx = 4.0;
 
 Vector2 minus(const Vector2& a, const Vector2& b) noexcept { return {a.u - b.u, a.v - b.v}; }
 double dot(const Vector2& a, const Vector2& b) noexcept { return a.u * b.u + a.v * b.v; }
-double length(const Vector2& a) noexcept { return std::sqrt(dot(a, a)); }
 
 }  // namespace
 

@@ -17,7 +17,7 @@ constexpr int kSearchesPerFrame = 3;    // whole regions: about a millisecond ea
 
 }  // namespace
 
-PointFinder::PointFinder(const PointFinderConfig& config, const cv::Mat& image, const std::vector<Vector2>& keyframe,
+PointFinder::PointFinder(const PointFinderConfig& config, const GrayView& image, const std::vector<Vector2>& keyframe,
                          const std::vector<std::uint16_t>& region_of_point, std::size_t n_regions)
     : config_(config), klt_(config.klt), keyframe_(keyframe) {
   klt_.set_keyframe(image, keyframe);
@@ -40,7 +40,7 @@ PointFinder::PointFinder(const PointFinderConfig& config, const cv::Mat& image, 
   scratch_v_.reserve(most);
 }
 
-void PointFinder::find(const cv::Mat& gray, const RegionFollower& expected) noexcept {
+void PointFinder::find(const GrayView& gray, const RegionFollower& expected) noexcept {
   const std::size_t n = regions_.size(), begin = next_search_;
   Vector2 surprise;  // the greatest of a region that is found
   for (std::size_t r = 0; r < n; ++r) {
@@ -49,7 +49,7 @@ void PointFinder::find(const cv::Mat& gray, const RegionFollower& expected) noex
     if (!is_good(regions_[r], first)) continue;
     look_for_rest(gray, regions_[r], first);
     const Vector2 motion = expected.expected_motion(r), off{first.motion.u - motion.u, first.motion.v - motion.v};
-    if (std::hypot(off.u, off.v) > std::hypot(surprise.u, surprise.v)) surprise = off;
+    if (length(off) > length(surprise)) surprise = off;
   }
   int n_searches = kSearchesPerFrame;
   Vector2 other_motion;  // of the region found last
@@ -75,7 +75,7 @@ void PointFinder::find(const cv::Mat& gray, const RegionFollower& expected) noex
   }
 }
 
-void PointFinder::look(const cv::Mat& gray, const Region& region, const RegionFollower& expected,
+void PointFinder::look(const GrayView& gray, const Region& region, const RegionFollower& expected,
                        const Vector2& shift) noexcept {
   for (std::size_t i = region.first; i < region.first + region.n; ++i) {
     const Vector2& at = expected.expected(i);
@@ -84,9 +84,9 @@ void PointFinder::look(const cv::Mat& gray, const Region& region, const RegionFo
 }
 
 // Looks at the shifted place and keeps the better look of a region. True: good.
-bool PointFinder::improves(const cv::Mat& gray, const Region& region, const RegionFollower& expected,
+bool PointFinder::improves(const GrayView& gray, const Region& region, const RegionFollower& expected,
                            const Vector2& shift, Look& best) noexcept {
-  if (std::hypot(shift.u, shift.v) < kNoticeable_px) return false;
+  if (length(shift) < kNoticeable_px) return false;
   const auto first = found_.begin() + static_cast<std::ptrdiff_t>(region.first);
   const auto end = first + static_cast<std::ptrdiff_t>(region.n);
   std::copy(first, end, best_.begin());
@@ -132,11 +132,11 @@ bool PointFinder::is_good(const Region& region, const Look& look) const noexcept
 }
 
 // Points that are elsewhere than the others, once more where these went; what is found elsewhere again is not it.
-void PointFinder::look_for_rest(const cv::Mat& gray, const Region& region, const Look& look) noexcept {
+void PointFinder::look_for_rest(const GrayView& gray, const Region& region, const Look& look) noexcept {
   for (std::size_t i = region.first; i < region.first + region.n; ++i) {
     const Vector2 place{keyframe_[i].u + look.motion.u, keyframe_[i].v + look.motion.v};
     const auto off = [&](const KltPoint& point) {
-      return std::hypot(point.position.u - place.u, point.position.v - place.v);
+      return length(point.position.u - place.u, point.position.v - place.v);
     };
     if (found_[i].seen && off(found_[i]) < 2.0 * kAgreeing_px) continue;
     if (!found_[i].seen && off(found_[i]) < kNoticeable_px) continue;

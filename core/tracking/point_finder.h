@@ -1,6 +1,5 @@
 #pragma once
 
-#include <opencv2/core.hpp>
 #include <span>
 #include <vector>
 
@@ -24,10 +23,10 @@ struct PointFinderConfig {
 class PointFinder {
  public:
   // keyframe: where the points are in that image; those of a region follow one another.
-  PointFinder(const PointFinderConfig& config, const cv::Mat& image, const std::vector<Vector2>& keyframe,
+  PointFinder(const PointFinderConfig& config, const GrayView& image, const std::vector<Vector2>& keyframe,
               const std::vector<std::uint16_t>& region_of_point, std::size_t n_regions);
 
-  void find(const cv::Mat& gray, const RegionFollower& expected) noexcept;
+  void find(const GrayView& gray, const RegionFollower& expected) noexcept;
   // The same frame after outlier rejection: how the inliers use to look.
   void learn(const TrackFrame& judged) noexcept;
 
@@ -47,11 +46,11 @@ class PointFinder {
     }
   };
 
-  void look(const cv::Mat& gray, const Region& region, const RegionFollower& expected, const Vector2& shift) noexcept;
+  void look(const GrayView& gray, const Region& region, const RegionFollower& expected, const Vector2& shift) noexcept;
   [[nodiscard]] Look judge(const Region& region) noexcept;
   [[nodiscard]] bool is_good(const Region& region, const Look& look) const noexcept;
-  void look_for_rest(const cv::Mat& gray, const Region& region, const Look& look) noexcept;
-  [[nodiscard]] bool improves(const cv::Mat& gray, const Region& region, const RegionFollower& expected,
+  void look_for_rest(const GrayView& gray, const Region& region, const Look& look) noexcept;
+  [[nodiscard]] bool improves(const GrayView& gray, const Region& region, const RegionFollower& expected,
                               const Vector2& shift, Look& best) noexcept;
   [[nodiscard]] Vector2 median_motion(const Region& region) noexcept;
 

@@ -97,7 +97,7 @@ void RegionFollower::fit_common(const TrackFrame& judged) noexcept {
     spread += k.u * k.u + k.v * k.v;
   }
   Similarity fit;
-  const double magnification = spread > 0.0 ? std::hypot(along, across) / spread : 0.0;
+  const double magnification = spread > 0.0 ? length(along, across) / spread : 0.0;
   if (magnification > kLeastMagnification && magnification < kMostMagnification) {
     fit.turn_re = along / spread;
     fit.turn_im = across / spread;

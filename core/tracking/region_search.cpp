@@ -20,7 +20,7 @@ constexpr int kNeighbourhood = 2;       // cells about a peak that are its own
 
 }  // namespace
 
-RegionSearch::RegionSearch(const cv::Mat& keyframe, const std::vector<Vector2>& points, double reach_px) {
+RegionSearch::RegionSearch(const GrayView& keyframe, const std::vector<Vector2>& points, double reach_px) {
   if (points.empty()) return;
   double left = points[0].u, right = left, top = points[0].v, bottom = top;
   for (const Vector2& p : points) {
@@ -28,9 +28,9 @@ RegionSearch::RegionSearch(const cv::Mat& keyframe, const std::vector<Vector2>& 
     top = std::min(top, p.v), bottom = std::max(bottom, p.v);
   }
   const auto within = [](double x, int n) { return std::clamp(static_cast<int>(std::lround(x)), 0, n); };
-  left_ = within(left - kMargin_px, keyframe.cols), top_ = within(top - kMargin_px, keyframe.rows);
-  const int width = within(right + kMargin_px + 1, keyframe.cols) - left_;
-  const int height = within(bottom + kMargin_px + 1, keyframe.rows) - top_;
+  left_ = within(left - kMargin_px, keyframe.width), top_ = within(top - kMargin_px, keyframe.height);
+  const int width = within(right + kMargin_px + 1, keyframe.width) - left_;
+  const int height = within(bottom + kMargin_px + 1, keyframe.height) - top_;
   while (first_ + 2 < kScales.size() && width * height < kLeastCells * kScales[first_] * kScales[first_]) ++first_;
   for (std::size_t s = first_; s < kScales.size(); ++s) {
     const int scale = kScales[s];
@@ -48,18 +48,18 @@ RegionSearch::RegionSearch(const cv::Mat& keyframe, const std::vector<Vector2>& 
 }
 
 // Beyond the border the image goes on as its last pixel: a level, which correlates with nothing.
-void RegionSearch::reduce(const cv::Mat& gray, int left, int top, Picture& out) noexcept {
+void RegionSearch::reduce(const GrayView& gray, int left, int top, Picture& out) noexcept {
   const int s = out.scale;
   for (int y = 0; y < out.height; ++y) {
     for (int x = 0; x < out.width; ++x) {
       int sum = 0;
       for (int dy = 0; dy < s; ++dy) {
-        const std::uint8_t* row = gray.ptr<std::uint8_t>(std::clamp(top + y * s + dy, 0, gray.rows - 1));
+        const std::uint8_t* row = gray.row(std::clamp(top + y * s + dy, 0, gray.height - 1));
         const int first = left + x * s;
-        if (first >= 0 && first + s <= gray.cols) {
+        if (first >= 0 && first + s <= gray.width) {
           for (int dx = 0; dx < s; ++dx) sum += row[first + dx];
         } else {
-          for (int dx = 0; dx < s; ++dx) sum += row[std::clamp(first + dx, 0, gray.cols - 1)];
+          for (int dx = 0; dx < s; ++dx) sum += row[std::clamp(first + dx, 0, gray.width - 1)];
         }
       }
       out.cells[static_cast<std::size_t>(y * out.width + x)] = static_cast<float>(sum) / static_cast<float>(s * s);
@@ -124,7 +124,7 @@ void RegionSearch::list_peaks(const Place& about) noexcept {
   }
 }
 
-RegionSearch::Place RegionSearch::refine(const cv::Mat& gray, Place place) noexcept {
+RegionSearch::Place RegionSearch::refine(const GrayView& gray, Place place) noexcept {
   for (std::size_t s = first_ + 1; s < kScales.size() && patterns_[s].cells.size() <= kMostCells; ++s) {
     Picture& area = areas_[s];
     reduce(gray, left_ + place.du - kRefine * area.scale, top_ + place.dv - kRefine * area.scale, area);
@@ -146,7 +146,7 @@ RegionSearch::Found RegionSearch::choose(const Vector2& expected_motion) const n
   for (std::size_t i = 0; i < n_places_; ++i) {
     const Place& place = places_[i];
     if (place.correlation < highest - kAsGood) continue;
-    const double distance = std::hypot(place.du - expected_motion.u, place.dv - expected_motion.v);
+    const double distance = length(place.du - expected_motion.u, place.dv - expected_motion.v);
     if (distance < nearest) {
       next = nearest, nearest = distance;
       found.motion = {static_cast<double>(place.du), static_cast<double>(place.dv)};
@@ -159,10 +159,10 @@ RegionSearch::Found RegionSearch::choose(const Vector2& expected_motion) const n
   return found;
 }
 
-RegionSearch::Found RegionSearch::find(const cv::Mat& gray, const Vector2& expected_motion) noexcept {
+RegionSearch::Found RegionSearch::find(const GrayView& gray, const Vector2& expected_motion) noexcept {
   const Found nothing{expected_motion, 0.0, false};
   constexpr double kFar_px = 1e5;
-  if (gray.empty() || gray.type() != CV_8UC1 || patterns_[first_].cells.empty()) return nothing;
+  if (gray.empty() || patterns_[first_].cells.empty()) return nothing;
   if (!(std::abs(expected_motion.u) < kFar_px) || !(std::abs(expected_motion.v) < kFar_px)) return nothing;
   const Place about{static_cast<int>(std::lround(expected_motion.u)), static_cast<int>(std::lround(expected_motion.v)),
                     0};

@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cstdint>
-#include <opencv2/core.hpp>
 #include <vector>
 
+#include "core/types/gray_view.h"
 #include "core/types/vector2.h"
 
 namespace core {
@@ -18,14 +18,14 @@ namespace core {
 class RegionSearch {
  public:
   // points: of the region, in the keyframe (8-bit grey). reach_px: how far from the expected place.
-  RegionSearch(const cv::Mat& keyframe, const std::vector<Vector2>& points, double reach_px);
+  RegionSearch(const GrayView& keyframe, const std::vector<Vector2>& points, double reach_px);
 
   struct Found {
     Vector2 motion;            // since the keyframe
     double correlation = 0.0;  // of the finest pictures, -1 ... 1
     bool is_clear = false;     // high, and no other place is as good and about as near
   };
-  [[nodiscard]] Found find(const cv::Mat& gray, const Vector2& expected_motion) noexcept;
+  [[nodiscard]] Found find(const GrayView& gray, const Vector2& expected_motion) noexcept;
 
  private:
   static constexpr std::array<int, 3> kScales{8, 4, 2};
@@ -35,7 +35,7 @@ class RegionSearch {
     int scale = 0, width = 0, height = 0;
     std::vector<float> cells;
   };
-  static void reduce(const cv::Mat& gray, int left, int top, Picture& out) noexcept;
+  static void reduce(const GrayView& gray, int left, int top, Picture& out) noexcept;
   // A place for the pattern: px since the keyframe.
   struct Place {
     int du = 0, dv = 0;
@@ -43,7 +43,7 @@ class RegionSearch {
   };
   void correlate(const Picture& pattern, const Picture& area) noexcept;
   void list_peaks(const Place& about) noexcept;
-  [[nodiscard]] Place refine(const cv::Mat& gray, Place place) noexcept;
+  [[nodiscard]] Place refine(const GrayView& gray, Place place) noexcept;
   [[nodiscard]] Found choose(const Vector2& expected_motion) const noexcept;
   [[nodiscard]] double at(int u, int v) const noexcept { return correlations_[static_cast<std::size_t>(v * n_u_ + u)]; }
 

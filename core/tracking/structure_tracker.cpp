@@ -20,11 +20,12 @@ std::string too_few_corners(const Region& region, std::size_t found, int wanted)
 }  // namespace
 
 std::string StructureTracker::seed(const Frame& frame) {
-  const cv::Mat gray = gray_view(frame);
+  const GrayView gray = gray_view(frame);
+  const cv::Mat image(gray.height, gray.width, CV_8UC1, const_cast<std::uint8_t*>(gray.pixels), gray.stride);
   std::vector<cv::Point2f> points;
   region_of_point_.clear();
   for (std::size_t r = 0; r < config_.regions.size(); ++r) {
-    std::vector<cv::Point2f> corners = seed_points(gray, config_.regions[r], config_.seed);
+    std::vector<cv::Point2f> corners = seed_points(image, config_.regions[r], config_.seed);
     std::erase_if(corners, [&](const cv::Point2f& p) {
       return !is_trackable(gray, {static_cast<double>(p.x), static_cast<double>(p.y)}, config_.klt.window_px);
     });
@@ -64,10 +65,9 @@ bool StructureTracker::track(const Frame& frame, TrackFrame& out) noexcept {
   out.t_start_ns = frame.t_start_ns;
   out.gap_before = frame.gap_before;
   const std::vector<KltPoint>& found = finder_->points();
-  const bool is_image =
-      frame.width_px > 0 && frame.height_px > 0 &&
-      frame.pixels.size() >= static_cast<std::size_t>(frame.width_px) * static_cast<std::size_t>(frame.height_px);
-  if (is_image) finder_->find(gray_view(frame), *follower_);
+  const GrayView gray = gray_view(frame);
+  const bool is_image = !gray.empty();
+  if (is_image) finder_->find(gray, *follower_);
   for (std::size_t i = 0; i < out.points.size() && i < found.size(); ++i) {
     TrackPoint& point = out.points[i];
     point.id = static_cast<std::uint32_t>(i);

@@ -54,9 +54,4 @@ class StructureTracker {
   std::unique_ptr<RegionFollower> follower_;
 };
 
-// The pixels of a frame as an OpenCV image, not copied.
-[[nodiscard]] inline cv::Mat gray_view(const Frame& frame) {
-  return {frame.height_px, frame.width_px, CV_8UC1, const_cast<std::uint8_t*>(frame.pixels.data())};
-}
-
 }  // namespace core

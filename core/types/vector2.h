@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 namespace core {
 
 // A point or a step in the image, pixels; u right, v down.
@@ -7,5 +9,9 @@ struct Vector2 {
   double u = 0.0;
   double v = 0.0;
 };
+
+// By operations that IEEE 754 rounds exactly: the same bits on every machine, which std::hypot does not promise.
+[[nodiscard]] inline double length(double u, double v) noexcept { return std::sqrt(u * u + v * v); }
+[[nodiscard]] inline double length(const Vector2& a) noexcept { return length(a.u, a.v); }
 
 }  // namespace core

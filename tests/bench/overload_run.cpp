@@ -155,11 +155,11 @@ bool modes_right(const SceneClip& clip, const core::ModalEstimate& estimate) {
 
 bool tell(const Run& run) {
   const core::Health& h = run.outcome.health;
-  const auto growth = static_cast<double>(run.resident_end - run.resident_begin) * 1e-6;
+  const auto growth = static_cast<double>(run.resident_end - run.resident_begin) * 1e-3;
   std::printf("frames\t%llu in, %llu processed, %llu dropped, %llu missing\n",
               static_cast<unsigned long long>(h.frames_in), static_cast<unsigned long long>(h.frames_processed),
               static_cast<unsigned long long>(h.frames_dropped), static_cast<unsigned long long>(h.frames_missing));
-  std::printf("rate\t%.4g Hz\nmemory\t%.1f MB growth\ntime\t%.1f s\n", h.rate_hz, growth, run.seconds);
+  std::printf("rate\t%.4g Hz\nmemory\t%.0f kB growth\ntime\t%.1f s\n", h.rate_hz, growth, run.seconds);
   return run.outcome.fault.empty() && h.frames_in == h.frames_processed + h.frames_dropped;
 }
 

@@ -16,9 +16,11 @@
 #include <vector>
 
 #include "core/tracking/klt/klt_tracker.h"
+#include "tests/support/gray_view.h"
 
 namespace {
 
+using test_support::view;
 constexpr int kWidth = 420, kHeight = 320, kBorder = 40, kApart = 30;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
@@ -116,7 +118,7 @@ std::array<std::vector<Error>, 2> errors(core::KltTracker& tracker, const cv::Ma
   std::vector<cv::Point2f> from, to;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const core::Vector2 start{points[i].u + std::round(du), points[i].v + std::round(dv)};
-    const core::KltPoint found = tracker.find(image, i, start);
+    const core::KltPoint found = tracker.find(view(image), i, start);
     out[0].push_back({found.position.u - points[i].u - du, found.position.v - points[i].v - dv, found.seen});
     if (stated != nullptr) stated->push_back(found.sigma_px);
     from.emplace_back(static_cast<float>(points[i].u), static_cast<float>(points[i].v));
@@ -148,7 +150,7 @@ void print_bound(int n_images, unsigned seed) {
         const Texture texture(seed, cycles, contrast);
         const cv::Mat keyframe = texture.image(0.0, 0.0, noise, seed + 1);
         core::KltTracker tracker{core::KltConfig{}};
-        tracker.set_keyframe(keyframe, points);
+        tracker.set_keyframe(view(keyframe), points);
         std::array<std::vector<Scatter>, 2> scatter;
         for (auto& s : scatter) s.resize(points.size());
         std::vector<double> stated2(points.size());
@@ -193,7 +195,7 @@ void print_bias(int n_textures, unsigned seed) {
       const Texture texture(seed + static_cast<unsigned>(t), cycles, 35.0);
       const cv::Mat keyframe = texture.image(0.0, 0.0, 0.0, 1);
       core::KltTracker tracker{core::KltConfig{}};
-      tracker.set_keyframe(keyframe, points);
+      tracker.set_keyframe(view(keyframe), points);
       for (std::size_t k = 0; k < kFractions; ++k) {
         const double du = 0.05 * static_cast<double>(k + 1);
         const auto e = errors(tracker, keyframe, texture.image(du, du, 0.0, 1), points, du, du);
@@ -214,7 +216,7 @@ void print_drift(int n_images, unsigned seed) {
   const Texture texture(seed, 0.15, 20.0);
   const cv::Mat keyframe = texture.image(0.0, 0.0, 1.0, 1);
   core::KltTracker tracker{core::KltConfig{}};
-  tracker.set_keyframe(keyframe, points);
+  tracker.set_keyframe(view(keyframe), points);
   std::array<std::array<Scatter, 2>, 2> tenths;
   for (int k = 0; k < n_images; ++k) {
     const bool is_first = k < n_images / 10, is_last = k >= n_images - n_images / 10;

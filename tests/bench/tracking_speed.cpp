@@ -18,9 +18,11 @@
 #include <vector>
 
 #include "core/tracking/point_finder.h"
+#include "tests/support/gray_view.h"
 
 namespace {
 
+using test_support::view;
 constexpr int kRegions = 6, kPerRegion = 30;
 constexpr int kJump_px = 60;
 
@@ -92,9 +94,9 @@ void compare(const char* name, int width, int height, int n_rounds) {
   const Scene s = scene(width, height);
   const core::RegionFollowerConfig follow{width, height};
   core::RegionFollower follower(follow, s.points, s.region, kRegions);
-  core::PointFinder finder({}, s.keyframe, s.points, s.region, kRegions);
+  core::PointFinder finder({}, view(s.keyframe), s.points, s.region, kRegions);
   int n_seen = 0;
-  const Time ours = time_us(n_rounds, [&] { finder.find(s.frame, follower); });
+  const Time ours = time_us(n_rounds, [&] { finder.find(view(s.frame), follower); });
   for (const core::KltPoint& p : finder.points()) n_seen += p.seen ? 1 : 0;
 
   const cv::Size window(core::kWindow, core::kWindow);
@@ -141,15 +143,15 @@ void compare(const char* name, int width, int height, int n_rounds) {
   print("point", ours, their_points, static_cast<double>(s.points.size()));
 
   core::KltTracker tracker{core::KltConfig{}};
-  tracker.set_keyframe(s.keyframe, s.points);
+  tracker.set_keyframe(view(s.keyframe), s.points);
   const Time kernel = time_us(n_rounds, [&] {
-    for (std::size_t i = 0; i < s.points.size(); ++i) (void)tracker.find(s.frame, i, s.points[i]);
+    for (std::size_t i = 0; i < s.points.size(); ++i) (void)tracker.find(view(s.frame), i, s.points[i]);
   });
   pyramids(s.keyframe, keyframes, 0);
   pyramids(s.frame, frames, 0);
   print("kernel", kernel, time_us(n_rounds, [&] { track(0); }), static_cast<double>(s.points.size()));
 
-  const Time fall_back = time_us(std::max(3, n_rounds / 10), [&] { finder.find(s.jumped, follower); });
+  const Time fall_back = time_us(std::max(3, n_rounds / 10), [&] { finder.find(view(s.jumped), follower); });
   int n_found = 0;
   for (const core::KltPoint& p : finder.points()) n_found += p.seen ? 1 : 0;
   std::printf("fall-back\t%.0f\t\t\t%.0f\t\nseen\t%d of %zu, after the jump %d\n", fall_back.median, fall_back.least,
@@ -160,8 +162,8 @@ void compare(const char* name, int width, int height, int n_rounds) {
 void follow_only(int n_frames) {
   const Scene s = scene(1920, 1080);
   core::RegionFollower follower(core::RegionFollowerConfig{1920, 1080}, s.points, s.region, kRegions);
-  core::PointFinder finder({}, s.keyframe, s.points, s.region, kRegions);
-  for (int k = 0; k < n_frames; ++k) finder.find(s.frame, follower);
+  core::PointFinder finder({}, view(s.keyframe), s.points, s.region, kRegions);
+  for (int k = 0; k < n_frames; ++k) finder.find(view(s.frame), follower);
 }
 
 }  // namespace

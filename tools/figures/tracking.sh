@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # The point tracker, figure by figure; one line each, MISS where a bar is not met. About 10 minutes; --quick: 3.
-#   tools/figures/tracking.sh [--quick] [FIGURE...]      FIGURE: some of 1 ... 4
+#   tools/figures/tracking.sh [--quick] [FIGURE...]      FIGURE: some of 1 ... 4, 6
 # Figure 1 measures time: leave the machine alone meanwhile. TRACKING_SEED=N draws another texture. 4 needs measured data
 # (HOVERMODAL_DATA).
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-rounds=400 images=24 textures=8 drift_images=10000
-[ "${1:-}" != --quick ] || { rounds=60 images=8 textures=2 drift_images=1000 && shift; }
-wanted=" ${*:-1 2 3 4} "
+rounds=400 images=24 textures=8 drift_images=10000 bit_frames=1000
+[ "${1:-}" != --quick ] || { rounds=60 images=8 textures=2 drift_images=1000 bit_frames=100 && shift; }
+wanted=" ${*:-1 2 3 4 6} "
 wants() { [[ $wanted == *" $1 "* ]]; }
 seed=${TRACKING_SEED:-1}
 out=$PWD/build/figures/tracking
@@ -84,7 +84,33 @@ figure_4() {
   judge 4 "$share % within 0.5 px, $lost dots lost for good" ">= 95 %, 0" "$what" "$share >= 95 && $lost == 0"
 }
 
-for figure in 1 2 3 4; do
+# --- 6: the same bits everywhere -----------------------------------------------------------------------------------------
+build_bits() { # NAME COMPILER FLAG...: tracking_bits without the rest of the project
+  local name=$1 compiler=$2
+  shift 2
+  "$compiler" -std=c++20 -O3 -ffp-contract=off -I. "$@" tests/bench/tracking_bits.cpp \
+    core/tracking/{point_finder,region_search,region_follower,motion_predictor,outlier_rejection}.cpp core/tracking/klt/*.cpp \
+    -o "$out/bits_$name"
+}
+figure_6() {
+  tools/setup.sh --runtime
+  local machines=(sse2 clones) name seen
+  build_bits sse2 g++ -DHOVERMODAL_NO_VECTOR_CLONES
+  build_bits clones g++
+  if grep -qw avx2 /proc/cpuinfo; then  # without FMA, which GCC 12 uses for complex products whatever -ffp-contract says
+    build_bits avx2 g++ -DHOVERMODAL_NO_VECTOR_CLONES -mavx2 && machines+=(avx2)
+  fi
+  for name in "${machines[@]}"; do "$out/bits_$name" "$bit_frames" >"$out/bits_$name.txt"; done
+  build_bits arm64 aarch64-linux-gnu-g++ -static
+  qemu-aarch64 "$out/bits_arm64" "$bit_frames" >"$out/bits_arm64.txt"
+  seen=$(awk -F'\t' '{ n += $2; of += substr($2, index($2, "of ") + 3) } END { printf "%d of %d", n, of }' "$out/bits_sse2.txt")
+  for name in "${machines[@]:1}" arm64; do
+    judge 6 "$(tail -n 1 "$out/bits_$name.txt" | cut -f 3), $seen points seen" "that of SSE2: $(tail -n 1 "$out/bits_sse2.txt" | cut -f 3)" \
+      "hash of all tracks of $bit_frames frames, $name" "$(cmp -s "$out/bits_sse2.txt" "$out/bits_$name.txt" && echo 1 || echo 0) == 1"
+  done
+}
+
+for figure in 1 2 3 4 6; do
   ! wants $figure || figure_$figure
 done
 [ $misses -eq 0 ]

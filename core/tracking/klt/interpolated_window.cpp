@@ -97,8 +97,8 @@ double sum_of_squares(const Weights& weights) {
 
 }  // namespace
 
-void InterpolatedWindow::begin(const cv::Mat& gray, const PointTemplate& point) noexcept {
-  gray_ = &gray;
+void InterpolatedWindow::begin(const GrayView& gray, const PointTemplate& point) noexcept {
+  gray_ = gray;
   point_ = &point;
   is_loaded_ = false;
 }
@@ -108,15 +108,15 @@ void InterpolatedWindow::load(int cell_u, int cell_v) noexcept {
   cell_u_ = cell_u, cell_v_ = cell_v;
   is_loaded_ = true;
   const int first_u = cell_u - kFoldedRadius - kSplineBefore, first_v = cell_v - kFoldedRadius - kSplineBefore;
-  if (first_u >= 0 && first_v >= 0 && first_u + kImageColumns <= gray_->cols && first_v + kImageRows <= gray_->rows) {
-    widen(gray_->ptr<std::uint8_t>(first_v) + first_u, gray_->step[0], pixels_.data());
+  if (first_u >= 0 && first_v >= 0 && first_u + kImageColumns <= gray_.width && first_v + kImageRows <= gray_.height) {
+    widen(gray_.row(first_v) + first_u, gray_.stride, pixels_.data());
     return;
   }
   for (int y = 0; y < kImageRows; ++y) {
-    const std::uint8_t* row = gray_->ptr<std::uint8_t>(mirrored(first_v + y, gray_->rows));
+    const std::uint8_t* row = gray_.row(mirrored(first_v + y, gray_.height));
     for (int x = 0; x < kImageColumns; ++x)
       pixels_[static_cast<std::size_t>(y * kImageColumns + x)] =
-          static_cast<std::int16_t>(row[mirrored(first_u + x, gray_->cols)] << kGreyBits);
+          static_cast<std::int16_t>(row[mirrored(first_u + x, gray_.width)] << kGreyBits);
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <opencv2/core.hpp>
 
 #include "core/tracking/klt/point_template.h"
 #include "core/types/vector2.h"
@@ -21,7 +20,7 @@ struct TemplateMatch {
 // every machine. Reused from point to point; no allocation. One thread.
 class InterpolatedWindow {
  public:
-  void begin(const cv::Mat& gray, const PointTemplate& point) noexcept;
+  void begin(const GrayView& gray, const PointTemplate& point) noexcept;
   // With the template's middle at (cell + fraction), fraction 0 ... 1.
   void move_to(int cell_u, int cell_v, double fraction_u, double fraction_v) noexcept;
   // px, from the position towards the template, for gain 1.
@@ -31,7 +30,7 @@ class InterpolatedWindow {
  private:
   void load(int cell_u, int cell_v) noexcept;
 
-  const cv::Mat* gray_ = nullptr;
+  GrayView gray_;
   const PointTemplate* point_ = nullptr;
   int cell_u_ = 0, cell_v_ = 0;
   bool is_loaded_ = false;

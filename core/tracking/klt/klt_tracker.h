@@ -1,6 +1,5 @@
 #pragma once
 
-#include <opencv2/core.hpp>
 #include <vector>
 
 #include "core/tracking/klt/interpolated_window.h"
@@ -24,8 +23,8 @@ struct KltPoint {
   bool seen = false;
 };
 
-// Whether the patch about a point has texture in two directions, so that its place in other images can be told.
-[[nodiscard]] bool is_trackable(const cv::Mat& gray, const Vector2& point, int window_px);
+// Whether its place in other images can be told.
+[[nodiscard]] bool is_trackable(const GrayView& gray, const Vector2& point, int window_px);
 
 // Points of a keyframe in later images, each near its prediction: inverse-compositional Lucas-Kanade against a template
 // (point_template.h), always the keyframe's, never frame to frame, so errors do not add up to drift. The same bits on
@@ -35,12 +34,12 @@ class KltTracker {
   explicit KltTracker(const KltConfig& config) : config_(config) {}
 
   // Throws std::invalid_argument unless the image is 8-bit grey and not empty.
-  void set_keyframe(const cv::Mat& gray, const std::vector<Vector2>& points);
+  void set_keyframe(const GrayView& gray, const std::vector<Vector2>& points);
   [[nodiscard]] std::size_t n_points() const noexcept { return points_.size(); }
   [[nodiscard]] const PointTemplate& point_template(std::size_t i) const noexcept { return points_[i].pattern; }
 
   // gray: 8-bit, of any size. Not seen: no texture, its window leaves the image, too far away, or it looks different.
-  [[nodiscard]] KltPoint find(const cv::Mat& gray, std::size_t i, const Vector2& predicted) noexcept;
+  [[nodiscard]] KltPoint find(const GrayView& gray, std::size_t i, const Vector2& predicted) noexcept;
 
  private:
   struct Point {

@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cstdint>
-#include <opencv2/core.hpp>
 
 #include "core/tracking/klt/quintic_spline.h"
+#include "core/types/gray_view.h"
 
 namespace core {
 
@@ -34,11 +34,11 @@ using Patch = std::array<std::array<double, kPatch>, kPatch>;
 }
 
 // About the pixel (u, v).
-inline void cut_patch(const cv::Mat& gray, int u, int v, Patch& out) noexcept {
+inline void cut_patch(const GrayView& gray, int u, int v, Patch& out) noexcept {
   for (int y = 0; y < kPatch; ++y) {
-    const std::uint8_t* row = gray.ptr<std::uint8_t>(mirrored(v - kPatchRadius + y, gray.rows));
+    const std::uint8_t* row = gray.row(mirrored(v - kPatchRadius + y, gray.height));
     for (int x = 0; x < kPatch; ++x)
-      out[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] = row[mirrored(u - kPatchRadius + x, gray.cols)];
+      out[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] = row[mirrored(u - kPatchRadius + x, gray.width)];
   }
 }
 

@@ -179,12 +179,9 @@ double noise_variance(const Patch& patch, int radius) {
   return sum / (36.0 * area(radius));
 }
 
-}  // namespace
-
-void build_template(const Patch& patch, int radius, int n_averaged, PointTemplate& out) noexcept {
-  out.is_trackable = false;
-  out.n_averaged = n_averaged;
-  out.radius = radius;
+// The factors that take an image's difference from the template to a step, pixel by pixel, and what `out` says of grey
+// values and variances. False: no texture in two directions.
+bool linearise(const Patch& patch, int radius, PointTemplate& out, Window& step_u, Window& step_v) noexcept {
   constexpr std::array<double, 1> kSame{1.0};
   Window texture{}, smooth_u{}, smooth_v{}, slope_u{}, slope_v{};
   filter(patch, kSame, kSame, kWindowRadius, texture);
@@ -200,8 +197,8 @@ void build_template(const Patch& patch, int radius, int n_averaged, PointTemplat
              [&](std::size_t y, std::size_t x) { texture[y][x] -= mean, square += texture[y][x] * texture[y][x]; });
   out.mean = mean;
   out.variance = square / area(radius);
-  if (n_averaged == 1) out.noise = std::min(noise_variance(patch, radius), kMostNoiseShare * out.variance);
-  if (!(square > 0.0)) return;
+  if (out.n_averaged == 1) out.noise = std::min(noise_variance(patch, radius), kMostNoiseShare * out.variance);
+  if (!(square > 0.0)) return false;
   make_orthogonal(smooth_u, radius, texture, square);
   make_orthogonal(smooth_v, radius, texture, square);
 
@@ -211,14 +208,13 @@ void build_template(const Patch& patch, int radius, int n_averaged, PointTemplat
     vu += smooth_v[y][x] * slope_u[y][x], vv += smooth_v[y][x] * slope_v[y][x];
   });
   // The template's own noise is in both gradients: without it, steps would be too short by as much.
-  const double own = area(radius) * kNoiseInBoth * out.noise / n_averaged;
+  const double own = area(radius) * kNoiseInBoth * out.noise / out.n_averaged;
   uu = std::max(kLeastWithoutNoise * uu, uu - own), vv = std::max(kLeastWithoutNoise * vv, vv - own);
   const double determinant = uu * vv - uv * vu;
   const double trace = uu + vv;
   const double least = 0.5 * (trace - std::sqrt(std::max(0.0, trace * trace - 4.0 * determinant)));
-  if (!(least > kLeastEigenvalue * area(radius))) return;
+  if (!(least > kLeastEigenvalue * area(radius))) return false;
 
-  Window step_u{}, step_v{};
   double var_u = 0.0, var_v = 0.0;
   for_window(radius, [&](std::size_t y, std::size_t x) {
     step_u[y][x] = (vv * smooth_u[y][x] - uv * smooth_v[y][x]) / determinant;
@@ -226,6 +222,23 @@ void build_template(const Patch& patch, int radius, int n_averaged, PointTemplat
     var_u += step_u[y][x] * step_u[y][x], var_v += step_v[y][x] * step_v[y][x];
   });
   out.variance_u = var_u, out.variance_v = var_v;
+  return true;
+}
+
+}  // namespace
+
+bool has_texture(const Patch& patch, int radius) noexcept {
+  PointTemplate described;
+  Window step_u{}, step_v{};
+  return linearise(patch, radius, described, step_u, step_v);
+}
+
+void build_template(const Patch& patch, int radius, int n_averaged, PointTemplate& out) noexcept {
+  out.n_averaged = n_averaged;
+  out.radius = radius;
+  Window step_u{}, step_v{};
+  out.is_trackable = linearise(patch, radius, out, step_u, step_v);
+  if (!out.is_trackable) return;
 
   Folded folded_u, folded_v;
   fold(step_u, folded_u);
@@ -241,7 +254,6 @@ void build_template(const Patch& patch, int radius, int n_averaged, PointTemplat
   out.origin_v = sum_at_origin(samples, out.step_v);
 
   keep_texture(samples, out);
-  out.is_trackable = true;
 }
 
 }  // namespace core

@@ -33,6 +33,8 @@ struct PointTemplate {
   bool is_trackable = false;  // texture in two directions
 };
 
+// Whether a patch about a point has texture in two directions, so that its place in other images can be told.
+[[nodiscard]] bool has_texture(const Patch& patch, int radius) noexcept;
 // `patch`: of one image, or the mean of n_averaged. radius: 2 ... kWindowRadius.
 void build_template(const Patch& patch, int radius, int n_averaged, PointTemplate& out) noexcept;
 

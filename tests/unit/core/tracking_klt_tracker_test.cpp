@@ -6,11 +6,13 @@
 
 #include "core/tracking/point_seeder.h"
 #include "tests/support/analytic_texture.h"
+#include "tests/support/gray_view.h"
 
 namespace core {
 namespace {
 
 using test_support::AnalyticTexture;
+using test_support::view;
 constexpr int kWidth = 240;
 constexpr int kHeight = 180;
 
@@ -30,12 +32,12 @@ struct Fixture {
   std::vector<Vector2> points = seed(keyframe);
   KltTracker tracker{KltConfig{}};
 
-  Fixture() { tracker.set_keyframe(keyframe, points); }
+  Fixture() { tracker.set_keyframe(view(keyframe), points); }
 
   std::vector<KltPoint> find(const cv::Mat& image, double du = 0.0, double dv = 0.0) {
     std::vector<KltPoint> out;
     for (std::size_t i = 0; i < points.size(); ++i)
-      out.push_back(tracker.find(image, i, {points[i].u + du, points[i].v + dv}));
+      out.push_back(tracker.find(view(image), i, {points[i].u + du, points[i].v + dv}));
     return out;
   }
 };
@@ -81,7 +83,7 @@ TEST(KltTracker, GainAndOffsetOfTheLightMoveNothing) {
   const AnalyticTexture dim(11, 8.0, 20.0);
   f.keyframe = dim.image(kWidth, kHeight, 0.0, 0.0);
   f.points = seed(f.keyframe);
-  f.tracker.set_keyframe(f.keyframe, f.points);
+  f.tracker.set_keyframe(view(f.keyframe), f.points);
   dim.image(kWidth, kHeight, 0.4, -0.3).convertTo(brighter, CV_8UC1, 1.25, -20.0);
   const auto found = f.find(brighter);
   EXPECT_LT(rms_error(found, f.points, 0.4, -0.3), 0.005);
@@ -138,10 +140,10 @@ TEST(KltTracker, ImagesOfAnotherKindAndWildPredictionsLosePointsAndNothingElse) 
     for (const KltPoint& point : f.find(image)) EXPECT_FALSE(point.seen);
   }
   for (const Vector2& wild : {Vector2{nan, 3.0}, Vector2{1e300, 0.0}, Vector2{0.0, -1e9}, Vector2{-HUGE_VAL, nan}})
-    EXPECT_FALSE(f.tracker.find(f.keyframe, 0, wild).seen);
+    EXPECT_FALSE(f.tracker.find(view(f.keyframe), 0, wild).seen);
   EXPECT_LT(rms_error(f.find(f.keyframe), f.points, 0.0, 0.0), 1e-4);
-  EXPECT_THROW(f.tracker.set_keyframe(cv::Mat(), {}), std::invalid_argument);
-  EXPECT_THROW(KltTracker(KltConfig{31}).set_keyframe(f.keyframe, f.points), std::invalid_argument);
+  EXPECT_THROW(f.tracker.set_keyframe(view(cv::Mat()), {}), std::invalid_argument);
+  EXPECT_THROW(KltTracker(KltConfig{31}).set_keyframe(view(f.keyframe), f.points), std::invalid_argument);
 }
 
 // A patch that knows only one direction says nothing about the other.
@@ -149,9 +151,9 @@ TEST(KltTracker, AnEdgeOrAFlatPatchIsNoPoint) {
   cv::Mat edge(kHeight, kWidth, CV_8UC1, cv::Scalar(40));
   edge.colRange(100, kWidth).setTo(200);
   KltTracker tracker{KltConfig{}};
-  tracker.set_keyframe(edge, {{100.0, 90.0}, {40.0, 40.0}});
-  EXPECT_FALSE(tracker.find(edge, 0, {100.0, 90.0}).seen);
-  EXPECT_FALSE(tracker.find(edge, 1, {40.0, 40.0}).seen);
+  tracker.set_keyframe(view(edge), {{100.0, 90.0}, {40.0, 40.0}});
+  EXPECT_FALSE(tracker.find(view(edge), 0, {100.0, 90.0}).seen);
+  EXPECT_FALSE(tracker.find(view(edge), 1, {40.0, 40.0}).seen);
 }
 
 // Over many images against one template, about each point's own mean: METHOD section 2.
@@ -161,7 +163,7 @@ TEST(KltTracker, StatedSigmaIsTheScatterAgainstATemplate) {
     const cv::Mat keyframe = texture.image(kWidth, kHeight, 0.0, 0.0, noise, 1);
     Fixture f;
     f.points = seed(keyframe);
-    f.tracker.set_keyframe(keyframe, f.points);
+    f.tracker.set_keyframe(view(keyframe), f.points);
     constexpr int kImages = 16;
     std::vector<std::vector<KltPoint>> found;
     for (unsigned k = 0; k < kImages; ++k)

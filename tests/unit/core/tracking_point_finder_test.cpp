@@ -6,11 +6,13 @@
 #include <numbers>
 
 #include "tests/support/analytic_texture.h"
+#include "tests/support/gray_view.h"
 
 namespace core {
 namespace {
 
 using test_support::AnalyticTexture;
+using test_support::view;
 constexpr int kWidth = 480, kHeight = 320;
 constexpr std::size_t kRegions = 2, kPerRegion = 12;
 
@@ -30,7 +32,7 @@ struct Rig {
       }
     }
     follower = std::make_unique<RegionFollower>(RegionFollowerConfig{kWidth, kHeight}, keyframe, region, kRegions);
-    finder = std::make_unique<PointFinder>(PointFinderConfig{}, image(0.0, 0.0), keyframe, region, kRegions);
+    finder = std::make_unique<PointFinder>(PointFinderConfig{}, view(image(0.0, 0.0)), keyframe, region, kRegions);
   }
   [[nodiscard]] cv::Mat image(double du, double dv) const { return texture.image(kWidth, kHeight, du, dv, 1.0, 3); }
 
@@ -56,21 +58,21 @@ struct Rig {
 
 TEST(PointFinder, FindsRegionsThatJumped) {
   Rig rig;
-  rig.finder->find(rig.image(0.0, 0.0), *rig.follower);
+  rig.finder->find(view(rig.image(0.0, 0.0)), *rig.follower);
   rig.learn();
   for (const auto& [du, dv] : {std::pair{61.3, -40.6}, {-97.2, 20.4}, {4.4, 3.1}}) {
-    rig.finder->find(rig.image(du, dv), *rig.follower);
+    rig.finder->find(view(rig.image(du, dv)), *rig.follower);
     for (std::size_t r = 0; r < kRegions; ++r) EXPECT_EQ(rig.n_right(r, du, dv), static_cast<int>(kPerRegion)) << du;
   }
 }
 
 TEST(PointFinder, ARegionThatIsCoveredIsNotSeenAndTheOtherIs) {
   Rig rig;
-  rig.finder->find(rig.image(0.0, 0.0), *rig.follower);
+  rig.finder->find(view(rig.image(0.0, 0.0)), *rig.follower);
   rig.learn();
   cv::Mat covered = rig.image(0.3, 0.2);
   covered(cv::Rect(0, 170, kWidth, 150)).setTo(90);
-  rig.finder->find(covered, *rig.follower);
+  rig.finder->find(view(covered), *rig.follower);
   EXPECT_EQ(rig.n_right(0, 0.3, 0.2), static_cast<int>(kPerRegion));
   for (std::size_t i = kPerRegion; i < 2 * kPerRegion; ++i) EXPECT_FALSE(rig.finder->points()[i].seen) << i;
 }
@@ -88,20 +90,20 @@ TEST(PointFinder, PointsThatSlippedToTheNextBarAreFoundOut) {
             60.0 * std::sin(2.0 * std::numbers::pi * (u - du) / 12.0) * std::cos(2.0 * std::numbers::pi * v / 12.0));
     return out;
   };
-  rig.finder = std::make_unique<PointFinder>(PointFinderConfig{}, scene(0), rig.keyframe, rig.region, kRegions);
+  rig.finder = std::make_unique<PointFinder>(PointFinderConfig{}, view(scene(0)), rig.keyframe, rig.region, kRegions);
   for (int k = 0; k < 3; ++k) {
-    rig.finder->find(scene(0), *rig.follower);
+    rig.finder->find(view(scene(0)), *rig.follower);
     rig.learn();
   }
-  rig.finder->find(scene(11), *rig.follower);
+  rig.finder->find(view(scene(11)), *rig.follower);
   for (std::size_t r = 0; r < kRegions; ++r) EXPECT_EQ(rig.n_right(r, 11.0, 0.0), static_cast<int>(kPerRegion)) << r;
 }
 
 TEST(PointFinder, NothingInADarkImage) {
   Rig rig;
-  rig.finder->find(cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(0)), *rig.follower);
+  rig.finder->find(view(cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(0))), *rig.follower);
   for (const KltPoint& point : rig.finder->points()) EXPECT_FALSE(point.seen);
-  rig.finder->find(rig.image(0.0, 0.0), *rig.follower);
+  rig.finder->find(view(rig.image(0.0, 0.0)), *rig.follower);
   EXPECT_EQ(rig.n_right(0, 0.0, 0.0), static_cast<int>(kPerRegion));
 }
 

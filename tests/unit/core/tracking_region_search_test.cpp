@@ -5,11 +5,13 @@
 #include <cmath>
 
 #include "tests/support/analytic_texture.h"
+#include "tests/support/gray_view.h"
 
 namespace core {
 namespace {
 
 using test_support::AnalyticTexture;
+using test_support::view;
 constexpr int kWidth = 640, kHeight = 360;
 
 const std::vector<Vector2>& points() {
@@ -19,9 +21,9 @@ const std::vector<Vector2>& points() {
 
 TEST(RegionSearch, FindsALargeJump) {
   const AnalyticTexture texture(5, 12.0);
-  RegionSearch search(texture.image(kWidth, kHeight, 0.0, 0.0), points(), 200.0);
+  RegionSearch search(view(texture.image(kWidth, kHeight, 0.0, 0.0)), points(), 200.0);
   for (const auto& [du, dv] : {std::pair{120.0, -40.0}, {-171.0, 90.0}, {3.0, 2.0}, {199.0, -110.0}}) {
-    const auto found = search.find(texture.image(kWidth, kHeight, du, dv), {});
+    const auto found = search.find(view(texture.image(kWidth, kHeight, du, dv)), {});
     EXPECT_TRUE(found.is_clear) << du << ", " << dv;
     EXPECT_NEAR(found.motion.u, du, 2.0);
     EXPECT_NEAR(found.motion.v, dv, 2.0);
@@ -41,9 +43,9 @@ TEST(RegionSearch, ARowOfEqualDotsIsNotMovedByOneDot) {
   };
   std::vector<Vector2> row;
   for (int k = 0; k < 5; ++k) row.push_back({200.0 + 40.0 * k, 180.0});
-  RegionSearch search(dots(0), row, 150.0);
+  RegionSearch search(view(dots(0)), row, 150.0);
   for (const int du : {55, 104, -97}) {
-    const auto found = search.find(dots(du), {});
+    const auto found = search.find(view(dots(du)), {});
     EXPECT_TRUE(found.is_clear) << du;
     EXPECT_NEAR(found.motion.u, du, 2.0);
     EXPECT_NEAR(found.motion.v, 0.0, 2.0);
@@ -52,17 +54,17 @@ TEST(RegionSearch, ARowOfEqualDotsIsNotMovedByOneDot) {
 
 TEST(RegionSearch, WhatIsNotThereIsNotFound) {
   const AnalyticTexture texture(5, 12.0);
-  RegionSearch search(texture.image(kWidth, kHeight, 0.0, 0.0), points(), 100.0);
-  EXPECT_FALSE(search.find(AnalyticTexture(77, 12.0).image(kWidth, kHeight, 0.0, 0.0), {}).is_clear);
-  EXPECT_FALSE(search.find(cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(7)), {}).is_clear);
-  EXPECT_FALSE(search.find(cv::Mat(), {}).is_clear);
-  EXPECT_FALSE(search.find(texture.image(kWidth, kHeight, 0.0, 0.0), {std::nan(""), 0.0}).is_clear);
-  EXPECT_FALSE(search.find(texture.image(kWidth, kHeight, 0.0, 0.0), {1e18, -1e18}).is_clear);
+  RegionSearch search(view(texture.image(kWidth, kHeight, 0.0, 0.0)), points(), 100.0);
+  EXPECT_FALSE(search.find(view(AnalyticTexture(77, 12.0).image(kWidth, kHeight, 0.0, 0.0)), {}).is_clear);
+  EXPECT_FALSE(search.find(view(cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(7))), {}).is_clear);
+  EXPECT_FALSE(search.find(view(cv::Mat()), {}).is_clear);
+  EXPECT_FALSE(search.find(view(texture.image(kWidth, kHeight, 0.0, 0.0)), {std::nan(""), 0.0}).is_clear);
+  EXPECT_FALSE(search.find(view(texture.image(kWidth, kHeight, 0.0, 0.0)), {1e18, -1e18}).is_clear);
 }
 
 TEST(RegionSearch, ARegionWithoutPointsIsNeverFound) {
-  RegionSearch search(cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(7)), {}, 100.0);
-  EXPECT_FALSE(search.find(cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(7)), {}).is_clear);
+  RegionSearch search(view(cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(7))), {}, 100.0);
+  EXPECT_FALSE(search.find(view(cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(7))), {}).is_clear);
 }
 
 }  // namespace
