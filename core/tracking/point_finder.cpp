@@ -11,9 +11,14 @@ namespace {
 
 constexpr double kNoticeable_px = 1.0;  // a shorter way brings nothing that the prediction did not
 constexpr double kAgreeing_px = 3.0;    // points of one region, about their median
-constexpr double kUnusual = 5.0;        // times the usual sigma: another edge that looks alike
-constexpr double kLearning = 0.05;      // of the usual sigma, a frame
-constexpr int kSearchesPerFrame = 3;    // whole regions: about a millisecond each
+constexpr double kUnusual = 5.0;        // times the usual strangeness: another edge that looks alike
+constexpr double kDisturbed =
+    1.5;  // times the usual strangeness, if its region's points have theirs: not only itself is seen
+constexpr double kLearning = 0.05;    // of the usual strangeness, a frame
+constexpr int kSearchesPerFrame = 3;  // whole regions: about a millisecond each
+
+// What the template does not explain, in px: the sigma without the weakness of the light.
+double strangeness(const KltPoint& point) noexcept { return point.sigma_px * point.gain; }
 
 }  // namespace
 
@@ -34,7 +39,7 @@ PointFinder::PointFinder(const PointFinderConfig& config, const GrayView& image,
     first = end;
   }
   found_.resize(keyframe.size());
-  usual_sigma_px_.resize(keyframe.size());
+  usual_.resize(keyframe.size());
   best_.resize(most);
   scratch_u_.reserve(most);
   scratch_v_.reserve(most);
@@ -73,6 +78,20 @@ void PointFinder::find(const GrayView& gray, const RegionFollower& expected) noe
     look_for_rest(gray, region, best);
     surprise = to(best.motion), other_motion = best.motion;
   }
+  for (const Region& region : regions_) leave_out_disturbed(region);
+}
+
+// The edge of a shadow, a rope or a bird moves over a few points of a region and takes them along for a while: they
+// look less like themselves than the others do. What all share (blur, noise of a darker image) is no such edge.
+void PointFinder::leave_out_disturbed(const Region& region) noexcept {
+  const auto is_known = [&](std::size_t i) { return found_[i].seen && usual_[i] > 0.0; };
+  scratch_u_.clear();
+  for (std::size_t i = region.first; i < region.first + region.n; ++i)
+    if (is_known(i)) scratch_u_.push_back(strangeness(found_[i]) / usual_[i]);
+  if (scratch_u_.empty()) return;
+  const double common = std::max(1.0, median_in_place(scratch_u_));
+  for (std::size_t i = region.first; i < region.first + region.n; ++i)
+    if (is_known(i) && strangeness(found_[i]) > kDisturbed * common * usual_[i]) found_[i].seen = false;
 }
 
 void PointFinder::look(const GrayView& gray, const Region& region, const RegionFollower& expected,
@@ -120,7 +139,7 @@ PointFinder::Look PointFinder::judge(const Region& region) noexcept {
         std::abs(point.position.v - keyframe_[i].v - look.motion.v) > kAgreeing_px)
       continue;
     ++look.n_agreeing;
-    look.n_convincing += usual_sigma_px_[i] == 0.0 || point.sigma_px < kUnusual * usual_sigma_px_[i] ? 1 : 0;
+    look.n_convincing += usual_[i] == 0.0 || strangeness(point) < kUnusual * usual_[i] ? 1 : 0;
   }
   return look;
 }
@@ -146,10 +165,11 @@ void PointFinder::look_for_rest(const GrayView& gray, const Region& region, cons
 }
 
 void PointFinder::learn(const TrackFrame& judged) noexcept {
-  for (std::size_t i = 0; i < usual_sigma_px_.size() && i < judged.points.size(); ++i) {
+  for (std::size_t i = 0; i < usual_.size() && i < judged.points.size(); ++i) {
     if (!judged.points[i].inlier || !(found_[i].sigma_px > 0.0)) continue;
-    double& usual = usual_sigma_px_[i];
-    usual = usual == 0.0 ? found_[i].sigma_px : usual + kLearning * (found_[i].sigma_px - usual);
+    double& usual = usual_[i];
+    const double now = strangeness(found_[i]);
+    usual = usual == 0.0 ? now : usual + kLearning * (now - usual);
   }
 }
 

@@ -52,6 +52,7 @@ class PointFinder {
   void look_for_rest(const GrayView& gray, const Region& region, const Look& look) noexcept;
   [[nodiscard]] bool improves(const GrayView& gray, const Region& region, const RegionFollower& expected,
                               const Vector2& shift, Look& best) noexcept;
+  void leave_out_disturbed(const Region& region) noexcept;
   [[nodiscard]] Vector2 median_motion(const Region& region) noexcept;
 
   PointFinderConfig config_;
@@ -59,7 +60,7 @@ class PointFinder {
   std::vector<Vector2> keyframe_;
   std::vector<Region> regions_;
   std::vector<KltPoint> found_, best_;
-  std::vector<double> usual_sigma_px_;  // 0: not known yet
+  std::vector<double> usual_;  // strangeness of each point; 0: not known yet
   std::vector<double> scratch_u_, scratch_v_;
   std::size_t next_search_ = 0;  // regions take turns
 };

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # The point tracker, figure by figure; one line each, MISS where a bar is not met. About 10 minutes; --quick: 3.
-#   tools/figures/tracking.sh [--quick] [FIGURE...]      FIGURE: some of 1 ... 4, 6
+#   tools/figures/tracking.sh [--quick] [FIGURE...]      FIGURE: some of 1 ... 6
 # Figure 1 measures time: leave the machine alone meanwhile. TRACKING_SEED=N draws another texture. 4 needs measured data
 # (HOVERMODAL_DATA).
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-rounds=400 images=24 textures=8 drift_images=10000 bit_frames=1000
-[ "${1:-}" != --quick ] || { rounds=60 images=8 textures=2 drift_images=1000 bit_frames=100 && shift; }
-wanted=" ${*:-1 2 3 4 6} "
+rounds=400 images=24 textures=8 drift_images=10000 bit_frames=1000 light_s=120
+[ "${1:-}" != --quick ] || { rounds=60 images=8 textures=2 drift_images=1000 bit_frames=100 light_s=40 && shift; }
+wanted=" ${*:-1 2 3 4 5 6} "
 wants() { [[ $wanted == *" $1 "* ]]; }
 seed=${TRACKING_SEED:-1}
 out=$PWD/build/figures/tracking
@@ -84,6 +84,27 @@ figure_4() {
   judge 4 "$share % within 0.5 px, $lost dots lost for good" ">= 95 %, 0" "$what" "$share >= 95 && $lost == 0"
 }
 
+# --- 5: light that changes ------------------------------------------------------------------------------------------------
+figure_5() {
+  quietly tools/build.sh tracking_light
+  "$bin/tracking_light" "$light_s" "$seed" >"$out/light.txt"
+  value() { awk -F'\t' -v light="$1" -v column="$2" '$1 == light { print $column }' "$out/light.txt"; }
+  against() { # LIGHT OTHER: of points and of regions, "+5.4 % (regions +9.0 %)"
+    awk -v a="$(value "$1" 2)" -v b="$(value "$2" 2)" -v c="$(value "$1" 4)" -v d="$(value "$2" 4)" \
+      'BEGIN { printf "%+.1f %% (regions %+.1f %%)", 100 * (a / b - 1), 100 * (c / d - 1) }'
+  }
+  local light what
+  for light in flicker shadow; do
+    what=$([ $light = flicker ] && echo "lamps that flicker by 10 % at 7 Hz" || echo "the edge of a shadow of 40 % over the picture and back")
+    judge 5 "$(against $light steady), $(value $light 2) px; OpenCV $(value steady 3) -> $(value $light 3) px" "+10 %" \
+      "rms error of points under $what, $light_s s, $(awk -v s="$(value $light 5)" 'BEGIN { print 100 * s }') % of the points seen" \
+      "$(value $light 2) <= 1.1 * $(value steady 2)"
+    judge 5 "$(value $light 7) false, $(value $light 6) true, worst $(value $light 8) %" "0 false, $(value steady 6) true" \
+      "structural modes under $what" "$(value $light 7) == 0 && $(value $light 6) >= $(value steady 6)"
+  done
+  line 5 beside "$(against shadow dimmed)" "-" "the shadow against as much light without an edge"
+}
+
 # --- 6: the same bits everywhere -----------------------------------------------------------------------------------------
 build_bits() { # NAME COMPILER FLAG...: tracking_bits without the rest of the project
   local name=$1 compiler=$2
@@ -110,7 +131,7 @@ figure_6() {
   done
 }
 
-for figure in 1 2 3 4 6; do
+for figure in 1 2 3 4 5 6; do
   ! wants $figure || figure_$figure
 done
 [ $misses -eq 0 ]

@@ -99,6 +99,24 @@ TEST(PointFinder, PointsThatSlippedToTheNextBarAreFoundOut) {
   for (std::size_t r = 0; r < kRegions; ++r) EXPECT_EQ(rig.n_right(r, 11.0, 0.0), static_cast<int>(kPerRegion)) << r;
 }
 
+// The edge lies in the windows of two points of each region, where gain and offset of the light cannot describe it.
+TEST(PointFinder, PointsOnTheEdgeOfAShadowAreLeftOutAndComeBack) {
+  Rig rig;
+  const auto look_at = [&](double du, bool is_shaded) {
+    cv::Mat image = rig.image(du, 0.0);
+    if (is_shaded) image(cv::Rect(0, 0, 188, kHeight)) *= 0.7;
+    rig.finder->find(view(image), *rig.follower);
+    rig.learn();
+  };
+  for (int k = 0; k < 3; ++k) look_at(0.1 * k, false);
+  look_at(0.4, true);
+  for (std::size_t i = 0; i < rig.keyframe.size(); ++i)
+    EXPECT_EQ(rig.finder->points()[i].seen, rig.keyframe[i].u != 188.0) << i;
+  for (std::size_t r = 0; r < kRegions; ++r) EXPECT_EQ(rig.n_right(r, 0.4, 0.0), static_cast<int>(kPerRegion) - 2);
+  look_at(0.5, false);
+  for (std::size_t r = 0; r < kRegions; ++r) EXPECT_EQ(rig.n_right(r, 0.5, 0.0), static_cast<int>(kPerRegion));
+}
+
 TEST(PointFinder, NothingInADarkImage) {
   Rig rig;
   rig.finder->find(view(cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(0))), *rig.follower);
