@@ -12,6 +12,7 @@ constexpr double kFarthest_px = 1e6;
 constexpr double kLongestStep_px = 3.0;
 constexpr double kLeastGain = 0.2, kMostGain = 5.0;
 constexpr double kLeastCorrelation = 0.5;
+constexpr int kStepsOfOldGain = 3;
 constexpr double kRounding = 1.0 / 12.0;
 constexpr double kOfRounding = 0.5;  // steps within what rounding to 8 bits does anyway
 
@@ -56,6 +57,13 @@ void KltTracker::judge_texture(Point& point) const noexcept {
   point.least_correlation = std::max(kLeastCorrelation, config_.least_correlation * expected);
 }
 
+// Steps that do not end are too long or too short because the light is another one than it was.
+double KltTracker::gain_here(double otherwise) const noexcept {
+  const TemplateMatch match = window_.match();
+  if (!(match.correlation > kLeastCorrelation)) return otherwise;
+  return std::clamp(match.gain / match.correlation, kLeastGain, kMostGain);  // of the contrast: also beside the place
+}
+
 KltPoint KltTracker::find(const GrayView& gray, std::size_t i, const Vector2& predicted) noexcept {
   Point& point = points_[i];
   KltPoint out{predicted, 0.0, point.gain, false};
@@ -69,10 +77,11 @@ KltPoint KltTracker::find(const GrayView& gray, std::size_t i, const Vector2& pr
       std::max(config_.epsilon_px,
                kOfRounding * std::sqrt(kRounding * std::max(point.pattern.variance_u, point.pattern.variance_v)));
   bool is_settled = false;
+  double gain = point.gain;
   window_.begin(gray, point.pattern);
   const auto advance = [&](const Vector2& step) {
-    const double way = length(step) / point.gain;
-    const double share = (way > kLongestStep_px ? kLongestStep_px / way : 1.0) / point.gain;
+    const double way = length(step) / gain;
+    const double share = (way > kLongestStep_px ? kLongestStep_px / way : 1.0) / gain;
     u -= share * step.u, v -= share * step.v;
     return way;
   };
@@ -80,7 +89,9 @@ KltPoint KltTracker::find(const GrayView& gray, std::size_t i, const Vector2& pr
     cell_u = static_cast<int>(std::floor(u)), cell_v = static_cast<int>(std::floor(v));
     if (!window_lies_in(gray, cell_u, cell_v, point.pattern.radius)) return out;
     window_.move_to(cell_u, cell_v, u - cell_u, v - cell_v);
-    is_settled = advance(window_.step()) < enough_px;
+    const Vector2 step = window_.step();
+    if (k == kStepsOfOldGain) gain = gain_here(gain);
+    is_settled = advance(step) < enough_px;
     if (!(length(u - start_u, v - start_v) <= config_.reach_px)) return out;
   }
   out.position = {u - point.u0 + point.keyframe.u, v - point.v0 + point.keyframe.v};

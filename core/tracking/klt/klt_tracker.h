@@ -51,6 +51,7 @@ class KltTracker {
   };
 
   void judge_texture(Point& point) const noexcept;
+  [[nodiscard]] double gain_here(double otherwise) const noexcept;
 
   KltConfig config_;
   std::vector<Point> points_;

@@ -90,6 +90,18 @@ TEST(KltTracker, GainAndOffsetOfTheLightMoveNothing) {
   for (const KltPoint& point : found) EXPECT_NEAR(point.gain, 1.25, 0.03);
 }
 
+// From one image to the next: steps made for the old light would be too long or too short.
+TEST(KltTracker, ASuddenlyDarkerOrBrighterImageLosesNothing) {
+  Fixture f;
+  f.keyframe.convertTo(f.keyframe, -1, 0.6, 10.0);
+  f.tracker.set_keyframe(view(f.keyframe), f.points);
+  for (const double light : {1.0, 0.5, 1.4, 0.4, 1.0}) {
+    cv::Mat image = f.texture.image(kWidth, kHeight, 2.6, -1.7);
+    image.convertTo(image, -1, 0.6 * light, 10.0);
+    EXPECT_LT(rms_error(f.find(image), f.points, 2.6, -1.7), 0.02) << light;
+  }
+}
+
 TEST(KltTracker, APointWhosePatchWasReplacedIsLostAndTheOthersAreNot) {
   Fixture f;
   cv::Mat image = f.texture.image(kWidth, kHeight, 0.4, 0.2);
