@@ -44,10 +44,9 @@ double log_likelihood(std::span<const Vector2> motion, std::span<const std::uint
   return sum;
 }
 
-}  // namespace
-
-MlesacResult mlesac_translation(std::span<const Vector2> motion, std::span<const std::uint8_t> valid,
-                                const MlesacConfig& config, std::span<std::uint8_t> inlier) noexcept {
+// The hypothesis of the highest likelihood: one of the points.
+Vector2 likeliest(std::span<const Vector2> motion, std::span<const std::uint8_t> valid,
+                  const MlesacConfig& config) noexcept {
   double best = -std::numeric_limits<double>::infinity();
   Vector2 centre;
   for (std::size_t i = 0; i < motion.size(); ++i) {
@@ -58,10 +57,32 @@ MlesacResult mlesac_translation(std::span<const Vector2> motion, std::span<const
       centre = motion[i];
     }
   }
+  return centre;
+}
+
+// Where all are nearer to one another than the gate, they are inliers of any of them, and of their mean.
+bool all_agree(std::span<const Vector2> motion, std::span<const std::uint8_t> valid, double gate,
+               Vector2& any) noexcept {
+  Vector2 low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    if (valid[i] == 0) continue;
+    any = motion[i];
+    low = {std::min(low.u, any.u), std::min(low.v, any.v)};
+    high = {std::max(high.u, any.u), std::max(high.v, any.v)};
+  }
+  return squared_distance(low, high) < gate;
+}
+
+}  // namespace
+
+MlesacResult mlesac_translation(std::span<const Vector2> motion, std::span<const std::uint8_t> valid,
+                                const MlesacConfig& config, std::span<std::uint8_t> inlier) noexcept {
   MlesacResult result;
   // The winner is itself a noisy point: judge the others about the mean of its followers, twice.
   constexpr double kGateSigmas = 3.5;
   const double gate = kGateSigmas * kGateSigmas * config.sigma_px * config.sigma_px * 2.0;
+  Vector2 centre;
+  if (!all_agree(motion, valid, gate, centre)) centre = likeliest(motion, valid, config);
   for (int pass = 0; pass < 2; ++pass) {
     Vector2 sum;
     result.n_inliers = 0;

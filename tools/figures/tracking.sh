@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # The point tracker, figure by figure; one line each, MISS where a bar is not met. About 10 minutes; --quick: 3.
-#   tools/figures/tracking.sh [--quick] [FIGURE...]      FIGURE: some of 1 ... 6
-# Figure 1 measures time: leave the machine alone meanwhile. TRACKING_SEED=N draws another texture. 4 needs measured data
+#   tools/figures/tracking.sh [--quick] [FIGURE...]      FIGURE: some of 1 ... 7
+# Figures 1 and 7 measure time: leave the machine alone meanwhile. TRACKING_SEED=N draws another texture. 4 needs measured data
 # (HOVERMODAL_DATA).
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-rounds=400 images=24 textures=8 drift_images=10000 bit_frames=1000 light_s=120
-[ "${1:-}" != --quick ] || { rounds=60 images=8 textures=2 drift_images=1000 bit_frames=100 light_s=40 && shift; }
-wanted=" ${*:-1 2 3 4 5 6} "
+rounds=400 images=24 textures=8 drift_images=10000 bit_frames=1000 light_s=120 service_frames=5000
+[ "${1:-}" != --quick ] || { rounds=60 images=8 textures=2 drift_images=1000 bit_frames=100 light_s=40 service_frames=1000 && shift; }
+wanted=" ${*:-1 2 3 4 5 6 7} "
 wants() { [[ $wanted == *" $1 "* ]]; }
 seed=${TRACKING_SEED:-1}
 out=$PWD/build/figures/tracking
@@ -131,7 +131,25 @@ figure_6() {
   done
 }
 
-for figure in 1 2 3 4 5 6; do
+# --- 7: the whole service ------------------------------------------------------------------------------------------------
+figure_7() {
+  quietly tools/build.sh service_speed hooks_tests
+  "$bin/service_speed" "$service_frames" >"$out/service.txt"
+  value() { awk -F'\t' -v name="$1" -v column="${2:-2}" '$1 == name { print $column }' "$out/service.txt"; }
+  local stage shares="" n_calls
+  for stage in capture tracking spectrum identification publish; do
+    shares+="${shares:+, }$stage $(value $stage) us ($(awk -v s="$(value $stage 3)" 'BEGIN { printf "%.1f", 100 * s }') %)"
+  done
+  judge 7 "$(value rate) frames a second, $(value "rate with it") before" "more than before" \
+    "the whole service at 1920 x 1080 on one processor, $(value points | cut -d ' ' -f 1) points, nothing decoded; before: with OpenCV's tracker ($(value opencv) us)" \
+    "$(value rate) > $(value "rate with it")"
+  line 7 beside "$shares" "-" "processor time of a frame by stage"
+  HOVERMODAL_HOOK_FRAMES=1000 HOVERMODAL_HOOK_REPORT=$out/hooks.tsv build/release/tests/hooks_tests >"$out/hooks.txt" 2>&1 || true
+  n_calls=$(awk -F'\t' '$1 == "site" && $2 == "hm-tracking" { n += $4 } END { print n + 0 }' "$out/hooks.tsv")
+  judge 7 "$n_calls" 0 "allocations and locks of the tracking stage over 1000 frames" "$n_calls == 0 && $(grep -c PASSED "$out/hooks.txt" || true) == 1"
+}
+
+for figure in 1 2 3 4 5 6 7; do
   ! wants $figure || figure_$figure
 done
 [ $misses -eq 0 ]

@@ -37,6 +37,21 @@ Case scattered(unsigned seed, int outliers) {
   return c;
 }
 
+// Points that agree are judged without hypotheses, those beside an outlier with: the same answer, to the last bit.
+TEST(Mlesac, AnOutlierChangesNothingForTheOthers) {
+  for (unsigned seed = 1; seed <= 30; ++seed) {
+    Case c = scattered(seed, 0);
+    const MlesacResult alone = mlesac_translation(c.motion, c.valid, {}, c.inlier);
+    EXPECT_EQ(c.inlier, c.truth) << "seed " << seed;
+    c.motion.push_back({20.0, 20.0});
+    c.valid.push_back(1), c.inlier.push_back(9), c.truth.push_back(0);
+    const MlesacResult beside = mlesac_translation(c.motion, c.valid, {}, c.inlier);
+    EXPECT_EQ(c.inlier, c.truth) << "seed " << seed;
+    EXPECT_EQ(beside.motion.u, alone.motion.u);
+    EXPECT_EQ(beside.motion.v, alone.motion.v);
+  }
+}
+
 TEST(Mlesac, RejectsThirtyPercentOutliers) {
   for (unsigned seed = 1; seed <= 30; ++seed) {
     Case c = scattered(seed, 12);
