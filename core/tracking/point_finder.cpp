@@ -20,12 +20,17 @@ constexpr int kSearchesPerFrame = 3;  // whole regions: about a millisecond each
 // What the template does not explain, in px: the sigma without the weakness of the light.
 double strangeness(const KltPoint& point) noexcept { return point.sigma_px * point.gain; }
 
+KltTracker tracker_at(const KltConfig& config, const GrayView& image, const std::vector<Vector2>& keyframe) {
+  KltTracker tracker(config);
+  tracker.set_keyframe(image, keyframe);
+  return tracker;
+}
+
 }  // namespace
 
 PointFinder::PointFinder(const PointFinderConfig& config, const GrayView& image, const std::vector<Vector2>& keyframe,
                          const std::vector<std::uint16_t>& region_of_point, std::size_t n_regions)
-    : config_(config), klt_(config.klt), keyframe_(keyframe) {
-  klt_.set_keyframe(image, keyframe);
+    : config_(config), klt_(tracker_at(config.klt, image, keyframe)), templates_(klt_), keyframe_(keyframe) {
   std::size_t first = 0, most = 0;
   for (std::size_t r = 0; r < n_regions; ++r) {
     std::size_t end = first;
@@ -79,6 +84,7 @@ void PointFinder::find(const GrayView& gray, const RegionFollower& expected) noe
     surprise = to(best.motion), other_motion = best.motion;
   }
   for (const Region& region : regions_) leave_out_disturbed(region);
+  templates_.add(gray, found_, klt_);
 }
 
 // The edge of a shadow, a rope or a bird moves over a few points of a region and takes them along for a while: they

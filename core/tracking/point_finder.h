@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/tracking/klt/klt_tracker.h"
+#include "core/tracking/klt/template_average.h"
 #include "core/tracking/region_follower.h"
 #include "core/tracking/region_search.h"
 #include "core/types/track.h"
@@ -57,6 +57,7 @@ class PointFinder {
 
   PointFinderConfig config_;
   KltTracker klt_;
+  TemplateAverage templates_;
   std::vector<Vector2> keyframe_;
   std::vector<Region> regions_;
   std::vector<KltPoint> found_, best_;

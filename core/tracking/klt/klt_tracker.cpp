@@ -50,6 +50,16 @@ void KltTracker::set_keyframe(const GrayView& gray, const std::vector<Vector2>& 
   }
 }
 
+void KltTracker::replace_template(std::size_t i, const Patch& mean, int n_averaged) noexcept {
+  Point& point = points_[i];
+  PointTemplate averaged;
+  averaged.noise = point.pattern.noise;  // of one image
+  build_template(mean, point.pattern.radius, n_averaged, averaged);
+  if (!averaged.is_trackable) return;
+  point.pattern = averaged;
+  judge_texture(point);
+}
+
 void KltTracker::judge_texture(Point& point) const noexcept {
   const PointTemplate& pattern = point.pattern;
   const double signal = pattern.variance - pattern.noise / pattern.n_averaged;
@@ -68,7 +78,7 @@ KltPoint KltTracker::find(const GrayView& gray, std::size_t i, const Vector2& pr
   Point& point = points_[i];
   KltPoint out{predicted, 0.0, point.gain, false};
   if (!point.pattern.is_trackable) return out;
-  const double start_u = predicted.u - point.keyframe.u + point.u0, start_v = predicted.v - point.keyframe.v + point.v0;
+  const auto [start_u, start_v] = middle_of(i, predicted);
   // Also where a prediction is not a number.
   if (!(std::abs(start_u) < kFarthest_px) || !(std::abs(start_v) < kFarthest_px)) return out;
   double u = start_u, v = start_v;

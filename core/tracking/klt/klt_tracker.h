@@ -38,6 +38,14 @@ class KltTracker {
   [[nodiscard]] std::size_t n_points() const noexcept { return points_.size(); }
   [[nodiscard]] const PointTemplate& point_template(std::size_t i) const noexcept { return points_[i].pattern; }
 
+  // The mean of `n_averaged` images of the same place, which show less noise; the datum stays.
+  void replace_template(std::size_t i, const Patch& mean, int n_averaged) noexcept;
+  // Where the template's middle lies when the point is at `position`.
+  [[nodiscard]] Vector2 middle_of(std::size_t i, const Vector2& position) const noexcept {
+    const Point& point = points_[i];
+    return {position.u - point.keyframe.u + point.u0, position.v - point.keyframe.v + point.v0};
+  }
+
   // gray: 8-bit, of any size. Not seen: no texture, its window leaves the image, too far away, or it looks different.
   [[nodiscard]] KltPoint find(const GrayView& gray, std::size_t i, const Vector2& predicted) noexcept;
 

@@ -1,0 +1,97 @@
+#include "core/tracking/klt/template_average.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace core {
+
+namespace {
+
+constexpr double kFaint = 2.0;  // gradient over noise, below which an average helps
+constexpr int kImages = 16;     // in an average
+constexpr int kTaps = kSplineTaps + 2 * kPrefilterMargin;
+constexpr int kTapsBefore = kSplineBefore + kPrefilterMargin;
+
+// From samples to the spline's value at a fraction: prefilter and weights in one.
+std::array<double, kTaps> taps_at(double fraction) noexcept {
+  constexpr auto kPrefilter = spline_prefilter();
+  const auto weights = spline_weights(fraction);
+  std::array<double, kTaps> taps{};
+  for (std::size_t i = 0; i < kPrefilter.size(); ++i)
+    for (std::size_t k = 0; k < weights.size(); ++k) taps[i + k] += kPrefilter[i] * weights[k];
+  return taps;
+}
+
+double mean_of_window(const Patch& patch, int radius) noexcept {
+  double sum = 0.0;
+  for (int y = kPatchRadius - radius; y <= kPatchRadius + radius; ++y)
+    for (int x = kPatchRadius - radius; x <= kPatchRadius + radius; ++x)
+      sum += patch[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
+  return sum / ((2.0 * radius + 1.0) * (2.0 * radius + 1.0));
+}
+
+}  // namespace
+
+void cut_patch_between(const GrayView& gray, double u, double v, Patch& out) noexcept {
+  const int cell_u = static_cast<int>(std::floor(u)), cell_v = static_cast<int>(std::floor(v));
+  const auto across = taps_at(u - cell_u), down = taps_at(v - cell_v);
+  constexpr int kRows = kPatch + kTaps - 1;
+  std::array<std::array<double, kPatch>, kRows> rows;
+  std::array<double, kRows> line;
+  for (int y = 0; y < kRows; ++y) {
+    const std::uint8_t* from = gray.row(mirrored(cell_v - kPatchRadius - kTapsBefore + y, gray.height));
+    for (int x = 0; x < kRows; ++x)
+      line[static_cast<std::size_t>(x)] = from[mirrored(cell_u - kPatchRadius - kTapsBefore + x, gray.width)];
+    for (std::size_t x = 0; x < kPatch; ++x) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < kTaps; ++k) sum += across[k] * line[x + k];
+      rows[static_cast<std::size_t>(y)][x] = sum;
+    }
+  }
+  for (std::size_t y = 0; y < kPatch; ++y) {
+    out[y].fill(0.0);
+    for (std::size_t k = 0; k < kTaps; ++k)
+      for (std::size_t x = 0; x < kPatch; ++x) out[y][x] += down[k] * rows[y + k][x];
+  }
+}
+
+TemplateAverage::TemplateAverage(const KltTracker& tracker, std::size_t n_at_once) {
+  for (std::size_t i = 0; i < tracker.n_points(); ++i) {
+    const PointTemplate& pattern = tracker.point_template(i);
+    const double n_pixels = (2.0 * pattern.radius + 1.0) * (2.0 * pattern.radius + 1.0);
+    const double variance = 0.5 * (pattern.variance_u + pattern.variance_v) * pattern.noise;  // px^2
+    if (pattern.is_trackable && kFaint * kFaint * n_pixels * variance > 1.0) faint_.push_back(i);
+  }
+  work_.reserve(std::min(n_at_once, faint_.size()));
+}
+
+void TemplateAverage::add(const GrayView& gray, const std::vector<KltPoint>& found, KltTracker& tracker) noexcept {
+  while (work_.size() < work_.capacity() && n_begun_ < faint_.size()) {
+    Work& work = work_.emplace_back();
+    work.point = faint_[n_begun_++];
+  }
+  for (Work& work : work_) {
+    if (!found[work.point].seen) continue;
+    add_to(work, gray, found[work.point], tracker);
+    if (work.n < kImages) continue;
+    for (auto& row : work.sum)
+      for (double& value : row) value /= work.n;
+    tracker.replace_template(work.point, work.sum, work.n);
+  }
+  std::erase_if(work_, [](const Work& work) { return work.n >= kImages; });
+}
+
+void TemplateAverage::add_to(Work& work, const GrayView& gray, const KltPoint& found,
+                             const KltTracker& tracker) noexcept {
+  const PointTemplate& pattern = tracker.point_template(work.point);
+  const Vector2 middle = tracker.middle_of(work.point, found.position);
+  if (!(found.gain > 0.0)) return;
+  cut_patch_between(gray, middle.u, middle.v, now_);
+  const double mean = mean_of_window(now_, pattern.radius);
+  for (std::size_t y = 0; y < kPatch; ++y)
+    for (std::size_t x = 0; x < kPatch; ++x) work.sum[y][x] += (now_[y][x] - mean) / found.gain + pattern.mean;
+  ++work.n;
+}
+
+}  // namespace core

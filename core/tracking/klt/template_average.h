@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/tracking/klt/klt_tracker.h"
+
+namespace core {
+
+// What a point looks like about (u, v), between the pixels by quintic splines. Deterministic; no allocation.
+void cut_patch_between(const GrayView& gray, double u, double v, Patch& out) noexcept;
+
+// Templates of faint texture are made anew from the mean of several images: one image's noise is in its gradients too,
+// and steps along those are not the best ones. Each image is laid where the point was found, its light undone, so the
+// datum stays. A few points at a time, so that no frame has much to do. Nothing allocates after construction. One
+// thread.
+class TemplateAverage {
+ public:
+  // n_at_once: points under way, some 30 us each, a frame.
+  explicit TemplateAverage(const KltTracker& tracker, std::size_t n_at_once = 4);
+
+  // An image in which the tracker has found its points.
+  void add(const GrayView& gray, const std::vector<KltPoint>& found, KltTracker& tracker) noexcept;
+  [[nodiscard]] bool is_done() const noexcept { return n_begun_ == faint_.size() && work_.empty(); }
+
+ private:
+  struct Work {
+    std::size_t point = 0;
+    int n = 0;  // images so far
+    Patch sum{};
+  };
+  void add_to(Work& work, const GrayView& gray, const KltPoint& found, const KltTracker& tracker) noexcept;
+
+  std::vector<std::size_t> faint_;  // points, in their order
+  std::size_t n_begun_ = 0;         // of them
+  std::vector<Work> work_;          // under way
+  Patch now_{};
+};
+
+}  // namespace core
