@@ -8,7 +8,7 @@ namespace core {
 
 namespace {
 
-constexpr std::array<double, 2 * kPrefilterMargin + 1> kPrefilter = spline_prefilter();
+constexpr std::array<double, 2 * kPrefilterMargin + 1> kPrefilter = spline_prefilter<>();
 
 // exp(-k^2 / (2 0.7^2)), k = 0 ... 3: the smoothing across, and, times k, the derivative along.
 constexpr std::array<double, 4> kGauss{1.0, 0.36044778859782, 0.01687989150494, 0.00010269492446};

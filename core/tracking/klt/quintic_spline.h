@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 namespace core {
 
@@ -32,8 +33,9 @@ inline constexpr int kPrefilterMargin = 5;  // taps on either side of the middle
 inline constexpr std::array<double, 5> kSplineSlope{-1.0 / 24.0, -10.0 / 24.0, 0.0, 10.0 / 24.0, 1.0 / 24.0};
 
 // Samples to coefficients: the inverse of (1, 26, 66, 26, 1) / 120, cut off and with sum 1. Cut off it is still
-// symmetric: it damps fine texture by a percent, and shifts nothing.
-[[nodiscard]] constexpr std::array<double, 2 * kPrefilterMargin + 1> spline_prefilter() noexcept {
+// symmetric: after five taps it strengthens texture by up to 5 %, after twelve by 1e-5, and shifts nothing.
+template <std::size_t kMargin = kPrefilterMargin>
+[[nodiscard]] constexpr std::array<double, 2 * kMargin + 1> spline_prefilter() noexcept {
   constexpr std::array<double, 2> kPoles{-0.43057534709997430, -0.043096288203264652};
   constexpr int kFar = 40;
   const auto pole_response = [&](std::size_t i, int n) {
@@ -41,12 +43,12 @@ inline constexpr std::array<double, 5> kSplineSlope{-1.0 / 24.0, -10.0 / 24.0, 0
     for (int k = 0; k < (n < 0 ? -n : n); ++k) power *= kPoles[i];
     return -kPoles[i] / (1.0 - kPoles[i] * kPoles[i]) * power;
   };
-  std::array<double, 2 * kPrefilterMargin + 1> taps{};
+  std::array<double, 2 * kMargin + 1> taps{};
   double sum = 0.0;
-  for (int n = -kPrefilterMargin; n <= kPrefilterMargin; ++n) {
+  for (int n = -static_cast<int>(kMargin); n <= static_cast<int>(kMargin); ++n) {
     double tap = 0.0;
     for (int k = -kFar; k <= kFar; ++k) tap += pole_response(0, n - k) * pole_response(1, k);
-    taps[static_cast<std::size_t>(n + kPrefilterMargin)] = tap;
+    taps[static_cast<std::size_t>(n + static_cast<int>(kMargin))] = tap;
     sum += tap;
   }
   for (double& tap : taps) tap /= sum;

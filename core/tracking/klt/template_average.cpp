@@ -10,12 +10,13 @@ namespace {
 
 constexpr double kFaint = 2.0;  // gradient over noise, below which an average helps
 constexpr int kImages = 16;     // in an average
-constexpr int kTaps = kSplineTaps + 2 * kPrefilterMargin;
-constexpr int kTapsBefore = kSplineBefore + kPrefilterMargin;
+constexpr int kMargin = 12;     // of the prefilter: these values are kept
+constexpr int kTaps = kSplineTaps + 2 * kMargin;
+constexpr int kTapsBefore = kSplineBefore + kMargin;
 
 // From samples to the spline's value at a fraction: prefilter and weights in one.
 std::array<double, kTaps> taps_at(double fraction) noexcept {
-  constexpr auto kPrefilter = spline_prefilter();
+  constexpr auto kPrefilter = spline_prefilter<kMargin>();
   const auto weights = spline_weights(fraction);
   std::array<double, kTaps> taps{};
   for (std::size_t i = 0; i < kPrefilter.size(); ++i)

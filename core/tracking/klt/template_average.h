@@ -16,7 +16,7 @@ void cut_patch_between(const GrayView& gray, double u, double v, Patch& out) noe
 // thread.
 class TemplateAverage {
  public:
-  // n_at_once: points under way, some 30 us each, a frame.
+  // n_at_once: points under way, some 60 us each, a frame.
   explicit TemplateAverage(const KltTracker& tracker, std::size_t n_at_once = 4);
 
   // An image in which the tracker has found its points.
