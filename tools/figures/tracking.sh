@@ -85,6 +85,20 @@ figure_4() {
   quietly "$bin/hovermodald" --config "$out/knex.yaml" --report "$out/knex"
   read -r share lost < <(tools/figures/tracking_knex.py compare "$knex" "$out/knex/tracks.csv" | tee "$out/knex.txt" | tail -n 1)
   judge 4 "$share % within 0.5 px, $lost dots lost for good" ">= 95 %, 0" "$what" "$share >= 95 && $lost == 0"
+  judge_forks
+}
+judge_forks() {
+  local forks=$data/tuning_forks name frames points ours theirs lost_by_us lost_by_them
+  if [ ! -d "$forks" ]; then
+    line 4 SKIP "no data at $forks" "lower than OpenCV's" "noise floor in clips of tuning forks"
+    return
+  fi
+  quietly tools/build.sh tracking_noise_floor
+  "$bin/tracking_noise_floor" "$forks"/*.mp4 >"$out/forks.txt"
+  while IFS=$'\t' read -r name frames points ours theirs lost_by_us lost_by_them; do
+    judge 4 "$ours against $theirs, $lost_by_us and $lost_by_them lost" "lower than OpenCV's" \
+      "noise floor (root of the median density, px at a rate of 1 Hz) of $points points in $name, $frames frames" "$ours < $theirs"
+  done <"$out/forks.txt"
 }
 
 # --- 5: light that changes ------------------------------------------------------------------------------------------------
