@@ -135,7 +135,7 @@ Vector2 InterpolatedWindow::step() const noexcept {
           point_->px_per_unit * (kGreyUnit * sums[1] - point_->origin_v)};
 }
 
-TemplateMatch InterpolatedWindow::match() const noexcept {
+TemplateMatch InterpolatedWindow::match(const Vector2& rest) const noexcept {
   const int r = point_->radius;
   const std::size_t first = std::size_t{kRow} * static_cast<std::size_t>(kFoldedRadius - r);
   std::int32_t sums[3];
@@ -151,7 +151,8 @@ TemplateMatch InterpolatedWindow::match() const noexcept {
   match.gain = both / point_->texture_variance;
   // What is fitted is coarse: it takes up noise that the interpolation passed whole.
   const double freedom = std::max(kLeastFreedom * n, n - kParameters / passed_noise_);
-  match.residual = std::max(0.0, image2 - match.gain * both) * n / freedom / passed_noise_;
+  const double explained = rest.u * rest.u / point_->variance_u + rest.v * rest.v / point_->variance_v;
+  match.residual = std::max(0.0, (image2 - match.gain * both) * n - explained) / freedom / passed_noise_;
   match.correlation = both / std::sqrt(image2 * point_->texture_variance);
   return match;
 }

@@ -25,7 +25,8 @@ class InterpolatedWindow {
   void move_to(int cell_u, int cell_v, double fraction_u, double fraction_v) noexcept;
   // px, from the position towards the template, for gain 1.
   [[nodiscard]] Vector2 step() const noexcept;
-  [[nodiscard]] TemplateMatch match() const noexcept;
+  // rest: the step from here that is still taken; what it explains is no residual.
+  [[nodiscard]] TemplateMatch match(const Vector2& rest = {}) const noexcept;
 
  private:
   void load(int cell_u, int cell_v) noexcept;

@@ -13,6 +13,7 @@ constexpr double kLongestStep_px = 3.0;
 constexpr double kLeastGain = 0.2, kMostGain = 5.0;
 constexpr double kLeastCorrelation = 0.5;
 constexpr int kStepsOfOldGain = 3;
+constexpr double kNear_px = 0.1, kOfNext = 0.2;
 constexpr double kRounding = 1.0 / 12.0;
 constexpr double kOfRounding = 0.5;  // steps within what rounding to 8 bits does anyway
 
@@ -87,9 +88,11 @@ KltPoint KltTracker::find(const GrayView& gray, std::size_t i, const Vector2& pr
       std::max(config_.epsilon_px,
                kOfRounding * std::sqrt(kRounding * std::max(point.pattern.variance_u, point.pattern.variance_v)));
   bool is_settled = false;
+  Vector2 step;
+  double way_before = 0.0;
   double gain = point.gain;
   window_.begin(gray, point.pattern);
-  const auto advance = [&](const Vector2& step) {
+  const auto advance = [&] {
     const double way = length(step) / gain;
     const double share = (way > kLongestStep_px ? kLongestStep_px / way : 1.0) / gain;
     u -= share * step.u, v -= share * step.v;
@@ -99,14 +102,17 @@ KltPoint KltTracker::find(const GrayView& gray, std::size_t i, const Vector2& pr
     cell_u = static_cast<int>(std::floor(u)), cell_v = static_cast<int>(std::floor(v));
     if (!window_lies_in(gray, cell_u, cell_v, point.pattern.radius)) return out;
     window_.move_to(cell_u, cell_v, u - cell_u, v - cell_v);
-    const Vector2 step = window_.step();
+    step = window_.step();
     if (k == kStepsOfOldGain) gain = gain_here(gain);
-    is_settled = advance(step) < enough_px;
+    const double way = advance();
+    // Steps shrink by about the same factor each time: the next one would be way^2 / way_before.
+    is_settled = way < enough_px || (way < kNear_px && way * way < kOfNext * enough_px * way_before);
+    way_before = way;
     if (!(length(u - start_u, v - start_v) <= config_.reach_px)) return out;
   }
   out.position = {u - point.u0 + point.keyframe.u, v - point.v0 + point.keyframe.v};
   if (!is_settled) return out;
-  const TemplateMatch match = window_.match();  // a last step of epsilon away
+  const TemplateMatch match = window_.match(step);
   if (!(match.correlation >= point.least_correlation) || match.gain < kLeastGain || match.gain > kMostGain) return out;
   const double noise = std::max(kRounding, match.residual / (1.0 + 1.0 / point.pattern.n_averaged));
   out.sigma_px = std::sqrt(0.5 * noise * (point.pattern.variance_u + point.pattern.variance_v)) / match.gain;
