@@ -151,7 +151,9 @@ TemplateMatch InterpolatedWindow::match(const Vector2& rest) const noexcept {
   match.gain = both / point_->texture_variance;
   // What is fitted is coarse: it takes up noise that the interpolation passed whole.
   const double freedom = std::max(kLeastFreedom * n, n - kParameters / passed_noise_);
-  const double explained = rest.u * rest.u / point_->variance_u + rest.v * rest.v / point_->variance_v;
+  // By the gradients of the image, as weak as the spline makes its texture.
+  const double explained = (rest.u * rest.u / point_->variance_u + rest.v * rest.v / point_->variance_v) *
+                           point_->texture_variance / point_->variance;
   match.residual = std::max(0.0, (image2 - match.gain * both) * n - explained) / freedom / passed_noise_;
   match.correlation = both / std::sqrt(image2 * point_->texture_variance);
   return match;

@@ -13,7 +13,7 @@ constexpr double kLongestStep_px = 3.0;
 constexpr double kLeastGain = 0.2, kMostGain = 5.0;
 constexpr double kLeastCorrelation = 0.5;
 constexpr int kStepsOfOldGain = 3;
-constexpr double kNear_px = 0.1, kOfNext = 0.2;
+constexpr double kNear_px = 0.05, kOfNext = 0.1;
 constexpr double kRounding = 1.0 / 12.0;
 constexpr double kOfRounding = 0.5;  // steps within what rounding to 8 bits does anyway
 
