@@ -12,10 +12,9 @@ namespace {
 constexpr double kNoticeable_px = 1.0;  // a shorter way brings nothing that the prediction did not
 constexpr double kAgreeing_px = 3.0;    // points of one region, about their median
 constexpr double kUnusual = 5.0;        // times the usual strangeness: another edge that looks alike
-constexpr double kDisturbed =
-    1.5;  // times the usual strangeness, if its region's points have theirs: not only itself is seen
-constexpr double kLearning = 0.05;    // of the usual strangeness, a frame
-constexpr int kSearchesPerFrame = 3;  // whole regions: about a millisecond each
+constexpr double kDisturbed = 1.5;      // times the usual strangeness, while the region's other points have theirs
+constexpr double kLearning = 0.05;      // of the usual strangeness, a frame
+constexpr int kSearchesPerFrame = 3;    // whole regions: about a millisecond each
 
 // What the template does not explain, in px: the sigma without the weakness of the light.
 double strangeness(const KltPoint& point) noexcept { return point.sigma_px * point.gain; }

@@ -6,7 +6,7 @@
 
 namespace test_support {
 
-// Must outlive nothing: it points into the image. Empty unless the image is 8-bit grey.
+// Points into the image, which must outlive it. Empty unless the image is 8-bit grey.
 inline core::GrayView view(const cv::Mat& image) {
   if (image.empty() || image.type() != CV_8UC1) return {};
   return {image.data, image.cols, image.rows, image.step[0]};

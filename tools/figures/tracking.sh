@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The point tracker, figure by figure; one line each, MISS where a bar is not met. About 10 minutes; --quick: 3.
+# The point tracker, figure by figure; one line each, MISS where a bar is not met. About 15 minutes; --quick: 5.
 #   tools/figures/tracking.sh [--quick] [FIGURE...]      FIGURE: some of 1 ... 7
 # Figures 1 and 7 measure time: leave the machine alone meanwhile. TRACKING_SEED=N draws another texture. 4 needs measured data
 # (HOVERMODAL_DATA).
