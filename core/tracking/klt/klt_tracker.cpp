@@ -13,7 +13,6 @@ constexpr double kLongestStep_px = 3.0;
 constexpr double kLeastGain = 0.2, kMostGain = 5.0;
 constexpr double kLeastCorrelation = 0.5;
 constexpr int kStepsOfOldGain = 3;
-constexpr double kNear_px = 0.05, kOfNext = 0.1;
 constexpr double kRounding = 1.0 / 12.0;
 constexpr double kOfRounding = 0.5;  // steps within what rounding to 8 bits does anyway
 
@@ -89,7 +88,6 @@ KltPoint KltTracker::find(const GrayView& gray, std::size_t i, const Vector2& pr
                kOfRounding * std::sqrt(kRounding * std::max(point.pattern.variance_u, point.pattern.variance_v)));
   bool is_settled = false;
   Vector2 step;
-  double way_before = 0.0;
   double gain = point.gain;
   window_.begin(gray, point.pattern);
   const auto advance = [&] {
@@ -104,10 +102,7 @@ KltPoint KltTracker::find(const GrayView& gray, std::size_t i, const Vector2& pr
     window_.move_to(cell_u, cell_v, u - cell_u, v - cell_v);
     step = window_.step();
     if (k == kStepsOfOldGain) gain = gain_here(gain);
-    const double way = advance();
-    // Steps shrink by about the same factor each time: the next one would be way^2 / way_before.
-    is_settled = way < enough_px || (way < kNear_px && way * way < kOfNext * enough_px * way_before);
-    way_before = way;
+    is_settled = advance() < enough_px;
     if (!(length(u - start_u, v - start_v) <= config_.reach_px)) return out;
   }
   out.position = {u - point.u0 + point.keyframe.u, v - point.v0 + point.keyframe.v};
