@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "core/linear/median.h"
 #include "core/tracking/pyramid_klt.h"
 #include "firmware_app/core_config.h"
 #include "rt/clock.h"
@@ -33,7 +34,7 @@ double their_time_us(const tests::SceneClip& clip, const core::TrackFrame& keyfr
   const auto& camera = clip.motion.scene().camera;
   const auto image = [&](std::uint64_t k) {
     return cv::Mat(camera.height_px, camera.width_px, CV_8UC1,
-                   const_cast<std::uint8_t*>(clip.frames[k % clip.frames.size()].data()));
+                   const_cast<std::uint8_t*>(tests::played_frame(clip, k).data()));
   };
   core::PyramidKlt tracker({});
   std::vector<cv::Point2f> points;
@@ -49,8 +50,7 @@ double their_time_us(const tests::SceneClip& clip, const core::TrackFrame& keyfr
     for (std::size_t i = 0; i < points.size(); ++i)
       if (found[i].seen) points[i] = found[i].position;
   }
-  std::nth_element(us.begin(), us.begin() + static_cast<std::ptrdiff_t>(us.size() / 2), us.end());
-  return us[us.size() / 2];
+  return core::median(std::move(us));
 }
 
 }  // namespace

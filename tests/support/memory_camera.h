@@ -8,6 +8,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "drivers/camera/camera.h"
 #include "rt/clock.h"
@@ -23,6 +24,12 @@ struct Play {
   bool lossless = false;
   std::uint64_t loss_seed = 0;  // 0: nothing is lost; else 30 %
 };
+
+// To the last frame and back again.
+inline const std::vector<std::uint8_t>& played_frame(const SceneClip& clip, std::uint64_t k) {
+  const std::uint64_t last = clip.frames.size() - 1, turn = k % std::max<std::uint64_t>(1, 2 * last);
+  return clip.frames[std::min(turn, 2 * last - turn)];
+}
 
 class MemoryCamera : public drivers::Camera {
  public:
@@ -45,8 +52,7 @@ class MemoryCamera : public drivers::Camera {
     while (play_.period_ns > 0 && rt::monotonic_ns() < due_ns) {
       std::this_thread::sleep_for(std::chrono::nanoseconds(std::max<std::int64_t>(1000, due_ns - rt::monotonic_ns())));
     }
-    const std::uint64_t last = clip_->frames.size() - 1, turn = next_ % std::max<std::uint64_t>(1, 2 * last);
-    const auto& pixels = clip_->frames[std::min(turn, 2 * last - turn)];
+    const auto& pixels = played_frame(*clip_, next_);
     std::copy(pixels.begin(), pixels.end(), out.pixels.begin());
     out.sequence = next_;
     out.t_start_ns = static_cast<std::int64_t>(std::llround(static_cast<double>(next_) / info_.rate_hz * 1e9));
