@@ -62,7 +62,8 @@ struct TrackingConfig {
   double search_px = 200.0;
   double least_correlation = 0.75;
   double inlier_sigma_px = 0.3;
-  int min_points = 3;  // a region with fewer inliers has no sample
+  int min_points = 3;      // a region with fewer inliers has no sample
+  int reseed_after = 250;  // frames; 0 = never
 };
 
 struct SpectrumConfig {

@@ -33,6 +33,9 @@ void add_tracking_keys(std::vector<ConfigKey>& keys) {
   number("inlier_sigma_px", "px", &C::inlier_sigma_px, {1e-3, 100},
          "spread of points that agree with their region's motion");
   whole("min_points", "", &C::min_points, {1, 1000}, "a region with fewer agreeing points has no sample in that frame");
+  whole("reseed_after", "frames", &C::reseed_after, {1, 1000000, true},
+        "a point that its region has done without for so long is tracked by what is now at its place, its datum kept; "
+        "0 = never");
 }
 
 void add_analysis_keys(std::vector<ConfigKey>& keys) {

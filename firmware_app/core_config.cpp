@@ -71,6 +71,7 @@ core::StructureTrackerConfig tracker_config(const AppConfig& config) {
   tracker.seed = {t.points_per_region, t.min_distance_px, t.corner_quality, t.window_px};
   tracker.klt = {t.window_px, t.max_iterations, t.epsilon_px, t.reach_px, t.least_correlation};
   tracker.search_px = t.search_px;
+  tracker.reseed_after = t.reseed_after;
   return tracker;
 }
 

@@ -91,6 +91,10 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
   if (const std::uint64_t n = tracking_.n_failed_frames(); n > 0) {
     health.warnings.push_back(fmt::format("the tracker itself failed on {} frames: they have no points", n));
   }
+  if (const std::uint32_t n = tracking_.n_reseeded(); n > 0) {
+    health.warnings.push_back(fmt::format(
+        "{} points were lost for good and are tracked by what is now at their places, their datum kept", n));
+  }
   health.regions = tracking_.regions();
   for (std::size_t r = 0; r < health.regions.size() && r < region_names_.size(); ++r) {
     health.regions[r].name = region_names_[r];

@@ -55,6 +55,9 @@ class ClosureLevel {
   // Of an adopted effect, after the last fit().
   [[nodiscard]] virtual std::vector<ParameterValue> parameters(std::size_t adopted) const = 0;
 
+  // Its numbers in other words; a latent effect described. May be empty.
+  [[nodiscard]] virtual std::string meaning(std::size_t /*adopted*/) const { return {}; }
+
   // Candidates that would do as well in the place of an adopted effect: their held-out score lies within the scatter of
   // its own. `seed` for a level that finds the scatter by surrogates.
   [[nodiscard]] virtual std::vector<std::string> rivals(std::size_t adopted, std::uint64_t seed) = 0;
@@ -62,6 +65,7 @@ class ClosureLevel {
   // Of the last fit().
   [[nodiscard]] virtual std::vector<ClosureMode> modes() const = 0;
   [[nodiscard]] virtual std::optional<double> reference_error() const = 0;
+  [[nodiscard]] virtual std::string reference_unit() const { return unit(); }  // of reference_error()
   [[nodiscard]] virtual std::string describe_residual() const = 0;  // of what is left: where, how much
 };
 

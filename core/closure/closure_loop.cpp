@@ -39,6 +39,7 @@ class Loop {
     result_.noise_floor = fit_.noise_floor;
     result_.modes_before = level_.modes();
     result_.reference_error_before = level_.reference_error();
+    result_.reference_unit = level_.reference_unit();
   }
 
   bool step() {
@@ -134,6 +135,7 @@ class Loop {
     for (std::size_t i = 0; i < result_.steps.size(); ++i) {
       tell("looking for rivals of " + result_.steps[i].effect);
       result_.steps[i].parameters = level_.parameters(i);
+      result_.steps[i].meaning = level_.meaning(i);
       result_.steps[i].rivals = level_.rivals(i, next_seed());
     }
     result_.residual_rms = fit_.residual_rms;

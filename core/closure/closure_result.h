@@ -32,6 +32,7 @@ struct ClosureStep {
   std::string effect;
   EffectKind kind = EffectKind::kNamed;
   std::vector<ParameterValue> parameters;  // of the last joint fit
+  std::string meaning;                     // these in other words; of a latent effect what it looks like; may be empty
   double heldout_before = 0.0, heldout_after = 0.0;
   double score = 0.0, threshold = 0.0;
   std::vector<std::string> rivals;     // in its place they would do as well: none of these is shown to be the cause
@@ -62,6 +63,7 @@ struct ClosureResult {
   std::vector<NotObservable> not_observable;
   std::vector<ClosureMode> modes_before, modes_after;
   std::optional<double> reference_error_before, reference_error_after;  // rms, on what no fit saw
+  std::string reference_unit;                                           // of these
   std::string stop_reason;
   std::vector<CandidateScore> refused;  // the last round's candidates, best first
   std::size_t n_surrogates = 0;         // in all

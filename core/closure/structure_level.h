@@ -30,14 +30,14 @@ class StructureLevel final : public ClosureLevel {
   void adopt(std::size_t candidate) override;
   void drop() override;
   [[nodiscard]] std::vector<ParameterValue> parameters(std::size_t adopted) const override;
+  [[nodiscard]] std::string meaning(std::size_t adopted) const override;
   [[nodiscard]] std::vector<std::string> rivals(std::size_t adopted, std::uint64_t seed) override;
   [[nodiscard]] std::vector<ClosureMode> modes() const override;
   [[nodiscard]] std::optional<double> reference_error() const override;
   [[nodiscard]] std::string describe_residual() const override;
 
-  // All of the model's modes after the last fit(); what an adopted effect's numbers mean (may be empty).
+  // All of the model's modes after the last fit().
   [[nodiscard]] structure::FrameModes model_modes() const;
-  [[nodiscard]] std::string meaning(std::size_t adopted) const;
   [[nodiscard]] const std::vector<structure::ReferenceMode>& check() const noexcept { return check_; }
 
  private:

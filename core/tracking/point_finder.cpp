@@ -29,7 +29,11 @@ KltTracker tracker_at(const KltConfig& config, const GrayView& image, const std:
 
 PointFinder::PointFinder(const PointFinderConfig& config, const GrayView& image, const std::vector<Vector2>& keyframe,
                          const std::vector<std::uint16_t>& region_of_point, std::size_t n_regions)
-    : config_(config), klt_(tracker_at(config.klt, image, keyframe)), templates_(klt_), keyframe_(keyframe) {
+    : config_(config),
+      klt_(tracker_at(config.klt, image, keyframe)),
+      templates_(klt_),
+      reseeder_(klt_, keyframe, region_of_point, config.reseed_after, config.min_points),
+      keyframe_(keyframe) {
   std::size_t first = 0, most = 0;
   for (std::size_t r = 0; r < n_regions; ++r) {
     std::size_t end = first;
@@ -83,6 +87,8 @@ void PointFinder::find(const GrayView& gray, const RegionFollower& expected) noe
     surprise = to(best.motion), other_motion = best.motion;
   }
   for (const Region& region : regions_) leave_out_disturbed(region);
+  const int renewed = reseeder_.judge(gray, found_, klt_, templates_);
+  if (renewed >= 0) usual_[static_cast<std::size_t>(renewed)] = 0.0;
   templates_.add(gray, found_, klt_);
 }
 
@@ -176,6 +182,7 @@ void PointFinder::learn(const TrackFrame& judged) noexcept {
     const double now = strangeness(found_[i]);
     usual = usual == 0.0 ? now : usual + kLearning * (now - usual);
   }
+  reseeder_.learn(judged);
 }
 
 }  // namespace core

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/tracking/klt/template_average.h"
+#include "core/tracking/point_reseeder.h"
 #include "core/tracking/region_follower.h"
 #include "core/tracking/region_search.h"
 #include "core/types/track.h"
@@ -14,6 +15,7 @@ struct PointFinderConfig {
   KltConfig klt;
   int min_points = 3;        // a region with fewer is not measured
   double search_px = 200.0;  // how far a region that is not where it was expected is searched for
+  int reseed_after = 250;    // frames until a point gets a new template (point_reseeder.h); 0: never
 };
 
 // All points of all regions in one image. First where each is expected; where the points of a region then do not agree
@@ -30,6 +32,7 @@ class PointFinder {
   // The same frame after outlier rejection: how the inliers use to look.
   void learn(const TrackFrame& judged) noexcept;
 
+  [[nodiscard]] std::uint32_t n_reseeded() const noexcept { return reseeder_.n_reseeded(); }
   [[nodiscard]] const std::vector<KltPoint>& points() const noexcept { return found_; }
 
  private:
@@ -58,6 +61,7 @@ class PointFinder {
   PointFinderConfig config_;
   KltTracker klt_;
   TemplateAverage templates_;
+  PointReseeder reseeder_;
   std::vector<Vector2> keyframe_;
   std::vector<Region> regions_;
   std::vector<KltPoint> found_, best_;

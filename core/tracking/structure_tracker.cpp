@@ -53,8 +53,9 @@ void StructureTracker::begin(const Frame& frame, const std::vector<cv::Point2f>&
   std::vector<Vector2> keyframe;
   for (const cv::Point2f& point : points)
     keyframe.push_back({static_cast<double>(point.x), static_cast<double>(point.y)});
-  finder_ = std::make_unique<PointFinder>(PointFinderConfig{config_.klt, config_.min_points, config_.search_px},
-                                          gray_view(frame), keyframe, region_of_point_, config_.regions.size());
+  finder_ = std::make_unique<PointFinder>(
+      PointFinderConfig{config_.klt, config_.min_points, config_.search_px, config_.reseed_after}, gray_view(frame),
+      keyframe, region_of_point_, config_.regions.size());
   follower_ = std::make_unique<RegionFollower>(
       RegionFollowerConfig{frame.width_px, frame.height_px, config_.min_points, config_.lost_after}, keyframe,
       region_of_point_, config_.regions.size());

@@ -21,6 +21,7 @@ struct StructureTrackerConfig {
   int min_points = 3;             // a region that seeds fewer is an error; with fewer inliers it is not measured
   std::uint32_t lost_after = 50;  // frames of search until a region counts as lost
   double search_px = 200.0;       // how far a region that is not where it was expected is searched for
+  int reseed_after = 250;         // frames until a lost point gets a new template, its datum kept; 0: never
 };
 
 // All points of all regions through the frames: seeds them in the first frame (the keyframe), tracks them against it,
@@ -42,7 +43,8 @@ class StructureTracker {
   // The same frame after outlier rejection set `inlier`: an outlier is looked for with its region next time, a region
   // with the others.
   void learn(const TrackFrame& judged) noexcept;
-  // After seed().
+  // After seed(). Points that were lost and have a new template.
+  [[nodiscard]] std::uint32_t n_reseeded() const noexcept { return finder_->n_reseeded(); }
   [[nodiscard]] const RegionFollower& regions() const noexcept { return *follower_; }
 
  private:

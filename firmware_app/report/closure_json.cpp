@@ -36,6 +36,7 @@ Json step_json(const core::closure::ClosureStep& step) {
   return {{"effect", step.effect},
           {"kind", step.kind == core::closure::EffectKind::kNamed ? "named" : "latent"},
           {"parameters", parameters},
+          {"meaning", step.meaning},
           {"heldout_before", step.heldout_before},
           {"heldout_after", step.heldout_after},
           {"score", step.score},
@@ -61,6 +62,7 @@ std::string closure_json(const core::closure::ClosureResult& result) {
   out["modes_after"] = modes_json(result.modes_after);
   out["reference_error_before"] = or_null(result.reference_error_before);
   out["reference_error_after"] = or_null(result.reference_error_after);
+  out["reference_unit"] = result.reference_unit;
   return drivers::to_json_text(out).text;
 }
 

@@ -66,6 +66,7 @@ void TrackingStage::measure(const core::Frame& frame) noexcept {
   tracker_.learn(scratch_.tracks);
   count_regions();
   camera_given_up_.store(channels_.camera_given_up(), std::memory_order_relaxed);
+  n_reseeded_.store(tracker_.n_reseeded(), std::memory_order_relaxed);
   std::uint64_t n_tracked = 0;
   for (const core::TrackPoint& point : scratch_.tracks.points) n_tracked += point.inlier ? 1U : 0U;
   points_tracked_.store(n_tracked, std::memory_order_relaxed);

@@ -51,6 +51,8 @@ class TrackingStage : public rt::Stage {
     return n_without_attitude_.load(std::memory_order_relaxed);
   }
   [[nodiscard]] std::uint64_t n_failed_frames() const noexcept { return n_failed_.load(std::memory_order_relaxed); }
+  // Any thread: points that were lost and are tracked by a new template.
+  [[nodiscard]] std::uint32_t n_reseeded() const noexcept { return n_reseeded_.load(std::memory_order_relaxed); }
   // Any thread: frames that publish never saw, because its ring was full.
   [[nodiscard]] std::uint64_t n_records_lost() const noexcept {
     return n_records_lost_.load(std::memory_order_relaxed);
@@ -88,6 +90,7 @@ class TrackingStage : public rt::Stage {
   std::atomic<std::uint64_t> points_tracked_{0};  // written here only; relaxed: a count on its own
   std::atomic<std::uint64_t> n_failed_{0};
   std::atomic<std::uint64_t> n_records_lost_{0};
+  std::atomic<std::uint32_t> n_reseeded_{0};
 };
 
 }  // namespace app

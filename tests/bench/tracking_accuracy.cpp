@@ -2,92 +2,30 @@
 // looks, never interpolated. Lines of tab-separated values:
 //   bound  CYCLES_PER_PX  NOISE  CONTRAST  GRADIENT/NOISE  OURS/BOUND  OPENCV/BOUND  STATED/SCATTER  LOST  POINTS
 //   averaged: lines of `bound` for texture whose gradient is below twice the noise, with templates of 16 images
-//   bias   CYCLES_PER_PX  OURS_PX  OPENCV_PX       largest mean error over the fractions of a pixel, noise-free
 //   drift  OURS_FIRST  OURS_LAST  OPENCV_FIRST  OPENCV_LAST    rms px of the first and the last tenth
-//   tracking_accuracy bound|averaged|bias|drift [FRAMES, for bias TEXTURES] [SEED]
+//   tracking_accuracy bound|averaged|drift [FRAMES] [SEED]
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <numbers>
-#include <opencv2/video/tracking.hpp>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "core/tracking/klt/template_average.h"
-#include "tests/support/gray_view.h"
+#include "tests/support/tracker_pair.h"
+#include "tests/support/wave_texture.h"
 
 namespace {
 
+using test_support::Error;
+using test_support::errors;
+using test_support::point_grid;
 using test_support::view;
-constexpr int kWidth = 420, kHeight = 320, kBorder = 40, kApart = 30;
+using Texture = test_support::WaveTexture;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
-
-// 200 plane waves, frequencies evenly over a disk.
-class Texture {
- public:
-  Texture(unsigned seed, double most_cycles_per_px, double contrast) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> unit(0.0, 1.0);
-    constexpr int kWaves = 200;
-    for (int i = 0; i < kWaves; ++i) {
-      const double f = kTwoPi * most_cycles_per_px * std::sqrt(unit(random)), angle = kTwoPi * unit(random);
-      waves_.push_back({f * std::cos(angle), f * std::sin(angle), kTwoPi * unit(random)});
-    }
-    amplitude_ = contrast * std::sqrt(2.0 / kWaves);
-  }
-  struct Value {
-    double grey = 0.0, slope_u = 0.0, slope_v = 0.0;
-  };
-  [[nodiscard]] Value at(double u, double v) const {
-    Value out;
-    for (const Wave& w : waves_) {
-      const double phase = w.ku * u + w.kv * v + w.phase, slope = amplitude_ * std::cos(phase);
-      out.grey += amplitude_ * std::sin(phase);
-      out.slope_u += slope * w.ku, out.slope_v += slope * w.kv;
-    }
-    return out;
-  }
-  // Moved by (du, dv), with white noise, rounded to 8 bits.
-  [[nodiscard]] cv::Mat image(double du, double dv, double noise, unsigned seed) const {
-    std::vector<double> grey(std::size_t{kWidth} * kHeight, 128.0);
-    for (const Wave& w : waves_) {
-      const double turn_re = std::cos(w.ku), turn_im = std::sin(w.ku);
-      for (int v = 0; v < kHeight; ++v) {
-        const double phase = w.kv * (v - dv) + w.phase - w.ku * du;
-        double re = std::cos(phase), im = std::sin(phase);
-        for (int u = 0; u < kWidth; ++u) {
-          grey[static_cast<std::size_t>(v * kWidth + u)] += amplitude_ * im;
-          const double next = re * turn_re - im * turn_im;
-          im = im * turn_re + re * turn_im, re = next;
-        }
-      }
-    }
-    cv::Mat out(kHeight, kWidth, CV_8UC1);
-    std::mt19937 random(seed);
-    std::normal_distribution<double> gaussian(0.0, 1.0);
-    for (std::size_t i = 0; i < grey.size(); ++i)
-      out.data[i] = cv::saturate_cast<std::uint8_t>(grey[i] + (noise > 0.0 ? noise * gaussian(random) : 0.0));
-    return out;
-  }
-
- private:
-  struct Wave {
-    double ku, kv, phase;
-  };
-  std::vector<Wave> waves_;
-  double amplitude_ = 0.0;
-};
-
-std::vector<core::Vector2> grid() {
-  std::vector<core::Vector2> points;
-  for (int v = kBorder; v < kHeight - kBorder; v += kApart)
-    for (int u = kBorder; u < kWidth - kBorder; u += kApart)
-      points.push_back({static_cast<double>(u), static_cast<double>(v)});
-  return points;
-}
 
 // Mean variance of the axes that white noise allows when shift, gain and offset are unknown, noise-free template.
 double bound_px2(const Texture& texture, const core::Vector2& point, double noise) {
@@ -104,35 +42,6 @@ double bound_px2(const Texture& texture, const core::Vector2& point, double nois
     for (std::size_t i = 0; i < k; ++i)
       for (std::size_t j = 0; j < k; ++j) a[i][j] -= a[i][k] * a[k][j] / a[k][k];
   return (noise * noise + 1.0 / 12.0) * 0.5 * (a[0][0] + a[1][1]) / (a[0][0] * a[1][1] - a[0][1] * a[1][0]);
-}
-
-struct Error {
-  double u = 0.0, v = 0.0;
-  bool seen = false;
-};
-
-// Ours and OpenCV's of all points in an image moved by (du, dv). OpenCV: as many iterations as help, one level above.
-std::array<std::vector<Error>, 2> errors(core::KltTracker& tracker, const cv::Mat& keyframe, const cv::Mat& image,
-                                         const std::vector<core::Vector2>& points, double du, double dv,
-                                         std::vector<double>* stated = nullptr) {
-  std::array<std::vector<Error>, 2> out;
-  std::vector<cv::Point2f> from, to;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const core::Vector2 start{points[i].u + std::round(du), points[i].v + std::round(dv)};
-    const core::KltPoint found = tracker.find(view(image), i, start);
-    out[0].push_back({found.position.u - points[i].u - du, found.position.v - points[i].v - dv, found.seen});
-    if (stated != nullptr) stated->push_back(found.sigma_px);
-    from.emplace_back(static_cast<float>(points[i].u), static_cast<float>(points[i].v));
-    to.emplace_back(static_cast<float>(start.u), static_cast<float>(start.v));
-  }
-  std::vector<unsigned char> status;
-  std::vector<float> residual;
-  cv::calcOpticalFlowPyrLK(keyframe, image, from, to, status, residual, {core::kWindow, core::kWindow}, 1,
-                           {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 20, 0.001}, cv::OPTFLOW_USE_INITIAL_FLOW);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    out[1].push_back({static_cast<double>(to[i].x) - points[i].u - du, static_cast<double>(to[i].y) - points[i].v - dv,
-                      status[i] != 0});
-  return out;
 }
 
 struct Scatter {
@@ -167,7 +76,7 @@ void average(core::KltTracker& tracker, const Texture& texture, const std::vecto
 }
 
 void print_bound(int n_images, unsigned seed, bool is_averaged) {
-  const std::vector<core::Vector2> points = grid();
+  const std::vector<core::Vector2> points = point_grid();
   for (const double cycles : {0.05, 0.1, 0.2, 0.3, 0.35}) {
     for (const double contrast : {10.0, 20.0, 30.0}) {
       for (const double noise : {1.0, 2.0, 4.0}) {
@@ -210,34 +119,8 @@ void print_bound(int n_images, unsigned seed, bool is_averaged) {
   }
 }
 
-// Contrast high and no noise: the mean over the points of several textures at each fraction is the tracker's own.
-void print_bias(int n_textures, unsigned seed) {
-  const std::vector<core::Vector2> points = grid();
-  for (const double cycles : {0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35}) {
-    constexpr std::size_t kFractions = 19;
-    std::array<std::array<double, kFractions>, 2> mean{};
-    for (int t = 0; t < n_textures; ++t) {
-      const Texture texture(seed + static_cast<unsigned>(t), cycles, 35.0);
-      const cv::Mat keyframe = texture.image(0.0, 0.0, 0.0, 1);
-      core::KltTracker tracker{core::KltConfig{}};
-      tracker.set_keyframe(view(keyframe), points);
-      for (std::size_t k = 0; k < kFractions; ++k) {
-        const double du = 0.05 * static_cast<double>(k + 1);
-        const auto e = errors(tracker, keyframe, texture.image(du, du, 0.0, 1), points, du, du);
-        for (std::size_t which : {0U, 1U})
-          for (const Error& error : e[which])
-            mean[which][k] += 0.5 * (error.u + error.v) / (static_cast<double>(points.size()) * n_textures);
-      }
-    }
-    std::array<double, 2> worst{};
-    for (std::size_t which : {0U, 1U})
-      for (const double at_fraction : mean[which]) worst[which] = std::max(worst[which], std::abs(at_fraction));
-    std::printf("bias\t%g\t%.5f\t%.5f\n", cycles, worst[0], worst[1]);
-  }
-}
-
 void print_drift(int n_images, unsigned seed) {
-  const std::vector<core::Vector2> points = grid();
+  const std::vector<core::Vector2> points = point_grid();
   const Texture texture(seed, 0.15, 20.0);
   const cv::Mat keyframe = texture.image(0.0, 0.0, 1.0, 1);
   core::KltTracker tracker{core::KltConfig{}};
@@ -267,12 +150,10 @@ int main(int argc, char** argv) {
   const auto seed = static_cast<unsigned>(argc > 3 ? std::atoi(argv[3]) : 1);
   if (what == "bound" || what == "averaged")
     print_bound(n_images, seed, what == "averaged");
-  else if (what == "bias")
-    print_bias(n_images, seed);
   else if (what == "drift")
     print_drift(n_images, seed);
   else {
-    std::fprintf(stderr, "usage: tracking_accuracy bound|averaged|bias|drift [FRAMES] [SEED]\n");
+    std::fprintf(stderr, "usage: tracking_accuracy bound|averaged|drift [FRAMES] [SEED]\n");
     return 2;
   }
 }

@@ -65,4 +65,6 @@ for figure in "${figures[@]}"; do
   "figure_$figure"
   echo "# figure $figure: $SECONDS s"
 done
+tools/figures/closure_table.py "$out" >"$out/table.md"
+echo "# the table of README: $out/table.md"
 [ "$misses" -eq 0 ] || { echo "$misses figures miss their bar" >&2; exit 1; }

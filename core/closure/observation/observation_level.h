@@ -57,13 +57,12 @@ class ObservationLevel final : public ClosureLevel {
   void adopt(std::size_t candidate) override;
   void drop() override;
   [[nodiscard]] std::vector<ParameterValue> parameters(std::size_t adopted) const override;
+  [[nodiscard]] std::string meaning(std::size_t adopted) const override;
   [[nodiscard]] std::vector<std::string> rivals(std::size_t adopted, std::uint64_t seed) override;
   [[nodiscard]] std::vector<ClosureMode> modes() const override;
   [[nodiscard]] std::optional<double> reference_error() const override;
+  [[nodiscard]] std::string reference_unit() const override { return "%"; }
   [[nodiscard]] std::string describe_residual() const override;
-
-  // A latent effect in words; of others what else must be known. May be empty.
-  [[nodiscard]] std::string meaning(std::size_t adopted) const;
 
   // Of the last fit.
   [[nodiscard]] const FrameModel& model() const noexcept { return model_; }

@@ -11,7 +11,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Field = Eigen::Matrix<double, 2, 3>;  // px per radian about the camera's axes
 
-constexpr int kRounds = 12, kHalvings = 6;
+constexpr int kRounds = 60, kHalvings = 6;
 constexpr double kStep_px = 1e-3, kStill_rad = 1e-7;
 
 Field field_at(const Eigen::Vector2d& at_px, double f) {

@@ -44,6 +44,7 @@ class TurningLevel final : public ClosureLevel {
   // Degrees rms per frame pair and axis: how far the picture turns beyond what the model says, over the held-out pairs,
   // from the picture alone, weighted by what each pair tells; without the mean, which a steady shift bends.
   [[nodiscard]] std::optional<double> reference_error() const override { return remaining_turn_deg_; }
+  [[nodiscard]] std::string reference_unit() const override { return "deg a frame"; }
   [[nodiscard]] std::string describe_residual() const override;
 
  private:

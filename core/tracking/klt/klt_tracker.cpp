@@ -42,7 +42,7 @@ void KltTracker::set_keyframe(const GrayView& gray, const std::vector<Vector2>& 
   Patch patch;
   for (std::size_t i = 0; i < points.size(); ++i) {
     Point& point = points_[i];
-    point.keyframe = points[i];
+    point.datum = points[i];
     if (!cut_about(gray, points[i], patch)) continue;
     point.u0 = std::round(points[i].u), point.v0 = std::round(points[i].v);
     build_template(patch, config_.window_px / 2, 1, point.pattern);
@@ -58,6 +58,27 @@ void KltTracker::replace_template(std::size_t i, const Patch& mean, int n_averag
   if (!averaged.is_trackable) return;
   point.pattern = averaged;
   judge_texture(point);
+}
+
+bool KltTracker::renew(std::size_t i, const GrayView& gray, const Vector2& place, const Vector2& beside,
+                       double most_variance_px2) noexcept {
+  Point& point = points_[i];
+  const Vector2 middle{std::round(place.u + beside.u), std::round(place.v + beside.v)};
+  Patch patch;
+  if (!cut_about(gray, middle, patch) ||
+      !window_lies_in(gray, static_cast<int>(middle.u), static_cast<int>(middle.v), config_.window_px / 2))
+    return false;
+  PointTemplate pattern;
+  build_template(patch, config_.window_px / 2, 1, pattern);
+  if (!pattern.is_trackable || !(place_variance(pattern) <= most_variance_px2)) return false;
+  point = {pattern, place, middle.u, middle.v, 1.0, 0.0};
+  judge_texture(point);
+  return true;
+}
+
+void KltTracker::shift_datum(std::size_t i, const Vector2& less) noexcept {
+  Vector2& datum = points_[i].datum;
+  datum = {datum.u - less.u, datum.v - less.v};
 }
 
 void KltTracker::judge_texture(Point& point) const noexcept {
@@ -105,7 +126,7 @@ KltPoint KltTracker::find(const GrayView& gray, std::size_t i, const Vector2& pr
     is_settled = advance() < enough_px;
     if (!(length(u - start_u, v - start_v) <= config_.reach_px)) return out;
   }
-  out.position = {u - point.u0 + point.keyframe.u, v - point.v0 + point.keyframe.v};
+  out.position = {u - point.u0 + point.datum.u, v - point.v0 + point.datum.v};
   if (!is_settled) return out;
   const TemplateMatch match = window_.match(step);
   if (!(match.correlation >= point.least_correlation) || match.gain < kLeastGain || match.gain > kMostGain) return out;

@@ -40,10 +40,16 @@ class KltTracker {
 
   // The mean of `n_averaged` images of the same place, which show less noise; the datum stays.
   void replace_template(std::size_t i, const Patch& mean, int n_averaged) noexcept;
+  // A template from another image, about the pixel nearest to place + beside; the point is at `place` there. False, and
+  // nothing changes: the window leaves the image, or noise would move the point by a variance of more than that.
+  [[nodiscard]] bool renew(std::size_t i, const GrayView& gray, const Vector2& place, const Vector2& beside,
+                           double most_variance_px2) noexcept;
+  // The point is less far by so much than was said.
+  void shift_datum(std::size_t i, const Vector2& less) noexcept;
   // Where the template's middle lies when the point is at `position`.
   [[nodiscard]] Vector2 middle_of(std::size_t i, const Vector2& position) const noexcept {
     const Point& point = points_[i];
-    return {position.u - point.keyframe.u + point.u0, position.v - point.keyframe.v + point.v0};
+    return {position.u - point.datum.u + point.u0, position.v - point.datum.v + point.v0};
   }
 
   // gray: 8-bit, of any size. Not seen: no texture, its window leaves the image, too far away, or it looks different.
@@ -52,9 +58,9 @@ class KltTracker {
  private:
   struct Point {
     PointTemplate pattern;
-    Vector2 keyframe;  // as asked for; the pattern's middle is the pixel nearest to it
-    double u0 = 0.0, v0 = 0.0;
-    double gain = 1.0;  // when last seen
+    Vector2 datum;              // where the point is while the pattern's middle is at (u0, v0)
+    double u0 = 0.0, v0 = 0.0;  // a pixel
+    double gain = 1.0;          // when last seen
     double least_correlation = 0.0;
   };
 

@@ -69,12 +69,7 @@ constexpr std::array<double, 7> gaussian_slope() {
   return taps;
 }
 // From samples to the spline's slope at a sample.
-constexpr std::array<double, 15> spline_slope() {
-  std::array<double, 15> taps{};
-  for (std::size_t i = 0; i < kPrefilter.size(); ++i)
-    for (std::size_t k = 0; k < kSplineSlope.size(); ++k) taps[i + k] += kPrefilter[i] * kSplineSlope[k];
-  return taps;
-}
+constexpr std::array<double, 15> spline_slope() { return joined(kPrefilter, kSplineSlope); }
 
 // Sum of the products of both gradients' taps: what white noise adds to H, a pixel.
 constexpr double noise_in_both() {

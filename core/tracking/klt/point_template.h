@@ -33,6 +33,11 @@ struct PointTemplate {
   bool is_trackable = false;  // texture in two directions
 };
 
+// Of a place, per axis, from an image's noise, px^2.
+[[nodiscard]] inline double place_variance(const PointTemplate& pattern) noexcept {
+  return 0.5 * (pattern.variance_u + pattern.variance_v) * pattern.noise;
+}
+
 // Whether a patch about a point has texture in two directions, so that its place in other images can be told.
 [[nodiscard]] bool has_texture(const Patch& patch, int radius) noexcept;
 // `patch`: of one image, or the mean of n_averaged. radius: 2 ... kWindowRadius.

@@ -11,6 +11,16 @@ inline constexpr int kSplineTaps = 6;       // coefficients at -2 ... 3 about th
 inline constexpr int kSplineBefore = 2;     // of them before it
 inline constexpr int kPrefilterMargin = 5;  // taps on either side of the middle one; later ones are below 0.7 %
 
+// One filter after the other, as one.
+template <std::size_t kA, std::size_t kB>
+[[nodiscard]] constexpr std::array<double, kA + kB - 1> joined(const std::array<double, kA>& a,
+                                                               const std::array<double, kB>& b) noexcept {
+  std::array<double, kA + kB - 1> taps{};
+  for (std::size_t i = 0; i < kA; ++i)
+    for (std::size_t k = 0; k < kB; ++k) taps[i + k] += a[i] * b[k];
+  return taps;
+}
+
 // Weights of the coefficients at offsets -2 ... 3 for a position `fraction` (0 ... 1) after the sample.
 [[nodiscard]] constexpr std::array<double, kSplineTaps> spline_weights(double fraction) noexcept {
   std::array<double, kSplineTaps> weights{};

@@ -17,11 +17,7 @@ constexpr int kTapsBefore = kSplineBefore + kMargin;
 // From samples to the spline's value at a fraction: prefilter and weights in one.
 std::array<double, kTaps> taps_at(double fraction) noexcept {
   constexpr auto kPrefilter = spline_prefilter<kMargin>();
-  const auto weights = spline_weights(fraction);
-  std::array<double, kTaps> taps{};
-  for (std::size_t i = 0; i < kPrefilter.size(); ++i)
-    for (std::size_t k = 0; k < weights.size(); ++k) taps[i + k] += kPrefilter[i] * weights[k];
-  return taps;
+  return joined(kPrefilter, spline_weights(fraction));
 }
 
 double mean_of_window(const Patch& patch, int radius) noexcept {
@@ -61,8 +57,7 @@ TemplateAverage::TemplateAverage(const KltTracker& tracker, std::size_t n_at_onc
   for (std::size_t i = 0; i < tracker.n_points(); ++i) {
     const PointTemplate& pattern = tracker.point_template(i);
     const double n_pixels = (2.0 * pattern.radius + 1.0) * (2.0 * pattern.radius + 1.0);
-    const double variance = 0.5 * (pattern.variance_u + pattern.variance_v) * pattern.noise;  // px^2
-    if (pattern.is_trackable && kFaint * kFaint * n_pixels * variance > 1.0) faint_.push_back(i);
+    if (pattern.is_trackable && kFaint * kFaint * n_pixels * place_variance(pattern) > 1.0) faint_.push_back(i);
   }
   work_.reserve(std::min(n_at_once, faint_.size()));
 }
@@ -81,6 +76,12 @@ void TemplateAverage::add(const GrayView& gray, const std::vector<KltPoint>& fou
     tracker.replace_template(work.point, work.sum, work.n);
   }
   std::erase_if(work_, [](const Work& work) { return work.n >= kImages; });
+}
+
+void TemplateAverage::forget(std::size_t point) noexcept {
+  std::erase_if(work_, [&](const Work& work) { return work.point == point; });
+  const auto waiting = faint_.begin() + static_cast<std::ptrdiff_t>(n_begun_);
+  faint_.erase(std::remove(waiting, faint_.end(), point), faint_.end());
 }
 
 void TemplateAverage::add_to(Work& work, const GrayView& gray, const KltPoint& found,

@@ -21,6 +21,8 @@ class TemplateAverage {
 
   // An image in which the tracker has found its points.
   void add(const GrayView& gray, const std::vector<KltPoint>& found, KltTracker& tracker) noexcept;
+  // A point whose template has become another one.
+  void forget(std::size_t point) noexcept;
   [[nodiscard]] bool is_done() const noexcept { return n_begun_ == faint_.size() && work_.empty(); }
 
  private:

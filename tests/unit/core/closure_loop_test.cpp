@@ -67,11 +67,13 @@ class ScriptedLevel : public ClosureLevel {
     known.push_back(taken_);
   }
   std::vector<ParameterValue> parameters(std::size_t) const override { return {{"p", "1", 2.0, 0.1}}; }
+  std::string meaning(std::size_t i) const override { return "meaning of " + adopted.at(i); }
   std::vector<std::string> rivals(std::size_t i, std::uint64_t) override {
     return i == 0 ? std::vector<std::string>{"twin"} : std::vector<std::string>{};
   }
   std::vector<ClosureMode> modes() const override { return {}; }
   std::optional<double> reference_error() const override { return heldout; }
+  std::string reference_unit() const override { return "mm"; }
   std::string describe_residual() const override { return "left over"; }
 
   std::map<std::uint64_t, int> seeds;
@@ -93,12 +95,14 @@ TEST(ClosureLoop, AdoptsTheBestUntilOnlyNoiseIsLeft) {
   EXPECT_DOUBLE_EQ(first.steps[0].heldout_after, 1.5);
   EXPECT_DOUBLE_EQ(first.steps[0].threshold, 0.5);
   EXPECT_THAT(first.steps[0].rivals, ElementsAre("twin"));
+  EXPECT_EQ(first.steps[0].meaning, "meaning of strong");
   EXPECT_EQ(first.steps[0].others.front().effect, "finishing");
   EXPECT_EQ(first.unexplained, "left over");
   EXPECT_GT(first.unexplained_fraction, 0.0);
   EXPECT_EQ(first.n_surrogates, 333U);
   EXPECT_EQ(*first.reference_error_before, 4.0);
   EXPECT_EQ(*first.reference_error_after, 1.5);
+  EXPECT_EQ(first.reference_unit, "mm");
   EXPECT_EQ(first.not_observable.size(), 1U);
 }
 
@@ -152,6 +156,23 @@ TEST(ClosureLoop, NeverDrawsASurrogateTwice) {
   level.known = {{"a", 2.5}, {"b", 2.0}, {"c", 1.5}};
   (void)close_loop(level, {.n_surrogates = 50});
   for (const auto& [seed, times] : level.seeds) EXPECT_EQ(times, 1) << seed;
+}
+
+TEST(ClosureLoop, DrawsNoMoreSurrogatesWhereAFewLeaveNoDoubt) {
+  ScriptedLevel level;
+  level.known = {{"strong", 0.5}};
+  const ClosureResult result = close_loop(level, {.n_surrogates = 100, .n_surrogates_when_plain = 12});
+  EXPECT_THAT(level.adopted, ElementsAre("strong"));
+  EXPECT_EQ(result.n_surrogates, 12U);
+}
+
+TEST(ClosureLoop, DrawsAllSurrogatesWhereAFewLeaveDoubt) {
+  ScriptedLevel level;
+  level.chance = 6.0;  // the candidate's score is 15.75: above it, but not threefold
+  level.known = {{"weak", 0.5}};
+  const ClosureResult result = close_loop(level, {.n_surrogates = 100, .n_surrogates_when_plain = 12});
+  EXPECT_THAT(level.adopted, ElementsAre("weak"));
+  EXPECT_EQ(result.n_surrogates, 100U);
 }
 
 TEST(ClosureLoop, InfiniteAndUndefinedScoresAreLeft) {

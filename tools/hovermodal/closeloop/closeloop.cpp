@@ -134,9 +134,7 @@ void run(const Options& options) {
   if (terminal) loop.progress = [](const std::string& words) { fmt::print(stderr, "\r\033[K{}", words); };
   const core::closure::ClosureResult result = core::closure::close_loop(*level, loop);
   if (terminal) fmt::print(stderr, "\r\033[K");
-  std::vector<std::string> meanings;
-  for (std::size_t i = 0; i < result.steps.size(); ++i) meanings.push_back(level->meaning(i));
-  fmt::print("{}{}", closure_text(result, meanings), check_text(*level));
+  fmt::print("{}{}", closure_text(result), check_text(*level));
   if (options.loop.report.empty()) return;
   const std::filesystem::path folder = options.loop.report;
   drivers::write_file_atomically((folder / "closure.json").string(), app::closure_json(result));

@@ -85,9 +85,7 @@ void close_tracks(const TracksLoop& request) {
   const ResidualView before = view_of(level);
   const ClosureResult result = core::closure::close_loop(level, loop);
   if (terminal) fmt::print(stderr, "\r\033[K");
-  std::vector<std::string> meanings;
-  for (std::size_t i = 0; i < result.steps.size(); ++i) meanings.push_back(level.meaning(i));
-  fmt::print("{}", closure_text(result, meanings));
+  fmt::print("{}", closure_text(result));
   if (request.report.empty()) return;
   write_pictures_of(request, level, result, before);
   fmt::print("{} written\n", (std::filesystem::path(request.report) / "closure.json").string());

@@ -31,7 +31,7 @@ void close_turning(const LoopRequest& request, const GyroClipOptions& options) {
   if (terminal) loop.progress = [](const std::string& words) { fmt::print(stderr, "\r\033[K{}", words); };
   const core::closure::ClosureResult result = core::closure::close_loop(level, loop);
   if (terminal) fmt::print(stderr, "\r\033[K");
-  fmt::print("{}", closure_text(result, {}));
+  fmt::print("{}", closure_text(result));
   if (result.reference_error_before && result.reference_error_after)
     fmt::print("the picture turns beyond the model, held-out frames: {:.4f} -> {:.4f} deg rms a frame\n",
                *result.reference_error_before, *result.reference_error_after);

@@ -40,7 +40,7 @@ ClosureResult close_response(const LoopRequest& request, const ResponseModel& mo
 }
 
 void show_response(const LoopRequest& request, const ClosureResult& result, const std::string& file) {
-  fmt::print("{}{}", closure_text(result, {}), identified_text(result));
+  fmt::print("{}{}", closure_text(result), identified_text(result));
   if (request.report.empty()) return;
   const auto path = (std::filesystem::path(request.report) / file).string();
   drivers::write_file_atomically(path, app::closure_json(result));

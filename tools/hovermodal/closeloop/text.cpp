@@ -31,12 +31,12 @@ std::string others_text(const std::vector<CandidateScore>& others, const std::st
   return out;
 }
 
-std::string step_text(const ClosureStep& step, std::size_t i, const std::string& meaning, const std::string& unit) {
+std::string step_text(const ClosureStep& step, std::size_t i, const std::string& unit) {
   std::string out = fmt::format("step {}: {}{}\n", i + 1, step.effect,
                                 step.kind == core::closure::EffectKind::kLatent ? " (latent)" : "");
   out += fmt::format("    held-out error {:.3g} -> {:.3g} {}; score {:.4g}, chance reaches {:.3g}\n",
                      step.heldout_before, step.heldout_after, unit, step.score, step.threshold);
-  out += fmt::format("    {}{}\n", parameters_text(step), meaning.empty() ? "" : "; " + meaning);
+  out += fmt::format("    {}{}\n", parameters_text(step), step.meaning.empty() ? "" : "; " + step.meaning);
   if (!step.rivals.empty())
     out += fmt::format("    cannot be told from: {}; the cause is one of these\n", fmt::join(step.rivals, ", "));
   if (!step.others.empty()) out += "    tried beside it:\n" + others_text(step.others, unit);
@@ -67,12 +67,12 @@ std::string modes_text(const ClosureResult& result) {
 
 }  // namespace
 
-std::string closure_text(const ClosureResult& result, const std::vector<std::string>& meanings) {
+std::string closure_text(const ClosureResult& result) {
   const std::string& unit = result.unit;
   std::string out = fmt::format("level {}: residual {:.3g} {} rms without effects, stated noise {:.3g} {}\n",
                                 result.level, result.baseline_rms, unit, result.noise_floor, unit);
   for (std::size_t i = 0; i < result.steps.size(); ++i)
-    out += step_text(result.steps[i], i, i < meanings.size() ? meanings[i] : "", unit);
+    out += step_text(result.steps[i], i, unit);
   if (result.steps.empty()) out += "no effect adopted\n";
   if (!result.refused.empty()) out += "not adopted (held-out error, why):\n" + others_text(result.refused, unit);
   out += fmt::format("stopped: {}\n", result.stop_reason);
@@ -80,7 +80,7 @@ std::string closure_text(const ClosureResult& result, const std::vector<std::str
                      result.residual_rms, unit, 100.0 * result.unexplained_fraction, result.unexplained);
   if (result.reference_error_before && result.reference_error_after)
     out += fmt::format("error on what no fit saw {:.3g} -> {:.3g} {}\n", *result.reference_error_before,
-                       *result.reference_error_after, unit);
+                       *result.reference_error_after, result.reference_unit);
   out += modes_text(result);
   for (const auto& effect : result.not_observable)
     out += fmt::format("not observable here: {}: {}; {}\n", effect.effect, effect.reason, effect.instead);

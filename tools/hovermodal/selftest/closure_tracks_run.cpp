@@ -66,8 +66,8 @@ TracksOutcome close_tracks_record(const core::closure::ObservationRecord& record
   TracksOutcome out;
   out.result = close_loop(level, options);
   out.values = 2.0 * static_cast<double>(record.n_points() * record.n_frames());
-  for (std::size_t i = 0; i < out.result.steps.size(); ++i) {
-    if (const std::string words = level.meaning(i); !words.empty()) out.words += "{" + words + "}";
+  for (const core::closure::ClosureStep& step : out.result.steps) {
+    if (!step.meaning.empty()) out.words += "{" + step.meaning + "}";
   }
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return out;
