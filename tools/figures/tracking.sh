@@ -137,7 +137,7 @@ build_bits() { # NAME COMPILER FLAG...: tracking_bits without the rest of the pr
   local name=$1 compiler=$2
   shift 2
   "$compiler" -std=c++20 -O3 -ffp-contract=off -I. "$@" tests/bench/tracking_bits.cpp \
-    core/tracking/{point_finder,region_search,region_follower,motion_predictor,outlier_rejection}.cpp core/tracking/klt/*.cpp \
+    core/tracking/{point_finder,point_reseeder,region_search,region_follower,motion_predictor,outlier_rejection}.cpp core/tracking/klt/*.cpp \
     -o "$out/bits_$name"
 }
 figure_6() {
