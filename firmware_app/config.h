@@ -84,6 +84,14 @@ struct IdentificationConfig {
   double max_damping = 0.15;
 };
 
+enum class ClosureAdopt : std::uint8_t { kOff, kReport };
+
+struct ClosureConfig {
+  ClosureAdopt adopt = ClosureAdopt::kReport;
+  double window_s = 120.0;  // of the newest tracks that are looked at
+  double period_s = 60.0;   // of stream time between two reports
+};
+
 struct TelemetryConfig {
   std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0";  // empty = no telemetry
   std::string channel_prefix = "HOVERMODAL";
@@ -123,6 +131,7 @@ struct AppConfig {
   TrackingConfig tracking;
   SpectrumConfig spectrum;
   IdentificationConfig identification;
+  ClosureConfig closure;
   TelemetryConfig telemetry;
   ReportConfig report;
   StateConfig state;

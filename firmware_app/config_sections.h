@@ -14,6 +14,7 @@ void add_region_length_key(std::vector<ConfigKey>& keys);
 void add_scale_keys(std::vector<ConfigKey>& keys);
 void add_tracking_keys(std::vector<ConfigKey>& keys);
 void add_analysis_keys(std::vector<ConfigKey>& keys);
+void add_closure_keys(std::vector<ConfigKey>& keys);
 void add_output_keys(std::vector<ConfigKey>& keys);
 
 }  // namespace app

@@ -71,6 +71,20 @@ void add_analysis_keys(std::vector<ConfigKey>& keys) {
                             "largest damping ratio of a structural mode"));
 }
 
+void add_closure_keys(std::vector<ConfigKey>& keys) {
+  using C = ClosureConfig;
+  keys.push_back(choice_key<ClosureAdopt>(
+      "closure.adopt", [](AppConfig& config, std::size_t) -> ClosureAdopt& { return config.closure.adopt; },
+      {{"off", ClosureAdopt::kOff}, {"report", ClosureAdopt::kReport}},
+      "what the model of camera, lens and tracker fails to explain in the tracks: nobody looks, or it is traced to "
+      "an effect and reported"));
+  keys.push_back(number_key("closure.window_s", "s", at(&A::closure, &C::window_s), {20, 3600},
+                            "of the newest tracks that are looked at; two hundred points take 50 MB for 120 s at 60 "
+                            "frames a second"));
+  keys.push_back(number_key("closure.period_s", "s", at(&A::closure, &C::period_s), {20, 86400},
+                            "of stream time between two reports; the first needs 20 s of record"));
+}
+
 void add_output_keys(std::vector<ConfigKey>& keys) {
   using T = TelemetryConfig;
   keys.push_back(

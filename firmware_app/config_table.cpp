@@ -21,6 +21,7 @@ std::vector<ConfigKey> build_keys() {
   add_scale_keys(keys);
   add_tracking_keys(keys);
   add_analysis_keys(keys);
+  add_closure_keys(keys);
   add_output_keys(keys);
   return keys;
 }

@@ -117,6 +117,7 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
     core::StageHealth& stage = health.stages.back();
     if (stage.name == "identification") health.estimates = stage.n_out;
     if (stage.name == "publish") stage.n_dropped += tracking_.n_records_lost();
+    if (stage.name == "closure") stage.n_dropped += tracking_.n_shown_lost();
   }
   return health;
 }

@@ -11,6 +11,7 @@
 #include "firmware_app/pipeline_setup.h"
 #include "firmware_app/readout_use.h"
 #include "firmware_app/report/page/report_page.h"
+#include "firmware_app/stages/closure_stage.h"
 #include "firmware_app/stages/identification_stage.h"
 #include "rt/memory.h"
 #include "rt/stage_runner.h"
@@ -58,6 +59,11 @@ struct Pipeline::Parts {
   rt::TripleBuffer<StateBytes> mode_states{state_room(identification.state_bytes())};
   CheckpointStage checkpoint{spectrum_states, mode_states, view_of(config, source), state_path(config)};
 
+  // tracking -> [recent tracks] -> closure -> [closures] -> publish
+  rt::SpscRing<core::TrackFrame> recent_tracks{closes_loop() ? slots(kRecentSlots) : 1, source.keyframe};
+  rt::SpscRing<core::closure::ClosureReport> closures{slots(kResultSlots), core::closure::ClosureReport{}};
+  ClosureStage closure{recent_tracks.reader(), closure_config(config, source), closures.writer()};
+
   HealthCollector health{source.info.rate_hz, capture, tracking, spectrum};
   PublishStage publish{records.reader(), results.reader(), outlets()};
 
@@ -66,11 +72,12 @@ struct Pipeline::Parts {
   rt::StageRunner run_tracking{tracking, frame_thread("hm-tracking", config.rt, config.rt.tracking_cpu)};
   rt::StageRunner run_spectrum{spectrum, frame_thread("hm-spectrum", config.rt, config.rt.spectrum_cpu)};
   rt::StageRunner run_identification{identification, {"hm-identify"}};
+  rt::StageRunner run_closure{closure, {"hm-closure"}};
   rt::StageRunner run_publish{publish, {"hm-publish"}};
   rt::StageRunner run_checkpoint{checkpoint, {"hm-checkpoint"}};
   const std::vector<rt::StageRunner*> all_runners = list_runners();  // in flow order
 
-  static constexpr int kResultSlots = 8;
+  static constexpr int kResultSlots = 8, kRecentSlots = 1024;
   static std::size_t slots(int n) { return static_cast<std::size_t>(n); }
 
   [[nodiscard]] std::unique_ptr<const ReadoutUse> identifier(double rate_hz) const {
@@ -85,12 +92,15 @@ struct Pipeline::Parts {
     return rt::lock_memory();
   }
   [[nodiscard]] const std::vector<rt::StageRunner*>& runners() const noexcept { return all_runners; }
+  [[nodiscard]] bool closes_loop() const noexcept { return config.closure.adopt != ClosureAdopt::kOff; }
   [[nodiscard]] bool keeps_state() const noexcept { return !config.state.directory.empty(); }
   [[nodiscard]] StateBytes state_room(std::size_t n_bytes) const {
     return {std::vector<std::uint8_t>(keeps_state() ? n_bytes : 0), 0};
   }
   [[nodiscard]] std::vector<rt::StageRunner*> list_runners() {
-    std::vector<rt::StageRunner*> all{&run_capture, &run_tracking, &run_spectrum, &run_identification, &run_publish};
+    std::vector<rt::StageRunner*> all{&run_capture, &run_tracking, &run_spectrum, &run_identification};
+    if (closes_loop()) all.push_back(&run_closure);
+    all.push_back(&run_publish);
     if (keeps_state()) all.push_back(&run_checkpoint);
     return all;
   }
@@ -116,8 +126,17 @@ struct Pipeline::Parts {
     records.set_reader_wakeup(&publish.wakeup());
     snapshots.set_writer_wakeup(&spectrum.wakeup());
     snapshots.set_reader_wakeup(&identification.wakeup());
+    if (closes_loop()) connect_closure();
     results.set_writer_wakeup(&identification.wakeup());
     results.set_reader_wakeup(&publish.wakeup());
+  }
+  void connect_closure() {
+    tracking.show_tracks(recent_tracks.writer());
+    publish.hear_closure(closures.reader());
+    recent_tracks.set_writer_wakeup(&tracking.wakeup());
+    recent_tracks.set_reader_wakeup(&closure.wakeup());
+    closures.set_writer_wakeup(&closure.wakeup());
+    closures.set_reader_wakeup(&publish.wakeup());
   }
   void keep_state() {
     spectrum_states.set_reader_wakeup(&checkpoint.wakeup());
@@ -134,10 +153,11 @@ struct Pipeline::Parts {
     health.watch({&run_tracking, [this] { return frames.depth(); }, frames.n_slots()});
     health.watch({&run_spectrum, [this] { return samples.depth(); }, samples.n_slots()});
     health.watch({&run_identification, {}, 0});
+    if (closes_loop()) health.watch({&run_closure, [this] { return recent_tracks.depth(); }, recent_tracks.n_slots()});
     health.watch({&run_publish, [this] { return records.depth(); }, records.n_slots()});
     const auto stall_ns = static_cast<std::int64_t>(1e9 * config.rt.stall_s);
     for (rt::StageRunner* runner : runners()) runner->set_stall_limit_ns(stall_ns);
-    run_identification.set_stall_limit_ns(10 * stall_ns);
+    for (rt::StageRunner* slow : {&run_identification, &run_closure}) slow->set_stall_limit_ns(10 * stall_ns);
   }
   [[nodiscard]] std::string fault() {
     if (run_capture.faulted()) return "camera: " + source.camera->fault();

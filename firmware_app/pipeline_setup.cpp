@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "firmware_app/calibration.h"
 #include "firmware_app/config_image.h"
 #include "firmware_app/core_config.h"
+#include "firmware_app/observation.h"
 #include "firmware_app/readout_use.h"
 #include "firmware_app/report/pictures/pictures.h"
 #include "firmware_app/run_findings.h"
@@ -160,16 +162,17 @@ std::string short_record(const AppConfig& config, const core::CameraInfo& info, 
       estimate.n_samples, segment, static_cast<double>(segment) / info.rate_hz, info.rate_hz);
 }
 
-std::function<void(const core::ModalEstimate&, const core::CpsdSums&, const core::Health&)> picture_drawer(
-    const AppConfig& config, const Source& source, const RunReport* report) {
+std::function<void(const PublishStage::Findings&, const core::Health&)> picture_drawer(const AppConfig& config,
+                                                                                       const Source& source,
+                                                                                       const RunReport* report) {
   if (report == nullptr) return {};
-  return [&config, &source, report](const core::ModalEstimate& estimate, const core::CpsdSums& spectrum,
-                                    const core::Health& health) {
+  return [&config, &source, report](const PublishStage::Findings& found, const core::Health& health) {
     PictureInputs inputs = picture_inputs(config, source.info, source.channels());
     inputs.first_frame = &source.keyframe_image();
     inputs.keyframe = &source.keyframe;
-    inputs.spectrum = &spectrum;
-    inputs.estimate = &estimate;
+    inputs.spectrum = &found.spectrum;
+    inputs.estimate = &found.estimate;
+    inputs.closure = found.closure;
     inputs.history = &report->history();
     const RunFacts facts = run_facts(config, source.info, config.camera.source, health);
     inputs.facts = &facts;
@@ -178,6 +181,16 @@ std::function<void(const core::ModalEstimate&, const core::CpsdSums&, const core
 }
 
 FrameRecord record_prototype(const Source& source) { return {source.keyframe, source.displacement.sample_prototype()}; }
+
+ClosureStageConfig closure_config(const AppConfig& config, const Source& source) {
+  const DeclaredObservation declared = declared_observation(config, source.info);
+  std::vector<std::size_t> region_of_point;
+  for (const core::TrackPoint& point : source.keyframe.points) region_of_point.push_back(point.region);
+  const double rate_hz = declared.record.rate_hz;
+  const bool looks = config.closure.adopt != ClosureAdopt::kOff;
+  const auto n_frames = static_cast<std::size_t>(looks ? std::max(1.0, config.closure.window_s * rate_hz) : 1.0);
+  return {{declared.record, declared.camera, std::move(region_of_point), n_frames}, rate_hz, config.closure.period_s};
+}
 
 RunState view_of(const AppConfig& config, const Source& source) {
   RunState view;

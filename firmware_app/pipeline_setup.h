@@ -18,8 +18,10 @@
 #include "firmware_app/kept_keyframe.h"
 #include "firmware_app/report/run_report.h"
 #include "firmware_app/run_state.h"
+#include "firmware_app/stages/closure_stage.h"
 #include "firmware_app/stages/identification_stage.h"
 #include "firmware_app/stages/items.h"
+#include "firmware_app/stages/publish_stage.h"
 #include "rt/stage_runner.h"
 
 namespace app {
@@ -54,9 +56,11 @@ struct Source {
 [[nodiscard]] std::string short_record(const AppConfig& config, const core::CameraInfo& info,
                                        const core::ModalEstimate& estimate);
 // What PublishStage::Outlets::draw calls; empty: no report wanted. All arguments must outlive it.
-[[nodiscard]] std::function<void(const core::ModalEstimate&, const core::CpsdSums&, const core::Health&)>
-picture_drawer(const AppConfig& config, const Source& source, const RunReport* report);
+[[nodiscard]] std::function<void(const PublishStage::Findings&, const core::Health&)> picture_drawer(
+    const AppConfig& config, const Source& source, const RunReport* report);
 [[nodiscard]] FrameRecord record_prototype(const Source& source);
+// What closing the loop is told of the run. With closure.adopt: off it keeps one frame.
+[[nodiscard]] ClosureStageConfig closure_config(const AppConfig& config, const Source& source);
 
 // What a kept state must agree with.
 [[nodiscard]] RunState view_of(const AppConfig& config, const Source& source);

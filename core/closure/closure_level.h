@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/closure/closure_result.h"
+#include "core/types/closure_result.h"
 
 namespace core::closure {
 
@@ -66,7 +66,7 @@ class ClosureLevel {
   [[nodiscard]] virtual std::vector<ClosureMode> modes() const = 0;
   [[nodiscard]] virtual std::optional<double> reference_error() const = 0;
   [[nodiscard]] virtual std::string reference_unit() const { return unit(); }  // of reference_error()
-  [[nodiscard]] virtual std::string describe_residual() const = 0;  // of what is left: where, how much
+  [[nodiscard]] virtual std::string describe_residual() const = 0;             // of what is left: where, how much
 };
 
 }  // namespace core::closure

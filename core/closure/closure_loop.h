@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/closure/closure_level.h"
-#include "core/closure/closure_result.h"
+#include "core/types/closure_result.h"
 
 namespace core::closure {
 

@@ -5,12 +5,14 @@
 #include <string_view>
 #include <vector>
 
+#include "core/types/closure_report.h"
 #include "core/types/cpsd.h"
 #include "core/types/displacement.h"
 #include "core/types/health.h"
 #include "core/types/modal_estimate.h"
 #include "core/types/track.h"
 #include "drivers/telemetry/publisher.h"
+#include "hovermodal/closure_report_t.hpp"
 #include "hovermodal/displacement_t.hpp"
 #include "hovermodal/health_t.hpp"
 #include "hovermodal/modal_estimate_t.hpp"
@@ -41,6 +43,9 @@ inline constexpr std::size_t kMaxWarnings = 16;
 
 [[nodiscard]] hovermodal::displacement_t to_message(const core::DisplacementSample& sample,
                                                     const StreamIdentity& identity);
+// One datagram: words are clipped, and of more steps than fit the last ones are left out.
+[[nodiscard]] hovermodal::closure_report_t to_message(const core::closure::ClosureReport& report,
+                                                      const StreamIdentity& identity);
 [[nodiscard]] hovermodal::tracks_t to_message(const core::TrackFrame& tracks, const StreamIdentity& identity);
 [[nodiscard]] hovermodal::health_t to_message(const core::Health& health,
                                               const std::vector<core::ChannelInfo>& channels,

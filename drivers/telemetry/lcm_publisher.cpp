@@ -66,8 +66,7 @@ struct LcmPublisher::Ways {
 
 LcmPublisher::LcmPublisher(const LcmOptions& options) : identity_(options.identity), ways_(std::make_unique<Ways>()) {
   check_channel_prefix(options.channel_prefix);
-  const std::array<const char*, kTopics> suffixes{"_MODAL", "_DISPLACEMENT", "_SPECTRUM", "_TRACKS", "_HEALTH"};
-  for (std::size_t i = 0; i < kTopics; ++i) channels_[i].name = options.channel_prefix + suffixes[i];
+  for (std::size_t i = 0; i < kTopics; ++i) channels_[i].name = options.channel_prefix + kTopicSuffixes[i];
   if (!options.url.empty()) warning_ = ways_->open_network(options);
   if (!options.log_file.empty()) ways_->open_log(options.log_file);
 }
@@ -151,6 +150,13 @@ bool LcmPublisher::publish(const core::CpsdSums& spectrum, const std::vector<cor
     remember(channels);
     auto messages = to_messages(spectrum, channels, identity_);
     return send_all(kSpectrum, messages);
+  });
+}
+
+bool LcmPublisher::publish(const core::closure::ClosureReport& report) noexcept {
+  return guarded([&] {
+    auto message = to_message(report, identity_);
+    return send(kClosure, message);
   });
 }
 

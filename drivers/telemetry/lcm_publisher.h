@@ -9,6 +9,7 @@
 
 #include "drivers/telemetry/publisher.h"
 #include "drivers/telemetry/publisher_factory.h"
+#include "drivers/telemetry/topics.h"
 
 namespace drivers {
 
@@ -27,6 +28,7 @@ class LcmPublisher : public Publisher {
                const std::vector<core::ChannelInfo>& channels) noexcept override;
   bool publish(const core::TrackFrame& tracks) noexcept override;
   bool publish(const core::CpsdSums& spectrum, const std::vector<core::ChannelInfo>& channels) noexcept override;
+  bool publish(const core::closure::ClosureReport& report) noexcept override;
   bool publish(const core::Health& health) noexcept override;
 
   // A message counts as sent when every way open (network, log) took it.
@@ -37,7 +39,6 @@ class LcmPublisher : public Publisher {
   [[nodiscard]] const std::string& warning() const noexcept { return warning_; }
 
  private:
-  enum Topic : std::size_t { kModal, kDisplacement, kSpectrum, kTracks, kHealth, kTopics };
   struct Channel {
     std::string name;
     std::int64_t next_sequence = 0;

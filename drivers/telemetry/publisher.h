@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/types/closure_report.h"
 #include "core/types/cpsd.h"
 #include "core/types/displacement.h"
 #include "core/types/health.h"
@@ -28,6 +29,7 @@ class Publisher {
                        const std::vector<core::ChannelInfo>& channels) noexcept = 0;
   virtual bool publish(const core::TrackFrame& tracks) noexcept = 0;
   virtual bool publish(const core::CpsdSums& spectrum, const std::vector<core::ChannelInfo>& channels) noexcept = 0;
+  virtual bool publish(const core::closure::ClosureReport& report) noexcept = 0;
   virtual bool publish(const core::Health& health) noexcept = 0;
   [[nodiscard]] virtual std::uint64_t messages_sent() const noexcept = 0;  // datagrams
   [[nodiscard]] virtual std::uint64_t messages_failed() const noexcept = 0;

@@ -9,9 +9,9 @@
 
 namespace drivers {
 
-StreamMonitor::StreamMonitor(const std::string& channel_prefix)
-    : names_{channel_prefix + "_MODAL", channel_prefix + "_DISPLACEMENT", channel_prefix + "_SPECTRUM",
-             channel_prefix + "_TRACKS", channel_prefix + "_HEALTH"} {}
+StreamMonitor::StreamMonitor(const std::string& channel_prefix) {
+  for (std::size_t i = 0; i < kTopics; ++i) names_[i] = channel_prefix + kTopicSuffixes[i];
+}
 
 void StreamMonitor::receive(std::string_view lcm_channel, const void* data, std::size_t n_bytes,
                             std::int64_t now_ns) noexcept {
@@ -41,6 +41,9 @@ void StreamMonitor::dispatch(Topic topic, const void* data, std::size_t n_bytes,
       break;
     case kTracks:
       static_cast<void>(open<hovermodal::tracks_t>(topic, data, n_bytes, now_ns));
+      break;
+    case kClosure:
+      if (auto m = open<hovermodal::closure_report_t>(topic, data, n_bytes, now_ns)) closure_ = std::move(*m);
       break;
     case kTopics:
       break;

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "drivers/telemetry/channel_count.h"
+#include "drivers/telemetry/topics.h"
+#include "hovermodal/closure_report_t.hpp"
 #include "hovermodal/displacement_t.hpp"
 #include "hovermodal/health_t.hpp"
 #include "hovermodal/modal_estimate_t.hpp"
@@ -21,7 +23,10 @@ namespace drivers {
 // first stream_id it hears. Takes any bytes: what does not decode is counted and changes nothing else. One thread.
 class StreamMonitor {
  public:
-  enum Topic : std::size_t { kModal, kDisplacement, kSpectrum, kTracks, kHealth, kTopics };
+  using Topic = drivers::Topic;
+  static constexpr Topic kModal = drivers::kModal, kDisplacement = drivers::kDisplacement,
+                         kSpectrum = drivers::kSpectrum, kTracks = drivers::kTracks, kClosure = drivers::kClosure,
+                         kHealth = drivers::kHealth, kTopics = drivers::kTopics;
   static constexpr std::size_t kHistory = 1024;     // displacement samples kept per channel
   static constexpr std::size_t kMaxChannels = 256;  // more than that in one message are ignored
   static constexpr std::size_t kMaxModes = 1024;    // of one estimate, all parts
@@ -49,6 +54,9 @@ class StreamMonitor {
   [[nodiscard]] std::vector<const hovermodal::mode_t*> modes() const;
   [[nodiscard]] int parts_heard() const noexcept { return static_cast<int>(parts_.size()); }
 
+  // The newest report of closing the loop.
+  [[nodiscard]] const std::optional<hovermodal::closure_report_t>& closure() const noexcept { return closure_; }
+
   [[nodiscard]] std::size_t n_channels() const noexcept { return history_.size(); }
   [[nodiscard]] std::string channel_name(std::size_t i_channel) const;
   [[nodiscard]] const std::deque<float>& history_mm(std::size_t i_channel) const { return history_[i_channel]; }
@@ -68,6 +76,7 @@ class StreamMonitor {
   std::int64_t config_hash_ = 0, stream_time_ns_ = 0, last_received_ns_ = 0, finished_at_ns_ = 0;
   bool is_finished_ = false;
   std::optional<hovermodal::health_t> health_, previous_health_;
+  std::optional<hovermodal::closure_report_t> closure_;
   std::optional<hovermodal::modal_estimate_t> estimate_;  // its own `modes` moved into parts_
   std::map<std::int16_t, std::vector<hovermodal::mode_t>> parts_;
   std::size_t n_modes_ = 0;

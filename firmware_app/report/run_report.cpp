@@ -15,6 +15,7 @@
 
 #include "drivers/storage/json.h"
 #include "drivers/storage/text_file.h"
+#include "firmware_app/report/closure_json.h"
 #include "firmware_app/report/modal_json.h"
 
 namespace app {
@@ -62,7 +63,7 @@ RunReport::RunReport(const std::string& directory, const AppConfig& config, cons
       history_(camera.rate_hz, channels.size(), region_names.size()) {
   make_directory(directory);
   for (const core::ChannelInfo& channel : channels) channel_names_.push_back(channel.name);
-  for (const char* old : {"modal.json", "modal.json.partial", "tracks.csv", "report.html"}) {
+  for (const char* old : {"modal.json", "modal.json.partial", "tracks.csv", "report.html", "closure.json"}) {
     std::error_code ignored;  // opening the new file tells what matters
     std::filesystem::remove(in_directory(directory, old), ignored);
   }
@@ -158,7 +159,8 @@ bool RunReport::add(const core::DisplacementSample& sample) noexcept try {
 }
 
 void RunReport::finish(const core::ModalEstimate& last, const core::Health& losses,
-                       const std::vector<std::string>& corrections, const std::vector<std::string>& caveats) {
+                       const std::vector<std::string>& corrections, const std::vector<std::string>& caveats,
+                       const core::closure::ClosureReport* closure) {
   std::string failures;
   const auto attempt = [&](const auto& write) {
     try {
@@ -175,6 +177,10 @@ void RunReport::finish(const core::ModalEstimate& last, const core::Health& loss
     n_not_finite_ += n_not_finite;
     drivers::write_file_atomically(in_directory(directory_, "modal.json"), text);
   });
+  if (closure != nullptr && closure->refused.empty())
+    attempt([&] {
+      drivers::write_file_atomically(in_directory(directory_, "closure.json"), closure_json(closure->result));
+    });
   if (failures.empty()) return;
   throw drivers::FileError(
       fmt::format("the report is incomplete ({} frames and samples came after the fault): {}. Free space on the disk, "

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/types/closure_report.h"
 #include "core/types/displacement.h"
 #include "core/types/frame.h"
 #include "core/types/health.h"
@@ -31,10 +32,10 @@ class RunReport {
   // One estimate, for the pictures of how the modes settled.
   void add(const core::ModalEstimate& estimate) noexcept { history_.add(estimate); }
 
-  // Completes the files and writes modal.json. Throws one drivers::FileError that names every file that failed; the
-  // others are complete.
+  // Completes the files and writes modal.json, and closure.json of the last report that concluded something. Throws one
+  // drivers::FileError that names every file that failed; the others are complete.
   void finish(const core::ModalEstimate& last, const core::Health& losses, const std::vector<std::string>& corrections,
-              const std::vector<std::string>& caveats = {});
+              const std::vector<std::string>& caveats = {}, const core::closure::ClosureReport* closure = nullptr);
 
   // What came so far, for the pictures.
   [[nodiscard]] const RunHistory& history() const noexcept { return history_; }

@@ -22,13 +22,19 @@ rt::StepStatus PublishStage::step() noexcept {
     results_.pop();
     return rt::StepStatus::kWorked;
   }
+  if (const core::closure::ClosureReport* closure = closures_ ? closures_->front() : nullptr) {
+    publish_closure(*closure);
+    closures_->pop();
+    return rt::StepStatus::kWorked;
+  }
   if (const FrameRecord* record = records_.front()) {
     publish_record(*record);
     records_.pop();
     rt::StageStats::add(stats().n_in);
     return rt::StepStatus::kWorked;
   }
-  return records_.finished() && results_.finished() ? rt::StepStatus::kFinished : rt::StepStatus::kIdle;
+  const bool is_over = records_.finished() && results_.finished() && (!closures_ || closures_->finished());
+  return is_over ? rt::StepStatus::kFinished : rt::StepStatus::kIdle;
 }
 
 void PublishStage::publish_record(const FrameRecord& record) noexcept {
@@ -57,6 +63,15 @@ void PublishStage::publish_result(const IdentificationResult& result) noexcept {
   rt::StageStats::add(stats().n_out);
 }
 
+void PublishStage::publish_closure(const core::closure::ClosureReport& report) noexcept {
+  (void)outlets_.publisher.publish(report);
+  try {
+    last_closure_ = report;
+  } catch (...) {
+    fault_ = "out of memory for a report of closing the loop";
+  }
+}
+
 // By the wall clock, because it is for a person who watches; it enters no result.
 void PublishStage::publish_health_when_due() noexcept {
   const std::int64_t now_ns = rt::monotonic_ns();
@@ -70,8 +85,8 @@ void PublishStage::publish_health_when_due() noexcept {
 
 void PublishStage::complete_report(const core::Health& health) {
   if (outlets_.report != nullptr)
-    outlets_.report->finish(last_estimate_, health, outlets_.corrections, outlets_.caveats);
-  if (outlets_.draw) outlets_.draw(last_estimate_, last_sums_, health);
+    outlets_.report->finish(last_estimate_, health, outlets_.corrections, outlets_.caveats, closure());
+  if (outlets_.draw) outlets_.draw({last_estimate_, last_sums_, closure()}, health);
 }
 
 void PublishStage::finish() noexcept {

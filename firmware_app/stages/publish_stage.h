@@ -2,9 +2,12 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/types/closure_report.h"
 #include "core/types/displacement.h"
 #include "core/types/health.h"
 #include "drivers/telemetry/publisher.h"
@@ -19,18 +22,27 @@ namespace app {
 // records and estimates -> telemetry and the report's files. The one stage that may touch files and sockets.
 class PublishStage : public rt::Stage {
  public:
+  // Of the run so far, what came last. Null: nothing.
+  struct Findings {
+    const core::ModalEstimate& estimate;
+    const core::CpsdSums& spectrum;
+    const core::closure::ClosureReport* closure;
+  };
   struct Outlets {
     drivers::Publisher& publisher;
     RunReport* report = nullptr;           // null: no report wanted
     std::function<core::Health()> health;  // a status record of now
     // Draws the run's pictures and its page beside the report; throws drivers::FileError. Empty: none wanted.
-    std::function<void(const core::ModalEstimate&, const core::CpsdSums&, const core::Health&)> draw;
+    std::function<void(const Findings&, const core::Health&)> draw;
     std::vector<core::ChannelInfo> channels;
     std::vector<std::string> corrections, caveats;
     TelemetryConfig telemetry;
   };
 
   PublishStage(rt::RingReader<FrameRecord> records, rt::RingReader<IdentificationResult> results, Outlets outlets);
+
+  // Set-up only.
+  void hear_closure(rt::RingReader<core::closure::ClosureReport> reports) { closures_.emplace(std::move(reports)); }
 
   [[nodiscard]] std::string_view name() const noexcept override { return "publish"; }
   [[nodiscard]] rt::StepStatus step() noexcept override;
@@ -45,14 +57,20 @@ class PublishStage : public rt::Stage {
  private:
   void publish_record(const FrameRecord& record) noexcept;
   void publish_result(const IdentificationResult& result) noexcept;
+  void publish_closure(const core::closure::ClosureReport& report) noexcept;
   void publish_health_when_due() noexcept;
   void complete_report(const core::Health& health);
+  [[nodiscard]] const core::closure::ClosureReport* closure() const noexcept {
+    return last_closure_ ? &*last_closure_ : nullptr;
+  }
 
   rt::RingReader<FrameRecord> records_;
   rt::RingReader<IdentificationResult> results_;
+  std::optional<rt::RingReader<core::closure::ClosureReport>> closures_;
   Outlets outlets_;
   core::ModalEstimate last_estimate_;
   core::CpsdSums last_sums_;
+  std::optional<core::closure::ClosureReport> last_closure_;
   std::string fault_;
   std::uint64_t n_records_ = 0;
   std::int64_t next_health_ns_ = 0;

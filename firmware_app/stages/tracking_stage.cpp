@@ -29,7 +29,8 @@ rt::StepStatus TrackingStage::step() noexcept {
   if (frame == nullptr) return frames_.finished() ? rt::StepStatus::kFinished : rt::StepStatus::kIdle;
   core::DisplacementSample* sample = samples_.try_claim();
   FrameRecord* record = records_.try_claim();
-  if (lossless_ && (sample == nullptr || record == nullptr)) return rt::StepStatus::kIdle;
+  const bool is_full = sample == nullptr || record == nullptr || (shown_ && shown_->try_claim() == nullptr);
+  if (lossless_ && is_full) return rt::StepStatus::kIdle;
 
   const std::int64_t t_taken_ns = frame->t_taken_ns;
   measure(*frame);
@@ -51,7 +52,18 @@ rt::StepStatus TrackingStage::step() noexcept {
   } else {
     n_records_lost_.store(n_records_lost_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }
+  if (shown_) show();
   return rt::StepStatus::kWorked;
+}
+
+void TrackingStage::show() noexcept {
+  core::TrackFrame* slot = shown_->try_claim();
+  if (slot == nullptr) {
+    n_shown_lost_.store(n_shown_lost_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+    return;
+  }
+  *slot = scratch_.tracks;
+  shown_->publish();
 }
 
 void TrackingStage::measure(const core::Frame& frame) noexcept {
@@ -117,6 +129,7 @@ std::vector<core::RegionHealth> TrackingStage::regions() const {
 void TrackingStage::finish() noexcept {
   samples_.close();
   records_.close();
+  if (shown_) shown_->close();
 }
 
 }  // namespace app

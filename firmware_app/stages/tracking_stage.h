@@ -28,6 +28,9 @@ class TrackingStage : public rt::Stage {
   // Set-up only: taken in before each frame.
   void hear_attitude(rt::RingReader<core::AttitudeSample> samples) { attitude_.emplace(std::move(samples)); }
 
+  // Set-up only: every frame's points go there too; what finds no room is counted.
+  void show_tracks(rt::RingWriter<core::TrackFrame> tracks) { shown_.emplace(std::move(tracks)); }
+
   [[nodiscard]] std::string_view name() const noexcept override { return "tracking"; }
   [[nodiscard]] rt::StepStatus step() noexcept override;
   void finish() noexcept override;
@@ -57,6 +60,8 @@ class TrackingStage : public rt::Stage {
   [[nodiscard]] std::uint64_t n_records_lost() const noexcept {
     return n_records_lost_.load(std::memory_order_relaxed);
   }
+  // Any thread: frames that closure never saw, because its ring was full.
+  [[nodiscard]] std::uint64_t n_shown_lost() const noexcept { return n_shown_lost_.load(std::memory_order_relaxed); }
 
  private:
   struct RegionCounts {  // written here only; relaxed: each a count on its own
@@ -67,6 +72,7 @@ class TrackingStage : public rt::Stage {
 
   void measure(const core::Frame& frame) noexcept;
   void count_regions() noexcept;
+  void show() noexcept;
 
   rt::RingReader<core::Frame> frames_;
   core::StructureTracker& tracker_;
@@ -74,6 +80,7 @@ class TrackingStage : public rt::Stage {
   core::ReadoutEstimator& readout_;
   rt::RingWriter<core::DisplacementSample> samples_;
   rt::RingWriter<FrameRecord> records_;
+  std::optional<rt::RingWriter<core::TrackFrame>> shown_;
   bool lossless_;
   const ThinningSchedule& thinning_;
   FrameRecord scratch_;
@@ -89,7 +96,7 @@ class TrackingStage : public rt::Stage {
   std::atomic<bool> camera_given_up_{false};
   std::atomic<std::uint64_t> points_tracked_{0};  // written here only; relaxed: a count on its own
   std::atomic<std::uint64_t> n_failed_{0};
-  std::atomic<std::uint64_t> n_records_lost_{0};
+  std::atomic<std::uint64_t> n_records_lost_{0}, n_shown_lost_{0};
   std::atomic<std::uint32_t> n_reseeded_{0};
 };
 

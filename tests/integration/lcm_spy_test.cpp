@@ -46,6 +46,7 @@ void publish_run(drivers::Publisher& publisher, std::chrono::microseconds pace) 
     if (n % 50 == 0) {
       publisher.publish(tests::sample_sums(12, 512), channels);
       publisher.publish(tests::sample_estimate(12, 10, n / 50), channels);
+      publisher.publish(tests::sample_closure(2, n / 50));
       publisher.publish(tests::sample_health("running", n / 25));
     }
     std::this_thread::sleep_for(pace);
@@ -58,7 +59,7 @@ void expect_complete(const nlohmann::json& count, const std::string& prefix, std
   EXPECT_TRUE(count["final_health"].get<bool>());
   EXPECT_TRUE(count["complete"].get<bool>()) << count.dump(2);
   std::uint64_t received = 0;
-  for (const char* topic : {"_MODAL", "_DISPLACEMENT", "_SPECTRUM", "_TRACKS", "_HEALTH"}) {
+  for (const char* topic : drivers::kTopicSuffixes) {
     const auto& channel = count["channels"][prefix + topic];
     EXPECT_EQ(channel["received"], channel["sent"]) << topic;
     EXPECT_EQ(channel["first_sequence"], 0) << topic;
@@ -81,7 +82,8 @@ TEST(LcmSpy, ASecondProcessHearsEveryMessageInOrder) {
   EXPECT_EQ(publisher.messages_failed(), 0U);
   expect_complete(read_json(count_file), "HOVERMODAL", publisher.messages_sent());
   for (const char* text : {"1.5000", "structural", "#3 ", "20s", "2.00*", "floor_12.u", "identification", "worst ms",
-                           "real-time priority refused", "finished", "s ago"}) {
+                           "real-time priority refused", "finished", "s ago", "residual 0.0433 -> 0.0312 px",
+                           "readout time: readout = 22.5 +- 0.12 ms"}) {
     EXPECT_NE(spy.output().find(text), std::string::npos) << text << " in\n" << spy.output();
   }
 }
@@ -110,8 +112,9 @@ TEST(LcmSpy, InspectShowsEveryStageWithItsRateLatenciesAndTheComputer) {
   }
   tests::ChildProcess inspect({kSpy, "inspect", "--url", "file://" + log.string() + "?speed=0", "--plain", "--once"});
   EXPECT_EQ(inspect.wait_for_exit(), 0) << inspect.output();
-  for (const char* text : {"stream tower", "finished", "CPU 61.5 C", "disk 5000 MB left", "p99.9", "capture", "tracking",
-                           "spectrum", "identification", "publish", "3.000", "real-time priority refused"}) {
+  for (const char* text :
+       {"stream tower", "finished", "CPU 61.5 C", "disk 5000 MB left", "p99.9", "capture", "tracking", "spectrum",
+        "identification", "publish", "3.000", "real-time priority refused"}) {
     EXPECT_NE(inspect.output().find(text), std::string::npos) << text << " in\n" << inspect.output();
   }
 }

@@ -29,6 +29,8 @@ const core::Mode* nearest_mode(const core::ModalEstimate& estimate, double frequ
   return best;
 }
 
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
 TEST(Pipeline, FindsTheModesOfASimulatedBuilding) {
   constexpr double kDurationS = 60.0;
   const std::uint64_t n_frames = 1500;
@@ -53,6 +55,36 @@ TEST(Pipeline, FindsTheModesOfASimulatedBuilding) {
     }
     EXPECT_GT(core::mac(truth, found), 0.97) << "mode " << r + 1;
   }
+}
+
+// Two periods and the rest; what is published does not depend on how long the stages take.
+TEST(Pipeline, ClosesTheLoopWhileItRuns) {
+  std::vector<std::shared_ptr<Heard>> heard;
+  for (const int slots : {2, 8}) {
+    Rig rig(frames(800), {"closure.period_s=20", "closure.window_s=24", "rt.frame_slots=" + std::to_string(slots)});
+    heard.push_back(rig.heard);
+    EXPECT_EQ(rig.run().fault, "");
+  }
+  const auto& reports = heard[0]->closures;
+  ASSERT_EQ(reports.size(), 2U);
+  EXPECT_EQ(reports[0].last_sequence, 499U);
+  EXPECT_EQ(reports[1].first_sequence, 200U);
+  EXPECT_EQ(reports[1].last_sequence, 799U);
+  EXPECT_TRUE(reports[1].final);
+  ASSERT_EQ(heard[1]->closures.size(), reports.size());
+  for (std::size_t k = 0; k < reports.size(); ++k) {
+    EXPECT_EQ(reports[k].refused, "");
+    EXPECT_GT(reports[k].result.baseline_rms, 0.0);
+    EXPECT_TRUE(same_bits(reports[k].result.baseline_rms, heard[1]->closures[k].result.baseline_rms));
+    EXPECT_TRUE(same_bits(reports[k].result.residual_rms, heard[1]->closures[k].result.residual_rms));
+  }
+}
+
+TEST(Pipeline, LooksForNoMissingEffectWhereNobodyWantsIt) {
+  Rig rig(frames(100), {"closure.adopt=off", "spectrum.segment=64"});
+  const auto outcome = rig.run();
+  EXPECT_TRUE(rig.heard->closures.empty());
+  for (const core::StageHealth& stage : outcome.health.stages) EXPECT_NE(stage.name, "closure");
 }
 
 struct PeriodCase {
@@ -120,12 +152,10 @@ TEST(Pipeline, APublisherThatFailsEverySendIsCountedAndTheRunGoesOn) {
   EXPECT_EQ(outcome.health.frames_processed, 150U);
   EXPECT_EQ(outcome.health.messages_sent, 0U);
   const auto& heard = *rig.heard;
-  const std::size_t n_calls =
-      2 * heard.estimates.size() + heard.samples.size() + heard.tracks.size() + heard.health.size();
+  const std::size_t n_calls = 2 * heard.estimates.size() + heard.samples.size() + heard.tracks.size() +
+                              heard.closures.size() + heard.health.size();
   EXPECT_EQ(outcome.health.messages_failed, n_calls);
 }
-
-bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 void expect_same_bits(const core::Mode& a, const core::Mode& b) {
   EXPECT_TRUE(same_bits(a.frequency_hz, b.frequency_hz) && same_bits(a.damping_ratio, b.damping_ratio) &&

@@ -29,6 +29,10 @@ class MemoryPublisher : public drivers::Publisher {
     spectra.push_back(sums);
     return count();
   }
+  bool publish(const core::closure::ClosureReport& report) noexcept override {
+    closures.push_back(report);
+    return count();
+  }
   bool publish(const core::Health& state) noexcept override {
     health.push_back(state);
     return count();
@@ -43,6 +47,7 @@ class MemoryPublisher : public drivers::Publisher {
   std::vector<core::DisplacementSample> samples;
   std::vector<core::TrackFrame> tracks;
   std::vector<core::CpsdSums> spectra;
+  std::vector<core::closure::ClosureReport> closures;
   std::vector<core::Health> health;
 
  private:

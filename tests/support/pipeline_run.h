@@ -27,6 +27,7 @@ struct Heard {
   std::vector<core::ModalEstimate> estimates;
   std::vector<core::DisplacementSample> samples;
   std::vector<core::TrackFrame> tracks;
+  std::vector<core::closure::ClosureReport> closures;
   std::vector<core::Health> health;
 };
 
@@ -38,7 +39,7 @@ class TellingPublisher : public MemoryPublisher {
     fail = refuse;
   }
   ~TellingPublisher() override {
-    *heard_ = {std::move(estimates), std::move(samples), std::move(tracks), std::move(health)};
+    *heard_ = {std::move(estimates), std::move(samples), std::move(tracks), std::move(closures), std::move(health)};
   }
   using MemoryPublisher::publish;
   bool publish(const core::DisplacementSample& sample, const std::vector<core::ChannelInfo>& infos) noexcept override {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/types/closure_report.h"
 #include "core/types/cpsd.h"
 #include "core/types/displacement.h"
 #include "core/types/health.h"
@@ -96,6 +97,35 @@ inline core::CpsdSums sample_sums(int n_channels, int n_fft) {
   out.window_power = 0.375 * n_fft;
   out.data_sum.assign(static_cast<std::size_t>(out.n_bins()) * static_cast<std::size_t>(out.n_pairs()), {2.0, 0.0});
   out.mask_sum = out.data_sum;
+  return out;
+}
+
+inline core::closure::ClosureReport sample_closure(std::size_t n_steps, std::uint64_t n = 0) {
+  core::closure::ClosureReport out;
+  out.number = n;
+  out.first_sequence = 100 * n;
+  out.last_sequence = 100 * n + 1499;
+  out.t_stream_ns = static_cast<std::int64_t>(out.last_sequence) * 40'000'000;
+  out.duration_s = 60.0;
+  out.took_s = 1.5;
+  out.result.level = "observation";
+  out.result.unit = "px";
+  out.result.baseline_rms = 0.0433;
+  out.result.residual_rms = 0.0312;
+  out.result.noise_floor = 0.0311;
+  out.result.unexplained_fraction = 0.01;
+  out.result.unexplained = "nothing: noise";
+  out.result.stop_reason = "noise";
+  for (std::size_t i = 0; i < n_steps; ++i) {
+    core::closure::ClosureStep step;
+    step.effect = i % 2 == 0 ? "readout time" : "latent " + std::to_string(i);
+    step.kind = i % 2 == 0 ? core::closure::EffectKind::kNamed : core::closure::EffectKind::kLatent;
+    step.parameters = {{"readout", "ms", 22.5, 0.125}, {"offset", "1", 3.0, {}}};
+    step.meaning = i % 2 == 0 ? "" : "in region roof, along u, strongest at 3.2 Hz";
+    step.heldout_before = 0.0433, step.heldout_after = 0.0312;
+    step.score = 1234.0, step.threshold = 5.0;
+    out.result.steps.push_back(step);
+  }
   return out;
 }
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/closure/closure_result.h"
+#include "core/types/closure_result.h"
 #include "core/closure/effects/observation_effect.h"
 
 namespace core::closure {

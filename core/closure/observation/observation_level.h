@@ -35,6 +35,7 @@ class ObservationLevel final : public ClosureLevel {
   static constexpr double kOfLatent = 0.7, kOfExcess = 0.1;
   static constexpr double kRival = 0.9;  // of the score of the effect in whose place it stands
   static constexpr std::size_t kMostLatent = 8;
+  static constexpr std::size_t kSurrogates = 12;  // read by a Gumbel distribution; the bars decide long before
 
   // Throws std::invalid_argument with what check_record() says.
   explicit ObservationLevel(const ObservationRecord& record);

@@ -21,6 +21,7 @@ namespace app {
 [[nodiscard]] std::string scale_section(const PictureInputs& inputs);
 [[nodiscard]] std::string quality_section(const PictureInputs& inputs);
 [[nodiscard]] std::string frame_section(const PictureInputs& inputs);
+[[nodiscard]] std::string closure_section(const PictureInputs& inputs);
 [[nodiscard]] std::string losses_section(const PictureInputs& inputs);
 // The one part that differs between two runs on the same input.
 [[nodiscard]] std::string timing_section(const PictureInputs& inputs);

@@ -37,7 +37,8 @@ std::string contents_html() {
   constexpr std::pair<const char*, const char*> kSections[] = {
       {"modes", "Modes"},          {"shapes", "Shapes"},           {"spectra", "Spectra"},      {"folds", "Fold map"},
       {"stabilisation", "Orders"}, {"convergence", "Convergence"}, {"displacements", "Motion"}, {"scale", "Scale"},
-      {"quality", "Tracking"},     {"frame-view", "Frame"},        {"losses", "Losses"},        {"timing", "Timing"}};
+      {"quality", "Tracking"},     {"frame-view", "Frame"},        {"closure", "Residual"},     {"losses", "Losses"},
+      {"timing", "Timing"}};
   std::string out = "<nav aria-label=\"Sections\">\n";
   for (const auto& [id, name] : kSections) out += fmt::format("<a href=\"#{}\">{}</a>\n", id, name);
   return out + "</nav>\n";
@@ -61,6 +62,7 @@ std::string report_html(const PictureInputs& inputs) {
   out += scale_section(inputs);
   out += quality_section(inputs);
   out += frame_section(inputs);
+  out += closure_section(inputs);
   out += losses_section(inputs);
   out += fmt::format("{}\n{}{}\n", kVariesBegin, timing_section(inputs), kVariesEnd);
   out += "</main>\n<footer><p>Written by hovermodal " HOVERMODAL_VERSION

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/types/closure_report.h"
 #include "core/types/cpsd.h"
 #include "core/types/displacement.h"
 #include "core/types/frame.h"
@@ -33,6 +34,7 @@ struct PictureInputs {
   std::vector<core::ChannelInfo> channels;     // in the order of the spectrum and of the shapes
   const core::CpsdSums* spectrum = nullptr;
   const core::ModalEstimate* estimate = nullptr;
+  const core::closure::ClosureReport* closure = nullptr;
   const RunHistory* history = nullptr;
   std::string unit = "px";          // of the displacements
   double max_frequency_hz = 0.0;    // up to which folds were looked for; 0 = half the rate

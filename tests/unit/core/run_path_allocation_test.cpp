@@ -3,12 +3,14 @@
 #include <cmath>
 #include <vector>
 
+#include "core/closure/observation/recent_tracks.h"
 #include "core/geometry/channel_displacement.h"
 #include "core/identification/mode_tracker.h"
 #include "core/spectrum/time_grid.h"
 #include "core/spectrum/welch_cpsd.h"
 #include "core/tracking/outlier_rejection.h"
 #include "tests/support/alloc_guard.h"
+#include "tests/support/swaying_record.h"
 
 namespace core {
 namespace {
@@ -37,6 +39,24 @@ TEST(RunPathAllocation, WelchPushAndFlushAllocateNothing) {
     n_calls = guard.n_new() + guard.n_delete();
   }
   EXPECT_GT(snapshot.n_segments, 15U);
+  EXPECT_EQ(n_calls, 0U);
+}
+
+TEST(RunPathAllocation, RecentTracksAllocateNothing) {
+  closure::ObservationRecord declared = test_support::swaying_record(40, {});
+  std::vector<TrackFrame> frames;
+  for (Eigen::Index k = 0; k < 40; ++k) frames.push_back(test_support::track_frame(declared, k));
+  closure::RecentTracks tracks(declared, {2000.0, 2000.0, 960.0, 540.0, {}}, declared.region_of_point, 16);
+  std::size_t n_calls = 0;
+  {
+    const AllocGuard guard;
+    for (const TrackFrame& frame : frames) {
+      if (frame.sequence % 7 == 5 || !tracks.begin_frame(frame.sequence)) continue;
+      for (std::size_t i = 0; i < frame.points.size(); ++i) tracks.place(i, frame.points[i]);
+    }
+    n_calls = guard.n_new() + guard.n_delete();
+  }
+  EXPECT_EQ(tracks.n_frames(), 16U);
   EXPECT_EQ(n_calls, 0U);
 }
 

@@ -116,6 +116,45 @@ TEST(LcmEncode, UnknownNumbersAreNanOrTheSentinelNeverInvented) {
   }
 }
 
+TEST(LcmEncode, AReportOfClosingTheLoopComesBackWithItsNumbers) {
+  const auto back = over_the_wire(to_message(tests::sample_closure(2, 3), kIdentity));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->number, 3);
+  EXPECT_EQ(back->first_frame, 300);
+  EXPECT_EQ(back->last_frame, 1799);
+  EXPECT_EQ(back->stream_time_ns, 1799 * 40'000'000LL);
+  EXPECT_EQ(back->refused, "");
+  EXPECT_EQ(back->unit, "px");
+  EXPECT_EQ(back->residual_before, 0.0433);
+  EXPECT_EQ(back->residual_after, 0.0312);
+  EXPECT_EQ(back->n_adopted, 2);
+  ASSERT_EQ(back->n_steps, 2);
+  EXPECT_EQ(back->steps[0].effect, "readout time");
+  EXPECT_EQ(back->steps[0].is_latent, 0);
+  EXPECT_EQ(back->steps[0].numbers, "readout = 22.5 +- 0.12 ms, offset = 3 (at a bound, or not fixed by the data)");
+  EXPECT_EQ(back->steps[1].is_latent, 1);
+  EXPECT_EQ(back->steps[1].meaning, "in region roof, along u, strongest at 3.2 Hz");
+}
+
+TEST(LcmEncode, AReportOfClosingTheLoopIsOneDatagramWhateverItHolds) {
+  core::closure::ClosureReport report = tests::sample_closure(40);
+  for (std::string* words : {&report.refused, &report.result.unexplained, &report.result.stop_reason,
+                             &report.result.level, &report.result.unit})
+    words->assign(5000, 'w');
+  for (auto& step : report.result.steps) {
+    step.effect.assign(300, 'e');
+    step.meaning.assign(300, 'm');
+    step.parameters.assign(50, {"p", "px", 1.0, 0.1});
+  }
+  const auto message = to_message(report, {std::string(500, 's'), 1});
+  EXPECT_LE(message.getEncodedSize(), drivers::kMaxModalPartBytes);
+  const auto back = over_the_wire(message);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->n_adopted, 40);
+  EXPECT_GE(back->n_steps, 1);
+  EXPECT_LT(back->n_steps, 40);
+}
+
 TEST(LcmEncode, AnUnseenDisplacementIsNanNotZero) {
   auto sample = tests::sample_displacement(3, 1);
   sample.seen[1] = 0;

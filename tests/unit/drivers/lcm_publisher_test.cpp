@@ -92,6 +92,7 @@ TEST_F(LcmPublisherTest, NumbersEveryChannelWithoutAGapAndCountsWhatItSent) {
       }
       if (n % 10 == 0) {
         EXPECT_TRUE(publisher.publish(tests::sample_sums(3, 64), channels));
+        EXPECT_TRUE(publisher.publish(tests::sample_closure(2, n)));
       }
     }
     EXPECT_TRUE(publisher.publish(tests::sample_health("finished", 1)));
@@ -122,7 +123,7 @@ TEST_F(LcmPublisherTest, NumbersEveryChannelWithoutAGapAndCountsWhatItSent) {
     }
   }
   EXPECT_EQ(next, expected);
-  EXPECT_EQ(next.size(), 5U);
+  EXPECT_EQ(next.size(), 6U);
 }
 
 TEST_F(LcmPublisherTest, CountsASpectrumItCannotReadAsFailed) {

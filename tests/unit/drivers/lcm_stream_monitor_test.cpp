@@ -44,6 +44,17 @@ TEST_F(StreamMonitorTest, CountsTheMessagesMissingBetweenThoseHeard) {
   EXPECT_EQ(samples().last_sequence, 10);
 }
 
+TEST_F(StreamMonitorTest, KeepsTheNewestReportOfClosingTheLoop) {
+  EXPECT_FALSE(monitor_.closure());
+  for (const std::uint64_t n : {0U, 1U}) {
+    send(StreamMonitor::kClosure, to_message(tests::sample_closure(n + 1, n), {"tower", 1}),
+         static_cast<std::int64_t>(n), 10);
+  }
+  ASSERT_TRUE(monitor_.closure());
+  EXPECT_EQ(monitor_.closure()->number, 1);
+  EXPECT_EQ(monitor_.closure()->steps.size(), 2U);
+}
+
 TEST_F(StreamMonitorTest, TellsALateMessageFromARestart) {
   send_sample(5, 50);
   send_sample(4, 40);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/support/made_up_run.h"
+#include "tests/support/telemetry_samples.h"
 #include "tests/support/xml_fault.h"
 
 namespace app {
@@ -64,6 +65,8 @@ TEST(ReportPage, ShowsAllOfACompleteRun) {
   make_run(run, 7, 1500);
   fill_frame(run, 1920, 1080);
   run.facts.source = "clip.mp4", run.facts.method = "hovermodal", run.facts.corrections = {"lens distortion"};
+  const core::closure::ClosureReport closure = tests::sample_closure(1);
+  run.inputs.closure = &closure;
   const std::string page = page_of(run);
   expect_sound(page);
   expect_nothing_from_outside(page);
@@ -121,12 +124,31 @@ TEST(ReportPage, TellsWhyASectionIsMissing) {
   expect_nothing_from_outside(page);
   EXPECT_THAT(page, HasSubstr("No mode of the structure was found: the record is &lt;short&gt;."));
   for (const char* id : {"modes", "shapes", "spectra", "folds", "stabilisation", "convergence", "displacements",
-                         "scale", "quality", "frame-view", "losses", "timing"}) {
+                         "scale", "quality", "frame-view", "closure", "losses", "timing"}) {
     const std::size_t begin = page.find(std::string("<section id=\"") + id + "\"");
     ASSERT_NE(begin, std::string::npos) << id;
     EXPECT_THAT(page.substr(begin, page.find("</section>", begin) - begin), HasSubstr("class=\"absent\"")) << id;
   }
   EXPECT_EQ(count_of(page, "class=\"plot"), 0U);
+}
+
+TEST(ReportPage, TellsWhatTheModelLacks) {
+  RunData run;
+  make_run(run, 3, 600);
+  core::closure::ClosureReport report = tests::sample_closure(2);
+  run.inputs.closure = &report;
+  report.result.steps[0].rivals = {"a <rival>"};
+  std::string page = page_of(run);
+  expect_sound(page);
+  for (const char* text : {"What the model lacks", "Frames 0 to 1499", "readout = 22.5 +- 0.12 ms",
+                           "0.0433 → 0.0312 px", "cannot be told from: a &lt;rival&gt;", "in region roof, along u"})
+    EXPECT_THAT(page, HasSubstr(text));
+  report.result.steps.clear();
+  EXPECT_THAT(page_of(run), HasSubstr("No effect is missing: noise."));
+  report.refused = "too <short>";
+  page = page_of(run);
+  expect_sound(page);
+  EXPECT_THAT(page, HasSubstr("The tracks tell nothing: too &lt;short&gt;."));
 }
 
 TEST(ReportPage, ATimeSeriesHasNoPictureButItsShapes) {

@@ -165,7 +165,11 @@ TEST_F(RunReportTest, ModalJsonComesBackAsItWas) {
   core::Health losses;
   losses.frames_missing = 3;
   core::ModalEstimate found = estimate();
-  found.readout = core::ReadoutFinding{{0.026, 0.001}, {0.025, 0.0005}, core::ReadoutValue{0.0249, 0.0006}, {}, true,
+  found.readout = core::ReadoutFinding{{0.026, 0.001},
+                                       {0.025, 0.0005},
+                                       core::ReadoutValue{0.0249, 0.0006},
+                                       {},
+                                       true,
                                        "declared and estimated from the tracks"};
   report.finish(found, losses, {"camera roll"});
   const ModalReport back = read_modal_json(path("r/modal.json"));

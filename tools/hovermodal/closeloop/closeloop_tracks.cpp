@@ -26,8 +26,6 @@ using core::closure::ClosureResult;
 using core::closure::ObservationLevel;
 using core::closure::ResidualView;
 
-constexpr std::size_t kSurrogates = 12;  // read by a Gumbel distribution; the bars decide long before
-
 ResidualView view_of(const ObservationLevel& level) {
   return core::closure::residual_view(level.model().residual_px(), level.mean_places_px(), level.record().rate_hz);
 }
@@ -75,7 +73,7 @@ void close_tracks(const TracksLoop& request) {
     for (const std::string& warning : *list) fmt::print("note: {}\n", warning);
   }
   core::closure::ClosureOptions loop;
-  loop.n_surrogates = request.n_surrogates > 0 ? request.n_surrogates : kSurrogates;
+  loop.n_surrogates = request.n_surrogates > 0 ? request.n_surrogates : ObservationLevel::kSurrogates;
   loop.seed = request.seed;
   const bool terminal = isatty(STDERR_FILENO) != 0;
   loop.progress = [terminal](const std::string& words) {

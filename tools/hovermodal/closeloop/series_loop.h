@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/closure/closure_result.h"
+#include "core/types/closure_result.h"
 #include "core/closure/response/response_model.h"
 #include "tools/hovermodal/closeloop/closeloop_series.h"
 

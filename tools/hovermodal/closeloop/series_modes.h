@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/closure/closure_result.h"
+#include "core/types/closure_result.h"
 #include "firmware_app/analysis.h"
 
 namespace tools {

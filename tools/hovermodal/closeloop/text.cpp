@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/types/closure_result.h"
 #include "tools/hovermodal/closeloop/words.h"
 
 namespace tools {
@@ -12,16 +13,7 @@ using core::closure::CandidateScore;
 using core::closure::ClosureMode;
 using core::closure::ClosureResult;
 using core::closure::ClosureStep;
-
-std::string parameters_text(const ClosureStep& step) {
-  std::string out;
-  for (const auto& p : step.parameters) {
-    out += fmt::format("{}{} = {:.4g}", out.empty() ? "" : ", ", p.name, p.value);
-    out += p.sigma ? fmt::format(" +- {:.2g}", *p.sigma) : " (at a bound, or not fixed by the data)";
-    if (p.unit != "1") out += " " + p.unit;
-  }
-  return out.empty() ? "nothing fitted" : out;
-}
+using core::closure::parameters_text;
 
 std::string others_text(const std::vector<CandidateScore>& others, const std::string& unit) {
   std::string out;
@@ -71,8 +63,7 @@ std::string closure_text(const ClosureResult& result) {
   const std::string& unit = result.unit;
   std::string out = fmt::format("level {}: residual {:.3g} {} rms without effects, stated noise {:.3g} {}\n",
                                 result.level, result.baseline_rms, unit, result.noise_floor, unit);
-  for (std::size_t i = 0; i < result.steps.size(); ++i)
-    out += step_text(result.steps[i], i, unit);
+  for (std::size_t i = 0; i < result.steps.size(); ++i) out += step_text(result.steps[i], i, unit);
   if (result.steps.empty()) out += "no effect adopted\n";
   if (!result.refused.empty()) out += "not adopted (held-out error, why):\n" + others_text(result.refused, unit);
   out += fmt::format("stopped: {}\n", result.stop_reason);

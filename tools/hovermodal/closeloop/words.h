@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/closure/closure_result.h"
+#include "core/types/closure_result.h"
 
 namespace tools {
 

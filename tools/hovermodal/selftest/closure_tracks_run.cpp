@@ -12,7 +12,6 @@
 namespace tools {
 namespace {
 
-constexpr std::size_t kSurrogates = 12;  // read by a Gumbel distribution
 
 std::vector<core::Mode> true_modes(const core::simulation::Scene& scene) {
   std::vector<core::Mode> out;
@@ -61,7 +60,7 @@ TracksOutcome close_tracks_record(const core::closure::ObservationRecord& record
   if (!without.empty()) level.forget(without);
   level.set_reference(true_modes(scene));
   core::closure::ClosureOptions options;
-  options.n_surrogates = kSurrogates;
+  options.n_surrogates = core::closure::ObservationLevel::kSurrogates;
   options.seed = seed;
   TracksOutcome out;
   out.result = close_loop(level, options);

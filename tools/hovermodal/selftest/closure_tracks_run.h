@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/closure/closure_result.h"
+#include "core/types/closure_result.h"
 #include "core/closure/observation/observation_record.h"
 #include "core/simulation/scene.h"
 #include "tools/hovermodal/selftest/closure_tracks.h"

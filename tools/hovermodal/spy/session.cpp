@@ -68,7 +68,9 @@ class Listener {
     }
     std::string pattern;
     for (const char c : options.prefix) pattern += c == '.' ? std::string("\\.") : std::string(1, c);
-    pattern += "_(MODAL|DISPLACEMENT|SPECTRUM|TRACKS|HEALTH)";
+    for (std::size_t i = 0; i < drivers::kTopics; ++i)
+      pattern += (i == 0 ? "(" : "|") + std::string(drivers::kTopicSuffixes[i]);
+    pattern += ")";
     lcm_subscription_t* subscription = lcm_subscribe(lcm_.get(), pattern.c_str(), &on_message, &monitor);
     if (subscription == nullptr) throw std::runtime_error(fmt::format("LCM cannot listen on \"{}\"", options.url));
     lcm_subscription_set_queue_capacity(subscription, kQueuedMessages);

@@ -91,6 +91,23 @@ Lines head_lines(const StreamMonitor& monitor, const ViewOptions& options) {
   return out;
 }
 
+// "LOOP  frames 0 - 1499: residual 0.0433 -> 0.0312 px, noise 0.0312", then a line for each effect.
+Lines closure_lines(const StreamMonitor& monitor) {
+  constexpr std::size_t kMostEffects = 3;
+  const auto& c = monitor.closure();
+  if (!c) return {};
+  const std::string frames = fmt::format("LOOP  frames {} - {}: ", c->first_frame, c->last_frame);
+  if (!c->refused.empty()) return {frames + printable(c->refused)};
+  Lines out{fmt::format("{}residual {} -> {} {}, noise {}{}", frames, number(c->residual_before, 4),
+                        number(c->residual_after, 4), printable(c->unit), number(c->noise_floor, 4),
+                        c->steps.empty() ? "; no effect is missing" : "")};
+  for (std::size_t i = 0; i < std::min(c->steps.size(), kMostEffects); ++i)
+    out.push_back(fmt::format("      {}: {}", printable(c->steps[i].effect), printable(c->steps[i].numbers)));
+  if (c->n_adopted > static_cast<int>(out.size()) - 1)
+    out.back() += fmt::format(" (and {} more)", c->n_adopted - static_cast<int>(out.size()) + 1);
+  return out;
+}
+
 Lines displacement_lines(const StreamMonitor& monitor, const ViewOptions& options) {
   Lines out{fmt::format("DISPLACEMENT  rms of the last {} samples, mm", kRmsSamples)};
   constexpr std::size_t kRows = 6;
@@ -188,7 +205,8 @@ Lines render_screen(const StreamMonitor& monitor, const ViewOptions& options) {
     lines.push_back("hovermodal spy   waiting for the first message");
   else
     lines = head_lines(monitor, options);
-  Lines below = displacement_lines(monitor, options);
+  Lines below = closure_lines(monitor);
+  append(below, displacement_lines(monitor, options));
   append(below, side_by_side(channel_table(monitor), stage_table(monitor)));
   const std::size_t used = lines.size() + below.size() + 2;
   append(lines, render_modes(monitor, options, options.rows > used ? options.rows - used : 0));

@@ -69,4 +69,7 @@ struct ClosureResult {
   std::size_t n_surrogates = 0;         // in all
 };
 
+// "readout = 28.9 +- 0.54 ms, ..."; "nothing fitted" of none.
+[[nodiscard]] std::string parameters_text(const ClosureStep& step);
+
 }  // namespace core::closure

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/closure/observation/observation_record.h"
+#include "core/geometry/camera_model.h"
+#include "core/types/track.h"
+
+namespace core::closure {
+
+// The newest frames of tracks as the observation level takes them: undistorted, on the grid of the frames' numbers; a
+// frame that did not come is a row of NaN. Memory is fixed by the constructor. One thread.
+class RecentTracks {
+ public:
+  // declared: all but points and frames (regions, camera, rate, readout). n_frames: how many are kept, 1 at least.
+  RecentTracks(ObservationRecord declared, const CameraModel& camera, std::vector<std::size_t> region_of_point,
+               std::size_t n_frames);
+
+  // The frame that place() speaks of from now on. Nothing allocates. False: not newer than the last one; the frame does
+  // not count. A gap longer than all that is kept begins anew.
+  bool begin_frame(std::uint64_t sequence) noexcept;
+  // A point seen in that frame, raw pixels.
+  void place(std::size_t point, const TrackPoint& seen) noexcept;
+
+  [[nodiscard]] std::size_t n_frames() const noexcept { return n_frames_; }  // kept now, gaps included
+  [[nodiscard]] std::uint64_t last_sequence() const noexcept { return last_; }
+  [[nodiscard]] std::uint64_t first_sequence() const noexcept { return n_frames_ == 0 ? 0 : last_ - n_frames_ + 1; }
+
+  // sigma of a point: rms of what its frames stated.
+  [[nodiscard]] ObservationRecord record() const;
+
+ private:
+  [[nodiscard]] Eigen::Index row(std::uint64_t sequence) const noexcept {
+    return static_cast<Eigen::Index>(sequence % static_cast<std::uint64_t>(u_px_.rows()));
+  }
+  void forget_row(std::uint64_t sequence) noexcept;
+
+  ObservationRecord declared_;
+  CameraModel camera_;
+  Eigen::MatrixXd u_px_, v_px_, sigma_px_;  // row: frame number modulo the rows
+  std::vector<double> raw_share_;           // NaN: never seen
+  std::uint64_t last_ = 0;
+  std::size_t n_frames_ = 0;
+};
+
+}  // namespace core::closure

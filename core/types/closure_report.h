@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/types/closure_result.h"
+
+namespace core::closure {
+
+// What closing the loop over a stretch of a run has found: published by the service while it runs.
+struct ClosureReport {
+  std::uint64_t number = 0;                             // 0, 1, 2, ... over the run
+  std::uint64_t first_sequence = 0, last_sequence = 0;  // frames
+  std::int64_t t_stream_ns = 0;                         // of the last one
+  double duration_s = 0.0;
+  bool final = false;   // the run has ended
+  double took_s = 0.0;  // of processor's time, not part of the result
+  std::string refused;  // why nothing can be concluded; `result` is then empty
+  ClosureResult result;
+};
+
+}  // namespace core::closure

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace drivers {
+
+// What a run tells, on one LCM channel each: prefix + suffix.
+enum Topic : std::size_t { kModal, kDisplacement, kSpectrum, kTracks, kClosure, kHealth, kTopics };
+inline constexpr std::array<const char*, kTopics> kTopicSuffixes{"_MODAL",  "_DISPLACEMENT", "_SPECTRUM",
+                                                                 "_TRACKS", "_CLOSURE",      "_HEALTH"};
+
+}  // namespace drivers

@@ -1,0 +1,99 @@
+#include "firmware_app/stages/closure_stage.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/support/swaying_record.h"
+
+namespace app {
+namespace {
+
+using core::closure::ClosureReport;
+using core::closure::ObservationRecord;
+using core::closure::RecentTracks;
+using test_support::Hidden;
+using test_support::swaying_record;
+using test_support::track_frame;
+using ::testing::HasSubstr;
+
+constexpr double kWindow_s = 40.0, kPeriod_s = 30.0;
+
+// The stage fed with a record, run to its end; its reports.
+std::vector<ClosureReport> reports_of(const ObservationRecord& record) {
+  rt::SpscRing<core::TrackFrame> tracks(16, track_frame(record, 0));
+  rt::SpscRing<ClosureReport> reports(8, ClosureReport{});
+  ObservationRecord declared = record;
+  declared.readout_frames = 0.0;
+  const core::CameraModel camera{record.alpha_px, record.alpha_px, record.cx_px, record.cy_px, {}};
+  RecentTracks recent(declared, camera, record.region_of_point, static_cast<std::size_t>(kWindow_s * record.rate_hz));
+  ClosureStage stage(tracks.reader(), {recent, record.rate_hz, kPeriod_s}, reports.writer());
+  auto writer = tracks.writer();
+  for (Eigen::Index k = 0; k < record.n_frames(); ++k) {
+    *writer.try_claim() = track_frame(record, k);
+    writer.publish();
+    while (stage.step() == rt::StepStatus::kWorked) {
+    }
+  }
+  writer.close();
+  rt::StepStatus last = rt::StepStatus::kWorked;
+  while (last == rt::StepStatus::kWorked) last = stage.step();
+  EXPECT_EQ(last, rt::StepStatus::kFinished);
+  stage.finish();
+  std::vector<ClosureReport> out;
+  auto reader = reports.reader();
+  for (; reader.front() != nullptr; reader.pop()) out.push_back(*reader.front());
+  EXPECT_TRUE(reader.finished());
+  EXPECT_EQ(stage.stats().n_in.load(), static_cast<std::uint64_t>(record.n_frames()));
+  return out;
+}
+
+TEST(ClosureStage, ReportsEveryPeriodAndTheRestAtTheEnd) {
+  const std::vector<ClosureReport> reports = reports_of(swaying_record(25 * 50, {.roll_rms_rad = 3e-4}));
+  ASSERT_EQ(reports.size(), 2U);
+  EXPECT_EQ(reports[0].number, 0U);
+  EXPECT_EQ(reports[0].first_sequence, 0U);
+  EXPECT_EQ(reports[0].last_sequence, 749U);
+  EXPECT_FALSE(reports[0].final);
+  EXPECT_EQ(reports[1].number, 1U);
+  EXPECT_EQ(reports[1].first_sequence, 250U);  // the window is shorter than the run
+  EXPECT_EQ(reports[1].last_sequence, 1249U);
+  EXPECT_EQ(reports[1].t_stream_ns, 1249 * 40'000'000LL);
+  EXPECT_DOUBLE_EQ(reports[1].duration_s, kWindow_s);
+  EXPECT_TRUE(reports[1].final);
+  for (const ClosureReport& report : reports) {
+    EXPECT_EQ(report.refused, "");
+    ASSERT_EQ(report.result.steps.size(), 1U);
+    EXPECT_EQ(report.result.steps[0].effect, "camera roll");
+    EXPECT_GT(report.result.baseline_rms, 1.2 * report.result.residual_rms);
+  }
+}
+
+TEST(ClosureStage, NamesNothingInTracksThatLackNothing) {
+  const std::vector<ClosureReport> reports = reports_of(swaying_record(25 * 32, {}));
+  ASSERT_EQ(reports.size(), 1U);  // what came after the first is less than half a period
+  EXPECT_TRUE(reports[0].result.steps.empty());
+  EXPECT_EQ(reports[0].refused, "");
+}
+
+TEST(ClosureStage, ARecordTooShortIsRefusedInWords) {
+  const std::vector<ClosureReport> reports = reports_of(swaying_record(100, {}));
+  ASSERT_EQ(reports.size(), 1U);
+  EXPECT_TRUE(reports[0].final);
+  EXPECT_THAT(reports[0].refused, HasSubstr("too short"));
+}
+
+TEST(ClosureStage, TheSameTracksGiveTheSameBits) {
+  const ObservationRecord record = swaying_record(25 * 31, {.k1 = -0.05});
+  const std::vector<ClosureReport> one = reports_of(record), other = reports_of(record);
+  ASSERT_EQ(one.size(), 1U);
+  ASSERT_EQ(one[0].result.steps.size(), other[0].result.steps.size());
+  EXPECT_EQ(one[0].result.residual_rms, other[0].result.residual_rms);
+  ASSERT_FALSE(one[0].result.steps.empty());
+  EXPECT_EQ(one[0].result.steps[0].effect, "radial distortion");
+  EXPECT_EQ(one[0].result.steps[0].parameters[0].value, other[0].result.steps[0].parameters[0].value);
+}
+
+}  // namespace
+}  // namespace app
