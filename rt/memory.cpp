@@ -2,12 +2,32 @@
 
 #include <alloca.h>
 #include <malloc.h>
+#include <pthread.h>
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 
 namespace rt {
+
+namespace {
+
+// Below the calling frame. Less than the thread was given: its thread-local data lie there as well.
+std::size_t stack_left() noexcept {
+  pthread_attr_t attributes;
+  if (pthread_getattr_np(pthread_self(), &attributes) != 0) return 0;
+  void* lowest = nullptr;
+  std::size_t size = 0;
+  pthread_attr_getstack(&attributes, &lowest, &size);
+  pthread_attr_destroy(&attributes);
+  const auto here = reinterpret_cast<std::uintptr_t>(__builtin_frame_address(0));
+  const auto end = reinterpret_cast<std::uintptr_t>(lowest);
+  return here > end ? here - end : 0;
+}
+
+}  // namespace
 
 std::string lock_memory() {
   if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return {};
@@ -22,7 +42,9 @@ void keep_freed_memory() noexcept {
 
 // A frame of its own, so that the room is given back on return.
 [[gnu::noinline]] void prefault_stack(std::size_t n_bytes) noexcept {
-  constexpr std::size_t kLeastPage = 4096;
+  constexpr std::size_t kLeastPage = 4096, kSpare = 32 * 1024;
+  const std::size_t left = stack_left();
+  n_bytes = std::min(n_bytes, left > kSpare ? left - kSpare : 0);
   if (n_bytes == 0) return;
   auto* room = static_cast<volatile char*>(alloca(n_bytes));
   for (std::size_t at = 0; at < n_bytes; at += kLeastPage) room[at] = 0;

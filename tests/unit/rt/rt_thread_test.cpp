@@ -9,6 +9,8 @@
 #include <string>
 #include <system_error>
 
+#include "rt/memory.h"
+
 namespace rt {
 namespace {
 
@@ -118,6 +120,19 @@ TEST(RtThread, HasTheStackThatWasAskedForAndTouchesItBeforehand) {
   thread.join();
   EXPECT_GE(stack_bytes, kStack / 2);
   EXPECT_LE(stack_bytes, 2 * kStack);
+}
+
+TEST(RtThread, TouchesNoMoreStackThanThereIs) {
+  ThreadConfig config{"small"};
+  config.stack_bytes = 256 * 1024;
+  bool is_back = false;
+  RtThread thread;
+  thread.start(config, [&is_back] {
+    prefault_stack(std::size_t{64} << 20U);
+    is_back = true;
+  });
+  thread.join();
+  EXPECT_TRUE(is_back);
 }
 
 TEST(RtThread, AStackTooSmallIsAnErrorInTheStartingThread) {
