@@ -79,8 +79,10 @@ void add_closure_keys(std::vector<ConfigKey>& keys) {
       "what the model of camera, lens and tracker fails to explain in the tracks: nobody looks, or it is traced to "
       "an effect and reported"));
   keys.push_back(number_key("closure.window_s", "s", at(&A::closure, &C::window_s), {20, 3600},
-                            "of the newest tracks that are looked at; two hundred points take 50 MB for 120 s at 60 "
-                            "frames a second"));
+                            "of the newest tracks that are looked at"));
+  keys.push_back(whole_key("closure.points_per_region", "", at(&A::closure, &C::points_per_region), {2, 1000},
+                           "that are looked at; a hundred points over 120 s at 60 frames a second take some 300 MB "
+                           "and ten seconds of a fast processor core, at ordinary priority"));
   keys.push_back(number_key("closure.period_s", "s", at(&A::closure, &C::period_s), {20, 86400},
                             "of stream time between two reports; the first needs 20 s of record"));
 }

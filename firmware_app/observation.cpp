@@ -25,6 +25,20 @@ core::CameraModel calibrated_camera(const AppConfig& config, const core::CameraI
 
 }  // namespace
 
+ObservedPoints observed_points(const core::TrackFrame& keyframe, std::size_t n_regions, int points_per_region) {
+  std::vector<std::size_t> n_seeded(n_regions, 0), n_met = n_seeded;
+  for (const core::TrackPoint& point : keyframe.points) ++n_seeded[point.region];
+  const auto most = static_cast<std::size_t>(points_per_region);
+  ObservedPoints out;
+  for (const core::TrackPoint& point : keyframe.points) {
+    const std::size_t i = n_met[point.region]++, n = n_seeded[point.region];
+    const bool is_observed = n <= most || (i + 1) * most / n > i * most / n;
+    out.column_of_point.push_back(is_observed ? static_cast<int>(out.region_of_column.size()) : -1);
+    if (is_observed) out.region_of_column.push_back(point.region);
+  }
+  return out;
+}
+
 DeclaredObservation declared_observation(const AppConfig& config, const core::CameraInfo& camera) {
   DeclaredObservation out;
   out.camera = calibrated_camera(config, camera, out.warnings);

@@ -184,12 +184,14 @@ FrameRecord record_prototype(const Source& source) { return {source.keyframe, so
 
 ClosureStageConfig closure_config(const AppConfig& config, const Source& source) {
   const DeclaredObservation declared = declared_observation(config, source.info);
-  std::vector<std::size_t> region_of_point;
-  for (const core::TrackPoint& point : source.keyframe.points) region_of_point.push_back(point.region);
+  ObservedPoints points = observed_points(source.keyframe, config.regions.size(), config.closure.points_per_region);
   const double rate_hz = declared.record.rate_hz;
   const bool looks = config.closure.adopt != ClosureAdopt::kOff;
   const auto n_frames = static_cast<std::size_t>(looks ? std::max(1.0, config.closure.window_s * rate_hz) : 1.0);
-  return {{declared.record, declared.camera, std::move(region_of_point), n_frames}, rate_hz, config.closure.period_s};
+  return {{declared.record, declared.camera, std::move(points.region_of_column), n_frames},
+          std::move(points.column_of_point),
+          rate_hz,
+          config.closure.period_s};
 }
 
 RunState view_of(const AppConfig& config, const Source& source) {

@@ -11,7 +11,7 @@ tools/setup.sh
 # AddressSanitizer keeps for use after return are not aligned for the 64-byte vectors that GCC 12 puts there.
 export ASAN_OPTIONS=detect_stack_use_after_return=0:allocator_may_return_null=1
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
-# OpenCV, GLib and libsystemd are not built for it: their own locks are invisible to it.
+# OpenCV, GLib and others are not built for it: their own locks are invisible to it.
 export TSAN_OPTIONS="suppressions=$PWD/tools/tsan_suppressions.txt halt_on_error=0 exitcode=66"
 failed=()
 for preset in asan tsan; do

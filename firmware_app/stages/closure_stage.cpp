@@ -37,9 +37,11 @@ void ClosureStage::take(const core::TrackFrame& frame) noexcept {
   if (!has_frames_) first_unreported_ = frame.sequence;
   has_frames_ = true;
   t_last_ns_ = frame.t_start_ns;
-  for (std::size_t i = 0; i < frame.points.size(); ++i) {
+  for (std::size_t i = 0; i < frame.points.size() && i < config_.column_of_point.size(); ++i) {
     const core::TrackPoint& point = frame.points[i];
-    if (point.seen && std::isfinite(point.u_px) && std::isfinite(point.v_px)) config_.recent.place(i, point);
+    const int column = config_.column_of_point[i];
+    if (column < 0 || !point.seen || !std::isfinite(point.u_px) || !std::isfinite(point.v_px)) continue;
+    config_.recent.place(static_cast<std::size_t>(column), point);
   }
 }
 

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
-#include "core/types/closure_report.h"
 #include "core/closure/observation/recent_tracks.h"
+#include "core/types/closure_report.h"
 #include "core/types/track.h"
 #include "rt/spsc_ring.h"
 #include "rt/stage.h"
@@ -12,6 +13,7 @@ namespace app {
 
 struct ClosureStageConfig {
   core::closure::RecentTracks recent;
+  std::vector<int> column_of_point;  // in the recent tracks; -1: not looked at
   double rate_hz = 0.0;
   double period_s = 60.0;  // of stream time between two reports
 };

@@ -62,9 +62,9 @@ class FramePicture {
     const cv::Size size(std::max(1, cvRound(frame.width_px * scale)), std::max(1, cvRound(frame.height_px * scale)));
     cv::Mat sized;
     cv::resize(gray, sized, size, 0.0, 0.0, scale < 1.0 ? cv::INTER_AREA : cv::INTER_LINEAR);
-    sized.forEach<std::uint8_t>([](std::uint8_t& value, const int*) {
-      value = static_cast<std::uint8_t>(std::min(255, (value + kGrayStep / 2) / kGrayStep * kGrayStep));
-    });
+    for (auto value = sized.begin<std::uint8_t>(); value != sized.end<std::uint8_t>(); ++value) {
+      *value = static_cast<std::uint8_t>(std::min(255, (*value + kGrayStep / 2) / kGrayStep * kGrayStep));
+    }
     cv::cvtColor(sized, picture_, cv::COLOR_GRAY2BGR);
   }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <vector>
 
 #include "tests/support/swaying_record.h"
@@ -28,7 +29,9 @@ std::vector<ClosureReport> reports_of(const ObservationRecord& record) {
   declared.readout_frames = 0.0;
   const core::CameraModel camera{record.alpha_px, record.alpha_px, record.cx_px, record.cy_px, {}};
   RecentTracks recent(declared, camera, record.region_of_point, static_cast<std::size_t>(kWindow_s * record.rate_hz));
-  ClosureStage stage(tracks.reader(), {recent, record.rate_hz, kPeriod_s}, reports.writer());
+  std::vector<int> columns(record.region_of_point.size());
+  std::iota(columns.begin(), columns.end(), 0);
+  ClosureStage stage(tracks.reader(), {recent, columns, record.rate_hz, kPeriod_s}, reports.writer());
   auto writer = tracks.writer();
   for (Eigen::Index k = 0; k < record.n_frames(); ++k) {
     *writer.try_claim() = track_frame(record, k);
