@@ -90,16 +90,16 @@ bool LcmPublisher::send(Topic topic, Message& message) {
     if (topic == kHealth) ok = std::fflush(ways_->log->f) == 0 && ok;
   }
   if (ok) {
-    ++channel.n_sent;
+    channel.n_sent.fetch_add(1, std::memory_order_relaxed);
   } else {
-    ++n_failed_;
+    n_failed_.fetch_add(1, std::memory_order_relaxed);
   }
   return ok;
 }
 
 template <class Messages>
 bool LcmPublisher::send_all(Topic topic, Messages& messages) {
-  if (messages.empty()) ++n_failed_;
+  if (messages.empty()) n_failed_.fetch_add(1, std::memory_order_relaxed);
   bool ok = !messages.empty();
   for (auto& message : messages) ok = send(topic, message) && ok;
   return ok;
@@ -111,7 +111,7 @@ bool LcmPublisher::guarded(Body&& body) noexcept {
   try {
     return body();
   } catch (...) {
-    ++n_failed_;
+    n_failed_.fetch_add(1, std::memory_order_relaxed);
     return false;
   }
 }
@@ -165,7 +165,7 @@ bool LcmPublisher::publish(const core::Health& health) noexcept {
     auto message = to_message(health, channel_infos_, identity_);
     for (std::size_t i = 0; i < kTopics; ++i) {
       const std::int64_t with_this = i == kHealth ? 1 : 0;
-      message.counts.push_back({channels_[i].name, channels_[i].n_sent + with_this});
+      message.counts.push_back({channels_[i].name, channels_[i].n_sent.load(std::memory_order_relaxed) + with_this});
     }
     message.n_counts = static_cast<std::int16_t>(message.counts.size());
     return send(kHealth, message);
@@ -174,7 +174,7 @@ bool LcmPublisher::publish(const core::Health& health) noexcept {
 
 std::uint64_t LcmPublisher::messages_sent() const noexcept {
   std::int64_t n = 0;
-  for (const auto& channel : channels_) n += channel.n_sent;
+  for (const auto& channel : channels_) n += channel.n_sent.load(std::memory_order_relaxed);
   return static_cast<std::uint64_t>(n);
 }
 

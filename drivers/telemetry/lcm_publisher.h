@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -33,7 +34,9 @@ class LcmPublisher : public Publisher {
 
   // A message counts as sent when every way open (network, log) took it.
   [[nodiscard]] std::uint64_t messages_sent() const noexcept override;
-  [[nodiscard]] std::uint64_t messages_failed() const noexcept override { return n_failed_; }
+  [[nodiscard]] std::uint64_t messages_failed() const noexcept override {
+    return n_failed_.load(std::memory_order_relaxed);
+  }
 
   // Not empty: messages leave, but could not be heard on this computer (only possible with ttl >= 1).
   [[nodiscard]] const std::string& warning() const noexcept { return warning_; }
@@ -42,7 +45,7 @@ class LcmPublisher : public Publisher {
   struct Channel {
     std::string name;
     std::int64_t next_sequence = 0;
-    std::int64_t n_sent = 0;
+    std::atomic<std::int64_t> n_sent{0};  // relaxed: a count on its own
   };
   struct Ways;  // the LCM instance and the event log
 
@@ -60,7 +63,7 @@ class LcmPublisher : public Publisher {
   std::vector<core::ChannelInfo> channel_infos_;  // as last published: health carries them
   std::vector<std::uint8_t> buffer_;              // encoded message, reused
   std::string warning_;
-  std::uint64_t n_failed_ = 0;
+  std::atomic<std::uint64_t> n_failed_{0};
 };
 
 }  // namespace drivers

@@ -31,6 +31,7 @@ class Publisher {
   virtual bool publish(const core::CpsdSums& spectrum, const std::vector<core::ChannelInfo>& channels) noexcept = 0;
   virtual bool publish(const core::closure::ClosureReport& report) noexcept = 0;
   virtual bool publish(const core::Health& health) noexcept = 0;
+  // Any thread.
   [[nodiscard]] virtual std::uint64_t messages_sent() const noexcept = 0;  // datagrams
   [[nodiscard]] virtual std::uint64_t messages_failed() const noexcept = 0;
 };

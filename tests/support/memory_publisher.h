@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -41,7 +42,7 @@ class MemoryPublisher : public drivers::Publisher {
   [[nodiscard]] std::uint64_t messages_failed() const noexcept override { return n_failed; }
 
   bool fail = false;  // every publish is refused, but still kept
-  std::uint64_t n_sent = 0, n_failed = 0;
+  std::atomic<std::uint64_t> n_sent{0}, n_failed{0};
   std::vector<core::ChannelInfo> channels;
   std::vector<core::ModalEstimate> estimates;
   std::vector<core::DisplacementSample> samples;
