@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # AddressSanitizer with UndefinedBehaviorSanitizer, then ThreadSanitizer, over unit, stress and integration tests. Each
-# is a build of its own (presets asan, tsan): the first run takes an hour or more. --quick: rt and stress tests only.
-#   tools/sanitize.sh [--quick]
+# is a build of its own, whose first run takes an hour or more on two processors. --quick: rt and stress tests only.
+#   tools/sanitize.sh [--quick] [asan] [tsan]      default: both
 set -euo pipefail
 cd "$(dirname "$0")/.."
 quick=
-[ "${1:-}" != --quick ] || quick=yes
+[ "${1:-}" != --quick ] || { quick=yes && shift; }
+presets=("${@:-asan}")
+[ $# -gt 0 ] || presets=(asan tsan)
 tools/setup.sh
 # A library's request that is too large must fail as it does without a sanitizer: by std::bad_alloc. Stack frames that
 # AddressSanitizer keeps for use after return are not aligned for the 64-byte vectors that GCC 12 puts there.
@@ -14,7 +16,7 @@ export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 # OpenCV, GLib and others are not built for it: their own locks are invisible to it.
 export TSAN_OPTIONS="suppressions=$PWD/tools/tsan_suppressions.txt halt_on_error=0 exitcode=66"
 failed=()
-for preset in asan tsan; do
+for preset in "${presets[@]}"; do
   cmake --preset $preset >/dev/null
   if [ -n "$quick" ]; then
     cmake --build --preset $preset --target unit_rt_tests stress_tests
@@ -28,4 +30,4 @@ if [ ${#failed[@]} -gt 0 ]; then
   echo "sanitize: findings or failures under ${failed[*]}"
   exit 1
 fi
-echo "sanitize: ${quick:+rt and stress tests }clean under address, undefined and thread"
+echo "sanitize: ${quick:+rt and stress tests }clean under ${presets[*]} (asan: address and undefined; tsan: thread)"
