@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 quick=
 [ "${1:-}" != --quick ] || { quick=yes && shift; }
-presets=("${@:-asan}")
+presets=("$@")
 [ $# -gt 0 ] || presets=(asan tsan)
 tools/setup.sh
 # A library's request that is too large must fail as it does without a sanitizer: by std::bad_alloc. Stack frames that
