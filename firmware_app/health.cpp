@@ -81,7 +81,10 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
   health.frame_latency = latency_health(tracking_.frame_latency());
   const std::string stalled = stall();
   health.state = stalled.empty() ? "running" : "stalled: " + stalled;
-  health.warnings = warnings_;
+  {
+    const std::lock_guard lock(warnings_mutex_);
+    health.warnings = warnings_;
+  }
   if (thinning.stride > 1) {
     health.warnings.push_back(fmt::format(
         "overload: every {}th frame is kept since frame {}, {:.4g} frames a second; spectra and folds began "
@@ -120,6 +123,11 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
     if (stage.name == "closure") stage.n_dropped += tracking_.n_shown_lost();
   }
   return health;
+}
+
+void HealthCollector::warn(std::string warning) {
+  const std::lock_guard lock(warnings_mutex_);
+  warnings_.push_back(std::move(warning));
 }
 
 std::string HealthCollector::stall() const {

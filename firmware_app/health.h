@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,10 @@ class HealthCollector {
   // Set-up only.
   void watch(Queue queue) { queues_.push_back(std::move(queue)); }
   void name_regions(std::vector<std::string> names) { region_names_ = std::move(names); }  // as configured
-  void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
   void watch_state(const CheckpointStage& checkpoint) { checkpoint_ = &checkpoint; }
+
+  // Any thread.
+  void warn(std::string warning);
 
   [[nodiscard]] core::Health collect(const drivers::Publisher& publisher) const;
   // "stage tracking: one step has taken 3.2 s"; empty: every stage goes on.
@@ -44,7 +47,9 @@ class HealthCollector {
   const SpectrumStage& spectrum_;
   const CheckpointStage* checkpoint_ = nullptr;  // null: no state is kept
   std::vector<Queue> queues_;
-  std::vector<std::string> region_names_, warnings_;
+  std::vector<std::string> region_names_;
+  mutable std::mutex warnings_mutex_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace app

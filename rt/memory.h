@@ -13,8 +13,8 @@ namespace rt {
 // set-up has used the memory once, the run path finds it mapped. Process-wide; call it before set-up.
 void keep_freed_memory() noexcept;
 
-// Touches `n_bytes` of the calling thread's stack, so that its first deep call does not wait for a page; less
-// where there is less.
+// Touches `n_bytes` of the calling thread's stack, so that its first deep call does not wait for a page; less where
+// there is less. May allocate: set-up of a thread.
 void prefault_stack(std::size_t n_bytes) noexcept;
 
 }  // namespace rt

@@ -22,8 +22,8 @@ struct Start {
 
 void* run(void* argument) {
   const std::unique_ptr<Start> start(static_cast<Start*>(argument));
+  prefault_stack(start->prefault_bytes);  // allocates; what comes under the thread's name does not
   pthread_setname_np(pthread_self(), start->name.substr(0, 15).c_str());
-  prefault_stack(start->prefault_bytes);
   start->body();
   return nullptr;
 }
