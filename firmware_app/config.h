@@ -90,7 +90,7 @@ struct ClosureConfig {
   ClosureAdopt adopt = ClosureAdopt::kReport;
   double window_s = 120.0;  // of the newest tracks that are looked at
   int points_per_region = 12;
-  double period_s = 60.0;   // of stream time between two reports
+  double period_s = 60.0;  // of stream time between two reports
 };
 
 struct TelemetryConfig {
