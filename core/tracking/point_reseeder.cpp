@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/tracking/similarity.h"
+
 namespace core {
 
 namespace {
@@ -74,32 +76,16 @@ void PointReseeder::learn(const TrackFrame& judged) noexcept {
 // From those of its region that were inliers and are seen. False: too few.
 bool PointReseeder::place_of(const Point& point, const std::vector<KltPoint>& found, Place& place) const noexcept {
   const auto counts = [&](std::size_t i) { return points_[i].is_inlier && found[i].seen; };
-  Vector2 k, p;
-  double n = 0.0;
-  for (std::size_t i = point.first; i < point.first + point.n; ++i) {
-    if (!counts(i)) continue;
-    k = {k.u + points_[i].keyframe.u, k.v + points_[i].keyframe.v};
-    p = {p.u + found[i].position.u, p.v + found[i].position.v};
-    n += 1.0;
-  }
-  if (n < min_points_) return false;
-  k = {k.u / n, k.v / n}, p = {p.u / n, p.v / n};
-  double along = 0.0, across = 0.0, spread = 0.0, squares = 0.0;
-  for (std::size_t i = point.first; i < point.first + point.n; ++i) {
-    if (!counts(i)) continue;
-    const Vector2 from{points_[i].keyframe.u - k.u, points_[i].keyframe.v - k.v};
-    const Vector2 to{found[i].position.u - p.u, found[i].position.v - p.v};
-    along += from.u * to.u + from.v * to.v;
-    across += from.u * to.v - from.v * to.u;
-    spread += from.u * from.u + from.v * from.v;
-    squares += to.u * to.u + to.v * to.v;
-  }
-  const bool turns = n >= kPointsOfSimilarity && spread > n * kLeastSpread_px * kLeastSpread_px;
-  const double re = turns ? along / spread : 1.0, im = turns ? across / spread : 0.0;
-  const Vector2 from{point.keyframe.u - k.u, point.keyframe.v - k.v};
-  place.at = {p.u + re * from.u - im * from.v, p.v + im * from.u + re * from.v};
-  const double left = squares - 2.0 * (re * along + im * across) + (re * re + im * im) * spread;
-  place.variance_px2 = 0.5 * std::max(0.0, left) / std::max(1.0, n - (turns ? 2.0 : 1.0));
+  const auto k = [&](std::size_t i) { return points_[i].keyframe; };
+  const auto p = [&](std::size_t i) { return found[i].position; };
+  const SimilarityMoments m = similarity_moments(point.first, point.first + point.n, counts, k, p);
+  if (m.count < min_points_) return false;
+  const bool turns = m.count >= kPointsOfSimilarity && m.spread > m.count * kLeastSpread_px * kLeastSpread_px;
+  const double re = turns ? m.along / m.spread : 1.0, im = turns ? m.across / m.spread : 0.0;
+  const Vector2 from{point.keyframe.u - m.mean_k.u, point.keyframe.v - m.mean_k.v};
+  place.at = {m.mean_p.u + re * from.u - im * from.v, m.mean_p.v + im * from.u + re * from.v};
+  const double left = m.squares - 2.0 * (re * m.along + im * m.across) + (re * re + im * im) * m.spread;
+  place.variance_px2 = 0.5 * std::max(0.0, left) / std::max(1.0, m.count - (turns ? 2.0 : 1.0));
   return true;
 }
 

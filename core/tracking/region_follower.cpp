@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/tracking/similarity.h"
+
 namespace core {
 
 namespace {
@@ -76,34 +78,18 @@ void RegionFollower::measure_regions(const TrackFrame& judged) noexcept {
 void RegionFollower::fit_common(const TrackFrame& judged) noexcept {
   const std::size_t n = std::min(keyframe_.size(), judged.points.size());
   const auto counts = [&](std::size_t i) { return is_used(judged.points[i]) && is_measured(region_of_point_[i]); };
-  Vector2 mean_k, mean_p;
-  double count = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!counts(i)) continue;
-    mean_k = {mean_k.u + keyframe_[i].u, mean_k.v + keyframe_[i].v};
-    mean_p = {mean_p.u + judged.points[i].u_px, mean_p.v + judged.points[i].v_px};
-    count += 1.0;
-  }
-  if (count == 0.0) return;
-  mean_k = {mean_k.u / count, mean_k.v / count};
-  mean_p = {mean_p.u / count, mean_p.v / count};
-  double along = 0.0, across = 0.0, spread = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!counts(i)) continue;
-    const Vector2 k{keyframe_[i].u - mean_k.u, keyframe_[i].v - mean_k.v};
-    const Vector2 p{judged.points[i].u_px - mean_p.u, judged.points[i].v_px - mean_p.v};
-    along += k.u * p.u + k.v * p.v;
-    across += k.u * p.v - k.v * p.u;
-    spread += k.u * k.u + k.v * k.v;
-  }
+  const auto k = [&](std::size_t i) { return keyframe_[i]; };
+  const auto p = [&](std::size_t i) { return Vector2{judged.points[i].u_px, judged.points[i].v_px}; };
+  const SimilarityMoments m = similarity_moments(0, n, counts, k, p);
+  if (m.count == 0.0) return;
   Similarity fit;
-  const double magnification = spread > 0.0 ? length(along, across) / spread : 0.0;
+  const double magnification = m.spread > 0.0 ? length(m.along, m.across) / m.spread : 0.0;
   if (magnification > kLeastMagnification && magnification < kMostMagnification) {
-    fit.turn_re = along / spread;
-    fit.turn_im = across / spread;
+    fit.turn_re = m.along / m.spread;
+    fit.turn_im = m.across / m.spread;
   }
-  const Vector2 turned = fit.of(mean_k);
-  fit.shift = {mean_p.u - turned.u, mean_p.v - turned.v};
+  const Vector2 turned = fit.of(m.mean_k);
+  fit.shift = {m.mean_p.u - turned.u, m.mean_p.v - turned.v};
   common_ = fit;
 }
 

@@ -29,7 +29,8 @@ rt::StepStatus TrackingStage::step() noexcept {
   if (frame == nullptr) return frames_.finished() ? rt::StepStatus::kFinished : rt::StepStatus::kIdle;
   core::DisplacementSample* sample = samples_.try_claim();
   FrameRecord* record = records_.try_claim();
-  const bool is_full = sample == nullptr || record == nullptr || (shown_ && shown_->try_claim() == nullptr);
+  core::TrackFrame* shown = shown_ ? shown_->try_claim() : nullptr;
+  const bool is_full = sample == nullptr || record == nullptr || (shown_ && shown == nullptr);
   if (lossless_ && is_full) return rt::StepStatus::kIdle;
 
   const std::int64_t t_taken_ns = frame->t_taken_ns;
@@ -52,12 +53,11 @@ rt::StepStatus TrackingStage::step() noexcept {
   } else {
     n_records_lost_.store(n_records_lost_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }
-  if (shown_) show();
+  if (shown_) show(shown);
   return rt::StepStatus::kWorked;
 }
 
-void TrackingStage::show() noexcept {
-  core::TrackFrame* slot = shown_->try_claim();
+void TrackingStage::show(core::TrackFrame* slot) noexcept {
   if (slot == nullptr) {
     n_shown_lost_.store(n_shown_lost_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
     return;

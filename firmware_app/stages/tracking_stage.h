@@ -72,7 +72,7 @@ class TrackingStage : public rt::Stage {
 
   void measure(const core::Frame& frame) noexcept;
   void count_regions() noexcept;
-  void show() noexcept;
+  void show(core::TrackFrame* slot) noexcept;  // null: no room
 
   rt::RingReader<core::Frame> frames_;
   core::StructureTracker& tracker_;

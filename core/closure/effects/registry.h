@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/types/closure_result.h"
 #include "core/closure/effects/observation_effect.h"
+#include "core/types/closure_result.h"
 
 namespace core::closure {
 

@@ -26,7 +26,7 @@ RecentTracks::RecentTracks(ObservationRecord declared, const CameraModel& camera
 
 void RecentTracks::forget_row(std::uint64_t sequence) noexcept {
   const Index k = row(sequence);
-  for (Index j = 0; j < u_px_.cols(); ++j) u_px_(k, j) = v_px_(k, j) = sigma_px_(k, j) = kNan;
+  u_px_.row(k).setConstant(kNan), v_px_.row(k).setConstant(kNan), sigma_px_.row(k).setConstant(kNan);
 }
 
 bool RecentTracks::begin_frame(std::uint64_t sequence) noexcept {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/types/closure_result.h"
 #include "core/closure/response/response_model.h"
+#include "core/types/closure_result.h"
 #include "tools/hovermodal/closeloop/closeloop_series.h"
 
 namespace tools {

@@ -12,7 +12,6 @@
 namespace tools {
 namespace {
 
-
 std::vector<core::Mode> true_modes(const core::simulation::Scene& scene) {
   std::vector<core::Mode> out;
   for (const auto& mode : core::simulation::modes_of(scene.structure)) {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "core/types/closure_result.h"
 #include "core/closure/observation/observation_record.h"
 #include "core/simulation/scene.h"
+#include "core/types/closure_result.h"
 #include "tools/hovermodal/selftest/closure_tracks.h"
 #include "tools/hovermodal/selftest/closure_tracks_record.h"
 

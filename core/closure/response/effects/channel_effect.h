@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/types/closure_result.h"
 #include "core/closure/response/channel_predictor.h"
+#include "core/types/closure_result.h"
 
 namespace core::closure {
 
