@@ -1,6 +1,5 @@
 #include "core/closure/observation/line_search.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -18,9 +17,9 @@ namespace {
 constexpr std::array<double, 4> kHalfWidth_hz{3.0, 2.0, 1.0, 0.3};
 constexpr double kFoldWidth_hz = 1.0;  // in which the fold is told
 constexpr double kStrip_hz = 0.25;     // of one phase, while widths are compared
-constexpr int kStretches = 8;
-constexpr double kLowest_hz = 3.5;  // below, slow rotations are effects of their own
+constexpr double kLowest_hz = 3.5;     // below, slow rotations are effects of their own
 constexpr std::size_t kPeaks = 2;
+constexpr double kMirrorReadout_frames = 0.2;  // from which the rows tell a band from its mirror image
 constexpr double kPeakApart_hz = 1.0, kPeakWidth_hz = 0.3;
 
 using Block = Eigen::Matrix2cd;
@@ -89,6 +88,15 @@ LineSearch::Band LineSearch::band(double centre_hz, double half_width_hz) const 
   return {low, std::max<Eigen::Index>(high - low + 1, 0)};
 }
 
+std::vector<LineSearch::Side> LineSearch::sides(const LineFinding& finding) const {
+  std::vector<Side> out{{finding.fold, finding.apparent_hz, band(finding.apparent_hz, finding.half_width_hz)}};
+  const double mirrored_hz = rate_hz_ - finding.apparent_hz;
+  if (std::abs(readout_frames_) < kMirrorReadout_frames) return out;
+  const Band mirror = band(mirrored_hz, finding.half_width_hz);
+  if (mirror.count > 0) out.push_back({-(finding.fold + 1), mirrored_hz, mirror});
+  return out;
+}
+
 std::vector<double> LineSearch::peaks(const Eigen::MatrixXcd& spectrum) const {
   const Eigen::VectorXd power = spectrum.colwise().squaredNorm().transpose();
   const double bin_hz = rate_hz_ / n_fft_;
@@ -112,6 +120,16 @@ Eigen::MatrixXcd LineSearch::fields_of(double apparent_hz, int fold) const {
   const double turns = (apparent_hz + fold * rate_hz_) / rate_hz_ * readout_frames_;
   for (Eigen::Index j = 0; j < fields.rows() / 2; ++j)
     fields.middleRows(2 * j, 2) *= std::polar(1.0, 2.0 * std::numbers::pi * turns * model_.geometry().share(j));
+  return fields;
+}
+
+Eigen::MatrixXcd LineSearch::fields_at(Eigen::Index bin, double hz, const std::vector<Side>& sides) const {
+  Eigen::MatrixXcd fields(fields_.rows(), 0);
+  for (const Side& side : sides) {
+    if (!side.band.holds(bin)) continue;
+    fields.conservativeResize(Eigen::NoChange, fields.cols() + fields_.cols());
+    fields.rightCols(fields_.cols()) = fields_of(hz, side.fold);
+  }
   return fields;
 }
 
@@ -171,12 +189,14 @@ double LineSearch::pattern_gain(const Eigen::MatrixXd& residual, const LineFindi
 
 // Strip by strip, each with the phase of its own middle.
 double LineSearch::band_gain(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const {
+  const std::vector<Side> both = sides(finding);
   const double low = finding.apparent_hz - finding.half_width_hz;
   double sum = 0.0;
   for (double at = low; at < low + 2.0 * finding.half_width_hz - 1e-9; at += kStrip_hz) {
     const Band b = band(at + 0.5 * kStrip_hz, 0.5 * kStrip_hz);
     if (b.count < 1) continue;
-    sum += gain(moments_of(spectrum.middleCols(b.first, b.count)), fields_of(at + 0.5 * kStrip_hz, finding.fold));
+    const Eigen::MatrixXcd fields = fields_at(b.first + b.count / 2, at + 0.5 * kStrip_hz, both);
+    sum += gain(moments_of(spectrum.middleCols(b.first, b.count)), fields);
   }
   return sum;
 }
@@ -202,7 +222,9 @@ void LineSearch::try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz,
   own.gain = -1e300;
   for (const double half_width_hz : kHalfWidth_hz) {
     trial.half_width_hz = half_width_hz;
-    trial.freedom = 6.0 * static_cast<double>(band(apparent_hz, half_width_hz).count * n_frames_) / n_fft_;
+    trial.freedom = 0.0;
+    for (const Side& side : sides(trial))
+      trial.freedom += 6.0 * static_cast<double>(side.band.count * n_frames_) / n_fft_;
     trial.gain = band_gain(spectrum, trial);
     if (trial.gain > own.gain) own = trial;
   }
@@ -215,62 +237,6 @@ LineFinding LineSearch::find(const Eigen::MatrixXd& residual) const {
   LineFinding best;
   for (const double peak : peaks(bins)) try_folds(bins, peak, best);
   return best;
-}
-
-Eigen::RowVectorXcd LineSearch::analytic(const Eigen::RowVectorXcd& bins, const Band& at, Eigen::Index n) const {
-  RealFft fft(n_fft_);
-  std::vector<std::complex<double>> part(static_cast<std::size_t>(fft.n_bins()), 0.0);
-  std::vector<double> cosine(static_cast<std::size_t>(n_fft_)), sine = cosine;
-  for (Eigen::Index i = 0; i < at.count; ++i)
-    part[static_cast<std::size_t>(at.first + i)] = bins(i) / std::sqrt(2.0 / n_fft_);
-  fft.inverse(part, cosine);
-  for (std::complex<double>& bin : part) bin *= std::complex<double>(0.0, -1.0);
-  fft.inverse(part, sine);
-  Eigen::RowVectorXcd out(n);
-  for (Eigen::Index k = 0; k < n; ++k)
-    out(k) = {cosine[static_cast<std::size_t>(k)], sine[static_cast<std::size_t>(k)]};
-  return out;
-}
-
-Eigen::MatrixXd LineSearch::motion(const Eigen::MatrixXd& residual, const LineFinding& finding,
-                                   const Eigen::MatrixXd& later) const {
-  const Band b = band(finding.apparent_hz, finding.half_width_hz);
-  const Eigen::MatrixXcd bins = spectrum(residual).middleCols(b.first, b.count);
-  Eigen::MatrixXcd motion(bins.rows(), bins.cols());
-  for (Eigen::Index c = 0; c < b.count; ++c) {
-    const double bin_hz = rate_hz_ / n_fft_ * static_cast<double>(b.first + c);
-    const Eigen::MatrixXcd fields = fields_of(bin_hz, finding.fold), w = left_of(fields);
-    const Eigen::Vector3cd amplitude = (w.adjoint() * w).ldlt().solve(w.adjoint() * bins.col(c));
-    motion.col(c) = fields * amplitude;
-  }
-  const double turns = (finding.apparent_hz + finding.fold * rate_hz_) / rate_hz_ * readout_frames_;
-  Eigen::MatrixXd out(residual.rows(), residual.cols());
-  for (Eigen::Index i = 0; i < out.rows(); ++i) {
-    const Eigen::RowVectorXcd series = analytic(motion.row(i), b, out.cols());
-    for (Eigen::Index k = 0; k < out.cols(); ++k)
-      out(i, k) = (series(k) * std::polar(1.0, 2.0 * std::numbers::pi * turns * later(i / 2, k))).real();
-  }
-  return out;
-}
-
-// Phase advance of the strongest row's analytic signal, stretch by stretch.
-LineFrequency LineSearch::frequency(const Eigen::MatrixXd& motion_px, const LineFinding& finding) const {
-  Eigen::Index row = 0;
-  motion_px.rowwise().squaredNorm().maxCoeff(&row);
-  const Eigen::Index n = motion_px.cols(), length = (n - 1) / kStretches;
-  const Band b = band(finding.apparent_hz, finding.half_width_hz);
-  const Eigen::RowVectorXcd bins = spectrum(motion_px.row(row)).row(0).segment(b.first, b.count);
-  const Eigen::RowVectorXcd series = analytic(bins, b, n);
-  std::array<double, kStretches> hz{};
-  double mean = 0.0, squares = 0.0;
-  for (int s = 0; s < kStretches; ++s) {
-    std::complex<double> advance = 0.0;
-    for (Eigen::Index k = s * length; k < (s + 1) * length; ++k) advance += series(k + 1) * std::conj(series(k));
-    hz[static_cast<std::size_t>(s)] = std::arg(advance) * rate_hz_ / (2.0 * std::numbers::pi);
-    mean += hz[static_cast<std::size_t>(s)] / kStretches;
-  }
-  for (const double f : hz) squares += (f - mean) * (f - mean);
-  return {mean, std::sqrt(squares / (kStretches * (kStretches - 1.0)))};
 }
 
 }  // namespace core::closure

@@ -10,6 +10,8 @@ namespace core::closure {
 // Rotation of the camera in a narrow band, as rotors cause it: seen row by row, its phase runs with the readout, so
 // that the true frequency among those that look alike at the frame rate can be told. For a bin at nu of the residual's
 // spectrum and the hypothesis n the pattern is (roll, pitch, yaw)_j exp(2 pi i (nu + n f_s) rho s_j / f_s).
+// A band that reaches over f_s / 2 is seen below it a second time, mirrored and with the opposite sense of rotation:
+// with the fold -(n + 1).
 struct LineFinding {
   double apparent_hz = 0.0;  // middle of the band, 0 .. f_s / 2; 0 = none was looked for
   int fold = 0;
@@ -45,13 +47,23 @@ class LineSearch {
  private:
   struct Band {
     Eigen::Index first = 0, count = 0;
+    [[nodiscard]] bool holds(Eigen::Index bin) const noexcept { return bin >= first && bin < first + count; }
+  };
+  struct Side {
+    int fold = 0;
+    double apparent_hz = 0.0;
+    Band band;
   };
   [[nodiscard]] Eigen::MatrixXcd spectrum(const Eigen::MatrixXd& residual) const;
   // Inverse of one-sided bins, as a complex (analytic) series.
   [[nodiscard]] Eigen::RowVectorXcd analytic(const Eigen::RowVectorXcd& bins, const Band& at, Eigen::Index n) const;
   [[nodiscard]] Band band(double centre_hz, double half_width_hz) const;
+  // The finding's band, and its mirror image where that reaches below f_s / 2 and the rows tell the two apart.
+  [[nodiscard]] std::vector<Side> sides(const LineFinding& finding) const;
   [[nodiscard]] std::vector<double> peaks(const Eigen::MatrixXcd& spectrum) const;
   [[nodiscard]] Eigen::MatrixXcd fields_of(double apparent_hz, int fold) const;
+  // Of all sides that hold the bin, side by side.
+  [[nodiscard]] Eigen::MatrixXcd fields_at(Eigen::Index bin, double hz, const std::vector<Side>& sides) const;
   // Part of them that the model's own columns leave, whitened.
   [[nodiscard]] Eigen::MatrixXcd left_of(const Eigen::MatrixXcd& fields) const;
   [[nodiscard]] double gain(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& fields) const;
