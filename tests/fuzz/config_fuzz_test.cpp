@@ -13,6 +13,7 @@
 #include "drivers/storage/text_file.h"
 #include "firmware_app/config.h"
 #include "firmware_app/report/modal_json.h"
+#include "tests/support/places.h"
 
 namespace {
 
@@ -118,7 +119,7 @@ class Mutator {
 };
 
 std::string shipped(const std::string& name) {
-  return drivers::read_text_file(std::string(HOVERMODAL_SOURCE_DIR "/firmware_app/config/") + name, 1U << 20U);
+  return drivers::read_text_file(tests::source_path("firmware_app/config/") + name, 1U << 20U);
 }
 
 // Runs `read` on mutations of `text`; any exception but Expected is a failure. Answers how many were taken and refused.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/spectrum/welch_cpsd.h"
+#include "tests/support/places.h"
 
 namespace core {
 namespace {
@@ -19,7 +20,7 @@ constexpr double kBar = 1e-10;
 constexpr double kFloor = 1e-4;
 
 nlohmann::json golden() {
-  std::ifstream file(HOVERMODAL_SOURCE_DIR "/tests/golden/welch_golden.json");
+  std::ifstream file(tests::source_path("tests/golden/welch_golden.json"));
   return nlohmann::json::parse(file);
 }
 

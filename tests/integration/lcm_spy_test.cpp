@@ -16,12 +16,13 @@
 #include "drivers/telemetry/lcm_self_test.h"
 #include "tests/support/child_process.h"
 #include "tests/support/loopback_network.h"
+#include "tests/support/places.h"
 #include "tests/support/telemetry_samples.h"
 
 namespace {
 
 constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=0";
-constexpr const char* kSpy = HOVERMODAL_BIN_DIR "/hovermodal";
+const std::string kSpy = tests::program("hovermodal");
 
 std::filesystem::path test_folder() {
   const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();

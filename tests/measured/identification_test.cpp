@@ -10,6 +10,7 @@
 
 #include "firmware_app/report/modal_json.h"
 #include "tests/support/measured_data.h"
+#include "tests/support/places.h"
 
 // The identification on records of others, as `hovermodal identify` runs it: rate, quantity, highest frequency and
 // input are said, nothing else. tools/figures/identification_measured.sh prints the errors.
@@ -21,8 +22,8 @@ core::ModalEstimate identify(const std::string& arguments) {
   const fs::path folder = fs::path(testing::TempDir()) / "measured_identification" /
                           testing::UnitTest::GetInstance()->current_test_info()->name();
   fs::remove_all(folder);
-  const std::string command = std::string(HOVERMODAL_BIN_DIR) + "/hovermodal identify " + arguments + " --report " +
-                              folder.string() + " >/dev/null 2>&1";
+  const std::string command =
+      tests::program("hovermodal") + " identify " + arguments + " --report " + folder.string() + " >/dev/null 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0) << command;
   return app::read_modal_json((folder / "modal.json").string()).estimate;
 }

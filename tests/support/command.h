@@ -9,6 +9,8 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/places.h"
+
 namespace tests {
 
 struct Outcome {
@@ -17,8 +19,8 @@ struct Outcome {
 };
 
 // A program of this build ("hovermodal", "hovermodald") with arguments for the shell, run to its end.
-inline Outcome run(const std::string& program, const std::string& arguments) {
-  const std::string command = HOVERMODAL_BIN_DIR "/" + program + " " + arguments + " 2>&1";
+inline Outcome run(const std::string& name, const std::string& arguments) {
+  const std::string command = tests::program(name) + " " + arguments + " 2>&1";
   std::FILE* pipe = ::popen(command.c_str(), "r");
   if (pipe == nullptr) return {-1, "popen failed"};
   Outcome outcome;

@@ -6,13 +6,15 @@
 #include <filesystem>
 #include <string>
 
+#include "tests/support/places.h"
+
 namespace tests {
 
 // Folder of the measured data: HOVERMODAL_DATA, else ../shared/data beside the project.
 inline std::filesystem::path measured_data_path() {
   const char* const named = std::getenv("HOVERMODAL_DATA");
   if (named != nullptr && *named != '\0') return named;
-  return std::filesystem::path(HOVERMODAL_SOURCE_DIR) / ".." / "shared" / "data";
+  return tests::source_path("../shared/data");
 }
 
 }  // namespace tests

@@ -18,6 +18,7 @@
 
 #include "firmware_app/pipeline.h"
 #include "tests/support/memory_publisher.h"
+#include "tests/support/places.h"
 #include "tests/support/scripted_camera.h"
 
 namespace tests {
@@ -54,7 +55,7 @@ class TellingPublisher : public MemoryPublisher {
 
 // An empty folder of the running test's own. Two builds may be tested at once.
 inline std::filesystem::path own_folder() {
-  static const std::string build = std::to_string(std::hash<std::string>{}(HOVERMODAL_BIN_DIR) % 1'000'000);
+  static const std::string build = std::to_string(std::hash<std::string>{}(tests::program("")) % 1'000'000);
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
   std::string name = std::string(test->test_suite_name()) + "." + test->name();
   for (char& c : name) c = c == '/' ? '_' : c;
@@ -69,7 +70,11 @@ inline std::string file_text(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr std::chrono::seconds kPatience{1200};  // instrumented code is some ten times slower
+#else
 inline constexpr std::chrono::seconds kPatience{60};
+#endif
 
 // True when every stage has ended; false when the patience ended first: a hang.
 inline bool runs_to_its_end(app::Pipeline& pipeline, std::chrono::seconds patience = kPatience) {

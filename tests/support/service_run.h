@@ -13,11 +13,12 @@
 #include <vector>
 
 #include "tests/support/child_process.h"
+#include "tests/support/places.h"
 
 namespace tests {
 
-inline constexpr const char* kService = HOVERMODAL_BIN_DIR "/hovermodald";
-inline constexpr const char* kTools = HOVERMODAL_BIN_DIR "/hovermodal";
+inline const std::string kService = program("hovermodald");
+inline const std::string kTools = program("hovermodal");
 
 struct ServiceRun {
   int code = -1;  // 128 + signal when it was killed, -1 when it hung

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <string>
 
+#include "tests/support/places.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -17,7 +19,7 @@ struct Outcome {
 };
 
 Outcome check(const fs::path& root) {
-  const std::string command = "'" HOVERMODAL_SOURCE_DIR "/tools/check_structure.sh' '" + root.string() + "' 2>&1";
+  const std::string command = "'" + tests::source_path("tools/check_structure.sh") + "' '" + root.string() + "' 2>&1";
   Outcome outcome;
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return outcome;

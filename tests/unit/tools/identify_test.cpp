@@ -1,9 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -12,6 +10,8 @@
 #include <random>
 #include <string>
 
+#include "tests/support/command.h"
+
 // `hovermodal identify` as a user runs it.
 namespace {
 
@@ -19,22 +19,9 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using tests::Outcome;
 
-struct Outcome {
-  int exit_code;
-  std::string text;  // standard output and standard error
-};
-
-Outcome identify(const std::string& arguments) {
-  const std::string command = std::string(HOVERMODAL_BIN_DIR) + "/hovermodal identify " + arguments + " 2>&1";
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) return {-1, "popen failed"};
-  std::string text;
-  char block[4096];
-  while (const std::size_t n = std::fread(block, 1, sizeof block, pipe)) text.append(block, n);
-  const int status = ::pclose(pipe);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
-}
+Outcome identify(const std::string& arguments) { return tests::run("hovermodal", "identify " + arguments); }
 
 // Two modes, 1.5 Hz (1, 0.8, 0.5) and 4 Hz (-0.7, 0.3, 1), at `rate_hz`: displacements of three floors.
 class Floors {

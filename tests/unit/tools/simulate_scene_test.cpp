@@ -12,6 +12,7 @@
 #include "drivers/storage/csv.h"
 #include "firmware_app/config.h"
 #include "tests/support/command.h"
+#include "tests/support/places.h"
 
 // `hovermodal simulate --scene` as a user runs it.
 namespace {
@@ -54,7 +55,7 @@ class SimulateScene : public testing::Test {
 
 TEST_F(SimulateScene, EveryExampleMakesItsRecordAndAConfigurationTheServiceTakes) {
   int n = 0;
-  for (const auto& entry : fs::directory_iterator(fs::path(HOVERMODAL_SOURCE_DIR) / "tools" / "scenes")) {
+  for (const auto& entry : fs::directory_iterator(tests::source_path("tools/scenes"))) {
     const fs::path out = folder_ / entry.path().stem();
     const Outcome outcome = run("hovermodal", "simulate --scene " + entry.path().string() +
                                                   (n % 2 == 0 ? " --tracks-only" : " --channels-only") +
