@@ -91,23 +91,30 @@ TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_pa
   }
   ChannelAnalysis& analysis = run.analysis();
   analysis.report_to(report.get());
+  std::optional<core::closure::ClosureReport> closure;
+  run.hear_closure([&](const core::closure::ClosureReport& last) {
+    closure = last;
+    result.changes.insert(result.changes.end(), last.changes.begin(), last.changes.end());
+  });
   core::TrackFrame tracks;
   for (const core::TrackFrame& frame : file.frames) {
     places.spread(frame, tracks);
     const bool accepted = run.push(tracks);
     if (accepted && report) (void)(report->add(tracks) && report->add(run.sample()));
   }
-  result.estimate = analysis.finish();
+  result.estimate = run.finish();
   result.losses = analysis.losses();
   result.n_differences = analysis.n_differences();
   if (!report) return result;
-  report->finish(result.estimate, result.losses, corrections(config, camera), caveats(config, camera));
-  const RunFacts facts = run_facts(config, camera, tracks_path, result.losses);
+  report->finish(result.estimate, result.losses, corrections(config, camera), caveats(config, camera),
+                 closure ? &*closure : nullptr);
+  const RunFacts facts = run_facts(config, camera, tracks_path, result.losses, result.estimate);
   PictureInputs inputs = picture_inputs(config, camera, result.channels);
   inputs.keyframe = &places.first();
   inputs.spectrum = &analysis.sums();
   inputs.estimate = &result.estimate;
   inputs.history = &report->history();
+  inputs.closure = closure ? &*closure : nullptr;
   inputs.facts = &facts;
   (void)write_pictures(report_directory, inputs);
   return result;

@@ -53,7 +53,8 @@ struct TracksResult {
   core::ModalEstimate estimate;
   core::Health losses;
   std::vector<core::ChannelInfo> channels;
-  int n_differences = 0;  // the prewhitening that the spectra asked for
+  int n_differences = 0;             // the prewhitening that the spectra asked for
+  std::vector<std::string> changes;  // with closure.adopt: auto, what was taken out or withdrawn, in words
 };
 [[nodiscard]] TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_path,
                                          const std::string& report_directory);

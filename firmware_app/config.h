@@ -84,13 +84,14 @@ struct IdentificationConfig {
   double max_damping = 0.15;
 };
 
-enum class ClosureAdopt : std::uint8_t { kOff, kReport };
+enum class ClosureAdopt : std::uint8_t { kOff, kReport, kAuto };
 
 struct ClosureConfig {
   ClosureAdopt adopt = ClosureAdopt::kReport;
   double window_s = 120.0;  // of the newest tracks that are looked at
   int points_per_region = 12;
   double period_s = 60.0;  // of stream time between two reports
+  double delay_s = 30.0;   // from the last frame of a report to the first that it may change
 };
 
 struct TelemetryConfig {

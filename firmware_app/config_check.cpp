@@ -27,6 +27,10 @@ class Checker {
     check_scale();
     check_calibration();
     check_depths();
+    if (config_.closure.delay_s > config_.closure.period_s) {
+      refuse("closure.delay_s", fmt::format("{:g}", config_.closure.delay_s),
+             fmt::format("0 .. {:g} (closure.period_s)", config_.closure.period_s), "write a smaller number");
+    }
     if (config_.tracking.min_points > config_.tracking.points_per_region) {
       refuse("tracking.min_points", std::to_string(config_.tracking.min_points),
              fmt::format("1 .. {} (tracking.points_per_region)", config_.tracking.points_per_region),

@@ -75,9 +75,10 @@ void add_closure_keys(std::vector<ConfigKey>& keys) {
   using C = ClosureConfig;
   keys.push_back(choice_key<ClosureAdopt>(
       "closure.adopt", [](AppConfig& config, std::size_t) -> ClosureAdopt& { return config.closure.adopt; },
-      {{"off", ClosureAdopt::kOff}, {"report", ClosureAdopt::kReport}},
-      "what the model of camera, lens and tracker fails to explain in the tracks: nobody looks, or it is traced to "
-      "an effect and reported"));
+      {{"off", ClosureAdopt::kOff}, {"report", ClosureAdopt::kReport}, {"auto", ClosureAdopt::kAuto}},
+      "what the model of camera, lens and tracker fails to explain in the tracks: nobody looks; it is traced to an "
+      "effect and reported; or, where constants hold it (readout time, lens, pixel locking) and two reports in a row "
+      "agree, it is taken out of all later frames too, and withdrawn when it helps no longer"));
   keys.push_back(number_key("closure.window_s", "s", at(&A::closure, &C::window_s), {20, 3600},
                             "of the newest tracks that are looked at"));
   keys.push_back(whole_key("closure.points_per_region", "", at(&A::closure, &C::points_per_region), {2, 1000},
@@ -85,6 +86,9 @@ void add_closure_keys(std::vector<ConfigKey>& keys) {
                            "and ten seconds of a fast processor core, at ordinary priority"));
   keys.push_back(number_key("closure.period_s", "s", at(&A::closure, &C::period_s), {20, 86400},
                             "of stream time between two reports; the first needs 20 s of record"));
+  keys.push_back(number_key("closure.delay_s", "s", at(&A::closure, &C::delay_s), {0, 3600},
+                            "from the last frame of a report to the first that it may change: longer than a report "
+                            "takes, so that a replay changes at the same frame; at most closure.period_s"));
 }
 
 void add_output_keys(std::vector<ConfigKey>& keys) {

@@ -46,13 +46,16 @@ struct Pipeline::Parts {
 
   core::WelchConfig welch = welch_config(config.spectrum, source.displacement.spectra().size(), source.info.rate_hz,
                                          source.displacement.n_witnesses());
-  rt::TripleBuffer<SpectrumSnapshot> snapshots{SpectrumSnapshot{core::WelchCpsd::empty_sums(welch), 0, 0, false, {}}};
+  rt::TripleBuffer<SpectrumSnapshot> snapshots{SpectrumSnapshot{core::WelchCpsd::empty_sums(welch)}};
   SpectrumStage spectrum{samples.reader(),  welch, config.identification.period_hops, snapshots, source.info.lossless,
                          capture.thinning()};
 
+  AmendmentBook book;  // what closure takes out beyond what was declared
   rt::SpscRing<IdentificationResult> results{slots(kResultSlots), IdentificationResult{}};
-  IdentificationStage identification{snapshots, source.info.rate_hz,
-                                     [this](double rate_hz) { return identifier(rate_hz); }, results.writer()};
+  IdentificationStage identification{
+      snapshots, source.info.rate_hz,
+      [this](double rate_hz, const Amendment& amendment) { return identifier(rate_hz, amendment); }, book,
+      results.writer()};
 
   // spectrum, identification -> (newest state) -> checkpoint -> the state file
   rt::TripleBuffer<StateBytes> spectrum_states{state_room(spectrum.state_bytes())};
@@ -62,7 +65,9 @@ struct Pipeline::Parts {
   // tracking -> [recent tracks] -> closure -> [closures] -> publish
   rt::SpscRing<core::TrackFrame> recent_tracks{closes_loop() ? slots(kRecentSlots) : 1, source.keyframe};
   rt::SpscRing<core::closure::ClosureReport> closures{slots(kResultSlots), core::closure::ClosureReport{}};
-  ClosureStage closure{recent_tracks.reader(), closure_config(config, source), closures.writer()};
+  ClosureStage closure{recent_tracks.reader(), loop_closer_config(config, source.info, source.keyframe),
+                       closures.writer()};
+  rt::SpscRing<ViewChange> view_changes{slots(kResultSlots), ViewChange{}};  // closure -> tracking
 
   HealthCollector health{source.info.rate_hz, capture, tracking, spectrum};
   PublishStage publish{records.reader(), results.reader(), outlets()};
@@ -80,10 +85,11 @@ struct Pipeline::Parts {
   static constexpr int kResultSlots = 8, kRecentSlots = 1024;
   static std::size_t slots(int n) { return static_cast<std::size_t>(n); }
 
-  [[nodiscard]] std::unique_ptr<const ReadoutUse> identifier(double rate_hz) const {
-    core::CameraInfo info = source.info;
+  [[nodiscard]] std::unique_ptr<const ReadoutUse> identifier(double rate_hz, const Amendment& amendment) const {
+    core::CameraInfo info = amendment.applied(source.info);
     info.rate_hz = rate_hz;
-    return std::make_unique<const ReadoutUse>(config, info, source.keyframe, source.displacement.spectra());
+    return std::make_unique<const ReadoutUse>(amendment.applied(config, source.info.rate_hz), info, source.keyframe,
+                                              source.displacement.spectra());
   }
   // Before anything is allocated and before the camera runs: locking takes as long as several frames.
   [[nodiscard]] static std::string keep_memory(const AppConfig& config) {
@@ -137,6 +143,14 @@ struct Pipeline::Parts {
     recent_tracks.set_reader_wakeup(&closure.wakeup());
     closures.set_writer_wakeup(&closure.wakeup());
     closures.set_reader_wakeup(&publish.wakeup());
+    if (config.closure.adopt != ClosureAdopt::kAuto) return;
+    view_changes.set_writer_wakeup(&closure.wakeup());
+    view_changes.set_reader_wakeup(&tracking.wakeup());
+    tracking.follow_amendments(view_changes.reader(), closure.first_view());
+    const auto geometry = [this](const Amendment& amendment) {
+      return make_geometry(config, source.info, source.keyframe, amendment);
+    };
+    closure.amend(book, geometry, view_changes.writer());
   }
   void keep_state() {
     spectrum_states.set_reader_wakeup(&checkpoint.wakeup());

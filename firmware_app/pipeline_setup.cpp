@@ -14,7 +14,6 @@
 #include "firmware_app/calibration.h"
 #include "firmware_app/config_image.h"
 #include "firmware_app/core_config.h"
-#include "firmware_app/observation.h"
 #include "firmware_app/readout_use.h"
 #include "firmware_app/report/pictures/pictures.h"
 #include "firmware_app/run_findings.h"
@@ -174,25 +173,13 @@ std::function<void(const PublishStage::Findings&, const core::Health&)> picture_
     inputs.estimate = &found.estimate;
     inputs.closure = found.closure;
     inputs.history = &report->history();
-    const RunFacts facts = run_facts(config, source.info, config.camera.source, health);
+    const RunFacts facts = run_facts(config, source.info, config.camera.source, health, found.estimate);
     inputs.facts = &facts;
     (void)write_pictures(config.report.directory, inputs);
   };
 }
 
 FrameRecord record_prototype(const Source& source) { return {source.keyframe, source.displacement.sample_prototype()}; }
-
-ClosureStageConfig closure_config(const AppConfig& config, const Source& source) {
-  const DeclaredObservation declared = declared_observation(config, source.info);
-  ObservedPoints points = observed_points(source.keyframe, config.regions.size(), config.closure.points_per_region);
-  const double rate_hz = declared.record.rate_hz;
-  const bool looks = config.closure.adopt != ClosureAdopt::kOff;
-  const auto n_frames = static_cast<std::size_t>(looks ? std::max(1.0, config.closure.window_s * rate_hz) : 1.0);
-  return {{declared.record, declared.camera, std::move(points.region_of_column), n_frames},
-          std::move(points.column_of_point),
-          rate_hz,
-          config.closure.period_s};
-}
 
 RunState view_of(const AppConfig& config, const Source& source) {
   RunState view;

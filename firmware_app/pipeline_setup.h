@@ -59,9 +59,6 @@ struct Source {
 [[nodiscard]] std::function<void(const PublishStage::Findings&, const core::Health&)> picture_drawer(
     const AppConfig& config, const Source& source, const RunReport* report);
 [[nodiscard]] FrameRecord record_prototype(const Source& source);
-// What closing the loop is told of the run. With closure.adopt: off it keeps one frame.
-[[nodiscard]] ClosureStageConfig closure_config(const AppConfig& config, const Source& source);
-
 // What a kept state must agree with.
 [[nodiscard]] RunState view_of(const AppConfig& config, const Source& source);
 [[nodiscard]] std::string state_path(const AppConfig& config);     // empty: none is kept

@@ -20,12 +20,13 @@ PictureInputs picture_inputs(const AppConfig& config, const core::CameraInfo& ca
 }
 
 RunFacts run_facts(const AppConfig& config, const core::CameraInfo& camera, const std::string& source,
-                   const core::Health& health) {
+                   const core::Health& health, const core::ModalEstimate& estimate) {
   RunFacts facts;
   facts.source = std::filesystem::path(source).filename().string();
   if (facts.source.empty() && config.camera.driver == CameraDriver::kSynthetic) facts.source = "synthetic camera";
   facts.method = to_text(config.method);
   facts.corrections = corrections(config, camera);
+  facts.corrections.insert(facts.corrections.end(), estimate.amendments.begin(), estimate.amendments.end());
   facts.caveats = caveats(config, camera);
   facts.health = health;
   facts.image_width_px = camera.width_px, facts.image_height_px = camera.height_px;

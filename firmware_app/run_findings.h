@@ -14,6 +14,6 @@ namespace app {
                                            const std::vector<core::ChannelInfo>& channels);
 // `source`: a path, of which only the last part is told.
 [[nodiscard]] RunFacts run_facts(const AppConfig& config, const core::CameraInfo& camera, const std::string& source,
-                                 const core::Health& health);
+                                 const core::Health& health, const core::ModalEstimate& estimate);
 
 }  // namespace app

@@ -15,6 +15,7 @@ ChannelAnalysis::ChannelAnalysis(const AppConfig& config, const std::vector<core
       tracker_({.row_delay_s = identifier_.undone_delay_s()}),
       cpsd_(welch_config(config.spectrum, channels.size(), rate_hz, channels.size() - identifier_.n_outputs())),
       grid_(rate_hz),
+      rate_hz_(rate_hz),
       period_hops_(static_cast<std::uint64_t>(std::max(1, config.identification.period_hops))) {}
 
 void ChannelAnalysis::note(bool hop) {
@@ -24,11 +25,21 @@ void ChannelAnalysis::note(bool hop) {
 core::ModalEstimate ChannelAnalysis::make() {
   core::ModalEstimate estimate =
       readout_use_ ? readout_use_->identify(cpsd_.sums(), readout_) : identifier_.identify(cpsd_.sums());
+  estimate.amendments = amendments_;
   if (readout_use_) tracker_.set_row_delays(readout_use_->delay_s(estimate));
   estimate.number = n_estimates_++;
   tracker_.update(estimate);
   if (report_ != nullptr) report_->add(estimate);
   return estimate;
+}
+
+void ChannelAnalysis::begin_anew(ReadoutUse use, std::vector<std::string> amendments) {
+  if (cpsd_.sums().n_segments > 0) (void)make();
+  n_masked_before_ += cpsd_.sums().n_missing;
+  cpsd_.restart(rate_hz_);
+  tracker_.restart();
+  readout_use_.emplace(std::move(use));
+  amendments_ = std::move(amendments);
 }
 
 bool ChannelAnalysis::push(const core::DisplacementSample& sample) {
@@ -45,7 +56,7 @@ bool ChannelAnalysis::push(const core::DisplacementSample& sample) {
 
 core::ModalEstimate ChannelAnalysis::finish() {
   cpsd_.flush();
-  losses_.samples_masked = cpsd_.sums().n_missing;
+  losses_.samples_masked = n_masked_before_ + cpsd_.sums().n_missing;
   core::ModalEstimate estimate = make();
   estimate.final = true;
   totals_.copy_totals(cpsd_.sums(), static_cast<int>(identifier_.n_outputs()));
@@ -59,18 +70,53 @@ core::ModalEstimate ChannelAnalysis::identified(int n_differences) const {
 }
 
 TrackAnalysis::TrackAnalysis(const AppConfig& config, const core::CameraInfo& camera, const core::TrackFrame& keyframe)
-    : displacement_(displacement_config(config, camera), keyframe),
-      readout_(readout_config(config, camera), keyframe),
-      sample_(displacement_.sample_prototype()),
-      analysis_(config, displacement_.spectra(), camera.rate_hz) {
-  analysis_.find_readout(ReadoutUse(config, camera, keyframe, displacement_.spectra()));
+    : config_(config),
+      camera_(camera),
+      keyframe_(keyframe),
+      geometry_(make_geometry(config, camera, keyframe, {})),
+      sample_(geometry_->displacement.sample_prototype()),
+      analysis_(config, geometry_->displacement.spectra(), camera.rate_hz) {
+  analysis_.find_readout(ReadoutUse(config, camera, keyframe, geometry_->displacement.spectra()));
+  if (config.closure.adopt == ClosureAdopt::kAuto) loop_.emplace(loop_closer_config(config, camera, keyframe));
 }
 
 bool TrackAnalysis::push(core::TrackFrame& tracks) {
-  displacement_.update(tracks, sample_);
-  readout_.update(tracks);
-  sample_.readout = readout_.estimate();
-  return analysis_.push(sample_);
+  begin_amendment(tracks.sequence);
+  geometry_->displacement.update(tracks, sample_);
+  geometry_->readout.update(tracks);
+  sample_.readout = geometry_->readout.estimate();
+  const bool accepted = analysis_.push(sample_);
+  if (loop_) close_loop(tracks);
+  return accepted;
+}
+
+void TrackAnalysis::close_loop(const core::TrackFrame& tracks) {
+  loop_->take(tracks);
+  if (!loop_->is_due()) return;
+  const core::closure::ClosureReport report = loop_->report(false);
+  if (auto amendment = loop_->amendment(); amendment && n_amendments_ + 1 < AmendmentBook::kMost) {
+    pending_ = std::move(amendment);
+    pending_->number = ++n_amendments_;
+  }
+  if (hear_closure_) hear_closure_(report);
+}
+
+void TrackAnalysis::begin_amendment(std::uint64_t sequence) {
+  if (!pending_ || sequence < pending_->from_sequence) return;
+  geometry_ = make_geometry(config_, camera_, keyframe_, *pending_);
+  sample_.amendment = pending_->number;
+  analysis_.begin_anew(ReadoutUse(pending_->applied(config_, camera_.rate_hz), pending_->applied(camera_), keyframe_,
+                                  geometry_->displacement.spectra()),
+                       pending_->words);
+  pending_.reset();
+}
+
+core::ModalEstimate TrackAnalysis::finish() {
+  if (loop_ && loop_->is_left()) {
+    const core::closure::ClosureReport report = loop_->report(true);
+    if (hear_closure_) hear_closure_(report);
+  }
+  return analysis_.finish();
 }
 
 }  // namespace app

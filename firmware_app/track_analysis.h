@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,7 +18,9 @@
 #include "core/types/health.h"
 #include "core/types/modal_estimate.h"
 #include "core/types/track.h"
+#include "firmware_app/amendment.h"
 #include "firmware_app/config.h"
+#include "firmware_app/loop_closer.h"
 #include "firmware_app/readout_use.h"
 
 namespace app {
@@ -35,6 +39,8 @@ class ChannelAnalysis {
 
   // Find the readout time on the way; else row delays are undone as declared.
   void find_readout(ReadoutUse use) { readout_use_.emplace(std::move(use)); }
+  // From the next sample on something else is taken out of the points: an estimate of what came so far, and new sums.
+  void begin_anew(ReadoutUse use, std::vector<std::string> amendments);
   void report_to(RunReport* report) noexcept { report_ = report; }  // every estimate; null = none
 
   // False: a frame that lies in no cell of its own of the grid, and is left out.
@@ -58,12 +64,15 @@ class ChannelAnalysis {
   core::IdentifierConfig config_;
   core::Identifier identifier_;
   std::optional<ReadoutUse> readout_use_;
-  core::ReadoutEstimate readout_;  // with the last sample
+  core::ReadoutEstimate readout_;        // with the last sample
+  std::vector<std::string> amendments_;  // in force
   core::ModeTracker tracker_;
   core::WelchCpsd cpsd_;
   core::CpsdSums totals_;
   core::TimeGrid grid_;
   core::Health losses_;
+  double rate_hz_;
+  std::uint64_t n_masked_before_ = 0;  // in sums that were ended
   std::uint64_t period_hops_, n_estimates_ = 0;
   RunReport* report_ = nullptr;
 };
@@ -75,17 +84,32 @@ class TrackAnalysis {
   TrackAnalysis(const AppConfig& config, const core::CameraInfo& camera, const core::TrackFrame& keyframe);
 
   // An attitude that came since (camera.attitude_channel), before the frames it tells of.
-  void take(const core::AttitudeSample& sample) noexcept { displacement_.take(sample); }
+  void take(const core::AttitudeSample& sample) noexcept { geometry_->displacement.take(sample); }
+  // Told each report of closing the loop; without, and with closure.adopt other than `auto`, nobody looks.
+  void hear_closure(std::function<void(const core::closure::ClosureReport&)> hear) { hear_closure_ = std::move(hear); }
+  // The end of the record: a last report, and the estimate.
+  [[nodiscard]] core::ModalEstimate finish();
   // Points as in the keyframe, in its order; their inliers are marked. False as ChannelAnalysis::push.
   bool push(core::TrackFrame& tracks);
 
-  [[nodiscard]] const std::vector<core::ChannelInfo>& channels() const noexcept { return displacement_.channels(); }
+  [[nodiscard]] const std::vector<core::ChannelInfo>& channels() const noexcept {
+    return geometry_->displacement.channels();
+  }
   [[nodiscard]] const core::DisplacementSample& sample() const noexcept { return sample_; }  // of the last frame
   [[nodiscard]] ChannelAnalysis& analysis() noexcept { return analysis_; }
 
  private:
-  core::ChannelDisplacement displacement_;
-  core::ReadoutEstimator readout_;
+  void close_loop(const core::TrackFrame& tracks);
+  void begin_amendment(std::uint64_t sequence);
+
+  AppConfig config_;
+  core::CameraInfo camera_;
+  core::TrackFrame keyframe_;
+  std::unique_ptr<Geometry> geometry_;
+  std::optional<LoopCloser> loop_;
+  std::optional<Amendment> pending_;
+  std::uint32_t n_amendments_ = 0;
+  std::function<void(const core::closure::ClosureReport&)> hear_closure_;
   core::DisplacementSample sample_;
   ChannelAnalysis analysis_;
 };

@@ -29,6 +29,17 @@ std::vector<ScaleFactor::Point> scale_points(const std::vector<Region>& regions,
   return points;
 }
 
+// The keyframe as the declared camera alone would have seen it.
+TrackFrame as_declared(const ChannelDisplacementConfig& config, const TrackFrame& keyframe) {
+  TrackFrame out = keyframe;
+  if (!config.places.corrects() || !config.places.in_keyframe) return out;
+  for (TrackPoint& p : out.points) {
+    const Vector2 raw = config.camera.distort(config.places.corrected(config.camera.undistort({p.u_px, p.v_px})));
+    if (std::isfinite(raw.u) && std::isfinite(raw.v)) p.u_px = raw.u, p.v_px = raw.v;
+  }
+  return out;
+}
+
 double mean_of(const std::vector<double>& values) noexcept {
   double sum = 0.0;
   for (const double value : values) sum += value;
@@ -37,8 +48,11 @@ double mean_of(const std::vector<double>& values) noexcept {
 
 }  // namespace
 
-ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const TrackFrame& keyframe)
-    : config_(std::move(config)), scale_(scale_points(config_.regions, config_.camera, keyframe)) {
+ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const TrackFrame& raw_keyframe)
+    : config_(std::move(config)),
+      corrects_places_(config_.places.corrects()),
+      scale_(scale_points(config_.regions, config_.camera, as_declared(config_, raw_keyframe))) {
+  const TrackFrame keyframe = as_declared(config_, raw_keyframe);
   if (!config_.camera.calibrated()) {  // the centre is all that is needed of it then
     config_.camera.cx = 0.5 * (config_.readout.width_px - 1);
     config_.camera.cy = 0.5 * (config_.readout.height_px - 1);
@@ -53,7 +67,8 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
     weight_.push_back(1.0 / (sigma_px * sigma_px));
     const Vector2 ideal = config_.camera.undistort({keyframe.points[i].u_px, keyframe.points[i].v_px});
     keyframe_.push_back({ideal.u - config_.camera.cx, ideal.v - config_.camera.cy});
-    readout_share_.push_back(config_.readout.fraction(keyframe.points[i].u_px, keyframe.points[i].v_px));
+    const TrackPoint& raw = raw_keyframe.points[i];
+    readout_share_.push_back(config_.readout.fraction(raw.u_px, raw.v_px));
   }
   position_ = motion_ = keyframe_;
   share_now_ = readout_share_;
@@ -82,7 +97,8 @@ void ChannelDisplacement::place_points(const TrackFrame& tracks) noexcept {
     if (i >= tracks.points.size()) continue;
     const TrackPoint& point = tracks.points[i];
     if (!point.seen || !std::isfinite(point.u_px) || !std::isfinite(point.v_px)) continue;
-    const Vector2 ideal = config_.camera.undistort({point.u_px, point.v_px});
+    Vector2 ideal = config_.camera.undistort({point.u_px, point.v_px});
+    if (corrects_places_) ideal = config_.places.corrected(ideal);
     position_[i] = {ideal.u - config_.camera.cx, ideal.v - config_.camera.cy};
     share_now_[i] = config_.readout.fraction(point.u_px, point.v_px);
     const bool stated = std::isfinite(point.sigma_px) && point.sigma_px >= 0.0;

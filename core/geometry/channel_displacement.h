@@ -6,6 +6,7 @@
 #include "core/geometry/attitude_prior.h"
 #include "core/geometry/camera_model.h"
 #include "core/geometry/camera_motion.h"
+#include "core/geometry/place_correction.h"
 #include "core/geometry/plane_pose.h"
 #include "core/geometry/rolling_shutter.h"
 #include "core/geometry/scale_factor.h"
@@ -18,6 +19,7 @@ namespace core {
 struct ChannelDisplacementConfig {
   std::vector<Region> regions;
   CameraModel camera;
+  PlaceCorrection places = {};  // beyond the declared camera
   ReadoutModel readout;
   double rate_hz = 0.0;
   double scale_mm_per_px = 1.0;  // S_0, of the keyframe
@@ -46,8 +48,8 @@ struct ChannelDisplacementConfig {
 // One thread; nothing allocates after construction.
 class ChannelDisplacement {
  public:
-  // keyframe: the first frame's tracks; every point that will come, seen.
-  ChannelDisplacement(ChannelDisplacementConfig config, const TrackFrame& keyframe);
+  // raw_keyframe: the first frame's tracks; every point that will come, seen.
+  ChannelDisplacement(ChannelDisplacementConfig config, const TrackFrame& raw_keyframe);
 
   [[nodiscard]] const std::vector<ChannelInfo>& channels() const noexcept { return channels_; }
   // The channels, then the witnesses.
@@ -102,6 +104,7 @@ class ChannelDisplacement {
   void average_channel(std::size_t channel, double magnification, DisplacementSample& out) const noexcept;
 
   ChannelDisplacementConfig config_;
+  bool corrects_places_;
   std::vector<ChannelInfo> channels_, spectra_;
   std::vector<RegionRange> ranges_;    // per region
   std::vector<Vector2> keyframe_;      // undistorted px

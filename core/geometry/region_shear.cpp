@@ -18,7 +18,10 @@ constexpr std::size_t kLeastPoints = 4;   // a region's six unknowns from eight 
 }  // namespace
 
 RegionShear::RegionShear(const Config& config, const TrackFrame& keyframe)
-    : camera_(config.camera), regions_(config.n_regions) {
+    : camera_(config.camera),
+      places_(config.places),
+      corrects_places_(config.places.corrects()),
+      regions_(config.n_regions) {
   place_columns(config, keyframe);
   for (RegionFit& region : regions_) centre_columns(region);
   judge_regions();
@@ -34,7 +37,7 @@ void RegionShear::place_columns(const Config& config, const TrackFrame& keyframe
   for (const TrackPoint& seen : keyframe.points) {
     if (seen.region >= regions_.size()) throw std::invalid_argument("RegionShear: a point of no region");
     Point point;
-    point.keyframe = camera_.undistort({seen.u_px, seen.v_px});
+    point.keyframe = places_.corrected_keyframe(camera_.undistort({seen.u_px, seen.v_px}));
     point.region = seen.region;
     const double sigma_px = std::min(kMostSigmaPx, std::max(kLeastSigmaPx, seen.sigma_px));  // NaN gives the least
     point.weight = 1.0 / (sigma_px * sigma_px);
@@ -165,7 +168,8 @@ bool RegionShear::accumulate(const TrackFrame& tracks, RegionFit& region) noexce
     if (j >= tracks.points.size()) continue;
     const TrackPoint& point = tracks.points[j];
     if (!point.seen || !point.inlier || point.region != points_[j].region) continue;
-    const Vector2 place = camera_.undistort({point.u_px, point.v_px});
+    Vector2 place = camera_.undistort({point.u_px, point.v_px});
+    if (corrects_places_) place = places_.corrected(place);
     const Vector2 motion{place.u - points_[j].keyframe.u, place.v - points_[j].keyframe.v};
     if (!(std::abs(motion.u) < kMostMotion_px && std::abs(motion.v) < kMostMotion_px)) continue;
     add_point(points_[j], motion, region.normal);

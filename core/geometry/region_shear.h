@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/geometry/camera_model.h"
+#include "core/geometry/place_correction.h"
 #include "core/geometry/rolling_shutter.h"
 #include "core/types/track.h"
 
@@ -33,8 +34,9 @@ class RegionShear {
 
   struct Config {
     std::size_t n_regions = 0;
-    CameraModel camera;    // points are undistorted; without calibration the image centre is taken
-    ReadoutModel readout;  // direction and image size; its time is not used
+    CameraModel camera;           // points are undistorted; without calibration the image centre is taken
+    ReadoutModel readout;         // direction and image size; its time is not used
+    PlaceCorrection places = {};  // beyond the camera
   };
   // keyframe: every point that will come; one that is lost or no number there takes no part. Throws
   // std::invalid_argument: a point of no region.
@@ -92,6 +94,8 @@ class RegionShear {
   [[nodiscard]] bool accumulate(const TrackFrame& tracks, RegionFit& region) noexcept;
 
   CameraModel camera_;
+  PlaceCorrection places_;
+  bool corrects_places_;
   std::vector<Point> points_;
   std::vector<RegionFit> regions_;
   Eigen::MatrixXd information_, carrier_covariance_;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "core/types/closure_result.h"
 
@@ -17,6 +18,9 @@ struct ClosureReport {
   double took_s = 0.0;  // of processor's time, not part of the result
   std::string refused;  // why nothing can be concluded; `result` is then empty
   ClosureResult result;
+  // closure.adopt: auto. What is taken out of the points, or no longer, by this report, with the reason; and all that
+  // is.
+  std::vector<std::string> changes, in_force;
 };
 
 }  // namespace core::closure

@@ -33,7 +33,8 @@ struct DisplacementSample {
   // Witnesses beside the channels (ChannelDisplacement::spectra()); no displacement of anything.
   std::vector<double> witness_mm{};
   std::vector<std::uint8_t> witness_seen{};
-  ReadoutEstimate readout{};  // from the tracks up to this frame
+  ReadoutEstimate readout{};    // from the tracks up to this frame
+  std::uint32_t amendment = 0;  // what was taken out of the points beyond what was declared; samples of two are not one
 };
 
 }  // namespace core

@@ -76,6 +76,7 @@ struct ModalEstimate {
   int model_order = 0;                    // order at which the canonical correlations fall off; 0 = unclear
   bool final = false;                     // the last of a run
   std::string status;                     // "ok", or why there are no modes
+  std::vector<std::string> amendments;    // effects that the run found and takes out, beyond what was declared
   std::optional<ReadoutFinding> readout;  // behind the row delays that were undone; empty: not looked at
   std::vector<Mode> modes;                // structural, by frequency
   std::vector<Mode> rejected;             // every other pole, with its reason

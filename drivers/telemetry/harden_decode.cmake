@@ -11,6 +11,8 @@ string(REGEX REPLACE "if\\((__[A-Za-z0-9_]+) > maxlen - pos\\) return -1;"
 string(REGEX REPLACE "( *)(this->[A-Za-z0-9_]+)\\.resize\\((this->[A-Za-z0-9_]+)\\);"
   "\\1if(\\3 < 0 || \\3 > maxlen - pos) return -1;\n\\1\\2.resize(\\3);" text "${text}")
 
+string(REPLACE "int64_t msg_hash;" "int64_t msg_hash = 0;" text "${text}")  # GCC 12 does not see that it is read
+
 string(REGEX MATCHALL " < 1 \\|\\| __[A-Za-z0-9_]+ > maxlen - pos\\)" hard_strings "${text}")
 string(REGEX MATCHALL " < 0 \\|\\| this->[A-Za-z0-9_]+ > maxlen - pos\\)" hard_resizes "${text}")
 list(LENGTH assigns n_assigns)

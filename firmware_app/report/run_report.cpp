@@ -173,7 +173,9 @@ void RunReport::finish(const core::ModalEstimate& last, const core::Health& loss
   attempt([&] { displacements_->commit(); });
   attempt([&] {
     std::size_t n_not_finite = 0;
-    const std::string text = modal_json({method_, channel_names_, last, corrections, losses, caveats}, &n_not_finite);
+    std::vector<std::string> in_force = corrections;
+    in_force.insert(in_force.end(), last.amendments.begin(), last.amendments.end());
+    const std::string text = modal_json({method_, channel_names_, last, in_force, losses, caveats}, &n_not_finite);
     n_not_finite_ += n_not_finite;
     drivers::write_file_atomically(in_directory(directory_, "modal.json"), text);
   });

@@ -32,6 +32,7 @@ class RunReport {
   // One estimate, for the pictures of how the modes settled.
   void add(const core::ModalEstimate& estimate) noexcept { history_.add(estimate); }
 
+  // corrections: the declared ones; those that the run found come with the estimate.
   // Completes the files and writes modal.json, and closure.json of the last report that concluded something. Throws one
   // drivers::FileError that names every file that failed; the others are complete.
   void finish(const core::ModalEstimate& last, const core::Health& losses, const std::vector<std::string>& corrections,

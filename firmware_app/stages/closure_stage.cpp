@@ -1,92 +1,80 @@
 #include "firmware_app/stages/closure_stage.h"
 
-#include <cmath>
 #include <exception>
-#include <new>
 #include <utility>
-
-#include "core/closure/closure_loop.h"
-#include "core/closure/observation/observation_level.h"
-#include "rt/clock.h"
 
 namespace app {
 
-namespace {
-constexpr double kLeastOfLast = 0.5;  // periods: a shorter rest of the run has no report of its own
+ClosureStage::ClosureStage(rt::RingReader<core::TrackFrame> tracks, LoopCloserConfig config,
+                           rt::RingWriter<core::closure::ClosureReport> reports)
+    : tracks_(std::move(tracks)), loop_(std::move(config)), reports_(std::move(reports)) {}
+
+void ClosureStage::amend(AmendmentBook& book, MakeGeometry make, rt::RingWriter<ViewChange> changes) {
+  book_ = &book;
+  make_ = std::move(make);
+  changes_.emplace(std::move(changes));
 }
 
-ClosureStage::ClosureStage(rt::RingReader<core::TrackFrame> tracks, ClosureStageConfig config,
-                           rt::RingWriter<core::closure::ClosureReport> reports)
-    : tracks_(std::move(tracks)), config_(std::move(config)), reports_(std::move(reports)) {}
+ViewChange ClosureStage::first_view() const noexcept {
+  ViewChange view;
+  view.next_report_at = loop_.next_report_at(), view.n_delay_frames = loop_.n_delay_frames();
+  return view;
+}
 
 rt::StepStatus ClosureStage::step() noexcept {
-  if (is_due(config_.period_s)) return report(false);
+  if (loop_.is_due()) return report(false);
   if (const core::TrackFrame* frame = tracks_.front()) {
-    take(*frame);
+    loop_.take(*frame);
     tracks_.pop();
     rt::StageStats::add(stats().n_in);
     return rt::StepStatus::kWorked;
   }
   if (!tracks_.finished()) return rt::StepStatus::kIdle;
-  const bool is_left = has_frames_ && (!is_reported_ || is_due(kLeastOfLast * config_.period_s));
-  return is_left ? report(true) : rt::StepStatus::kFinished;
-}
-
-void ClosureStage::take(const core::TrackFrame& frame) noexcept {
-  if (!config_.recent.begin_frame(frame.sequence)) return;
-  if (!has_frames_) first_unreported_ = frame.sequence;
-  has_frames_ = true;
-  t_last_ns_ = frame.t_start_ns;
-  for (std::size_t i = 0; i < frame.points.size() && i < config_.column_of_point.size(); ++i) {
-    const core::TrackPoint& point = frame.points[i];
-    const int column = config_.column_of_point[i];
-    if (column < 0 || !point.seen || !std::isfinite(point.u_px) || !std::isfinite(point.v_px)) continue;
-    config_.recent.place(static_cast<std::size_t>(column), point);
-  }
-}
-
-bool ClosureStage::is_due(double period_s) const noexcept {
-  const std::uint64_t next = config_.recent.last_sequence() + 1;
-  return has_frames_ && next > first_unreported_ &&
-         static_cast<double>(next - first_unreported_) >= period_s * config_.rate_hz;
+  return loop_.is_left() ? report(true) : rt::StepStatus::kFinished;
 }
 
 rt::StepStatus ClosureStage::report(bool final) noexcept {
   core::closure::ClosureReport* slot = reports_.try_claim();
-  if (slot == nullptr) return rt::StepStatus::kIdle;
-  first_unreported_ = config_.recent.last_sequence() + 1;
-  is_reported_ = true;
+  if (slot == nullptr || (changes_ && changes_->try_claim() == nullptr)) return rt::StepStatus::kIdle;
+  change_ = {};
+  bool is_made = false;
   try {
-    *slot = {};
-    slot->number = n_reports_++;
-    slot->first_sequence = config_.recent.first_sequence();
-    slot->last_sequence = config_.recent.last_sequence();
-    slot->t_stream_ns = t_last_ns_;
-    slot->duration_s = static_cast<double>(config_.recent.n_frames()) / config_.rate_hz;
-    slot->final = final;
-    conclude(*slot);
+    *slot = loop_.report(final);
+    if (changes_) amend(*slot);
+    is_made = true;
   } catch (const std::exception&) {  // out of memory: this one is lost and counted, the next may succeed
     rt::StageStats::add(stats().n_dropped);
-    return rt::StepStatus::kWorked;
   }
+  if (changes_) tell_tracking();
+  if (!is_made) return rt::StepStatus::kWorked;
   reports_.publish();
   rt::StageStats::add(stats().n_out);
   return rt::StepStatus::kWorked;
 }
 
-void ClosureStage::conclude(core::closure::ClosureReport& out) const {
-  const std::int64_t begin_ns = rt::monotonic_ns();
-  try {
-    core::closure::ObservationLevel level(config_.recent.record());
-    core::closure::ClosureOptions options;
-    options.n_surrogates = core::closure::ObservationLevel::kSurrogates;
-    out.result = core::closure::close_loop(level, options);
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& e) {  // the record tells nothing: its words say why
-    out.refused = e.what();
+void ClosureStage::amend(core::closure::ClosureReport& report) {
+  const std::optional<Amendment> amendment = loop_.amendment();
+  if (!amendment) return;
+  if (book_->full()) {
+    report.changes.emplace_back("none of this is done: too many changes in one run");
+    return;
   }
-  out.took_s = 1e-9 * static_cast<double>(rt::monotonic_ns() - begin_ns);
+  made_.push_back(make_(*amendment));
+  change_.amendment = book_->add(*amendment).number;
+  change_.from_sequence = amendment->from_sequence;
+  change_.geometry = made_.back().get();
+}
+
+void ClosureStage::tell_tracking() noexcept {
+  change_.next_report_at = loop_.next_report_at();
+  change_.n_delay_frames = loop_.n_delay_frames();
+  *changes_->try_claim() = change_;
+  changes_->publish();
+}
+
+void ClosureStage::finish() noexcept {
+  reports_.close();
+  if (changes_) changes_->close();
 }
 
 }  // namespace app

@@ -1,49 +1,52 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <vector>
 
-#include "core/closure/observation/recent_tracks.h"
 #include "core/types/closure_report.h"
 #include "core/types/track.h"
+#include "firmware_app/loop_closer.h"
+#include "firmware_app/stages/items.h"
 #include "rt/spsc_ring.h"
 #include "rt/stage.h"
 
 namespace app {
 
-struct ClosureStageConfig {
-  core::closure::RecentTracks recent;
-  std::vector<int> column_of_point;  // in the recent tracks; -1: not looked at
-  double rate_hz = 0.0;
-  double period_s = 60.0;  // of stream time between two reports
-};
-
-// newest tracks -> what the model of the points' places fails to explain, and to which effect it is traced. Runs at
-// ordinary priority and takes seconds over a report: frames wait in the ring meanwhile, and what finds no room is a gap
-// in the record; nothing upstream waits but a lossless source. One report per period, and one of what came since at the
-// end of the run. The same tracks give the same reports.
+// newest tracks -> LoopCloser -> reports; with closure.adopt: auto also what tracking shall measure by from a frame on.
+// Runs at ordinary priority and takes seconds over a report: frames wait in the ring meanwhile, and what finds no room
+// is a gap in the record; nothing upstream waits but a lossless source.
 class ClosureStage : public rt::Stage {
  public:
-  ClosureStage(rt::RingReader<core::TrackFrame> tracks, ClosureStageConfig config,
+  using MakeGeometry = std::function<std::unique_ptr<Geometry>(const Amendment&)>;
+
+  ClosureStage(rt::RingReader<core::TrackFrame> tracks, LoopCloserConfig config,
                rt::RingWriter<core::closure::ClosureReport> reports);
+
+  // Set-up only: adopt. One change goes out per report, be it that nothing changes. make may throw: nothing changes.
+  void amend(AmendmentBook& book, MakeGeometry make, rt::RingWriter<ViewChange> changes);
+  // Set-up only: before anything has come.
+  [[nodiscard]] ViewChange first_view() const noexcept;
 
   [[nodiscard]] std::string_view name() const noexcept override { return "closure"; }
   [[nodiscard]] rt::StepStatus step() noexcept override;
-  void finish() noexcept override { reports_.close(); }
+  void finish() noexcept override;
 
  private:
-  void take(const core::TrackFrame& frame) noexcept;
-  [[nodiscard]] bool is_due(double period_s) const noexcept;
   [[nodiscard]] rt::StepStatus report(bool final) noexcept;
-  void conclude(core::closure::ClosureReport& out) const;
+  void amend(core::closure::ClosureReport& report);
+  void tell_tracking() noexcept;
 
   rt::RingReader<core::TrackFrame> tracks_;
-  ClosureStageConfig config_;
+  LoopCloser loop_;
   rt::RingWriter<core::closure::ClosureReport> reports_;
-  std::uint64_t first_unreported_ = 0;  // frame
-  bool has_frames_ = false, is_reported_ = false;
-  std::int64_t t_last_ns_ = 0;
-  std::uint64_t n_reports_ = 0;
+  AmendmentBook* book_ = nullptr;
+  MakeGeometry make_;
+  std::optional<rt::RingWriter<ViewChange>> changes_;
+  ViewChange change_;                            // of the last report
+  std::vector<std::unique_ptr<Geometry>> made_;  // tracking measures by the last but one or the last
 };
 
 }  // namespace app

@@ -16,18 +16,21 @@ rt::StepStatus IdentificationStage::step() noexcept {
   return rt::StepStatus::kWorked;
 }
 
-// Other rate, other folds: what was an apparent frequency is another one now.
-void IdentificationStage::follow_rate(double rate_hz) {
-  if (rate_hz == rate_hz_) return;
-  identifier_ = make_identifier_(rate_hz);
-  rate_hz_ = rate_hz;
+// Other rate, other folds: what was an apparent frequency is another one now. New sums begin at an amendment, too; what
+// estimates of the old ones share with them is nothing.
+void IdentificationStage::follow(const SpectrumSnapshot& snapshot) {
+  if (snapshot.sums.rate_hz == rate_hz_ && snapshot.amendment == amendment_) return;
+  identifier_ = make_identifier_(snapshot.sums.rate_hz, book_.at(snapshot.amendment));
+  rate_hz_ = snapshot.sums.rate_hz;
+  amendment_ = snapshot.amendment;
   tracker_.restart();
 }
 
 bool IdentificationStage::identify(const SpectrumSnapshot& snapshot, IdentificationResult& out) noexcept {
   try {
-    follow_rate(snapshot.sums.rate_hz);
+    follow(snapshot);
     out.estimate = identifier_->identify(snapshot.sums, snapshot.readout);
+    out.estimate.amendments = book_.at(amendment_).words;
     tracker_.set_row_delays(identifier_->delay_s(out.estimate));
     out.sums.copy_totals(snapshot.sums, identifier_->n_outputs());
   } catch (...) {  // out of memory: this estimate is lost and counted, the next may succeed

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/identification/mode_tracker.h"
+#include "firmware_app/amendment.h"
 #include "firmware_app/readout_use.h"
 #include "firmware_app/stages/items.h"
 #include "rt/spsc_ring.h"
@@ -18,15 +19,16 @@ namespace app {
 // time: nothing upstream waits for it but a lossless source.
 class IdentificationStage : public rt::Stage {
  public:
-  // make_identifier: for samples of another rate than the camera's; may throw.
-  using MakeIdentifier = std::function<std::unique_ptr<const ReadoutUse>(double rate_hz)>;
+  // make_identifier: for samples of another rate than the camera's, or under an amendment; may throw.
+  using MakeIdentifier = std::function<std::unique_ptr<const ReadoutUse>(double rate_hz, const Amendment& amendment)>;
 
   IdentificationStage(rt::TripleBuffer<SpectrumSnapshot>& snapshots, double rate_hz, MakeIdentifier make_identifier,
-                      rt::RingWriter<IdentificationResult> results)
+                      const AmendmentBook& book, rt::RingWriter<IdentificationResult> results)
       : snapshots_(snapshots),
         make_identifier_(std::move(make_identifier)),
+        book_(book),
         rate_hz_(rate_hz),
-        identifier_(make_identifier_(rate_hz)),
+        identifier_(make_identifier_(rate_hz, book.at(0))),
         tracker_({.row_delay_s = identifier_->declared_delay_s()}),
         results_(std::move(results)) {}
 
@@ -42,12 +44,14 @@ class IdentificationStage : public rt::Stage {
 
  private:
   void hand_over_state() noexcept;
-  void follow_rate(double rate_hz);
+  void follow(const SpectrumSnapshot& snapshot);
   [[nodiscard]] bool identify(const SpectrumSnapshot& snapshot, IdentificationResult& out) noexcept;
 
   rt::TripleBuffer<SpectrumSnapshot>& snapshots_;
   MakeIdentifier make_identifier_;
+  const AmendmentBook& book_;
   double rate_hz_;
+  std::uint32_t amendment_ = 0;
   std::unique_ptr<const ReadoutUse> identifier_;
   core::ModeTracker tracker_;
   rt::RingWriter<IdentificationResult> results_;

@@ -8,6 +8,7 @@
 #include "core/types/displacement.h"
 #include "core/types/modal_estimate.h"
 #include "core/types/track.h"
+#include "firmware_app/amendment.h"
 
 namespace app {
 
@@ -19,13 +20,23 @@ struct FrameRecord {
   core::DisplacementSample sample;
 };
 
+// closure -> tracking, one per report: what is measured by from a frame on, and when the next report is due. Frames
+// later than next_report_at + n_delay_frames may be changed by it.
+struct ViewChange {
+  std::uint64_t next_report_at = 0, n_delay_frames = 0;
+  Geometry* geometry = nullptr;  // null: nothing changes; closure's own, it lives to the run's end
+  std::uint64_t from_sequence = 0;
+  std::uint32_t amendment = 0;  // number in the AmendmentBook
+};
+
 // spectrum -> identification.
 struct SpectrumSnapshot {
   core::CpsdSums sums;
-  std::uint64_t number = 0;    // 0, 1, 2, ... in stream time
-  std::int64_t t_last_ns = 0;  // time stamp of the newest sample in the sums
-  bool final = false;          // the record has ended
-  core::ReadoutEstimate readout;
+  std::uint64_t number = 0;     // 0, 1, 2, ... in stream time
+  std::int64_t t_last_ns = 0;   // time stamp of the newest sample in the sums
+  bool final = false;           // the record has ended
+  std::uint32_t amendment = 0;  // under which all samples in the sums were measured
+  core::ReadoutEstimate readout = {};
 };
 
 // identification -> publish.

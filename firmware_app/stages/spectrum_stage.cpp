@@ -29,7 +29,8 @@ rt::StepStatus SpectrumStage::step() noexcept {
   if (sample == nullptr) return samples_.finished() ? end_record() : rt::StepStatus::kIdle;
   if (!front_placed_) {
     const std::uint32_t stride = thinning_.at(sample->sequence).stride;
-    if (stride != stride_ && !begin_other_rate(stride)) return rt::StepStatus::kWorked;
+    const bool is_other = stride != stride_ || sample->amendment != amendment_;
+    if (is_other && !begin_other_sums(stride, sample->amendment)) return rt::StepStatus::kWorked;
     const core::TimeGrid::Placement placement = grid_.place(sample->t_start_ns);
     front_placed_ = true;
     front_refused_ = !placement.accepted;
@@ -48,17 +49,17 @@ rt::StepStatus SpectrumStage::step() noexcept {
   return rt::StepStatus::kWorked;
 }
 
-// False: the sums of the old rate are to be handed over first.
-bool SpectrumStage::begin_other_rate(std::uint32_t stride) noexcept {
-  if (welch_.sums().n_segments > 0 && !old_rate_ended_) {
-    old_rate_ended_ = due_ = true;
+// False: the old sums are to be handed over first.
+bool SpectrumStage::begin_other_sums(std::uint32_t stride, std::uint32_t amendment) noexcept {
+  if (welch_.sums().n_segments > 0 && !old_sums_ended_) {
+    old_sums_ended_ = due_ = true;
     return false;
   }
   n_masked_before_ += welch_.sums().n_missing;
   welch_.restart(camera_rate_hz_ / stride);
-  grid_ = core::TimeGrid(camera_rate_hz_ / stride);
-  stride_ = stride;
-  old_rate_ended_ = false;
+  if (stride != stride_) grid_ = core::TimeGrid(camera_rate_hz_ / stride);
+  stride_ = stride, amendment_ = amendment;
+  old_sums_ended_ = false;
   return true;
 }
 
@@ -101,7 +102,8 @@ void SpectrumStage::keep_state(rt::TripleBuffer<StateBytes>& states, double peri
 void SpectrumStage::hand_over_state_when_due() noexcept {
   // A sample that has its cell but is not in the sums yet would be lost to the next run.
   const bool between_samples = n_to_mask_ == 0 && !front_placed_;
-  if (states_ == nullptr || stride_ != 1 || !between_samples || welch_.sums().n_samples < next_state_cell_) return;
+  const bool is_plain = stride_ == 1 && amendment_ == 0;
+  if (states_ == nullptr || !is_plain || !between_samples || welch_.sums().n_samples < next_state_cell_) return;
   next_state_cell_ = welch_.sums().n_samples + state_period_cells_;
   StateBytes& state = states_->back();
   core::StateWriter out(state.bytes);
@@ -142,6 +144,7 @@ rt::StepStatus SpectrumStage::hand_over() noexcept {
   snapshot.number = n_snapshots_++;
   snapshot.t_last_ns = t_stream_ns_.load(std::memory_order_relaxed);
   snapshot.final = flushed_;
+  snapshot.amendment = amendment_;
   snapshot.readout = readout_;
   snapshot.readout.frames /= stride_;  // frames are longer now
   snapshot.readout.std_frames /= stride_;

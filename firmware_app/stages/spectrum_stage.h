@@ -17,7 +17,8 @@ namespace app {
 
 // sample ring -> Welch sums -> a snapshot every `period_hops` hops, in stream time. A lossless source hands over every
 // due snapshot and waits for it to be taken; a live one may overwrite one that was not, and counts it. Where capture
-// begins to keep every n-th frame only, the sums so far are handed over and new ones begin, at the new rate.
+// begins to keep every n-th frame only, or something else is taken out of the points, the sums so far are handed over
+// and new ones begin.
 class SpectrumStage : public rt::Stage {
  public:
   SpectrumStage(rt::RingReader<core::DisplacementSample> samples, const core::WelchConfig& config, int period_hops,
@@ -48,7 +49,7 @@ class SpectrumStage : public rt::Stage {
  private:
   [[nodiscard]] rt::StepStatus hand_over() noexcept;
   [[nodiscard]] rt::StepStatus end_record() noexcept;
-  [[nodiscard]] bool begin_other_rate(std::uint32_t stride) noexcept;
+  [[nodiscard]] bool begin_other_sums(std::uint32_t stride, std::uint32_t amendment) noexcept;
   void take(const core::DisplacementSample& sample) noexcept;
   [[nodiscard]] bool mask_one_missing() noexcept;
   void note_hop(bool hop) noexcept;
@@ -63,6 +64,7 @@ class SpectrumStage : public rt::Stage {
   bool lossless_;
   const ThinningSchedule& thinning_;
   std::uint32_t stride_ = 1;                        // of the samples in the sums
+  std::uint32_t amendment_ = 0;                     // likewise
   std::uint64_t n_masked_before_ = 0;               // in sums that were ended
   rt::TripleBuffer<StateBytes>* states_ = nullptr;  // null: no state is kept
   std::uint64_t state_period_cells_ = 0, next_state_cell_ = 0;
@@ -70,7 +72,7 @@ class SpectrumStage : public rt::Stage {
   std::uint64_t n_to_mask_ = 0;           // grid cells still to be masked before the sample in front
   bool front_placed_ = false;             // the sample in front has its cell
   bool front_refused_ = false;            // ... and it is already taken
-  bool old_rate_ended_ = false;           // the last sums of the old rate were made due
+  bool old_sums_ended_ = false;           // the last sums of the old rate, or amendment, were made due
   bool due_ = false;                      // a snapshot waits to be handed over
   bool flushed_ = false;
   core::ReadoutEstimate readout_;

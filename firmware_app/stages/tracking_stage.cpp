@@ -12,8 +12,8 @@ TrackingStage::TrackingStage(rt::RingReader<core::Frame> frames, core::Structure
                              bool lossless, const ThinningSchedule& thinning)
     : frames_(std::move(frames)),
       tracker_(tracker),
-      channels_(channels),
-      readout_(readout),
+      channels_(&channels),
+      readout_(&readout),
       samples_(std::move(samples)),
       records_(std::move(records)),
       lossless_(lossless),
@@ -27,6 +27,7 @@ TrackingStage::TrackingStage(rt::RingReader<core::Frame> frames, core::Structure
 rt::StepStatus TrackingStage::step() noexcept {
   const core::Frame* frame = frames_.front();
   if (frame == nullptr) return frames_.finished() ? rt::StepStatus::kFinished : rt::StepStatus::kIdle;
+  if (amendments_ && !follow_amendments(frame->sequence)) return rt::StepStatus::kIdle;
   core::DisplacementSample* sample = samples_.try_claim();
   FrameRecord* record = records_.try_claim();
   core::TrackFrame* shown = shown_ ? shown_->try_claim() : nullptr;
@@ -57,12 +58,32 @@ rt::StepStatus TrackingStage::step() noexcept {
   return rt::StepStatus::kWorked;
 }
 
+bool TrackingStage::follow_amendments(std::uint64_t sequence) noexcept {
+  while (const ViewChange* change = amendments_->front()) {
+    view_ = *change;
+    if (view_.geometry != nullptr) pending_ = view_;
+    amendments_->pop();
+  }
+  const bool is_coming = n_shown_through_ > view_.next_report_at;  // all frames of that report were shown
+  const bool is_decided = !is_coming || sequence <= view_.next_report_at + view_.n_delay_frames;
+  if (lossless_ && !is_decided && !amendments_->finished()) return false;
+  if (pending_.geometry == nullptr || sequence < pending_.from_sequence) return true;
+  channels_ = &pending_.geometry->displacement;
+  readout_ = &pending_.geometry->readout;
+  scratch_.sample.amendment = pending_.amendment;
+  events().write("correction {} from frame {} on", pending_.amendment, static_cast<std::int64_t>(sequence));
+  pending_ = {};
+  return true;
+}
+
 void TrackingStage::show(core::TrackFrame* slot) noexcept {
   if (slot == nullptr) {
     n_shown_lost_.store(n_shown_lost_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
     return;
   }
   *slot = scratch_.tracks;
+  if (n_shown_through_ == 0) view_.next_report_at += scratch_.tracks.sequence;  // the stream begins here
+  n_shown_through_ = scratch_.tracks.sequence + 1;
   shown_->publish();
 }
 
@@ -70,14 +91,14 @@ void TrackingStage::measure(const core::Frame& frame) noexcept {
   if (!tracker_.track(frame, scratch_.tracks))
     n_failed_.store(n_failed_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   take_attitude();
-  channels_.update(scratch_.tracks, scratch_.sample);
+  channels_->update(scratch_.tracks, scratch_.sample);
   count_attitude();
   // Its filters are made for the camera's own rate; the readout is the same at any.
-  if (thinning_.at(frame.sequence).stride == 1) readout_.update(scratch_.tracks);
-  scratch_.sample.readout = readout_.estimate();
+  if (thinning_.at(frame.sequence).stride == 1) readout_->update(scratch_.tracks);
+  scratch_.sample.readout = readout_->estimate();
   tracker_.learn(scratch_.tracks);
   count_regions();
-  camera_given_up_.store(channels_.camera_given_up(), std::memory_order_relaxed);
+  camera_given_up_.store(channels_->camera_given_up(), std::memory_order_relaxed);
   n_reseeded_.store(tracker_.n_reseeded(), std::memory_order_relaxed);
   std::uint64_t n_tracked = 0;
   for (const core::TrackPoint& point : scratch_.tracks.points) n_tracked += point.inlier ? 1U : 0U;
@@ -91,13 +112,13 @@ void TrackingStage::take_attitude() noexcept {
   for (int i = 0; i < kMost; ++i) {
     const core::AttitudeSample* sample = attitude_->front();
     if (sample == nullptr) return;
-    channels_.take(*sample);
+    channels_->take(*sample);
     attitude_->pop();
   }
 }
 
 void TrackingStage::count_attitude() noexcept {
-  const core::AttitudePrior* attitude = channels_.attitude();
+  const core::AttitudePrior* attitude = channels_->attitude();
   if (attitude == nullptr) return;
   attitude_given_up_.store(attitude->given_up(), std::memory_order_relaxed);
   n_with_attitude_.store(attitude->n_used(), std::memory_order_relaxed);

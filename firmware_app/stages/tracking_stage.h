@@ -31,6 +31,12 @@ class TrackingStage : public rt::Stage {
   // Set-up only: every frame's points go there too; what finds no room is counted.
   void show_tracks(rt::RingWriter<core::TrackFrame> tracks) { shown_.emplace(std::move(tracks)); }
 
+  // Set-up only: measure by what closure makes, from the frames it says. A lossless source waits for each decision.
+  void follow_amendments(rt::RingReader<ViewChange> changes, const ViewChange& first) {
+    amendments_.emplace(std::move(changes));
+    view_ = first;
+  }
+
   [[nodiscard]] std::string_view name() const noexcept override { return "tracking"; }
   [[nodiscard]] rt::StepStatus step() noexcept override;
   void finish() noexcept override;
@@ -70,17 +76,22 @@ class TrackingStage : public rt::Stage {
     std::uint64_t points_total = 0;
   };
 
+  [[nodiscard]] bool follow_amendments(std::uint64_t sequence) noexcept;  // false: not decided yet
   void measure(const core::Frame& frame) noexcept;
   void count_regions() noexcept;
   void show(core::TrackFrame* slot) noexcept;  // null: no room
 
   rt::RingReader<core::Frame> frames_;
   core::StructureTracker& tracker_;
-  core::ChannelDisplacement& channels_;
-  core::ReadoutEstimator& readout_;
+  core::ChannelDisplacement* channels_;
+  core::ReadoutEstimator* readout_;
   rt::RingWriter<core::DisplacementSample> samples_;
   rt::RingWriter<FrameRecord> records_;
   std::optional<rt::RingWriter<core::TrackFrame>> shown_;
+  std::optional<rt::RingReader<ViewChange>> amendments_;
+  ViewChange view_;     // newest decision
+  ViewChange pending_;  // geometry null: none
+  std::uint64_t n_shown_through_ = 0;
   bool lossless_;
   const ThinningSchedule& thinning_;
   FrameRecord scratch_;

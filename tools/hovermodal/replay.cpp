@@ -30,6 +30,7 @@ void add_replay(CLI::App& app) {
   command->callback([options] {
     const app::AppConfig config = app::load_config(options->config, options->overrides);
     const app::TracksResult result = app::replay_tracks(config, options->tracks, options->report);
+    for (const std::string& change : result.changes) fmt::print("{}\n", change);
     fmt::print("{}", modes_text(result.estimate, result.channels));
     if (!options->report.empty()) fmt::print("open {}/{}\n", options->report, app::kReportName);
   });

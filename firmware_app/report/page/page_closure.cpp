@@ -40,10 +40,12 @@ std::string found_html(const ClosureReport& report) {
     if (!rivals.empty())
       out += paragraph_html(step.effect + " cannot be told from: " + rivals + "; the cause is one of these.", "note");
   }
-  out +=
-      paragraph_html(fmt::format("With these {:.4f} {} are left. The results of this run do not contain them: declare "
-                                 "what was found, or correct its cause, and run again.",
-                                 result.residual_rms, result.unit));
+  out += paragraph_html(fmt::format("With these {:.4f} {} are left.", result.residual_rms, result.unit));
+  for (const std::string& effect : report.in_force) out += paragraph_html("Taken out during the run: " + effect + ".");
+  if (report.in_force.size() < result.steps.size())
+    out += paragraph_html(
+        "What was not taken out is still in the results: declare what was found, or correct its "
+        "cause, and run again.");
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <numeric>
 #include <vector>
 
@@ -19,10 +20,19 @@ using test_support::swaying_record;
 using test_support::track_frame;
 using ::testing::HasSubstr;
 
-constexpr double kWindow_s = 40.0, kPeriod_s = 30.0;
+constexpr double kWindow_s = 40.0, kPeriod_s = 30.0, kDelay_s = 10.0;
 
-// The stage fed with a record, run to its end; its reports.
-std::vector<ClosureReport> reports_of(const ObservationRecord& record) {
+// Nothing is measured by it here.
+std::unique_ptr<Geometry> no_geometry(const core::TrackFrame& keyframe, const ObservationRecord& record) {
+  core::ChannelDisplacementConfig config;
+  config.regions = record.regions;
+  return std::make_unique<Geometry>(
+      Geometry{{config, keyframe}, {{{record.regions.size(), {}, {}}, record.rate_hz}, keyframe}});
+}
+
+// The stage fed with a record, run to its end; its reports, and what it tells tracking if it is asked to adopt.
+std::vector<ClosureReport> reports_of(const ObservationRecord& record, std::vector<ViewChange>* changes = nullptr,
+                                      AmendmentBook* book = nullptr) {
   rt::SpscRing<core::TrackFrame> tracks(16, track_frame(record, 0));
   rt::SpscRing<ClosureReport> reports(8, ClosureReport{});
   ObservationRecord declared = record;
@@ -31,7 +41,18 @@ std::vector<ClosureReport> reports_of(const ObservationRecord& record) {
   RecentTracks recent(declared, camera, record.region_of_point, static_cast<std::size_t>(kWindow_s * record.rate_hz));
   std::vector<int> columns(record.region_of_point.size());
   std::iota(columns.begin(), columns.end(), 0);
-  ClosureStage stage(tracks.reader(), {recent, columns, record.rate_hz, kPeriod_s}, reports.writer());
+  rt::SpscRing<ViewChange> view_changes(8, ViewChange{});
+  const bool adopts = changes != nullptr;
+  std::vector<core::Vector2> keyframe_px;
+  for (const core::TrackPoint& p : track_frame(record, 0).points) keyframe_px.push_back({p.u_px, p.v_px});
+  ClosureStage stage(tracks.reader(),
+                     {recent, camera, columns, keyframe_px, record.rate_hz, kPeriod_s, kDelay_s, adopts},
+                     reports.writer());
+  if (adopts) {
+    const auto make = [&](const Amendment&) { return no_geometry(track_frame(record, 0), record); };
+    stage.amend(*book, make, view_changes.writer());
+    changes->push_back(stage.first_view());
+  }
   auto writer = tracks.writer();
   for (Eigen::Index k = 0; k < record.n_frames(); ++k) {
     *writer.try_claim() = track_frame(record, k);
@@ -45,6 +66,8 @@ std::vector<ClosureReport> reports_of(const ObservationRecord& record) {
   EXPECT_EQ(last, rt::StepStatus::kFinished);
   stage.finish();
   std::vector<ClosureReport> out;
+  auto heard = view_changes.reader();
+  for (; heard.front() != nullptr; heard.pop()) changes->push_back(*heard.front());
   auto reader = reports.reader();
   for (; reader.front() != nullptr; reader.pop()) out.push_back(*reader.front());
   EXPECT_TRUE(reader.finished());
@@ -96,6 +119,38 @@ TEST(ClosureStage, TheSameTracksGiveTheSameBits) {
   ASSERT_FALSE(one[0].result.steps.empty());
   EXPECT_EQ(one[0].result.steps[0].effect, "radial distortion");
   EXPECT_EQ(one[0].result.steps[0].parameters[0].value, other[0].result.steps[0].parameters[0].value);
+}
+
+TEST(ClosureStage, AdoptsWhatTwoReportsAgreeOnAndTellsTrackingOncePerReport) {
+  std::vector<ViewChange> changes;
+  AmendmentBook book;
+  const std::vector<ClosureReport> reports = reports_of(swaying_record(25 * 95, {.k1 = -0.05}), &changes, &book);
+  ASSERT_EQ(reports.size(), 3U);
+  EXPECT_TRUE(reports[0].changes.empty());
+  ASSERT_EQ(reports[1].changes.size(), 1U);
+  EXPECT_THAT(reports[1].changes[0], HasSubstr("from frame 1750 on taken out, radial distortion: k1 = -0.0"));
+  ASSERT_EQ(reports[2].in_force.size(), 1U);
+  ASSERT_EQ(changes.size(), 4U);  // before anything came, and after each report
+  EXPECT_EQ(changes[0].next_report_at, 749U);
+  EXPECT_EQ(changes[0].n_delay_frames, 250U);
+  EXPECT_EQ(changes[1].next_report_at, 1499U);
+  EXPECT_EQ(changes[1].geometry, nullptr);
+  ASSERT_NE(changes[2].geometry, nullptr);
+  EXPECT_EQ(changes[2].from_sequence, 1750U);
+  EXPECT_EQ(changes[2].amendment, 1U);
+  EXPECT_EQ(changes[3].geometry, nullptr);
+  const Amendment& amendment = book.at(1);
+  EXPECT_NEAR(amendment.places.lens.distortion[0], -0.05, 0.002);
+  EXPECT_TRUE(amendment.places.in_keyframe);  // it was there from the first frame on
+  EXPECT_EQ(amendment.words.size(), 1U);
+}
+
+TEST(ClosureStage, WithoutAnEffectNothingIsAdopted) {
+  std::vector<ViewChange> changes;
+  AmendmentBook book;
+  const std::vector<ClosureReport> reports = reports_of(swaying_record(25 * 62, {}), &changes, &book);
+  for (const ClosureReport& report : reports) EXPECT_TRUE(report.changes.empty());
+  for (const ViewChange& change : changes) EXPECT_EQ(change.geometry, nullptr);
 }
 
 }  // namespace

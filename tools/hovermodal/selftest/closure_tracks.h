@@ -21,4 +21,7 @@ void print_closure_tracks_pairs(const ClosureTracksOptions& options);    // two 
 void print_closure_tracks_null(const ClosureTracksOptions& options);     // records without an effect
 void print_closure_tracks_outside(const ClosureTracksOptions& options);  // each effect taken out of the catalogue
 
+void print_closure_live(const ClosureTracksOptions& options);  // effects that begin in mid-flight, closure.adopt: auto
+void print_closure_live_null(const ClosureTracksOptions& options);  // the same without an effect
+
 }  // namespace tools

@@ -105,6 +105,9 @@ Lines closure_lines(const StreamMonitor& monitor) {
     out.push_back(fmt::format("      {}: {}", printable(c->steps[i].effect), printable(c->steps[i].numbers)));
   if (c->n_adopted > static_cast<int>(out.size()) - 1)
     out.back() += fmt::format(" (and {} more)", c->n_adopted - static_cast<int>(out.size()) + 1);
+  for (const std::string& change : c->changes) out.push_back("      " + printable(change));
+  if (c->changes.empty())
+    for (const std::string& effect : c->in_force) out.push_back("      taken out: " + printable(effect));
   return out;
 }
 
