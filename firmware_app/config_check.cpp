@@ -27,7 +27,7 @@ class Checker {
     check_scale();
     check_calibration();
     check_depths();
-    if (config_.closure.delay_s > config_.closure.period_s) {
+    if (is_written("closure.delay_s") && config_.closure.delay_s > config_.closure.period_s) {
       refuse("closure.delay_s", fmt::format("{:g}", config_.closure.delay_s),
              fmt::format("0 .. {:g} (closure.period_s)", config_.closure.period_s), "write a smaller number");
     }

@@ -88,7 +88,7 @@ void add_closure_keys(std::vector<ConfigKey>& keys) {
                             "of stream time between two reports; the first needs 20 s of record"));
   keys.push_back(number_key("closure.delay_s", "s", at(&A::closure, &C::delay_s), {0, 3600},
                             "from the last frame of a report to the first that it may change: longer than a report "
-                            "takes, so that a replay changes at the same frame; at most closure.period_s"));
+                            "takes, so that a replay changes at the same frame; no longer than closure.period_s"));
 }
 
 void add_output_keys(std::vector<ConfigKey>& keys) {

@@ -32,7 +32,7 @@ LoopCloserConfig loop_closer_config(const AppConfig& config, const core::CameraI
           std::move(keyframe_px),
           rate_hz,
           config.closure.period_s,
-          config.closure.delay_s,
+          std::min(config.closure.delay_s, config.closure.period_s),
           config.closure.adopt == ClosureAdopt::kAuto};
 }
 

@@ -3,10 +3,13 @@
 //   overload_run overload SECONDS          a source four times faster than tracking can follow, in real time
 //   overload_run loss SECONDS [SEED [SEGMENT]]   30 % of the frames lost at random before they reach us; SEED 0: none
 //   overload_run soak FRAMES               as fast as possible
-//   overload_run latency SECONDS CPUS PRIORITY   1920 x 1080 at 60 frames a second, CPUS kept busy, SCHED_FIFO PRIORITY
+//   overload_run latency SECONDS CPUS PRIORITY [KEY=VALUE]...   1920 x 1080 at 60 frames a second, CPUS kept busy,
+//                                                  SCHED_FIFO PRIORITY, and whatever else the configuration says
 #include <gtest/gtest.h>
 
 #include <unistd.h>
+
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
@@ -155,7 +158,7 @@ int soak(std::uint64_t n_frames) {
              : 1;
 }
 
-int latency(double seconds, int n_busy, const std::string& priority) {
+int latency(double seconds, int n_busy, const std::string& priority, const std::vector<std::string>& more) {
   const auto clip = std::make_shared<const SceneClip>(at_rate(core::simulation::make_paper_scene(1, 1.0), 60.0), 30);
   std::atomic<bool> stop{false};
   std::vector<std::thread> busy;
@@ -166,8 +169,9 @@ int latency(double seconds, int n_busy, const std::string& priority) {
     });
   }
   const auto n_frames = static_cast<std::uint64_t>(60.0 * seconds);
-  const Run result = run(clip, {n_frames, 16'666'667, false, 0}, 60.0,
-                         {"spectrum.segment=64", "rt.priority=" + priority, "rt.lock_memory=true"}, n_frames / 2);
+  std::vector<std::string> overrides{"spectrum.segment=64", "rt.priority=" + priority, "rt.lock_memory=true"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  const Run result = run(clip, {n_frames, 16'666'667, false, 0}, 60.0, overrides, n_frames / 2);
   stop = true;
   for (std::thread& thread : busy) thread.join();
   const core::LatencyHealth& l = result.outcome.health.frame_latency;
@@ -188,7 +192,9 @@ int main(int argc, char** argv) {
   if (what == "loss")
     return loss(amount, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1, argc > 4 ? argv[4] : "512");
   if (what == "soak") return soak(static_cast<std::uint64_t>(amount));
-  if (what == "latency") return latency(amount, argc > 3 ? std::atoi(argv[3]) : 0, argc > 4 ? argv[4] : "0");
+  if (what == "latency")
+    return latency(amount, argc > 3 ? std::atoi(argv[3]) : 0, argc > 4 ? argv[4] : "0",
+                   {argv + std::min(argc, 5), argv + argc});
   std::fprintf(stderr, "usage: overload_run overload|loss|latency SECONDS, or soak FRAMES\n");
   return 2;
 }
