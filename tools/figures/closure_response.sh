@@ -6,17 +6,7 @@ figure_6() {
     for number in 6a 6b; do line "$number" SKIP "-" "-" "no $knex"; done
     return
   fi
-  cat >"$out/knex.yaml" <<Y
-camera: {driver: file, source: "$knex/knex_1300x2046_gray.mp4", rate_hz: 20}
-regions:
-  - {name: base, rect: [120, 1875, 1060, 70], role: base}
-  - {name: floor1, rect: [120, 1385, 1030, 70]}
-  - {name: floor2, rect: [120, 895, 1030, 70]}
-  - {name: roof, rect: [120, 435, 1030, 70]}
-spectrum: {segment: 128}
-scale: {adaptive: false}
-telemetry: {lcm_url: ""}
-Y
+  knex_config >"$out/knex.yaml"
   quietly "$bin/hovermodald" --config "$out/knex.yaml" --report "$out/knex"
   local filmed=(--record "$out/knex/displacements.csv" --rate 20 --base base --clock "$knex/stopwatch_readings.csv" --clock-sigma-ms 13)
   closeloop knex_clock "${filmed[@]}"

@@ -30,3 +30,18 @@ quietly() {
   fi
   rm -f "$log"
 }
+
+# The service's configuration for the filmed three-storey frame, on standard output.
+knex_config() {
+  cat <<Y
+camera: {driver: file, source: "$data/knex_frame_video/knex_1300x2046_gray.mp4", rate_hz: 20}
+regions:
+  - {name: base, rect: [120, 1875, 1060, 70], role: base}
+  - {name: floor1, rect: [120, 1385, 1030, 70]}
+  - {name: floor2, rect: [120, 895, 1030, 70]}
+  - {name: roof, rect: [120, 435, 1030, 70]}
+spectrum: {segment: 128}
+scale: {adaptive: false}
+telemetry: {lcm_url: ""}
+Y
+}

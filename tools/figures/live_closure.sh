@@ -187,16 +187,7 @@ regions:
 spectrum: {segment: 64}
 scale: {adaptive: false}
 Y
-  cat >"$out/knex.yaml" <<Y
-camera: {driver: file, source: "$data/knex_frame_video/knex_1300x2046_gray.mp4", rate_hz: 20}
-regions:
-  - {name: base, rect: [120, 1875, 1060, 70], role: base}
-  - {name: floor1, rect: [120, 1385, 1030, 70]}
-  - {name: floor2, rect: [120, 895, 1030, 70]}
-  - {name: roof, rect: [120, 435, 1030, 70]}
-spectrum: {segment: 128}
-scale: {adaptive: false}
-Y
+  knex_config >"$out/knex.yaml"
   local name
   for name in phone knex; do
     rm -f "$out/$name.lcm"
