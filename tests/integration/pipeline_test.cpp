@@ -80,6 +80,37 @@ TEST(Pipeline, ClosesTheLoopWhileItRuns) {
   }
 }
 
+// A lens is declared that is not there. Two reports agree on it; from the announced frame on it is taken out, new sums
+// begin, and every estimate of these says so. Neither the frame nor a bit depends on how long the stages take.
+TEST(Pipeline, TakesOutWhatTwoReportsFoundFromTheAnnouncedFrameOn) {
+  std::vector<std::shared_ptr<Heard>> heard;
+  for (const int slots : {2, 64}) {
+    Rig rig(frames(1500), {"closure.adopt=auto", "closure.period_s=20", "closure.window_s=24", "closure.delay_s=4",
+                           "calibration.distortion=[0.2, 0, 0, 0]", "spectrum.segment=64",
+                           "rt.frame_slots=" + std::to_string(slots)});
+    heard.push_back(rig.heard);
+    EXPECT_EQ(rig.run().fault, "");
+  }
+  const auto& reports = heard[0]->closures;
+  ASSERT_EQ(reports.size(), 3U);
+  EXPECT_TRUE(reports[0].changes.empty());
+  ASSERT_EQ(reports[1].changes.size(), 1U);
+  EXPECT_THAT(reports[1].changes[0], HasSubstr("from frame 1100 on taken out, radial distortion"));
+  EXPECT_EQ(reports[2].in_force.size(), 1U);
+  const auto& estimates = heard[0]->estimates;
+  ASSERT_FALSE(estimates.empty());
+  EXPECT_TRUE(estimates.front().amendments.empty());
+  EXPECT_EQ(estimates.back().amendments.size(), 1U);
+  EXPECT_EQ(estimates.back().n_samples, 400U);  // those before are not added to
+  ASSERT_EQ(heard[1]->estimates.size(), estimates.size());
+  for (std::size_t k = 0; k < estimates.size(); ++k) {
+    EXPECT_EQ(estimates[k].amendments, heard[1]->estimates[k].amendments);
+    ASSERT_EQ(estimates[k].modes.size(), heard[1]->estimates[k].modes.size());
+    for (std::size_t m = 0; m < estimates[k].modes.size(); ++m)
+      EXPECT_TRUE(same_bits(estimates[k].modes[m].frequency_hz, heard[1]->estimates[k].modes[m].frequency_hz));
+  }
+}
+
 TEST(Pipeline, LooksForNoMissingEffectWhereNobodyWantsIt) {
   Rig rig(frames(100), {"closure.adopt=off", "spectrum.segment=64"});
   const auto outcome = rig.run();
