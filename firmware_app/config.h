@@ -90,8 +90,9 @@ struct ClosureConfig {
   ClosureAdopt adopt = ClosureAdopt::kReport;
   double window_s = 120.0;  // of the newest tracks that are looked at
   int points_per_region = 12;
-  double period_s = 60.0;  // of stream time between two reports
-  double delay_s = 30.0;   // from the last frame of a report to the first that it may change
+  double period_s = 60.0;   // of stream time between two reports
+  double least_px = 0.005;  // rms over the points: what is smaller is not told
+  double delay_s = 30.0;    // from the last frame of a report to the first that it may change
 };
 
 struct TelemetryConfig {

@@ -86,6 +86,8 @@ void add_closure_keys(std::vector<ConfigKey>& keys) {
                            "and ten seconds of a fast processor core, at ordinary priority"));
   keys.push_back(number_key("closure.period_s", "s", at(&A::closure, &C::period_s), {20, 86400},
                             "of stream time between two reports; the first needs 20 s of record"));
+  keys.push_back(number_key("closure.least_px", "px", at(&A::closure, &C::least_px), {0, 10},
+                            "rms over the points and frames looked at: an effect that moves them less is not told"));
   keys.push_back(number_key("closure.delay_s", "s", at(&A::closure, &C::delay_s), {0, 3600},
                             "from the last frame of a report to the first that it may change: longer than a report "
                             "takes, so that a replay changes at the same frame; no longer than closure.period_s"));

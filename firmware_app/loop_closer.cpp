@@ -33,7 +33,8 @@ LoopCloserConfig loop_closer_config(const AppConfig& config, const core::CameraI
           rate_hz,
           config.closure.period_s,
           std::min(config.closure.delay_s, config.closure.period_s),
-          config.closure.adopt == ClosureAdopt::kAuto};
+          config.closure.adopt == ClosureAdopt::kAuto,
+          config.closure.least_px};
 }
 
 void LoopCloser::take(const core::TrackFrame& frame) noexcept {
@@ -135,6 +136,7 @@ void LoopCloser::conclude(core::closure::ClosureReport& out) const {
     core::closure::ObservationLevel level(config_.recent.record());
     core::closure::ClosureOptions options;
     options.n_surrogates = core::closure::ObservationLevel::kSurrogates;
+    options.least_gain = config_.least_px;
     out.result = core::closure::close_loop(level, options);
   } catch (const std::bad_alloc&) {
     throw;

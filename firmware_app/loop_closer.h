@@ -23,6 +23,7 @@ struct LoopCloserConfig {
   double period_s = 60.0;  // of stream time between two reports
   double delay_s = 30.0;   // from the last frame of a report to the first that it changes
   bool adopts = false;
+  double least_px = 0.0;  // rms: what moves the points less is not told
 };
 // With closure.adopt: off it keeps one frame.
 [[nodiscard]] LoopCloserConfig loop_closer_config(const AppConfig& config, const core::CameraInfo& camera,

@@ -73,6 +73,11 @@ class Loop {
       fit_ = level_.fit();
       return stop(scores[best].effect + " was taken back: the held-out error did not fall when all was refitted");
     }
+    if (!from_nothing && reached < options_.least_gain * options_.least_gain) {
+      level_.drop();
+      fit_ = level_.fit();
+      return stop("the best candidate, " + scores[best].effect + ", takes out less than was asked for");
+    }
     ClosureStep step;
     step.effect = scores[best].effect;
     step.kind = scores[best].kind;

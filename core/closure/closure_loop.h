@@ -17,6 +17,7 @@ struct ClosureOptions {
   std::size_t n_surrogates_when_plain = 0;
   std::uint64_t seed = 1;
   std::size_t max_steps = 8;
+  double least_gain = 0.0;  // in the level's unit: a step that takes out less (rms, held out) is not worth telling
   std::function<void(const std::string&)> progress = {};  // told in words what is being done
 };
 

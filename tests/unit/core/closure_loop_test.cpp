@@ -151,6 +151,18 @@ TEST(ClosureLoop, TakesBackWhatTheRefitDoesNotKeep) {
   EXPECT_THAT(result.stop_reason, HasSubstr("taken back"));
 }
 
+TEST(ClosureLoop, WhatTakesOutLessThanWasAskedForIsNotTold) {
+  ClosureOptions options;
+  for (const double least : {2.6, 2.7}) {  // 4 -> 3 takes out sqrt(7) = 2.65
+    ScriptedLevel level;
+    level.known = {{"small", 3.0}};
+    options.least_gain = least;
+    const ClosureResult result = close_loop(level, options);
+    EXPECT_EQ(result.steps.size(), least < 2.65 ? 1U : 0U);
+    EXPECT_EQ(result.stop_reason.find("small, takes out less than was asked for") != std::string::npos, least > 2.65);
+  }
+}
+
 TEST(ClosureLoop, NeverDrawsASurrogateTwice) {
   ScriptedLevel level;
   level.known = {{"a", 2.5}, {"b", 2.0}, {"c", 1.5}};

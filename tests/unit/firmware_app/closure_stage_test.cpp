@@ -46,7 +46,7 @@ std::vector<ClosureReport> reports_of(const ObservationRecord& record, std::vect
   std::vector<core::Vector2> keyframe_px;
   for (const core::TrackPoint& p : track_frame(record, 0).points) keyframe_px.push_back({p.u_px, p.v_px});
   ClosureStage stage(tracks.reader(),
-                     {recent, camera, columns, keyframe_px, record.rate_hz, kPeriod_s, kDelay_s, adopts},
+                     {recent, camera, columns, keyframe_px, record.rate_hz, kPeriod_s, kDelay_s, adopts, 0.0},
                      reports.writer());
   if (adopts) {
     const auto make = [&](const Amendment&) { return no_geometry(track_frame(record, 0), record); };
