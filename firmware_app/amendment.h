@@ -37,6 +37,7 @@ struct Geometry {
 // Throws as displacement_config().
 [[nodiscard]] std::unique_ptr<Geometry> make_geometry(const AppConfig& config, const core::CameraInfo& camera,
                                                       const core::TrackFrame& keyframe, const Amendment& amendment);
+
 // All amendments of a run. One thread adds; any reads one whose number has reached it through a ring: nothing that is
 // in the book ever changes.
 class AmendmentBook {
