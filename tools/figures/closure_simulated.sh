@@ -13,9 +13,10 @@ figure_1_tracks() {
   grep '^# bars' "$out/closure-tracks.txt"
   echo "# confusion: effect, strength, what was named, records"
   awk -F'\t' '$1 == "closure-tracks" { n[$2 "\t" $3 "\t" $8]++ } END { for (k in n) print "#\t" k "\t" n[k] }' "$out/closure-tracks.txt" | sort
-  local effect strength n exact within after bias before modal twin share most what
+  local effect strength n exact within after bias before modal twin share most right bar what
   while IFS=$'\t' read -r effect strength n exact within after bias before modal twin; do
-    share=0.95 most=1.1
+    share=0.95 most=1.1 right="$within >= $exact" bar="all within 3 sigma"
+    [ "$effect" != "readout time" ] || right="$bias <= 0.03 && $bias >= -0.03" bar="bias 0.03"
     [ "$effect" != "rotor line" ] || share=0.9
     [ "$effect" != "camera yaw" ] || most=1.25
     what="modal error $before -> $modal %, without the effect $twin % (median rms)"
@@ -23,8 +24,8 @@ figure_1_tracks() {
       line "1.${effect// /_}.$strength" beside "alone and right $exact of $n, within 3 sigma $within, after $after of the floor" "-" "$what"
     else
       judge "1.${effect// /_}.$strength" "alone and right $exact of $n, within 3 sigma $within, after $after of the floor, bias $bias" \
-        "$share of records, all, $most" "$what" \
-        "$exact >= $share * $n && $within >= $exact && $after <= $most && (\"$effect\" != \"readout time\" || ($bias <= 0.03 && $bias >= -0.03))"
+        "$share of records, $bar, $most" "$what" \
+        "$exact >= $share * $n && $after <= $most && $right"
     fi
   done < <(tracks_cells)
 }
