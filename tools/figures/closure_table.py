@@ -19,15 +19,19 @@ DATA = [
 ]
 
 
+def short(value):
+    return f"{value:.0f}" if abs(value) >= 1000 else f"{value:.3g}"
+
+
 def pair(before, after, unit):
     if before is None or after is None:
         return "-"
-    return f"{before:.3g} to {after:.3g} {unit}"
+    return f"{short(before)} to {short(after)} {unit}"
 
 
 def parameter(name, p):
     sigma = f" +- {p['sigma']:.2g}" if p["sigma"] is not None else ""
-    unit = "" if p["unit"] == "1" else " " + p["unit"]
+    unit = "" if p["unit"] in ("1", "") else " " + p["unit"]
     return f"{name} {p['value']:.4g}{sigma}{unit}"
 
 
@@ -60,7 +64,7 @@ def main():
         unit, steps = c["baseline"]["unit"], c["steps"]
         held = pair(steps[0]["heldout_before"], steps[-1]["heldout_after"], unit) if steps else "-"
         print("|", " | ".join([
-            words, f"{c['baseline']['residual_rms']:.3g} {unit}", "; ".join(effect(s) for s in steps) or "nothing", held,
+            words, f"{short(c['baseline']['residual_rms'])} {unit}", "; ".join(effect(s) for s in steps) or "nothing", held,
             pair(c["reference_error_before"], c["reference_error_after"], c["reference_unit"]), modes(c)]), "|")
 
 
