@@ -39,10 +39,17 @@ hovermodal::closure_report_t to_message(const core::closure::ClosureReport& repo
   out.unexplained = result.unexplained_fraction;
   out.left = clipped(result.unexplained, kMaxReasonBytes);
   out.stop_reason = clipped(result.stop_reason, kMaxReasonBytes);
-  out.n_changes = to_int16(report.changes.size());
-  for (const std::string& words : report.changes) out.changes.push_back(clipped(words, kMaxReasonBytes));
-  out.n_in_force = to_int16(report.in_force.size());
-  for (const std::string& words : report.in_force) out.in_force.push_back(clipped(words, kMaxMeaningBytes));
+  constexpr auto kWordsBytes = static_cast<int>(kMaxModalPartBytes) / 2;  // the rest is for the steps
+  for (const std::string& words : report.changes) {
+    if (out.getEncodedSize() > kWordsBytes) break;
+    out.changes.push_back(clipped(words, kMaxReasonBytes));
+    out.n_changes = to_int16(out.changes.size());
+  }
+  for (const std::string& words : report.in_force) {
+    if (out.getEncodedSize() > kWordsBytes) break;
+    out.in_force.push_back(clipped(words, kMaxMeaningBytes));
+    out.n_in_force = to_int16(out.in_force.size());
+  }
   out.n_adopted = to_int16(result.steps.size());
   for (const core::closure::ClosureStep& step : result.steps) {
     out.steps.push_back(to_message(step));

@@ -116,6 +116,8 @@ inline core::closure::ClosureReport sample_closure(std::size_t n_steps, std::uin
   out.result.unexplained_fraction = 0.01;
   out.result.unexplained = "nothing: noise";
   out.result.stop_reason = "noise";
+  out.changes = {"from frame 1875 on taken out, readout time: readout = 22.5 +- 0.12 ms"};
+  out.in_force = {"readout time: readout = 22.5 +- 0.12 ms, from frame 1875 on"};
   for (std::size_t i = 0; i < n_steps; ++i) {
     core::closure::ClosureStep step;
     step.effect = i % 2 == 0 ? "readout time" : "latent " + std::to_string(i);

@@ -1,6 +1,7 @@
 #ifdef HOVERMODAL_WITH_LCM
 #include "drivers/telemetry/encode.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -74,9 +75,11 @@ TEST(LcmEncode, AnEstimateWithoutModesIsOneMessageThatSaysWhy) {
 }
 
 TEST(LcmEncode, ModesComeBackWithTheirNumbers) {
-  const auto estimate = tests::sample_estimate(6, 2, 3);
+  auto estimate = tests::sample_estimate(6, 2, 3);
+  estimate.amendments = {"pixel locking: sin = 0.043 +- 6e-05 px, from frame 8250 on"};
   const auto back = over_the_wire(to_messages(estimate, tests::sample_channels(6), kIdentity).at(0));
   ASSERT_TRUE(back);
+  EXPECT_EQ(back->amendments, estimate.amendments);
   EXPECT_EQ(back->stream_id, "tower");
   EXPECT_EQ(static_cast<std::uint64_t>(back->config_hash), kIdentity.config_hash);
   EXPECT_EQ(back->number, 3);
@@ -134,10 +137,16 @@ TEST(LcmEncode, AReportOfClosingTheLoopComesBackWithItsNumbers) {
   EXPECT_EQ(back->steps[0].numbers, "readout = 22.5 +- 0.12 ms, offset = 3 (at a bound, or not fixed by the data)");
   EXPECT_EQ(back->steps[1].is_latent, 1);
   EXPECT_EQ(back->steps[1].meaning, "in region roof, along u, strongest at 3.2 Hz");
+  ASSERT_EQ(back->n_changes, 1);
+  EXPECT_THAT(back->changes[0], ::testing::HasSubstr("from frame 1875 on taken out, readout time"));
+  ASSERT_EQ(back->n_in_force, 1);
+  EXPECT_THAT(back->in_force[0], ::testing::HasSubstr("from frame 1875 on"));
 }
 
 TEST(LcmEncode, AReportOfClosingTheLoopIsOneDatagramWhateverItHolds) {
   core::closure::ClosureReport report = tests::sample_closure(40);
+  report.changes.assign(40, std::string(5000, 'c'));
+  report.in_force.assign(40, std::string(5000, 'f'));
   for (std::string* words : {&report.refused, &report.result.unexplained, &report.result.stop_reason,
                              &report.result.level, &report.result.unit})
     words->assign(5000, 'w');
