@@ -21,6 +21,8 @@ namespace app {
 struct Amendment {
   std::uint32_t number = 0;
   std::uint64_t from_sequence = 0;
+  bool begins_record = false;  // rows are seen at other times than before: spectra of both are not to be added
+  std::uint32_t record = 0;    // number of the amendment since which they may be
   core::PlaceCorrection places;
   double added_readout_frames = 0.0, readout_sigma_frames = 0.0;  // 0, 0: as declared
   std::vector<std::string> words;                                 // all effects in force
@@ -44,9 +46,10 @@ class AmendmentBook {
  public:
   static constexpr std::size_t kMost = 64;  // the declared state is the first
   [[nodiscard]] bool full() const noexcept { return n_ == kMost; }
-  // Gives it its number.
+  // Gives it its number and record.
   const Amendment& add(Amendment amendment) {
     amendment.number = static_cast<std::uint32_t>(n_);
+    amendment.record = amendment.begins_record ? amendment.number : pages_[n_ - 1].record;
     return pages_[n_++] = std::move(amendment);
   }
   [[nodiscard]] const Amendment& at(std::uint32_t number) const { return pages_.at(number); }

@@ -95,6 +95,7 @@ std::optional<Amendment> LoopCloser::amendment() const {
   const core::closure::ParameterValue readout = adoption_.added_readout();
   out.added_readout_frames = readout.value;
   out.readout_sigma_frames = readout.sigma.value_or(0.0);
+  out.begins_record = adoption_.changes_delays();
   out.words = adoption_.words();
   return out;
 }

@@ -33,13 +33,17 @@ core::ModalEstimate ChannelAnalysis::make() {
   return estimate;
 }
 
-void ChannelAnalysis::begin_anew(ReadoutUse use, std::vector<std::string> amendments) {
-  if (cpsd_.sums().n_segments > 0) (void)make();
-  n_masked_before_ += cpsd_.sums().n_missing;
-  cpsd_.restart(rate_hz_);
-  tracker_.restart();
+void ChannelAnalysis::amend(ReadoutUse use, const Amendment& amendment) {
+  const bool begins = amendment.begins_record;
+  if (begins) {
+    if (cpsd_.sums().n_segments > 0) (void)make();
+    n_masked_before_ += cpsd_.sums().n_missing;
+    cpsd_.restart(rate_hz_);
+    tracker_.restart();
+  }
   readout_use_.emplace(std::move(use));
-  amendments_ = std::move(amendments);
+  amendments_ = amendment.words;
+  for (int k = 0; !begins && k < cpsd_.sums().n_fft / 2; ++k) note(cpsd_.push_missing());
 }
 
 bool ChannelAnalysis::push(const core::DisplacementSample& sample) {
@@ -94,20 +98,17 @@ void TrackAnalysis::close_loop(const core::TrackFrame& tracks) {
   loop_->take(tracks);
   if (!loop_->is_due()) return;
   const core::closure::ClosureReport report = loop_->report(false);
-  if (auto amendment = loop_->amendment(); amendment && n_amendments_ + 1 < AmendmentBook::kMost) {
-    pending_ = std::move(amendment);
-    pending_->number = ++n_amendments_;
-  }
+  if (auto amendment = loop_->amendment(); amendment && !book_.full()) pending_ = book_.add(std::move(*amendment));
   if (hear_closure_) hear_closure_(report);
 }
 
 void TrackAnalysis::begin_amendment(std::uint64_t sequence) {
   if (!pending_ || sequence < pending_->from_sequence) return;
   geometry_ = make_geometry(config_, camera_, keyframe_, *pending_);
-  sample_.amendment = pending_->number;
-  analysis_.begin_anew(ReadoutUse(pending_->applied(config_, camera_.rate_hz), pending_->applied(camera_), keyframe_,
-                                  geometry_->displacement.spectra()),
-                       pending_->words);
+  sample_.amendment = pending_->number, sample_.record = pending_->record;
+  analysis_.amend(ReadoutUse(pending_->applied(config_, camera_.rate_hz), pending_->applied(camera_), keyframe_,
+                             geometry_->displacement.spectra()),
+                  *pending_);
   pending_.reset();
 }
 

@@ -39,8 +39,9 @@ class ChannelAnalysis {
 
   // Find the readout time on the way; else row delays are undone as declared.
   void find_readout(ReadoutUse use) { readout_use_.emplace(std::move(use)); }
-  // From the next sample on something else is taken out of the points: an estimate of what came so far, and new sums.
-  void begin_anew(ReadoutUse use, std::vector<std::string> amendments);
+  // From the next sample on something else is taken out of the points: one segment is masked, or, where a new record
+  // begins, an estimate of what came so far is made, and new sums begin.
+  void amend(ReadoutUse use, const Amendment& amendment);
   void report_to(RunReport* report) noexcept { report_ = report; }  // every estimate; null = none
 
   // False: a frame that lies in no cell of its own of the grid, and is left out.
@@ -108,7 +109,7 @@ class TrackAnalysis {
   std::unique_ptr<Geometry> geometry_;
   std::optional<LoopCloser> loop_;
   std::optional<Amendment> pending_;
-  std::uint32_t n_amendments_ = 0;
+  AmendmentBook book_;
   std::function<void(const core::closure::ClosureReport&)> hear_closure_;
   core::DisplacementSample sample_;
   ChannelAnalysis analysis_;

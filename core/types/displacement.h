@@ -33,8 +33,10 @@ struct DisplacementSample {
   // Witnesses beside the channels (ChannelDisplacement::spectra()); no displacement of anything.
   std::vector<double> witness_mm{};
   std::vector<std::uint8_t> witness_seen{};
-  ReadoutEstimate readout{};    // from the tracks up to this frame
-  std::uint32_t amendment = 0;  // what was taken out of the points beyond what was declared; samples of two are not one
+  ReadoutEstimate readout{};  // from the tracks up to this frame
+  // Number of what was taken out of the points beyond what was declared (0: nothing); between two, displacements jump.
+  // Between two records, the channels' row delays have changed, too.
+  std::uint32_t amendment = 0, record = 0;
 };
 
 }  // namespace core

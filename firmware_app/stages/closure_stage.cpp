@@ -60,7 +60,8 @@ void ClosureStage::amend(core::closure::ClosureReport& report) {
     return;
   }
   made_.push_back(make_(*amendment));
-  change_.amendment = book_->add(*amendment).number;
+  const Amendment& added = book_->add(*amendment);
+  change_.amendment = added.number, change_.record = added.record;
   change_.from_sequence = amendment->from_sequence;
   change_.geometry = made_.back().get();
 }

@@ -16,14 +16,14 @@ rt::StepStatus IdentificationStage::step() noexcept {
   return rt::StepStatus::kWorked;
 }
 
-// Other rate, other folds: what was an apparent frequency is another one now. New sums begin at an amendment, too; what
-// estimates of the old ones share with them is nothing.
+// Other rate, other folds: what was an apparent frequency is another one now. A new record shares nothing with the old.
 void IdentificationStage::follow(const SpectrumSnapshot& snapshot) {
-  if (snapshot.sums.rate_hz == rate_hz_ && snapshot.amendment == amendment_) return;
+  const bool begins = snapshot.sums.rate_hz != rate_hz_ || snapshot.record != record_;
+  if (!begins && snapshot.amendment == amendment_) return;
   identifier_ = make_identifier_(snapshot.sums.rate_hz, book_.at(snapshot.amendment));
   rate_hz_ = snapshot.sums.rate_hz;
-  amendment_ = snapshot.amendment;
-  tracker_.restart();
+  amendment_ = snapshot.amendment, record_ = snapshot.record;
+  if (begins) tracker_.restart();
 }
 
 bool IdentificationStage::identify(const SpectrumSnapshot& snapshot, IdentificationResult& out) noexcept {

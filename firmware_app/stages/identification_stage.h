@@ -51,7 +51,7 @@ class IdentificationStage : public rt::Stage {
   MakeIdentifier make_identifier_;
   const AmendmentBook& book_;
   double rate_hz_;
-  std::uint32_t amendment_ = 0;
+  std::uint32_t amendment_ = 0, record_ = 0;
   std::unique_ptr<const ReadoutUse> identifier_;
   core::ModeTracker tracker_;
   rt::RingWriter<IdentificationResult> results_;

@@ -26,16 +26,16 @@ struct ViewChange {
   std::uint64_t next_report_at = 0, n_delay_frames = 0;
   Geometry* geometry = nullptr;  // null: nothing changes; closure's own, it lives to the run's end
   std::uint64_t from_sequence = 0;
-  std::uint32_t amendment = 0;  // number in the AmendmentBook
+  std::uint32_t amendment = 0, record = 0;  // numbers in the AmendmentBook
 };
 
 // spectrum -> identification.
 struct SpectrumSnapshot {
   core::CpsdSums sums;
-  std::uint64_t number = 0;     // 0, 1, 2, ... in stream time
-  std::int64_t t_last_ns = 0;   // time stamp of the newest sample in the sums
-  bool final = false;           // the record has ended
-  std::uint32_t amendment = 0;  // under which all samples in the sums were measured
+  std::uint64_t number = 0;                 // 0, 1, 2, ... in stream time
+  std::int64_t t_last_ns = 0;               // time stamp of the newest sample in the sums
+  bool final = false;                       // the record has ended
+  std::uint32_t amendment = 0, record = 0;  // of the newest sample in the sums; the record is that of all of them
   core::ReadoutEstimate readout = {};
 };
 

@@ -29,8 +29,10 @@ rt::StepStatus SpectrumStage::step() noexcept {
   if (sample == nullptr) return samples_.finished() ? end_record() : rt::StepStatus::kIdle;
   if (!front_placed_) {
     const std::uint32_t stride = thinning_.at(sample->sequence).stride;
-    const bool is_other = stride != stride_ || sample->amendment != amendment_;
-    if (is_other && !begin_other_sums(stride, sample->amendment)) return rt::StepStatus::kWorked;
+    const bool is_other = stride != stride_ || sample->record != record_;
+    if (is_other && !begin_other_sums(stride, sample->record)) return rt::StepStatus::kWorked;
+    const bool jumps = !is_other && sample->amendment != amendment_;
+    amendment_ = sample->amendment;
     const core::TimeGrid::Placement placement = grid_.place(sample->t_start_ns);
     front_placed_ = true;
     front_refused_ = !placement.accepted;
@@ -40,6 +42,7 @@ rt::StepStatus SpectrumStage::step() noexcept {
     n_to_mask_ =
         std::min<std::uint64_t>(placement.n_missing_before, 2 * static_cast<std::uint64_t>(welch_.sums().n_fft));
     if (placement.accepted) n_to_mask_ += std::exchange(n_masked_on_resume_, 0);
+    if (jumps) n_to_mask_ += static_cast<std::uint64_t>(welch_.sums().n_fft / 2);
     if (n_to_mask_ > 0) return rt::StepStatus::kWorked;
   }
   take(*sample);
@@ -50,7 +53,7 @@ rt::StepStatus SpectrumStage::step() noexcept {
 }
 
 // False: the old sums are to be handed over first.
-bool SpectrumStage::begin_other_sums(std::uint32_t stride, std::uint32_t amendment) noexcept {
+bool SpectrumStage::begin_other_sums(std::uint32_t stride, std::uint32_t record) noexcept {
   if (welch_.sums().n_segments > 0 && !old_sums_ended_) {
     old_sums_ended_ = due_ = true;
     return false;
@@ -58,7 +61,7 @@ bool SpectrumStage::begin_other_sums(std::uint32_t stride, std::uint32_t amendme
   n_masked_before_ += welch_.sums().n_missing;
   welch_.restart(camera_rate_hz_ / stride);
   if (stride != stride_) grid_ = core::TimeGrid(camera_rate_hz_ / stride);
-  stride_ = stride, amendment_ = amendment;
+  stride_ = stride, record_ = record;
   old_sums_ended_ = false;
   return true;
 }
@@ -144,7 +147,7 @@ rt::StepStatus SpectrumStage::hand_over() noexcept {
   snapshot.number = n_snapshots_++;
   snapshot.t_last_ns = t_stream_ns_.load(std::memory_order_relaxed);
   snapshot.final = flushed_;
-  snapshot.amendment = amendment_;
+  snapshot.amendment = amendment_, snapshot.record = record_;
   snapshot.readout = readout_;
   snapshot.readout.frames /= stride_;  // frames are longer now
   snapshot.readout.std_frames /= stride_;

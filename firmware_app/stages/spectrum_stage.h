@@ -17,8 +17,8 @@ namespace app {
 
 // sample ring -> Welch sums -> a snapshot every `period_hops` hops, in stream time. A lossless source hands over every
 // due snapshot and waits for it to be taken; a live one may overwrite one that was not, and counts it. Where capture
-// begins to keep every n-th frame only, or something else is taken out of the points, the sums so far are handed over
-// and new ones begin.
+// begins to keep every n-th frame only, or the rows' delays change, the sums so far are handed over and new ones begin.
+// Where only the points' places are amended, one segment is masked: none spans the jump.
 class SpectrumStage : public rt::Stage {
  public:
   SpectrumStage(rt::RingReader<core::DisplacementSample> samples, const core::WelchConfig& config, int period_hops,
@@ -49,7 +49,7 @@ class SpectrumStage : public rt::Stage {
  private:
   [[nodiscard]] rt::StepStatus hand_over() noexcept;
   [[nodiscard]] rt::StepStatus end_record() noexcept;
-  [[nodiscard]] bool begin_other_sums(std::uint32_t stride, std::uint32_t amendment) noexcept;
+  [[nodiscard]] bool begin_other_sums(std::uint32_t stride, std::uint32_t record) noexcept;
   void take(const core::DisplacementSample& sample) noexcept;
   [[nodiscard]] bool mask_one_missing() noexcept;
   void note_hop(bool hop) noexcept;
@@ -64,7 +64,7 @@ class SpectrumStage : public rt::Stage {
   bool lossless_;
   const ThinningSchedule& thinning_;
   std::uint32_t stride_ = 1;                        // of the samples in the sums
-  std::uint32_t amendment_ = 0;                     // likewise
+  std::uint32_t record_ = 0, amendment_ = 0;        // likewise; the amendment of the newest
   std::uint64_t n_masked_before_ = 0;               // in sums that were ended
   rt::TripleBuffer<StateBytes>* states_ = nullptr;  // null: no state is kept
   std::uint64_t state_period_cells_ = 0, next_state_cell_ = 0;

@@ -70,7 +70,7 @@ bool TrackingStage::follow_amendments(std::uint64_t sequence) noexcept {
   if (pending_.geometry == nullptr || sequence < pending_.from_sequence) return true;
   channels_ = &pending_.geometry->displacement;
   readout_ = &pending_.geometry->readout;
-  scratch_.sample.amendment = pending_.amendment;
+  scratch_.sample.amendment = pending_.amendment, scratch_.sample.record = pending_.record;
   events().write("correction {} from frame {} on", pending_.amendment, static_cast<std::int64_t>(sequence));
   pending_ = {};
   return true;

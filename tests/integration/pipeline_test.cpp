@@ -101,7 +101,7 @@ TEST(Pipeline, TakesOutWhatTwoReportsFoundFromTheAnnouncedFrameOn) {
   ASSERT_FALSE(estimates.empty());
   EXPECT_TRUE(estimates.front().amendments.empty());
   EXPECT_EQ(estimates.back().amendments.size(), 1U);
-  EXPECT_EQ(estimates.back().n_samples, 400U);  // those before are not added to
+  EXPECT_GE(estimates.back().n_samples, 1500U);  // rows are seen when they were: the sums go on, a segment is masked
   ASSERT_EQ(heard[1]->estimates.size(), estimates.size());
   for (std::size_t k = 0; k < estimates.size(); ++k) {
     EXPECT_EQ(estimates[k].amendments, heard[1]->estimates[k].amendments);

@@ -58,14 +58,18 @@ std::vector<Adoption::Finding> Adoption::findings(const ClosureResult& result) {
 
 std::vector<std::string> Adoption::update(const ClosureReport& report, std::uint64_t from_sequence) {
   std::vector<std::string> changes;
+  changes_delays_ = false;
   if (!report.refused.empty()) return changes;
   const std::string from = "from frame " + std::to_string(from_sequence) + " on ";
   std::vector<Finding> now = findings(report.result);
+  readout_in_all_ = find(now, kReadout) != now.end() && (!has_reports_ || readout_in_all_);
+  has_reports_ = true;
   for (const Finding& finding : now) {
     const auto before = find(last_, finding.effect);
     if (before == last_.end() || !same(finding.parameters, before->parameters)) continue;
     const auto known = find(in_force_, finding.effect);
     if (known != in_force_.end() && same(finding.parameters, known->parameters)) continue;
+    changes_delays_ = changes_delays_ || (finding.effect == kReadout && !readout_in_all_);
     const char* what = known == in_force_.end() ? "taken out, " : "taken out with new numbers, ";
     changes.push_back(from + what + numbers_text(finding.effect, finding.parameters) + "; " +
                       error_text(finding.heldout_before, finding.heldout_after, report.result.unit));
@@ -81,6 +85,7 @@ std::vector<std::string> Adoption::update(const ClosureReport& report, std::uint
     }
     changes.push_back(from + "withdrawn, " + e->effect + ": frames " + std::to_string(report.first_sequence) + " to " +
                       std::to_string(report.last_sequence) + " do not show it any more");
+    changes_delays_ = changes_delays_ || e->effect == kReadout;
     e = in_force_.erase(e);
   }
   last_ = std::move(now);

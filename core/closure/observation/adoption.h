@@ -33,6 +33,9 @@ class Adoption {
   [[nodiscard]] std::vector<std::string> words() const;
   // camera: of the record that the reports are made of; its focal length and centre are those of the lens effects.
   [[nodiscard]] PlaceCorrection places(const CameraModel& camera) const;
+  // The last update changed when rows are seen, and not only what is known of it: the readout time was not in every
+  // report since the first.
+  [[nodiscard]] bool changes_delays() const noexcept { return changes_delays_; }
   // Beyond the declared readout time, in frames, with its standard deviation; 0 of none.
   [[nodiscard]] ParameterValue added_readout() const;
 
@@ -47,6 +50,7 @@ class Adoption {
 
   std::vector<EffectInForce> in_force_;
   std::vector<Finding> last_;  // of the report before
+  bool has_reports_ = false, readout_in_all_ = false, changes_delays_ = false;
 };
 
 }  // namespace core::closure

@@ -80,6 +80,29 @@ TEST(Adoption, OtherNumbersTwiceReplaceTheOld) {
   EXPECT_EQ(a.in_force().size(), 1U);
 }
 
+TEST(Adoption, AReadoutTimeThatWasThereFromTheStartChangesNoDelays) {
+  Adoption there, later;
+  for (int i = 0; i < 2; ++i) (void)there.update(report(0, 999, {step("readout time", 0.5)}), 1000);
+  ASSERT_EQ(there.in_force().size(), 1U);
+  EXPECT_FALSE(there.changes_delays());  // only what is known of them
+  (void)later.update(report(0, 999, {}), 1000);
+  for (int i = 0; i < 2; ++i) (void)later.update(report(500, 1499, {step("readout time", 0.5)}), 2000);
+  ASSERT_EQ(later.in_force().size(), 1U);
+  EXPECT_TRUE(later.changes_delays());
+  (void)later.update(report(2000, 2999, {step("readout time", 0.5)}), 3000);
+  EXPECT_FALSE(later.changes_delays());
+  ASSERT_EQ(later.update(report(2500, 3499, {}), 4000).size(), 1U);  // withdrawn
+  EXPECT_TRUE(later.changes_delays());
+}
+
+TEST(Adoption, ALensChangesNoDelays) {
+  Adoption a;
+  (void)a.update(report(0, 999, {}), 1000);
+  for (int i = 0; i < 2; ++i) (void)a.update(report(500, 1499, {step("radial distortion", -0.07)}), 2000);
+  ASSERT_EQ(a.in_force().size(), 1U);
+  EXPECT_FALSE(a.changes_delays());
+}
+
 TEST(Adoption, ARefusedReportChangesNothing) {
   Adoption a;
   for (int i = 0; i < 2; ++i) (void)a.update(report(0, 999, {step("readout time", 0.5)}), 1000);
