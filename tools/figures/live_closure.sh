@@ -61,7 +61,7 @@ clip() {
     -filter_complex '[0:v][1:v]concat=n=2:v=1' -c:v libx264 -crf 12 -preset veryfast -pix_fmt yuv420p "$folder/clip.mp4"
   rm -f "$folder"/before/clip.mp4 "$folder"/after/clip.mp4
   quietly "$bin/hovermodal" identify --series "$folder/before/truth_displacements.csv" --base base --report "$folder/truth"
-  local how=("$bin/hovermodald" --config "$folder/before/config.yaml" --set "camera.source=$folder/clip.mp4" --set camera.timestamps= --set telemetry.lcm_url= \
+  local how=("$bin/hovermodald" --config "$folder/before/config.yaml" --set "camera.source=$folder/clip.mp4" --set telemetry.lcm_url= \
     --set tracking.points_per_region=12)
   quietly "${how[@]}" "${brief[@]}" --set "telemetry.log_file=$folder/log.lcm" --report "$folder/auto"
   quietly "${how[@]}" --set closure.adopt=off --report "$folder/off"
@@ -116,7 +116,7 @@ figure_2() {
 figure_3() {
   local number=2 folder=$out/barrel same=0 n=0 file
   [ -s "$folder/auto/modal.json" ] && [ -s "$folder/clip.mp4" ] || clip barrel "radial distortion" "camera: {lens: {model: radial_tangential, k: [-0.2, 0, 0, 0, 0]}}"
-  quietly "$bin/hovermodald" --config "$folder/before/config.yaml" --set "camera.source=$folder/clip.mp4" --set camera.timestamps= --set telemetry.lcm_url= \
+  quietly "$bin/hovermodald" --config "$folder/before/config.yaml" --set "camera.source=$folder/clip.mp4" --set telemetry.lcm_url= \
     --set tracking.points_per_region=12 "${brief[@]}" --set rt.frame_slots=4 --set rt.sample_slots=16 --report "$folder/again"
   for file in tracks.csv displacements.csv modal.json closure.json; do
     n=$((n + 1))
