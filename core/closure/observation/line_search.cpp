@@ -187,16 +187,14 @@ double LineSearch::pattern_gain(const Eigen::MatrixXd& residual, const LineFindi
   return gained;
 }
 
-// Strip by strip, each with the phase of its own middle.
+// Strip by strip, each with the phase of its own middle. Without the mirror image: a line must stand by its own side.
 double LineSearch::band_gain(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const {
-  const std::vector<Side> both = sides(finding);
   const double low = finding.apparent_hz - finding.half_width_hz;
   double sum = 0.0;
   for (double at = low; at < low + 2.0 * finding.half_width_hz - 1e-9; at += kStrip_hz) {
     const Band b = band(at + 0.5 * kStrip_hz, 0.5 * kStrip_hz);
     if (b.count < 1) continue;
-    const Eigen::MatrixXcd fields = fields_at(b.first + b.count / 2, at + 0.5 * kStrip_hz, both);
-    sum += gain(moments_of(spectrum.middleCols(b.first, b.count)), fields);
+    sum += gain(moments_of(spectrum.middleCols(b.first, b.count)), fields_of(at + 0.5 * kStrip_hz, finding.fold));
   }
   return sum;
 }
