@@ -69,14 +69,10 @@ class Loop {
     const double reached = before.heldout * before.heldout - fit_.heldout * fit_.heldout;
     const bool from_nothing = std::isinf(before.heldout) && std::isfinite(fit_.heldout);
     if (!from_nothing && !(reached > 0.0 && reached >= kKeptOfScore * predicted)) {
-      level_.drop();
-      fit_ = level_.fit();
-      return stop(scores[best].effect + " was taken back: the held-out error did not fall when all was refitted");
+      return take_back(scores[best].effect + " was taken back: the held-out error did not fall when all was refitted");
     }
     if (!from_nothing && reached < options_.least_gain * options_.least_gain) {
-      level_.drop();
-      fit_ = level_.fit();
-      return stop("the best candidate, " + scores[best].effect + ", takes out less than was asked for");
+      return take_back("the best candidate, " + scores[best].effect + ", takes out less than was asked for");
     }
     ClosureStep step;
     step.effect = scores[best].effect;
@@ -129,6 +125,12 @@ class Loop {
       return a.score > b.score;
     });
     return scores;
+  }
+
+  bool take_back(const std::string& reason) {
+    level_.drop();
+    fit_ = level_.fit();
+    return stop(reason);
   }
 
   bool stop(const std::string& reason) {

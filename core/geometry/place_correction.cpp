@@ -22,16 +22,17 @@ double unlocked(double measured_px, const std::array<double, 4>& e) noexcept {
   return p;
 }
 
+bool locks(const std::array<double, 4>& e) noexcept {
+  return std::any_of(e.begin(), e.end(), [](double amplitude) { return amplitude != 0.0; });
+}
+
 }  // namespace
 
-bool PlaceCorrection::corrects() const noexcept {
-  return lens.calibrated() || std::any_of(locking_px.begin(), locking_px.end(), [](double e) { return e != 0.0; });
-}
+bool PlaceCorrection::corrects() const noexcept { return lens.calibrated() || locks(locking_px); }
 
 Vector2 PlaceCorrection::corrected(const Vector2& ideal_px) const noexcept {
   Vector2 place = ideal_px;
-  if (std::any_of(locking_px.begin(), locking_px.end(), [](double e) { return e != 0.0; }))
-    place = {unlocked(place.u, locking_px), unlocked(place.v, locking_px)};
+  if (locks(locking_px)) place = {unlocked(place.u, locking_px), unlocked(place.v, locking_px)};
   return lens.calibrated() ? lens.undistort(place) : place;
 }
 

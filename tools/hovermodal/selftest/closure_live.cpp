@@ -38,6 +38,12 @@ struct LiveRun {
   std::vector<std::string> in_force;
 };
 
+std::string changes_text(const LiveRun& run) {
+  std::string text;
+  for (const Change& change : run.changes) text += "[" + change.words + "]";
+  return text;
+}
+
 const HiddenEffect& effect_named(const std::string& name) {
   for (const HiddenEffect& effect : hidden_effects()) {
     if (effect.name == name) return effect;
@@ -169,13 +175,11 @@ void print_closure_live(const ClosureTracksOptions& options) {
       for (std::size_t i = 0; i < effects.size(); ++i) effect_named(effects[i]).set(scene, sizes[i]);
       const LiveRun with = run_live(declared, scene, "auto"), without = run_live(declared, scene, "off");
       const LiveRun twin = run_live(declared, declared, "off");
-      std::string changes;
-      for (const Change& change : with.changes) changes += "[" + change.words + "]";
       return fmt::format("closure-live\t{}\t{}\t{:.0f}\t{}\t{}\t{}\t{}\t{}\t{}\n", name, seed,
                          time_to_adoption(with, effects, declared.camera.rate_hz), n_wrong(with, effects),
                          with.in_force.size(), error_text(modal_error(with.estimate, declared)),
                          error_text(modal_error(without.estimate, declared)),
-                         error_text(modal_error(twin.estimate, declared)), changes);
+                         error_text(modal_error(twin.estimate, declared)), changes_text(with));
     });
     for (const std::string& line : lines) fmt::print("{}", line);
     std::fflush(stdout);
@@ -198,10 +202,8 @@ void print_closure_live_null(const ClosureTracksOptions& options) {
       const core::Mode &a = with.estimate.modes[m], &b = without.estimate.modes[m];
       worst = std::max(worst, std::abs(a.frequency_hz - b.frequency_hz) / b.frequency_std_hz.value_or(1e-9));
     }
-    std::string changes;
-    for (const Change& change : with.changes) changes += "[" + change.words + "]";
     return fmt::format("closure-live-null\t{}\t{}\t{:.4f}\t{}\n", seed_of(options, index), with.changes.size(), worst,
-                       changes);
+                       changes_text(with));
   });
   for (const std::string& line : lines) fmt::print("{}", line);
 }
