@@ -18,8 +18,10 @@ enum class Pace : std::uint8_t { kRealtime, kAsFastAsPossible };
 
 struct CameraConfig {
   CameraDriver driver = CameraDriver::kFile;
-  std::string source;    // file: video or image folder; synthetic: empty, or a scene's seed is below
-  double rate_hz = 0.0;  // 0 = take it from the source
+  std::string source;            // file: video or image folder; v4l2: a node, empty = the only camera attached
+  double rate_hz = 0.0;          // 0 = take it from the source
+  std::array<int, 2> size_px{};  // devices: width, height; 0 = chosen
+  std::string format;            // v4l2: four characters; empty = chosen
   Pace pace = Pace::kAsFastAsPossible;
   double readout_ms = 0.0;         // signed
   double readout_sigma_ms = -1.0;  // of readout_ms; 0 = exact, below 0 = chosen (readout_use.h)

@@ -60,6 +60,24 @@ ConfigKey axis_key() {
   return key;
 }
 
+void add_device_keys(std::vector<ConfigKey>& keys) {
+  NumberList size;
+  size.ranges = {{32, kMaxImagePx}, {32, kMaxImagePx}};
+  size.n_min = 2;
+  size.put = [](AppConfig& config, std::size_t, const std::vector<double>& v) {
+    config.camera.size_px = {static_cast<int>(v[0]), static_cast<int>(v[1])};
+  };
+  size.get = [](AppConfig& config, std::size_t) {
+    return std::vector<double>(config.camera.size_px.begin(), config.camera.size_px.end());
+  };
+  keys.push_back(with_default(numbers_key("camera.size", "px", std::move(size), "[w, h], 32 .. 100000",
+                                          "v4l2 and libcamera: image size (hovermodal inspect cameras lists them)"),
+                              "the largest up to 1920 x 1080 that comes at rate_hz"));
+  keys.push_back(with_default(text_key("camera.format", at(&A::camera, &CameraConfig::format), {0, 4, true},
+                                       "v4l2: pixel format, e.g. GREY, YUYV, MJPG"),
+                              "the one that costs least to read"));
+}
+
 void add_attitude_keys(std::vector<ConfigKey>& keys) {
   using C = CameraConfig;
   keys.push_back(with_default(
@@ -100,10 +118,10 @@ void add_camera_keys(std::vector<ConfigKey>& keys) {
   keys.push_back(with_default(
       text_key("camera.source", at(&A::camera, &C::source), {},
                "file: a video or an image folder; v4l2: a device, e.g. /dev/video0; libcamera: a camera's name"),
-      "none; needed by file and v4l2"));
+      "none; needed by file; v4l2 and libcamera: the only camera attached"));
   keys.push_back(with_default(number_key("camera.rate_hz", "Hz", at(&A::camera, &C::rate_hz), {1e-3, 1e6},
                                          "frame rate; set it where a container states a wrong one"),
-                              "the source's own"));
+                              "the source's own; a device: its highest"));
   keys.push_back(choice_key<Pace>("camera.pace", at(&A::camera, &C::pace),
                                   {{"realtime", Pace::kRealtime}, {"as_fast_as_possible", Pace::kAsFastAsPossible}},
                                   "file and synthetic: as a live camera would (frames may drop), or lossless"));
@@ -124,7 +142,8 @@ void add_camera_keys(std::vector<ConfigKey>& keys) {
                                     {"right", ReadoutDirection::kRight}},
                                    "the way the lines are read, in the image as stored; rotation metadata turns it"));
   keys.push_back(number_key("camera.exposure_ms", "ms", at(&A::camera, &C::exposure_ms), {0, 10000},
-                            "exposure time; 0 = unknown"));
+                            "exposure time; 0 = unknown, or what a device's automatic exposure finds and keeps"));
+  add_device_keys(keys);
   add_attitude_keys(keys);
   keys.push_back(number_key("camera.synthetic.duration_s", "s", at(&A::camera, &C::synthetic_duration_s), {0.1, 21600},
                             "length of the synthetic record"));

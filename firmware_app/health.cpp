@@ -49,6 +49,19 @@ void warn_of_regions(core::Health& health) {
   }
 }
 
+void warn_of_camera(const drivers::DeviceTrouble& trouble, core::Health& health) {
+  if (trouble.is_lost) health.state = "camera lost: looking for it";
+  if (trouble.n_interruptions > 0)
+    health.warnings.push_back(
+        fmt::format("the camera was lost {} times (unplugged, broken off or silent)", trouble.n_interruptions));
+  if (trouble.n_damaged > 0)
+    health.warnings.push_back(
+        fmt::format("{} frames came damaged from the camera and were not used", trouble.n_damaged));
+  if (trouble.has_no_clock)
+    health.warnings.emplace_back(
+        "the camera's time stamps are on no clock of this machine: frames are stamped on arrival, a few ms uneven");
+}
+
 void warn_of_attitude(const TrackingStage& tracking, core::Health& health) {
   if (tracking.attitude_given_up()) {
     health.warnings.emplace_back(
@@ -85,6 +98,7 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
     const std::lock_guard lock(warnings_mutex_);
     health.warnings = warnings_;
   }
+  if (camera_ != nullptr) warn_of_camera(camera_->trouble(), health);
   if (thinning.stride > 1) {
     health.warnings.push_back(fmt::format(
         "overload: every {}th frame is kept since frame {}, {:.4g} frames a second; spectra and folds began "

@@ -31,6 +31,7 @@ class HealthCollector {
   // Set-up only.
   void watch(Queue queue) { queues_.push_back(std::move(queue)); }
   void name_regions(std::vector<std::string> names) { region_names_ = std::move(names); }  // as configured
+  void watch_camera(const drivers::Camera& camera) { camera_ = &camera; }
   void watch_state(const CheckpointStage& checkpoint) { checkpoint_ = &checkpoint; }
 
   // Any thread.
@@ -45,6 +46,7 @@ class HealthCollector {
   const CaptureStage& capture_;
   const TrackingStage& tracking_;
   const SpectrumStage& spectrum_;
+  const drivers::Camera* camera_ = nullptr;
   const CheckpointStage* checkpoint_ = nullptr;  // null: no state is kept
   std::vector<Queue> queues_;
   std::vector<std::string> region_names_;

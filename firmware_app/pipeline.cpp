@@ -163,6 +163,7 @@ struct Pipeline::Parts {
   }
   void watch() {
     health.name_regions(region_names(config));
+    health.watch_camera(*source.camera);
     health.watch({&run_capture, {}, 0});
     health.watch({&run_tracking, [this] { return frames.depth(); }, frames.n_slots()});
     health.watch({&run_spectrum, [this] { return samples.depth(); }, samples.n_slots()});

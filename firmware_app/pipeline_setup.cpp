@@ -126,6 +126,9 @@ std::unique_ptr<drivers::Camera> open_camera(const AppConfig& config) {
   options.kind = static_cast<drivers::CameraKind>(c.driver);
   options.source = c.source;
   options.rate_hz = c.rate_hz;
+  options.width_px = c.size_px[0];
+  options.height_px = c.size_px[1];
+  options.format = c.format;
   options.realtime = c.pace == Pace::kRealtime;
   options.readout_ms = c.readout_ms;
   options.readout_direction = c.readout_direction;

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Installs what the build, the tests and the demo need on Debian 12, from Debian's packages; nothing when all is there.
-#   tools/setup.sh [--runtime]     also what tools/figures/runtime.sh needs: a model checker, an arm64 compiler and emulator
+#   tools/setup.sh [--runtime] [--device]
+#     --runtime   also what tools/figures/runtime.sh needs: a model checker, an arm64 compiler and emulator
+#     --device    also what tests/device needs: a machine emulator, and tools to build a kernel module
 set -euo pipefail
 
 packages=(
@@ -9,10 +11,17 @@ packages=(
   liblcm-dev liblcm-bin libglib2.0-dev iproute2
   ffmpeg
   libsystemd-dev
+  libcamera-dev libjpeg-dev
   libgtest-dev libgmock-dev librapidcheck-dev
 )
 
-[ "${1:-}" != --runtime ] || packages+=(libboost-dev spin g++-aarch64-linux-gnu qemu-user)
+for wanted in "$@"; do
+  case $wanted in
+    --runtime) packages+=(libboost-dev spin g++-aarch64-linux-gnu qemu-user) ;;
+    --device) packages+=(qemu-system-x86 busybox-static cpio kmod udev v4l-utils libcamera-tools libcamera-ipa rt-tests xz-utils bc libelf1) ;;
+    *) echo "setup: $wanted: unknown; see the head of tools/setup.sh" >&2; exit 2 ;;
+  esac
+done
 
 missing=()
 for package in "${packages[@]}"; do

@@ -6,8 +6,9 @@
 
 #include "core/simulation/presets.h"
 #include "core/simulation/scene.h"
-#include "drivers/camera/file_camera.h"
+#include "drivers/camera/device/v4l2_camera.h"
 #include "drivers/camera/line_timing.h"
+#include "drivers/camera/recording/file_camera.h"
 #include "drivers/camera/synthetic_camera.h"
 
 namespace drivers {
@@ -37,6 +38,15 @@ std::unique_ptr<Camera> make_synthetic_camera(const CameraOptions& options) {
   return std::make_unique<SyntheticCamera>(config);
 }
 
+std::unique_ptr<Camera> make_v4l2_camera(const CameraOptions& options) {
+  return std::make_unique<V4l2Camera>(
+      V4l2CameraConfig{.source = options.source,
+                       .mode = {options.width_px, options.height_px, options.rate_hz, options.format},
+                       .readout_ms = options.readout_ms,
+                       .readout_direction = options.readout_direction,
+                       .exposure_ms = options.exposure_ms});
+}
+
 [[noreturn]] void refuse(const char* driver) {
   throw DeviceMissing(fmt::format(
       "camera.driver = {}: this build has no such driver: use 'file' (a recording) or 'synthetic' instead", driver));
@@ -51,7 +61,7 @@ std::unique_ptr<Camera> make_camera(const CameraOptions& options) {
     case CameraKind::kSynthetic:
       return make_synthetic_camera(options);
     case CameraKind::kV4l2:
-      refuse("v4l2");
+      return make_v4l2_camera(options);
     case CameraKind::kLibcamera:
       refuse("libcamera");
   }

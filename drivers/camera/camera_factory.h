@@ -13,8 +13,10 @@ enum class CameraKind : std::uint8_t { kFile, kSynthetic, kV4l2, kLibcamera };
 
 struct CameraOptions {
   CameraKind kind = CameraKind::kFile;
-  std::string source{};  // file: video or folder of images
-  double rate_hz = 0.0;  // 0 = from the source
+  std::string source{};             // file: video or folder of images; v4l2: a node; empty = the only one
+  double rate_hz = 0.0;             // 0 = from the source; a device: its highest
+  int width_px = 0, height_px = 0;  // devices: 0 = chosen
+  std::string format{};             // v4l2: four characters; empty = chosen
   bool realtime = false;
   double readout_ms = 0.0;                                                   // signed; 0 = global shutter or unknown
   core::ReadoutDirection readout_direction = core::ReadoutDirection::kDown;  // in the image as the sensor stores it

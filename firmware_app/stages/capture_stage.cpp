@@ -46,6 +46,7 @@ rt::StepStatus CaptureStage::deliver_next() noexcept {
   core::Frame& target = slot != nullptr ? *slot : spare_;
   switch (camera_.capture(target, kCaptureTimeout)) {
     case drivers::CaptureStatus::kTimeout:
+      watch_camera();
       return rt::StepStatus::kWorked;  // the wait was inside: look again at once
     case drivers::CaptureStatus::kEndOfStream:
       return rt::StepStatus::kFinished;
@@ -54,6 +55,7 @@ rt::StepStatus CaptureStage::deliver_next() noexcept {
     case drivers::CaptureStatus::kFrame:
       break;
   }
+  watch_camera();
   count(target);
   if (!thinning_.newest().keeps(target.sequence)) {  // its slot, if it had one, is free still
     rt::StageStats::add(stats().n_dropped);
@@ -69,6 +71,17 @@ rt::StepStatus CaptureStage::deliver_next() noexcept {
   frames_.publish();
   rt::StageStats::add(stats().n_out);
   return rt::StepStatus::kWorked;
+}
+
+void CaptureStage::watch_camera() noexcept {
+  const bool is_lost = camera_.trouble().is_lost;
+  if (is_lost == camera_was_lost_) return;
+  camera_was_lost_ = is_lost;
+  if (is_lost) {
+    events().write("the camera is lost after frame {}: looking for it", static_cast<std::int64_t>(last_sequence_));
+  } else {
+    events().write("the camera is back");
+  }
 }
 
 void CaptureStage::drop(const core::Frame& frame) noexcept {

@@ -38,6 +38,7 @@ class CaptureStage : public rt::Stage {
   [[nodiscard]] rt::StepStatus deliver_next() noexcept;
   void count(core::Frame& frame) noexcept;
   void drop(const core::Frame& frame) noexcept;
+  void watch_camera() noexcept;
   void watch_overload(const core::Frame& frame, bool dropped) noexcept;
 
   drivers::Camera& camera_;
@@ -47,6 +48,7 @@ class CaptureStage : public rt::Stage {
   bool lossless_;
   bool first_delivered_ = false;
   bool gap_before_next_ = false;
+  bool camera_was_lost_ = false;
   std::uint64_t last_sequence_ = 0;
   bool thin_overload_;
   double rate_hz_;

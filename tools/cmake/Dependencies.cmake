@@ -8,6 +8,7 @@ find_package(CLI11 REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(JPEG REQUIRED)
 
 # OpenCV's and yaml-cpp's Debian packages give plain variables or bare targets: wrap them, headers as SYSTEM.
 add_library(hovermodal_opencv INTERFACE)

@@ -1,8 +1,8 @@
-#include "drivers/camera/frame_source.h"
+#include "drivers/camera/recording/frame_source.h"
 
 #include <gtest/gtest.h>
 
-#include "drivers/camera/image_folder_source.h"
+#include "drivers/camera/recording/image_folder_source.h"
 
 namespace drivers {
 namespace {

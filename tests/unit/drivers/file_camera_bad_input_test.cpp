@@ -7,7 +7,7 @@
 #include <random>
 
 #include "drivers/camera/device_missing.h"
-#include "drivers/camera/file_camera.h"
+#include "drivers/camera/recording/file_camera.h"
 #include "tests/support/camera_drain.h"
 #include "tests/support/test_clip.h"
 

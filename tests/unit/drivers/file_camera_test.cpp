@@ -1,4 +1,4 @@
-#include "drivers/camera/file_camera.h"
+#include "drivers/camera/recording/file_camera.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

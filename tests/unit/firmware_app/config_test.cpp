@@ -67,6 +67,7 @@ TEST(Config, EachKeySetsItsOwnMemberOnly) {
       {"camera.driver", "v4l2"},
       {"camera.pace", "realtime"},
       {"camera.readout_direction", "left"},
+      {"camera.size", "[640, 480]"},
       {"camera.mount_rpy_deg", "[1, 2, 3]"},
       {"calibration.distortion", "[1, 2, 3, 4, 5]"},
       {"calibration.model", "equidistant"},

@@ -88,11 +88,11 @@ TEST_F(CheckStructure, RefusesAClockInCore) {
 }
 
 TEST_F(CheckStructure, RefusesADriverThatKnowsStages) {
-  expect_refused("drivers/camera/file_camera.cpp", "#include \"rt/stage.h\"\n", 1);
+  expect_refused("drivers/camera/recording/file_camera.cpp", "#include \"rt/stage.h\"\n", 1);
 }
 
 TEST_F(CheckStructure, RefusesSimulationInAnyOtherDriver) {
-  expect_refused("drivers/camera/file_camera.cpp", "#include \"core/simulation/scene.h\"\n", 1);
+  expect_refused("drivers/camera/recording/file_camera.cpp", "#include \"core/simulation/scene.h\"\n", 1);
 }
 
 TEST_F(CheckStructure, RefusesAToolThatKnowsStages) {

@@ -11,8 +11,8 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "drivers/camera/frame_source.h"
-#include "drivers/camera/image_folder_source.h"
+#include "drivers/camera/recording/frame_source.h"
+#include "drivers/camera/recording/image_folder_source.h"
 #include "tools/hovermodal/simulate/progress.h"
 
 namespace tools {

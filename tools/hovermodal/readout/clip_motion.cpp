@@ -10,7 +10,7 @@
 #include "core/linear/median.h"
 #include "core/tracking/pyramid_klt.h"
 #include "core/tracking/point_seeder.h"
-#include "drivers/camera/frame_source.h"
+#include "drivers/camera/recording/frame_source.h"
 
 namespace tools {
 namespace {

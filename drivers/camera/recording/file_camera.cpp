@@ -1,4 +1,4 @@
-#include "drivers/camera/file_camera.h"
+#include "drivers/camera/recording/file_camera.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "drivers/camera/line_timing.h"
-#include "drivers/camera/timestamp_file.h"
+#include "drivers/camera/recording/timestamp_file.h"
 
 namespace drivers {
 

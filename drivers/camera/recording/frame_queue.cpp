@@ -1,4 +1,4 @@
-#include "drivers/camera/frame_queue.h"
+#include "drivers/camera/recording/frame_queue.h"
 
 #include <utility>
 

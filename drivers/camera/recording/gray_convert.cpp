@@ -1,4 +1,4 @@
-#include "drivers/camera/gray_convert.h"
+#include "drivers/camera/recording/gray_convert.h"
 
 #include <cstring>
 

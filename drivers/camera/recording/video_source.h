@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "drivers/camera/frame_source.h"
+#include "drivers/camera/recording/frame_source.h"
 
 namespace drivers {
 

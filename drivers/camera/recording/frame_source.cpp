@@ -1,4 +1,4 @@
-#include "drivers/camera/frame_source.h"
+#include "drivers/camera/recording/frame_source.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,8 +13,8 @@
 #include <stdexcept>
 
 #include "drivers/camera/device_missing.h"
-#include "drivers/camera/image_folder_source.h"
-#include "drivers/camera/video_source.h"
+#include "drivers/camera/recording/image_folder_source.h"
+#include "drivers/camera/recording/video_source.h"
 
 namespace drivers {
 

@@ -1,4 +1,4 @@
-#include "drivers/camera/image_folder_source.h"
+#include "drivers/camera/recording/image_folder_source.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "drivers/camera/gray_convert.h"
+#include "drivers/camera/recording/gray_convert.h"
 
 namespace drivers {
 

@@ -1,4 +1,4 @@
-#include "drivers/camera/video_source.h"
+#include "drivers/camera/recording/video_source.h"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include <opencv2/videoio.hpp>
 #include <stdexcept>
 
-#include "drivers/camera/gray_convert.h"
-#include "drivers/camera/image_folder_source.h"
+#include "drivers/camera/recording/gray_convert.h"
+#include "drivers/camera/recording/image_folder_source.h"
 
 namespace drivers {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "drivers/camera/camera.h"
-#include "drivers/camera/frame_queue.h"
-#include "drivers/camera/frame_source.h"
+#include "drivers/camera/recording/frame_queue.h"
+#include "drivers/camera/recording/frame_source.h"
 #include "drivers/camera/stream_pacer.h"
 
 namespace drivers {

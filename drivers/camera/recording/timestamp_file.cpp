@@ -1,4 +1,4 @@
-#include "drivers/camera/timestamp_file.h"
+#include "drivers/camera/recording/timestamp_file.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "drivers/camera/camera.h"
+#include "drivers/camera/device/capture_gate.h"
+#include "drivers/camera/device/live_sequence.h"
+#include "drivers/camera/device/luma.h"
+#include "drivers/camera/device/stamp_clock.h"
+#include "drivers/camera/device/v4l2_controls.h"
+#include "drivers/camera/device/v4l2_stream.h"
+
+namespace drivers {
+
+struct V4l2CameraConfig {
+  std::string source{};  // /dev/video0, or a link to it such as /dev/v4l/by-id/...; empty = the only one attached
+  WantedMode mode{};
+  double readout_ms = 0.0;  // signed
+  core::ReadoutDirection readout_direction = core::ReadoutDirection::kDown;
+  double exposure_ms = 0.0;  // 0 = what automatic exposure finds before it is locked
+};
+
+// A camera on Linux's video interface (USB, HDMI grabbers, SoC bridges that deliver processed images), streaming into
+// memory-mapped buffers; pixels are copied once, from there into the caller's slot.
+// Times: the driver's flags say whether its stamp is the start of exposure or the end of the frame (then readout and
+// exposure are subtracted); which clock it is on is looked at (StampClock).
+// Numbers: the device's sequence; frames it marks as damaged, short ones and those it lost are jumps.
+// Faults: a grabber's input without a signal gives kTimeout. A stream that breaks, falls silent, or whose camera is
+// unplugged is set up again from the capturing thread, with the same mode and controls, as soon as the camera is there
+// under any number; meanwhile `capture` gives kTimeout and `trouble` tells.
+class V4l2Camera final : public Camera {
+ public:
+  explicit V4l2Camera(const V4l2CameraConfig& config);
+  ~V4l2Camera() override;
+
+  [[nodiscard]] core::CameraInfo info() const override { return info_; }
+  void start() override;  // lets automatic exposure, gain and focus settle for a second, then locks them
+  CaptureStatus capture(core::Frame& out, std::chrono::milliseconds timeout) noexcept override;
+  void stop() noexcept override;  // any thread
+  [[nodiscard]] std::string fault() const override { return fault_; }
+  [[nodiscard]] DeviceTrouble trouble() const noexcept override;
+
+ private:
+  using Deadline = V4l2Stream::Deadline;
+  using Wait = V4l2Stream::Wait;
+
+  void settle();
+  // kTimeout: the buffer held no frame of use, or there was none.
+  [[nodiscard]] CaptureStatus take(core::Frame& out) noexcept;
+  [[nodiscard]] bool fill(const v4l2_buffer& buffer, core::Frame& out) noexcept;
+  [[nodiscard]] bool has_signal() noexcept;
+  [[nodiscard]] bool is_silent() const noexcept;
+  void mark_lost() noexcept;
+  void interrupt() noexcept;
+  void find_again() noexcept;
+  void remember(StampClock::Kind kind) noexcept { clock_kind_.store(kind, std::memory_order_relaxed); }
+
+  V4l2CameraConfig config_;
+  V4l2Stream stream_;
+  LumaReader luma_;
+  LockedControls locked_;
+  core::CameraInfo info_;
+  StampClock clock_;
+  LiveSequence sequence_{1.0};
+  std::string fault_;
+  Deadline last_buffer_{};  // when one came, or the stream was set up
+  Deadline last_look_{};    // at the input's signal
+  bool has_signal_ = true;
+  int stop_fd_ = -1;  // an event that wakes the wait
+  CaptureGate gate_;
+  // Written by the capturing thread, read by any: counts on their own.
+  std::atomic<std::uint64_t> n_interruptions_{0}, n_damaged_{0};
+  std::atomic<bool> is_lost_{false};
+  std::atomic<StampClock::Kind> clock_kind_{StampClock::Kind::kUndecided};
+};
+
+}  // namespace drivers

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <linux/videodev2.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace drivers {
+
+// What tells one camera from another, whatever number its node has at the moment.
+struct V4l2Identity {
+  std::string driver;    // uvcvideo
+  std::string card;      // as the device calls itself
+  std::string bus_info;  // where it is plugged in
+  std::string serial;    // USB; empty where there is none
+
+  // Same kind and, where it has one, same serial number; else the same place.
+  [[nodiscard]] bool is_same_camera(const V4l2Identity& other) const noexcept;
+};
+
+// An open V4L2 capture node. Calls give 0 or the errno; none throws but `open`. One thread at a time.
+class V4l2Device {
+ public:
+  V4l2Device() = default;
+  ~V4l2Device() { close(); }
+  V4l2Device(V4l2Device&& other) noexcept;
+  V4l2Device& operator=(V4l2Device&& other) noexcept;
+  V4l2Device(const V4l2Device&) = delete;
+  V4l2Device& operator=(const V4l2Device&) = delete;
+
+  // Opens a node that captures video by streaming. Non-zero: the errno; ENOTTY: not such a node.
+  [[nodiscard]] int open(const std::string& path);
+  void close() noexcept;
+
+  [[nodiscard]] bool is_open() const noexcept { return fd_ >= 0; }
+  [[nodiscard]] int fd() const noexcept { return fd_; }
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  [[nodiscard]] const V4l2Identity& identity() const noexcept { return identity_; }
+
+  template <class T>
+  [[nodiscard]] int call(unsigned long request, T& argument) const noexcept {
+    return call_raw(request, &argument);
+  }
+
+  // Buffers of the driver, mapped here. `map` asks for `n` and takes what it is given (at least two).
+  [[nodiscard]] int map_buffers(std::uint32_t n);
+  void unmap_buffers() noexcept;
+  struct Mapping {
+    const std::uint8_t* bytes = nullptr;
+    std::size_t n_bytes = 0;
+  };
+  [[nodiscard]] const std::vector<Mapping>& buffers() const noexcept { return buffers_; }
+  [[nodiscard]] std::uint32_t buffer_flags() const noexcept { return buffer_flags_; }  // of the first, once mapped
+
+  [[nodiscard]] int queue(std::uint32_t index) const noexcept;
+  [[nodiscard]] int dequeue(v4l2_buffer& buffer) const noexcept;  // EAGAIN: none is full
+  [[nodiscard]] int stream_on() const noexcept;                   // all buffers queued first
+  void stream_off() const noexcept;
+
+ private:
+  [[nodiscard]] int call_raw(unsigned long request, void* argument) const noexcept;
+
+  int fd_ = -1;
+  std::string path_;
+  V4l2Identity identity_;
+  std::vector<Mapping> buffers_;
+  std::uint32_t buffer_flags_ = 0;
+};
+
+// Nodes that capture video, in the order of their numbers.
+[[nodiscard]] std::vector<std::string> capture_nodes();
+
+// The node of that camera now; empty: it is not attached, or two are alike and neither is where it was.
+[[nodiscard]] std::string find_node(const V4l2Identity& wanted);
+
+}  // namespace drivers

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/camera/device/luma.h"
+#include "drivers/camera/device/v4l2_device.h"
+
+namespace drivers {
+
+// One way in which a device delivers images that we can read.
+struct V4l2Mode {
+  std::uint32_t fourcc = 0;
+  PixelLayout layout = PixelLayout::kGray8;
+  int width_px = 0;
+  int height_px = 0;
+  double rate_hz = 0.0;  // the highest at this size; 0 = the driver does not say
+};
+
+struct WantedMode {
+  int width_px = 0, height_px = 0;  // 0 = the largest image up to 1920 x 1080
+  double rate_hz = 0.0;             // 0 = the highest
+  std::string format;               // four characters, e.g. YUYV; empty = any
+};
+
+[[nodiscard]] std::string fourcc_text(std::uint32_t fourcc);
+[[nodiscard]] std::optional<PixelLayout> layout_of(std::uint32_t fourcc) noexcept;
+
+// All of them, as the device lists them. Sizes and rates that it gives as ranges are taken at `wanted` and at common
+// values within.
+[[nodiscard]] std::vector<V4l2Mode> list_modes(const V4l2Device& device, const WantedMode& wanted);
+
+// The largest image that comes at the wanted rate (none wanted: 25 Hz at least, and then as fast as possible); among
+// equals the format that costs least to read, MJPEG last: its loss moves edges by hundredths of a pixel.
+// Throws std::runtime_error that lists what there is, when nothing fits.
+[[nodiscard]] V4l2Mode choose_mode(const std::vector<V4l2Mode>& modes, const WantedMode& wanted,
+                                   const std::string& device);
+
+struct MadeMode {
+  V4l2Mode mode;                 // the rate as the device states it now
+  std::size_t stride_bytes = 0;  // from row to row
+};
+
+// Sets it and reads it back. Throws std::runtime_error when the device makes something else of it.
+[[nodiscard]] MadeMode make_mode(const V4l2Device& device, const V4l2Mode& mode, double rate_hz);
+
+}  // namespace drivers

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "drivers/camera/device/v4l2_device.h"
+#include "drivers/camera/device/v4l2_modes.h"
+
+namespace drivers {
+
+// A camera on Linux's video interface set up to stream into memory-mapped buffers: opened once by name, and after that,
+// under whatever name it has then, with the same mode. One thread at a time.
+class V4l2Stream {
+ public:
+  using Deadline = std::chrono::steady_clock::time_point;
+  enum class Wait : std::uint8_t { kReady, kDeadline, kStopped, kBroken };
+
+  // node: empty = the only camera attached. Throws DeviceMissing, std::invalid_argument, std::runtime_error.
+  V4l2Stream(const std::string& node, const WantedMode& wanted);
+
+  [[nodiscard]] const MadeMode& made() const noexcept { return made_; }
+  [[nodiscard]] const V4l2Device& device() const noexcept { return device_; }
+  [[nodiscard]] bool is_open() const noexcept { return device_.is_open(); }
+  [[nodiscard]] bool stamps_the_start() const noexcept { return stamps_the_start_; }  // of exposure; else frame's end
+  [[nodiscard]] std::string description() const;  // card, driver, node, format, size
+
+  [[nodiscard]] int begin() noexcept { return device_.stream_on(); }
+  void close() noexcept;
+  // The same camera, wherever it is now. False: it is not there, or not ready yet (a node that has just appeared
+  // answers with errors for a moment).
+  [[nodiscard]] bool open_again();
+
+  // Until a buffer is full, `deadline`, a byte in `stop_fd`, or the stream breaks. Closed: does not break.
+  [[nodiscard]] Wait wait(Deadline deadline, int stop_fd) const noexcept;
+  // Of its input, by the input's status: a grabber without a signal streams noise or a blue picture.
+  [[nodiscard]] bool has_signal() const noexcept;
+  // Whether it has automatic exposure, gain or focus.
+  [[nodiscard]] bool adjusts_itself() const noexcept;
+
+ private:
+  V4l2Device device_;
+  V4l2Identity identity_;
+  MadeMode made_;
+  bool stamps_the_start_ = false;
+};
+
+[[nodiscard]] std::int64_t stamp_ns(const v4l2_buffer& buffer) noexcept;
+
+}  // namespace drivers
