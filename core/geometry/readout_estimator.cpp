@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/geometry/readout_bands.h"
+#include "core/spectrum/kaiser_window.h"
 
 namespace core {
 
@@ -39,9 +40,7 @@ ReadoutEstimator::ReadoutEstimator(const Config& config, const TrackFrame& keyfr
   double slope = 0.0;
   for (int k = 1; k <= kHalf; ++k) {
     const double edge = static_cast<double>(k) / (kHalf + 1);
-    const double kaiser =
-        std::cyl_bessel_i(0.0, kKaiserBeta * std::sqrt(1.0 - edge * edge)) / std::cyl_bessel_i(0.0, kKaiserBeta);
-    taps_[static_cast<std::size_t>(k)] = (k % 2 == 0 ? -1.0 : 1.0) / k * kaiser;
+    taps_[static_cast<std::size_t>(k)] = (k % 2 == 0 ? -1.0 : 1.0) / k * kaiser_window(edge, kKaiserBeta);
     slope += 2.0 * k * taps_[static_cast<std::size_t>(k)];
   }
   for (double& tap : taps_) tap /= slope;  // a straight line's slope is met exactly

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/spectrum/kaiser_window.h"
+
 namespace core {
 
 namespace {
@@ -36,7 +38,7 @@ Decimator::Decimator(int factor) : factor_(factor) {
     const double x = static_cast<double>(k) / factor;
     const double sinc = k == 0 ? 1.0 : std::sin(std::numbers::pi * x) / (std::numbers::pi * x);
     const double edge = static_cast<double>(k) / (half_ + 1);
-    const double window = std::cyl_bessel_i(0.0, kBeta * std::sqrt(1.0 - edge * edge)) / std::cyl_bessel_i(0.0, kBeta);
+    const double window = kaiser_window(edge, kBeta);
     taps_[static_cast<std::size_t>(k + half_)] = sinc * window;
     sum += sinc * window;
   }

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/patience.h"
+
 namespace tests {
 
 // A program with its stdout and stderr on one pipe. Killed and reaped when this goes out of scope.
@@ -63,7 +65,7 @@ class ChildProcess {
  private:
   template <class Done>
   bool read_until(Done done, int patience_s) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(patience_s);
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(patience_s) * kSlowdown;
     while (!done()) {
       if (at_end_ || std::chrono::steady_clock::now() > deadline) return false;
       pollfd waiting{out_, POLLIN, 0};

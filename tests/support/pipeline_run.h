@@ -70,11 +70,7 @@ inline std::string file_text(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr std::chrono::seconds kPatience{1200};  // instrumented code is some ten times slower
-#else
-inline constexpr std::chrono::seconds kPatience{60};
-#endif
+inline constexpr std::chrono::seconds kPatience = std::chrono::seconds(60) * kSlowdown;
 
 // True when every stage has ended; false when the patience ended first: a hang.
 inline bool runs_to_its_end(app::Pipeline& pipeline, std::chrono::seconds patience = kPatience) {
