@@ -25,8 +25,9 @@ namespace {
 
 constexpr std::chrono::seconds kFirstFrameTimeout{10};
 
-core::CameraInfo checked_info(const drivers::Camera& camera, const AppConfig& config) {
-  core::CameraInfo info = camera.info();
+// Starts the camera once its source fits the configuration; what it is, is complete only then (exposure, readout, rate).
+core::CameraInfo started(drivers::Camera& camera, const AppConfig& config) {
+  const core::CameraInfo info = camera.info();
   check_against_image(config, info.width_px, info.height_px);
   const auto segment = static_cast<std::uint64_t>(config.spectrum.segment);
   if (info.frame_count != 0 && info.frame_count < segment) {
@@ -36,7 +37,8 @@ core::CameraInfo checked_info(const drivers::Camera& camera, const AppConfig& co
                     info.frame_count, config.camera.source, segment, static_cast<double>(segment) / info.rate_hz,
                     info.rate_hz, info.frame_count));
   }
-  return info;
+  camera.start();
+  return camera.info();
 }
 
 core::Frame take_first_frame(drivers::Camera& camera, const core::CameraInfo& info) {
@@ -44,7 +46,6 @@ core::Frame take_first_frame(drivers::Camera& camera, const core::CameraInfo& in
   frame.width_px = info.width_px;
   frame.height_px = info.height_px;
   frame.pixels.resize(static_cast<std::size_t>(info.width_px) * static_cast<std::size_t>(info.height_px));
-  camera.start();
   if (camera.capture(frame, kFirstFrameTimeout) != drivers::CaptureStatus::kFrame) {
     const std::string why = camera.fault();
     throw std::runtime_error(fmt::format("{}: no first frame within {} s{}{}", info.description,
@@ -112,7 +113,7 @@ core::TrackFrame track_keyframe(core::StructureTracker& tracker, const core::Fra
 
 Source::Source(std::unique_ptr<drivers::Camera> opened, const AppConfig& config)
     : camera(std::move(opened)),
-      info(checked_info(*camera, config)),
+      info(started(*camera, config)),
       first_frame(take_first_frame(*camera, info)),
       kept(find_kept(config, info, datum)),
       tracker(started_tracker(config, first_frame, kept, datum)),

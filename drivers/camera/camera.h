@@ -23,7 +23,9 @@ struct DeviceTrouble {
 class Camera {
  public:
   virtual ~Camera() = default;
-  [[nodiscard]] virtual core::CameraInfo info() const = 0;  // valid after construction
+  // Size, nominal rate and description from construction on; a device may know exposure, readout and its true rate only
+  // after `start`. Not while another thread captures.
+  [[nodiscard]] virtual core::CameraInfo info() const = 0;
   // Throws std::runtime_error: what, which value, what to try. Again after `stop`: a device goes on with what it sees
   // then, a recording and a scene begin anew.
   virtual void start() = 0;

@@ -6,6 +6,9 @@
 
 #include "core/simulation/presets.h"
 #include "core/simulation/scene.h"
+#ifdef HOVERMODAL_WITH_LIBCAMERA
+#include "drivers/camera/device/libcamera_camera.h"
+#endif
 #include "drivers/camera/device/v4l2_camera.h"
 #include "drivers/camera/line_timing.h"
 #include "drivers/camera/recording/file_camera.h"
@@ -47,9 +50,17 @@ std::unique_ptr<Camera> make_v4l2_camera(const CameraOptions& options) {
                        .exposure_ms = options.exposure_ms});
 }
 
-[[noreturn]] void refuse(const char* driver) {
-  throw DeviceMissing(fmt::format(
-      "camera.driver = {}: this build has no such driver: use 'file' (a recording) or 'synthetic' instead", driver));
+std::unique_ptr<Camera> make_libcamera_camera([[maybe_unused]] const CameraOptions& options) {
+#ifdef HOVERMODAL_WITH_LIBCAMERA
+  return std::make_unique<LibcameraCamera>(LibcameraCameraConfig{
+      .wishes = {options.source, options.width_px, options.height_px, options.rate_hz, options.exposure_ms},
+      .readout_ms = options.readout_ms,
+      .readout_direction = options.readout_direction});
+#else
+  throw DeviceMissing(
+      "camera.driver = libcamera: this build has no such driver: use 'v4l2', 'file' (a recording) or 'synthetic' "
+      "instead, or build it with libcamera-dev installed");
+#endif
 }
 
 }  // namespace
@@ -63,7 +74,7 @@ std::unique_ptr<Camera> make_camera(const CameraOptions& options) {
     case CameraKind::kV4l2:
       return make_v4l2_camera(options);
     case CameraKind::kLibcamera:
-      refuse("libcamera");
+      return make_libcamera_camera(options);
   }
   throw std::invalid_argument("camera.driver: unknown kind");
 }

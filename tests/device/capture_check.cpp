@@ -1,5 +1,7 @@
 // Captures through a driver and prints, one fact a line ("name<TAB>value"), what a script can judge: frames, gaps,
 // numbers, times, what became of faults, and, given the frames that were sent, whether each one came unchanged.
+#include <sched.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
@@ -26,6 +28,7 @@ struct Arguments {
   long n_frames = 30;   // per run
   double limit_s = 20;  // per run
   int n_runs = 1;       // start ... stop
+  int priority = 0;     // SCHED_FIFO, memory locked; 0 = ordinary
 };
 
 struct Tally {
@@ -33,7 +36,7 @@ struct Tally {
   long n_unchanged = 0, n_in_order = 0;  // as sent; after the frame that was sent before, as far as numbers tell
   std::uint64_t first = 0, last = 0;
   double first_s = 0, last_s = 0, worst_step = 0;  // frames: the largest deviation of a step from its number's
-  double worst_age_s = 0;                          // from its stamp until we had it
+  std::vector<double> ages_ms;                     // from a frame's stamp until we had it
   long early_kib = 0;                              // resident after the first frames
   drivers::CaptureStatus end = drivers::CaptureStatus::kFrame;
 };
@@ -98,7 +101,7 @@ void run(drivers::Camera& camera, const Arguments& arguments, const Sent& sent, 
     tally.n_gaps += frame.gap_before ? 1 : 0;
     tally.last = frame.sequence;
     tally.last_s = t_s;
-    tally.worst_age_s = std::max(tally.worst_age_s, now_s - t_s);
+    tally.ages_ms.push_back(1e3 * (now_s - t_s));
     if (tally.n_frames == 0) std::fprintf(stderr, "streaming\n");  // for who waits for it
     if (++tally.n_frames == 20) tally.early_kib = resident_kib();
     if (sent.count() == 0) continue;
@@ -109,6 +112,19 @@ void run(drivers::Camera& camera, const Arguments& arguments, const Sent& sent, 
     image = found;
   }
   camera.stop();
+}
+
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+void take_priority(int priority) {
+  sched_param parameters{};
+  parameters.sched_priority = priority;
+  if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0 || sched_setscheduler(0, SCHED_FIFO, &parameters) != 0)
+    throw std::runtime_error("the priority was refused: run it as root");
 }
 
 void print(const drivers::Camera& camera, const Tally& tally, long growth_kib) {
@@ -122,7 +138,8 @@ void print(const drivers::Camera& camera, const Tally& tally, long growth_kib) {
   std::printf("rate_hz\t%.3f\n", tally.last > tally.first
                                      ? static_cast<double>(tally.last - tally.first) / (tally.last_s - tally.first_s)
                                      : 0.0);
-  std::printf("worst_step_frames\t%.3f\nworst_age_ms\t%.1f\n", tally.worst_step, 1e3 * tally.worst_age_s);
+  std::printf("worst_step_frames\t%.3f\nage_p50_ms\t%.3f\nage_p99_ms\t%.3f\nworst_age_ms\t%.3f\n", tally.worst_step,
+              percentile(tally.ages_ms, 0.5), percentile(tally.ages_ms, 0.99), percentile(tally.ages_ms, 1.0));
   std::printf("unchanged\t%ld\nin_order\t%ld\n", tally.n_unchanged, tally.n_in_order);
   std::printf("lost\t%d\ninterruptions\t%llu\ndamaged\t%llu\nno_clock\t%d\n", trouble.is_lost ? 1 : 0,
               static_cast<unsigned long long>(trouble.n_interruptions),
@@ -148,6 +165,7 @@ int main(int argc, char** argv) {
   app.add_option("--frames", arguments.n_frames, "to take in each run")->capture_default_str();
   app.add_option("--limit", arguments.limit_s, "seconds a run may take")->capture_default_str();
   app.add_option("--runs", arguments.n_runs, "start ... stop, so often")->capture_default_str();
+  app.add_option("--fifo", arguments.priority, "SCHED_FIFO priority, with memory locked; default: ordinary");
   app.add_option("--sent", arguments.sent, "the gray frames that the camera sends, to compare with");
   CLI11_PARSE(app, argc, argv);
   struct sigaction action {};
@@ -164,6 +182,8 @@ int main(int argc, char** argv) {
     const core::CameraInfo info = camera->info();
     const Sent sent(arguments.sent, static_cast<std::size_t>(info.width_px) * static_cast<std::size_t>(info.height_px));
     Tally tally;
+    tally.ages_ms.reserve(static_cast<std::size_t>(std::min(arguments.n_frames, 1000000L)));
+    if (arguments.priority > 0) take_priority(arguments.priority);
     for (int i = 0; i < arguments.n_runs; ++i) run(*camera, arguments, sent, tally);
     print(*camera, tally, resident_kib() - tally.early_kib);
   } catch (const std::exception& thrown) {

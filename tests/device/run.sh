@@ -1,30 +1,35 @@
 #!/usr/bin/env bash
 # The camera drivers against real kernel drivers, in a virtual machine (tests/device/guest.sh). One line an outcome.
-#   tests/device/run.sh [--kernel standard|rt] [CASE...]     CASE: files of tests/device/cases (default: all)
+#   tests/device/run.sh [--kernel standard|rt] [--icount] [CASE...]     CASE: of tests/device/cases (default: all but latency)
 # Exit status 77 where there is no machine emulator (tools/setup.sh --device installs it).
 # HOVERMODAL_BIN: folder of the programs, build/release/bin by default.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-kernel=standard
+kernel=standard machine=()
 [ "${1:-}" != --kernel ] || { kernel=$2 && shift 2; }
+[ "${1:-}" != --icount ] || { machine=(--icount) && shift; }
 cases=("$@")
-[ $# -gt 0 ] || cases=(formats usb faults replug)
+[ $# -gt 0 ] || cases=(formats usb faults replug contract libcamera service)
 command -v qemu-system-x86_64 >/dev/null || { echo "device tests: skipped, no qemu-system-x86_64 (tools/setup.sh --device)"; exit 77; }
 export HOVERMODAL_BIN=${HOVERMODAL_BIN:-build/release/bin}
 failed=0
 for name in "${cases[@]}"; do
+  case $name in
+    contract | libcamera) tests/device/vimc.sh "$kernel" ;;
+    service) tests/device/clip.sh ;;
+  esac
   out=build/device/out/$name
   rm -rf "$out"
   variables=()
-  for variable in HOVERMODAL_BIN FORMATS SIZES FRAMES RATE TIMES ASAN_OPTIONS UBSAN_OPTIONS; do
+  for variable in HOVERMODAL_BIN FORMATS SIZES FRAMES RATE TIMES WATCH_S ASAN_OPTIONS UBSAN_OPTIONS; do
     [ -z "${!variable:-}" ] || variables+=("$variable=${!variable}")
   done
-  if tests/device/guest.sh --kernel "$kernel" --out "$out" --timeout "${LIMIT_S:-900}" env "${variables[@]}" "tests/device/cases/$name.sh" >"build/device/$name.log" 2>&1; then
+  if tests/device/guest.sh --kernel "$kernel" --out "$out" --timeout "${LIMIT_S:-900}" "${machine[@]}" env "${variables[@]}" "tests/device/cases/$name.sh" >"build/device/$name.log" 2>&1; then
     status=0
   else
     status=$?
   fi
-  grep -aE $'^(ok|MISS)\t' "build/device/$name.log" || status=1
+  grep -aE $'^(ok|MISS|figure)\t' "build/device/$name.log" || status=1
   [ $status -eq 0 ] || { echo "device: $name ended with status $status; its log is build/device/$name.log" >&2 && failed=1; }
 done
 exit $failed

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace drivers {
 
@@ -85,6 +86,18 @@ LockedControls lock_controls(const V4l2Device& device, const ControlWishes& wish
   controls.switch_off(V4L2_CID_IMAGE_STABILIZATION, "stabilisation off");
   controls.switch_off(V4L2_CID_WIDE_DYNAMIC_RANGE, "wide dynamic range off");
   return locked;
+}
+
+std::string lockable_controls(const V4l2Device& device) {
+  LockedControls none;
+  const Controls controls(device, none);
+  std::string text;
+  for (const auto& [id, words] :
+       {std::pair{V4L2_CID_EXPOSURE_ABSOLUTE, "exposure"}, std::pair{V4L2_CID_GAIN, "gain"},
+        std::pair{V4L2_CID_FOCUS_AUTO, "focus"}, std::pair{V4L2_CID_AUTO_WHITE_BALANCE, "white balance"}}) {
+    if (controls.has(static_cast<std::uint32_t>(id))) text += (text.empty() ? "" : ", ") + std::string(words);
+  }
+  return text;
 }
 
 void set_again(const V4l2Device& device, const LockedControls& locked) noexcept {

@@ -28,6 +28,9 @@ struct LockedControls {
 // exposure_ms that the device refuses.
 [[nodiscard]] LockedControls lock_controls(const V4l2Device& device, const ControlWishes& wishes);
 
+// The same without doing it: "exposure, gain, focus"; empty: nothing.
+[[nodiscard]] std::string lockable_controls(const V4l2Device& device);
+
 void set_again(const V4l2Device& device, const LockedControls& locked) noexcept;
 
 }  // namespace drivers

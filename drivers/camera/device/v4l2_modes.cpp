@@ -96,11 +96,6 @@ std::vector<Size> sizes_of(const V4l2Device& device, std::uint32_t fourcc, const
   return sizes;
 }
 
-std::string mode_text(const V4l2Mode& mode) {
-  return fmt::format("{} {} x {}{}", fourcc_text(mode.fourcc), mode.width_px, mode.height_px,
-                     mode.rate_hz > 0 ? fmt::format(" at up to {:.4g} Hz", mode.rate_hz) : "");
-}
-
 bool fits(const V4l2Mode& mode, const WantedMode& wanted) {
   if (!wanted.format.empty() && fourcc_text(mode.fourcc) != wanted.format) return false;
   if (wanted.width_px > 0) return mode.width_px == wanted.width_px && mode.height_px == wanted.height_px;
@@ -114,6 +109,11 @@ std::string fourcc_text(std::uint32_t fourcc) {
   for (unsigned byte = 0; byte < 4; ++byte) text += static_cast<char>(fourcc >> 8U * byte & 0x7FU);
   text.erase(text.find_last_not_of(' ') + 1);
   return text;
+}
+
+std::string mode_text(const V4l2Mode& mode) {
+  return fmt::format("{} {} x {}{}", fourcc_text(mode.fourcc), mode.width_px, mode.height_px,
+                     mode.rate_hz > 0 ? fmt::format(" at up to {:.4g} Hz", mode.rate_hz) : "");
 }
 
 std::optional<PixelLayout> layout_of(std::uint32_t fourcc) noexcept {

@@ -26,6 +26,7 @@ struct WantedMode {
 };
 
 [[nodiscard]] std::string fourcc_text(std::uint32_t fourcc);
+[[nodiscard]] std::string mode_text(const V4l2Mode& mode);  // "YUYV 640 x 480 at up to 30 Hz"
 [[nodiscard]] std::optional<PixelLayout> layout_of(std::uint32_t fourcc) noexcept;
 
 // All of them, as the device lists them. Sizes and rates that it gives as ranges are taken at `wanted` and at common

@@ -86,8 +86,12 @@ void FileCamera::take_times(const FileCameraConfig& config) {
 }
 
 void FileCamera::start() {
-  if (decoder_.joinable() || source_ == nullptr) {
-    throw std::runtime_error(fmt::format("{}: started twice: make a new camera to read it again", path_));
+  if (decoder_.joinable()) throw std::runtime_error(fmt::format("{}: started twice without a stop", path_));
+  if (source_ == nullptr) {  // given back by stop(): from the beginning
+    source_ = open_frame_source(path_);
+    if (source_->info().width_px != info_.width_px || source_->info().height_px != info_.height_px)
+      throw std::runtime_error(fmt::format("{}: has another image size than before", path_));
+    queue_ = std::make_unique<FrameQueue>(kQueueSlots, info_.width_px, info_.height_px);
   }
   pacer_.start();
   decoder_ = std::thread([this] { decode_all(); });
@@ -158,7 +162,7 @@ void FileCamera::stop() noexcept {
   const std::lock_guard lock(stop_mutex_);
   if (!decoder_.joinable()) return;
   decoder_.join();
-  source_.reset();  // gives the file back; start() after this is refused
+  source_.reset();  // gives the file back
 }
 
 std::string FileCamera::fault() const { return queue_->end_text(); }

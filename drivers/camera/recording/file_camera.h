@@ -26,7 +26,7 @@ struct FileCameraConfig {
 // A recording in place of a camera. A thread of its own decodes into a few frames ahead of `capture`.
 // Times are starts of exposure in stream time: those of the time stamp file where there is one (timestamp_file.h), else
 // frame number / rate. A container's rate is believed only within 1e-3 .. 1e6 Hz and where config.rate_hz is 0.
-// Nothing is ever skipped: every frame that decodes is delivered once, in order. It runs once: start, capture, stop.
+// Nothing is ever skipped: every frame that decodes is delivered once, in order.
 // An early end (a truncated file) is kEndOfStream with a text in `fault`; kFault follows the last good frame.
 class FileCamera final : public Camera {
  public:

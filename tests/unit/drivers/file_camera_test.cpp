@@ -183,7 +183,10 @@ TEST(FileCamera, StopsInMidStreamAndEndsThen) {
   EXPECT_EQ(camera.capture(slot, 1h), CaptureStatus::kEndOfStream);
   EXPECT_THAT(camera.fault(), IsEmpty());
   camera.stop();
-  EXPECT_THROW(camera.start(), std::runtime_error);
+  camera.start();
+  EXPECT_THROW(camera.start(), std::runtime_error) << "without a stop";
+  ASSERT_EQ(camera.capture(slot, 10s), CaptureStatus::kFrame);
+  EXPECT_EQ(slot.sequence, 0u);
 }
 
 TEST(FileCamera, StopWakesACaptureThatWaitsForItsTime) {

@@ -21,7 +21,9 @@ std::shared_ptr<SpyOptions> add_listener(CLI::App* spy) {
       ->check(CLI::Range(0.1, 1e6));
   spy->add_flag("--plain", options->plain, "Plain lines, ASCII only, also on a terminal");
   spy->add_option("--count", options->count_file, "Write the messages heard and missed to this JSON file at the end");
-  spy->callback([options] { run_spy(*options); });
+  spy->callback([options, spy] {
+    if (spy->get_subcommands().empty()) run_spy(*options);  // else the subcommand has done its work
+  });
   return options;
 }
 
@@ -32,9 +34,10 @@ void add_spy(CLI::App& app) {
 }
 
 void add_inspect(CLI::App& app) {
-  add_listener(app.add_subcommand(
-                   "inspect", "Show every stage live, like top: rate, ring, losses, latencies, CPU; from LCM alone"))
-      ->view = SpyView::kStages;
+  CLI::App* inspect = app.add_subcommand(
+      "inspect", "Show every stage live, like top: rate, ring, losses, latencies, CPU; from LCM alone");
+  add_listener(inspect)->view = SpyView::kStages;
+  add_inspect_cameras(*inspect);
 }
 
 }  // namespace tools

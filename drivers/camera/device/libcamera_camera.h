@@ -1,0 +1,67 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "drivers/camera/camera.h"
+#include "drivers/camera/device/capture_gate.h"
+#include "drivers/camera/device/libcamera_session.h"
+#include "drivers/camera/device/live_sequence.h"
+#include "drivers/camera/device/stamp_clock.h"
+#include "rt/wakeup.h"
+
+namespace drivers {
+
+struct LibcameraCameraConfig {
+  LibcameraWishes wishes{};
+  double readout_ms = 0.0;  // signed; 0 = as the camera states it, if it does
+  core::ReadoutDirection readout_direction = core::ReadoutDirection::kDown;
+};
+
+// A camera of libcamera's: CSI sensors behind an image processor, and USB cameras. Pixels are copied once, from the
+// request's buffer into the caller's slot; queueing the request again is the one step where libcamera allocates.
+// Times: SensorTimestamp, the start of exposure of the first row, documented to be on CLOCK_BOOTTIME; where a camera
+// does not give it, the buffer's stamp, which is the kernel driver's. Which clock it is on is looked at (StampClock).
+// Faults: as V4l2Camera: a camera that is gone or silent is looked for by its id and set up again.
+class LibcameraCamera final : public Camera {
+ public:
+  explicit LibcameraCamera(const LibcameraCameraConfig& config);
+  ~LibcameraCamera() override;
+
+  [[nodiscard]] core::CameraInfo info() const override { return info_; }
+  // Lets exposure, gain and focus settle for a second and locks them. The rate, where none is wanted, is then that of
+  // the frames seen meanwhile.
+  void start() override;
+  CaptureStatus capture(core::Frame& out, std::chrono::milliseconds timeout) noexcept override;
+  void stop() noexcept override;  // any thread
+  [[nodiscard]] std::string fault() const override { return fault_; }
+  [[nodiscard]] DeviceTrouble trouble() const noexcept override;
+
+ private:
+  using Deadline = std::chrono::steady_clock::time_point;
+
+  void settle();
+  [[nodiscard]] bool take(const LibcameraSession::Done& done, core::Frame& out) noexcept;
+  [[nodiscard]] bool fill(const LibcameraSession::Done& done, core::Frame& out) noexcept;
+  void interrupt() noexcept;
+  void find_again() noexcept;
+
+  LibcameraCameraConfig config_;
+  rt::Wakeup wakeup_;
+  LibcameraSession session_;
+  core::CameraInfo info_;
+  StampClock clock_;
+  LiveSequence sequence_{1.0};
+  std::string fault_;
+  bool lock_controls_ = false;  // with the next request
+  Deadline last_request_{};     // when one came, or the stream was set up
+  CaptureGate gate_;
+  // Written by the capturing thread, read by any: counts on their own.
+  std::atomic<std::uint64_t> n_interruptions_{0}, n_damaged_{0};
+  std::atomic<bool> is_lost_{false};
+  std::atomic<StampClock::Kind> clock_kind_{StampClock::Kind::kUndecided};
+};
+
+}  // namespace drivers

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace libcamera {
+class CameraManager;
+}
+
+namespace drivers {
+
+struct LibcameraListing {
+  std::string id;
+  std::string model;
+  std::vector<std::string> modes;  // "NV12 640x480 .. 1920x1080"
+};
+
+// What libcamera sees. Empty without a running udev daemon, too: libcamera finds cameras through it.
+[[nodiscard]] std::vector<LibcameraListing> list_libcamera_cameras();
+
+// A process may have one manager; it runs while anyone holds it, and watches cameras come and go. Throws
+// std::runtime_error. Any thread.
+[[nodiscard]] std::shared_ptr<libcamera::CameraManager> libcamera_manager();
+
+// The id of the camera whose id ends so; empty = the only one. Throws DeviceMissing, or std::invalid_argument where
+// several fit; both list what there is.
+[[nodiscard]] std::string choose_camera(const libcamera::CameraManager& manager, const std::string& wanted);
+
+}  // namespace drivers

@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# libcamera with vimc: listed, configured, streamed, stopped and started again; a camera that goes away and comes back.
+# vimc must have been built (tests/device/vimc.sh).
+. tests/device/cases/lib.sh
+mkdir -p /run/udev
+/lib/systemd/systemd-udevd --daemon # libcamera finds cameras through it
+modprobe vimc
+udevadm trigger --subsystem-match=media --subsystem-match=video4linux
+udevadm settle -t 30
+listed=$(LIBCAMERA_LOG_LEVELS='*:FATAL' cam -l 2>/dev/null | grep -c vimc)
+vimc=(--driver libcamera --source "Sensor B")
+capture odd "${vimc[@]}" --size 640x480 --frames 5 --limit 60
+judge "vimc, 640 x 480 asked for" "$(fact odd error)" "told what becomes of it (a multiple of 3)" "\"$(fact odd error)\" ~ /636x480/"
+capture vimc "${vimc[@]}" --size 636x480 --frames 30 --limit 60
+judge "vimc, 636 x 480" "$listed cameras listed; $(fact vimc frames) frames, $(fact vimc missing) missing, $(fact vimc rate_hz) Hz; a step is off by at most $(fact vimc worst_step_frames) frames; no clock: $(fact vimc no_clock)" "30 frames, stamps on a known clock" \
+  "$(fact vimc frames) == 30 && $(fact vimc no_clock) == 0 && $listed > 0"
+capture again "${vimc[@]}" --size 318x240 --frames 5 --runs "${TIMES:-50}" --limit 60
+judge "vimc started and stopped ${TIMES:-50} times" "$(fact again frames) frames; memory +$(fact again growth_kib) KiB after the first 20 frames" "$((5 * ${TIMES:-50})) frames, at most +1024 KiB" \
+  "$(fact again frames) == 5 * ${TIMES:-50} && $(fact again growth_kib) <= 1024"
+
+capture back "${vimc[@]}" --size 318x240 --frames 1000000 --limit 60 &
+capture_pid=$!
+is_streaming back
+sleep 2
+echo vimc.0 >/sys/bus/platform/drivers/vimc/unbind
+sleep 2
+echo vimc.0 >/sys/bus/platform/drivers/vimc/bind
+sleep 8
+pkill -INT capture_check
+wait $capture_pid
+judge "vimc unbound and bound while it streams" "$(fact back frames) frames, lost $(fact back interruptions) times, lost now: $(fact back lost)" "goes on by itself" \
+  "$(fact back interruptions) == 1 && $(fact back lost) == 0 && $(fact back frames) > 20"
+
+# Out of the box libcamera refuses the USB camera: its virtual controller has no firmware path. A shim gives it one.
+noise /out/sent.gray 640 480 40
+plug_in /out/sent.gray
+udevadm settle -t 30
+capture bare --driver libcamera --source "Playback" --limit 5 --frames 1
+LD_PRELOAD=$bin/libfirmware_node.so capture shimmed --driver libcamera --source VHCI-1:1.0-1d6b:0102 --size 640x480 --frames 30 --limit 60 --sent /out/sent.gray
+judge "USB camera through libcamera, with a shim for its id (without: $(fact bare error | head -c 60))" "$(fact shimmed frames) frames, $(fact shimmed unchanged) unchanged, $(fact shimmed rate_hz) Hz$(fact shimmed error)" \
+  "30 of 30" "$(fact shimmed unchanged)+0 == 30"
+pull_out
+rm -f /out/sent.gray
+finish

@@ -1,0 +1,67 @@
+#!/usr/bin/env bash
+# The camera drivers on real kernel drivers, in a virtual machine (tests/device). One line a figure; half an hour to an
+# hour on two processors without KVM. --quick: fewer frames and restarts, no AddressSanitizer.
+#   tools/figures/cameras.sh [--quick] [FIGURE...]      FIGURE: some of 1 ... 6 (default: all)
+# Latencies are in virtual time: they compare kernels and settings, and say nothing about any board.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+. tools/figures/lib.sh
+quick=
+[ "${1:-}" != --quick ] || { quick=yes && shift; }
+figures=("${@:-}")
+[ -n "${figures[0]}" ] || figures=(1 2 3 4 5 6)
+tools/setup.sh --device
+quietly tools/build.sh hovermodal hovermodald usb_camera capture_check camera_contract_device firmware_node
+quietly tests/device/kernel.sh standard
+
+# outcomes NUMBER WHERE [VARIABLE=VALUE...] -- run.sh's arguments: a figure's line for each outcome
+outcomes() {
+  local number=$1 where=$2 i=0 verdict what measured bar variables=()
+  shift 2
+  while [ "$1" != -- ]; do variables+=("$1") && shift; done
+  shift
+  while IFS=$'\t' read -r verdict what measured bar; do
+    i=$((i + 1))
+    case $verdict in
+      ok | MISS) line "$number.$i" "$verdict" "$measured" "$bar" "$what$where" ;;
+    esac
+  done < <(env "${variables[@]}" tests/device/run.sh "$@" 2>&1 || true)
+  [ $i -gt 0 ] || line "$number" MISS "nothing" "outcomes" "tests/device/run.sh $*"
+}
+few() { [ -z "$quick" ] || echo "$1"; }
+
+figure_1() { outcomes 1 "" FRAMES="$(few 8)" SIZES="$(few '640x480 1920x1080')" -- formats; }
+figure_2() { outcomes 2 "" -- usb service; }
+figure_3() { outcomes 3 "" TIMES="$(few 10)" -- faults replug; }
+figure_4() { outcomes 4 "" TIMES="$(few 10)" -- libcamera contract; }
+figure_5() {
+  outcomes 5 ", PREEMPT_RT" TIMES="$(few 5)" -- --kernel rt usb faults replug
+  local kernel n=0 p50 p99 worst rest
+  local -A measured
+  for kernel in standard rt; do
+    while IFS=$'\t' read -r kind name p50 p99 worst rest; do
+      [ "$kind" = figure ] || continue
+      n=$((n + 1))
+      measured[$kernel ${name##*, }]=$worst
+      line "5.$kernel.${name##*, }" beside "p50 $p50, p99 $p99, worst $worst ms" "-" "from a frame's stamp to our having it, $name scheduling under load, in virtual time"
+    done < <(FRAMES="$(few 120)" LIMIT_S=1200 tests/device/run.sh --kernel $kernel --icount latency 2>&1 || true)
+  done
+  judge 5.latency "worst ${measured[standard realtime]:-nan} ms on the standard kernel, ${measured[rt realtime]:-nan} ms on PREEMPT_RT; ${measured[rt ordinary]:-nan} ms without our settings" \
+    "PREEMPT_RT with real-time settings best" "the capturing thread under load, in virtual time" \
+    "\"${measured[rt realtime]:-}\" != \"\" && ${measured[rt realtime]:-1e9} < ${measured[rt ordinary]:-0} && ${measured[rt realtime]:-1e9} <= ${measured[standard realtime]:-0}"
+}
+figure_6() {
+  [ -z "$quick" ] || return 0
+  quietly cmake --preset asan
+  quietly cmake --build --preset asan --target hovermodal hovermodald usb_camera capture_check camera_contract_device firmware_node
+  outcomes 6 ", AddressSanitizer" HOVERMODAL_BIN="$PWD/build/asan/bin" FRAMES=40 TIMES=5 SIZES=640x480 LIMIT_S=1800 WATCH_S=200 \
+    ASAN_OPTIONS=detect_stack_use_after_return=0:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 -- \
+    formats usb faults replug libcamera contract service
+}
+
+for figure in "${figures[@]}"; do
+  SECONDS=0
+  "figure_$figure"
+  echo "# figure $figure: $SECONDS s"
+done
+[ "$misses" -eq 0 ] || { echo "$misses figures miss their bar" >&2; exit 1; }
