@@ -18,6 +18,7 @@
 
 #include "firmware_app/pipeline.h"
 #include "tests/support/memory_publisher.h"
+#include "tests/support/patience.h"
 #include "tests/support/places.h"
 #include "tests/support/scripted_camera.h"
 
