@@ -52,11 +52,8 @@ class Checker {
   }
 
   void check_camera() const {
-    const CameraDriver driver = config_.camera.driver;
-    const bool needs_source = driver == CameraDriver::kFile || driver == CameraDriver::kV4l2;
-    if (needs_source && config_.camera.source.empty()) {
-      refuse("camera.source", is_written("camera.source") ? "an empty text" : "nothing",
-             driver == CameraDriver::kFile ? "a video or image folder" : "a device such as /dev/video0",
+    if (config_.camera.driver == CameraDriver::kFile && config_.camera.source.empty()) {
+      refuse("camera.source", is_written("camera.source") ? "an empty text" : "nothing", "a video or image folder",
              "set it, or use `driver: synthetic` to try without a camera");
     }
     check_attitude();

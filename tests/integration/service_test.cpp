@@ -187,9 +187,11 @@ TEST(Service, AFaultInMidRunIsExitCode1AndFlushesWhatCameBefore) {
 }
 
 TEST(Service, AMissingDeviceIsExitCode3) {
-  for (const char* source : {"camera.source=none.mp4", "camera.driver=v4l2"}) {
-    const ServiceRun run = run_service(clip_arguments({"--set", source}));
+  for (const char* driver : {"file", "v4l2", "libcamera"}) {
+    const ServiceRun run = run_service(
+        clip_arguments({"--set", std::string("camera.driver=") + driver, "--set", "camera.source=not_there"}));
     EXPECT_EQ(run.code, 3) << run.output;
+    EXPECT_THAT(run.output, HasSubstr("not_there"));
   }
 }
 

@@ -40,7 +40,8 @@ std::string choose_camera(const lc::CameraManager& manager, const std::string& w
   }
   if (fitting.size() == 1) return fitting.front();
   if (list.empty())
-    throw DeviceMissing("camera.driver = libcamera: it sees no camera: is one attached, and does the udev daemon run?");
+    throw DeviceMissing(fmt::format(
+        "camera.source = '{}': libcamera sees no camera: is one attached, and does the udev daemon run?", wanted));
   if (fitting.empty())
     throw DeviceMissing(fmt::format("camera.source = {}: no such camera; libcamera sees{}", wanted, list));
   throw std::invalid_argument(fmt::format("camera.source = '{}' fits several cameras: name one of{}", wanted, list));
