@@ -22,7 +22,7 @@ struct V4l2Mode {
 struct WantedMode {
   int width_px = 0, height_px = 0;  // 0 = the largest image up to 1920 x 1080
   double rate_hz = 0.0;             // 0 = the highest
-  std::string format;               // four characters, e.g. YUYV; empty = any
+  std::string format{};             // four characters, e.g. YUYV; empty = any
 };
 
 [[nodiscard]] std::string fourcc_text(std::uint32_t fourcc);
