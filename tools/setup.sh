@@ -2,8 +2,9 @@
 # Installs what the build, the tests and the demo need on Debian 12, from Debian's packages; nothing when all is there.
 #   tools/setup.sh [--runtime] [--device]
 #     --runtime   also what tools/figures/runtime.sh needs: a model checker, an arm64 compiler and emulator
-#     --device    also what tests/device needs: a machine emulator, and tools to build a kernel module
+#     --device    also what tests/device needs: a machine emulator, a kernel for it, and tools to build a kernel module
 set -euo pipefail
+cd "$(dirname "$0")/.."
 
 packages=(
   build-essential cmake ninja-build ccache pkg-config git
@@ -15,6 +16,7 @@ packages=(
   libgtest-dev libgmock-dev librapidcheck-dev
 )
 
+fetch_kernel() { [[ " $* " != *" --device "* ]] || tests/device/kernel.sh standard >/dev/null; }
 for wanted in "$@"; do
   case $wanted in
     --runtime) packages+=(libboost-dev spin g++-aarch64-linux-gnu qemu-user) ;;
@@ -28,7 +30,10 @@ for package in "${packages[@]}"; do
   status=$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null || true)
   [ "$status" = "install ok installed" ] || missing+=("$package")
 done
-[ ${#missing[@]} -eq 0 ] && exit 0
+if [ ${#missing[@]} -eq 0 ]; then
+  fetch_kernel "$@"
+  exit 0
+fi
 
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
@@ -44,3 +49,4 @@ if ! { "${as_root[@]}" apt-get update -qq &&
   exit 1
 fi
 rm -f "$log"
+fetch_kernel "$@"

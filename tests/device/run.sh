@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The camera drivers against real kernel drivers, in a virtual machine (tests/device/guest.sh). One line an outcome.
 #   tests/device/run.sh [--kernel standard|rt] [--icount] [CASE...]     CASE: of tests/device/cases (default: all but latency)
-# Exit status 77 where there is no machine emulator (tools/setup.sh --device installs it).
+# Exit status 77 where there is no machine emulator or no kernel for it (tools/setup.sh --device fetches both).
 # HOVERMODAL_BIN: folder of the programs, build/release/bin by default.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -11,6 +11,7 @@ kernel=standard machine=()
 cases=("$@")
 [ $# -gt 0 ] || cases=(formats usb faults replug contract libcamera service)
 command -v qemu-system-x86_64 >/dev/null || { echo "device tests: skipped, no qemu-system-x86_64 (tools/setup.sh --device)"; exit 77; }
+[ -d "${HOVERMODAL_VM:-build/device}/kernel" ] || { echo "device tests: skipped, no kernel for the virtual machine (tools/setup.sh --device)"; exit 77; }
 export HOVERMODAL_BIN=${HOVERMODAL_BIN:-build/release/bin}
 failed=0
 for name in "${cases[@]}"; do
