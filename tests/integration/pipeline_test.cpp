@@ -87,7 +87,7 @@ TEST(Pipeline, TakesOutWhatTwoReportsFoundFromTheAnnouncedFrameOn) {
   for (const int slots : {2, 64}) {
     Rig rig(frames(1500), {"closure.adopt=auto", "closure.period_s=20", "closure.window_s=24", "closure.delay_s=4",
                            "calibration.distortion=[0.2, 0, 0, 0]", "spectrum.segment=64",
-                           "rt.frame_slots=" + std::to_string(slots)});
+                           "closure.points_per_region=5", "rt.frame_slots=" + std::to_string(slots)});
     heard.push_back(rig.heard);
     EXPECT_EQ(rig.run().fault, "");
   }
