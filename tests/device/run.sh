@@ -13,6 +13,7 @@ cases=("$@")
 command -v qemu-system-x86_64 >/dev/null || { echo "device tests: skipped, no qemu-system-x86_64 (tools/setup.sh --device)"; exit 77; }
 [ -d "${HOVERMODAL_VM:-build/device}/kernel" ] || { echo "device tests: skipped, no kernel for the virtual machine (tools/setup.sh --device)"; exit 77; }
 export HOVERMODAL_BIN=${HOVERMODAL_BIN:-build/release/bin}
+mkdir -p build/device
 failed=0
 for name in "${cases[@]}"; do
   case $name in
