@@ -59,9 +59,4 @@ figure_6() {
     formats usb faults replug libcamera contract service
 }
 
-for figure in "${figures[@]}"; do
-  SECONDS=0
-  "figure_$figure"
-  echo "# figure $figure: $SECONDS s"
-done
-[ "$misses" -eq 0 ] || { echo "$misses figures miss their bar" >&2; exit 1; }
+run_figures "${figures[@]}"

@@ -45,3 +45,14 @@ scale: {adaptive: false}
 telemetry: {lcm_url: ""}
 Y
 }
+
+# run_figures N...: figure_N of each, with the time it took; ends the script with 1 where a figure misses its bar.
+run_figures() {
+  local figure
+  for figure in "$@"; do
+    SECONDS=0
+    "figure_$figure"
+    echo "# figure $figure: $SECONDS s"
+  done
+  [ "$misses" -eq 0 ] || { echo "$misses figures miss their bar" >&2; exit 1; }
+}

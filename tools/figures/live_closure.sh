@@ -200,9 +200,4 @@ Y
   done
 }
 
-for figure in "${figures[@]}"; do
-  SECONDS=0
-  "figure_$figure"
-  echo "# figure $figure: $SECONDS s"
-done
-[ "$misses" -eq 0 ] || { echo "$misses figures miss their bar" >&2; exit 1; }
+run_figures "${figures[@]}"

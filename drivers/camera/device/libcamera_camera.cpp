@@ -94,7 +94,7 @@ CaptureStatus LibcameraCamera::capture(core::Frame& out, std::chrono::millisecon
 bool LibcameraCamera::take(const LibcameraSession::Done& done, core::Frame& out) noexcept {
   last_request_ = Clock::now();
   const bool is_filled = fill(done, out);
-  if (!is_filled) n_damaged_.fetch_add(1, std::memory_order_relaxed);
+  if (!is_filled) trouble_.damaged();
   try {
     if (!session_.give_back(done, lock_controls_)) interrupt();
     lock_controls_ = false;
@@ -111,7 +111,7 @@ bool LibcameraCamera::fill(const LibcameraSession::Done& done, core::Frame& out)
   }
   if (!done.is_whole || session_.read(done, out.pixels.data()) != LumaStatus::kOk) return false;
   out.t_start_ns = clock_.to_monotonic_ns(done.stamp_ns, StampClock::now());
-  clock_kind_.store(clock_.kind(), std::memory_order_relaxed);
+  trouble_.clock(clock_.kind());
   if (info_.readout_ns == 0 && done.readout_ns != 0) info_.readout_ns = done.readout_ns;
   const LiveSequence::Step step = sequence_.next(done.sequence, out.t_start_ns);
   out.sequence = step.sequence;
@@ -119,7 +119,7 @@ bool LibcameraCamera::fill(const LibcameraSession::Done& done, core::Frame& out)
   out.exposure_ns = done.exposure_ns > 0 ? done.exposure_ns : info_.exposure_ns;
   out.width_px = info_.width_px;
   out.height_px = info_.height_px;
-  is_lost_.store(false, std::memory_order_relaxed);
+  trouble_.found();
   return true;
 }
 
@@ -127,7 +127,7 @@ void LibcameraCamera::interrupt() noexcept {
   session_.halt();
   session_.close();
   sequence_.interrupted();
-  if (!is_lost_.exchange(true, std::memory_order_relaxed)) n_interruptions_.fetch_add(1, std::memory_order_relaxed);
+  trouble_.lost();
 }
 
 void LibcameraCamera::find_again() noexcept {
@@ -149,12 +149,6 @@ void LibcameraCamera::stop() noexcept {
   wakeup_.nudge();
   gate_.wait_until_left();
   session_.halt();
-}
-
-DeviceTrouble LibcameraCamera::trouble() const noexcept {
-  return {is_lost_.load(std::memory_order_relaxed), n_interruptions_.load(std::memory_order_relaxed),
-          n_damaged_.load(std::memory_order_relaxed),
-          clock_kind_.load(std::memory_order_relaxed) == StampClock::Kind::kArrival};
 }
 
 }  // namespace drivers

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <string>
@@ -10,6 +9,7 @@
 #include "drivers/camera/device/libcamera_session.h"
 #include "drivers/camera/device/live_sequence.h"
 #include "drivers/camera/device/stamp_clock.h"
+#include "drivers/camera/device/trouble_count.h"
 #include "rt/wakeup.h"
 
 namespace drivers {
@@ -37,7 +37,7 @@ class LibcameraCamera final : public Camera {
   CaptureStatus capture(core::Frame& out, std::chrono::milliseconds timeout) noexcept override;
   void stop() noexcept override;  // any thread
   [[nodiscard]] std::string fault() const override { return fault_; }
-  [[nodiscard]] DeviceTrouble trouble() const noexcept override;
+  [[nodiscard]] DeviceTrouble trouble() const noexcept override { return trouble_.read(); }
 
  private:
   using Deadline = std::chrono::steady_clock::time_point;
@@ -58,10 +58,7 @@ class LibcameraCamera final : public Camera {
   bool lock_controls_ = false;  // with the next request
   Deadline last_request_{};     // when one came, or the stream was set up
   CaptureGate gate_;
-  // Written by the capturing thread, read by any: counts on their own.
-  std::atomic<std::uint64_t> n_interruptions_{0}, n_damaged_{0};
-  std::atomic<bool> is_lost_{false};
-  std::atomic<StampClock::Kind> clock_kind_{StampClock::Kind::kUndecided};
+  TroubleCount trouble_;
 };
 
 }  // namespace drivers

@@ -74,6 +74,7 @@ void V4l2Camera::start() {
   (void)!::read(stop_fd_, &drained, sizeof drained);
   gate_.open();
   last_buffer_ = Clock::now();
+  clock_.forget();  // the first frame decides it, and ends the wait for one
   settle();
   sequence_ = LiveSequence(info_.rate_hz);
 }
@@ -91,7 +92,7 @@ void V4l2Camera::settle() {
     }
     (void)stream_.device().queue(buffer.index);
   }
-  remember(clock_.kind());
+  trouble_.clock(clock_.kind());
   locked_ = lock_controls(stream_.device(), {config_.exposure_ms});
   if (locked_.exposure_ms > 0) info_.exposure_ns = static_cast<std::int64_t>(locked_.exposure_ms * 1e6);
 }
@@ -128,7 +129,7 @@ CaptureStatus V4l2Camera::take(core::Frame& out) noexcept {
   last_buffer_ = Clock::now();
   const bool is_picture = has_signal();
   const bool is_filled = is_picture && fill(buffer, out);
-  if (is_picture && !is_filled) n_damaged_.fetch_add(1, std::memory_order_relaxed);
+  if (is_picture && !is_filled) trouble_.damaged();
   if (stream_.device().queue(buffer.index) != 0) interrupt();  // the frame that was had is whole
   if (!fault_.empty()) return CaptureStatus::kFault;
   return is_filled ? CaptureStatus::kFrame : CaptureStatus::kTimeout;
@@ -145,7 +146,7 @@ bool V4l2Camera::fill(const v4l2_buffer& buffer, core::Frame& out) noexcept {
   const std::size_t n_bytes = std::min<std::size_t>(buffer.bytesused, mapped.n_bytes);
   if (luma_.read(mapped.bytes, n_bytes, out.pixels.data()) != LumaStatus::kOk) return false;
   std::int64_t t_ns = clock_.to_monotonic_ns(stamp_ns(buffer), StampClock::now());
-  remember(clock_.kind());
+  trouble_.clock(clock_.kind());
   if (!stream_.stamps_the_start() || clock_.kind() == StampClock::Kind::kArrival)
     t_ns -= std::abs(info_.readout_ns) + info_.exposure_ns;
   const LiveSequence::Step step = sequence_.next(buffer.sequence, t_ns);
@@ -155,7 +156,7 @@ bool V4l2Camera::fill(const v4l2_buffer& buffer, core::Frame& out) noexcept {
   out.exposure_ns = info_.exposure_ns;
   out.width_px = info_.width_px;
   out.height_px = info_.height_px;
-  is_lost_.store(false, std::memory_order_relaxed);
+  trouble_.found();
   return true;
 }
 
@@ -175,7 +176,7 @@ bool V4l2Camera::is_silent() const noexcept {
 
 void V4l2Camera::mark_lost() noexcept {
   sequence_.interrupted();
-  if (!is_lost_.exchange(true, std::memory_order_relaxed)) n_interruptions_.fetch_add(1, std::memory_order_relaxed);
+  trouble_.lost();
 }
 
 void V4l2Camera::interrupt() noexcept {
@@ -203,12 +204,6 @@ void V4l2Camera::stop() noexcept {
   (void)!::write(stop_fd_, &one, sizeof one);
   gate_.wait_until_left();
   stream_.close();
-}
-
-DeviceTrouble V4l2Camera::trouble() const noexcept {
-  return {is_lost_.load(std::memory_order_relaxed), n_interruptions_.load(std::memory_order_relaxed),
-          n_damaged_.load(std::memory_order_relaxed),
-          clock_kind_.load(std::memory_order_relaxed) == StampClock::Kind::kArrival};
 }
 
 }  // namespace drivers

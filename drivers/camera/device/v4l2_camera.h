@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <string>
@@ -10,6 +9,7 @@
 #include "drivers/camera/device/live_sequence.h"
 #include "drivers/camera/device/luma.h"
 #include "drivers/camera/device/stamp_clock.h"
+#include "drivers/camera/device/trouble_count.h"
 #include "drivers/camera/device/v4l2_controls.h"
 #include "drivers/camera/device/v4l2_stream.h"
 
@@ -41,7 +41,7 @@ class V4l2Camera final : public Camera {
   CaptureStatus capture(core::Frame& out, std::chrono::milliseconds timeout) noexcept override;
   void stop() noexcept override;  // any thread
   [[nodiscard]] std::string fault() const override { return fault_; }
-  [[nodiscard]] DeviceTrouble trouble() const noexcept override;
+  [[nodiscard]] DeviceTrouble trouble() const noexcept override { return trouble_.read(); }
 
  private:
   using Deadline = V4l2Stream::Deadline;
@@ -56,7 +56,6 @@ class V4l2Camera final : public Camera {
   void mark_lost() noexcept;
   void interrupt() noexcept;
   void find_again() noexcept;
-  void remember(StampClock::Kind kind) noexcept { clock_kind_.store(kind, std::memory_order_relaxed); }
 
   V4l2CameraConfig config_;
   V4l2Stream stream_;
@@ -71,10 +70,7 @@ class V4l2Camera final : public Camera {
   bool has_signal_ = true;
   int stop_fd_ = -1;  // an event that wakes the wait
   CaptureGate gate_;
-  // Written by the capturing thread, read by any: counts on their own.
-  std::atomic<std::uint64_t> n_interruptions_{0}, n_damaged_{0};
-  std::atomic<bool> is_lost_{false};
-  std::atomic<StampClock::Kind> clock_kind_{StampClock::Kind::kUndecided};
+  TroubleCount trouble_;
 };
 
 }  // namespace drivers

@@ -45,6 +45,13 @@ v4l2_buffer capture_buffer(std::uint32_t index) noexcept {
   return buffer;
 }
 
+template <class Visit>
+void for_each_capture_node(Visit visit) {
+  for (int n = 0; n < kMaxNodes; ++n) {
+    if (V4l2Device device; device.open(fmt::format("/dev/video{}", n)) == 0) visit(device);
+  }
+}
+
 }  // namespace
 
 bool V4l2Identity::is_same_camera(const V4l2Identity& other) const noexcept {
@@ -163,24 +170,21 @@ void V4l2Device::stream_off() const noexcept {
 
 std::vector<std::string> capture_nodes() {
   std::vector<std::string> paths;
-  for (int n = 0; n < kMaxNodes; ++n) {
-    std::string path = fmt::format("/dev/video{}", n);
-    if (V4l2Device device; device.open(path) == 0) paths.push_back(std::move(path));
-  }
+  for_each_capture_node([&](const V4l2Device& device) { paths.push_back(device.path()); });
   return paths;
 }
 
 std::string find_node(const V4l2Identity& wanted) {
-  std::string found;
+  std::string there, elsewhere;
   int n_alike = 0;
-  for (const std::string& path : capture_nodes()) {
-    V4l2Device device;
-    if (device.open(path) != 0 || !device.identity().is_same_camera(wanted)) continue;
-    if (device.identity().bus_info == wanted.bus_info) return path;
-    found = path;
+  for_each_capture_node([&](const V4l2Device& device) {
+    if (!device.identity().is_same_camera(wanted)) return;
+    if (there.empty() && device.identity().bus_info == wanted.bus_info) there = device.path();
+    elsewhere = device.path();
     ++n_alike;
-  }
-  return n_alike == 1 ? found : std::string();
+  });
+  if (!there.empty()) return there;
+  return n_alike == 1 ? elsewhere : std::string();
 }
 
 }  // namespace drivers

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # vivid: every pixel format that it offers and we read, at three sizes: frames delivered and counted gaps against the
-# sequence numbers, and the picture against the gray one (vivid draws the same test card in each).
+# sequence numbers, and these against the clock.
 . tests/device/cases/lib.sh
 vivid
 formats=${FORMATS:-GREY Y10 Y12 Y16 YUYV UYVY NV12 YU12 RGB3 BGR3}

@@ -19,7 +19,6 @@ wait_for() { # SECONDS COMMAND...: until it succeeds
     sleep 0.1
   done
 }
-is_gone() { ! [ -e "$1" ]; }
 
 # capture NAME ARG...: through the driver, facts to /out/NAME.txt; fact NAME KEY
 capture() {
@@ -34,6 +33,15 @@ vivid() {
   modprobe vivid n_devs=1 "$@" && wait_for 20 test -c /dev/video0
 }
 set_control() { v4l2-ctl -d /dev/video0 -c "$1" >/dev/null 2>&1; }
+
+# vimc: a simulated pipeline for libcamera, which finds cameras through a running udev daemon; tests/device/vimc.sh builds it
+vimc() {
+  mkdir -p /run/udev
+  /lib/systemd/systemd-udevd --daemon 2>/dev/null
+  modprobe vimc || return 1
+  udevadm trigger --subsystem-match=media --subsystem-match=video4linux
+  udevadm settle -t 30
+}
 
 # plug_in FILE ARG...: the camera of usb_camera.cpp; its process in usb_pid, its node under /dev/video*
 usb_pid=
