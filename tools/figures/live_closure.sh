@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The loop closed in flight (closure.adopt: auto): effects that begin in mid-flight, records without one, replays, and
 # what it costs. One line a figure. About an hour on two processors; --quick takes a fifth of the seeds: 15 minutes.
-#   tools/figures/live_closure.sh [--quick] [FIGURE...]      FIGURE: some of 1 ... 5 (default: all)
+#   tools/figures/live_closure.sh [--quick] [FIGURE...]      FIGURE: some of 1, 1c (the clips), 2 ... 5 (default: all)
 # Figure 4 measures time: leave the machine alone meanwhile. SKIP where measured data (HOVERMODAL_DATA) are absent.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -9,7 +9,7 @@ cd "$(dirname "$0")/../.."
 seeds=5 nulls=100 clip_s=300 latency_s=60
 [ "${1:-}" != --quick ] || { seeds=1 nulls=20 clip_s=240 latency_s=25 && shift; }
 figures=("${@:-}")
-[ -n "${figures[0]}" ] || figures=(1 2 3 4 5)
+[ -n "${figures[0]}" ] || figures=(1 1c 2 3 4 5)
 out=$PWD/build/figures/live_closure
 mkdir -p "$out"
 tools/setup.sh
@@ -26,7 +26,6 @@ figure_1() {
     total=$((total + n)) right=$((right + alone))
   done < <(tracks_cells)
   judge 1 "$right of $total" "95 %" "track records whose effects are all taken out, and nothing else" "$right >= 0.95 * $total"
-  clips
 }
 tracks_cells() { # a line per case, from the records' lines
   python3 - "$out/tracks.txt" <<'PY'
@@ -66,7 +65,7 @@ clip() {
   quietly "${how[@]}" "${brief[@]}" --set "telemetry.log_file=$folder/log.lcm" --report "$folder/auto"
   quietly "${how[@]}" --set closure.adopt=off --report "$folder/off"
 }
-clips() {
+figure_1c() {
   local number=0
   while IFS='|' read -r name effect scene; do
     number=$((number + 1))

@@ -51,7 +51,6 @@ class CsvTest : public tests::FolderTest {
     }
     return {};
   }
-  std::filesystem::path folder_;
 };
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
