@@ -19,6 +19,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds kSettleTime{1000};
 constexpr milliseconds kSettleLimit{4000};  // for a camera that sends nothing at first
 constexpr milliseconds kSearchPeriod{100};  // between two looks for a camera that is gone
+constexpr milliseconds kFirstLook{250};     // without a request: is it still there?
 constexpr milliseconds kSilence{3000};      // without a request: the stream is set up again
 constexpr double kUnstatedRate_hz = 30.0;   // until frames were seen
 
@@ -78,7 +79,7 @@ CaptureStatus LibcameraCamera::capture(core::Frame& out, std::chrono::millisecon
     if (gate_.is_closed()) return CaptureStatus::kEndOfStream;
     if (!fault_.empty()) return CaptureStatus::kFault;
     const rt::Wakeup::Ticket ticket = wakeup_.ticket();
-    if (session_.is_gone() || (session_.is_running() && Clock::now() - last_request_ > kSilence)) interrupt();
+    if (session_.is_gone() || is_silent()) interrupt();
     if (!session_.is_running()) find_again();
     if (const auto done = session_.next()) {
       if (take(*done, out)) return CaptureStatus::kFrame;
@@ -89,6 +90,12 @@ CaptureStatus LibcameraCamera::capture(core::Frame& out, std::chrono::millisecon
     const auto left = std::chrono::ceil<milliseconds>(deadline - now);
     wakeup_.wait(ticket, session_.is_running() ? left : std::min(left, kSearchPeriod));
   }
+}
+
+bool LibcameraCamera::is_silent() const noexcept {
+  if (!session_.is_running()) return false;
+  const auto silence = Clock::now() - last_request_;
+  return silence > kSilence || (silence > kFirstLook && session_.has_vanished());
 }
 
 bool LibcameraCamera::take(const LibcameraSession::Done& done, core::Frame& out) noexcept {

@@ -43,6 +43,7 @@ class LibcameraCamera final : public Camera {
   using Deadline = std::chrono::steady_clock::time_point;
 
   void settle();
+  [[nodiscard]] bool is_silent() const noexcept;  // or gone without libcamera having heard of it
   [[nodiscard]] bool take(const LibcameraSession::Done& done, core::Frame& out) noexcept;
   [[nodiscard]] bool fill(const LibcameraSession::Done& done, core::Frame& out) noexcept;
   void interrupt() noexcept;

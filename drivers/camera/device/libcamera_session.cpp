@@ -5,12 +5,14 @@
 #include <sys/mman.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
+#include "drivers/camera/device/gone_nodes.h"
 #include "drivers/camera/device/libcamera_manager.h"
+#include "drivers/camera/device/libcamera_modes.h"
 #include "rt/spsc_ring.h"
 
 namespace drivers {
@@ -21,22 +23,6 @@ namespace {
 
 constexpr unsigned kBuffers = 6;
 constexpr std::size_t kRingSlots = 64;  // more than requests, ever
-constexpr unsigned kLargestWidth_px = 1920, kLargestHeight_px = 1080;
-
-struct Readable {
-  lc::PixelFormat format;
-  PixelLayout layout;
-};
-// In the order of what they cost. libcamera names RGB formats by the register, least significant byte last.
-const std::array kReadable = {
-    Readable{lc::formats::R8, PixelLayout::kGray8},     Readable{lc::formats::NV12, PixelLayout::kGray8},
-    Readable{lc::formats::NV21, PixelLayout::kGray8},   Readable{lc::formats::YUV420, PixelLayout::kGray8},
-    Readable{lc::formats::YVU420, PixelLayout::kGray8}, Readable{lc::formats::YUYV, PixelLayout::kYuyv},
-    Readable{lc::formats::YVYU, PixelLayout::kYuyv},    Readable{lc::formats::UYVY, PixelLayout::kUyvy},
-    Readable{lc::formats::VYUY, PixelLayout::kUyvy},    Readable{lc::formats::R10, PixelLayout::kGray10},
-    Readable{lc::formats::RGB888, PixelLayout::kBgr24}, Readable{lc::formats::BGR888, PixelLayout::kRgb24},
-    Readable{lc::formats::MJPEG, PixelLayout::kMjpeg},
-};
 
 }  // namespace
 
@@ -73,7 +59,12 @@ class LibcameraSession::Impl {
   void halt() noexcept {
     if (!is_running_) return;
     is_running_ = false;
-    camera_->stop();
+    const std::vector<int> gone = open_nodes_that_are_gone();
+    if (is_gone() || gone.empty()) {
+      camera_->stop();
+    } else {
+      abandon(gone);
+    }
     while (reader_.front() != nullptr) reader_.pop();
   }
 
@@ -82,8 +73,7 @@ class LibcameraSession::Impl {
     camera_->requestCompleted.disconnect(this);
     camera_->disconnected.disconnect(this);
     requests_.clear();
-    for (const Mapping& mapped : mappings_) munmap(mapped.bytes, mapped.n_bytes);
-    mappings_.clear();
+    unmap();
     allocator_.reset();
     camera_config_.reset();
     camera_->release();
@@ -137,9 +127,34 @@ class LibcameraSession::Impl {
     unsigned offset = 0;  // of the image in it
   };
 
+  // libcamera 0.0.3 hears of the end of a USB camera only. It ends the process when a camera of another kind is stopped
+  // that is gone, and again when such a camera comes back while its manager runs. So the manager ends here, and what
+  // belongs to the camera is neither stopped nor destroyed: some memory and descriptors are lost with each such end.
+  void abandon(const std::vector<int>& nodes) {
+    camera_->requestCompleted.disconnect(this);
+    camera_->disconnected.disconnect(this);
+    unmap();
+    manager_.reset();
+    struct Abandoned {
+      std::shared_ptr<lc::Camera> camera;
+      std::unique_ptr<lc::CameraConfiguration> config;
+      std::unique_ptr<lc::FrameBufferAllocator> allocator;
+      std::vector<std::unique_ptr<lc::Request>> requests;
+    };
+    static auto* const for_ever = new std::vector<Abandoned>;
+    for_ever->push_back({std::move(camera_), std::move(camera_config_), std::move(allocator_), std::move(requests_)});
+    requests_.clear();
+    let_go(nodes);
+  }
+  void unmap() noexcept {
+    for (const Mapping& mapped : mappings_) munmap(mapped.bytes, mapped.n_bytes);
+    mappings_.clear();
+  }
+
   // Acquires the camera and prepares everything but the stream. Non-empty: why not.
   [[nodiscard]] std::string configure() {
     close();
+    if (!manager_) manager_ = libcamera_manager();
     camera_ = manager_->get(id_);
     if (!camera_) return "is not attached";
     if (camera_->acquire() != 0) {
@@ -149,14 +164,14 @@ class LibcameraSession::Impl {
     camera_config_ = camera_->generateConfiguration({lc::StreamRole::Viewfinder});
     if (!camera_config_ || camera_config_->empty()) return "has no stream for us";
     lc::StreamConfiguration& stream = camera_config_->at(0);
-    const Readable* chosen = choose_format(stream);
-    if (chosen == nullptr) return "delivers no format that can be read here";
+    const auto chosen = choose_mode(stream, wanted_size());
+    if (!chosen) return "delivers no format that can be read here";
     stream.pixelFormat = chosen->format;
-    stream.size = choose_size(stream);
+    stream.size = chosen->size;
     stream.bufferCount = kBuffers;
     // validate() adjusts what the hardware cannot do: what counts is read back.
     if (camera_config_->validate() == lc::CameraConfiguration::Invalid || camera_->configure(camera_config_.get()) != 0)
-      return fmt::format("refuses {} {}", chosen->format.toString(), stream.size.toString());
+      return fmt::format("refuses {} {}", chosen->format.toString(), chosen->size.toString());
     if (stream.pixelFormat != chosen->format || (!size_.isNull() && stream.size != size_))
       return "makes another mode of what was asked: " + stream.toString();
     if (wishes_.width_px > 0 &&
@@ -169,22 +184,9 @@ class LibcameraSession::Impl {
     return make_requests(stream.stream());
   }
 
-  [[nodiscard]] static const Readable* choose_format(const lc::StreamConfiguration& stream) {
-    const std::vector<lc::PixelFormat> offered = stream.formats().pixelformats();
-    for (const Readable& readable : kReadable) {
-      if (std::find(offered.begin(), offered.end(), readable.format) != offered.end()) return &readable;
-    }
-    return nullptr;
-  }
-  [[nodiscard]] lc::Size choose_size(const lc::StreamConfiguration& stream) const {
-    if (wishes_.width_px > 0)
-      return {static_cast<unsigned>(wishes_.width_px), static_cast<unsigned>(wishes_.height_px)};
-    if (!size_.isNull()) return size_;
-    lc::Size largest;
-    for (const lc::Size& size : stream.formats().sizes(stream.pixelFormat)) {
-      if (size.width <= kLargestWidth_px && size.height <= kLargestHeight_px && size > largest) largest = size;
-    }
-    return largest.isNull() ? stream.size : largest;
+  [[nodiscard]] lc::Size wanted_size() const {
+    if (wishes_.width_px == 0) return size_;  // null before the first time
+    return {static_cast<unsigned>(wishes_.width_px), static_cast<unsigned>(wishes_.height_px)};
   }
 
   [[nodiscard]] std::string make_requests(lc::Stream* stream) {
@@ -245,7 +247,7 @@ class LibcameraSession::Impl {
   }
 
   LibcameraWishes wishes_;
-  std::shared_ptr<lc::CameraManager> manager_;
+  std::shared_ptr<lc::CameraManager> manager_;  // null after a camera was abandoned
   rt::Wakeup& wakeup_;
   std::string id_;
   std::shared_ptr<lc::Camera> camera_;  // acquired; null while it is gone
@@ -275,6 +277,7 @@ void LibcameraSession::halt() noexcept { impl_->halt(); }
 void LibcameraSession::close() noexcept { impl_->close(); }
 bool LibcameraSession::is_running() const noexcept { return impl_->is_running(); }
 bool LibcameraSession::is_gone() const noexcept { return impl_->is_gone(); }
+bool LibcameraSession::has_vanished() const { return !open_nodes_that_are_gone().empty(); }
 std::optional<LibcameraSession::Done> LibcameraSession::next() noexcept { return impl_->next(); }
 LumaStatus LibcameraSession::read(const Done& done, std::uint8_t* luma) noexcept { return impl_->read(done, luma); }
 bool LibcameraSession::give_back(const Done& done, bool lock) { return impl_->give_back(done, lock); }

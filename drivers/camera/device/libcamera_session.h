@@ -19,10 +19,9 @@ struct LibcameraWishes {
   double exposure_ms = 0.0;         // 0 = automatic until it is locked
 };
 
-// One camera of libcamera's, and with libcamera_manager.cpp all that is known here of that library: 0.0.3, whose later
-// versions change these two files only.
-// Its thread calls back with completed requests, which are only put into a ring.
-// One thread at a time, except where stated.
+// One camera of libcamera's, and with libcamera_manager.cpp and libcamera_modes.cpp all that is known here of that
+// library: 0.0.3, whose later versions change these files only. Its thread calls back with completed requests, which
+// are only put into a ring. One thread at a time, except where stated.
 class LibcameraSession {
  public:
   // Finds the camera and settles format and size. Throws DeviceMissing, std::invalid_argument, std::runtime_error.
@@ -41,6 +40,8 @@ class LibcameraSession {
   void close() noexcept;  // gives the camera up
   [[nodiscard]] bool is_running() const noexcept;
   [[nodiscard]] bool is_gone() const noexcept;  // unplugged: libcamera said so
+  // Unplugged, seen by its nodes: libcamera does not hear of every camera's end. Looks through the open files.
+  [[nodiscard]] bool has_vanished() const;
 
   struct Done {
     std::size_t cookie = 0;

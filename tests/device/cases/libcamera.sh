@@ -34,6 +34,18 @@ capture bare --driver libcamera --source "Playback" --limit 5 --frames 1
 LD_PRELOAD=$bin/libfirmware_node.so capture shimmed --driver libcamera --source VHCI-1:1.0-1d6b:0102 --size 640x480 --frames 30 --limit 60 --sent /out/sent.gray
 judge "USB camera through libcamera, with a shim for its id (without: $(fact bare error | head -c 60))" "$(fact shimmed frames) frames, $(fact shimmed unchanged) unchanged, $(fact shimmed rate_hz) Hz$(fact shimmed error)" \
   "30 of 30" "$(fact shimmed unchanged)+0 == 30"
+LD_PRELOAD=$bin/libfirmware_node.so capture usb_back --driver libcamera --source VHCI-1:1.0-1d6b:0102 --size 640x480 --frames 1000000 --limit 60 --sent /out/sent.gray &
+capture_pid=$!
+is_streaming usb_back
+for _ in 1 2 3; do
+  pull_out
+  plug_in /out/sent.gray
+  sleep 4
+done
+pkill -INT capture_check
+wait $capture_pid
+judge "USB camera through libcamera, unplugged and plugged in 3 times" "$(fact usb_back frames) frames, $(fact usb_back unchanged) unchanged, lost $(fact usb_back interruptions) times, lost now: $(fact usb_back lost)" \
+  "goes on by itself, frames unchanged" "$(fact usb_back interruptions) == 3 && $(fact usb_back lost) == 0 && $(fact usb_back unchanged) == $(fact usb_back frames)"
 pull_out
 rm -f /out/sent.gray
 finish
