@@ -14,13 +14,12 @@
 #include <csignal>
 #include <cstdio>
 #include <deque>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "tests/device/played_frames.h"
 #include "tests/device/usb_ip.h"
 #include "tests/device/uvc_controls.h"
 #include "tests/device/uvc_descriptors.h"
@@ -36,6 +35,7 @@ using std::chrono::nanoseconds;
 
 struct Options {
   std::string file;
+  std::string luma_file;  // gets the luma that MJPEG left of them; empty = none
   usb::VideoMode mode;
   std::string serial = "0001";
   int port = 0;
@@ -46,16 +46,12 @@ struct Options {
 
 class Camera {
  public:
-  Camera(const Options& options, int socket) : options_(options), mode_(options.mode), socket_(socket) {
-    std::ifstream file(options.file, std::ios::binary);
-    std::vector<char> gray((std::istreambuf_iterator<char>(file)), {});
-    const std::size_t n = gray.size() / (mode_.frame_bytes() * 8 / static_cast<std::size_t>(mode_.bits_per_pixel()));
-    if (n == 0) throw std::runtime_error(options.file + ": not one frame of that size");
-    for (const char luma : gray) {
-      images_.push_back(static_cast<std::uint8_t>(luma));
-      if (!mode_.is_gray) images_.push_back(128);  // no colour
-    }
-    n_images_ = n;
+  Camera(const Options& options, int socket)
+      : options_(options),
+        mode_(options.mode),
+        socket_(socket),
+        images_(usb::played_frames(options.file, options.mode)) {
+    if (!options.luma_file.empty()) usb::write_luma(options.luma_file, images_);
   }
 
   void run(const volatile std::sig_atomic_t& stop) {
@@ -95,13 +91,16 @@ class Camera {
     const auto every = [this](long n) { return n > 0 && n_sent_ % n == n - 1; };
     parity_ ^= 1;
     head_ = {2, static_cast<std::uint8_t>(0x82 | parity_ | (every(options_.error_every) ? 0x40 : 0))};
-    payload_bytes_ = every(options_.short_every) ? mode_.frame_bytes() / 2 : mode_.frame_bytes();
+    const std::size_t whole = image().size();
+    payload_bytes_ = every(options_.short_every) ? whole / 2 : whole;
     sent_bytes_ = 0;
     is_sending_ = true;
     next_frame_ += nanoseconds(1'000'000'000 / mode_.rate_hz);
     if (Clock::now() - next_frame_ > std::chrono::milliseconds(300)) next_frame_ = Clock::now();
     send_frame();
   }
+
+  [[nodiscard]] const usb::Image& image() const { return images_[static_cast<std::size_t>(n_sent_) % images_.size()]; }
 
   // As far as the host has asked for data; a frame is a header of two bytes and the image.
   void send_frame() {
@@ -110,11 +109,11 @@ class Camera {
       requests_.pop_front();
       const std::size_t total = payload_bytes_ + head_.size();
       const std::size_t n = std::min<std::size_t>(request.n_bytes, total - sent_bytes_);
-      const std::uint8_t* image = images_.data() + static_cast<std::size_t>(n_sent_) % n_images_ * mode_.frame_bytes();
+      const std::uint8_t* bytes = image().data();
       if (sent_bytes_ == 0) {
-        reply(request.number, 0, n, head_.data(), head_.size(), image, n - head_.size());
+        reply(request.number, 0, n, head_.data(), head_.size(), bytes, n - head_.size());
       } else {
-        reply(request.number, 0, n, nullptr, 0, image + sent_bytes_ - head_.size(), n);
+        reply(request.number, 0, n, nullptr, 0, bytes + sent_bytes_ - head_.size(), n);
       }
       sent_bytes_ += n;
       if (sent_bytes_ < total) continue;
@@ -211,8 +210,7 @@ class Camera {
   usb::VideoMode mode_;
   int socket_;
   usb::ExposureControl exposure_;
-  std::vector<std::uint8_t> images_;
-  std::size_t n_images_ = 0;
+  std::vector<usb::Image> images_;
   std::deque<Request> requests_;  // bulk transfers that wait for data
   bool is_streaming_ = false;
   bool is_sending_ = false;
@@ -250,7 +248,10 @@ int main(int argc, char** argv) {
   CLI::App app("A USB camera in user space that plays gray frames from a file.");
   app.add_option("file", options.file, "raw gray frames, one after another")->required()->check(CLI::ExistingFile);
   app.add_option("--size", size, "WIDTHxHEIGHT of a frame")->capture_default_str();
-  app.add_option("--format", format, "GREY or YUYV")->check(CLI::IsMember({"GREY", "YUYV"}))->capture_default_str();
+  app.add_option("--format", format, "of the frames")
+      ->check(CLI::IsMember({"GREY", "YUYV", "MJPG"}))
+      ->capture_default_str();
+  app.add_option("--luma", options.luma_file, "MJPG: gets the frames as JPEG has left them");
   app.add_option("--rate", options.mode.rate_hz, "frames a second")->check(CLI::Range(1, 240))->capture_default_str();
   app.add_option("--serial", options.serial, "serial number")->capture_default_str();
   app.add_option("--port", options.port, "of the virtual host controller")->capture_default_str();
@@ -262,7 +263,9 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "--size %s: write WIDTHxHEIGHT\n", size.c_str());
     return 2;
   }
-  options.mode.is_gray = format == "GREY";
+  options.mode.format = format == "GREY"   ? usb::VideoFormat::kGray
+                        : format == "YUYV" ? usb::VideoFormat::kYuyv
+                                           : usb::VideoFormat::kMjpeg;
   struct sigaction action {};
   action.sa_handler = [](int) { stop_asked = 1; };
   sigaction(SIGTERM, &action, nullptr);

@@ -11,17 +11,19 @@
 // one rate, frames over a bulk endpoint.
 namespace usb {
 
+enum class VideoFormat { kGray, kYuyv, kMjpeg };  // Y800, YUY2, JPEG
+
 struct VideoMode {
   int width_px = 640;
   int height_px = 480;
-  bool is_gray = true;  // Y800, else YUY2
+  VideoFormat format = VideoFormat::kGray;
   int rate_hz = 30;
 
-  [[nodiscard]] int bits_per_pixel() const { return is_gray ? 8 : 16; }
-  [[nodiscard]] std::size_t frame_bytes() const {
-    return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) *
-           static_cast<std::size_t>(bits_per_pixel()) / 8;
+  [[nodiscard]] std::size_t pixels() const {
+    return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
   }
+  // The most that a frame may have; a JPEG is shorter.
+  [[nodiscard]] std::size_t frame_bytes() const { return format == VideoFormat::kGray ? pixels() : 2 * pixels(); }
   [[nodiscard]] std::uint32_t interval_100ns() const { return 10'000'000U / static_cast<std::uint32_t>(rate_hz); }
 };
 
@@ -80,14 +82,19 @@ inline Bytes configuration_descriptor(const VideoMode& mode) {
   d.add({9, 4, 1, 0, 1, 0x0E, 2, 0, 0});  // video streaming
   const std::size_t streaming = d.size();
   d.add({14, 0x24, 1, 1, 0, 0, 0x81, 0, 2, 0, 0, 0, 1, 0});
-  d.add({27, 0x24, 4, 1, 1});  // uncompressed format 1 with one frame
-  if (mode.is_gray) {
-    d.add({'Y', '8', '0', '0', 0, 0, 0x10, 0, 0x80, 0, 0, 0xAA, 0, 0x38, 0x9B, 0x71});
+  const bool is_mjpeg = mode.format == VideoFormat::kMjpeg;
+  if (is_mjpeg) {
+    d.add({11, 0x24, 6, 1, 1, 0, 1, 0, 0, 0, 0});  // format 1 with one frame
   } else {
-    d.add({'Y', 'U', 'Y', '2', 0, 0, 0x10, 0, 0x80, 0, 0, 0xAA, 0, 0x38, 0x9B, 0x71});
+    d.add({27, 0x24, 4, 1, 1});
+    if (mode.format == VideoFormat::kGray) {
+      d.add({'Y', '8', '0', '0', 0, 0, 0x10, 0, 0x80, 0, 0, 0xAA, 0, 0x38, 0x9B, 0x71, 8});
+    } else {
+      d.add({'Y', 'U', 'Y', '2', 0, 0, 0x10, 0, 0x80, 0, 0, 0xAA, 0, 0x38, 0x9B, 0x71, 16});
+    }
+    d.add({1, 0, 0, 0, 0});
   }
-  d.add({mode.bits_per_pixel(), 1, 0, 0, 0, 0});
-  d.add({30, 0x24, 5, 1, 0});  // frame 1
+  d.add({30, 0x24, is_mjpeg ? 7 : 5, 1, 0});  // frame 1
   d.add_16(static_cast<std::size_t>(mode.width_px));
   d.add_16(static_cast<std::size_t>(mode.height_px));
   const std::size_t bit_rate = mode.frame_bytes() * 8 * static_cast<std::size_t>(mode.rate_hz);
