@@ -15,12 +15,16 @@ spy_pid=$!
 wait_for 60 grep -q "listening on" /out/spy.txt
 "$bin/hovermodald" --config $clip/config.yaml --set camera.driver=v4l2 --set camera.source=/dev/video0 --set "telemetry.lcm_url=$url" \
   --set camera.rate_hz=10 --set camera.readout_ms="$(awk '/readout_ms/ { print $2 / '$slow' }' $clip/config.yaml)" \
-  --set tracking.points_per_region=8 --set spectrum.segment=256 --set closure.adopt=off --report /out/report >/out/service.txt 2>&1 &
+  --set tracking.points_per_region=8 --set tracking.min_distance_px=4 --set spectrum.segment=256 --set closure.adopt=off --report /out/report >/out/service.txt 2>&1 &
 service_pid=$!
-sleep "${WATCH_S:-150}"
-kill -TERM $service_pid
+for ((i = 0; i < ${WATCH_S:-150}; i++)); do
+  sleep 1
+  kill -0 $service_pid 2>/dev/null || break
+done
+kill -TERM $service_pid 2>/dev/null
 wait $service_pid
 status=$?
+[ $status -eq 0 ] || { tail -n 3 /out/service.txt && kill $spy_pid; }
 wait $spy_pid
 python3 - $slow $clip/truth/modal.json /out/report/modal.json /out/spy.txt >/out/modes.txt <<'PY'
 import json, re, sys
