@@ -1,20 +1,11 @@
 #include "firmware_app/analysis.h"
 
-#include <fmt/core.h>
-
-#include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <stdexcept>
 
 #include "drivers/storage/csv.h"
-#include "firmware_app/core_config.h"
-#include "firmware_app/report/modal_json.h"
-#include "firmware_app/report/pictures/pictures.h"
-#include "firmware_app/report/run_report.h"
-#include "firmware_app/run_findings.h"
-#include "firmware_app/track_analysis.h"
+#include "firmware_app/track_replay.h"
 
 namespace app {
 
@@ -81,43 +72,13 @@ TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_pa
   if (file.frames.empty()) throw std::invalid_argument(tracks_path + ": no frame");
   const core::CameraInfo camera = camera_of(file, config);
   const PointPlaces places(file, config);
-  TrackAnalysis run(config, camera, places.first());
-
-  TracksResult result;
-  result.channels = run.channels();
-  std::unique_ptr<RunReport> report;
-  if (!report_directory.empty()) {
-    report = std::make_unique<RunReport>(report_directory, config, camera, result.channels, region_names(config));
-  }
-  ChannelAnalysis& analysis = run.analysis();
-  analysis.report_to(report.get());
-  std::optional<core::closure::ClosureReport> closure;
-  run.hear_closure([&](const core::closure::ClosureReport& last) {
-    closure = last;
-    result.changes.insert(result.changes.end(), last.changes.begin(), last.changes.end());
-  });
-  core::TrackFrame tracks;
-  for (const core::TrackFrame& frame : file.frames) {
-    places.spread(frame, tracks);
-    const bool accepted = run.push(tracks);
-    if (accepted && report) (void)(report->add(tracks) && report->add(run.sample()));
-  }
-  result.estimate = run.finish();
-  result.losses = analysis.losses();
-  result.n_differences = analysis.n_differences();
-  if (!report) return result;
-  report->finish(result.estimate, result.losses, corrections(config, camera), caveats(config, camera),
-                 closure ? &*closure : nullptr);
-  const RunFacts facts = run_facts(config, camera, tracks_path, result.losses, result.estimate);
-  PictureInputs inputs = picture_inputs(config, camera, result.channels);
-  inputs.keyframe = &places.first();
-  inputs.spectrum = &analysis.sums();
-  inputs.estimate = &result.estimate;
-  inputs.history = &report->history();
-  inputs.closure = closure ? &*closure : nullptr;
-  inputs.facts = &facts;
-  (void)write_pictures(report_directory, inputs);
-  return result;
+  std::size_t i_frame = 0;
+  const auto next = [&](core::RecordedFrame& out) {
+    if (i_frame == file.frames.size()) return false;
+    places.spread(file.frames[i_frame++], out.tracks);
+    return true;
+  };
+  return replay({{config, camera, places.first(), tracks_path, next}}, report_directory);
 }
 
 }  // namespace app

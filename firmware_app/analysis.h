@@ -48,7 +48,7 @@ struct SeriesResult {
 // Throws std::invalid_argument when nothing is left, or the record is shorter than one segment.
 [[nodiscard]] SeriesResult identify_series(const ChannelSeries& series, const SeriesOptions& options);
 
-// tracks.csv -> geometry -> spectra -> modes; leaves the service's report in `report_directory` when not empty.
+// Recorded tracks -> geometry -> spectra -> modes; leaves the service's report in `report_directory` when not empty.
 struct TracksResult {
   core::ModalEstimate estimate;
   core::Health losses;
@@ -58,5 +58,19 @@ struct TracksResult {
 };
 [[nodiscard]] TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_path,
                                          const std::string& report_directory);
+
+// The same from records of the service (record.directory): to the same bits as the run's own estimates. Several runs of
+// one view go on with each other's sums, and make one estimate; its report then has no time series.
+struct RecordOverrides {
+  std::string config_path;             // instead of the recorded configuration; empty = that one
+  std::vector<std::string> overrides;  // "section.key=value"
+};
+struct RecordsResult {
+  TracksResult tracks;
+  std::vector<std::string> remarks;  // what a record lacks, in words
+};
+// Throws ConfigError, drivers::FileError, std::invalid_argument where runs do not fit together.
+[[nodiscard]] RecordsResult replay_records(const std::vector<std::string>& paths, const RecordOverrides& overrides,
+                                           const std::string& report_directory);
 
 }  // namespace app

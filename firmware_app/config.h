@@ -111,6 +111,12 @@ struct ReportConfig {
   bool tracks = true;     // write tracks.csv (the largest file)
 };
 
+struct RecordConfig {
+  std::string directory;  // LCM event logs of the run, to be replayed; empty = none
+  int file_mb = 512;      // a file that has grown to this is followed by another one
+  int quota_mb = 8192;    // of all records there; the oldest runs make room
+};
+
 struct StateConfig {
   std::string directory;  // where the run's state is kept; empty = nowhere
   double period_s = 60.0;
@@ -139,6 +145,7 @@ struct AppConfig {
   ClosureConfig closure;
   TelemetryConfig telemetry;
   ReportConfig report;
+  RecordConfig record;
   StateConfig state;
   RtConfig rt;
   std::uint64_t hash = 0;  // FNV-1a of the canonical text of everything above that changes results

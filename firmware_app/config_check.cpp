@@ -22,6 +22,7 @@ class Checker {
 
   void check() const {
     check_camera();
+    check_record();
     check_regions();
     check_references();
     check_scale();
@@ -73,6 +74,13 @@ class Checker {
       refuse(key, value, "where a focal length is known", "add a calibration: an angle is no pixel without one");
     if (config_.camera.attitude_file.empty() && config_.telemetry.lcm_url.empty())
       refuse(key, value, "where telemetry.lcm_url names a network", "set telemetry.lcm_url");
+  }
+
+  void check_record() const {
+    if (config_.record.directory.empty() || config_.record.quota_mb >= 2 * config_.record.file_mb) return;
+    refuse("record.quota_mb", std::to_string(config_.record.quota_mb),
+           fmt::format("{} or more: two files of record.file_mb", 2 * config_.record.file_mb),
+           "raise it, or lower record.file_mb");
   }
 
   void check_regions() const {

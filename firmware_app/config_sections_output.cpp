@@ -111,6 +111,15 @@ void add_output_keys(std::vector<ConfigKey>& keys) {
                           "folder for modal.json and CSV files; \"\" = none; --report goes before"));
   keys.push_back(
       switch_key("report.tracks", at(&A::report, &ReportConfig::tracks), "also write tracks.csv (the largest file)"));
+  using O = RecordConfig;
+  keys.push_back(text_key("record.directory", at(&A::record, &O::directory), {},
+                          "record the run there, in LCM event logs: its messages, every point to the last bit, the "
+                          "configuration; `hovermodal replay` gives the same estimates again; \"\" = none"));
+  keys.push_back(whole_key("record.file_mb", "MB", at(&A::record, &O::file_mb), {1, 100000},
+                           "a file that has grown to this is followed by the next"));
+  keys.push_back(whole_key("record.quota_mb", "MB", at(&A::record, &O::quota_mb), {2, 100000000},
+                           "of all records in the folder: the oldest runs are removed to make room; when only this run "
+                           "is left, it is recorded no further"));
   using P = StateConfig;
   keys.push_back(
       text_key("state.directory", at(&A::state, &P::directory), {},

@@ -27,8 +27,8 @@ std::vector<ConfigKey> build_keys() {
 }
 
 bool changes_results(const ConfigKey& key) {
-  return !key.path.starts_with("telemetry.") && !key.path.starts_with("report.") && !key.path.starts_with("state.") &&
-         !key.path.starts_with("rt.");
+  return !key.path.starts_with("telemetry.") && !key.path.starts_with("report.") && !key.path.starts_with("record.") &&
+         !key.path.starts_with("state.") && !key.path.starts_with("rt.");
 }
 
 }  // namespace

@@ -62,6 +62,13 @@ void warn_of_camera(const drivers::DeviceTrouble& trouble, core::Health& health)
         "the camera's time stamps are on no clock of this machine: frames are stamped on arrival, a few ms uneven");
 }
 
+void warn_of_record(const drivers::RunRecorder* recorder, const TrackingStage& tracking, core::Health& health) {
+  const std::uint64_t n = recorder != nullptr ? recorder->n_lost() + tracking.n_records_lost() : 0;
+  if (n == 0) return;
+  health.warnings.push_back(fmt::format(
+      "{} frames are not in the record: is the disk slow or full, or record.quota_mb reached? A replay lacks them", n));
+}
+
 void warn_of_attitude(const TrackingStage& tracking, core::Health& health) {
   if (tracking.attitude_given_up()) {
     health.warnings.emplace_back(
@@ -124,6 +131,7 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
   }
   if (const std::string failure = checkpoint_ != nullptr ? checkpoint_->failure() : ""; !failure.empty())
     health.warnings.push_back("the run's state could not be kept: " + failure);
+  warn_of_record(recorder_, tracking_, health);
   warn_of_attitude(tracking_, health);
   if (const double jitter = spectrum_.worst_jitter_cells(); jitter > kJitterWorthAWord) {
     health.warnings.push_back(fmt::format(

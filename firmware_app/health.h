@@ -32,6 +32,7 @@ class HealthCollector {
   void watch(Queue queue) { queues_.push_back(std::move(queue)); }
   void name_regions(std::vector<std::string> names) { region_names_ = std::move(names); }  // as configured
   void watch_camera(const drivers::Camera& camera) { camera_ = &camera; }
+  void watch_record(const drivers::RunRecorder& recorder) { recorder_ = &recorder; }
   void watch_state(const CheckpointStage& checkpoint) { checkpoint_ = &checkpoint; }
 
   // Any thread.
@@ -47,7 +48,8 @@ class HealthCollector {
   const TrackingStage& tracking_;
   const SpectrumStage& spectrum_;
   const drivers::Camera* camera_ = nullptr;
-  const CheckpointStage* checkpoint_ = nullptr;  // null: no state is kept
+  const drivers::RunRecorder* recorder_ = nullptr;  // null: the run is not recorded
+  const CheckpointStage* checkpoint_ = nullptr;     // null: no state is kept
   std::vector<Queue> queues_;
   std::vector<std::string> region_names_;
   mutable std::mutex warnings_mutex_;

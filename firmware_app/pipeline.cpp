@@ -11,6 +11,7 @@
 #include "firmware_app/pipeline_setup.h"
 #include "firmware_app/readout_use.h"
 #include "firmware_app/report/page/report_page.h"
+#include "firmware_app/run_head.h"
 #include "firmware_app/stages/closure_stage.h"
 #include "firmware_app/stages/identification_stage.h"
 #include "rt/memory.h"
@@ -20,17 +21,24 @@ namespace app {
 
 // The data flow, top to bottom. Members are destroyed in reverse: threads first, then stages, rings, devices.
 struct Pipeline::Parts {
-  Parts(const AppConfig& c, std::unique_ptr<drivers::Camera> camera, std::unique_ptr<drivers::Publisher> publisher)
-      : config(c), lock_refused(keep_memory(config)), source(std::move(camera), config), out(std::move(publisher)) {
+  Parts(const AppConfig& c, std::unique_ptr<drivers::Camera> camera, std::unique_ptr<drivers::RunRecorder> record,
+        std::unique_ptr<drivers::Publisher> publisher)
+      : config(c),
+        lock_refused(keep_memory(config)),
+        source(std::move(camera), config),
+        recorder(std::move(record)),
+        out(std::move(publisher)) {
     connect();
     watch();
-    if (keeps_state()) keep_state();
+    const bool continues = keeps_state() && keep_state();
+    if (recorder) recorder->begin(run_head(config, source.info, source.keyframe, continues));
   }
 
   AppConfig config;
   std::string lock_refused;  // why memory is not locked; empty: it is, or need not be
   Source source;             // camera, its first frame, the points seeded in it, the channels
   std::unique_ptr<drivers::AttitudeListener> attitude = open_attitude(config);  // null: none comes live
+  std::unique_ptr<drivers::RunRecorder> recorder;                               // null: the run is not recorded
   std::unique_ptr<drivers::Publisher> out;
   std::unique_ptr<RunReport> report = open_report(config, source);
 
@@ -112,6 +120,7 @@ struct Pipeline::Parts {
   }
   [[nodiscard]] PublishStage::Outlets outlets() {
     return {*out,
+            recorder.get(),
             report.get(),
             [this] { return status_with_host(); },
             picture_drawer(config, source, report.get()),
@@ -152,18 +161,19 @@ struct Pipeline::Parts {
     };
     closure.amend(book, geometry, view_changes.writer());
   }
-  void keep_state() {
+  [[nodiscard]] bool keep_state() {
     spectrum_states.set_reader_wakeup(&checkpoint.wakeup());
     spectrum.keep_state(spectrum_states, config.state.period_s);
     identification.keep_state(mode_states);
     health.watch_state(checkpoint);
     health.watch({&run_checkpoint, {}, 0});
     keep_keyframe(config, source, health);
-    resume_state(state_path(config), view_of(config, source), spectrum, identification, health);
+    return resume_state(state_path(config), view_of(config, source), spectrum, identification, health);
   }
   void watch() {
     health.name_regions(region_names(config));
     health.watch_camera(*source.camera);
+    if (recorder) health.watch_record(*recorder);
     health.watch({&run_capture, {}, 0});
     health.watch({&run_tracking, [this] { return frames.depth(); }, frames.n_slots()});
     health.watch({&run_spectrum, [this] { return samples.depth(); }, samples.n_slots()});
@@ -194,14 +204,15 @@ struct Pipeline::Parts {
 Pipeline::Pipeline(const AppConfig& config) {
   std::unique_ptr<drivers::Camera> camera = open_camera(config);
   std::string warning;
-  std::unique_ptr<drivers::Publisher> publisher = open_publisher(config, warning);
-  parts_ = std::make_unique<Parts>(config, std::move(camera), std::move(publisher));
+  std::unique_ptr<drivers::RunRecorder> recorder = open_recorder(config);
+  std::unique_ptr<drivers::Publisher> publisher = open_publisher(config, recorder.get(), warning);
+  parts_ = std::make_unique<Parts>(config, std::move(camera), std::move(recorder), std::move(publisher));
   if (!warning.empty()) parts_->health.warn(warning);
 }
 
 Pipeline::Pipeline(const AppConfig& config, std::unique_ptr<drivers::Camera> camera,
                    std::unique_ptr<drivers::Publisher> publisher)
-    : parts_(std::make_unique<Parts>(config, std::move(camera), std::move(publisher))) {}
+    : parts_(std::make_unique<Parts>(config, std::move(camera), open_recorder(config), std::move(publisher))) {}
 
 Pipeline::~Pipeline() {
   request_stop();

@@ -11,13 +11,12 @@
 #include "drivers/camera/camera_factory.h"
 #include "drivers/storage/checkpoint_file.h"
 #include "drivers/telemetry/publisher_factory.h"
-#include "firmware_app/calibration.h"
 #include "firmware_app/config_image.h"
 #include "firmware_app/core_config.h"
 #include "firmware_app/readout_use.h"
 #include "firmware_app/report/pictures/pictures.h"
 #include "firmware_app/run_findings.h"
-#include "firmware_app/structure_scale.h"
+#include "firmware_app/run_view.h"
 
 namespace app {
 
@@ -25,7 +24,8 @@ namespace {
 
 constexpr std::chrono::seconds kFirstFrameTimeout{10};
 
-// Starts the camera once its source fits the configuration; what it is, is complete only then (exposure, readout, rate).
+// Starts the camera once its source fits the configuration; what it is, is complete only then (exposure, readout,
+// rate).
 core::CameraInfo started(drivers::Camera& camera, const AppConfig& config) {
   const core::CameraInfo info = camera.info();
   check_against_image(config, info.width_px, info.height_px);
@@ -144,9 +144,26 @@ std::unique_ptr<drivers::AttitudeListener> open_attitude(const AppConfig& config
   return drivers::listen_for_attitude(config.telemetry.lcm_url, config.camera.attitude_channel);
 }
 
-std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config, std::string& warning) {
+std::unique_ptr<drivers::RunRecorder> open_recorder(const AppConfig& config) {
+  if (config.record.directory.empty()) return nullptr;
+  constexpr std::uint64_t kMb = 1'000'000;
   const TelemetryConfig& t = config.telemetry;
-  return drivers::make_publisher({t.lcm_url, t.channel_prefix, t.log_file, {t.stream_id, config.hash}}, &warning);
+  return drivers::make_run_recorder({config.record.directory,
+                                     kMb * static_cast<std::uint64_t>(config.record.file_mb),
+                                     kMb * static_cast<std::uint64_t>(config.record.quota_mb),
+                                     t.channel_prefix,
+                                     {t.stream_id, config.hash}});
+}
+
+std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config, drivers::RunRecorder* recorder,
+                                                   std::string& warning) {
+  const TelemetryConfig& t = config.telemetry;
+  return drivers::make_publisher({t.lcm_url,
+                                  t.channel_prefix,
+                                  t.log_file,
+                                  {t.stream_id, config.hash},
+                                  recorder != nullptr ? recorder->log() : nullptr},
+                                 &warning);
 }
 
 std::unique_ptr<RunReport> open_report(const AppConfig& config, const Source& source) {
@@ -186,11 +203,7 @@ std::function<void(const PublishStage::Findings&, const core::Health&)> picture_
 FrameRecord record_prototype(const Source& source) { return {source.keyframe, source.displacement.sample_prototype()}; }
 
 RunState view_of(const AppConfig& config, const Source& source) {
-  RunState view;
-  view.config_hash = config.hash;
-  view.rate_hz = source.info.rate_hz;
-  view.scale_mm_per_px = structure_scale(config, camera_model(config, source.info)).mm_per_px;
-  view.channels = source.channels();
+  RunState view = run_view(config, source.info, source.channels());
   const bool is_file = config.camera.driver == CameraDriver::kFile || config.camera.driver == CameraDriver::kSynthetic;
   if (!is_file) view.boot_id = drivers::boot_id();
   return view;
@@ -211,12 +224,12 @@ void keep_keyframe(const AppConfig& config, const Source& source, HealthCollecto
   if (!failure.empty()) health.warn("the keyframe could not be kept: " + failure);
 }
 
-void resume_state(const std::string& path, const RunState& view, SpectrumStage& spectrum,
+bool resume_state(const std::string& path, const RunState& view, SpectrumStage& spectrum,
                   IdentificationStage& identification, HealthCollector& health) {
   std::string refused;
   try {
     const drivers::CheckpointRead read = drivers::read_checkpoint(path);
-    if (!read.exists) return;
+    if (!read.exists) return false;
     refused = read.refused;
     if (refused.empty()) {
       const RunState saved = run_state_of(read.bytes);
@@ -229,13 +242,14 @@ void resume_state(const std::string& path, const RunState& view, SpectrumStage& 
         health.warn(fmt::format("goes on with the state in {}: {:.1f} s of record, {} segments{}", path,
                                 static_cast<double>(sums.n_samples) / sums.rate_hz, sums.n_segments,
                                 has_modes ? "" : "; its modes begin anew"));
-        return;
+        return true;
       }
     }
   } catch (const std::exception& e) {
     refused = e.what();
   }
   health.warn(fmt::format("the state in {} is not taken: {}; the record begins anew", path, refused));
+  return false;
 }
 
 void refuse_or_warn(const RtConfig& config, const std::string& refused, HealthCollector& health) {

@@ -49,7 +49,9 @@ struct Source {
 
 [[nodiscard]] std::unique_ptr<drivers::Camera> open_camera(const AppConfig& config);
 [[nodiscard]] std::unique_ptr<drivers::AttitudeListener> open_attitude(const AppConfig& config);  // null: none wanted
-[[nodiscard]] std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config, std::string& warning);
+[[nodiscard]] std::unique_ptr<drivers::RunRecorder> open_recorder(const AppConfig& config);       // null: none wanted
+[[nodiscard]] std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config,
+                                                                 drivers::RunRecorder* recorder, std::string& warning);
 [[nodiscard]] std::unique_ptr<RunReport> open_report(const AppConfig& config,
                                                      const Source& source);  // null: none wanted
 // What to say of a record shorter than one segment, which a source of unknown length may turn out to be; else empty.
@@ -65,8 +67,8 @@ struct Source {
 [[nodiscard]] std::string keyframe_path(const AppConfig& config);  // beside it
 // Keeps the keyframe for a later run; tells in health what became of the last one's, and a failure.
 void keep_keyframe(const AppConfig& config, const Source& source, HealthCollector& health);
-// Goes on with the state found at `path`; says so, or why not, in health.
-void resume_state(const std::string& path, const RunState& view, SpectrumStage& spectrum,
+// Goes on with the state found at `path`; says so, or why not, in health. False: the record begins anew.
+bool resume_state(const std::string& path, const RunState& view, SpectrumStage& spectrum,
                   IdentificationStage& identification, HealthCollector& health);
 
 // A real-time setting that the system refuses: an error when rt.required, else a warning in every status record.

@@ -46,6 +46,15 @@ void ChannelAnalysis::amend(ReadoutUse use, const Amendment& amendment) {
   for (int k = 0; !begins && k < cpsd_.sums().n_fft / 2; ++k) note(cpsd_.push_missing());
 }
 
+void ChannelAnalysis::go_on_from(ChannelAnalysis& earlier) {
+  std::swap(tracker_, earlier.tracker_);
+  std::swap(cpsd_, earlier.cpsd_);
+  losses_ = earlier.losses_;
+  n_masked_before_ = earlier.n_masked_before_;
+  n_estimates_ = earlier.n_estimates_;
+  for (int k = 0; k < cpsd_.sums().n_fft / 2; ++k) note(cpsd_.push_missing());
+}
+
 bool ChannelAnalysis::push(const core::DisplacementSample& sample) {
   const core::TimeGrid::Placement placement = grid_.place(sample.t_start_ns);
   ++losses_.frames_in;
@@ -83,6 +92,8 @@ TrackAnalysis::TrackAnalysis(const AppConfig& config, const core::CameraInfo& ca
   analysis_.find_readout(ReadoutUse(config, camera, keyframe, geometry_->displacement.spectra()));
   if (config.closure.adopt == ClosureAdopt::kAuto) loop_.emplace(loop_closer_config(config, camera, keyframe));
 }
+
+void TrackAnalysis::go_on_from(TrackAnalysis& earlier) { analysis_.go_on_from(earlier.analysis_); }
 
 bool TrackAnalysis::push(core::TrackFrame& tracks) {
   begin_amendment(tracks.sequence);

@@ -42,6 +42,8 @@ class ChannelAnalysis {
   // From the next sample on something else is taken out of the points: one segment is masked, or, where a new record
   // begins, an estimate of what came so far is made, and new sums begin.
   void amend(ReadoutUse use, const Amendment& amendment);
+  // Before the first sample: the sums, modes and counts of an earlier record. One segment lies between.
+  void go_on_from(ChannelAnalysis& earlier);
   void report_to(RunReport* report) noexcept { report_ = report; }  // every estimate; null = none
 
   // False: a frame that lies in no cell of its own of the grid, and is left out.
@@ -86,6 +88,8 @@ class TrackAnalysis {
 
   // An attitude that came since (camera.attitude_channel), before the frames it tells of.
   void take(const core::AttitudeSample& sample) noexcept { geometry_->displacement.take(sample); }
+  // Before the first frame: the spectra and modes of an earlier run of the same view are gone on with.
+  void go_on_from(TrackAnalysis& earlier);
   // Told each report of closing the loop; without, and with closure.adopt other than `auto`, nobody looks.
   void hear_closure(std::function<void(const core::closure::ClosureReport&)> hear) { hear_closure_ = std::move(hear); }
   // The end of the record: a last report, and the estimate.

@@ -1,16 +1,13 @@
 #include "drivers/telemetry/lcm_publisher.h"
 
 #include <fmt/format.h>
-#include <lcm/eventlog.h>
 #include <lcm/lcm.h>
 
-#include <cerrno>
 #include <chrono>
-#include <cstdio>
-#include <cstring>
 #include <stdexcept>
 
 #include "drivers/telemetry/encode.h"
+#include "drivers/telemetry/event_log.h"
 #include "drivers/telemetry/lcm_self_test.h"
 #include "drivers/telemetry/lcm_url.h"
 
@@ -26,7 +23,7 @@ std::int64_t utc_now_ns() noexcept {
 
 struct LcmPublisher::Ways {
   std::unique_ptr<lcm_t, decltype(&lcm_destroy)> network{nullptr, &lcm_destroy};
-  std::unique_ptr<lcm_eventlog_t, decltype(&lcm_eventlog_destroy)> log{nullptr, &lcm_eventlog_destroy};
+  std::vector<std::shared_ptr<EventLog>> logs;
 
   // Returns the self-test's warning.
   std::string open_network(const LcmOptions& options) {
@@ -43,32 +40,14 @@ struct LcmPublisher::Ways {
     }
     return test.message;
   }
-
-  void open_log(const std::string& path) {
-    log.reset(lcm_eventlog_create(path.c_str(), "w"));
-    if (!log) {
-      throw std::runtime_error(fmt::format(
-          "LCM event log \"{}\": cannot be written: {}. Check telemetry.log_file, its folder and its permissions.",
-          path, std::strerror(errno)));
-    }
-  }
-
-  bool write_log(std::string& channel, std::vector<std::uint8_t>& bytes, std::int64_t utc_ns) {
-    lcm_eventlog_event_t event{};
-    event.timestamp = utc_ns / 1000;
-    event.channellen = static_cast<std::int32_t>(channel.size());
-    event.datalen = static_cast<std::int32_t>(bytes.size());
-    event.channel = channel.data();
-    event.data = bytes.data();
-    return lcm_eventlog_write_event(log.get(), &event) == 0 && std::ferror(log->f) == 0;
-  }
 };
 
 LcmPublisher::LcmPublisher(const LcmOptions& options) : identity_(options.identity), ways_(std::make_unique<Ways>()) {
   check_channel_prefix(options.channel_prefix);
   for (std::size_t i = 0; i < kTopics; ++i) channels_[i].name = options.channel_prefix + kTopicSuffixes[i];
   if (!options.url.empty()) warning_ = ways_->open_network(options);
-  if (!options.log_file.empty()) ways_->open_log(options.log_file);
+  if (!options.log_file.empty()) ways_->logs.push_back(std::make_shared<EventLogFile>(options.log_file));
+  if (options.record) ways_->logs.push_back(options.record);
 }
 
 LcmPublisher::~LcmPublisher() = default;
@@ -84,10 +63,10 @@ bool LcmPublisher::send(Topic topic, Message& message) {
   if (ok && ways_->network) {
     ok = lcm_publish(ways_->network.get(), channel.name.c_str(), buffer_.data(), static_cast<unsigned>(size)) == 0;
   }
-  if (ways_->log) {
-    ok = ways_->write_log(channel.name, buffer_, message.utc_ns) && ok;
+  for (const auto& log : ways_->logs) {
+    ok = log->write(channel.name, buffer_, message.utc_ns) && ok;
     // Health comes about once a second: a crash takes no more than that from the log, and a full disk shows.
-    if (topic == kHealth) ok = std::fflush(ways_->log->f) == 0 && ok;
+    if (topic == kHealth) ok = log->flush() && ok;
   }
   if (ok) {
     channel.n_sent.fetch_add(1, std::memory_order_relaxed);

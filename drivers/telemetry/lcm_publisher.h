@@ -47,7 +47,7 @@ class LcmPublisher : public Publisher {
     std::int64_t next_sequence = 0;
     std::atomic<std::int64_t> n_sent{0};  // relaxed: a count on its own
   };
-  struct Ways;  // the LCM instance and the event log
+  struct Ways;  // the LCM instance and the event logs
 
   template <class Message>
   bool send(Topic topic, Message& message);

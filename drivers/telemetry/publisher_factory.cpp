@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "drivers/telemetry/attitude_listener.h"
+#include "drivers/telemetry/run_recorder.h"
 
 #ifdef HOVERMODAL_WITH_LCM
 #include "drivers/telemetry/lcm_publisher.h"
@@ -12,7 +13,7 @@ namespace drivers {
 
 std::unique_ptr<Publisher> make_publisher(const LcmOptions& options, std::string* warning) {
   if (warning != nullptr) warning->clear();
-  if (options.url.empty() && options.log_file.empty()) return std::make_unique<NullPublisher>();
+  if (options.url.empty() && options.log_file.empty() && !options.record) return std::make_unique<NullPublisher>();
 #ifdef HOVERMODAL_WITH_LCM
   auto publisher = std::make_unique<LcmPublisher>(options);
   if (warning != nullptr) *warning = publisher->warning();
@@ -26,6 +27,10 @@ std::unique_ptr<Publisher> make_publisher(const LcmOptions& options, std::string
 }
 
 #ifndef HOVERMODAL_WITH_LCM
+std::unique_ptr<RunRecorder> make_run_recorder(const RecordOptions& options) {
+  throw std::runtime_error("record.directory: \"" + options.directory + "\": this build has no LCM");
+}
+
 std::unique_ptr<AttitudeListener> listen_for_attitude(const std::string& url, const std::string& channel) {
   throw std::runtime_error("camera.attitude_channel: \"" + channel + "\" at \"" + url +
                            "\": this build has no LCM; use camera.attitude_file");

@@ -7,11 +7,14 @@
 
 namespace drivers {
 
+class EventLog;
+
 struct LcmOptions {
   std::string url = "udpm://239.255.76.67:7667?ttl=0";  // empty = nothing over the network
   std::string channel_prefix = "HOVERMODAL";  // <prefix>_MODAL, _DISPLACEMENT, _SPECTRUM, _TRACKS, _CLOSURE, _HEALTH
   std::string log_file;                       // the same messages into an LCM event log; empty = none
   StreamIdentity identity;
+  std::shared_ptr<EventLog> record = nullptr;  // one more log: that of the run's record
 };
 
 // Sends nothing, counts nothing: for runs without telemetry.

@@ -7,6 +7,7 @@
 #include "core/types/cpsd.h"
 #include "core/types/displacement.h"
 #include "core/types/modal_estimate.h"
+#include "core/types/run_record.h"
 #include "core/types/track.h"
 #include "firmware_app/amendment.h"
 
@@ -18,6 +19,7 @@ namespace app {
 struct FrameRecord {
   core::TrackFrame tracks;
   core::DisplacementSample sample;
+  core::AttitudeBatch attitude = {};  // heard before it
 };
 
 // closure -> tracking, one per report: what is measured by from a frame on, and when the next report is due. Frames

@@ -11,6 +11,7 @@
 #include "core/types/displacement.h"
 #include "core/types/health.h"
 #include "drivers/telemetry/publisher.h"
+#include "drivers/telemetry/run_recorder.h"
 #include "firmware_app/config.h"
 #include "firmware_app/report/run_report.h"
 #include "firmware_app/stages/items.h"
@@ -30,7 +31,8 @@ class PublishStage : public rt::Stage {
   };
   struct Outlets {
     drivers::Publisher& publisher;
-    RunReport* report = nullptr;           // null: no report wanted
+    drivers::RunRecorder* recorder = nullptr;  // null: the run is not recorded
+    RunReport* report = nullptr;               // null: no report wanted
     std::function<core::Health()> health;  // a status record of now
     // Draws the run's pictures and its page beside the report; throws drivers::FileError. Empty: none wanted.
     std::function<void(const Findings&, const core::Health&)> draw;

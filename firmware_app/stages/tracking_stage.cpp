@@ -108,11 +108,13 @@ void TrackingStage::measure(const core::Frame& frame) noexcept {
 // What is in the ring now, and no more: a flood does not hold up a frame.
 void TrackingStage::take_attitude() noexcept {
   if (!attitude_) return;
+  scratch_.attitude.clear();
   constexpr int kMost = 1024;
   for (int i = 0; i < kMost; ++i) {
     const core::AttitudeSample* sample = attitude_->front();
     if (sample == nullptr) return;
     channels_->take(*sample);
+    scratch_.attitude.add(*sample);
     attitude_->pop();
   }
 }

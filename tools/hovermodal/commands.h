@@ -14,6 +14,7 @@ void add_plan(CLI::App& app);
 void add_identify(CLI::App& app);
 void add_closeloop(CLI::App& app);
 void add_replay(CLI::App& app);
+void add_report(CLI::App& app);  // in replay.cpp
 void add_compare(CLI::App& app);
 void add_spy(CLI::App& app);
 void add_inspect(CLI::App& app);  // in spy.cpp: another view of the same messages

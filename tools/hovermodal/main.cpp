@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   tools::add_identify(app);
   tools::add_closeloop(app);
   tools::add_replay(app);
+  tools::add_report(app);
   tools::add_compare(app);
   tools::add_spy(app);
   tools::add_inspect(app);

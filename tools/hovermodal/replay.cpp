@@ -1,8 +1,12 @@
-// hovermodal replay: the service's chain on recorded tracks, from geometry on.
+// hovermodal replay, report: the service's chain on recorded tracks, from geometry on.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "firmware_app/analysis.h"
 #include "firmware_app/report/page/report_page.h"
@@ -11,28 +15,84 @@
 
 namespace tools {
 
+namespace {
+
+struct Options {
+  std::vector<std::string> records, overrides;
+  std::string tracks, config, report;
+};
+
+void show(const app::TracksResult& result, const std::string& report) {
+  for (const std::string& change : result.changes) fmt::print("{}\n", change);
+  fmt::print("{}", modes_text(result.estimate, result.channels));
+  if (!report.empty()) fmt::print("open {}/{}\n", report, app::kReportName);
+}
+
+void replay_records(const Options& options) {
+  const app::RecordsResult result =
+      app::replay_records(options.records, {options.config, options.overrides}, options.report);
+  for (const std::string& remark : result.remarks) fmt::print("{}\n", remark);
+  show(result.tracks, options.report);
+}
+
+void replay(const Options& options) {
+  if (options.records.empty() == options.tracks.empty())
+    throw std::invalid_argument("replay: give records (LOG ...) or --tracks FILE");
+  if (!options.records.empty()) return replay_records(options);
+  if (options.config.empty()) throw std::invalid_argument("replay: --tracks needs the --config of the run");
+  const app::AppConfig config = app::load_config(options.config, options.overrides);
+  show(app::replay_tracks(config, options.tracks, options.report), options.report);
+}
+
+// "flights/bridge_run0007_000.lcm" -> "flights/bridge_run0007_report"
+std::string report_folder(const std::string& record) {
+  std::filesystem::path path(record);
+  std::string stem = path.stem().string();
+  if (const std::size_t at = stem.rfind('_'); at != std::string::npos && at > 0) stem.resize(at);
+  return (path.parent_path() / (stem + "_report")).string();
+}
+
+void add_record_options(CLI::App& command, Options& options) {
+  command.add_option("record", options.records, "First file of each recorded run; the files that follow it are found")
+      ->type_name("LOG");
+  command.add_option("--config", options.config, "Configuration to use; default for a record: the recorded one")
+      ->type_name("FILE");
+  command.add_option("--set", options.overrides, "Override one key")->type_name("section.key=value")->take_all();
+}
+
+}  // namespace
+
 void add_replay(CLI::App& app) {
-  struct Options {
-    std::string tracks, config, report;
-    std::vector<std::string> overrides;
-  };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "replay",
-      "Run geometry, spectra and identification again on a tracks.csv, with any configuration\n"
+      "Run geometry, spectra and identification again on a record of the service, or on a tracks.csv\n"
+      "  hovermodal replay flights/bridge_run0007_000.lcm --report again\n"
+      "      a run that was recorded (record.directory): the same estimates, to the last bit\n"
+      "  hovermodal replay flights/bridge_run0007_000.lcm --set method=paper\n"
+      "      the same flight, seen by the published chain\n"
+      "  hovermodal replay flights/bridge_run000[789]_000.lcm --report together\n"
+      "      several flights of one view: their spectra are added up, to one estimate\n"
       "  hovermodal replay --tracks out/tracks.csv --config flight.yaml --set method=paper --report again");
   command->add_option("--tracks", options->tracks, "tracks.csv of a run or of `simulate --tracks-only`")
-      ->required()
       ->type_name("FILE");
-  command->add_option("--config", options->config, "Configuration of the run")->required()->type_name("FILE");
-  command->add_option("--set", options->overrides, "Override one key")->type_name("section.key=value")->take_all();
+  add_record_options(*command, *options);
   command->add_option("--report", options->report, "Folder for the report")->type_name("DIR");
+  command->callback([options] { replay(*options); });
+}
+
+void add_report(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("report",
+                                         "The report of a recorded run: pictures and page, as the service makes them\n"
+                                         "  hovermodal report flights/bridge_run0007_000.lcm");
+  add_record_options(*command, *options);
+  command->get_option("record")->required();
+  command->add_option("--out", options->report, "Folder for it; default: beside the record, ..._report")
+      ->type_name("DIR");
   command->callback([options] {
-    const app::AppConfig config = app::load_config(options->config, options->overrides);
-    const app::TracksResult result = app::replay_tracks(config, options->tracks, options->report);
-    for (const std::string& change : result.changes) fmt::print("{}\n", change);
-    fmt::print("{}", modes_text(result.estimate, result.channels));
-    if (!options->report.empty()) fmt::print("open {}/{}\n", options->report, app::kReportName);
+    if (options->report.empty()) options->report = report_folder(options->records.front());
+    replay_records(*options);
   });
 }
 

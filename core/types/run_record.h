@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/types/attitude.h"
+#include "core/types/frame.h"
+#include "core/types/track.h"
+
+namespace core {
+
+// Attitude samples that came since the frame before. More than fit are counted.
+struct AttitudeBatch {
+  static constexpr std::size_t kMost = 64;
+  std::array<AttitudeSample, kMost> samples{};
+  std::uint32_t n = 0, n_left_out = 0;
+
+  void clear() noexcept { n = n_left_out = 0; }
+  void add(const AttitudeSample& sample) noexcept {
+    if (n < kMost) {
+      samples[n++] = sample;
+    } else {
+      ++n_left_out;
+    }
+  }
+};
+
+// A file that the configuration names, as it was.
+struct NamedFile {
+  std::string key;  // of the configuration
+  std::string name;
+  std::string bytes;
+};
+
+// What a record of a run begins with: all that a replay needs beside the frames' points.
+struct RunHead {
+  std::string config_yaml;
+  CameraInfo camera;
+  TrackFrame keyframe;  // of the first frame; a later one has its points in this order
+  std::vector<NamedFile> files;
+  bool continues = false;  // the run goes on with the kept state of one before it
+};
+
+// One frame of a record.
+struct RecordedFrame {
+  TrackFrame tracks;
+  AttitudeBatch attitude;
+};
+
+}  // namespace core

@@ -1,0 +1,140 @@
+#include "drivers/telemetry/encode_run.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace drivers {
+namespace {
+
+template <class Message>
+void put_points(const std::vector<core::TrackPoint>& points, Message& out) {
+  out.n_points = static_cast<std::int32_t>(points.size());
+  for (const core::TrackPoint& point : points) {
+    out.u_px.push_back(point.u_px);
+    out.v_px.push_back(point.v_px);
+    out.sigma_px.push_back(point.sigma_px);
+  }
+}
+
+std::optional<core::ReadoutDirection> direction_of(const std::string& word) {
+  constexpr std::array kAll = {core::ReadoutDirection::kDown, core::ReadoutDirection::kUp,
+                               core::ReadoutDirection::kLeft, core::ReadoutDirection::kRight};
+  const auto* found = std::find_if(kAll.begin(), kAll.end(), [&](auto d) { return word == core::to_string(d); });
+  return found == kAll.end() ? std::nullopt : std::optional(*found);
+}
+
+}  // namespace
+
+hovermodal::run_t to_message(const core::RunHead& head, const StreamIdentity& identity) {
+  hovermodal::run_t out{};
+  out.stream_id = identity.stream_id;
+  out.config_hash = static_cast<std::int64_t>(identity.config_hash);
+  out.config = head.config_yaml;
+  out.continues = head.continues ? 1 : 0;
+  out.width_px = head.camera.width_px;
+  out.height_px = head.camera.height_px;
+  out.rate_hz = head.camera.rate_hz;
+  out.readout_ns = head.camera.readout_ns;
+  out.readout_direction = core::to_string(head.camera.readout_direction);
+  out.exposure_ns = head.camera.exposure_ns;
+  out.frame_count = static_cast<std::int64_t>(head.camera.frame_count);
+  out.lossless = head.camera.lossless ? 1 : 0;
+  out.camera = head.camera.description;
+  out.frame_sequence = static_cast<std::int64_t>(head.keyframe.sequence);
+  out.stream_time_ns = head.keyframe.t_start_ns;
+  put_points(head.keyframe.points, out);
+  for (const core::TrackPoint& point : head.keyframe.points) {
+    out.id.push_back(static_cast<std::int32_t>(point.id));
+    out.region.push_back(static_cast<std::int16_t>(point.region));
+  }
+  return out;
+}
+
+std::vector<hovermodal::run_file_t> to_messages(const core::NamedFile& file) {
+  std::vector<hovermodal::run_file_t> out;
+  for (std::size_t at = 0; at == 0 || at < file.bytes.size(); at += kFilePieceBytes) {
+    const std::size_t n = std::min(kFilePieceBytes, file.bytes.size() - at);
+    hovermodal::run_file_t piece{file.key,
+                                 file.name,
+                                 static_cast<std::int64_t>(file.bytes.size()),
+                                 static_cast<std::int64_t>(at),
+                                 static_cast<std::int32_t>(n),
+                                 {}};
+    piece.bytes.assign(file.bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                       file.bytes.begin() + static_cast<std::ptrdiff_t>(at + n));
+    out.push_back(std::move(piece));
+  }
+  return out;
+}
+
+hovermodal::run_frame_t to_message(const core::TrackFrame& tracks, const core::AttitudeBatch& attitude) {
+  hovermodal::run_frame_t out{};
+  out.frame_sequence = static_cast<std::int64_t>(tracks.sequence);
+  out.stream_time_ns = tracks.t_start_ns;
+  out.gap_before = tracks.gap_before ? 1 : 0;
+  put_points(tracks.points, out);
+  for (const core::TrackPoint& point : tracks.points) out.seen.push_back(point.seen ? 1 : 0);
+  out.n_attitudes = static_cast<std::int32_t>(attitude.n);
+  out.n_left_out = static_cast<std::int32_t>(attitude.n_left_out);
+  for (std::size_t i = 0; i < attitude.n; ++i) {
+    const core::AttitudeSample& sample = attitude.samples[i];
+    out.attitude_s.push_back(sample.t_s);
+    out.attitude_w.push_back(sample.wxyz[0]);
+    out.attitude_x.push_back(sample.wxyz[1]);
+    out.attitude_y.push_back(sample.wxyz[2]);
+    out.attitude_z.push_back(sample.wxyz[3]);
+  }
+  return out;
+}
+
+std::optional<core::RunHead> from_message(const hovermodal::run_t& message) {
+  const auto direction = direction_of(message.readout_direction);
+  const bool has_size = message.width_px > 0 && message.height_px > 0;
+  if (!direction || !has_size || !(message.rate_hz > 0.0) || !std::isfinite(message.rate_hz) || message.n_points < 1)
+    return std::nullopt;
+  core::RunHead head;
+  head.config_yaml = message.config;
+  head.continues = message.continues != 0;
+  head.camera = {message.width_px,
+                 message.height_px,
+                 message.rate_hz,
+                 message.readout_ns,
+                 *direction,
+                 message.exposure_ns,
+                 static_cast<std::uint64_t>(std::max<std::int64_t>(0, message.frame_count)),
+                 message.lossless != 0,
+                 message.camera};
+  head.keyframe.sequence = static_cast<std::uint64_t>(message.frame_sequence);
+  head.keyframe.t_start_ns = message.stream_time_ns;
+  for (std::size_t i = 0; i < message.u_px.size(); ++i) {
+    if (message.region[i] < 0) return std::nullopt;
+    head.keyframe.points.push_back({message.u_px[i], message.v_px[i], message.sigma_px[i],
+                                    static_cast<std::uint32_t>(message.id[i]),
+                                    static_cast<std::uint16_t>(message.region[i]), true, true});
+  }
+  return head;
+}
+
+bool take_frame(const hovermodal::run_frame_t& message, core::RecordedFrame& out) {
+  std::vector<core::TrackPoint>& points = out.tracks.points;
+  if (message.u_px.size() != points.size()) return false;
+  out.tracks.sequence = static_cast<std::uint64_t>(message.frame_sequence);
+  out.tracks.t_start_ns = message.stream_time_ns;
+  out.tracks.gap_before = message.gap_before != 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i].u_px = message.u_px[i];
+    points[i].v_px = message.v_px[i];
+    points[i].sigma_px = message.sigma_px[i];
+    points[i].seen = message.seen[i] != 0 && std::isfinite(message.u_px[i]) && std::isfinite(message.v_px[i]);
+  }
+  out.attitude.clear();
+  out.attitude.n_left_out = static_cast<std::uint32_t>(std::max(0, message.n_left_out));
+  for (std::size_t i = 0; i < message.attitude_s.size(); ++i) {
+    out.attitude.add({message.attitude_s[i],
+                      {message.attitude_w[i], message.attitude_x[i], message.attitude_y[i], message.attitude_z[i]}});
+  }
+  return true;
+}
+
+}  // namespace drivers

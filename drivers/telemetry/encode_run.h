@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/types/run_record.h"
+#include "drivers/telemetry/publisher.h"
+#include "hovermodal/run_file_t.hpp"
+#include "hovermodal/run_frame_t.hpp"
+#include "hovermodal/run_t.hpp"
+
+namespace drivers {
+
+// A recorded run to messages and back: every number to the last bit.
+
+inline constexpr const char* kRunSuffix = "_RUN";
+inline constexpr const char* kRunFileSuffix = "_RUN_FILE";
+inline constexpr const char* kRunFrameSuffix = "_RUN_FRAME";
+inline constexpr std::size_t kFilePieceBytes = std::size_t{256} << 10;
+inline constexpr std::size_t kMaxFileBytes = std::size_t{256} << 20;  // of one named file
+
+[[nodiscard]] hovermodal::run_t to_message(const core::RunHead& head, const StreamIdentity& identity);
+[[nodiscard]] std::vector<hovermodal::run_file_t> to_messages(const core::NamedFile& file);
+[[nodiscard]] hovermodal::run_frame_t to_message(const core::TrackFrame& tracks, const core::AttitudeBatch& attitude);
+
+// Empty: what it says cannot be (sizes that differ, a rate that is none).
+[[nodiscard]] std::optional<core::RunHead> from_message(const hovermodal::run_t& message);
+// `out` is sized as the keyframe. False: it has other points.
+[[nodiscard]] bool take_frame(const hovermodal::run_frame_t& message, core::RecordedFrame& out);
+
+}  // namespace drivers

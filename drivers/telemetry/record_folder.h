@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace drivers {
+
+// The files of recorded runs in one folder: "<stream_id>_run0007_002.lcm" is the third file of the seventh run.
+
+struct RecordPart {
+  std::string path;
+  int run = 0;   // 1, 2, ...
+  int file = 0;  // 0, 1, ...
+  std::uint64_t n_bytes = 0;
+};
+
+[[nodiscard]] std::string record_name(std::string_view stream_id, int run, int file);
+
+// Oldest first. Other files in the folder are none of ours. Throws std::runtime_error when it cannot be read.
+[[nodiscard]] std::vector<RecordPart> record_parts(const std::string& folder);
+
+// Removes the oldest files of runs before `run` until what is left and `wanted_bytes` more stay within the quota.
+// False: they do not; only the run's own files are left.
+bool make_room(const std::string& folder, int run, std::uint64_t wanted_bytes, std::uint64_t quota_bytes);
+
+// The file itself and those of its run that follow it without a gap, in order.
+[[nodiscard]] std::vector<std::string> files_from(const std::string& path);
+
+}  // namespace drivers

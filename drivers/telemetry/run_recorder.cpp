@@ -1,0 +1,78 @@
+#include "drivers/telemetry/run_recorder.h"
+
+#include <atomic>
+#include <chrono>
+#include <vector>
+
+#include "drivers/telemetry/encode_run.h"
+#include "drivers/telemetry/rotating_log.h"
+
+namespace drivers {
+namespace {
+
+std::int64_t utc_now_ns() noexcept {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+template <class Message>
+std::vector<std::uint8_t> encoded(const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+class LcmRunRecorder : public RunRecorder {
+ public:
+  explicit LcmRunRecorder(const RecordOptions& options)
+      : prefix_(options.channel_prefix),
+        frame_channel_(options.channel_prefix + kRunFrameSuffix),
+        identity_(options.identity),
+        log_(std::make_shared<RotatingLog>(options)) {}
+
+  void begin(const core::RunHead& head) override {
+    log_->begin([this, message = to_message(head, identity_), files = head.files](EventLog& file, int number) {
+      return write_head(file, message, files, number);
+    });
+  }
+
+  bool add(const core::TrackFrame& tracks, const core::AttitudeBatch& attitude) noexcept override {
+    try {
+      if (log_->write(frame_channel_, encoded(to_message(tracks, attitude)), utc_now_ns())) return true;
+    } catch (...) {  // no memory: a lost frame
+    }
+    n_lost_.fetch_add(1, std::memory_order_relaxed);
+    return false;
+  }
+
+  [[nodiscard]] std::uint64_t n_lost() const noexcept override { return n_lost_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::string path() const override { return log_->path(); }
+  [[nodiscard]] std::shared_ptr<EventLog> log() override { return log_; }
+
+ private:
+  [[nodiscard]] bool write_head(EventLog& file, hovermodal::run_t message, const std::vector<core::NamedFile>& files,
+                                int number) const {
+    const std::int64_t now_ns = utc_now_ns();
+    for (const core::NamedFile& named : files) {
+      for (const auto& piece : to_messages(named)) {
+        if (!file.write(prefix_ + kRunFileSuffix, encoded(piece), now_ns)) return false;
+      }
+    }
+    message.file_number = number;
+    message.utc_ns = now_ns;
+    return file.write(prefix_ + kRunSuffix, encoded(message), now_ns);
+  }
+
+  std::string prefix_, frame_channel_;
+  StreamIdentity identity_;
+  std::shared_ptr<RotatingLog> log_;
+  std::atomic<std::uint64_t> n_lost_{0};  // relaxed: a count on its own
+};
+
+}  // namespace
+
+std::unique_ptr<RunRecorder> make_run_recorder(const RecordOptions& options) {
+  return std::make_unique<LcmRunRecorder>(options);
+}
+
+}  // namespace drivers

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "core/types/run_record.h"
+#include "firmware_app/config.h"
+
+namespace app {
+
+// What a record of this run begins with. Throws drivers::FileError: a file that the configuration names cannot be read.
+[[nodiscard]] core::RunHead run_head(const AppConfig& config, const core::CameraInfo& camera,
+                                     const core::TrackFrame& keyframe, bool continues);
+
+// The configuration of a recorded run, with `overrides`. The files it names are laid out for as long as this lives.
+class RecordedConfig {
+ public:
+  // `name` stands for the record in messages. Throws ConfigError, std::runtime_error.
+  RecordedConfig(const core::RunHead& head, const std::string& name, const std::vector<std::string>& overrides);
+  ~RecordedConfig();
+  RecordedConfig(const RecordedConfig&) = delete;
+  RecordedConfig& operator=(const RecordedConfig&) = delete;
+
+  [[nodiscard]] const AppConfig& config() const noexcept { return config_; }
+  // The recorded camera, with what an override declares of it.
+  [[nodiscard]] core::CameraInfo camera() const;
+
+ private:
+  std::string folder_;  // of the laid-out files; empty: there are none
+  core::CameraInfo recorded_camera_;
+  AppConfig recorded_, config_;
+};
+
+}  // namespace app

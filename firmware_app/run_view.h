@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "core/types/displacement.h"
+#include "core/types/frame.h"
+#include "firmware_app/config.h"
+#include "firmware_app/run_state.h"
+
+namespace app {
+
+// What the state or the record of another run must agree with; no boot, no sums.
+[[nodiscard]] RunState run_view(const AppConfig& config, const core::CameraInfo& camera,
+                                const std::vector<core::ChannelInfo>& channels);
+
+}  // namespace app

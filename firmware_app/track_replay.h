@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/types/run_record.h"
+#include "firmware_app/analysis.h"
+#include "firmware_app/config.h"
+
+namespace app {
+
+// Tracks of one run, frame by frame.
+struct TrackSource {
+  const AppConfig& config;
+  core::CameraInfo camera;
+  core::TrackFrame keyframe;                           // every point that will come, seen
+  std::string name;                                    // of which only the last part is told
+  std::function<bool(core::RecordedFrame& out)> next;  // points as in the keyframe; false: the end
+};
+
+// The runs one after the other, each going on with the sums of those before it; leaves a report when the directory is
+// not empty, with time series where it is one run. Throws std::invalid_argument where a run shows another view.
+[[nodiscard]] TracksResult replay(const std::vector<TrackSource>& runs, const std::string& report_directory);
+
+}  // namespace app
