@@ -1,8 +1,8 @@
 // Captures through a driver and prints, one fact a line ("name<TAB>value"), what a script can judge: frames, gaps,
 // numbers, times, what became of faults, and, given the frames that were sent, whether each one came unchanged.
-#include <malloc.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -39,7 +39,6 @@ struct Tally {
   double first_s = 0, last_s = 0, worst_step = 0;  // frames: the largest deviation of a step from its number's
   std::vector<double> ages_ms;                     // from a frame's stamp until we had it
   long early_kib = 0, early_files = 0;             // held after the first frames
-  long early_heap = 0;
   drivers::CaptureStatus end = drivers::CaptureStatus::kFrame;
 };
 
@@ -113,7 +112,6 @@ void run(drivers::Camera& camera, const Arguments& arguments, const Sent& sent, 
     if (++tally.n_frames == 20) {
       tally.early_kib = anonymous_kib();
       tally.early_files = open_files();
-      tally.early_heap = static_cast<long>(mallinfo2().uordblks);
     }
     if (sent.count() == 0) continue;
     const long expected = image < 0 ? 0 : (image + advance) % sent.count();
@@ -155,7 +153,6 @@ void print(const drivers::Camera& camera, const Tally& tally) {
   std::printf("lost\t%d\ninterruptions\t%llu\ndamaged\t%llu\nno_clock\t%d\n", trouble.is_lost ? 1 : 0,
               static_cast<unsigned long long>(trouble.n_interruptions),
               static_cast<unsigned long long>(trouble.n_damaged), trouble.has_no_clock ? 1 : 0);
-  std::printf("growth_heap_bytes\t%ld\n", static_cast<long>(mallinfo2().uordblks) - tally.early_heap);
   std::printf("growth_kib\t%ld\ngrowth_files\t%ld\n", anonymous_kib() - tally.early_kib,
               open_files() - tally.early_files);
   std::printf("exposure_ms\t%.2f\nend\t%d\nfault\t%s\n", 1e-6 * static_cast<double>(info.exposure_ns),
@@ -182,6 +179,7 @@ int main(int argc, char** argv) {
   app.add_option("--fifo", arguments.priority, "SCHED_FIFO priority, with memory locked; default: ordinary");
   app.add_option("--sent", arguments.sent, "the gray frames that the camera sends, to compare with");
   CLI11_PARSE(app, argc, argv);
+  prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0);  // the kernel would fill our pages up to huge ones when it finds time
   struct sigaction action {};
   action.sa_handler = [](int) { stop_asked = 1; };
   sigaction(SIGINT, &action, nullptr);
