@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <lcm/eventlog.h>
 
+#include <cstdio>
 #include <optional>
 #include <string_view>
 
@@ -79,6 +80,10 @@ class RunRecordReader::Impl {
       }
       if (lcm_eventlog_event_t* event = lcm_eventlog_read_next_event(log_.get()))
         return {event, &lcm_eventlog_free_event};
+      if (std::feof(log_->f) == 0 && std::ferror(log_->f) == 0) {  // lengths that cannot be: on to the next event
+        ++n_damaged;
+        continue;
+      }
       log_.reset();
     }
   }

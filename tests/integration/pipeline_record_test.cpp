@@ -1,0 +1,88 @@
+// A run that is recorded, and replayed.
+#ifdef HOVERMODAL_WITH_LCM
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "drivers/telemetry/record_folder.h"
+#include "firmware_app/analysis.h"
+#include "tests/support/pipeline_rig.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using tests::CameraScript;
+using tests::frames;
+using tests::Rig;
+
+class PipelineRecord : public ::testing::Test {
+ protected:
+  // Runs with a report and a record; the record's first file.
+  std::string run(const CameraScript& script, const std::string& name, std::vector<std::string> more = {}) {
+    more.insert(more.end(), {"spectrum.segment=64", "record.directory=" + (folder / name).string(),
+                             "report.directory=" + (folder / (name + "_live")).string()});
+    Rig rig(script, more);
+    outcome = rig.run();
+    const auto parts = drivers::record_parts((folder / name).string());
+    EXPECT_FALSE(parts.empty());
+    return parts.empty() ? "" : parts.front().path;
+  }
+  app::RecordsResult replayed(const std::vector<std::string>& records, const std::string& name,
+                              const std::vector<std::string>& overrides = {}) {
+    const fs::path again = folder / (name + "_again");
+    fs::create_directories(again);
+    return app::replay_records(records, {"", overrides}, again.string());
+  }
+  void expect_same_report(const std::string& name) {
+    for (const char* file : {"modal.json", "displacements.csv", "tracks.csv"})
+      EXPECT_EQ(tests::file_text(folder / (name + "_live") / file), tests::file_text(folder / (name + "_again") / file))
+          << file;
+  }
+
+  fs::path folder = tests::own_folder();
+  app::Pipeline::Outcome outcome;
+};
+
+TEST_F(PipelineRecord, IsReplayedToTheSameBits) {
+  const std::string record = run(frames(400), "plain");
+  const auto result = replayed({record}, "plain");
+  EXPECT_THAT(result.remarks, Contains(HasSubstr("cut off")));  // this publisher writes no last word
+  EXPECT_FALSE(result.tracks.estimate.modes.empty());
+  expect_same_report("plain");
+}
+
+TEST_F(PipelineRecord, ARunWithLostFramesToo) {
+  CameraScript script = frames(400);
+  script.is_lost = [](std::uint64_t k) { return k >= 150 && k < 163; };
+  const std::string record = run(script, "gaps");
+  (void)replayed({record}, "gaps");
+  expect_same_report("gaps");
+}
+
+TEST_F(PipelineRecord, AnOverrideChangesTheResult) {
+  const std::string record = run(frames(300), "other");
+  const auto same = replayed({record}, "other"), other = replayed({record}, "other", {"spectrum.segment=32"});
+  EXPECT_NE(same.tracks.estimate.n_segments, other.tracks.estimate.n_segments);
+}
+
+TEST_F(PipelineRecord, SeveralRunsOfOneViewAddUp) {
+  const std::string first = run(frames(300), "one"), second = run(frames(200), "two");
+  const auto alone = replayed({first}, "one"), both = replayed({first, second}, "both");
+  EXPECT_GE(both.tracks.estimate.n_samples, 300U + 200U);
+  EXPECT_GT(both.tracks.estimate.n_segments, alone.tracks.estimate.n_segments);
+  EXPECT_EQ(both.tracks.losses.frames_in, 500U);
+}
+
+TEST_F(PipelineRecord, RunsOfOtherViewsAreRefused) {
+  const std::string first = run(frames(200), "one"), second = run(frames(200), "two", {"regions.0.name=elsewhere"});
+  try {
+    (void)replayed({first, second}, "both");
+    FAIL() << "taken";
+  } catch (const std::invalid_argument& refused) {
+    EXPECT_THAT(refused.what(), HasSubstr("replay them one by one"));
+  }
+}
+
+}  // namespace
+#endif
