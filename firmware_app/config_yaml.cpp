@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <vector>
 
 #include "firmware_app/config_table.h"
 
@@ -14,6 +17,30 @@ std::string value_text(const ConfigKey& key, AppConfig& config, std::size_t i_re
   std::string text = key.canonical(config, i_region);
   return key.type == "text" ? nlohmann::json(text == "\"\"" ? "" : text).dump() : text;
 }
+
+// Sections within sections, in the order of their first keys.
+struct Section {
+  std::string name, value;  // a key has a value
+  std::vector<Section> members = {};
+
+  void put(std::string_view path, std::string text) {
+    const std::string_view first = path.substr(0, path.find('.'));
+    auto at = std::find_if(members.begin(), members.end(), [&](const Section& member) { return member.name == first; });
+    if (at == members.end()) at = members.insert(members.end(), {std::string(first), {}});
+    if (first.size() == path.size()) {
+      at->value = std::move(text);
+    } else {
+      at->put(path.substr(first.size() + 1), std::move(text));
+    }
+  }
+  void write(std::string& out, std::size_t depth) const {
+    for (const Section& member : members) {
+      out +=
+          std::string(2 * depth, ' ') + member.name + ":" + (member.members.empty() ? " " + member.value : "") + "\n";
+      member.write(out, depth + 1);
+    }
+  }
+};
 
 std::string regions_yaml(AppConfig& config) {
   AppConfig plain;
@@ -36,17 +63,13 @@ std::string regions_yaml(AppConfig& config) {
 
 std::string config_yaml(const AppConfig& config) {
   AppConfig copy = config, plain;
-  std::string out, section;
+  Section all;
   for (const ConfigKey& key : config_keys()) {
     if (key.path.starts_with("regions[]") || key.canonical(copy, 0) == key.canonical(plain, 0)) continue;
-    const std::size_t dot = key.path.find('.');
-    if (dot == std::string::npos) {
-      out += fmt::format("{}: {}\n", key.path, value_text(key, copy, 0));
-      continue;
-    }
-    if (key.path.substr(0, dot) != section) out += fmt::format("{}:\n", section = key.path.substr(0, dot));
-    out += fmt::format("  {}: {}\n", key.path.substr(dot + 1), value_text(key, copy, 0));
+    all.put(key.path, value_text(key, copy, 0));
   }
+  std::string out;
+  all.write(out, 0);
   return out + regions_yaml(copy);
 }
 

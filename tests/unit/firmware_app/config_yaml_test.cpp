@@ -9,7 +9,7 @@ namespace {
 
 const char* const kText = R"(
 method: paper
-camera: {driver: synthetic, source: "a: \"b\" #c.mp4", rate_hz: 23.976023976023978, readout_ms: -12.3, mount_rpy_deg: [0, 1.5, -90]}
+camera: {driver: synthetic, source: "a: \"b\" #c.mp4", rate_hz: 23.976023976023978, readout_ms: -12.3, mount_rpy_deg: [0, 1.5, -90], synthetic: {seed: 7}}
 calibration: {fx: 574.4, fy: 574.5, cx: 359.5, cy: 239.5, model: radtan, distortion: [-0.1, 0.02, 1e-05, 0, 0]}
 regions:
   - {name: base, rect: [10, 20, 30.5, 40], role: base}
