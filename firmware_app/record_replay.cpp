@@ -37,6 +37,8 @@ class Record {
     if (reader_.n_damaged() > 0) say(fmt::format("{} damaged messages were left out", reader_.n_damaged()));
     if (reader_.n_attitudes_left_out() > 0)
       say(fmt::format("{} attitudes are not in the record: the run had them", reader_.n_attitudes_left_out()));
+    if (reader_.was_thinned())
+      say("overload thinned its frames; the service then began new spectra, which this replay does not");
     if (reader_.end().empty()) say("the record was cut off");
     if (reader_.end().starts_with("fault")) say("the run ended with a " + reader_.end());
   }

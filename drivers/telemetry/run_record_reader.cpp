@@ -41,7 +41,7 @@ class RunRecordReader::Impl {
     if (out.tracks.points.size() != head_->keyframe.points.size()) out.tracks = head_->keyframe;
     while (const Event event = next_event()) {
       const std::string_view channel = channel_of(*event);
-      if (channel.ends_with(kTopicSuffixes[kHealth])) hear_end(*event);
+      if (channel.ends_with(kTopicSuffixes[kHealth])) hear(*event);
       if (!channel.ends_with(kRunFrameSuffix)) continue;
       const auto message = decode<hovermodal::run_frame_t>(*event);
       if (message && take_frame(*message, out)) {
@@ -56,7 +56,7 @@ class RunRecordReader::Impl {
   std::vector<std::string> files;
   std::optional<core::RunHead> head_;
   std::uint64_t n_damaged = 0, n_left_out = 0;
-  bool starts_late = false;
+  bool starts_late = false, was_thinned = false;
   std::string end;
 
  private:
@@ -118,9 +118,11 @@ class RunRecordReader::Impl {
     }
   }
 
-  void hear_end(const lcm_eventlog_event_t& event) {
+  void hear(const lcm_eventlog_event_t& event) {
     const auto health = decode<hovermodal::health_t>(event);
-    if (health && (health->state == "finished" || health->state.starts_with("fault"))) end = health->state;
+    if (!health) return;
+    was_thinned = was_thinned || health->rate_hz < 0.75 * head_->camera.rate_hz;
+    if (health->state == "finished" || health->state.starts_with("fault")) end = health->state;
   }
 
   Log log_{nullptr, &lcm_eventlog_destroy};
@@ -136,6 +138,7 @@ const std::vector<std::string>& RunRecordReader::files() const noexcept { return
 std::uint64_t RunRecordReader::n_damaged() const noexcept { return impl_->n_damaged; }
 std::uint64_t RunRecordReader::n_attitudes_left_out() const noexcept { return impl_->n_left_out; }
 bool RunRecordReader::starts_late() const noexcept { return impl_->starts_late; }
+bool RunRecordReader::was_thinned() const noexcept { return impl_->was_thinned; }
 const std::string& RunRecordReader::end() const noexcept { return impl_->end; }
 
 }  // namespace drivers
