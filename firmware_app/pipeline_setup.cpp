@@ -146,7 +146,7 @@ std::unique_ptr<drivers::AttitudeListener> open_attitude(const AppConfig& config
 
 std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config, std::string& warning) {
   const TelemetryConfig& t = config.telemetry;
-  return drivers::make_publisher({t.lcm_url, t.channel_prefix, t.log_file, {t.stream_id, config.hash}}, &warning);
+  return drivers::make_publisher({t.lcm_url, t.channel_prefix, t.log_file, {t.stream_id, config.hash}, t.max_kbit_s}, &warning);
 }
 
 std::unique_ptr<RunReport> open_report(const AppConfig& config, const Source& source) {

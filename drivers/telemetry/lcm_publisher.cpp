@@ -9,10 +9,12 @@
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
+#include <type_traits>
 
 #include "drivers/telemetry/encode.h"
 #include "drivers/telemetry/lcm_self_test.h"
 #include "drivers/telemetry/lcm_url.h"
+#include "rt/clock.h"
 
 namespace drivers {
 namespace {
@@ -64,35 +66,71 @@ struct LcmPublisher::Ways {
   }
 };
 
-LcmPublisher::LcmPublisher(const LcmOptions& options) : identity_(options.identity), ways_(std::make_unique<Ways>()) {
+LcmPublisher::LcmPublisher(const LcmOptions& options)
+    : identity_(options.identity), ways_(std::make_unique<Ways>()), budget_(options.max_kbit_s) {
   check_channel_prefix(options.channel_prefix);
-  for (std::size_t i = 0; i < kTopics; ++i) channels_[i].name = options.channel_prefix + kTopicSuffixes[i];
+  for (std::size_t i = 0; i < kTopics; ++i)
+    channel_names_[i] = topic_channel(options.channel_prefix, static_cast<Topic>(i));
   if (!options.url.empty()) warning_ = ways_->open_network(options);
   if (!options.log_file.empty()) ways_->open_log(options.log_file);
 }
 
 LcmPublisher::~LcmPublisher() = default;
 
+// Leaves the bytes in buffer_; none when the message cannot be encoded.
 template <class Message>
-bool LcmPublisher::send(Topic topic, Message& message) {
-  Channel& channel = channels_[topic];
-  message.sequence = channel.next_sequence++;
-  message.utc_ns = utc_now_ns();
+void LcmPublisher::encode(Topic topic, Message& message, const WayNumbers& numbers) {
+  message.sequence = numbers[topic].next_sequence;
+  if constexpr (std::is_same_v<Message, hovermodal::health_t>) {
+    for (std::size_t i = 0; i < kTopics; ++i) message.counts[i].n_sent = numbers[i].n_sent + (i == kHealth ? 1 : 0);
+  }
   const int size = message.getEncodedSize();
   buffer_.resize(static_cast<std::size_t>(size));
-  bool ok = message.encode(buffer_.data(), 0, size) == size;
-  if (ok && ways_->network) {
-    ok = lcm_publish(ways_->network.get(), channel.name.c_str(), buffer_.data(), static_cast<unsigned>(size)) == 0;
+  if (message.encode(buffer_.data(), 0, size) != size) buffer_.clear();
+}
+
+template <class Message>
+bool LcmPublisher::send_over_network(Topic topic, Message& message) {
+  encode(topic, message, network_numbers_);
+  Numbers& numbers = network_numbers_[topic];
+  ++numbers.next_sequence;
+  const bool ok = !buffer_.empty() && lcm_publish(ways_->network.get(), channel_names_[topic].c_str(), buffer_.data(),
+                                                  static_cast<unsigned>(buffer_.size())) == 0;
+  numbers.n_sent += ok ? 1 : 0;
+  return ok;
+}
+
+template <class Message>
+bool LcmPublisher::write_to_log(Topic topic, Message& message) {
+  encode(topic, message, log_numbers_);
+  Numbers& numbers = log_numbers_[topic];
+  ++numbers.next_sequence;
+  bool ok = !buffer_.empty() && ways_->write_log(channel_names_[topic], buffer_, message.utc_ns);
+  // Health comes about once a second: a crash takes no more than that from the log, and a full disk shows.
+  if (topic == kHealth) ok = std::fflush(ways_->log->f) == 0 && ok;
+  numbers.n_sent += ok ? 1 : 0;
+  return ok;
+}
+
+template <class Message>
+bool LcmPublisher::send(Topic topic, Message& message) {
+  message.utc_ns = utc_now_ns();
+  bool ok = true;
+  bool is_held_back = false;
+  if (ways_->network) {
+    const auto n_bytes = wire_bytes(channel_names_[topic].size(), static_cast<std::size_t>(message.getEncodedSize()));
+    is_held_back = !budget_.admit(topic, n_bytes, rt::monotonic_ns());
+    if (is_held_back) {
+      ++n_held_back_[topic];
+    } else {
+      ok = send_over_network(topic, message);
+    }
   }
-  if (ways_->log) {
-    ok = ways_->write_log(channel.name, buffer_, message.utc_ns) && ok;
-    // Health comes about once a second: a crash takes no more than that from the log, and a full disk shows.
-    if (topic == kHealth) ok = std::fflush(ways_->log->f) == 0 && ok;
-  }
-  if (ok) {
-    channel.n_sent.fetch_add(1, std::memory_order_relaxed);
-  } else {
+  if (ways_->log) ok = write_to_log(topic, message) && ok;
+  if (!ok) {
     n_failed_.fetch_add(1, std::memory_order_relaxed);
+  } else if (!is_held_back) {
+    n_sent_.fetch_add(1, std::memory_order_relaxed);
   }
   return ok;
 }
@@ -163,19 +201,10 @@ bool LcmPublisher::publish(const core::closure::ClosureReport& report) noexcept 
 bool LcmPublisher::publish(const core::Health& health) noexcept {
   return guarded([&] {
     auto message = to_message(health, channel_infos_, identity_);
-    for (std::size_t i = 0; i < kTopics; ++i) {
-      const std::int64_t with_this = i == kHealth ? 1 : 0;
-      message.counts.push_back({channels_[i].name, channels_[i].n_sent.load(std::memory_order_relaxed) + with_this});
-    }
+    for (std::size_t i = 0; i < kTopics; ++i) message.counts.push_back({channel_names_[i], 0, n_held_back_[i]});
     message.n_counts = static_cast<std::int16_t>(message.counts.size());
     return send(kHealth, message);
   });
-}
-
-std::uint64_t LcmPublisher::messages_sent() const noexcept {
-  std::int64_t n = 0;
-  for (const auto& channel : channels_) n += channel.n_sent.load(std::memory_order_relaxed);
-  return static_cast<std::uint64_t>(n);
 }
 
 }  // namespace drivers

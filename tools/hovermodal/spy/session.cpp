@@ -66,11 +66,7 @@ class Listener {
       throw std::runtime_error(fmt::format("LCM cannot open \"{}\" (its own words are on stderr). The usual URL is {}",
                                            options.url, drivers::kDefaultLcmUrl));
     }
-    std::string pattern;
-    for (const char c : options.prefix) pattern += c == '.' ? std::string("\\.") : std::string(1, c);
-    for (std::size_t i = 0; i < drivers::kTopics; ++i)
-      pattern += (i == 0 ? "(" : "|") + std::string(drivers::kTopicSuffixes[i]);
-    pattern += ")";
+    const std::string pattern = drivers::topics_pattern(options.prefix);
     lcm_subscription_t* subscription = lcm_subscribe(lcm_.get(), pattern.c_str(), &on_message, &monitor);
     if (subscription == nullptr) throw std::runtime_error(fmt::format("LCM cannot listen on \"{}\"", options.url));
     lcm_subscription_set_queue_capacity(subscription, kQueuedMessages);
@@ -114,6 +110,7 @@ class PlainOutput {
 
  private:
   void update_modes(const drivers::StreamMonitor& monitor, const ViewOptions& view) {
+    update_versions(monitor, view);
     const auto& estimate = monitor.estimate();
     if (estimate && estimate->number != shown_estimate_ && monitor.parts_heard() >= estimate->n_parts) {
       shown_estimate_ = estimate->number;
@@ -124,13 +121,22 @@ class PlainOutput {
       std::printf("%s\n", render_status(monitor, view).c_str());
     }
   }
+  // Said once for each that is heard.
+  void update_versions(const drivers::StreamMonitor& monitor, const ViewOptions& view) {
+    const std::size_t n = monitor.other_versions().size();
+    if (n == n_versions_) return;
+    n_versions_ = n;
+    for (const auto& line : render_versions(monitor, view)) std::printf("%s\n", line.c_str());
+  }
   void update_stages(const drivers::StreamMonitor& monitor, const ViewOptions& view) {
+    update_versions(monitor, view);
     if (!monitor.health() || monitor.health()->sequence == shown_health_) return;
     shown_health_ = monitor.health()->sequence;
     for (const auto& line : render_stages(monitor, view)) std::printf("%s\n", line.c_str());
   }
 
   SpyView what_;
+  std::size_t n_versions_ = 0;
   std::int64_t shown_health_ = -1;
   std::int64_t shown_estimate_ = -1;
   std::int64_t last_line_ns_ = 0;
