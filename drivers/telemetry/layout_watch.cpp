@@ -26,16 +26,17 @@ std::vector<std::string> LayoutWatch::words(const std::string& channel_prefix) c
     const auto topic = static_cast<Topic>(i);
     const Seen& seen = seen_[i];
     if (seen.n_layout > 0) {
-      out.push_back(fmt::format("{}: this service speaks another version, layout {} of these messages where this "
-                                "program knows layout {} ({} messages not read); {}",
-                                topic_channel(channel_prefix, topic, seen.layout), seen.layout, kTopicLayouts[i],
-                                seen.n_layout, kRemedy));
+      out.push_back(fmt::format(
+          "{}: this service speaks another version, layout {} of these messages where this "
+          "program knows layout {} ({} messages not read); {}",
+          topic_channel(channel_prefix, topic, seen.layout), seen.layout, kTopicLayouts[i], seen.n_layout, kRemedy));
     }
     if (seen.n_told > 0) {
-      out.push_back(fmt::format("{}: this service speaks another version, fingerprint {:016x} where this program "
-                                "knows {:016x} ({} messages not read); {}",
-                                topic_channel(channel_prefix, topic), static_cast<std::uint64_t>(seen.told),
-                                static_cast<std::uint64_t>(seen.expected), seen.n_told, kRemedy));
+      out.push_back(
+          fmt::format("{}: this service speaks another version, fingerprint {:016x} where this program "
+                      "knows {:016x} ({} messages not read); {}",
+                      topic_channel(channel_prefix, topic), static_cast<std::uint64_t>(seen.told),
+                      static_cast<std::uint64_t>(seen.expected), seen.n_told, kRemedy));
     }
   }
   return out;

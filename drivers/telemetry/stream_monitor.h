@@ -21,8 +21,8 @@
 namespace drivers {
 
 // What a listener knows from LCM messages alone: the newest of everything, and what was lost on the way. It follows the
-// first stream_id it hears. Takes any bytes: what does not decode is counted and changes nothing else, but for a word on
-// a sender of another version. One thread.
+// first stream_id it hears. Takes any bytes: what does not decode is counted and changes nothing else, but for a word
+// on a sender of another version. One thread.
 class StreamMonitor {
  public:
   using Topic = drivers::Topic;
