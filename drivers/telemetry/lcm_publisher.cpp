@@ -112,18 +112,36 @@ bool LcmPublisher::write_to_log(Topic topic, Message& message) {
   return ok;
 }
 
+bool LcmPublisher::may_send(Topic topic, int n_bytes) {
+  const std::size_t n = wire_bytes(channel_names_[topic].size(), static_cast<std::size_t>(n_bytes));
+  return budget_.admit(topic, n, rt::monotonic_ns());
+}
+
+void LcmPublisher::send_waiting_spectra(bool whatever_the_budget) {
+  while (!waiting_spectra_.empty()) {
+    hovermodal::spectrum_t& spectrum = waiting_spectra_.front();
+    if (!may_send(kSpectrum, spectrum.getEncodedSize()) && !whatever_the_budget) return;
+    spectrum.utc_ns = utc_now_ns();
+    (send_over_network(kSpectrum, spectrum) ? n_sent_ : n_failed_).fetch_add(1, std::memory_order_relaxed);
+    waiting_spectra_.pop_front();
+  }
+}
+
 template <class Message>
 bool LcmPublisher::send(Topic topic, Message& message) {
+  constexpr bool kMayWait = std::is_same_v<Message, hovermodal::spectrum_t>;
   message.utc_ns = utc_now_ns();
   bool ok = true;
   bool is_held_back = false;
   if (ways_->network) {
-    const auto n_bytes = wire_bytes(channel_names_[topic].size(), static_cast<std::size_t>(message.getEncodedSize()));
-    is_held_back = !budget_.admit(topic, n_bytes, rt::monotonic_ns());
-    if (is_held_back) {
-      ++n_held_back_[topic];
-    } else {
+    send_waiting_spectra(false);
+    is_held_back = (kMayWait && !waiting_spectra_.empty()) || !may_send(topic, message.getEncodedSize());
+    if (!is_held_back) {
       ok = send_over_network(topic, message);
+    } else if constexpr (kMayWait) {
+      waiting_spectra_.push_back(message);
+    } else {
+      ++n_held_back_[topic];
     }
   }
   if (ways_->log) ok = write_to_log(topic, message) && ok;
@@ -186,6 +204,8 @@ bool LcmPublisher::publish(const core::TrackFrame& tracks) noexcept {
 bool LcmPublisher::publish(const core::CpsdSums& spectrum, const std::vector<core::ChannelInfo>& channels) noexcept {
   return guarded([&] {
     remember(channels);
+    n_held_back_[kSpectrum] += static_cast<std::int64_t>(waiting_spectra_.size());
+    waiting_spectra_.clear();
     auto messages = to_messages(spectrum, channels, identity_);
     return send_all(kSpectrum, messages);
   });
@@ -200,6 +220,8 @@ bool LcmPublisher::publish(const core::closure::ClosureReport& report) noexcept 
 
 bool LcmPublisher::publish(const core::Health& health) noexcept {
   return guarded([&] {
+    const bool is_last = health.state.rfind("finished", 0) == 0 || health.state.rfind("fault", 0) == 0;
+    if (is_last) send_waiting_spectra(true);
     auto message = to_message(health, channel_infos_, identity_);
     for (std::size_t i = 0; i < kTopics; ++i) message.counts.push_back({channel_names_[i], 0, n_held_back_[i]});
     message.n_counts = static_cast<std::int16_t>(message.counts.size());

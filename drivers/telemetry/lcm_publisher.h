@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -12,14 +13,16 @@
 #include "drivers/telemetry/publisher_factory.h"
 #include "drivers/telemetry/send_budget.h"
 #include "drivers/telemetry/topics.h"
+#include "hovermodal/spectrum_t.hpp"
 
 namespace drivers {
 
 // Results as LCM messages, over the network, into an LCM event log, or both. Network and log each number the messages
 // of an LCM channel for themselves, sent or failed: a receiver sees a failed send as a gap. What is held back from the
-// network (LcmOptions::max_kbit_s) has no number there and is no gap; the log has everything. Every health message says
-// how many were sent on each channel of its own way, itself included, and how many were held back. Messages above some
-// 1400 bytes are fragmented by LCM.
+// network (LcmOptions::max_kbit_s) has no number there and is no gap; the log has everything. Spectra, which come all
+// at once, wait for room until the next ones replace them, or the end. Every health message says how many were sent on
+// each channel of its own way, itself included, and how many were held back. Messages above some 1400 bytes are
+// fragmented by LCM.
 class LcmPublisher : public Publisher {
  public:
   // Opens and tests everything. A way that loses every message is an error here, not a count later; throws as
@@ -62,6 +65,8 @@ class LcmPublisher : public Publisher {
   bool send_over_network(Topic topic, Message& message);
   template <class Message>
   bool write_to_log(Topic topic, Message& message);
+  [[nodiscard]] bool may_send(Topic topic, int n_bytes);
+  void send_waiting_spectra(bool whatever_the_budget);
   template <class Messages>
   bool send_all(Topic topic, Messages& messages);
   template <class Body>
@@ -74,8 +79,9 @@ class LcmPublisher : public Publisher {
   WayNumbers network_numbers_{}, log_numbers_{};
   std::array<std::int64_t, kTopics> n_held_back_{};
   SendBudget budget_;
-  std::vector<core::ChannelInfo> channel_infos_;  // as last published: health carries them
-  std::vector<std::uint8_t> buffer_;              // encoded message, reused
+  std::deque<hovermodal::spectrum_t> waiting_spectra_;  // of one snapshot at most
+  std::vector<core::ChannelInfo> channel_infos_;        // as last published: health carries them
+  std::vector<std::uint8_t> buffer_;                    // encoded message, reused
   std::string warning_;
   std::atomic<std::uint64_t> n_sent_{0}, n_failed_{0};  // relaxed: counts on their own
 };

@@ -1,6 +1,7 @@
 // Malformed messages at every subscriber of ours, for tools/figures/ground_link.sh:
 //   lcm_hostile decode SEEDS N              N of each seed into a StreamMonitor, an AttitudeInbox and the decoders
 //   lcm_hostile send URL N PER_SECOND       N of seed 1 over the socket, damaged datagrams and fragments among them
+//   lcm_hostile end URL                     a well-formed status "finished", after which listeners end
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <netinet/in.h>
@@ -102,16 +103,31 @@ Bytes bad_head(HostileMessages& hostile, const tests::HostileMessage& message, s
   return out;
 }
 
-int send(const std::string& url_text, std::uint64_t n, double per_second) {
-  const auto url = drivers::parse_udpm(url_text);
-  const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  const auto ttl = static_cast<unsigned char>(url.ttl);
-  sockaddr_in to{};
-  to.sin_family = AF_INET;
-  to.sin_port = htons(url.port);
-  inet_pton(AF_INET, url.group.c_str(), &to.sin_addr);
-  const void* address = &to;
-  if (fd < 0 || setsockopt(fd, IPPROTO_IP, IP_MULTICAST_TTL, &ttl, sizeof ttl) != 0) return 1;
+class Mouth {
+ public:
+  explicit Mouth(const std::string& url_text) : fd_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+    const auto url = drivers::parse_udpm(url_text);
+    const auto ttl = static_cast<unsigned char>(url.ttl);
+    to_.sin_family = AF_INET;
+    to_.sin_port = htons(url.port);
+    inet_pton(AF_INET, url.group.c_str(), &to_.sin_addr);
+    setsockopt(fd_, IPPROTO_IP, IP_MULTICAST_TTL, &ttl, sizeof ttl);
+  }
+  ~Mouth() { close(fd_); }
+  Mouth(const Mouth&) = delete;
+  Mouth& operator=(const Mouth&) = delete;
+  [[nodiscard]] bool send(const Bytes& bytes) const {
+    const void* to = &to_;
+    return sendto(fd_, bytes.data(), bytes.size(), 0, static_cast<const sockaddr*>(to), sizeof to_) >= 0;
+  }
+
+ private:
+  int fd_;
+  sockaddr_in to_{};
+};
+
+int send(const std::string& url, std::uint64_t n, double per_second) {
+  const Mouth mouth(url);
   HostileMessages hostile(1);
   std::uint64_t n_fragments = 0, n_heads = 0, n_failed = 0;
   const auto begin = std::chrono::steady_clock::now();
@@ -119,20 +135,28 @@ int send(const std::string& url_text, std::uint64_t n, double per_second) {
     const auto message = hostile.next();
     const auto number = static_cast<std::uint32_t>(i);
     const std::size_t how = hostile.below(10);
-    const Bytes bytes = how == 0   ? bad_fragment(hostile, message, number)
-                        : how == 1 ? bad_head(hostile, message, number)
-                                   : whole_datagram(message, number);
     n_fragments += how == 0 ? 1 : 0;
     n_heads += how == 1 ? 1 : 0;
-    const auto* to_any = static_cast<const sockaddr*>(address);
-    if (sendto(fd, bytes.data(), bytes.size(), 0, to_any, sizeof to) < 0) ++n_failed;
+    const bool ok = mouth.send(how == 0   ? bad_fragment(hostile, message, number)
+                               : how == 1 ? bad_head(hostile, message, number)
+                                          : whole_datagram(message, number));
+    n_failed += ok ? 0 : 1;
     if (i % 50 == 49)
       std::this_thread::sleep_until(begin + std::chrono::duration<double>(static_cast<double>(i) / per_second));
   }
-  close(fd);
   fmt::print("sent {} messages {} fragments {} heads {} failed {}\n", n, n - n_fragments - n_heads, n_fragments,
              n_heads, n_failed);
   return n_failed == 0 ? 0 : 1;
+}
+
+int end(const std::string& url) {
+  const Mouth mouth(url);
+  auto health = drivers::to_message(tests::sample_health("finished", 1), tests::sample_channels(4), {"hostile", 1});
+  health.sequence = 1;
+  bool ok = true;
+  for (std::uint32_t i = 0; i < 5; ++i)
+    ok = mouth.send(whole_datagram({0, "HOVERMODAL_HEALTH", tests::encoded_bytes(health)}, i)) && ok;
+  return ok ? 0 : 1;
 }
 
 }  // namespace
@@ -151,6 +175,7 @@ int main(int argc, char** argv) {
   }
   if (argc == 5 && std::string_view(argv[1]) == "send")
     return send(argv[2], std::strtoull(argv[3], nullptr, 10), std::atof(argv[4]));
-  fmt::print(stderr, "lcm_hostile decode SEEDS N | send URL N PER_SECOND\n");
+  if (argc == 3 && std::string_view(argv[1]) == "end") return end(argv[2]);
+  fmt::print(stderr, "lcm_hostile decode SEEDS N | send URL N PER_SECOND | end URL\n");
   return 2;
 }

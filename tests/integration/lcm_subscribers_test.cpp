@@ -37,6 +37,7 @@ void publish_run(drivers::Publisher& publisher) {
   publisher.publish(tests::sample_health("running", 0));
   for (std::uint64_t n = 0; n < 20; ++n, pause()) publisher.publish(tests::sample_displacement(12, n), channels);
   publisher.publish(tests::sample_tracks(400, 1));
+  publisher.publish(tests::sample_sums(12, 512), channels);
   publisher.publish(tests::sample_estimate(12, 10, 3), channels);
   pause();
   publisher.publish(tests::sample_health("finished", 25));
@@ -151,6 +152,7 @@ TEST(LcmSubscribers, ACapHoldsBackSamplesNeverModesAndTheLogHasAll) {
   EXPECT_GT(samples["held_back"].get<int>(), 0) << live.dump(2);
   EXPECT_EQ(samples["gaps"], 0);
   EXPECT_EQ(live["channels"]["HOVERMODAL_MODAL"]["held_back"], 0);
+  EXPECT_EQ(live["channels"]["HOVERMODAL_SPECTRUM"]["received"], 60) << "they wait for room, or for the end";
   EXPECT_EQ(log["channels"]["HOVERMODAL_DISPLACEMENT"]["received"], 100);
 }
 

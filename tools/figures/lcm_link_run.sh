@@ -38,13 +38,13 @@ if in_sky tc qdisc add dev air root netem loss 20% delay 100ms rate 256kbit limi
   echo "tc netem" >"$out/how.txt"
 else
   ip -n $sky link del air
-  ip link add air netns $sky type veth peer name up netns $radio
-  ip link add air netns $ground type veth peer name down netns $radio
-  ip -n $radio link set up up
-  ip -n $radio link set down up
+  ip link add air netns $sky type veth peer name to_sky netns $radio
+  ip link add air netns $ground type veth peer name to_ground netns $radio
+  ip -n $radio link set to_sky up
+  ip -n $radio link set to_ground up
   attach $sky 10.77.0.1
   attach $ground 10.77.0.2
-  ip netns exec $radio python3 tools/figures/link_relay.py up down --loss 0.2 --delay-ms 100 --kbit-s 256 --seed 1 --count "$out/relay.json" \
+  ip netns exec $radio python3 tools/figures/link_relay.py to_sky to_ground --loss 0.2 --delay-ms 100 --kbit-s 256 --seed 1 --count "$out/relay.json" \
     >"$out/relay.log" 2>&1 &
   relay=$!
   started+=($relay)
@@ -52,21 +52,21 @@ else
   echo "a relay in user space between two veth pairs (this kernel has no sch_netem)" >"$out/how.txt"
 fi
 
-in_ground lcm-logger -q --lcm-url="$url" "$out/ground.lcm" >"$out/logger.log" 2>&1 &
+ip netns exec $ground lcm-logger -q --lcm-url="$url" "$out/ground.lcm" >"$out/logger.log" 2>&1 &
 logger=$!
-in_ground "$bin/hovermodal" spy --url "$url" --plain --seconds 600 --count "$out/spy.json" >"$out/spy.log" 2>&1 &
+ip netns exec $ground "$bin/hovermodal" spy --url "$url" --plain --seconds 600 --count "$out/spy.json" >"$out/spy.log" 2>&1 &
 spy=$!
 started+=($logger $spy)
 for _ in $(seq 100); do grep -q "listening on" "$out/spy.log" && break; sleep 0.1; done
 # Bytes that left, once a second.
-in_sky bash -c 'while sleep 1; do ip -s -j link show air; echo; done' >"$out/rate.jsonl" 2>/dev/null &
+ip netns exec $sky bash -c 'while sleep 1; do ip -s -j link show air; echo; done' >"$out/rate.jsonl" 2>/dev/null &
 rate=$!
 started+=($rate)
 code=0
-in_sky "$bin/hovermodald" --config "$clip/config.yaml" --set camera.pace=realtime --set "telemetry.lcm_url=$url" --set telemetry.max_kbit_s="$cap" \
+in_sky "$bin/hovermodald" --config "$clip/config.yaml" --set camera.pace=realtime --set "telemetry.lcm_url=$url" --set telemetry.max_kbit_s="$cap" --set telemetry.tracks_every=1 --set identification.period=1 \
   --set "telemetry.log_file=$out/run.lcm" --report "$out/report" >"$out/service.log" 2>&1 || code=$?
 sleep 2
-kill -INT $spy && wait $spy || true
+kill -INT $spy && wait $spy || true  # its own signal handler writes the counts
 kill $logger $rate || true
 [ -z "${relay:-}" ] || { kill $relay && wait $relay || true; }
 echo $code >"$out/exit.txt"

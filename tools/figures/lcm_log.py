@@ -51,7 +51,7 @@ def final(path, types):
         if channel.endswith("_HEALTH"):
             last = data
     health = hovermodal.health_t.decode(last)
-    return {"state": health.state, "frames_in": health.frames_in, "frames_dropped": health.frames_dropped,
+    return {"state": health.state, "frames_in": health.frames_in, "estimates": health.estimates, "frames_dropped": health.frames_dropped,
             "messages_failed": health.messages_failed, "duration_s": health.stream_time_ns * 1e-9,
             "channels": {c.lcm_channel: {"n_sent": c.n_sent, "n_held_back": c.n_held_back} for c in health.counts}}
 
