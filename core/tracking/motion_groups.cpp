@@ -71,6 +71,12 @@ class Neighbours {
   std::map<std::pair<int, int>, std::vector<std::size_t>> cells_;
 };
 
+// Of a position, both axes together.
+double variance_px2(const SurveyedPoint& point, const MotionGroupConfig& config) {
+  const double sigma = std::max(point.sigma_px, config.least_sigma_px);
+  return 2.0 * sigma * sigma;
+}
+
 class Sets {
  public:
   explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
@@ -84,24 +90,25 @@ class Sets {
   std::vector<std::size_t> parent_;
 };
 
-// share: of what both move by, 0 where nothing is known to rest.
-std::vector<MotionGroup> joined(const std::vector<SurveyedPoint>& points, const std::vector<Series>& fast, double share,
-                                const MotionGroupConfig& config) {
+// Neighbours that may be joined and move together. share: of what both move by, 0 where nothing is known to rest.
+std::vector<MotionGroup> joined(const std::vector<SurveyedPoint>& points, const std::vector<Series>& fast,
+                                const std::vector<bool>& may, double share, const MotionGroupConfig& config) {
   Sets sets(points.size());
   const Neighbours neighbours(points, config.neighbour_px);
-  const auto variance = [&](std::size_t i) {
-    const double sigma = std::max(points[i].sigma_px, config.least_sigma_px);
-    return 2.0 * sigma * sigma;  // two axes
-  };
   for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!may[i]) continue;
     neighbours.visit(i, [&](std::size_t j) {
-      const double noise = config.same_noise * config.same_noise * (variance(i) + variance(j));
+      if (!may[j]) return;
+      const double noise =
+          config.same_noise * config.same_noise * (variance_px2(points[i], config) + variance_px2(points[j], config));
       const double moved = share * std::min(rms_motion(fast[i]), rms_motion(fast[j]));
       if (mean_square_difference(fast[i], fast[j]) <= std::max(noise, moved * moved)) sets.join(i, j);
     });
   }
   std::map<std::size_t, MotionGroup> groups;
-  for (std::size_t i = 0; i < points.size(); ++i) groups[sets.find(i)].members.push_back(i);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (may[i]) groups[sets.find(i)].members.push_back(i);
+  }
   std::vector<MotionGroup> out;
   for (auto& [root, group] : groups) {
     if (group.members.size() > 1) out.push_back(std::move(group));
@@ -141,6 +148,32 @@ void take_out_camera(const MotionGroup& rest, const std::vector<SurveyedPoint>& 
   }
 }
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Frees all motion from the camera's, as the group shows it. A structure stands on something: where its motion fades
+// out towards what rests, neighbours join it to the group, so members that move are left out, twice. Returns what a
+// member moves by then, the median.
+double free_from_camera(MotionGroup rest, const std::vector<SurveyedPoint>& points, std::vector<Series>& fast) {
+  constexpr int kRounds = 3;
+  double still = 0.0;
+  for (int round = 0; round < kRounds; ++round) {
+    take_out_camera(rest, points, fast);
+    std::vector<double> moved;
+    for (const std::size_t i : rest.members) moved.push_back(rms_motion(fast[i]));
+    still = median(moved);
+    std::vector<std::size_t> kept;
+    for (const std::size_t i : rest.members) {
+      if (rms_motion(fast[i]) <= 2.5 * still) kept.push_back(i);
+    }
+    rest.members = std::move(kept);
+  }
+  return still;
+}
+
 }  // namespace
 
 double rms_motion(const std::vector<Vector2>& motion) {
@@ -155,20 +188,25 @@ MotionGroups group_by_motion(const std::vector<SurveyedPoint>& points, double ra
   if (points.empty()) return out;
   const auto half = static_cast<std::size_t>(std::max(2.0, std::round(0.5 * config.slow_s * rate_hz)));
   for (const SurveyedPoint& point : points) out.fast_motion.push_back(without_slow(point.motion, half));
+  std::vector<bool> may(points.size(), true);
   // By noise alone what moves together comes out in pieces; what rests does not move, whatever it is compared with.
-  out.groups = joined(points, out.fast_motion, 0.0, config);
+  out.groups = joined(points, out.fast_motion, may, 0.0, config);
   const auto covers_more = [&](const MotionGroup& a, const MotionGroup& b) {
     return covered_share(a, points, width_px, height_px) < covered_share(b, points, width_px, height_px);
   };
   const auto widest = std::max_element(out.groups.begin(), out.groups.end(), covers_more);
   out.has_rest = widest != out.groups.end() && covered_share(*widest, points, width_px, height_px) >= kLeastRestShare;
   if (!out.has_rest) return out;
-  const MotionGroup rest = *widest;
-  take_out_camera(rest, points, out.fast_motion);
-  out.groups = joined(points, out.fast_motion, config.same_share, config);
-  for (MotionGroup& group : out.groups)
-    group.is_at_rest =
-        std::find(group.members.begin(), group.members.end(), rest.members.front()) != group.members.end();
+  const double still_px = free_from_camera(*widest, points, out.fast_motion);
+  MotionGroup rest;
+  rest.is_at_rest = true;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double moved = rms_motion(out.fast_motion[i]);
+    may[i] = moved > std::max(config.moves_by * still_px, config.moves_by * std::sqrt(variance_px2(points[i], config)));
+    if (!may[i]) rest.members.push_back(i);
+  }
+  out.groups = joined(points, out.fast_motion, may, config.same_share, config);
+  out.groups.push_back(std::move(rest));
   return out;
 }
 

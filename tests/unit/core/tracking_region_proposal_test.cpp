@@ -197,7 +197,11 @@ TEST(RegionProposal, OnDrawnFramesEveryRegionLiesOnAPartOfTheStructure) {
                           region.v_px + region.height_px + 10.0};
     for (const ProposedRegion& one : proposal.regions) n_found += is_within(one.region, plate) ? 1U : 0U;
   }
-  EXPECT_EQ(n_found, 7U);
+  std::string all;
+  for (const ProposedRegion& one : proposal.regions)
+    all += one.region.name + " " + std::to_string(one.region.u_px) + " " + std::to_string(one.region.v_px) + " " +
+           std::to_string(one.region.width_px) + " " + std::to_string(one.region.height_px) + "\n";
+  EXPECT_EQ(n_found, 7U) << all;
   EXPECT_EQ(proposal.regions.size(), 7U) << proposal.remark;
   ASSERT_TRUE(proposal.rest);
   expect_apart(proposal);
