@@ -104,6 +104,7 @@ struct TelemetryConfig {
   std::string log_file;   // also write an LCM event log; empty = none
   int tracks_every = 25;  // publish the tracks of every n-th frame; 0 = never
   int displacement_every = 1;
+  double max_kbit_s = 0.0;  // over the network; 0 = no limit
 };
 
 struct ReportConfig {

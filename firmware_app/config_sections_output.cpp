@@ -107,6 +107,10 @@ void add_output_keys(std::vector<ConfigKey>& keys) {
                            "publish every n-th frame's tracks; 0 = never"));
   keys.push_back(whole_key("telemetry.displacement_every", "frames", at(&A::telemetry, &T::displacement_every),
                            {1, 1000000}, "publish every n-th displacement"));
+  keys.push_back(number_key("telemetry.max_kbit_s", "kbit/s", at(&A::telemetry, &T::max_kbit_s), {16, 1e6, true},
+                            "most that goes over the network: modes, health and closure always do, displacements, "
+                            "spectra and tracks are thinned out, counted in health; for a radio take four fifths of "
+                            "what it carries (200 of 256); a log file has everything; 0 = no limit"));
   keys.push_back(text_key("report.directory", at(&A::report, &ReportConfig::directory), {},
                           "folder for modal.json and CSV files; \"\" = none; --report goes before"));
   keys.push_back(

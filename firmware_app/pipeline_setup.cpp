@@ -162,6 +162,7 @@ std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config, driv
                                   t.channel_prefix,
                                   t.log_file,
                                   {t.stream_id, config.hash},
+                                  t.max_kbit_s,
                                   recorder != nullptr ? recorder->log() : nullptr},
                                  &warning);
 }

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs what the build, the tests and the demo need on Debian 12, from Debian's packages; nothing when all is there.
-#   tools/setup.sh [--runtime] [--device]
+#   tools/setup.sh [--runtime] [--device] [--lcm]
 #     --runtime   also what tools/figures/runtime.sh needs: a model checker, an arm64 compiler and emulator
+#     --lcm       also lcm-spy with the message types of hovermodal: a JDK, LCM's Java library, an X server without a screen
 #     --device    also what tests/device needs: a machine emulator, a kernel for it, and tools to build a kernel module
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -20,6 +21,7 @@ fetch_kernel() { [[ " $* " != *" --device "* ]] || tests/device/kernel.sh standa
 for wanted in "$@"; do
   case $wanted in
     --runtime) packages+=(libboost-dev spin g++-aarch64-linux-gnu qemu-user) ;;
+    --lcm) packages+=(default-jdk liblcm-java libjchart2d-java libxmlgraphics-commons-java xvfb python3) ;;
     --device) packages+=(qemu-system-x86 busybox-static cpio kmod udev v4l-utils libcamera-tools libcamera-ipa rt-tests xz-utils bc libelf1) ;;
     *) echo "setup: $wanted: unknown; see the head of tools/setup.sh" >&2; exit 2 ;;
   esac

@@ -10,8 +10,9 @@ struct ChannelCount {
   std::uint64_t gaps = 0;          // messages missing between those received
   std::uint64_t out_of_order = 0;  // late or repeated ones; a late one also stays counted in `gaps`
   std::uint64_t restarts = 0;      // the sender began again
-  std::uint64_t undecodable = 0;
-  std::uint64_t foreign = 0;  // of another stream_id on the same channel; not looked at further
+  std::uint64_t undecodable = 0;   // those of another version included (layout_watch.h)
+  std::uint64_t n_bytes = 0;       // of every message that came, decoded or not, without LCM's head
+  std::uint64_t foreign = 0;       // of another stream_id on the same channel; not looked at further
   std::int64_t first_sequence = -1, last_sequence = -1;  // -1 = none yet
   std::int64_t last_utc_ns = 0;                          // the sender's clock
   std::int64_t received_at_ns = 0;                       // our clock

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -8,6 +9,16 @@ namespace drivers {
 
 // Far above any message of ours (a spectrum of 65536 points is 131 kB): bounds what a hostile datagram can allocate.
 inline constexpr std::size_t kMaxMessageBytes = std::size_t{1} << 20;
+
+// The first eight bytes of a message, which tell its layout; empty when there are not so many.
+[[nodiscard]] inline std::optional<std::int64_t> fingerprint_of(const void* data, std::size_t n_bytes) noexcept {
+  constexpr std::size_t kFingerprintBytes = 8;
+  if (n_bytes < kFingerprintBytes) return std::nullopt;
+  const auto* bytes = static_cast<const unsigned char*>(data);
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < kFingerprintBytes; ++i) value = value << 8U | bytes[i];
+  return static_cast<std::int64_t>(value);
+}
 
 // Bytes from the network into a generated type; empty when they are not exactly one such message. Always decodes into
 // a fresh object: lcm-gen leaves an old array standing where the new one is empty.

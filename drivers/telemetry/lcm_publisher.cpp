@@ -5,11 +5,13 @@
 
 #include <chrono>
 #include <stdexcept>
+#include <type_traits>
 
 #include "drivers/telemetry/encode.h"
 #include "drivers/telemetry/event_log.h"
 #include "drivers/telemetry/lcm_self_test.h"
 #include "drivers/telemetry/lcm_url.h"
+#include "rt/clock.h"
 
 namespace drivers {
 namespace {
@@ -42,9 +44,11 @@ struct LcmPublisher::Ways {
   }
 };
 
-LcmPublisher::LcmPublisher(const LcmOptions& options) : identity_(options.identity), ways_(std::make_unique<Ways>()) {
+LcmPublisher::LcmPublisher(const LcmOptions& options)
+    : identity_(options.identity), ways_(std::make_unique<Ways>()), budget_(options.max_kbit_s) {
   check_channel_prefix(options.channel_prefix);
-  for (std::size_t i = 0; i < kTopics; ++i) channels_[i].name = options.channel_prefix + kTopicSuffixes[i];
+  for (std::size_t i = 0; i < kTopics; ++i)
+    channel_names_[i] = topic_channel(options.channel_prefix, static_cast<Topic>(i));
   if (!options.url.empty()) warning_ = ways_->open_network(options);
   if (!options.log_file.empty()) ways_->logs.push_back(std::make_shared<EventLogFile>(options.log_file));
   if (options.record) ways_->logs.push_back(options.record);
@@ -52,26 +56,81 @@ LcmPublisher::LcmPublisher(const LcmOptions& options) : identity_(options.identi
 
 LcmPublisher::~LcmPublisher() = default;
 
+// Leaves the bytes in buffer_; none when the message cannot be encoded.
 template <class Message>
-bool LcmPublisher::send(Topic topic, Message& message) {
-  Channel& channel = channels_[topic];
-  message.sequence = channel.next_sequence++;
-  message.utc_ns = utc_now_ns();
+void LcmPublisher::encode(Topic topic, Message& message, const WayNumbers& numbers) {
+  message.sequence = numbers[topic].next_sequence;
+  if constexpr (std::is_same_v<Message, hovermodal::health_t>) {
+    for (std::size_t i = 0; i < kTopics; ++i) message.counts[i].n_sent = numbers[i].n_sent + (i == kHealth ? 1 : 0);
+  }
   const int size = message.getEncodedSize();
   buffer_.resize(static_cast<std::size_t>(size));
-  bool ok = message.encode(buffer_.data(), 0, size) == size;
-  if (ok && ways_->network) {
-    ok = lcm_publish(ways_->network.get(), channel.name.c_str(), buffer_.data(), static_cast<unsigned>(size)) == 0;
-  }
+  if (message.encode(buffer_.data(), 0, size) != size) buffer_.clear();
+}
+
+template <class Message>
+bool LcmPublisher::send_over_network(Topic topic, Message& message) {
+  encode(topic, message, network_numbers_);
+  Numbers& numbers = network_numbers_[topic];
+  ++numbers.next_sequence;
+  const bool ok = !buffer_.empty() && lcm_publish(ways_->network.get(), channel_names_[topic].c_str(), buffer_.data(),
+                                                  static_cast<unsigned>(buffer_.size())) == 0;
+  numbers.n_sent += ok ? 1 : 0;
+  return ok;
+}
+
+template <class Message>
+bool LcmPublisher::write_to_log(Topic topic, Message& message) {
+  encode(topic, message, log_numbers_);
+  Numbers& numbers = log_numbers_[topic];
+  ++numbers.next_sequence;
+  bool ok = !buffer_.empty();
   for (const auto& log : ways_->logs) {
-    ok = log->write(channel.name, buffer_, message.utc_ns) && ok;
+    ok = log->write(channel_names_[topic], buffer_, message.utc_ns) && ok;
     // Health comes about once a second: a crash takes no more than that from the log, and a full disk shows.
     if (topic == kHealth) ok = log->flush() && ok;
   }
-  if (ok) {
-    channel.n_sent.fetch_add(1, std::memory_order_relaxed);
-  } else {
+  numbers.n_sent += ok ? 1 : 0;
+  return ok;
+}
+
+bool LcmPublisher::may_send(Topic topic, int n_bytes) {
+  const std::size_t n = wire_bytes(channel_names_[topic].size(), static_cast<std::size_t>(n_bytes));
+  return budget_.admit(topic, n, rt::monotonic_ns());
+}
+
+void LcmPublisher::send_waiting_spectra(bool whatever_the_budget) {
+  while (!waiting_spectra_.empty()) {
+    hovermodal::spectrum_t& spectrum = waiting_spectra_.front();
+    if (!may_send(kSpectrum, spectrum.getEncodedSize()) && !whatever_the_budget) return;
+    spectrum.utc_ns = utc_now_ns();
+    (send_over_network(kSpectrum, spectrum) ? n_sent_ : n_failed_).fetch_add(1, std::memory_order_relaxed);
+    waiting_spectra_.pop_front();
+  }
+}
+
+template <class Message>
+bool LcmPublisher::send(Topic topic, Message& message) {
+  constexpr bool kMayWait = std::is_same_v<Message, hovermodal::spectrum_t>;
+  message.utc_ns = utc_now_ns();
+  bool ok = true;
+  bool is_held_back = false;
+  if (ways_->network) {
+    send_waiting_spectra(false);
+    is_held_back = (kMayWait && !waiting_spectra_.empty()) || !may_send(topic, message.getEncodedSize());
+    if (!is_held_back) {
+      ok = send_over_network(topic, message);
+    } else if constexpr (kMayWait) {
+      waiting_spectra_.push_back(message);
+    } else {
+      ++n_held_back_[topic];
+    }
+  }
+  if (!ways_->logs.empty()) ok = write_to_log(topic, message) && ok;
+  if (!ok) {
     n_failed_.fetch_add(1, std::memory_order_relaxed);
+  } else if (!is_held_back) {
+    n_sent_.fetch_add(1, std::memory_order_relaxed);
   }
   return ok;
 }
@@ -127,6 +186,8 @@ bool LcmPublisher::publish(const core::TrackFrame& tracks) noexcept {
 bool LcmPublisher::publish(const core::CpsdSums& spectrum, const std::vector<core::ChannelInfo>& channels) noexcept {
   return guarded([&] {
     remember(channels);
+    n_held_back_[kSpectrum] += static_cast<std::int64_t>(waiting_spectra_.size());
+    waiting_spectra_.clear();
     auto messages = to_messages(spectrum, channels, identity_);
     return send_all(kSpectrum, messages);
   });
@@ -141,20 +202,13 @@ bool LcmPublisher::publish(const core::closure::ClosureReport& report) noexcept 
 
 bool LcmPublisher::publish(const core::Health& health) noexcept {
   return guarded([&] {
+    const bool is_last = health.state.rfind("finished", 0) == 0 || health.state.rfind("fault", 0) == 0;
+    if (is_last) send_waiting_spectra(true);
     auto message = to_message(health, channel_infos_, identity_);
-    for (std::size_t i = 0; i < kTopics; ++i) {
-      const std::int64_t with_this = i == kHealth ? 1 : 0;
-      message.counts.push_back({channels_[i].name, channels_[i].n_sent.load(std::memory_order_relaxed) + with_this});
-    }
+    for (std::size_t i = 0; i < kTopics; ++i) message.counts.push_back({channel_names_[i], 0, n_held_back_[i]});
     message.n_counts = static_cast<std::int16_t>(message.counts.size());
     return send(kHealth, message);
   });
-}
-
-std::uint64_t LcmPublisher::messages_sent() const noexcept {
-  std::int64_t n = 0;
-  for (const auto& channel : channels_) n += channel.n_sent.load(std::memory_order_relaxed);
-  return static_cast<std::uint64_t>(n);
 }
 
 }  // namespace drivers

@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -10,13 +11,18 @@
 
 #include "drivers/telemetry/publisher.h"
 #include "drivers/telemetry/publisher_factory.h"
+#include "drivers/telemetry/send_budget.h"
 #include "drivers/telemetry/topics.h"
+#include "hovermodal/spectrum_t.hpp"
 
 namespace drivers {
 
-// Results as LCM messages, over the network, into an LCM event log, or both. Each LCM channel has a sequence of its own
-// that grows with every message, sent or not: a receiver sees a failed send as a gap. Every health message says how
-// many were sent on each channel, itself included. Messages above some 1400 bytes are fragmented by LCM.
+// Results as LCM messages, over the network, into an LCM event log, or both. Network and log each number the messages
+// of an LCM channel for themselves, sent or failed: a receiver sees a failed send as a gap. What is held back from the
+// network (LcmOptions::max_kbit_s) has no number there and is no gap; the log has everything. Spectra, which come all
+// at once, wait for room until the next ones replace them, or the end. Every health message says how many were sent on
+// each channel of its own way, itself included, and how many were held back. Messages above some 1400 bytes are
+// fragmented by LCM.
 class LcmPublisher : public Publisher {
  public:
   // Opens and tests everything. A way that loses every message is an error here, not a count later; throws as
@@ -32,8 +38,10 @@ class LcmPublisher : public Publisher {
   bool publish(const core::closure::ClosureReport& report) noexcept override;
   bool publish(const core::Health& health) noexcept override;
 
-  // A message counts as sent when every way open (network, log) took it.
-  [[nodiscard]] std::uint64_t messages_sent() const noexcept override;
+  // A message counts as sent when every way open (network, log) took it; one held back is neither sent nor failed.
+  [[nodiscard]] std::uint64_t messages_sent() const noexcept override {
+    return n_sent_.load(std::memory_order_relaxed);
+  }
   [[nodiscard]] std::uint64_t messages_failed() const noexcept override {
     return n_failed_.load(std::memory_order_relaxed);
   }
@@ -42,15 +50,23 @@ class LcmPublisher : public Publisher {
   [[nodiscard]] const std::string& warning() const noexcept { return warning_; }
 
  private:
-  struct Channel {
-    std::string name;
-    std::int64_t next_sequence = 0;
-    std::atomic<std::int64_t> n_sent{0};  // relaxed: a count on its own
+  // One way's numbers on one LCM channel.
+  struct Numbers {
+    std::int64_t next_sequence = 0, n_sent = 0;
   };
+  using WayNumbers = std::array<Numbers, kTopics>;
   struct Ways;  // the LCM instance and the event logs
 
   template <class Message>
   bool send(Topic topic, Message& message);
+  template <class Message>
+  void encode(Topic topic, Message& message, const WayNumbers& numbers);
+  template <class Message>
+  bool send_over_network(Topic topic, Message& message);
+  template <class Message>
+  bool write_to_log(Topic topic, Message& message);
+  [[nodiscard]] bool may_send(Topic topic, int n_bytes);
+  void send_waiting_spectra(bool whatever_the_budget);
   template <class Messages>
   bool send_all(Topic topic, Messages& messages);
   template <class Body>
@@ -59,11 +75,15 @@ class LcmPublisher : public Publisher {
 
   StreamIdentity identity_;
   std::unique_ptr<Ways> ways_;
-  std::array<Channel, kTopics> channels_;
-  std::vector<core::ChannelInfo> channel_infos_;  // as last published: health carries them
-  std::vector<std::uint8_t> buffer_;              // encoded message, reused
+  std::array<std::string, kTopics> channel_names_;
+  WayNumbers network_numbers_{}, log_numbers_{};
+  std::array<std::int64_t, kTopics> n_held_back_{};
+  SendBudget budget_;
+  std::deque<hovermodal::spectrum_t> waiting_spectra_;  // of one snapshot at most
+  std::vector<core::ChannelInfo> channel_infos_;        // as last published: health carries them
+  std::vector<std::uint8_t> buffer_;                    // encoded message, reused
   std::string warning_;
-  std::atomic<std::uint64_t> n_failed_{0};
+  std::atomic<std::uint64_t> n_sent_{0}, n_failed_{0};  // relaxed: counts on their own
 };
 
 }  // namespace drivers

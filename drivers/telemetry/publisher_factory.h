@@ -14,6 +14,7 @@ struct LcmOptions {
   std::string channel_prefix = "HOVERMODAL";  // <prefix>_MODAL, _DISPLACEMENT, _SPECTRUM, _TRACKS, _CLOSURE, _HEALTH
   std::string log_file;                       // the same messages into an LCM event log; empty = none
   StreamIdentity identity;
+  double max_kbit_s = 0.0;  // over the network; 0 = no limit (send_budget.h)
   std::shared_ptr<EventLog> record = nullptr;  // one more log: that of the run's record
 };
 

@@ -9,15 +9,21 @@
 
 namespace drivers {
 
-StreamMonitor::StreamMonitor(const std::string& channel_prefix) {
-  for (std::size_t i = 0; i < kTopics; ++i) names_[i] = channel_prefix + kTopicSuffixes[i];
+StreamMonitor::StreamMonitor(const std::string& channel_prefix) : prefix_(channel_prefix) {
+  for (std::size_t i = 0; i < kTopics; ++i) names_[i] = topic_channel(channel_prefix, static_cast<Topic>(i));
 }
 
 void StreamMonitor::receive(std::string_view lcm_channel, const void* data, std::size_t n_bytes,
                             std::int64_t now_ns) noexcept {
-  const auto found = std::find(names_.begin(), names_.end(), lcm_channel);
-  if (found == names_.end()) return;
-  const auto topic = static_cast<Topic>(found - names_.begin());
+  const auto found = topic_of(prefix_, lcm_channel);
+  if (!found) return;
+  const Topic topic = found->topic;
+  counts_[topic].n_bytes += n_bytes;
+  if (found->layout != kTopicLayouts[topic]) {
+    ++counts_[topic].undecodable;
+    layouts_.note_layout(topic, found->layout);
+    return;
+  }
   try {
     dispatch(topic, data, n_bytes, now_ns);
   } catch (...) {  // out of memory: the message is lost to us
@@ -57,6 +63,8 @@ std::optional<Message> StreamMonitor::open(Topic topic, const void* data, std::s
   auto message = decode_message<Message>(data, n_bytes);
   if (!message || message->sequence < 0) {
     ++count.undecodable;
+    if (const auto heard = fingerprint_of(data, n_bytes); heard && *heard != Message::getHash())
+      layouts_.note_fingerprint(topic, *heard, Message::getHash());
     return std::nullopt;
   }
   if (!is_following_) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "drivers/telemetry/channel_count.h"
+#include "drivers/telemetry/layout_watch.h"
 #include "drivers/telemetry/topics.h"
 #include "hovermodal/closure_report_t.hpp"
 #include "hovermodal/displacement_t.hpp"
@@ -20,7 +21,8 @@
 namespace drivers {
 
 // What a listener knows from LCM messages alone: the newest of everything, and what was lost on the way. It follows the
-// first stream_id it hears. Takes any bytes: what does not decode is counted and changes nothing else. One thread.
+// first stream_id it hears. Takes any bytes: what does not decode is counted and changes nothing else, but for a word
+// on a sender of another version. One thread.
 class StreamMonitor {
  public:
   using Topic = drivers::Topic;
@@ -38,6 +40,8 @@ class StreamMonitor {
 
   [[nodiscard]] const std::string& lcm_channel(Topic topic) const noexcept { return names_[topic]; }
   [[nodiscard]] const ChannelCount& count(Topic topic) const noexcept { return counts_[topic]; }
+  // Senders of another version, in words; empty: none heard.
+  [[nodiscard]] std::vector<std::string> other_versions() const { return layouts_.words(prefix_); }
   [[nodiscard]] const std::string& stream_id() const noexcept { return stream_id_; }  // empty = nothing heard
   [[nodiscard]] std::int64_t config_hash() const noexcept { return config_hash_; }
   [[nodiscard]] std::int64_t stream_time_ns() const noexcept { return stream_time_ns_; }
@@ -69,6 +73,8 @@ class StreamMonitor {
   void take(hovermodal::health_t message, std::int64_t now_ns);
   void dispatch(Topic topic, const void* data, std::size_t n_bytes, std::int64_t now_ns);
 
+  std::string prefix_;
+  LayoutWatch layouts_;
   std::array<std::string, kTopics> names_;
   std::array<ChannelCount, kTopics> counts_{};
   std::string stream_id_;

@@ -2,12 +2,39 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
 
 namespace drivers {
 
-// What a run tells, on one LCM channel each: prefix + suffix.
+// What a run tells, on one LCM channel each.
 enum Topic : std::size_t { kModal, kDisplacement, kSpectrum, kTracks, kClosure, kHealth, kTopics };
 inline constexpr std::array<const char*, kTopics> kTopicSuffixes{"_MODAL",  "_DISPLACEMENT", "_SPECTRUM",
                                                                  "_TRACKS", "_CLOSURE",      "_HEALTH"};
+
+// The layout of each topic's messages. Raised by one with every change of a type that went out in a release: messages
+// of the new layout then travel on a channel of another name, and nobody who listens to the old one hears bytes that
+// it cannot read. tests/unit/drivers/lcm_layout_test.cpp holds the fingerprints that belong to these numbers.
+inline constexpr std::array<int, kTopics> kTopicLayouts{1, 1, 1, 1, 1, 1};
+
+// <prefix>_MODAL is layout 1, <prefix>_MODAL_V2 layout 2.
+[[nodiscard]] inline std::string topic_channel(const std::string& prefix, Topic topic, int layout) {
+  return prefix + kTopicSuffixes[topic] + (layout == 1 ? "" : "_V" + std::to_string(layout));
+}
+[[nodiscard]] inline std::string topic_channel(const std::string& prefix, Topic topic) {
+  return topic_channel(prefix, topic, kTopicLayouts[topic]);
+}
+
+struct TopicLayout {
+  Topic topic;
+  int layout;  // 1 .. 999
+};
+
+// The other way round, for any layout; empty for a channel that is none of ours.
+[[nodiscard]] std::optional<TopicLayout> topic_of(std::string_view prefix, std::string_view lcm_channel);
+
+// A regular expression, as LCM takes it, for all topics in all layouts.
+[[nodiscard]] std::string topics_pattern(const std::string& prefix);
 
 }  // namespace drivers

@@ -1,9 +1,11 @@
 #ifdef HOVERMODAL_WITH_LCM
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 #include <thread>
 
+#include "drivers/telemetry/lcm_diagnosis.h"
 #include "drivers/telemetry/lcm_publisher.h"
 #include "drivers/telemetry/lcm_self_test.h"
 #include "tests/support/loopback_network.h"
@@ -70,6 +72,41 @@ TEST(LcmNetwork, ARouteLostWhileRunningIsCountedAndLeavesAGapInTheSequence) {
     EXPECT_EQ(publisher.messages_failed(), 1U);
   });
   if (!why.empty()) GTEST_SKIP() << "needs a private network: " << why;
+}
+
+// "BAD <what> | <remedy>; " of everything that is bad.
+std::string bad_findings(const std::string& url) {
+  std::string out;
+  for (const auto& finding : drivers::diagnose_lcm(url, "TEST")) {
+    if (finding.kind == drivers::FindingKind::kBad) out += finding.what + " | " + finding.remedy + "; ";
+  }
+  return out;
+}
+
+TEST(LcmNetwork, DiagnosisFindsNothingBadOverLoopback) {
+  SKIP_WITHOUT_PRIVATE_LOOPBACK();
+  EXPECT_EQ(bad_findings(kUrl), "");
+}
+
+TEST(LcmNetwork, DiagnosisNamesAMissingRouteAndAnInterfaceThatIsDown) {
+  const std::string why = without_route([&] {
+    EXPECT_THAT(bad_findings(kUrl), ::testing::HasSubstr("there is no way to 239.255.76.67"));
+    EXPECT_THAT(bad_findings(kUrl), ::testing::HasSubstr("ip route add 224.0.0.0/4 dev lo"));
+    ASSERT_EQ(tests::set_loopback(false), "");
+    EXPECT_THAT(bad_findings(kUrl), ::testing::HasSubstr("lo is down | ip link set lo up"));
+  });
+  if (!why.empty()) GTEST_SKIP() << "needs a private network: " << why;
+}
+
+TEST(LcmNetwork, DiagnosisSeesThatOthersCannotHearOverLoopback) {
+  SKIP_WITHOUT_PRIVATE_LOOPBACK();
+  EXPECT_THAT(bad_findings("udpm://239.255.76.67:7667?ttl=1"),
+              ::testing::HasSubstr("other computers are meant to hear"));
+}
+
+TEST(LcmNetwork, DiagnosisOfAFileIsNoTestAndOfAWrongUrlARefusal) {
+  EXPECT_EQ(bad_findings("file://run.lcm"), "");
+  EXPECT_THROW((void)drivers::diagnose_lcm("udpm://10.0.0.1:7667", "TEST"), std::invalid_argument);
 }
 
 TEST(LcmNetwork, SelfTestExplainsAWrongUrlInsteadOfThrowing) {

@@ -19,6 +19,8 @@ void add_compare(CLI::App& app);
 void add_spy(CLI::App& app);
 void add_inspect(CLI::App& app);  // in spy.cpp: another view of the same messages
 void add_inspect_cameras(CLI::App& inspect);
+void add_inspect_lcm(CLI::App& inspect);
+void add_regions(CLI::App& app);
 void add_readout(CLI::App& app);
 void add_selftest(CLI::App& app);
 

@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   tools::add_compare(app);
   tools::add_spy(app);
   tools::add_inspect(app);
+  tools::add_regions(app);
   tools::add_readout(app);
   tools::add_selftest(app);
   try {

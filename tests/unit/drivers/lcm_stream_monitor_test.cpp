@@ -95,6 +95,21 @@ TEST_F(StreamMonitorTest, CountsWhatDoesNotDecodeAndIgnoresOtherChannels) {
   EXPECT_EQ(samples().undecodable, 1U);
 }
 
+TEST_F(StreamMonitorTest, AServiceOfAnotherVersionIsToldInWords) {
+  auto message = to_message(tests::sample_displacement(3, 1), {"tower", 1});
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  monitor_.receive("TEST_DISPLACEMENT_V2", bytes.data(), bytes.size(), 1);
+  EXPECT_EQ(monitor_.other_versions().size(), 1U);
+  bytes[3] ^= 0xFFU;
+  for (int i = 0; i < 3; ++i) monitor_.receive("TEST_DISPLACEMENT", bytes.data(), bytes.size(), 1);
+  ASSERT_EQ(monitor_.other_versions().size(), 2U);
+  EXPECT_NE(monitor_.other_versions()[1].find("this service speaks another version"), std::string::npos);
+  EXPECT_EQ(samples().undecodable, 4U);
+  EXPECT_EQ(samples().received, 0U);
+  EXPECT_EQ(samples().n_bytes, 4U * bytes.size());
+}
+
 TEST_F(StreamMonitorTest, ExtremeSequencesDoNotOverflow) {
   send_sample(0, 1);
   send_sample(std::numeric_limits<std::int64_t>::max(), 2);

@@ -11,15 +11,19 @@ namespace {
 
 using drivers::StreamMonitor;
 
-std::optional<std::int64_t> sent(const StreamMonitor& monitor, const std::string& lcm_channel) {
+struct ByTheSender {
+  std::int64_t n_sent = 0, n_held_back = 0;
+};
+
+std::optional<ByTheSender> sent(const StreamMonitor& monitor, const std::string& lcm_channel) {
   if (!monitor.health()) return std::nullopt;
   for (const auto& count : monitor.health()->counts) {
-    if (count.lcm_channel == lcm_channel) return count.n_sent;
+    if (count.lcm_channel == lcm_channel) return ByTheSender{count.n_sent, count.n_held_back};
   }
   return std::nullopt;
 }
 
-nlohmann::json channel_json(const drivers::ChannelCount& count, std::optional<std::int64_t> n_sent) {
+nlohmann::json channel_json(const drivers::ChannelCount& count, std::optional<ByTheSender> by_sender) {
   nlohmann::json out{{"received", count.received},
                      {"gaps", count.gaps},
                      {"out_of_order", count.out_of_order},
@@ -28,12 +32,17 @@ nlohmann::json channel_json(const drivers::ChannelCount& count, std::optional<st
                      {"foreign", count.foreign},
                      {"first_sequence", nullptr},
                      {"last_sequence", nullptr},
-                     {"sent", nullptr}};
+                     {"bytes", count.n_bytes},
+                     {"sent", nullptr},
+                     {"held_back", nullptr}};
   if (count.first_sequence >= 0) {
     out["first_sequence"] = count.first_sequence;
     out["last_sequence"] = count.last_sequence;
   }
-  if (n_sent) out["sent"] = *n_sent;
+  if (by_sender) {
+    out["sent"] = by_sender->n_sent;
+    out["held_back"] = by_sender->n_held_back;
+  }
   return out;
 }
 
@@ -44,8 +53,8 @@ bool is_complete(const StreamMonitor& monitor) {
   for (std::size_t i = 0; i < StreamMonitor::kTopics; ++i) {
     const auto topic = static_cast<StreamMonitor::Topic>(i);
     const auto& count = monitor.count(topic);
-    const auto n_sent = sent(monitor, monitor.lcm_channel(topic));
-    if (!n_sent || *n_sent != static_cast<std::int64_t>(count.received)) return false;
+    const auto by_sender = sent(monitor, monitor.lcm_channel(topic));
+    if (!by_sender || by_sender->n_sent != static_cast<std::int64_t>(count.received)) return false;
     if (count.gaps + count.out_of_order + count.restarts + count.undecodable != 0) return false;
   }
   return true;
@@ -58,6 +67,7 @@ std::string count_json(const StreamMonitor& monitor) {
   out["final_health"] = monitor.is_finished();
   out["state"] = monitor.health() ? nlohmann::json(monitor.health()->state) : nlohmann::json(nullptr);
   out["complete"] = is_complete(monitor);
+  out["other_versions"] = monitor.other_versions();
   for (std::size_t i = 0; i < StreamMonitor::kTopics; ++i) {
     const auto topic = static_cast<StreamMonitor::Topic>(i);
     const std::string& name = monitor.lcm_channel(topic);

@@ -38,6 +38,7 @@ void add_inspect(CLI::App& app) {
       "inspect", "Show every stage live, like top: rate, ring, losses, latencies, CPU; from LCM alone");
   add_listener(inspect)->view = SpyView::kStages;
   add_inspect_cameras(*inspect);
+  add_inspect_lcm(*inspect);
 }
 
 }  // namespace tools

@@ -81,6 +81,7 @@ Lines health_lines(const StreamMonitor& monitor) {
 Lines render_stages(const StreamMonitor& monitor, const ViewOptions& options) {
   Lines lines{"hovermodal inspect   waiting for the first status message"};
   if (monitor.health()) lines = health_lines(monitor);
+  for (const std::string& line : render_versions(monitor, options)) lines.push_back(line);
   if (lines.size() > options.rows) lines.resize(options.rows);
   for (std::string& line : lines) {
     line = fit(line, options.columns);

@@ -62,6 +62,22 @@ std::string printable(std::string_view text) {
   return out;
 }
 
+std::vector<std::string> wrapped(std::string_view text, std::size_t columns) {
+  std::vector<std::string> lines;
+  std::string line;
+  const std::string clean = printable(text) + ' ';
+  for (std::size_t begin = 0, end = 0; (end = clean.find(' ', begin)) != clean.npos; begin = end + 1) {
+    const std::string word = clean.substr(begin, end - begin);
+    if (!line.empty() && line.size() + 1 + word.size() > columns) {
+      lines.push_back(line);
+      line = " ";  // and one before the word
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  lines.push_back(line);
+  return lines;
+}
+
 std::string fit(std::string_view text, std::size_t columns) {
   std::string out;
   const std::size_t used = append_printable(text, columns, out);

@@ -16,6 +16,9 @@ enum class Charset { kUnicode, kAscii };
 // Control characters and malformed UTF-8 become '?'.
 [[nodiscard]] std::string printable(std::string_view text);
 
+// `printable`, broken between words into lines of at most `columns`; every line but the first begins with two spaces.
+[[nodiscard]] std::vector<std::string> wrapped(std::string_view text, std::size_t columns);
+
 // `printable`, cut or padded with spaces to exactly `columns`.
 [[nodiscard]] std::string fit(std::string_view text, std::size_t columns);
 

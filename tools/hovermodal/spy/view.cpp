@@ -10,6 +10,7 @@
 namespace tools {
 namespace {
 
+using drivers::kTopicSuffixes;
 using drivers::StreamMonitor;
 using hovermodal::mode_t;
 using Lines = std::vector<std::string>;
@@ -128,23 +129,24 @@ Lines displacement_lines(const StreamMonitor& monitor, const ViewOptions& option
   return out;
 }
 
-std::string sent_text(const StreamMonitor& monitor, const std::string& lcm_channel) {
-  if (monitor.health()) {
-    for (const auto& count : monitor.health()->counts) {
-      if (count.lcm_channel == lcm_channel) return std::to_string(count.n_sent);
-    }
+const hovermodal::message_count_t* by_the_sender(const StreamMonitor& monitor, const std::string& lcm_channel) {
+  if (!monitor.health()) return nullptr;
+  for (const auto& count : monitor.health()->counts) {
+    if (count.lcm_channel == lcm_channel) return &count;
   }
-  return "-";
+  return nullptr;
 }
 
 Lines channel_table(const StreamMonitor& monitor) {
-  Lines out{"LCM channel      heard    sent  gaps   bad"};
+  Lines out{"LCM channel   heard   sent   held  gaps  bad"};
   for (std::size_t i = 0; i < StreamMonitor::kTopics; ++i) {
     const auto topic = static_cast<StreamMonitor::Topic>(i);
     const auto& count = monitor.count(topic);
     const std::string& name = monitor.lcm_channel(topic);
-    out.push_back(fmt::format("{} {:>7} {:>7} {:>5} {:>5}", fit(name.substr(name.rfind('_') + 1), 14), count.received,
-                              sent_text(monitor, name), count.gaps,
+    const auto* sender = by_the_sender(monitor, name);
+    out.push_back(fmt::format("{} {:>6} {:>6} {:>6} {:>5} {:>4}", fit(kTopicSuffixes[i] + 1, 12), count.received,
+                              sender != nullptr ? std::to_string(sender->n_sent) : "-",
+                              sender != nullptr ? std::to_string(sender->n_held_back) : "-", count.gaps,
                               count.undecodable + count.foreign + count.out_of_order));
   }
   return out;
@@ -165,7 +167,7 @@ Lines stage_table(const StreamMonitor& monitor) {
 Lines side_by_side(const Lines& left, const Lines& right) {
   Lines out;
   for (std::size_t i = 0; i < std::max(left.size(), right.size()); ++i) {
-    out.push_back(fit(i < left.size() ? left[i] : "", kHalf - 5) + (i < right.size() ? right[i] : ""));
+    out.push_back(fit(i < left.size() ? left[i] : "", kHalf - 4) + (i < right.size() ? right[i] : ""));
   }
   return out;
 }
@@ -185,21 +187,31 @@ Lines render_modes(const StreamMonitor& monitor, const ViewOptions& options, std
   return out;
 }
 
+Lines render_versions(const StreamMonitor& monitor, const ViewOptions& options) {
+  Lines out;
+  for (const std::string& words : monitor.other_versions()) append(out, wrapped("WARNING " + words, options.columns));
+  return out;
+}
+
 std::string render_status(const StreamMonitor& monitor, const ViewOptions&) {
-  std::uint64_t gaps = 0;
-  std::uint64_t bad = 0;
-  std::uint64_t heard = 0;
+  std::uint64_t gaps = 0, bad = 0, heard = 0, bytes = 0;
+  std::int64_t held_back = 0;
   for (std::size_t i = 0; i < StreamMonitor::kTopics; ++i) {
-    const auto& count = monitor.count(static_cast<StreamMonitor::Topic>(i));
+    const auto topic = static_cast<StreamMonitor::Topic>(i);
+    const auto& count = monitor.count(topic);
     gaps += count.gaps;
     bad += count.undecodable;
     heard += count.received;
+    bytes += count.n_bytes;
+    if (const auto* sender = by_the_sender(monitor, monitor.lcm_channel(topic))) held_back += sender->n_held_back;
   }
   const auto& h = monitor.health();
   return fmt::format(
-      "t {} s  {}  frames {} in, {} processed, {} dropped, {} missing; messages {} heard, {} lost, {} bad",
+      "t {} s  {}  frames {} in, {} processed, {} dropped, {} missing; messages {} heard ({} kB), {} lost, {} held "
+      "back, {} bad",
       number(seconds(monitor.stream_time_ns()), 2), h ? printable(h->state) : "no health yet", h ? h->frames_in : 0,
-      h ? h->frames_processed : 0, h ? h->frames_dropped : 0, h ? h->frames_missing : 0, heard, gaps, bad);
+      h ? h->frames_processed : 0, h ? h->frames_dropped : 0, h ? h->frames_missing : 0, heard, bytes / 1000, gaps,
+      held_back, bad);
 }
 
 Lines render_screen(const StreamMonitor& monitor, const ViewOptions& options) {
@@ -208,6 +220,7 @@ Lines render_screen(const StreamMonitor& monitor, const ViewOptions& options) {
     lines.push_back("hovermodal spy   waiting for the first message");
   else
     lines = head_lines(monitor, options);
+  append(lines, render_versions(monitor, options));
   Lines below = closure_lines(monitor);
   append(below, displacement_lines(monitor, options));
   append(below, side_by_side(channel_table(monitor), stage_table(monitor)));

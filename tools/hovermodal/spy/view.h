@@ -23,6 +23,10 @@ struct ViewOptions {
 [[nodiscard]] std::vector<std::string> render_modes(const drivers::StreamMonitor& monitor, const ViewOptions& options,
                                                     std::size_t max_modes);
 
+// Senders of another version, each over as many lines as it takes; empty: none heard.
+[[nodiscard]] std::vector<std::string> render_versions(const drivers::StreamMonitor& monitor,
+                                                       const ViewOptions& options);
+
 // Time, frames, losses and state in one line, for a log.
 [[nodiscard]] std::string render_status(const drivers::StreamMonitor& monitor, const ViewOptions& options);
 

@@ -1,0 +1,124 @@
+#!/usr/bin/env bash
+# The way from the service to the ground over LCM. One line a figure.
+#   tools/figures/ground_link.sh [--quick] [FIGURE...]      FIGURE: some of 4 5 6 7 (default: all); --quick: a tenth of figure 6,
+#                                                           the clip of figures 4, 5 and 7 at 30 s
+# 4 lcm-spy with our types, 5 a bad radio link (as root), 6 malformed packets, 7 proposed regions.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+. tools/figures/lib.sh
+seconds=60 hostile=1000000
+[ "${1:-}" != --quick ] || { seconds=30 hostile=100000 && shift; }
+figures=("${@:-}")
+[ -n "${figures[0]}" ] || figures=(4 5 6 7)
+out=$PWD/build/figures/ground
+types=build/release/python
+mkdir -p "$out"
+tools/setup.sh --lcm
+quietly tools/build.sh hovermodal hovermodald subscribe lcm_hostile hovermodal_python_messages
+clip=$out/clip_$seconds
+
+own_network() { unshare -rn "$@"; }
+# field FILE EXPRESSION: of a JSON file, which is j
+field() { python3 -c 'import json, sys; j = json.load(open(sys.argv[1])); print(eval(sys.argv[2]))' "$1" "$2" 2>/dev/null || echo nan; }
+need_clip() {
+  [ -f "$clip/config.yaml" ] || quietly "$bin/hovermodal" simulate --preset paper --duration $seconds --size 720p --out "$clip"
+}
+# A log of one run: every kind of message.
+need_log() {
+  need_clip
+  [ -f "$out/run.lcm" ] || quietly "$bin/hovermodald" --config "$clip/config.yaml" --set telemetry.lcm_url= --set "telemetry.log_file=$out/run.lcm" \
+    --set closure.period_s=20
+}
+
+# --- 4: lcm-spy --------------------------------------------------------------------------------------------------------
+figure_4() {
+  local what="lcm-spy of Debian with hovermodal_lcm.jar, a log of one run" bar="7 of 7 types decoded, 7 listed and open"
+  if ! cmake -B build/release -S . >/dev/null 2>&1 || ! quietly tools/build.sh hovermodal_lcm_jar || ! command -v Xvfb >/dev/null; then
+    line 4 SKIP "no JDK, no LCM for Java or no Xvfb (tools/setup.sh --lcm)" "$bar" "$what"
+    return
+  fi
+  need_log
+  mkdir -p "$out/classes"
+  local path=build/release/hovermodal_lcm.jar:/usr/share/java/lcm.jar
+  quietly javac -nowarn -cp "$path" -d "$out/classes" tools/figures/LcmSpyCheck.java
+  python3 tools/figures/lcm_log.py with-attitude "$out/run.lcm" "$out/all_types.lcm" $types >/dev/null
+  java -cp "$path:$out/classes" LcmSpyCheck log "$out/all_types.lcm" >"$out/decoded.txt"
+  local types_decoded errors messages
+  read -r types_decoded errors messages < <(awk '$1 == "channel" { if ($4 != "unknown" && $8 == 0 && $6 > 0) n++; e += $8; m += $6 } END { print n + 0, e + 0, m + 0 }' "$out/decoded.txt")
+  judge 4.types "$types_decoded of 7 types, $messages messages, $errors not decoded ($(awk '$1 == "channel" { printf "%s%s", sep, $4; sep = " " }' "$out/decoded.txt"))" \
+    "7 of 7, every message" "$what, decoded through lcm-spy's own type search" "$types_decoded == 7 && $errors == 0"
+  own_network tools/figures/lcm_spy_run.sh "$out/all_types.lcm" "$out" || true
+  local listed windows
+  listed=$(awk '$1 == "channel" && $4 != "unknown" && $6 > 0 && $8 == 0 { n++ } END { print n + 0 }' "$out/lcm_spy.txt")
+  windows=$(awk '$1 == "windows" { print $2 }' "$out/lcm_spy.txt")
+  judge 4 "$listed of 7 channels in the list with type and rate, ${windows:-0} windows show fields; picture $(basename "$out")/lcm_spy.png" "$bar" \
+    "the program itself under Xvfb, the log played by lcm-logplayer" "$listed == 7 && ${windows:-0} == 7"
+}
+
+# --- 5: a bad radio link -----------------------------------------------------------------------------------------------
+figure_5() {
+  local what="20 % loss, 100 ms, 256 kbit/s; clip paced in real time, every frame's tracks asked for, telemetry.max_kbit_s: 200" cap=200
+  if [ "$(id -u)" -ne 0 ] || ! ip netns add hm_try_$$ 2>/dev/null; then
+    line 5 SKIP "needs root and network namespaces" "modes arrive, losses counted, no frame dropped" "$what"
+    return
+  fi
+  ip netns del hm_try_$$
+  need_clip
+  local link=$out/link
+  tools/figures/lcm_link_run.sh "$clip" "$link" $cap
+  what="$what; link: $(cat "$link/how.txt")"
+  python3 tools/figures/lcm_log.py count "$link/ground.lcm" >"$link/ground.json"
+  python3 tools/figures/lcm_log.py final "$link/run.lcm" $types >"$link/sky.json"
+  python3 tools/figures/link_account.py "$link" >"$link/account.json"
+  judge 5.modes "$(field "$link/account.json" 'j["modes"]') modes on the ground, $(field "$link/account.json" 'j["modes_sent"]') in the service's report; $(field "$link/account.json" 'j["estimates"]') estimates heard whole of $(field "$link/account.json" 'j["estimates_sent"]')" \
+    "modes arrive" "$what" "$(field "$link/account.json" 'j["modes"]') >= 3"
+  judge 5.losses "$(field "$link/account.json" 'j["words"]')" "lost + heard = sent, for each channel" "messages counted by sequence (spy) against the service's counts and lcm-logger's log" \
+    "$(field "$link/account.json" 'int(j["adds_up"])') == 1 && $(field "$link/account.json" 'j["lost"]') > 0"
+  judge 5.service "exit $(cat "$link/exit.txt"), $(field "$link/sky.json" 'j["frames_in"]') frames in, $(field "$link/sky.json" 'j["frames_dropped"]') dropped, $(field "$link/sky.json" 'j["messages_failed"]') messages failed" \
+    "exit 0, none dropped" "the service meanwhile" "$(cat "$link/exit.txt") == 0 && $(field "$link/sky.json" 'j["frames_dropped"]') == 0 && $(field "$link/sky.json" 'j["frames_in"]') > 0"
+  judge 5.rate "$(field "$link/account.json" 'j["rate_words"]')" "mean <= $cap kbit/s" "what left the service's interface; $(field "$link/account.json" 'j["held_words"]')" \
+    "$(field "$link/account.json" 'j["mean_kbit_s"]') <= $cap && $(field "$link/account.json" 'j["mean_kbit_s"]') > 0"
+}
+
+# --- 6: malformed packets ----------------------------------------------------------------------------------------------
+figure_6() {
+  local seeds=10 socket=$((hostile / 10)) counted
+  counted=$("$bin/lcm_hostile" decode $seeds $((hostile / seeds)) || echo "crashed")
+  judge 6.decoders "${counted#fed }" "$hostile, each counted once" "malformed messages of 7 types, seeds 1-$seeds, into StreamMonitor and AttitudeInbox" \
+    "$(echo "$counted" | awk '{ print ($2 == '"$hostile"' && $2 == $4 + $6) ? 1 : 0 }') == 1"
+  need_clip
+  own_network tools/figures/lcm_hostile_run.sh "$clip" "$out/hostile" $socket >"$out/hostile.log" 2>&1 || true
+  judge 6.sockets "$(cat "$out/hostile/result.txt" 2>/dev/null || echo "it did not end: $(tail -n 1 "$out/hostile.log")")" "none crashes or hangs, each counts" \
+    "$socket datagrams, a fifth with damaged heads or fragments, at spy, inspect, both examples and the attitude listener" \
+    "$(grep -c '^ok' "$out/hostile/result.txt" 2>/dev/null || true) == 1"
+}
+
+# --- 7: proposed regions -----------------------------------------------------------------------------------------------
+figure_7() {
+  need_clip
+  local folder=$out/regions base
+  rm -rf "$folder"
+  mkdir -p "$folder"
+  quietly "$bin/hovermodal" regions "$clip/clip.mp4" --lowest-is-base --out "$folder/regions.yaml" --picture "$folder/regions.png"
+  # The declared configuration with the proposed regions in place of its own, and no known length.
+  awk '/^regions:/ { skip = 1; next } /^[a-z]/ { skip = /^scale:/ } !skip' "$clip/config.yaml" >"$folder/config.yaml"
+  cat "$folder/regions.yaml" >>"$folder/config.yaml"
+  local segment=512
+  [ $seconds -ge 45 ] || segment=256
+  local which
+  quietly "$bin/hovermodald" --config "$folder/config.yaml" --set telemetry.lcm_url= --set spectrum.segment=$segment --report "$folder/proposed"
+  quietly "$bin/hovermodald" --config "$clip/config.yaml" --set telemetry.lcm_url= --set spectrum.segment=$segment --report "$folder/declared"
+  for which in proposed declared; do
+    quietly "$bin/hovermodal" identify --series "$clip/truth_displacements.csv" --base base --report "$folder/truth"
+    "$bin/hovermodal" compare --result "$folder/$which/modal.json" --reference "$folder/truth/modal.json" >"$folder/$which.txt" || true
+  done
+  local found proposed worst_proposed declared worst_declared
+  found=$(grep -c 'name:' "$folder/regions.yaml")
+  read -r proposed worst_proposed < <(awk '$1 ~ /^[0-9]+$/ && NF >= 4 { n++; e = $4 < 0 ? -$4 : $4; if (e > w) w = e } END { print n + 0, w + 0 }' "$folder/proposed.txt")
+  read -r declared worst_declared < <(awk '$1 ~ /^[0-9]+$/ && NF >= 4 { n++; e = $4 < 0 ? -$4 : $4; if (e > w) w = e } END { print n + 0, w + 0 }' "$folder/declared.txt")
+  judge 7 "$found regions proposed; modes found $proposed (worst error $worst_proposed %), with the declared regions $declared (worst $worst_declared %)" \
+    "as many modes as declared, each of modes 1-3 within 1.04 %" "simulated clip of $seconds s, against the identification of the true motion" \
+    "$proposed >= $declared && $(awk '$1 ~ /^[123]$/ && NF >= 4 { e = $4 < 0 ? -$4 : $4; if (e > 1.04) bad = 1; n++ } END { print (bad || n < 3) ? 0 : 1 }' "$folder/proposed.txt") == 1"
+}
+
+run_figures "${figures[@]}"

@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+"""What LCM event logs hold, message by message, apart from the project's own reader.
+    lcm_log.py count LOG             per channel: messages, missing between the first and the last by sequence, bytes
+    lcm_log.py final LOG TYPES       the last status: state, frames_dropped, and n_sent / n_held_back per channel
+    lcm_log.py with-attitude LOG OUT TYPES   the log with twenty messages of type attitude_t more
+Prints JSON. TYPES: the folder of the Python types (build/release/python)."""
+import json
+import struct
+import sys
+
+SYNC = 0xEDA1DA01
+
+
+def events(path):
+    with open(path, "rb") as file:
+        while len(head := file.read(28)) == 28:
+            sync, number, time_us, channel_bytes, data_bytes = struct.unpack(">IqqII", head)
+            if sync != SYNC:
+                raise ValueError(f"{path}: no event where one should begin")
+            channel = file.read(channel_bytes).decode()
+            yield number, time_us, channel, file.read(data_bytes)
+
+
+def sequence_of(data):
+    """Every message begins with its fingerprint, stream_id and sequence."""
+    (n_text,) = struct.unpack(">I", data[8:12])
+    return struct.unpack(">q", data[12 + n_text:20 + n_text])[0]
+
+
+def count(path):
+    out = {}
+    for _, _, channel, data in events(path):
+        if not channel.startswith("HOVERMODAL_") or channel.endswith("_SELFTEST"):
+            continue
+        one = out.setdefault(channel, {"messages": 0, "bytes": 0, "sequences": set()})
+        one["messages"] += 1
+        one["bytes"] += len(data)
+        one["sequences"].add(sequence_of(data))
+    for one in out.values():
+        numbers = one.pop("sequences")
+        one["first"], one["last"] = min(numbers), max(numbers)
+        one["missing"] = one["last"] - one["first"] + 1 - len(numbers)
+    return out
+
+
+def final(path, types):
+    sys.path.insert(0, types)
+    import hovermodal
+    last = None
+    for _, _, channel, data in events(path):
+        if channel.endswith("_HEALTH"):
+            last = data
+    health = hovermodal.health_t.decode(last)
+    return {"state": health.state, "frames_in": health.frames_in, "estimates": health.estimates, "frames_dropped": health.frames_dropped,
+            "messages_failed": health.messages_failed, "duration_s": health.stream_time_ns * 1e-9,
+            "channels": {c.lcm_channel: {"n_sent": c.n_sent, "n_held_back": c.n_held_back} for c in health.counts}}
+
+
+def with_attitude(path, out, types):
+    sys.path.insert(0, types)
+    import hovermodal
+    all_events = list(events(path))
+    begin = all_events[0][1]
+    for i in range(20):
+        message = hovermodal.attitude_t()
+        message.time_ns, message.wxyz = i * 10_000_000, [1.0, 0.0, 0.0, 0.0]
+        all_events.append((0, begin + i * 100_000, "ATTITUDE", message.encode()))
+    with open(out, "wb") as file:
+        for number, (_, time_us, channel, data) in enumerate(sorted(all_events, key=lambda event: event[1])):
+            name = channel.encode()
+            file.write(struct.pack(">IqqII", SYNC, number, time_us, len(name), len(data)) + name + data)
+    return {"events": len(all_events)}
+
+
+print(json.dumps({"count": count, "final": final, "with-attitude": with_attitude}[sys.argv[1]](*sys.argv[2:]), indent=1))

@@ -1,0 +1,101 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "tools/hovermodal/commands.h"
+
+#ifdef HOVERMODAL_WITH_LCM
+#include <fmt/format.h>
+
+#include "drivers/telemetry/lcm_diagnosis.h"
+#include "drivers/telemetry/lcm_url.h"
+#include "tools/hovermodal/spy/listener.h"
+#include "tools/hovermodal/spy/text.h"
+#endif
+
+namespace tools {
+namespace {
+
+struct Options {
+  std::string url = "udpm://239.255.76.67:7667?ttl=0";
+  std::string prefix = "HOVERMODAL";
+  double seconds = 2.5;  // a status comes every second
+};
+
+#ifdef HOVERMODAL_WITH_LCM
+
+void print_line(drivers::FindingKind kind, const std::string& what, const std::string& remedy) {
+  constexpr const char* kWords[] = {"ok  ", "note", "BAD "};
+  std::printf("%s  %s\n", kWords[static_cast<std::size_t>(kind)], what.c_str());
+  if (!remedy.empty()) std::printf("      %s\n", remedy.c_str());
+  std::fflush(stdout);
+}
+
+// What a service sends there: how many messages of each kind, and whether they can be read.
+void listen_for_a_service(const Options& options) {
+  drivers::StreamMonitor monitor(options.prefix);
+  Listener listener(options.url, options.prefix, monitor);
+  const std::int64_t end_ns = listener_now_ns() + static_cast<std::int64_t>(options.seconds * 1e9);
+  while (listener_now_ns() < end_ns && listener.poll()) {
+  }
+  std::string heard;
+  for (std::size_t i = 0; i < drivers::kTopics; ++i) {
+    const auto topic = static_cast<drivers::Topic>(i);
+    const auto& count = monitor.count(topic);
+    if (count.received > 0)
+      heard += fmt::format("{}{} of {}", heard.empty() ? "" : ", ", count.received, monitor.lcm_channel(topic));
+  }
+  for (const std::string& words : monitor.other_versions()) print_line(drivers::FindingKind::kBad, words, "");
+  if (!heard.empty()) {
+    print_line(drivers::FindingKind::kOk,
+               fmt::format("heard in {} s from \"{}\": {}", options.seconds, printable(monitor.stream_id()), heard),
+               "");
+  } else if (monitor.other_versions().empty()) {
+    print_line(drivers::FindingKind::kNote, fmt::format("no {}_* message in {} s", options.prefix, options.seconds),
+               "is a service running, with this telemetry.lcm_url and telemetry.channel_prefix? On another computer: "
+               "ttl=1 there, its route, and this command there");
+  }
+}
+
+void inspect_lcm(const Options& options) {
+  std::size_t n_bad = 0;
+  for (const auto& finding : drivers::diagnose_lcm(options.url, options.prefix)) {
+    print_line(finding.kind, finding.what, finding.remedy);
+    n_bad += finding.kind == drivers::FindingKind::kBad ? 1 : 0;
+  }
+  if (n_bad > 0) {
+    throw std::runtime_error(fmt::format(
+        "LCM at \"{}\" does not work: mend what is BAD above, from the top (the commands as root)", options.url));
+  }
+  if (options.seconds > 0.0) listen_for_a_service(options);
+}
+
+#else
+
+void inspect_lcm(const Options&) {
+  throw std::runtime_error(
+      "inspect lcm: this build has no LCM. Install liblcm-dev, liblcm-bin and libglib2.0-dev and configure again with "
+      "-DWITH_LCM=ON.");
+}
+
+#endif
+
+}  // namespace
+
+void add_inspect_lcm(CLI::App& inspect) {
+  CLI::App* command = inspect.add_subcommand(
+      "lcm",
+      "Test the network that LCM needs, say what is wrong and how to mend it, and listen for a service.\n"
+      "Run it on both sides of a radio link, each with the URL of the service.");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--url", options->url, "LCM URL (telemetry.lcm_url)")->capture_default_str();
+  command->add_option("--prefix", options->prefix, "Prefix of the LCM channels (telemetry.channel_prefix)")
+      ->capture_default_str();
+  command->add_option("--seconds", options->seconds, "Listen so long for a service; 0 = do not")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str();
+  command->callback([options] { inspect_lcm(*options); });
+}
+
+}  // namespace tools

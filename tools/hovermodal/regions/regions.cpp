@@ -1,0 +1,153 @@
+// hovermodal regions: where the structure's parts are, from texture and motion.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "core/tracking/region_proposal.h"
+#include "drivers/camera/camera_factory.h"
+#include "drivers/storage/json.h"
+#include "drivers/storage/text_file.h"
+#include "firmware_app/report/pictures/parts.h"
+#include "tools/hovermodal/commands.h"
+#include "tools/hovermodal/regions/regions_text.h"
+
+namespace tools {
+namespace {
+
+struct Options {
+  std::string clip, out, picture;
+  double rate_hz = 0.0, seconds = 12.0;
+  bool lowest_is_base = false;
+  std::size_t most = 12;
+};
+
+constexpr const char* kFooter = R"(HOW IT CHOOSES
+  It follows every good corner of the picture through the first seconds of the clip. Points near one another that move
+  together make a part; what covers most of the picture and moves as a camera's turn, shift or zoom would make it is
+  taken for what rests. A part that bends or reaches far is divided. The table ranks parts by the displacement noise to
+  be expected of them.
+  It sees what moves: take a part of the clip in which the structure does. It does not know a floor from a
+  lamp post: look at the picture, delete what does not belong, and draw what is missing.
+
+BASE
+  The motion of the ground, where it is in view, tells its peaks from modes: give that region `role: base`. No picture
+  tells which region that is. --lowest-is-base gives it to the lowest one, where the parts stand one above the other.
+
+EXAMPLE
+  hovermodal regions flight.mp4 --out regions.yaml --picture regions.png
+  The file is the regions: block of a configuration. With `camera: {source: flight.mp4}` in front of it, it is one:
+  (echo 'camera: {source: flight.mp4}'; cat regions.yaml) > flight.yaml; hovermodald --config flight.yaml --check)";
+
+struct Watched {
+  core::CameraInfo info;
+  core::Frame first;
+  std::vector<core::SurveyedPoint> points;
+  std::size_t n_frames = 0;
+  std::size_t n_corners = 0;
+};
+
+// Throws std::runtime_error when there is not even a second to look at.
+Watched watch(const Options& options) {
+  drivers::CameraOptions source;
+  source.source = options.clip;
+  source.rate_hz = options.rate_hz;
+  const auto camera = drivers::make_camera(source);
+  Watched out;
+  out.info = camera->info();
+  const auto n_pixels = static_cast<std::size_t>(out.info.width_px) * static_cast<std::size_t>(out.info.height_px);
+  core::Frame frame;
+  frame.pixels.resize(n_pixels);
+  camera->start();
+  const auto n_wanted = static_cast<std::size_t>(options.seconds * out.info.rate_hz) + 1;
+  std::optional<core::RegionSurvey> survey;
+  while (out.n_frames < n_wanted) {
+    const auto status = camera->capture(frame, std::chrono::milliseconds(1000));
+    if (status == drivers::CaptureStatus::kTimeout) continue;
+    if (status != drivers::CaptureStatus::kFrame) break;
+    if (out.n_frames++ == 0) {
+      out.first = frame;
+      survey.emplace(core::gray_view(frame), core::RegionSurveyConfig{});
+    } else {
+      survey->add(core::gray_view(frame));
+    }
+  }
+  const std::string fault = camera->fault();
+  camera->stop();
+  if (static_cast<double>(out.n_frames) < out.info.rate_hz) {
+    throw std::runtime_error(fmt::format("regions: \"{}\": {} frames are too few, a second ({:.4g}) is the least{}{}",
+                                         drivers::printable(options.clip), out.n_frames, out.info.rate_hz,
+                                         fault.empty() ? "" : ": ", fault));
+  }
+  out.n_corners = survey->n_corners();
+  out.points = survey->take_points();
+  return out;
+}
+
+void write_picture(const Options& options, const Watched& watched, const core::RegionProposal& proposal) {
+  core::TrackFrame keyframe;
+  for (const core::SurveyedPoint& point : watched.points) {
+    core::TrackPoint shown;
+    shown.u_px = point.at.u;
+    shown.v_px = point.at.v;
+    shown.seen = true;
+    keyframe.points.push_back(shown);
+  }
+  app::PictureInputs inputs;
+  inputs.first_frame = &watched.first;
+  inputs.keyframe = &keyframe;
+  for (const core::ProposedRegion* one : in_order(proposal)) inputs.regions.push_back(one->region);
+  drivers::write_file_atomically(options.picture, app::frame_png(inputs));
+}
+
+void run_regions(const Options& options) {
+  const Watched watched = watch(options);
+  core::RegionProposalConfig config;
+  config.max_regions = options.most;
+  core::RegionProposal proposal = core::propose_regions(watched.points, watched.info.rate_hz, watched.info.width_px,
+                                                        watched.info.height_px, config);
+  if (options.lowest_is_base) make_lowest_base(proposal);
+  fmt::print("{} corners, {} followed through {} frames ({:.3g} s)\n\n", watched.n_corners, watched.points.size(),
+             watched.n_frames, static_cast<double>(watched.n_frames) / watched.info.rate_hz);
+  fmt::print("{}", regions_table(proposal));
+  if (!proposal.remark.empty()) fmt::print("\n{}\n", proposal.remark);
+  if (proposal.regions.empty()) {
+    throw std::runtime_error(
+        fmt::format("regions: \"{}\": no region found: {}", drivers::printable(options.clip), proposal.remark));
+  }
+  const std::string yaml = regions_yaml(proposal);
+  if (options.out.empty()) {
+    fmt::print("\n{}", yaml);
+  } else {
+    drivers::write_file_atomically(options.out, yaml);
+  }
+  if (!options.picture.empty()) write_picture(options, watched, proposal);
+}
+
+}  // namespace
+
+void add_regions(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "regions", "Propose the regions of a clip: parts that have texture and move together, and one that rests");
+  const auto options = std::make_shared<Options>();
+  command->add_option("clip", options->clip, "Video or folder of images, as camera.source")->required();
+  command->add_option("--out", options->out, "Write the regions: block here (YAML); without: it is printed");
+  command->add_option("--picture", options->picture, "Draw the regions into the first frame (PNG)");
+  command->add_option("--seconds", options->seconds, "Look at so much of the clip")
+      ->check(CLI::Range(1.0, 600.0))
+      ->capture_default_str();
+  command->add_option("--rate-hz", options->rate_hz, "Frame rate, where the source states a wrong one")
+      ->check(CLI::Range(0.1, 100000.0));
+  command->add_option("--most", options->most, "At most so many parts")
+      ->check(CLI::Range(1, 60))
+      ->capture_default_str();
+  command->add_flag("--lowest-is-base", options->lowest_is_base, "The lowest part moves with the ground: role base");
+  command->footer(kFooter);
+  command->callback([options] { run_regions(*options); });
+}
+
+}  // namespace tools

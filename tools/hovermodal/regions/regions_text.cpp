@@ -1,0 +1,75 @@
+#include "tools/hovermodal/regions/regions_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace tools {
+namespace {
+
+using core::ProposedRegion;
+using core::RegionRole;
+
+std::string axis_text(double degrees) {
+  return degrees == 0.0 ? "u" : degrees == 90.0 || degrees == -90.0 ? "v" : fmt::format("{:g}", degrees);
+}
+
+const char* role_text(RegionRole role) {
+  return role == RegionRole::kBase ? "base" : role == RegionRole::kBackground ? "background" : "structure";
+}
+
+std::string table_line(const std::string& rank, const ProposedRegion& one) {
+  const core::Region& r = one.region;
+  return fmt::format("{:>4}  {:<8} {:>5} {:>5} {:>5} {:>5}  {:<10} {:>4} {:>7} {:>10.3f} {:>9.4f}\n", rank, r.name,
+                     r.u_px, r.v_px, r.width_px, r.height_px, role_text(r.role), axis_text(r.axis_deg), one.n_points,
+                     one.motion_px, one.noise_px);
+}
+
+}  // namespace
+
+std::vector<const ProposedRegion*> in_order(const core::RegionProposal& proposal) {
+  std::vector<const ProposedRegion*> out;
+  for (const ProposedRegion& one : proposal.regions) out.push_back(&one);
+  const bool upright = core::is_upright(proposal.regions);
+  std::sort(out.begin(), out.end(), [&](const ProposedRegion* a, const ProposedRegion* b) {
+    return upright ? a->region.v_px > b->region.v_px : a->region.u_px < b->region.u_px;
+  });
+  if (proposal.rest) out.push_back(&*proposal.rest);
+  return out;
+}
+
+void make_lowest_base(core::RegionProposal& proposal) {
+  if (proposal.regions.size() < 2 || !core::is_upright(proposal.regions)) {
+    throw std::invalid_argument(
+        "--lowest-is-base: the parts do not stand one above the other; write role: base at the right one by hand");
+  }
+  auto& lowest =
+      *std::max_element(proposal.regions.begin(), proposal.regions.end(),
+                        [](const ProposedRegion& a, const ProposedRegion& b) { return a.region.v_px < b.region.v_px; });
+  lowest.region.role = RegionRole::kBase;
+  lowest.region.name = "base";
+}
+
+std::string regions_table(const core::RegionProposal& proposal) {
+  std::string out = "rank  name         u     v width height  role       axis  points  motion px  noise px\n";
+  for (std::size_t i = 0; i < proposal.regions.size(); ++i)
+    out += table_line(std::to_string(i + 1), proposal.regions[i]);
+  if (proposal.rest) out += table_line("-", *proposal.rest);
+  return out;
+}
+
+std::string regions_yaml(const core::RegionProposal& proposal) {
+  std::string out =
+      "# Proposed by `hovermodal regions`: look at the picture, delete what does not belong. role: base for a part "
+      "that\n"
+      "# moves with the ground.\nregions:\n";
+  for (const ProposedRegion* one : in_order(proposal)) {
+    const core::Region& r = one->region;
+    out += fmt::format("  - {{name: {}, rect: [{}, {}, {}, {}], role: {}, axis: {}}}\n", r.name, r.u_px, r.v_px,
+                       r.width_px, r.height_px, role_text(r.role), axis_text(r.axis_deg));
+  }
+  return out;
+}
+
+}  // namespace tools

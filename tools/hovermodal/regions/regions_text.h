@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/tracking/region_proposal.h"
+
+namespace tools {
+
+// By name, part1 first, the resting one last: the order of the file and of the picture.
+[[nodiscard]] std::vector<const core::ProposedRegion*> in_order(const core::RegionProposal& proposal);
+
+// Gives the lowest part the role `base` and the name "base". Throws std::invalid_argument unless the parts stand one
+// above the other.
+void make_lowest_base(core::RegionProposal& proposal);
+
+// One line a region, the least noise first.
+[[nodiscard]] std::string regions_table(const core::RegionProposal& proposal);
+
+// The regions: block of a configuration.
+[[nodiscard]] std::string regions_yaml(const core::RegionProposal& proposal);
+
+}  // namespace tools
