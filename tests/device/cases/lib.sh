@@ -57,13 +57,13 @@ plug_in() {
   wait_for 20 test -w /sys/devices/platform/vhci_hcd.0/attach
   "$bin/usb_camera" "$@" &
   usb_pid=$!
-  wait_for 30 usb_ready
+  wait_for 90 usb_ready
 }
 usb_gone() { ! ls /sys/class/video4linux/*/device/../idVendor; }
 pull_out() {
   kill "$usb_pid"
   wait "$usb_pid"
-  wait_for 30 usb_gone
+  wait_for 90 usb_gone
 }
 noise() { # FILE WIDTH HEIGHT N: gray frames none of which is like another
   head -c $(($2 * $3 * $4)) /dev/urandom >"$1"
