@@ -60,11 +60,11 @@ def with_attitude(path, out, types):
     sys.path.insert(0, types)
     import hovermodal
     all_events = list(events(path))
-    begin = all_events[0][1]
+    begin, step = all_events[0][1], (all_events[-1][1] - all_events[0][1]) // 20
     for i in range(20):
         message = hovermodal.attitude_t()
         message.time_ns, message.wxyz = i * 10_000_000, [1.0, 0.0, 0.0, 0.0]
-        all_events.append((0, begin + i * 100_000, "ATTITUDE", message.encode()))
+        all_events.append((0, begin + i * step, "ATTITUDE", message.encode()))
     with open(out, "wb") as file:
         for number, (_, time_us, channel, data) in enumerate(sorted(all_events, key=lambda event: event[1])):
             name = channel.encode()

@@ -32,7 +32,7 @@ held = {channel.rpartition("_")[2].lower(): f"{told['n_held_back']} of {told['n_
 bytes_at = []
 with open(f"{folder}/rate.jsonl", encoding="utf-8") as file:
     for text in file:
-        if text.strip():
+        if text.startswith("[") and text.rstrip().endswith("]"):  # the last one may be cut off
             bytes_at.append(json.loads(text)[0]["stats64"]["tx"]["bytes"])
 steps = [b - a for a, b in zip(bytes_at, bytes_at[1:]) if b > a]
 steps = steps[1:-1] if len(steps) > 10 else steps
