@@ -19,6 +19,7 @@ void add_spy(CLI::App& app);
 void add_inspect(CLI::App& app);  // in spy.cpp: another view of the same messages
 void add_inspect_cameras(CLI::App& inspect);
 void add_readout(CLI::App& app);
+void add_ground(CLI::App& app);
 void add_selftest(CLI::App& app);
 
 }  // namespace tools
