@@ -104,6 +104,8 @@ struct TelemetryConfig {
   std::string log_file;   // also write an LCM event log; empty = none
   int tracks_every = 25;  // publish the tracks of every n-th frame; 0 = never
   int displacement_every = 1;
+  double preview_period_s = 1.0;  // of stream time between two small pictures; 0 = none
+  int preview_px = 320;           // long side of one, at most
 };
 
 struct ReportConfig {

@@ -107,6 +107,10 @@ void add_output_keys(std::vector<ConfigKey>& keys) {
                            "publish every n-th frame's tracks; 0 = never"));
   keys.push_back(whole_key("telemetry.displacement_every", "frames", at(&A::telemetry, &T::displacement_every),
                            {1, 1000000}, "publish every n-th displacement"));
+  keys.push_back(number_key("telemetry.preview_period_s", "s", at(&A::telemetry, &T::preview_period_s), {0, 86400},
+                            "of stream time between two small pictures for the ground, some 10 kB each; 0 = none"));
+  keys.push_back(whole_key("telemetry.preview_px", "px", at(&A::telemetry, &T::preview_px), {64, 1024},
+                           "long side of such a picture, at most"));
   keys.push_back(text_key("report.directory", at(&A::report, &ReportConfig::directory), {},
                           "folder for modal.json and CSV files; \"\" = none; --report goes before"));
   keys.push_back(

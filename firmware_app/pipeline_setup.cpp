@@ -25,7 +25,8 @@ namespace {
 
 constexpr std::chrono::seconds kFirstFrameTimeout{10};
 
-// Starts the camera once its source fits the configuration; what it is, is complete only then (exposure, readout, rate).
+// Starts the camera once its source fits the configuration; what it is, is complete only then (exposure, readout,
+// rate).
 core::CameraInfo started(drivers::Camera& camera, const AppConfig& config) {
   const core::CameraInfo info = camera.info();
   check_against_image(config, info.width_px, info.height_px);
@@ -181,6 +182,15 @@ std::function<void(const PublishStage::Findings&, const core::Health&)> picture_
     inputs.facts = &facts;
     (void)write_pictures(config.report.directory, inputs);
   };
+}
+
+core::PreviewMaker preview_maker_for(const AppConfig& config, const Source& source) {
+  const bool is_heard = !config.telemetry.lcm_url.empty() || !config.telemetry.log_file.empty();
+  return {{is_heard ? config.telemetry.preview_period_s : 0.0, config.telemetry.preview_px},
+          source.info.width_px,
+          source.info.height_px,
+          source.keyframe,
+          config.regions.size()};
 }
 
 FrameRecord record_prototype(const Source& source) { return {source.keyframe, source.displacement.sample_prototype()}; }

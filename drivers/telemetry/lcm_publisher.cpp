@@ -172,6 +172,13 @@ bool LcmPublisher::publish(const core::Health& health) noexcept {
   });
 }
 
+bool LcmPublisher::publish(const core::Preview& preview, const std::vector<core::Region>& regions) noexcept {
+  return guarded([&] {
+    auto message = to_message(preview, regions, identity_);
+    return send(kPreview, message);
+  });
+}
+
 std::uint64_t LcmPublisher::messages_sent() const noexcept {
   std::int64_t n = 0;
   for (const auto& channel : channels_) n += channel.n_sent.load(std::memory_order_relaxed);

@@ -13,18 +13,14 @@ void tools::run_spy(const SpyOptions&) {
 #else
 
 #include <fmt/format.h>
-#include <lcm/lcm.h>
 #include <signal.h>
 
-#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
-#include <memory>
 #include <optional>
 
-#include "drivers/telemetry/lcm_self_test.h"
-#include "drivers/telemetry/lcm_url.h"
+#include "drivers/telemetry/lcm_listener.h"
 #include "drivers/telemetry/stream_monitor.h"
 #include "tools/hovermodal/spy/count.h"
 #include "tools/hovermodal/spy/stages.h"
@@ -34,13 +30,9 @@ void tools::run_spy(const SpyOptions&) {
 namespace tools {
 namespace {
 
-constexpr int kPoll_ms = 50;
 constexpr std::int64_t kRedraw_ns = 250'000'000;
 constexpr std::int64_t kPlainLine_ns = 1'000'000'000;
 constexpr std::int64_t kAfterEnd_ns = 500'000'000;  // for what is still under way when the final health arrives
-// LCM keeps 30 messages by default and drops the rest while we draw.
-constexpr int kQueuedMessages = 20000;
-constexpr const char* kReceiveBuffer = "recv_buf_size=4194304";  // bytes; the kernel cuts it to net.core.rmem_max
 
 volatile sig_atomic_t stop_requested = 0;
 
@@ -50,53 +42,6 @@ std::int64_t now_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
       .count();
 }
-
-extern "C" void on_message(const lcm_recv_buf_t* buffer, const char* channel, void* monitor) {
-  static_cast<drivers::StreamMonitor*>(monitor)->receive(channel, buffer->data, buffer->data_size, now_ns());
-}
-
-class Listener {
- public:
-  Listener(const SpyOptions& options, drivers::StreamMonitor& monitor) : lcm_(nullptr, &lcm_destroy) {
-    drivers::check_channel_prefix(options.prefix);
-    const auto test = drivers::run_lcm_self_test(options.url, options.prefix);
-    if (!test.heard) throw std::runtime_error(test.message);
-    lcm_.reset(lcm_create(with_receive_buffer(options.url).c_str()));
-    if (!lcm_) {
-      throw std::runtime_error(fmt::format("LCM cannot open \"{}\" (its own words are on stderr). The usual URL is {}",
-                                           options.url, drivers::kDefaultLcmUrl));
-    }
-    std::string pattern;
-    for (const char c : options.prefix) pattern += c == '.' ? std::string("\\.") : std::string(1, c);
-    for (std::size_t i = 0; i < drivers::kTopics; ++i)
-      pattern += (i == 0 ? "(" : "|") + std::string(drivers::kTopicSuffixes[i]);
-    pattern += ")";
-    lcm_subscription_t* subscription = lcm_subscribe(lcm_.get(), pattern.c_str(), &on_message, &monitor);
-    if (subscription == nullptr) throw std::runtime_error(fmt::format("LCM cannot listen on \"{}\"", options.url));
-    lcm_subscription_set_queue_capacity(subscription, kQueuedMessages);
-  }
-
-  // Waits up to kPoll_ms for a message and takes all that are there (within reason: the screen and signals wait
-  // meanwhile). False at the end of a log.
-  bool poll() {
-    constexpr int kMaxBatch = 1000;
-    for (int i = 0; i < kMaxBatch; ++i) {
-      errno = 0;
-      const int n = lcm_handle_timeout(lcm_.get(), i == 0 ? kPoll_ms : 0);
-      if (n < 0) return errno == EINTR;
-      if (n == 0) return true;
-    }
-    return true;
-  }
-
- private:
-  static std::string with_receive_buffer(const std::string& url) {
-    if (!drivers::is_udpm(url) || drivers::parse_udpm(url).has_recv_buf_size) return url;
-    return url + (url.find('?') == url.npos ? "?" : "&") + kReceiveBuffer;
-  }
-
-  std::unique_ptr<lcm_t, decltype(&lcm_destroy)> lcm_;
-};
 
 std::vector<std::string> render(SpyView what, const drivers::StreamMonitor& monitor, const ViewOptions& view) {
   return what == SpyView::kModes ? render_screen(monitor, view) : render_stages(monitor, view);
@@ -139,8 +84,8 @@ class PlainOutput {
 // How the session ended.
 enum class End { kAsked, kTimeOver, kStreamEnded };
 
-End listen(const SpyOptions& options, Listener& listener, drivers::StreamMonitor& monitor, TerminalScreen* screen,
-           ViewOptions view) {
+End listen(const SpyOptions& options, drivers::LcmListener& listener, drivers::StreamMonitor& monitor,
+           TerminalScreen* screen, ViewOptions view) {
   PlainOutput plain(options.view);
   const std::int64_t begin_ns = now_ns();
   std::int64_t drawn_ns = 0;
@@ -182,7 +127,10 @@ void run_spy(const SpyOptions& options) {
     count_file.open(options.count_file);
     if (!count_file) throw std::runtime_error(fmt::format("--count \"{}\": cannot be written", options.count_file));
   }
-  Listener listener(options, monitor);
+  drivers::LcmListener listener(options.url, options.prefix,
+                                [&monitor](std::string_view channel, const void* data, std::size_t n_bytes) {
+                                  monitor.receive(channel, data, n_bytes, now_ns());
+                                });
   watch_signals();
   std::optional<TerminalScreen> screen;
   ViewOptions view;
