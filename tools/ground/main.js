@@ -11,7 +11,7 @@ const wanted = new Set();  // parts to draw
 let isPaused = false, heard_ms = 0, source = null, noticeOfRun = "", noticeUntil_ms = 0;
 const stillness = window.matchMedia("(prefers-reduced-motion: reduce)");
 
-const camera = new CameraView(), traces = new TracesView(), cards = new ModeCards();
+const camera = new CameraView(), traces = new TracesView(() => wanted.add("traces")), cards = new ModeCards();
 const spectra = new SpectraView(() => wanted.add("spectra")), stable = new StableView(() => wanted.add("stable"));
 camera.wanted = () => wanted.add("preview");
 

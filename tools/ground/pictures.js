@@ -83,36 +83,49 @@ export class CameraView {
 
 // ---- Displacements: one lane a channel, all to one scale.
 export class TracesView {
-  constructor() { this.plot = new Plot(byId("traces"), { x: "s before now", noY: true, left: 8, top: 6 }); }
+  constructor(redraw) {
+    this.isRelative = false;
+    byId("relative").addEventListener("click", () => {
+      this.isRelative = !this.isRelative;
+      byId("relative").setAttribute("aria-pressed", String(this.isRelative));
+      redraw();
+    });
+    this.plot = new Plot(byId("traces"), { x: "s before now", noY: true, left: 8, top: 6 });
+  }
   draw(state) {
     const t = state.traces, n = t.rings.length, length = t.time.length;
     if (!n || !t.n) return;
     const end = t.time[(t.n - 1) % length], first = Math.max(0, t.n - length);
     let begin = t.n - 1;
     while (begin > first && t.time[(begin - 1) % length] >= end - kTraces_s && t.time[(begin - 1) % length] <= end) --begin;
+    const channels = state.health ? state.health.channels : [], base = channels.findIndex((ch) => ch.base);
+    byId("traces-keys").hidden = base < 0;
+    const rest = this.isRelative && base >= 0 && base < n ? t.rings[base] : null;
+    const value = (ch, at) => t.rings[ch][at] - (rest && ch !== base ? rest[at] : 0);
     const middles = [], halves = [];
-    for (const ring of t.rings) {
+    for (let ch = 0; ch < n; ++ch) {
       let low = Infinity, high = -Infinity;
       for (let i = begin; i < t.n; ++i) {
-        const v = ring[i % length];
+        const v = value(ch, i % length);
         if (v < low) low = v;
         if (v > high) high = v;
       }
       middles.push(high >= low ? (low + high) / 2 : 0);
       halves.push(high >= low ? (high - low) / 2 : 0);
     }
-    const half = Math.max(1e-6, ...halves) * 1.15;
+    const measured = rest ? halves.filter((_, ch) => ch !== base) : halves;
+    const half = Math.max(1e-6, ...measured) * 1.15;
     const c = this.plot.begin([-kTraces_s, 0], [0, n]);
     for (let ch = 0; ch < n; ++ch) {
-      const ring = t.rings[ch], lane = n - 1 - ch + 0.5;
+      const lane = n - 1 - ch + 0.5;
       this.plot.line(t.n - begin, (k) => {
         const at = (begin + k) % length;
-        return [t.time[at] - end, lane + 0.5 * (ring[at] - middles[ch]) / half];
+        return [t.time[at] - end, lane + 0.5 * (value(ch, at) - middles[ch]) / half];
       }, { colour: curveStyle(ch).colour }, 1.6);
       const y = this.plot.y(lane + 0.5) + 15;
       c.font = "600 14px system-ui,sans-serif";
       c.textAlign = "left";
-      const label = t.names[ch], wide = c.measureText(label).width;
+      const label = t.names[ch] + (rest && ch !== base ? " less the base" : ""), wide = c.measureText(label).width;
       c.fillStyle = cssColour("--panel");
       c.globalAlpha = 0.8;
       c.fillRect(this.plot.left + 3, y - 13, wide + 6, 17);
@@ -174,7 +187,22 @@ export class SpectraView {
     const marked = state.modes ? state.modes.modes.filter((m) => m.apparent_hz !== null && m.verdict !== "numerical") : [];
     this.marks(c, marked);
     this.say(s, shown, marked);
+    this.others(marked.filter((m) => !m.structural).slice(0, 8));
     this.plot.canvas.setAttribute("aria-label", "Spectra of " + s.channels.length + " channels with " + marked.filter((m) => m.structural).length + " modes marked");
+  }
+  // What is no mode of the structure, with the reason.
+  others(peaks) {
+    const words = peaks.map((m) => verdictStyle(m.verdict).say + " at " + fixed(m.hz, 4) + " Hz: " + m.reason);
+    const list = byId("others");
+    if (list.dataset.words === words.join("\n")) return;
+    list.dataset.words = words.join("\n");
+    list.replaceChildren(...peaks.map((m, i) => {
+      const item = document.createElement("li"), mark = document.createElement("canvas"), style = verdictStyle(m.verdict);
+      mark.style.width = mark.style.height = "16px";
+      drawMark(fitted(mark, 16, 16), 8, 8, style.shape, style.colour, 5);
+      item.append(mark, words[i]);
+      return item;
+    }));
   }
   marks(c, marked) {
     let free = [-1e9, -1e9];
@@ -280,6 +308,7 @@ export class ModeCards {
       (mode.drifts ? " · drifts by " + fixed(mode.drift_hz_per_min, 2) + " Hz a minute" : ""));
     text(card.say, hoverAdvice(mode, state.modes.duration_s));
     card.mode = mode;
+    card.isStale = true;
     this.spark(card, state.historyOf(mode.id));
   }
   // Damping with its standard deviation over the estimates.
@@ -309,7 +338,9 @@ export class ModeCards {
   drawShapes(state, phase) {
     for (const card of this.cards) {
       const box = card.shape.getBoundingClientRect();
-      if (box.bottom > 0 && box.top < window.innerHeight) drawShape(card.shape, card.mode, state, phase);
+      const isSeen = box.bottom > 0 && box.top < window.innerHeight;
+      if (isSeen || card.isStale) drawShape(card.shape, card.mode, state, phase);
+      card.isStale = false;
     }
   }
 }

@@ -124,8 +124,8 @@ export function recordWanted(record_s, share, wanted) {
 
 export function hoverAdvice(mode, record_s) {
   const share = mode.damping_std / mode.damping;
-  if (!(mode.damping > 0) || mode.damping_std === null || !Number.isFinite(share)) return "damping not known well enough to say how much longer";
-  const now = "damping good to " + (100 * share).toPrecision(2) + " %";
+  if (!(mode.damping > 0) || mode.damping_std === null || !Number.isFinite(share)) return "Damping not known well enough to say how much longer";
+  const now = "Damping known to " + Number((100 * share).toPrecision(2)) + " %";
   const asked = (p) => recordWanted(record_s, share, p / 100);
   const for10 = mode.more_s === null || mode.more_s === undefined ? asked(10) : mode.more_s;
   const for5 = for10 > 0 ? 4 * (record_s + for10) - record_s : asked(5);

@@ -83,7 +83,7 @@ export function showHealth(state) {
 export function showRegions(state) {
   if (!state.health) return;
   byId("regions").replaceChildren(...state.health.regions.map((r) => {
-    const item = element("li", r.name + ": " + r.state + ", " + r.tracked + " of " + r.total + " points");
+    const item = element("li", r.name + (r.state === "measuring" ? "" : ": " + r.state) + " " + r.tracked + "/" + r.total);
     item.dataset.state = r.state;
     return item;
   }));

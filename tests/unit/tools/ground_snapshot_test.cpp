@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "drivers/telemetry/encode.h"
 #include "tests/support/telemetry_samples.h"
@@ -157,6 +158,32 @@ TEST_F(GroundSnapshot, TextThatIsNotUtf8AndNumbersThatAreNoneStayJson) {
   const json out = whole();
   EXPECT_TRUE(out["modes"]["modes"][0]["hz"].is_null());
   EXPECT_EQ(out["modes"]["modes"][0]["verdict"], "numerical");
+}
+
+TEST_F(GroundSnapshot, DamagedMessagesStayJson) {
+  const drivers::StreamIdentity identity{"tower", 1};
+  std::vector<std::pair<std::string, std::vector<std::uint8_t>>> seeds;
+  const auto add = [&](const std::string& topic, const auto& message) {
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+    message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+    seeds.emplace_back("TEST_" + topic, bytes);
+  };
+  add("HEALTH", to_message(tests::sample_health("running", 1), tests::sample_channels(3), identity));
+  add("DISPLACEMENT", to_message(tests::sample_displacement(3, 1), identity));
+  add("PREVIEW", to_message(tests::sample_preview(1), {core::Region{}}, identity));
+  add("CLOSURE", to_message(tests::sample_closure(2), identity));
+  add("MODAL", to_messages(tests::sample_estimate(3, 2), tests::sample_channels(3), identity).at(0));
+  add("SPECTRUM", to_messages(tests::sample_sums(2, 64), tests::sample_channels(2), identity).at(0));
+  std::mt19937 draw(1);
+  for (int round = 0; round < 5000; ++round) {
+    auto [topic, bytes] = seeds[draw() % seeds.size()];
+    for (unsigned i = 0; i < 1 + draw() % 6; ++i)
+      bytes[8 + draw() % (bytes.size() - 8)] = static_cast<std::uint8_t>(draw());
+    stream_.receive(topic, bytes.data(), bytes.size(), now_ns_ += 100'000'000);
+    const auto news = stream_.news(now_ns_);
+    EXPECT_FALSE(json::parse(news.value_or("{}"), nullptr, false).is_discarded()) << round;
+  }
+  EXPECT_FALSE(whole().is_discarded());
 }
 
 TEST(GroundNumber, KeepsSoManyDigits) {

@@ -68,8 +68,10 @@ json regions_json(const StreamMonitor& monitor) {
 json measured_rate(const StreamMonitor& monitor) {
   const auto &now = monitor.health(), &before = monitor.previous_health();
   if (!before || now->utc_ns <= before->utc_ns) return nullptr;
-  const double seconds = static_cast<double>(now->utc_ns - before->utc_ns) * 1e-9;
-  return rounded(static_cast<double>(now->frames_processed - before->frames_processed) / seconds, 4);
+  // As doubles: numbers from the network may lie further apart than an integer holds.
+  const double seconds = (static_cast<double>(now->utc_ns) - static_cast<double>(before->utc_ns)) * 1e-9;
+  return rounded((static_cast<double>(now->frames_processed) - static_cast<double>(before->frames_processed)) / seconds,
+                 4);
 }
 
 }  // namespace

@@ -10,7 +10,8 @@ namespace {
 using drivers::StreamMonitor;
 
 // Of all topics: the channel that hears the restart first tells it; the others follow, and are no further one.
-constexpr std::int64_t kOneRestart_ns = 5'000'000'000;
+constexpr double kOneRestart_ns = 5e9;
+constexpr std::size_t kMostJpegBytes = 300'000;  // far above a preview of ours
 
 std::uint64_t foreign(const StreamMonitor& monitor) {
   std::uint64_t n = 0;
@@ -57,7 +58,7 @@ void LiveStream::receive(std::string_view lcm_channel, const void* data, std::si
   if (n_restarts == n_restarts_) return;
   n_restarts_ = n_restarts;
   const std::int64_t utc_ns = newest_utc_ns(*monitor_);
-  if (utc_ns - run_since_utc_ns_ < kOneRestart_ns) return;
+  if (static_cast<double>(utc_ns) - static_cast<double>(run_since_utc_ns_) < kOneRestart_ns) return;
   run_since_utc_ns_ = utc_ns;
   ++run_;
 }
@@ -80,7 +81,9 @@ std::optional<std::string> LiveStream::news(std::int64_t now_ns) {
 std::string LiveStream::preview_jpeg() const {
   const std::lock_guard lock(mutex_);
   const auto& preview = monitor_->preview();
-  return preview ? std::string(preview->jpeg.begin(), preview->jpeg.end()) : std::string();
+  if (!preview || preview->jpeg.size() < 2 || preview->jpeg.size() > kMostJpegBytes) return {};
+  if (preview->jpeg[0] != 0xFF || preview->jpeg[1] != 0xD8) return {};  // no JPEG
+  return {preview->jpeg.begin(), preview->jpeg.end()};
 }
 
 }  // namespace tools
