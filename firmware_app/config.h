@@ -105,6 +105,8 @@ struct TelemetryConfig {
   int tracks_every = 25;  // publish the tracks of every n-th frame; 0 = never
   int displacement_every = 1;
   double max_kbit_s = 0.0;  // over the network; 0 = no limit
+  double preview_period_s = 1.0;  // of stream time between two small pictures; 0 = none
+  int preview_px = 320;           // long side of one, at most
 };
 
 struct ReportConfig {

@@ -111,6 +111,10 @@ void add_output_keys(std::vector<ConfigKey>& keys) {
                             "most that goes over the network: modes, health and closure always do, displacements, "
                             "spectra and tracks are thinned out, counted in health; for a radio take four fifths of "
                             "what it carries (200 of 256); a log file has everything; 0 = no limit"));
+  keys.push_back(number_key("telemetry.preview_period_s", "s", at(&A::telemetry, &T::preview_period_s), {0, 86400},
+                            "of stream time between two small pictures for the ground, some 10 kB each; 0 = none"));
+  keys.push_back(whole_key("telemetry.preview_px", "px", at(&A::telemetry, &T::preview_px), {64, 1024},
+                           "long side of such a picture, at most"));
   keys.push_back(text_key("report.directory", at(&A::report, &ReportConfig::directory), {},
                           "folder for modal.json and CSV files; \"\" = none; --report goes before"));
   keys.push_back(

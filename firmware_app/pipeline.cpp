@@ -52,6 +52,10 @@ struct Pipeline::Parts {
   TrackingStage tracking{frames.reader(),  source.tracker,   source.displacement,  source.readout,
                          samples.writer(), records.writer(), source.info.lossless, capture.thinning()};
 
+  // tracking -> (newest preview) -> publish
+  core::PreviewMaker preview_maker = preview_maker_for(config, source);
+  rt::TripleBuffer<core::Preview> previews{preview_maker.prototype()};
+
   core::WelchConfig welch = welch_config(config.spectrum, source.displacement.spectra().size(), source.info.rate_hz,
                                          source.displacement.n_witnesses());
   rt::TripleBuffer<SpectrumSnapshot> snapshots{SpectrumSnapshot{core::WelchCpsd::empty_sums(welch)}};
@@ -127,7 +131,8 @@ struct Pipeline::Parts {
             source.channels(),
             corrections(config, source.info),
             caveats(config, source.info),
-            config.telemetry};
+            config.telemetry,
+            config.regions};
   }
 
   // Who is nudged when an item arrives, and when a slot becomes free.
@@ -142,6 +147,9 @@ struct Pipeline::Parts {
     snapshots.set_writer_wakeup(&spectrum.wakeup());
     snapshots.set_reader_wakeup(&identification.wakeup());
     if (closes_loop()) connect_closure();
+    tracking.show_previews(preview_maker, previews);
+    previews.set_reader_wakeup(&publish.wakeup());
+    publish.hear_previews(previews);
     results.set_writer_wakeup(&identification.wakeup());
     results.set_reader_wakeup(&publish.wakeup());
   }

@@ -201,6 +201,15 @@ std::function<void(const PublishStage::Findings&, const core::Health&)> picture_
   };
 }
 
+core::PreviewMaker preview_maker_for(const AppConfig& config, const Source& source) {
+  const bool is_heard = !config.telemetry.lcm_url.empty() || !config.telemetry.log_file.empty();
+  return {{is_heard ? config.telemetry.preview_period_s : 0.0, config.telemetry.preview_px},
+          source.info.width_px,
+          source.info.height_px,
+          source.keyframe,
+          config.regions.size()};
+}
+
 FrameRecord record_prototype(const Source& source) { return {source.keyframe, source.displacement.sample_prototype()}; }
 
 RunState view_of(const AppConfig& config, const Source& source) {

@@ -8,6 +8,7 @@
 
 #include "core/geometry/channel_displacement.h"
 #include "core/geometry/readout_estimator.h"
+#include "core/tracking/preview_maker.h"
 #include "core/tracking/structure_tracker.h"
 #include "core/types/frame.h"
 #include "drivers/camera/camera.h"
@@ -60,6 +61,7 @@ struct Source {
 // What PublishStage::Outlets::draw calls; empty: no report wanted. All arguments must outlive it.
 [[nodiscard]] std::function<void(const PublishStage::Findings&, const core::Health&)> picture_drawer(
     const AppConfig& config, const Source& source, const RunReport* report);
+[[nodiscard]] core::PreviewMaker preview_maker_for(const AppConfig& config, const Source& source);
 [[nodiscard]] FrameRecord record_prototype(const Source& source);
 // What a kept state must agree with.
 [[nodiscard]] RunState view_of(const AppConfig& config, const Source& source);

@@ -10,12 +10,15 @@
 #include "core/types/displacement.h"
 #include "core/types/health.h"
 #include "core/types/modal_estimate.h"
+#include "core/types/preview.h"
+#include "core/types/region.h"
 #include "core/types/track.h"
 #include "drivers/telemetry/publisher.h"
 #include "hovermodal/closure_report_t.hpp"
 #include "hovermodal/displacement_t.hpp"
 #include "hovermodal/health_t.hpp"
 #include "hovermodal/modal_estimate_t.hpp"
+#include "hovermodal/preview_t.hpp"
 #include "hovermodal/spectrum_t.hpp"
 #include "hovermodal/tracks_t.hpp"
 
@@ -47,6 +50,9 @@ inline constexpr std::size_t kMaxWarnings = 16;
 [[nodiscard]] hovermodal::closure_report_t to_message(const core::closure::ClosureReport& report,
                                                       const StreamIdentity& identity);
 [[nodiscard]] hovermodal::tracks_t to_message(const core::TrackFrame& tracks, const StreamIdentity& identity);
+// Throws std::runtime_error where no picture can be made. More than a thousand points are thinned evenly.
+[[nodiscard]] hovermodal::preview_t to_message(const core::Preview& preview, const std::vector<core::Region>& regions,
+                                               const StreamIdentity& identity);
 [[nodiscard]] hovermodal::health_t to_message(const core::Health& health,
                                               const std::vector<core::ChannelInfo>& channels,
                                               const StreamIdentity& identity);

@@ -211,4 +211,11 @@ bool LcmPublisher::publish(const core::Health& health) noexcept {
   });
 }
 
+bool LcmPublisher::publish(const core::Preview& preview, const std::vector<core::Region>& regions) noexcept {
+  return guarded([&] {
+    auto message = to_message(preview, regions, identity_);
+    return send(kPreview, message);
+  });
+}
+
 }  // namespace drivers

@@ -37,6 +37,7 @@ class LcmPublisher : public Publisher {
   bool publish(const core::CpsdSums& spectrum, const std::vector<core::ChannelInfo>& channels) noexcept override;
   bool publish(const core::closure::ClosureReport& report) noexcept override;
   bool publish(const core::Health& health) noexcept override;
+  bool publish(const core::Preview& preview, const std::vector<core::Region>& regions) noexcept override;
 
   // A message counts as sent when every way open (network, log) took it; one held back is neither sent nor failed.
   [[nodiscard]] std::uint64_t messages_sent() const noexcept override {

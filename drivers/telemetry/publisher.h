@@ -9,6 +9,8 @@
 #include "core/types/displacement.h"
 #include "core/types/health.h"
 #include "core/types/modal_estimate.h"
+#include "core/types/preview.h"
+#include "core/types/region.h"
 #include "core/types/track.h"
 
 namespace drivers {
@@ -31,6 +33,7 @@ class Publisher {
   virtual bool publish(const core::CpsdSums& spectrum, const std::vector<core::ChannelInfo>& channels) noexcept = 0;
   virtual bool publish(const core::closure::ClosureReport& report) noexcept = 0;
   virtual bool publish(const core::Health& health) noexcept = 0;
+  virtual bool publish(const core::Preview& preview, const std::vector<core::Region>& regions) noexcept = 0;
   // Any thread.
   [[nodiscard]] virtual std::uint64_t messages_sent() const noexcept = 0;  // datagrams
   [[nodiscard]] virtual std::uint64_t messages_failed() const noexcept = 0;

@@ -11,10 +11,11 @@ class EventLog;
 
 struct LcmOptions {
   std::string url = "udpm://239.255.76.67:7667?ttl=0";  // empty = nothing over the network
-  std::string channel_prefix = "HOVERMODAL";  // <prefix>_MODAL, _DISPLACEMENT, _SPECTRUM, _TRACKS, _CLOSURE, _HEALTH
-  std::string log_file;                       // the same messages into an LCM event log; empty = none
+  std::string channel_prefix =
+      "HOVERMODAL";      // <prefix>_MODAL, _DISPLACEMENT, _SPECTRUM, _TRACKS, _CLOSURE, _HEALTH, _PREVIEW
+  std::string log_file;  // the same messages into an LCM event log; empty = none
   StreamIdentity identity;
-  double max_kbit_s = 0.0;  // over the network; 0 = no limit (send_budget.h)
+  double max_kbit_s = 0.0;                     // over the network; 0 = no limit (send_budget.h)
   std::shared_ptr<EventLog> record = nullptr;  // one more log: that of the run's record
 };
 
@@ -29,6 +30,7 @@ class NullPublisher : public Publisher {
   bool publish(const core::CpsdSums&, const std::vector<core::ChannelInfo>&) noexcept override { return true; }
   bool publish(const core::closure::ClosureReport&) noexcept override { return true; }
   bool publish(const core::Health&) noexcept override { return true; }
+  bool publish(const core::Preview&, const std::vector<core::Region>&) noexcept override { return true; }
   [[nodiscard]] std::uint64_t messages_sent() const noexcept override { return 0; }
   [[nodiscard]] std::uint64_t messages_failed() const noexcept override { return 0; }
 };

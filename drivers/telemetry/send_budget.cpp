@@ -18,9 +18,10 @@ std::size_t wire_bytes(std::size_t channel_bytes, std::size_t payload_bytes) noe
 }
 
 SendBudget::SendBudget(double max_kbit_s) noexcept : bytes_per_s_(max_kbit_s * kBytesPerKbit) {
-  buckets_[kDisplacement].share = 0.5;
-  buckets_[kSpectrum].share = 0.3;
-  buckets_[kTracks].share = 0.2;
+  buckets_[kDisplacement].share = 0.4;
+  buckets_[kSpectrum].share = 0.24;
+  buckets_[kTracks].share = 0.16;
+  buckets_[kPreview].share = 0.2;
   for (Bucket& bucket : buckets_) bucket.bytes = bucket.share * bytes_per_s_ * kHolds_s;
 }
 

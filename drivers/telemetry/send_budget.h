@@ -12,8 +12,8 @@ namespace drivers {
 [[nodiscard]] std::size_t wire_bytes(std::size_t channel_bytes, std::size_t payload_bytes) noexcept;
 
 // Which messages may go over a link of so many kbit/s: a token bucket that holds half a second of it. Estimates, health
-// and reports of closing the loop always go, and are paid for later. Displacements, spectra and tracks share what is
-// left, 5 : 3 : 2, each from a bucket of its own, so that none crowds the others out; what one of them does not use
+// and reports of closing the loop always go, and are paid for later. Displacements, spectra, tracks and pictures
+// share what is left, 10 : 6 : 4 : 5, each from a bucket of its own, so that none crowds the others out; what one of them does not use
 // overflows to all. A message larger than a bucket goes when its bucket is full. In the sender's time: what is sent
 // enters no result. One thread.
 class SendBudget {

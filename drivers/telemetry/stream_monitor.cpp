@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "drivers/telemetry/decode.h"
-#include "hovermodal/spectrum_t.hpp"
 #include "hovermodal/tracks_t.hpp"
 
 namespace drivers {
@@ -43,13 +42,16 @@ void StreamMonitor::dispatch(Topic topic, const void* data, std::size_t n_bytes,
       if (auto m = open<hovermodal::health_t>(topic, data, n_bytes, now_ns)) take(std::move(*m), now_ns);
       break;
     case kSpectrum:
-      static_cast<void>(open<hovermodal::spectrum_t>(topic, data, n_bytes, now_ns));
+      if (auto m = open<hovermodal::spectrum_t>(topic, data, n_bytes, now_ns)) take(std::move(*m));
       break;
     case kTracks:
       static_cast<void>(open<hovermodal::tracks_t>(topic, data, n_bytes, now_ns));
       break;
     case kClosure:
       if (auto m = open<hovermodal::closure_report_t>(topic, data, n_bytes, now_ns)) closure_ = std::move(*m);
+      break;
+    case kPreview:
+      if (auto m = open<hovermodal::preview_t>(topic, data, n_bytes, now_ns)) preview_ = std::move(*m);
       break;
     case kTopics:
       break;
@@ -100,11 +102,24 @@ void StreamMonitor::take(hovermodal::modal_estimate_t message) {
 
 void StreamMonitor::take(const hovermodal::displacement_t& message) {
   const std::size_t n = std::min(message.value_mm.size(), kMaxChannels);
-  if (history_.size() != n) history_.assign(n, {});
+  if (history_.size() != n) {
+    history_.assign(n, {});
+    history_ns_.clear();
+  }
+  ++n_samples_;
+  history_ns_.push_back(message.stream_time_ns);
+  if (history_ns_.size() > kHistory) history_ns_.pop_front();
   for (std::size_t i = 0; i < n; ++i) {
     history_[i].push_back(message.value_mm[i]);
     if (history_[i].size() > kHistory) history_[i].pop_front();
   }
+}
+
+void StreamMonitor::take(hovermodal::spectrum_t message) {
+  const auto n = static_cast<std::size_t>(std::max<std::int16_t>(message.n_channels, 0));
+  const auto i = static_cast<std::size_t>(std::max<std::int16_t>(message.channel_index, 0));
+  spectra_.resize(std::min(n, kMaxSpectra));
+  if (i < spectra_.size()) spectra_[i] = std::move(message);
 }
 
 void StreamMonitor::take(hovermodal::health_t message, std::int64_t now_ns) {

@@ -17,6 +17,8 @@
 #include "hovermodal/displacement_t.hpp"
 #include "hovermodal/health_t.hpp"
 #include "hovermodal/modal_estimate_t.hpp"
+#include "hovermodal/preview_t.hpp"
+#include "hovermodal/spectrum_t.hpp"
 
 namespace drivers {
 
@@ -28,10 +30,11 @@ class StreamMonitor {
   using Topic = drivers::Topic;
   static constexpr Topic kModal = drivers::kModal, kDisplacement = drivers::kDisplacement,
                          kSpectrum = drivers::kSpectrum, kTracks = drivers::kTracks, kClosure = drivers::kClosure,
-                         kHealth = drivers::kHealth, kTopics = drivers::kTopics;
+                         kHealth = drivers::kHealth, kPreview = drivers::kPreview, kTopics = drivers::kTopics;
   static constexpr std::size_t kHistory = 1024;     // displacement samples kept per channel
   static constexpr std::size_t kMaxChannels = 256;  // more than that in one message are ignored
   static constexpr std::size_t kMaxModes = 1024;    // of one estimate, all parts
+  static constexpr std::size_t kMaxSpectra = 64;    // channels whose newest spectrum is kept
 
   explicit StreamMonitor(const std::string& channel_prefix);
 
@@ -61,9 +64,17 @@ class StreamMonitor {
   // The newest report of closing the loop.
   [[nodiscard]] const std::optional<hovermodal::closure_report_t>& closure() const noexcept { return closure_; }
 
+  // The newest picture.
+  [[nodiscard]] const std::optional<hovermodal::preview_t>& preview() const noexcept { return preview_; }
+  // The newest spectrum of each channel; empty where none was heard.
+  [[nodiscard]] const std::vector<std::optional<hovermodal::spectrum_t>>& spectra() const noexcept { return spectra_; }
+
   [[nodiscard]] std::size_t n_channels() const noexcept { return history_.size(); }
   [[nodiscard]] std::string channel_name(std::size_t i_channel) const;
   [[nodiscard]] const std::deque<float>& history_mm(std::size_t i_channel) const { return history_[i_channel]; }
+  // Stream time of the same samples, and the number of all that were ever taken into a history.
+  [[nodiscard]] const std::deque<std::int64_t>& history_ns() const noexcept { return history_ns_; }
+  [[nodiscard]] std::uint64_t n_samples() const noexcept { return n_samples_; }
 
  private:
   template <class Message>
@@ -71,6 +82,7 @@ class StreamMonitor {
   void take(hovermodal::modal_estimate_t message);
   void take(const hovermodal::displacement_t& message);
   void take(hovermodal::health_t message, std::int64_t now_ns);
+  void take(hovermodal::spectrum_t message);
   void dispatch(Topic topic, const void* data, std::size_t n_bytes, std::int64_t now_ns);
 
   std::string prefix_;
@@ -87,6 +99,10 @@ class StreamMonitor {
   std::map<std::int16_t, std::vector<hovermodal::mode_t>> parts_;
   std::size_t n_modes_ = 0;
   std::vector<std::deque<float>> history_;  // NaN where not seen
+  std::deque<std::int64_t> history_ns_;
+  std::uint64_t n_samples_ = 0;
+  std::optional<hovermodal::preview_t> preview_;
+  std::vector<std::optional<hovermodal::spectrum_t>> spectra_;
 };
 
 }  // namespace drivers

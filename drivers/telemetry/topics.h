@@ -9,14 +9,14 @@
 namespace drivers {
 
 // What a run tells, on one LCM channel each.
-enum Topic : std::size_t { kModal, kDisplacement, kSpectrum, kTracks, kClosure, kHealth, kTopics };
-inline constexpr std::array<const char*, kTopics> kTopicSuffixes{"_MODAL",  "_DISPLACEMENT", "_SPECTRUM",
-                                                                 "_TRACKS", "_CLOSURE",      "_HEALTH"};
+enum Topic : std::size_t { kModal, kDisplacement, kSpectrum, kTracks, kClosure, kHealth, kPreview, kTopics };
+inline constexpr std::array<const char*, kTopics> kTopicSuffixes{"_MODAL",   "_DISPLACEMENT", "_SPECTRUM", "_TRACKS",
+                                                                 "_CLOSURE", "_HEALTH",       "_PREVIEW"};
 
 // The layout of each topic's messages. Raised by one with every change of a type that went out in a release: messages
 // of the new layout then travel on a channel of another name, and nobody who listens to the old one hears bytes that
 // it cannot read. tests/unit/drivers/lcm_layout_test.cpp holds the fingerprints that belong to these numbers.
-inline constexpr std::array<int, kTopics> kTopicLayouts{1, 1, 1, 1, 1, 1};
+inline constexpr std::array<int, kTopics> kTopicLayouts{1, 1, 1, 1, 1, 1, 1};
 
 // <prefix>_MODAL is layout 1, <prefix>_MODAL_V2 layout 2.
 [[nodiscard]] inline std::string topic_channel(const std::string& prefix, Topic topic, int layout) {

@@ -27,6 +27,10 @@ rt::StepStatus PublishStage::step() noexcept {
     closures_->pop();
     return rt::StepStatus::kWorked;
   }
+  if (previews_ != nullptr && previews_->refresh()) {
+    (void)outlets_.publisher.publish(previews_->front(), outlets_.regions);
+    return rt::StepStatus::kWorked;
+  }
   if (const FrameRecord* record = records_.front()) {
     publish_record(*record);
     records_.pop();

@@ -17,6 +17,7 @@
 #include "firmware_app/stages/items.h"
 #include "rt/spsc_ring.h"
 #include "rt/stage.h"
+#include "rt/triple_buffer.h"
 
 namespace app {
 
@@ -39,12 +40,16 @@ class PublishStage : public rt::Stage {
     std::vector<core::ChannelInfo> channels;
     std::vector<std::string> corrections, caveats;
     TelemetryConfig telemetry;
+    std::vector<core::Region> regions;
   };
 
   PublishStage(rt::RingReader<FrameRecord> records, rt::RingReader<IdentificationResult> results, Outlets outlets);
 
   // Set-up only.
   void hear_closure(rt::RingReader<core::closure::ClosureReport> reports) { closures_.emplace(std::move(reports)); }
+
+  // Set-up only: the newest one is sent.
+  void hear_previews(rt::TripleBuffer<core::Preview>& previews) { previews_ = &previews; }
 
   [[nodiscard]] std::string_view name() const noexcept override { return "publish"; }
   [[nodiscard]] rt::StepStatus step() noexcept override;
@@ -69,6 +74,7 @@ class PublishStage : public rt::Stage {
   rt::RingReader<FrameRecord> records_;
   rt::RingReader<IdentificationResult> results_;
   std::optional<rt::RingReader<core::closure::ClosureReport>> closures_;
+  rt::TripleBuffer<core::Preview>* previews_ = nullptr;  // null: none wanted
   Outlets outlets_;
   core::ModalEstimate last_estimate_;
   core::CpsdSums last_sums_;

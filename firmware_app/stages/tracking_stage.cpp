@@ -36,6 +36,7 @@ rt::StepStatus TrackingStage::step() noexcept {
 
   const std::int64_t t_taken_ns = frame->t_taken_ns;
   measure(*frame);
+  show_preview(*frame);
   frames_.pop();
   rt::StageStats::add(stats().n_in);
   if (sample != nullptr) {
@@ -85,6 +86,12 @@ void TrackingStage::show(core::TrackFrame* slot) noexcept {
   if (n_shown_through_ == 0) view_.next_report_at += scratch_.tracks.sequence;  // the stream begins here
   n_shown_through_ = scratch_.tracks.sequence + 1;
   shown_->publish();
+}
+
+void TrackingStage::show_preview(const core::Frame& frame) noexcept {
+  if (preview_maker_ == nullptr || !preview_maker_->is_due(frame.t_start_ns)) return;
+  preview_maker_->make(frame, scratch_.tracks, previews_->back());
+  previews_->publish();
 }
 
 void TrackingStage::measure(const core::Frame& frame) noexcept {

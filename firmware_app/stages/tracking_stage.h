@@ -7,6 +7,7 @@
 
 #include "core/geometry/channel_displacement.h"
 #include "core/geometry/readout_estimator.h"
+#include "core/tracking/preview_maker.h"
 #include "core/tracking/structure_tracker.h"
 #include "core/types/frame.h"
 #include "core/types/health.h"
@@ -14,6 +15,7 @@
 #include "firmware_app/stages/thinning.h"
 #include "rt/spsc_ring.h"
 #include "rt/stage.h"
+#include "rt/triple_buffer.h"
 
 namespace app {
 
@@ -30,6 +32,11 @@ class TrackingStage : public rt::Stage {
 
   // Set-up only: every frame's points go there too; what finds no room is counted.
   void show_tracks(rt::RingWriter<core::TrackFrame> tracks) { shown_.emplace(std::move(tracks)); }
+
+  // Set-up only: what it makes goes there.
+  void show_previews(core::PreviewMaker& maker, rt::TripleBuffer<core::Preview>& previews) {
+    preview_maker_ = &maker, previews_ = &previews;
+  }
 
   // Set-up only: measure by what closure makes, from the frames it says. A lossless source waits for each decision.
   void follow_amendments(rt::RingReader<ViewChange> changes, const ViewChange& first) {
@@ -80,6 +87,7 @@ class TrackingStage : public rt::Stage {
   void measure(const core::Frame& frame) noexcept;
   void count_regions() noexcept;
   void show(core::TrackFrame* slot) noexcept;  // null: no room
+  void show_preview(const core::Frame& frame) noexcept;
 
   rt::RingReader<core::Frame> frames_;
   core::StructureTracker& tracker_;
@@ -88,6 +96,8 @@ class TrackingStage : public rt::Stage {
   rt::RingWriter<core::DisplacementSample> samples_;
   rt::RingWriter<FrameRecord> records_;
   std::optional<rt::RingWriter<core::TrackFrame>> shown_;
+  core::PreviewMaker* preview_maker_ = nullptr;  // null: none wanted
+  rt::TripleBuffer<core::Preview>* previews_ = nullptr;
   std::optional<rt::RingReader<ViewChange>> amendments_;
   ViewChange view_;     // newest decision
   ViewChange pending_;  // geometry null: none

@@ -45,6 +45,7 @@ std::vector<Seed> seeds() {
   out.push_back(seed(StreamMonitor::kDisplacement, to_message(tests::sample_displacement(4, 1), identity)));
   out.push_back(seed(StreamMonitor::kSpectrum, to_messages(tests::sample_sums(2, 16), channels, identity).at(0)));
   out.push_back(seed(StreamMonitor::kTracks, to_message(tests::sample_tracks(6, 1), identity)));
+  out.push_back(seed(StreamMonitor::kPreview, to_message(tests::sample_preview(1), {core::Region{}}, identity)));
   out.push_back(seed(StreamMonitor::kHealth, to_message(tests::sample_health("running", 1), channels, identity)));
   return out;
 }

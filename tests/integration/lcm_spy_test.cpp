@@ -48,6 +48,7 @@ void publish_run(drivers::Publisher& publisher, std::chrono::microseconds pace) 
       publisher.publish(tests::sample_sums(12, 512), channels);
       publisher.publish(tests::sample_estimate(12, 10, n / 50), channels);
       publisher.publish(tests::sample_closure(2, n / 50));
+      publisher.publish(tests::sample_preview(n), {});
       publisher.publish(tests::sample_health("running", n / 25));
     }
     std::this_thread::sleep_for(pace);

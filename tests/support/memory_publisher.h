@@ -38,6 +38,10 @@ class MemoryPublisher : public drivers::Publisher {
     health.push_back(state);
     return count();
   }
+  bool publish(const core::Preview& preview, const std::vector<core::Region>&) noexcept override {
+    previews.push_back(preview);
+    return count();
+  }
   [[nodiscard]] std::uint64_t messages_sent() const noexcept override { return n_sent; }
   [[nodiscard]] std::uint64_t messages_failed() const noexcept override { return n_failed; }
 
@@ -50,6 +54,7 @@ class MemoryPublisher : public drivers::Publisher {
   std::vector<core::CpsdSums> spectra;
   std::vector<core::closure::ClosureReport> closures;
   std::vector<core::Health> health;
+  std::vector<core::Preview> previews;
 
  private:
   bool count() noexcept {

@@ -10,6 +10,7 @@
 #include "core/types/displacement.h"
 #include "core/types/health.h"
 #include "core/types/modal_estimate.h"
+#include "core/types/preview.h"
 #include "core/types/track.h"
 
 namespace tests {
@@ -128,6 +129,18 @@ inline core::closure::ClosureReport sample_closure(std::size_t n_steps, std::uin
     step.score = 1234.0, step.threshold = 5.0;
     out.result.steps.push_back(step);
   }
+  return out;
+}
+
+inline core::Preview sample_preview(std::uint64_t n) {
+  core::Preview out;
+  out.sequence = n;
+  out.t_start_ns = static_cast<std::int64_t>(n) * 40'000'000;
+  out.width_px = 64, out.height_px = 36, out.reduction = 30;
+  out.image_width_px = 1920, out.image_height_px = 1080;
+  for (int i = 0; i < 64 * 36; ++i) out.pixels.push_back(static_cast<std::uint8_t>(i % 251));
+  out.points = sample_tracks(12, n).points;
+  out.shifts = {{1.5, -0.5, 6}, {}};
   return out;
 }
 

@@ -22,6 +22,7 @@ void add_inspect_cameras(CLI::App& inspect);
 void add_inspect_lcm(CLI::App& inspect);
 void add_regions(CLI::App& app);
 void add_readout(CLI::App& app);
+void add_ground(CLI::App& app);
 void add_selftest(CLI::App& app);
 
 }  // namespace tools

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   tools::add_spy(app);
   tools::add_inspect(app);
   tools::add_regions(app);
+  tools::add_ground(app);
   tools::add_readout(app);
   tools::add_selftest(app);
   try {

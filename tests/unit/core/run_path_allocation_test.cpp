@@ -9,6 +9,7 @@
 #include "core/spectrum/time_grid.h"
 #include "core/spectrum/welch_cpsd.h"
 #include "core/tracking/outlier_rejection.h"
+#include "core/tracking/preview_maker.h"
 #include "tests/support/alloc_guard.h"
 #include "tests/support/swaying_record.h"
 
@@ -66,6 +67,23 @@ TEST(RunPathAllocation, TimeGridAllocatesNothing) {
   {
     const AllocGuard guard;
     for (std::int64_t i = 0; i < 1000; ++i) (void)grid.place(i * 40'000'000 + (i % 7) * 1'000'000);
+    n_calls = guard.n_new() + guard.n_delete();
+  }
+  EXPECT_EQ(n_calls, 0U);
+}
+
+TEST(RunPathAllocation, PreviewMakerAllocatesNothing) {
+  TrackFrame tracks;
+  tracks.points.resize(40);
+  PreviewMaker maker({1.0, 320}, 640, 480, tracks, 3);
+  Preview preview = maker.prototype();
+  Frame frame;
+  frame.width_px = 640, frame.height_px = 480;
+  frame.pixels.resize(640 * 480);
+  std::size_t n_calls = 0;
+  {
+    const AllocGuard guard;
+    if (maker.is_due(frame.t_start_ns)) maker.make(frame, tracks, preview);
     n_calls = guard.n_new() + guard.n_delete();
   }
   EXPECT_EQ(n_calls, 0U);

@@ -89,6 +89,7 @@ TEST(Config, EachKeySetsItsOwnMemberOnly) {
       {"tracking.search_px", "70"},
       {"tracking.least_correlation", "0.5"},
       {"tracking.corner_quality", "0.5"},
+      {"telemetry.preview_px", "100"},
       {"report.tracks", "false"},
       {"closure.adopt", "off"},
       {"closure.window_s", "70"},

@@ -1,30 +1,28 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
-#include <memory>
 #include <string>
+#include <string_view>
 
+#include "drivers/telemetry/lcm_listener.h"
 #include "drivers/telemetry/stream_monitor.h"
 
 namespace tools {
 
-// Nanoseconds on the clock that a Listener gives its monitor.
-[[nodiscard]] std::int64_t listener_now_ns();
+// The clock that a Listener gives its monitor.
+[[nodiscard]] inline std::int64_t listener_now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
 
 // Puts what is heard on an LCM URL into a monitor.
-class Listener {
+class Listener : public drivers::LcmListener {
  public:
-  // Throws std::invalid_argument for a wrong URL or prefix, std::runtime_error when nothing can be heard there.
-  Listener(const std::string& url, const std::string& prefix, drivers::StreamMonitor& monitor);
-  ~Listener();
-
-  // Waits up to 50 ms for a message and takes all that are there (within reason: the screen and signals wait
-  // meanwhile). False at the end of a log.
-  [[nodiscard]] bool poll();
-
- private:
-  struct Lcm;
-  std::unique_ptr<Lcm> lcm_;
+  Listener(const std::string& url, const std::string& prefix, drivers::StreamMonitor& monitor)
+      : LcmListener(url, prefix, [&monitor](std::string_view channel, const void* data, std::size_t n_bytes) {
+          monitor.receive(channel, data, n_bytes, listener_now_ns());
+        }) {}
 };
 
 }  // namespace tools

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <arpa/inet.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <string>
+#include <string_view>
+
+#include "tests/support/patience.h"
+
+namespace tests {
+
+// A TCP connection to 127.0.0.1 on which a test says what it likes. Never raises SIGPIPE.
+class RawConnection {
+ public:
+  explicit RawConnection(int port) : fd_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(static_cast<std::uint16_t>(port));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    is_open_ = connect(fd_, reinterpret_cast<sockaddr*>(&to), sizeof to) == 0;
+  }
+  ~RawConnection() {
+    if (fd_ >= 0) close(fd_);
+  }
+  RawConnection(RawConnection&& other) noexcept : fd_(other.fd_), is_open_(other.is_open_) { other.fd_ = -1; }
+  RawConnection(const RawConnection&) = delete;
+  RawConnection& operator=(const RawConnection&) = delete;
+  RawConnection& operator=(RawConnection&&) = delete;
+
+  bool send(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t n = ::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+      if (n <= 0) return false;
+      bytes.remove_prefix(static_cast<std::size_t>(n));
+    }
+    return true;
+  }
+  // Until the other side closes, `enough` stands in what came, or the patience ends.
+  std::string receive(std::string_view enough = {}, int patience_ms = 10000) {
+    std::string out;
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(patience_ms) * kSlowdown;
+    while (std::chrono::steady_clock::now() < deadline) {
+      pollfd waiting{fd_, POLLIN, 0};
+      if (poll(&waiting, 1, 50) <= 0) continue;
+      std::array<char, 65536> buffer{};
+      const ssize_t n = recv(fd_, buffer.data(), buffer.size(), 0);
+      if (n <= 0) break;
+      out.append(buffer.data(), static_cast<std::size_t>(n));
+      if (!enough.empty() && out.find(enough) != out.npos) break;
+    }
+    return out;
+  }
+  [[nodiscard]] bool is_open() const { return is_open_; }
+
+ private:
+  int fd_;
+  bool is_open_ = false;
+};
+
+// The whole answer to one request as it stands.
+inline std::string raw_http(int port, std::string_view request) {
+  RawConnection connection(port);
+  if (!connection.is_open() || !connection.send(request)) return {};
+  return connection.receive();
+}
+
+inline std::string get(const std::string& target, const std::string& headers = "",
+                       const std::string& host = "127.0.0.1") {
+  return "GET " + target + " HTTP/1.1\r\nHost: " + host + "\r\n" + headers + "\r\n";
+}
+
+// 200 of "HTTP/1.1 200 OK"; 0 for none.
+inline int status_of(std::string_view answer) {
+  return answer.substr(0, 9) == "HTTP/1.1 " ? std::stoi(std::string(answer.substr(9, 3))) : 0;
+}
+
+}  // namespace tests

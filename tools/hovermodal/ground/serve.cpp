@@ -1,0 +1,127 @@
+#include "tools/hovermodal/ground/serve.h"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <ifaddrs.h>
+#include <signal.h>
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <thread>
+
+#include "drivers/telemetry/lcm_listener.h"
+#include "tools/hovermodal/ground/live_stream.h"
+#include "tools/hovermodal/ground/page_files.h"
+#include "tools/hovermodal/ground/web_server.h"
+
+namespace tools {
+namespace {
+
+constexpr int kEventPeriod_ms = 200;
+
+volatile sig_atomic_t stop_requested = 0;
+
+void watch_signals() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { stop_requested = 1; };
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+std::int64_t now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+std::string content_type(std::string_view name) {
+  const std::string_view ending = name.substr(name.rfind('.') + 1);
+  if (ending == "html") return "text/html; charset=utf-8";
+  if (ending == "css") return "text/css; charset=utf-8";
+  if (ending == "js") return "text/javascript; charset=utf-8";
+  if (ending == "svg") return "image/svg+xml";
+  return "text/plain; charset=utf-8";
+}
+
+void add_paths(WebServer& server, LiveStream& stream) {
+  for (const PageFile& file : page_files()) {
+    const std::string path = file.name == "index.html" ? "/" : "/" + std::string(file.name);
+    server.add_asset(path, content_type(file.name), file.text);
+  }
+  server.add_get("/snapshot.json", [&](const WebRequest&) {
+    return WebResponse{200, "application/json", stream.snapshot(now_ns())};
+  });
+  server.add_get("/preview.jpg", [&](const WebRequest&) {
+    std::string jpeg = stream.preview_jpeg();
+    if (jpeg.empty()) return WebResponse{404, "text/plain; charset=utf-8", "no picture has come yet\n"};
+    return WebResponse{200, "image/jpeg", std::move(jpeg)};
+  });
+  server.add_event_source("/events", kEventPeriod_ms, [&] { return stream.news(now_ns()); });
+}
+
+// Every IPv4 address of this computer that others may reach, for an address that stands for all of them.
+std::vector<std::string> own_addresses() {
+  std::vector<std::string> out;
+  ifaddrs* first = nullptr;
+  if (getifaddrs(&first) != 0) return out;
+  for (const ifaddrs* i = first; i != nullptr; i = i->ifa_next) {
+    if (i->ifa_addr == nullptr || i->ifa_addr->sa_family != AF_INET) continue;
+    std::array<char, INET_ADDRSTRLEN> text{};
+    const auto* address = reinterpret_cast<const sockaddr_in*>(i->ifa_addr);
+    inet_ntop(AF_INET, &address->sin_addr, text.data(), text.size());
+    if (!is_loopback(text.data())) out.emplace_back(text.data());
+  }
+  freeifaddrs(first);
+  return out;
+}
+
+void tell_where(const WebServer& server, const GroundOptions& options) {
+  std::printf("listening on %s for %s_*\n", options.url.c_str(), options.prefix.c_str());
+  const std::string url = server.url();
+  const std::string any = "//0.0.0.0:";
+  if (const std::size_t at = url.find(any); at != url.npos) {
+    for (const std::string& address : own_addresses()) {
+      std::printf("open %s\n", (url.substr(0, at + 2) + address + url.substr(at + any.size() - 1)).c_str());
+    }
+  } else {
+    std::printf("open %s\n", url.c_str());
+  }
+  std::fflush(stdout);
+}
+
+WebOptions web_options(const GroundOptions& options) {
+  WebOptions out;
+  out.bind_address = options.bind_address;
+  out.port = options.port;
+  out.known_names = options.names;
+  out.token = options.token;
+  if (out.token.empty() && !is_loopback(options.bind_address)) out.token = random_token();
+  return out;
+}
+
+}  // namespace
+
+void run_ground(const GroundOptions& options) {
+  LiveStream stream(options.prefix);
+  WebServer server(web_options(options));
+  add_paths(server, stream);
+  drivers::LcmListener listener(
+      options.url, options.prefix,
+      [&](std::string_view channel, const void* data, std::size_t n) { stream.receive(channel, data, n, now_ns()); });
+  watch_signals();
+  server.start();
+  tell_where(server, options);
+  const std::int64_t end_ns = now_ns() + static_cast<std::int64_t>(options.seconds * 1e9);
+  bool has_more = true;
+  while (stop_requested == 0 && (options.seconds <= 0.0 || now_ns() < end_ns)) {
+    if (!has_more) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    } else if (has_more = listener.poll(); !has_more) {
+      std::printf("the log has ended; the page stays until you stop this (Ctrl-C)\n");
+      std::fflush(stdout);
+    }
+  }
+  server.stop();
+}
+
+}  // namespace tools

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "tools/hovermodal/ground/web_server.h"
+
+namespace tools {
+
+// From the bytes of one whole request to the bytes of its answer. One thread.
+class WebRoutes {
+ public:
+  struct Answer {
+    std::string bytes;
+    int status = 0;
+    int event_source = -1;  // not below 0: `bytes` is the head of a stream of these events
+  };
+  enum class Kind { kAsset, kGet, kPost, kEvents };
+  struct Route {
+    Kind kind = Kind::kAsset;
+    std::string content_type;    // assets
+    std::string_view text;       // assets
+    WebServer::Handler handler;  // GET, POST
+    int event_source = -1;
+  };
+
+  WebRoutes(WebGuard guard, bool allow_post);
+  ~WebRoutes();
+
+  // Throws std::invalid_argument for a path that is none, or is there already.
+  void add(const std::string& path, Route route);
+
+  [[nodiscard]] Answer answer(std::string_view request);
+  // For what never became a request.
+  [[nodiscard]] static Answer refusal(int status);
+
+ private:
+  struct Parser;
+  std::unique_ptr<Parser> parser_;
+};
+
+}  // namespace tools
