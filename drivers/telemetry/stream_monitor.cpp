@@ -86,7 +86,9 @@ std::optional<Message> StreamMonitor::open(Topic topic, const void* data, std::s
 
 void StreamMonitor::take(hovermodal::modal_estimate_t message) {
   const bool is_same = estimate_ && estimate_->number == message.number && estimate_->n_parts == message.n_parts &&
-                       estimate_->stream_time_ns == message.stream_time_ns;  // a new run begins at number 0 again
+                       estimate_->stream_time_ns == message.stream_time_ns &&
+                       n_modal_restarts_ == counts_[kModal].restarts;
+  n_modal_restarts_ = counts_[kModal].restarts;  // the same file again gives the same numbers and times
   if (!is_same) {
     parts_.clear();
     n_modes_ = 0;

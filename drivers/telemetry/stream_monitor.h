@@ -98,6 +98,7 @@ class StreamMonitor {
   std::optional<hovermodal::modal_estimate_t> estimate_;  // its own `modes` moved into parts_
   std::map<std::int16_t, std::vector<hovermodal::mode_t>> parts_;
   std::size_t n_modes_ = 0;
+  std::uint64_t n_modal_restarts_ = 0;      // when estimate_ was heard
   std::vector<std::deque<float>> history_;  // NaN where not seen
   std::deque<std::int64_t> history_ns_;
   std::uint64_t n_samples_ = 0;

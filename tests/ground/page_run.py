@@ -64,7 +64,6 @@ def main():
         tell("modes", browser.run(MODES))
         pictures(browser)
         keyboard(browser)
-        quiet_network = len(browser.network)
 
         flight.stop()
         flight = service(bin_folder, clip, url, out, *SETTINGS)
@@ -72,12 +71,12 @@ def main():
         tell("restart_shown_s", seconds(browser.wait("document.documentElement.dataset.runs === '1'", 60)))
         tell("modes_after_restart_s", seconds(browser.wait(MODES + " > 0", 90)))
 
-        flight.signal(signal.SIGSTOP)
+        flight.send(signal.SIGSTOP)
         tell("silence_shown_s", seconds(browser.wait(NOTICE + ".includes('silent')", 20)))
         frames = browser.run(FRAMES)
-        flight.signal(signal.SIGCONT)
+        flight.send(signal.SIGCONT)
         tell("silence_over_s", seconds(browser.wait(f"{NOTICE} === '' && {FRAMES} > {frames}", 30)))
-        tell("network_lines", quiet_network + len(browser.network) - quiet_network)
+        tell("network_lines", len(browser.network))
 
         ground.stop(signal.SIGKILL)
         tell("lost_station_shown_s", seconds(browser.wait(NOTICE + ".includes('No connection')", 20)))

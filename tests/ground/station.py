@@ -26,7 +26,7 @@ class Program:
             time.sleep(0.05)
         raise RuntimeError("not seen: " + pattern + " in\n" + self.text()[-2000:])
 
-    def signal(self, number):
+    def send(self, number):
         self.program.send_signal(number)
 
     def stop(self, number=signal.SIGTERM):

@@ -72,7 +72,8 @@ export class CameraView {
     c.setLineDash([]);
     const name = (status ? status.name : "") + (state === "measuring" ? "" : ": " + state);
     if (!name) return;
-    const wide = c.measureText(name).width + 10, x = Math.max(0, Math.min(u, c.canvas.clientWidth - wide)), y = v > 22 ? v - 22 : v + h;
+    const wide = c.measureText(name).width + 10, isFlat = h < 30 && u + w + 4 + wide < c.canvas.clientWidth;  // beside a flat one: its neighbours are near
+    const x = isFlat ? u + w + 4 : Math.max(0, Math.min(u, c.canvas.clientWidth - wide)), y = isFlat ? v + h / 2 - 10 : v > 22 ? v - 22 : v + h;
     c.fillStyle = "rgba(0,0,0,.75)";
     c.fillRect(x, y, wide, 21);
     c.fillStyle = style.colour;
@@ -90,7 +91,7 @@ export class TracesView {
       byId("relative").setAttribute("aria-pressed", String(this.isRelative));
       redraw();
     });
-    this.plot = new Plot(byId("traces"), { x: "s before now", noY: true, left: 8, top: 6 });
+    this.plot = new Plot(byId("traces"), { x: "s before now", noY: true, left: 20, top: 6 });
   }
   draw(state) {
     const t = state.traces, n = t.rings.length, length = t.time.length;
@@ -314,14 +315,17 @@ export class ModeCards {
   // Damping with its standard deviation over the estimates.
   spark(card, history) {
     const canvas = card.spark, width = canvas.clientWidth, height = canvas.clientHeight, c = fitted(canvas, width, height);
-    const known = history.filter((h) => Number.isFinite(h.damping));
+    const known = history.filter((h) => Number.isFinite(h.damping) && Number.isFinite(h.damping_std));
     c.font = "13px system-ui,sans-serif";
     c.fillStyle = cssColour("--quiet");
-    c.fillText("damping over the flight", 0, 12);
+    c.fillText("damping and its standard deviation over the flight, from 0", 0, 12);
     if (known.length < 2) return;
-    const band = (h) => (Number.isFinite(h.damping_std) ? h.damping_std : 0);
+    const band = (h) => h.damping_std;
     const high = Math.max(...known.map((h) => h.damping + band(h))), first = known[0].t_s, last = known[known.length - 1].t_s;
     const x = (h) => (width - 4) * (h.t_s - first) / Math.max(1e-9, last - first) + 2, y = (v) => height - 2 - (height - 20) * Math.max(0, v) / high;
+    c.strokeStyle = cssColour("--edge");
+    c.lineWidth = 1;
+    c.strokeRect(0, height - 1.5, width, 0);
     c.fillStyle = "rgba(0,114,178,.25)";
     c.beginPath();
     known.forEach((h, i) => (i ? c.lineTo(x(h), y(h.damping + band(h))) : c.moveTo(x(h), y(h.damping + band(h)))));

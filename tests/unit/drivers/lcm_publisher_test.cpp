@@ -93,6 +93,7 @@ TEST_F(LcmPublisherTest, NumbersEveryChannelWithoutAGapAndCountsWhatItSent) {
       if (n % 10 == 0) {
         EXPECT_TRUE(publisher.publish(tests::sample_sums(3, 64), channels));
         EXPECT_TRUE(publisher.publish(tests::sample_closure(2, n)));
+        EXPECT_TRUE(publisher.publish(tests::sample_preview(n), {core::Region{}}));
       }
     }
     EXPECT_TRUE(publisher.publish(tests::sample_health("finished", 1)));
@@ -123,7 +124,7 @@ TEST_F(LcmPublisherTest, NumbersEveryChannelWithoutAGapAndCountsWhatItSent) {
     }
   }
   EXPECT_EQ(next, expected);
-  EXPECT_EQ(next.size(), 6U);
+  EXPECT_EQ(next.size(), drivers::kTopics);
 }
 
 TEST_F(LcmPublisherTest, CountsASpectrumItCannotReadAsFailed) {

@@ -1,9 +1,5 @@
 #include "tools/hovermodal/ground/web_connections.h"
 
-#include <arpa/inet.h>
-#include <fmt/format.h>
-#include <netdb.h>
-#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
@@ -13,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <map>
 #include <system_error>
 #include <utility>
 
@@ -20,7 +17,7 @@ namespace tools {
 namespace {
 
 constexpr int kTick_ms = 50;
-constexpr int kBacklog = 128, kMostAcceptedAtOnce = 64;
+constexpr int kMostAcceptedAtOnce = 64;
 constexpr std::size_t kReadBytes = 16384;
 constexpr int kEnding_ms = 1000;  // for the client to see our answer before the socket goes
 constexpr const char* kHeartbeat = ":\n\n";
@@ -37,14 +34,6 @@ void add(std::atomic<std::uint64_t>& count) {
 
 bool would_block() { return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR; }
 
-int port_of(int fd) {
-  sockaddr_storage bound{};
-  socklen_t size = sizeof bound;
-  if (getsockname(fd, reinterpret_cast<sockaddr*>(&bound), &size) != 0) return 0;
-  return ntohs(bound.ss_family == AF_INET6 ? reinterpret_cast<sockaddr_in6*>(&bound)->sin6_port
-                                           : reinterpret_cast<sockaddr_in*>(&bound)->sin_port);
-}
-
 }  // namespace
 
 WebConnections::WebConnections(WebRoutes& routes, std::vector<Events> events, const WebLimits& limits)
@@ -59,25 +48,8 @@ WebConnections::~WebConnections() {
 }
 
 void WebConnections::listen(const std::string& address, int port) {
-  addrinfo hints{}, *found = nullptr;
-  hints.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV | AI_PASSIVE;
-  hints.ai_socktype = SOCK_STREAM;
-  const std::string what = fmt::format("web server on {} port {}", address, port);
-  if (getaddrinfo(address.c_str(), std::to_string(port).c_str(), &hints, &found) != 0) {
-    throw std::system_error(EINVAL, std::generic_category(), what);
-  }
-  listener_ = socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  const int on = 1;
-  if (listener_ >= 0) setsockopt(listener_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-  const bool ok =
-      listener_ >= 0 && bind(listener_, found->ai_addr, found->ai_addrlen) == 0 && ::listen(listener_, kBacklog) == 0;
-  const int error = errno;
-  freeaddrinfo(found);
-  if (!ok) {
-    const char* remedy = error == EADDRINUSE ? "; is another one running? Choose another --port" : "";
-    throw std::system_error(error, std::generic_category(), what + remedy);
-  }
-  port_ = port_of(listener_);
+  const ListeningSocket bound = listen_on(address, port);
+  listener_ = bound.fd, port_ = bound.port;
 }
 
 void WebConnections::stop() noexcept {
@@ -108,30 +80,30 @@ void WebConnections::run() {
 void WebConnections::accept_all(std::int64_t now_ms) {
   for (int i = 0; i < kMostAcceptedAtOnce; ++i) {
     if (connections_.size() >= limits_.max_connections) make_room();
-    const int fd = accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+    PeerAddress peer;
+    const int fd = accept_next(listener_, peer);
     if (fd < 0) return;
-    const int on = 1;
-    setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    connections_.push_back({fd, State::kReading, {}, {}, 0, now_ms + limits_.request_ms, 0, -1, false, false});
+    connections_.push_back({fd, peer, State::kReading, {}, {}, 0, now_ms + limits_.request_ms, 0, -1, false, false});
     add(n_connections_);
     read(connections_.back(), now_ms);  // most requests came along
   }
 }
 
-// The oldest that has not brought a request yet; else the oldest that takes its answer slowly. Streams stay.
+// Of the peer that holds most connections: the oldest that has not brought a request yet, else the oldest that takes
+// its answer slowly. Streams stay. So a flood from one place does not drive others out.
 void WebConnections::make_room() {
   sweep();
   if (connections_.size() < limits_.max_connections) return;
-  auto chosen = connections_.end();
-  for (auto c = connections_.begin(); c != connections_.end(); ++c) {
-    if (c->state == State::kStreaming) continue;
-    if (chosen == connections_.end()) chosen = c;
-    if (c->state != State::kWriting) {
-      chosen = c;
-      break;
-    }
-  }
-  if (chosen == connections_.end()) return;
+  std::map<PeerAddress, int> held;
+  for (const Connection& c : connections_) held[c.peer] += c.state == State::kStreaming ? 0 : 1;
+  const auto weight = [&](const Connection& c) {
+    return c.state == State::kStreaming ? 0 : 2 * held[c.peer] + (c.state == State::kWriting ? 0 : 1);
+  };
+  const auto chosen =
+      std::max_element(connections_.begin(), connections_.end(), [&](const Connection& a, const Connection& b) {
+        return weight(a) < weight(b);  // the first, and oldest, of equal ones is chosen
+      });
+  if (chosen == connections_.end() || weight(*chosen) == 0) return;
   chosen->is_over = true;
   add(n_displaced_);
   sweep();

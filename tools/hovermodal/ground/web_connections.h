@@ -9,6 +9,7 @@
 
 #include "tools/hovermodal/ground/web_head.h"
 #include "tools/hovermodal/ground/web_routes.h"
+#include "tools/hovermodal/ground/web_socket.h"
 
 namespace tools {
 
@@ -39,6 +40,7 @@ class WebConnections {
   enum class State { kReading, kWriting, kStreaming, kEnding };
   struct Connection {
     int fd = -1;
+    PeerAddress peer{};
     State state = State::kReading;
     std::string in, out;
     std::size_t n_sent = 0;  // of `out`

@@ -16,7 +16,8 @@ namespace tools {
 // Numbers that bound what strangers can take. Memory: at most max_connections times (head_bytes + body_bytes + the
 // largest answer).
 struct WebLimits {
-  std::size_t max_connections = 128;   // a further one takes the place of the one that is longest without a request
+  std::size_t max_connections =
+      128;  // a further one takes the place of the peer with most: its oldest without a request
   std::size_t max_event_streams = 16;  // a further one gets 503
   std::size_t head_bytes = 8192;       // request line and headers; beyond: 431
   std::size_t body_bytes = 65536;      // of a POST; beyond: 413
