@@ -10,6 +10,7 @@
 #include "hovermodal/displacement_t.hpp"
 #include "hovermodal/health_t.hpp"
 #include "hovermodal/modal_estimate_t.hpp"
+#include "hovermodal/preview_t.hpp"
 #include "hovermodal/spectrum_t.hpp"
 #include "hovermodal/tracks_t.hpp"
 
@@ -33,6 +34,7 @@ TEST(LcmLayout, AChangedMessageGoesOutOnAChannelOfAnotherName) {
       {drivers::kTracks, hovermodal::tracks_t::getHash(), 1, 0x84603c26a49a64b8ULL},
       {drivers::kClosure, hovermodal::closure_report_t::getHash(), 1, 0xec39f65ac9809792ULL},
       {drivers::kHealth, hovermodal::health_t::getHash(), 1, 0xe8d9c585c1687dd0ULL},
+      {drivers::kPreview, hovermodal::preview_t::getHash(), 1, 0x8928eb792f1aa552ULL},
   };
   ASSERT_EQ(all.size(), drivers::kTopics);
   for (const Known& one : all) {

@@ -90,6 +90,7 @@ TEST(Config, EachKeySetsItsOwnMemberOnly) {
       {"tracking.least_correlation", "0.5"},
       {"tracking.corner_quality", "0.5"},
       {"telemetry.preview_px", "100"},
+      {"telemetry.max_kbit_s", "64"},
       {"report.tracks", "false"},
       {"closure.adopt", "off"},
       {"closure.window_s", "70"},
