@@ -1,12 +1,10 @@
 #include "drivers/telemetry/lcm_listener.h"
 
-#include <fmt/format.h>
-#include <lcm/lcm.h>
-
-#include <cerrno>
 #include <stdexcept>
+#include <utility>
 
 #include "drivers/telemetry/lcm_self_test.h"
+#include "drivers/telemetry/lcm_source.h"
 #include "drivers/telemetry/lcm_url.h"
 #include "drivers/telemetry/topics.h"
 
@@ -14,54 +12,31 @@ namespace drivers {
 namespace {
 
 constexpr int kPoll_ms = 50;
-constexpr int kMaxBatch = 1000;  // screen and signals wait meanwhile
-// LCM keeps 30 messages by default and drops the rest while the caller draws.
-constexpr int kQueuedMessages = 20000;
-constexpr const char* kReceiveBuffer = "recv_buf_size=4194304";  // bytes; the kernel cuts it to net.core.rmem_max
 
-std::string with_receive_buffer(const std::string& url) {
-  if (!is_udpm(url) || parse_udpm(url).has_recv_buf_size) return url;
-  return url + (url.find('?') == url.npos ? "?" : "&") + kReceiveBuffer;
-}
-
-extern "C" void on_message(const lcm_recv_buf_t* buffer, const char* channel, void* receive) {
-  (*static_cast<LcmListener::Receive*>(receive))(channel, buffer->data, buffer->data_size);
+void require_hearing(const std::string& url, const std::string& prefix) {
+  check_channel_prefix(prefix);
+  const SelfTest test = run_lcm_self_test(url, prefix);
+  if (!test.heard) throw std::runtime_error(test.message);
 }
 
 }  // namespace
 
 struct LcmListener::Handle {
-  Receive receive;
-  std::unique_ptr<lcm_t, decltype(&lcm_destroy)> lcm{nullptr, &lcm_destroy};
+  Handle(const std::string& url, const std::string& prefix, Receive receive)
+      : source(url, topics_pattern(prefix),
+               [prefix, receive = std::move(receive)](std::string_view channel, const void* data, std::size_t n_bytes) {
+                 if (topic_of(prefix, channel)) receive(channel, data, n_bytes);
+               }) {}
+  LcmSource source;
 };
 
-LcmListener::LcmListener(const std::string& url, const std::string& prefix, Receive receive)
-    : handle_(std::make_unique<Handle>()) {
-  handle_->receive = std::move(receive);
-  check_channel_prefix(prefix);
-  const SelfTest test = run_lcm_self_test(url, prefix);
-  if (!test.heard) throw std::runtime_error(test.message);
-  handle_->lcm.reset(lcm_create(with_receive_buffer(url).c_str()));
-  if (!handle_->lcm) {
-    throw std::runtime_error(
-        fmt::format("LCM cannot open \"{}\" (its own words are on stderr). The usual URL is {}", url, kDefaultLcmUrl));
-  }
-  lcm_subscription_t* subscription =
-      lcm_subscribe(handle_->lcm.get(), topics_pattern(prefix).c_str(), &on_message, &handle_->receive);
-  if (subscription == nullptr) throw std::runtime_error(fmt::format("LCM cannot listen on \"{}\"", url));
-  lcm_subscription_set_queue_capacity(subscription, kQueuedMessages);
+LcmListener::LcmListener(const std::string& url, const std::string& prefix, Receive receive) {
+  require_hearing(url, prefix);
+  handle_ = std::make_unique<Handle>(url, prefix, std::move(receive));
 }
 
 LcmListener::~LcmListener() = default;
 
-bool LcmListener::poll() {
-  for (int i = 0; i < kMaxBatch; ++i) {
-    errno = 0;
-    const int n = lcm_handle_timeout(handle_->lcm.get(), i == 0 ? kPoll_ms : 0);
-    if (n < 0) return errno == EINTR;
-    if (n == 0) return true;
-  }
-  return true;
-}
+bool LcmListener::poll() { return handle_->source.poll(kPoll_ms); }
 
 }  // namespace drivers

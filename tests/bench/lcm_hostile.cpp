@@ -1,6 +1,8 @@
 // Malformed messages at every subscriber of ours, for tools/figures/ground_link.sh:
 //   lcm_hostile decode SEEDS N              N of each seed into a StreamMonitor, an AttitudeInbox and the decoders
-//   lcm_hostile send URL N PER_SECOND       N of seed 1 over the socket, damaged datagrams and fragments among them
+//   lcm_hostile send URL N PER_SECOND messages|datagrams
+//                                           N of seed 1 over the socket: malformed messages in LCM's frame, or with
+//                                           damaged heads and fragments among them
 //   lcm_hostile end URL                     a well-formed status "finished", after which listeners end
 #include <arpa/inet.h>
 #include <fmt/format.h>
@@ -126,7 +128,7 @@ class Mouth {
   sockaddr_in to_{};
 };
 
-int send(const std::string& url, std::uint64_t n, double per_second) {
+int send(const std::string& url, std::uint64_t n, double per_second, bool damages_datagrams) {
   const Mouth mouth(url);
   HostileMessages hostile(1);
   std::uint64_t n_fragments = 0, n_heads = 0, n_failed = 0;
@@ -134,7 +136,7 @@ int send(const std::string& url, std::uint64_t n, double per_second) {
   for (std::uint64_t i = 0; i < n; ++i) {
     const auto message = hostile.next();
     const auto number = static_cast<std::uint32_t>(i);
-    const std::size_t how = hostile.below(10);
+    const std::size_t how = damages_datagrams ? hostile.below(3) : 2;
     n_fragments += how == 0 ? 1 : 0;
     n_heads += how == 1 ? 1 : 0;
     const bool ok = mouth.send(how == 0   ? bad_fragment(hostile, message, number)
@@ -173,9 +175,11 @@ int main(int argc, char** argv) {
     fmt::print("fed {} taken {} refused {}\n", sum.n, sum.taken, sum.refused);
     return sum.n == sum.taken + sum.refused ? 0 : 1;
   }
-  if (argc == 5 && std::string_view(argv[1]) == "send")
-    return send(argv[2], std::strtoull(argv[3], nullptr, 10), std::atof(argv[4]));
+  if (argc == 6 && std::string_view(argv[1]) == "send") {
+    return send(argv[2], std::strtoull(argv[3], nullptr, 10), std::atof(argv[4]),
+                std::string_view(argv[5]) == "datagrams");
+  }
   if (argc == 3 && std::string_view(argv[1]) == "end") return end(argv[2]);
-  fmt::print(stderr, "lcm_hostile decode SEEDS N | send URL N PER_SECOND | end URL\n");
+  fmt::print(stderr, "lcm_hostile decode SEEDS N | send URL N PER_SECOND messages|datagrams | end URL\n");
   return 2;
 }

@@ -44,7 +44,7 @@ figure_5() {
       n=$((n + 1))
       measured[$kernel ${name##*, }]=$worst
       line "5.$kernel.${name##*, }" beside "p50 $p50, p99 $p99, worst $worst ms" "-" "from a frame's stamp to our having it, $name scheduling under load, in virtual time"
-    done < <(FRAMES="$(few 120)" LIMIT_S=1200 tests/device/run.sh --kernel $kernel --icount latency 2>&1 || true)
+    done < <(FRAMES="$(few 120)" LIMIT_S=3600 tests/device/run.sh --kernel $kernel --icount latency 2>&1 || true)
   done
   judge 5.latency "worst ${measured[standard realtime]:-nan} ms on the standard kernel, ${measured[rt realtime]:-nan} ms on PREEMPT_RT; ${measured[rt ordinary]:-nan} ms without our settings" \
     "PREEMPT_RT with real-time settings best" "the capturing thread under load, in virtual time" \

@@ -89,7 +89,7 @@ figure_6() {
   need_clip
   own_network tools/figures/lcm_hostile_run.sh "$clip" "$out/hostile" $socket >"$out/hostile.log" 2>&1 || true
   judge 6.sockets "$(cat "$out/hostile/result.txt" 2>/dev/null || echo "it did not end: $(tail -n 1 "$out/hostile.log")")" "none crashes or hangs, each counts" \
-    "$socket datagrams, a fifth with damaged heads or fragments, at spy, inspect, both examples and the attitude listener" \
+    "$socket datagrams at spy, inspect, both examples and the attitude listener, the last fifth with damaged heads and fragments (not at the C++ example: liblcm 1.3.1 itself ends on those)" \
     "$(grep -c '^ok' "$out/hostile/result.txt" 2>/dev/null || true) == 1"
 }
 

@@ -42,8 +42,8 @@ with open(f"{folder}/spy.log", encoding="utf-8") as file:
     text = file.read()
 screens = re.split(r"(?m)^MODES ", text)
 modes = max([len(re.findall(r"(?m)^ +[0-9.]+ .* structural ", screen)) for screen in screens] or [0])
-estimates = {number for number in re.findall(r"(?m)^MODES +estimate ([0-9]+)[^\n]*$", text)
-             if not re.search(rf"(?m)^MODES +estimate {number} [^\n]*parts heard", text)}
+while_running = text[:text.rfind("hovermodal spy  stream")]  # estimates are shown then only when they are whole
+estimates = set(re.findall(r"(?m)^MODES +estimate ([0-9]+)", while_running))
 with open(f"{folder}/report/modal.json", encoding="utf-8") as file:
     report = json.load(file)
 print(json.dumps({

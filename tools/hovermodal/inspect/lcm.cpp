@@ -8,9 +8,12 @@
 #ifdef HOVERMODAL_WITH_LCM
 #include <fmt/format.h>
 
+#include <chrono>
+#include <string_view>
+
 #include "drivers/telemetry/lcm_diagnosis.h"
-#include "drivers/telemetry/lcm_url.h"
-#include "tools/hovermodal/spy/listener.h"
+#include "drivers/telemetry/lcm_listener.h"
+#include "drivers/telemetry/stream_monitor.h"
 #include "tools/hovermodal/spy/text.h"
 #endif
 
@@ -35,9 +38,12 @@ void print_line(drivers::FindingKind kind, const std::string& what, const std::s
 // What a service sends there: how many messages of each kind, and whether they can be read.
 void listen_for_a_service(const Options& options) {
   drivers::StreamMonitor monitor(options.prefix);
-  Listener listener(options.url, options.prefix, monitor);
-  const std::int64_t end_ns = listener_now_ns() + static_cast<std::int64_t>(options.seconds * 1e9);
-  while (listener_now_ns() < end_ns && listener.poll()) {
+  drivers::LcmListener listener(options.url, options.prefix,
+                                [&monitor](std::string_view channel, const void* data, std::size_t n_bytes) {
+                                  monitor.receive(channel, data, n_bytes, 1);  // no time is looked at here
+                                });
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(options.seconds);
+  while (std::chrono::steady_clock::now() < end && listener.poll()) {
   }
   std::string heard;
   for (std::size_t i = 0; i < drivers::kTopics; ++i) {

@@ -100,7 +100,7 @@ void write_picture(const Options& options, const Watched& watched, const core::R
   app::PictureInputs inputs;
   inputs.first_frame = &watched.first;
   inputs.keyframe = &keyframe;
-  for (const core::ProposedRegion* one : in_order(proposal)) inputs.regions.push_back(one->region);
+  inputs.regions = in_order(proposal);
   drivers::write_file_atomically(options.picture, app::frame_png(inputs));
 }
 
@@ -119,7 +119,7 @@ void run_regions(const Options& options) {
     throw std::runtime_error(
         fmt::format("regions: \"{}\": no region found: {}", drivers::printable(options.clip), proposal.remark));
   }
-  const std::string yaml = regions_yaml(proposal);
+  const std::string yaml = regions_yaml(in_order(proposal));
   if (options.out.empty()) {
     fmt::print("\n{}", yaml);
   } else {

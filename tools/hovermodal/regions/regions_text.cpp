@@ -11,31 +11,42 @@ namespace {
 using core::ProposedRegion;
 using core::RegionRole;
 
-std::string axis_text(double degrees) {
-  return degrees == 0.0 ? "u" : degrees == 90.0 || degrees == -90.0 ? "v" : fmt::format("{:g}", degrees);
-}
-
-const char* role_text(RegionRole role) {
-  return role == RegionRole::kBase ? "base" : role == RegionRole::kBackground ? "background" : "structure";
-}
-
 std::string table_line(const std::string& rank, const ProposedRegion& one) {
   const core::Region& r = one.region;
   return fmt::format("{:>4}  {:<8} {:>5} {:>5} {:>5} {:>5}  {:<10} {:>4} {:>7} {:>10.3f} {:>9.4f}\n", rank, r.name,
-                     r.u_px, r.v_px, r.width_px, r.height_px, role_text(r.role), axis_text(r.axis_deg), one.n_points,
+                     r.u_px, r.v_px, r.width_px, r.height_px, role_text(r.role), axis_text(r), one.n_points,
                      one.motion_px, one.noise_px);
 }
 
 }  // namespace
 
-std::vector<const ProposedRegion*> in_order(const core::RegionProposal& proposal) {
-  std::vector<const ProposedRegion*> out;
-  for (const ProposedRegion& one : proposal.regions) out.push_back(&one);
+const char* role_text(RegionRole role) noexcept {
+  switch (role) {
+    case RegionRole::kStructure:
+      return "structure";
+    case RegionRole::kBase:
+      return "base";
+    case RegionRole::kBackground:
+      return "background";
+    case RegionRole::kGround:
+      return "ground";
+  }
+  return "";
+}
+
+std::string axis_text(const core::Region& region) {
+  if (region.both_axes) return "both";
+  const double degrees = region.axis_deg;
+  return degrees == 0.0 ? "u" : degrees == 90.0 || degrees == -90.0 ? "v" : fmt::format("{:g}", degrees);
+}
+
+std::vector<core::Region> in_order(const core::RegionProposal& proposal) {
+  std::vector<core::Region> out;
+  for (const ProposedRegion& one : proposal.regions) out.push_back(one.region);
   const bool upright = core::is_upright(proposal.regions);
-  std::sort(out.begin(), out.end(), [&](const ProposedRegion* a, const ProposedRegion* b) {
-    return upright ? a->region.v_px > b->region.v_px : a->region.u_px < b->region.u_px;
-  });
-  if (proposal.rest) out.push_back(&*proposal.rest);
+  std::sort(out.begin(), out.end(),
+            [&](const core::Region& a, const core::Region& b) { return upright ? a.v_px > b.v_px : a.u_px < b.u_px; });
+  if (proposal.rest) out.push_back(proposal.rest->region);
   return out;
 }
 
@@ -59,15 +70,13 @@ std::string regions_table(const core::RegionProposal& proposal) {
   return out;
 }
 
-std::string regions_yaml(const core::RegionProposal& proposal) {
+std::string regions_yaml(const std::vector<core::Region>& regions) {
   std::string out =
-      "# Proposed by `hovermodal regions`: look at the picture, delete what does not belong. role: base for a part "
-      "that\n"
-      "# moves with the ground.\nregions:\n";
-  for (const ProposedRegion* one : in_order(proposal)) {
-    const core::Region& r = one->region;
+      "# By `hovermodal regions`: look at the picture, delete what does not belong. role: base for a part that moves\n"
+      "# with the ground.\nregions:\n";
+  for (const core::Region& r : regions) {
     out += fmt::format("  - {{name: {}, rect: [{}, {}, {}, {}], role: {}, axis: {}}}\n", r.name, r.u_px, r.v_px,
-                       r.width_px, r.height_px, role_text(r.role), axis_text(r.axis_deg));
+                       r.width_px, r.height_px, role_text(r.role), axis_text(r));
   }
   return out;
 }

@@ -8,7 +8,7 @@
 namespace tools {
 
 // By name, part1 first, the resting one last: the order of the file and of the picture.
-[[nodiscard]] std::vector<const core::ProposedRegion*> in_order(const core::RegionProposal& proposal);
+[[nodiscard]] std::vector<core::Region> in_order(const core::RegionProposal& proposal);
 
 // Gives the lowest part the role `base` and the name "base". Throws std::invalid_argument unless the parts stand one
 // above the other.
@@ -18,6 +18,10 @@ void make_lowest_base(core::RegionProposal& proposal);
 [[nodiscard]] std::string regions_table(const core::RegionProposal& proposal);
 
 // The regions: block of a configuration.
-[[nodiscard]] std::string regions_yaml(const core::RegionProposal& proposal);
+[[nodiscard]] std::string regions_yaml(const std::vector<core::Region>& regions);
+
+// As a configuration writes them.
+[[nodiscard]] const char* role_text(core::RegionRole role) noexcept;
+[[nodiscard]] std::string axis_text(const core::Region& region);
 
 }  // namespace tools
