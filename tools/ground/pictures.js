@@ -318,7 +318,7 @@ export class ModeCards {
     const known = history.filter((h) => Number.isFinite(h.damping) && Number.isFinite(h.damping_std));
     c.font = "13px system-ui,sans-serif";
     c.fillStyle = cssColour("--quiet");
-    c.fillText("damping and its standard deviation over the flight, from 0", 0, 12);
+    c.fillText("damping ± standard deviation, from 0", 0, 12);
     if (known.length < 2) return;
     const band = (h) => h.damping_std;
     const high = Math.max(...known.map((h) => h.damping + band(h))), first = known[0].t_s, last = known[known.length - 1].t_s;
