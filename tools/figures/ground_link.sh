@@ -32,7 +32,8 @@ need_log() {
 
 # --- 4: lcm-spy --------------------------------------------------------------------------------------------------------
 figure_4() {
-  local what="lcm-spy of Debian with hovermodal_lcm.jar, a log of one run" bar="7 listed and open, at most 1 % undecodable"
+  local n_types=8  # what a service sends, and attitude_t, which it hears
+  local what="lcm-spy of Debian with hovermodal_lcm.jar, a log of one run" bar="$n_types listed and open, at most 1 % undecodable"
   if ! cmake -B build/release -S . >/dev/null 2>&1 || ! quietly tools/build.sh hovermodal_lcm_jar || ! command -v Xvfb >/dev/null; then
     line 4 SKIP "no JDK, no LCM for Java or no Xvfb (tools/setup.sh --lcm)" "$bar" "$what"
     return
@@ -45,14 +46,14 @@ figure_4() {
   java -cp "$path:$out/classes" LcmSpyCheck log "$out/all_types.lcm" >"$out/decoded.txt"
   local types_decoded errors messages
   read -r types_decoded errors messages < <(awk '$1 == "channel" { if ($4 != "unknown" && $8 == 0 && $6 > 0) n++; e += $8; m += $6 } END { print n + 0, e + 0, m + 0 }' "$out/decoded.txt")
-  judge 4.types "$types_decoded of 7 types, $messages messages, $errors not decoded ($(awk '$1 == "channel" { printf "%s%s", sep, $4; sep = " " }' "$out/decoded.txt"))" \
-    "7 of 7, every message" "$what, decoded through lcm-spy's own type search" "$types_decoded == 7 && $errors == 0"
+  judge 4.types "$types_decoded of $n_types types, $messages messages, $errors not decoded ($(awk '$1 == "channel" { printf "%s%s", sep, $4; sep = " " }' "$out/decoded.txt"))" \
+    "$n_types of $n_types, every message" "$what, decoded through lcm-spy's own type search" "$types_decoded == $n_types && $errors == 0"
   own_network tools/figures/lcm_spy_run.sh "$out/all_types.lcm" "$out" || true
   local listed windows
   listed=$(awk '$1 == "channel" && $4 != "unknown" && $6 > 100 * $8 { n++ } END { print n + 0 }' "$out/lcm_spy.txt")
   windows=$(awk '$1 == "windows" { print $2 }' "$out/lcm_spy.txt")
-  judge 4 "$listed of 7 channels in the list with their type, ${windows:-0} windows show fields, $(awk '$1 == "channel" { n += $6; e += $8 } END { printf "%d messages, %d that lcm-spy calls undecodable", n, e }' "$out/lcm_spy.txt"); picture lcm_spy.png" "$bar" \
-    "the program itself under Xvfb, the log played by lcm-logplayer" "$listed == 7 && ${windows:-0} == 7"
+  judge 4 "$listed of $n_types channels in the list with their type, ${windows:-0} windows show fields, $(awk '$1 == "channel" { n += $6; e += $8 } END { printf "%d messages, %d that lcm-spy calls undecodable", n, e }' "$out/lcm_spy.txt"); picture lcm_spy.png" "$bar" \
+    "the program itself under Xvfb, the log played by lcm-logplayer" "$listed == $n_types && ${windows:-0} == $n_types"
 }
 
 # --- 5: a bad radio link -----------------------------------------------------------------------------------------------
