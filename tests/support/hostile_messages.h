@@ -49,6 +49,7 @@ class HostileMessages {
         encoded_bytes(drivers::to_message(sample_tracks(6, 1), identity)),
         encoded_bytes(drivers::to_message(sample_closure(2, 1), identity)),
         encoded_bytes(drivers::to_message(sample_health("running", 1), channels, identity)),
+        encoded_bytes(drivers::to_message(sample_preview(1), {}, identity)),
         encoded_bytes(hovermodal::attitude_t{1, {1.0, 0.0, 0.0, 0.0}})};
     for (std::size_t i = 0; i <= kAttitude; ++i) {
       const bool is_attitude = i == kAttitude;

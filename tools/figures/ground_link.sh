@@ -85,7 +85,7 @@ figure_5() {
 figure_6() {
   local seeds=10 socket=$((hostile / 10)) counted
   counted=$("$bin/lcm_hostile" decode $seeds $((hostile / seeds)) || echo "crashed")
-  judge 6.decoders "${counted#fed }" "$hostile, each counted once" "malformed messages of 7 types, seeds 1-$seeds, into StreamMonitor and AttitudeInbox" \
+  judge 6.decoders "${counted#fed }" "$hostile, each counted once" "malformed messages of every type, seeds 1-$seeds, into StreamMonitor and AttitudeInbox" \
     "$(echo "$counted" | awk '{ print ($2 == '"$hostile"' && $2 == $4 + $6) ? 1 : 0 }') == 1"
   need_clip
   own_network tools/figures/lcm_hostile_run.sh "$clip" "$out/hostile" $socket >"$out/hostile.log" 2>&1 || true
