@@ -17,8 +17,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMaxFileBytes = std::size_t{256} << 20;
-
 std::string make_folder() {
   std::string form = (fs::temp_directory_path() / "hovermodal_XXXXXX").string();
   if (mkdtemp(form.data()) == nullptr)
@@ -33,7 +31,8 @@ core::RunHead run_head(const AppConfig& config, const core::CameraInfo& camera, 
   core::RunHead head{config_yaml(config), camera, keyframe, {}, continues};
   const auto take = [&](const char* key, const std::string& path) {
     if (path.empty()) return;
-    head.files.push_back({key, fs::path(path).filename().string(), drivers::read_text_file(path, kMaxFileBytes)});
+    head.files.push_back(
+        {key, fs::path(path).filename().string(), drivers::read_text_file(path, core::NamedFile::kMostBytes)});
   };
   take("calibration.file", config.calibration.file);
   take("camera.attitude_file", config.camera.attitude_file);

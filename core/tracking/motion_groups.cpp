@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/linear/median.h"
 #include "core/tracking/similarity.h"
 
 namespace core {
@@ -146,12 +147,6 @@ void take_out_camera(const MotionGroup& rest, const std::vector<SurveyedPoint>& 
       fast[i][t].v -= m.mean_p.v + across * u + along * v - points[i].at.v;
     }
   }
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Frees all motion from the camera's, as the group shows it. A structure stands on something: where its motion fades

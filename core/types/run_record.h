@@ -30,6 +30,7 @@ struct AttitudeBatch {
 
 // A file that the configuration names, as it was.
 struct NamedFile {
+  static constexpr std::size_t kMostBytes = std::size_t{256} << 20;
   std::string key;  // of the configuration
   std::string name;
   std::string bytes;

@@ -18,7 +18,6 @@ inline constexpr const char* kRunSuffix = "_RUN";
 inline constexpr const char* kRunFileSuffix = "_RUN_FILE";
 inline constexpr const char* kRunFrameSuffix = "_RUN_FRAME";
 inline constexpr std::size_t kFilePieceBytes = std::size_t{256} << 10;
-inline constexpr std::size_t kMaxFileBytes = std::size_t{256} << 20;  // of one named file
 
 [[nodiscard]] hovermodal::run_t to_message(const core::RunHead& head, const StreamIdentity& identity);
 [[nodiscard]] std::vector<hovermodal::run_file_t> to_messages(const core::NamedFile& file);

@@ -7,6 +7,7 @@
 #include "drivers/telemetry/lcm_source.h"
 #include "drivers/telemetry/lcm_url.h"
 #include "drivers/telemetry/topics.h"
+#include "rt/clock.h"
 
 namespace drivers {
 namespace {
@@ -36,6 +37,8 @@ LcmListener::LcmListener(const std::string& url, const std::string& prefix, Rece
 }
 
 LcmListener::~LcmListener() = default;
+
+std::int64_t LcmListener::now_ns() noexcept { return rt::monotonic_ns(); }
 
 bool LcmListener::poll() { return handle_->source.poll(kPoll_ms); }
 

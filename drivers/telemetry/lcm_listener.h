@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -19,6 +20,9 @@ class LcmListener {
   ~LcmListener();
   LcmListener(const LcmListener&) = delete;
   LcmListener& operator=(const LcmListener&) = delete;
+
+  // The clock for StreamMonitor::receive and what shows it.
+  [[nodiscard]] static std::int64_t now_ns() noexcept;
 
   // Waits a little for a message and takes all that are there, within reason. False at the end of a log.
   bool poll();

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <lcm/lcm.h>
 
-#include <chrono>
 #include <stdexcept>
 #include <type_traits>
 
@@ -14,15 +13,6 @@
 #include "rt/clock.h"
 
 namespace drivers {
-namespace {
-
-std::int64_t utc_now_ns() noexcept {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
-
-}  // namespace
-
 struct LcmPublisher::Ways {
   std::unique_ptr<lcm_t, decltype(&lcm_destroy)> network{nullptr, &lcm_destroy};
   std::vector<std::shared_ptr<EventLog>> logs;
@@ -103,7 +93,7 @@ void LcmPublisher::send_waiting_spectra(bool whatever_the_budget) {
   while (!waiting_spectra_.empty()) {
     hovermodal::spectrum_t& spectrum = waiting_spectra_.front();
     if (!may_send(kSpectrum, spectrum.getEncodedSize()) && !whatever_the_budget) return;
-    spectrum.utc_ns = utc_now_ns();
+    spectrum.utc_ns = rt::utc_ns();
     (send_over_network(kSpectrum, spectrum) ? n_sent_ : n_failed_).fetch_add(1, std::memory_order_relaxed);
     waiting_spectra_.pop_front();
   }
@@ -112,7 +102,7 @@ void LcmPublisher::send_waiting_spectra(bool whatever_the_budget) {
 template <class Message>
 bool LcmPublisher::send(Topic topic, Message& message) {
   constexpr bool kMayWait = std::is_same_v<Message, hovermodal::spectrum_t>;
-  message.utc_ns = utc_now_ns();
+  message.utc_ns = rt::utc_ns();
   bool ok = true;
   bool is_held_back = false;
   if (ways_->network) {

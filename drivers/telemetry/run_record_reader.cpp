@@ -109,8 +109,8 @@ class RunRecordReader::Impl {
   void take_piece(const hovermodal::run_file_t& piece) {
     if (pieces_.empty() || pieces_.back().key != piece.key) pieces_.push_back({piece.key, piece.name, {}});
     std::string& bytes = pieces_.back().bytes;
-    const bool fits =
-        piece.offset == static_cast<std::int64_t>(bytes.size()) && bytes.size() + piece.bytes.size() <= kMaxFileBytes;
+    const bool fits = piece.offset == static_cast<std::int64_t>(bytes.size()) &&
+                      bytes.size() + piece.bytes.size() <= core::NamedFile::kMostBytes;
     if (fits) {
       bytes.append(piece.bytes.begin(), piece.bytes.end());
     } else {

@@ -1,19 +1,14 @@
 #include "drivers/telemetry/run_recorder.h"
 
 #include <atomic>
-#include <chrono>
 #include <vector>
 
 #include "drivers/telemetry/encode_run.h"
 #include "drivers/telemetry/rotating_log.h"
+#include "rt/clock.h"
 
 namespace drivers {
 namespace {
-
-std::int64_t utc_now_ns() noexcept {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 template <class Message>
 std::vector<std::uint8_t> encoded(const Message& message) {
@@ -38,7 +33,7 @@ class LcmRunRecorder : public RunRecorder {
 
   bool add(const core::TrackFrame& tracks, const core::AttitudeBatch& attitude) noexcept override {
     try {
-      if (log_->write(frame_channel_, encoded(to_message(tracks, attitude)), utc_now_ns())) return true;
+      if (log_->write(frame_channel_, encoded(to_message(tracks, attitude)), rt::utc_ns())) return true;
     } catch (...) {  // no memory: a lost frame
     }
     n_lost_.fetch_add(1, std::memory_order_relaxed);
@@ -52,7 +47,7 @@ class LcmRunRecorder : public RunRecorder {
  private:
   [[nodiscard]] bool write_head(EventLog& file, hovermodal::run_t message, const std::vector<core::NamedFile>& files,
                                 int number) const {
-    const std::int64_t now_ns = utc_now_ns();
+    const std::int64_t now_ns = rt::utc_ns();
     for (const core::NamedFile& named : files) {
       for (const auto& piece : to_messages(named)) {
         if (!file.write(prefix_ + kRunFileSuffix, encoded(piece), now_ns)) return false;

@@ -13,9 +13,9 @@ namespace drivers {
 
 // Which messages may go over a link of so many kbit/s: a token bucket that holds half a second of it. Estimates, health
 // and reports of closing the loop always go, and are paid for later. Displacements, spectra, tracks and pictures
-// share what is left, 10 : 6 : 4 : 5, each from a bucket of its own, so that none crowds the others out; what one of them does not use
-// overflows to all. A message larger than a bucket goes when its bucket is full. In the sender's time: what is sent
-// enters no result. One thread.
+// share what is left, 10 : 6 : 4 : 5, each from a bucket of its own, so that none crowds the others out; what one of
+// them does not use overflows to all. A message larger than a bucket goes when its bucket is full. In the sender's
+// time: what is sent enters no result. One thread.
 class SendBudget {
  public:
   static constexpr double kHolds_s = 0.5;

@@ -29,11 +29,6 @@ void watch_signals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-std::int64_t now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
 std::string content_type(std::string_view name) {
   const std::string_view ending = name.substr(name.rfind('.') + 1);
   if (ending == "html") return "text/html; charset=utf-8";
@@ -49,14 +44,14 @@ void add_paths(WebServer& server, LiveStream& stream) {
     server.add_asset(path, content_type(file.name), file.text);
   }
   server.add_get("/snapshot.json", [&](const WebRequest&) {
-    return WebResponse{200, "application/json", stream.snapshot(now_ns())};
+    return WebResponse{200, "application/json", stream.snapshot(drivers::LcmListener::now_ns())};
   });
   server.add_get("/preview.jpg", [&](const WebRequest&) {
     std::string jpeg = stream.preview_jpeg();
     if (jpeg.empty()) return WebResponse{404, "text/plain; charset=utf-8", "no picture has come yet\n"};
     return WebResponse{200, "image/jpeg", std::move(jpeg)};
   });
-  server.add_event_source("/events", kEventPeriod_ms, [&] { return stream.news(now_ns()); });
+  server.add_event_source("/events", kEventPeriod_ms, [&] { return stream.news(drivers::LcmListener::now_ns()); });
 }
 
 // Every IPv4 address of this computer that others may reach, for an address that stands for all of them.
@@ -105,15 +100,16 @@ void run_ground(const GroundOptions& options) {
   LiveStream stream(options.prefix);
   WebServer server(web_options(options));
   add_paths(server, stream);
-  drivers::LcmListener listener(
-      options.url, options.prefix,
-      [&](std::string_view channel, const void* data, std::size_t n) { stream.receive(channel, data, n, now_ns()); });
+  drivers::LcmListener listener(options.url, options.prefix,
+                                [&](std::string_view channel, const void* data, std::size_t n) {
+                                  stream.receive(channel, data, n, drivers::LcmListener::now_ns());
+                                });
   watch_signals();
   server.start();
   tell_where(server, options);
-  const std::int64_t end_ns = now_ns() + static_cast<std::int64_t>(options.seconds * 1e9);
+  const std::int64_t end_ns = drivers::LcmListener::now_ns() + static_cast<std::int64_t>(options.seconds * 1e9);
   bool has_more = true;
-  while (stop_requested == 0 && (options.seconds <= 0.0 || now_ns() < end_ns)) {
+  while (stop_requested == 0 && (options.seconds <= 0.0 || drivers::LcmListener::now_ns() < end_ns)) {
     if (!has_more) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     } else if (has_more = listener.poll(); !has_more) {

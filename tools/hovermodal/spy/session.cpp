@@ -15,7 +15,6 @@ void tools::run_spy(const SpyOptions&) {
 #include <fmt/format.h>
 #include <signal.h>
 
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <optional>
@@ -36,11 +35,6 @@ constexpr std::int64_t kAfterEnd_ns = 500'000'000;  // for what is still under w
 volatile sig_atomic_t stop_requested = 0;
 
 extern "C" void request_stop(int) { stop_requested = 1; }
-
-std::int64_t now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 std::vector<std::string> render(SpyView what, const drivers::StreamMonitor& monitor, const ViewOptions& view) {
   return what == SpyView::kModes ? render_screen(monitor, view) : render_stages(monitor, view);
@@ -96,11 +90,11 @@ enum class End { kAsked, kTimeOver, kStreamEnded };
 End listen(const SpyOptions& options, drivers::LcmListener& listener, drivers::StreamMonitor& monitor,
            TerminalScreen* screen, ViewOptions view) {
   PlainOutput plain(options.view);
-  const std::int64_t begin_ns = now_ns();
+  const std::int64_t begin_ns = drivers::LcmListener::now_ns();
   std::int64_t drawn_ns = 0;
   for (;;) {
     const bool has_more = listener.poll();
-    view.now_ns = now_ns();
+    view.now_ns = drivers::LcmListener::now_ns();
     if (screen == nullptr) {
       plain.update(monitor, view);
     } else if (view.now_ns - drawn_ns >= kRedraw_ns) {
@@ -138,7 +132,7 @@ void run_spy(const SpyOptions& options) {
   }
   drivers::LcmListener listener(options.url, options.prefix,
                                 [&monitor](std::string_view channel, const void* data, std::size_t n_bytes) {
-                                  monitor.receive(channel, data, n_bytes, now_ns());
+                                  monitor.receive(channel, data, n_bytes, drivers::LcmListener::now_ns());
                                 });
   watch_signals();
   std::optional<TerminalScreen> screen;
@@ -152,7 +146,7 @@ void run_spy(const SpyOptions& options) {
   }
   const End end = listen(options, listener, monitor, screen ? &*screen : nullptr, view);
   screen.reset();
-  view.now_ns = now_ns();
+  view.now_ns = drivers::LcmListener::now_ns();
   for (const auto& line : render(options.view, monitor, view)) std::printf("%s\n", line.c_str());
   count_file << (options.count_file.empty() ? "" : count_json(monitor)) << std::flush;
   if (!options.count_file.empty() && !count_file) {
