@@ -2,17 +2,17 @@
 # The ground side: the page, records and replays, LCM's own tools, a bad link, hostile packets and requests. One line a
 # figure; half an hour on two processors, --quick: ten minutes.
 #   tools/figures/ground.sh [--quick] [FIGURE...]      FIGURE: 1 and 2 (the page), 3 (replay), 4 (lcm-spy), 5 (a bad link),
-#                                                      6 (hostile packets), 6h (hostile requests), 7 (regions proposed)
+#                                                      6 (hostile packets), 6h (hostile requests), 7 (regions proposed), 7p (their page)
 set -uo pipefail
 cd "$(dirname "$0")/../.."
 quick=()
 [ "${1:-}" != --quick ] || { quick=(--quick) && shift; }
 figures=("$@")
-[ $# -gt 0 ] || figures=(1 2 3 4 5 6 6h 7)
+[ $# -gt 0 ] || figures=(1 2 3 4 5 6 6h 7 7p)
 failed=0
 for figure in "${figures[@]}"; do
   case $figure in
-    1 | 2 | 6h) script=ground_page ;;
+    1 | 2 | 6h | 7p) script=ground_page ;;
     3) script=ground_record ;;
     *) script=ground_link ;;
   esac

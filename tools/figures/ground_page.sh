@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The page of `hovermodal ground` in a browser without a screen, and its web server under attack. One line a figure; ten
-# minutes, --quick: six. Pictures of the page: build/figures/ground/desktop.png and phone.png.
-#   tools/figures/ground_page.sh [--quick] [FIGURE...]      FIGURE: some of 1, 2, 6h (default: all)
+# The pages of `hovermodal ground` and `hovermodal regions` in a browser without a screen, and their web server under attack.
+# One line a figure; ten minutes, --quick: six. Pictures: build/figures/ground/desktop.png, phone.png, regions_page.png.
+#   tools/figures/ground_page.sh [--quick] [FIGURE...]      FIGURE: some of 1, 2, 6h, 7p (default: all)
 # SKIP where there is no multicast on this computer (ip route add 224.0.0.0/4 dev lo).
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -9,7 +9,7 @@ cd "$(dirname "$0")/../.."
 hours=24 fuzzed=3000 slow_s=60
 [ "${1:-}" != --quick ] || { hours=6 fuzzed=500 slow_s=15 && shift; }
 figures=("${@:-}")
-[ -n "${figures[0]}" ] || figures=(1 2 6h)
+[ -n "${figures[0]}" ] || figures=(1 2 6h 7p)
 out=$PWD/build/figures/ground
 url="udpm://239.255.76.71:7671?ttl=0"
 mkdir -p "$out"
@@ -90,6 +90,20 @@ figure_6h() {
     "$(v grown_bytes) < 32e6"
   judge 6h.service "alive: $(v alive); $(v service_frames) frames processed on board, $(v service_frames_dropped) dropped, $(v messages_lost) messages lost on the link" \
     "alive, 0 dropped, 0 lost" "service and ground station on the same computer meanwhile" "\"$(v alive)\" == \"True\" && $(v service_frames_dropped) == 0 && $(v messages_lost) == 0"
+}
+
+# --- 7p: the page of regions ------------------------------------------------------------------------------------------
+figure_7p() {
+  local what="the page of hovermodal regions in chromium: drag, keys, a corner, a name, remove, add, save"
+  clip
+  rm -f "$out/picker.txt"
+  check picker regions_run.py "$bin" "$out/clip" "$out" || { line 7p MISS "the check ended early: $(tail -n 1 "$out/picker.err")" "works" "$what"; return; }
+  v() { value picker "$1"; }
+  judge 7p "$(v proposed) proposed; dragged by $(v dragged_px), by keys $(v by_keys_px), by its corner $(v by_corner_px) px of the image; wrong name: $(v wrong_name); then $(v in_file) of $(v on_page) as on the page in the file" \
+    "each moves as told, a wrong name is refused, the file is what the page shows" "$what" \
+    "\"$(v by_keys_px)\" == \"[1, 10, 1, 0]\" && \"$(v dragged_px)\" ~ /^\\[[1-9][0-9]*, [1-9][0-9]*, 0, 0\\]$/ && \"$(v by_corner_px)\" ~ /^\\[0, 0, [1-9][0-9]*, [1-9][0-9]*\\]$/ && \"$(v wrong_refused)\" == \"True\" && \"$(v renamed)\" == \"True\" && $(v in_file) == $(v on_page) && $(v on_page) >= 5"
+  judge 7p.page "$(v console_lines) errors or warnings of the page, $(v phone_overflow_px) px beyond the right edge at 390 px" "0, 0" "console and phone" \
+    "$(v console_lines) == 0 && $(v phone_overflow_px) == 0"
 }
 
 run_figures "${figures[@]}"

@@ -12,7 +12,7 @@
 
 #include "drivers/telemetry/lcm_listener.h"
 #include "tools/hovermodal/ground/live_stream.h"
-#include "tools/hovermodal/ground/page_files.h"
+#include "tools/hovermodal/ground/page.h"
 #include "tools/hovermodal/ground/web_server.h"
 
 namespace tools {
@@ -29,20 +29,8 @@ void watch_signals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-std::string content_type(std::string_view name) {
-  const std::string_view ending = name.substr(name.rfind('.') + 1);
-  if (ending == "html") return "text/html; charset=utf-8";
-  if (ending == "css") return "text/css; charset=utf-8";
-  if (ending == "js") return "text/javascript; charset=utf-8";
-  if (ending == "svg") return "image/svg+xml";
-  return "text/plain; charset=utf-8";
-}
-
 void add_paths(WebServer& server, LiveStream& stream) {
-  for (const PageFile& file : page_files()) {
-    const std::string path = file.name == "index.html" ? "/" : "/" + std::string(file.name);
-    server.add_asset(path, content_type(file.name), file.text);
-  }
+  add_page(server, ground_page());
   server.add_get("/snapshot.json", [&](const WebRequest&) {
     return WebResponse{200, "application/json", stream.snapshot(drivers::LcmListener::now_ns())};
   });

@@ -14,6 +14,7 @@
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/pictures/parts.h"
 #include "tools/hovermodal/commands.h"
+#include "tools/hovermodal/regions/picker.h"
 #include "tools/hovermodal/regions/regions_text.h"
 
 namespace tools {
@@ -22,7 +23,8 @@ namespace {
 struct Options {
   std::string clip, out, picture;
   double rate_hz = 0.0, seconds = 12.0;
-  bool lowest_is_base = false;
+  bool lowest_is_base = false, serve = false;
+  int port = 0;
   std::size_t most = 12;
 };
 
@@ -104,7 +106,18 @@ void write_picture(const Options& options, const Watched& watched, const core::R
   drivers::write_file_atomically(options.picture, app::frame_png(inputs));
 }
 
+void serve(const Options& options, const Watched& watched, const core::RegionProposal& proposal) {
+  app::PictureInputs inputs;
+  inputs.first_frame = &watched.first;
+  run_picker(in_order(proposal), app::frame_png(inputs),
+             {options.out, options.port, watched.info.width_px, watched.info.height_px});
+}
+
 void run_regions(const Options& options) {
+  if (options.serve && options.out.empty()) {
+    throw std::invalid_argument(
+        "regions --serve: --out FILE is missing: where the page's Save button writes the regions");
+  }
   const Watched watched = watch(options);
   core::RegionProposalConfig config;
   config.max_regions = options.most;
@@ -126,6 +139,7 @@ void run_regions(const Options& options) {
     drivers::write_file_atomically(options.out, yaml);
   }
   if (!options.picture.empty()) write_picture(options, watched, proposal);
+  if (options.serve) serve(options, watched, proposal);
 }
 
 }  // namespace
@@ -146,6 +160,10 @@ void add_regions(CLI::App& app) {
       ->check(CLI::Range(1, 60))
       ->capture_default_str();
   command->add_flag("--lowest-is-base", options->lowest_is_base, "The lowest part moves with the ground: role base");
+  command->add_flag("--serve", options->serve,
+                    "Then adjust them in a page, by mouse, finger or keyboard; its Save button writes --out. This "
+                    "computer alone can open it");
+  command->add_option("--port", options->port, "Of the page; 0 = any that is free")->check(CLI::Range(0, 65535));
   command->footer(kFooter);
   command->callback([options] { run_regions(*options); });
 }
