@@ -69,7 +69,13 @@ void warn_of_record(const drivers::RunRecorder* recorder, const TrackingStage& t
       "{} frames are not in the record: is the disk slow or full, or record.quota_mb reached? A replay lacks them", n));
 }
 
-void warn_of_attitude(const TrackingStage& tracking, core::Health& health) {
+void warn_of_attitude(const drivers::AttitudeListener* listener, const TrackingStage& tracking, core::Health& health) {
+  const auto counts = listener != nullptr ? listener->counts() : drivers::AttitudeListener::Counts{};
+  if (counts.undecodable + counts.dropped > 0) {
+    health.warnings.push_back(fmt::format(
+        "camera.attitude_channel: {} messages are no attitude, {} came faster than they were used, {} were taken",
+        counts.undecodable, counts.dropped, counts.received));
+  }
   if (tracking.attitude_given_up()) {
     health.warnings.emplace_back(
         "the picture contradicts the attitude, which is not used since: is camera.mount_rpy_deg right, are both on one "
@@ -132,7 +138,10 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
   if (const std::string failure = checkpoint_ != nullptr ? checkpoint_->failure() : ""; !failure.empty())
     health.warnings.push_back("the run's state could not be kept: " + failure);
   warn_of_record(recorder_, tracking_, health);
-  warn_of_attitude(tracking_, health);
+  warn_of_attitude(listener_, tracking_, health);
+  if (const std::uint64_t n = tracking_.n_previews_lost(); n > 0) {
+    health.warnings.push_back(fmt::format("{} pictures for the ground were not sent: newer ones came before", n));
+  }
   if (const double jitter = spectrum_.worst_jitter_cells(); jitter > kJitterWorthAWord) {
     health.warnings.push_back(fmt::format(
         "time stamps stray by up to {:.2f} of a frame from even spacing; spectra take them as even", jitter));

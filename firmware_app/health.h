@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/types/health.h"
+#include "drivers/telemetry/attitude_listener.h"
 #include "firmware_app/stages/capture_stage.h"
 #include "firmware_app/stages/checkpoint_stage.h"
 #include "firmware_app/stages/publish_stage.h"
@@ -33,6 +34,7 @@ class HealthCollector {
   void name_regions(std::vector<std::string> names) { region_names_ = std::move(names); }  // as configured
   void watch_camera(const drivers::Camera& camera) { camera_ = &camera; }
   void watch_record(const drivers::RunRecorder& recorder) { recorder_ = &recorder; }
+  void watch_attitude(const drivers::AttitudeListener& listener) { listener_ = &listener; }
   void watch_state(const CheckpointStage& checkpoint) { checkpoint_ = &checkpoint; }
 
   // Any thread.
@@ -48,8 +50,9 @@ class HealthCollector {
   const TrackingStage& tracking_;
   const SpectrumStage& spectrum_;
   const drivers::Camera* camera_ = nullptr;
-  const drivers::RunRecorder* recorder_ = nullptr;  // null: the run is not recorded
-  const CheckpointStage* checkpoint_ = nullptr;     // null: no state is kept
+  const drivers::RunRecorder* recorder_ = nullptr;       // null: the run is not recorded
+  const drivers::AttitudeListener* listener_ = nullptr;  // null: no attitude comes live
+  const CheckpointStage* checkpoint_ = nullptr;          // null: no state is kept
   std::vector<Queue> queues_;
   std::vector<std::string> region_names_;
   mutable std::mutex warnings_mutex_;

@@ -181,6 +181,7 @@ struct Pipeline::Parts {
   void watch() {
     health.name_regions(region_names(config));
     health.watch_camera(*source.camera);
+    if (attitude) health.watch_attitude(*attitude);
     if (recorder) health.watch_record(*recorder);
     health.watch({&run_capture, {}, 0});
     health.watch({&run_tracking, [this] { return frames.depth(); }, frames.n_slots()});

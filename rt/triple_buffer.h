@@ -27,10 +27,12 @@ class TripleBuffer {
 
   // acq_rel: release hands over the buffer just written; acquire makes the reader's last look at the buffer we get back
   // happen before we overwrite it. Release alone is a race (tests/stress/triple_buffer_stress_test.cpp under TSAN).
-  void publish() noexcept {
+  // False: the value before it was never taken, and is lost.
+  bool publish() noexcept {
     const std::uint32_t old = middle_.exchange(back_ | kFresh, std::memory_order_acq_rel);
     back_ = old & kIndexMask;
     if (reader_wakeup_ != nullptr) reader_wakeup_->nudge();
+    return (old & kFresh) == 0;
   }
 
   // Writer: has the last published value been taken? A lossless source waits for this before it publishes the next.

@@ -91,7 +91,7 @@ void TrackingStage::show(core::TrackFrame* slot) noexcept {
 void TrackingStage::show_preview(const core::Frame& frame) noexcept {
   if (preview_maker_ == nullptr || !preview_maker_->is_due(frame.t_start_ns)) return;
   preview_maker_->make(frame, scratch_.tracks, previews_->back());
-  previews_->publish();
+  if (!previews_->publish()) n_previews_lost_.fetch_add(1, std::memory_order_relaxed);
 }
 
 void TrackingStage::measure(const core::Frame& frame) noexcept {

@@ -74,6 +74,9 @@ class TrackingStage : public rt::Stage {
     return n_records_lost_.load(std::memory_order_relaxed);
   }
   // Any thread: frames that closure never saw, because its ring was full.
+  [[nodiscard]] std::uint64_t n_previews_lost() const noexcept {
+    return n_previews_lost_.load(std::memory_order_relaxed);
+  }
   [[nodiscard]] std::uint64_t n_shown_lost() const noexcept { return n_shown_lost_.load(std::memory_order_relaxed); }
 
  private:
@@ -117,7 +120,7 @@ class TrackingStage : public rt::Stage {
   std::atomic<bool> camera_given_up_{false};
   std::atomic<std::uint64_t> points_tracked_{0};  // written here only; relaxed: a count on its own
   std::atomic<std::uint64_t> n_failed_{0};
-  std::atomic<std::uint64_t> n_records_lost_{0}, n_shown_lost_{0};
+  std::atomic<std::uint64_t> n_records_lost_{0}, n_shown_lost_{0}, n_previews_lost_{0};
   std::atomic<std::uint32_t> n_reseeded_{0};
 };
 

@@ -23,16 +23,18 @@ field() { python3 -c 'import json, sys; j = json.load(open(sys.argv[1])); print(
 need_clip() {
   [ -f "$clip/config.yaml" ] || quietly "$bin/hovermodal" simulate --preset paper --duration $seconds --size 720p --out "$clip"
 }
-# A log of one run: every kind of message.
+# A log and a record of one run: every kind of message. The attitude, a file the configuration names, is in the record.
 need_log() {
   need_clip
-  [ -f "$out/run.lcm" ] || quietly "$bin/hovermodald" --config "$clip/config.yaml" --set telemetry.lcm_url= --set "telemetry.log_file=$out/run.lcm" \
-    --set closure.period_s=20
+  [ ! -f "$out/run.lcm" ] || [ ! -d "$out/run_record" ] || return 0
+  { echo t_s,roll_deg,pitch_deg,yaw_deg && seq -f '%g,0,0,0' 0 0.1 90; } >"$out/attitude.csv"
+  quietly "$bin/hovermodald" --config "$clip/config.yaml" --set telemetry.lcm_url= --set "telemetry.log_file=$out/run.lcm" \
+    --set closure.period_s=20 --set "record.directory=$out/run_record" --set "camera.attitude_file=$out/attitude.csv" --set scale.only=false
 }
 
 # --- 4: lcm-spy --------------------------------------------------------------------------------------------------------
 figure_4() {
-  local n_types=8  # what a service sends, and attitude_t, which it hears
+  local n_types=11  # what a service sends and records, and attitude_t, which it hears
   local what="lcm-spy of Debian with hovermodal_lcm.jar, a log of one run" bar="$n_types listed and open, at most 1 % undecodable"
   if ! cmake -B build/release -S . >/dev/null 2>&1 || ! quietly tools/build.sh hovermodal_lcm_jar || ! command -v Xvfb >/dev/null; then
     line 4 SKIP "no JDK, no LCM for Java or no Xvfb (tools/setup.sh --lcm)" "$bar" "$what"
@@ -42,7 +44,7 @@ figure_4() {
   mkdir -p "$out/classes"
   local path=build/release/hovermodal_lcm.jar:/usr/share/java/lcm.jar
   quietly javac -nowarn -cp "$path" -d "$out/classes" tools/figures/LcmSpyCheck.java
-  python3 tools/figures/lcm_log.py with-attitude "$out/run.lcm" "$out/all_types.lcm" $types >/dev/null
+  python3 tools/figures/lcm_log.py all-types "$out/run.lcm" "$out"/run_record/*_000.lcm "$out/all_types.lcm" $types >/dev/null
   java -cp "$path:$out/classes" LcmSpyCheck log "$out/all_types.lcm" >"$out/decoded.txt"
   local types_decoded errors messages
   read -r types_decoded errors messages < <(awk '$1 == "channel" { if ($4 != "unknown" && $8 == 0 && $6 > 0) n++; e += $8; m += $6 } END { print n + 0, e + 0, m + 0 }' "$out/decoded.txt")

@@ -24,7 +24,7 @@ start_python() {
   wait_for "$1"
 }
 "$bin/hovermodald" --config "$clip/config.yaml" --set camera.pace=realtime --set camera.attitude_channel=ATTITUDE --set scale.only=false \
-  --set "telemetry.lcm_url=$url" --set telemetry.channel_prefix=OTHER >"$out/service.log" 2>&1 &
+  --set "telemetry.lcm_url=$url" --set telemetry.channel_prefix=OTHER --set "telemetry.log_file=$out/service.lcm" >"$out/service.log" 2>&1 &
 service=$!
 for name in spy inspect subscribe; do wait_for $name; done
 start_python python
@@ -49,7 +49,9 @@ for name in spy inspect subscribe python python2 service; do
 done
 counted() { python3 -c 'import json, sys; c = json.load(open(sys.argv[1]))["channels"]; print(sum(v["received"] + v["foreign"] for v in c.values()), sum(v["undecodable"] for v in c.values()))' "$1" 2>/dev/null || echo "0 0"; }
 read -r spy_read spy_refused < <(counted "$out/spy.json")
+attitude=$(python3 tools/figures/lcm_log.py final "$out/service.lcm" build/release/python |
+  python3 -c 'import json, re, sys; print(*[w for w in json.load(sys.stdin)["warnings"] if "attitude_channel" in w])')
 verdict=bad
 if [ "$alive" = " spy inspect subscribe python service spy inspect python2 service" ] &&
-  [ "$codes" = " spy 0 inspect 0 subscribe 0 python 0 python2 0 service 0" ] && [ "$spy_refused" -gt 0 ]; then verdict=ok; fi
-echo "$verdict $(tr '\n' ' ' <"$out/sent.txt"); exit codes:$codes; spy read $spy_read, refused $spy_refused; C++ example: $(tail -n 1 "$out/subscribe.log"); Python: $(tail -n 1 "$out/python.log")" >"$out/result.txt"
+  [ "$codes" = " spy 0 inspect 0 subscribe 0 python 0 python2 0 service 0" ] && [ "$spy_refused" -gt 0 ] && [[ "$attitude" =~ [1-9][0-9]*" messages are no attitude" ]]; then verdict=ok; fi
+echo "$verdict $(tr '\n' ' ' <"$out/sent.txt"); exit codes:$codes; spy read $spy_read, refused $spy_refused; C++ example: $(tail -n 1 "$out/subscribe.log"); Python: $(tail -n 1 "$out/python.log"); service: $attitude" >"$out/result.txt"

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """What LCM event logs hold, message by message, apart from the project's own reader.
     lcm_log.py count LOG             per channel: messages, missing between the first and the last by sequence, bytes
-    lcm_log.py final LOG TYPES       the last status: state, frames_dropped, and n_sent / n_held_back per channel
-    lcm_log.py with-attitude LOG OUT TYPES   the log with twenty messages of type attitude_t more
+    lcm_log.py final LOG TYPES       the last status: state, frames_dropped, warnings, and n_sent / n_held_back per channel
+    lcm_log.py all-types LOG RECORD OUT TYPES   the log with what a record has besides, and twenty messages of type attitude_t
 Prints JSON. TYPES: the folder of the Python types (build/release/python)."""
 import json
 import struct
@@ -53,14 +53,24 @@ def final(path, types):
     health = hovermodal.health_t.decode(last)
     return {"state": health.state, "frames_in": health.frames_in, "estimates": health.estimates, "frames_dropped": health.frames_dropped,
             "messages_failed": health.messages_failed, "duration_s": health.stream_time_ns * 1e-9,
+            "warnings": list(health.warnings),
             "channels": {c.lcm_channel: {"n_sent": c.n_sent, "n_held_back": c.n_held_back} for c in health.counts}}
 
 
-def with_attitude(path, out, types):
+def all_types(path, record, out, types):
     sys.path.insert(0, types)
     import hovermodal
     all_events = list(events(path))
     begin, step = all_events[0][1], (all_events[-1][1] - all_events[0][1]) // 20
+    heard = {event[2] for event in all_events}
+    besides = [event for event in events(record) if event[2] not in heard]
+    n = {name: sum(event[2] == name for event in besides) for name in {event[2] for event in besides}}
+    taken = dict.fromkeys(n, 0)
+    for event in besides:  # twenty of each, over the whole log
+        name, taken[event[2]] = event[2], taken[event[2]] + 1
+        if taken[name] <= 20:
+            for again in range(0, 20 if n[name] < 20 else 1):
+                all_events.append((0, begin + (taken[name] - 1 + again) % 20 * step, name, event[3]))
     for i in range(20):
         message = hovermodal.attitude_t()
         message.time_ns, message.wxyz = i * 10_000_000, [1.0, 0.0, 0.0, 0.0]
@@ -72,4 +82,4 @@ def with_attitude(path, out, types):
     return {"events": len(all_events)}
 
 
-print(json.dumps({"count": count, "final": final, "with-attitude": with_attitude}[sys.argv[1]](*sys.argv[2:]), indent=1))
+print(json.dumps({"count": count, "final": final, "all-types": all_types}[sys.argv[1]](*sys.argv[2:]), indent=1))

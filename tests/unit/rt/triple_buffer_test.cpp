@@ -52,6 +52,14 @@ TEST(TripleBuffer, TellsTheWriterWhenTheValueWasTaken) {
   EXPECT_TRUE(buffer.taken());
 }
 
+TEST(TripleBuffer, TellsTheWriterWhenAValueWasLost) {
+  TripleBuffer<int> buffer(0);
+  EXPECT_TRUE(buffer.publish());
+  EXPECT_FALSE(buffer.publish()) << "the first was never taken";
+  ASSERT_TRUE(buffer.refresh());
+  EXPECT_TRUE(buffer.publish());
+}
+
 TEST(TripleBuffer, FinishesOnlyWhenClosedAndTaken) {
   TripleBuffer<int> buffer(0);
   EXPECT_FALSE(buffer.finished());
