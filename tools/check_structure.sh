@@ -16,6 +16,7 @@ if [ "${#rooms[@]}" -eq 0 ]; then
   exit 2
 fi
 mapfile -t sources < <(find "${rooms[@]}" -type f \( -name '*.h' -o -name '*.cpp' \) | LC_ALL=C sort)
+mapfile -t scripts < <(find "${rooms[@]}" -type f \( -name '*.js' -o -name '*.py' -o -name '*.sh' -o -name '*.java' \) | LC_ALL=C sort)
 mapfile -t texts < <(
   find "${rooms[@]}" -type f \( -name '*.h' -o -name '*.cpp' -o -name '*.sh' -o -name '*.py' -o -name '*.cmake' \
     -o -name '*.lcm' -o -name '*.yaml' -o -name '*.service' -o -name 'CMakeLists.txt' \) | LC_ALL=C sort
@@ -91,7 +92,7 @@ check_pragma_once() {
 }
 
 check_length() {
-  awk 'FNR == 301 { printf "%s:301: over 300 lines: two subjects, split\n", FILENAME }' "${sources[@]}"
+  awk 'FNR == 301 { printf "%s:301: over 300 lines: two subjects, split\n", FILENAME }' "${sources[@]}" "${scripts[@]}"
 }
 
 # The brackets keep these patterns from finding themselves.

@@ -1,9 +1,11 @@
 // Hears the ground station's events, keeps State, and draws what has changed, when the screen is due.
-import { CameraView, ModeCards, SpectraView, StableView, TracesView } from "./pictures.js";
+import { CameraView } from "./camera_view.js";
+import { byId } from "./dom.js";
+import { ModeCards } from "./mode_cards.js";
+import { SpectraView, StableView, TracesView } from "./pictures.js";
 import { State } from "./state.js";
 import { showClosure, showHead, showHealth, showLink, showNotice, showRegions } from "./tables.js";
 
-const byId = (id) => document.getElementById(id);
 const kRetry_ms = 3000, kSwing_ms = 2400, kShapeFrame_ms = 33;
 
 const state = new State();

@@ -1,8 +1,5 @@
 // All that is words and numbers.
-import { fixed } from "./pictures.js";
-
-const byId = (id) => document.getElementById(id);
-function set(node, value) { if (node.textContent !== value) node.textContent = value; }
+import { byId, fixed, text } from "./dom.js";
 
 function element(type, content, name) {
   const node = document.createElement(type);
@@ -32,13 +29,13 @@ function stateOf(state) {
 
 export function showHead(state) {
   const link = state.link, h = state.health, [word, kind] = stateOf(state);
-  set(byId("stream"), link && link.stream ? link.stream : "hovermodal");
-  set(byId("state"), word);
+  text(byId("stream"), link && link.stream ? link.stream : "hovermodal");
+  text(byId("state"), word);
   byId("state").dataset.kind = kind;
   if (!link || !link.heard || !h) return;
   const n = state.modes ? state.modes.modes.filter((m) => m.structural).length : 0;
   const record = state.modes ? " from " + Math.round(state.modes.duration_s) + " s" : "";
-  set(byId("summary"), n + (n === 1 ? " mode" : " modes") + record + " · " + whole(h.frames_processed) + " frames" +
+  text(byId("summary"), n + (n === 1 ? " mode" : " modes") + record + " · " + whole(h.frames_processed) + " frames" +
     (h.measured_hz === null ? "" : " at " + fixed(h.measured_hz) + " Hz") + " · points " + h.points[0] + " of " + h.points[1]);
 }
 
@@ -51,7 +48,7 @@ export function showNotice(state, { isOpen, silent_s, isPaused, run }) {
   }
   if (!isOpen && silent_s > 2) say = "No connection to the ground station for " + Math.round(silent_s) + " s: trying again. What is shown is old.";
   node.hidden = say === "";
-  set(node, say);
+  text(node, say);
 }
 
 // ---- Health.
