@@ -23,7 +23,7 @@ for name in "${cases[@]}"; do
   out=build/device/out/$name
   rm -rf "$out"
   variables=()
-  for variable in HOVERMODAL_BIN FORMATS SIZES FRAMES RATE TIMES WATCH_S ASAN_OPTIONS UBSAN_OPTIONS; do
+  for variable in HOVERMODAL_BIN FORMATS SIZES FRAMES RATE TIMES WATCH_S MOST_KIB ASAN_OPTIONS UBSAN_OPTIONS; do
     [ -z "${!variable:-}" ] || variables+=("$variable=${!variable}")
   done
   if tests/device/guest.sh --kernel "$kernel" --out "$out" --timeout "${LIMIT_S:-900}" "${machine[@]}" env "${variables[@]}" "tests/device/cases/$name.sh" >"build/device/$name.log" 2>&1; then
