@@ -31,7 +31,7 @@ struct Pipeline::Parts {
     connect();
     watch();
     const bool continues = keeps_state() && keep_state();
-    if (recorder) recorder->begin(run_head(config, source.info, source.keyframe, continues));
+    if (recorder) recorder->begin(run_head(config, source.info, source.keyframe, source.keyframe_image(), continues));
   }
 
   AppConfig config;

@@ -25,8 +25,12 @@ class Record {
   }
 
   [[nodiscard]] TrackSource source() {
-    return {given_ ? *given_ : recorded_.config(), recorded_.camera(), reader_.head().keyframe, path_,
-            [this](core::RecordedFrame& out) { return reader_.next(out); }};
+    return {given_ ? *given_ : recorded_.config(),
+            recorded_.camera(),
+            reader_.head().keyframe,
+            path_,
+            [this](core::RecordedFrame& out) { return reader_.next(out); },
+            recorded_.image() ? &*recorded_.image() : nullptr};
   }
 
   void remark(std::vector<std::string>& remarks) const {

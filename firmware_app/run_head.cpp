@@ -10,12 +10,15 @@
 
 #include "drivers/storage/text_file.h"
 #include "firmware_app/config_yaml.h"
+#include "firmware_app/keyframe_jpeg.h"
 
 namespace app {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr const char* kKeyframeKey = "keyframe";  // beside the files that the configuration names
 
 std::string make_folder() {
   std::string form = (fs::temp_directory_path() / "hovermodal_XXXXXX").string();
@@ -27,7 +30,7 @@ std::string make_folder() {
 }  // namespace
 
 core::RunHead run_head(const AppConfig& config, const core::CameraInfo& camera, const core::TrackFrame& keyframe,
-                       bool continues) {
+                       const core::Frame& image, bool continues) {
   core::RunHead head{config_yaml(config), camera, keyframe, {}, continues};
   const auto take = [&](const char* key, const std::string& path) {
     if (path.empty()) return;
@@ -36,6 +39,8 @@ core::RunHead run_head(const AppConfig& config, const core::CameraInfo& camera, 
   };
   take("calibration.file", config.calibration.file);
   take("camera.attitude_file", config.camera.attitude_file);
+  if (std::string jpeg = keyframe_jpeg(image); !jpeg.empty())
+    head.files.push_back({kKeyframeKey, "keyframe.jpg", std::move(jpeg)});
   return head;
 }
 
@@ -43,8 +48,12 @@ RecordedConfig::RecordedConfig(const core::RunHead& head, const std::string& nam
                                const std::vector<std::string>& overrides)
     : recorded_camera_(head.camera) {
   std::vector<std::string> all;
-  if (!head.files.empty()) folder_ = make_folder();
   for (std::size_t i = 0; i < head.files.size(); ++i) {
+    if (head.files[i].key == kKeyframeKey) {
+      image_ = keyframe_of(head.files[i].bytes, head.camera);
+      continue;
+    }
+    if (folder_.empty()) folder_ = make_folder();
     // The name is only shown, and may hold anything.
     const std::string path = folder_ + fmt::format("/{}_{}", i, fs::path(head.files[i].name).filename().string());
     std::ofstream(path, std::ios::binary) << head.files[i].bytes;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "core/types/run_record.h"
@@ -7,9 +8,10 @@
 
 namespace app {
 
-// What a record of this run begins with. Throws drivers::FileError: a file that the configuration names cannot be read.
+// What a record of this run begins with; `image`: of the keyframe, for the report's pictures. Throws
+// drivers::FileError: a file that the configuration names cannot be read.
 [[nodiscard]] core::RunHead run_head(const AppConfig& config, const core::CameraInfo& camera,
-                                     const core::TrackFrame& keyframe, bool continues);
+                                     const core::TrackFrame& keyframe, const core::Frame& image, bool continues);
 
 // The configuration of a recorded run, with `overrides`. The files it names are laid out for as long as this lives.
 class RecordedConfig {
@@ -21,6 +23,7 @@ class RecordedConfig {
   RecordedConfig& operator=(const RecordedConfig&) = delete;
 
   [[nodiscard]] const AppConfig& config() const noexcept { return config_; }
+  [[nodiscard]] const std::optional<core::Frame>& image() const noexcept { return image_; }  // of the keyframe
   // The recorded camera, with what an override declares of it.
   [[nodiscard]] core::CameraInfo camera() const;
 
@@ -28,6 +31,7 @@ class RecordedConfig {
   std::string folder_;  // of the laid-out files; empty: there are none
   core::CameraInfo recorded_camera_;
   AppConfig recorded_, config_;
+  std::optional<core::Frame> image_;
 };
 
 }  // namespace app

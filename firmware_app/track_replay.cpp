@@ -71,6 +71,7 @@ class Replay {
                     caveats(last.config, last.camera), closure);
     const RunFacts facts = run_facts(last.config, last.camera, last.name, result_.losses, result_.estimate);
     PictureInputs inputs = picture_inputs(last.config, last.camera, result_.channels);
+    inputs.first_frame = last.image;
     inputs.keyframe = &last.keyframe;
     inputs.spectrum = &analysis_->analysis().sums();
     inputs.estimate = &result_.estimate;

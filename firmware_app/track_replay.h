@@ -17,6 +17,7 @@ struct TrackSource {
   core::TrackFrame keyframe;                           // every point that will come, seen
   std::string name;                                    // of which only the last part is told
   std::function<bool(core::RecordedFrame& out)> next;  // points as in the keyframe; false: the end
+  const core::Frame* image = nullptr;                  // of the keyframe, for pictures; null: none
 };
 
 // The runs one after the other, each going on with the sums of those before it; leaves a report when the directory is

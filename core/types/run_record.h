@@ -28,10 +28,10 @@ struct AttitudeBatch {
   }
 };
 
-// A file that the configuration names, as it was.
+// A file that the configuration names, as it was, or one beside them.
 struct NamedFile {
   static constexpr std::size_t kMostBytes = std::size_t{256} << 20;
-  std::string key;  // of the configuration
+  std::string key;  // of the configuration, "keyframe" for the first image
   std::string name;
   std::string bytes;
 };

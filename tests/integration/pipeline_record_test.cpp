@@ -50,6 +50,7 @@ TEST_F(PipelineRecord, IsReplayedToTheSameBits) {
   EXPECT_THAT(result.remarks, Contains(HasSubstr("cut off")));  // this publisher writes no last word
   EXPECT_FALSE(result.tracks.estimate.modes.empty());
   expect_same_report("plain");
+  EXPECT_TRUE(fs::exists(folder / "plain_again" / "frame.png"));  // the record holds the first image
 }
 
 TEST_F(PipelineRecord, ARunWithLostFramesToo) {
