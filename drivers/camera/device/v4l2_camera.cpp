@@ -180,7 +180,7 @@ void V4l2Camera::mark_lost() noexcept {
 }
 
 void V4l2Camera::interrupt() noexcept {
-  stream_.close();
+  stream_.give_up();
   mark_lost();
 }
 

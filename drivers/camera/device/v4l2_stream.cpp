@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <thread>
 
 #include "drivers/camera/device_missing.h"
 
@@ -16,6 +17,7 @@ namespace drivers {
 namespace {
 
 constexpr std::uint32_t kBuffers = 6;
+constexpr std::chrono::milliseconds kTakingAway{300};
 
 std::string only_node() {
   const std::vector<std::string> nodes = capture_nodes();
@@ -63,11 +65,24 @@ std::string V4l2Stream::description() const {
 
 void V4l2Stream::close() noexcept {
   if (!device_.is_open()) return;
-  device_.stream_off();
+  if (is_broken_) {
+    std::this_thread::sleep_until(closes_at_);
+  } else {
+    device_.stream_off();
+  }
   device_.close();
+  is_broken_ = false;
+}
+
+void V4l2Stream::give_up() noexcept {
+  if (!is_open()) return;
+  is_broken_ = true;
+  closes_at_ = std::chrono::steady_clock::now() + kTakingAway;
 }
 
 bool V4l2Stream::open_again() {
+  if (is_broken_ && std::chrono::steady_clock::now() < closes_at_) return false;
+  close();
   const std::string path = find_node(identity_);
   if (path.empty() || device_.open(path) != 0) return false;
   try {
@@ -80,7 +95,8 @@ bool V4l2Stream::open_again() {
 }
 
 V4l2Stream::Wait V4l2Stream::wait(Deadline deadline, int stop_fd) const noexcept {
-  std::array<pollfd, 2> fds{{{device_.fd(), POLLIN, 0}, {stop_fd, POLLIN, 0}}};  // a closed device's -1 is passed over
+  // What is below zero is passed over.
+  std::array<pollfd, 2> fds{{{is_open() ? device_.fd() : -1, POLLIN, 0}, {stop_fd, POLLIN, 0}}};
   for (;;) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now()).count();
     const int n = poll(fds.data(), fds.size(), static_cast<int>(std::max<std::int64_t>(left, 0)));

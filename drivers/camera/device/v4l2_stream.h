@@ -21,14 +21,18 @@ class V4l2Stream {
 
   [[nodiscard]] const MadeMode& made() const noexcept { return made_; }
   [[nodiscard]] const V4l2Device& device() const noexcept { return device_; }
-  [[nodiscard]] bool is_open() const noexcept { return device_.is_open(); }
+  [[nodiscard]] bool is_open() const noexcept { return device_.is_open() && !is_broken_; }
   [[nodiscard]] bool stamps_the_start() const noexcept { return stamps_the_start_; }  // of exposure; else frame's end
   [[nodiscard]] std::string description() const;  // card, driver, node, format, size
 
   [[nodiscard]] int begin() noexcept { return device_.stream_on(); }
   void close() noexcept;
-  // The same camera, wherever it is now. False: it is not there, or not ready yet (a node that has just appeared
-  // answers with errors for a moment).
+  // It broke off, perhaps because the camera is being taken away: used no more, and closed kTakingAway later. Linux 6.1
+  // crashes when a node's last user lets go of it while its driver is taking it down (media controller: the list of
+  // interfaces is changed without its lock).
+  void give_up() noexcept;
+  // The same camera, wherever it is now. False: it is not there, or not ready yet, or a broken one not closed yet (a
+  // node that has just appeared answers with errors for a moment).
   [[nodiscard]] bool open_again();
 
   // Until a buffer is full, `deadline`, a byte in `stop_fd`, or the stream breaks. Closed: does not break.
@@ -43,6 +47,8 @@ class V4l2Stream {
   V4l2Identity identity_;
   MadeMode made_;
   bool stamps_the_start_ = false;
+  bool is_broken_ = false;
+  Deadline closes_at_{};  // where it is broken
 };
 
 [[nodiscard]] std::int64_t stamp_ns(const v4l2_buffer& buffer) noexcept;

@@ -11,9 +11,11 @@ judge() { # WHAT MEASURED BAR CONDITION: an arithmetic condition of awk
   [ $verdict = ok ] || misses=$((misses + 1))
   printf '%s\t%s\t%s\t%s\n' "$verdict" "$1" "$2" "$3"
 }
-# Built with sanitizers, a program's every word of theirs is a miss.
+# The kernel must have lived through it, too; and built with sanitizers, a program's every word of theirs is a miss.
 finish() {
   local words
+  words=$(dmesg | grep -m 1 -E 'BUG:|Oops|general protection fault|unable to handle')
+  judge "faults of the kernel" "${words:-none}" "none" "\"${words//\"/}\" == \"\""
   if [ -n "${ASAN_OPTIONS:-}" ]; then
     words=$(grep -hE 'ERROR: [A-Za-z]*Sanitizer|runtime error:' /out/*.err /out/*.txt | head -n 3 | tr '\n' ';')
     judge "reports of AddressSanitizer, LeakSanitizer and UBSan" "${words:-none}" "none" "\"${words//\"/}\" == \"\""
