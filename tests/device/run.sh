@@ -23,7 +23,7 @@ for name in "${cases[@]}"; do
   out=build/device/out/$name
   rm -rf "$out"
   variables=()
-  for variable in HOVERMODAL_BIN FORMATS SIZES FRAMES RATE TIMES WATCH_S MOST_KIB ASAN_OPTIONS UBSAN_OPTIONS; do
+  for variable in HOVERMODAL_BIN FORMATS SIZES FRAMES RATE TIMES WATCH_S CLIP_RATE MOST_KIB ASAN_OPTIONS UBSAN_OPTIONS; do
     [ -z "${!variable:-}" ] || variables+=("$variable=${!variable}")
   done
   if tests/device/guest.sh --kernel "$kernel" --out "$out" --timeout "${LIMIT_S:-900}" "${machine[@]}" env "${variables[@]}" "tests/device/cases/$name.sh" >"build/device/$name.log" 2>&1; then
@@ -31,7 +31,7 @@ for name in "${cases[@]}"; do
   else
     status=$?
   fi
-  grep -aE $'^(ok|MISS|figure)\t' "build/device/$name.log" || status=1
+  grep -aE $'^(ok|MISS|figure)\t' "build/device/$name.log" || status=$((status > 1 ? status : 125))
   # 1 is a miss of the case's own, which it told.
   [ $status -le 1 ] || printf 'MISS\t%s\tended with status %s\tto come to its end\n' "$name" "$status"
   [ $status -eq 0 ] || { echo "device: $name ended with status $status; its log is build/device/$name.log" >&2 && failed=1; }

@@ -5,8 +5,9 @@
 clip=build/device/clip
 url="udpm://239.255.76.67:7667?ttl=0"
 # Played at 10 frames a second instead of 25, so that an emulated CPU can follow: frequencies and readout scale with it.
-slow=0.4
-plug_in $clip/clip.gray --size 640x360 --rate 10
+rate=${CLIP_RATE:-10}
+slow=$(awk "BEGIN { print $rate / 25 }" </dev/null)
+plug_in $clip/clip.gray --size 640x360 --rate "$rate"
 "$bin/hovermodal" inspect cameras >/out/cameras.txt
 judge "hovermodal inspect cameras" "$(grep -c 'driver: v4l2' /out/cameras.txt) camera, $(grep -o 'size: .*' /out/cameras.txt), $(grep -o 'stamps.*' /out/cameras.txt | tr -s ' ')" \
   "the camera and its YAML" "$(grep -c 'size: .640, 360' /out/cameras.txt) == 1"
@@ -14,7 +15,7 @@ judge "hovermodal inspect cameras" "$(grep -c 'driver: v4l2' /out/cameras.txt) c
 spy_pid=$!
 wait_for 60 grep -q "listening on" /out/spy.txt
 "$bin/hovermodald" --config $clip/config.yaml --set camera.driver=v4l2 --set camera.source=/dev/video0 --set "telemetry.lcm_url=$url" \
-  --set camera.rate_hz=10 --set camera.readout_ms="$(awk '/readout_ms/ { print $2 / '$slow' }' $clip/config.yaml)" \
+  --set camera.rate_hz="$rate" --set camera.readout_ms="$(awk '/readout_ms/ { print $2 / '$slow' }' $clip/config.yaml)" \
   --set tracking.points_per_region=8 --set spectrum.segment=256 --set closure.adopt=off --report /out/report >/out/service.txt 2>&1 &
 service_pid=$!
 for ((i = 0; i < ${WATCH_S:-150}; i++)); do
