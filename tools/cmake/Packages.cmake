@@ -32,9 +32,9 @@ if(PYTHON_PROGRAM AND GZIP_PROGRAM)
     COMMAND ${GZIP_PROGRAM} -9nf ${MANUALS}
     DEPENDS hovermodald hovermodal ${PACKAGE_DIR}/manual.py COMMENT "Manual pages" VERBATIM)
   add_custom_target(hovermodal_manuals DEPENDS ${PACKED_MANUALS})
-  configure_file(${PACKAGE_DIR}/changelog.in ${MADE_DIR}/changelog.Debian @ONLY)
-  configure_file(${CMAKE_SOURCE_DIR}/CHANGELOG.md ${MADE_DIR}/changelog COPYONLY)
-  execute_process(COMMAND ${GZIP_PROGRAM} -9nf ${MADE_DIR}/changelog.Debian ${MADE_DIR}/changelog)
+  configure_file(${PACKAGE_DIR}/changelog.in ${MADE_DIR}/changelog @ONLY)
+  configure_file(${CMAKE_SOURCE_DIR}/CHANGELOG.md ${MADE_DIR}/CHANGELOG.md COPYONLY)
+  execute_process(COMMAND ${GZIP_PROGRAM} -9nf ${MADE_DIR}/changelog ${MADE_DIR}/CHANGELOG.md)
 endif()
 
 set(COMPLETION_DIR ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
@@ -62,7 +62,7 @@ foreach(pair service:hovermodal tools:hovermodal-tools)
   string(REPLACE ":" ";" pair ${pair})
   list(GET pair 0 component)
   list(GET pair 1 package)
-  install(FILES ${PACKAGE_DIR}/copyright ${MADE_DIR}/changelog.Debian.gz ${MADE_DIR}/changelog.gz
+  install(FILES ${PACKAGE_DIR}/copyright ${MADE_DIR}/changelog.gz ${MADE_DIR}/CHANGELOG.md.gz
     DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component})
 endforeach()
 
@@ -74,7 +74,7 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_OUTPUT_FILE_PREFIX ${CMAKE_BINARY_DIR}/packages)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "modes of vibration of a structure, seen from a hovering drone")
 set(CPACK_DEBIAN_PACKAGE_SOURCE hovermodal)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
@@ -83,12 +83,11 @@ set(CPACK_DEBIAN_SERVICE_PACKAGE_NAME hovermodal)
 set(CPACK_DEBIAN_SERVICE_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_SERVICE_PACKAGE_DEPENDS "${SYSTEMD_HELPERS}")
 set(CPACK_DEBIAN_SERVICE_PACKAGE_RECOMMENDS "hovermodal-tools, libcamera-ipa, udev")
-set(CPACK_DEBIAN_SERVICE_DESCRIPTION "modes of vibration of a structure, seen from a hovering drone (service)
- A service for a drone's companion computer: it watches a structure through the
- camera while the drone hovers, and tells the structure's natural frequencies,
- damping and mode shapes over LCM.
- .
- Edit /etc/hovermodal/hovermodald.yaml, then enable hovermodald.service.")
+set(CPACK_DEBIAN_SERVICE_DESCRIPTION "A service for a drone's companion computer: it watches a structure through the
+camera while the drone hovers, and tells the structure's natural frequencies,
+damping and mode shapes over LCM.
+
+Edit /etc/hovermodal/hovermodald.yaml, then enable hovermodald.service.")
 set(CPACK_DEBIAN_SERVICE_PACKAGE_CONTROL_EXTRA ${PACKAGE_DIR}/service/conffiles ${PACKAGE_DIR}/service/postinst
   ${PACKAGE_DIR}/service/prerm ${PACKAGE_DIR}/service/postrm)
 
@@ -96,11 +95,10 @@ set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME hovermodal-tools)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "ffmpeg")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS "hovermodal, liblcm-bin")
-set(CPACK_DEBIAN_TOOLS_DESCRIPTION "modes of vibration of a structure, seen from a hovering drone (tools)
- The companion of the service hovermodald at the desk and on the ground: plan a
- flight, calibrate the camera, simulate, replay and compare runs, identify modes
- of any time series, close the loop on a structural model, and watch a flight
- live in a terminal or a browser.")
+set(CPACK_DEBIAN_TOOLS_DESCRIPTION "The companion of the service hovermodald, at the desk and on the ground: plan a
+flight, calibrate the camera, simulate, replay and compare runs, identify modes
+of any time series, close the loop on a structural model, and watch a flight
+live in a terminal or a browser.")
 if(CMAKE_CROSSCOMPILING)
   set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE arm64)
   # dpkg-shlibdeps knows this machine's packages only.
