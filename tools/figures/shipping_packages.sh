@@ -50,7 +50,7 @@ installed() {
   mkdir -p "$root/packages"
   cp $(packages amd64) "$root/packages/"
   local status=0 facts
-  inside sh -c 'apt-get update -qq && apt-get install -y -qq --no-install-recommends ./packages/*.deb ffmpeg' >"$out/install.log" 2>&1 || status=$?
+  inside sh -c 'apt-get update -qq && apt-get install -y -qq --no-install-recommends ./packages/*.deb ffmpeg systemd-sysv udev kmod v4l-utils' >"$out/install.log" 2>&1 || status=$?
   facts="$(inside id -nG hovermodal 2>/dev/null | paste -sd' '); $(inside dpkg-query -W -f '${Package} ${Status}; ' hovermodal hovermodal-tools 2>/dev/null)"
   judge 1.install "status $status, groups of the service's user: $facts" "both installed, user in group video" \
     "apt install ./*.deb in a clean Debian 12" "$status == 0 && \"$facts\" ~ /hovermodal video/ && \"$facts\" !~ /unpacked|half/"
