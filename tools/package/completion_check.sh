@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Whether bash completes what the programs' --help tells: every subcommand, and every option of each. Prints a line a
-# command, "ok COMMAND: N words", and "missing COMMAND: WORD" for what is not offered.
+# command, "ok COMMAND: N words", and "missing COMMAND: WORD" for what is not offered; then the exit status is 1.
 #   tools/package/completion_check.sh     the completion of this tree, for the programs that are in the PATH
 #   (. tools/package/completion_check.sh FILE BEFORE)    of FILE; BEFORE: a function of the caller, which runs programs elsewhere
 set +e -uo pipefail
@@ -27,10 +27,12 @@ check() { # COMMAND...
   told+=" $(sed -n '/^Subcommands:$/,$p' <<<"$help" | grep -oE '^  [a-z]+' | tr -d ' ')"
   for word in $told; do
     n=$((n + 1))
-    grep -qxF -- "$word" <<<"$words" || echo "missing $*: $word"
+    grep -qxF -- "$word" <<<"$words" || { echo "missing $*: $word" && n_missing=$((n_missing + 1)); }
   done
   echo "ok $*: $n words"
   for word in $(sed -n '/^Subcommands:$/,$p' <<<"$help" | grep -oE '^  [a-z]+' | tr -d ' '); do check "$@" "$word"; done
 }
+n_missing=0
 check hovermodald
 check hovermodal
+[ $n_missing -eq 0 ]
