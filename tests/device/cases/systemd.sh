@@ -44,7 +44,7 @@ judge "started: active only when it has said that it is ready" "states$states, s
   "\"$states\" ~ /activating\\/start.*active\\/running/ && \"$(property StatusText)\" == \"running\" && $seen_when_active > 0"
 
 pid=$(property MainPID)
-user=$(ps -o user= -p "$pid" | tr -d ' ')
+user=$(stat -c %U "/proc/$pid")
 capabilities=$(awk '/CapEff/ { print $2 }' "/proc/$pid/status")
 filter=$(awk '/^Seccomp:/ { print $2 }' "/proc/$pid/status")
 fifo=0
@@ -53,7 +53,7 @@ for task in "/proc/$pid/task"/*; do
 done
 locked=$(awk '/VmLck/ { print $2 }' "/proc/$pid/status")
 judge "inside the sandbox" "user $user, capabilities $capabilities, filter of system calls $filter, $fifo stages SCHED_FIFO, $locked kB locked" "its own user, none, 2, 3, some" \
-  "\"$user\" ~ /^hovermod/ && \"$capabilities\" == \"0000000000000000\" && $filter == 2 && $fifo == 3 && $locked > 0"
+  "\"$user\" == \"hovermodal\" && \"$capabilities\" == \"0000000000000000\" && $filter == 2 && $fifo == 3 && $locked > 0"
 
 # Some record, then a stage that hangs: held from outside in the middle of its work.
 wait_for 120 test -s /var/lib/hovermodal/state/hovermodal.state || ls -la /var/lib/hovermodal/state >&2
