@@ -43,5 +43,5 @@ timeout "$limit_s" qemu-system-x86_64 -accel "$acceleration" -cpu "$([ "$acceler
   -fsdev local,id=out,path="$out",security_model=none -device virtio-9p-pci,fsdev=out,mount_tag=out \
   -kernel "$vm/kernel/boot/vmlinuz-$version" -initrd "$vm/initramfs-$version" \
   -append "console=ttyS0 panic=-1 quiet loglevel=3 mitigations=off tsc=reliable edd=off kernel_dir=$vm/kernel${root:+ root_dir=$root systemd.unit=guest.service}" "${more[@]}" </dev/null |
-  tr -d '\r' || true
+  stdbuf -oL tr -d '\r' || true
 exit "$(cat "$out/.status" 2>/dev/null || echo 125)"
