@@ -51,7 +51,7 @@ keep() {
   journalctl -u "$unit" --no-pager -o short-monotonic
   systemctl status "$unit" --no-pager
 } >/out/journal.txt 2>&1
-is ActiveState active || { keep && finish; }
+is ActiveState active || { keep; finish; }
 
 pid=$(property MainPID)
 user=$(stat -c %U "/proc/$pid")
