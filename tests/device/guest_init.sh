@@ -16,16 +16,36 @@ shared=trans=virtio,version=9p2000.L,msize=512000,access=any
 mount -t 9p -o "$shared,ro,cache=loose" host /lower || fail "the host's root cannot be mounted"
 mount -t tmpfs -o mode=755,size=60% tmpfs /rw
 mkdir -p /rw/up /rw/work
-mount -t overlay -o lowerdir=/lower,upperdir=/rw/up,workdir=/rw/work overlay /new || fail "no overlay"
+root_dir=
 for word in $(cat /proc/cmdline); do
-  case $word in kernel_dir=*) kernel_dir=${word#*=} ;; esac
+  case $word in kernel_dir=* | root_dir=*) export "$word" ;; esac
 done
+mount -t overlay -o lowerdir=/lower$root_dir,upperdir=/rw/up,workdir=/rw/work overlay /new || fail "no overlay"
 version=$(uname -r)
 mkdir -p "/new/lib/modules/$version" /new/out
 mount --bind "/lower$kernel_dir/lib/modules/$version" "/new/lib/modules/$version"
 mount -t 9p -o "$shared" out /new/out || fail "the folder for results cannot be mounted"
 ip link set lo up
 ip route add 224.0.0.0/4 dev lo
+
+# A Debian of its own: its systemd is the first process, and guest.service (on the command line of the kernel) the goal.
+if [ -n "$root_dir" ]; then
+  cat >/new/etc/systemd/system/guest.service <<'UNIT'
+[Unit]
+Requires=basic.target
+After=basic.target
+[Service]
+Type=oneshot
+TimeoutStartSec=infinity
+ExecStart=/bin/bash -c '(/bin/bash /out/.command) >/dev/ttyS0 2>&1; echo $? >/out/.status; sync; echo o >/proc/sysrq-trigger; sleep 60'
+UNIT
+  echo 0123456789abcdef0123456789abcdef >/new/etc/machine-id
+  : >/new/etc/fstab
+  umount /proc /sys
+  cd /new
+  mount --move . /
+  exec chroot . /lib/systemd/systemd
+fi
 for folder in proc sys dev; do
   mount --move "/$folder" "/new/$folder"
 done

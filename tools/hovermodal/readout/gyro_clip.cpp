@@ -105,7 +105,7 @@ void add_gyro_clip_options(CLI::App& command, GyroClipOptions& options, bool req
                                                                  {"left", core::ReadoutDirection::kLeft},
                                                                  {"right", core::ReadoutDirection::kRight}};
   command.add_option("--readout-direction", options.direction, "The way lines are read in the picture")
-      ->transform(CLI::CheckedTransformer(directions))
+      ->transform(CLI::CheckedTransformer(directions).description(""))  // its own shows the letters' values
       ->type_name("down|up|left|right");
   command
       .add_option(
