@@ -32,6 +32,6 @@ for kernel in "${kernels[@]}"; do
       ok | MISS) i=$((i + 1)) && line "2.$kernel.$i" "$verdict" "$measured" "$bar" "$what" ;;
     esac
   done < <(grep -aE $'^(ok|MISS)\t' "$out/console.txt" || true)
-  [ $i -eq 5 ] || line "2.$kernel" MISS "$i outcomes, see $out/console.txt" "5" "the service under systemd, $kernel kernel"
+  [ $i -eq 6 ] || line "2.$kernel" MISS "$i outcomes, see $out/console.txt" "6" "the service under systemd, $kernel kernel"
 done
 [ "$misses" -eq 0 ] || { echo "$misses figures miss their bar" >&2; exit 1; }
