@@ -1,5 +1,6 @@
 #include "core/spectrum/merge_sums.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -18,19 +19,6 @@ std::string text(const char* format, Args... args) {
   char buffer[240];
   std::snprintf(buffer, sizeof buffer, format, args...);
   return buffer;
-}
-
-std::vector<CpsdBlock> blocks_in_use(const CpsdSums& sums) {
-  return {sums.blocks.begin(), sums.blocks.begin() + static_cast<std::ptrdiff_t>(sums.n_blocks)};
-}
-
-void join_pairs(std::vector<CpsdBlock>& blocks) {
-  std::vector<CpsdBlock> joined;
-  for (std::size_t b = 0; b < blocks.size(); b += 2) {
-    joined.push_back(std::move(blocks[b]));
-    if (b + 1 < blocks.size()) join_blocks(joined.back(), blocks[b + 1]);
-  }
-  blocks = std::move(joined);
 }
 
 std::string channels_differ(const RecordSums& a, const RecordSums& b) {
@@ -73,23 +61,47 @@ std::string why_not_addable(const RecordSums& a, const RecordSums& b) {
   return "";
 }
 
-void add_record(RecordSums& into, const RecordSums& from) {
-  const std::string reason = why_not_addable(into, from);
-  if (!reason.empty()) throw std::invalid_argument("records cannot be added: " + reason);
-  CpsdSums& sums = into.sums;
-  std::vector<CpsdBlock> blocks = blocks_in_use(sums);
-  for (CpsdBlock& block : blocks_in_use(from.sums)) blocks.push_back(std::move(block));
-  add_sums(sums.data_sum, from.sums.data_sum);
-  add_sums(sums.mask_sum, from.sums.mask_sum);
-  sums.n_segments += from.sums.n_segments;
-  sums.weight.join(from.sums.weight);
-  sums.n_samples += from.sums.n_samples;
-  sums.n_missing += from.sums.n_missing;
-  // Without room for blocks on one side the parts would not be the whole: then there are none.
-  const bool whole = !sums.blocks.empty() && (from.sums.n_blocks > 0 || from.sums.n_segments == 0);
-  while (whole && blocks.size() > sums.blocks.size()) join_pairs(blocks);
-  sums.n_blocks = whole ? blocks.size() : 0;
-  for (std::size_t b = 0; b < sums.n_blocks; ++b) sums.blocks[b] = std::move(blocks[b]);
+void SumOfRecords::add(const RecordSums& record) {
+  CpsdSums& sums = total_.sums;
+  if (is_empty_) {
+    total_ = record;
+    sums.blocks.clear(), sums.n_blocks = 0;
+    is_empty_ = false;
+  } else {
+    const std::string reason = why_not_addable(total_, record);
+    if (!reason.empty()) throw std::invalid_argument("records cannot be added: " + reason);
+    add_sums(sums.data_sum, record.sums.data_sum);
+    add_sums(sums.mask_sum, record.sums.mask_sum);
+    sums.n_segments += record.sums.n_segments;
+    sums.weight.join(record.sums.weight);
+    sums.n_samples += record.sums.n_samples;
+    sums.n_missing += record.sums.n_missing;
+  }
+  // Where one record has none, the parts would not be the whole: then there are none.
+  whole_ = whole_ && (record.sums.n_blocks > 0 || record.sums.n_segments == 0);
+  if (whole_) {
+    add_blocks(record.sums);
+  } else {
+    sums.blocks.clear();
+  }
+  sums.n_blocks = sums.blocks.size();
+}
+
+// A block goes where its middle lies in the whole.
+void SumOfRecords::add_blocks(const CpsdSums& sums) {
+  for (std::size_t b = 0; b < sums.n_blocks; ++b) {
+    const CpsdBlock& block = sums.blocks[b];
+    const double middle = static_cast<double>(n_so_far_) + 0.5 * static_cast<double>(block.n_segments);
+    const double share = middle / static_cast<double>(std::max<std::uint64_t>(n_expected_, 1));
+    const auto place = static_cast<std::size_t>(share * static_cast<double>(n_room_));
+    n_so_far_ += block.n_segments;
+    if (total_.sums.blocks.empty() || (place > place_ && total_.sums.blocks.size() < n_room_)) {
+      total_.sums.blocks.push_back(block);
+      place_ = place;
+    } else {
+      join_blocks(total_.sums.blocks.back(), block);
+    }
+  }
 }
 
 }  // namespace core
