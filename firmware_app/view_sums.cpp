@@ -132,8 +132,12 @@ ViewSums without_sums(const ViewSums& sums) {
 }
 
 std::string why_other_view(const ViewSums& a, const ViewSums& b) {
-  if (std::string reason = why_foreign(a.view, b.view); !reason.empty()) return reason;
-  if (std::string reason = core::why_not_addable(a.record, b.record); !reason.empty()) return reason;
+  RunState view = b.view;  // row delays are looked at apart: sums can be brought to other ones
+  for (std::size_t c = 0; c < std::min(view.channels.size(), a.view.channels.size()); ++c)
+    view.channels[c].row_delay_s = a.view.channels[c].row_delay_s;
+  if (std::string reason = why_foreign(a.view, view); !reason.empty()) return reason;
+  const double most_s = core::most_delay_undone_s(a.record.sums.rate_hz);
+  if (std::string reason = core::why_not_addable(a.record, b.record, most_s); !reason.empty()) return reason;
   return same_identification(a.basis.identifier, b.basis.identifier) ? ""
                                                                      : "its modes were to be identified in another way";
 }

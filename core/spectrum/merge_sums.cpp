@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <stdexcept>
 
 #include "core/spectrum/join_blocks.h"
@@ -11,7 +12,6 @@ namespace core {
 
 namespace {
 
-constexpr double kMostDelayApart_s = 1e-4;
 constexpr double kSame = 1e-12;  // relative
 
 template <class... Args>
@@ -21,7 +21,35 @@ std::string text(const char* format, Args... args) {
   return buffer;
 }
 
-std::string channels_differ(const RecordSums& a, const RecordSums& b) {
+bool same_delays(const std::vector<ChannelInfo>& a, const std::vector<ChannelInfo>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const ChannelInfo& p, const ChannelInfo& q) { return p.row_delay_s == q.row_delay_s; });
+}
+
+// One bin of all pairs, as channels seen later_s later than wanted show it. turns[c] = exp(-i w later_s[c]).
+void turn_bin(std::complex<double>* pairs, const std::vector<std::complex<double>>& turns) {
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    for (std::size_t j = i; j < turns.size(); ++j) *pairs++ *= turns[i] * std::conj(turns[j]);
+  }
+}
+
+// The sums as if every channel had been seen at the instants of `wanted`. Masks stay: what moves by a tenth of a sample
+// was seen or missing all the same.
+CpsdSums with_delays_of(const RecordSums& record, const std::vector<ChannelInfo>& wanted) {
+  CpsdSums sums = record.sums;
+  std::vector<std::complex<double>> turns(wanted.size());
+  for (int k = 0; k < sums.n_bins(); ++k) {
+    const double w = 2.0 * std::numbers::pi * k * sums.rate_hz / sums.n_fft;
+    for (std::size_t c = 0; c < wanted.size(); ++c)
+      turns[c] = std::polar(1.0, -w * (record.channels[c].row_delay_s - wanted[c].row_delay_s));
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(k) * sums.n_pairs();
+    turn_bin(sums.data_sum.data() + first, turns);
+    for (std::size_t b = 0; b < sums.n_blocks; ++b) turn_bin(sums.blocks[b].data_sum.data() + first, turns);
+  }
+  return sums;
+}
+
+std::string channels_differ(const RecordSums& a, const RecordSums& b, double most_delay_apart_s) {
   if (a.channels.size() != b.channels.size()) {
     return text("%zu and %zu channels", a.channels.size(), b.channels.size());
   }
@@ -35,7 +63,7 @@ std::string channels_differ(const RecordSums& a, const RecordSums& b) {
       return text("channel '%.60s' holds different quantities", own.name.c_str());
     }
     const double apart_s = std::abs(own.row_delay_s - other.row_delay_s);
-    if (!(apart_s <= kMostDelayApart_s)) {
+    if (!(apart_s <= most_delay_apart_s)) {
       return text("channel '%.60s' is seen %.3g ms later in one: another view or readout time", own.name.c_str(),
                   1e3 * apart_s);
     }
@@ -45,8 +73,8 @@ std::string channels_differ(const RecordSums& a, const RecordSums& b) {
 
 }  // namespace
 
-std::string why_not_addable(const RecordSums& a, const RecordSums& b) {
-  const std::string channels = channels_differ(a, b);
+std::string why_not_addable(const RecordSums& a, const RecordSums& b, double most_delay_apart_s) {
+  const std::string channels = channels_differ(a, b, most_delay_apart_s);
   if (!channels.empty()) return channels;
   if (!(std::abs(a.sums.rate_hz - b.sums.rate_hz) <= kSame * a.sums.rate_hz)) {
     return text("%.6g and %.6g samples a second", a.sums.rate_hz, b.sums.rate_hz);
@@ -62,29 +90,43 @@ std::string why_not_addable(const RecordSums& a, const RecordSums& b) {
 }
 
 void SumOfRecords::add(const RecordSums& record) {
-  CpsdSums& sums = total_.sums;
   if (is_empty_) {
-    total_ = record;
-    sums.blocks.clear(), sums.n_blocks = 0;
+    total_.channels = record.channels;
+    total_.sums = record.sums;
+    total_.sums.blocks.clear();
+    take_blocks(record.sums);
     is_empty_ = false;
-  } else {
-    const std::string reason = why_not_addable(total_, record);
-    if (!reason.empty()) throw std::invalid_argument("records cannot be added: " + reason);
-    add_sums(sums.data_sum, record.sums.data_sum);
-    add_sums(sums.mask_sum, record.sums.mask_sum);
-    sums.n_segments += record.sums.n_segments;
-    sums.weight.join(record.sums.weight);
-    sums.n_samples += record.sums.n_samples;
-    sums.n_missing += record.sums.n_missing;
+    return;
   }
-  // Where one record has none, the parts would not be the whole: then there are none.
-  whole_ = whole_ && (record.sums.n_blocks > 0 || record.sums.n_segments == 0);
+  const std::string reason = why_not_addable(total_, record, most_delay_undone_s(total_.sums.rate_hz));
+  if (!reason.empty()) throw std::invalid_argument("records cannot be added: " + reason);
+  if (same_delays(total_.channels, record.channels)) {
+    join(record.sums);
+  } else {
+    join(with_delays_of(record, total_.channels));
+  }
+}
+
+void SumOfRecords::join(const CpsdSums& record) {
+  CpsdSums& sums = total_.sums;
+  add_sums(sums.data_sum, record.data_sum);
+  add_sums(sums.mask_sum, record.mask_sum);
+  sums.n_segments += record.n_segments;
+  sums.weight.join(record.weight);
+  sums.n_samples += record.n_samples;
+  sums.n_missing += record.n_missing;
+  take_blocks(record);
+}
+
+// Where one record has none, the parts would not be the whole: then there are none.
+void SumOfRecords::take_blocks(const CpsdSums& record) {
+  whole_ = whole_ && (record.n_blocks > 0 || record.n_segments == 0);
   if (whole_) {
-    add_blocks(record.sums);
+    add_blocks(record);
   } else {
-    sums.blocks.clear();
+    total_.sums.blocks.clear();
   }
-  sums.n_blocks = sums.blocks.size();
+  total_.sums.n_blocks = total_.sums.blocks.size();
 }
 
 // A block goes where its middle lies in the whole.

@@ -5,10 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <cstdint>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
 #include "core/identification/identifier.h"
+#include "core/spectrum/welch_cpsd.h"
 #include "tests/support/simulated_structure.h"
 
 namespace core {
@@ -88,6 +92,56 @@ TEST(SumOfRecords, HasNoBlocksWhereARecordHasNone) {
   two.sums.blocks.clear(), two.sums.n_blocks = 0;
   EXPECT_EQ(sum_of({one, two}).sums.n_blocks, 0U);
   EXPECT_EQ(sum_of({two, one}).sums.n_blocks, 0U);
+}
+
+// A sine of each channel's own amplitude, seen delay_s later in each.
+RecordSums sine(const std::vector<double>& delay_s) {
+  constexpr double kRate_hz = 25.0, kSine_hz = 3.1;
+  RecordSums out;
+  WelchConfig config{.n_channels = static_cast<int>(delay_s.size()), .segment = 256, .rate_hz = kRate_hz};
+  WelchCpsd cpsd(config);
+  std::vector<double> value(delay_s.size());
+  const std::vector<std::uint8_t> seen(delay_s.size(), 1);
+  for (int k = 0; k < 4096; ++k) {
+    for (std::size_t c = 0; c < value.size(); ++c)
+      value[c] =
+          (1.0 + static_cast<double>(c)) * std::sin(2.0 * std::numbers::pi * kSine_hz * (k / kRate_hz + delay_s[c]));
+    (void)cpsd.push(value, seen);
+  }
+  out.sums = cpsd.sums();
+  for (const double delay : delay_s) {
+    out.channels.push_back({});
+    out.channels.back().row_delay_s = delay;
+  }
+  return out;
+}
+
+TEST(SumOfRecords, BringsRowDelaysToThoseOfTheFirst) {
+  const RecordSums first = sine({0.0, 0.010, 0.020}), elsewhere = sine({0.002, 0.0095, 0.023});
+  const RecordSums aligned = sum_of({first, elsewhere}), wanted = sum_of({first, first});
+  RecordSums as_it_is = elsewhere;
+  for (std::size_t c = 0; c < 3; ++c) as_it_is.channels[c].row_delay_s = first.channels[c].row_delay_s;
+  const RecordSums unaligned = sum_of({first, as_it_is});
+  const auto farthest = [&](const RecordSums& sum) {
+    double most = 0.0, largest = 0.0;
+    for (std::size_t k = 0; k < wanted.sums.data_sum.size(); ++k) {
+      most = std::max(most, std::abs(sum.sums.data_sum[k] - wanted.sums.data_sum[k]));
+      largest = std::max(largest, std::abs(wanted.sums.data_sum[k]));
+    }
+    return most / largest;
+  };
+  EXPECT_LT(farthest(aligned), 0.003);
+  EXPECT_GT(farthest(unaligned), 0.02);
+  std::complex<double> of_blocks = 0.0, of_sums = 0.0;
+  for (const auto& value : aligned.sums.data_sum) of_sums += value;
+  for (std::size_t b = 0; b < aligned.sums.n_blocks; ++b) {
+    for (const auto& value : aligned.sums.blocks[b].data_sum) of_blocks += value;
+  }
+  EXPECT_NEAR(std::abs(of_blocks - of_sums), 0.0, 1e-9 * std::abs(of_sums));
+}
+
+TEST(SumOfRecords, RefusesRowDelaysThatAreTooFarApart) {
+  EXPECT_THROW((void)sum_of({sine({0.0, 0.01}), sine({0.0, 0.0145})}), std::invalid_argument);
 }
 
 TEST(SumOfRecords, RefusesWhatIsNotTheSameMeasurementAndSaysWhy) {

@@ -2,8 +2,10 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -80,37 +82,44 @@ void combine(const std::vector<FlightOrder>& orders, const std::vector<std::stri
   }
 }
 
-void work_and_combine(const Options& options, MpiSession* session) {
+struct Worked {
+  std::vector<FlightOrder> orders;
+  std::vector<std::string> failures;
+};
+
+// `workers`: those beside the ones of this machine.
+Worked work(const Options& options, std::vector<std::unique_ptr<Workers>> workers) {
   const Inventory found = find_flights(options.folder, options.out, options.config);
   for (const std::string& line : found.left_out) fmt::print(stderr, "left out: {}\n", line);
   if (found.flights.empty())
     throw std::invalid_argument(options.folder + ": no flight in it; hovermodal batch --help tells what one is");
-  const std::vector<FlightOrder> orders = orders_of(found, options);
-  std::vector<std::string> failures;
-  {
-    std::vector<std::unique_ptr<Workers>> workers;
-    workers.push_back(std::make_unique<LocalWorkers>(this_program(), jobs_of(options)));
-    if (session != nullptr && session->n_ranks() > 1) workers.push_back(session->others(jobs_of(options)));
-    failures = work_on_all(orders, workers);
+  Worked worked{orders_of(found, options), {}};
+  workers.push_back(std::make_unique<LocalWorkers>(this_program(), jobs_of(options)));
+  worked.failures = work_on_all(worked.orders, workers);
+  return worked;
+}
+
+// What rank 0 knows in the end; the other ranks have nothing more to do.
+std::optional<Worked> work_with_others(const Options& options) {
+  MpiSession session;
+  if (session.rank() > 0) {
+    LocalWorkers workers(this_program(), jobs_of(options));
+    session.serve(workers);
+    return std::nullopt;
   }
-  combine(orders, failures, options.out);
+  std::vector<std::unique_ptr<Workers>> others;
+  if (session.n_ranks() > 1) others.push_back(session.others(jobs_of(options)));
+  return work(options, std::move(others));
 }
 
 void batch(Options options) {
   options.folder = absolute(options.folder);
   options.out = absolute(options.out);
   options.config = absolute(options.config);
-  if (!options.mpi) {
-    if (is_one_of_several())
-      throw std::invalid_argument("batch: several were started together, and each would do everything: give --mpi");
-    return work_and_combine(options, nullptr);
-  }
-  MpiSession session;
-  if (session.rank() > 0) {
-    LocalWorkers workers(this_program(), jobs_of(options));
-    return session.serve(workers);
-  }
-  work_and_combine(options, &session);
+  if (!options.mpi && is_one_of_several())
+    throw std::invalid_argument("batch: several were started together, and each would do everything: give --mpi");
+  const std::optional<Worked> worked = options.mpi ? work_with_others(options) : work(options, {});
+  if (worked) combine(worked->orders, worked->failures, options.out);
 }
 
 }  // namespace

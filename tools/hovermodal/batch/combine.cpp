@@ -67,8 +67,8 @@ class Combination {
     std::size_t v = 0;
     while (v < heads_.size() && !app::why_other_view(heads_[v], head).empty()) ++v;
     if (v == heads_.size()) {
+      result_.views.emplace_back().why = v > 0 ? app::why_other_view(heads_.front(), head) : "";
       heads_.push_back(std::move(head));
-      result_.views.emplace_back();
       n_segments_.push_back(0);
     }
     result_.views[v].flights.push_back(f);

@@ -22,6 +22,7 @@ struct FlightResult {
 // Flights whose sums may be added, and the one estimate of all of them.
 struct ViewResult {
   std::vector<std::size_t> flights;
+  std::string why;          // why it is not the first view; empty: it is
   app::ModalReport report;  // of a single flight: its own
 };
 

@@ -74,6 +74,7 @@ std::string batch_json(const BatchResult& result) {
     Json names = Json::array();
     for (const std::size_t f : view.flights) names.push_back(result.flights[f].name);
     out["views"].push_back({{"flights", std::move(names)},
+                            {"why", view.why.empty() ? Json(nullptr) : Json(view.why)},
                             {"duration_s", view.report.estimate.duration_s},
                             {"segments", view.report.estimate.n_segments},
                             {"channels", view.report.channel_names}});

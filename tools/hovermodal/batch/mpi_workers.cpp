@@ -6,6 +6,7 @@
 #ifdef HOVERMODAL_WITH_MPI
 #include <mpi.h>
 
+#include <algorithm>
 #include <chrono>
 #include <climits>
 #include <exception>
@@ -100,8 +101,12 @@ FlightOrder order_of(const std::vector<std::string>& texts) {
 class MpiWorkers final : public Workers {
  public:
   MpiWorkers(int n_ranks, int jobs) : n_busy_(static_cast<std::size_t>(n_ranks), 0) { n_busy_[0] = jobs; }
+  // Waits for those still at work: they could not send what nobody receives.
   ~MpiWorkers() override {
     for (int rank = 1; rank < static_cast<int>(n_busy_.size()); ++rank) send_later(rank, "");
+    while (std::any_of(n_busy_.begin() + 1, n_busy_.end(), [](int n) { return n > 0; })) {
+      if (!MpiWorkers::poll()) std::this_thread::sleep_for(kPause);
+    }
     for (Sending& one : sending_) MPI_Wait(&one.request, MPI_STATUS_IGNORE);
   }
 
@@ -176,10 +181,7 @@ MpiSession::MpiSession() {
   MPI_Comm_size(MPI_COMM_WORLD, &n_ranks_);
 }
 
-MpiSession::~MpiSession() {
-  if (std::uncaught_exceptions() > 0) MPI_Abort(MPI_COMM_WORLD, 1);  // the others would wait for ever
-  MPI_Finalize();
-}
+MpiSession::~MpiSession() { MPI_Finalize(); }
 
 std::unique_ptr<Workers> MpiSession::others(int jobs) { return std::make_unique<MpiWorkers>(n_ranks_, jobs); }
 

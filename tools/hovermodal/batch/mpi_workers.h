@@ -22,7 +22,7 @@ class MpiSession {
 
   // Rank 0: those behind the other ranks, of which each takes `jobs` flights at a time. Lives shorter than this.
   [[nodiscard]] std::unique_ptr<Workers> others(int jobs);
-  // Every other rank: works until rank 0 lets go of others().
+  // Every other rank: works until rank 0 has let go of others().
   void serve(LocalWorkers& workers);
 
  private:

@@ -34,6 +34,10 @@ std::string batch_text(const BatchResult& result) {
       std::count_if(result.flights.begin(), result.flights.end(), [](const auto& f) { return f.failure.empty(); }));
   std::string text = fmt::format("{} of {} flights, {} view{}\n", n_done, result.flights.size(), result.views.size(),
                                  result.views.size() == 1 ? "" : "s");
+  for (std::size_t v = 1; v < result.views.size(); ++v) {
+    text += fmt::format("view {} (from {}) is another than view 1: {}\n", v + 1,
+                        result.flights[result.views[v].flights.front()].name, result.views[v].why);
+  }
   text += fmt::format("{:>4} {:^21} {:^21} {:^14} {:>6} {:>6}\n", "mode", "frequency, Hz", "damping, %", "in flights",
                       "scatter", "f, damp.");
   for (std::size_t m = 0; m < result.modes.size(); ++m) text += row(fmt::format("{}", m + 1), result.modes[m], n_done);
