@@ -11,6 +11,7 @@
 #include "core/types/health.h"
 #include "core/types/modal_estimate.h"
 #include "firmware_app/config.h"
+#include "firmware_app/view_sums.h"
 
 namespace app {
 
@@ -54,6 +55,7 @@ struct TracksResult {
   core::Health losses;
   std::vector<core::ChannelInfo> channels;
   int n_differences = 0;             // the prewhitening that the spectra asked for
+  ViewSums sums;                     // that the estimate was made of; those of further runs can be added
   std::vector<std::string> changes;  // with closure.adopt: auto, what was taken out or withdrawn, in words
 };
 [[nodiscard]] TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_path,

@@ -53,22 +53,24 @@ core::ReadoutEstimator::Config readout_config(const AppConfig& config, const cor
 
 ReadoutUse::ReadoutUse(const AppConfig& config, const core::CameraInfo& camera, const core::TrackFrame& keyframe,
                        std::vector<core::ChannelInfo> spectra)
-    : identifier_(identifier_config(config, spectra, camera.rate_hz)),
+    : ReadoutUse({identifier_config(config, spectra, camera.rate_hz), row_shares(config, camera, keyframe),
+                  camera.rate_hz, declared_readout(config, camera)},
+                 spectra) {}
+
+ReadoutUse::ReadoutUse(ReadoutBasis basis, std::vector<core::ChannelInfo> spectra)
+    : basis_(std::move(basis)),
       channels_(std::move(spectra)),
-      row_share_(row_shares(config, camera, keyframe)),
-      n_outputs_(core::Identifier(identifier_, channels_).n_outputs()),
-      rate_hz_(camera.rate_hz),
-      declared_(declared_readout(config, camera)) {}
+      n_outputs_(core::Identifier(basis_.identifier, channels_).n_outputs()) {}
 
 std::vector<core::ChannelInfo> ReadoutUse::channels_with(double readout_s) const {
   std::vector<core::ChannelInfo> channels = channels_;
-  for (std::size_t c = 0; c < channels.size(); ++c) channels[c].row_delay_s = readout_s * row_share_[c];
+  for (std::size_t c = 0; c < channels.size(); ++c) channels[c].row_delay_s = readout_s * basis_.row_share[c];
   return channels;
 }
 
 std::vector<double> ReadoutUse::delay_s(const core::ModalEstimate& estimate) const {
-  const double readout_s = estimate.readout ? estimate.readout->used.readout_s : declared_.readout_s;
-  return core::Identifier(identifier_, channels_with(readout_s)).undone_delay_s();
+  const double readout_s = estimate.readout ? estimate.readout->used.readout_s : basis_.declared.readout_s;
+  return core::Identifier(basis_.identifier, channels_with(readout_s)).undone_delay_s();
 }
 
 std::optional<core::ReadoutValue> ReadoutUse::read_shapes(const core::ModalEstimate& estimate, double readout_s) const {
@@ -76,27 +78,27 @@ std::optional<core::ReadoutValue> ReadoutUse::read_shapes(const core::ModalEstim
   std::vector<core::ObservedPole> poles;
   for (const auto* list : {&estimate.modes, &estimate.rejected}) {
     for (const core::Mode& mode : *list) {
-      if (can_be_read(mode)) poles.push_back(core::observed_pole(mode, channels, rate_hz_));
+      if (can_be_read(mode)) poles.push_back(core::observed_pole(mode, channels, basis_.rate_hz));
     }
   }
-  const auto read =
-      core::readout_from_shapes(poles, {row_share_.data(), n_outputs_}, {rate_hz_, identifier_.max_frequency_hz, 1.0});
+  const auto read = core::readout_from_shapes(poles, {basis_.row_share.data(), n_outputs_},
+                                              {basis_.rate_hz, basis_.identifier.max_frequency_hz, 1.0});
   if (!read || !read->scatter_known || read->n_poles < kLeastPoles || read->mean_mpc < kLeastMpc) return {};
-  return core::ReadoutValue{read->readout_frames / rate_hz_, read->std_frames / rate_hz_};
+  return core::ReadoutValue{read->readout_frames / basis_.rate_hz, read->std_frames / basis_.rate_hz};
 }
 
 core::ModalEstimate ReadoutUse::identify(const core::CpsdSums& sums, const core::ReadoutEstimate& from_tracks) const {
-  if (!identifier_.undo_row_delays) return core::Identifier(identifier_, channels_).identify(sums);
+  if (!basis_.identifier.undo_row_delays) return core::Identifier(basis_.identifier, channels_).identify(sums);
   std::optional<core::ReadoutValue> tracks;
   if (from_tracks.observable)
-    tracks = core::ReadoutValue{from_tracks.frames / rate_hz_, from_tracks.std_frames / rate_hz_};
-  core::ReadoutFinding finding = core::choose_readout(declared_, tracks, {});
+    tracks = core::ReadoutValue{from_tracks.frames / basis_.rate_hz, from_tracks.std_frames / basis_.rate_hz};
+  core::ReadoutFinding finding = core::choose_readout(basis_.declared, tracks, {});
   const double first_s = finding.used.readout_s;
-  core::ModalEstimate estimate = core::Identifier(identifier_, channels_with(first_s)).identify(sums);
+  core::ModalEstimate estimate = core::Identifier(basis_.identifier, channels_with(first_s)).identify(sums);
   if (const auto shapes = read_shapes(estimate, first_s)) {
-    finding = core::choose_readout(declared_, tracks, shapes);
-    if (std::abs(finding.used.readout_s - first_s) * rate_hz_ > kNoticeable_frames) {
-      estimate = core::Identifier(identifier_, channels_with(finding.used.readout_s)).identify(sums);
+    finding = core::choose_readout(basis_.declared, tracks, shapes);
+    if (std::abs(finding.used.readout_s - first_s) * basis_.rate_hz > kNoticeable_frames) {
+      estimate = core::Identifier(basis_.identifier, channels_with(finding.used.readout_s)).identify(sums);
     } else {
       finding.used.readout_s = first_s;
     }

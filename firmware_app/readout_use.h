@@ -15,6 +15,14 @@ namespace app {
 
 [[nodiscard]] core::ReadoutEstimator::Config readout_config(const AppConfig& config, const core::CameraInfo& camera);
 
+// What an identification with the readout time is made of, beside the channels: plain values, to be kept with sums.
+struct ReadoutBasis {
+  core::IdentifierConfig identifier;
+  std::vector<double> row_share;  // part of the readout that has passed when each channel is seen
+  double rate_hz = 0.0;
+  core::ReadoutValue declared;
+};
+
 // The identification with the readout time that is known best: the declared one, with camera.readout_sigma_ms (where
 // that is chosen: 1 ms, or half a frame where nothing is declared), that of the tracks, and that of the modes' own
 // shapes. Where the shapes change it noticeably, the modes are identified once more with it. In paper mode nothing is
@@ -24,6 +32,7 @@ class ReadoutUse {
   // Throws as identifier_config() does.
   ReadoutUse(const AppConfig& config, const core::CameraInfo& camera, const core::TrackFrame& keyframe,
              std::vector<core::ChannelInfo> spectra);
+  ReadoutUse(ReadoutBasis basis, std::vector<core::ChannelInfo> spectra);
 
   [[nodiscard]] core::ModalEstimate identify(const core::CpsdSums& sums,
                                              const core::ReadoutEstimate& from_tracks) const;
@@ -32,18 +41,17 @@ class ReadoutUse {
   [[nodiscard]] std::vector<double> delay_s(const core::ModalEstimate& estimate) const;
   [[nodiscard]] int n_outputs() const noexcept { return static_cast<int>(n_outputs_); }
   [[nodiscard]] std::vector<double> declared_delay_s() const { return delay_s({}); }
+  [[nodiscard]] const ReadoutBasis& basis() const noexcept { return basis_; }
+  [[nodiscard]] const std::vector<core::ChannelInfo>& channels() const noexcept { return channels_; }
 
  private:
   [[nodiscard]] std::vector<core::ChannelInfo> channels_with(double readout_s) const;
   [[nodiscard]] std::optional<core::ReadoutValue> read_shapes(const core::ModalEstimate& estimate,
                                                               double readout_s) const;
 
-  core::IdentifierConfig identifier_;
+  ReadoutBasis basis_;
   std::vector<core::ChannelInfo> channels_;
-  std::vector<double> row_share_;  // part of the readout that has passed when each channel is seen
-  std::size_t n_outputs_;          // channels that are no witnesses
-  double rate_hz_;
-  core::ReadoutValue declared_;
+  std::size_t n_outputs_;  // channels that are no witnesses
 };
 
 }  // namespace app

@@ -6,6 +6,7 @@
 
 #include "core/spectrum/merge_sums.h"
 #include "firmware_app/byte_archive.h"
+#include "firmware_app/channel_archive.h"
 
 namespace app {
 
@@ -21,17 +22,6 @@ void describe_numbers(Archive& archive, State& state) {
   archive.list(state.boot_id);
   archive.list(state.spectrum);
   archive.list(state.modes);
-}
-
-template <class Archive, class Channel>
-void describe_channel(Archive& archive, Channel& channel) {
-  archive.value(channel.region);
-  archive.list(channel.name);
-  archive.value(channel.direction_u);
-  archive.value(channel.direction_v);
-  archive.value(channel.row_delay_s);
-  archive.value(channel.is_base);
-  archive.value(channel.n_integrations);
 }
 
 }  // namespace

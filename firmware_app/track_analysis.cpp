@@ -76,6 +76,14 @@ core::ModalEstimate ChannelAnalysis::finish() {
   return estimate;
 }
 
+ViewSums ChannelAnalysis::view_sums() const {
+  ViewSums out;
+  out.record = {cpsd_.sums(), readout_use_.value().channels()};
+  out.basis = readout_use_->basis();
+  out.from_tracks = readout_;
+  return out;
+}
+
 core::ModalEstimate ChannelAnalysis::identified(int n_differences) const {
   core::IdentifierConfig config = config_;
   config.n_differences = n_differences;

@@ -22,6 +22,7 @@
 #include "firmware_app/config.h"
 #include "firmware_app/loop_closer.h"
 #include "firmware_app/readout_use.h"
+#include "firmware_app/view_sums.h"
 
 namespace app {
 
@@ -57,6 +58,8 @@ class ChannelAnalysis {
   [[nodiscard]] core::ModalEstimate identified(int n_differences) const;
 
   [[nodiscard]] const core::Health& losses() const noexcept { return losses_; }
+  // All that finish() used of the record; `view` is the caller's. With find_readout() only.
+  [[nodiscard]] ViewSums view_sums() const;
   // Totals of the channels without witnesses, after finish().
   [[nodiscard]] const core::CpsdSums& sums() const noexcept { return totals_; }
 

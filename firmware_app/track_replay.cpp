@@ -37,6 +37,8 @@ class Replay {
     result_.channels = analysis_->channels();
     result_.estimate = analysis_->finish();
     result_.losses = analysis_->analysis().losses();
+    result_.sums = analysis_->analysis().view_sums();
+    result_.sums.view = view_;
     result_.n_differences = analysis_->analysis().n_differences();
     if (report_) write_report(last);
     return std::move(result_);

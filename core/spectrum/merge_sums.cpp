@@ -1,7 +1,9 @@
 #include "core/spectrum/merge_sums.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <stdexcept>
 
 #include "core/spectrum/join_blocks.h"
@@ -10,7 +12,6 @@ namespace core {
 
 namespace {
 
-constexpr double kMostDelayApart_s = 1e-4;
 constexpr double kSame = 1e-12;  // relative
 
 template <class... Args>
@@ -20,20 +21,35 @@ std::string text(const char* format, Args... args) {
   return buffer;
 }
 
-std::vector<CpsdBlock> blocks_in_use(const CpsdSums& sums) {
-  return {sums.blocks.begin(), sums.blocks.begin() + static_cast<std::ptrdiff_t>(sums.n_blocks)};
+bool same_delays(const std::vector<ChannelInfo>& a, const std::vector<ChannelInfo>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const ChannelInfo& p, const ChannelInfo& q) { return p.row_delay_s == q.row_delay_s; });
 }
 
-void join_pairs(std::vector<CpsdBlock>& blocks) {
-  std::vector<CpsdBlock> joined;
-  for (std::size_t b = 0; b < blocks.size(); b += 2) {
-    joined.push_back(std::move(blocks[b]));
-    if (b + 1 < blocks.size()) join_blocks(joined.back(), blocks[b + 1]);
+// One bin of all pairs, as channels seen later_s later than wanted show it. turns[c] = exp(-i w later_s[c]).
+void turn_bin(std::complex<double>* pairs, const std::vector<std::complex<double>>& turns) {
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    for (std::size_t j = i; j < turns.size(); ++j) *pairs++ *= turns[i] * std::conj(turns[j]);
   }
-  blocks = std::move(joined);
 }
 
-std::string channels_differ(const RecordSums& a, const RecordSums& b) {
+// The sums as if every channel had been seen at the instants of `wanted`. Masks stay: what moves by a tenth of a sample
+// was seen or missing all the same.
+CpsdSums with_delays_of(const RecordSums& record, const std::vector<ChannelInfo>& wanted) {
+  CpsdSums sums = record.sums;
+  std::vector<std::complex<double>> turns(wanted.size());
+  for (int k = 0; k < sums.n_bins(); ++k) {
+    const double w = 2.0 * std::numbers::pi * k * sums.rate_hz / sums.n_fft;
+    for (std::size_t c = 0; c < wanted.size(); ++c)
+      turns[c] = std::polar(1.0, -w * (record.channels[c].row_delay_s - wanted[c].row_delay_s));
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(k) * sums.n_pairs();
+    turn_bin(sums.data_sum.data() + first, turns);
+    for (std::size_t b = 0; b < sums.n_blocks; ++b) turn_bin(sums.blocks[b].data_sum.data() + first, turns);
+  }
+  return sums;
+}
+
+std::string channels_differ(const RecordSums& a, const RecordSums& b, double most_delay_apart_s) {
   if (a.channels.size() != b.channels.size()) {
     return text("%zu and %zu channels", a.channels.size(), b.channels.size());
   }
@@ -47,7 +63,7 @@ std::string channels_differ(const RecordSums& a, const RecordSums& b) {
       return text("channel '%.60s' holds different quantities", own.name.c_str());
     }
     const double apart_s = std::abs(own.row_delay_s - other.row_delay_s);
-    if (!(apart_s <= kMostDelayApart_s)) {
+    if (!(apart_s <= most_delay_apart_s)) {
       return text("channel '%.60s' is seen %.3g ms later in one: another view or readout time", own.name.c_str(),
                   1e3 * apart_s);
     }
@@ -57,8 +73,8 @@ std::string channels_differ(const RecordSums& a, const RecordSums& b) {
 
 }  // namespace
 
-std::string why_not_addable(const RecordSums& a, const RecordSums& b) {
-  const std::string channels = channels_differ(a, b);
+std::string why_not_addable(const RecordSums& a, const RecordSums& b, double most_delay_apart_s) {
+  const std::string channels = channels_differ(a, b, most_delay_apart_s);
   if (!channels.empty()) return channels;
   if (!(std::abs(a.sums.rate_hz - b.sums.rate_hz) <= kSame * a.sums.rate_hz)) {
     return text("%.6g and %.6g samples a second", a.sums.rate_hz, b.sums.rate_hz);
@@ -73,23 +89,61 @@ std::string why_not_addable(const RecordSums& a, const RecordSums& b) {
   return "";
 }
 
-void add_record(RecordSums& into, const RecordSums& from) {
-  const std::string reason = why_not_addable(into, from);
+void SumOfRecords::add(const RecordSums& record) {
+  if (is_empty_) {
+    total_.channels = record.channels;
+    total_.sums = record.sums;
+    total_.sums.blocks.clear();
+    take_blocks(record.sums);
+    is_empty_ = false;
+    return;
+  }
+  const std::string reason = why_not_addable(total_, record, most_delay_undone_s(total_.sums.rate_hz));
   if (!reason.empty()) throw std::invalid_argument("records cannot be added: " + reason);
-  CpsdSums& sums = into.sums;
-  std::vector<CpsdBlock> blocks = blocks_in_use(sums);
-  for (CpsdBlock& block : blocks_in_use(from.sums)) blocks.push_back(std::move(block));
-  add_sums(sums.data_sum, from.sums.data_sum);
-  add_sums(sums.mask_sum, from.sums.mask_sum);
-  sums.n_segments += from.sums.n_segments;
-  sums.weight.join(from.sums.weight);
-  sums.n_samples += from.sums.n_samples;
-  sums.n_missing += from.sums.n_missing;
-  // Without room for blocks on one side the parts would not be the whole: then there are none.
-  const bool whole = !sums.blocks.empty() && (from.sums.n_blocks > 0 || from.sums.n_segments == 0);
-  while (whole && blocks.size() > sums.blocks.size()) join_pairs(blocks);
-  sums.n_blocks = whole ? blocks.size() : 0;
-  for (std::size_t b = 0; b < sums.n_blocks; ++b) sums.blocks[b] = std::move(blocks[b]);
+  if (same_delays(total_.channels, record.channels)) {
+    join(record.sums);
+  } else {
+    join(with_delays_of(record, total_.channels));
+  }
+}
+
+void SumOfRecords::join(const CpsdSums& record) {
+  CpsdSums& sums = total_.sums;
+  add_sums(sums.data_sum, record.data_sum);
+  add_sums(sums.mask_sum, record.mask_sum);
+  sums.n_segments += record.n_segments;
+  sums.weight.join(record.weight);
+  sums.n_samples += record.n_samples;
+  sums.n_missing += record.n_missing;
+  take_blocks(record);
+}
+
+// Where one record has none, the parts would not be the whole: then there are none.
+void SumOfRecords::take_blocks(const CpsdSums& record) {
+  whole_ = whole_ && (record.n_blocks > 0 || record.n_segments == 0);
+  if (whole_) {
+    add_blocks(record);
+  } else {
+    total_.sums.blocks.clear();
+  }
+  total_.sums.n_blocks = total_.sums.blocks.size();
+}
+
+// A block goes where its middle lies in the whole.
+void SumOfRecords::add_blocks(const CpsdSums& sums) {
+  for (std::size_t b = 0; b < sums.n_blocks; ++b) {
+    const CpsdBlock& block = sums.blocks[b];
+    const double middle = static_cast<double>(n_so_far_) + 0.5 * static_cast<double>(block.n_segments);
+    const double share = middle / static_cast<double>(std::max<std::uint64_t>(n_expected_, 1));
+    const auto place = static_cast<std::size_t>(share * static_cast<double>(n_room_));
+    n_so_far_ += block.n_segments;
+    if (total_.sums.blocks.empty() || (place > place_ && total_.sums.blocks.size() < n_room_)) {
+      total_.sums.blocks.push_back(block);
+      place_ = place;
+    } else {
+      join_blocks(total_.sums.blocks.back(), block);
+    }
+  }
 }
 
 }  // namespace core

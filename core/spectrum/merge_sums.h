@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,12 +17,37 @@ struct RecordSums {
 };
 
 // Why two records may not be added, empty when they may: channels (names, in order), quantities, rate, segment, window
-// and row delays (within 0.1 ms) must agree. Others are identified each and their modes combined (merge_setups.h).
-[[nodiscard]] std::string why_not_addable(const RecordSums& a, const RecordSums& b);
+// and row delays must agree, those within `most_delay_apart_s`. Others are identified each and their modes combined
+// (combine_estimates.h, merge_setups.h).
+inline constexpr double kSameDelay_s = 1e-4;
+[[nodiscard]] std::string why_not_addable(const RecordSums& a, const RecordSums& b,
+                                          double most_delay_apart_s = kSameDelay_s);
+// A camera that hovers elsewhere sees every channel a little earlier or later. Up to a tenth of a sample that can be
+// undone in the sums.
+[[nodiscard]] inline double most_delay_undone_s(double rate_hz) noexcept { return 0.1 / rate_hz; }
 
-// The sums of `into` and `from` together, as if the second record had followed the first after a gap: all of the
-// estimate is sums and counts. Blocks stand in order; where there are more than `into` has room for, neighbours are
-// joined two and two. Throws std::invalid_argument with the reason of why_not_addable().
-void add_record(RecordSums& into, const RecordSums& from);
+// Records as one, as if each had followed the one before it after a gap: all of the estimate is sums and counts. Their
+// blocks stand in order, joined to blocks as equal as can be, whatever the records' lengths: that is why the number of
+// segments of all must be known before. Row delays are brought to those of the first record: the cross-spectrum of
+// channels i, j seen d_i, d_j later than there is multiplied by exp(-i w (d_i - d_j)). The same records in the same
+// order give the same bits.
+class SumOfRecords {
+ public:
+  SumOfRecords(std::uint64_t n_segments, std::size_t n_blocks) noexcept : n_expected_(n_segments), n_room_(n_blocks) {}
+
+  // Throws std::invalid_argument with the reason of why_not_addable(), row delays within most_delay_undone_s().
+  void add(const RecordSums& record);
+  [[nodiscard]] const RecordSums& total() const noexcept { return total_; }
+
+ private:
+  void join(const CpsdSums& record);
+  void take_blocks(const CpsdSums& record);
+  void add_blocks(const CpsdSums& sums);
+
+  std::uint64_t n_expected_, n_so_far_ = 0;  // segments
+  std::size_t n_room_, place_ = 0;           // of the last block, 0 .. n_room_ - 1
+  bool is_empty_ = true, whole_ = true;      // whole: the blocks together are the sums
+  RecordSums total_;
+};
 
 }  // namespace core

@@ -64,3 +64,8 @@ if(WITH_GROUND)
     set(WITH_GROUND OFF)
   endif()
 endif()
+
+option(WITH_MPI "`hovermodal batch --mpi`: flights across machines" OFF)
+if(WITH_MPI)
+  find_package(MPI REQUIRED COMPONENTS C)  # tools/setup.sh --mpi
+endif()

@@ -15,6 +15,8 @@ void add_identify(CLI::App& app);
 void add_closeloop(CLI::App& app);
 void add_replay(CLI::App& app);
 void add_report(CLI::App& app);  // in replay.cpp
+void add_batch(CLI::App& app);
+void add_batch_flight(CLI::App& app);  // in batch/flight.cpp: its processes, not for people
 void add_compare(CLI::App& app);
 void add_spy(CLI::App& app);
 void add_inspect(CLI::App& app);  // in spy.cpp: another view of the same messages

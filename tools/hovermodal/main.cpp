@@ -19,6 +19,8 @@ int main(int argc, char** argv) {
   tools::add_closeloop(app);
   tools::add_replay(app);
   tools::add_report(app);
+  tools::add_batch(app);
+  tools::add_batch_flight(app);
   tools::add_compare(app);
   tools::add_spy(app);
   tools::add_inspect(app);

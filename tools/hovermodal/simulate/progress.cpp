@@ -9,8 +9,11 @@
 
 namespace tools {
 
-Progress::Progress(std::string what, std::uint64_t total)
-    : what_(std::move(what)), total_(std::max<std::uint64_t>(total, 1)), terminal_(::isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(std::string what, std::uint64_t total, std::string unit)
+    : what_(std::move(what)),
+      unit_(std::move(unit)),
+      total_(std::max<std::uint64_t>(total, 1)),
+      terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
   if (line_open_) std::fputc('\n', stderr);
@@ -26,12 +29,18 @@ void Progress::update(std::uint64_t done) {
   last_tenth_ = tenth;
 }
 
+void Progress::say(const std::string& text) {
+  fmt::print(stderr, "{}{}\n", line_open_ ? "\r\033[K" : "", text);
+  line_open_ = false;
+}
+
 void Progress::print(std::uint64_t done) {
   const double elapsed = std::max(elapsed_s(), 1e-9);
   const double per_second = static_cast<double>(done) / elapsed;
   const double left_s = static_cast<double>(total_ - done) / std::max(per_second, 1e-9);
-  const std::string line = fmt::format("{} {:3d} %  {}/{} frames  {:.1f} frames/s  {:.0f} s left", what_,
-                                       100 * done / total_, done, total_, per_second, left_s);
+  const std::string left = done > 0 ? fmt::format("{:.0f} s left", left_s) : "";
+  const std::string line = fmt::format("{} {:3d} %  {}/{} {}  {:.1f} {}/s  {}", what_, 100 * done / total_, done,
+                                       total_, unit_, per_second, unit_, left);
   if (terminal_) {
     constexpr std::uint64_t kBarCells = 24;
     const std::string bar(kBarCells * done / total_, '#');

@@ -9,19 +9,20 @@ namespace tools {
 // How far a long job is, on standard error: a line that rewrites itself on a terminal, a line each 10 % elsewhere.
 class Progress {
  public:
-  Progress(std::string what, std::uint64_t total);
+  Progress(std::string what, std::uint64_t total, std::string unit = "frames");
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   void update(std::uint64_t done);
+  void say(const std::string& text);  // a line of its own
   [[nodiscard]] double elapsed_s() const;
 
  private:
   void print(std::uint64_t done);
 
   using Clock = std::chrono::steady_clock;
-  std::string what_;
+  std::string what_, unit_;
   std::uint64_t total_;
   bool terminal_;
   bool line_open_ = false;

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/identification/inverse_variance.h"
+#include "core/types/modal_estimate.h"
+
+namespace core {
+
+// An estimate of the structure's modes among several; borrowed.
+struct EstimateInput {
+  std::vector<std::string> channels;  // of the shapes, by name
+  const ModalEstimate* estimate = nullptr;
+  bool is_combined = true;  // false: it only takes part in the matching, its data are in another one's already
+};
+
+struct ModePlace {
+  std::size_t i_estimate = 0, i_mode = 0;  // of EstimateInput::estimate->modes
+};
+
+// What several estimates say of one mode.
+struct ModeGroup {
+  std::vector<ModePlace> members;            // by estimate, at most one of each
+  WeightedMean frequency_hz, damping_ratio;  // of those members that are combined; n = 0: there are none
+};
+
+// Structural modes of different estimates are one where |df| / (0.03 f) + (1 - MAC) / 0.5 < 1, by average linkage, no
+// two of one estimate; the MAC over the channels that both have by name, and left out with fewer than two of them.
+// Frequencies are combined by inverse variance, damping in its logarithm: its scatter grows with itself, so that one
+// that came out low would weigh too much. A mode that states no standard deviation has no part in this, unless none
+// does: then the mean is weighted by duration, and states none. Groups stand by frequency.
+[[nodiscard]] std::vector<ModeGroup> combine_estimates(const std::vector<EstimateInput>& estimates);
+
+// The mean over some of a group's members alone, e.g. over those that were not combined.
+[[nodiscard]] WeightedMean mean_frequency(const std::vector<EstimateInput>& estimates,
+                                          const std::vector<ModePlace>& members);
+[[nodiscard]] WeightedMean mean_damping(const std::vector<EstimateInput>& estimates,
+                                        const std::vector<ModePlace>& members);
+
+}  // namespace core

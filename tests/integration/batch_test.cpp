@@ -1,0 +1,88 @@
+// hovermodal batch on small simulated flights, as a user calls it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/command.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+// Three flights of one view, one of another (a smaller picture of the same), one that is broken.
+class Batch : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = fs::path(::testing::TempDir()) / "batch";
+    fs::remove_all(folder_);
+    for (int seed = 1; seed <= 4; ++seed) {
+      const std::string size = seed == 4 ? " --size 720p" : "";
+      const auto made = tests::run(
+          "hovermodal", "simulate --preset paper --tracks-only --points 6 --duration 60 --seed " +
+                            std::to_string(seed) + size + " --out " + (folder_ / "in" / std::to_string(seed)).string());
+      ASSERT_EQ(made.exit_code, 0) << made.text;
+    }
+    fs::create_directories(folder_ / "in" / "5");
+    std::ofstream(folder_ / "in" / "5" / "tracks.csv") << "this is no file of tracks\n";
+    fs::copy_file(folder_ / "in" / "1" / "config.yaml", folder_ / "in" / "5" / "config.yaml");
+    // The same flight once more under another name: it must not count twice.
+    fs::copy(folder_ / "in" / "2", folder_ / "in" / "2_again");
+  }
+
+  static tests::Outcome batch(const std::string& out, const std::string& more) {
+    return tests::run("hovermodal", "batch " + (folder_ / "in").string() + " --out " + (folder_ / out).string() +
+                                        " --set spectrum.segment=128 " + more);
+  }
+  static nlohmann::json result(const std::string& out) {
+    return nlohmann::json::parse(tests::read(folder_ / out / "batch.json"));
+  }
+
+  inline static fs::path folder_;
+};
+
+TEST_F(Batch, GivesTheSameBytesForAnyNumberOfProcesses) {
+  const auto one = batch("one", "--jobs 1"), two = batch("two", "--jobs 2");
+  ASSERT_EQ(one.exit_code, 1) << one.text;  // a flight failed
+  ASSERT_EQ(two.exit_code, 1) << two.text;
+  for (const char* file : {"batch.json", "batch.txt", "batch.svg", "views/1/modal.json", "flights/3/modal.json"})
+    EXPECT_EQ(tests::read(folder_ / "one" / file), tests::read(folder_ / "two" / file)) << file;
+
+  EXPECT_THAT(one.text, HasSubstr("5: failed: "));
+  EXPECT_THAT(one.text, HasSubstr("2_again: holds the samples of 2: counted once"));
+  const nlohmann::json json = result("one");
+  ASSERT_EQ(json["views"].size(), 2U);
+  EXPECT_EQ(json["views"][0]["flights"], nlohmann::json({"1", "2", "3"}));
+  EXPECT_EQ(json["views"][1]["flights"], nlohmann::json({"4"}));
+  ASSERT_GE(json["modes"].size(), 3U);
+  const nlohmann::json& first = json["modes"][0];
+  EXPECT_NEAR(first["frequency_hz"]["value"].get<double>(), 1.65, 0.05);
+  EXPECT_EQ(first["flights"], 4);
+  EXPECT_EQ(first["by_view"].size(), 2U);
+  double best = 1.0;
+  for (const auto& flight : first["by_flight"]) best = std::min(best, flight["frequency_std_hz"].get<double>());
+  EXPECT_LT(first["frequency_hz"]["std"].get<double>(), best);
+  EXPECT_TRUE(fs::exists(folder_ / "one" / "flights" / "1" / "report.html"));
+  EXPECT_FALSE(fs::exists(folder_ / "one" / "flights" / "1" / "flight.sums"));
+}
+
+TEST_F(Batch, AFolderWithoutFlightsIsAUsageError) {
+  fs::create_directories(folder_ / "empty");
+  const auto outcome =
+      tests::run("hovermodal", "batch " + (folder_ / "empty").string() + " --out " + (folder_ / "nothing").string());
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr("no flight in it"));
+}
+
+TEST_F(Batch, SeveralStartedTogetherWithoutMpiAreRefused) {
+  ::setenv("OMPI_COMM_WORLD_SIZE", "2", 1);
+  const auto refused = batch("refused", "--jobs 1");
+  ::unsetenv("OMPI_COMM_WORLD_SIZE");
+  EXPECT_EQ(refused.exit_code, 2) << refused.text;
+  EXPECT_THAT(refused.text, HasSubstr("give --mpi"));
+}
+
+}  // namespace

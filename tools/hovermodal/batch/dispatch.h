@@ -1,0 +1,16 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tools/hovermodal/batch/workers.h"
+
+namespace tools {
+
+// Gives every flight to whoever has room, in order, and waits for all. Progress goes to standard error, a failure as
+// soon as it is known. Returns why each flight failed, "" for one that is done.
+[[nodiscard]] std::vector<std::string> work_on_all(const std::vector<FlightOrder>& orders,
+                                                   const std::vector<std::unique_ptr<Workers>>& workers);
+
+}  // namespace tools

@@ -1,0 +1,107 @@
+// hovermodal batch-flight: the process that works on one flight of a batch. A crash here is one flight's end only.
+#include <fmt/core.h>
+#include <sys/prctl.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <thread>
+
+#include "drivers/storage/checkpoint_file.h"
+#include "firmware_app/analysis.h"
+#include "firmware_app/pipeline.h"
+#include "firmware_app/view_sums.h"
+#include "tools/hovermodal/batch/flight_order.h"
+#include "tools/hovermodal/commands.h"
+#include "tools/hovermodal/modes_text.h"
+
+namespace tools {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void say(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) fmt::print("{}\n", line);
+}
+
+app::TracksResult replayed_record(const FlightOrder& order, const std::string& path,
+                                  const std::vector<std::string>& overrides) {
+  app::RecordsResult result = app::replay_records({path}, {"", overrides}, order.into);
+  say(result.remarks);
+  return std::move(result.tracks);
+}
+
+// The service on the clip, recorded; what it records is what a replay takes on from.
+void track_clip(const FlightOrder& order, const fs::path& records) {
+  std::vector<std::string> overrides = order.overrides;
+  overrides.insert(overrides.end(),
+                   {"camera.driver=file", "camera.source=" + order.flight.path, "camera.pace=as_fast_as_possible",
+                    "telemetry.lcm_url=", "telemetry.log_file=", "state.directory=", "report.directory=",
+                    "closure.adopt=off", "record.directory=" + records.string(), "record.quota_mb=1000000"});
+  app::Pipeline pipeline(app::load_config(order.flight.config, overrides));
+  say(pipeline.warnings());
+  pipeline.start();
+  while (pipeline.running()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const app::Pipeline::Outcome outcome = pipeline.join();
+  say(pipeline.take_events());
+  say(outcome.notes);
+  if (!outcome.fault.empty()) throw std::runtime_error(outcome.fault);
+}
+
+app::TracksResult tracked_clip(const FlightOrder& order) {
+  const fs::path records = fs::path(order.into) / "record";
+  fs::remove_all(records);
+  track_clip(order, records);
+  for (const Flight& record : find_flights(records.string(), "", "").flights) {
+    app::TracksResult result = replayed_record(order, record.path, {});
+    fs::remove_all(records);  // large, and made anew from the clip at any time
+    return result;
+  }
+  throw std::runtime_error("the clip left no record: this build may lack LCM, which records are written with");
+}
+
+app::TracksResult result_of(const FlightOrder& order) {
+  switch (order.flight.kind) {
+    case FlightKind::kRecord:
+      return replayed_record(order, order.flight.path, order.overrides);
+    case FlightKind::kTracks:
+      return app::replay_tracks(app::load_config(order.flight.config, order.overrides), order.flight.path, order.into);
+    case FlightKind::kClip:
+      return tracked_clip(order);
+  }
+  throw std::invalid_argument("no such kind of flight");
+}
+
+// Geometry, spectra and identification as `replay` makes them, of a clip the tracking first. Leaves the report and
+// kSumsFile in the folder.
+void work_on(const FlightOrder& order) {
+  const app::TracksResult result = result_of(order);
+  fmt::print("{}", modes_text(result.estimate, result.channels));
+  const std::string refused =
+      drivers::write_checkpoint((fs::path(order.into) / kSumsFile).string(), app::to_bytes(result.sums));
+  if (!refused.empty()) throw std::runtime_error(fmt::format("{}: {}", kSumsFile, refused));
+}
+
+}  // namespace
+
+void add_batch_flight(CLI::App& app) {
+  auto order = std::make_shared<FlightOrder>();
+  auto kind = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("batch-flight", "One flight of a batch")->group("");
+  command->add_option("--kind", *kind)->required();
+  command->add_option("--path", order->flight.path)->required();
+  command->add_option("--into", order->into)->required();
+  command->add_option("--config", order->flight.config);
+  command->add_option("--set", order->overrides)->take_all();
+  command->callback([order, kind] {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // whoever waits for this flight is gone
+    order->flight.kind = flight_kind(*kind);
+    work_on(*order);
+  });
+}
+
+}  // namespace tools
