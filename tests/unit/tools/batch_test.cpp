@@ -82,7 +82,10 @@ class BatchWorkers : public tests::FolderTest {
   }
   [[nodiscard]] std::string failure_of(const std::string& program) const {
     tools::LocalWorkers workers(program, 1);
-    workers.start(7, {{"a", tools::FlightKind::kTracks, "tracks.csv", "c.yaml"}, {}, (folder_ / "out").string()});
+    tools::FlightOrder order;
+    order.flight = {"a", tools::FlightKind::kTracks, "tracks.csv", "c.yaml"};
+    order.into = (folder_ / "out").string();
+    workers.start(7, order);
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30) * tests::kSlowdown;
     while (std::chrono::steady_clock::now() < deadline) {
       if (const auto end = workers.poll()) {
