@@ -55,7 +55,7 @@ figure_6() {
   quietly cmake --preset asan
   quietly cmake --build --preset asan --target hovermodal hovermodald usb_camera capture_check camera_contract_device firmware_node
   # What is freed is held back for a while, and a leak is LeakSanitizer's to tell: pages are no measure here.
-  outcomes 6 ", AddressSanitizer" HOVERMODAL_BIN="$PWD/build/asan/bin" FRAMES=40 TIMES=5 SIZES=640x480 LIMIT_S=1800 CLIP_RATE=3 WATCH_S=520 MOST_KIB=20000 \
+  outcomes 6 ", AddressSanitizer" HOVERMODAL_BIN="$PWD/build/asan/bin" FRAMES=40 TIMES=5 SIZES=640x480 LIMIT_S=1800 CLIP_RATE=3 WATCH_S=440 MOST_KIB=20000 \
     ASAN_OPTIONS=verify_asan_link_order=0:quarantine_size_mb=16 UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 -- \
     formats usb faults replug libcamera contract service
 }
