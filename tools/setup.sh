@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Installs what the build, the tests and the demo need on Debian 12, from Debian's packages; nothing when all is there.
-#   tools/setup.sh [--runtime] [--device] [--lcm] [--ground]
+#   tools/setup.sh [--runtime] [--device] [--lcm] [--ground] [--fuzz]
 #     --runtime   also what tools/figures/runtime.sh needs: a model checker, an arm64 compiler and emulator
 #     --lcm       also lcm-spy with the message types of hovermodal: a JDK, LCM's Java library, an X server without a screen
 #     --device    also what tests/device needs: a machine emulator, a kernel for it, and tools to build a kernel module
 #     --ground    also what tools/figures/ground_page.sh needs: a browser and a font
+#     --fuzz      also what tools/fuzz.sh needs: clang 14 with its fuzzer and sanitizers
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -26,6 +27,7 @@ for wanted in "$@"; do
     --lcm) packages+=(default-jdk liblcm-java libjchart2d-java libxmlgraphics-commons-java xvfb python3) ;;
     --device) packages+=(qemu-system-x86 busybox-static cpio kmod udev v4l-utils libcamera-tools libcamera-ipa rt-tests xz-utils bc libelf1) ;;
     --ground) packages+=(chromium fonts-dejavu-core python3) ;;
+    --fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14) ;;
     *) echo "setup: $wanted: unknown; see the head of tools/setup.sh" >&2; exit 2 ;;
   esac
 done

@@ -89,8 +89,11 @@ bool ModeTracker::restore(StateReader& in) noexcept {
            std::isfinite(track.damping_ratio) && std::isfinite(track.last_record_s) && is_finite(track.seen);
     track.found = false;
     // The rest is made anew before it is told, and flags out of a file may be any byte.
-    const ModeHistory& kept = track.history;
-    track.history = {kept.id, kept.n_estimates, kept.first_number, kept.first_seen_s, kept.n_fold_changes};
+    ModeHistory kept;
+    kept.id = track.history.id, kept.n_estimates = track.history.n_estimates;
+    kept.first_number = track.history.first_number, kept.first_seen_s = track.history.first_seen_s;
+    kept.n_fold_changes = track.history.n_fold_changes;
+    track.history = kept;
   }
   if (!sane) restart(), last_id_ = 0;
   return sane;
