@@ -44,7 +44,7 @@ def read(path, document):
     blocks, prose, block, remark = [], [], None, ""
     for number, line in enumerate(path.read_text().splitlines(), 1):
         comment = re.fullmatch(r"\s*<!-- (.*) -->", line)
-        indent = re.match(r"(?:    |  +- )?    (?=\S)", line) if line.startswith("    ") else None
+        indent = re.match(r" {4,}\S", line)
         if indent and (block or not prose or not prose[-1][1].strip() or remark):
             if block is None:
                 block = Block(document, number, remark)
