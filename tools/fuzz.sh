@@ -62,7 +62,7 @@ for target in "${targets[@]}"; do
   kept=tests/fuzz/corpus/$target grown=build/fuzz/corpus/$target findings=build/fuzz/findings/$target log=build/fuzz/$target.log
   mkdir -p "$kept" "$grown" "$findings"
   verdict=clean
-  "build/fuzz/bin/fuzz_$target" -max_total_time="$seconds" -max_len=16384 -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
+  "build/fuzz/bin/fuzz_$target" -max_total_time="$seconds" -max_len=32768 -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
     -artifact_prefix="$findings/" "$grown" "$kept" >"$log" 2>&1 || { verdict=FINDING; failed=1; }
   read -r runs peak < <(awk -F': *' '/stat::number_of_executed_units/ { n = $2 } /stat::peak_rss_mb/ { m = $2 } END { print n + 0, m + 0 }' "$log")
   read -r cov ft corp < <(awk '/ cov: / { for (i = 1; i < NF; i++) { if ($i == "cov:") c = $(i + 1); if ($i == "ft:") f = $(i + 1); if ($i == "corp:") k = $(i + 1) } } END { print c + 0, f + 0, k }' "$log")

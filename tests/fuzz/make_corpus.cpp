@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "core/spectrum/time_grid.h"
 #include "drivers/storage/checkpoint_file.h"
 #include "drivers/storage/text_file.h"
 #include "drivers/telemetry/encode_run.h"
@@ -234,7 +235,7 @@ void write_record(const core::RunHead& head, const std::string& name, const std:
     core::TrackFrame tracks = head.keyframe;
     core::AttitudeBatch attitude;
     attitude.add({0.01, {1.0, 0.0, 0.0, 0.0}});
-    for (int k = 0; k < 40; ++k) {
+    for (int k = 0; k < 24; ++k) {
       tracks.sequence = static_cast<std::uint64_t>(k), tracks.t_start_ns = 40'000'000 * k;
       for (auto& point : tracks.points) point.u_px += (k % 4 < 2 ? 0.3 : -0.3) * (point.region == 1 ? 1.0 : 0.1);
       write(drivers::kRunFrameSuffix, drivers::to_message(tracks, attitude));

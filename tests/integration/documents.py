@@ -4,7 +4,7 @@ key that they name: documents.py BIN SOURCES SCRATCH [DOCUMENT...]. Ends with 1 
 
 An indented block of a document is either YAML, whose keys must be known, or commands. An HTML comment in front of it says more:
   <!-- file: NAME -->          the block is the content of that file, for the commands that follow
-  <!-- until stopped -->       each command runs until it is interrupted, and must end without an error then
+  <!-- until stopped -->       each command runs until it is interrupted, and must end by that then
   <!-- run by SCRIPT -->       needs a device, a machine of its own or much time: SCRIPT runs it, and must hold the program, its
                                subcommand and its options
 """
@@ -132,10 +132,15 @@ def run(block, line, environment, folder):
             fault(block.where, f"`{line}` ended by itself:\n{text[-2000:]}")
     except subprocess.TimeoutExpired:
         os.killpg(child.pid, signal.SIGINT if stopped else signal.SIGKILL)
-        text, _ = child.communicate(timeout=60)
+        try:
+            text, _ = child.communicate(timeout=60)
+        except subprocess.TimeoutExpired:
+            os.killpg(child.pid, signal.SIGKILL)
+            return fault(block.where, f"`{line}` does not end when it is interrupted")
         if not stopped:
             return fault(block.where, f"`{line}` did not end in {PATIENCE_S} s")
-    if child.returncode != 0:
+    ended = (0, -signal.SIGINT, 128 + signal.SIGINT) if stopped else (0,)
+    if child.returncode not in ended:
         fault(block.where, f"`{line}` ended with {child.returncode}:\n{text[-2000:]}")
     print(f"  {time.monotonic() - began:5.1f} s  {line}", flush=True)
 
@@ -164,7 +169,8 @@ def check_words(document, prose, programs, keys, sources):
     options = programs.all_help() + "".join(p.read_text() for p in sorted(sources.glob("tools/*.sh")) + [sources / "tests/device/run.sh"])
     for number, line in prose:
         for code in re.findall(r"`([^`]+)`", line):
-            for option in re.findall(r"(?<![\w-])--[a-z][a-z-]+", code):
+            ours = re.match(r"--|hovermodal|tools/", code)
+            for option in re.findall(r"(?<![\w-])--[a-z][a-z-]+", code) if ours else []:
                 if not re.search(re.escape(option) + r"(?![a-z-])", options):
                     fault(f"{document}:{number}", f"`{code}`: no program has {option}")
             m = re.fullmatch(r"(" + "|".join(SECTIONS) + r")\.([a-z_]+)(: .*|=.*)?", code)
@@ -213,6 +219,7 @@ def go(bin_folder, sources, scratch, documents):
     shutil.rmtree(scratch, ignore_errors=True)
     scratch.mkdir(parents=True)
     environment = dict(os.environ, PATH=f"{bin_folder}:{os.environ['PATH']}", PYTHONDONTWRITEBYTECODE="1")
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background job ignores it, and so would all it starts
     programs = Programs(bin_folder)
     keys = programs.keys()
     make_fixtures(bin_folder, sources, scratch, environment)
