@@ -56,9 +56,12 @@ lines() { # TARGET FOLDER...
   shift
   LLVM_PROFILE_FILE=$raw "build/fuzz/bin/fuzz_$target" -runs=0 "$@" >/dev/null 2>&1
   llvm-profdata-14 merge -o "$raw.data" "$raw"
-  # shellcheck disable=SC2046
-  llvm-cov-14 report "build/fuzz/bin/fuzz_$target" -instr-profile="$raw.data" $(concerned "$target") 2>/dev/null |
-    awk '$1 == "TOTAL" { print $8 - $9, $8 }'
+  # The report leaves out the beginning that all names share.
+  llvm-cov-14 report "build/fuzz/bin/fuzz_$target" -instr-profile="$raw.data" 2>/dev/null | awk -v files="$(concerned "$target")" '
+    function ends(text, with) { return text == with || substr(text, length(text) - length(with)) == "/" with }
+    BEGIN { n = split(files, file, " ") }
+    NF > 9 { for (i = 1; i <= n; i++) if (ends($1, file[i]) || ends(file[i], $1)) { reached += $8 - $9; total += $8 } }
+    END { print reached + 0, total + 0 }'
 }
 
 failed=0
