@@ -44,8 +44,8 @@ concerned() {
     lcm) echo drivers/telemetry/{stream_monitor,layout_watch,topics}.cpp drivers/telemetry/decode.h tools/hovermodal/ground/{json_series,json_status,live_stream,snapshot_json}.cpp ;;
     datagrams) echo drivers/telemetry/lcm_datagrams.cpp ;;
     checkpoint) echo drivers/storage/checkpoint_file.cpp firmware_app/{kept_keyframe,run_state}.cpp core/identification/mode_tracker.cpp core/spectrum/{welch_state,time_grid}.cpp ;;
-    http) echo tools/hovermodal/ground/{web_connections,web_guard,web_head,web_routes}.cpp ;;
-    record) echo drivers/telemetry/{event_log_reader,run_record_reader,encode_run}.cpp firmware_app/run_head.cpp ;;
+    http) echo tools/hovermodal/ground/{web_connections,web_guard,web_head,web_routes}.cpp tools/hovermodal/regions/picker_json.cpp ;;
+    record) echo drivers/telemetry/{event_log_reader,run_record_reader,encode_run}.cpp firmware_app/{run_head,keyframe_jpeg}.cpp ;;
     replay) echo firmware_app/{track_replay,record_replay,track_analysis,run_view}.cpp core/geometry/channel_displacement.cpp ;;
   esac
 }

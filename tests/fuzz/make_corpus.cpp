@@ -9,6 +9,7 @@
 #include "drivers/storage/text_file.h"
 #include "drivers/telemetry/encode_run.h"
 #include "drivers/telemetry/event_log.h"
+#include "firmware_app/keyframe_jpeg.h"
 #include "tests/fuzz/small_state.h"
 #include "tests/support/hostile_messages.h"
 
@@ -195,6 +196,10 @@ void write_http() {
        "1GET /" + host + "Cookie: a=b; hovermodal_token=" + token + "\r\nOrigin: http://127.0.0.1\r\n\r\n");
   keep("http", "no_token", "1GET /snapshot.json" + host + "\r\n");
   keep("http", "post", "2POST /change" + host + "Content-Type: application/json\r\nContent-Length: 4\r\n\r\n[12]");
+  const std::string saved =
+      R"({"regions": [{"name": "roof", "rect": [1, 2, 30, 40], "role": "base", "axis": "-12.5"}]})";
+  keep("http", "regions",
+       "2POST /regions" + host + "Content-Length: " + std::to_string(saved.size()) + "\r\n\r\n" + saved);
   keep("http", "form",
        "2POST /change" + host +
            "Content-Type: multipart/form-data; boundary=x\r\nContent-Length: 70\r\n\r\n--x\r\nContent-Disposition: "
@@ -258,7 +263,11 @@ void write_records() {
   head.files.push_back({"calibration.file", "camera.yaml",
                         "height: 80\nwidth: 100\ndistortion_model: plumb_bob\nD: [-0.1, 0.01, 0, 0, 0]\n"
                         "K: [90, 0, 50, 0, 90, 40, 0, 0, 1]\n"});
-  write_record(head, "with_calibration", "fault: no camera");
+  core::Frame image;
+  image.width_px = head.camera.width_px, image.height_px = head.camera.height_px;
+  for (int i = 0; i < image.width_px * image.height_px; ++i) image.pixels.push_back(static_cast<std::uint8_t>(i / 100));
+  head.files.push_back({"keyframe", "keyframe.jpg", app::keyframe_jpeg(image)});
+  write_record(head, "with_files", "fault: no camera");
 }
 
 }  // namespace

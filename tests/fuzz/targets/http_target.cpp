@@ -1,11 +1,15 @@
 #include <array>
 #include <memory>
+#include <stdexcept>
 
+#include "firmware_app/config.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/support/raw_http.h"
 #include "tools/hovermodal/ground/web_head.h"
 #include "tools/hovermodal/ground/web_routes.h"
 #include "tools/hovermodal/ground/web_server.h"
+#include "tools/hovermodal/regions/picker.h"
+#include "tools/hovermodal/regions/regions_text.h"
 
 namespace tests::fuzz {
 namespace {
@@ -25,12 +29,29 @@ WebResponse answer_to(const WebRequest& request) {
   return {200, "application/json", "[" + std::to_string(request.query.size() + request.body.size()) + "]"};
 }
 
+// What `hovermodal regions --serve` does with what its page saves, but for the file.
+WebResponse save_regions(const WebRequest& request) {
+  std::vector<core::Region> regions;
+  try {
+    regions = tools::read_regions(request.body, 640, 480);
+  } catch (const std::invalid_argument& error) {
+    return {422, "text/plain; charset=utf-8", error.what()};
+  }
+  const std::string json = tools::regions_json(regions, 640, 480);
+  require(tools::regions_json(tools::read_regions(json, 640, 480), 640, 480) == json,
+          "written and read, it is the same");
+  const app::AppConfig config = app::parse_config("camera: {source: a.mp4}\n" + tools::regions_yaml(regions), "saved");
+  require(config.regions.size() == regions.size(), "a configuration takes what was saved");
+  return {200, "application/json", json};
+}
+
 std::unique_ptr<WebRoutes> site(bool with_token, bool with_post) {
   auto routes = std::make_unique<WebRoutes>(tools::WebGuard{with_token ? std::string(kToken) : "", {"station"}, false},
                                             with_post);
   routes->add("/", {WebRoutes::Kind::kAsset, "text/html; charset=utf-8", kPage, {}, -1});
   routes->add("/snapshot.json", {WebRoutes::Kind::kGet, {}, {}, &answer_to, -1});
   routes->add("/change", {WebRoutes::Kind::kPost, {}, {}, &answer_to, -1});
+  routes->add("/regions", {WebRoutes::Kind::kPost, {}, {}, &save_regions, -1});
   routes->add("/events", {WebRoutes::Kind::kEvents, {}, {}, {}, 0});
   return routes;
 }
@@ -38,6 +59,7 @@ std::unique_ptr<WebRoutes> site(bool with_token, bool with_post) {
 void check(const WebRoutes::Answer& answer, std::string_view request, bool with_token, bool with_post) {
   require(answer.bytes.starts_with("HTTP/1."), "an answer is one");
   require(answer.status >= 200 && answer.status < 600, "its status is one");
+  require(answer.status != 500, "no handler throws: neither what it is made of, nor a violation in it");
   const std::string_view head = std::string_view(answer.bytes).substr(0, answer.bytes.find("\r\n\r\n"));
   require(head.size() < answer.bytes.size(), "its head ends");
   require(head.find("Content-Security-Policy: default-src 'self'") != head.npos || answer.status == 400,
@@ -65,6 +87,7 @@ void ask_server(std::string_view request) {
   connection.end();
   const std::string answer = connection.receive("\r\n\r\n");
   require(answer.empty() || answer.starts_with("HTTP/1."), "an answer is one");
+  require(!answer.starts_with("HTTP/1.1 500"), "no handler throws");
 }
 
 // The first byte tells how the server is set up and reached, the rest is what a client sends.
