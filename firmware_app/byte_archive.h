@@ -46,6 +46,12 @@ class ByteReader {
     std::memcpy(&x, bytes_.data(), sizeof x);
     bytes_ = bytes_.subspan(sizeof x);
   }
+  // A byte that is neither 0 nor 1 must not become a bool: reading it is undefined.
+  void value(bool& x) {
+    std::uint8_t byte = 0;
+    value(byte);
+    x = byte != 0;
+  }
   template <class Container>
   void list(Container& items) {
     using Item = typename Container::value_type;

@@ -1,6 +1,7 @@
 #include "firmware_app/kept_keyframe.h"
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
 #include <utility>
 
@@ -20,6 +21,13 @@ void describe(Archive& archive, Hash& config_hash, Image& image, Points& tracks)
   archive.value(image.height_px);
   archive.list(image.pixels);
   archive.list(tracks.points);
+}
+
+// What was written is a bool; what is read may be any byte, and as a bool undefined.
+void make_bool(bool& flag) {
+  std::uint8_t byte = 0;
+  std::memcpy(&byte, &flag, 1);
+  flag = byte != 0;
 }
 
 // In the image, grouped by region, none of a region that is not there.
@@ -53,6 +61,7 @@ KeyframeRead read_keyframe(const std::string& path, std::uint64_t config_hash, c
   try {
     ByteReader in(read.bytes);
     describe(in, hash, kept.image, kept.points);
+    for (core::TrackPoint& point : kept.points.points) make_bool(point.seen), make_bool(point.inlier);
   } catch (const std::runtime_error& e) {
     return {{}, "the keyframe in " + path + ": " + e.what()};
   }

@@ -60,7 +60,11 @@ bool ChannelAnalysis::push(const core::DisplacementSample& sample) {
   ++losses_.frames_in;
   ++losses_.frames_processed;
   if (!placement.accepted) return false;
-  for (std::uint64_t k = 0; k < placement.n_missing_before; ++k) note(cpsd_.push_missing());
+  // As the service: after two segments without a sample, more masked cells would only add empty segments. A record's
+  // stamps may lie years apart.
+  const std::uint64_t n_masked =
+      std::min<std::uint64_t>(placement.n_missing_before, 2 * static_cast<std::uint64_t>(cpsd_.sums().n_fft));
+  for (std::uint64_t k = 0; k < n_masked; ++k) note(cpsd_.push_missing());
   losses_.frames_missing += placement.n_missing_before;
   readout_ = sample.readout;
   note(cpsd_.push(sample));

@@ -18,6 +18,21 @@ namespace app {
 
 namespace {
 
+// Geometry finds a point's region by its number, and the points of a region side by side.
+void require_regions(const TrackSource& source) {
+  const std::size_t n_regions = source.config.regions.size();
+  std::uint16_t last = 0;
+  for (const core::TrackPoint& point : source.keyframe.points) {
+    if (point.region >= n_regions || point.region < last) {
+      throw std::invalid_argument(
+          fmt::format("{}: a point of region number {} does not belong to the {} regions of the configuration; replay "
+                      "it with the one it was recorded with",
+                      source.name, point.region, n_regions));
+    }
+    last = point.region;
+  }
+}
+
 class Replay {
  public:
   explicit Replay(const std::string& report_directory) : report_directory_(report_directory) {}
@@ -46,6 +61,7 @@ class Replay {
 
  private:
   void begin(const TrackSource& source) {
+    require_regions(source);
     auto next = std::make_unique<TrackAnalysis>(source.config, source.camera, source.keyframe);
     RunState view = run_view(source.config, source.camera, next->channels());
     view.config_hash = 0;  // the source's name is part of it

@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Installs what the build, the tests and the demo need on Debian 12, from Debian's packages; nothing when all is there.
-#   tools/setup.sh [--runtime] [--device] [--lcm] [--ground] [--package] [--package-arm64] [--mpi]
+#   tools/setup.sh [--runtime] [--device] [--lcm] [--ground] [--package] [--package-arm64] [--mpi] [--fuzz]
 #     --runtime   also what tools/figures/runtime.sh needs: a model checker, an arm64 compiler and emulator
 #     --lcm       also lcm-spy with the message types of hovermodal: a JDK, LCM's Java library, an X server without a screen
 #     --device    also what tests/device needs: a machine emulator, a kernel for it, and tools to build a kernel module
 #     --ground    also what tools/figures/ground_page.sh needs: a browser and a font
 #     --package   also what tools/package.sh needs; --package-arm64: for that architecture, with an emulator to run it
 #     --mpi       also what WITH_MPI needs, for `hovermodal batch` across machines: OpenMPI
+#     --fuzz      also what tools/fuzz.sh needs: clang 14 with its fuzzer and sanitizers
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -31,6 +32,7 @@ for wanted in "$@"; do
     --package) packages+=(dpkg-dev file gzip lintian man-db python3 binutils) ;;
     --package-arm64) packages+=(g++-aarch64-linux-gnu qemu-user mmdebstrap) ;;
     --mpi) packages+=(libopenmpi-dev openmpi-bin) ;;
+    --fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14) ;;
     *) echo "setup: $wanted: unknown; see the head of tools/setup.sh" >&2; exit 2 ;;
   esac
 done

@@ -58,6 +58,11 @@ double observed_s(const ModalEstimate& estimate, std::size_t n_channels) noexcep
   return std::isfinite(estimate.duration_s) ? std::max(0.0, estimate.duration_s * (1.0 - missing)) : 0.0;
 }
 
+bool is_finite(const std::vector<std::complex<double>>& shape) noexcept {
+  return std::all_of(shape.begin(), shape.end(),
+                     [](const auto& x) { return std::isfinite(x.real()) && std::isfinite(x.imag()); });
+}
+
 }  // namespace
 
 ModeTracker::ModeTracker(ModeTrackerConfig config) : config_(std::move(config)), cost_(kMaxTracks * kMaxModes) {
@@ -79,8 +84,16 @@ bool ModeTracker::restore(StateReader& in) noexcept {
   describe(in, *this);
   bool sane = in.ok();
   for (Track& track : tracks_) {
-    sane = sane && track.state <= State::kLost && std::isfinite(track.apparent_hz) && std::isfinite(track.variance);
+    sane = sane && track.state <= State::kLost && track.variance >= 0.0 && std::isfinite(track.variance) &&
+           std::isfinite(track.apparent_hz) && std::isfinite(track.frequency_hz) &&
+           std::isfinite(track.damping_ratio) && std::isfinite(track.last_record_s) && is_finite(track.seen);
     track.found = false;
+    // The rest is made anew before it is told, and flags out of a file may be any byte.
+    ModeHistory kept;
+    kept.id = track.history.id, kept.n_estimates = track.history.n_estimates;
+    kept.first_number = track.history.first_number, kept.first_seen_s = track.history.first_seen_s;
+    kept.n_fold_changes = track.history.n_fold_changes;
+    track.history = kept;
   }
   if (!sane) restart(), last_id_ = 0;
   return sane;

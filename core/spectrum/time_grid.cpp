@@ -30,4 +30,19 @@ TimeGrid::Placement TimeGrid::place(std::int64_t t_ns) noexcept {
   return {true, static_cast<std::uint64_t>(cell), n_missing};
 }
 
+void TimeGrid::save(StateWriter& out) const noexcept {
+  out.value(started_);
+  out.value(t0_ns_);
+  out.value(last_cell_);
+}
+
+void TimeGrid::restore(StateReader& in) noexcept {
+  in.value(started_);
+  in.value(t0_ns_);
+  in.value(last_cell_);
+  if (last_cell_ >= 0) return;
+  last_cell_ = 0;
+  in.fail();
+}
+
 }  // namespace core

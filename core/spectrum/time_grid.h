@@ -21,21 +21,14 @@ class TimeGrid {
 
   [[nodiscard]] Placement place(std::int64_t t_ns) noexcept;
   // To go on from the last cell, where the clock behind the stamps has gone on too.
-  void save(StateWriter& out) const noexcept { describe(out, *this); }
-  void restore(StateReader& in) noexcept { describe(in, *this); }
+  void save(StateWriter& out) const noexcept;
+  void restore(StateReader& in) noexcept;  // a place that cannot be makes `in` not ok
 
   [[nodiscard]] std::int64_t last_cell() const noexcept { return last_cell_; }
   [[nodiscard]] std::uint64_t n_refused() const noexcept { return n_refused_; }
   [[nodiscard]] double worst_jitter_cells() const noexcept { return worst_jitter_cells_; }
 
  private:
-  template <class Archive, class Self>
-  static void describe(Archive& archive, Self& self) noexcept {
-    archive.value(self.started_);
-    archive.value(self.t0_ns_);
-    archive.value(self.last_cell_);
-  }
-
   double rate_hz_;
   bool started_ = false;
   std::int64_t t0_ns_ = 0;

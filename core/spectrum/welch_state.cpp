@@ -1,10 +1,24 @@
 #include "core/spectrum/welch_cpsd.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace core {
 
 namespace {
 using Complex = std::complex<double>;
+
+bool is_finite(const std::vector<Complex>& values) noexcept {
+  return std::all_of(values.begin(), values.end(),
+                     [](const Complex& x) { return std::isfinite(x.real()) && std::isfinite(x.imag()); });
 }
+bool is_finite(const SegmentWeight& weight) noexcept {
+  return std::isfinite(weight.sum) && std::isfinite(weight.squares);
+}
+bool is_finite(const CpsdBlock& block) noexcept {
+  return is_finite(block.weight) && is_finite(block.data_sum) && is_finite(block.mask_sum);
+}
+}  // namespace
 
 // What fixes the sizes comes first, so that another configuration is found out before anything is taken.
 template <class Archive, class Self>
@@ -62,10 +76,14 @@ bool WelchCpsd::restore(StateReader& in) noexcept {
   return false;
 }
 
-// Indices that later steps trust.
+// Indices and numbers that later steps trust.
 bool WelchCpsd::is_consistent() const noexcept {
-  return sums_.n_blocks <= sums_.blocks.size() && n_filled_ >= 0 && n_filled_ < config_.segment && n_new_ >= 0 &&
-         n_new_ <= n_filled_ && segments_per_block_ > 0;
+  const bool has_numbers =
+      is_finite(sums_.data_sum) && is_finite(sums_.mask_sum) &&
+      std::all_of(value_.begin(), value_.end(), [](double x) { return std::isfinite(x); }) &&
+      std::all_of(sums_.blocks.begin(), sums_.blocks.end(), [](const CpsdBlock& block) { return is_finite(block); });
+  return has_numbers && sums_.n_blocks <= sums_.blocks.size() && n_filled_ >= 0 && n_filled_ < config_.segment &&
+         n_new_ >= 0 && n_new_ <= n_filled_ && segments_per_block_ > 0;
 }
 
 }  // namespace core

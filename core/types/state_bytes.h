@@ -56,6 +56,12 @@ class StateReader {
     static_assert(std::is_trivially_copyable_v<T>);
     raw(&x, sizeof x);
   }
+  // A byte that is neither 0 nor 1 must not become a bool: reading it is undefined.
+  void value(bool& x) noexcept {
+    std::uint8_t byte = x ? 1 : 0;
+    raw(&byte, sizeof byte);
+    x = byte != 0;
+  }
   template <class T>
   void array(std::vector<T>& v) noexcept {
     static_assert(std::is_trivially_copyable_v<T>);

@@ -7,6 +7,10 @@
 namespace drivers {
 namespace {
 
+// Far beyond any camera: grids, delays and sizes computed from them stay within their types.
+constexpr std::int32_t kMostSide_px = 100'000;
+constexpr double kLeastRate_hz = 1e-3, kMostRate_hz = 1e6;
+
 template <class Message>
 void put_points(const std::vector<core::TrackPoint>& points, Message& out) {
   out.n_points = static_cast<std::int32_t>(points.size());
@@ -90,8 +94,9 @@ hovermodal::run_frame_t to_message(const core::TrackFrame& tracks, const core::A
 
 std::optional<core::RunHead> from_message(const hovermodal::run_t& message) {
   const auto direction = direction_of(message.readout_direction);
-  const bool has_size = message.width_px > 0 && message.height_px > 0;
-  if (!direction || !has_size || !(message.rate_hz > 0.0) || !std::isfinite(message.rate_hz) || message.n_points < 1)
+  const auto is_side = [](std::int32_t px) { return px > 0 && px <= kMostSide_px; };
+  const bool has_rate = message.rate_hz >= kLeastRate_hz && message.rate_hz <= kMostRate_hz;
+  if (!direction || !is_side(message.width_px) || !is_side(message.height_px) || !has_rate || message.n_points < 1)
     return std::nullopt;
   core::RunHead head;
   head.config_yaml = message.config;

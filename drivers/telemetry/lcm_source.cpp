@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "drivers/telemetry/lcm_url.h"
+#include "drivers/telemetry/log_player.h"
 
 namespace drivers {
 namespace {
@@ -118,10 +119,18 @@ struct LcmSource::Library : LcmSource::Way {
   std::unique_ptr<lcm_t, decltype(&lcm_destroy)> lcm;
 };
 
+struct LcmSource::Log : LcmSource::Way {
+  Log(const std::string& url, LcmDatagrams::Receive receive) : player(parse_log(url), std::move(receive)) {}
+  bool poll(int timeout_ms) override { return player.poll(timeout_ms); }
+  LogPlayer player;
+};
+
 LcmSource::LcmSource(const std::string& url, const std::string& pattern, LcmDatagrams::Receive receive) {
   check_lcm_url(url);
   if (is_udpm(url)) {
     way_ = std::make_unique<Multicast>(url, std::move(receive));
+  } else if (is_log(url)) {
+    way_ = std::make_unique<Log>(url, std::move(receive));
   } else {
     way_ = std::make_unique<Library>(url, pattern, std::move(receive));
   }

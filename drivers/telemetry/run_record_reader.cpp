@@ -1,49 +1,41 @@
 #include "drivers/telemetry/run_record_reader.h"
 
 #include <fmt/format.h>
-#include <lcm/eventlog.h>
 
-#include <cstdio>
 #include <optional>
 #include <string_view>
 
 #include "drivers/storage/text_file.h"
 #include "drivers/telemetry/decode.h"
 #include "drivers/telemetry/encode_run.h"
+#include "drivers/telemetry/event_log_reader.h"
 #include "drivers/telemetry/record_folder.h"
 #include "drivers/telemetry/topics.h"
 #include "hovermodal/health_t.hpp"
 
 namespace drivers {
-namespace {
-
-using Log = std::unique_ptr<lcm_eventlog_t, decltype(&lcm_eventlog_destroy)>;
-using Event = std::unique_ptr<lcm_eventlog_event_t, decltype(&lcm_eventlog_free_event)>;
-
-}  // namespace
 
 class RunRecordReader::Impl {
  public:
   explicit Impl(const std::string& path) : files(files_from(path)) {
     while (!head_) {
-      const Event event = next_event();
-      if (!event) {
+      if (!next_event()) {
         throw FileError(fmt::format(
             "{}: holds no recorded run: give a file that record.directory holds (a log of messages alone, as "
             "telemetry.log_file makes, lacks the points)",
             path));
       }
-      take_head(*event);
+      take_head();
     }
   }
 
   [[nodiscard]] bool next(core::RecordedFrame& out) {
     if (out.tracks.points.size() != head_->keyframe.points.size()) out.tracks = head_->keyframe;
-    while (const Event event = next_event()) {
-      const std::string_view channel = channel_of(*event);
-      if (channel.ends_with(kTopicSuffixes[kHealth])) hear(*event);
+    while (next_event()) {
+      const std::string_view channel = event_.channel;
+      if (channel.ends_with(kTopicSuffixes[kHealth])) hear();
       if (!channel.ends_with(kRunFrameSuffix)) continue;
-      const auto message = decode<hovermodal::run_frame_t>(*event);
+      const auto message = decode<hovermodal::run_frame_t>();
       if (message && take_frame(*message, out)) {
         n_left_out += out.attitude.n_left_out;
         return true;
@@ -60,40 +52,34 @@ class RunRecordReader::Impl {
   std::string end;
 
  private:
-  static std::string_view channel_of(const lcm_eventlog_event_t& event) {
-    return {event.channel, static_cast<std::size_t>(event.channellen)};
-  }
   template <class Message>
-  std::optional<Message> decode(const lcm_eventlog_event_t& event) {
-    auto message = decode_message<Message>(event.data, static_cast<std::size_t>(event.datalen));
+  std::optional<Message> decode() {
+    auto message = decode_message<Message>(event_.data.data(), event_.data.size());
     if (!message) ++n_damaged;
     return message;
   }
 
-  [[nodiscard]] Event next_event() {
+  // Into event_; false: the end of the last file.
+  [[nodiscard]] bool next_event() {
     for (;;) {
       if (!log_) {
-        if (n_opened_ == files.size()) return {nullptr, &lcm_eventlog_free_event};
-        const std::string& path = files[n_opened_++];
-        log_.reset(lcm_eventlog_create(path.c_str(), "r"));
-        if (!log_) throw FileError(path + ": cannot be read: is it there, and readable?");
+        if (n_opened_ == files.size()) return false;
+        log_.emplace(files[n_opened_++]);
       }
-      if (lcm_eventlog_event_t* event = lcm_eventlog_read_next_event(log_.get()))
-        return {event, &lcm_eventlog_free_event};
-      if (std::feof(log_->f) == 0 && std::ferror(log_->f) == 0) {  // lengths that cannot be: on to the next event
-        ++n_damaged;
-        continue;
-      }
+      const std::uint64_t n_before = log_->n_damaged();
+      const bool is_there = log_->next(event_);
+      n_damaged += log_->n_damaged() - n_before;
+      if (is_there) return true;
       log_.reset();
     }
   }
 
-  void take_head(const lcm_eventlog_event_t& event) {
-    const std::string_view channel = channel_of(event);
+  void take_head() {
+    const std::string_view channel = event_.channel;
     if (channel.ends_with(kRunFileSuffix)) {
-      if (const auto piece = decode<hovermodal::run_file_t>(event)) take_piece(*piece);
+      if (const auto piece = decode<hovermodal::run_file_t>()) take_piece(*piece);
     } else if (channel.ends_with(kRunSuffix)) {
-      const auto message = decode<hovermodal::run_t>(event);
+      const auto message = decode<hovermodal::run_t>();
       if (!message) return;
       head_ = from_message(*message);
       if (!head_) {
@@ -118,14 +104,15 @@ class RunRecordReader::Impl {
     }
   }
 
-  void hear(const lcm_eventlog_event_t& event) {
-    const auto health = decode<hovermodal::health_t>(event);
+  void hear() {
+    const auto health = decode<hovermodal::health_t>();
     if (!health) return;
     was_thinned = was_thinned || health->rate_hz < 0.75 * head_->camera.rate_hz;
     if (health->state == "finished" || health->state.starts_with("fault")) end = health->state;
   }
 
-  Log log_{nullptr, &lcm_eventlog_destroy};
+  std::optional<EventLogReader> log_;
+  EventLogReader::Event event_;
   std::size_t n_opened_ = 0;
   std::vector<core::NamedFile> pieces_;
 };

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <stdexcept>
+
 #include "drivers/telemetry/record_folder.h"
 #include "firmware_app/analysis.h"
 #include "tests/support/pipeline_rig.h"
@@ -59,6 +62,27 @@ TEST_F(PipelineRecord, ARunWithLostFramesToo) {
   const std::string record = run(script, "gaps");
   (void)replayed({record}, "gaps");
   expect_same_report("gaps");
+}
+
+// The service masks two segments of it, no more; so does the replay, whatever time a record says has passed.
+TEST_F(PipelineRecord, ARunWithAGapOfManySegmentsToo) {
+  CameraScript script = frames(900);
+  script.is_lost = [](std::uint64_t k) { return k >= 150 && k < 700; };
+  const std::string record = run(script, "long_gap");
+  (void)replayed({record}, "long_gap");
+  expect_same_report("long_gap");
+}
+
+TEST_F(PipelineRecord, AConfigurationWithoutItsRegionsIsRefused) {
+  const std::string record = run(frames(200), "whole");
+  const fs::path other = folder / "other.yaml";
+  std::ofstream(other) << "camera: {source: a.mp4}\nregions: [{name: only, rect: [0, 0, 30, 30]}]\n";
+  try {
+    (void)app::replay_records({record}, {other.string(), {}}, "");
+    FAIL() << "points of regions that are not there were taken";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), HasSubstr("does not belong to the 1 regions of the configuration"));
+  }
 }
 
 TEST_F(PipelineRecord, AnOverrideChangesTheResult) {

@@ -58,6 +58,9 @@ class HostileMessages {
     }
   }
 
+  // A right message of each type with its channel.
+  [[nodiscard]] const std::vector<std::pair<std::string, Bytes>>& good() const { return good_; }
+
   [[nodiscard]] HostileMessage next() {
     const auto& [channel, good] = good_[below(good_.size())];
     HostileMessage out{below(kKinds.size()), channel, good};

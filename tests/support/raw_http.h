@@ -40,6 +40,7 @@ class RawConnection {
     }
     return true;
   }
+  void end() { shutdown(fd_, SHUT_WR); }  // nothing more will be sent
   // Until the other side closes, `enough` stands in what came, or the patience ends.
   std::string receive(std::string_view enough = {}, int patience_ms = 10000) {
     std::string out;

@@ -12,7 +12,7 @@ endif()
 if(HOVERMODAL_SANITIZE)
   # What is instrumented is not seen through: std::optional and Eigen then look uninitialized to GCC 12.
   target_compile_options(hovermodal_options INTERFACE -fsanitize=${HOVERMODAL_SANITIZE} -fno-omit-frame-pointer
-    -Wno-maybe-uninitialized)
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   # An access through a null pointer stops under AddressSanitizer itself; checking each reference in Eigen for it as well
   # takes a quarter of the compiler's time.
   target_compile_options(hovermodal_options INTERFACE -fno-sanitize=null)

@@ -36,7 +36,7 @@ systemctl daemon-reload
 group=$(stat -c %G /dev/video0)
 
 states=
-systemctl start --no-block $unit
+systemctl enable --now --no-block $unit
 for ((i = 0; i < 4000; i++)); do
   state="$(property ActiveState)/$(property SubState)"
   [ "${states##* }" = "$state" ] || states+=" $state"

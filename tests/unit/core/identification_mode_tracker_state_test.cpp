@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
+#include <limits>
 #include <vector>
 
 #include "core/identification/mode_tracker.h"
@@ -72,6 +75,23 @@ TEST(ModeTrackerState, RefusesOtherChannelsAndBytesCutOff) {
     EXPECT_FALSE(cut.restore(in)) << n;
     EXPECT_EQ(cut.n_followed(), 0U);
   }
+}
+
+TEST(ModeTrackerState, RefusesShapesThatAreNoNumbers) {
+  ModeTracker source = tracker();
+  ModalEstimate estimate = estimate_at(0);
+  source.update(estimate);
+  auto bytes = state_of(source);
+  // Of the channel without a delay: kept as it is.
+  const double first = 0.3, nan = std::numeric_limits<double>::quiet_NaN();
+  const auto* wanted = reinterpret_cast<const std::uint8_t*>(&first);
+  const auto found = std::search(bytes.begin(), bytes.end(), wanted, wanted + sizeof first);
+  ASSERT_NE(found, bytes.end());
+  std::memcpy(&*found, &nan, sizeof nan);
+  ModeTracker other = tracker();
+  StateReader in(bytes);
+  EXPECT_FALSE(other.restore(in));
+  EXPECT_EQ(other.n_followed(), 0U);
 }
 
 TEST(ModeTrackerState, AfterARestartNewModesGetNewNumbers) {

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <cstring>
+#include <limits>
 #include <memory>
 #include <random>
 #include <vector>
@@ -104,6 +106,23 @@ TEST(WelchState, RefusesBytesCutOffAnywhere) {
   }
 }
 
+TEST(WelchState, RefusesNumbersThatAreNone) {
+  WelchCpsd source(config_of(0.0));
+  for (int k = 0; k < 500; ++k) (void)source.push_missing();
+  const auto bytes = state_of(source);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  int n_refused = 0;
+  for (std::size_t at = 0; at + sizeof nan <= bytes.size(); at += sizeof nan) {
+    auto other_bytes = bytes;
+    std::memcpy(other_bytes.data() + at, &nan, sizeof nan);
+    WelchCpsd other(config_of(0.0));
+    if (restore(other, other_bytes)) continue;
+    ++n_refused;
+    EXPECT_EQ(other.sums().n_samples, 0U);
+  }
+  EXPECT_GT(n_refused, 100);
+}
+
 TEST(WelchState, RoomThatIsTooSmallIsToldAndNotOverrun) {
   const WelchCpsd welch(config_of(0.0));
   std::vector<std::uint8_t> bytes(100, 0xEE);
@@ -128,6 +147,15 @@ TEST(WelchState, RestartBeginsAnewAtAnotherRate) {
     EXPECT_EQ(used.push(value, seen), fresh.push(value, seen));
   }
   EXPECT_EQ(state_of(used), state_of(fresh));
+}
+
+TEST(TimeGrid, RefusesACellBeforeTheFirst) {
+  std::vector<std::uint8_t> bytes(1 + 8 + 8, 0xFF);
+  StateReader in(bytes);
+  TimeGrid grid(10.0);
+  grid.restore(in);
+  EXPECT_FALSE(in.ok());
+  EXPECT_EQ(grid.last_cell(), 0);
 }
 
 TEST(TimeGrid, GoesOnFromARestoredCellAcrossAGap) {

@@ -1,0 +1,88 @@
+#include "drivers/telemetry/event_log_reader.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "drivers/storage/text_file.h"
+
+namespace drivers {
+namespace {
+
+constexpr std::uint32_t kSync = 0xEDA1DA01U;  // each event begins with it
+constexpr std::size_t kSyncBytes = 4, kHeadBytes = 24;
+constexpr std::size_t kReadAtOnce = 1U << 16U;
+
+std::uint64_t big_endian(const std::uint8_t* bytes, std::size_t n) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < n; ++i) value = value << 8U | bytes[i];
+  return value;
+}
+
+}  // namespace
+
+EventLogReader::EventLogReader(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0)
+    throw FileError(fmt::format("{}: cannot be read: {}; check the path", path, std::strerror(errno)));
+  if (!S_ISREG(status.st_mode)) throw FileError(path + ": is no regular file; name an LCM event log");
+  file_.reset(std::fopen(path.c_str(), "rb"));
+  if (!file_)
+    throw FileError(fmt::format("{}: cannot be opened: {}; check its permissions", path, std::strerror(errno)));
+}
+
+bool EventLogReader::next(Event& out) {
+  for (;;) {
+    switch (take(out)) {
+      case Taken::kEvent:
+        return true;
+      case Taken::kEnd:
+        return false;
+      case Taken::kDamaged:
+        ++n_damaged_;
+        break;
+    }
+  }
+}
+
+bool EventLogReader::read(void* to, std::size_t n_bytes) { return std::fread(to, 1, n_bytes, file_.get()) == n_bytes; }
+
+bool EventLogReader::find_event() {
+  std::uint32_t seen = 0;
+  while (seen != kSync) {
+    const int byte = std::fgetc(file_.get());
+    if (byte == EOF) return false;
+    seen = seen << 8U | static_cast<std::uint32_t>(byte);
+  }
+  return true;
+}
+
+EventLogReader::Taken EventLogReader::take(Event& out) {
+  std::array<std::uint8_t, kHeadBytes> head{};  // number, time, two lengths
+  if (!find_event() || !read(head.data(), head.size())) return Taken::kEnd;
+  out.utc_us = static_cast<std::int64_t>(big_endian(head.data() + 8, 8));
+  const auto n_channel = static_cast<std::int32_t>(big_endian(head.data() + 16, 4));
+  const auto n_data = static_cast<std::int32_t>(big_endian(head.data() + 20, 4));
+  if (n_channel < 1 || n_channel > kLongestChannel || n_data < 0) return Taken::kDamaged;
+  out.channel.resize(static_cast<std::size_t>(n_channel));
+  if (!read(out.channel.data(), out.channel.size())) return Taken::kEnd;
+  out.data.clear();
+  for (auto n_left = static_cast<std::size_t>(n_data); n_left > 0;) {
+    const std::size_t n = std::min(n_left, kReadAtOnce), at = out.data.size();
+    out.data.resize(at + n);
+    if (!read(out.data.data() + at, n)) return Taken::kEnd;
+    n_left -= n;
+  }
+  // What follows must be an event, or the length was wrong.
+  std::array<std::uint8_t, kSyncBytes> behind{};
+  const std::size_t n_behind = std::fread(behind.data(), 1, behind.size(), file_.get());
+  if (n_behind < behind.size()) return Taken::kEvent;
+  std::fseek(file_.get(), -static_cast<long>(kSyncBytes), SEEK_CUR);
+  return big_endian(behind.data(), behind.size()) == kSync ? Taken::kEvent : Taken::kDamaged;
+}
+
+}  // namespace drivers

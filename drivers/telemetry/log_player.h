@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "drivers/telemetry/event_log_reader.h"
+#include "drivers/telemetry/lcm_datagrams.h"
+
+namespace drivers {
+
+// file://PATH?speed=S&start_timestamp=US, as LCM writes such URLs.
+struct LogUrl {
+  std::string path;
+  double speed = 1.0;              // times real time; 0 = as fast as possible
+  std::int64_t start_utc_us = -1;  // events before it are left out; below 0: none
+};
+
+[[nodiscard]] bool is_log(const std::string& url);
+// Throws std::invalid_argument naming the URL, what is wrong with it and the form it should have.
+[[nodiscard]] LogUrl parse_log(const std::string& url);
+
+// The messages of an LCM event log, at the pace at which they were written. One thread.
+class LogPlayer {
+ public:
+  LogPlayer(const LogUrl& url, LcmDatagrams::Receive receive);  // throws FileError
+
+  // Waits so long for a message and hands over all that are due, within reason. False at the end of the log.
+  [[nodiscard]] bool poll(int timeout_ms);
+
+ private:
+  [[nodiscard]] std::int64_t wait_ns() const;  // until event_ is due
+
+  LogUrl url_;
+  LcmDatagrams::Receive receive_;
+  EventLogReader log_;
+  EventLogReader::Event event_;
+  bool has_event_ = false, has_begun_ = false;
+  std::int64_t first_utc_us_ = 0, began_ns_ = 0;  // of the log; CLOCK_MONOTONIC
+};
+
+}  // namespace drivers

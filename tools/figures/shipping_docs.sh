@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# Figure 5 of shipping: the documents on a clean Debian 12, followed to the letter. A root folder is made with mmdebstrap, the
+# repository cloned into it, and README's commands run there as they stand, from the first apt-get to the modes of a clip of
+# one's own. One line a command. As root; a gigabyte of packages, two hours on two processors. --quick: README's commands, the demo
+# with 20 s, tools/test.sh only the unit tests.
+#   tools/figures/shipping_docs.sh [--quick]
+# HOVERMODAL_CCACHE=DIR is used as the compiler's cache in it (the lines say so); all else is as on a new machine.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+. tools/figures/lib.sh
+quick=
+[ "${1:-}" != --quick ] || quick=yes
+out=$PWD/build/figures/shipping
+root=$out/clean
+mkdir -p "$out"
+cache=${HOVERMODAL_CCACHE:-}
+with=${cache:+, with a compiler cache}
+
+# On this machine's network for apt-get; the loopback device is all that the programs use.
+inside() { chroot "$root" env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 ${cache:+CCACHE_DIR=/ccache} \
+  bash -c "cd /hovermodal && export PATH=\$PWD/build/release/bin:\$PATH && $1"; }
+leave() { local place; for place in ccache dev/shm dev proc sys; do ! mountpoint -q "$root/$place" || umount "$root/$place"; done; }
+
+make_root() {
+  leave
+  rm -rf "$root"
+  quietly mmdebstrap --variant=minbase --include=ca-certificates,git bookworm "$root"
+  cp /etc/resolv.conf "$root/etc/resolv.conf" 2>/dev/null || true
+  cp /etc/apt/apt.conf.d/*proxy* "$root/etc/apt/apt.conf.d/" 2>/dev/null || true
+  mount --bind /proc "$root/proc"
+  mount --bind /sys "$root/sys"
+  mount --bind /dev "$root/dev"
+  mount -t tmpfs tmpfs "$root/dev/shm"
+  if [ -n "$cache" ]; then mkdir -p "$root/ccache" && mount --bind "$cache" "$root/ccache"; fi
+  quietly git clone --no-hardlinks . "$root/hovermodal"
+}
+
+# follow NUMBER COMMAND [ARGUMENT-OF---quick]: a line for it, with its time.
+follow() {
+  local number=$1 command=$2 verdict=ok began=$SECONDS
+  [ -z "$quick" ] || command+=${3:-}
+  inside "$command" >"$out/docs_$number.log" 2>&1 </dev/null || verdict=MISS
+  line "5.$number" $verdict "$((SECONDS - began)) s: $(grep -v '^$' "$out/docs_$number.log" | tail -n 1 | cut -c1-120)" "works as it stands$with" "$command"
+}
+
+# The commands of the section "Your own video", as documents.py sees them.
+own_video() { awk '/^## Your own video/ { on = 1; next } /^## / { on = 0 } on && /^    (hovermodal|hovermodald|ffmpeg) / { sub(/^    /, ""); sub(/  +#.*/, ""); print }' README.md; }
+flight_yaml() { awk '/<!-- file: flight.yaml -->/ { on = 1; next } on && !/^    / { exit } on { sub(/^    /, ""); print }' README.md; }
+
+figure_5() {
+  if [ "$(id -u)" -ne 0 ] || ! command -v mmdebstrap >/dev/null; then
+    line 5 SKIP "needs root and mmdebstrap" "every command works" "the documents on a clean Debian 12"
+    return
+  fi
+  trap leave EXIT
+  make_root
+  line 5.root ok "$(du -sm --exclude=proc --exclude=sys "$root" 2>/dev/null | cut -f1) MB, $(chroot "$root" dpkg-query -f '.' -W | wc -c) packages" "-" "a clean Debian 12 (minbase) with git and a clone"
+  follow demo "tools/demo.sh" " --seconds 20"
+  follow test "tools/test.sh" " -L unit"
+  # A reader's clip: the simulator's.
+  follow clip "hovermodal simulate --preset paper --duration 30 --out fixture && cp fixture/clip.mp4 flight.mp4"
+  flight_yaml >"$root/hovermodal/flight.yaml"
+  local n=0 command
+  while read -r command; do
+    n=$((n + 1))
+    follow "own$n" "$command"
+  done < <(own_video)
+  judge 5.own "$n commands" "6" "of \"Your own video\" in README.md" "$n == 6"
+  if [ -d "$data/phone_rolling_shutter_gyro/frames" ]; then
+    quietly "$bin/hovermodal" readout --clip "$data/phone_rolling_shutter_gyro/frames" --stamps "$data/phone_rolling_shutter_gyro/framestamp.txt" --gyro "$data/phone_rolling_shutter_gyro/gyro.txt" &&
+      line 5.readout ok "-" "works" "hovermodal readout on a phone's record" || line 5.readout MISS "-" "works" "hovermodal readout on a phone's record"
+  fi
+  [ -n "$quick" ] || follow spy "tools/setup.sh --lcm && tools/build.sh && { Xvfb :99 & DISPLAY=:99 timeout -s INT 10 tools/lcm_spy.sh 'udpm://239.255.76.67:7667?ttl=1'; code=\$?; kill %1; [ \$code = 124 ]; }"
+}
+
+run_figures 5

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Figure 3 of shipping: every reader of what comes from outside, fuzzed. One line a target; two hours on two processors
+# (replay builds all of core under the sanitizers first), --quick: 20 s each and without replay, some minutes.
+#   tools/figures/shipping_fuzz.sh [--quick] [TARGET...]
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+. tools/figures/lib.sh
+seconds=600 targets=(config calibration timestamps series lcm datagrams checkpoint http record replay)
+if [ "${1:-}" = --quick ]; then
+  seconds=20
+  unset 'targets[-1]'
+  shift
+fi
+[ $# -eq 0 ] || targets=("$@")
+out=$PWD/build/figures/shipping
+mkdir -p "$out"
+
+figure_3() {
+  local target text verdict kept_bytes
+  for target in "${targets[@]}"; do
+    verdict=ok
+    text=$(tools/fuzz.sh "$target" --seconds $seconds --coverage 2>"$out/fuzz_$target.err") || verdict=MISS
+    [ -n "$text" ] || text=$(tail -n 1 "$out/fuzz_$target.err")
+    line "3.$target" $verdict "$(head -n 1 <<<"$text" | sed 's/^[a-z]* //')" "no finding in $seconds s" \
+      "libFuzzer with AddressSanitizer and UndefinedBehaviorSanitizer, tests/fuzz/targets/${target}_target.cpp"
+    [ $verdict = ok ] || tail -n +2 <<<"$text"
+  done
+  kept_bytes=$(find tests/fuzz/corpus -type f -printf '%s\n' | awk '{ n += $1 } END { print n + 0 }')
+  judge 3.corpus "$(find tests/fuzz/corpus -type f | wc -l) inputs, $kept_bytes bytes" "below 200 kB" "kept in the project, run by every tools/test.sh" \
+    "$kept_bytes > 1000 && $kept_bytes < 200000"
+}
+
+run_figures 3
