@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/command.h"
+#include "tests/support/folder_test.h"
 
 namespace {
 
@@ -14,11 +15,9 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 // Three flights of one view, one of another (a smaller picture of the same), one that is broken.
-class Batch : public ::testing::Test {
+class Batch : public tests::FolderTest {
  protected:
-  static void SetUpTestSuite() {
-    folder_ = fs::path(::testing::TempDir()) / "batch";
-    fs::remove_all(folder_);
+  void make_flights() const {
     for (int seed = 1; seed <= 4; ++seed) {
       const std::string size = seed == 4 ? " --size 720p" : "";
       const auto made = tests::run(
@@ -33,18 +32,17 @@ class Batch : public ::testing::Test {
     fs::copy(folder_ / "in" / "2", folder_ / "in" / "2_again");
   }
 
-  static tests::Outcome batch(const std::string& out, const std::string& more) {
+  [[nodiscard]] tests::Outcome batch(const std::string& out, const std::string& more) const {
     return tests::run("hovermodal", "batch " + (folder_ / "in").string() + " --out " + (folder_ / out).string() +
                                         " --set spectrum.segment=256 " + more);
   }
-  static nlohmann::json result(const std::string& out) {
+  [[nodiscard]] nlohmann::json result(const std::string& out) const {
     return nlohmann::json::parse(tests::read(folder_ / out / "batch.json"));
   }
-
-  inline static fs::path folder_;
 };
 
 TEST_F(Batch, GivesTheSameBytesForAnyNumberOfProcesses) {
+  ASSERT_NO_FATAL_FAILURE(make_flights());
   const auto one = batch("one", "--jobs 1"), two = batch("two", "--jobs 2");
   ASSERT_EQ(one.exit_code, 1) << one.text;  // a flight failed
   ASSERT_EQ(two.exit_code, 1) << two.text;
@@ -82,6 +80,7 @@ TEST_F(Batch, AFolderWithoutFlightsIsAUsageError) {
 }
 
 TEST_F(Batch, SeveralStartedTogetherWithoutMpiAreRefused) {
+  fs::create_directories(folder_ / "in");
   ::setenv("OMPI_COMM_WORLD_SIZE", "2", 1);
   const auto refused = batch("refused", "--jobs 1");
   ::unsetenv("OMPI_COMM_WORLD_SIZE");
