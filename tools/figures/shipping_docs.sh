@@ -23,7 +23,9 @@ leave() { local place; for place in ccache dev/shm dev proc sys; do ! mountpoint
 
 make_root() {
   leave
-  rm -rf "$root"
+  # What is mounted there is this machine's own.
+  if grep -q " $root/" /proc/mounts; then echo "shipping_docs: something is still mounted below $root" >&2; exit 1; fi
+  rm -rf --one-file-system "$root"
   quietly mmdebstrap --variant=minbase --include=ca-certificates,git bookworm "$root"
   cp /etc/resolv.conf "$root/etc/resolv.conf" 2>/dev/null || true
   cp /etc/apt/apt.conf.d/*proxy* "$root/etc/apt/apt.conf.d/" 2>/dev/null || true
