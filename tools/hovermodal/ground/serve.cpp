@@ -3,7 +3,6 @@
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <ifaddrs.h>
-#include <signal.h>
 
 #include <array>
 #include <chrono>
@@ -14,20 +13,12 @@
 #include "tools/hovermodal/ground/live_stream.h"
 #include "tools/hovermodal/ground/page.h"
 #include "tools/hovermodal/ground/web_server.h"
+#include "tools/hovermodal/stop_signal.h"
 
 namespace tools {
 namespace {
 
 constexpr int kEventPeriod_ms = 200;
-
-volatile sig_atomic_t stop_requested = 0;
-
-void watch_signals() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { stop_requested = 1; };
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 void add_paths(WebServer& server, LiveStream& stream) {
   add_page(server, ground_page());
@@ -92,7 +83,7 @@ void run_ground(const GroundOptions& options) {
                                 [&](std::string_view channel, const void* data, std::size_t n) {
                                   stream.receive(channel, data, n, drivers::LcmListener::now_ns());
                                 });
-  watch_signals();
+  watch_stop_signals();
   server.start();
   tell_where(server, options);
   const std::int64_t end_ns = drivers::LcmListener::now_ns() + static_cast<std::int64_t>(options.seconds * 1e9);

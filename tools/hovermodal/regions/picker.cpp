@@ -12,8 +12,6 @@ void tools::run_picker(const std::vector<core::Region>&, const std::string&, con
 
 #else
 
-#include <signal.h>
-
 #include <chrono>
 #include <cstdio>
 #include <thread>
@@ -22,20 +20,12 @@ void tools::run_picker(const std::vector<core::Region>&, const std::string&, con
 #include "tools/hovermodal/ground/page.h"
 #include "tools/hovermodal/ground/web_server.h"
 #include "tools/hovermodal/regions/regions_text.h"
+#include "tools/hovermodal/stop_signal.h"
 
 namespace tools {
 namespace {
 
 constexpr int kPoll_ms = 50;
-
-volatile sig_atomic_t stop_requested = 0;
-
-void watch_signals() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { stop_requested = 1; };
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 WebResponse plain(int status, std::string text) {
   return {status, "text/plain; charset=utf-8", std::move(text) + "\n"};
@@ -70,7 +60,7 @@ void run_picker(const std::vector<core::Region>& regions, const std::string& fra
   server.add_asset("/frame.png", "image/png", frame_png);
   server.add_get("/regions.json", [&](const WebRequest&) { return WebResponse{200, "application/json", current}; });
   server.add_post("/regions", [&](const WebRequest& request) { return take_regions(request, options, current); });
-  watch_signals();
+  watch_stop_signals();
   server.start();
   std::printf("open %s\nSave writes %s; Ctrl-C ends.\n", server.url().c_str(), options.out.c_str());
   std::fflush(stdout);

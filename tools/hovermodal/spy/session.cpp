@@ -13,7 +13,6 @@ void tools::run_spy(const SpyOptions&) {
 #else
 
 #include <fmt/format.h>
-#include <signal.h>
 
 #include <cstdio>
 #include <fstream>
@@ -25,6 +24,7 @@ void tools::run_spy(const SpyOptions&) {
 #include "tools/hovermodal/spy/stages.h"
 #include "tools/hovermodal/spy/terminal.h"
 #include "tools/hovermodal/spy/view.h"
+#include "tools/hovermodal/stop_signal.h"
 
 namespace tools {
 namespace {
@@ -32,9 +32,6 @@ namespace {
 constexpr std::int64_t kRedraw_ns = 250'000'000;
 constexpr std::int64_t kPlainLine_ns = 1'000'000'000;
 constexpr std::int64_t kAfterEnd_ns = 500'000'000;  // for what is still under way when the final health arrives
-volatile sig_atomic_t stop_requested = 0;
-
-extern "C" void request_stop(int) { stop_requested = 1; }
 
 std::vector<std::string> render(SpyView what, const drivers::StreamMonitor& monitor, const ViewOptions& view) {
   return what == SpyView::kModes ? render_screen(monitor, view) : render_stages(monitor, view);
@@ -114,13 +111,6 @@ End listen(const SpyOptions& options, drivers::LcmListener& listener, drivers::S
   }
 }
 
-void watch_signals() {
-  struct sigaction action {};
-  action.sa_handler = &request_stop;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
-
 }  // namespace
 
 void run_spy(const SpyOptions& options) {
@@ -134,7 +124,7 @@ void run_spy(const SpyOptions& options) {
                                 [&monitor](std::string_view channel, const void* data, std::size_t n_bytes) {
                                   monitor.receive(channel, data, n_bytes, drivers::LcmListener::now_ns());
                                 });
-  watch_signals();
+  watch_stop_signals();
   std::optional<TerminalScreen> screen;
   ViewOptions view;
   if (options.plain || !locale_is_utf8()) view.charset = Charset::kAscii;
