@@ -22,7 +22,7 @@ make_flights() {
     size=1080p
     [ $((seed % 2)) = 1 ] || size=720p
     quietly "$bin/hovermodal" simulate --preset paper --tracks-only --points 15 --duration "$duration_s" --size "$size" \
-      --seed "$seed" --out "$out/flights/$(printf '%02d' "$seed")"
+      --seed "$seed" --out "$out/flights_of_${duration_s}s/$(printf '%02d' "$seed")"
   done
 }
 
@@ -43,16 +43,16 @@ figure_4() {
   local name different value sigma middle worst n
   make_flights
   rm -rf "$out"/{one,two,mpi}
-  timed one "$bin/hovermodal" batch "$out/flights" --jobs 1
-  timed two "$bin/hovermodal" batch "$out/flights" --jobs 2
+  timed one "$bin/hovermodal" batch "$out/flights_of_${duration_s}s" --jobs 1
+  timed two "$bin/hovermodal" batch "$out/flights_of_${duration_s}s" --jobs 2
   timed mpi mpirun --allow-run-as-root --oversubscribe --mca btl self,vader -n 2 \
-    build/mpi/bin/hovermodal batch "$out/flights" --mpi
+    build/mpi/bin/hovermodal batch "$out/flights_of_${duration_s}s" --mpi
   for name in two mpi; do
     read -r n different < <(python3 tools/figures/batch_account.py same "$out/one/batch.json" "$out/$name/batch.json")
     judge 4 "largest relative difference of $n numbers $different; $(gain "$name") times as fast as one ($(nproc) processors)" \
       "1e-12" "$flights flights, one process against $([ $name = two ] && echo 'two' || echo 'two ranks of MPI')" "$different <= 1e-12"
   done
-  read -r n sigma middle worst value < <(python3 tools/figures/batch_account.py truth "$out/one/batch.json" "$out/flights/01/truth.json")
+  read -r n sigma middle worst value < <(python3 tools/figures/batch_account.py truth "$out/one/batch.json" "$out/flights_of_${duration_s}s/01/truth.json")
   judge 4 "at most $sigma, median $middle, of the median flight's; $n modes" "< 1" "stated standard deviation of all flights, f and damping" \
     "$n >= 3 && $sigma < 1"
   judge 4 "$worst sigma at most, rms $value" "3" "f and damping of all flights against the simulated truth" "$worst <= 3"
