@@ -44,7 +44,7 @@ int take_line(std::string_view line, HeadProgress& out, bool& has_length) {
 HeadProgress look_at_head(std::string_view bytes, std::size_t max_head, std::size_t max_body) noexcept {
   const std::string_view head = bytes.substr(0, std::min(bytes.size(), max_head));
   const auto is_control = [](char c) {
-    return (c >= 0 && c < ' ' && c != '\r' && c != '\n' && c != '\t') || c == 0x7f;
+    return (static_cast<unsigned char>(c) < 0x20 && c != '\r' && c != '\n' && c != '\t') || c == 0x7f;
   };
   const std::size_t end = head.find("\r\n\r\n");
   const std::string_view looked_at = head.substr(0, end);
