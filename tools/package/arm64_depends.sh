@@ -12,4 +12,5 @@ while read -r library; do
   [ -n "$entry" ] || { echo "arm64_depends: $library: of none of the packages in tools/package/arm64_root.sh" >&2; exit 1; }
   found+=("$(xargs <<<"$entry")")
 done < <(aarch64-linux-gnu-readelf -d "$1" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p')
+[ ${#found[@]} -gt 0 ] || { echo "arm64_depends: $1: no program, or linked to nothing" >&2; exit 1; }
 printf '%s\n' "${found[@]}" | sort -u | paste -sd, | sed 's/,\([^ ]\)/, \1/g'
