@@ -13,6 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 // Three flights of one view, one of another (a smaller picture of the same), one that is broken.
 class Batch : public tests::FolderTest {
@@ -55,6 +56,7 @@ TEST_F(Batch, GivesTheSameBytesForAnyNumberOfProcesses) {
   ASSERT_EQ(json["views"].size(), 2U);
   EXPECT_EQ(json["views"][0]["flights"], nlohmann::json({"1", "2", "3"}));
   EXPECT_EQ(json["views"][1]["flights"], nlohmann::json({"4"}));
+  EXPECT_THAT(json["flights"][5]["failure"].get<std::string>(), StartsWith("5/tracks.csv:1: "));
   ASSERT_GE(json["modes"].size(), 3U);
   const nlohmann::json& first = json["modes"][0];
   EXPECT_NEAR(first["frequency_hz"]["value"].get<double>(), 1.65, 0.05);

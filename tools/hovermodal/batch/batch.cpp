@@ -29,10 +29,13 @@ struct Options {
 };
 
 std::string absolute(const std::string& path) {
-  return path.empty() ? "" : fs::absolute(path).lexically_normal().string();
+  if (path.empty()) return "";
+  const fs::path whole = fs::absolute(path).lexically_normal();
+  return (whole.has_filename() ? whole : whole.parent_path()).string();  // "flights/" is "flights"
 }
 
-std::string this_program() { return fs::read_symlink("/proc/self/exe").string(); }
+// Not the path it names: the program may be built anew while a batch is under way.
+std::string this_program() { return "/proc/self/exe"; }
 
 int jobs_of(const Options& options) {
   if (options.jobs > 0) return options.jobs;
@@ -63,11 +66,21 @@ void write_result(const BatchResult& result, const fs::path& out) {
   }
 }
 
-void combine(const std::vector<FlightOrder>& orders, const std::vector<std::string>& failures, const std::string& out) {
+// Files of the batch as they are called within it: the result is the same wherever the folder lies.
+std::string without_folder(std::string text, const std::string& folder) {
+  const std::string start = folder + "/";
+  for (std::size_t at = text.find(start); at != std::string::npos; at = text.find(start, at))
+    text.erase(at, start.size());
+  return text;
+}
+
+void combine(const std::vector<FlightOrder>& orders, const std::vector<std::string>& failures, const Options& options) {
+  const std::string& out = options.out;
   std::vector<FlightResult> flights;
   std::vector<std::string> folders;
   for (std::size_t f = 0; f < orders.size(); ++f) {
-    flights.push_back({orders[f].flight.name, orders[f].flight.kind, failures[f], 0, {}});
+    flights.push_back(
+        {orders[f].flight.name, orders[f].flight.kind, without_folder(failures[f], options.folder), 0, {}});
     folders.push_back(orders[f].into);
   }
   const BatchResult result = combine_flights(std::move(flights), folders);
@@ -119,7 +132,7 @@ void batch(Options options) {
   if (!options.mpi && is_one_of_several())
     throw std::invalid_argument("batch: several were started together, and each would do everything: give --mpi");
   const std::optional<Worked> worked = options.mpi ? work_with_others(options) : work(options, {});
-  if (worked) combine(worked->orders, worked->failures, options.out);
+  if (worked) combine(worked->orders, worked->failures, options);
 }
 
 }  // namespace
