@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/identification/inverse_variance.h"
+#include "core/spectrum/welch_cpsd.h"
 #include "firmware_app/byte_archive.h"
 #include "firmware_app/channel_archive.h"
 
@@ -13,7 +14,7 @@ namespace app {
 
 namespace {
 
-constexpr std::size_t kBlocks = 20;            // as core::WelchConfig
+const auto kBlocks = static_cast<std::size_t>(core::WelchConfig{}.n_blocks);
 constexpr double kSamePower = 1e-5;            // rounding in a tracks.csv changes less; another flight more
 constexpr std::uint32_t kLayout = 0x31767368;  // first of the bytes
 

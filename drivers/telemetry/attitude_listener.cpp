@@ -15,12 +15,6 @@ namespace {
 
 constexpr int kPoll_ms = 50;
 
-std::string exactly(const std::string& channel) {  // LCM takes a regular expression
-  std::string pattern;
-  for (const char c : channel) pattern += c == '.' ? std::string("\\.") : std::string(1, c);
-  return pattern;
-}
-
 void require_hearing(const std::string& url, const std::string& channel) {
   check_lcm_url(url);
   check_channel_prefix(channel);
@@ -30,9 +24,10 @@ void require_hearing(const std::string& url, const std::string& channel) {
 class LcmAttitudeListener : public AttitudeListener {
  public:
   LcmAttitudeListener(const std::string& url, const std::string& channel)
-      : source_(url, exactly(channel), [this, channel](std::string_view name, const void* data, std::size_t n_bytes) {
-          if (name == channel) inbox_.receive(data, n_bytes);
-        }) {
+      : source_(url, exact_pattern(channel),
+                [this, channel](std::string_view name, const void* data, std::size_t n_bytes) {
+                  if (name == channel) inbox_.receive(data, n_bytes);
+                }) {
     thread_ = std::jthread([this](const std::stop_token& stop) {
       bool has_more = true;
       while (has_more && !stop.stop_requested()) has_more = source_.poll(kPoll_ms);

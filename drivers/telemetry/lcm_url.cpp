@@ -100,4 +100,10 @@ void check_channel_prefix(const std::string& prefix) {
   }
 }
 
+std::string exact_pattern(const std::string& name) {
+  std::string pattern;
+  for (const char c : name) pattern += c == '.' ? std::string("\\.") : std::string(1, c);
+  return pattern;
+}
+
 }  // namespace drivers

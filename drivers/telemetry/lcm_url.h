@@ -29,4 +29,7 @@ void check_lcm_url(const std::string& url);
 // expression without surprises: letters, digits, _ - . /
 void check_channel_prefix(const std::string& prefix);
 
+// LCM subscribes by a regular expression: that of exactly this name of a channel, or part of one.
+[[nodiscard]] std::string exact_pattern(const std::string& name);
+
 }  // namespace drivers

@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include "drivers/telemetry/lcm_url.h"
+
 namespace drivers {
 namespace {
 
@@ -34,8 +36,7 @@ std::optional<TopicLayout> topic_of(std::string_view prefix, std::string_view lc
 }
 
 std::string topics_pattern(const std::string& prefix) {
-  std::string pattern;
-  for (const char c : prefix) pattern += c == '.' ? std::string("\\.") : std::string(1, c);
+  std::string pattern = exact_pattern(prefix);
   for (std::size_t i = 0; i < kTopics; ++i) pattern += (i == 0 ? "(" : "|") + std::string(kTopicSuffixes[i]);
   return pattern + ")(_V[0-9]+)?";
 }

@@ -42,10 +42,7 @@ void track_clip(const FlightOrder& order, const fs::path& records) {
                    {"camera.driver=file", "camera.source=" + order.flight.path, "camera.pace=as_fast_as_possible",
                     "telemetry.lcm_url=", "telemetry.log_file=", "state.directory=", "report.directory=",
                     "closure.adopt=off", "record.directory=" + records.string(), "record.quota_mb=1000000"});
-  app::AppConfig config = app::load_config(order.flight.config, overrides);
-  // Reports alone change nothing that is recorded.
-  if (config.closure.adopt == app::ClosureAdopt::kReport) config.closure.adopt = app::ClosureAdopt::kOff;
-  app::Pipeline pipeline(config);
+  app::Pipeline pipeline(app::load_config(order.flight.config, overrides));
   say(pipeline.warnings());
   pipeline.start();
   while (pipeline.running()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
