@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/types/role_names.h"
 #include "firmware_app/config_sections.h"
 
 namespace app {
@@ -186,18 +187,15 @@ void add_calibration_keys(std::vector<ConfigKey>& keys) {
 }
 
 void add_region_keys(std::vector<ConfigKey>& keys) {
-  using core::RegionRole;
   keys.push_back(with_default(text_key("regions[].name", at(&core::Region::name), {1, 32, true},
                                        "name of the region; also of its channel (with axis both: NAME.u and NAME.v)"),
                               "none; must be given"));
   keys.push_back(rect_key());
-  keys.push_back(choice_key<RegionRole>("regions[].role", at(&core::Region::role),
-                                        {{"structure", RegionRole::kStructure},
-                                         {"base", RegionRole::kBase},
-                                         {"background", RegionRole::kBackground},
-                                         {"ground", RegionRole::kGround}},
-                                        "base: moves with the ground of the structure; background: rests, elsewhere; "
-                                        "ground: rests, in the structure's plane"));
+  std::vector<std::pair<std::string, core::RegionRole>> roles;
+  for (const auto& [role, name] : core::kRoleNames) roles.emplace_back(name, role);
+  keys.push_back(choice_key<core::RegionRole>("regions[].role", at(&core::Region::role), std::move(roles),
+                                              "base: moves with the ground of the structure; background: rests, "
+                                              "elsewhere; ground: rests, in the structure's plane"));
   keys.push_back(axis_key());
   add_region_length_key(keys);
   keys.push_back(number_key("regions[].depth_m", "m", at(&core::Region::depth_m), {0, 1e6},

@@ -73,6 +73,22 @@ TEST_F(Batch, GivesTheSameBytesForAnyNumberOfProcesses) {
   EXPECT_FALSE(fs::exists(folder_ / "one" / "flights" / "1" / "flight.sums"));
 }
 
+// A lens is declared that is not there: the clip's configuration says whether what is missing is taken out in flight.
+TEST_F(Batch, AClipAdoptsEffectsWhereItsConfigurationSaysSo) {
+  const std::string clip = (folder_ / "in" / "a").string();
+  const auto made = tests::run("hovermodal", "simulate --preset paper --size 270p --duration 60 --out " + clip);
+  ASSERT_EQ(made.exit_code, 0) << made.text;
+  const std::string closure =
+      "--set closure.period_s=20 --set closure.window_s=24 --set closure.delay_s=4 --set closure.points_per_region=5 "
+      "--set \"calibration.distortion=[0.2, 0, 0, 0]\" --set closure.adopt=";
+  for (const std::string adopt : {"auto", "report"}) {
+    const auto outcome = batch(adopt, closure + adopt);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+    const std::string log = tests::read(folder_ / adopt / "flights" / "a" / "clip" / "log.txt");
+    EXPECT_EQ(log.find("from frame 1100 on taken out, radial distortion") != std::string::npos, adopt == "auto") << log;
+  }
+}
+
 TEST_F(Batch, AFolderWithoutFlightsIsAUsageError) {
   fs::create_directories(folder_ / "empty");
   const auto outcome =

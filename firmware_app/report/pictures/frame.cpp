@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/types/role_names.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/pictures/parts.h"
 
@@ -34,23 +35,10 @@ cv::Scalar color_of(core::RegionRole role) {
   return {233, 180, 86};
 }
 
-const char* to_text(core::RegionRole role) {
-  switch (role) {
-    case core::RegionRole::kStructure:
-      return "structure";
-    case core::RegionRole::kBase:
-      return "base";
-    case core::RegionRole::kBackground:
-      return "background";
-    case core::RegionRole::kGround:
-      return "ground";
-  }
-  return "structure";
-}
-
 std::string label_of(const core::Region& region) {
   const std::string name = drivers::printable(region.name, kMaxNameBytes);
-  return name == to_text(region.role) ? name : name + " (" + to_text(region.role) + ")";
+  const std::string role(core::to_string(region.role));
+  return name == role ? name : name + " (" + role + ")";
 }
 
 // The frame at the picture's size, in colour, ready to be drawn on.

@@ -41,8 +41,11 @@ void track_clip(const FlightOrder& order, const fs::path& records) {
   overrides.insert(overrides.end(),
                    {"camera.driver=file", "camera.source=" + order.flight.path, "camera.pace=as_fast_as_possible",
                     "telemetry.lcm_url=", "telemetry.log_file=", "state.directory=", "report.directory=",
-                    "closure.adopt=off", "record.directory=" + records.string(), "record.quota_mb=1000000"});
-  app::Pipeline pipeline(app::load_config(order.flight.config, overrides));
+                    "record.directory=" + records.string(), "record.quota_mb=1000000"});
+  app::AppConfig config = app::load_config(order.flight.config, overrides);
+  // Reports alone change nothing that is recorded, and take seconds each.
+  if (config.closure.adopt == app::ClosureAdopt::kReport) config.closure.adopt = app::ClosureAdopt::kOff;
+  app::Pipeline pipeline(config);
   say(pipeline.warnings());
   pipeline.start();
   while (pipeline.running()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -80,6 +83,7 @@ app::TracksResult result_of(const FlightOrder& order) {
 // kSumsFile in the folder.
 void work_on(const FlightOrder& order) {
   const app::TracksResult result = result_of(order);
+  say(result.changes);
   fmt::print("{}", modes_text(result.estimate, result.channels));
   const std::string refused =
       drivers::write_checkpoint((fs::path(order.into) / kSumsFile).string(), app::to_bytes(result.sums));

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 
+#include "core/types/role_names.h"
 #include "drivers/storage/text_file.h"
 #include "tools/hovermodal/regions/picker.h"
 #include "tools/hovermodal/regions/regions_text.h"
@@ -13,12 +13,10 @@
 namespace tools {
 namespace {
 
-using core::RegionRole;
 using nlohmann::json;
 
 constexpr std::size_t kMostRegions = 100;
 constexpr double kLeastSide_px = 3.0;
-constexpr std::array kRoles{RegionRole::kStructure, RegionRole::kBase, RegionRole::kBackground, RegionRole::kGround};
 
 std::string text_of(const json& item, const char* key) {
   const auto found = item.find(key);
@@ -76,10 +74,11 @@ core::Region read_region(const json& item, int width_px, int height_px) {
   region.name = text_of(item, "name");
   check_name(region.name);
   const std::string role = text_of(item, "role");
-  const auto found = std::find_if(kRoles.begin(), kRoles.end(), [&](RegionRole one) { return role == role_text(one); });
-  if (found == kRoles.end())
+  const auto found = std::find_if(core::kRoleNames.begin(), core::kRoleNames.end(),
+                                  [&](const auto& named) { return role == named.second; });
+  if (found == core::kRoleNames.end())
     throw std::invalid_argument(fmt::format("{}: role \"{}\" is none", region.name, drivers::printable(role)));
-  region.role = *found;
+  region.role = found->first;
   set_rect(item, width_px, height_px, region);
   set_axis(text_of(item, "axis"), region);
   return region;
@@ -110,7 +109,7 @@ std::string regions_json(const std::vector<core::Region>& regions, int width_px,
     const auto whole = [](double value) { return static_cast<std::int64_t>(value); };
     out["regions"].push_back({{"name", r.name},
                               {"rect", {whole(r.u_px), whole(r.v_px), whole(r.width_px), whole(r.height_px)}},
-                              {"role", role_text(r.role)},
+                              {"role", core::to_string(r.role)},
                               {"axis", axis_text(r)}});
   }
   return out.dump(-1, ' ', false, json::error_handler_t::replace);

@@ -5,34 +5,21 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "core/types/role_names.h"
+
 namespace tools {
 namespace {
 
 using core::ProposedRegion;
-using core::RegionRole;
 
 std::string table_line(const std::string& rank, const ProposedRegion& one) {
   const core::Region& r = one.region;
   return fmt::format("{:>4}  {:<8} {:>5} {:>5} {:>5} {:>5}  {:<10} {:>4} {:>7} {:>10.3f} {:>9.4f}\n", rank, r.name,
-                     r.u_px, r.v_px, r.width_px, r.height_px, role_text(r.role), axis_text(r), one.n_points,
+                     r.u_px, r.v_px, r.width_px, r.height_px, core::to_string(r.role), axis_text(r), one.n_points,
                      one.motion_px, one.noise_px);
 }
 
 }  // namespace
-
-const char* role_text(RegionRole role) noexcept {
-  switch (role) {
-    case RegionRole::kStructure:
-      return "structure";
-    case RegionRole::kBase:
-      return "base";
-    case RegionRole::kBackground:
-      return "background";
-    case RegionRole::kGround:
-      return "ground";
-  }
-  return "";
-}
 
 std::string axis_text(const core::Region& region) {
   if (region.both_axes) return "both";
@@ -58,7 +45,7 @@ void make_lowest_base(core::RegionProposal& proposal) {
   auto& lowest =
       *std::max_element(proposal.regions.begin(), proposal.regions.end(),
                         [](const ProposedRegion& a, const ProposedRegion& b) { return a.region.v_px < b.region.v_px; });
-  lowest.region.role = RegionRole::kBase;
+  lowest.region.role = core::RegionRole::kBase;
   lowest.region.name = "base";
 }
 
@@ -76,7 +63,7 @@ std::string regions_yaml(const std::vector<core::Region>& regions) {
       "# with the ground.\nregions:\n";
   for (const core::Region& r : regions) {
     out += fmt::format("  - {{name: {}, rect: [{}, {}, {}, {}], role: {}, axis: {}}}\n", r.name, r.u_px, r.v_px,
-                       r.width_px, r.height_px, role_text(r.role), axis_text(r));
+                       r.width_px, r.height_px, core::to_string(r.role), axis_text(r));
   }
   return out;
 }

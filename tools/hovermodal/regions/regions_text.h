@@ -20,8 +20,7 @@ void make_lowest_base(core::RegionProposal& proposal);
 // The regions: block of a configuration.
 [[nodiscard]] std::string regions_yaml(const std::vector<core::Region>& regions);
 
-// As a configuration writes them.
-[[nodiscard]] const char* role_text(core::RegionRole role) noexcept;
+// As a configuration writes it.
 [[nodiscard]] std::string axis_text(const core::Region& region);
 
 }  // namespace tools
