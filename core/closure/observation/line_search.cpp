@@ -108,7 +108,8 @@ std::vector<double> LineSearch::peaks(const Eigen::MatrixXcd& spectrum) const {
   std::sort(found.rbegin(), found.rend());
   std::vector<double> out;
   for (const auto& [_, f] : found) {
-    const bool apart = std::all_of(out.begin(), out.end(), [&](double o) { return std::abs(o - f) > kPeakApart_hz; });
+    const bool apart =
+        std::all_of(out.begin(), out.end(), [peak = f](double o) { return std::abs(o - peak) > kPeakApart_hz; });
     if (apart) out.push_back(std::round(f / bin_hz) * bin_hz);
     if (out.size() == kPeaks) break;
   }
