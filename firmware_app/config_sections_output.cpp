@@ -131,8 +131,8 @@ void add_output_keys(std::vector<ConfigKey>& keys) {
   using P = StateConfig;
   keys.push_back(
       text_key("state.directory", at(&A::state, &P::directory), {},
-               "folder where spectra and modes are kept against a loss of power; a run that finds a state of "
-               "the same configuration and view there goes on with it; \"\" = none"));
+               "folder (made where it is missing) where spectra and modes are kept against a loss of power; a run that "
+               "finds a state of the same configuration and view there goes on with it; \"\" = none"));
   keys.push_back(number_key("state.period_s", "s", at(&A::state, &P::period_s), {0.1, 86400},
                             "of stream time between two such states: at most so much record is lost"));
   using R = RtConfig;

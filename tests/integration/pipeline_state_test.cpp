@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "drivers/storage/checkpoint_file.h"
 #include "tests/support/pipeline_rig.h"
 
@@ -138,8 +140,15 @@ TEST_F(PipelineState, ReadableButSenselessBytesAreRefused) {
   EXPECT_EQ(outcome.estimate.n_samples, 200U);
 }
 
-TEST_F(PipelineState, AFolderThatIsNotThereCostsTheStateAndIsTold) {
+TEST_F(PipelineState, AFolderThatIsNotThereIsMade) {
   fs::remove_all(folder);
+  (void)cut_off();
+  EXPECT_TRUE(fs::exists(file));
+}
+
+TEST_F(PipelineState, AFolderThatCannotBeMadeCostsTheStateAndIsTold) {
+  fs::remove_all(folder);
+  std::ofstream(folder) << "a file in its place\n";
   Rig rig(frames(200), overrides());
   const auto outcome = rig.run();
   EXPECT_EQ(outcome.fault, "");
