@@ -15,17 +15,19 @@ parts=("$@")
 [ $# -gt 0 ] || parts=(build install demo arm64)
 out=$PWD/build/figures/shipping
 clone=$out/clone root=$out/root
+commit=$(git rev-parse HEAD) # of all packages, whatever is committed meanwhile
 mkdir -p "$out"
 tools/setup.sh --package --package-arm64
 [ "$(id -u)" -eq 0 ] || { line 1 SKIP "not root" "root" "a clean Debian is a root of its own"; exit 0; }
 
 packages() { ls "$clone/build/package-$1/packages"/*.deb 2>/dev/null; } # ARCHITECTURE
 
-built() { # ARCHITECTURE: packages of the last commit, from a clone
+built() { # ARCHITECTURE: packages of the commit, from a clone
   local log=$out/package-$1.log status=0
-  if [ ! -d "$clone" ] || [ "$(git -C "$clone" rev-parse HEAD)" != "$(git rev-parse HEAD)" ]; then
+  if [ ! -d "$clone" ] || [ "$(git -C "$clone" rev-parse HEAD)" != "$commit" ]; then
     rm -rf "$clone"
     git clone -q . "$clone"
+    git -C "$clone" reset -q --hard "$commit"
   fi
   # What was unpacked of arm64 for this tree serves the clone as well.
   if [ -e build/package/arm64-root/.complete ] && [ ! -e "$clone/build/package" ]; then
@@ -86,6 +88,7 @@ on_arm64() { qemu-aarch64 -L "$clone/build/package/arm64-root" "$@"; }
 ported() {
   local demo=$root/var/lib/hovermodal/demo arm=$clone/build/package-arm64 here=$out/replay_amd64 there=$out/replay_arm64 status=0
   built arm64
+  [ -n "$(packages amd64)" ] || built amd64
   [ -e "$demo/tracks.csv" ] || { line 1.arm64.replay MISS "no tracks" "the demo's" "run the part demo first"; return; }
   # What is in the packages, not in the build tree.
   rm -rf "$out/amd64" "$out/arm64"
