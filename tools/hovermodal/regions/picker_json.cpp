@@ -7,6 +7,7 @@
 
 #include "core/types/role_names.h"
 #include "drivers/storage/text_file.h"
+#include "firmware_app/config_table.h"
 #include "tools/hovermodal/regions/picker.h"
 #include "tools/hovermodal/regions/regions_text.h"
 
@@ -24,15 +25,15 @@ std::string text_of(const json& item, const char* key) {
   return found->get<std::string>();
 }
 
-// As regions[].name in a configuration.
-void check_name(const std::string& name) {
-  const bool is_plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
-           c == '.';
-  });
-  if (name.empty() || name.size() > 32 || !is_plain) {
-    throw std::invalid_argument(
-        fmt::format("name \"{}\": 1 to 32 letters, digits, or _ - .", drivers::printable(name)));
+// What a name, a role or an axis may be, the configuration's own keys say.
+void take(const json& item, const char* key, app::AppConfig& config) {
+  drivers::YamlNode node;
+  node.kind = drivers::YamlNode::Kind::kScalar;
+  node.text = text_of(item, key);
+  const app::ConfigKey& rule = *app::find_key(fmt::format("regions[].{}", key));
+  if (const auto remedy = rule.set(config, 0, node)) {
+    throw std::invalid_argument(fmt::format("{}: {} \"{}\": {} ({})", config.regions.front().name, key,
+                                            drivers::printable(node.text), *remedy, rule.allowed));
   }
 }
 
@@ -55,32 +56,14 @@ void set_rect(const json& item, int width_px, int height_px, core::Region& regio
   }
 }
 
-void set_axis(const std::string& axis, core::Region& region) {
-  const auto degrees = drivers::parse_number(axis);
-  region.both_axes = axis == "both";
-  if (axis == "v") {
-    region.axis_deg = 90.0;
-  } else if (degrees && *degrees >= -180.0 && *degrees <= 180.0) {
-    region.axis_deg = *degrees;
-  } else if (axis != "u" && axis != "both") {
-    throw std::invalid_argument(
-        fmt::format("{}: axis \"{}\": u, v, both, or degrees from -180 to 180", region.name, drivers::printable(axis)));
-  }
-}
-
 core::Region read_region(const json& item, int width_px, int height_px) {
   if (!item.is_object()) throw std::invalid_argument("a region is no object");
-  core::Region region;
-  region.name = text_of(item, "name");
-  check_name(region.name);
-  const std::string role = text_of(item, "role");
-  const auto found = std::find_if(core::kRoleNames.begin(), core::kRoleNames.end(),
-                                  [&](const auto& named) { return role == named.second; });
-  if (found == core::kRoleNames.end())
-    throw std::invalid_argument(fmt::format("{}: role \"{}\" is none", region.name, drivers::printable(role)));
-  region.role = found->first;
+  app::AppConfig config;
+  config.regions.resize(1);
+  core::Region& region = config.regions.front();
+  region.name = "a region";
+  for (const char* key : {"name", "role", "axis"}) take(item, key, config);
   set_rect(item, width_px, height_px, region);
-  set_axis(text_of(item, "axis"), region);
   return region;
 }
 
