@@ -37,8 +37,8 @@ check_includes() {
     }
     function tools_rule(name) {
       if (name ~ /^(core|drivers)\//) return ""
-      if (name ~ /^firmware_app\/(pipeline|config|observation|analysis|track_analysis|view_sums)\.h$/ || name ~ /^firmware_app\/report\/.*\.h$/) return ""
-      return "tools may include core, drivers, and of firmware_app only pipeline.h, config.h, observation.h, analysis.h, track_analysis.h, view_sums.h and report/"
+      if (name ~ /^firmware_app\/(pipeline|config|config_table|observation|analysis|track_analysis|view_sums)\.h$/ || name ~ /^firmware_app\/report\/.*\.h$/) return ""
+      return "tools may include core, drivers, and of firmware_app only pipeline.h, config.h, config_table.h, observation.h, analysis.h, track_analysis.h, view_sums.h and report/"
     }
     function rule(file, room, name, target) {
       if (target == "tests") return room == "tests" ? "" : "only tests may include tests"
