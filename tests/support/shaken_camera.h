@@ -76,8 +76,8 @@ class ShakenCamera {
     std::normal_distribution<double> noise(0.0, noise_px);
     for (int i = 0; i < 28; ++i) {
       const double depth = 4.0 * std::pow(15.0, unit(random_));
-      const Eigen::Vector3d ray((unit(random_) - 0.5) * kWidth_px / kFocal_px,
-                                (unit(random_) - 0.5) * kHeight_px / kFocal_px, 1.0);
+      const Eigen::Vector3d ray{(unit(random_) - 0.5) * kWidth_px / kFocal_px,
+                                (unit(random_) - 0.5) * kHeight_px / kFocal_px, 1.0};
       const Eigen::Vector3d world = camera_at(frame_s) * (depth * ray) + Eigen::Vector3d(0.2, -0.1, 3.0) * frame_s;
       core::Vector2 from = seen(world, pair.from_s), to = seen(world, pair.to_s);
       from.u += noise(random_), from.v += noise(random_), to.u += noise(random_), to.v += noise(random_);

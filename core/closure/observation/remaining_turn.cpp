@@ -1,24 +1,38 @@
 #include "core/closure/observation/remaining_turn.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <utility>
 
 namespace core::closure {
 namespace {
 
 using Eigen::Index;
+using Eigen::Matrix2d;
 using Eigen::Matrix3d;
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Field = Eigen::Matrix<double, 2, 3>;  // px per radian about the camera's axes
 
-constexpr int kRounds = 60, kHalvings = 6;
-constexpr double kStep_px = 1e-3, kStill_rad = 1e-7;
+constexpr int kRounds = 60;
+constexpr double kStep_px = 1e-3, kStill_rad = 1e-7, kLeastShift_px = 1e-6;
+constexpr double kLeastDamping = 1e-3, kMostDamping = 1e6;
 
-Field field_at(const Eigen::Vector2d& at_px, double f) {
+Field field_at(const Vector2d& at_px, double f) {
   const double x = at_px.x(), y = at_px.y();
   Field out;
   out << x * y / f, -(f + x * x / f), y, f + y * y / f, -x * y / f, -x;
   return out;
+}
+
+// How a change of d, where the shift takes a point of mean depth, moves it from where it was seen: along the epipolar
+// line as it is, across by the line's turn, times what the point itself went along it. The depth that this tells of is
+// what tells a turn from a shift.
+Matrix2d lever(const RestFlow& flow, const Vector2d& d) {
+  const double size = d.norm();
+  if (size < kLeastShift_px) return Matrix2d::Identity();
+  const Vector2d e = d / size;
+  return e * e.transpose() + flow.flow_px.dot(e) / size * (Matrix2d::Identity() - e * e.transpose());
 }
 
 struct Normal {
@@ -39,8 +53,10 @@ Normal linearise(const std::vector<RestFlow>& flows, const RestFlowModel& model,
       out.slope += field.row(axis).transpose() * (judge(less, shift_px, model).cost - term.cost) / kStep_px;
     }
     turns += field.transpose() * term.flow_information * field;
-    mixed += field.transpose() * term.flow_information * effect;
-    shifts += effect.transpose() * term.information * effect;
+    const Field by_shift = lever(flow, effect * shift_px) * effect;
+    const Matrix2d& of_flow = term.flow_information;
+    mixed += field.transpose() * of_flow * by_shift;
+    shifts += by_shift.transpose() * of_flow * by_shift + effect.transpose() * (term.information - of_flow) * effect;
   }
   out.information = turns - mixed * shifts.ldlt().solve(mixed.transpose());
   return out;
@@ -55,14 +71,17 @@ std::vector<RestFlow> without(std::vector<RestFlow> flows, const Vector3d& turn,
 
 RemainingTurn remaining_turn(std::vector<RestFlow> flows, const RestFlowModel& model, Vector3d shift_px) {
   RemainingTurn out;
-  double before = fit_shift(flows, model, shift_px);
+  double before = fit_shift(flows, model, shift_px), damping = kLeastDamping;
   for (int round = 0; round < kRounds; ++round) {
     const Normal normal = linearise(flows, model, shift_px);
     out.information = normal.information;
-    Vector3d change = -normal.information.ldlt().solve(normal.slope);
-    if (!change.allFinite()) break;
     bool went = false;
-    for (int halving = 0; halving < kHalvings && !went; ++halving, change *= 0.5) {
+    Vector3d change = Vector3d::Zero();
+    for (; damping < kMostDamping && !went; damping *= 10.0) {
+      Matrix3d raised = normal.information;
+      raised.diagonal() *= 1.0 + damping;
+      change = -raised.ldlt().solve(normal.slope);
+      if (!change.allFinite()) return out;
       std::vector<RestFlow> next = without(flows, change, model.focal_px);
       Vector3d shift = shift_px;
       const double now = fit_shift(next, model, shift);
@@ -70,6 +89,7 @@ RemainingTurn remaining_turn(std::vector<RestFlow> flows, const RestFlowModel& m
       went = true;
       before = now, shift_px = shift, flows = std::move(next);
       out.turn += change;
+      damping = std::max(kLeastDamping, 0.01 * damping);  // a tenth, after the loop's own factor
     }
     if (!went || change.norm() < kStill_rad) break;
   }

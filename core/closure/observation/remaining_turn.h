@@ -14,7 +14,7 @@ struct RemainingTurn {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
 };
 
-// The most likely one near none, by damped Gauss-Newton; the pair's shift is fitted with it.
+// The most likely one near none, by Levenberg-Marquardt; the pair's shift is fitted with it.
 [[nodiscard]] RemainingTurn remaining_turn(std::vector<RestFlow> flows, const RestFlowModel& model,
                                            Eigen::Vector3d shift_px);
 

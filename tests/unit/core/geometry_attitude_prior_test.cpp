@@ -37,7 +37,7 @@ std::vector<AttitudeSample> told_attitude(const simulation::TrackGenerator& trac
   const double end_s = tracks.motion().scene().duration_s + 0.2;
   for (int k = -5; k / kAttitudeRate_hz < end_s; ++k) {
     const double t_s = k / kAttitudeRate_hz;
-    const Eigen::Vector3d e(noise.gaussian(), noise.gaussian(), noise.gaussian());
+    const Eigen::Vector3d e{noise.gaussian(), noise.gaussian(), noise.gaussian()};
     const Eigen::Quaterniond error(Eigen::AngleAxisd(sigma_rad * e.norm(), e.normalized()));
     const Eigen::Quaterniond q =
         Eigen::Quaterniond(Eigen::Matrix3d(tracks.motion().camera().at(t_s).attitude * body_to_camera)) * error;

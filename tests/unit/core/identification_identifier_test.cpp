@@ -188,7 +188,7 @@ TEST(Identifier, SaysWhenTheOrderIsUnclear) {
   std::vector<std::complex<double>> amplitude(60);  // random walks with a memory of 5000 samples
   for (int t = 0; t < 6000; ++t) {
     std::vector<double> value;
-    for (auto& a : amplitude) a += 0.02 * std::complex<double>(gaussian(random), gaussian(random)) - 2e-4 * a;
+    for (auto& a : amplitude) a += 0.02 * std::complex<double>{gaussian(random), gaussian(random)} - 2e-4 * a;
     for (int c = 0; c < 4; ++c) {
       value.push_back(0.3 * gaussian(random));
       for (int k = 0; k < 60; ++k)

@@ -20,7 +20,7 @@ const std::vector<core::AttitudeSample>& ToldAttitude::until(double t_s) {
   body_to_camera << 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0;
   samples_.clear();
   for (; next_s_ <= t_s; next_s_ += kStep_s) {
-    const Eigen::Vector3d w = sigma_rad_ * Eigen::Vector3d(noise_.gaussian(), noise_.gaussian(), noise_.gaussian());
+    const Eigen::Vector3d w = sigma_rad_ * Eigen::Vector3d{noise_.gaussian(), noise_.gaussian(), noise_.gaussian()};
     const Eigen::Quaterniond q = Eigen::Quaterniond(Eigen::Matrix3d(motion_.at(next_s_).attitude * body_to_camera)) *
                                  Eigen::Quaterniond(Eigen::AngleAxisd(w.norm(), w.stableNormalized()));
     samples_.push_back({next_s_, {q.w(), q.x(), q.y(), q.z()}});
