@@ -2,8 +2,9 @@
 # Fuzzes what comes from outside: every reader of a file, a message or a request (tests/fuzz/targets), under AddressSanitizer and
 # UndefinedBehaviorSanitizer, from the kept corpus on. One line a target; ends with 1 where one has a finding.
 #   tools/fuzz.sh [TARGET...] [--seconds S] [--coverage] [--keep]
-#     TARGET       config calibration timestamps series lcm datagrams checkpoint http record (default: all of these), or
-#                  replay: the whole way from a record to its modes, for which all of core is built
+#     TARGET       config calibration timestamps series lcm datagrams checkpoint http record (default: all of these); or
+#                  replay (the whole way from a record to its modes) and scene (of the simulator; the structures of
+#                  closeloop), for which all of core is built
 #     --seconds    of each target; default 60
 #     --coverage   also how many lines of the sources concerned the inputs reach
 #     --keep       adds what reaches further to tests/fuzz/corpus, the smallest inputs that do
@@ -46,6 +47,7 @@ concerned() {
     checkpoint) echo drivers/storage/checkpoint_file.cpp firmware_app/{kept_keyframe,run_state}.cpp core/identification/mode_tracker.cpp core/spectrum/{welch_state,time_grid}.cpp ;;
     http) echo tools/hovermodal/ground/{web_connections,web_guard,web_head,web_routes}.cpp tools/hovermodal/regions/picker_json.cpp ;;
     record) echo drivers/telemetry/{event_log_reader,run_record_reader,encode_run}.cpp firmware_app/{run_head,keyframe_jpeg}.cpp ;;
+    scene) echo drivers/storage/{structure_file,scene/{build,flight,key,keys_camera,keys_motion,keys_plates,keys_structure,presets,reader,table,writer}}.cpp core/simulation/scene_validation.cpp ;;
     replay) echo firmware_app/{track_replay,record_replay,track_analysis,run_view}.cpp core/geometry/channel_displacement.cpp ;;
   esac
 }

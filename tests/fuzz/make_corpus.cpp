@@ -6,6 +6,7 @@
 
 #include "core/spectrum/time_grid.h"
 #include "drivers/storage/checkpoint_file.h"
+#include "drivers/storage/scene/scene_file.h"
 #include "drivers/storage/text_file.h"
 #include "drivers/telemetry/encode_run.h"
 #include "drivers/telemetry/event_log.h"
@@ -70,6 +71,17 @@ void write_calibration() {
        "D: [0.1, 0.01, 0.001, 0.001, 0.001, 0.1, 0.01, 0.001]\n"
        "K: [350.5, 0.0, 320.0, 0.0, 351.5, 240.0, 0.0, 0.0, 1.0]\n");
   keep("calibration", "omni", "cam0:\n  camera_model: omni\n  intrinsics: [0.8, 461.6, 460.1, 362.6, 246.0]\n");
+}
+
+void write_scene() {
+  keep("scene", "deck", drivers::scene_text(drivers::preset_scene({.preset = "deck"})));
+  keep("scene", "readout", "preset: paper\nduration_s: 60\ncamera: {readout_ms: 30}\ndeclare: {readout_ms: false}\n");
+  keep("scene", "modes",
+       "preset: paper\nstructure:\n  type: modes\n  frequency_hz: [1.5, 4.5]\n  shapes: [[0.5, 1], [1, -0.5]]\n");
+  keep("scene", "flight", "flight: {file: no/such/log.csv, from_s: 3, to_s: 9}\n");
+  keep("scene", "frame",
+       "structure:\n  kind: shear_frame\n  storeys: 3\n  storey_height_mm: 140\n  masses: [1, 1, 0.8]\n"
+       "  stiffness_ratio: [2, 1, 1]\n  data: simulated\n  dt_s: 0.01\n  floors: [a, b, c]\n");
 }
 
 void write_tables() {
@@ -281,6 +293,7 @@ int main(int argc, char** argv) {
     corpus = argv[1];
     write_config();
     write_calibration();
+    write_scene();
     write_tables();
     write_lcm();
     write_datagrams();

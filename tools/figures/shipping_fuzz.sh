@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# Figure 3 of shipping: every reader of what comes from outside, fuzzed. One line a target; two hours on two processors
-# (replay builds all of core under the sanitizers first), --quick: 20 s each and without replay, some minutes.
+# Figure 3 of shipping: every reader of what comes from outside, fuzzed. One line a target; three hours on two processors
+# (for scene and replay all of core is built under the sanitizers first), --quick: 20 s each and without these two, some minutes.
 #   tools/figures/shipping_fuzz.sh [--quick] [TARGET...]
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-seconds=600 targets=(config calibration timestamps series lcm datagrams checkpoint http record replay)
+seconds=600 targets=(config calibration timestamps series lcm datagrams checkpoint http record scene replay)
 if [ "${1:-}" = --quick ]; then
   seconds=20
-  unset 'targets[-1]'
+  unset 'targets[-1]' 'targets[-1]'
   shift
 fi
 [ $# -eq 0 ] || targets=("$@")
