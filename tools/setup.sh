@@ -61,4 +61,6 @@ if ! { "${as_root[@]}" apt-get update -qq &&
   exit 1
 fi
 rm -f "$log"
+# What a build looked for and did not find, it looks for again.
+for cache in build/*/CMakeCache.txt; do [ ! -e "$cache" ] || touch "$cache"; done
 fetch_kernel "$@"

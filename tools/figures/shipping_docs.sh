@@ -3,13 +3,16 @@
 # repository cloned into it, and README's commands run there as they stand, from the first apt-get to the modes of a clip of
 # one's own. One line a command. As root; a gigabyte of packages, two hours on two processors. --quick: README's commands, the demo
 # with 20 s, tools/test.sh only the unit tests.
-#   tools/figures/shipping_docs.sh [--quick]
+#   tools/figures/shipping_docs.sh [--quick] [PART...]      PART: root demo test own readout spy (default: all, in this order);
+#                                                           without root, the last commit in the root that is there
 # HOVERMODAL_CCACHE=DIR is used as the compiler's cache in it (the lines say so); all else is as on a new machine.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
 quick=
-[ "${1:-}" != --quick ] || quick=yes
+[ "${1:-}" != --quick ] || { quick=yes && shift; }
+parts=("$@")
+[ $# -gt 0 ] || parts=(root demo test own readout spy)
 out=$PWD/build/figures/shipping
 root=$out/clean
 mkdir -p "$out"
@@ -29,12 +32,18 @@ make_root() {
   quietly mmdebstrap --variant=minbase --include=ca-certificates,git bookworm "$root"
   cp /etc/resolv.conf "$root/etc/resolv.conf" 2>/dev/null || true
   cp /etc/apt/apt.conf.d/*proxy* "$root/etc/apt/apt.conf.d/" 2>/dev/null || true
+  quietly git clone --no-hardlinks . "$root/hovermodal"
+  line 5.root ok "$(du -sm "$root" 2>/dev/null | cut -f1) MB, $(chroot "$root" dpkg-query -f '.' -W | wc -c) packages" "-" "a clean Debian 12 (minbase) with git and a clone"
+}
+enter() {
+  [ -d "$root/hovermodal" ] || { echo "shipping_docs: no $root: begin with the part root" >&2; exit 2; }
+  leave
+  quietly git -C "$root/hovermodal" pull --ff-only "$PWD" HEAD
   mount --bind /proc "$root/proc"
   mount --bind /sys "$root/sys"
   mount --bind /dev "$root/dev"
   mount -t tmpfs tmpfs "$root/dev/shm"
   if [ -n "$cache" ]; then mkdir -p "$root/ccache" && mount --bind "$cache" "$root/ccache"; fi
-  quietly git clone --no-hardlinks . "$root/hovermodal"
 }
 
 # follow NUMBER COMMAND [ARGUMENT-OF---quick]: a line for it, with its time.
@@ -49,16 +58,7 @@ follow() {
 own_video() { awk '/^## Your own video/ { on = 1; next } /^## / { on = 0 } on && /^    (hovermodal|hovermodald|ffmpeg) / { sub(/^    /, ""); sub(/  +#.*/, ""); print }' README.md; }
 flight_yaml() { awk '/<!-- file: flight.yaml -->/ { on = 1; next } on && !/^    / { exit } on { sub(/^    /, ""); print }' README.md; }
 
-figure_5() {
-  if [ "$(id -u)" -ne 0 ] || ! command -v mmdebstrap >/dev/null; then
-    line 5 SKIP "needs root and mmdebstrap" "every command works" "the documents on a clean Debian 12"
-    return
-  fi
-  trap leave EXIT
-  make_root
-  line 5.root ok "$(du -sm --exclude=proc --exclude=sys "$root" 2>/dev/null | cut -f1) MB, $(chroot "$root" dpkg-query -f '.' -W | wc -c) packages" "-" "a clean Debian 12 (minbase) with git and a clone"
-  follow demo "tools/demo.sh" " --seconds 20"
-  follow test "tools/test.sh" " -L unit"
+own() {
   # A reader's clip: the simulator's.
   follow clip "hovermodal simulate --preset paper --duration 30 --out fixture && cp fixture/clip.mp4 flight.mp4"
   flight_yaml >"$root/hovermodal/flight.yaml"
@@ -68,11 +68,40 @@ figure_5() {
     follow "own$n" "$command"
   done < <(own_video)
   judge 5.own "$n commands" "6" "of \"Your own video\" in README.md" "$n == 6"
-  if [ -d "$data/phone_rolling_shutter_gyro/frames" ]; then
-    quietly "$bin/hovermodal" readout --clip "$data/phone_rolling_shutter_gyro/frames" --stamps "$data/phone_rolling_shutter_gyro/framestamp.txt" --gyro "$data/phone_rolling_shutter_gyro/gyro.txt" &&
-      line 5.readout ok "-" "works" "hovermodal readout on a phone's record" || line 5.readout MISS "-" "works" "hovermodal readout on a phone's record"
+}
+# A phone's record, in the place of a reader's. Its clip begins at the hundredth stamp.
+readout() {
+  local phone=$data/phone_rolling_shutter_gyro
+  local command="hovermodal readout --clip frames --stamps framestamp.txt --gyro gyro.txt"
+  [ -d "$phone/frames" ] || { line 5.readout SKIP "no data at $phone" "works as it stands" "$command"; return; }
+  rm -rf "$root/hovermodal/frames"
+  cp -r "$phone/frames" "$phone/gyro.txt" "$root/hovermodal/"
+  sed 1,99d "$phone/framestamp.txt" >"$root/hovermodal/framestamp.txt"
+  follow readout "$command"
+  rm -rf "$root/hovermodal/frames" "$root/hovermodal/gyro.txt" "$root/hovermodal/framestamp.txt"
+}
+
+figure_5() {
+  if [ "$(id -u)" -ne 0 ] || ! command -v mmdebstrap >/dev/null; then
+    line 5 SKIP "needs root and mmdebstrap" "every command works" "the documents on a clean Debian 12"
+    return
   fi
-  [ -n "$quick" ] || follow spy "tools/setup.sh --lcm && tools/build.sh && { Xvfb :99 & DISPLAY=:99 timeout -s INT 10 tools/lcm_spy.sh 'udpm://239.255.76.67:7667?ttl=1'; code=\$?; kill %1; [ \$code = 124 ]; }"
+  trap leave EXIT
+  [ "${parts[0]}" != root ] || make_root
+  enter
+  local part
+  for part in "${parts[@]}"; do
+    case $part in
+      root) ;;
+      demo) follow demo "tools/demo.sh" " --seconds 20" ;;
+      test) follow test "tools/test.sh" " -L unit" ;;
+      own) own ;;
+      readout) readout ;;
+      # lcm-spy has no end of its own; without --quick, since it brings a JDK.
+      spy) [ -n "$quick" ] || follow spy "tools/setup.sh --lcm && tools/build.sh && { Xvfb :99 & DISPLAY=:99 timeout -s INT 10 tools/lcm_spy.sh 'udpm://239.255.76.67:7667?ttl=1'; code=\$?; kill %1; [ \$code = 124 ]; }" ;;
+      *) echo "shipping_docs: $part: root, demo, test, own, readout or spy" >&2; exit 2 ;;
+    esac
+  done
 }
 
 run_figures 5
