@@ -98,7 +98,7 @@ figure_5() {
       own) own ;;
       readout) readout ;;
       # lcm-spy has no end of its own; without --quick, since it brings a JDK.
-      spy) [ -n "$quick" ] || follow spy "tools/setup.sh --lcm && tools/build.sh && { Xvfb :99 & DISPLAY=:99 timeout -s INT 10 tools/lcm_spy.sh 'udpm://239.255.76.67:7667?ttl=1'; code=\$?; kill %1; [ \$code = 124 ]; }" ;;
+      spy) [ -n "$quick" ] || follow spy "tools/setup.sh --lcm && tools/build.sh && { Xvfb :99 & DISPLAY=:99 timeout -s INT 10 tools/lcm_spy.sh 'udpm://239.255.76.67:7667?ttl=1'; code=\$?; kill %1; wait; [ \$code = 124 ]; }" ;;
       *) echo "shipping_docs: $part: root, demo, test, own, readout or spy" >&2; exit 2 ;;
     esac
   done
