@@ -22,7 +22,7 @@ with=${cache:+, with a compiler cache}
 # On this machine's network for apt-get; the loopback device is all that the programs use.
 inside() { chroot "$root" env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 ${cache:+CCACHE_DIR=/ccache} \
   bash -c "cd /hovermodal && export PATH=\$PWD/build/release/bin:\$PATH && $1"; }
-leave() { local place; for place in ccache dev/shm dev proc sys; do ! mountpoint -q "$root/$place" || umount "$root/$place"; done; }
+leave() { local place; for place in ccache dev/shm dev proc sys; do ! mountpoint -q "$root/$place" || umount "$root/$place" || umount --lazy "$root/$place"; done; }
 
 make_root() {
   leave
