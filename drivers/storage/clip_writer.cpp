@@ -92,6 +92,14 @@ std::vector<std::string> encoder_arguments(const std::string& part_path, const s
           "file:" + part_path};
 }
 
+// A program that cannot be started is told by posix_spawn or, as POSIX also has it, by the child's exit code.
+constexpr int kNotStarted = 127;
+
+std::runtime_error not_started(const std::string& path, const std::string& why) {
+  return std::runtime_error(
+      fmt::format("{}: cannot start the program `ffmpeg` ({}); install it: apt-get install ffmpeg", path, why));
+}
+
 }  // namespace
 
 ClipWriter::ClipWriter(std::string path, int width_px, int height_px, double rate_hz, int crf)
@@ -127,8 +135,7 @@ void ClipWriter::start(const std::string& frame_size, double rate_hz, int crf) {
     pid_ = -1;
     close_fd(input_fd_);
     close_fd(errors_fd_);
-    throw std::runtime_error(fmt::format(
-        "{}: cannot start the program `ffmpeg` ({}); install it: apt-get install ffmpeg", path_, std::strerror(error)));
+    throw not_started(path_, std::strerror(error));
   }
 }
 
@@ -157,7 +164,8 @@ void ClipWriter::write(const std::uint8_t* pixels) {
     if (n > 0) {
       done += static_cast<std::size_t>(n);
     } else if (errno != EINTR) {
-      fail("ffmpeg stopped reading frames");
+      close_fd(input_fd_);
+      fail("ffmpeg stopped reading frames", pid_ >= 0 ? wait_for_exit() : 0);
     }
   }
 }
@@ -166,16 +174,15 @@ void ClipWriter::finish() {
   close_fd(input_fd_);
   if (pid_ < 0) throw std::runtime_error(path_ + ": the clip is already finished or has failed");
   const int status = wait_for_exit();
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail("ffmpeg could not finish the clip");
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail("ffmpeg could not finish the clip", status);
   if (std::rename(part_path_.c_str(), path_.c_str()) != 0) {
     throw std::runtime_error(fmt::format("{}: cannot rename {}: {}", path_, part_path_, std::strerror(errno)));
   }
 }
 
-void ClipWriter::fail(const std::string& what) {
-  close_fd(input_fd_);
-  if (pid_ >= 0) wait_for_exit();
+void ClipWriter::fail(const std::string& what, int status) {
   std::remove(part_path_.c_str());
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kNotStarted) throw not_started(path_, "it ended at once");
   throw std::runtime_error(fmt::format("{}: {}: {}", path_, what, encoder_words()));
 }
 

@@ -26,7 +26,7 @@ class ClipWriter {
  private:
   void start(const std::string& frame_size, double rate_hz, int crf);
   int wait_for_exit() noexcept;  // exit status of ffmpeg as waitpid gives it
-  [[noreturn]] void fail(const std::string& what);
+  [[noreturn]] void fail(const std::string& what, int status);
   [[nodiscard]] std::string encoder_words() const;
 
   std::string path_, part_path_;

@@ -36,7 +36,7 @@ std::string only_node() {
     throw DeviceMissing(
         fmt::format("{}: {}: hovermodal inspect cameras lists what is attached", path, std::strerror(error)));
   }
-  if (error == ENOTTY || error == EINVAL) {
+  if (error == ENOTTY || error == EINVAL || error == ENOSYS) {
     throw std::runtime_error(
         fmt::format("{}: does not capture video: hovermodal inspect cameras lists what does", path));
   }
