@@ -1,4 +1,5 @@
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 
@@ -80,7 +81,10 @@ void ask_server(std::string_view request) {
     made->start();
     return made;
   }();
-  RawConnection connection(server->port());
+  // An address has 28 000 ports, each of which rests for a minute: one address is soon used up.
+  static std::uint8_t source = 0;
+  source = static_cast<std::uint8_t>(source % 250 + 1);
+  RawConnection connection(server->port(), source);
   require(connection.is_open(), "the server takes connections");
   const std::size_t half = request.size() / 2;
   if (!connection.send(request.substr(0, half)) || !connection.send(request.substr(half))) return;
