@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <cstdint>
 #include <string>
@@ -23,11 +24,15 @@ class RawConnection {
     sockaddr_in from{}, to{};
     from.sin_family = AF_INET;
     from.sin_addr.s_addr = htonl((INADDR_LOOPBACK & ~0xFFU) | source);
-    if (bind(fd_, reinterpret_cast<sockaddr*>(&from), sizeof from) != 0) return;
+    if (bind(fd_, reinterpret_cast<sockaddr*>(&from), sizeof from) != 0) {
+      error_ = errno;
+      return;
+    }
     to.sin_family = AF_INET;
     to.sin_port = htons(static_cast<std::uint16_t>(port));
     to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    is_open_ = connect(fd_, reinterpret_cast<sockaddr*>(&to), sizeof to) == 0;
+    is_open_ = connect(fd_, reinterpret_cast<sockaddr*>(&to), sizeof to) == 0 || (errno == EINTR && opens_later());
+    if (!is_open_) error_ = errno;
   }
   ~RawConnection() {
     if (fd_ >= 0) close(fd_);
@@ -62,10 +67,22 @@ class RawConnection {
     return out;
   }
   [[nodiscard]] bool is_open() const { return is_open_; }
+  [[nodiscard]] int error() const { return error_; }  // errno of why it is not
 
  private:
+  // A signal has come (a fuzzer's clock) while the other side took its time; the kernel goes on connecting.
+  bool opens_later() {
+    pollfd waiting{fd_, POLLOUT, 0};
+    while (poll(&waiting, 1, -1) < 0 && errno == EINTR) {
+    }
+    socklen_t size = sizeof error_;
+    if (getsockopt(fd_, SOL_SOCKET, SO_ERROR, &error_, &size) == 0) errno = error_;
+    return errno == 0;
+  }
+
   int fd_;
   bool is_open_ = false;
+  int error_ = 0;
 };
 
 // The whole answer to one request as it stands.

@@ -1,5 +1,6 @@
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <stdexcept>
 
@@ -85,7 +86,8 @@ void ask_server(std::string_view request) {
   static std::uint8_t source = 0;
   source = static_cast<std::uint8_t>(source % 250 + 1);
   RawConnection connection(server->port(), source);
-  require(connection.is_open(), "the server takes connections");
+  require(connection.is_open(),
+          (std::string("the server takes connections: ") + std::strerror(connection.error())).c_str());
   const std::size_t half = request.size() / 2;
   if (!connection.send(request.substr(0, half)) || !connection.send(request.substr(half))) return;
   connection.end();
