@@ -20,24 +20,12 @@ namespace tests {
 class RawConnection {
  public:
   // `source`: 127.0.0.source is where it comes from.
-  explicit RawConnection(int port, std::uint8_t source = 1) : fd_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_in from{}, to{};
-    from.sin_family = AF_INET;
-    from.sin_addr.s_addr = htonl((INADDR_LOOPBACK & ~0xFFU) | source);
-    if (bind(fd_, reinterpret_cast<sockaddr*>(&from), sizeof from) != 0) {
-      error_ = errno;
-      return;
-    }
-    to.sin_family = AF_INET;
-    to.sin_port = htons(static_cast<std::uint16_t>(port));
-    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    is_open_ = connect(fd_, reinterpret_cast<sockaddr*>(&to), sizeof to) == 0 || (errno == EINTR && opens_later());
-    if (!is_open_) error_ = errno;
-  }
+  explicit RawConnection(int port, std::uint8_t source = 1)
+      : fd_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)), error_(connect_to(port, source)) {}
   ~RawConnection() {
     if (fd_ >= 0) close(fd_);
   }
-  RawConnection(RawConnection&& other) noexcept : fd_(other.fd_), is_open_(other.is_open_) { other.fd_ = -1; }
+  RawConnection(RawConnection&& other) noexcept : fd_(other.fd_), error_(other.error_) { other.fd_ = -1; }
   RawConnection(const RawConnection&) = delete;
   RawConnection& operator=(const RawConnection&) = delete;
   RawConnection& operator=(RawConnection&&) = delete;
@@ -66,23 +54,33 @@ class RawConnection {
     }
     return out;
   }
-  [[nodiscard]] bool is_open() const { return is_open_; }
+  [[nodiscard]] bool is_open() const { return error_ == 0; }
   [[nodiscard]] int error() const { return error_; }  // errno of why it is not
 
  private:
+  int connect_to(int port, std::uint8_t source) {
+    sockaddr_in from{}, to{};
+    from.sin_family = AF_INET;
+    from.sin_addr.s_addr = htonl((INADDR_LOOPBACK & ~0xFFU) | source);
+    if (bind(fd_, reinterpret_cast<sockaddr*>(&from), sizeof from) != 0) return errno;
+    to.sin_family = AF_INET;
+    to.sin_port = htons(static_cast<std::uint16_t>(port));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    if (connect(fd_, reinterpret_cast<sockaddr*>(&to), sizeof to) == 0) return 0;
+    return errno == EINTR ? connected_later() : errno;
+  }
   // A signal has come (a fuzzer's clock) while the other side took its time; the kernel goes on connecting.
-  bool opens_later() {
+  int connected_later() {
     pollfd waiting{fd_, POLLOUT, 0};
     while (poll(&waiting, 1, -1) < 0 && errno == EINTR) {
     }
-    socklen_t size = sizeof error_;
-    if (getsockopt(fd_, SOL_SOCKET, SO_ERROR, &error_, &size) == 0) errno = error_;
-    return errno == 0;
+    int error = 0;
+    socklen_t size = sizeof error;
+    return getsockopt(fd_, SOL_SOCKET, SO_ERROR, &error, &size) == 0 ? error : errno;
   }
 
   int fd_;
-  bool is_open_ = false;
-  int error_ = 0;
+  int error_;
 };
 
 // The whole answer to one request as it stands.

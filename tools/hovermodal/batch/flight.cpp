@@ -59,12 +59,12 @@ app::TracksResult tracked_clip(const FlightOrder& order) {
   const fs::path records = fs::path(order.into) / "record";
   fs::remove_all(records);
   track_clip(order, records);
-  for (const Flight& record : find_flights(records.string(), "", "").flights) {
-    app::TracksResult result = replayed_record(order, record.path, {});
-    fs::remove_all(records);  // large, and made anew from the clip at any time
-    return result;
-  }
-  throw std::runtime_error("the clip left no record: this build may lack LCM, which records are written with");
+  const std::vector<Flight> found = find_flights(records.string(), "", "").flights;
+  if (found.empty())
+    throw std::runtime_error("the clip left no record: this build may lack LCM, which records are written with");
+  app::TracksResult result = replayed_record(order, found.front().path, {});
+  fs::remove_all(records);  // large, and made anew from the clip at any time
+  return result;
 }
 
 app::TracksResult result_of(const FlightOrder& order) {
