@@ -39,6 +39,9 @@ function(hovermodal_precompile target)
     target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <complex> <cstdint> <filesystem> <functional>
       <limits> <map> <memory> <numbers> <numeric> <optional> <random> <span> <sstream> <stdexcept> <string> <string_view>
       <utility> <vector> ${ARGN})
+    # GCC forgets of what it precompiled that it is a system's header, and shows its own false alarms there (bug 105329).
+    target_compile_options(${target} PRIVATE
+      $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-array-bounds>)
   endif()
 endfunction()
 

@@ -9,6 +9,13 @@ line() {
   [ "$2" != MISS ] || misses=$((misses + 1))
 }
 
+# finish_figures: the last command of every script. It says that the run came to its end, which alone makes it a result
+# (tools/figures/all.sh), and exits with 1 where a figure misses its bar.
+finish_figures() {
+  echo "# whole: $misses figures miss their bar"
+  [ "$misses" -eq 0 ] || exit 1
+}
+
 # judge NUMBER "measured" "bar" "what" AWK-CONDITION: ok when the condition holds, MISS when not or when it cannot be told.
 judge() {
   if awk "BEGIN { exit !($5) }" 2>/dev/null; then line "$1" ok "$2" "$3" "$4"; else line "$1" MISS "$2" "$3" "$4"; fi
@@ -46,7 +53,7 @@ telemetry: {lcm_url: ""}
 Y
 }
 
-# run_figures N...: figure_N of each, with the time it took; ends the script with 1 where a figure misses its bar.
+# run_figures N...: figure_N of each, with the time it took; then finish_figures.
 run_figures() {
   local figure
   for figure in "$@"; do
@@ -54,5 +61,5 @@ run_figures() {
     "figure_$figure"
     echo "# figure $figure: $SECONDS s"
   done
-  [ "$misses" -eq 0 ] || { echo "$misses figures miss their bar" >&2; exit 1; }
+  finish_figures
 }

@@ -1,0 +1,118 @@
+#!/usr/bin/env python3
+"""tools/figures/tables.py on a made-up project: what a result is, what a table says, what makes the check fail."""
+import contextlib
+import io
+import os
+import sys
+import tempfile
+import unittest
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+sys.path.insert(0, os.path.join(ROOT, "tools", "figures"))
+sys.dont_write_bytecode = True
+import figure_results  # noqa: E402
+import tables  # noqa: E402
+
+RESULT = """# part: speed
+# command: tools/figures/speed.sh
+# commit: 0123456789abcdef0123456789abcdef01234567
+# date: 2026-01-02
+# seconds: 3
+# room: core {digest}
+# whole: yes
+# a remark of the script
+1a ok 12 us (bar: <= 20 us (median)) a point beside its neighbours (180 of them)
+1b MISS 1/5.5 (bar: 1/8) a frame at 1080p
+"""
+DOCUMENT = "Text\n<!-- figures: {what} -->\n<!-- figures end -->\nmore\n"
+
+
+class Project:
+    """A folder with one part, `speed`, that measures the room `core`, and one that was never run."""
+
+    def __init__(self, what, result=RESULT):
+        self.folder = tempfile.TemporaryDirectory()
+        self.root = self.folder.name
+        self.write("core/a.cpp", "int a;\n")
+        self.write("tools/figures/parts.tsv", "speed\t1\tcore\ttools/figures/speed.sh\tspeed\nother\t9\tcore\tx\tothers\n")
+        digest = figure_results.room_digest("core", self.root)
+        self.write("tools/figures/results/speed.txt", result.format(digest=digest))
+        self.write("README.md", DOCUMENT.format(what=what))
+        self.write("tools/guide/figures.md", "none\n")
+
+    def write(self, name, text):
+        path = os.path.join(self.root, name)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def readme(self):
+        with open(os.path.join(self.root, "README.md"), encoding="utf-8") as file:
+            return file.read()
+
+    def run(self, write=False):
+        with contextlib.redirect_stdout(io.StringIO()):
+            return tables.compare(tables.Book(self.root), self.root, write)
+
+
+class Tables(unittest.TestCase):
+    def test_a_line_is_parsed_with_parentheses_in_its_bar(self):
+        line = figure_results.parse_line("1a ok 12 us (worst) (bar: <= 20 us (median)) a point (180 of them)")
+        self.assertEqual(line, ("1a", "ok", "12 us (worst)", "<= 20 us (median)", "a point (180 of them)"))
+
+    def test_text_that_is_no_figure_is_no_line(self):
+        self.assertIsNone(figure_results.parse_line("1a ok without a bar"))
+        self.assertIsNone(figure_results.parse_line("1a fine 3 (bar: 4) what"))
+
+    def test_misses_stand_in_the_table_like_everything_else(self):
+        project = Project("part speed other")
+        project.run(write=True)
+        self.assertIn("| a point beside its neighbours (180 of them) | <= 20 us (median) | 12 us | ok | 0123456 |",
+                      project.readme())
+        self.assertIn("| a frame at 1080p | 1/8 | 1/5.5 | **MISS** | 0123456 |", project.readme())
+        self.assertIn("| others (`other`) | - | not run | - | - |", project.readme())
+
+    def test_misses_are_listed(self):
+        project = Project("misses")
+        project.run(write=True)
+        self.assertIn("- a frame at 1080p: 1/5.5 (asked: 1/8; `speed` 1b)", project.readme())
+        self.assertIn("not run on the delivered program: `other`", project.readme())
+        self.assertNotIn("a point", project.readme())
+
+    def test_a_written_table_passes_and_a_changed_digit_fails(self):
+        project = Project("part speed")
+        project.run(write=True)
+        self.assertEqual(project.run(), 0)
+        project.write("README.md", project.readme().replace("1/5.5", "1/9.5"))
+        self.assertEqual(project.run(), 1)
+
+    def test_a_changed_room_is_named(self):
+        project = Project("part speed")
+        project.run(write=True)
+        project.write("core/a.cpp", "int b;\n")
+        self.assertEqual(project.run(), 1)
+        project.run(write=True)
+        self.assertIn("| 0123456; changed since: core |", project.readme())
+        project.write("core/a.cpp", "int c;\n")
+        self.assertEqual(project.run(), 0)
+
+    def test_a_run_that_did_not_come_to_its_end_is_no_result(self):
+        for text in (RESULT.replace("# whole: yes\n", ""), RESULT.replace("whole: yes", "whole: no")):
+            with self.assertRaises(figure_results.Malformed):
+                Project("part speed", text).run()
+
+    def test_an_unknown_part_or_kind_is_refused(self):
+        for what in ("part nothing", "parts speed"):
+            with self.assertRaises(figure_results.Malformed):
+                Project(what).run()
+
+    def test_only_the_lines_that_were_picked(self):
+        project = Project("pick speed:1b other:2")
+        project.run(write=True)
+        self.assertNotIn("a point", project.readme())
+        self.assertIn("a frame at 1080p", project.readme())
+        self.assertIn("(`other`) | - | not run", project.readme())
+
+
+if __name__ == "__main__":
+    unittest.main()

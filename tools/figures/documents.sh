@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# The figures of the documents: the paper's chain as published, tables that are the results', the data kit, fresh seeds.
+#   tools/figures/documents.sh [--quick] [--first-seed N] [FIGURE...]     FIGURE: some of 1 2 3 4 (default: all)
+# 1 takes some 20 minutes on two cores; --quick takes 2 seeds for 20. Published seeds are 1001 on; 1-100 are for development.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+. tools/figures/lib.sh
+seeds=20 first=1001
+while [ $# -gt 0 ]; do
+  case $1 in
+    --quick) seeds=2 && shift ;;
+    --first-seed) first=$2 && shift 2 ;;
+    *) break ;;
+  esac
+done
+figures=("$@")
+[ $# -gt 0 ] || figures=(1 2 3 4)
+out=build/figures/documents
+mkdir -p "$out"
+tools/setup.sh
+quietly tools/build.sh hovermodal
+
+# --- 2: the tables -------------------------------------------------------------------------------------------------------
+figure_2() {
+  local count valid parts verdict=MISS
+  count=$(tools/figures/tables.py --count)
+  read -r parts valid < <(sed -n 's/.*Of \([0-9]*\) parts \([0-9]*\) ran.*/\1 \2/p' <<<"$count")
+  judge 2a "$count" "all parts have a whole result, each on a commit after which its rooms did not change, or its row says so" \
+    "$valid of $parts parts ran on the present state; tables.py --check: $(tools/figures/tables.py --check >"$out/check.txt" && echo the documents say what the results say || echo they differ)" \
+    "$(wc -l <"$out/check.txt") == 0 && ${parts:-0} > 0"
+  local copy=$out/copy
+  rm -rf "$copy" && mkdir -p "$copy"
+  git ls-files -z | xargs -0 cp --parents -t "$copy"
+  ! tools/figures/tables.py --check --root "$copy" >"$out/copy.txt" 2>&1 || verdict=ok
+  line 2b "$verdict" "$(tail -n 1 "$out/copy.txt" | cut -c 1-120)" "passes" "the documents' test on a copy of the tree"
+  # The first digit of the first measured cell of the first table.
+  sed -i -E '0,/^\| [^|]* \| [^|]* \| [^|]*[0-9]/s/^(\| [^|]* \| [^|]* \| [^|0-9]*)[0-9]/\1x/' "$copy/README.md"
+  verdict=MISS
+  tools/figures/tables.py --check --root "$copy" >"$out/changed.txt" || verdict=ok
+  line 2c $verdict "$(grep -c '^[-+]|' "$out/changed.txt" || true) lines shown" "a changed digit makes the test fail" "the same copy with one digit of README's table changed"
+  rm -rf "$copy"
+}
+
+# --- 4: fresh seeds ------------------------------------------------------------------------------------------------------
+# Each self-test with a small record and two first seeds; seconds taken and the lines of the head are no numbers.
+figure_4() {
+  local name small where moved
+  while IFS=$'\t' read -r name small; do
+    [ "$name" != paper ] || small="--seeds 1 --duration 60"
+    for where in 1 2; do
+      # shellcheck disable=SC2086 -- several options
+      "$bin/hovermodal" selftest "$name" --first-seed $((first + where - 1)) --threads "$(nproc)" $small 2>"$out/$name.log" |
+        grep -v '^#' >"$out/seed_$where.txt" || true
+    done
+    moved=$(diff "$out/seed_1.txt" "$out/seed_2.txt" | grep -c '^[<>]' || true)
+    judge "4.$name" "$moved of $(cat "$out/seed_1.txt" "$out/seed_2.txt" | wc -l) lines differ" "every selftest's numbers move" \
+      "selftest $name --first-seed $first and $((first + 1)) $small" "$moved > 0 && $(wc -l <"$out/seed_1.txt") > 0"
+  done < <(selftests)
+}
+selftests() { # the names that the program lists, each with what keeps its record small
+  "$bin/hovermodal" selftest --help | sed -n 's/^ *\([a-z0-9-]*\): .*/\1/p' | sort -u | while read -r name; do
+    case $name in
+      klt) printf '%s\t%s\n' "$name" "--frames 3" ;;
+      speed) ;; # frames per second: no seed would be seen in them
+      geometry-pixels) printf '%s\t%s\n' "$name" "--seeds 1 --duration 24 --report $out/pixels" ;;
+      table1) printf '%s\t%s\n' "$name" "--seeds 1 --duration 60 --report $out/table1" ;;
+      geometry* | wind | low-frequency | deck | elevation | noise-floor) printf '%s\t%s\n' "$name" "--seeds 1 --duration 60" ;;
+      closure-tracks*) printf '%s\t%s\n' "$name" "--seeds 1 --duration 40" ;;
+      closure-live*) printf '%s\t%s\n' "$name" "--seeds 1 --duration 120" ;;
+      *) printf '%s\t%s\n' "$name" "--seeds 1" ;;
+    esac
+  done
+}
+
+for part in tools/figures/documents_*.sh; do . "$part"; done
+run_figures "${figures[@]}"
