@@ -20,7 +20,7 @@ quietly tools/build.sh hovermodal
 flight=$data/phantom4_hover/flight_10hz.csv
 moved_by="hover recorded in flight" use_flight=(--flight "$flight")
 if [ ! -f "$flight" ]; then
-  line 0 SKIP "no data at $flight" "-" "recorded hover (HOVERMODAL_DATA names the folder): the hover model moves the camera instead"
+  line 0 SKIP "no data at $flight" "-" "recorded hover: the hover model moves the camera instead"
   moved_by="modelled hover" use_flight=()
 fi
 

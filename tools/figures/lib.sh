@@ -1,11 +1,15 @@
 # Shared by the figure scripts: where things are, one line a figure, small statistics. Source it from the project's root.
 bin=build/release/bin
-data=${HOVERMODAL_DATA:-../shared/data}
+# Measured data: HOVERMODAL_DATA, else ../shared/data where it exists, else data in the project, where tools/data.sh puts them.
+data=${HOVERMODAL_DATA:-}
+if [ -z "$data" ]; then data=$([ -d ../shared/data ] && echo ../shared/data || echo ./data); fi
 misses=0
 
-# line NUMBER ok|MISS|SKIP "measured" "bar" "what"
+# line NUMBER ok|MISS|SKIP "measured" "bar" "what"; a SKIP that names a place in $data says what brings it.
 line() {
-  printf '%s %s %s (bar: %s) %s\n' "$1" "$2" "$3" "$4" "$5"
+  local remedy=
+  if [ "$2" = SKIP ] && [[ "$3 $5" == *"$data"* ]]; then remedy=" (tools/data.sh brings it)"; fi
+  printf '%s %s %s (bar: %s) %s\n' "$1" "$2" "$3" "$4" "$5$remedy"
   [ "$2" != MISS ] || misses=$((misses + 1))
 }
 

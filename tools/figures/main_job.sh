@@ -115,7 +115,7 @@ if [ -d "$data/tuning_forks" ]; then
   fork_figure fork_128hz_500fps "[290, 62, 46, 66]" "[336, 62, 46, 66]"
   fork_figure fork_128hz_1000fps "[290, 74, 46, 66]" "[328, 74, 46, 66]"
 else
-  line 2 SKIP "no data at $data/tuning_forks" "<= 0.3 %" "tuning forks (HOVERMODAL_DATA names the folder)"
+  line 2 SKIP "no data at $data/tuning_forks" "<= 0.3 %" "tuning forks"
 fi
 
 # --- 3: K'nex frame ---------------------------------------------------------------------------------------------------
@@ -179,7 +179,7 @@ if [ -d "$knex" ]; then
     "both found, in the ratio of the rates to 0.1 %" "K'nex frame: the clock is the only difference" \
     "${declared:-0} > 0 && (${stopwatch:-0} / ${declared:-1} / ($rate / 20) - 1) ^ 2 < 1e-6"
 else
-  line 3 SKIP "no data at $knex" "<= 0.3 px" "K'nex frame (HOVERMODAL_DATA names the folder)"
+  line 3 SKIP "no data at $knex" "<= 0.3 px" "K'nex frame"
 fi
 
 # --- 4: LCM, in a network of its own (loopback and a multicast route, nothing else) --------------------------------------
