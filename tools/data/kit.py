@@ -2,6 +2,7 @@
 import argparse
 import os
 import shutil
+import signal
 import sys
 from pathlib import Path
 
@@ -16,8 +17,8 @@ TEXT = """\
 Brings the public measured data that the measured tests and the figures read to this machine. tools/data/table.toml says of
 each set: upstream repository, commit, paths, sha256, licence, converter, and what is known of it independently.
 
-  tools/data.sh                        fetch all sets from their public repositories with git, convert them (some 250 MB of
-                                       downloads, 80 MB to keep, a few minutes; needs tools/setup.sh --data once)
+  tools/data.sh                        fetch all sets from their public repositories with git, convert them (some 170 MB to
+                                       download, 80 MB to keep, a few minutes; needs tools/setup.sh --data once)
   tools/data.sh tuning_forks           only this one; several names are several sets
   tools/data.sh --from DIR             take them from a folder that has them: DIR/SET/FILE
   tools/data.sh --list                 what there is, from where, under which licence, and what of it is here
@@ -27,7 +28,7 @@ A file whose sha256 is not the table's is refused, and nothing is overwritten. W
 Tests and figures read the folder that HOVERMODAL_DATA names, else ../shared/data beside the project where that exists, else
 data in the project; without --to the data go there."""
 
-ENDS = "Exit status: 0 all is here, 1 something is missing or was refused, 2 wrong usage, 3 a program is missing."
+ENDS = "Exit status: 0 done, 1 something is missing, failed or was refused, 2 wrong usage."
 
 
 def default_folder():
@@ -171,12 +172,15 @@ def bring_all(sets, options, folder):
 def main():
     options = arguments()
     try:
+        folder = options.to or default_folder()
         table = read_table(options.table)
+        if options.check in table:  # --check SET: its DIR was left out
+            options.sets.insert(0, options.check)
+            options.check = ""
         for name in options.sets:
             if name not in table:
                 raise KitError(f"{name}: no such set; there are {', '.join(table)}")
         sets = [table[name] for name in options.sets or table]
-        folder = options.to or default_folder()
         if options.list:
             print_list(sets, folder)
             return 0
@@ -186,10 +190,14 @@ def main():
     except KitError as error:
         print(f"data: {error}", file=sys.stderr)
         return 2
-    except PermissionError as error:
-        print(f"data: {error.filename}: {error.strerror}: --to DIR brings the data to another folder", file=sys.stderr)
+    except OSError as error:
+        print(f"data: {error.filename or folder}: {error.strerror}: --to DIR brings the data to another folder", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        print("data: interrupted; sets that were whole stay, nothing of the others is left", file=sys.stderr)
+        return 130
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)
     sys.exit(main())

@@ -1,4 +1,5 @@
 """What a set is made of, out of its upstream repository: exactly one commit, only the paths that are needed."""
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -23,9 +24,9 @@ def address(repository, mirror):
 
 
 def git(folder, *words, text=None, shown=False):
-    command = ["git", "-C", str(folder), *words]
+    command = ["git", "-C", str(folder), "-c", "core.autocrlf=false", "-c", "advice.detachedHead=false", *words]
     try:
-        run = subprocess.run(command, input=text, text=True, check=False,
+        run = subprocess.run(command, input=text, text=True, check=False, env=dict(os.environ, GIT_TERMINAL_PROMPT="0"),
                              stdout=subprocess.PIPE, stderr=None if shown else subprocess.PIPE)
     except FileNotFoundError as error:
         raise KitError("git is not installed: tools/setup.sh installs it") from error
