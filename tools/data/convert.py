@@ -13,6 +13,11 @@ import time
 
 from table import KitError, files_below
 
+class NoModule(KitError):
+    def __init__(self, error):
+        super().__init__(f"{error.name} is not installed: tools/setup.sh --data installs python3-numpy and python3-scipy")
+
+
 EXPORTED = {}  # name in the table: converter
 
 
@@ -109,7 +114,7 @@ def five_dof_generator(folder, paths, out):
         import numpy
         from scipy import linalg, signal
     except ImportError as error:
-        raise KitError(f"{error.name} is not installed: tools/setup.sh --data installs python3-numpy and python3-scipy") from error
+        raise NoModule(error) from error
     module = ast.parse((folder / paths[0]).read_text(encoding="utf-8"))
     module.body = [node for node in module.body if isinstance(node, ast.FunctionDef) and node.name == "example_data"]
     names = {"np": numpy, "linalg": linalg, "signal": signal}
@@ -132,6 +137,10 @@ def lens_profiles(folder, paths, out):
             size = profile["calib_dimension"]
             table.writerow([profile[k] for k in keys] + [size["w"], size["h"], profile["fps"], profile["frame_readout_time"],
                                                          profile["calibrated_by"], path])
+
+
+EXACT = "scale=flags=accurate_rnd+bitexact"  # the same gray levels on every processor
+GRAY = f"{EXACT},format=gray,{EXACT}:out_range=tv,format=yuv420p"
 
 
 def run_ffmpeg(words, n_frames):
@@ -159,6 +168,31 @@ def frame_video(folder, paths, out):
     photographs = folder / paths[0]
     n_frames = len(list(photographs.iterdir()))
     print(f"  encoding {n_frames} frames, about two minutes", flush=True)
-    exact = "scale=flags=accurate_rnd+bitexact"
-    run_ffmpeg(["-framerate", "20", "-i", str(photographs / "IMG%05d.jpg"), "-vf", f"{exact},format=gray,{exact}:out_range=tv,format=yuv420p",
+    run_ffmpeg(["-framerate", "20", "-i", str(photographs / "IMG%05d.jpg"), "-vf", GRAY,
                 "-c:v", "libx264", "-crf", "17", "-g", "30", "-threads", "3", "-fflags", "+bitexact", "-f", "mp4", str(out)], n_frames)
+
+
+def compare_video(folder, paths, out):
+    """How far the worst frame of a video is from its photograph, gray levels rms; None where not every photograph has its frame."""
+    photographs = folder / paths[0]
+    n_frames = len(list(photographs.iterdir()))
+    with tempfile.NamedTemporaryFile("r") as log:
+        run_ffmpeg(["-framerate", "20", "-i", str(photographs / "IMG%05d.jpg"), "-i", str(out), "-lavfi",
+                    f"[0:v]{GRAY}[a];[1:v]setpts=N/20/TB[b];[a][b]psnr=shortest=1:stats_file={log.name}", "-f", "null", "-"], n_frames)
+        errors = [float(e) for e in re.findall(r"mse_y:([0-9.]+)", log.read())]
+    return max(errors) ** 0.5 if len(errors) == n_frames else None
+
+
+# Converters whose bytes depend on the version of a program: a result is as good where compare gives at most this.
+COMPARED = {"frame_video": (compare_video, 2.0, "gray levels rms from the photographs, worst frame")}
+
+
+@converter
+def dot_centroids(folder, paths, out):
+    try:
+        import dots
+    except ImportError as error:
+        raise NoModule(error) from error
+    print("  finding the dots of the photographs, about a minute", flush=True)
+    names = ",".join(f"t{t:02}_x,t{t:02}_y" for t in range(len(dots.ROWS_V) * dots.PER_ROW))
+    write_lines(out, ["frame," + names, *dots.centroids(folder / paths[0])])

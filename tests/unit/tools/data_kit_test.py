@@ -11,7 +11,7 @@ from pathlib import Path
 
 KIT = Path(__file__).resolve().parents[3] / "tools" / "data.sh"
 sys.path.insert(0, str(KIT.parent / "data"))
-from convert import EXPORTED
+from convert import COMPARED, EXPORTED
 from table import read_table
 
 ROWS = [[0.0, 1.0, -2.5, 1e-6, 3.14159265, 7.0], [1.0 / 3.0, 2.0, 3.0, 4.0, 5.0, 123456.0]]
@@ -139,6 +139,22 @@ class DataKit(unittest.TestCase):
         self.assertEqual((self.to / "swing/frames/1.jpg").read_bytes(), b"one")
         self.assertIn("by_hand.csv is in no public repository", text)
         self.assertEqual([p.name for p in self.to.iterdir()], ["swing"])
+
+    def test_a_video_of_other_bytes_is_accepted_by_its_pictures(self):
+        folder = self.root / "pictures"
+        folder.mkdir()
+        subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", "nullsrc=s=64x48:r=20,geq=lum='60+X+20*N':cb=128:cr=128", "-frames:v", "3", "-q:v", "2",
+                        str(folder / "IMG%05d.jpg")], check=True)
+        video = self.root / "video.mp4"
+        EXPORTED["frame_video"](self.root, ["pictures/"], video)
+        compare, limit, _ = COMPARED["frame_video"]
+        self.assertLess(compare(self.root, ["pictures/"], video), limit)
+        (folder / "IMG00002.jpg").write_bytes((folder / "IMG00001.jpg").read_bytes())
+        (folder / "IMG00003.jpg").unlink()
+        subprocess.run(["ffmpeg", "-v", "error", "-y", "-i", str(folder / "IMG00001.jpg"), "-vf", "negate", str(folder / "IMG00003.jpg")], check=True)
+        self.assertGreater(compare(self.root, ["pictures/"], video), limit)
+        (folder / "IMG00004.jpg").write_bytes((folder / "IMG00003.jpg").read_bytes())
+        self.assertIsNone(compare(self.root, ["pictures/"], video))
 
     def test_refuses_an_upstream_that_changed(self):
         self.make_repository()
