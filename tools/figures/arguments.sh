@@ -55,5 +55,20 @@ set_up() {
   for figure in "${figures[@]}"; do
     line "$figure" SKIP "packages are missing" "-" "figure $figure; they are installed by: tools/setup.sh${*:+ $*}, as root"
   done
+  finish_figures
   exit 0
+}
+
+# run_script SCRIPT ARGUMENT...: another figure script, as a part of this one; finish_scripts: in the place of finish_figures.
+scripts_cut_off=0
+run_script() {
+  local status
+  "$@" | awk '/^# whole: / { whole = 1; next } { print; fflush() } END { exit !whole }'
+  status=("${PIPESTATUS[@]}")
+  [ "${status[1]}" -eq 0 ] || scripts_cut_off=$((scripts_cut_off + 1))
+  [ "${status[0]}" -eq 0 ] || misses=$((misses + 1))
+}
+finish_scripts() {
+  [ $scripts_cut_off -eq 0 ] || { echo "$scripts_cut_off figures did not come to their end" >&2 && exit 1; }
+  finish_figures
 }

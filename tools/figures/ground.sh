@@ -11,7 +11,6 @@ cd "$(dirname "$0")/../.."
 take_arguments "tools/figures/ground.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
 all_or_named 1 2 3 4 5 6 6h 7 7p
 draws 1 3 4 5 6 6h 7 7p
-failed=0
 for figure in "${figures[@]}"; do
   case $figure in
     1 | 2 | 6h | 7p) script=ground_page ;;
@@ -20,6 +19,6 @@ for figure in "${figures[@]}"; do
   esac
   more=("${handed_on[@]}")
   [ "$figure" != 2 ] || more=(${quick:+--quick}) # it draws nothing
-  "tools/figures/$script.sh" "${more[@]}" "$figure" || failed=1
+  run_script "tools/figures/$script.sh" "${more[@]}" "$figure"
 done
-exit $failed
+finish_scripts

@@ -12,10 +12,9 @@ take_arguments "tools/figures/shipping.sh [--quick] [--first-seed N] [FIGURE...]
 all_or_named 1 2 3 4 5
 draws 1 3 4
 scripts=(_ packages service fuzz batch docs)
-failed=0
 for figure in "${figures[@]}"; do
   more=("${handed_on[@]}")
   [[ $figure != [25] ]] || more=(${quick:+--quick}) # they draw nothing
-  "tools/figures/shipping_${scripts[figure]}.sh" "${more[@]}" || failed=1
+  run_script "tools/figures/shipping_${scripts[figure]}.sh" "${more[@]}"
 done
-exit $failed
+finish_scripts

@@ -18,6 +18,7 @@ commit=$(git rev-parse HEAD) # of all packages, whatever is committed meanwhile
 mkdir -p "$out"
 [ "$(id -u)" -eq 0 ] || {
   for part in "${figures[@]}"; do line "1.$part" SKIP "not root" "-" "a clean Debian is a root of its own; run: sudo tools/figures/shipping_packages.sh $part"; done
+  finish_figures
   exit 0
 }
 set_up --package --package-arm64
