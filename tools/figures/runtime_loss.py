@@ -36,7 +36,7 @@ def identify(binaries, folder, seconds, seed, share):
 def main():
     binaries, folder = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
     seconds, first, records = int(sys.argv[3]), int(sys.argv[4]), int(sys.argv[5])
-    n_shown = n_lost = n_records = n_uneven = n_missing = n_frames = 0
+    n_shown = n_lost = n_records = n_low_records = n_uneven = n_missing = n_frames = 0
     worst, which = 0.0, []
     for seed in range(first, first + records):
         truth, whole, _ = identify(binaries, folder / f"{seed}_whole", seconds, seed, 0.0)
@@ -44,11 +44,12 @@ def main():
         shown = [i for i in range(len(truth)) if whole[i] < NEAR]
         lost = [i for i in shown if not lossy[i] < NEAR]
         n_shown, n_lost, n_records = n_shown + len(shown), n_lost + len(lost), n_records + (len(lost) > 0)
+        n_low_records += any(i < 3 for i in lost)
         worst = max([worst] + [lossy[i] for i in shown if i not in lost])
         which += [f"seed {seed}: {', '.join(f'{truth[i]:.2f} Hz' for i in lost)}"] if lost else []
         n_uneven += losses["frames_in"] != losses["frames_processed"] + losses["frames_dropped"]
         n_missing, n_frames = n_missing + losses["frames_missing"], n_frames + losses["frames_in"]
-    print(f"records\t{records}\nrecords_with_a_lost_mode\t{n_records}\nshown\t{n_shown}\nlost\t{n_lost}\nworst_percent\t{100 * worst:.2f}")
+    print(f"records\t{records}\nrecords_with_a_lost_mode\t{n_records}\nrecords_with_one_of_three\t{n_low_records}\nshown\t{n_shown}\nlost\t{n_lost}\nworst_percent\t{100 * worst:.2f}")
     print(f"uneven\t{n_uneven}\nmissing_percent\t{100 * n_missing / max(1, n_missing + n_frames):.1f}\nwhich\t{'; '.join(which) or 'none'}")
 
 

@@ -26,16 +26,14 @@ def fail(text):
 
 def prepare(binaries, folder, seed):
     clip = folder / f"clip_{seed}"
-    if not (clip / "truth.json").exists():
-        subprocess.run([binaries / "hovermodal", "simulate", "--size", "480x270", "--duration", "30", "--seed", str(seed),
-                        "--out", clip],
-                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    subprocess.run([binaries / "hovermodal", "simulate", "--size", "640x360", "--duration", "30", "--seed", str(seed), "--out", clip],
+                   check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     return clip / "config.yaml"
 
 
 def start(binaries, config, out):
     arguments = ["--config", config, "--report", out, "--set", "telemetry.lcm_url=", "--set", f"telemetry.log_file={out}/log.lcm",
-                 "--set", "camera.pace=realtime", "--set", "spectrum.segment=64"]
+                 "--set", "camera.pace=realtime", "--set", "spectrum.segment=64", "--set", "tracking.min_distance_px=3"]
     return subprocess.Popen([binaries / "hovermodald", *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
 
