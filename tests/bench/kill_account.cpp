@@ -3,8 +3,8 @@
 // lack.
 //   kill_account FOLDER
 // FOLDER: first.lcm and again.lcm, records of runs to their end, without and with a kept keyframe; kills.tsv, a line
-// for each killed run: its number, seconds from the process' start to the kill, 1 where a keyframe was kept before it,
-// its record or "-"; NUMBER.state, the state file after it, where there is one. Prints "name<TAB>value".
+// for each killed run: its number, seconds from when it opened its clip to the kill, 1 where a keyframe was kept before
+// it, its record or "-"; NUMBER.state, the state file after it, where there is one. Prints "name<TAB>value".
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>

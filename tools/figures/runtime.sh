@@ -157,7 +157,7 @@ service_lines() {
   judge 5.checkpoint "$(a kills) kills, $(a resumed) runs known to have gone on; $(a unreadable) states left corrupt, $(r refused) refused; $(r damaged_refused) of $(r damaged) truncated or with a flipped bit refused" \
     "no corrupt checkpoint accepted" "$what" \
     "$(a kills) == $kills && 2 * $(a resumed) >= $kills && $(a unreadable) == 0 && $(r refused) == 0 && $(r damaged) > 0 && $(r damaged_refused) == $(r damaged)"
-  judge 5.loss "$(a worst_loss_s) s at most, counted from the start of the process" "at most period_s of data lost" "$what; state.period_s: 2" \
+  judge 5.loss "$(a worst_loss_s) s at most, counted from when the killed run opened its clip" "at most period_s of data lost" "$what; state.period_s: 2" \
     "$(a worst_loss_s) <= 2 && $(a states) > 0"
   judge 5.equal "$(a equal) of $(a states) states equal (first other: $(a first_wrong)), the last of $(a cells) samples; $(a other_frames) of $(a frames) frames that the killed runs recorded are others than a whole run's" \
     "accumulators bit-equal to an uninterrupted run with the same frames missing" "$what; every byte of the state after each kill, against sums that were never written or read again" \

@@ -68,11 +68,16 @@ def whole_run(service, name):
 def kill_once(service, number, seed, log):
     kept, seen = (service.state / "hovermodal.keyframe").exists(), service.records()
     moment_s = random.Random(seed).uniform(0.0, MOST_RUN_S)
-    begin = time.monotonic()
+    begin = last = time.monotonic()
     process = service.start()
-    time.sleep(max(0.0, moment_s - (time.monotonic() - begin)))
+    decodes_since = None  # no frame is taken before the clip has its decoder, the process' second thread
+    while (now := time.monotonic()) < begin + moment_s:
+        if decodes_since is None and len(os.listdir(f"/proc/{process.pid}/task")) > 1:
+            decodes_since = last
+        last = now
+        time.sleep(0.002)
     process.kill()
-    after_s = time.monotonic() - begin
+    after_s = time.monotonic() - decodes_since if decodes_since else 0.0
     text = process.communicate()[0]
     if process.returncode != -9:
         sys.exit(f"seed {seed}: the service ended with {process.returncode} before it was killed: {text[-300:]}")
