@@ -1,23 +1,25 @@
 #!/usr/bin/env bash
 # Fuzzes what comes from outside: every reader of a file, a message or a request (tests/fuzz/targets), under AddressSanitizer and
 # UndefinedBehaviorSanitizer, from the kept corpus on. One line a target; ends with 1 where one has a finding.
-#   tools/fuzz.sh [TARGET...] [--seconds S] [--coverage] [--keep]
+#   tools/fuzz.sh [TARGET...] [--seconds S] [--seed N] [--coverage] [--keep]
 #     TARGET       config calibration timestamps series lcm datagrams checkpoint http record (default: all of these); or
 #                  replay (the whole way from a record to its modes) and scene (of the simulator; the structures of
 #                  closeloop), for which all of core is built
 #     --seconds    of each target; default 60
+#     --seed       of libFuzzer's draws; default: another one each time
 #     --coverage   also how many lines of the sources concerned the inputs reach
 #     --keep       adds what reaches further to tests/fuzz/corpus, the smallest inputs that do
 # What was found lies in build/fuzz/findings/TARGET. To see it again: build/fuzz/bin/fuzz_TARGET FILE
 set -euo pipefail
 cd "$(dirname "$0")/.."
-targets=() seconds=60 coverage= keep=
+targets=() seconds=60 seed=0 coverage= keep=
 while [ $# -gt 0 ]; do
   case $1 in
     --seconds) seconds=$2; shift 2 ;;
+    --seed) seed=$2; shift 2 ;;
     --coverage) coverage=yes; shift ;;
     --keep) keep=yes; shift ;;
-    -*) echo "usage: tools/fuzz.sh [TARGET...] [--seconds S] [--coverage] [--keep]" >&2; exit 2 ;;
+    -*) echo "usage: tools/fuzz.sh [TARGET...] [--seconds S] [--seed N] [--coverage] [--keep]" >&2; exit 2 ;;
     *) targets+=("$1"); shift ;;
   esac
 done
@@ -71,7 +73,7 @@ for target in "${targets[@]}"; do
   kept=tests/fuzz/corpus/$target grown=build/fuzz/corpus/$target findings=build/fuzz/findings/$target log=build/fuzz/$target.log
   mkdir -p "$kept" "$grown" "$findings" build/fuzz/profiles
   verdict=clean
-  "build/fuzz/bin/fuzz_$target" -max_total_time="$seconds" -max_len=32768 -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
+  "build/fuzz/bin/fuzz_$target" -max_total_time="$seconds" -seed="$seed" -max_len=32768 -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
     -artifact_prefix="$findings/" "$grown" "$kept" >"$log" 2>&1 || { verdict=FINDING; failed=1; }
   read -r runs peak < <(awk '/stat::number_of_executed_units/ { n = $NF } /stat::peak_rss_mb/ { m = $NF } END { print n + 0, m + 0 }' "$log")
   read -r cov ft corp < <(awk '/ cov: / { for (i = 1; i < NF; i++) { if ($i == "cov:") c = $(i + 1); if ($i == "ft:") f = $(i + 1); if ($i == "corp:") k = $(i + 1) } } END { print c + 0, f + 0, k }' "$log")

@@ -1,10 +1,11 @@
 // The whole pipeline under pressure, over frames that lie in memory. Lines of "name<TAB>value"; exit code 1 where what
 // must hold does not.
 //   overload_run overload SECONDS          a source four times faster than tracking can follow, in real time
-//   overload_run loss SECONDS [SEED [SEGMENT]]   30 % of the frames lost at random before they reach us; SEED 0: none
+//   overload_run loss SECONDS [SEGMENT]    30 % of the frames lost at random before they reach us
 //   overload_run soak FRAMES               as fast as possible
 //   overload_run latency SECONDS CPUS PRIORITY [KEY=VALUE]...   1920 x 1080 at 60 frames a second, CPUS kept busy,
 //                                                  SCHED_FIFO PRIORITY, and whatever else the configuration says
+// Before these words: --seed N, from which scene and losses are drawn (default 1).
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -79,8 +80,9 @@ core::simulation::Scene at_rate(core::simulation::Scene scene, double rate_hz) {
   return scene;
 }
 
-std::shared_ptr<const SceneClip> draw(double seconds, double rate_hz = core::simulation::CameraParameters{}.rate_hz) {
-  return std::make_shared<const SceneClip>(at_rate(tests::small_scene(seconds), rate_hz),
+std::shared_ptr<const SceneClip> draw(double seconds, std::uint64_t seed,
+                                      double rate_hz = core::simulation::CameraParameters{}.rate_hz) {
+  return std::make_shared<const SceneClip>(at_rate(tests::small_scene(seconds, seed), rate_hz),
                                            static_cast<std::uint64_t>(seconds * rate_hz));
 }
 
@@ -119,19 +121,19 @@ bool right(const SceneClip& clip, const Run& result) {
 }
 
 // How many frames a second tracking can follow with so many points that it is slower than a camera.
-double frames_per_second(const std::vector<std::string>& many_points) {
-  const auto clip = draw(8.0);
+double frames_per_second(const std::vector<std::string>& many_points, std::uint64_t seed) {
+  const auto clip = draw(8.0, seed);
   const Play play{clip->frames.size(), 0, true, 0};
   const Run result = run(clip, play, clip->motion.scene().camera.rate_hz, many_points, play.n_frames / 2);
   return static_cast<double>(play.n_frames) / result.seconds;
 }
 
-int overload(double seconds) {
+int overload(double seconds, std::uint64_t seed) {
   std::vector<std::string> overrides{"tracking.points_per_region=500", "tracking.min_distance_px=1",
                                      "tracking.corner_quality=0.001", "spectrum.segment=256"};
-  const double tracked_hz = frames_per_second(overrides);
+  const double tracked_hz = frames_per_second(overrides, seed);
   const double rate_hz = std::min(4.0 * tracked_hz, kMostFrames / seconds);
-  const auto clip = draw(seconds, rate_hz);
+  const auto clip = draw(seconds, seed, rate_hz);
   const Play play{clip->frames.size(), std::llround(1e9 / rate_hz), false, 0};
   std::printf("tracking\t%.0f frames a second\nsource\t%.0f frames a second\n", tracked_hz, rate_hz);
   const Run result = run(clip, play, rate_hz, overrides, play.n_frames / 2);
@@ -139,17 +141,17 @@ int overload(double seconds) {
 }
 
 int loss(double seconds, std::uint64_t seed, const std::string& segment) {
-  const auto clip = draw(seconds);
-  const Play play{clip->frames.size(), 0, true, seed};
+  const auto clip = draw(seconds, seed);
+  const Play play{clip->frames.size(), 0, true, seed + 1};
   const Run result =
       run(clip, play, clip->motion.scene().camera.rate_hz, {"spectrum.segment=" + segment}, play.n_frames / 2);
-  return right(*clip, result) && (result.outcome.health.frames_missing > 0 || seed == 0) ? 0 : 1;
+  return right(*clip, result) && result.outcome.health.frames_missing > 0 ? 0 : 1;
 }
 
 // An estimate every 512 frames, and freed memory is kept: what the process holds can only grow, and does so until
 // identification has met its largest problem.
-int soak(std::uint64_t n_frames) {
-  const auto clip = draw(6.0);
+int soak(std::uint64_t n_frames, std::uint64_t seed) {
+  const auto clip = draw(6.0, seed);
   const Run result = run(clip, {n_frames, 0, true, 0}, core::simulation::CameraParameters{}.rate_hz,
                          {"spectrum.segment=256", "identification.period=4", "rt.lock_memory=true"}, kSettledAfter);
   const bool counted = tell(result);
@@ -158,8 +160,9 @@ int soak(std::uint64_t n_frames) {
              : 1;
 }
 
-int latency(double seconds, int n_busy, const std::string& priority, const std::vector<std::string>& more) {
-  const auto clip = std::make_shared<const SceneClip>(at_rate(core::simulation::make_paper_scene(1, 1.0), 60.0), 30);
+int latency(double seconds, std::uint64_t seed, int n_busy, const std::string& priority,
+            const std::vector<std::string>& more) {
+  const auto clip = std::make_shared<const SceneClip>(at_rate(core::simulation::make_paper_scene(seed, 1.0), 60.0), 30);
   std::atomic<bool> stop{false};
   std::vector<std::thread> busy;
   for (int i = 0; i < n_busy; ++i) {
@@ -186,15 +189,22 @@ int latency(double seconds, int n_busy, const std::string& priority, const std::
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string what = argc > 2 ? argv[1] : "";
-  const double amount = argc > 2 ? std::atof(argv[2]) : 0.0;
-  if (what == "overload") return overload(amount);
-  if (what == "loss")
-    return loss(amount, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1, argc > 4 ? argv[4] : "512");
-  if (what == "soak") return soak(static_cast<std::uint64_t>(amount));
-  if (what == "latency")
-    return latency(amount, argc > 3 ? std::atoi(argv[3]) : 0, argc > 4 ? argv[4] : "0",
-                   {argv + std::min(argc, 5), argv + argc});
-  std::fprintf(stderr, "usage: overload_run overload|loss|latency SECONDS, or soak FRAMES\n");
+  std::vector<std::string> words(argv + 1, argv + argc);
+  std::uint64_t seed = 1;
+  if (words.size() > 1 && words[0] == "--seed") {
+    seed = std::strtoull(words[1].c_str(), nullptr, 10);
+    words.erase(words.begin(), words.begin() + 2);
+  }
+  const std::string what = words.size() > 1 ? words[0] : "";
+  const double amount = words.size() > 1 ? std::atof(words[1].c_str()) : 0.0;
+  const auto word = [&](std::size_t i, const char* otherwise) { return i < words.size() ? words[i] : otherwise; };
+  if (what == "overload") return overload(amount, seed);
+  if (what == "loss") return loss(amount, seed, word(2, "512"));
+  if (what == "soak") return soak(static_cast<std::uint64_t>(amount), seed);
+  if (what == "latency") {
+    const auto n_first = static_cast<std::ptrdiff_t>(std::min<std::size_t>(words.size(), 4));
+    return latency(amount, seed, std::atoi(word(2, "0").c_str()), word(3, "0"), {words.begin() + n_first, words.end()});
+  }
+  std::fprintf(stderr, "usage: overload_run [--seed N] overload|loss|latency SECONDS, or soak FRAMES\n");
   return 2;
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What strangers may send to the ground station: fuzzed requests, slow clients, paths, other origins; a normal client
-asks meanwhile. Usage: http_attack.py BIN CLIP OUT URL N_FUZZED N_SLOW SECONDS. Prints name, tab, value."""
+asks meanwhile. Usage: http_attack.py BIN CLIP OUT URL N_FUZZED N_SLOW SECONDS FIRST_SEED. Prints name, tab, value."""
 import random
 import resource
 import selectors
@@ -13,6 +13,7 @@ from station import Ground, service, tell
 
 bin_folder, clip, out, url = sys.argv[1:5]
 n_fuzzed, n_slow, slow_s = int(sys.argv[5]), int(sys.argv[6]), float(sys.argv[7])
+first_seed = int(sys.argv[8])
 TOKEN = "0123456789abcdef0123456789abcdef"
 COOKIE = f"Cookie: hovermodal_token={TOKEN}\r\n"
 PATHS = ["/../../etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "/..%2f..%2f..%2fetc%2fpasswd", "/%252e%252e/etc/passwd", "//etc/passwd",
@@ -44,7 +45,7 @@ def fuzz(port):
     good = [get("/"), get("/snapshot.json?a=b"), get("/preview.jpg", COOKIE + "Accept: */*\r\nRange: bytes=0-1\r\n"),
             b"POST / HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 4\r\n\r\nabcd"]
     n_unanswered = n_faults = 0
-    for seed in range(1, n_fuzzed + 1):
+    for seed in range(first_seed, first_seed + n_fuzzed):
         draw = random.Random(seed)
         data = bytearray(draw.choice(good))
         for _ in range(draw.randint(1, 12)):
@@ -110,7 +111,7 @@ def slow_clients(port):
                 chosen.unregister(key.fileobj)
                 clients.pop(key.fileobj)
                 key.fileobj.close()
-        for s in random.Random(n_opened).sample(list(clients), len(clients) // 10):
+        for s in random.Random(first_seed + n_opened).sample(list(clients), len(clients) // 10):
             try:
                 clients[s] += s.send(request[clients[s]:clients[s] + 1])
             except OSError:

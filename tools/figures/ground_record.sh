@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
 # Records of the service, replayed: the same estimates, to the last bit. One line a figure; two minutes, --quick: one.
-#   tools/figures/ground_record.sh [--quick] [FIGURE...]      FIGURE: 3
+#   tools/figures/ground_record.sh [--quick] [--first-seed N] [FIGURE...]      FIGURE: 3
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
+. tools/figures/arguments.sh
+take_arguments "tools/figures/ground_record.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
+all_or_named 3
 runs=10 duration_s=60
-[ "${1:-}" != --quick ] || { runs=4 duration_s=30 && shift; }
-figures=("${@:-3}")
+[ -z "$quick" ] || runs=4 duration_s=30
 out=$PWD/build/figures/ground
 mkdir -p "$out"
-tools/setup.sh
+set_up
 quietly tools/build.sh hovermodal hovermodald
 
 # Every second run loses and finds effects by itself, every third lives in real time and may drop frames, every fifth is
@@ -24,7 +26,7 @@ how() { # SEED
 figure_3() {
   local seed folder same=0 files=0 file left record frames=0 bytes=0
   rm -rf "$out"/record_*
-  for seed in $(seq "$runs"); do
+  for seed in $(seq "$first_seed" $((first_seed + runs - 1))); do
     folder=$out/record_$seed
     # shellcheck disable=SC2046
     quietly "$bin/hovermodald" --config "firmware_app/config/synthetic.yaml" --set "camera.synthetic.seed=$seed" --set "camera.synthetic.duration_s=$duration_s" \
@@ -37,7 +39,7 @@ figure_3() {
     files=$((files + $(ls "$folder"/*.lcm | wc -l)))
     frames=$((frames + duration_s * 25)) bytes=$((bytes + $(cat "$folder"/*.lcm | wc -c)))
   done
-  judge 3 "$same of $runs runs; $files files, $((bytes / frames)) bytes a frame" "all" \
-    "modal.json, displacements.csv and tracks.csv of a replay are the run's, byte for byte" "$same == $runs"
+  judge 3 "$same of $runs runs; $files files, $((bytes / frames)) bytes a frame" "$runs recorded runs, byte-identical estimates" \
+    "modal.json, displacements.csv and tracks.csv of a replay are the run's, byte for byte, seeds $first_seed to $((first_seed + runs - 1))" "$same == $runs"
 }
 run_figures "${figures[@]}"

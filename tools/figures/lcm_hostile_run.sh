@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Malformed datagrams at every subscriber of ours at once; result.txt begins with "ok" or "bad".
-# Run it in a network of its own (tools/figures/ground_link.sh does): tools/figures/lcm_hostile_run.sh CLIP_FOLDER OUT N
+# Run it in a network of its own (tools/figures/ground_link.sh does): tools/figures/lcm_hostile_run.sh CLIP_FOLDER OUT N SEED
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-bin=build/release/bin clip=$1 out=$2 n=$3 url="udpm://239.255.76.72:7672?ttl=0"
+bin=build/release/bin clip=$1 out=$2 n=$3 seed=$4 url="udpm://239.255.76.72:7672?ttl=0"
 mkdir -p "$out"
 rm -f "$out"/*
 ip link set lo up
@@ -23,19 +23,20 @@ start_python() {
   eval "$1=$!"
   wait_for "$1"
 }
-"$bin/hovermodald" --config "$clip/config.yaml" --set camera.pace=realtime --set camera.attitude_channel=ATTITUDE --set scale.only=false \
+# At five frames a second the clip outlasts all that is sent.
+"$bin/hovermodald" --config "$clip/config.yaml" --set camera.pace=realtime --set camera.rate_hz=5 --set camera.attitude_channel=ATTITUDE --set scale.only=false \
   --set "telemetry.lcm_url=$url" --set telemetry.channel_prefix=OTHER --set "telemetry.log_file=$out/service.lcm" >"$out/service.log" 2>&1 &
 service=$!
 for name in spy inspect subscribe; do wait_for $name; done
 start_python python
 sleep 3
 # Messages first. LCM's own library, with which the C++ example is made, would not survive what comes then.
-"$bin/lcm_hostile" send "$url" $((n * 8 / 10)) 5000 messages >"$out/sent.txt"
+"$bin/lcm_hostile" send "$seed" "$url" $((n * 8 / 10)) 5000 messages >"$out/sent.txt"
 sleep 1
 note_alive spy inspect subscribe python service
 "$bin/lcm_hostile" end "$url" # well-formed: what listens until the end ends
 start_python python2
-"$bin/lcm_hostile" send "$url" $((n - n * 8 / 10)) 5000 datagrams >>"$out/sent.txt"
+"$bin/lcm_hostile" send "$seed" "$url" $((n - n * 8 / 10)) 5000 datagrams >>"$out/sent.txt"
 sleep 1
 note_alive spy inspect python2 service
 "$bin/lcm_hostile" end "$url"

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # The service on one side of a bad radio link, spy and lcm-logger on the other: network namespaces joined by veth, with
 # 20 % loss, 100 ms delay and 256 kbit/s by `tc netem`, or where the kernel has none by link_relay.py.
-#   tools/figures/lcm_link_run.sh CLIP_FOLDER OUT MAX_KBIT_S      as root; writes spy.json, ground.lcm, run.lcm, rate.txt, how.txt
+#   tools/figures/lcm_link_run.sh CLIP_FOLDER OUT MAX_KBIT_S SEED      as root; writes spy.json, ground.lcm, run.lcm, rate.txt, how.txt
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-bin=build/release/bin clip=$1 out=$2 cap=$3
+bin=build/release/bin clip=$1 out=$2 cap=$3 seed=$4
 url="udpm://239.255.76.72:7672?ttl=1"
 sky=hm_sky_$$ radio=hm_radio_$$ ground=hm_ground_$$
 mkdir -p "$out"
@@ -44,7 +44,7 @@ else
   ip -n $radio link set to_ground up
   attach $sky 10.77.0.1
   attach $ground 10.77.0.2
-  ip netns exec $radio python3 tools/figures/link_relay.py to_sky to_ground --loss 0.2 --delay-ms 100 --kbit-s 256 --seed 1 --count "$out/relay.json" \
+  ip netns exec $radio python3 tools/figures/link_relay.py to_sky to_ground --loss 0.2 --delay-ms 100 --kbit-s 256 --seed "$seed" --count "$out/relay.json" \
     >"$out/relay.log" 2>&1 &
   relay=$!
   started+=($relay)

@@ -21,8 +21,15 @@ finish_figures() {
 }
 
 # judge NUMBER "measured" "bar" "what" AWK-CONDITION: ok when the condition holds, MISS when not or when it cannot be told.
+# To awk a bare word such as nan or inf is an unset variable, and less than any bar.
 judge() {
-  if awk "BEGIN { exit !($5) }" 2>/dev/null; then line "$1" ok "$2" "$3" "$4"; else line "$1" MISS "$2" "$3" "$4"; fi
+  local bare
+  bare=$(sed -E 's/"[^"]*"//g' <<<"$5")
+  if [[ ! ${bare,,} =~ (^|[^a-z0-9_])(nan|inf|none|never)([^a-z0-9_]|$) ]] && awk "BEGIN { exit !($5) }" 2>/dev/null </dev/null; then
+    line "$1" ok "$2" "$3" "$4"
+  else
+    line "$1" MISS "$2" "$3" "$4"
+  fi
 }
 
 # Median and worst (largest) of the numbers on standard input, "nan nan" when there are none.
@@ -57,13 +64,25 @@ telemetry: {lcm_url: ""}
 Y
 }
 
+# A figure that the script did not reach the end of is a miss, whatever stopped it. clean_up: of the script's own, if it has one.
+unfinished=()
+tell_unfinished() {
+  local figure
+  for figure in "${unfinished[@]}"; do line "$figure" MISS "it did not come to its end" "to come to its end" "figure $figure"; done
+  ! declare -F clean_up >/dev/null || clean_up
+}
+
 # run_figures N...: figure_N of each, with the time it took; then finish_figures.
 run_figures() {
   local figure
+  unfinished=("$@")
+  trap tell_unfinished EXIT
+  trap 'exit 143' TERM INT
   for figure in "$@"; do
     SECONDS=0
     "figure_$figure"
     echo "# figure $figure: $SECONDS s"
+    unfinished=("${unfinished[@]:1}")
   done
   finish_figures
 }

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Stops the service at random moments and looks at what it leaves.
-    runtime_stop.py BIN FOLDER STOPS
+    runtime_stop.py BIN FOLDER STOPS FIRST_SEED
 Simulates a clip once, then runs hovermodald on it again and again while two processes keep the CPUs busy, sends SIGTERM
-or SIGINT at a random moment (seeds 1 .. STOPS), and measures the time from the signal to the end of the stages and to
+or SIGINT at a random moment (seeds FIRST_SEED on), and measures the time from the signal to the end of the stages and to
 the end of the process. Prints both; exit code 1 when a report is incomplete, a message in the event log does not decode,
 an exit code is not 0, or stages took longer than 300 ms plus the longest step of the run."""
 import json
@@ -24,17 +24,16 @@ def fail(text):
     sys.exit(1)
 
 
-def prepare(binaries, folder):
-    clip = folder / "clip"
-    if not (clip / "config.yaml").exists():
-        subprocess.run([binaries / "hovermodal", "simulate", "--size", "480x270", "--duration", "30", "--out", clip],
-                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+def prepare(binaries, folder, seed):
+    clip = folder / f"clip_{seed}"
+    subprocess.run([binaries / "hovermodal", "simulate", "--size", "640x360", "--duration", "30", "--seed", str(seed), "--out", clip],
+                   check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     return clip / "config.yaml"
 
 
 def start(binaries, config, out):
     arguments = ["--config", config, "--report", out, "--set", "telemetry.lcm_url=", "--set", f"telemetry.log_file={out}/log.lcm",
-                 "--set", "camera.pace=realtime", "--set", "spectrum.segment=64"]
+                 "--set", "camera.pace=realtime", "--set", "spectrum.segment=64", "--set", "tracking.min_distance_px=3"]
     return subprocess.Popen([binaries / "hovermodald", *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
 
@@ -80,12 +79,13 @@ def stop_once(binaries, config, out, seed):
 
 def main():
     binaries, folder, stops = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve(), int(sys.argv[3])
+    first_seed = int(sys.argv[4])
     folder.mkdir(parents=True, exist_ok=True)
-    config = prepare(binaries, folder)
+    config = prepare(binaries, folder, first_seed)
     load = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(2)]
     stage_ms, whole_ms, over = [], [], []
     try:
-        for seed in range(1, stops + 1):
+        for seed in range(first_seed, first_seed + stops):
             whole, stages, longest, problem = stop_once(binaries, config, folder / "run", seed)
             if problem:
                 fail(problem)

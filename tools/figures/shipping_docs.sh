@@ -9,10 +9,11 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-quick=
-[ "${1:-}" != --quick ] || { quick=yes && shift; }
-parts=("$@")
-[ $# -gt 0 ] || parts=(root demo test own readout spy)
+. tools/figures/arguments.sh
+take_arguments "tools/figures/shipping_docs.sh [--quick] [PART...]" "$@"
+all_or_named root demo test own readout spy
+draws
+parts=("${figures[@]}")
 out=$PWD/build/figures/shipping
 root=$out/clean
 mkdir -p "$out"
@@ -73,7 +74,7 @@ own() {
 readout() {
   local phone=$data/phone_rolling_shutter_gyro
   local command="hovermodal readout --clip frames --stamps framestamp.txt --gyro gyro.txt"
-  [ -d "$phone/frames" ] || { line 5.readout SKIP "no data at $phone" "works as it stands" "$command"; return; }
+  [ -d "$phone/frames" ] || { line 5.readout SKIP "no data at $phone" "works as it stands" "$command; brought by: tools/data.sh"; return; }
   rm -rf "$root/hovermodal/frames"
   cp -r "$phone/frames" "$phone/gyro.txt" "$root/hovermodal/"
   sed 1,99d "$phone/framestamp.txt" >"$root/hovermodal/framestamp.txt"
@@ -81,12 +82,12 @@ readout() {
   rm -rf "$root/hovermodal/frames" "$root/hovermodal/gyro.txt" "$root/hovermodal/framestamp.txt"
 }
 
+clean_up() { leave; }
 figure_5() {
   if [ "$(id -u)" -ne 0 ] || ! command -v mmdebstrap >/dev/null; then
-    line 5 SKIP "needs root and mmdebstrap" "every command works" "the documents on a clean Debian 12"
+    line 5 SKIP "not root, or no mmdebstrap" "every command works" "the documents on a clean Debian 12; as root: apt-get install -y mmdebstrap"
     return
   fi
-  trap leave EXIT
   [ "${parts[0]}" != root ] || make_root
   enter
   local part
@@ -98,8 +99,7 @@ figure_5() {
       own) own ;;
       readout) readout ;;
       # lcm-spy has no end of its own; without --quick, since it brings a JDK.
-      spy) [ -n "$quick" ] || follow spy "tools/setup.sh --lcm && tools/build.sh && { Xvfb :99 & DISPLAY=:99 timeout -s INT 10 tools/lcm_spy.sh 'udpm://239.255.76.67:7667?ttl=1'; code=\$?; kill %1; wait; [ \$code = 124 ]; }" ;;
-      *) echo "shipping_docs: $part: root, demo, test, own, readout or spy" >&2; exit 2 ;;
+      spy) [ -n "$quick" ] && line 5.spy SKIP "not with --quick" "works as it stands" "lcm-spy; run: tools/figures/shipping_docs.sh spy" || follow spy "tools/setup.sh --lcm && tools/build.sh && { Xvfb :99 & DISPLAY=:99 timeout -s INT 10 tools/lcm_spy.sh 'udpm://239.255.76.67:7667?ttl=1'; code=\$?; kill %1; wait; [ \$code = 124 ]; }" ;;
     esac
   done
 }

@@ -2,23 +2,26 @@
 # The Debian packages: built from a clean clone by one command, installed into a clean Debian, run there; those of arm64
 # under emulation. One line a figure. Two hours on two processors, most of it the arm64 build and its emulated tests;
 # --quick: a clip of 20 s, and of arm64's unit tests those of core. Needs root (it changes roots), and the network for apt.
-#   tools/figures/shipping_packages.sh [--quick] [PART...]      PART: build, install, demo, arm64 (default: all)
+#   tools/figures/shipping_packages.sh [--quick] [--first-seed N] [PART...]      PART: build, install, demo, arm64 (default: all)
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-seconds=60 segment=512 unit_tests=(core rt drivers firmware_app) quick=
-if [ "${1:-}" = --quick ]; then
-  quick=1 seconds=20 segment=256 unit_tests=(core)
-  shift
-fi
-parts=("$@")
-[ $# -gt 0 ] || parts=(build install demo arm64)
+seconds=60 segment=512 unit_tests=(core rt drivers firmware_app)
+. tools/figures/arguments.sh
+take_arguments "tools/figures/shipping_packages.sh [--quick] [--first-seed N] [PART...]" "$@"
+all_or_named build install demo arm64
+draws demo
+[ -z "$quick" ] || seconds=20 segment=256 unit_tests=(core)
 out=$PWD/build/figures/shipping
 clone=$out/clone root=$out/root
 commit=$(git rev-parse HEAD) # of all packages, whatever is committed meanwhile
 mkdir -p "$out"
-tools/setup.sh --package --package-arm64
-[ "$(id -u)" -eq 0 ] || { line 1 SKIP "not root" "root" "a clean Debian is a root of its own"; exit 0; }
+[ "$(id -u)" -eq 0 ] || {
+  for part in "${figures[@]}"; do line "1.$part" SKIP "not root" "-" "a clean Debian is a root of its own; run: sudo tools/figures/shipping_packages.sh $part"; done
+  finish_figures
+  exit 0
+}
+set_up --package --package-arm64
 
 packages() { ls "$clone/build/package-$1/packages"/*.deb 2>/dev/null; } # ARCHITECTURE
 
@@ -65,21 +68,21 @@ installed() {
   local wrong
   (. tools/package/completion_check.sh "$root/usr/share/bash-completion/completions/hovermodal" inside) >"$out/completion.log" 2>&1
   wrong=$(grep -c '^missing' "$out/completion.log" || true)
-  judge 1.completion "$(grep -c '^ok' "$out/completion.log" || true) commands complete, $wrong words missing" "all" \
+  judge 1.completion "$(grep -c '^ok' "$out/completion.log" || true) commands complete, $wrong words missing" "every word completes" \
     "bash completes every subcommand and option that --help tells" "$wrong == 0 && $(grep -c '^ok' "$out/completion.log" || true) > 10"
 }
 
 demonstrated() {
   local status=0
   inside bash -c "set -e; cd /var/lib/hovermodal && rm -rf demo
-    hovermodal simulate --preset paper --duration $seconds --seed 1 --out demo
+    hovermodal simulate --preset paper --duration $seconds --seed $first_seed --out demo
     hovermodald --config demo/config.yaml --set telemetry.lcm_url= --set spectrum.segment=$segment --report demo
     hovermodal identify --series demo/truth_displacements.csv --base base --segment $segment --report demo/true_motion
     hovermodal compare --result demo/modal.json --reference demo/true_motion/modal.json --truth demo/truth.json" >"$out/demo.log" 2>&1 || status=$?
   local demo=$root/var/lib/hovermodal/demo found worst
   read -r found worst < <(tools/figures/modal_difference.py "$demo/true_motion/modal.json" "$demo/modal.json" 2>/dev/null || echo "0 nan")
-  judge 1.demo "status $status, $found modes, worst $(awk "BEGIN { printf \"%.2f\", 100 * $worst }") % from those of the true motion" "at least 3 modes within 1 %" \
-    "the demo of $seconds s with what is installed, in the clean Debian" "$status == 0 && $found >= 3 && $worst < 0.01"
+  judge 1.demo "status $status, $found modes, worst $(awk "BEGIN { printf \"%.2f\", 100 * $worst }") % from those of the true motion" "runs the demo (at least 3 modes, each within 1 %)" \
+    "the demo of $seconds s, seed $first_seed, with what is installed, in the clean Debian" "$status == 0 && $found >= 3 && $worst < 0.01"
 }
 
 # on_arm64 PROGRAM ARG...: the program under user-mode emulation
@@ -101,33 +104,26 @@ ported() {
     --set spectrum.segment=$segment --report "$there" >>"$out/replay.log" 2>&1 || status=$?
   local found worst
   read -r found worst < <(tools/figures/modal_difference.py "$here/modal.json" "$there/modal.json" --all 2>/dev/null || echo "0 nan")
-  judge 1.arm64.replay "status $status, $found modes, numbers differ by at most $worst of their size" "as many modes, 1e-6" \
+  judge 1.arm64.replay "status $status, $found modes, numbers differ by at most $worst of their size" "results equal to amd64 within a stated tolerance (1e-6)" \
     "hovermodal replay of the demo's tracks, arm64 emulated against amd64" "$status == 0 && $found >= 3 && $worst < 1e-6"
 
   local group log=$out/unit.log targets=() passed failed
   for group in "${unit_tests[@]}"; do targets+=("unit_${group}_tests"); done
   # The tests are discovered under emulation while they are built.
   if ! cmake --build "$arm" ${JOBS:+-j "$JOBS"} --target "${targets[@]}" >"$out/unit_build.log" 2>&1; then
-    line 1.arm64.unit MISS "not built, see $out/unit_build.log" "all pass" "unit tests, arm64 emulated"
+    line 1.arm64.unit MISS "not built, see $out/unit_build.log" "runs the unit tests: all pass" "unit tests, arm64 emulated"
     return
   fi
   : >"$log"
   for group in "${targets[@]}"; do on_arm64 "$arm/tests/$group" >>"$log" 2>&1 || true; done
   passed=$(grep -oE '^\[  PASSED  \] [0-9]+' "$log" | awk '{ n += $4 } END { print n + 0 }')
   failed=$(grep -cE '^\[  FAILED  \] .*\)$' "$log" || true)
-  judge 1.arm64.unit "$passed pass, $failed fail, $(grep -c '^\[  PASSED' "$log" || true) of ${#targets[@]} programs came to their end" "all pass" \
-    "unit tests of ${unit_tests[*]}, arm64 emulated" "$failed == 0 && $passed > 0 && $(grep -c '^\[==========\].*ran' "$log" || true) == ${#targets[@]}"
+  judge 1.arm64.unit "$passed pass, $failed fail, $(grep -c '^\[  PASSED' "$log" || true) of ${#targets[@]} programs came to their end" "runs the unit tests: all pass" \
+    "of the unit tests those of ${unit_tests[*]}, arm64 emulated" "$failed == 0 && $passed > 0 && $(grep -c '^\[==========\].*ran' "$log" || true) == ${#targets[@]}"
 }
 
-for part in "${parts[@]}"; do
-  SECONDS=0
-  case $part in
-    build) built amd64 ;;
-    install) installed ;;
-    demo) demonstrated ;;
-    arm64) ported ;;
-    *) echo "shipping_packages: $part: build, install, demo or arm64" >&2; exit 2 ;;
-  esac
-  echo "# $part: $SECONDS s"
-done
-[ "$misses" -eq 0 ] || { echo "$misses figures miss their bar" >&2; exit 1; }
+figure_build() { built amd64; }
+figure_install() { installed; }
+figure_demo() { demonstrated; }
+figure_arm64() { ported; }
+run_figures "${figures[@]}"

@@ -45,7 +45,7 @@ print(len(pairs), len(truth), f"{100 * worst:.2f}", told)
 PY
 read -r n_found n_true worst n_heard </out/modes.txt
 losses=$(grep -o '[0-9]* frames in = .*' /out/service.txt | tail -n 1)
-judge "modes of the clip out of the service, ended with $status" "$n_found of $n_true, at most $worst % off; $n_heard of them heard over LCM; $losses" "at least 2, within 3 %, all heard, exit 0" \
-  "$n_found >= 2 && $n_heard == $n_found && $status == 0"
+judge "modes of the clip out of the service, ended with $status" "$n_found of $n_true, at most $worst % off; $n_heard of them heard over LCM; $losses" "all modes of the clip (within 3 %), received by LCM in another process, exit 0" \
+  "$n_true > 0 && $n_found == $n_true && $n_heard == $n_found && $status == 0"
 pull_out
 finish
