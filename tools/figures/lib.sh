@@ -9,9 +9,10 @@ line() {
   [ "$2" != MISS ] || misses=$((misses + 1))
 }
 
-# judge NUMBER "measured" "bar" "what" AWK-CONDITION: ok when the condition holds, MISS when not or when it cannot be told.
+# judge NUMBER "measured" "bar" "what" AWK-CONDITION: ok when the condition holds, MISS when not or when it cannot be told:
+# to awk a bare nan is a variable that is 0.
 judge() {
-  if awk "BEGIN { exit !($5) }" 2>/dev/null; then line "$1" ok "$2" "$3" "$4"; else line "$1" MISS "$2" "$3" "$4"; fi
+  if [[ ! $5 =~ (^|[^[:alnum:]_\"])(nan|inf)($|[^[:alnum:]_\"]) ]] && awk "BEGIN { exit !($5) }" 2>/dev/null; then line "$1" ok "$2" "$3" "$4"; else line "$1" MISS "$2" "$3" "$4"; fi
 }
 
 # Median and worst (largest) of the numbers on standard input, "nan nan" when there are none.
