@@ -13,8 +13,8 @@ DATA = [
     ("shake_input", "shake table under an earthquake, the ground not declared"),
     ("loggers", "four loggers that were not synchronised"),
     ("phone", "phone in a car, declared as a global shutter that does not turn"),
-    ("pixels_readout", "rendered clip, readout of 30 ms not declared"),
-    ("pixels_lens", "rendered clip, k1 of -0.15 not declared"),
+    ("pixels_readout", "rendered clip, readout declared wrong"),
+    ("pixels_lens", "rendered clip, k1 not declared"),
     ("pixels_lost", "rendered clip, one frame in fifty lost without a trace"),
 ]
 

@@ -70,6 +70,15 @@ TEST(Selftest, JudgesLossesAndRigidBuildings) {
   EXPECT_EQ(count_lines(selftest("null --seeds 1"), "null\tfloors\t1\t0\t0\t"), 1) << "no mode in a rigid building";
 }
 
+TEST(Selftest, ClosesTheLoopOnOtherRecordsFromAnotherFirstSeed) {
+  for (const std::string what : {"closure --seeds 1", "closure-clip --duration 2",
+                                 "closure-tracks --seeds 1 --duration 20 --effect 'camera roll' --strength 1"}) {
+    const std::string text = selftest(what + " --first-seed 1");
+    EXPECT_GT(text.size(), 100U) << what;
+    EXPECT_NE(text, selftest(what + " --first-seed 2")) << what;
+  }
+}
+
 // The cells of every line that starts so.
 std::vector<std::vector<std::string>> rows(const std::string& text, const std::string& start) {
   std::istringstream lines(text);

@@ -8,12 +8,12 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "core/simulation/track_generator.h"
 #include "firmware_app/track_analysis.h"
+#include "tools/hovermodal/selftest/closure_effects.h"
 #include "tools/hovermodal/selftest/closure_tracks.h"
 #include "tools/hovermodal/selftest/closure_tracks_run.h"
 #include "tools/hovermodal/selftest/geometry_flight.h"
@@ -25,7 +25,7 @@ namespace {
 using core::simulation::Scene;
 using core::simulation::TrackGenerator;
 
-constexpr double kOnset_s = 90.0, kDuration_s = 480.0, kNullDuration_s = 300.0, kReadout_frames = 0.65;
+constexpr double kOnset_s = 90.0, kDuration_s = 480.0, kNullDuration_s = 300.0;
 
 struct Change {
   std::uint64_t from_sequence = 0;
@@ -42,13 +42,6 @@ std::string changes_text(const LiveRun& run) {
   std::string text;
   for (const Change& change : run.changes) text += "[" + change.words + "]";
   return text;
-}
-
-const HiddenEffect& effect_named(const std::string& name) {
-  for (const HiddenEffect& effect : hidden_effects()) {
-    if (effect.name == name) return effect;
-  }
-  throw std::invalid_argument("no effect is called " + name);
 }
 
 std::uint64_t from_of(const std::string& words) {  // "from frame N on ..."
@@ -164,15 +157,13 @@ void print_closure_live(const ClosureTracksOptions& options) {
     if (!options.effect.empty() && options.effect != name) continue;
     RecordSetup setup;
     setup.duration_s = options.duration_s > 0.0 ? options.duration_s : kDuration_s;
-    setup.readout_frames = effects.front() == "readout time" ? 0.0 : kReadout_frames;
-    std::vector<double> sizes;
-    for (const std::string& effect : effects)
-      sizes.push_back(size_for(effect_named(effect), setup, options.strength > 0.0 ? options.strength : 1.0).size);
+    std::vector<const HiddenEffect*> hidden;
+    for (const std::string& effect : effects) hidden.push_back(&effect_named(effect));
     const auto lines = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t index) {
       const std::uint64_t seed = seed_of(options, index);
       const Scene declared = closure_scene(setup, seed);
-      Scene scene = declared;
-      for (std::size_t i = 0; i < effects.size(); ++i) effect_named(effects[i]).set(scene, sizes[i]);
+      const Scene scene =
+          with_effects(hidden, declared, options.strength > 0.0 ? options.strength : 1.0, setup.background).scene;
       const LiveRun with = run_live(declared, scene, "auto"), without = run_live(declared, scene, "off");
       const LiveRun twin = run_live(declared, declared, "off");
       return fmt::format("closure-live\t{}\t{}\t{:.0f}\t{}\t{}\t{}\t{}\t{}\t{}\n", name, seed,
@@ -188,19 +179,19 @@ void print_closure_live(const ClosureTracksOptions& options) {
 
 void print_closure_live_null(const ClosureTracksOptions& options) {
   fmt::print(
-      "# closure-live-null: seed, changes, largest difference of a frequency to the run with the loop off, in its "
-      "sigmas; changes\n");
+      "# closure-live-null: seed, changes, largest difference of a frequency or damping ratio to the run with the loop "
+      "off, in its sigma; changes\n");
   const auto lines = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t index) {
     RecordSetup setup;
     setup.shaking = index % 2 == 0 ? Shaking::kWind : Shaking::kGround;
     setup.duration_s = options.duration_s > 0.0 ? options.duration_s : kNullDuration_s;
-    setup.readout_frames = kReadout_frames;
     const Scene scene = closure_scene(setup, seed_of(options, index));
     const LiveRun with = run_live(scene, scene, "auto"), without = run_live(scene, scene, "off");
     double worst = with.estimate.modes.size() == without.estimate.modes.size() ? 0.0 : 1e9;
     for (std::size_t m = 0; m < with.estimate.modes.size() && worst < 1e9; ++m) {
       const core::Mode &a = with.estimate.modes[m], &b = without.estimate.modes[m];
-      worst = std::max(worst, std::abs(a.frequency_hz - b.frequency_hz) / b.frequency_std_hz.value_or(1e-9));
+      worst = std::max({worst, std::abs(a.frequency_hz - b.frequency_hz) / b.frequency_std_hz.value_or(1e-9),
+                        std::abs(a.damping_ratio - b.damping_ratio) / b.damping_std.value_or(1e-9)});
     }
     return fmt::format("closure-live-null\t{}\t{}\t{:.4f}\t{}\n", seed_of(options, index), with.changes.size(), worst,
                        changes_text(with));

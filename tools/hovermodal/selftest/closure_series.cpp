@@ -1,132 +1,117 @@
 // Closing the loop on series of channels: what it finds where the undeclared effect is known, and where there is none.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <memory>
 
 #include "core/closure/closure_loop.h"
 #include "core/closure/response/channel_model.h"
 #include "core/closure/response/response_level.h"
-#include "core/simulation/channel_generator.h"
-#include "core/simulation/presets.h"
+#include "tools/hovermodal/selftest/closure_effects.h"
+#include "tools/hovermodal/selftest/closure_series_cases.h"
 #include "tools/hovermodal/selftest/identification.h"
 #include "tools/hovermodal/selftest/identification_parallel.h"
 
 namespace tools {
 namespace {
 
-using core::closure::ChannelRecord;
+using core::closure::ClosureResult;
+using core::closure::ResponseModel;
 using core::simulation::Scene;
 
-constexpr double kDuration_s = 120.0;
 constexpr std::size_t kSurrogates = 64, kWhenPlain = 12;
 
-struct Case {
-  const char* effect;  // as closing the loop calls it
-  const char* strength;
-  double truth;  // of its number; NaN = counted in the record
-  void (*apply)(Scene&);
-};
-const Case kCases[] = {
-    {"frequency_drift", "4 %", 4.0, [](Scene& s) { s.change.frequency_drift = 0.04; }},
-    {"softening", "3 %", -3.0, [](Scene& s) { s.change.softening = 0.03; }},
-    {"time_stamp_jitter", "1 ms", 1.0, [](Scene& s) { s.timing.jitter_rms_s = 1e-3; }},
-    {"time_stamp_jitter", "4 ms", 4.0, [](Scene& s) { s.timing.jitter_rms_s = 4e-3; }},
-    {"dropped_frames", "1 %", std::numeric_limits<double>::quiet_NaN(),
-     [](Scene& s) { s.timing.drop_probability = 0.01; }},
-    {"duplicated_frames", "1 %", std::numeric_limits<double>::quiet_NaN(),
-     [](Scene& s) { s.timing.duplicate_probability = 0.01; }},
-};
+// A model as if nobody had thought of one of its effects.
+class Lacking final : public ResponseModel {
+ public:
+  Lacking(const ResponseModel& whole, std::string effect) : whole_(whole), effect_(std::move(effect)) {}
+  Lacking(std::unique_ptr<ResponseModel> own, std::string effect)
+      : own_(std::move(own)), whole_(*own_), effect_(std::move(effect)) {}
 
-// As a recorder that counts what it gets: nothing tells of a lost or late frame.
-ChannelRecord record_of(const Scene& scene, double& lost) {
-  const core::simulation::SceneMotion motion(scene);
-  const core::simulation::ChannelGenerator generator(motion, scene.camera.readout_s);
-  core::DisplacementSample sample = generator.sample_prototype();
-  core::simulation::FrameTiming timing(scene);
-  core::simulation::DeliveredFrame frame;
-  std::vector<std::vector<double>> rows;
-  std::uint64_t last = 0;
-  while (timing.next(frame)) {
-    generator.generate(frame, sample);
-    rows.push_back(sample.value_mm);
-    last = frame.number;
+  std::string unit() const override { return whole_.unit(); }
+  std::vector<std::string> effects() const override {
+    std::vector<std::string> all = whole_.effects();
+    std::erase(all, effect_);
+    return all;
   }
-  lost = static_cast<double>(last + 1 - rows.size());
-  ChannelRecord out;
-  out.rate_hz = scene.camera.rate_hz;
-  const auto& channels = generator.channels();
-  const auto n = static_cast<Eigen::Index>(rows.size());
-  const auto n_base = std::count_if(channels.begin(), channels.end(), [](const auto& c) { return c.is_base; });
-  out.value.resize(n, static_cast<Eigen::Index>(channels.size()) - n_base);
-  out.input.resize(n, n_base);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    Eigen::Index value = 0, input = 0;
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-      const double v = rows[static_cast<std::size_t>(k)][c];
-      (channels[c].is_base ? out.input(k, input++) : out.value(k, value++)) = v;
-    }
+  std::vector<core::closure::NotObservable> not_observable() const override { return whole_.not_observable(); }
+  double material_share(const std::string& effect) const override { return whole_.material_share(effect); }
+  core::closure::ResponseFit fit(const std::vector<std::string>& effects) const override { return whole_.fit(effects); }
+  std::unique_ptr<ResponseModel> surrogate(const std::vector<std::string>& effects, std::uint64_t seed) const override {
+    return std::make_unique<Lacking>(whole_.surrogate(effects, seed), effect_);
   }
-  return out;
-}
 
-Scene scene_of(std::uint64_t seed, bool wind) {
-  Scene scene = core::simulation::make_paper_scene(seed, kDuration_s);
-  scene.timing.stamps_tell = false;
-  if (wind) scene.excitation.base = 0.0, scene.excitation.forces = 1.0;
-  return scene;
-}
-
-struct Outcome {
-  std::vector<std::string> named;
-  double value = 0.0, sigma = 0.0, truth = 0.0;  // of the effect that is there
-  double before = 0.0, after = 0.0;
+ private:
+  std::unique_ptr<ResponseModel> own_;
+  const ResponseModel& whole_;
+  std::string effect_;
 };
 
-Outcome close(const Scene& scene, std::uint64_t seed, const std::string& effect) {
-  Outcome out;
-  const core::closure::ChannelModel model(record_of(scene, out.truth));
+ClosureResult close(const ResponseModel& model, std::uint64_t seed) {
   core::closure::ResponseLevel level(model);
   core::closure::ClosureOptions options;
   options.seed = seed;
   options.n_surrogates = kSurrogates;
   options.n_surrogates_when_plain = kWhenPlain;
-  const core::closure::ClosureResult result = core::closure::close_loop(level, options);
-  out.before = result.reference_error_before.value_or(0.0);
-  out.after = result.reference_error_after.value_or(0.0);
-  for (const auto& step : result.steps) {
-    out.named.push_back(step.effect);
-    if (step.effect != effect || step.parameters.empty()) continue;
-    out.value = step.parameters.front().value;
-    out.sigma = step.parameters.front().sigma.value_or(0.0);
-  }
-  return out;
+  return core::closure::close_loop(level, options);
 }
 
-void print_case(const Case& one, const IdentificationOptions& options) {
-  const auto results = for_each_seed(
-      options.n_seeds, options.n_threads,
-      [&](std::uint64_t seed) {
-        Scene scene = scene_of(seed, false);
-        one.apply(scene);
-        return close(scene, seed, one.effect);
-      },
-      options.first_seed);
-  int alone = 0, beside = 0, wrong = 0, nothing = 0, within = 0;
-  double sum = 0.0, before = 0.0, after = 0.0;
-  for (const Outcome& result : results) {
-    const bool named = std::find(result.named.begin(), result.named.end(), one.effect) != result.named.end();
-    if (result.named.empty()) ++nothing;
-    if (named) ++(result.named.size() == 1 ? alone : beside), sum += result.value;
-    if (!named && !result.named.empty()) ++wrong;
-    if (named && result.sigma > 0.0 && std::abs(result.value - one.truth) <= 3.0 * result.sigma) ++within;
-    before += result.before / options.n_seeds, after += result.after / options.n_seeds;
+std::vector<std::string> names_of(const ClosureResult& result) {
+  std::vector<std::string> names;
+  for (const auto& step : result.steps) names.push_back(step.effect);
+  return names;
+}
+
+// The effect's one number beside the truth.
+struct Stated {
+  double value = std::nan(""), sigmas_off = std::nan("");  // infinite: no sigma stated
+};
+Stated stated_number(const ClosureResult& result, const std::string& effect, double truth) {
+  for (const auto& step : result.steps) {
+    if (step.effect != effect || step.parameters.empty()) continue;
+    const auto& first = step.parameters.front();
+    return {first.value, parameter_errors(result.steps, effect, {{first.name, truth}}).worst_sigmas};
   }
-  fmt::print("series\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.3g}\t{}\t{:.4f}\t{:.4f}\n", one.effect, one.strength,
-             options.n_seeds, alone, beside, wrong, nothing, alone + beside > 0 ? sum / (alone + beside) : std::nan(""),
-             within, before, after);
+  return {};
+}
+
+std::string series_line(const SeriesCase& one, std::uint64_t seed) {
+  Scene scene = series_scene(seed, false);
+  one.apply(scene);
+  const CountedSeries series = counted_series(scene);
+  const ClosureResult result = close(core::closure::ChannelModel(series.record), seed);
+  const double truth = one.truth(scene, series);
+  const Stated stated = stated_number(result, one.effect, truth);
+  return fmt::format("series\t{}\t{}\t{}\t{}\t{:.4g}\t{:.4g}\t{:.2f}\t{:.4f}\t{:.4f}\n", one.effect, one.strength, seed,
+                     result.steps.empty() ? "nothing" : fmt::format("{}", fmt::join(names_of(result), " + ")), truth,
+                     stated.value, stated.sigmas_off, result.reference_error_before.value_or(std::nan("")),
+                     result.reference_error_after.value_or(std::nan("")));
+}
+
+std::string outside_line(const SeriesCase& one, std::uint64_t seed) {
+  Scene scene = series_scene(seed, false);
+  one.apply(scene);
+  const CountedSeries series = counted_series(scene);
+  const core::closure::ChannelModel whole(series.record);
+  const ClosureResult lacking = close(Lacking(whole, one.effect), seed), named = close(whole, seed);
+  const bool latent = !lacking.steps.empty() && std::all_of(lacking.steps.begin(), lacking.steps.end(), [](auto& s) {
+    return s.kind == core::closure::EffectKind::kLatent;
+  });
+  const double nan = std::nan("");
+  return fmt::format("series-outside\t{}\t{}\t{}\t{}\t{:d}\t{:.4f}\t{:.4f}\t{:.4f}\n", one.effect, one.strength, seed,
+                     lacking.steps.empty() ? "nothing" : fmt::format("{}", fmt::join(names_of(lacking), " + ")), latent,
+                     lacking.reference_error_before.value_or(nan), lacking.reference_error_after.value_or(nan),
+                     named.reference_error_after.value_or(nan));
+}
+
+template <class Line>
+void print_lines(const IdentificationOptions& options, Line line) {
+  for (const std::string& text : for_each_seed(options.n_seeds, options.n_threads, line, options.first_seed))
+    fmt::print("{}", text);
   std::fflush(stdout);
 }
 
@@ -134,26 +119,36 @@ void print_case(const Case& one, const IdentificationOptions& options) {
 
 void print_closure_series(const IdentificationOptions& options) {
   fmt::print(
-      "# {:g} s of the paper's structure at 25 fps: effect, strength, records; named alone, with another, only "
-      "another, "
-      "nothing; mean number, within 3 sigma; held-out innovations before, after\n",
-      kDuration_s);
-  for (const Case& one : kCases) print_case(one, options);
+      "# 120 s of a drawn structure: effect, strength, seed, named, its true number, the stated one, their difference "
+      "in "
+      "stated sigmas (inf: none stated), held-out innovations before, after\n");
+  for (const SeriesCase& one : series_cases())
+    print_lines(options, [&](std::uint64_t seed) { return series_line(one, seed); });
+}
+
+void print_closure_series_outside(const IdentificationOptions& options) {
+  fmt::print(
+      "# effect taken out of the catalogue, strength, seed, reported, all latent, held-out innovations before, after, "
+      "after with the whole catalogue\n");
+  for (const SeriesCase& one : series_cases()) {
+    // Those with a pattern in time; lost and repeated frames are events, jitter is noise.
+    const std::string effect = one.effect;
+    if (effect != "frequency_drift" && effect != "softening") continue;
+    print_lines(options, [&](std::uint64_t seed) { return outside_line(one, seed); });
+  }
 }
 
 void print_closure_series_null(const IdentificationOptions& options) {
-  fmt::print("# no effect: input, records, false adoptions, which\n");
+  fmt::print("# no effect: input, seed, adopted; wind has seeds of its own\n");
+  IdentificationOptions of_input = options;
   for (const bool wind : {false, true}) {
-    const auto results = for_each_seed(
-        options.n_seeds, options.n_threads, [&](std::uint64_t seed) { return close(scene_of(seed, wind), seed, ""); },
-        options.first_seed);
-    int n_false = 0;
-    std::string which;
-    for (const Outcome& result : results) {
-      n_false += result.named.empty() ? 0 : 1;
-      for (const std::string& name : result.named) which += (which.empty() ? "" : " ") + name;
-    }
-    fmt::print("series-null\t{}\t{}\t{}\t{}\n", wind ? "wind" : "shaken", options.n_seeds, n_false, which);
+    print_lines(of_input, [&](std::uint64_t seed) {
+      const CountedSeries series = counted_series(series_scene(seed, wind));
+      const ClosureResult result = close(core::closure::ChannelModel(series.record), seed);
+      return fmt::format("series-null\t{}\t{}\t{}\n", wind ? "wind" : "shaken", seed,
+                         result.steps.empty() ? "nothing" : fmt::format("{}", fmt::join(names_of(result), " + ")));
+    });
+    of_input.first_seed += options.n_seeds;
   }
 }
 

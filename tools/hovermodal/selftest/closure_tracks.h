@@ -12,7 +12,7 @@ struct ClosureTracksOptions {
   int n_threads = 2;
   double duration_s = 0.0;  // 0 = 120
   int first_seed = 1;
-  std::string effect;     // that one only; empty = all
+  std::string effect;     // that one only (clip: with these, joined by " + "); empty = all (clip: none)
   double strength = 0.0;  // that one only; 0 = all
 };
 
@@ -20,6 +20,8 @@ void print_closure_tracks(const ClosureTracksOptions& options);          // unde
 void print_closure_tracks_pairs(const ClosureTracksOptions& options);    // two of them at once
 void print_closure_tracks_null(const ClosureTracksOptions& options);     // records without an effect
 void print_closure_tracks_outside(const ClosureTracksOptions& options);  // each effect taken out of the catalogue
+
+void print_closure_clip(const ClosureTracksOptions& options);  // a drawn scene to render, as a file for `simulate`
 
 void print_closure_live(const ClosureTracksOptions& options);  // effects that begin in mid-flight, closure.adopt: auto
 void print_closure_live_null(const ClosureTracksOptions& options);  // the same without an effect

@@ -1,4 +1,4 @@
-// Records without an effect, and with one that the catalogue lacks.
+// Records without an effect.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -44,8 +44,8 @@ int print_nulls(const ClosureTracksOptions& options, const RecordSetup& setup) {
     n_false += o.result.steps.empty() ? 0 : 1;
     fmt::print("closure-tracks-null\t{}\t{}\t{}\t{}\t{}\t{:.5f}\t{}\t{:.5f}\t{:.5f}\t{:.5f}\t{}\t{:.1f}\n",
                setup.shaking == Shaking::kGround ? "ground" : "wind", setup.background ? "yes" : "no",
-               setup.readout_frames, seed_of(options, i + 1), o.names(), largest.named, largest.name, largest.latent,
-               o.result.baseline_rms, o.result.noise_floor, o.words, o.seconds);
+               setup.readout_frames.value_or(-1.0), seed_of(options, i + 1), o.names(), largest.named, largest.name,
+               largest.latent, o.result.baseline_rms, o.result.noise_floor, o.words, o.seconds);
   }
   std::fflush(stdout);
   return n_false;
@@ -56,46 +56,23 @@ int print_nulls(const ClosureTracksOptions& options, const RecordSetup& setup) {
 void print_closure_tracks_null(const ClosureTracksOptions& options) {
   fmt::print(
       "# closure-tracks-null: shaking, background, readout (frames), seed, adopted, largest share of a refused named "
-      "effect, its name, share of the latent one, held-out, floor (px), words, seconds\n");
+      "effect, its name, share of the latent one, held-out, floor (px), words, seconds; each condition has seeds of "
+      "its "
+      "own\n");
   int n_false = 0, n = 0;
+  ClosureTracksOptions of_condition = options;
+  RecordSetup setup = setup_for(options);
   for (const Shaking shaking : {Shaking::kGround, Shaking::kWind}) {
     for (const bool background : {true, false}) {
       for (const double readout : {0.0, 0.7, 1.0}) {
-        n_false +=
-            print_nulls(options, {shaking, background, readout, options.duration_s > 0.0 ? options.duration_s : 120.0});
+        setup.shaking = shaking, setup.background = background, setup.readout_frames = readout;
+        n_false += print_nulls(of_condition, setup);
         n += options.n_seeds;
+        of_condition.first_seed += options.n_seeds;
       }
     }
   }
   fmt::print("closure-tracks-false\t{}\t{}\n", n_false, n);
-}
-
-void print_closure_tracks_outside(const ClosureTracksOptions& options) {
-  fmt::print(
-      "# closure-tracks-outside: effect taken out of the catalogue, strength, seed, adopted, held-out before, after, "
-      "floor (px), after with the whole catalogue, modal error before, after (% rms), words, seconds\n");
-  for (const HiddenEffect& effect : hidden_effects()) {
-    if (!options.effect.empty() && options.effect != effect.name) continue;
-    const RecordSetup setup = setup_for(options, effect.name);
-    const EffectSize size = size_for(effect, setup, options.strength > 0.0 ? options.strength : 1.0);
-    const auto outcomes = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t index) {
-      const Scene declared = closure_scene(setup, seed_of(options, index));
-      Scene scene = declared;
-      effect.set(scene, size.size);
-      const auto record = observation_record(scene, declared, setup.background);
-      return std::pair{close_tracks_record(record, scene, seed_of(options, index), effect.name),
-                       close_tracks_record(record, scene, seed_of(options, index)).heldout_after()};
-    });
-    for (std::size_t i = 0; i < outcomes.size(); ++i) {
-      const auto& [o, named] = outcomes[i];
-      fmt::print(
-          "closure-tracks-outside\t{}\t{:.2f}\t{}\t{}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.3f}\t{:.3f}\t{}\t{:.1f}\n",
-          effect.name, size.strength, seed_of(options, i + 1), o.names(), o.result.baseline_rms, o.heldout_after(),
-          o.result.noise_floor, named, o.result.reference_error_before.value_or(-1.0),
-          o.result.reference_error_after.value_or(-1.0), o.words + o.refused(), o.seconds);
-    }
-    std::fflush(stdout);
-  }
 }
 
 }  // namespace tools

@@ -2,110 +2,100 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
+#include <stdexcept>
+#include <vector>
 
 #include "core/closure/observation/frame_model.h"
-#include "core/simulation/camera/camera_motion.h"
-#include "core/simulation/presets.h"
 #include "core/simulation/track_generator.h"
+#include "tools/hovermodal/selftest/drawn_scene.h"
 
 namespace tools {
 namespace {
 
+using core::closure::ObservationRecord;
 using core::simulation::Scene;
-constexpr double kDegree = 57.29577951308232;
+using core::simulation::TrackGenerator;
 
-void set_roll(Scene& s, double size) { s.hover.roll_rms_rad = size / kDegree; }
-void set_pitch(Scene& s, double size) { s.hover.pitch_rms_rad = size / kDegree; }
-void set_yaw(Scene& s, double size) { s.hover.yaw_rms_rad = size / kDegree; }
-// What the operator declares is less than the truth by so many frames.
-void set_readout(Scene& s, double size) { s.camera.readout_s += size / s.camera.rate_hz; }
-void set_radial(Scene& s, double size) {
-  s.camera.lens.model = core::simulation::LensParameters::Model::kRadialTangential;
-  s.camera.lens.k = {-size, 0.0, 0.0, 0.0, 0.0};
-}
-void set_tangential(Scene& s, double size) {
-  s.camera.lens.model = core::simulation::LensParameters::Model::kRadialTangential;
-  s.camera.lens.k = {0.0, 0.0, size, -0.5 * size, 0.0};
-}
-void set_locking(Scene& s, double size) { s.tracks.pixel_locking_px = size; }
-void set_rotor(Scene& s, double size) {
-  s.rotor.frequency_hz = 88.3;
-  s.rotor.roll_rms_rad = size / kDegree;
-  s.rotor.pitch_rms_rad = s.rotor.yaw_rms_rad = 0.6 * size / kDegree;
-}
-double same(const Scene&, double size) { return size; }
-// What the camera really did in this record, about its mean: place in CameraMotion::deviation().
-template <std::size_t kAxis>
-double turned_deg(const Scene& s, double) {
-  const core::simulation::CameraMotion camera(s);
-  const auto n = static_cast<double>(s.n_frames());
-  double sum = 0.0, squares = 0.0;
-  for (std::uint64_t k = 0; k < s.n_frames(); ++k) {
-    const double turn = camera.deviation(static_cast<double>(k) / s.camera.rate_hz)[kAxis];
-    sum += turn, squares += turn * turn;
+constexpr int kPointsPerRegion = 10;
+
+// Places in TrackGenerator::points().
+std::vector<std::size_t> points_used(const TrackGenerator& tracks, bool background) {
+  std::vector<std::size_t> use;
+  for (std::size_t i = 0; i < tracks.points().size(); ++i) {
+    const auto role = tracks.regions()[tracks.points()[i].region].region.role;
+    if (background || role != core::RegionRole::kBackground) use.push_back(i);
   }
-  return kDegree * std::sqrt(squares / n - sum / n * sum / n);
+  return use;
 }
-double negative(const Scene&, double size) { return -size; }
-double rotor_hz(const Scene& s, double) { return s.rotor.frequency_hz; }
+
+// Every n-th frame of what both scenes show, the same noise in both: the rms of their difference about each point's
+// mean.
+double change_px(const Scene& with, const Scene& without, bool background) {
+  constexpr std::uint64_t kEvery = 7;
+  const TrackGenerator a(with), b(without);
+  const std::vector<std::size_t> use = points_used(b, background);
+  std::vector<double> sum(2 * use.size(), 0.0), squares(sum.size(), 0.0);
+  core::TrackFrame frame_a, frame_b;
+  double n = 0.0;
+  auto timing = b.timing();
+  for (core::simulation::DeliveredFrame frame; timing.next(frame);) {
+    if (frame.number % kEvery != 0) continue;
+    a.generate(frame, frame_a), b.generate(frame, frame_b);
+    ++n;
+    for (std::size_t c = 0; c < use.size(); ++c) {
+      const core::TrackPoint &p = frame_a.points[use[c]], &q = frame_b.points[use[c]];
+      const double du = p.u_px - q.u_px, dv = p.v_px - q.v_px;
+      sum[2 * c] += du, squares[2 * c] += du * du;
+      sum[2 * c + 1] += dv, squares[2 * c + 1] += dv * dv;
+    }
+  }
+  double total = 0.0;
+  for (std::size_t i = 0; i < sum.size(); ++i) total += squares[i] / n - sum[i] / n * sum[i] / n;
+  return std::sqrt(std::max(total, 0.0) / static_cast<double>(sum.size()));
+}
+
+bool holds_the_view(const Scene& scene) {
+  try {
+    core::simulation::validate(scene);
+    return true;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+}
 
 }  // namespace
 
-const std::vector<HiddenEffect>& hidden_effects() {
-  static const std::vector<HiddenEffect> all{
-      {"camera roll", 5.0, 0.01, set_roll, turned_deg<5>},
-      {"camera pitch", 0.15, 0.05, set_pitch, turned_deg<3>},
-      {"camera yaw", 3.0, 0.05, set_yaw, turned_deg<4>},
-      {"readout time", 0.9, 0.1, set_readout, same},
-      {"radial distortion", 0.5, 0.01, set_radial, negative},
-      {"tangential distortion", 0.05, 0.001, set_tangential, same},
-      {"pixel locking", 0.2, 0.005, set_locking, same},
-      {"rotor line", 1.0, 0.001, set_rotor, rotor_hz},
-  };
-  return all;
-}
-
 Scene closure_scene(const RecordSetup& setup, std::uint64_t seed) {
-  Scene scene = core::simulation::make_paper_scene(seed, setup.duration_s);
-  scene.tracks.points_per_region = 10;
-  scene.camera.readout_s = setup.readout_frames / scene.camera.rate_hz;
-  if (setup.shaking == Shaking::kWind) {
-    scene.excitation.base = 0.0;
-    scene.excitation.forces = 1.0;
-  }
+  Scene scene = draw_scene(seed, setup.duration_s).scene;
+  scene.tracks.points_per_region = kPointsPerRegion;
+  if (setup.readout_frames) scene.camera.readout_s = *setup.readout_frames / scene.camera.rate_hz;
+  if (setup.shaking == Shaking::kWind) scene.excitation.base = 0.0, scene.excitation.forces = 1.0;
   return scene;
 }
 
-core::closure::ObservationRecord observation_record(const Scene& scene, const Scene& declared, bool background,
-                                                    bool noise) {
-  const core::simulation::TrackGenerator generator(scene);
-  core::closure::ObservationRecord record;
+ObservationRecord observation_record(const Scene& scene, const Scene& declared, bool background) {
+  const TrackGenerator generator(scene), as_declared(declared);
+  ObservationRecord record;
   record.rate_hz = declared.camera.rate_hz;
   record.alpha_px = declared.camera.alpha_px;
   record.cx_px = declared.camera.cx_px, record.cy_px = declared.camera.cy_px;
   record.width_px = declared.camera.width_px, record.height_px = declared.camera.height_px;
   record.readout_frames = declared.camera.readout_s * declared.camera.rate_hz;
   record.readout_direction = declared.camera.readout_direction;
-  const core::simulation::TrackGenerator as_declared(declared);
   for (const auto& region : as_declared.regions()) record.regions.push_back(region.region);
-  std::vector<std::size_t> use;
-  for (std::size_t i = 0; i < generator.points().size(); ++i) {
-    const std::size_t region = generator.points()[i].region;
-    if (!background && record.regions[region].role == core::RegionRole::kBackground) continue;
-    use.push_back(i);
-    record.region_of_point.push_back(region);
-    record.sigma_px.push_back(declared.tracks.noise_px);
+  const std::vector<std::size_t> use = points_used(as_declared, background);
+  for (const std::size_t i : use) {
+    record.region_of_point.push_back(generator.points()[i].region);
+    record.sigma_px.push_back(generator.points()[i].stated_px);
   }
   const auto n_frames = static_cast<Eigen::Index>(scene.n_frames());
   record.u_px.setConstant(n_frames, static_cast<Eigen::Index>(use.size()), std::numeric_limits<double>::quiet_NaN());
   record.v_px = record.u_px;
   core::simulation::FrameTiming timing = generator.timing();
-  core::simulation::DeliveredFrame frame;
   core::TrackFrame tracks;
-  while (timing.next(frame)) {
-    noise ? generator.generate(frame, tracks) : generator.generate_true(frame, tracks);
+  for (core::simulation::DeliveredFrame frame; timing.next(frame);) {
+    generator.generate(frame, tracks);
     const auto k = static_cast<Eigen::Index>(frame.number);
     if (k >= n_frames) break;
     for (std::size_t c = 0; c < use.size(); ++c) {
@@ -118,29 +108,57 @@ core::closure::ObservationRecord observation_record(const Scene& scene, const Sc
   return record;
 }
 
-EffectSize size_for(const HiddenEffect& effect, const RecordSetup& setup, double strength) {
-  RecordSetup brief = setup;
-  brief.duration_s = 40.0;
-  const Scene plain = closure_scene(brief, 1);
-  Scene with = plain;
-  effect.set(with, effect.start);
-  const auto a = observation_record(plain, plain, setup.background);  // the same noise in both: locking acts with it
-  const auto b = observation_record(with, plain, setup.background);
-  core::closure::FrameModel model(a);
-  Eigen::MatrixXd change(2 * a.n_points(), a.n_frames());
-  for (Eigen::Index j = 0; j < a.n_points(); ++j) {
-    change.row(2 * j) = (b.u_px.col(j) - a.u_px.col(j)).transpose();
-    change.row(2 * j + 1) = (b.v_px.col(j) - a.v_px.col(j)).transpose();
+EffectStrength strength_of(const ObservationRecord& with, const ObservationRecord& without, double noise_px,
+                           bool visible) {
+  Eigen::MatrixXd change(2 * without.n_points(), without.n_frames());
+  for (Eigen::Index j = 0; j < without.n_points(); ++j) {
+    change.row(2 * j) = (with.u_px.col(j) - without.u_px.col(j)).transpose();
+    change.row(2 * j + 1) = (with.v_px.col(j) - without.v_px.col(j)).transpose();
   }
+  const Eigen::VectorXd mean = change.rowwise().mean();
+  change.colwise() -= mean;
+  const auto n = static_cast<double>(change.size());
+  EffectStrength out;
+  out.plain = std::sqrt(change.squaredNorm() / n) / noise_px;
+  out.constant = std::sqrt(mean.squaredNorm() / static_cast<double>(mean.size())) / noise_px;
+  if (!visible) return out;
+  const core::closure::FrameModel model(without);
   change.array().colwise() *= model.weight().array();
-  const double n = static_cast<double>(change.size());
-  const double visible = std::sqrt(model.left_of(change).squaredNorm() / n) / effect.start;
-  EffectSize size;
-  size.size = strength / visible;
-  if (effect.most > 0.0) size.size = std::min(size.size, effect.most);
-  size.strength = size.size * visible;
-  size.plain_strength = size.size * std::sqrt(change.squaredNorm() / n) / effect.start;
-  return size;
+  out.visible = std::sqrt(model.left_of(change).squaredNorm() / n);
+  return out;
+}
+
+double noise_px(const Scene& scene, bool background) {
+  const TrackGenerator tracks(scene);
+  double squares = 0.0;
+  const std::vector<std::size_t> use = points_used(tracks, background);
+  for (const std::size_t i : use) squares += tracks.points()[i].noise_px * tracks.points()[i].noise_px;
+  return std::sqrt(squares / static_cast<double>(use.size()));
+}
+
+SizedScene set_effects(const std::vector<const HiddenEffect*>& effects, const Scene& declared,
+                       std::vector<double> size) {
+  for (std::size_t i = 0; i < effects.size(); ++i) size[i] = std::min(size[i], effects[i]->most);
+  for (;;) {
+    Scene scene = declared;
+    for (std::size_t i = 0; i < effects.size(); ++i) effects[i]->set(scene, size[i]);
+    if (holds_the_view(scene)) return {scene, size};
+    for (double& one : size) one *= 0.8;
+  }
+}
+
+SizedScene with_effects(const std::vector<const HiddenEffect*>& effects, const Scene& declared, double strength,
+                        bool background) {
+  const double wanted_px = strength * noise_px(declared, background);
+  SizedScene all{declared, {}};
+  for (const HiddenEffect* effect : effects) {
+    SizedScene one = set_effects({effect}, declared, {effect->start});
+    // Twice: most effects grow with their size, a lens nearly so.
+    for (int round = 0; round < 2; ++round)
+      one = set_effects({effect}, declared, {one.size[0] * wanted_px / change_px(one.scene, declared, background)});
+    all.size.push_back(one.size[0]);
+  }
+  return set_effects(effects, declared, all.size);
 }
 
 }  // namespace tools

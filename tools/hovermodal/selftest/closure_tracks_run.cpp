@@ -82,10 +82,9 @@ std::uint64_t seed_of(const ClosureTracksOptions& options, std::uint64_t index) 
   return index + static_cast<std::uint64_t>(options.first_seed) - 1;
 }
 
-RecordSetup setup_for(const ClosureTracksOptions& options, const std::string& effect) {
+RecordSetup setup_for(const ClosureTracksOptions& options) {
   RecordSetup setup;
   if (options.duration_s > 0.0) setup.duration_s = options.duration_s;
-  setup.readout_frames = effect == "readout time" ? 0.0 : 0.65;
   return setup;
 }
 

@@ -17,7 +17,6 @@ struct TracksOutcome {
   core::closure::ClosureResult result;
   std::string words;  // of the latent effects
   double seconds = 0.0;
-  double truth = 0.0;   // of the named effect's first parameter
   double values = 0.0;  // of the record: points x axes x frames
 
   [[nodiscard]] double heldout_after() const;
@@ -36,6 +35,6 @@ struct TracksOutcome {
                                        const core::simulation::Scene& scene);
 
 [[nodiscard]] std::uint64_t seed_of(const ClosureTracksOptions& options, std::uint64_t index) noexcept;
-[[nodiscard]] RecordSetup setup_for(const ClosureTracksOptions& options, const std::string& effect);
+[[nodiscard]] RecordSetup setup_for(const ClosureTracksOptions& options);
 
 }  // namespace tools

@@ -25,6 +25,7 @@ void print_closure(const IdentificationOptions& options);    // closing the loop
 void print_closure_null(const IdentificationOptions& options);  // and on one that lacks none
 
 void print_closure_series(const IdentificationOptions& options);  // and on series of channels, with and without effects
+void print_closure_series_outside(const IdentificationOptions& options);  // without the effect in the catalogue
 void print_closure_series_null(const IdentificationOptions& options);
 
 }  // namespace tools

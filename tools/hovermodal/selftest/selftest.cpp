@@ -122,6 +122,8 @@ constexpr std::array kChecks{
     Check{"closure", "closing the loop on structures that lack one known effect", identification<print_closure>},
     Check{"closure-series", "closing the loop on two minutes of channels with one effect",
           identification<print_closure_series>},
+    Check{"closure-series-outside", "the same with that effect taken out of the catalogue",
+          identification<print_closure_series_outside>},
     Check{"closure-series-null", "and on channels without any", identification<print_closure_series_null>},
     Check{"closure-null", "closing the loop on a structure that lacks none", identification<print_closure_null>},
     Check{"closure-tracks", "closing the loop on tracks with an undeclared effect",
@@ -130,6 +132,8 @@ constexpr std::array kChecks{
     Check{"closure-tracks-null", "closing the loop on tracks without one", closure_tracks<print_closure_tracks_null>},
     Check{"closure-tracks-outside", "the same with that effect taken out of the catalogue",
           closure_tracks<print_closure_tracks_outside>},
+    Check{"closure-clip", "one drawn scene with an undeclared effect, as a file for simulate --scene",
+          closure_tracks<print_closure_clip>},
     Check{"closure-live", "effects that begin in mid-flight, taken out while the record runs",
           closure_tracks<print_closure_live>},
     Check{"closure-live-null", "the same on records without one", closure_tracks<print_closure_live_null>},
@@ -181,7 +185,7 @@ void add_selftest(CLI::App& app) {
       ->check(CLI::Range(0.0, 3600.0));
   command->add_option("--first-seed", options->first_seed, "closing the loop: seeds are those from this one on")
       ->check(CLI::Range(1, 1000000));
-  command->add_option("--effect", options->effect, "closure-tracks: this effect only")->type_name("NAME");
+  command->add_option("--effect", options->effect, "closure-tracks, -clip, -live: this effect only")->type_name("NAME");
   command->add_option("--strength", options->strength, "closure-tracks: this strength only; 0 = all")
       ->check(CLI::Range(0.0, 100.0));
   command->add_option("--flight", options->flight, "checks of the geometry: the recorded flight that moves the camera")
