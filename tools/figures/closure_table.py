@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The Markdown table of README, from the reports that closure.sh left: closure_table.py build/figures/closure"""
+"""The Markdown table of tools/guide/figures.md, from the reports that closure.sh left: closure_table.py build/figures/closure"""
 import json
 import pathlib
 import sys

@@ -72,7 +72,7 @@ tell_unfinished() {
   ! declare -F clean_up >/dev/null || clean_up
 }
 
-# run_figures N...: figure_N of each, with the time it took; then finish_figures.
+# run_figures N...: figure_N of each, with the time it took; then after_figures, if the script has one, and finish_figures.
 run_figures() {
   local figure
   unfinished=("$@")
@@ -84,5 +84,6 @@ run_figures() {
     echo "# figure $figure: $SECONDS s"
     unfinished=("${unfinished[@]:1}")
   done
+  ! declare -F after_figures >/dev/null || after_figures
   finish_figures
 }
