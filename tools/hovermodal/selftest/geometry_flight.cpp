@@ -244,8 +244,8 @@ DeclaredRun declared_run(const SimulateJob& job, const FlightSetup& setup, const
   return {app::parse_config(text, way.name, overrides), declared.declared_camera()};
 }
 
-FlightResult analyse_flight(const SimulateJob& job, const FlightSetup& setup, const std::vector<Way>& ways,
-                            const SampleObserver& observe) {
+AnalysedFlight analyse_flight(const SimulateJob& job, const FlightSetup& setup, const std::vector<Way>& ways,
+                              const SampleObserver& observe) {
   const TrackGenerator generator(job.scene());
   const core::simulation::ChannelGenerator true_channels(core::simulation::SceneMotion(quiet(job.scene())),
                                                          job.scene().camera.readout_s);
@@ -269,7 +269,7 @@ FlightResult analyse_flight(const SimulateJob& job, const FlightSetup& setup, co
     }
   }
   truth.finish();
-  FlightResult result{{}, truth.sums(), job.scene().camera.rate_hz, job.scene().duration_s};
+  AnalysedFlight result{{}, truth.sums(), job.scene().camera.rate_hz, job.scene().duration_s};
   for (const auto& run : runs) {
     app::ChannelAnalysis& analysis = run->analysis().analysis();
     Analysed analysed{analysis.finish(), {}, run->analysis().channels(), analysis.sums()};
