@@ -80,7 +80,7 @@ void refuse_or_warn(const RtConfig& config, const std::string& refused, HealthCo
 [[nodiscard]] std::string event_line(std::string_view stage, const rt::Event& event);
 void start_runner(rt::StageRunner& runner, const RtConfig& config, HealthCollector& health);
 
-// Thrown by the two above (exit code 4).
+// Thrown by refuse_or_warn() and start_runner() (exit code 4).
 class RealTimeRefused : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -73,10 +73,11 @@ class TrackingStage : public rt::Stage {
   [[nodiscard]] std::uint64_t n_records_lost() const noexcept {
     return n_records_lost_.load(std::memory_order_relaxed);
   }
-  // Any thread: frames that closure never saw, because its ring was full.
+  // Any thread: previews that publish never sent, because a newer one came first.
   [[nodiscard]] std::uint64_t n_previews_lost() const noexcept {
     return n_previews_lost_.load(std::memory_order_relaxed);
   }
+  // Any thread: frames that closure never saw, because its ring was full.
   [[nodiscard]] std::uint64_t n_shown_lost() const noexcept { return n_shown_lost_.load(std::memory_order_relaxed); }
 
  private:
