@@ -237,8 +237,8 @@ void keep_keyframe(const AppConfig& config, const Source& source, HealthCollecto
   if (!failure.empty()) health.warn("the keyframe could not be kept: " + failure);
 }
 
-bool resume_state(const std::string& path, const RunState& view, SpectrumStage& spectrum,
-                  IdentificationStage& identification, HealthCollector& health) {
+bool resume_state(const std::string& path, const RunState& view, SpectrumAccumulator& spectra,
+                  ModeIdentification& modes, HealthCollector& health) {
   std::string refused;
   try {
     const drivers::CheckpointRead read = drivers::read_checkpoint(path);
@@ -248,10 +248,10 @@ bool resume_state(const std::string& path, const RunState& view, SpectrumStage& 
       const RunState saved = run_state_of(read.bytes);
       refused = why_foreign(saved, view);
       const bool clock_goes_on = !view.boot_id.empty() && saved.boot_id == view.boot_id;
-      if (refused.empty() && !spectrum.resume(saved.spectrum, clock_goes_on)) refused = "its spectra do not fit";
+      if (refused.empty() && !spectra.resume(saved.spectrum, clock_goes_on)) refused = "its spectra do not fit";
       if (refused.empty()) {
-        const bool has_modes = identification.resume(saved.modes);
-        const core::CpsdSums& sums = spectrum.sums();
+        const bool has_modes = modes.resume(saved.modes);
+        const core::CpsdSums& sums = spectra.sums();
         health.warn(fmt::format("goes on with the state in {}: {:.1f} s of record, {} segments{}", path,
                                 static_cast<double>(sums.n_samples) / sums.rate_hz, sums.n_segments,
                                 has_modes ? "" : "; its modes begin anew"));

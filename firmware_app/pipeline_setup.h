@@ -14,13 +14,13 @@
 #include "drivers/camera/camera.h"
 #include "drivers/telemetry/attitude_listener.h"
 #include "drivers/telemetry/publisher.h"
+#include "firmware_app/chain/mode_identification.h"
+#include "firmware_app/chain/spectrum_accumulator.h"
 #include "firmware_app/config.h"
 #include "firmware_app/health.h"
 #include "firmware_app/kept_keyframe.h"
 #include "firmware_app/report/run_report.h"
 #include "firmware_app/run_state.h"
-#include "firmware_app/stages/closure_stage.h"
-#include "firmware_app/stages/identification_stage.h"
 #include "firmware_app/stages/items.h"
 #include "firmware_app/stages/publish_stage.h"
 #include "rt/stage_runner.h"
@@ -70,8 +70,8 @@ struct Source {
 // Keeps the keyframe for a later run; tells in health what became of the last one's, and a failure.
 void keep_keyframe(const AppConfig& config, const Source& source, HealthCollector& health);
 // Goes on with the state found at `path`; says so, or why not, in health. False: the record begins anew.
-bool resume_state(const std::string& path, const RunState& view, SpectrumStage& spectrum,
-                  IdentificationStage& identification, HealthCollector& health);
+bool resume_state(const std::string& path, const RunState& view, SpectrumAccumulator& spectra,
+                  ModeIdentification& modes, HealthCollector& health);
 
 // A real-time setting that the system refuses: an error when rt.required, else a warning in every status record.
 void refuse_or_warn(const RtConfig& config, const std::string& refused, HealthCollector& health);
