@@ -2,7 +2,6 @@
 
 #include <list>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 
 #include "firmware_app/analysis.h"
@@ -21,11 +20,14 @@ class Record {
  public:
   Record(const std::string& path, const RecordOverrides& overrides)
       : path_(path), reader_(path), recorded_(reader_.head(), path + ": its configuration", overrides.overrides) {
-    if (!overrides.config_path.empty()) given_ = load_config(overrides.config_path, overrides.overrides);
+    config_ = overrides.config_path.empty() ? recorded_.config()
+                                            : load_config(overrides.config_path, overrides.overrides);
+    if (overrides.skips_closure_reports && config_.closure.adopt == ClosureAdopt::kReport)
+      config_.closure.adopt = ClosureAdopt::kOff;
   }
 
   [[nodiscard]] TrackSource source() {
-    return {given_ ? *given_ : recorded_.config(),
+    return {config_,
             recorded_.camera(),
             reader_.head().keyframe,
             path_,
@@ -51,7 +53,7 @@ class Record {
   std::string path_;
   drivers::RunRecordReader reader_;
   RecordedConfig recorded_;
-  std::optional<AppConfig> given_;
+  AppConfig config_;  // of the replay
 };
 
 }  // namespace

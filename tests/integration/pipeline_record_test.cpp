@@ -38,7 +38,7 @@ class PipelineRecord : public ::testing::Test {
     return app::replay_records(records, {"", overrides}, again.string());
   }
   void expect_same_report(const std::string& name) {
-    for (const char* file : {"modal.json", "displacements.csv", "tracks.csv"})
+    for (const char* file : {"modal.json", "displacements.csv", "tracks.csv", "closure.json"})
       EXPECT_EQ(tests::file_text(folder / (name + "_live") / file), tests::file_text(folder / (name + "_again") / file))
           << file;
   }
@@ -62,6 +62,20 @@ TEST_F(PipelineRecord, ARunWithLostFramesToo) {
   const std::string record = run(script, "gaps");
   (void)replayed({record}, "gaps");
   expect_same_report("gaps");
+}
+
+// Reports of closing the loop too, whether they change anything or not. A lens is declared that is not there.
+TEST_F(PipelineRecord, ARunThatClosesTheLoopToo) {
+  for (const std::string adopt : {"report", "auto"}) {
+    const std::string record =
+        run(frames(1500), adopt,
+            {"closure.adopt=" + adopt, "closure.period_s=20", "closure.window_s=24", "closure.delay_s=4",
+             "calibration.distortion=[0.2, 0, 0, 0]", "closure.points_per_region=5"});
+    const auto result = replayed({record}, adopt);
+    EXPECT_EQ(result.tracks.estimate.amendments.size(), adopt == "auto" ? 1U : 0U);
+    EXPECT_TRUE(fs::exists(folder / (adopt + "_live") / "closure.json"));
+    expect_same_report(adopt);
+  }
 }
 
 // The service masks two segments of it, no more; so does the replay, whatever time a record says has passed.

@@ -228,7 +228,8 @@ DeclaredRun declared_run(const SimulateJob& job, const FlightSetup& setup, const
   if (way.readout == StatedReadout::kWholeFrame) {
     readout = {drivers::Declared::Kind::kValue, 1e3 / job.scene().camera.rate_hz};
   }
-  std::vector<std::string> overrides = setup.configuration;
+  std::vector<std::string> overrides{"closure.adopt=off"};  // reports change no mode, and take seconds each
+  overrides.insert(overrides.end(), setup.configuration.begin(), setup.configuration.end());
   overrides.insert(overrides.end(), way.overrides.begin(), way.overrides.end());
   if (way.plane_points) overrides.push_back(plane_points(motion));
   if (way.attitude_sigma_deg > 0.0) {  // comes frame by frame, from no network
