@@ -20,8 +20,8 @@ class Record {
  public:
   Record(const std::string& path, const RecordOverrides& overrides)
       : path_(path), reader_(path), recorded_(reader_.head(), path + ": its configuration", overrides.overrides) {
-    config_ = overrides.config_path.empty() ? recorded_.config()
-                                            : load_config(overrides.config_path, overrides.overrides);
+    config_ =
+        overrides.config_path.empty() ? recorded_.config() : load_config(overrides.config_path, overrides.overrides);
     if (overrides.skips_closure_reports && config_.closure.adopt == ClosureAdopt::kReport)
       config_.closure.adopt = ClosureAdopt::kOff;
   }
@@ -32,7 +32,8 @@ class Record {
             reader_.head().keyframe,
             path_,
             [this](core::RecordedFrame& out) { return reader_.next(out); },
-            recorded_.image() ? &*recorded_.image() : nullptr};
+            recorded_.image() ? &*recorded_.image() : nullptr,
+            [this] { return reader_.counts(); }};
   }
 
   void remark(std::vector<std::string>& remarks) const {
@@ -43,8 +44,11 @@ class Record {
     if (reader_.n_damaged() > 0) say(fmt::format("{} damaged messages were left out", reader_.n_damaged()));
     if (reader_.n_attitudes_left_out() > 0)
       say(fmt::format("{} attitudes are not in the record: the run had them", reader_.n_attitudes_left_out()));
-    if (reader_.was_thinned())
-      say("overload thinned its frames; the service then began new spectra, which this replay does not");
+    if (reader_.counts() && reader_.counts()->snapshots_skipped > 0)
+      say(
+          fmt::format("the run was too busy for {} of its estimates, which this replay makes: its modes have a longer "
+                      "history",
+                      reader_.counts()->snapshots_skipped));
     if (reader_.end().empty()) say("the record was cut off");
     if (reader_.end().starts_with("fault")) say("the run ended with a " + reader_.end());
   }

@@ -96,9 +96,9 @@ TrackAnalysis::TrackAnalysis(const AppConfig& config, const core::CameraInfo& ca
                        geometry_maker(config_, camera_, keyframe_));
 }
 
-bool TrackAnalysis::push(core::TrackFrame& tracks) {
+bool TrackAnalysis::push(core::TrackFrame& tracks, std::uint32_t stride) {
   (void)meter_.begin_frame(tracks.sequence);
-  meter_.measure(tracks, 1, sample_);
+  meter_.measure(tracks, stride, sample_);
   const bool accepted = analysis_.push(sample_);
   if (diagnosis_) {
     diagnosis_->take(tracks);

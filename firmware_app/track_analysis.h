@@ -88,8 +88,9 @@ class TrackAnalysis {
   void hear_closure(std::function<void(const core::closure::ClosureReport&)> hear) { hear_closure_ = std::move(hear); }
   // The end of the record: a last report, and the estimate.
   [[nodiscard]] core::ModalEstimate finish();
-  // Points as in the keyframe, in its order; their inliers are marked. False as ChannelAnalysis::push.
-  bool push(core::TrackFrame& tracks);
+  // Points as in the keyframe, in its order; their inliers are marked. stride: as DisplacementSample::stride. False as
+  // ChannelAnalysis::push.
+  bool push(core::TrackFrame& tracks, std::uint32_t stride = 1);
 
   [[nodiscard]] const std::vector<core::ChannelInfo>& channels() const noexcept { return meter_.channels().channels(); }
   [[nodiscard]] const core::DisplacementSample& sample() const noexcept { return sample_; }  // of the last frame

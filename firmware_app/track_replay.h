@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct TrackSource {
   std::string name;                                    // of which only the last part is told
   std::function<bool(core::RecordedFrame& out)> next;  // points as in the keyframe; false: the end
   const core::Frame* image = nullptr;                  // of the keyframe, for pictures; null: none
+  // After the last frame: what the run itself counted; empty: not known.
+  std::function<std::optional<core::RunCounts>()> counts = {};
 };
 
 // The runs one after the other, each going on with the sums of those before it; leaves a report when the directory is

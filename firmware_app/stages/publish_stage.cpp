@@ -44,7 +44,7 @@ void PublishStage::publish_record(const FrameRecord& record) noexcept {
   const auto due = [this](int every) { return every > 0 && n_records_ % static_cast<std::uint64_t>(every) == 0; };
   if (due(outlets_.telemetry.displacement_every)) (void)outlets_.publisher.publish(record.sample, outlets_.channels);
   if (due(outlets_.telemetry.tracks_every)) (void)outlets_.publisher.publish(record.tracks);
-  if (outlets_.recorder != nullptr) (void)outlets_.recorder->add(record.tracks, record.attitude);
+  if (outlets_.recorder != nullptr) (void)outlets_.recorder->add(record.tracks, record.attitude, record.sample.stride);
   if (outlets_.report != nullptr) {
     // A failed file is counted by the report and told by its finish().
     (void)outlets_.report->add(record.tracks);
