@@ -30,8 +30,10 @@ struct Pipeline::Parts {
         out(std::move(publisher)) {
     connect();
     watch();
-    const bool continues = keeps_state() && keep_state();
-    if (recorder) recorder->begin(run_head(config, source.info, source.keyframe, source.keyframe_image(), continues));
+    const std::optional<RunState> resumed = keeps_state() ? keep_state() : std::nullopt;
+    if (recorder)
+      recorder->begin(
+          run_head(config, source.info, source.keyframe, source.keyframe_image(), resumed ? &*resumed : nullptr));
   }
 
   AppConfig config;
@@ -158,7 +160,7 @@ struct Pipeline::Parts {
     previews.set_reader_wakeup(&publish.wakeup());
     spectrum_states.set_reader_wakeup(&checkpoint.wakeup());
   }
-  [[nodiscard]] bool keep_state() {
+  [[nodiscard]] std::optional<RunState> keep_state() {
     spectra.keep_state(config.state.period_s);
     health.watch_state(checkpoint);
     health.watch({&run_checkpoint, {}, 0});

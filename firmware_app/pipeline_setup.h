@@ -69,9 +69,11 @@ struct Source {
 [[nodiscard]] std::string keyframe_path(const AppConfig& config);  // beside it
 // Keeps the keyframe for a later run; tells in health what became of the last one's, and a failure.
 void keep_keyframe(const AppConfig& config, const Source& source, HealthCollector& health);
-// Goes on with the state found at `path`; says so, or why not, in health. False: the record begins anew.
-bool resume_state(const std::string& path, const RunState& view, SpectrumAccumulator& spectra,
-                  ModeIdentification& modes, HealthCollector& health);
+// Goes on with the state found at `path`; says so, or why not, in health. That state, its boot_id empty where the clock
+// behind the stamps is another one; empty: the record begins anew.
+[[nodiscard]] std::optional<RunState> resume_state(const std::string& path, const RunState& view,
+                                                   SpectrumAccumulator& spectra, ModeIdentification& modes,
+                                                   HealthCollector& health);
 
 // A real-time setting that the system refuses: an error when rt.required, else a warning in every status record.
 void refuse_or_warn(const RtConfig& config, const std::string& refused, HealthCollector& health);

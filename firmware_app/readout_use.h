@@ -18,7 +18,8 @@ namespace app {
 // What an identification with the readout time is made of, beside the channels: plain values, to be kept with sums.
 struct ReadoutBasis {
   core::IdentifierConfig identifier;
-  std::vector<double> row_share;  // part of the readout that has passed when each channel is seen; empty: see ReadoutUse
+  std::vector<double>
+      row_share;  // part of the readout that has passed when each channel is seen; empty: see ReadoutUse
   double rate_hz = 0.0;
   core::ReadoutValue declared;
 };

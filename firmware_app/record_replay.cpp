@@ -33,14 +33,18 @@ class Record {
             path_,
             [this](core::RecordedFrame& out) { return reader_.next(out); },
             recorded_.image() ? &*recorded_.image() : nullptr,
+            recorded_.resumed(config_),
             [this] { return reader_.counts(); }};
   }
 
-  void remark(std::vector<std::string>& remarks) const {
+  // is_first: of the records that are replayed together.
+  void remark(std::vector<std::string>& remarks, bool is_first) const {
     const auto say = [&](const std::string& what) { remarks.push_back(path_ + ": " + what); };
     if (reader_.starts_late()) say("its first files are missing: the estimate is of what is left");
-    if (reader_.head().continues)
-      say("the run went on with the state of one before it: give that record too, in front of this");
+    if (reader_.head().continues && is_first && recorded_.resumed(config_) == nullptr)
+      say("the run went on with the state of one before it, which is of another configuration: give that record too, "
+          "in "
+          "front of this");
     if (reader_.n_damaged() > 0) say(fmt::format("{} damaged messages were left out", reader_.n_damaged()));
     if (reader_.n_attitudes_left_out() > 0)
       say(fmt::format("{} attitudes are not in the record: the run had them", reader_.n_attitudes_left_out()));
@@ -72,7 +76,7 @@ RecordsResult replay_records(const std::vector<std::string>& paths, const Record
   }
   if (sources.empty()) throw std::invalid_argument("no record to replay");
   RecordsResult result{replay(sources, report_directory), {}};
-  for (const Record& record : records) record.remark(result.remarks);
+  for (const Record& record : records) record.remark(result.remarks, &record == &records.front());
   return result;
 }
 

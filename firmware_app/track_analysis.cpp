@@ -46,6 +46,12 @@ void ChannelAnalysis::go_on_from(ChannelAnalysis& earlier) {
   losses_ = earlier.losses_;
 }
 
+bool ChannelAnalysis::resume(const RunState& state) noexcept {
+  if (!spectra_.resume(state.spectrum, !state.boot_id.empty())) return false;
+  (void)modes_.resume(state.modes);  // else they begin anew, as the run's did
+  return true;
+}
+
 bool ChannelAnalysis::push(const core::DisplacementSample& sample) {
   for (bool is_done = false; !is_done; identify_when_due()) is_done = spectra_.step(sample);
   ++losses_.frames_in;

@@ -39,6 +39,9 @@ class ChannelAnalysis {
 
   // Before the first sample: the sums, modes and counts of an earlier record. One segment lies between.
   void go_on_from(ChannelAnalysis& earlier);
+  // The same with the state that a run went on with (its boot_id not empty: stamps go on, too), whose counts begin
+  // anew. False: its spectra do not fit.
+  [[nodiscard]] bool resume(const RunState& state) noexcept;
   void report_to(RunReport* report) noexcept { report_ = report; }  // every estimate; null = none
 
   // False: a frame that lies in no cell of its own of the grid, and is left out.
@@ -84,6 +87,7 @@ class TrackAnalysis {
   void take(const core::AttitudeSample& sample) noexcept { meter_.take(sample); }
   // Before the first frame: the spectra and modes of an earlier run of the same view are gone on with.
   void go_on_from(TrackAnalysis& earlier) { analysis_.go_on_from(earlier.analysis_); }
+  [[nodiscard]] bool resume(const RunState& state) noexcept { return analysis_.resume(state); }
   // Told each report of closing the loop; with closure.adopt: off there is none.
   void hear_closure(std::function<void(const core::closure::ClosureReport&)> hear) { hear_closure_ = std::move(hear); }
   // The end of the record: a last report, and the estimate.

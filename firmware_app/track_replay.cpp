@@ -71,9 +71,12 @@ class Replay {
         throw std::invalid_argument(
             fmt::format("{}: does not go on with the record before it: {}; replay them one by one", source.name, why));
       next->go_on_from(*analysis_);
-    } else if (!report_directory_.empty()) {
-      report_ = std::make_unique<RunReport>(report_directory_, source.config, source.camera, next->channels(),
-                                            region_names(source.config));
+    } else {
+      if (source.resumed != nullptr && !next->resume(*source.resumed))
+        throw std::invalid_argument(source.name + ": the state that the run went on with is damaged in the record");
+      if (!report_directory_.empty())
+        report_ = std::make_unique<RunReport>(report_directory_, source.config, source.camera, next->channels(),
+                                              region_names(source.config));
     }
     view_ = std::move(view);
     analysis_ = std::move(next);

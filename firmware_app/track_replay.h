@@ -8,6 +8,7 @@
 #include "core/types/run_record.h"
 #include "firmware_app/analysis.h"
 #include "firmware_app/config.h"
+#include "firmware_app/run_state.h"
 
 namespace app {
 
@@ -19,6 +20,7 @@ struct TrackSource {
   std::string name;                                    // of which only the last part is told
   std::function<bool(core::RecordedFrame& out)> next;  // points as in the keyframe; false: the end
   const core::Frame* image = nullptr;                  // of the keyframe, for pictures; null: none
+  const RunState* resumed = nullptr;  // what the run went on with, where nothing comes before it here; null: nothing
   // After the last frame: what the run itself counted; empty: not known.
   std::function<std::optional<core::RunCounts>()> counts = {};
 };
