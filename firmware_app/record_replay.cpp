@@ -33,7 +33,7 @@ class Record {
             path_,
             [this](core::RecordedFrame& out) { return reader_.next(out); },
             recorded_.image() ? &*recorded_.image() : nullptr,
-            recorded_.resumed(config_),
+            resumed(),
             [this] { return reader_.counts(); }};
   }
 
@@ -41,10 +41,9 @@ class Record {
   void remark(std::vector<std::string>& remarks, bool is_first) const {
     const auto say = [&](const std::string& what) { remarks.push_back(path_ + ": " + what); };
     if (reader_.starts_late()) say("its first files are missing: the estimate is of what is left");
-    if (reader_.head().continues && is_first && recorded_.resumed(config_) == nullptr)
-      say("the run went on with the state of one before it, which is of another configuration: give that record too, "
-          "in "
-          "front of this");
+    if (reader_.head().continues && is_first && resumed() == nullptr)
+      say("the run went on with the state of one before it, which this replay cannot: give that record too, in front "
+          "of this");
     if (reader_.n_damaged() > 0) say(fmt::format("{} damaged messages were left out", reader_.n_damaged()));
     if (reader_.n_attitudes_left_out() > 0)
       say(fmt::format("{} attitudes are not in the record: the run had them", reader_.n_attitudes_left_out()));
@@ -58,6 +57,11 @@ class Record {
   }
 
  private:
+  // A later file of the record alone lacks what came after that state.
+  [[nodiscard]] const RunState* resumed() const noexcept {
+    return reader_.starts_late() ? nullptr : recorded_.resumed(config_);
+  }
+
   std::string path_;
   drivers::RunRecordReader reader_;
   RecordedConfig recorded_;

@@ -105,7 +105,7 @@ TEST_F(PipelineRecord, ARunThatWentOnWithAKeptStateToo) {
   expect_same_report("resumed");
 
   const auto other = replayed({record}, "other", {"spectrum.segment=32"});
-  EXPECT_THAT(other.remarks, Contains(HasSubstr("of another configuration")));
+  EXPECT_THAT(other.remarks, Contains(HasSubstr("went on with the state")));
   EXPECT_EQ(other.tracks.estimate.n_samples, 200U);
 }
 
