@@ -53,6 +53,7 @@ class AmendmentBook {
     return pages_[n_++] = std::move(amendment);
   }
   [[nodiscard]] const Amendment& at(std::uint32_t number) const { return pages_.at(number); }
+  [[nodiscard]] const Amendment& newest() const noexcept { return pages_[n_ - 1]; }  // the thread that adds
 
  private:
   std::array<Amendment, kMost> pages_{};

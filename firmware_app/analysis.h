@@ -66,6 +66,8 @@ struct TracksResult {
 struct RecordOverrides {
   std::string config_path;             // instead of the recorded configuration; empty = that one
   std::vector<std::string> overrides;  // "section.key=value"
+  // closure.adopt: report taken as off: such reports change nothing else, and take seconds each.
+  bool skips_closure_reports = false;
 };
 struct RecordsResult {
   TracksResult tracks;

@@ -31,8 +31,7 @@ struct LoopCloserConfig {
 
 // Newest tracks -> what the model of the points' places fails to explain, to which effect it is traced, and what of it
 // is to be taken out from which frame on. All in frames of the stream, none in time that passes: the same tracks give
-// the same. One report per period, and one of what came since at the end of the run. The service's closure stage runs
-// it, and a replay. One thread.
+// the same. One report per period, and one of what came since at the end of the run. One thread.
 class LoopCloser {
  public:
   explicit LoopCloser(LoopCloserConfig config) : config_(std::move(config)) {}

@@ -6,10 +6,10 @@
 #include <stdexcept>
 
 #include "drivers/host/host_status.h"
+#include "firmware_app/chain/makers.h"
 #include "firmware_app/core_config.h"
 #include "firmware_app/health.h"
 #include "firmware_app/pipeline_setup.h"
-#include "firmware_app/readout_use.h"
 #include "firmware_app/report/page/report_page.h"
 #include "firmware_app/run_head.h"
 #include "firmware_app/stages/closure_stage.h"
@@ -30,8 +30,10 @@ struct Pipeline::Parts {
         out(std::move(publisher)) {
     connect();
     watch();
-    const bool continues = keeps_state() && keep_state();
-    if (recorder) recorder->begin(run_head(config, source.info, source.keyframe, source.keyframe_image(), continues));
+    const std::optional<RunState> resumed = keeps_state() ? keep_state() : std::nullopt;
+    if (recorder)
+      recorder->begin(
+          run_head(config, source.info, source.keyframe, source.keyframe_image(), resumed ? &*resumed : nullptr));
   }
 
   AppConfig config;
@@ -42,47 +44,49 @@ struct Pipeline::Parts {
   std::unique_ptr<drivers::Publisher> out;
   std::unique_ptr<RunReport> report = open_report(config, source);
 
-  // camera -> [frames] -> tracking -> [samples] -> spectrum -> [snapshots] -> identification -> [results] -> publish
-  //                          \------------------ [records] ------------------------------------------------/
-  rt::SpscRing<core::Frame> frames{slots(config.rt.frame_slots), source.first_frame};
-  CaptureStage capture{*source.camera, frames.writer(), source.first_frame, config.rt.thin_overload};
-
-  rt::SpscRing<core::DisplacementSample> samples{slots(config.rt.sample_slots), source.displacement.sample_prototype()};
-  rt::SpscRing<FrameRecord> records{slots(config.rt.sample_slots), record_prototype(source)};
-  TrackingStage tracking{frames.reader(),  source.tracker,   source.displacement,  source.readout,
-                         samples.writer(), records.writer(), source.info.lossless, capture.thinning()};
-
-  // tracking -> (newest preview) -> publish
-  core::PreviewMaker preview_maker = preview_maker_for(config, source);
-  rt::TripleBuffer<core::Preview> previews{preview_maker.prototype()};
-
+  // What the stages call: the chain, which a replay runs in one loop (TrackAnalysis).
+  AmendmentBook book;  // what the diagnosis takes out beyond what was declared
+  DisplacementMeter meter{source.displacement, source.readout};
   core::WelchConfig welch = welch_config(config.spectrum, source.displacement.spectra().size(), source.info.rate_hz,
                                          source.displacement.n_witnesses());
+  SpectrumAccumulator spectra{welch, config.identification.period_hops};
+  ModeIdentification modes{source.info.rate_hz,
+                           identifier_maker(config, source.info, source.keyframe, source.displacement.spectra()), book};
+  Diagnosis diagnosis{loop_closer_config(config, source.info, source.keyframe), book,
+                      geometry_maker(config, source.info, source.keyframe)};
+  core::PreviewMaker preview_maker = preview_maker_for(config, source);
+
+  // camera -> [frames] -> tracking -> [samples] -> spectrum -> (snapshots) -> identification -> [results] -> publish
+  //                                -> [records], (previews) -> publish
+  //                                -> [recent_tracks] -> closure -> [closures] -> publish; [view_changes] -> tracking
+  // spectrum, identification -> (spectrum_states, mode_states) -> checkpoint -> the state file
+  rt::SpscRing<core::Frame> frames{slots(config.rt.frame_slots), source.first_frame};
+  rt::SpscRing<core::DisplacementSample> samples{slots(config.rt.sample_slots), source.displacement.sample_prototype()};
+  rt::SpscRing<FrameRecord> records{slots(config.rt.sample_slots), record_prototype(source)};
+  rt::TripleBuffer<core::Preview> previews{preview_maker.prototype()};
   rt::TripleBuffer<SpectrumSnapshot> snapshots{SpectrumSnapshot{core::WelchCpsd::empty_sums(welch)}};
-  SpectrumStage spectrum{samples.reader(),  welch, config.identification.period_hops, snapshots, source.info.lossless,
-                         capture.thinning()};
-
-  AmendmentBook book;  // what closure takes out beyond what was declared
   rt::SpscRing<IdentificationResult> results{slots(kResultSlots), IdentificationResult{}};
-  IdentificationStage identification{
-      snapshots, source.info.rate_hz,
-      [this](double rate_hz, const Amendment& amendment) { return identifier(rate_hz, amendment); }, book,
-      results.writer()};
-
-  // spectrum, identification -> (newest state) -> checkpoint -> the state file
-  rt::TripleBuffer<StateBytes> spectrum_states{state_room(spectrum.state_bytes())};
-  rt::TripleBuffer<StateBytes> mode_states{state_room(identification.state_bytes())};
-  CheckpointStage checkpoint{spectrum_states, mode_states, view_of(config, source), state_path(config)};
-
-  // tracking -> [recent tracks] -> closure -> [closures] -> publish
   rt::SpscRing<core::TrackFrame> recent_tracks{closes_loop() ? slots(kRecentSlots) : 1, source.keyframe};
   rt::SpscRing<core::closure::ClosureReport> closures{slots(kResultSlots), core::closure::ClosureReport{}};
-  ClosureStage closure{recent_tracks.reader(), loop_closer_config(config, source.info, source.keyframe),
-                       closures.writer()};
-  rt::SpscRing<ViewChange> view_changes{slots(kResultSlots), ViewChange{}};  // closure -> tracking
+  rt::SpscRing<ViewChange> view_changes{slots(kResultSlots), ViewChange{}};
+  rt::TripleBuffer<StateBytes> spectrum_states{state_room(spectra.state_bytes())};
+  rt::TripleBuffer<StateBytes> mode_states{state_room(modes.state_bytes())};
 
+  CaptureStage capture{*source.camera, frames.writer(), source.first_frame, config.rt.thin_overload};
+  TrackingStage tracking{{frames.reader(), samples.writer(), records.writer(), previews, attitude_samples(),
+                          where(closes_loop(), recent_tracks.writer()), where(takes_out(), view_changes.reader())},
+                         {source.tracker, meter, preview_maker, capture.thinning()},
+                         source.info.lossless,
+                         diagnosis.change()};
+  SpectrumStage spectrum{
+      {samples.reader(), snapshots, keeps_state() ? &spectrum_states : nullptr}, spectra, source.info.lossless};
+  IdentificationStage identification{{snapshots, results.writer(), keeps_state() ? &mode_states : nullptr}, modes};
+  ClosureStage closure{{recent_tracks.reader(), closures.writer(), where(takes_out(), view_changes.writer())},
+                       diagnosis};
+  CheckpointStage checkpoint{spectrum_states, mode_states, view_of(config, source), state_path(config)};
   HealthCollector health{source.info.rate_hz, capture, tracking, spectrum};
-  PublishStage publish{records.reader(), results.reader(), outlets()};
+  PublishStage publish{{records.reader(), results.reader(), previews, where(closes_loop(), closures.reader())},
+                       outlets()};
 
   // Started back to front, stopped front to back.
   rt::StageRunner run_capture{capture, frame_thread("hm-capture", config.rt, config.rt.capture_cpu)};
@@ -96,13 +100,11 @@ struct Pipeline::Parts {
 
   static constexpr int kResultSlots = 8, kRecentSlots = 1024;
   static std::size_t slots(int n) { return static_cast<std::size_t>(n); }
-
-  [[nodiscard]] std::unique_ptr<const ReadoutUse> identifier(double rate_hz, const Amendment& amendment) const {
-    core::CameraInfo info = amendment.applied(source.info);
-    info.rate_hz = rate_hz;
-    return std::make_unique<const ReadoutUse>(amendment.applied(config, source.info.rate_hz), info, source.keyframe,
-                                              source.displacement.spectra());
+  template <class End>
+  static std::optional<End> where(bool is_wanted, End end) {
+    return is_wanted ? std::optional<End>(std::move(end)) : std::nullopt;
   }
+
   // Before anything is allocated and before the camera runs: locking takes as long as several frames.
   [[nodiscard]] static std::string keep_memory(const AppConfig& config) {
     if (!config.rt.lock_memory) return {};
@@ -111,7 +113,11 @@ struct Pipeline::Parts {
   }
   [[nodiscard]] const std::vector<rt::StageRunner*>& runners() const noexcept { return all_runners; }
   [[nodiscard]] bool closes_loop() const noexcept { return config.closure.adopt != ClosureAdopt::kOff; }
+  [[nodiscard]] bool takes_out() const noexcept { return config.closure.adopt == ClosureAdopt::kAuto; }
   [[nodiscard]] bool keeps_state() const noexcept { return !config.state.directory.empty(); }
+  [[nodiscard]] std::optional<rt::RingReader<core::AttitudeSample>> attitude_samples() const {
+    return attitude ? std::optional(attitude->samples()) : std::nullopt;
+  }
   [[nodiscard]] StateBytes state_room(std::size_t n_bytes) const {
     return {std::vector<std::uint8_t>(keeps_state() ? n_bytes : 0), 0};
   }
@@ -135,48 +141,31 @@ struct Pipeline::Parts {
             config.regions};
   }
 
-  // Who is nudged when an item arrives, and when a slot becomes free.
+  // The reader is nudged when an item arrives, the writer when a slot becomes free. A newest value's writer waits for
+  // its reader only where a lossless source does.
+  template <class Ring>
+  static void nudge(Ring& ring, rt::Stage& writer, rt::Stage& reader) {
+    ring.set_writer_wakeup(&writer.wakeup());
+    ring.set_reader_wakeup(&reader.wakeup());
+  }
   void connect() {
-    if (attitude) tracking.hear_attitude(attitude->samples());
-    frames.set_writer_wakeup(&capture.wakeup());
-    frames.set_reader_wakeup(&tracking.wakeup());
-    samples.set_writer_wakeup(&tracking.wakeup());
-    samples.set_reader_wakeup(&spectrum.wakeup());
-    records.set_writer_wakeup(&tracking.wakeup());
-    records.set_reader_wakeup(&publish.wakeup());
-    snapshots.set_writer_wakeup(&spectrum.wakeup());
-    snapshots.set_reader_wakeup(&identification.wakeup());
-    if (closes_loop()) connect_closure();
-    tracking.show_previews(preview_maker, previews);
+    nudge(frames, capture, tracking);
+    nudge(samples, tracking, spectrum);
+    nudge(records, tracking, publish);
+    nudge(snapshots, spectrum, identification);
+    nudge(results, identification, publish);
+    nudge(recent_tracks, tracking, closure);
+    nudge(closures, closure, publish);
+    nudge(view_changes, closure, tracking);
     previews.set_reader_wakeup(&publish.wakeup());
-    publish.hear_previews(previews);
-    results.set_writer_wakeup(&identification.wakeup());
-    results.set_reader_wakeup(&publish.wakeup());
-  }
-  void connect_closure() {
-    tracking.show_tracks(recent_tracks.writer());
-    publish.hear_closure(closures.reader());
-    recent_tracks.set_writer_wakeup(&tracking.wakeup());
-    recent_tracks.set_reader_wakeup(&closure.wakeup());
-    closures.set_writer_wakeup(&closure.wakeup());
-    closures.set_reader_wakeup(&publish.wakeup());
-    if (config.closure.adopt != ClosureAdopt::kAuto) return;
-    view_changes.set_writer_wakeup(&closure.wakeup());
-    view_changes.set_reader_wakeup(&tracking.wakeup());
-    tracking.follow_amendments(view_changes.reader(), closure.first_view());
-    const auto geometry = [this](const Amendment& amendment) {
-      return make_geometry(config, source.info, source.keyframe, amendment);
-    };
-    closure.amend(book, geometry, view_changes.writer());
-  }
-  [[nodiscard]] bool keep_state() {
     spectrum_states.set_reader_wakeup(&checkpoint.wakeup());
-    spectrum.keep_state(spectrum_states, config.state.period_s);
-    identification.keep_state(mode_states);
+  }
+  [[nodiscard]] std::optional<RunState> keep_state() {
+    spectra.keep_state(config.state.period_s);
     health.watch_state(checkpoint);
     health.watch({&run_checkpoint, {}, 0});
     keep_keyframe(config, source, health);
-    return resume_state(state_path(config), view_of(config, source), spectrum, identification, health);
+    return resume_state(state_path(config), view_of(config, source), spectra, modes, health);
   }
   void watch() {
     health.name_regions(region_names(config));

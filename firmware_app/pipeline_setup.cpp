@@ -237,32 +237,33 @@ void keep_keyframe(const AppConfig& config, const Source& source, HealthCollecto
   if (!failure.empty()) health.warn("the keyframe could not be kept: " + failure);
 }
 
-bool resume_state(const std::string& path, const RunState& view, SpectrumStage& spectrum,
-                  IdentificationStage& identification, HealthCollector& health) {
+std::optional<RunState> resume_state(const std::string& path, const RunState& view, SpectrumAccumulator& spectra,
+                                     ModeIdentification& modes, HealthCollector& health) {
   std::string refused;
   try {
     const drivers::CheckpointRead read = drivers::read_checkpoint(path);
-    if (!read.exists) return false;
+    if (!read.exists) return {};
     refused = read.refused;
     if (refused.empty()) {
-      const RunState saved = run_state_of(read.bytes);
+      RunState saved = run_state_of(read.bytes);
       refused = why_foreign(saved, view);
-      const bool clock_goes_on = !view.boot_id.empty() && saved.boot_id == view.boot_id;
-      if (refused.empty() && !spectrum.resume(saved.spectrum, clock_goes_on)) refused = "its spectra do not fit";
+      if (view.boot_id.empty() || saved.boot_id != view.boot_id) saved.boot_id.clear();
+      if (refused.empty() && !spectra.resume(saved.spectrum, !saved.boot_id.empty()))
+        refused = "its spectra do not fit";
       if (refused.empty()) {
-        const bool has_modes = identification.resume(saved.modes);
-        const core::CpsdSums& sums = spectrum.sums();
+        const bool has_modes = modes.resume(saved.modes);
+        const core::CpsdSums& sums = spectra.sums();
         health.warn(fmt::format("goes on with the state in {}: {:.1f} s of record, {} segments{}", path,
                                 static_cast<double>(sums.n_samples) / sums.rate_hz, sums.n_segments,
                                 has_modes ? "" : "; its modes begin anew"));
-        return true;
+        return saved;
       }
     }
   } catch (const std::exception& e) {
     refused = e.what();
   }
   health.warn(fmt::format("the state in {} is not taken: {}; the record begins anew", path, refused));
-  return false;
+  return {};
 }
 
 void refuse_or_warn(const RtConfig& config, const std::string& refused, HealthCollector& health) {

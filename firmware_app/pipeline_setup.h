@@ -14,13 +14,13 @@
 #include "drivers/camera/camera.h"
 #include "drivers/telemetry/attitude_listener.h"
 #include "drivers/telemetry/publisher.h"
+#include "firmware_app/chain/mode_identification.h"
+#include "firmware_app/chain/spectrum_accumulator.h"
 #include "firmware_app/config.h"
 #include "firmware_app/health.h"
 #include "firmware_app/kept_keyframe.h"
 #include "firmware_app/report/run_report.h"
 #include "firmware_app/run_state.h"
-#include "firmware_app/stages/closure_stage.h"
-#include "firmware_app/stages/identification_stage.h"
 #include "firmware_app/stages/items.h"
 #include "firmware_app/stages/publish_stage.h"
 #include "rt/stage_runner.h"
@@ -69,9 +69,11 @@ struct Source {
 [[nodiscard]] std::string keyframe_path(const AppConfig& config);  // beside it
 // Keeps the keyframe for a later run; tells in health what became of the last one's, and a failure.
 void keep_keyframe(const AppConfig& config, const Source& source, HealthCollector& health);
-// Goes on with the state found at `path`; says so, or why not, in health. False: the record begins anew.
-bool resume_state(const std::string& path, const RunState& view, SpectrumStage& spectrum,
-                  IdentificationStage& identification, HealthCollector& health);
+// Goes on with the state found at `path`; says so, or why not, in health. That state, its boot_id empty where the clock
+// behind the stamps is another one; empty: the record begins anew.
+[[nodiscard]] std::optional<RunState> resume_state(const std::string& path, const RunState& view,
+                                                   SpectrumAccumulator& spectra, ModeIdentification& modes,
+                                                   HealthCollector& health);
 
 // A real-time setting that the system refuses: an error when rt.required, else a warning in every status record.
 void refuse_or_warn(const RtConfig& config, const std::string& refused, HealthCollector& health);
@@ -80,7 +82,7 @@ void refuse_or_warn(const RtConfig& config, const std::string& refused, HealthCo
 [[nodiscard]] std::string event_line(std::string_view stage, const rt::Event& event);
 void start_runner(rt::StageRunner& runner, const RtConfig& config, HealthCollector& health);
 
-// Thrown by the two above (exit code 4).
+// Thrown by refuse_or_warn() and start_runner() (exit code 4).
 class RealTimeRefused : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -62,9 +62,12 @@ ReadoutUse::ReadoutUse(ReadoutBasis basis, std::vector<core::ChannelInfo> spectr
       channels_(std::move(spectra)),
       n_outputs_(core::Identifier(basis_.identifier, channels_).n_outputs()) {}
 
+ReadoutUse::ReadoutUse(const AppConfig& config, double rate_hz, const std::vector<core::ChannelInfo>& spectra)
+    : ReadoutUse(ReadoutBasis{identifier_config(config, spectra, rate_hz), {}, rate_hz, {}}, spectra) {}
+
 std::vector<core::ChannelInfo> ReadoutUse::channels_with(double readout_s) const {
   std::vector<core::ChannelInfo> channels = channels_;
-  for (std::size_t c = 0; c < channels.size(); ++c) channels[c].row_delay_s = readout_s * basis_.row_share[c];
+  for (std::size_t c = 0; c < basis_.row_share.size(); ++c) channels[c].row_delay_s = readout_s * basis_.row_share[c];
   return channels;
 }
 
@@ -88,7 +91,8 @@ std::optional<core::ReadoutValue> ReadoutUse::read_shapes(const core::ModalEstim
 }
 
 core::ModalEstimate ReadoutUse::identify(const core::CpsdSums& sums, const core::ReadoutEstimate& from_tracks) const {
-  if (!basis_.identifier.undo_row_delays) return core::Identifier(basis_.identifier, channels_).identify(sums);
+  if (!basis_.identifier.undo_row_delays || basis_.row_share.empty())
+    return core::Identifier(basis_.identifier, channels_).identify(sums);
   std::optional<core::ReadoutValue> tracks;
   if (from_tracks.observable)
     tracks = core::ReadoutValue{from_tracks.frames / basis_.rate_hz, from_tracks.std_frames / basis_.rate_hz};

@@ -18,7 +18,8 @@ namespace app {
 // What an identification with the readout time is made of, beside the channels: plain values, to be kept with sums.
 struct ReadoutBasis {
   core::IdentifierConfig identifier;
-  std::vector<double> row_share;  // part of the readout that has passed when each channel is seen
+  std::vector<double>
+      row_share;  // part of the readout that has passed when each channel is seen; empty: see ReadoutUse
   double rate_hz = 0.0;
   core::ReadoutValue declared;
 };
@@ -26,13 +27,16 @@ struct ReadoutBasis {
 // The identification with the readout time that is known best: the declared one, with camera.readout_sigma_ms (where
 // that is chosen: 1 ms, or half a frame where nothing is declared), that of the tracks, and that of the modes' own
 // shapes. Where the shapes change it noticeably, the modes are identified once more with it. In paper mode nothing is
-// undone or found. A pure function of its arguments, so that a replay gives the same bits. Any thread.
+// undone or found. Channels that come without an image (basis.row_share empty) have their row delays undone as they
+// state them, and nothing is found. A pure function of its arguments, so that a replay gives the same bits. Any thread.
 class ReadoutUse {
  public:
   // Throws as identifier_config() does.
   ReadoutUse(const AppConfig& config, const core::CameraInfo& camera, const core::TrackFrame& keyframe,
              std::vector<core::ChannelInfo> spectra);
   ReadoutUse(ReadoutBasis basis, std::vector<core::ChannelInfo> spectra);
+  // Channels without an image. Throws as identifier_config() does.
+  ReadoutUse(const AppConfig& config, double rate_hz, const std::vector<core::ChannelInfo>& spectra);
 
   [[nodiscard]] core::ModalEstimate identify(const core::CpsdSums& sums,
                                              const core::ReadoutEstimate& from_tracks) const;

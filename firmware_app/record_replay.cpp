@@ -2,7 +2,6 @@
 
 #include <list>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 
 #include "firmware_app/analysis.h"
@@ -21,37 +20,52 @@ class Record {
  public:
   Record(const std::string& path, const RecordOverrides& overrides)
       : path_(path), reader_(path), recorded_(reader_.head(), path + ": its configuration", overrides.overrides) {
-    if (!overrides.config_path.empty()) given_ = load_config(overrides.config_path, overrides.overrides);
+    config_ =
+        overrides.config_path.empty() ? recorded_.config() : load_config(overrides.config_path, overrides.overrides);
+    if (overrides.skips_closure_reports && config_.closure.adopt == ClosureAdopt::kReport)
+      config_.closure.adopt = ClosureAdopt::kOff;
   }
 
   [[nodiscard]] TrackSource source() {
-    return {given_ ? *given_ : recorded_.config(),
+    return {config_,
             recorded_.camera(),
             reader_.head().keyframe,
             path_,
             [this](core::RecordedFrame& out) { return reader_.next(out); },
-            recorded_.image() ? &*recorded_.image() : nullptr};
+            recorded_.image() ? &*recorded_.image() : nullptr,
+            resumed(),
+            [this] { return reader_.counts(); }};
   }
 
-  void remark(std::vector<std::string>& remarks) const {
+  // is_first: of the records that are replayed together.
+  void remark(std::vector<std::string>& remarks, bool is_first) const {
     const auto say = [&](const std::string& what) { remarks.push_back(path_ + ": " + what); };
     if (reader_.starts_late()) say("its first files are missing: the estimate is of what is left");
-    if (reader_.head().continues)
-      say("the run went on with the state of one before it: give that record too, in front of this");
+    if (reader_.head().continues && is_first && resumed() == nullptr)
+      say("the run went on with the state of one before it, which this replay cannot: give that record too, in front "
+          "of this");
     if (reader_.n_damaged() > 0) say(fmt::format("{} damaged messages were left out", reader_.n_damaged()));
     if (reader_.n_attitudes_left_out() > 0)
       say(fmt::format("{} attitudes are not in the record: the run had them", reader_.n_attitudes_left_out()));
-    if (reader_.was_thinned())
-      say("overload thinned its frames; the service then began new spectra, which this replay does not");
+    if (reader_.counts() && reader_.counts()->snapshots_skipped > 0)
+      say(
+          fmt::format("the run was too busy for {} of its estimates, which this replay makes: its modes have a longer "
+                      "history",
+                      reader_.counts()->snapshots_skipped));
     if (reader_.end().empty()) say("the record was cut off");
     if (reader_.end().starts_with("fault")) say("the run ended with a " + reader_.end());
   }
 
  private:
+  // A later file of the record alone lacks what came after that state.
+  [[nodiscard]] const RunState* resumed() const noexcept {
+    return reader_.starts_late() ? nullptr : recorded_.resumed(config_);
+  }
+
   std::string path_;
   drivers::RunRecordReader reader_;
   RecordedConfig recorded_;
-  std::optional<AppConfig> given_;
+  AppConfig config_;  // of the replay
 };
 
 }  // namespace
@@ -66,7 +80,7 @@ RecordsResult replay_records(const std::vector<std::string>& paths, const Record
   }
   if (sources.empty()) throw std::invalid_argument("no record to replay");
   RecordsResult result{replay(sources, report_directory), {}};
-  for (const Record& record : records) record.remark(result.remarks);
+  for (const Record& record : records) record.remark(result.remarks, &record == &records.front());
   return result;
 }
 

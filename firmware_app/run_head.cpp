@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kKeyframeKey = "keyframe";  // beside the files that the configuration names
+// Beside the files that the configuration names.
+constexpr const char *kKeyframeKey = "keyframe", *kStateKey = "state";
 
 std::string make_folder() {
   std::string form = (fs::temp_directory_path() / "hovermodal_XXXXXX").string();
@@ -30,8 +31,8 @@ std::string make_folder() {
 }  // namespace
 
 core::RunHead run_head(const AppConfig& config, const core::CameraInfo& camera, const core::TrackFrame& keyframe,
-                       const core::Frame& image, bool continues) {
-  core::RunHead head{config_yaml(config), camera, keyframe, {}, continues};
+                       const core::Frame& image, const RunState* resumed) {
+  core::RunHead head{config_yaml(config), camera, keyframe, {}, resumed != nullptr};
   const auto take = [&](const char* key, const std::string& path) {
     if (path.empty()) return;
     head.files.push_back(
@@ -41,6 +42,11 @@ core::RunHead run_head(const AppConfig& config, const core::CameraInfo& camera, 
   take("camera.attitude_file", config.camera.attitude_file);
   if (std::string jpeg = keyframe_jpeg(image); !jpeg.empty())
     head.files.push_back({kKeyframeKey, "keyframe.jpg", std::move(jpeg)});
+  if (resumed != nullptr) {
+    const std::vector<std::uint8_t> bytes = to_bytes(*resumed);
+    if (bytes.size() <= core::NamedFile::kMostBytes)
+      head.files.push_back({kStateKey, "hovermodal.state", std::string(bytes.begin(), bytes.end())});
+  }
   return head;
 }
 
@@ -51,6 +57,11 @@ RecordedConfig::RecordedConfig(const core::RunHead& head, const std::string& nam
   for (std::size_t i = 0; i < head.files.size(); ++i) {
     if (head.files[i].key == kKeyframeKey) {
       image_ = keyframe_of(head.files[i].bytes, head.camera);
+      continue;
+    }
+    if (head.files[i].key == kStateKey) {
+      const std::string& bytes = head.files[i].bytes;
+      resumed_ = run_state_of(std::vector<std::uint8_t>(bytes.begin(), bytes.end()));
       continue;
     }
     if (folder_.empty()) folder_ = make_folder();

@@ -43,15 +43,16 @@ class Replay {
     frame.tracks = source.keyframe;
     while (source.next(frame)) {
       for (std::size_t i = 0; i < frame.attitude.n; ++i) analysis_->take(frame.attitude.samples[i]);
-      const bool accepted = analysis_->push(frame.tracks);
+      const bool accepted = analysis_->push(frame.tracks, frame.stride);
       if (accepted && report_ && is_alone) (void)(report_->add(frame.tracks) && report_->add(analysis_->sample()));
     }
   }
 
-  [[nodiscard]] TracksResult finish(const TrackSource& last) {
+  [[nodiscard]] TracksResult finish(const TrackSource& last, bool is_alone) {
     result_.channels = analysis_->channels();
     result_.estimate = analysis_->finish();
     result_.losses = analysis_->analysis().losses();
+    if (is_alone && last.counts) take_counts(last.counts());
     result_.sums = analysis_->analysis().view_sums();
     result_.sums.view = view_;
     result_.n_differences = analysis_->analysis().n_differences();
@@ -70,9 +71,12 @@ class Replay {
         throw std::invalid_argument(
             fmt::format("{}: does not go on with the record before it: {}; replay them one by one", source.name, why));
       next->go_on_from(*analysis_);
-    } else if (!report_directory_.empty()) {
-      report_ = std::make_unique<RunReport>(report_directory_, source.config, source.camera, next->channels(),
-                                            region_names(source.config));
+    } else {
+      if (source.resumed != nullptr && !next->resume(*source.resumed))
+        throw std::invalid_argument(source.name + ": the state that the run went on with is damaged in the record");
+      if (!report_directory_.empty())
+        report_ = std::make_unique<RunReport>(report_directory_, source.config, source.camera, next->channels(),
+                                              region_names(source.config));
     }
     view_ = std::move(view);
     analysis_ = std::move(next);
@@ -81,6 +85,15 @@ class Replay {
       closure_ = report;
       result_.changes.insert(result_.changes.end(), report.changes.begin(), report.changes.end());
     });
+  }
+
+  // What was lost on the way to the record, where all that was processed is in it.
+  void take_counts(const std::optional<core::RunCounts>& counts) {
+    if (!counts || counts->frames_processed != result_.losses.frames_processed) return;
+    result_.losses.frames_in = counts->frames_in;
+    result_.losses.frames_dropped = counts->frames_dropped;
+    result_.losses.frames_missing = counts->frames_missing;
+    result_.losses.snapshots_skipped = counts->snapshots_skipped;
   }
 
   void write_report(const TrackSource& last) {
@@ -112,7 +125,7 @@ class Replay {
 TracksResult replay(const std::vector<TrackSource>& runs, const std::string& report_directory) {
   Replay replay(report_directory);
   for (const TrackSource& run : runs) replay.run(run, runs.size() == 1);
-  return replay.finish(runs.back());
+  return replay.finish(runs.back(), runs.size() == 1);
 }
 
 }  // namespace app

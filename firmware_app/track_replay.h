@@ -1,12 +1,14 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/types/run_record.h"
 #include "firmware_app/analysis.h"
 #include "firmware_app/config.h"
+#include "firmware_app/run_state.h"
 
 namespace app {
 
@@ -18,6 +20,9 @@ struct TrackSource {
   std::string name;                                    // of which only the last part is told
   std::function<bool(core::RecordedFrame& out)> next;  // points as in the keyframe; false: the end
   const core::Frame* image = nullptr;                  // of the keyframe, for pictures; null: none
+  const RunState* resumed = nullptr;  // what the run went on with, where nothing comes before it here; null: nothing
+  // After the last frame: what the run itself counted; empty: not known.
+  std::function<std::optional<core::RunCounts>()> counts = {};
 };
 
 // The runs one after the other, each going on with the sums of those before it; leaves a report when the directory is

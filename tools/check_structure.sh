@@ -42,6 +42,7 @@ check_includes() {
     }
     function rule(file, room, name, target) {
       if (target == "tests") return room == "tests" ? "" : "only tests may include tests"
+      if (file ~ /^firmware_app\/chain\// && name ~ /^(rt\/|firmware_app\/(stages\/|report\/|pipeline|health|track_))/) return "the chain knows neither threads nor who calls it"
       if (room == target) {
         if (file ~ /^core\/simulation\// && name ~ /^core\/closure\//) return "core/simulation must not know core/closure: a test must not be made by what it tests"
         if (file ~ /^core\/(closure|structure)\// && name ~ /^core\/simulation\//) return "core/closure and core/structure must not know core/simulation: a test must not be made by what it tests"

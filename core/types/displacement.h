@@ -37,6 +37,7 @@ struct DisplacementSample {
   // Number of what was taken out of the points beyond what was declared (0: nothing); between two, displacements jump.
   // Between two records, the channels' row delays have changed, too.
   std::uint32_t amendment = 0, record = 0;
+  std::uint32_t stride = 1;  // of the source's frames, every so many are kept: more than 1 under overload
 };
 
 }  // namespace core

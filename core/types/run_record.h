@@ -49,6 +49,12 @@ struct RunHead {
 struct RecordedFrame {
   TrackFrame tracks;
   AttitudeBatch attitude;
+  std::uint32_t stride = 1;  // as DisplacementSample::stride
+};
+
+// What the run itself counted, of its last word.
+struct RunCounts {
+  std::uint64_t frames_in = 0, frames_processed = 0, frames_dropped = 0, frames_missing = 0, snapshots_skipped = 0;
 };
 
 }  // namespace core

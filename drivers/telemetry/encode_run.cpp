@@ -10,6 +10,7 @@ namespace {
 // Far beyond any camera: grids, delays and sizes computed from them stay within their types.
 constexpr std::int32_t kMostSide_px = 100'000;
 constexpr double kLeastRate_hz = 1e-3, kMostRate_hz = 1e6;
+constexpr std::int32_t kMostStride = 1000;
 
 template <class Message>
 void put_points(const std::vector<core::TrackPoint>& points, Message& out) {
@@ -127,6 +128,7 @@ bool take_frame(const hovermodal::run_frame_t& message, core::RecordedFrame& out
   out.tracks.sequence = static_cast<std::uint64_t>(message.frame_sequence);
   out.tracks.t_start_ns = message.stream_time_ns;
   out.tracks.gap_before = message.gap_before != 0;
+  out.stride = 1;
   for (std::size_t i = 0; i < points.size(); ++i) {
     points[i].u_px = message.u_px[i];
     points[i].v_px = message.v_px[i];
@@ -139,6 +141,12 @@ bool take_frame(const hovermodal::run_frame_t& message, core::RecordedFrame& out
     out.attitude.add({message.attitude_s[i],
                       {message.attitude_w[i], message.attitude_x[i], message.attitude_y[i], message.attitude_z[i]}});
   }
+  return true;
+}
+
+bool take_frame(const hovermodal::run_thinned_frame_t& message, core::RecordedFrame& out) {
+  if (message.stride < 2 || message.stride > kMostStride || !take_frame(message.frame, out)) return false;
+  out.stride = static_cast<std::uint32_t>(message.stride);
   return true;
 }
 

@@ -9,6 +9,7 @@
 #include "hovermodal/run_file_t.hpp"
 #include "hovermodal/run_frame_t.hpp"
 #include "hovermodal/run_t.hpp"
+#include "hovermodal/run_thinned_frame_t.hpp"
 
 namespace drivers {
 
@@ -17,6 +18,7 @@ namespace drivers {
 inline constexpr const char* kRunSuffix = "_RUN";
 inline constexpr const char* kRunFileSuffix = "_RUN_FILE";
 inline constexpr const char* kRunFrameSuffix = "_RUN_FRAME";
+inline constexpr const char* kRunThinnedFrameSuffix = "_RUN_THINNED_FRAME";
 inline constexpr std::size_t kFilePieceBytes = std::size_t{256} << 10;
 
 [[nodiscard]] hovermodal::run_t to_message(const core::RunHead& head, const StreamIdentity& identity);
@@ -27,5 +29,7 @@ inline constexpr std::size_t kFilePieceBytes = std::size_t{256} << 10;
 [[nodiscard]] std::optional<core::RunHead> from_message(const hovermodal::run_t& message);
 // `out` is sized as the keyframe. False: it has other points.
 [[nodiscard]] bool take_frame(const hovermodal::run_frame_t& message, core::RecordedFrame& out);
+// The same, also where the stride is none.
+[[nodiscard]] bool take_frame(const hovermodal::run_thinned_frame_t& message, core::RecordedFrame& out);
 
 }  // namespace drivers

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <string_view>
 
@@ -34,13 +35,11 @@ class RunRecordReader::Impl {
     while (next_event()) {
       const std::string_view channel = event_.channel;
       if (channel.ends_with(kTopicSuffixes[kHealth])) hear();
-      if (!channel.ends_with(kRunFrameSuffix)) continue;
-      const auto message = decode<hovermodal::run_frame_t>();
-      if (message && take_frame(*message, out)) {
-        n_left_out += out.attitude.n_left_out;
-        return true;
-      }
-      if (message) ++n_damaged;  // one that did not decode is counted already
+      const bool is_frame = (channel.ends_with(kRunFrameSuffix) && take<hovermodal::run_frame_t>(out)) ||
+                            (channel.ends_with(kRunThinnedFrameSuffix) && take<hovermodal::run_thinned_frame_t>(out));
+      if (!is_frame) continue;
+      n_left_out += out.attitude.n_left_out;
+      return true;
     }
     return false;
   }
@@ -48,8 +47,9 @@ class RunRecordReader::Impl {
   std::vector<std::string> files;
   std::optional<core::RunHead> head_;
   std::uint64_t n_damaged = 0, n_left_out = 0;
-  bool starts_late = false, was_thinned = false;
+  bool starts_late = false;
   std::string end;
+  std::optional<core::RunCounts> counts;
 
  private:
   template <class Message>
@@ -57,6 +57,14 @@ class RunRecordReader::Impl {
     auto message = decode_message<Message>(event_.data.data(), event_.data.size());
     if (!message) ++n_damaged;
     return message;
+  }
+
+  template <class Message>
+  [[nodiscard]] bool take(core::RecordedFrame& out) {
+    const auto message = decode<Message>();
+    const bool is_taken = message && take_frame(*message, out);
+    if (message && !is_taken) ++n_damaged;  // one that did not decode is counted already
+    return is_taken;
   }
 
   // Into event_; false: the end of the last file.
@@ -107,8 +115,11 @@ class RunRecordReader::Impl {
   void hear() {
     const auto health = decode<hovermodal::health_t>();
     if (!health) return;
-    was_thinned = was_thinned || health->rate_hz < 0.75 * head_->camera.rate_hz;
-    if (health->state == "finished" || health->state.starts_with("fault")) end = health->state;
+    if (health->state != "finished" && !health->state.starts_with("fault")) return;
+    end = health->state;
+    const auto count = [](std::int64_t n) { return static_cast<std::uint64_t>(std::max<std::int64_t>(0, n)); };
+    counts = {count(health->frames_in), count(health->frames_processed), count(health->frames_dropped),
+              count(health->frames_missing), count(health->snapshots_skipped)};
   }
 
   std::optional<EventLogReader> log_;
@@ -125,7 +136,7 @@ const std::vector<std::string>& RunRecordReader::files() const noexcept { return
 std::uint64_t RunRecordReader::n_damaged() const noexcept { return impl_->n_damaged; }
 std::uint64_t RunRecordReader::n_attitudes_left_out() const noexcept { return impl_->n_left_out; }
 bool RunRecordReader::starts_late() const noexcept { return impl_->starts_late; }
-bool RunRecordReader::was_thinned() const noexcept { return impl_->was_thinned; }
 const std::string& RunRecordReader::end() const noexcept { return impl_->end; }
+const std::optional<core::RunCounts>& RunRecordReader::counts() const noexcept { return impl_->counts; }
 
 }  // namespace drivers

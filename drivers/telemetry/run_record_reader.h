@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,9 @@ class RunRecordReader {
   [[nodiscard]] std::uint64_t n_damaged() const noexcept;             // messages that were not understood
   [[nodiscard]] std::uint64_t n_attitudes_left_out() const noexcept;  // the record lacks them
   [[nodiscard]] bool starts_late() const noexcept;                    // its first files were not given, or made room
-  [[nodiscard]] bool was_thinned() const noexcept;                    // overload kept every n-th frame only
   // The service's last word: "finished", "fault: ...". Empty: it was cut off. After the last frame.
   [[nodiscard]] const std::string& end() const noexcept;
+  [[nodiscard]] const std::optional<core::RunCounts>& counts() const noexcept;  // of that word
 
  private:
   class Impl;

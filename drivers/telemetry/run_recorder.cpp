@@ -22,6 +22,7 @@ class LcmRunRecorder : public RunRecorder {
   explicit LcmRunRecorder(const RecordOptions& options)
       : prefix_(options.channel_prefix),
         frame_channel_(options.channel_prefix + kRunFrameSuffix),
+        thinned_channel_(options.channel_prefix + kRunThinnedFrameSuffix),
         identity_(options.identity),
         log_(std::make_shared<RotatingLog>(options)) {}
 
@@ -31,9 +32,10 @@ class LcmRunRecorder : public RunRecorder {
     });
   }
 
-  bool add(const core::TrackFrame& tracks, const core::AttitudeBatch& attitude) noexcept override {
+  bool add(const core::TrackFrame& tracks, const core::AttitudeBatch& attitude,
+           std::uint32_t stride) noexcept override {
     try {
-      if (log_->write(frame_channel_, encoded(to_message(tracks, attitude)), rt::utc_ns())) return true;
+      if (write(to_message(tracks, attitude), stride)) return true;
     } catch (...) {  // no memory: a lost frame
     }
     n_lost_.fetch_add(1, std::memory_order_relaxed);
@@ -45,6 +47,11 @@ class LcmRunRecorder : public RunRecorder {
   [[nodiscard]] std::shared_ptr<EventLog> log() override { return log_; }
 
  private:
+  [[nodiscard]] bool write(const hovermodal::run_frame_t& frame, std::uint32_t stride) {
+    if (stride == 1) return log_->write(frame_channel_, encoded(frame), rt::utc_ns());
+    const hovermodal::run_thinned_frame_t thinned{static_cast<std::int32_t>(stride), frame};
+    return log_->write(thinned_channel_, encoded(thinned), rt::utc_ns());
+  }
   [[nodiscard]] bool write_head(EventLog& file, hovermodal::run_t message, const std::vector<core::NamedFile>& files,
                                 int number) const {
     const std::int64_t now_ns = rt::utc_ns();
@@ -58,7 +65,7 @@ class LcmRunRecorder : public RunRecorder {
     return file.write(prefix_ + kRunSuffix, encoded(message), now_ns);
   }
 
-  std::string prefix_, frame_channel_;
+  std::string prefix_, frame_channel_, thinned_channel_;
   StreamIdentity identity_;
   std::shared_ptr<RotatingLog> log_;
   std::atomic<std::uint64_t> n_lost_{0};  // relaxed: a count on its own

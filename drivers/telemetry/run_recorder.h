@@ -26,8 +26,9 @@ class RunRecorder {
   virtual ~RunRecorder() = default;
   // Set-up only, once: opens the first file. Throws std::runtime_error.
   virtual void begin(const core::RunHead& head) = 0;
-  // False: not recorded (the disk or the quota is full), and counted.
-  virtual bool add(const core::TrackFrame& tracks, const core::AttitudeBatch& attitude) noexcept = 0;
+  // stride: as DisplacementSample::stride. False: not recorded (the disk or the quota is full), and counted.
+  virtual bool add(const core::TrackFrame& tracks, const core::AttitudeBatch& attitude,
+                   std::uint32_t stride) noexcept = 0;
   [[nodiscard]] virtual std::uint64_t n_lost() const noexcept = 0;  // any thread
   [[nodiscard]] virtual std::string path() const = 0;               // of the first file
   // Where the run's messages go, too.

@@ -1,56 +1,17 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
-#include "core/types/cpsd.h"
 #include "core/types/displacement.h"
-#include "core/types/modal_estimate.h"
 #include "core/types/run_record.h"
 #include "core/types/track.h"
-#include "firmware_app/amendment.h"
+#include "firmware_app/chain/items.h"
 
 namespace app {
 
-// What travels between stages, where it is more than one core type.
-
-// tracking -> publish: one frame as it was seen.
+// tracking -> publish: one frame as it was seen. What else travels between stages is the chain's.
 struct FrameRecord {
   core::TrackFrame tracks;
   core::DisplacementSample sample;
   core::AttitudeBatch attitude = {};  // heard before it
-};
-
-// closure -> tracking, one per report: what is measured by from a frame on, and when the next report is due. Frames
-// later than next_report_at + n_delay_frames may be changed by it.
-struct ViewChange {
-  std::uint64_t next_report_at = 0, n_delay_frames = 0;
-  Geometry* geometry = nullptr;  // null: nothing changes; closure's own, it lives to the run's end
-  std::uint64_t from_sequence = 0;
-  std::uint32_t amendment = 0, record = 0;  // numbers in the AmendmentBook
-};
-
-// spectrum -> identification.
-struct SpectrumSnapshot {
-  core::CpsdSums sums;
-  std::uint64_t number = 0;                 // 0, 1, 2, ... in stream time
-  std::int64_t t_last_ns = 0;               // time stamp of the newest sample in the sums
-  bool final = false;                       // the record has ended
-  std::uint32_t amendment = 0, record = 0;  // of the newest sample in the sums; the record is that of all of them
-  core::ReadoutEstimate readout = {};
-};
-
-// identification -> publish.
-struct IdentificationResult {
-  core::ModalEstimate estimate;
-  core::CpsdSums sums;
-};
-
-// spectrum, identification -> checkpoint: all that a later run needs to go on. Sized once.
-struct StateBytes {
-  std::vector<std::uint8_t> bytes;
-  std::size_t n_used = 0;
 };
 
 }  // namespace app

@@ -11,33 +11,32 @@ namespace {
 constexpr std::int64_t kHealthPeriodNs = 1'000'000'000;
 }
 
-PublishStage::PublishStage(rt::RingReader<FrameRecord> records, rt::RingReader<IdentificationResult> results,
-                           Outlets outlets)
-    : records_(std::move(records)), results_(std::move(results)), outlets_(std::move(outlets)) {}
+PublishStage::PublishStage(Ends ends, Outlets outlets) : ends_(std::move(ends)), outlets_(std::move(outlets)) {}
 
 rt::StepStatus PublishStage::step() noexcept {
   publish_health_when_due();
-  if (const IdentificationResult* result = results_.front()) {
+  if (const IdentificationResult* result = ends_.results.front()) {
     publish_result(*result);
-    results_.pop();
+    ends_.results.pop();
     return rt::StepStatus::kWorked;
   }
-  if (const core::closure::ClosureReport* closure = closures_ ? closures_->front() : nullptr) {
+  if (const core::closure::ClosureReport* closure = ends_.closures ? ends_.closures->front() : nullptr) {
     publish_closure(*closure);
-    closures_->pop();
+    ends_.closures->pop();
     return rt::StepStatus::kWorked;
   }
-  if (previews_ != nullptr && previews_->refresh()) {
-    (void)outlets_.publisher.publish(previews_->front(), outlets_.regions);
+  if (ends_.previews.refresh()) {
+    (void)outlets_.publisher.publish(ends_.previews.front(), outlets_.regions);
     return rt::StepStatus::kWorked;
   }
-  if (const FrameRecord* record = records_.front()) {
+  if (const FrameRecord* record = ends_.records.front()) {
     publish_record(*record);
-    records_.pop();
+    ends_.records.pop();
     rt::StageStats::add(stats().n_in);
     return rt::StepStatus::kWorked;
   }
-  const bool is_over = records_.finished() && results_.finished() && (!closures_ || closures_->finished());
+  const bool is_over =
+      ends_.records.finished() && ends_.results.finished() && (!ends_.closures || ends_.closures->finished());
   return is_over ? rt::StepStatus::kFinished : rt::StepStatus::kIdle;
 }
 
@@ -45,7 +44,7 @@ void PublishStage::publish_record(const FrameRecord& record) noexcept {
   const auto due = [this](int every) { return every > 0 && n_records_ % static_cast<std::uint64_t>(every) == 0; };
   if (due(outlets_.telemetry.displacement_every)) (void)outlets_.publisher.publish(record.sample, outlets_.channels);
   if (due(outlets_.telemetry.tracks_every)) (void)outlets_.publisher.publish(record.tracks);
-  if (outlets_.recorder != nullptr) (void)outlets_.recorder->add(record.tracks, record.attitude);
+  if (outlets_.recorder != nullptr) (void)outlets_.recorder->add(record.tracks, record.attitude, record.sample.stride);
   if (outlets_.report != nullptr) {
     // A failed file is counted by the report and told by its finish().
     (void)outlets_.report->add(record.tracks);

@@ -4,12 +4,12 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/types/closure_report.h"
 #include "core/types/displacement.h"
 #include "core/types/health.h"
+#include "core/types/preview.h"
 #include "drivers/telemetry/publisher.h"
 #include "drivers/telemetry/run_recorder.h"
 #include "firmware_app/config.h"
@@ -34,7 +34,7 @@ class PublishStage : public rt::Stage {
     drivers::Publisher& publisher;
     drivers::RunRecorder* recorder = nullptr;  // null: the run is not recorded
     RunReport* report = nullptr;               // null: no report wanted
-    std::function<core::Health()> health;  // a status record of now
+    std::function<core::Health()> health;      // a status record of now
     // Draws the run's pictures and its page beside the report; throws drivers::FileError. Empty: none wanted.
     std::function<void(const Findings&, const core::Health&)> draw;
     std::vector<core::ChannelInfo> channels;
@@ -43,13 +43,13 @@ class PublishStage : public rt::Stage {
     std::vector<core::Region> regions;
   };
 
-  PublishStage(rt::RingReader<FrameRecord> records, rt::RingReader<IdentificationResult> results, Outlets outlets);
-
-  // Set-up only.
-  void hear_closure(rt::RingReader<core::closure::ClosureReport> reports) { closures_.emplace(std::move(reports)); }
-
-  // Set-up only: the newest one is sent.
-  void hear_previews(rt::TripleBuffer<core::Preview>& previews) { previews_ = &previews; }
+  struct Ends {
+    rt::RingReader<FrameRecord> records;
+    rt::RingReader<IdentificationResult> results;
+    rt::TripleBuffer<core::Preview>& previews;  // the newest one is sent
+    std::optional<rt::RingReader<core::closure::ClosureReport>> closures = {};
+  };
+  PublishStage(Ends ends, Outlets outlets);
 
   [[nodiscard]] std::string_view name() const noexcept override { return "publish"; }
   [[nodiscard]] rt::StepStatus step() noexcept override;
@@ -71,10 +71,7 @@ class PublishStage : public rt::Stage {
     return last_closure_ ? &*last_closure_ : nullptr;
   }
 
-  rt::RingReader<FrameRecord> records_;
-  rt::RingReader<IdentificationResult> results_;
-  std::optional<rt::RingReader<core::closure::ClosureReport>> closures_;
-  rt::TripleBuffer<core::Preview>* previews_ = nullptr;  // null: none wanted
+  Ends ends_;
   Outlets outlets_;
   core::ModalEstimate last_estimate_;
   core::CpsdSums last_sums_;

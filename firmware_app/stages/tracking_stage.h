@@ -5,12 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/geometry/channel_displacement.h"
-#include "core/geometry/readout_estimator.h"
 #include "core/tracking/preview_maker.h"
 #include "core/tracking/structure_tracker.h"
+#include "core/types/attitude.h"
 #include "core/types/frame.h"
 #include "core/types/health.h"
+#include "core/types/preview.h"
+#include "firmware_app/chain/displacement_meter.h"
 #include "firmware_app/stages/items.h"
 #include "firmware_app/stages/thinning.h"
 #include "rt/spsc_ring.h"
@@ -19,30 +20,29 @@
 
 namespace app {
 
-// frame ring -> points -> displacement of every channel -> spectrum ring and publish ring.
+// frame ring -> StructureTracker -> DisplacementMeter -> spectrum ring and publish ring; every frame's points to
+// closure, a preview now and then to publish.
 class TrackingStage : public rt::Stage {
  public:
-  TrackingStage(rt::RingReader<core::Frame> frames, core::StructureTracker& tracker,
-                core::ChannelDisplacement& channels, core::ReadoutEstimator& readout,
-                rt::RingWriter<core::DisplacementSample> samples, rt::RingWriter<FrameRecord> records, bool lossless,
-                const ThinningSchedule& thinning);
-
-  // Set-up only: taken in before each frame.
-  void hear_attitude(rt::RingReader<core::AttitudeSample> samples) { attitude_.emplace(std::move(samples)); }
-
-  // Set-up only: every frame's points go there too; what finds no room is counted.
-  void show_tracks(rt::RingWriter<core::TrackFrame> tracks) { shown_.emplace(std::move(tracks)); }
-
-  // Set-up only: what it makes goes there.
-  void show_previews(core::PreviewMaker& maker, rt::TripleBuffer<core::Preview>& previews) {
-    preview_maker_ = &maker, previews_ = &previews;
-  }
-
-  // Set-up only: measure by what closure makes, from the frames it says. A lossless source waits for each decision.
-  void follow_amendments(rt::RingReader<ViewChange> changes, const ViewChange& first) {
-    amendments_.emplace(std::move(changes));
-    view_ = first;
-  }
+  struct Ends {
+    rt::RingReader<core::Frame> frames;
+    rt::RingWriter<core::DisplacementSample> samples;
+    rt::RingWriter<FrameRecord> records;
+    rt::TripleBuffer<core::Preview>& previews;
+    std::optional<rt::RingReader<core::AttitudeSample>> attitude = {};  // taken in before each frame; empty: none comes
+    std::optional<rt::RingWriter<core::TrackFrame>> tracks = {};        // what finds no room there is counted
+    // Measure by what the diagnosis makes, from the frames it says. A lossless source waits for each decision.
+    std::optional<rt::RingReader<ViewChange>> changes = {};
+  };
+  // What is called for a frame; touched by nobody else once the stage runs.
+  struct Calls {
+    core::StructureTracker& tracker;
+    DisplacementMeter& meter;
+    core::PreviewMaker& preview_maker;
+    const ThinningSchedule& thinning;
+  };
+  // first_change: of the diagnosis, before it has seen anything.
+  TrackingStage(Ends ends, Calls calls, bool lossless, const ViewChange& first_change);
 
   [[nodiscard]] std::string_view name() const noexcept override { return "tracking"; }
   [[nodiscard]] rt::StepStatus step() noexcept override;
@@ -73,10 +73,11 @@ class TrackingStage : public rt::Stage {
   [[nodiscard]] std::uint64_t n_records_lost() const noexcept {
     return n_records_lost_.load(std::memory_order_relaxed);
   }
-  // Any thread: frames that closure never saw, because its ring was full.
+  // Any thread: previews that publish never sent, because a newer one came first.
   [[nodiscard]] std::uint64_t n_previews_lost() const noexcept {
     return n_previews_lost_.load(std::memory_order_relaxed);
   }
+  // Any thread: frames that closure never saw, because its ring was full.
   [[nodiscard]] std::uint64_t n_shown_lost() const noexcept { return n_shown_lost_.load(std::memory_order_relaxed); }
 
  private:
@@ -86,35 +87,25 @@ class TrackingStage : public rt::Stage {
     std::uint64_t points_total = 0;
   };
 
-  [[nodiscard]] bool follow_amendments(std::uint64_t sequence) noexcept;  // false: not decided yet
+  [[nodiscard]] bool is_decided(std::uint64_t sequence) noexcept;  // by what this frame is measured
   void measure(const core::Frame& frame) noexcept;
-  void count_regions() noexcept;
-  void show(core::TrackFrame* slot) noexcept;  // null: no room
+  void hand_over(core::DisplacementSample* sample, FrameRecord* record) noexcept;  // null: no room
+  void show(core::TrackFrame* slot) noexcept;                                      // null: no room
   void show_preview(const core::Frame& frame) noexcept;
+  void take_attitude() noexcept;
+  void count_frame() noexcept;
+  void count_attitude() noexcept;
+  void count_regions() noexcept;
 
-  rt::RingReader<core::Frame> frames_;
-  core::StructureTracker& tracker_;
-  core::ChannelDisplacement* channels_;
-  core::ReadoutEstimator* readout_;
-  rt::RingWriter<core::DisplacementSample> samples_;
-  rt::RingWriter<FrameRecord> records_;
-  std::optional<rt::RingWriter<core::TrackFrame>> shown_;
-  core::PreviewMaker* preview_maker_ = nullptr;  // null: none wanted
-  rt::TripleBuffer<core::Preview>* previews_ = nullptr;
-  std::optional<rt::RingReader<ViewChange>> amendments_;
-  ViewChange view_;     // newest decision
-  ViewChange pending_;  // geometry null: none
+  Ends ends_;
+  Calls calls_;
+  ViewChange decision_;  // newest
   std::uint64_t n_shown_through_ = 0;
   bool lossless_;
-  const ThinningSchedule& thinning_;
   FrameRecord scratch_;
   bool gap_before_next_ = false;
   rt::LatencyHistogram frame_latency_;
   std::vector<RegionCounts> regions_;
-  void take_attitude() noexcept;
-  void count_attitude() noexcept;
-
-  std::optional<rt::RingReader<core::AttitudeSample>> attitude_;
   std::atomic<bool> attitude_given_up_{false};
   std::atomic<std::uint64_t> n_with_attitude_{0}, n_without_attitude_{0};
   std::atomic<bool> camera_given_up_{false};

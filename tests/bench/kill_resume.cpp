@@ -103,16 +103,16 @@ void raise(std::atomic<std::uint64_t>& worst, std::uint64_t value) {
 }
 
 // Goes on with what the last one left, if it left anything, and notes what is lost.
-void resume(Stream& stream, const std::string& path, app::SpectrumStage& spectrum) {
+void resume(Stream& stream, const std::string& path, app::SpectrumAccumulator& spectra) {
   const drivers::CheckpointRead read = drivers::read_checkpoint(path);
   bool taken = false;
   if (read.exists && read.refused.empty()) {
     const app::RunState saved = app::run_state_of(read.bytes);
-    taken = app::why_foreign(saved, view()).empty() && spectrum.resume(saved.spectrum, true);
+    taken = app::why_foreign(saved, view()).empty() && spectra.resume(saved.spectrum, true);
   }
   stream.n_resumed += taken ? 1U : 0U;
   stream.n_refused += read.exists && !taken ? 1U : 0U;
-  const std::uint64_t first_lost = stream.first_cell.load() + (taken ? spectrum.sums().n_samples : 0);
+  const std::uint64_t first_lost = stream.first_cell.load() + (taken ? spectra.sums().n_samples : 0);
   const std::uint64_t next_cell = stream.next_cell.load();
   const std::uint64_t n_fed = next_cell - stream.n_down.load();
   if (n_fed > first_lost) raise(stream.worst_loss, n_fed - first_lost);
@@ -129,15 +129,15 @@ int run(Stream& stream, const std::string& folder) {
   rt::SpscRing<core::DisplacementSample> samples(256, empty_sample());
   rt::TripleBuffer<app::SpectrumSnapshot> snapshots{
       app::SpectrumSnapshot{core::WelchCpsd::empty_sums(config()), 0, 0, false, {}}};
-  const app::ThinningSchedule thinning;
-  app::SpectrumStage spectrum(samples.reader(), config(), 1'000'000, snapshots, false, thinning);
-  rt::TripleBuffer<app::StateBytes> states{app::StateBytes{std::vector<std::uint8_t>(spectrum.state_bytes()), 0}};
+  app::SpectrumAccumulator spectra(config(), 1'000'000);
+  rt::TripleBuffer<app::StateBytes> states{app::StateBytes{std::vector<std::uint8_t>(spectra.state_bytes()), 0}};
+  app::SpectrumStage spectrum({samples.reader(), snapshots, &states}, spectra, false);
   rt::TripleBuffer<app::StateBytes> modes{app::StateBytes{}};
   app::CheckpointStage checkpoint(states, modes, view(), path);
   samples.set_reader_wakeup(&spectrum.wakeup());
   states.set_reader_wakeup(&checkpoint.wakeup());
-  spectrum.keep_state(states, kPeriod_s);
-  resume(stream, path, spectrum);
+  spectra.keep_state(kPeriod_s);
+  resume(stream, path, spectra);
   rt::StageRunner run_checkpoint(checkpoint, {"checkpoint"});
   rt::StageRunner run_spectrum(spectrum, {"spectrum"});
   run_checkpoint.start();

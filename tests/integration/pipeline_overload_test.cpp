@@ -17,19 +17,7 @@ using tests::CameraScript;
 using tests::frames;
 using tests::kShortClip;
 using tests::Rig;
-
-// Faster than any tracker once its first hundred frames are seen at leisure; its own clock says 25 frames a second, so
-// that two seconds are 50 frames.
-CameraScript too_fast(std::uint64_t n) {
-  CameraScript script = frames(n);
-  script.lossless = false;
-  script.frame_time = std::chrono::microseconds(50);
-  script.is_dark = [](std::uint64_t k) {
-    if (k < 100) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    return false;
-  };
-  return script;
-}
+using tests::too_fast;
 
 TEST(PipelineOverload, KeepsEveryNthFrameAtEqualSpacingAndSaysSo) {
 #ifdef __SANITIZE_THREAD__

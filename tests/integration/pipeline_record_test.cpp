@@ -15,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using tests::CameraScript;
 using tests::frames;
 using tests::Rig;
@@ -38,9 +39,11 @@ class PipelineRecord : public ::testing::Test {
     return app::replay_records(records, {"", overrides}, again.string());
   }
   void expect_same_report(const std::string& name) {
-    for (const char* file : {"modal.json", "displacements.csv", "tracks.csv"})
-      EXPECT_EQ(tests::file_text(folder / (name + "_live") / file), tests::file_text(folder / (name + "_again") / file))
-          << file;
+    for (const char* file : {"modal.json", "displacements.csv", "tracks.csv", "closure.json"})
+      EXPECT_EQ(text_of(name + "_live", file), text_of(name + "_again", file)) << file;
+  }
+  std::string text_of(const std::string& report, const char* file) const {
+    return tests::file_text(folder / report / file);
   }
 
   fs::path folder = tests::own_folder();
@@ -64,6 +67,20 @@ TEST_F(PipelineRecord, ARunWithLostFramesToo) {
   expect_same_report("gaps");
 }
 
+// Reports of closing the loop too, whether they change anything or not. A lens is declared that is not there.
+TEST_F(PipelineRecord, ARunThatClosesTheLoopToo) {
+  for (const std::string adopt : {"report", "auto"}) {
+    const std::string record =
+        run(frames(1500), adopt,
+            {"closure.adopt=" + adopt, "closure.period_s=20", "closure.window_s=24", "closure.delay_s=4",
+             "calibration.distortion=[0.2, 0, 0, 0]", "closure.points_per_region=5"});
+    const auto result = replayed({record}, adopt);
+    EXPECT_EQ(result.tracks.estimate.amendments.size(), adopt == "auto" ? 1U : 0U);
+    EXPECT_TRUE(fs::exists(folder / (adopt + "_live") / "closure.json"));
+    expect_same_report(adopt);
+  }
+}
+
 // The service masks two segments of it, no more; so does the replay, whatever time a record says has passed.
 TEST_F(PipelineRecord, ARunWithAGapOfManySegmentsToo) {
   CameraScript script = frames(900);
@@ -71,6 +88,45 @@ TEST_F(PipelineRecord, ARunWithAGapOfManySegmentsToo) {
   const std::string record = run(script, "long_gap");
   (void)replayed({record}, "long_gap");
   expect_same_report("long_gap");
+}
+
+// Cut off after 300 frames, the next run goes on with its state, which is in that run's record.
+TEST_F(PipelineRecord, ARunThatWentOnWithAKeptStateToo) {
+  const std::vector<std::string> keeps = {"state.period_s=2", "state.directory=" + (folder / "state").string()};
+  CameraScript cut_off = frames(400);
+  cut_off.fault_at = 300;
+  (void)run(cut_off, "before", keeps);
+  ASSERT_TRUE(fs::exists(folder / "state" / "hovermodal.state"));
+  const std::string record = run(frames(200), "resumed", keeps);
+  ASSERT_GE(outcome.estimate.n_samples, 250U + 64U + 200U) << "it went on";
+  const auto result = replayed({record}, "resumed");
+  EXPECT_EQ(result.tracks.estimate.n_samples, outcome.estimate.n_samples);
+  EXPECT_THAT(result.remarks, Not(Contains(HasSubstr("went on with the state"))));
+  expect_same_report("resumed");
+
+  const auto other = replayed({record}, "other", {"spectrum.segment=32"});
+  EXPECT_THAT(other.remarks, Contains(HasSubstr("went on with the state")));
+  EXPECT_EQ(other.tracks.estimate.n_samples, 200U);
+}
+
+// From the frame on from which the run kept every n-th only, new spectra begin in the replay, too. What was dropped in
+// front of the tracker is told by the run's last word, which this publisher does not write.
+TEST_F(PipelineRecord, ARunUnderOverloadToo) {
+#ifdef __SANITIZE_THREAD__
+  GTEST_SKIP() << "instrumented tracking follows one frame in sixty: too few are left to compare";
+#endif
+  const std::string record =
+      run(tests::too_fast(1500), "overload",
+          {"rt.frame_slots=4", "rt.sample_slots=2048", "identification.period=1000", "closure.adopt=off"});
+  ASSERT_LT(outcome.health.rate_hz, 25.0) << "it was too fast";
+  const auto result = replayed({record}, "overload");
+  EXPECT_DOUBLE_EQ(result.tracks.estimate.rate_hz, outcome.estimate.rate_hz);
+  EXPECT_EQ(result.tracks.losses.frames_processed, outcome.health.frames_processed);
+  for (const char* file : {"displacements.csv", "tracks.csv"})
+    EXPECT_EQ(text_of("overload_live", file), text_of("overload_again", file)) << file;
+  const auto without_losses = [](const std::string& text) { return text.substr(0, text.find("\"losses\"")); };
+  EXPECT_EQ(without_losses(text_of("overload_live", "modal.json")),
+            without_losses(text_of("overload_again", "modal.json")));
 }
 
 TEST_F(PipelineRecord, AConfigurationWithoutItsRegionsIsRefused) {

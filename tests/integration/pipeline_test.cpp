@@ -80,8 +80,8 @@ TEST(Pipeline, ClosesTheLoopWhileItRuns) {
   }
 }
 
-// A lens is declared that is not there. Two reports agree on it; from the announced frame on it is taken out, new sums
-// begin, and every estimate of these says so. Neither the frame nor a bit depends on how long the stages take.
+// A lens is declared that is not there. Two reports agree on it; from the announced frame on it is taken out, and the
+// estimates say so. The sums go on, with one segment masked. Neither the frame nor a bit depends on the stages' timing.
 TEST(Pipeline, TakesOutWhatTwoReportsFoundFromTheAnnouncedFrameOn) {
   std::vector<std::shared_ptr<Heard>> heard;
   for (const int slots : {2, 64}) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/support/pipeline_run.h"
@@ -58,6 +59,19 @@ struct Rig {
 inline CameraScript frames(std::uint64_t n) {
   CameraScript script;
   script.n_frames = n;
+  return script;
+}
+
+// Faster than any tracker once its first hundred frames are seen at leisure; its own clock says 25 frames a second, so
+// that two seconds are 50 frames.
+inline CameraScript too_fast(std::uint64_t n) {
+  CameraScript script = frames(n);
+  script.lossless = false;
+  script.frame_time = std::chrono::microseconds(50);
+  script.is_dark = [](std::uint64_t k) {
+    if (k < 100) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    return false;
+  };
   return script;
 }
 

@@ -56,10 +56,11 @@ class RunRecord : public tests::FolderTest {
   std::string record(std::uint64_t n, const RecordOptions& options) {
     const auto recorder = make_run_recorder(options);
     recorder->begin(head());
-    for (std::uint64_t k = 0; k < n; ++k) (void)recorder->add(frame_of(k), attitude_of(k));
+    for (std::uint64_t k = 0; k < n; ++k) (void)recorder->add(frame_of(k), attitude_of(k), stride_of(k));
     n_lost_ = recorder->n_lost();
     return recorder->path();
   }
+  static std::uint32_t stride_of(std::uint64_t k) { return k % 11 < 7 ? 1 : 3; }
   static core::AttitudeBatch attitude_of(std::uint64_t k) {
     core::AttitudeBatch batch;
     for (std::uint64_t i = 0; i < (k == 4 ? 70 : k % 3); ++i)
@@ -71,6 +72,7 @@ class RunRecord : public tests::FolderTest {
     EXPECT_EQ(read.tracks.sequence, expected.sequence);
     EXPECT_EQ(read.tracks.t_start_ns, expected.t_start_ns);
     EXPECT_EQ(read.tracks.gap_before, expected.gap_before);
+    EXPECT_EQ(read.stride, stride_of(k));
     for (std::size_t i = 0; i < kPoints; ++i) {
       const core::TrackPoint &a = read.tracks.points[i], &b = expected.points[i];
       EXPECT_EQ(a.seen, b.seen);

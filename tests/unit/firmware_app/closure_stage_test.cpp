@@ -3,56 +3,39 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <memory>
-#include <numeric>
+#include <utility>
 #include <vector>
 
-#include "tests/support/swaying_record.h"
+#include "tests/support/swaying_loop.h"
 
 namespace app {
 namespace {
 
 using core::closure::ClosureReport;
 using core::closure::ObservationRecord;
-using core::closure::RecentTracks;
-using test_support::Hidden;
+using test_support::kWindow_s;
+using test_support::loop_over;
+using test_support::no_geometry;
 using test_support::swaying_record;
 using test_support::track_frame;
 using ::testing::HasSubstr;
-
-constexpr double kWindow_s = 40.0, kPeriod_s = 30.0, kDelay_s = 10.0;
-
-// Nothing is measured by it here.
-std::unique_ptr<Geometry> no_geometry(const core::TrackFrame& keyframe, const ObservationRecord& record) {
-  core::ChannelDisplacementConfig config;
-  config.regions = record.regions;
-  return std::make_unique<Geometry>(
-      Geometry{{config, keyframe}, {{{record.regions.size(), {}, {}}, record.rate_hz}, keyframe}});
-}
 
 // The stage fed with a record, run to its end; its reports, and what it tells tracking if it is asked to adopt.
 std::vector<ClosureReport> reports_of(const ObservationRecord& record, std::vector<ViewChange>* changes = nullptr,
                                       AmendmentBook* book = nullptr) {
   rt::SpscRing<core::TrackFrame> tracks(16, track_frame(record, 0));
   rt::SpscRing<ClosureReport> reports(8, ClosureReport{});
-  ObservationRecord declared = record;
-  declared.readout_frames = 0.0;
-  const core::CameraModel camera{record.alpha_px, record.alpha_px, record.cx_px, record.cy_px, {}};
-  RecentTracks recent(declared, camera, record.region_of_point, static_cast<std::size_t>(kWindow_s * record.rate_hz));
-  std::vector<int> columns(record.region_of_point.size());
-  std::iota(columns.begin(), columns.end(), 0);
   rt::SpscRing<ViewChange> view_changes(8, ViewChange{});
   const bool adopts = changes != nullptr;
-  std::vector<core::Vector2> keyframe_px;
-  for (const core::TrackPoint& p : track_frame(record, 0).points) keyframe_px.push_back({p.u_px, p.v_px});
-  ClosureStage stage(tracks.reader(),
-                     {recent, camera, columns, keyframe_px, record.rate_hz, kPeriod_s, kDelay_s, adopts, 0.0},
-                     reports.writer());
+  AmendmentBook unused;
+  Diagnosis diagnosis(loop_over(record, adopts), book != nullptr ? *book : unused,
+                      [&](const Amendment&) { return no_geometry(record); });
+  ClosureStage::Ends ends{tracks.reader(), reports.writer()};
   if (adopts) {
-    const auto make = [&](const Amendment&) { return no_geometry(track_frame(record, 0), record); };
-    stage.amend(*book, make, view_changes.writer());
-    changes->push_back(stage.first_view());
+    ends.changes.emplace(view_changes.writer());
+    changes->push_back(diagnosis.change());
   }
+  ClosureStage stage(std::move(ends), diagnosis);
   auto writer = tracks.writer();
   for (Eigen::Index k = 0; k < record.n_frames(); ++k) {
     *writer.try_claim() = track_frame(record, k);

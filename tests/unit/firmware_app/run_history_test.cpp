@@ -7,8 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/support/alloc_guard.h"
-
 namespace app {
 namespace {
 
@@ -97,26 +95,6 @@ TEST(RunHistory, FollowsModesByTheirNumbers) {
   for (std::uint32_t id = 3; id < 40; ++id) history.add(estimate_of(1250, {id}));
   EXPECT_NE(history.followed(RunHistory::kMaxFollowed), nullptr);
   EXPECT_EQ(history.followed(RunHistory::kMaxFollowed + 1), nullptr);
-}
-
-TEST(RunHistory, TakesAnHourWithoutAllocating) {
-  RunHistory history(60.0, 4, 2);
-  core::DisplacementSample sample;
-  sample.value_mm = {1.0, 2.0, 3.0, 4.0}, sample.seen = {1, 1, 1, 0}, sample.scale_mm_per_px = 0.9;
-  core::TrackFrame frame;
-  for (std::uint32_t i = 0; i < 8; ++i)
-    frame.points.push_back({0.0, 0.0, 0.03, i, static_cast<std::uint16_t>(i % 2), true, true});
-  {
-    const test_support::AllocGuard guard;
-    for (std::int64_t k = 0; k < 60 * 3600; ++k) {
-      frame.t_start_ns = sample.t_start_ns = k * 16'666'667;
-      history.add(frame);
-      history.add(sample);
-    }
-    EXPECT_EQ(guard.n_new(), 0U);
-  }
-  EXPECT_NEAR(history.duration_s(), 3600.0, 0.1);
-  EXPECT_TRUE(history.displacements()[3].empty());
 }
 
 }  // namespace

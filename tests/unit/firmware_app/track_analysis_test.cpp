@@ -34,7 +34,7 @@ AppConfig config_of(const TrackGenerator& tracks, const std::string& more) {
   }
   text += fmt::format("scale: {{known_length_mm: 300, from: [600, 500], to: [{}, 500]{}}}\n",
                       600.0 + 300.0 * camera.alpha_px / tracks.motion().scene().plates[0].z_mm, more);
-  return parse_config(text + "spectrum: {segment: 512}\n", "a.yaml");
+  return parse_config(text + "spectrum: {segment: 512}\nclosure: {adopt: off}\n", "a.yaml");
 }
 
 core::CameraInfo info_of(const Scene& scene) {

@@ -99,6 +99,14 @@ TEST_F(CheckStructure, RefusesAToolThatKnowsStages) {
   expect_refused("tools/hovermodal/spy/spy.cpp", "\n\n#include \"firmware_app/stages/items.h\"\n", 3);
 }
 
+TEST_F(CheckStructure, RefusesAChainThatKnowsThreads) {
+  expect_refused("firmware_app/chain/diagnosis.h", "#pragma once\n#include \"rt/spsc_ring.h\"\n", 2);
+}
+
+TEST_F(CheckStructure, RefusesAChainThatKnowsItsStages) {
+  expect_refused("firmware_app/chain/diagnosis.cpp", "#include \"firmware_app/stages/items.h\"\n", 1);
+}
+
 TEST_F(CheckStructure, RefusesAServiceThatKnowsTools) {
   expect_refused("firmware_app/main.cpp", "#include \"tools/hovermodal/commands.h\"\n", 1);
 }

@@ -30,9 +30,14 @@ void say(const std::vector<std::string>& lines) {
 
 app::TracksResult replayed_record(const FlightOrder& order, const std::string& path,
                                   const std::vector<std::string>& overrides) {
-  app::RecordsResult result = app::replay_records({path}, {"", overrides}, order.into);
+  app::RecordsResult result = app::replay_records({path}, {"", overrides, true}, order.into);
   say(result.remarks);
   return std::move(result.tracks);
+}
+
+// Reports alone change nothing that is recorded, and take seconds each.
+void skip_closure_reports(app::AppConfig& config) {
+  if (config.closure.adopt == app::ClosureAdopt::kReport) config.closure.adopt = app::ClosureAdopt::kOff;
 }
 
 // The service on the clip, recorded; what it records is what a replay takes on from.
@@ -43,8 +48,7 @@ void track_clip(const FlightOrder& order, const fs::path& records) {
                     "telemetry.lcm_url=", "telemetry.log_file=", "state.directory=", "report.directory=",
                     "record.directory=" + records.string(), "record.quota_mb=1000000"});
   app::AppConfig config = app::load_config(order.flight.config, overrides);
-  // Reports alone change nothing that is recorded, and take seconds each.
-  if (config.closure.adopt == app::ClosureAdopt::kReport) config.closure.adopt = app::ClosureAdopt::kOff;
+  skip_closure_reports(config);
   app::Pipeline pipeline(config);
   say(pipeline.warnings());
   pipeline.start();
@@ -71,8 +75,11 @@ app::TracksResult result_of(const FlightOrder& order) {
   switch (order.flight.kind) {
     case FlightKind::kRecord:
       return replayed_record(order, order.flight.path, order.overrides);
-    case FlightKind::kTracks:
-      return app::replay_tracks(app::load_config(order.flight.config, order.overrides), order.flight.path, order.into);
+    case FlightKind::kTracks: {
+      app::AppConfig config = app::load_config(order.flight.config, order.overrides);
+      skip_closure_reports(config);
+      return app::replay_tracks(config, order.flight.path, order.into);
+    }
     case FlightKind::kClip:
       return tracked_clip(order);
   }

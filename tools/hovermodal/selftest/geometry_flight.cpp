@@ -228,7 +228,8 @@ DeclaredRun declared_run(const SimulateJob& job, const FlightSetup& setup, const
   if (way.readout == StatedReadout::kWholeFrame) {
     readout = {drivers::Declared::Kind::kValue, 1e3 / job.scene().camera.rate_hz};
   }
-  std::vector<std::string> overrides = setup.configuration;
+  std::vector<std::string> overrides{"closure.adopt=off"};  // reports change no mode, and take seconds each
+  overrides.insert(overrides.end(), setup.configuration.begin(), setup.configuration.end());
   overrides.insert(overrides.end(), way.overrides.begin(), way.overrides.end());
   if (way.plane_points) overrides.push_back(plane_points(motion));
   if (way.attitude_sigma_deg > 0.0) {  // comes frame by frame, from no network
@@ -244,8 +245,8 @@ DeclaredRun declared_run(const SimulateJob& job, const FlightSetup& setup, const
   return {app::parse_config(text, way.name, overrides), declared.declared_camera()};
 }
 
-FlightResult analyse_flight(const SimulateJob& job, const FlightSetup& setup, const std::vector<Way>& ways,
-                            const SampleObserver& observe) {
+AnalysedFlight analyse_flight(const SimulateJob& job, const FlightSetup& setup, const std::vector<Way>& ways,
+                              const SampleObserver& observe) {
   const TrackGenerator generator(job.scene());
   const core::simulation::ChannelGenerator true_channels(core::simulation::SceneMotion(quiet(job.scene())),
                                                          job.scene().camera.readout_s);
@@ -269,7 +270,7 @@ FlightResult analyse_flight(const SimulateJob& job, const FlightSetup& setup, co
     }
   }
   truth.finish();
-  FlightResult result{{}, truth.sums(), job.scene().camera.rate_hz, job.scene().duration_s};
+  AnalysedFlight result{{}, truth.sums(), job.scene().camera.rate_hz, job.scene().duration_s};
   for (const auto& run : runs) {
     app::ChannelAnalysis& analysis = run->analysis().analysis();
     Analysed analysed{analysis.finish(), {}, run->analysis().channels(), analysis.sums()};

@@ -52,7 +52,7 @@ struct Analysed {
   core::CpsdSums sums;
 };
 
-struct FlightResult {
+struct AnalysedFlight {
   std::vector<Analysed> ways;  // in the order asked for
   core::CpsdSums true_sums;
   double rate_hz = 0.0, duration_s = 0.0;
@@ -63,8 +63,8 @@ using SampleObserver =
 // The true motion: displacement of the bodies (ground included) at the instant at which the middle of each region is
 // read, averaged over the exposure; neither camera nor tracker in it (core::simulation::ChannelGenerator), but a
 // hundredth of the tracker's noise.
-[[nodiscard]] FlightResult analyse_flight(const SimulateJob& job, const FlightSetup& setup,
-                                          const std::vector<Way>& ways, const SampleObserver& observe = {});
+[[nodiscard]] AnalysedFlight analyse_flight(const SimulateJob& job, const FlightSetup& setup,
+                                            const std::vector<Way>& ways, const SampleObserver& observe = {});
 
 // The true motion of a job alone, with a given prewhitening.
 [[nodiscard]] core::ModalEstimate true_estimate(const SimulateJob& job, const FlightSetup& setup, int n_differences);

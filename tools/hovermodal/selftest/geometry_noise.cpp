@@ -107,7 +107,7 @@ Floors floors_of(const FlightSetup& setup, const std::vector<Way>& ways, std::ui
                  const GeometryOptions& options) {
   const SimulateJob job = flight_job(setup, seed, 300.0, options);
   std::vector<std::vector<Moments>> moments(ways.size());
-  const FlightResult result = analyse_flight(job, setup, ways, [&](std::size_t w, const auto& sample, const auto&) {
+  const AnalysedFlight result = analyse_flight(job, setup, ways, [&](std::size_t w, const auto& sample, const auto&) {
     moments[w].resize(sample.value_mm.size());
     for (std::size_t c = 0; c < sample.value_mm.size(); ++c) {
       if (sample.seen[c] != 0) moments[w][c].add(sample.value_mm[c]);

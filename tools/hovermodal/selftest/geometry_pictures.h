@@ -32,7 +32,7 @@ class PaperPictures {
     const SimulateJob& job;
     const app::ChannelSeries& acceleration;
     const StationaryRecord& stationary;
-    const FlightResult& flight;
+    const AnalysedFlight& flight;
     const std::vector<std::vector<SensorMode>>& modes;  // accelerometers, stationary camera, UAV
   };
   // Writes figure_6_scale.svg, figure_7_displacements.svg, figure_8_cpsd.svg, figure_9_shapes.svg. Throws

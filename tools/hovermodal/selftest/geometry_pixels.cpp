@@ -37,6 +37,7 @@ void run_service(const app::AppConfig& config) {
 std::vector<RecordScore> score_clip(std::uint64_t seed, const GeometryOptions& options) {
   FlightSetup setup = paper_flight();
   setup.configuration.emplace_back("spectrum.segment=512");
+  setup.configuration.emplace_back("closure.adopt=off");  // reports change no mode, and take seconds each
   SimulateJob job = flight_job(setup, seed, 60.0, options);
   job.depth = Depth::kPixels;
   const core::simulation::SceneMotion motion(job.scene());

@@ -148,7 +148,7 @@ CaseScores score_case(const FigureCase& which, const GeometryOptions& options) {
   const auto records = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t seed) {
     const SimulateJob job = flight_job(which.setup, seed, which.duration_s, options);
     const std::vector<TrueMode> truth = shaken_modes(job.scene());
-    const FlightResult result = analyse_flight(job, which.setup, which.ways);
+    const AnalysedFlight result = analyse_flight(job, which.setup, which.ways);
     std::vector<RecordScore> scores;
     for (const Analysed& way : result.ways) scores.push_back(score(way, truth, result.duration_s));
     return scores;

@@ -52,12 +52,12 @@ StationaryRecord stationary_camera(std::uint64_t seed, double duration_s) {
   setup.configuration = {"identification.period=10000"};
   const SimulateJob job = flight_job(setup, seed, duration_s, {});
   std::vector<std::vector<double>> values;
-  const FlightResult result = analyse_flight(job, setup, {{"stationary", {"scale.adaptive=false"}}},
-                                             [&](std::size_t, const core::DisplacementSample& sample, const auto&) {
-                                               values.resize(sample.value_mm.size());
-                                               for (std::size_t c = 0; c < values.size(); ++c)
-                                                 values[c].push_back(sample.value_mm[c]);
-                                             });
+  const AnalysedFlight result = analyse_flight(job, setup, {{"stationary", {"scale.adaptive=false"}}},
+                                               [&](std::size_t, const core::DisplacementSample& sample, const auto&) {
+                                                 values.resize(sample.value_mm.size());
+                                                 for (std::size_t c = 0; c < values.size(); ++c)
+                                                   values[c].push_back(sample.value_mm[c]);
+                                               });
   StationaryRecord out;
   out.first_s = kResamplingEdge_s;
   out.series.rate_hz = kResampled_hz;

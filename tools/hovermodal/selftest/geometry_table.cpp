@@ -72,10 +72,11 @@ Table table_of(std::uint64_t seed, const GeometryOptions& options, PaperPictures
   const app::SeriesResult still = app::identify_series(
       stationary.series,
       {.spectrum = {.segment = 0}, .identifier = half_rate(0.0), .report_directory = {}, .source = {}});
-  const FlightResult flight = analyse_flight(job, setup, {{"paper", {"method=paper"}}, {"ours", {}}},
-                                             [&](std::size_t way, const auto& sample, const auto& true_sample) {
-                                               if (pictures != nullptr && way == 0) pictures->add(sample, true_sample);
-                                             });
+  const AnalysedFlight flight = analyse_flight(job, setup, {{"paper", {"method=paper"}}, {"ours", {}}},
+                                               [&](std::size_t way, const auto& sample, const auto& true_sample) {
+                                                 if (pictures != nullptr && way == 0)
+                                                   pictures->add(sample, true_sample);
+                                               });
   Table table{sensor_modes(reference.estimate, reference.channels, truth),
               sensor_modes(still.estimate, still.channels, truth)};
   for (const Analysed& way : flight.ways) table.push_back(sensor_modes(way.measured, way.channels, truth));

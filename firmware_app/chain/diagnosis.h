@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/types/closure_report.h"
+#include "core/types/track.h"
+#include "firmware_app/amendment.h"
+#include "firmware_app/chain/items.h"
+#include "firmware_app/loop_closer.h"
+
+namespace app {
+
+// Newest points -> reports of what the model fails to explain and, with closure.adopt: auto, what is measured by from
+// which frame on. What it makes lives as long as this. One thread.
+class Diagnosis {
+ public:
+  using MakeGeometry = std::function<std::unique_ptr<Geometry>(const Amendment&)>;
+
+  // make may throw: nothing changes, and the report says why.
+  Diagnosis(LoopCloserConfig config, AmendmentBook& book, MakeGeometry make);
+
+  void take(const core::TrackFrame& frame) noexcept { loop_.take(frame); }  // allocates nothing
+  [[nodiscard]] bool is_due() const noexcept { return loop_.is_due(); }
+  // At the end of the run: something came since the last report that deserves one.
+  [[nodiscard]] bool is_left() const noexcept { return loop_.is_left(); }
+  // Takes seconds. Throws std::bad_alloc: this report is lost, the next may succeed.
+  [[nodiscard]] core::closure::ClosureReport report(bool final);
+
+  // By the last report, even a lost one: what changes. Before the first: when that one is due.
+  [[nodiscard]] ViewChange change() const noexcept;
+
+ private:
+  void amend(core::closure::ClosureReport& report);
+  [[nodiscard]] std::string begin(const Amendment& amendment);  // why it cannot be; empty: it will
+
+  LoopCloser loop_;
+  AmendmentBook& book_;
+  MakeGeometry make_;
+  ViewChange change_;
+  std::vector<std::unique_ptr<Geometry>> made_;  // frames are measured by the last but one or the last
+};
+
+}  // namespace app

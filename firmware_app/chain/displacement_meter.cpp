@@ -1,0 +1,24 @@
+#include "firmware_app/chain/displacement_meter.h"
+
+namespace app {
+
+bool DisplacementMeter::begin_frame(std::uint64_t sequence) noexcept {
+  if (pending_.geometry == nullptr || sequence < pending_.from_sequence) return false;
+  channels_ = &pending_.geometry->displacement;
+  readout_ = &pending_.geometry->readout;
+  amendment_ = pending_.amendment, record_ = pending_.record;
+  pending_ = {};
+  return true;
+}
+
+void DisplacementMeter::measure(core::TrackFrame& tracks, std::uint32_t stride,
+                                core::DisplacementSample& out) noexcept {
+  channels_->update(tracks, out);
+  // Its filters are made for the camera's own rate; the readout is the same at any.
+  if (stride == 1) readout_->update(tracks);
+  out.readout = readout_->estimate();
+  out.amendment = amendment_, out.record = record_;
+  out.stride = stride;
+}
+
+}  // namespace app

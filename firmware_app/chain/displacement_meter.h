@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/geometry/channel_displacement.h"
+#include "core/geometry/readout_estimator.h"
+#include "core/types/attitude.h"
+#include "core/types/displacement.h"
+#include "core/types/track.h"
+#include "firmware_app/chain/items.h"
+
+namespace app {
+
+// Points of a frame -> displacement of every channel, with the readout time that the points have told so far. What is
+// measured by changes at the frames that the diagnosis names. One thread; nothing allocates.
+class DisplacementMeter {
+ public:
+  // As declared; both outlive this.
+  DisplacementMeter(core::ChannelDisplacement& channels, core::ReadoutEstimator& readout) noexcept
+      : channels_(&channels), readout_(&readout) {}
+
+  // An attitude that came since the last frame.
+  void take(const core::AttitudeSample& sample) noexcept { channels_->take(sample); }
+  // In the order of the diagnosis' reports.
+  void take(const ViewChange& change) noexcept {
+    if (change.geometry != nullptr) pending_ = change;
+  }
+  // Before each frame. True: a correction begins with it.
+  [[nodiscard]] bool begin_frame(std::uint64_t sequence) noexcept;
+  // Marks the inliers among the points. stride: every how many frames of the source one is kept.
+  void measure(core::TrackFrame& tracks, std::uint32_t stride, core::DisplacementSample& out) noexcept;
+
+  [[nodiscard]] std::uint32_t amendment() const noexcept { return amendment_; }  // in force
+  [[nodiscard]] const core::ChannelDisplacement& channels() const noexcept { return *channels_; }
+
+ private:
+  core::ChannelDisplacement* channels_;
+  core::ReadoutEstimator* readout_;
+  ViewChange pending_;  // geometry null: none
+  std::uint32_t amendment_ = 0, record_ = 0;
+};
+
+}  // namespace app

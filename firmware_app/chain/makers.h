@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "core/types/displacement.h"
+#include "core/types/frame.h"
+#include "core/types/track.h"
+#include "firmware_app/chain/diagnosis.h"
+#include "firmware_app/chain/mode_identification.h"
+#include "firmware_app/config.h"
+
+namespace app {
+
+// How the chain's objects make what a correction changes. The arguments must outlive the functions.
+[[nodiscard]] ModeIdentification::MakeIdentifier identifier_maker(const AppConfig& config,
+                                                                  const core::CameraInfo& camera,
+                                                                  const core::TrackFrame& keyframe,
+                                                                  std::vector<core::ChannelInfo> spectra);
+[[nodiscard]] Diagnosis::MakeGeometry geometry_maker(const AppConfig& config, const core::CameraInfo& camera,
+                                                     const core::TrackFrame& keyframe);
+
+}  // namespace app

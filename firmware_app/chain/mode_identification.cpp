@@ -1,0 +1,53 @@
+#include "firmware_app/chain/mode_identification.h"
+
+#include <utility>
+
+namespace app {
+
+ModeIdentification::ModeIdentification(double rate_hz, MakeIdentifier make_identifier, const AmendmentBook& book)
+    : make_identifier_(std::move(make_identifier)),
+      book_(book),
+      rate_hz_(rate_hz),
+      identifier_(make_identifier_(rate_hz, book.at(0))),
+      tracker_({.row_delay_s = identifier_->declared_delay_s()}) {}
+
+void ModeIdentification::identify(const SpectrumSnapshot& snapshot, IdentificationResult& out) {
+  follow(snapshot);
+  out.estimate = identifier_->identify(snapshot.sums, snapshot.readout);
+  out.estimate.amendments = book_.at(amendment_).words;
+  tracker_.set_row_delays(identifier_->delay_s(out.estimate));
+  out.sums.copy_totals(snapshot.sums, identifier_->n_outputs());
+  out.estimate.number = n_estimates_++;
+  out.estimate.t_stream_ns = snapshot.t_last_ns;
+  out.estimate.final = snapshot.final;
+  tracker_.update(out.estimate);
+}
+
+// Other rate, other folds: what was an apparent frequency is another one now. A new record shares nothing with the old.
+void ModeIdentification::follow(const SpectrumSnapshot& snapshot) {
+  const bool begins = snapshot.sums.rate_hz != rate_hz_ || snapshot.record != record_;
+  if (!begins && snapshot.amendment == amendment_) return;
+  identifier_ = make_identifier_(snapshot.sums.rate_hz, book_.at(snapshot.amendment));
+  rate_hz_ = snapshot.sums.rate_hz;
+  amendment_ = snapshot.amendment, record_ = snapshot.record;
+  if (begins) tracker_.restart();
+}
+
+bool ModeIdentification::save(StateBytes& state) const noexcept {
+  core::StateWriter out(state.bytes);
+  tracker_.save(out);
+  state.n_used = out.n_used();
+  return out.ok();
+}
+
+bool ModeIdentification::resume(std::span<const std::uint8_t> bytes) noexcept {
+  core::StateReader in(bytes);
+  return tracker_.restore(in);
+}
+
+void ModeIdentification::go_on_from(ModeIdentification& earlier) noexcept {
+  std::swap(tracker_, earlier.tracker_);
+  n_estimates_ = earlier.n_estimates_;
+}
+
+}  // namespace app

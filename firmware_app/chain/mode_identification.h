@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "core/identification/mode_tracker.h"
+#include "firmware_app/amendment.h"
+#include "firmware_app/chain/items.h"
+#include "firmware_app/readout_use.h"
+
+namespace app {
+
+// Snapshots of the sums, in order -> modes, each followed from one estimate to the next. Takes its time, and allocates.
+// One thread.
+class ModeIdentification {
+ public:
+  // For samples of another rate than the camera's, or under a correction; may throw.
+  using MakeIdentifier = std::function<std::unique_ptr<const ReadoutUse>(double rate_hz, const Amendment& amendment)>;
+
+  ModeIdentification(double rate_hz, MakeIdentifier make_identifier, const AmendmentBook& book);
+
+  // Throws std::bad_alloc: this estimate is lost, the next may succeed.
+  void identify(const SpectrumSnapshot& snapshot, IdentificationResult& out);
+
+  // The modes followed, for a later run's resume(). False: they do not fit.
+  [[nodiscard]] bool save(StateBytes& out) const noexcept;
+  [[nodiscard]] std::size_t state_bytes() const noexcept { return tracker_.state_bytes(); }
+  // Before the first snapshot. False: the bytes do not fit, and no mode is followed.
+  [[nodiscard]] bool resume(std::span<const std::uint8_t> bytes) noexcept;
+  // The same with the modes, and the count of estimates, of another object, which loses them.
+  void go_on_from(ModeIdentification& earlier) noexcept;
+
+  [[nodiscard]] const ReadoutUse& identifier() const noexcept { return *identifier_; }  // of the newest snapshot
+
+ private:
+  void follow(const SpectrumSnapshot& snapshot);
+
+  MakeIdentifier make_identifier_;
+  const AmendmentBook& book_;
+  double rate_hz_;
+  std::uint32_t amendment_ = 0, record_ = 0;
+  std::unique_ptr<const ReadoutUse> identifier_;
+  core::ModeTracker tracker_;
+  std::uint64_t n_estimates_ = 0;
+};
+
+}  // namespace app

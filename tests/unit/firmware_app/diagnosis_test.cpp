@@ -1,0 +1,86 @@
+#include "firmware_app/chain/diagnosis.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <vector>
+
+#include "tests/support/swaying_loop.h"
+
+namespace app {
+namespace {
+
+using core::closure::ClosureReport;
+using test_support::loop_over;
+using test_support::no_geometry;
+using test_support::swaying_record;
+using test_support::track_frame;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+// A lens that nobody declared; two reports agree on it.
+const core::closure::ObservationRecord& bent_record() {
+  static const core::closure::ObservationRecord record = swaying_record(25 * 62, {.k1 = -0.05});
+  return record;
+}
+
+struct Told {
+  ClosureReport report;
+  ViewChange change;
+};
+
+std::vector<Told> told_by(AmendmentBook& book, const Diagnosis::MakeGeometry& make) {
+  const auto& record = bent_record();
+  Diagnosis diagnosis(loop_over(record, true), book, make);
+  std::vector<Told> out;
+  for (Eigen::Index k = 0; k < record.n_frames(); ++k) {
+    diagnosis.take(track_frame(record, k));
+    if (!diagnosis.is_due()) continue;
+    ClosureReport report = diagnosis.report(false);
+    out.push_back({std::move(report), diagnosis.change()});
+  }
+  return out;
+}
+
+TEST(Diagnosis, WhatTwoReportsAgreeOnIsInTheBookAndChangesTheGeometry) {
+  AmendmentBook book;
+  const auto told = told_by(book, [](const Amendment&) { return no_geometry(bent_record()); });
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_EQ(told[0].change.geometry, nullptr);
+  EXPECT_NE(told[1].change.geometry, nullptr);
+  EXPECT_EQ(told[1].change.amendment, 1U);
+  EXPECT_EQ(book.newest().words, told[1].report.in_force);
+  EXPECT_EQ(told[1].report.in_force.size(), 1U);
+}
+
+TEST(Diagnosis, WithAFullBookNothingChangesAndTheReportSaysSo) {
+  AmendmentBook book;
+  while (!book.full()) {
+    Amendment before;
+    before.words = {"what was there before"};
+    book.add(before);
+  }
+  const auto told = told_by(book, [](const Amendment&) { return no_geometry(bent_record()); });
+  ASSERT_EQ(told.size(), 2U);
+  ASSERT_EQ(told[1].report.changes.size(), 2U);
+  EXPECT_EQ(told[1].report.changes[1], "none of this is done: too many changes in one run");
+  EXPECT_EQ(told[1].change.geometry, nullptr);
+  EXPECT_THAT(told[1].report.in_force, ElementsAre("what was there before"));
+  EXPECT_EQ(told[1].change.next_report_at, 2249U) << "the next report is due as ever";
+}
+
+TEST(Diagnosis, AGeometryThatCannotBeMadeChangesNothingAndTheReportSaysWhy) {
+  AmendmentBook book;
+  const auto told =
+      told_by(book, [](const Amendment&) -> std::unique_ptr<Geometry> { throw std::runtime_error("no such lens"); });
+  ASSERT_EQ(told.size(), 2U);
+  ASSERT_EQ(told[1].report.changes.size(), 2U);
+  EXPECT_THAT(told[1].report.changes[1], HasSubstr("none of this is done: no such lens"));
+  EXPECT_EQ(told[1].change.geometry, nullptr);
+  EXPECT_TRUE(told[1].report.in_force.empty());
+  EXPECT_EQ(book.newest().number, 0U);
+}
+
+}  // namespace
+}  // namespace app
