@@ -53,7 +53,9 @@ class ChannelAnalysis {
   [[nodiscard]] core::ModalEstimate finish();
 
   // The prewhitening that the spectra ask for, and that finish() used.
-  [[nodiscard]] int n_differences() const { return core::choose_differences(cpsd_.sums(), config_.max_frequency_hz); }
+  [[nodiscard]] int n_differences() const {
+    return config_.as_published ? 0 : core::choose_differences(cpsd_.sums(), config_.max_frequency_hz);
+  }
   // Those samples again with another prewhitening (as core::IdentifierConfig takes it); no estimate of the run.
   [[nodiscard]] core::ModalEstimate identified(int n_differences) const;
 
