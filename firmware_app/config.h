@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/geometry/camera_model.h"
+#include "core/geometry/published_shutter.h"
 #include "core/types/frame.h"
 #include "core/types/region.h"
 
@@ -15,6 +16,10 @@ namespace app {
 enum class Method : std::uint8_t { kPaper, kHovermodal };
 enum class CameraDriver : std::uint8_t { kFile, kSynthetic, kV4l2, kLibcamera };
 enum class Pace : std::uint8_t { kRealtime, kAsFastAsPossible };
+
+struct PaperConfig {
+  core::ShutterVelocity velocity = core::ShutterVelocity::kCamera;  // V_rel of Eq. 8
+};
 
 struct CameraConfig {
   CameraDriver driver = CameraDriver::kFile;
@@ -104,7 +109,7 @@ struct TelemetryConfig {
   std::string log_file;   // also write an LCM event log; empty = none
   int tracks_every = 25;  // publish the tracks of every n-th frame; 0 = never
   int displacement_every = 1;
-  double max_kbit_s = 0.0;  // over the network; 0 = no limit
+  double max_kbit_s = 0.0;        // over the network; 0 = no limit
   double preview_period_s = 1.0;  // of stream time between two small pictures; 0 = none
   int preview_px = 320;           // long side of one, at most
 };
@@ -138,6 +143,7 @@ struct RtConfig {
 
 struct AppConfig {
   Method method = Method::kHovermodal;
+  PaperConfig paper;
   CameraConfig camera;
   CalibrationConfig calibration;
   std::vector<core::Region> regions;

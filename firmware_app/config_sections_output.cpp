@@ -60,13 +60,13 @@ void add_analysis_keys(std::vector<ConfigKey>& keys) {
   keys.push_back(whole_key("identification.block_rows", "", at(&A::identification, &I::block_rows), {2, 1000, true},
                            "of the Hankel matrix; 0 = automatic"));
   keys.push_back(whole_key("identification.max_order", "", at(&A::identification, &I::max_order), {2, 500, true},
-                           "highest model order; 0 = automatic"));
+                           "highest model order; 0 = automatic; with method paper, the order: 0 = 36"));
   keys.push_back(number_key("identification.max_frequency_hz", "Hz", at(&A::identification, &I::max_frequency_hz),
                             {1e-6, 1e6, true},
                             "highest true frequency looked for; above half the frame rate, modes are unfolded by their "
                             "row delays; 0 = half"));
   keys.push_back(number_key("identification.min_mpc", "", at(&A::identification, &I::min_mpc), {0, 1},
-                            "least phase collinearity (MPC) of a structural mode"));
+                            "least phase collinearity (MPC) of a structural mode; method paper does not ask for it"));
   keys.push_back(number_key("identification.max_damping", "", at(&A::identification, &I::max_damping), {1e-4, 1},
                             "largest damping ratio of a structural mode"));
 }

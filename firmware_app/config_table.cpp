@@ -15,6 +15,11 @@ std::vector<ConfigKey> build_keys() {
   keys.push_back(choice_key<Method>(
       "method", [](AppConfig& config, std::size_t) -> Method& { return config.method; },
       {{"paper", Method::kPaper}, {"hovermodal", Method::kHovermodal}}, "the published chain, or the improved one"));
+  keys.push_back(choice_key<core::ShutterVelocity>(
+      "paper.velocity", [](AppConfig& config, std::size_t) -> core::ShutterVelocity& { return config.paper.velocity; },
+      {{"camera", core::ShutterVelocity::kCamera}, {"region", core::ShutterVelocity::kRegion}},
+      "method paper: whose velocity the rolling shutter is undone by (V_rel of Eq. 8): the camera's against the "
+      "structure, one for the image, or each region's own"));
   add_camera_keys(keys);
   add_calibration_keys(keys);
   add_region_keys(keys);

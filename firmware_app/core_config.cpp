@@ -92,6 +92,7 @@ core::ChannelDisplacementConfig displacement_config(const AppConfig& config, con
   out.scale_only = config.scale.only;
   out.witness = config.spectrum.witness;
   out.paper_method = config.method == Method::kPaper;
+  out.shutter_velocity = config.paper.velocity;
   out.attitude = attitude_config(config, camera);
   out.inlier_sigma_px = config.tracking.inlier_sigma_px;
   out.min_points = config.tracking.min_points;
@@ -123,6 +124,7 @@ core::IdentifierConfig identifier_config(const AppConfig& config, const std::vec
   out.min_mpc = i.min_mpc;
   out.max_damping = i.max_damping;
   out.undo_row_delays = config.method == Method::kHovermodal;
+  out.as_published = config.method == Method::kPaper;
   out.max_frequency_hz = out.undo_row_delays ? i.max_frequency_hz : rate_hz / 2.0;
   return out;
 }
@@ -139,7 +141,9 @@ std::vector<std::string> corrections(const AppConfig& config, const core::Camera
   if (undistorts(config.calibration)) list.emplace_back("lens distortion (points undistorted)");
   if (config.scale.adaptive) list.push_back(camera_correction(config, camera_model(config, camera)));
   if (paper) {
-    list.emplace_back("rolling shutter from frame differences, readout = one frame (Eqs. 7-8)");
+    list.push_back(
+        fmt::format("rolling shutter by {} velocity from frame to frame, readout = one frame (Eqs. 7-8)",
+                    config.paper.velocity == core::ShutterVelocity::kCamera ? "the camera's" : "each region's"));
   } else if (camera.readout_ns != 0) {
     list.push_back(fmt::format("rolling shutter {} ms: row delays undone at each mode",
                                static_cast<double>(camera.readout_ns) * 1e-6));

@@ -51,7 +51,7 @@ class ChannelAnalysis {
 
   // The prewhitening that the spectra ask for, and that finish() used.
   [[nodiscard]] int n_differences() const {
-    return core::choose_differences(spectra_.sums(), config_.max_frequency_hz);
+    return config_.as_published ? 0 : core::choose_differences(spectra_.sums(), config_.max_frequency_hz);
   }
   // Those samples again with another prewhitening (as core::IdentifierConfig takes it); no estimate of the run.
   [[nodiscard]] core::ModalEstimate identified(int n_differences) const;

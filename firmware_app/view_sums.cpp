@@ -16,7 +16,7 @@ namespace {
 
 const auto kBlocks = static_cast<std::size_t>(core::WelchConfig{}.n_blocks);
 constexpr double kSamePower = 1e-5;            // rounding in a tracks.csv changes less; another flight more
-constexpr std::uint32_t kLayout = 0x31767368;  // first of the bytes
+constexpr std::uint32_t kLayout = 0x32767368;  // first of the bytes
 
 template <class Archive, class Sums>
 void describe_totals(Archive& archive, Sums& sums) {
@@ -52,6 +52,7 @@ void describe_identifier(Archive& archive, Config& identifier) {
   archive.value(identifier.edge_hz);
   archive.value(identifier.least_power);
   archive.value(identifier.undo_row_delays);
+  archive.value(identifier.as_published);
 }
 
 template <class Archive, class Basis>

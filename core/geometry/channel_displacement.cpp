@@ -75,8 +75,7 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
   sigma_px_.assign(n, 0.0);
   seen_.assign(n, 0);
   inlier_ = inlier_before_ = seen_;
-  last_region_motion_.resize(config_.regions.size());
-  has_last_.assign(config_.regions.size(), 0);
+  if (config_.paper_method) shutter_ = make_published_shutter();
   make_channels();
   spectra_ = channels_;
   if (config_.witness && config_.scale_only && !config_.paper_method) make_witnesses();
@@ -169,36 +168,6 @@ double ChannelDisplacement::follow_camera(std::int64_t t_start_ns) noexcept {
   return camera_motion_->magnification();
 }
 
-// Paper Eqs. 7-8: line i is read t_r (i - 1) after the first, t_r = 1 / (f_s h); the shift it suffers is that times the
-// relative velocity, taken from successive frames. rho = 1: the readout is assumed to fill the whole frame time. The
-// velocity is the region's own; one common velocity for the image loses more modes (tried on ten simulated records).
-void ChannelDisplacement::compensate_rolling_shutter() noexcept {
-  for (std::size_t r = 0; r < ranges_.size(); ++r) {
-    Vector2 mean;
-    double count = 0.0;
-    for (std::size_t i = ranges_[r].begin; i < ranges_[r].end; ++i) {
-      if (inlier_[i] == 0) continue;
-      mean.u += motion_[i].u;
-      mean.v += motion_[i].v;
-      count += 1.0;
-    }
-    if (count == 0.0) {
-      has_last_[r] = 0;
-      continue;
-    }
-    mean = {mean.u / count, mean.v / count};
-    if (has_last_[r] != 0) {
-      const Vector2 per_frame{mean.u - last_region_motion_[r].u, mean.v - last_region_motion_[r].v};
-      for (std::size_t i = ranges_[r].begin; i < ranges_[r].end; ++i) {
-        motion_[i].u -= readout_share_[i] * per_frame.u;
-        motion_[i].v -= readout_share_[i] * per_frame.v;
-      }
-    }
-    last_region_motion_[r] = mean;
-    has_last_[r] = 1;
-  }
-}
-
 double ChannelDisplacement::scale_of(std::uint16_t region) const noexcept {
   return region < config_.region_scale_mm_per_px.size() ? config_.region_scale_mm_per_px[region]
                                                         : config_.scale_mm_per_px;
@@ -253,7 +222,7 @@ void ChannelDisplacement::update(TrackFrame& tracks, DisplacementSample& out) no
   follow_what_rests();
   for (std::size_t i = 0; i < keyframe_.size() && i < tracks.points.size(); ++i)
     tracks.points[i].inlier = inlier_[i] != 0;
-  if (config_.paper_method) compensate_rolling_shutter();
+  if (config_.paper_method) shutter_.correct(tracks.sequence, readout_share_, inlier_, motion_);
   out.scale_mm_per_px = config_.scale_mm_per_px / magnification;
   for (std::size_t c = 0; c < channels_.size(); ++c) average_channel(c, magnification, out);
   for (std::size_t w = 0; w < out.witness_mm.size(); ++w) {

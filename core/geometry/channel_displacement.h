@@ -8,6 +8,7 @@
 #include "core/geometry/camera_motion.h"
 #include "core/geometry/place_correction.h"
 #include "core/geometry/plane_pose.h"
+#include "core/geometry/published_shutter.h"
 #include "core/geometry/rolling_shutter.h"
 #include "core/geometry/scale_factor.h"
 #include "core/types/displacement.h"
@@ -30,6 +31,7 @@ struct ChannelDisplacementConfig {
   bool scale_only = false;              // of its motion only the distance (paper Eq. 6), from all points
   bool witness = true;                  // where only the scale is followed: what rests is followed beside
   bool paper_method = false;            // two-point scale; rolling shutter by Eqs. 7-8 on the samples, with rho = 1
+  ShutterVelocity shutter_velocity = ShutterVelocity::kCamera;  // V_rel there
   std::optional<AttitudeConfig> attitude = {};  // an attitude is measured beside; delay_s counts for half the exposure
   double inlier_sigma_px = 0.3;
   int min_points = 3;  // fewer inliers: the channel has no sample in this frame
@@ -91,7 +93,7 @@ class ChannelDisplacement {
   [[nodiscard]] double estimate_scale() noexcept;
   void stabilise() noexcept;
   void reject_outliers() noexcept;
-  void compensate_rolling_shutter() noexcept;
+  [[nodiscard]] PublishedShutter make_published_shutter() const;
   [[nodiscard]] double scale_of(std::uint16_t region) const noexcept;
   void remove_scale(double magnification) noexcept;
   // Weighted mean of a region's inliers along an axis.
@@ -119,8 +121,7 @@ class ChannelDisplacement {
                                               // the camera's motion taken away, keyframe px
   std::vector<double> share_now_, sigma_px_;  // of the row where the point is now; of this frame
   std::vector<std::uint8_t> seen_, inlier_, inlier_before_;
-  std::vector<Vector2> last_region_motion_;  // paper mode: for V_rel
-  std::vector<std::uint8_t> has_last_;
+  PublishedShutter shutter_;  // paper mode
 };
 
 }  // namespace core

@@ -18,6 +18,20 @@ double ChannelDisplacement::delay_s(const RegionRange& range) const noexcept {
   return weight > 0.0 && !config_.paper_method ? config_.readout.readout_s * share / weight : 0.0;
 }
 
+// The camera's velocity against the structure is told where the structure itself does not vibrate: at its base. Where
+// none is declared, all of its points are taken; part of every mode's own velocity is then in their mean.
+PublishedShutter ChannelDisplacement::make_published_shutter() const {
+  const std::vector<Region>& all = config_.regions;
+  const bool has_base =
+      std::any_of(all.begin(), all.end(), [](const Region& region) { return region.role == RegionRole::kBase; });
+  std::vector<PublishedShutter::Region> regions;
+  for (std::size_t r = 0; r < ranges_.size(); ++r) {
+    const bool follows = has_base ? all[r].role == RegionRole::kBase : makes_channel(all[r].role);
+    regions.push_back({ranges_[r].begin, ranges_[r].end, follows});
+  }
+  return {config_.shutter_velocity, std::move(regions), keyframe_.size()};
+}
+
 void ChannelDisplacement::make_witnesses() {
   constexpr double kSameDirection = 0.99;
   std::size_t best = ranges_.size(), most = static_cast<std::size_t>(std::max(3, config_.min_points)) - 1;

@@ -74,36 +74,73 @@ void note_poles(const std::vector<OrderPole>& poles, const std::vector<int>& ord
   }
 }
 
-// What the standard deviations of a fit are made of.
-struct FitScatter {
+// A record's realisation, with what its poles are judged by.
+struct Fitted {
   const CpsdSums& sums;
   const ModelFit& fit;
   const FoldingConfig& folding;
   const CameraShare& camera;
+  const std::vector<int>& orders;
+  const Poles& poles;
 };
 
+VerdictRules verdict_rules(const IdentifierConfig& config, const ModelFit& fit) {
+  VerdictRules rules;
+  rules.min_mpc = config.min_mpc;
+  rules.max_damping = config.max_damping;
+  rules.max_apparent_hz = config.edge_hz;
+  rules.last_first_i_order = fit.last_first_i_order;
+  return rules;
+}
+
+struct JudgedChannels {
+  const std::vector<ChannelInfo>&all, &outputs;
+};
+
+std::vector<Mode> judge_lines(const Fitted& fitted, const std::vector<PoleCluster>& lines,
+                              const JudgedChannels& channels, const VerdictRules& rules) {
+  std::vector<Mode> modes;
+  LineExaminer examiner(fitted.sums, fitted.folding);
+  for (const PoleCluster& line : lines) {
+    LineEvidence evidence = examiner.examine(line.representative);
+    const DiscretePole& observed = fitted.poles.observed[line.i_representative].pole;
+    const CameraShare::Finding found = fitted.camera.examine(observed.shape, line.apparent_hz);
+    evidence.witness_share = found.share, evidence.witness_moves = found.is_doubtful;
+    const BaseResponse response = base_response(fitted.sums, channels.all, line.apparent_hz);
+    modes.push_back(judge(line, response, channels.outputs, fitted.orders, rules, evidence));
+  }
+  return modes;
+}
+
+std::vector<Mode> judge_published_lines(const std::vector<PoleCluster>& lines, const JudgedChannels& channels,
+                                        const VerdictRules& rules) {
+  std::vector<Mode> modes;
+  for (const PoleCluster& line : lines) modes.push_back(judge_as_published(line, channels.outputs, rules));
+  number_by_frequency(modes);
+  return modes;
+}
+
 // Degrees of freedom. modes[i] belongs to lines[i]. What scatter a numerical pole has says nothing; it is not computed.
-double state_scatter(const FitScatter& scatters, const Poles& poles, const std::vector<PoleCluster>& lines,
-                     std::vector<Mode>& modes) {
+double state_scatter(const Fitted& fitted, const std::vector<PoleCluster>& lines, std::vector<Mode>& modes) {
   std::vector<PoleOfOrder> chosen;
   std::vector<std::size_t> line_of;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (modes[i].verdict == Verdict::kNumerical) continue;
-    chosen.push_back(poles.observed[lines[i].i_representative]);
+    chosen.push_back(fitted.poles.observed[lines[i].i_representative]);
     line_of.push_back(i);
   }
-  const ModelFit& fit = scatters.fit;
+  const ModelFit& fit = fitted.fit;
   const DeviationLags lags{fit.era.first_lag, 2 * fit.era.block_rows, fit.n_differences};
-  const auto deviations = block_deviations(scatters.sums, fit.era.references, lags, kScatterBlocks);
+  const auto deviations = block_deviations(fitted.sums, fit.era.references, lags, kScatterBlocks);
   auto changes = pole_changes(fit.realisation, fit.era, deviations, chosen);
   for (std::size_t c = 0; c < chosen.size(); ++c) {
     const std::size_t i = line_of[c];
     std::vector<std::complex<double>>& shape = chosen[c].pole.shape;
-    const double hz = apparent_hz(chosen[c].pole, scatters.sums.rate_hz);
-    const bool leave = scatters.camera.examine(shape, hz).is_doubtful;
-    shape = scatters.camera.without(shape, hz, leave);
-    for (PoleChange& change : changes[c]) change.shape = scatters.camera.without(change.shape, hz, leave);
-    const auto scatter = mode_scatter(chosen[c], lines[i].representative, scatters.folding, changes[c]);
+    const double hz = apparent_hz(chosen[c].pole, fitted.sums.rate_hz);
+    const bool leave = fitted.camera.examine(shape, hz).is_doubtful;
+    shape = fitted.camera.without(shape, hz, leave);
+    for (PoleChange& change : changes[c]) change.shape = fitted.camera.without(change.shape, hz, leave);
+    const auto scatter = mode_scatter(chosen[c], lines[i].representative, fitted.folding, changes[c]);
     if (!scatter) continue;
     modes[i].frequency_std_hz = scatter->frequency_hz;
     modes[i].damping_std = scatter->damping_ratio;
@@ -183,26 +220,16 @@ ModalEstimate Identifier::identify(const CpsdSums& sums) const {
   const FoldingConfig folding = folding_config(sums.rate_hz);
   const CameraShare camera(sums, delays_as_undone());
   const Poles poles = poles_of_orders(fit.realisation, orders, folding, camera);
-  const std::vector<PoleCluster> lines = lines_of(poles.unfolded, static_cast<int>(orders.size()));
-
-  VerdictRules rules;
-  rules.min_mpc = config_.min_mpc;
-  rules.max_damping = config_.max_damping;
-  rules.max_apparent_hz = config_.edge_hz;
-  rules.last_first_i_order = fit.last_first_i_order;
-  std::vector<Mode> modes;
-  LineExaminer examiner(sums, folding);
-  for (const PoleCluster& line : lines) {
-    LineEvidence evidence = examiner.examine(line.representative);
-    const DiscretePole& observed = poles.observed[line.i_representative].pole;
-    const CameraShare::Finding found = camera.examine(observed.shape, line.apparent_hz);
-    evidence.witness_share = found.share, evidence.witness_moves = found.is_doubtful;
-    modes.push_back(judge(line, base_response(sums, channels_, line.apparent_hz), outputs_, orders, rules, evidence));
-  }
-  if (sums.n_blocks >= kScatterBlocks) {
-    estimate.degrees_of_freedom = state_scatter({sums, fit, folding, camera}, poles, lines, modes);
-  }
-  reject_twins(modes);
+  const std::vector<PoleCluster> lines = config_.as_published
+                                             ? lines_of_one_order(poles.unfolded)
+                                             : lines_of(poles.unfolded, static_cast<int>(orders.size()));
+  const Fitted fitted{sums, fit, folding, camera, orders, poles};
+  const JudgedChannels channels{channels_, outputs_};
+  const VerdictRules rules = verdict_rules(config_, fit);
+  std::vector<Mode> modes = config_.as_published ? judge_published_lines(lines, channels, rules)
+                                                 : judge_lines(fitted, lines, channels, rules);
+  if (sums.n_blocks >= kScatterBlocks) estimate.degrees_of_freedom = state_scatter(fitted, lines, modes);
+  if (!config_.as_published) reject_twins(modes);
   note_poles(poles.unfolded, orders, estimate);
   list_modes(std::move(modes), lines, estimate);
   return estimate;

@@ -12,6 +12,7 @@
 namespace core {
 
 inline constexpr int kMostOrders = 15;  // of the stabilisation diagram, two apart
+inline constexpr int kPublishedOrder = 36;
 
 struct IdentifierConfig {
   std::vector<int> references;    // channel indices; empty = automatic
@@ -24,6 +25,9 @@ struct IdentifierConfig {
   double edge_hz = 0.0;    // apparent frequencies above it lie in a filter's edge and are no modes; 0 = no filter
   double least_power = kLeastPowerMm2;  // a channel with less is taken to stand still; in the channels' unit squared
   bool undo_row_delays = true;          // false: the samples were compensated before (paper mode)
+  // As Yoon et al. 2017 do it: plain ERA [Juang & Pappa 1985] of one order (max_order, 0 = kPublishedOrder), nothing
+  // differenced, and a pole is a mode unless it is none of a vibration or the base moves with it.
+  bool as_published = false;
 };
 
 // From the sums of a spectrum to modes with a verdict each: NExT, canonical-variate ERA, a stabilisation over orders

@@ -87,23 +87,38 @@ EraStatus realise_with_short_memory(int max_order, ModelFit& fit) {
   return status;
 }
 
+// One order is fitted, and nothing asked of its singular values: that of the published chain.
+EraStatus realise_as_published(int max_order, ModelFit& fit) {
+  fit.era.canonical_variates = false;
+  fit.era.above_canonical = 0;
+  const EraStatus status = realise_up_to(max_order > 0 ? max_order : kPublishedOrder, fit);
+  fit.order = static_cast<int>(fit.realisation.a.rows());
+  fit.order_is_clear = true;
+  return status;
+}
+
+EraStatus realise_from_canonical_order(const IdentifierConfig& config, ModelFit& fit) {
+  EraStatus status = realise_up_to(config.max_order, fit);
+  if (status != EraStatus::kOk) return status;
+  fit.order = canonical_order(fit.realisation);
+  const bool can_shorten = config.block_rows == 0 && fit.era.block_rows > kUnclearBlockRows;
+  fit.order_is_clear = !can_shorten || order_is_clear(fit.realisation, fit.order, fit.era.block_rows);
+  return fit.order_is_clear ? status : realise_with_short_memory(config.max_order, fit);
+}
+
 }  // namespace
 
 std::string fit_model(const CpsdSums& sums, const IdentifierConfig& config, const std::vector<ChannelInfo>& channels,
                       ModelFit& out) {
-  out.n_differences =
-      config.n_differences >= 0 ? config.n_differences : choose_differences(sums, config.max_frequency_hz);
+  out.n_differences = config.as_published         ? 0
+                      : config.n_differences >= 0 ? config.n_differences
+                                                  : choose_differences(sums, config.max_frequency_hz);
   out.era = era_config(sums, config, channels, out.n_differences);
   const CorrelationStatus status = compute_correlations(sums, 2 * out.era.block_rows + out.era.first_lag,
                                                         out.n_differences, out.correlations, {}, config.least_power);
   if (status != CorrelationStatus::kOk) return to_string(status);
-  EraStatus era_status = realise_up_to(config.max_order, out);
-  if (era_status == EraStatus::kOk) {
-    out.order = canonical_order(out.realisation);
-    const bool can_shorten = config.block_rows == 0 && out.era.block_rows > kUnclearBlockRows;
-    out.order_is_clear = !can_shorten || order_is_clear(out.realisation, out.order, out.era.block_rows);
-    if (!out.order_is_clear) era_status = realise_with_short_memory(config.max_order, out);
-  }
+  const EraStatus era_status =
+      config.as_published ? realise_as_published(config.max_order, out) : realise_from_canonical_order(config, out);
   if (era_status != EraStatus::kOk) {
     return "the correlations carry no system: nothing moves, or the segment is too short";
   }

@@ -138,6 +138,12 @@ void join_split_lines(std::vector<PoleCluster>& clusters, int n_orders) {
 double damping_ratio(std::complex<double> s) noexcept { return -s.real() / std::abs(s); }
 double frequency_hz(std::complex<double> s) noexcept { return std::abs(s) / (2.0 * std::numbers::pi); }
 
+std::vector<PoleCluster> lines_of_one_order(const std::vector<OrderPole>& poles) {
+  std::vector<PoleCluster> lines;
+  for (std::size_t i = 0; i < poles.size(); ++i) lines.push_back(summarise(poles, {i}, 1));
+  return lines;
+}
+
 std::vector<PoleCluster> cluster_poles(const std::vector<OrderPole>& poles, int n_orders) {
   std::vector<PoleCluster> clusters;
   for (const std::vector<std::size_t>& band : bands(poles)) {

@@ -29,6 +29,9 @@ struct PoleCluster {
 // Average-linkage clustering on |df| / (0.015 f) + (1 - MAC) / 0.3, cut at 1 (ARCHITECTURE.md).
 [[nodiscard]] std::vector<PoleCluster> cluster_poles(const std::vector<OrderPole>& poles, int n_orders);
 
+// Poles of a single order, each a line of its own.
+[[nodiscard]] std::vector<PoleCluster> lines_of_one_order(const std::vector<OrderPole>& poles);
+
 // A model with more states than the record supports splits one mode into two lines of one shape. The line found in more
 // orders takes the other's orders (MAC > 0.95 within 3 %), so that the split does not cost the mode its presence.
 void join_split_lines(std::vector<PoleCluster>& clusters, int n_orders);

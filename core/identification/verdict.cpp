@@ -111,10 +111,7 @@ void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response
     mode.reason += "; what was declared to rest moves with it: nothing was taken for the camera's";
 }
 
-}  // namespace
-
-Mode judge(const PoleCluster& cluster, const BaseResponse& response, const std::vector<ChannelInfo>& channels,
-           const std::vector<int>& orders, const VerdictRules& rules, const LineEvidence& line) {
+Mode mode_of(const PoleCluster& cluster) {
   Mode mode;
   mode.frequency_hz = cluster.frequency_hz;
   mode.apparent_hz = cluster.apparent_hz;
@@ -125,8 +122,44 @@ Mode judge(const PoleCluster& cluster, const BaseResponse& response, const std::
   mode.mpc = cluster.representative.mpc;
   mode.emac = cluster.representative.emac;
   mode.presence = cluster.presence;
+  return mode;
+}
+
+}  // namespace
+
+Mode judge(const PoleCluster& cluster, const BaseResponse& response, const std::vector<ChannelInfo>& channels,
+           const std::vector<int>& orders, const VerdictRules& rules, const LineEvidence& line) {
+  Mode mode = mode_of(cluster);
   decide(mode, cluster, response, channels, orders, rules, line);
   return mode;
+}
+
+Mode judge_as_published(const PoleCluster& pole, const std::vector<ChannelInfo>& channels, const VerdictRules& rules) {
+  Mode mode = mode_of(pole);
+  const double base = base_share(mode, channels);
+  if (!(mode.damping_ratio > 0.0) || mode.damping_ratio > rules.max_damping) {
+    set(mode, Verdict::kNumerical,
+        text("damping %.2f %% outside 0 .. %.0f %%", 100.0 * mode.damping_ratio, 100.0 * rules.max_damping));
+  } else if (base > rules.max_published_base_share) {
+    set(mode, Verdict::kInputPeak,
+        text("the base moves %.2f of the largest channel: motion of the base or the camera", base));
+  } else {
+    set(mode, Verdict::kStructural, text("the base moves %.2f of the largest channel", base));
+  }
+  return mode;
+}
+
+void number_by_frequency(std::vector<Mode>& modes) {
+  std::vector<Mode*> structural;
+  for (Mode& mode : modes) {
+    if (mode.verdict == Verdict::kStructural) structural.push_back(&mode);
+  }
+  std::sort(structural.begin(), structural.end(),
+            [](const Mode* a, const Mode* b) { return a->frequency_hz < b->frequency_hz; });
+  for (std::size_t i = 0; i < structural.size(); ++i) {
+    structural[i]->reason = text("number %d by frequency; %s; no more is asked (as published)", static_cast<int>(i) + 1,
+                                 structural[i]->reason.c_str());
+  }
 }
 
 namespace {

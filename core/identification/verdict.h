@@ -27,12 +27,20 @@ struct VerdictRules {
   double min_late_share = 0.86;     // ... and so much of the correlation must be left there: it goes on
   double least_certain_mpc = 0.85;  // a folded frequency is certain from here on ...
   double least_fold_margin = 0.3;   // ... and with this lead over the next hypothesis
+  double max_published_base_share = 0.3;
 };
 
 // A cluster as a mode with its verdict and the reason in words.
 [[nodiscard]] Mode judge(const PoleCluster& cluster, const BaseResponse& response,
                          const std::vector<ChannelInfo>& channels, const std::vector<int>& orders,
                          const VerdictRules& rules, const LineEvidence& line = {});
+
+// The published chain knows poles by frequency and by their motion at the base, no more: every vibration (damping above
+// 0 and up to `max_damping`) that the base takes little part in (max_published_base_share) is a mode.
+[[nodiscard]] Mode judge_as_published(const PoleCluster& pole, const std::vector<ChannelInfo>& channels,
+                                      const VerdictRules& rules);
+// Their numbers by frequency, as the paper's Table 1 has them, into their reasons.
+void number_by_frequency(std::vector<Mode>& modes);
 
 // Of two structural modes with MAC > 0.9 within 6 % one that has less than 0.1 % of damping, and less than a third of
 // the other's, is a steady force beside it (harmonic). Else the one found in fewer orders is a twin (often an amplitude

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/identification/real_shape.h"
 #include "core/identification/uncertainty.h"
 #include "drivers/storage/json.h"
 
@@ -36,6 +37,14 @@ Json shape_json(const core::Mode& mode, const std::vector<std::string>& names) {
   return shape;
 }
 
+Json real_shape_json(const core::Mode& mode, const std::vector<std::string>& names) {
+  if (mode.shape.empty()) return nullptr;
+  Json shape = Json::object();
+  const std::vector<double> real = core::real_shape(mode.shape);
+  for (std::size_t i = 0; i < real.size(); ++i) shape[channel_name(names, i)] = real[i];
+  return shape;
+}
+
 Json shape_std_json(const core::Mode& mode, const std::vector<std::string>& names) {
   if (mode.shape_std.empty()) return nullptr;
   Json shape_std = Json::object();
@@ -61,7 +70,10 @@ Json interval_json(const std::optional<core::Interval>& interval) {
   return {interval->low, interval->high};
 }
 
-Json mode_json(const core::Mode& mode, const core::ModalEstimate& estimate, const std::vector<std::string>& names) {
+// The paper's shapes are real ones: its chain gives both.
+Json mode_json(const core::Mode& mode, const ModalReport& report) {
+  const core::ModalEstimate& estimate = report.estimate;
+  const std::vector<std::string>& names = report.channel_names;
   Json out = Json::object();
   out["frequency_hz"] = mode.frequency_hz;
   out["frequency_std_hz"] = or_null(mode.frequency_std_hz);
@@ -72,6 +84,7 @@ Json mode_json(const core::Mode& mode, const core::ModalEstimate& estimate, cons
   out["damping_std"] = or_null(mode.damping_std);
   out["damping_interval_95"] = interval_json(core::damping_interval_95(mode, estimate.degrees_of_freedom));
   out["shape"] = shape_json(mode, names);
+  if (report.method == to_text(Method::kPaper)) out["shape_real"] = real_shape_json(mode, names);
   out["shape_std"] = shape_std_json(mode, names);
   out["mpc"] = mode.mpc;
   out["emac"] = mode.emac;
@@ -82,10 +95,9 @@ Json mode_json(const core::Mode& mode, const core::ModalEstimate& estimate, cons
   return out;
 }
 
-Json modes_json(const std::vector<core::Mode>& modes, const core::ModalEstimate& estimate,
-                const std::vector<std::string>& names) {
+Json modes_json(const std::vector<core::Mode>& modes, const ModalReport& report) {
   Json out = Json::array();
-  for (const core::Mode& mode : modes) out.push_back(mode_json(mode, estimate, names));
+  for (const core::Mode& mode : modes) out.push_back(mode_json(mode, report));
   return out;
 }
 
@@ -125,8 +137,8 @@ std::string modal_json(const ModalReport& report, std::size_t* n_not_finite) {
   out["segments"] = estimate.n_segments;
   out["remembered_s"] = estimate.remembered_s;
   out["degrees_of_freedom"] = positive_or_null(estimate.degrees_of_freedom);
-  out["modes"] = modes_json(estimate.modes, estimate, report.channel_names);
-  out["rejected"] = modes_json(estimate.rejected, estimate, report.channel_names);
+  out["modes"] = modes_json(estimate.modes, report);
+  out["rejected"] = modes_json(estimate.rejected, report);
   out["readout"] = readout_json(estimate.readout);
   out["corrections"] = report.corrections;
   out["caveats"] = report.caveats;

@@ -13,7 +13,7 @@ quietly tools/build.sh hovermodald hovermodal
 
 # errors_of TABLE: "|error %| MAC" of modes 1-3, "1000 0" for one that was not found.
 errors_of() {
-  awk '$1 ~ /^[123]$/ { if (NF < 8) print 1000, 0; else { e = $4 < 0 ? -$4 : $4; print e, $5 / 100 } }' "$1"
+  awk '$1 ~ /^[123]$/ { if (NF < 9) print 1000, 0; else { e = $4 < 0 ? -$4 : $4; print e, $5 / 100 } }' "$1"
 }
 
 # summary TABLE...: median and worst error and MAC over modes 1-3 of all tables, "med worst med worst found".
@@ -44,7 +44,7 @@ judge_modes() {
 
 # truth_of TABLE...: error against the true parameters in units of sqrt(zeta / (2 pi f T)); no bar, beside.
 truth_of() {
-  for table in "$@"; do awk '$1 ~ /^[123]$/ && NF >= 8 { e = $7 < 0 ? -$7 : $7; s = $8 < 0 ? -$8 : $8; print e, s }' "$table"; done |
+  for table in "$@"; do awk '$1 ~ /^[123]$/ && NF >= 9 { e = $8 < 0 ? -$8 : $8; s = $9 < 0 ? -$9 : $9; print e, s }' "$table"; done |
     awk '{ e2 += $2 * $2; if ($1 > w) w = $1; if ($2 > ws) ws = $2 } END { printf "against the true parameters: worst %.2f %%, rms %.2f and worst %.2f of the least possible scatter", w, sqrt(e2 / NR), ws }'
 }
 

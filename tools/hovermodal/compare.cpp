@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/identification/mac.h"
+#include "core/identification/real_shape.h"
 #include "firmware_app/report/modal_json.h"
 #include "tools/hovermodal/commands.h"
 
@@ -78,7 +79,7 @@ std::string truth_columns(const app::ModalReport& truth, const core::Mode& found
 }
 
 void print_header(bool with_truth, bool with_paper) {
-  fmt::print("{:>4} {:>10} {:>10} {:>8} {:>8}", "mode", "found Hz", "ref. Hz", "error %", "MAC %");
+  fmt::print("{:>4} {:>10} {:>10} {:>8} {:>8} {:>8}", "mode", "found Hz", "ref. Hz", "error %", "MAC %", "real %");
   if (with_truth) fmt::print("  {:>8} {:>8} {:>7}", "true Hz", "error %", "sigmas");
   if (with_paper) fmt::print("   {:>33}", "paper: drone Hz  ref. Hz  error %  MAC %");
   fmt::print("\n");
@@ -106,8 +107,9 @@ void print_table(const app::ModalReport& result, const app::ModalReport& referen
           wanted == nullptr ? "not found" : fmt::format("{:.4f}", wanted->frequency_hz));
       continue;
     }
-    fmt::print("{:4} {:10.4f} {:10.4f} {:+8.3f} {:8.3f}", number, match.mode->frequency_hz, wanted->frequency_hz,
-               100.0 * (match.mode->frequency_hz / wanted->frequency_hz - 1.0), 100.0 * match.mac);
+    fmt::print("{:4} {:10.4f} {:10.4f} {:+8.3f} {:8.3f} {:8.3f}", number, match.mode->frequency_hz,
+               wanted->frequency_hz, 100.0 * (match.mode->frequency_hz / wanted->frequency_hz - 1.0), 100.0 * match.mac,
+               100.0 * core::real_mac(shape_for(result, *match.mode, names), shape_for(reference, *wanted, names)));
     if (truth != nullptr) fmt::print("{}", truth_columns(*truth, *match.mode, result.estimate.duration_s));
     if (paper != nullptr) {
       fmt::print("   {:14.3f} {:8.3f} {:8.2f} {:6.2f}", paper->drone_hz, paper->accelerometer_hz, paper->error_percent,
@@ -127,7 +129,8 @@ void add_compare(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "compare",
-      "Frequencies and shapes of one modal.json against another, or against a simulation's truth.json\n"
+      "Frequencies and shapes of one modal.json against another, or against a simulation's truth.json: MAC of the\n"
+      "complex shapes, and of them taken as real ones\n"
       "  hovermodal compare --result out/modal.json --reference out/truth.json");
   command->add_option("--result", options->result, "modal.json to judge")->required()->type_name("FILE");
   command->add_option("--reference", options->reference, "modal.json or truth.json to judge it by")

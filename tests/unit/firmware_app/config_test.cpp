@@ -47,6 +47,14 @@ TEST(Config, TakesEveryWrittenValueAndKeepsDefaults) {
   EXPECT_NE(config.hash, 0U);
 }
 
+TEST(Config, PaperTakesTheCamerasVelocityUnlessARegionsIsAskedFor) {
+  EXPECT_EQ(parse_config(kGood, "a.yaml").paper.velocity, core::ShutterVelocity::kCamera);
+  EXPECT_EQ(parse_config(kGood, "a.yaml", {"paper.velocity=region"}).paper.velocity, core::ShutterVelocity::kRegion);
+  EXPECT_THAT(refusal_of_line("paper: {velocity: structure}"),
+              AllOf(HasSubstr("paper.velocity"), HasSubstr("camera | region")));
+  EXPECT_THAT(config_help(), HasSubstr("default: camera   allowed: camera | region"));
+}
+
 TEST(Config, TakesEveryDefaultOfTheTableBack) {
   AppConfig defaults;
   defaults.regions.resize(1);
@@ -64,6 +72,7 @@ TEST(Config, TakesEveryDefaultOfTheTableBack) {
 TEST(Config, EachKeySetsItsOwnMemberOnly) {
   const std::map<std::string, std::string> special{
       {"method", "paper"},
+      {"paper.velocity", "region"},
       {"camera.driver", "v4l2"},
       {"camera.pace", "realtime"},
       {"camera.readout_direction", "left"},

@@ -96,6 +96,10 @@ TEST_F(RunReportTest, ModalJsonHasExactlyTheAgreedLayout) {
         "base": [0.1, -0.02],
         "roof": [1, 0]
       },
+      "shape_real": {
+        "base": 0.1019803902718557,
+        "roof": 1
+      },
       "shape_std": null,
       "mpc": 0.99,
       "emac": 0.9,
@@ -129,6 +133,10 @@ TEST_F(RunReportTest, ModalJsonHasExactlyTheAgreedLayout) {
         "base": [0.1, -0.02],
         "roof": [1, 0]
       },
+      "shape_real": {
+        "base": 0.1019803902718557,
+        "roof": 1
+      },
       "shape_std": {
         "base": 0.1,
         "roof": 0.2
@@ -158,6 +166,10 @@ TEST_F(RunReportTest, ModalJsonHasExactlyTheAgreedLayout) {
   }
 }
 )");
+}
+
+TEST_F(RunReportTest, OnlyThePapersShapesAreGivenAsRealOnesToo) {
+  EXPECT_THAT(modal_json({"hovermodal", {"base", "roof"}, estimate(), {}, {}}), Not(HasSubstr("shape_real")));
 }
 
 TEST_F(RunReportTest, ModalJsonComesBackAsItWas) {

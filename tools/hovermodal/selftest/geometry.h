@@ -13,10 +13,12 @@ struct GeometryOptions {
   double duration_s = 0.0;  // 0 = that of the figure
   std::string report;       // folder for pictures and reports; empty = none
   std::string flight;       // recorded flight (CSV) that carries the camera; empty = the hover model instead
+  int first_seed = 1;
 };
 
 void print_geometry(const GeometryOptions& options);         // the paper's experiment, one correction after the other
 void print_geometry_pixels(const GeometryOptions& options);  // the same from rendered clips; `report` holds them
+void print_paper(const GeometryOptions& options);            // its own figures: how well its chain does what it says
 void print_table1(const GeometryOptions& options);           // the paper's Table 1, sensor by sensor
 void print_wind(const GeometryOptions& options);             // gusts of 5 degrees
 void print_low_frequency(const GeometryOptions& options);    // a mode of 0.32 Hz in the hover's drift

@@ -29,8 +29,9 @@ Way paper() { return {"paper", {"method=paper"}}; }
 }  // namespace
 
 // The recorded hover a quarter as large: indoors, 2 m away, the scale then changes by some 5 % as in the paper.
-FlightSetup paper_flight() {
-  return {std::string("preset: paper\ncamera: {readout_ms: 28}\n") + kGimbal, identification(20.0, 1024), 0.25};
+FlightSetup paper_flight(double readout_ms) {
+  return {fmt::format("preset: paper\ncamera: {{readout_ms: {}}}\n", readout_ms) + kGimbal, identification(20.0, 1024),
+          0.25};
 }
 
 void print_geometry(const GeometryOptions& options) {

@@ -28,6 +28,6 @@ struct StationaryRecord {
 [[nodiscard]] StationaryRecord stationary_camera(std::uint64_t seed, double duration_s);
 
 // The aircraft 2 m away: 25 fps, readout 0.7 of a frame.
-[[nodiscard]] FlightSetup paper_flight();
+[[nodiscard]] FlightSetup paper_flight(double readout_ms = 28.0);
 
 }  // namespace tools

@@ -15,17 +15,6 @@ using core::simulation::TrueMode;
 constexpr std::string_view kDigits = "0123456789";
 constexpr double kNear = 0.02, kNearApparent = 0.03;  // relative
 
-// Channels are named after their bodies (floor3, deck12.v); the base rests.
-std::vector<std::complex<double>> true_shape(const TrueMode& mode, const std::vector<core::ChannelInfo>& channels) {
-  std::vector<std::complex<double>> shape;
-  for (const core::ChannelInfo& channel : channels) {
-    shape.push_back(channel.is_base
-                        ? 0.0
-                        : mode.displacement[std::stoi(channel.name.substr(channel.name.find_first_of(kDigits))) - 1]);
-  }
-  return shape;
-}
-
 // The unused pole nearest to a frequency, none beyond `limit` (relative).
 template <class Frequency>
 const Mode* nearest(std::vector<const Mode*>& poles, double wanted_hz, double limit, Frequency frequency) {
@@ -42,6 +31,16 @@ const Mode* nearest(std::vector<const Mode*>& poles, double wanted_hz, double li
 }
 
 }  // namespace
+
+std::vector<std::complex<double>> true_shape(const TrueMode& mode, const std::vector<core::ChannelInfo>& channels) {
+  std::vector<std::complex<double>> shape;
+  for (const core::ChannelInfo& channel : channels) {
+    shape.push_back(channel.is_base
+                        ? 0.0
+                        : mode.displacement[std::stoi(channel.name.substr(channel.name.find_first_of(kDigits))) - 1]);
+  }
+  return shape;
+}
 
 double shape_mac(const TrueMode& truth, const Mode& mode, const std::vector<core::ChannelInfo>& channels) {
   return core::mac(true_shape(truth, channels), mode.shape);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct Match {
 [[nodiscard]] Match match_modes(const core::ModalEstimate& estimate,
                                 const std::vector<core::simulation::TrueMode>& truth,
                                 const std::vector<core::ChannelInfo>& channels);
+
+// Its shape in these channels, which are named after their bodies (floor3, deck12.v); the base rests.
+[[nodiscard]] std::vector<std::complex<double>> true_shape(const core::simulation::TrueMode& mode,
+                                                           const std::vector<core::ChannelInfo>& channels);
 
 // MAC of a pole's shape with a true mode's, in these channels.
 [[nodiscard]] double shape_mac(const core::simulation::TrueMode& truth, const core::Mode& mode,

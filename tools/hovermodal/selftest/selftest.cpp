@@ -93,7 +93,7 @@ void identification(const Options& options) {
 // The whole chain behind the tracker on simulated flights.
 template <void (*print)(const GeometryOptions&)>
 void geometry(const Options& options) {
-  print({options.n_seeds, options.n_threads, options.duration_s, options.report, options.flight});
+  print({options.n_seeds, options.n_threads, options.duration_s, options.report, options.flight, options.first_seed});
 }
 
 // Closing the loop on tracks.
@@ -139,6 +139,7 @@ constexpr std::array kChecks{
     Check{"closure-live-null", "the same on records without one", closure_tracks<print_closure_live_null>},
     Check{"geometry", "the paper's experiment, one correction after the other", geometry<print_geometry>},
     Check{"geometry-pixels", "the same from rendered clips through the service", geometry<print_geometry_pixels>},
+    Check{"paper", "the paper's experiment by its own chain, as published", geometry<print_paper>},
     Check{"table1", "the paper's Table 1 and Figures 6 to 9, sensor by sensor", geometry<print_table1>},
     Check{"wind", "gusts that turn the camera by 5 degrees", geometry<print_wind>},
     Check{"low-frequency", "a mode of 0.32 Hz in the drift of the hover", geometry<print_low_frequency>},
