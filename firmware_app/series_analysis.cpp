@@ -19,7 +19,7 @@ namespace app {
 namespace {
 
 constexpr std::size_t kSamplesPerReport = 1 << 17;
-// Of the free decay's time constant 1 / (zeta w): a shorter segment biases the damping (ARCHITECTURE.md).
+// Of the free decay's time constant 1 / (zeta w): a shorter segment biases the damping (core/spectrum/METHOD.md).
 constexpr double kLeastSegmentDecays = 1.5;
 
 struct SeriesSpectra {
