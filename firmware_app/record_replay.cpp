@@ -35,14 +35,15 @@ class Record {
 
   void remark(std::vector<std::string>& remarks) const {
     const auto say = [&](const std::string& what) { remarks.push_back(path_ + ": " + what); };
-    if (reader_.starts_late()) say("its first files are missing: the estimate is of what is left");
+    if (reader_.starts_late()) say("its first files are missing: the estimate is based on the remaining files");
     if (reader_.head().continues)
-      say("the run went on with the state of one before it: give that record too, in front of this");
+      say("the run resumed from the checkpoint of an earlier run: give that record too, before this one");
     if (reader_.n_damaged() > 0) say(fmt::format("{} damaged messages were left out", reader_.n_damaged()));
     if (reader_.n_attitudes_left_out() > 0)
       say(fmt::format("{} attitudes are not in the record: the run had them", reader_.n_attitudes_left_out()));
     if (reader_.was_thinned())
-      say("overload thinned its frames; the service then began new spectra, which this replay does not");
+      say("under overload the service kept every n-th frame and started new spectra; this replay does "
+          "not");
     if (reader_.end().empty()) say("the record was cut off");
     if (reader_.end().starts_with("fault")) say("the run ended with a " + reader_.end());
   }

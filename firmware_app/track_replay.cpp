@@ -68,7 +68,7 @@ class Replay {
     if (analysis_) {
       if (const std::string why = why_foreign(view_, view); !why.empty())
         throw std::invalid_argument(
-            fmt::format("{}: does not go on with the record before it: {}; replay them one by one", source.name, why));
+            fmt::format("{}: does not continue the record before it: {}; replay them one by one", source.name, why));
       next->go_on_from(*analysis_);
     } else if (!report_directory_.empty()) {
       report_ = std::make_unique<RunReport>(report_directory_, source.config, source.camera, next->channels(),
