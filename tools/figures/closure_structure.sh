@@ -18,8 +18,8 @@ figure_4() {
   judge 4b "storey height implied $height mm, partner named with its rivals: $sound, leave-one-out error fell at each step: $falls" \
     "80 - 160 mm, 1, 1" "parameters plausible; ground storey and roof mass not told apart" \
     "$height >= 80 && $height <= 160 && $sound == 1 && $falls == 1"
-  line 4c beside "$(ask paper 'f"""{c["reference_error_before"]:.2f} -> {c["reference_error_after"]:.2f} % rms"""'): $(grep -A 4 'no fit saw (--check)' "$out/paper.txt" | tail -n +2 | awk '$1 + 0 > 0 { printf "%s Hz %s %%  ", $3, $4 }')" \
-    "-" "the accelerometers' three frequencies, which no fit saw"
+  line 4c beside "$(ask paper 'f"""{c["reference_error_before"]:.2f} -> {c["reference_error_after"]:.2f} % rms"""'): $(grep -A 4 'excluded from the fit (--check)' "$out/paper.txt" | tail -n +2 | awk '$1 + 0 > 0 { printf "%s Hz %s %%  ", $3, $4 }')" \
+    "-" "the accelerometers' three frequencies, excluded from the fit"
 
   if [ -d "$data/mini_shake_table" ]; then
     rm -rf "$out/shake_identified"
