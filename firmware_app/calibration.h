@@ -6,9 +6,9 @@
 
 namespace app {
 
-// The camera of `config`, from calibration.file or from the values in its place; not calibrated where there is neither.
-// Throws ConfigError / FileError when it does not fit the image of `camera` (drivers::calibration_fault), or when it
-// was made for another resolution: then with the values that scaling would give, where the shape of the image is equal.
+// The camera of `config`, from calibration.file or from inline values; not calibrated if there is neither. Throws
+// ConfigError / FileError if it does not fit the image of `camera` (drivers::calibration_fault), or was made for
+// another resolution: then with the values that scaling would give, if the shape of the image is equal.
 [[nodiscard]] core::CameraModel camera_model(const AppConfig& config, const core::CameraInfo& camera);
 
 }  // namespace app

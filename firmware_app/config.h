@@ -24,7 +24,7 @@ struct PaperConfig {
 struct CameraConfig {
   CameraDriver driver = CameraDriver::kFile;
   std::string source;            // file: video or image folder; v4l2: a node, empty = the only camera attached
-  double rate_hz = 0.0;          // 0 = take it from the source
+  double rate_hz = 0.0;          // 0 = the source's own
   std::array<int, 2> size_px{};  // devices: width, height; 0 = chosen
   std::string format;            // v4l2: four characters; empty = chosen
   Pace pace = Pace::kAsFastAsPossible;
@@ -48,14 +48,14 @@ struct CalibrationConfig {
 };
 
 struct ScaleConfig {
-  double known_length_mm = 0.0;  // 0 = unknown: displacements are reported in px with scale 1 "mm"/px
+  double known_length_mm = 0.0;  // 0 = unknown: displacements are in px (scale 1, unit px)
   std::array<double, 2> from_px{}, to_px{};
   std::vector<std::array<double, 5>> lengths;  // more known lengths: u1 v1 u2 v2 (px), mm; one scale by least squares
   std::vector<std::array<double, 4>> points;   // points of the structure's plane: u v (px), x y (mm); its pose
-  double point_sigma_px = 0.5;                 // how exactly these pixels were read, per axis
-  double max_obliqueness_deg = 10.0;           // what the operator cannot exclude between structure and image plane
-  bool adaptive = true;                        // false: the camera stands still (a tripod)
-  bool only = true;                            // of the camera's motion only the distance (Eq. 6)
+  double point_sigma_px = 0.5;                 // standard deviation of these pixels, per axis
+  double max_obliqueness_deg = 10.0;           // largest angle to the image plane not excluded
+  bool adaptive = true;                        // false: the camera is fixed (a tripod)
+  bool only = true;                            // estimate only the camera's distance (Eq. 6)
 };
 
 struct TrackingConfig {
@@ -77,12 +77,12 @@ struct SpectrumConfig {
   int segment = 512;  // samples
   double overlap = 0.5;
   std::string window = "hann";  // hann | hamming | boxcar
-  bool witness = true;          // what rests tells the camera's part of a shape
-  double forget_s = 0.0;        // a segment counts exp(-age / forget_s); 0 = never forgets
+  bool witness = true;          // remove motion coherent with a static region from shapes
+  double forget_s = 0.0;        // a segment is weighted by exp(-age / forget_s); 0 = never
 };
 
 struct IdentificationConfig {
-  int period_hops = 4;                  // an estimate every so many hops, and one at the end
+  int period_hops = 4;                  // hops between estimates; one more at the end
   std::vector<std::string> references;  // channel names; empty = automatic
   int block_rows = 0;                   // 0 = automatic
   int max_order = 0;                    // 0 = automatic
@@ -95,11 +95,11 @@ enum class ClosureAdopt : std::uint8_t { kOff, kReport, kAuto };
 
 struct ClosureConfig {
   ClosureAdopt adopt = ClosureAdopt::kReport;
-  double window_s = 120.0;  // of the newest tracks that are looked at
+  double window_s = 120.0;  // window of newest tracks that are analysed
   int points_per_region = 12;
-  double period_s = 60.0;   // of stream time between two reports
-  double least_px = 0.005;  // rms over the points: what is smaller is not told
-  double delay_s = 30.0;    // from the last frame of a report to the first that it may change
+  double period_s = 60.0;   // stream time between two reports
+  double least_px = 0.005;  // smallest effect reported: rms point displacement
+  double delay_s = 30.0;    // from the last frame of a report to the first it corrects
 };
 
 struct TelemetryConfig {
@@ -110,8 +110,8 @@ struct TelemetryConfig {
   int tracks_every = 25;  // publish the tracks of every n-th frame; 0 = never
   int displacement_every = 1;
   double max_kbit_s = 0.0;        // over the network; 0 = no limit
-  double preview_period_s = 1.0;  // of stream time between two small pictures; 0 = none
-  int preview_px = 320;           // long side of one, at most
+  double preview_period_s = 1.0;  // stream time between two preview images; 0 = none
+  int preview_px = 320;           // largest long side of a preview image
 };
 
 struct ReportConfig {
@@ -121,12 +121,12 @@ struct ReportConfig {
 
 struct RecordConfig {
   std::string directory;  // LCM event logs of the run, to be replayed; empty = none
-  int file_mb = 512;      // a file that has grown to this is followed by another one
-  int quota_mb = 8192;    // of all records there; the oldest runs make room
+  int file_mb = 512;      // size at which the next file begins
+  int quota_mb = 8192;    // of all records there; the oldest runs are deleted
 };
 
 struct StateConfig {
-  std::string directory;  // where the run's state is kept; empty = nowhere
+  std::string directory;  // for checkpoints; empty = none
   double period_s = 60.0;
 };
 
@@ -135,8 +135,8 @@ struct RtConfig {
   int priority = 0;       // SCHED_FIFO priority of capture, tracking, spectrum; 0 = ordinary
   int capture_cpu = -1, tracking_cpu = -1, spectrum_cpu = -1;  // pinned there; -1 = any
   bool lock_memory = false;
-  double stall_s = 10.0;      // a step that takes longer is told and no longer feeds the watchdog
-  bool thin_overload = true;  // a live source that is too fast: keep every n-th frame instead of those that find room
+  double stall_s = 10.0;      // a longer step is reported and the watchdog not fed
+  bool thin_overload = true;  // under overload keep every n-th frame, not those that find room
   int frame_slots = 8;
   int sample_slots = 256;
 };

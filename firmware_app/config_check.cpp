@@ -68,12 +68,12 @@ class Checker {
     if (!config_.camera.attitude_file.empty() && !config_.camera.attitude_channel.empty())
       refuse("camera.attitude_channel", config_.camera.attitude_channel, "a file or a channel, not both", "remove one");
     if (config_.scale.only || !config_.scale.adaptive || config_.method == Method::kPaper)
-      refuse(key, value, "where the camera's turns are estimated",
+      refuse(key, value, "if the camera's rotation is estimated",
              "write `scale: {only: false}`, without method: paper");
     if (config_.calibration.file.empty() && !(config_.calibration.fx > 0.0))
-      refuse(key, value, "where a focal length is known", "add a calibration: an angle is no pixel without one");
+      refuse(key, value, "if a focal length is known", "add a calibration, which converts angles to pixels");
     if (config_.camera.attitude_file.empty() && config_.telemetry.lcm_url.empty())
-      refuse(key, value, "where telemetry.lcm_url names a network", "set telemetry.lcm_url");
+      refuse(key, value, "if telemetry.lcm_url names a network", "set telemetry.lcm_url");
   }
 
   void check_record() const {
@@ -100,14 +100,15 @@ class Checker {
       for (std::string& name : names) {
         if (std::find(taken.begin(), taken.end(), name) != taken.end()) {
           refuse(fmt::format("regions.{}.name", i), region.name, "names that no other region or channel has",
-                 fmt::format("`{}` is taken already; rename one", name));
+                 fmt::format("`{}` is already used; rename one", name));
         }
         taken.push_back(std::move(name));
       }
     }
     const auto measured = [](const core::Region& region) { return core::makes_channel(region.role); };
     if (std::none_of(config_.regions.begin(), config_.regions.end(), measured)) {
-      refuse("regions", "only what rests", "1 or more regions with role structure or base", "declare what vibrates");
+      refuse("regions", "only static regions", "1 or more regions with role structure or base",
+             "declare the parts that vibrate");
     }
   }
 
@@ -139,7 +140,7 @@ class Checker {
     }
     if (any && config_.scale.from_px == config_.scale.to_px) {
       refuse("scale.to", fmt::format("[{}]", fmt::join(config_.scale.to_px, ", ")), "a point other than scale.from",
-             "the known length needs two ends");
+             "give the known length two different ends");
     }
     const ScaleConfig& scale = config_.scale;
     if (static_cast<int>(any) + static_cast<int>(!scale.lengths.empty()) + static_cast<int>(!scale.points.empty()) >
@@ -163,7 +164,8 @@ class Checker {
 
   void require_two_ends(const std::string& key, const std::array<double, 5>& row) const {
     if (std::hypot(row[2] - row[0], row[3] - row[1]) >= 2.0) return;
-    refuse(key, fmt::format("[{}]", fmt::join(row, ", ")), "ends 2 px or more apart", "a length needs two ends");
+    refuse(key, fmt::format("[{}]", fmt::join(row, ", ")), "ends 2 px or more apart",
+           "give the length two different ends");
   }
 
   // A depth in metres says something only beside the structure's, which is focal length times scale.

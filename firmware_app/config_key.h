@@ -14,7 +14,7 @@
 
 namespace app {
 
-// One key of the configuration. Reading, checking, --help-config and the canonical text of the hash all come from it.
+// One key of the configuration: the basis of parsing, checking, --help-config and the canonical text of the hash.
 struct ConfigKey {
   std::string path;          // "camera.rate_hz"; members of the list of regions are "regions[].name"
   std::string type;          // "number", "whole number", "text", "true | false", "one of", ...
@@ -22,13 +22,13 @@ struct ConfigKey {
   std::string allowed;       // "1 .. 100", "paper | hovermodal"
   std::string default_text;  // empty = the value of a default AppConfig
   std::string meaning;       // one line
-  // Takes the value into the configuration; `i_region` is used by regions[] keys only. An answer is a refusal: the
+  // Stores the value in the configuration; `i_region` is used by regions[] keys only. A returned text is a refusal: the
   // remedy.
   std::function<std::optional<std::string>(AppConfig&, std::size_t i_region, const drivers::YamlNode&)> set;
   std::function<std::string(AppConfig&, std::size_t i_region)> canonical;  // the value as it would be written
 };
 
-// Where a key's value stands in the configuration.
+// Member of the configuration that holds a key's value.
 template <class T>
 using Field = std::function<T&(AppConfig&, std::size_t i_region)>;
 
@@ -51,7 +51,7 @@ struct NumberRange {
   [[nodiscard]] std::string text() const;
 };
 
-// What a text may hold. `plain`: letters, digits, _ - . only (names end in file columns and message channels).
+// Allowed texts. `plain`: letters, digits, _ - . only (names end in file columns and LCM channels).
 struct TextRule {
   std::size_t min_length = 0;
   std::size_t max_length = 4096;
@@ -70,7 +70,7 @@ struct TextRule {
 [[nodiscard]] ConfigKey text_choice_key(std::string path, Field<std::string> field, std::vector<std::string> choices,
                                         std::string meaning);
 
-// `get` and `put` see the numbers of a list; `ranges` has one entry per number, `n_min` of them must be there.
+// `get` and `put` access the numbers of a list; `ranges` has one entry per number, the first `n_min` are required.
 struct NumberList {
   std::vector<NumberRange> ranges;
   std::size_t n_min;

@@ -32,7 +32,7 @@ ConfigKey rect_key() {
   };
   return with_default(
       numbers_key("regions[].rect", "px", std::move(list), "[x, y, w, h], x and y 0 .. 100000, w and h 1 .. 100000",
-                  "top-left corner and size in the first image"),
+                  "top-left corner and size of the region in the first image"),
       "none; must be given");
 }
 
@@ -42,7 +42,8 @@ ConfigKey axis_key() {
                 "degrees",
                 "u | v | both | -360 .. 360",
                 "u",
-                "direction of the displacement: u right, v down, both, or an angle from u towards v",
+                "image direction in which the displacement of the region is measured: u right, v down, both "
+                "(two channels, NAME.u and NAME.v), or an angle from u towards v",
                 {},
                 {}};
   key.set = [](AppConfig& config, std::size_t i, const YamlNode& node) -> std::optional<std::string> {
@@ -71,27 +72,31 @@ void add_device_keys(std::vector<ConfigKey>& keys) {
   size.get = [](AppConfig& config, std::size_t) {
     return std::vector<double>(config.camera.size_px.begin(), config.camera.size_px.end());
   };
-  keys.push_back(with_default(numbers_key("camera.size", "px", std::move(size), "[w, h], 32 .. 100000",
-                                          "v4l2 and libcamera: image size (hovermodal inspect cameras lists them)"),
-                              "the largest up to 1920 x 1080 that comes at rate_hz"));
+  keys.push_back(
+      with_default(numbers_key("camera.size", "px", std::move(size), "[w, h], 32 .. 100000",
+                               "v4l2 and libcamera: image size (`hovermodal inspect cameras` lists the sizes)"),
+                   "the largest up to 1920 x 1080 that is available at rate_hz"));
   keys.push_back(with_default(text_key("camera.format", at(&A::camera, &CameraConfig::format), {0, 4, true},
                                        "v4l2: pixel format, e.g. GREY, YUYV, MJPG"),
-                              "the one that costs least to read"));
+                              "the format with the lowest conversion cost"));
 }
 
 void add_attitude_keys(std::vector<ConfigKey>& keys) {
   using C = CameraConfig;
-  keys.push_back(with_default(
-      text_key(
-          "camera.attitude_file", at(&A::camera, &C::attitude_file), {},
-          "CSV of the aircraft's or gimbal's attitude on the frames' clock: t_s, and roll_deg, pitch_deg, yaw_deg "
-          "or qw, qx, qy, qz; tells the camera's turns where nothing rests (needs a calibration, scale.only: false)"),
-      "none"));
-  keys.push_back(with_default(text_key("camera.attitude_channel", at(&A::camera, &C::attitude_channel), {0, 63, true},
-                                       "the same live: LCM channel of attitude_t messages, at telemetry.lcm_url"),
-                              "none"));
-  keys.push_back(number_key("camera.attitude_sigma_deg", "deg", at(&A::camera, &C::attitude_sigma_deg), {1e-4, 45},
-                            "standard deviation of one sample about each axis; slow drift is not meant"));
+  keys.push_back(
+      with_default(text_key("camera.attitude_file", at(&A::camera, &C::attitude_file), {},
+                            "CSV file with the attitude of the aircraft or gimbal on the frames' clock: t_s, and "
+                            "roll_deg, pitch_deg, yaw_deg or qw, qx, qy, qz; measures the camera's rotation where no "
+                            "static region is in view (needs a calibration and scale.only: false)"),
+                   "none"));
+  keys.push_back(
+      with_default(text_key("camera.attitude_channel", at(&A::camera, &C::attitude_channel), {0, 63, true},
+                            "the attitude, received live: LCM channel of attitude_t messages, at telemetry.lcm_url"),
+                   "none"));
+  keys.push_back(
+      number_key("camera.attitude_sigma_deg", "deg", at(&A::camera, &C::attitude_sigma_deg), {1e-4, 45},
+                 "standard deviation of the white noise of one attitude sample about each axis, without slow "
+                 "drift"));
   NumberList mount;
   mount.ranges.assign(3, NumberRange{-360, 360});
   mount.n_min = 3;
@@ -102,8 +107,8 @@ void add_attitude_keys(std::vector<ConfigKey>& keys) {
     return std::vector<double>(config.camera.mount_rpy_deg.begin(), config.camera.mount_rpy_deg.end());
   };
   keys.push_back(numbers_key("camera.mount_rpy_deg", "deg", std::move(mount), "[roll, pitch, yaw], -360 .. 360",
-                             "camera against the body whose attitude is told: [0, 0, 0] looks ahead, top up; "
-                             "[0, -90, 0] down; [0, 0, 90] to the right"));
+                             "orientation of the camera relative to the body whose attitude is given: [0, 0, 0] looks "
+                             "ahead, top up; [0, -90, 0] looks down; [0, 0, 90] looks to the right"));
 }
 
 }  // namespace
@@ -115,48 +120,52 @@ void add_camera_keys(std::vector<ConfigKey>& keys) {
                                            {"synthetic", CameraDriver::kSynthetic},
                                            {"v4l2", CameraDriver::kV4l2},
                                            {"libcamera", CameraDriver::kLibcamera}},
-                                          "where frames come from"));
+                                          "source of the frames"));
   keys.push_back(with_default(
       text_key("camera.source", at(&A::camera, &C::source), {},
                "file: a video or an image folder; v4l2: a device, e.g. /dev/video0; libcamera: a camera's name"),
       "none; needed by file; v4l2 and libcamera: the only camera attached"));
   keys.push_back(with_default(number_key("camera.rate_hz", "Hz", at(&A::camera, &C::rate_hz), {1e-3, 1e6},
-                                         "frame rate; set it where a container states a wrong one"),
+                                         "frame rate; set it if the video container states a wrong one"),
                               "the source's own; a device: its highest"));
-  keys.push_back(choice_key<Pace>("camera.pace", at(&A::camera, &C::pace),
-                                  {{"realtime", Pace::kRealtime}, {"as_fast_as_possible", Pace::kAsFastAsPossible}},
-                                  "file and synthetic: as a live camera would (frames may drop), or lossless"));
   keys.push_back(
-      number_key("camera.readout_ms", "ms", at(&A::camera, &C::readout_ms), {-1000, 1000},
-                 "rolling shutter: first to last line along readout_direction; 0 = global shutter or unknown"));
+      choice_key<Pace>("camera.pace", at(&A::camera, &C::pace),
+                       {{"realtime", Pace::kRealtime}, {"as_fast_as_possible", Pace::kAsFastAsPossible}},
+                       "file and synthetic: realtime delivers frames like a live camera (frames may be dropped); "
+                       "as_fast_as_possible is lossless"));
+  keys.push_back(number_key("camera.readout_ms", "ms", at(&A::camera, &C::readout_ms), {-1000, 1000},
+                            "rolling shutter: time from the first to the last line along readout_direction; 0 = global "
+                            "shutter or unknown"));
   keys.push_back(with_default(
-      number_key(
-          "camera.readout_sigma_ms", "ms", at(&A::camera, &C::readout_sigma_ms), {-1, 1000},
-          "standard deviation of readout_ms, which is combined with what the tracks tell; 0 = exact, -1 = chosen"),
+      number_key("camera.readout_sigma_ms", "ms", at(&A::camera, &C::readout_sigma_ms), {-1, 1000},
+                 "standard deviation of readout_ms, which is combined with the readout time estimated from "
+                 "the tracks; 0 = exact, -1 = automatic"),
       "-1: 1 ms, or half a frame where readout_ms is 0"));
   using core::ReadoutDirection;
-  keys.push_back(
-      choice_key<ReadoutDirection>("camera.readout_direction", at(&A::camera, &C::readout_direction),
-                                   {{"down", ReadoutDirection::kDown},
-                                    {"up", ReadoutDirection::kUp},
-                                    {"left", ReadoutDirection::kLeft},
-                                    {"right", ReadoutDirection::kRight}},
-                                   "the way the lines are read, in the image as stored; rotation metadata turns it"));
+  keys.push_back(choice_key<ReadoutDirection>(
+      "camera.readout_direction", at(&A::camera, &C::readout_direction),
+      {{"down", ReadoutDirection::kDown},
+       {"up", ReadoutDirection::kUp},
+       {"left", ReadoutDirection::kLeft},
+       {"right", ReadoutDirection::kRight}},
+      "direction in which the lines are read, in the image as stored; rotation metadata of the "
+      "video rotates it"));
   keys.push_back(number_key("camera.exposure_ms", "ms", at(&A::camera, &C::exposure_ms), {0, 10000},
-                            "exposure time; 0 = unknown, or what a device's automatic exposure finds and keeps"));
+                            "exposure time; 0 = unknown; devices: automatic exposure, then locked"));
   add_device_keys(keys);
   add_attitude_keys(keys);
   keys.push_back(number_key("camera.synthetic.duration_s", "s", at(&A::camera, &C::synthetic_duration_s), {0.1, 21600},
-                            "length of the synthetic record"));
+                            "duration of the synthetic record"));
   keys.push_back(seed_key("camera.synthetic.seed", at(&A::camera, &C::synthetic_seed),
-                          "seed of the synthetic record's motion and noise"));
+                          "seed of the random motion and noise of the synthetic record"));
 }
 
 void add_calibration_keys(std::vector<ConfigKey>& keys) {
   using C = CalibrationConfig;
-  keys.push_back(with_default(text_key("calibration.file", at(&A::calibration, &C::file), {},
-                                       "Kalibr, OpenCV or ROS YAML; instead of the values below"),
-                              "none"));
+  keys.push_back(
+      with_default(text_key("calibration.file", at(&A::calibration, &C::file), {},
+                            "calibration file of Kalibr, OpenCV or ROS (YAML), in place of the values below"),
+                   "none"));
   const std::pair<const char*, double C::*> intrinsics[] = {
       {"fx", &C::fx}, {"fy", &C::fy}, {"cx", &C::cx}, {"cy", &C::cy}};
   for (const auto& [name, member] : intrinsics) {
@@ -170,7 +179,8 @@ void add_calibration_keys(std::vector<ConfigKey>& keys) {
   keys.push_back(choice_key<core::LensModel>(
       "calibration.model", at(&A::calibration, &C::model),
       {{"radtan", core::LensModel::kRadialTangential}, {"equidistant", core::LensModel::kEquidistant}},
-      "what `distortion` below means; equidistant: a fisheye"));
+      "distortion model of `distortion` below: radtan (radial-tangential) or equidistant (fisheye "
+      "lenses)"));
   NumberList distortion;
   distortion.ranges.assign(8, NumberRange{-1e5, 1e5});
   distortion.n_min = 4;
@@ -183,23 +193,26 @@ void add_calibration_keys(std::vector<ConfigKey>& keys) {
   };
   keys.push_back(numbers_key("calibration.distortion", "", std::move(distortion),
                              "[k1, k2, p1, p2], and k3, and k4 k5 k6 (rational); equidistant: [k1, k2, k3, k4]",
-                             "coefficients of the distortion, as OpenCV orders them"));
+                             "distortion coefficients in the order of OpenCV"));
 }
 
 void add_region_keys(std::vector<ConfigKey>& keys) {
-  keys.push_back(with_default(text_key("regions[].name", at(&core::Region::name), {1, 32, true},
-                                       "name of the region; also of its channel (with axis both: NAME.u and NAME.v)"),
-                              "none; must be given"));
+  keys.push_back(
+      with_default(text_key("regions[].name", at(&core::Region::name), {1, 32, true},
+                            "name of the region and of its channel (with axis both: channels NAME.u and NAME.v)"),
+                   "none; must be given"));
   keys.push_back(rect_key());
   std::vector<std::pair<std::string, core::RegionRole>> roles;
   for (const auto& [role, name] : core::kRoleNames) roles.emplace_back(name, role);
-  keys.push_back(choice_key<core::RegionRole>("regions[].role", at(&core::Region::role), std::move(roles),
-                                              "base: moves with the ground of the structure; background: rests, "
-                                              "elsewhere; ground: rests, in the structure's plane"));
+  keys.push_back(choice_key<core::RegionRole>(
+      "regions[].role", at(&core::Region::role), std::move(roles),
+      "structure: a part whose modes are measured; base: moves with the ground under the structure "
+      "(measured input); background: static, elsewhere; ground: static, in the structure's plane"));
   keys.push_back(axis_key());
   add_region_length_key(keys);
   keys.push_back(number_key("regions[].depth_m", "m", at(&core::Region::depth_m), {0, 1e6},
-                            "background: its distance along the optical axis; 0 = unknown, taken as far away"));
+                            "background only: distance of the region along the optical axis; 0 = unknown, treated as "
+                            "infinitely far"));
 }
 
 }  // namespace app

@@ -41,18 +41,18 @@ ConfigKey table_key(std::string path, std::string unit, std::vector<std::array<d
 }
 
 ConfigKey lengths_key() {
-  return table_key<5>(
-      "scale.lengths", "px, mm", &ScaleConfig::lengths, {kPixel, kPixel, kPixel, kPixel, kLength}, 1,
-      "[[u1, v1, u2, v2, mm], ...], pixels 0 .. 100000",
-      "several known lengths in the first image, in place of known_length_mm: one scale by least squares");
+  return table_key<5>("scale.lengths", "px, mm", &ScaleConfig::lengths, {kPixel, kPixel, kPixel, kPixel, kLength}, 1,
+                      "[[u1, v1, u2, v2, mm], ...], pixels 0 .. 100000",
+                      "several known lengths in the first image, in place of known_length_mm; one scale is fitted "
+                      "by least squares");
 }
 
 ConfigKey points_key() {
   constexpr NumberRange kPlace{-kMaxLengthMm, kMaxLengthMm};
   return table_key<4>("scale.points", "px, mm", &ScaleConfig::points, {kPixel, kPixel, kPlace, kPlace}, 4,
                       "[[u, v, x_mm, y_mm], ...], 4 or more, not on one line",
-                      "points of the structure's plane with their places in it: its pose and a scale for every region; "
-                      "needs a calibration");
+                      "points of the structure's plane with their coordinates in that plane; gives the pose of the "
+                      "plane and a scale for every region; needs a calibration");
 }
 
 }  // namespace
@@ -71,33 +71,37 @@ void add_region_length_key(std::vector<ConfigKey>& keys) {
   };
   keys.push_back(with_default(
       numbers_key("regions[].length", "px, mm", std::move(list), "[u1, v1, u2, v2, mm], pixels 0 .. 100000",
-                  "a length known at this region, in the first image: the region's own scale"),
+                  "a known length at this region in the first image; gives the region its own scale"),
       "none: the common scale"));
 }
 
 void add_scale_keys(std::vector<ConfigKey>& keys) {
   using C = ScaleConfig;
   keys.push_back(with_default(number_key("scale.known_length_mm", "mm", at(&A::scale, &C::known_length_mm), {1e-6, 1e9},
-                                         "true distance between the two points `from` and `to`"),
+                                         "true distance between the points `from` and `to`"),
                               "none: displacements in px"));
   keys.push_back(with_default(pair_key("scale.from", "px", at(&A::scale, &C::from_px), {0, kMaxImagePx},
-                                       "one end of the known length in the first image"),
+                                       "first end of the known length in the first image"),
                               "none"));
-  keys.push_back(
-      with_default(pair_key("scale.to", "px", at(&A::scale, &C::to_px), {0, kMaxImagePx}, "its other end"), "none"));
+  keys.push_back(with_default(pair_key("scale.to", "px", at(&A::scale, &C::to_px), {0, kMaxImagePx},
+                                       "second end of the known length in the first image"),
+                              "none"));
   keys.push_back(lengths_key());
   keys.push_back(points_key());
   keys.push_back(number_key("scale.point_sigma_px", "px", at(&A::scale, &C::point_sigma_px), {0.01, 100},
-                            "how exactly the pixels of `lengths`, `points` and regions' lengths were read"));
-  keys.push_back(number_key("scale.max_obliqueness_deg", "degrees", at(&A::scale, &C::max_obliqueness_deg), {0, 80},
-                            "largest angle between the structure's face and the image plane that you cannot exclude; "
-                            "the report says what it would do to the scale"));
+                            "standard deviation of the pixel coordinates in `lengths`, `points` and regions' lengths"));
+  keys.push_back(
+      number_key("scale.max_obliqueness_deg", "degrees", at(&A::scale, &C::max_obliqueness_deg), {0, 80},
+                 "largest angle between the structure's face and the image plane that you cannot exclude; the "
+                 "report states its effect on the scale"));
   keys.push_back(switch_key("scale.adaptive", at(&A::scale, &C::adaptive),
-                            "follow the camera in every frame; false: it stands on a tripod"));
-  keys.push_back(switch_key(
-      "scale.only", at(&A::scale, &C::only),
-      "follow the distance alone; false: the camera's turning and shifting too, where a focal length is "
-      "known and something rests (role background or ground): for wind; its noise is that of the background"));
+                            "estimate the camera's distance (and motion, see scale.only) in every frame; false: the "
+                            "camera is fixed (tripod)"));
+  keys.push_back(
+      switch_key("scale.only", at(&A::scale, &C::only),
+                 "estimate only the camera's distance; false: also its rotation and translation, if a focal "
+                 "length is known and a static region is in view (role background or ground); recommended in "
+                 "wind; adds the background's noise"));
 }
 
 }  // namespace app

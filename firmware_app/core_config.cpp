@@ -43,22 +43,24 @@ std::string camera_correction(const AppConfig& config, const core::CameraModel& 
   const bool rests = std::any_of(config.regions.begin(), config.regions.end(),
                                  [](const auto& r) { return !core::makes_channel(r.role); });
   if (config.scale.only) {
-    return rests && config.spectrum.witness ? scale + "; what of a mode's shape goes with what rests is the camera's"
-                                            : scale;
+    return rests && config.spectrum.witness
+               ? scale + "; the part of a mode shape that is coherent with a static region is removed as camera motion"
+               : scale;
   }
   const bool told = !config.camera.attitude_file.empty() || !config.camera.attitude_channel.empty();
   if (told && !core::tells_camera_motion(config.regions, camera))
-    return "camera motion per frame from all points and a measured attitude: distance, turns; shifts along the "
-           "channels' axes stay";
+    return "camera motion per frame from all points and a measured attitude: distance, rotation; "
+           "translation along the channels' axes remains";
   if (!core::tells_camera_motion(config.regions, camera)) {
-    return scale + (camera.calibrated() ? "; no region rests (role background or ground): the camera's turns stay"
-                                        : "; no focal length is known: the camera's turns stay");
+    return scale + (camera.calibrated()
+                        ? "; no static region (role background or ground): the camera's rotation remains"
+                        : "; no focal length is known: the camera's rotation remains");
   }
   const bool ground = std::any_of(config.regions.begin(), config.regions.end(),
                                   [](const auto& r) { return r.role == core::RegionRole::kGround; });
   return std::string("camera motion per frame from all points: distance, roll, perspective; ") +
-         (ground ? "shift and turning together, by resting points in the structure's plane"
-                 : "yaw and pitch by the background, shifts as far as its distance is known");
+         (ground ? "translation and rotation together, from static points in the structure's plane"
+                 : "yaw and pitch from the background, translation as far as its distance is known");
 }
 
 }  // namespace
@@ -116,7 +118,8 @@ core::IdentifierConfig identifier_config(const AppConfig& config, const std::vec
   core::IdentifierConfig out;
   for (const std::string& name : i.references) {
     const auto found = std::find_if(channels.begin(), channels.end(), [&](const auto& c) { return c.name == name; });
-    if (found == channels.end()) throw ConfigError(fmt::format("identification.references: '{}' is no channel", name));
+    if (found == channels.end())
+      throw ConfigError(fmt::format("identification.references: '{}' is not a channel", name));
     out.references.push_back(static_cast<int>(found - channels.begin()));
   }
   out.block_rows = i.block_rows;

@@ -11,8 +11,8 @@
 
 namespace app {
 
-// What each core object needs, from the one configuration. The service and the offline tools build them here, so that
-// a replay of tracks is the same chain.
+// Configuration of each core object, from the one AppConfig. Used by the service and the offline tools, so that a
+// replay of tracks is the same chain.
 [[nodiscard]] core::StructureTrackerConfig tracker_config(const AppConfig& config);
 // Reads calibration.file when given; throws ConfigError / FileError, also when it does not fit the image.
 [[nodiscard]] core::ChannelDisplacementConfig displacement_config(const AppConfig& config,
@@ -23,9 +23,9 @@ namespace app {
 [[nodiscard]] core::IdentifierConfig identifier_config(const AppConfig& config,
                                                        const std::vector<core::ChannelInfo>& channels, double rate_hz);
 [[nodiscard]] std::vector<std::string> region_names(const AppConfig& config);
-// The corrections in force, in words, for modal.json.
+// The corrections in force, described for modal.json.
 [[nodiscard]] std::vector<std::string> corrections(const AppConfig& config, const core::CameraInfo& camera);
-// What the result leaves open about scale and obliqueness, in words, for the same.
+// Open questions of scale and obliqueness, described for modal.json.
 [[nodiscard]] std::vector<std::string> caveats(const AppConfig& config, const core::CameraInfo& camera);
 
 }  // namespace app

@@ -43,47 +43,50 @@ void warn_of_regions(core::Health& health) {
     if (region.frames_searching + region.frames_lost == 0) continue;
     const bool is_measured = region.state == core::RegionState::kMeasuring;
     health.warnings.push_back(
-        fmt::format("region '{}' {}: without a measurement in {} frames (searched for in {}, lost in {})", region.name,
+        fmt::format("region '{}' {}: not measured in {} frames (searched for in {}, lost in {})", region.name,
                     is_measured ? "is measured again" : fmt::format("is {} now", core::to_string(region.state)),
                     region.frames_searching + region.frames_lost, region.frames_searching, region.frames_lost));
   }
 }
 
 void warn_of_camera(const drivers::DeviceTrouble& trouble, core::Health& health) {
-  if (trouble.is_lost) health.state = "camera lost: looking for it";
+  if (trouble.is_lost) health.state = "camera lost: searching for it";
   if (trouble.n_interruptions > 0)
     health.warnings.push_back(
-        fmt::format("the camera was lost {} times (unplugged, broken off or silent)", trouble.n_interruptions));
+        fmt::format("the camera was lost {} times (unplugged, disconnected or silent)", trouble.n_interruptions));
   if (trouble.n_damaged > 0)
-    health.warnings.push_back(
-        fmt::format("{} frames came damaged from the camera and were not used", trouble.n_damaged));
+    health.warnings.push_back(fmt::format("{} frames from the camera were damaged and not used", trouble.n_damaged));
   if (trouble.has_no_clock)
     health.warnings.emplace_back(
-        "the camera's time stamps are on no clock of this machine: frames are stamped on arrival, a few ms uneven");
+        "the camera's time stamps do not match any clock of this computer: frames are stamped on "
+        "arrival, with a few ms of jitter");
 }
 
 void warn_of_record(const drivers::RunRecorder* recorder, const TrackingStage& tracking, core::Health& health) {
   const std::uint64_t n = recorder != nullptr ? recorder->n_lost() + tracking.n_records_lost() : 0;
   if (n == 0) return;
-  health.warnings.push_back(fmt::format(
-      "{} frames are not in the record: is the disk slow or full, or record.quota_mb reached? A replay lacks them", n));
+  health.warnings.push_back(
+      fmt::format("{} frames are missing in the run record, and a replay lacks them: is the disk slow or full, "
+                  "or record.quota_mb reached?",
+                  n));
 }
 
 void warn_of_attitude(const drivers::AttitudeListener* listener, const TrackingStage& tracking, core::Health& health) {
   const auto counts = listener != nullptr ? listener->counts() : drivers::AttitudeListener::Counts{};
   if (counts.undecodable + counts.dropped > 0) {
-    health.warnings.push_back(fmt::format(
-        "camera.attitude_channel: {} messages are no attitude, {} came faster than they were used, {} were taken",
-        counts.undecodable, counts.dropped, counts.received));
+    health.warnings.push_back(
+        fmt::format("camera.attitude_channel: {} messages are not an attitude, {} were dropped because they "
+                    "arrived faster than they were used, {} were accepted",
+                    counts.undecodable, counts.dropped, counts.received));
   }
   if (tracking.attitude_given_up()) {
     health.warnings.emplace_back(
-        "the picture contradicts the attitude, which is not used since: is camera.mount_rpy_deg right, are both on one "
-        "clock, is camera.attitude_sigma_deg large enough?");
+        "the image motion contradicts the attitude, which is no longer used: is camera.mount_rpy_deg "
+        "right, are both on one clock, is camera.attitude_sigma_deg large enough?");
   }
   if (const std::uint64_t n = tracking.n_without_attitude(); n > 0) {
     health.warnings.push_back(
-        fmt::format("no attitude within 0.25 s of {} frames ({} had one)", n, tracking.n_with_attitude()));
+        fmt::format("{} frames have no attitude within 0.25 s ({} frames have one)", n, tracking.n_with_attitude()));
   }
 }
 
@@ -113,17 +116,19 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
   }
   if (camera_ != nullptr) warn_of_camera(camera_->trouble(), health);
   if (thinning.stride > 1) {
-    health.warnings.push_back(fmt::format(
-        "overload: every {}th frame is kept since frame {}, {:.4g} frames a second; spectra and folds began "
-        "anew there",
-        thinning.stride, thinning.first_sequence, health.rate_hz));
+    health.warnings.push_back(
+        fmt::format("overload: only every {}th frame is kept since frame {}, {:.4g} frames/s; spectra and alias "
+                    "orders were restarted there",
+                    thinning.stride, thinning.first_sequence, health.rate_hz));
   }
   if (const std::uint64_t n = tracking_.n_failed_frames(); n > 0) {
-    health.warnings.push_back(fmt::format("the tracker itself failed on {} frames: they have no points", n));
+    health.warnings.push_back(fmt::format("the tracker failed on {} frames: they have no points", n));
   }
   if (const std::uint32_t n = tracking_.n_reseeded(); n > 0) {
-    health.warnings.push_back(fmt::format(
-        "{} points were lost for good and are tracked by what is now at their places, their datum kept", n));
+    health.warnings.push_back(
+        fmt::format("{} lost points were re-seeded at their original positions; the reference position is "
+                    "unchanged",
+                    n));
   }
   health.regions = tracking_.regions();
   for (std::size_t r = 0; r < health.regions.size() && r < region_names_.size(); ++r) {
@@ -132,19 +137,21 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
   warn_of_regions(health);
   if (tracking_.camera_given_up()) {
     health.warnings.emplace_back(
-        "most points contradict the camera's motion: does what is declared to rest (role background or ground) move? "
-        "Only the scale is followed since");
+        "most points contradict the estimated camera motion: does a region declared static (role "
+        "background or ground) move? Only the scale is estimated since then");
   }
   if (const std::string failure = checkpoint_ != nullptr ? checkpoint_->failure() : ""; !failure.empty())
-    health.warnings.push_back("the run's state could not be kept: " + failure);
+    health.warnings.push_back("the checkpoint could not be kept: " + failure);
   warn_of_record(recorder_, tracking_, health);
   warn_of_attitude(listener_, tracking_, health);
   if (const std::uint64_t n = tracking_.n_previews_lost(); n > 0) {
-    health.warnings.push_back(fmt::format("{} pictures for the ground were not sent: newer ones came before", n));
+    health.warnings.push_back(fmt::format("{} preview images were not sent: newer ones replaced them", n));
   }
   if (const double jitter = spectrum_.worst_jitter_cells(); jitter > kJitterWorthAWord) {
-    health.warnings.push_back(fmt::format(
-        "time stamps stray by up to {:.2f} of a frame from even spacing; spectra take them as even", jitter));
+    health.warnings.push_back(
+        fmt::format("time stamps deviate by up to {:.2f} of a frame from even spacing; spectra assume even "
+                    "spacing",
+                    jitter));
   }
   for (const Queue& queue : queues_) {
     health.stages.push_back(stage_health(queue, rt::monotonic_ns()));

@@ -41,7 +41,7 @@ class HealthCollector {
   void warn(std::string warning);
 
   [[nodiscard]] core::Health collect(const drivers::Publisher& publisher) const;
-  // "stage tracking: one step has taken 3.2 s"; empty: every stage goes on.
+  // "stage tracking: one step has taken 3.2 s"; empty: all stages run.
   [[nodiscard]] std::string stall() const;
 
  private:
@@ -51,8 +51,8 @@ class HealthCollector {
   const SpectrumStage& spectrum_;
   const drivers::Camera* camera_ = nullptr;
   const drivers::RunRecorder* recorder_ = nullptr;       // null: the run is not recorded
-  const drivers::AttitudeListener* listener_ = nullptr;  // null: no attitude comes live
-  const CheckpointStage* checkpoint_ = nullptr;          // null: no state is kept
+  const drivers::AttitudeListener* listener_ = nullptr;  // null: no live attitude
+  const CheckpointStage* checkpoint_ = nullptr;          // null: no checkpoints
   std::vector<Queue> queues_;
   std::vector<std::string> region_names_;
   mutable std::mutex warnings_mutex_;

@@ -66,10 +66,10 @@ KeyframeRead read_keyframe(const std::string& path, std::uint64_t config_hash, c
     return {{}, "the keyframe in " + path + ": " + e.what()};
   }
   const auto n_pixels = static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
-  if (hash != config_hash) return {{}, "the keyframe's configuration was another one"};
+  if (hash != config_hash) return {{}, "the keyframe's configuration was different"};
   if (kept.image.width_px != camera.width_px || kept.image.height_px != camera.height_px ||
       kept.image.pixels.size() != n_pixels)
-    return {{}, "the keyframe's image is of another size"};
+    return {{}, "the keyframe's image has a different size"};
   if (!makes_sense(kept.points, camera, n_regions)) return {{}, "the keyframe's points do not belong to the regions"};
   return {std::move(kept), {}};
 }

@@ -10,8 +10,8 @@
 
 namespace app {
 
-// What displacements are measured from, kept beside the run's state: it does not change over a run, so it is written
-// once. A checkpoint file (drivers/storage/checkpoint_file.h): whole or refused.
+// The keyframe (reference of all displacements), kept beside the run's checkpoint: constant over a run, written once. A
+// checkpoint file (drivers/storage/checkpoint_file.h): whole or refused.
 struct KeptKeyframe {
   core::Frame image;
   core::TrackFrame points;
@@ -19,13 +19,13 @@ struct KeptKeyframe {
 
 struct KeyframeRead {
   std::optional<KeptKeyframe> keyframe;
-  std::string refused;  // why the file is not taken; empty: it is, or there is none
+  std::string refused;  // why the file is not used; empty: it is, or there is none
 };
 
 // Empty: done; else why not.
 [[nodiscard]] std::string write_keyframe(const std::string& path, std::uint64_t config_hash, const core::Frame& image,
                                          const core::TrackFrame& points);
-// Refused: damaged, of another configuration or image size, or senseless.
+// Refused: damaged, of another configuration or image size, or inconsistent.
 [[nodiscard]] KeyframeRead read_keyframe(const std::string& path, std::uint64_t config_hash,
                                          const core::CameraInfo& camera, std::size_t n_regions);
 

@@ -7,10 +7,10 @@
 
 namespace app {
 
-// The first frame as a record keeps it, for the report's pictures: a gray JPEG. Empty where there is no image.
+// The first frame in a run record, for the report's pictures: a gray JPEG. Empty if there is no image.
 [[nodiscard]] std::string keyframe_jpeg(const core::Frame& image);
 
-// Nothing where the bytes are no JPEG of the camera's size.
+// Empty if the bytes are not a JPEG of the camera's size.
 [[nodiscard]] std::optional<core::Frame> keyframe_of(const std::string& jpeg, const core::CameraInfo& camera);
 
 }  // namespace app

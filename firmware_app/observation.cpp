@@ -14,8 +14,8 @@ core::CameraModel calibrated_camera(const AppConfig& config, const core::CameraI
   core::CameraModel model{c.fx, c.fy, c.cx, c.cy, c.distortion, c.model};
   if (model.calibrated()) return model;
   warnings.push_back(
-      fmt::format("no calibration: the focal length is taken to be the image's width, {} px; angles and lens "
-                  "coefficients are in units of that",
+      fmt::format("no calibration: the focal length is assumed to equal the image's width, {} px; angles and "
+                  "lens coefficients are in units of it",
                   camera.width_px));
   model = {};
   model.fx = model.fy = camera.width_px;

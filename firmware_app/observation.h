@@ -12,22 +12,22 @@
 
 namespace app {
 
-// What closing the loop on tracks is told of a run: all but its points and frames.
+// Declarations of a run for residual diagnosis on tracks: all but its points and frames.
 struct DeclaredObservation {
   core::closure::ObservationRecord record;
   core::CameraModel camera;
-  std::vector<std::string> warnings;  // what was assumed
+  std::vector<std::string> warnings;  // assumptions made
 };
 
-// Which of a run's points are looked at: so many of each region, evenly over its points.
+// Points of a run that are analysed: a number per region, evenly over its points.
 struct ObservedPoints {
-  std::vector<int> column_of_point;  // -1: not looked at
+  std::vector<int> column_of_point;  // -1: not analysed
   std::vector<std::size_t> region_of_column;
 };
 [[nodiscard]] ObservedPoints observed_points(const core::TrackFrame& keyframe, std::size_t n_regions,
                                              int points_per_region);
 
-// The configuration's word goes before the camera's. Throws drivers::FileError of a calibration file.
+// The configuration takes precedence over the camera. Throws drivers::FileError of a calibration file.
 [[nodiscard]] DeclaredObservation declared_observation(const AppConfig& config, const core::CameraInfo& camera);
 
 }  // namespace app

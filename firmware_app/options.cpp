@@ -9,8 +9,8 @@ namespace app {
 
 Options parse_options(int argc, char** argv) {
   CLI::App cli{
-      "hovermodald: natural frequencies, damping and mode shapes of a structure, seen through a camera, while it "
-      "hovers.\n\n"
+      "hovermodald: natural frequencies, damping and mode shapes of a structure, from the video of a hovering camera, "
+      "in flight.\n\n"
       "  hovermodald --config flight.yaml                     run until the source ends or Ctrl-C\n"
       "  hovermodald --config flight.yaml --report out        also leave modal.json, displacements.csv, tracks.csv\n"
       "  hovermodald --config flight.yaml --check             validate configuration and source, run nothing\n"
@@ -21,13 +21,13 @@ Options parse_options(int argc, char** argv) {
   Options options;
   std::string report;
   bool help_config = false;
-  cli.add_option("--config", options.config_path, "Configuration file (YAML); --help-config tells every key")
+  cli.add_option("--config", options.config_path, "Configuration file (YAML); --help-config explains every key")
       ->type_name("FILE");
   cli.add_option("--set", options.overrides, "Override one key, after the file; may be repeated")
       ->type_name("section.key=value")
       ->take_all();
   cli.add_option("--report", report, "Folder for modal.json, displacements.csv and tracks.csv")->type_name("DIR");
-  cli.add_flag("--check", options.check_only, "Validate the configuration and look at the source, without running");
+  cli.add_flag("--check", options.check_only, "Validate the configuration and check the source, without running");
   cli.add_flag("--help-config", help_config, "Every key of the configuration: unit, default, range, meaning");
   cli.set_version_flag("--version", "hovermodald " HOVERMODAL_VERSION);
   try {

@@ -76,7 +76,7 @@ void Progress::print_stall() {
   if (stalled_) {
     spdlog::error("stalled: {}", stall);
   } else {
-    spdlog::info("every stage goes on again");
+    spdlog::info("all stages run again");
   }
 }
 

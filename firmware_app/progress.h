@@ -9,23 +9,23 @@
 
 namespace app {
 
-// SIGINT and SIGTERM, blocked for the whole process and asked for by the main thread. Construct before any thread.
+// SIGINT and SIGTERM, blocked for the whole process and polled by the main thread. Construct before any thread.
 class SignalWatch {
  public:
   SignalWatch();
-  // Waits up to 50 ms for a signal: the main thread's pace.
+  // Waits up to 50 ms for a signal: sets the main thread's pace.
   [[nodiscard]] bool stop_requested() const noexcept;
 
  private:
   sigset_t signals_{};
 };
 
-// What the person at the terminal sees: source and channels, a line now and then, the modes at the end. Main thread.
+// Terminal output: source and channels, a line now and then, the modes at the end. Main thread.
 class Progress {
  public:
   explicit Progress(Pipeline& pipeline);
-  void started();   // says what start() had to do without
-  void stopping();  // the stop was asked for now
+  void started();   // reports what was not available to start()
+  void stopping();  // the stop was requested now
   void tick();
   // Prints the result; true when the run ended without fault.
   [[nodiscard]] bool finish(const Pipeline::Outcome& outcome);
@@ -36,7 +36,7 @@ class Progress {
   Pipeline& pipeline_;
   std::int64_t start_ns_;
   std::int64_t next_line_ns_;
-  std::int64_t stop_ns_ = 0;       // 0: not asked for
+  std::int64_t stop_ns_ = 0;       // 0: not requested
   std::vector<std::string> told_;  // warnings already printed
   bool stalled_ = false;
 };

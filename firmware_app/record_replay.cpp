@@ -40,10 +40,10 @@ class Record {
   // is_first: of the records that are replayed together.
   void remark(std::vector<std::string>& remarks, bool is_first) const {
     const auto say = [&](const std::string& what) { remarks.push_back(path_ + ": " + what); };
-    if (reader_.starts_late()) say("its first files are missing: the estimate is of what is left");
+    if (reader_.starts_late()) say("its first files are missing: the estimate is based on the remaining files");
     if (reader_.head().continues && is_first && resumed() == nullptr)
-      say("the run went on with the state of one before it, which this replay cannot: give that record too, in front "
-          "of this");
+      say("the run resumed from a state that this replay cannot use: give the record of the earlier run too, before this "
+          "one");
     if (reader_.n_damaged() > 0) say(fmt::format("{} damaged messages were left out", reader_.n_damaged()));
     if (reader_.n_attitudes_left_out() > 0)
       say(fmt::format("{} attitudes are not in the record: the run had them", reader_.n_attitudes_left_out()));

@@ -46,16 +46,16 @@ RunState run_state_of(std::span<const std::uint8_t> bytes) {
 
 std::string why_foreign(const RunState& saved, const RunState& now) {
   if (saved.config_hash != now.config_hash) {
-    return fmt::format("its configuration was another one ({:016x}, now {:016x})", saved.config_hash, now.config_hash);
+    return fmt::format("its configuration was different ({:016x}, now {:016x})", saved.config_hash, now.config_hash);
   }
   if (!(std::abs(saved.rate_hz - now.rate_hz) <= kSameRate * now.rate_hz)) {
-    return fmt::format("its frames came at {:g} Hz, now at {:g} Hz", saved.rate_hz, now.rate_hz);
+    return fmt::format("its frame rate was {:g} Hz and is now {:g} Hz", saved.rate_hz, now.rate_hz);
   }
   core::RecordSums theirs, ours;
   theirs.channels = saved.channels, ours.channels = now.channels;
   if (std::string reason = core::why_not_addable(ours, theirs); !reason.empty()) return reason;
   if (!(std::abs(saved.scale_mm_per_px / now.scale_mm_per_px - 1.0) <= kMostScaleApart)) {
-    return fmt::format("it was taken at {:.4g} mm a pixel, now it is {:.4g}: another view", saved.scale_mm_per_px,
+    return fmt::format("its scale was {:.4g} mm per pixel and is now {:.4g}: another view", saved.scale_mm_per_px,
                        now.scale_mm_per_px);
   }
   return {};

@@ -9,7 +9,7 @@
 
 namespace app {
 
-// What the state or the record of another run must agree with; no boot, no sums.
+// Properties that the checkpoint or record of another run must share; no boot, no sums.
 [[nodiscard]] RunState run_view(const AppConfig& config, const core::CameraInfo& camera,
                                 const std::vector<core::ChannelInfo>& channels);
 

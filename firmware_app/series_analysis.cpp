@@ -19,7 +19,7 @@ namespace app {
 namespace {
 
 constexpr std::size_t kSamplesPerReport = 1 << 17;
-// Of the free decay's time constant 1 / (zeta w): a shorter segment biases the damping (ARCHITECTURE.md).
+// Of the free decay's time constant 1 / (zeta w): a shorter segment biases the damping (core/spectrum/METHOD.md).
 constexpr double kLeastSegmentDecays = 1.5;
 
 struct SeriesSpectra {
@@ -148,7 +148,8 @@ SeriesResult identify_series(const ChannelSeries& given, const SeriesOptions& op
   result.estimate.final = true;
   result.channels = series.channels;
   if (series.channels.size() == 1)
-    result.remarks.push_back("one channel has no shape: nothing tells a mode from a line of the input");
+    result.remarks.push_back(
+        "one channel has no shape: a mode cannot be distinguished from a spectral line of the input");
   remark_on_segment(result);
   const int base = base_channel(series.channels);
   const double top_hz = identifier.edge_hz > 0.0 ? identifier.edge_hz : series.rate_hz / 2.0;

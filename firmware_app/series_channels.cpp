@@ -109,7 +109,7 @@ int decimate_to(ChannelSeries& series, double max_frequency_hz, std::vector<std:
   const core::Decimator decimator(factor);
   for (auto& values : series.value) values = decimator.decimate(values);
   const double rate_hz = series.rate_hz / factor;
-  remarks.push_back(fmt::format("decimated by {}: {:g} -> {:g} Hz, poles above {:.4g} Hz are not judged", factor,
+  remarks.push_back(fmt::format("decimated by {}: {:g} -> {:g} Hz, poles above {:.4g} Hz are not evaluated", factor,
                                 series.rate_hz, rate_hz, core::Decimator::kPassband * rate_hz));
   series.rate_hz = rate_hz;
   return factor;

@@ -7,11 +7,11 @@
 
 namespace app {
 
-// What a record must be freed of before its spectra mean something. All add what they did to `remarks`.
+// Preparation of a record for spectra. Each function adds what it did to `remarks`.
 
-// Leaves out channels that have no sample, do not move (all values equal but for rounding), or equal another channel
-// or a multiple of one; `references` follow. Throws std::invalid_argument when no channel is left, or no reference of
-// those that were asked for.
+// Excludes channels that have no sample, do not move (all values equal but for rounding), or equal another channel or a
+// multiple of one; `references` are adapted. Throws std::invalid_argument when no channel is left, or none of the
+// requested references.
 void leave_out_unusable(ChannelSeries& series, std::vector<int>& references, std::vector<std::string>& remarks);
 
 // Decimates so that max_frequency_hz (0: nothing is done) stays in the passband; returns the factor.

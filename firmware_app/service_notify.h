@@ -5,9 +5,9 @@
 
 namespace app {
 
-// What the service manager (systemd, Type=notify) is told: ready, a line of status, still alive, stopping. The watchdog
-// is fed only while every stage goes on, so that a hung stage ends in a restart. Without a service manager
-// (NOTIFY_SOCKET unset), or built without libsystemd, nothing is sent. Main thread.
+// Notifies the service manager (systemd, Type=notify): ready, a line of status, still alive, stopping. The watchdog is
+// fed only while all stages run, so that a hung stage causes a restart. Without a service manager (NOTIFY_SOCKET
+// unset), or built without libsystemd, nothing is sent. Main thread.
 class ServiceNotify {
  public:
   ServiceNotify();
@@ -17,7 +17,7 @@ class ServiceNotify {
   void tick(const std::string& stall);
   void stopping() const;
 
-  [[nodiscard]] std::int64_t feed_period_ns() const noexcept { return feed_period_ns_; }  // 0 = no watchdog asked for
+  [[nodiscard]] std::int64_t feed_period_ns() const noexcept { return feed_period_ns_; }  // 0 = no watchdog requested
 
  private:
   std::int64_t feed_period_ns_ = 0;

@@ -79,9 +79,9 @@ class ScaleReader {
     // Three standard deviations per degree of freedom: beyond, reading errors do not explain it.
     if (fit.chi_square > 9.0 * static_cast<double>(lengths.size() - 1)) {
       out_.notes.push_back(
-          fmt::format("the lengths disagree: number {} gives a scale {:+.1f} % off the others'; is it in the "
-                      "structure's plane, or is "
-                      "the view oblique? scale.points or a length per region would take care of that",
+          fmt::format("the lengths disagree: number {} gives a scale {:+.1f} % different from the others; is it in "
+                      "the structure's plane, or is the view oblique? scale.points or a length per region would "
+                      "correct that",
                       fit.worst + 1, 100.0 * fit.worst_share));
     }
   }
@@ -140,9 +140,8 @@ class ScaleReader {
         1e-3 * fit.pose.distance_mm()));
     if (fit.other) {
       out_.notes.push_back(
-          fmt::format("the points do not exclude a plane that leans the other way ({:.1f} degrees); seen from this far "
-                      "the two look "
-                      "alike, and their scales nearly agree",
+          fmt::format("the points do not exclude a plane tilted the other way ({:.1f} degrees); at this distance "
+                      "both appear alike, and their scales nearly agree",
                       fit.other->obliqueness_deg()));
     }
   }
@@ -154,8 +153,8 @@ class ScaleReader {
         const auto place = out_.plane->place_at(centre(region));
         if (!place) {
           throw ConfigError(
-              fmt::format("scale.points: region `{}` lies beyond the horizon of their plane; check the "
-                          "points, or move the region",
+              fmt::format("scale.points: region `{}` is beyond the horizon of their plane; check the points, or move "
+                          "the region",
                           region.name));
         }
         mm_per_px = out_.plane->mm_per_px(*place, direction(region));
@@ -177,21 +176,19 @@ class ScaleReader {
         core::unexcluded_obliqueness(all_, places, camera_, scale_.point_sigma_px, scale_.max_obliqueness_deg);
     if (bound.places.empty()) {
       out_.notes.emplace_back(
-          "whether the structure's plane lies obliquely is not known, and without a calibration not what that would do "
-          "to "
-          "the scale of each region");
+          "the obliqueness of the structure's plane is unknown, and without a calibration so is its "
+          "effect on the scale of each region");
       return;
     }
     double low = 1.0, high = 1.0;
     for (const auto& range : bound.places) low = std::min(low, range.low), high = std::max(high, range.high);
     std::string text = fmt::format(
-        "the known lengths do not exclude a structure that lies {} {:.0f} degrees off the image plane: true scales of "
-        "{:.3f} "
-        ".. {:.3f} of the stated one, and up to {:.1f} % between regions",
+        "the known lengths do not exclude a structure that is {} {:.0f} degrees off the image plane: "
+        "true scales of {:.3f} .. {:.3f} of the stated one, and up to {:.1f} % between regions",
         bound.least_deg > 0.0 ? fmt::format("{:.0f} to", bound.least_deg) : std::string("up to"), bound.largest_deg,
         low, high, 100.0 * (bound.between - 1.0));
     if (bound.largest_deg >= scale_.max_obliqueness_deg) text += " (more was not tried: scale.max_obliqueness_deg)";
-    out_.notes.push_back(text + "; scale.points would tell");
+    out_.notes.push_back(text + "; scale.points would determine it");
   }
 
   const AppConfig& config_;

@@ -10,7 +10,7 @@
 
 namespace app {
 
-// What the configuration says about millimetres in the first image, evaluated.
+// Scale in the first image (mm per px), evaluated from the configuration.
 struct StructureScale {
   double mm_per_px = 1.0;                // common scale, of undistorted px; 1 where no length is known
   double sigma = 0.0;                    // its standard deviation; 0 = unknown
@@ -18,7 +18,7 @@ struct StructureScale {
   std::optional<core::PlanePose> plane;  // with scale.points
   std::vector<double> region_mm_per_px;  // per region, along its axis (both: along u) at its centre: its own length, or
                                          // the plane's local scale, or the common one
-  std::vector<std::string> notes;  // what the report must say: obliqueness found or not excluded, lengths that disagree
+  std::vector<std::string> notes;        // for the report: obliqueness found or not excluded, lengths that disagree
 };
 
 // Throws ConfigError when scale.points determine no plane, or contradict each other, or a region misses the plane.

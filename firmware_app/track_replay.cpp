@@ -69,7 +69,7 @@ class Replay {
     if (analysis_) {
       if (const std::string why = why_foreign(view_, view); !why.empty())
         throw std::invalid_argument(
-            fmt::format("{}: does not go on with the record before it: {}; replay them one by one", source.name, why));
+            fmt::format("{}: does not continue the record before it: {}; replay them one by one", source.name, why));
       next->go_on_from(*analysis_);
     } else {
       if (source.resumed != nullptr && !next->resume(*source.resumed))

@@ -16,8 +16,8 @@ namespace app {
 struct TrackSource {
   const AppConfig& config;
   core::CameraInfo camera;
-  core::TrackFrame keyframe;                           // every point that will come, seen
-  std::string name;                                    // of which only the last part is told
+  core::TrackFrame keyframe;                           // contains every later point, all seen
+  std::string name;                                    // of which only the last part is reported
   std::function<bool(core::RecordedFrame& out)> next;  // points as in the keyframe; false: the end
   const core::Frame* image = nullptr;                  // of the keyframe, for pictures; null: none
   const RunState* resumed = nullptr;  // what the run went on with, where nothing comes before it here; null: nothing
@@ -25,8 +25,8 @@ struct TrackSource {
   std::function<std::optional<core::RunCounts>()> counts = {};
 };
 
-// The runs one after the other, each going on with the sums of those before it; leaves a report when the directory is
-// not empty, with time series where it is one run. Throws std::invalid_argument where a run shows another view.
+// Processes the runs one after the other, each continuing the sums of those before; writes a report if the directory is
+// not empty, with time series for a single run. Throws std::invalid_argument if a run has another view.
 [[nodiscard]] TracksResult replay(const std::vector<TrackSource>& runs, const std::string& report_directory);
 
 }  // namespace app

@@ -107,7 +107,7 @@ ViewSums view_sums_of(std::span<const std::uint8_t> bytes) {
   ViewSums sums;
   std::uint32_t layout = 0;
   in.value(layout);
-  if (layout != kLayout) throw std::runtime_error("they are no sums of this version");
+  if (layout != kLayout) throw std::runtime_error("they are not spectral sums of this version");
   std::vector<std::uint8_t> view;
   in.list(view);
   sums.view = run_state_of(view);

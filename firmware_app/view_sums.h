@@ -13,27 +13,27 @@
 
 namespace app {
 
-// What a run's last estimate is made of, whole: the sums of further runs of the view can be added, and the modes of all
-// identified. Nothing of where it came from; plain values, to be carried from one process to another.
+// Everything that a run's last estimate is computed from: the sums of further runs of the view can be added, and the
+// modes of all identified. Independent of the source; plain values that can be sent between processes.
 struct ViewSums {
-  RunState view;            // what must agree; no configuration hash, which holds the source's name
+  RunState view;            // must agree; no configuration hash, because it includes the source's name
   core::RecordSums record;  // of all channels, witnesses last; row delays as declared
   ReadoutBasis basis;
   core::ReadoutEstimate from_tracks;
 };
 
 [[nodiscard]] std::vector<std::uint8_t> to_bytes(const ViewSums& sums);
-// Throws std::runtime_error: bytes that are no sums.
+// Throws std::runtime_error: the bytes are not spectral sums.
 [[nodiscard]] ViewSums view_sums_of(std::span<const std::uint8_t> bytes);
 
-// The same but for the spectra themselves: small, and enough to be compared.
+// The same without the spectra themselves: small, and sufficient for comparison.
 [[nodiscard]] ViewSums without_sums(const ViewSums& sums);
 
-// Why the sums of `b` may not be added to those of `a`, empty when they may: another view, another way of summing or of
-// identifying. Both with their sums, or both without.
+// Why the sums of `b` may not be added to those of `a`, empty if they may: another view, another method of summing or
+// of identification. Both with their sums, or both without.
 [[nodiscard]] std::string why_other_view(const ViewSums& a, const ViewSums& b);
 
-// The same samples, as far as sums tell: a record beside its own tracks.csv, or a copy.
+// Detects equal samples by their sums: a run record beside its own tracks.csv, or a copy.
 struct SumsFingerprint {
   std::uint64_t n_samples = 0;
   std::vector<double> power;  // of every channel, summed over the bins
@@ -47,7 +47,7 @@ class ViewTotal {
   explicit ViewTotal(std::uint64_t n_segments_of_all);
   // Throws std::invalid_argument where why_other_view() has a reason.
   void add(const ViewSums& sums);
-  // With the readout time as all runs together know it. After the last.
+  // With the readout time estimated from all runs together. After the last.
   [[nodiscard]] core::ModalEstimate identify() const;
 
  private:

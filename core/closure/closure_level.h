@@ -14,15 +14,15 @@ namespace core::closure {
 struct LevelFit {
   double residual_rms = 0.0;
   double noise_floor = 0.0;
-  double heldout = 0.0;     // error on data that the fit did not see; infinite where nothing can be left out
+  double heldout = 0.0;     // error on data excluded from the fit; infinite where nothing can be held out
   bool structured = false;  // is the residual more than noise?
-  std::string words;        // what the test of structure found
+  std::string words;        // result of the test for structure, for a reader
 };
 
-// One level of closing the loop: a model of a record, what may be missing in it, and how a candidate is judged. Adopted
-// effects are its state. A level holds its own record; ids of candidates stay valid until the next adopt() or drop(),
-// those of adopted effects are places in the order of adoption. Nothing here draws at random but surrogate_score(),
-// whose draws depend on the seed alone. One thread.
+// One level of residual diagnosis ("closing the loop": model correction, not SLAM's loop closure): a model of a record,
+// its candidate effects and their scores. State: the adopted effects. A level owns its record. Candidate ids are valid
+// until the next adopt() or drop(); adopted effects are numbered in order of adoption. Only surrogate_score() is
+// random, by its seed. One thread.
 class ClosureLevel {
  public:
   ClosureLevel() = default;
@@ -33,40 +33,40 @@ class ClosureLevel {
   [[nodiscard]] virtual std::string name() const = 0;  // "observation" | "response" | "structure"
   [[nodiscard]] virtual std::string unit() const = 0;  // of residuals and held-out errors
 
-  // Effects that this record cannot show, whatever their size.
+  // Effects that are not observable in this record, whatever their size.
   [[nodiscard]] virtual std::vector<NotObservable> not_observable() const = 0;
 
-  // Effects that may still be adopted: named ones, and latent ones as far as the level knows any.
+  // Effects that may still be adopted: named ones, and latent ones as far as the level supports them.
   [[nodiscard]] virtual std::vector<std::string> candidates() const = 0;
 
   // Fits the model with every adopted effect.
   virtual LevelFit fit() = 0;
 
-  // Each candidate fitted on top of the last fit() and scored on held-out data, in the order of candidates(). Refusals
-  // (immaterial, implausible, a mere projection of another) are the level's.
+  // Fits each candidate on top of the last fit() and scores it on held-out data, in the order of candidates(). The
+  // level sets refusals (immaterial, implausible, projection of another effect).
   [[nodiscard]] virtual std::vector<CandidateScore> score() = 0;
 
-  // The largest score that any candidate reaches on a record of this model without a further effect.
+  // The largest score of any candidate on one surrogate: a record of this model without a further effect.
   [[nodiscard]] virtual double surrogate_score(std::uint64_t seed) = 0;
 
   virtual void adopt(std::size_t candidate) = 0;
-  virtual void drop() = 0;  // takes the last adoption back
+  virtual void drop() = 0;  // reverts the last adoption
 
-  // Of an adopted effect, after the last fit().
+  // Parameters of an adopted effect, after the last fit().
   [[nodiscard]] virtual std::vector<ParameterValue> parameters(std::size_t adopted) const = 0;
 
-  // Its numbers in other words; a latent effect described. May be empty.
+  // What the parameters imply, e.g. a storey height; for a latent effect, its description. May be empty.
   [[nodiscard]] virtual std::string meaning(std::size_t /*adopted*/) const { return {}; }
 
-  // Candidates that would do as well in the place of an adopted effect: their held-out score lies within the scatter of
-  // its own. `seed` for a level that finds the scatter by surrogates.
+  // Candidates that would explain the data as well in the place of an adopted effect: their held-out score is within
+  // its uncertainty. `seed`: for levels that estimate that uncertainty from surrogates.
   [[nodiscard]] virtual std::vector<std::string> rivals(std::size_t adopted, std::uint64_t seed) = 0;
 
-  // Of the last fit().
+  // Results of the last fit().
   [[nodiscard]] virtual std::vector<ClosureMode> modes() const = 0;
   [[nodiscard]] virtual std::optional<double> reference_error() const = 0;
   [[nodiscard]] virtual std::string reference_unit() const { return unit(); }  // of reference_error()
-  [[nodiscard]] virtual std::string describe_residual() const = 0;             // of what is left: where, how much
+  [[nodiscard]] virtual std::string describe_residual() const = 0;             // of the last fit: where, how much
 };
 
 }  // namespace core::closure

@@ -44,7 +44,7 @@ class Loop {
 
   bool step() {
     if (!fit_.structured) return stop(fit_.words);
-    if (result_.steps.size() >= options_.max_steps) return stop("as many effects as were allowed are adopted");
+    if (result_.steps.size() >= options_.max_steps) return stop("the largest allowed number of effects is adopted");
     if (level_.candidates().empty()) return stop("no candidate is left; " + fit_.words);
     tell("scoring the candidates of step " + std::to_string(result_.steps.size() + 1));
     const std::vector<CandidateScore> scores = level_.score();
@@ -54,9 +54,9 @@ class Loop {
     const double threshold = threshold_of_step(scores[best].score);
     if (!(scores[best].score > threshold)) {
       for (CandidateScore& score : result_.refused) {
-        if (score.refusal.empty()) score.refusal = "not above what chance reaches";
+        if (score.refusal.empty()) score.refusal = "does not exceed the chance threshold";
       }
-      return stop("the best candidate, " + scores[best].effect + ", is not above what chance reaches");
+      return stop("the best candidate, " + scores[best].effect + ", does not exceed the chance threshold");
     }
     return adopt(scores, best, threshold);
   }
@@ -69,10 +69,12 @@ class Loop {
     const double reached = before.heldout * before.heldout - fit_.heldout * fit_.heldout;
     const bool from_nothing = std::isinf(before.heldout) && std::isfinite(fit_.heldout);
     if (!from_nothing && !(reached > 0.0 && reached >= kKeptOfScore * predicted)) {
-      return take_back(scores[best].effect + " was taken back: the held-out error did not fall when all was refitted");
+      return take_back(scores[best].effect +
+                       " was reverted: the held-out error did not fall when all effects were refitted");
     }
     if (!from_nothing && reached < options_.least_gain * options_.least_gain) {
-      return take_back("the best candidate, " + scores[best].effect + ", takes out less than was asked for");
+      return take_back("the best candidate, " + scores[best].effect +
+                       ", reduces the residual by less than the smallest gain asked for");
     }
     ClosureStep step;
     step.effect = scores[best].effect;
@@ -191,7 +193,7 @@ double chance_threshold(std::vector<double> scores) {
 ClosureResult close_loop(ClosureLevel& level, const ClosureOptions& options) {
   if (options.n_surrogates < 8)
     throw std::invalid_argument("surrogates: " + std::to_string(options.n_surrogates) +
-                                " cannot tell chance; take 333 or more (8 at least)");
+                                " are too few for a chance threshold; use 333 or more (8 at least)");
   return Loop(level, options).run();
 }
 

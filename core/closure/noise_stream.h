@@ -7,7 +7,7 @@
 namespace core::closure {
 
 // Seeded normal numbers for surrogates. The generator is fixed by the standard, the polar method (Marsaglia & Bray
-// 1964) by these lines: the same numbers with every library.
+// 1964) by this code: the same numbers with every standard library.
 class NoiseStream {
  public:
   explicit NoiseStream(std::uint64_t seed) : engine_(seed) {}

@@ -30,7 +30,7 @@ StructureLevel::StructureLevel(structure::DeclaredFrame declared, Reference refe
   structure::validate(declared_, reference_);
   if (check_.size() == 1) {
     if (check_.front().number < 1 || static_cast<std::size_t>(check_.front().number) > declared_.n_storeys)
-      throw std::invalid_argument("the check's mode is none of the frame's");
+      throw std::invalid_argument("a mode of --check is not a mode of the frame");
   } else if (!check_.empty()) {
     structure::validate(declared_, check_);
   }
@@ -73,7 +73,7 @@ LevelFit StructureLevel::fit() {
   out.structured = freedom > 0.0 && fit_.chi2 > structure::chi2_limit(freedom);
   out.words =
       freedom <= 0.0
-          ? "as many parameters as data: nothing is left to test"
+          ? "as many parameters as data: no degrees of freedom left to test"
           : "the residual's chi-square is " + number(fit_.chi2) + " with " + number(freedom) +
                 " degrees of freedom: " + (out.structured ? "more than noise" : "no more than the stated noise");
   return out;

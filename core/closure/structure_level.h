@@ -7,16 +7,16 @@
 
 namespace core::closure {
 
-// The structure level: frequencies (and shapes, where given) of a declared shear frame against reference modes. The
-// unit is percent of frequency. Held out is one mode at a time: its frequency and shape are predicted from the others.
-// Score = drop of the summed squares of those predictions' errors, in units of the reference's variances.
+// Structure level: frequencies (and shapes, where given) of a declared shear frame against reference modes. Unit:
+// percent of frequency. Cross-validation: one mode at a time is held out and predicted from the others. Score = drop of
+// the summed squared prediction errors, in units of the reference's variances.
 class StructureLevel final : public ClosureLevel {
  public:
-  // Published bar: an effect must at least halve the leave-one-out error.
+  // Materiality threshold: an effect must at least halve the leave-one-out error.
   static constexpr double kMaterial = 0.5;
 
-  // Throws std::invalid_argument (core/structure/declared_frame.h). `check`: modes that no fit ever sees; where given,
-  // reference_error() is against them, else it is the leave-one-out error.
+  // Throws std::invalid_argument (core/structure/declared_frame.h). `check`: modes excluded from every fit; if given,
+  // reference_error() refers to them, otherwise it is the leave-one-out error.
   StructureLevel(structure::DeclaredFrame declared, std::vector<structure::ReferenceMode> reference,
                  std::vector<structure::ReferenceMode> check = {});
 

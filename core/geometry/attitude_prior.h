@@ -13,22 +13,22 @@ namespace core {
 
 struct AttitudeConfig {
   double sigma_rad = 1e-3;                  // white noise of a sample, per axis
-  std::array<double, 3> mount_rpy_rad{};    // of the camera against the body: 0 = looks ahead, its top up
-  double delay_s = 0.0;                     // from the start of row 0 to the instant that the motion counts for
-  double most_gap_s = 0.25;                 // samples farther apart, or older, tell nothing in between
-  std::size_t n_kept = 4096;                // of samples that arrive; a whole record is kept whole
+  std::array<double, 3> mount_rpy_rad{};    // of the camera relative to the body: 0 = looks ahead, its top up
+  double delay_s = 0.0;                     // from the start of row 0 to the instant to which the motion refers
+  double most_gap_s = 0.25;                 // no interpolation across longer gaps, no use of older samples
+  std::size_t n_kept = 4096;                // number of received samples kept; a record is kept whole
   std::vector<AttitudeSample> record = {};  // known beforehand
 };
 
-// Attitude as a measurement of the camera's turns. With C(t) = A(t) M^T, A the attitude, M from body to camera axes, a
-// camera turns against the keyframe by
+// Attitude as a measurement of the camera's rotation. With C(t) = A(t) M^T, A the attitude, M from body to camera axes,
+// the camera's rotation relative to the keyframe is
 //     R(w(t)) = C(t)^T C_ref,      C_ref = C(t_1) R(w(t_1)) at the first frame t_1 with an attitude
-// A is interpolated between the samples around the frame's instant (slerp); a frame that is newer than all of them
-// takes the newest, its variance raised by how fast it turned. The datum's error (the noise of that first attitude, a
-// compass that drifts) is the same for all frames around: a bias per axis, a random walk, is learned beside. Given up,
-// and told so, when the picture contradicts it by more than six standard deviations in most frames: a wrong mounting,
-// clocks that differ, or a noise stated too small. One thread; nothing allocates after construction. What is no
-// attitude (NaN, zero, time that stands or runs back) is counted and left out.
+// A is interpolated between the samples around the frame's instant (slerp); a frame newer than all samples uses the
+// newest, with its variance raised by the rate of rotation. The reference's error (the noise of that first attitude, a
+// drifting compass) is common to neighbouring frames: a bias per axis, a random walk, is estimated. The attitude is
+// dropped, and this is reported, if the image contradicts it by more than six standard deviations in most frames: a
+// wrong mounting, different clocks, or a noise stated too small. One thread; nothing allocates after construction.
+// Invalid samples (NaN, zero, time that does not increase) are counted and ignored.
 class AttitudePrior {
  public:
   explicit AttitudePrior(AttitudeConfig config);
@@ -38,7 +38,7 @@ class AttitudePrior {
   void before(CameraMotion& motion, double t_s) noexcept;
   void after(const CameraMotion& motion) noexcept;
 
-  // The camera's turn against the first attitude asked for, and its standard deviation (rad, per axis).
+  // Rotation of the camera relative to the first attitude requested, and its standard deviation (rad, per axis).
   struct Turn {
     Eigen::Quaterniond camera;  // C(t)
     double sigma_rad = 0.0;
@@ -47,7 +47,7 @@ class AttitudePrior {
 
   [[nodiscard]] bool given_up() const noexcept { return given_up_; }
   [[nodiscard]] std::uint64_t n_used() const noexcept { return n_used_; }        // frames
-  [[nodiscard]] std::uint64_t n_without() const noexcept { return n_without_; }  // frames that no sample lies near
+  [[nodiscard]] std::uint64_t n_without() const noexcept { return n_without_; }  // frames without a sample nearby
   [[nodiscard]] std::uint64_t n_refused() const noexcept { return n_refused_; }  // samples
   [[nodiscard]] const Eigen::Vector3d& bias_rad() const noexcept { return bias_rad_; }
 
@@ -66,7 +66,7 @@ class AttitudePrior {
   std::optional<Eigen::Vector3d> measured_;      // of this frame, less the bias
   double sigma_rad_ = 0.0, last_s_ = 0.0;
   Eigen::Vector3d bias_rad_ = Eigen::Vector3d::Zero(), bias_variance_;
-  double contradicted_ = 0.0;  // share of the frames lately
+  double contradicted_ = 0.0;  // share of recent frames
   bool given_up_ = false;
   std::uint64_t n_used_ = 0, n_without_ = 0, n_refused_ = 0;
 };

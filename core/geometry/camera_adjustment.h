@@ -7,14 +7,14 @@
 
 namespace core {
 
-// Where a board lies: board point p (mm) -> rotation * p + translation_mm in camera axes (right, down, ahead).
+// Pose of a board: board point p (mm) -> rotation * p + translation_mm in camera axes (right, down, ahead).
 struct BoardPose {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation_mm = Eigen::Vector3d::Zero();
 };
 
 // Bundle adjustment of one camera and the poses of its boards: Gauss-Newton with step halving on the reprojection
-// error. The poses are eliminated view by view (Schur complement), so that a step costs little beside the sums.
+// error. The poses are eliminated view by view (Schur complement), so the cost of a step is dominated by the sums.
 class CameraAdjustment {
  public:
   CameraAdjustment(const ChessBoard& board, std::vector<BoardView> views, const CameraModel& start);
@@ -23,7 +23,7 @@ class CameraAdjustment {
   [[nodiscard]] const BoardPose& pose(std::size_t i_view) const { return poses_[i_view]; }
   [[nodiscard]] const CameraModel& camera() const noexcept { return camera_; }
 
-  // Fits fx fy cx cy, the first `n_coefficients` and all poses. False when the parameters cannot be told apart.
+  // Fits fx fy cx cy, the first `n_coefficients` and all poses. False if the parameters are not distinguishable.
   bool solve(int n_coefficients);
 
   // After solve().

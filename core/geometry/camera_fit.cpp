@@ -150,8 +150,8 @@ CameraFit fit_camera(const ChessBoard& board, const std::vector<BoardView>& view
                      std::all_of(out.sigma.begin(), out.sigma.end(), [](double s) { return std::isfinite(s); });
   if (!sound) {
     throw std::runtime_error(
-        "calibration: the fit did not settle; film the board tilted by 20 to 40 degrees to all sides, and check the "
-        "number of inner corners");
+        "calibration: the fit did not converge; film the board tilted by 20 to 40 degrees to all "
+        "sides, and check the number of inner corners");
   }
   return out;
 }

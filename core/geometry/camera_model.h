@@ -25,14 +25,14 @@ struct CameraModel {
 
   [[nodiscard]] bool calibrated() const noexcept { return fx > 0.0 && fy > 0.0; }
   [[nodiscard]] bool distorts() const noexcept;
-  // Raw pixel -> the pixel an undistorted camera with the same fx fy cx cy would see. Never an image, only points. NaN
-  // where the lens shows no ray there: outside the circle at which its distortion folds back, or 90 degrees and more
-  // off the axis. Newton's method on the branch that starts at the axis, to 1e-12 of the focal length.
+  // Raw pixel -> the pixel that an undistorted camera with the same fx fy cx cy would see. For points, never for
+  // images. NaN where no ray reaches the pixel: beyond the circle at which the distortion folds back, or 90 degrees and
+  // more off the axis. Newton's method on the branch that starts at the axis, to 1e-12 of the focal length.
   [[nodiscard]] Vector2 undistort(const Vector2& raw_px) const noexcept;
   [[nodiscard]] Vector2 distort(const Vector2& ideal_px) const noexcept;
 };
 
-// Distortion in normalised coordinates (focal length 1) with its derivatives: what the two above are made of.
+// Distortion in normalised coordinates (focal length 1) with its derivatives; used by the two functions above.
 struct LensBend {
   double x = 0.0, y = 0.0;
   double dx_dx = 1.0, dx_dy = 0.0, dy_dx = 0.0, dy_dy = 1.0;

@@ -8,7 +8,7 @@
 
 namespace core {
 
-// By a rotation vector, radians.
+// Rotation by a rotation vector, radians.
 inline Eigen::Quaterniond turn(const Eigen::Vector3d& rotation) {
   const double angle = rotation.norm();
   if (angle < 1e-12)
@@ -16,8 +16,8 @@ inline Eigen::Quaterniond turn(const Eigen::Vector3d& rotation) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation / angle));
 }
 
-// Attitude over time, body to world, from a gyro's rates less a bias: rates are linear between samples, a step turns by
-// their mean.
+// Attitude over time, body to world, from a gyro's rates minus a bias: rates are linear between samples, a step rotates
+// by their mean.
 class GyroAttitude {
  public:
   GyroAttitude(const std::vector<GyroSample>& gyro, const Eigen::Vector3d& bias_rad_s)

@@ -8,7 +8,7 @@
 
 namespace core {
 
-// The likelihood behind gyro_readout.h, and its maximum.
+// The likelihood for gyro_readout.h, and its maximum.
 
 enum GyroUnknown : Eigen::Index { kReadout, kOffset, kFocal, kBias, kAxes = kBias + 3, kGyroUnknowns = kAxes + 3 };
 using GyroVector = Eigen::Matrix<double, kGyroUnknowns, 1>;
@@ -31,7 +31,7 @@ class GyroProblem {
       : pairs_(pairs), gyro_(gyro), config_(config) {}
 
   [[nodiscard]] RestFlows flows(const GyroState& state) const;
-  // Minus log likelihood of the pairs that are (not) held out; fits their shifts.
+  // Minus log likelihood of the pairs that are (not) held out; fits their translations.
   double cost(GyroState& state, const RestFlows& flows, bool held_out = false) const;
   // Levenberg-Marquardt with everything but `held` free; returns the cost.
   double minimise(const std::vector<Eigen::Index>& held, int most_rounds, GyroState& state) const;

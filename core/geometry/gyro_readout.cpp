@@ -80,12 +80,12 @@ void check_gyro_record(const std::vector<FramePair>& pairs, const std::vector<Gy
   }
   const double beyond_s = config.most_offset_s + 0.1;
   if (gyro.size() < 16 || gyro.front().t_s > from_s - beyond_s || gyro.back().t_s < to_s + beyond_s)
-    throw std::invalid_argument("gyro readout: the gyro record does not hold the frames and " +
+    throw std::invalid_argument("gyro readout: the gyro record does not cover the frames and " +
                                 std::to_string(beyond_s) + " s on either side: are both in the same unit and clock?");
   for (std::size_t i = 1; i < gyro.size(); ++i) {
     if (!(gyro[i].t_s > gyro[i - 1].t_s) || !gyro[i].rate_rad_s.allFinite())
       throw std::invalid_argument("gyro readout: gyro sample " + std::to_string(i) +
-                                  ": time does not go on, or a rate is no number");
+                                  ": time does not increase, or a rate is not a number");
   }
 }
 

@@ -9,16 +9,16 @@
 
 namespace core {
 
-// The readout time of a camera that is turned by hand, from what a gyro says and how the picture moves. By rotation
-// alone a point at bearing p_1 in one frame is seen in the next at
+// Readout time of a hand-rotated camera, from a gyro and the image motion. Under pure rotation a point at bearing p_1
+// in one frame is seen in the next at
 //     R G(t_2)^T G(t_1) R^T p_1      t = frame's stamp + T_r x readout fraction of the point + clock offset
-// G the gyro's attitude (rates integrated, less a constant bias), R from gyro axes to camera axes (X right, Y down, Z
-// forward), pinhole of focal length f. Unknown: T_r, clock offset, f where it is not given, bias, R [Karpenko et al.
-// 2011; Jia & Evans 2014]. A camera that is carried also shifts: every pair has its own shift, and a point its own,
-// unknown depth, so that what counts is how far points are from their epipolar lines (rest_flow.h).
-// Start: start_from_turns; then maximum likelihood by Levenberg-Marquardt, the shifts eliminated (Schur complement),
-// the noise of the points estimated with it; from three readouts, the most likely wins. Standard deviations: sandwich
-// over frame pairs, the scores of neighbours going together [Newey & West 1987].
+// G the gyro's attitude (integrated rates minus a constant bias), R from gyro axes to camera axes (X right, Y down, Z
+// forward), pinhole of focal length f. Unknown: T_r, clock offset, f if not given, bias, R [Karpenko et al. 2011; Jia &
+// Evans 2014]. A carried camera also translates: every pair has its own translation, and every point its own unknown
+// depth, so the residual is the distance of points from their epipolar lines (rest_flow.h). Start: start_from_turns;
+// then maximum likelihood by Levenberg-Marquardt, translations eliminated (Schur complement), the points' noise
+// estimated too; of three initial readouts the most likely result is used. Standard deviations: sandwich over frame
+// pairs, with correlated neighbouring scores [Newey & West 1987].
 
 struct GyroSample {
   double t_s = 0.0;
@@ -34,35 +34,35 @@ struct PointPair {
 struct FramePair {
   double from_s = 0.0, to_s = 0.0;  // start of exposure of row 0
   std::vector<PointPair> points;
-  bool held_out = false;  // takes no part in the fit
+  bool held_out = false;  // excluded from the fit
 };
 
 struct GyroReadoutConfig {
   double focal_px = 0.0;  // 0 = unknown
   double cx_px = 0.0, cy_px = 0.0;
   double width_px = 0.0;
-  double most_offset_s = 0.1;  // of the clocks, looked for
+  double most_offset_s = 0.1;  // largest clock offset considered
 };
 
 struct GyroReadout {
   ReadoutValue readout;
   std::array<ReadoutValue, 2> halves;         // from the first and the second half of the record alone
-  double offset_s = 0.0, offset_std_s = 0.0;  // what to add to stamps to be on the gyro's clock
+  double offset_s = 0.0, offset_std_s = 0.0;  // add to stamps to convert them to the gyro's clock
   double focal_px = 0.0, focal_std_px = 0.0;
   Eigen::Vector3d bias_rad_s = Eigen::Vector3d::Zero();
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // R
   double sigma_px = 0.0;                               // of a point, per axis
-  // Of held-out frames: distance of points from their epipolar lines, everything else fitted with a readout of zero;
-  // with the readout. Of the points that lie within 5 sigma_px in one of the two: the others move by themselves.
+  // Held-out frames: distance of points from their epipolar lines, everything else fitted with a readout of zero; and
+  // with the estimated readout. Over points within 5 sigma_px in one of the two: the others move by themselves.
   double rms_without_px = 0.0, rms_with_px = 0.0;
   std::vector<double> pair_rms_without_px, pair_rms_with_px;  // every pair
 };
 
-// Throws std::invalid_argument: fewer than eight pairs with points, or a gyro record that does not hold them.
+// Throws std::invalid_argument: fewer than eight pairs with points, or a gyro record that does not cover them.
 void check_gyro_record(const std::vector<FramePair>& pairs, const std::vector<GyroSample>& gyro,
                        const GyroReadoutConfig& config);
 
-// Throws what check_gyro_record() does, and std::invalid_argument: no turning.
+// Throws what check_gyro_record() does, and std::invalid_argument: the camera does not rotate.
 [[nodiscard]] GyroReadout fit_gyro_readout(const std::vector<FramePair>& pairs, const std::vector<GyroSample>& gyro,
                                            const GyroReadoutConfig& config);
 

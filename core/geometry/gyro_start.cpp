@@ -76,7 +76,7 @@ GyroStart start_from_turns(const std::vector<FramePair>& pairs, const std::vecto
   std::vector<Vector3d> seen, felt(pairs.size());
   for (const FramePair& pair : pairs) seen.push_back(image_rotation(pair, config, focal_px));
   if (!(take_mean(seen) > kLeastTurn_rad))
-    throw std::invalid_argument("gyro readout: the camera hardly turns: shake it about all three axes, faster");
+    throw std::invalid_argument("gyro readout: the camera hardly rotates: rotate it faster, about all three axes");
   const GyroAttitude attitude(gyro, Vector3d::Zero());
   const std::vector<Matrix3d> chips = aligned_axes();
   GyroStart best;

@@ -12,19 +12,19 @@
 
 namespace core {
 
-// Whether the camera's motion can be told from the structure's: a focal length, and something that rests. Without it
-// what a structure does by itself passes for motion of the camera (a bending cantilever's tilt for roll).
+// Whether camera motion is distinguishable from structural motion: needs a focal length and a static region. Otherwise
+// motion of the structure passes for camera motion (a bending cantilever's tilt for roll).
 [[nodiscard]] bool tells_camera_motion(const std::vector<Region>& regions, const CameraModel& camera) noexcept;
 
-// The estimator for what the first frame shows: structure, base and ground in a plane that faces the camera at
-// fx * scale_mm_per_px, or lies as `plane` says, background at its region's depth_m, or far. The
-// camera is calibrated, and something rests (tells_camera_motion).
+// The estimator for the view of the first frame: structure, base and ground in a plane that faces the camera at
+// distance fx * scale_mm_per_px, or has the pose `plane`; background at its region's depth_m, or infinitely far. Needs
+// a calibrated camera and a static region (tells_camera_motion).
 [[nodiscard]] CameraMotion make_camera_motion(const std::vector<Region>& regions, const CameraModel& camera,
                                               const ReadoutModel& readout, double scale_mm_per_px,
                                               const TrackFrame& keyframe,
                                               const std::optional<PlanePose>& plane = std::nullopt);
 
-// Unit vector of the axis that a region moves along (Region::axis_deg).
+// Unit vector of the axis along which a region moves (Region::axis_deg).
 [[nodiscard]] Vector2 axis_of(const Region& region) noexcept;
 
 }  // namespace core

@@ -8,7 +8,7 @@
 
 namespace core {
 
-// A length that is known in the structure's plane, between two pixels.
+// A known length in the structure's plane, between two pixels.
 struct KnownLength {
   Vector2 from_px, to_px;  // ideal (undistorted)
   double length_mm = 0.0;
@@ -22,8 +22,8 @@ struct LengthScale {
   double worst_share = 0.0;  // its own scale over the common one, minus 1
 };
 
-// One scale S of several lengths L_i seen as d_i px: least squares of d_i - L_i / S, every end equally exact (sigma_px
-// per axis), so that long lengths weigh more. Lengths and distances must be positive; none gives mm_per_px 0.
+// One scale S from several lengths L_i seen as d_i px: least squares of d_i - L_i / S, all ends equally accurate
+// (sigma_px per axis), so long lengths weigh more. Lengths and distances must be positive; none gives mm_per_px 0.
 [[nodiscard]] LengthScale fit_length_scale(std::span<const KnownLength> lengths, double sigma_px) noexcept;
 
 // A region, as far as its scale is concerned.
@@ -32,20 +32,20 @@ struct ScaledPlace {
   Vector2 direction{1.0, 0.0};  // unit, in the image: that of its displacement
 };
 
-// What the known lengths leave open about a plane that may lie obliquely.
+// Obliqueness of the plane that the known lengths do not exclude.
 struct ObliquenessBound {
   double least_deg = 0.0, largest_deg = 0.0;  // of the angles to the image plane that the lengths do not exclude
   struct Range {
-    double low = 1.0, high = 1.0;  // true scale over the one scale of all, at this place
+    double low = 1.0, high = 1.0;  // true scale over the common scale, at this place
   };
   std::vector<Range> places;
-  double between = 1.0;  // the largest ratio of two places' scales under one plane: what it does to a mode shape
+  double between = 1.0;  // largest ratio of two places' scales under one plane: the effect on a mode shape
 };
 
 // Tries planes up to `up_to_deg` off the image plane, leaning to all sides: each is placed at the distance that fits
-// the lengths best, and is excluded where it misses them by 6.0 more in chi square than the best (95 % for two angles).
-// One length excludes nothing. The one scale is fit_length_scale's. Needs fx, fy, cx, cy; without a calibration or a
-// length the answer is empty (places is).
+// the lengths best, and is excluded if it misses them by 6.0 more in chi square than the best (95 % for two angles).
+// One length excludes nothing. The common scale is that of fit_length_scale. Needs fx, fy, cx, cy; without a
+// calibration or a length the result is empty (places is).
 [[nodiscard]] ObliquenessBound unexcluded_obliqueness(std::span<const KnownLength> lengths,
                                                       std::span<const ScaledPlace> places, const CameraModel& camera,
                                                       double sigma_px, double up_to_deg);

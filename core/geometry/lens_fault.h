@@ -6,16 +6,16 @@
 
 namespace core {
 
-// Where a distortion folds the image: two rays are seen at one place, and points there cannot be undistorted.
+// Where a distortion folds the image: two rays fall on one pixel, and points there cannot be undistorted.
 struct LensFault {
   Vector2 raw_px;          // the nearest to the axis
   double radius_px = 0.0;  // from the principal point, in the raw image
   double angle_deg = 0.0;  // of its ray off the axis
 };
 
-// Follows rays from the axis outwards in all directions until they leave the image (widened to hold the principal
-// point): the determinant of the distortion's Jacobian must stay positive, which for radial distortion means a radius
-// that rises. Looks no further than 89 degrees off the axis. nullopt: none, or not calibrated.
+// Follows rays from the axis outwards in all directions until they leave the image (widened to include the principal
+// point): the determinant of the distortion's Jacobian must stay positive, i.e. for radial distortion the radius must
+// increase. Stops at 89 degrees off the axis. nullopt: no fault, or not calibrated.
 [[nodiscard]] std::optional<LensFault> lens_fault(const CameraModel& camera, int width_px, int height_px) noexcept;
 
 }  // namespace core

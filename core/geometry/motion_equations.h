@@ -12,12 +12,12 @@
 
 namespace core {
 
-// What the points of a region may do by themselves.
+// Motion that a region's points may have by themselves.
 struct KeyframeRegion {
   enum class Kind : std::uint8_t {
-    kMoving,  // slides along its axes, may turn in its plane: structure, base
-    kStatic,  // rests, at known depths
-    kFar,     // rests, far away (depths not known)
+    kMoving,  // slides along its axes, may rotate in its plane: structure, base
+    kStatic,  // static, at known depths
+    kFar,     // static, far away (depths unknown)
   };
   Kind kind = Kind::kMoving;
   std::array<Eigen::Vector3d, 2> axis{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};  // unit, in the keyframe
@@ -26,7 +26,7 @@ struct KeyframeRegion {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // of its plane
 };
 
-// Motions of a region by itself: no more than this many.
+// Largest number of a region's own motions.
 inline constexpr int kMaxOwn = 5;
 using OwnVector = Eigen::Matrix<double, kMaxOwn, 1>;
 using OwnMatrix = Eigen::Matrix<double, kMaxOwn, kMaxOwn>;
@@ -76,7 +76,7 @@ class MotionEquations {
   // Linearises about `state` and the regions' values. robust: Huber weights. Sets n_used and effect of the regions.
   void build(const MotionStateVector& state, std::span<const MotionPoint> points, std::span<MotionRegion> regions,
              const MotionObservation& seen, bool robust) noexcept;
-  // The regions' values that go with a step of the camera.
+  // Updates the regions' values after a step of the camera.
   void update_own(const MotionVector& step, std::span<MotionRegion> regions) noexcept;
 
   [[nodiscard]] const MotionMatrix& information() const noexcept { return information_; }

@@ -5,8 +5,8 @@
 
 namespace core {
 
-// What is estimated of the camera, against the keyframe: rotation vector w (rad) and translation t (mm) that take
-// keyframe camera coordinates to present ones, and two turns about the middle of what is seen (rad, about x and y).
+// Estimated camera motion relative to the keyframe: rotation vector w (rad) and translation t (mm) that map keyframe
+// camera coordinates to present ones, and two rotations about the middle of the view (rad, about x and y).
 inline constexpr int kMotionSize = 8;
 enum MotionIndex : int {
   kPitch = 0,   // w about x
@@ -15,7 +15,7 @@ enum MotionIndex : int {
   kShiftX = 3,  // t
   kShiftY = 4,
   kShiftZ = 5,
-  kFaceX = 6,  // perspective turn about x, about the middle: see camera_motion.h
+  kFaceX = 6,  // perspective rotation about x, about the middle: see camera_motion.h
   kFaceY = 7
 };
 // Each with its first and second derivative by time: entry d * kMotionSize + i is the d-th derivative of component i.
@@ -26,9 +26,9 @@ using MotionStateVector = Eigen::Matrix<double, kMotionState, 1>;
 using MotionStateMatrix = Eigen::Matrix<double, kMotionState, kMotionState>;
 using MotionMatrix = Eigen::Matrix<double, kMotionSize, kMotionSize>;
 
-// Independent stationary Gaussian processes with the covariance of Matern, nu = 5/2 (power density ~ (1 + (f/fc)^2)^-3,
-// as an aircraft that holds its place moves), in state-space form [Hartikainen & Sarkka 2010]: exact for any step of
-// time. What is never observed keeps the prior's variance. One thread; nothing allocates.
+// Independent stationary Gaussian processes with Matern covariance, nu = 5/2 (power density ~ (1 + (f/fc)^2)^-3, as of
+// an aircraft in position hold), in state-space form [Hartikainen & Sarkka 2010]: exact for any time step. Unobserved
+// components keep the prior's variance. One thread; nothing allocates.
 class MotionProcess {
  public:
   explicit MotionProcess(double corner_hz);
@@ -37,11 +37,11 @@ class MotionProcess {
   void start(const MotionVector& sd) noexcept;
   // dt_s < 0 counts as 0.
   void predict(double dt_s, const MotionVector& sd) noexcept;
-  // Data on the components themselves, of information matrix `information` and of gradient `rhs` about the predicted
-  // mean: the most likely state is the predicted one + step. May be asked again with other data; nothing that the data
-  // leave open is inverted. false: not finite.
+  // Data on the components themselves, with information matrix `information` and gradient `rhs` about the predicted
+  // mean: the most likely state is the predicted one + step. May be called again with other data; no information matrix
+  // is inverted. false: not finite.
   [[nodiscard]] bool step(const MotionMatrix& information, const MotionVector& rhs, MotionStateVector& step) noexcept;
-  // Takes the last step; the covariance is positive semidefinite by construction.
+  // Applies the last step; the covariance is positive semidefinite by construction.
   void accept(const MotionStateVector& step) noexcept;
 
   [[nodiscard]] const MotionStateVector& mean() const noexcept { return mean_; }

@@ -9,7 +9,7 @@
 
 namespace core {
 
-// A place in the structure's plane, in coordinates of the one who measured it; x and y at right angles, either sense.
+// A place in the structure's plane, in the coordinates of whoever measured it; x and y at right angles, either sense.
 struct PlanePlace {
   double x_mm = 0.0, y_mm = 0.0;
 };
@@ -19,8 +19,8 @@ struct PlanePoint {
   PlanePlace place;
 };
 
-// Where the structure's plane lies: place (x, y) -> rotation * (x, y, 0) + translation_mm in camera axes (right, down,
-// ahead). Pixels here are ideal ones throughout: the lens is not applied. A plain value; any thread.
+// Pose of the structure's plane: place (x, y) -> rotation * (x, y, 0) + translation_mm in camera axes (right, down,
+// ahead). Pixels are ideal ones throughout: the lens is not applied. A plain value; any thread.
 struct PlanePose {
   CameraModel camera;
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
@@ -37,13 +37,13 @@ struct PlanePose {
   [[nodiscard]] Eigen::Vector3d normal() const noexcept;  // unit, towards the camera
   [[nodiscard]] double distance_mm() const noexcept;      // from the camera's centre, along the normal
 
-  // d(px)/d(mm): columns for x and y of the plane, rows for u and v. A motion (du, dv) px seen at `place` is one of
+  // d(px)/d(mm): columns for x and y of the plane, rows for u and v. An image motion (du, dv) px at `place` is
   // jacobian^-1 (du, dv) mm in the plane.
   [[nodiscard]] Eigen::Matrix2d px_per_mm(const PlanePlace& place) const noexcept;
-  // Length in the plane of a motion of one pixel along the unit vector `direction` of the image.
+  // Length in the plane of an image motion of one pixel along the unit vector `direction`.
   [[nodiscard]] double mm_per_px(const PlanePlace& place, const Vector2& direction) const noexcept;
 
-  // Angle between the plane's normal and the optical axis: 0 = seen straight on, every place at one scale.
+  // Angle between the plane's normal and the optical axis: 0 = frontal view, one scale everywhere.
   [[nodiscard]] double obliqueness_deg() const noexcept;
   // Its standard deviation; where the angle is smaller than it, that of the tilt in its least certain direction.
   [[nodiscard]] double obliqueness_sigma_deg() const noexcept;
@@ -54,15 +54,15 @@ enum class PlaneStatus : std::uint8_t { kOk, kNotCalibrated, kTooFew, kCollinear
 struct PlanePoseFit {
   PlaneStatus status = PlaneStatus::kNoFit;
   PlanePose pose;
-  // The second solution of a plane seen from afar (tilted the other way), where the points speak against it by less
-  // than 11.8 in chi square (three standard deviations of two tilts): then the pose is not certain.
+  // The second solution of a plane seen from afar (tilted the other way), if the points contradict it by less than 11.8
+  // in chi square (three standard deviations of two tilts): the pose is then ambiguous.
   std::optional<PlanePose> other;
 };
 
 // At least four points, not on one line: homography (direct linear transformation, Hartley & Zisserman 2003, 4.1), pose
-// from it (Zhang 2000, 3.1), Gauss-Newton on the reprojection error; the second start has the depths turned round about
-// the points' middle (Schweighofer & Pinz 2006). sigma_px: of a pixel, per axis; the covariance grows with the residual
-// where that is larger. Points of status kNoFit: they contradict each other, or lie behind the camera.
+// from it (Zhang 2000, 3.1), Gauss-Newton on the reprojection error; the second start mirrors the depths about the
+// points' middle (Schweighofer & Pinz 2006). sigma_px: of a pixel, per axis; the covariance grows with the residual
+// where that is larger. Status kNoFit: the points contradict each other, or are behind the camera.
 [[nodiscard]] PlanePoseFit fit_plane_pose(std::span<const PlanePoint> points, const CameraModel& camera,
                                           double sigma_px);
 

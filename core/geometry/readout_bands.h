@@ -6,8 +6,8 @@
 
 namespace core {
 
-// From the sums per block and band to one readout time (formulas: readout_estimator.h). blocks: of equal length, in
-// order; window_energy: sum of its squares. Memory on the stack only.
+// Combines the sums per block and band to one readout time (formulas: readout_estimator.h). blocks: of equal length, in
+// order; window_energy: sum of the window's squares. Memory on the stack only.
 [[nodiscard]] ReadoutEstimate combine_bands(
     std::span<const std::array<ReadoutEstimator::Sums, ReadoutEstimator::kMaxBands>> blocks, std::size_t n_bands,
     double window_energy) noexcept;

@@ -14,21 +14,21 @@
 
 namespace core {
 
-// Readout time of a rolling shutter from the tracks themselves, on line: a region that moves at V px per frame is
-// sheared by rho V px from the first to the last line (RegionShear), rho = T_r f_s.
+// Readout time of a rolling shutter, estimated online from the tracks: a region that moves at V px per frame is sheared
+// by rho V px from the first to the last line (RegionShear), rho = T_r f_s.
 //
-// V is the derivative of the region's mean motion by a band-limited differentiator (Kaiser window, good to 0.44 of the
-// rate), in the same frame as the shear: no motion common to the image is needed. Both series, windowed alike, go to
-// spectra over segments; instantaneous proportionality survives every window, mask and band. Per band b and block k of
-// the record, with M the Fisher information of the shears:
+// V is the derivative of the region's mean motion by a band-limited differentiator (Kaiser window, accurate to 0.44 of
+// the rate), in the same frame as the shear: no motion common to the image is needed. Both series, with the same
+// window, are transformed by segments; instantaneous proportionality is preserved by any window, mask and band. Per
+// band b and block k of the record, with M the Fisher information of the shears:
 //     A = sum V* M V - its noise    B = sum Re V* M S    rho_b = B / A    s_b^2 = mean residual of S - rho V
-// and rho = sum B_b / s_b^2 / sum A_b / s_b^2 over the bands that agree. The noise of V is known from s_b^2, as the
-// mean of a region does not vary together with its shear (errors in variables). A motion above half the frame rate is
-// seen folded, with a velocity of the wrong sign and size; its band contradicts the others: the largest set of bands
-// that agree within their deviations stands, the rest is left out and counted. The mean of every segment is subtracted:
-// errors of the keyframe do not matter. Errors in proportion to displacement (lens, parallax) are in quadrature to
-// velocity. Standard deviation: the larger of that of about twenty contiguous blocks (Student's t) and that of the
-// noise s_b^2 alone.
+// and rho = sum B_b / s_b^2 / sum A_b / s_b^2 over the bands that agree. The noise of V follows from s_b^2, because
+// the mean of a region is uncorrelated with its shear (errors in variables). A motion above half the frame rate is
+// aliased, with a velocity of wrong sign and size; its band contradicts the others: the largest set of bands that
+// agree within their deviations is used, the rest is excluded and counted. The mean of every segment is subtracted,
+// which removes errors of the keyframe. Errors proportional to displacement (lens, parallax) are in quadrature to
+// velocity. Standard deviation: the larger of that of about twenty contiguous blocks (Student's t) and that of s_b^2
+// alone.
 //
 // Fixed memory; nothing allocates after construction. One thread. Deterministic.
 class ReadoutEstimator {
@@ -40,9 +40,9 @@ class ReadoutEstimator {
   // Throws std::invalid_argument: a rate that is not positive, a point of no region.
   ReadoutEstimator(const Config& config, const TrackFrame& keyframe);
 
-  // One frame, in order. Gaps of a few frames are bridged, longer ones cut the record.
+  // One frame, in order. Gaps of a few frames are bridged, longer ones split the record.
   void update(const TrackFrame& tracks) noexcept;
-  // Of all segments so far; made when one is complete.
+  // Over all segments so far; updated when one is complete.
   [[nodiscard]] const ReadoutEstimate& estimate() const noexcept { return estimate_; }
 
   static constexpr std::size_t kMaxBands = 20;
@@ -92,7 +92,7 @@ class ReadoutEstimator {
   RealFft fft_;
   std::vector<double> work_;
   std::vector<std::complex<double>> velocity_bins_, shear_bins_;  // channels x bins
-  std::vector<double> velocity_gain_;                             // per bin: what the differentiator lacks
+  std::vector<double> velocity_gain_;                             // per bin: gain that the differentiator lacks
   std::vector<double> noise_gain_;                                // per bin: of white noise of a mean in its velocity
 
   std::array<Block, kMaxBlocks> blocks_{};

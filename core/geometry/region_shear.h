@@ -13,19 +13,19 @@
 
 namespace core {
 
-// How much the image of each region is sheared along the readout, frame by frame, and the motion that does it. Rows are
-// read one after the other: where a region moves at v_j px per frame, a point at readout fraction g_j (0 .. 1 over the
-// image) is seen rho g_j v_j beside where it was at the start of the frame, rho the readout time in frames. Fitted to
+// Shear of the image of each region along the readout, frame by frame, and the motion that causes it. Rows are read
+// one after the other: where a region moves at v_j px per frame, a point at readout fraction g_j (0 .. 1 over the
+// image) is seen rho g_j v_j beside its position at the start of the frame, rho the readout time in frames. Fitted to
 // the motion of the points since the keyframe by weighted least squares, (x, y) and g_j about the region's weighted
 // means:
 //     d_j = mean + turn (y, -x) + growth (x, y) + shear g_j      per region, both image axes, pixels
 //           + pitch (x y, y^2) + yaw (x^2, x y)                  of the whole image, also about the regions' means
-// Turn and growth are free per region: floors tilt, depths differ. Pitch and yaw are the camera's: their linear part
-// shears regions off the middle of the image, which must not be taken for a readout.
+// Turn (rotation) and growth are free per region: floors tilt, depths differ. Pitch and yaw are the camera's: their
+// linear part shears regions off the middle of the image, which must not be mistaken for a readout.
 //
 // The shear is rho times the rate of `carrier`: the mean, and a constant linear map of turn and growth, because g_j
-// times a field that turns or grows is quadratic and looks partly like pitch and yaw. In both, the keyframe's errors
-// are constants.
+// times a rotating or growing field is quadratic and resembles pitch and yaw. In both, the keyframe's errors are
+// constants.
 //
 // One thread; nothing allocates after construction.
 class RegionShear {
@@ -34,16 +34,16 @@ class RegionShear {
 
   struct Config {
     std::size_t n_regions = 0;
-    CameraModel camera;           // points are undistorted; without calibration the image centre is taken
+    CameraModel camera;           // points are undistorted; without calibration relative to the image centre
     ReadoutModel readout;         // direction and image size; its time is not used
     PlaceCorrection places = {};  // beyond the camera
   };
-  // keyframe: every point that will come; one that is lost or no number there takes no part. Throws
-  // std::invalid_argument: a point of no region.
+  // keyframe: contains every later point; points lost or not finite there are excluded. Throws std::invalid_argument: a
+  // point without a region.
   RegionShear(const Config& config, const TrackFrame& keyframe);
 
   [[nodiscard]] std::size_t n_regions() const noexcept { return regions_.size(); }
-  // Regions whose points spread enough to tell shear from turn and growth.
+  // Regions whose points spread enough to distinguish shear from turn and growth.
   [[nodiscard]] std::size_t n_usable() const noexcept;
 
   struct Sample {                              // of one frame, per region and axis: [2 region + axis]
@@ -51,7 +51,7 @@ class RegionShear {
     std::vector<std::uint8_t> seen;            // per region
   };
   [[nodiscard]] Sample sample_prototype() const;
-  // Points that are lost, outliers or no numbers take no part; a region of which too little is left is not seen.
+  // Lost points, outliers and NaN are excluded; a region with too few remaining points is not seen.
   void fit(const TrackFrame& tracks, Sample& out) noexcept;
 
   // Fisher information of the shears [2 region + axis] with all points seen, for points of unit variance on the
@@ -61,10 +61,10 @@ class RegionShear {
   [[nodiscard]] const Eigen::MatrixXd& carrier_covariance() const noexcept { return carrier_covariance_; }
 
  private:
-  // Camera pitch and yaw, as a part of the image's width that the middle moves by: keeps them finite where a few points
-  // hardly tell. Wide against every flight; against points of unit variance (px^2).
+  // Prior of the camera's pitch and yaw, as the motion of the middle as a share of the image's width: bounds them where
+  // few points determine them. Wide compared with any flight; relative to points of unit variance (px^2).
   static constexpr double kMostTurn = 0.3;
-  // Places of a region's unknowns, their number, and that with pitch and yaw.
+  // Indices of a region's unknowns, their number, and that with pitch and yaw.
   static constexpr std::size_t kTurn = 2, kShear = 4, kOwn = 6, kAll = 8;
   using Normal = std::array<std::array<double, kAll + 1>, kAll>;  // the last column is the right-hand side
 

@@ -5,15 +5,15 @@
 
 namespace core {
 
-// What a point's motion between two frames leaves when the camera's rotation is taken away. A camera that also shifts,
-// by t, moves a point at x (px from the principal point) that rests by
+// Derotated optical flow of a static point: its motion between two frames after the camera's rotation has been removed.
+// Camera translation t moves a static point at x (px from the principal point) by
 //     d (1 + delta),    d = (t_x - t_z x / f, t_y - t_z y / f),    1 + delta = mean depth over the point's depth
-// t in px: f times the shift over the mean depth. Depths are not known: delta ~ N(0, 1). So along d, the epipolar line,
-// a point has the variance sigma^2 + |d|^2, across it sigma^2, and a far point, or one near the point that the camera
-// moves towards, tells both axes. Student's t of three degrees for what moves by itself and for false tracks.
+// t in px: f times the translation over the mean depth. Depths are unknown: delta ~ N(0, 1). So along d, the epipolar
+// line, a point has the variance sigma^2 + |d|^2, across it sigma^2; a far point, or one near the focus of expansion,
+// is informative along both axes. Student's t of three degrees for moving objects and false tracks.
 
 struct RestFlow {
-  Eigen::Vector2d at_px = Eigen::Vector2d::Zero();  // where the rotation alone takes the point
+  Eigen::Vector2d at_px = Eigen::Vector2d::Zero();  // predicted by the rotation alone
   Eigen::Vector2d flow_px = Eigen::Vector2d::Zero();
 };
 
@@ -26,7 +26,7 @@ struct RestFlowModel {
 struct RestFlowTerm {
   double cost = 0.0;
   double across_px = 0.0;  // from the epipolar line
-  double weight = 0.0;     // at most 5/3; falls with the distance
+  double weight = 0.0;     // at most 5/3; decreases with the distance
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();       // of d
   Eigen::Matrix2d flow_information = Eigen::Matrix2d::Zero();  // of the flow, d held
@@ -37,7 +37,7 @@ struct RestFlowTerm {
                                  const RestFlowModel& model) noexcept;
 [[nodiscard]] double cost(std::span<const RestFlow> points, const Eigen::Vector3d& shift_px,
                           const RestFlowModel& model) noexcept;
-// The most likely shift, from the one given; returns its cost.
+// Maximum-likelihood translation, started at the given one; returns its cost.
 double fit_shift(std::span<const RestFlow> points, const RestFlowModel& model, Eigen::Vector3d& shift_px) noexcept;
 
 }  // namespace core

@@ -4,8 +4,8 @@
 
 namespace core {
 
-// When a pixel is seen, relative to the start of exposure of row 0 (ARCHITECTURE.md): T_r v / h for a sensor read
-// downwards. `readout_s` is signed; up and left turn the sign, left and right run along u.
+// Instant at which a pixel is seen, relative to the start of exposure of row 0 (core/geometry/METHOD.md): T_r v / h for
+// a sensor read downwards. `readout_s` is signed; up and left reverse the sign, left and right run along u.
 struct ReadoutModel {
   double readout_s = 0.0;
   ReadoutDirection direction = ReadoutDirection::kDown;

@@ -8,30 +8,30 @@
 
 namespace core {
 
-// Magnification of the image against the keyframe, b = |p_i1 - p_i2| / |p_01 - p_02|; the paper's scale is S_i = S_0 /
-// b (Eq. 6). Structural motion is not magnification, so distances are taken where it cancels.
+// Magnification of the image relative to the keyframe, b = |p_i1 - p_i2| / |p_01 - p_02|; the paper's scale is S_i =
+// S_0 / b (Eq. 6). Structural motion is not magnification, so only distances in which it cancels are used.
 class ScaleFactor {
  public:
   struct Point {
     Vector2 keyframe;  // undistorted px
     std::uint16_t region = 0;
     double axis_u = 1.0, axis_v = 0.0;  // unit axis of the region's motion
-    bool both_axes = false;             // it may move any way
-    bool counts = true;                 // false: at another distance (background), takes no part
+    bool both_axes = false;             // it may move in any direction
+    bool counts = true;                 // false: at another distance (background), excluded
   };
 
   explicit ScaleFactor(std::vector<Point> points);
 
-  // The paper's: the two keyframe points farthest apart; while one of them is not seen, the next farthest of a fixed
-  // list. Keeps its last value when no listed pair is seen.
+  // The paper's: the two keyframe points farthest apart; while one of them is lost, the next farthest of a fixed list.
+  // Keeps its last value if no listed pair is seen.
   [[nodiscard]] double two_point(std::span<const Vector2> position, std::span<const std::uint8_t> usable) noexcept;
 
-  // Robust start: median over fixed pairs within regions and across the axes of motion.
+  // Robust initial value: median over fixed pairs within regions and across the axes of motion.
   [[nodiscard]] double median_of_pairs(std::span<const Vector2> position,
                                        std::span<const std::uint8_t> usable) noexcept;
 
-  // Least squares on all usable points: inside a region distances to its centre, across regions only the part
-  // perpendicular to their axes of motion. Keeps its last value when nothing is seen.
+  // Least squares on all usable points: inside a region distances from its centre, across regions only the part
+  // perpendicular to their axes of motion. Keeps its last value if no point is seen.
   [[nodiscard]] double least_squares(std::span<const Vector2> position, std::span<const std::uint8_t> usable) noexcept;
 
  private:

@@ -6,10 +6,10 @@
 
 namespace core {
 
-// Which row goes with which column so that the sum of costs is least, where going alone costs 1 per row: a pair that
-// costs 1 or more (or is no number) is never made. Hungarian method with potentials [Kuhn 1955; Munkres 1957], one
-// augmenting path per row: O(rows^2 (rows + columns)). Unlike taking the cheapest pair first, it does not trade one
-// good pair for two bad ones where two modes move together. Memory is fixed at construction. Used by one thread.
+// Assigns rows to columns so that the sum of costs is minimal, where an unassigned row costs 1: a pair that costs 1 or
+// more (or NaN) is never made. Hungarian method with potentials [Kuhn 1955; Munkres 1957], one augmenting path per row:
+// O(rows^2 (rows + columns)). Unlike a greedy choice it does not trade one good pair for two bad ones where two modes
+// move together. Memory is fixed at construction. Used by one thread.
 class Assignment {
  public:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);

@@ -8,10 +8,10 @@
 
 namespace core {
 
-// What parts of a record do to its correlations with the references.
+// Effect of each part of a record on its correlations with the references.
 struct BlockDeviations {
   int n_blocks = 0;  // 0: the record has fewer blocks than were asked for
-  // Of a variance estimated from the blocks: n_blocks - 1, and fewer where they do not weigh the same (Satterthwaite).
+  // Of a variance estimated from the blocks: n_blocks - 1, fewer if their weights differ (Satterthwaite).
   double degrees_of_freedom = 0.0;
   Eigen::MatrixXd value;  // (block, channel) x (lag, reference)
 };

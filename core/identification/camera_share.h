@@ -8,14 +8,14 @@
 
 namespace core {
 
-// What of a shape is the camera's. Regions that rest (witnesses) are outputs of the identification like any other. They
-// have no part in a structure's modes: where a shape shows them moving, a shift of the camera has leaked into it, by
-// the same amount in all channels of that direction,
+// Removes camera motion from mode shapes. Static reference regions (witnesses) are ordinary outputs of the
+// identification. They have no part in a structure's modes: where a shape shows them moving, camera translation has
+// leaked into it, by the same amount in all channels of that direction,
 //     phi_i -= g q(f) exp(i w (tau_i - tau_w)) phi_w.
-// g: what the channels move when the witness moves by one (its distance against theirs), read off the bins where
-// both move together. q = 1 - N / S_ww(f): the part of the witness that is no tracking noise N (white, read off its
-// quiet bins) [Wiener]. Neither depth nor focal length is asked for, and nothing is added to the spectra. A shape that
-// would lose a noticeable part and is still no camera's is left alone: there the witness itself moves.
+// g: ratio of the channels' motion to the static region's (of their distances), estimated from the bins where both are
+// coherent. q = 1 - N / S_ww(f): share of the static region's spectrum that is not tracking noise N (white, from its
+// quiet bins) [Wiener]. Needs neither depth nor focal length, and adds nothing to the spectra. A shape that would lose
+// a noticeable part and yet is not mostly camera motion is unchanged: there the region itself moves.
 class CameraShare {
  public:
   // channels: of the sums; witnesses, if any, last.
@@ -28,7 +28,7 @@ class CameraShare {
   };
   // Of a shape as observed, of all channels, at that apparent frequency.
   [[nodiscard]] Finding examine(const std::vector<std::complex<double>>& shape, double apparent_hz) const;
-  // The outputs' part of it without the camera's. Linear in the shape but for `leave`, which leaves the camera's.
+  // The outputs' part of the shape after removal. Linear in the shape but for `leave`, which skips the removal.
   [[nodiscard]] std::vector<std::complex<double>> without(const std::vector<std::complex<double>>& shape,
                                                           double apparent_hz, bool leave) const;
 

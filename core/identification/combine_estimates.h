@@ -20,17 +20,17 @@ struct ModePlace {
   std::size_t i_estimate = 0, i_mode = 0;  // of EstimateInput::estimate->modes
 };
 
-// What several estimates say of one mode.
+// Combined result of several estimates for one mode.
 struct ModeGroup {
   std::vector<ModePlace> members;            // by estimate, at most one of each
   WeightedMean frequency_hz, damping_ratio;  // of those members that are combined; n = 0: there are none
 };
 
-// Structural modes of different estimates are one where |df| / (0.03 f) + (1 - MAC) / 0.5 < 1, by average linkage, no
-// two of one estimate; the MAC over the channels that both have by name, and left out with fewer than two of them.
-// Frequencies are combined by inverse variance, damping in its logarithm: its scatter grows with itself, so that one
-// that came out low would weigh too much. A mode that states no standard deviation has no part in this, unless none
-// does: then the mean is weighted by duration, and states none. Groups stand by frequency.
+// Structural modes of different estimates are the same where |df| / (0.03 f) + (1 - MAC) / 0.5 < 1, by average linkage,
+// at most one per estimate; MAC over the channels that both have by name, ignored with fewer than two. Frequencies are
+// combined by inverse variance, damping in its logarithm, because its scatter grows with its value and a low one would
+// weigh too much. A mode without standard deviation is excluded, unless none has one: then the mean is weighted by
+// duration, without standard deviation. Groups are ordered by frequency.
 [[nodiscard]] std::vector<ModeGroup> combine_estimates(const std::vector<EstimateInput>& estimates);
 
 // The mean over some of a group's members alone, e.g. over those that were not combined.

@@ -7,7 +7,7 @@
 
 namespace core {
 
-// Drift that the modes of one structure share, as warming, drying or a growing load make it: relative to the frequency.
+// Drift common to the modes of one structure (warming, drying, a growing load): relative to the frequency.
 struct CommonDrift {
   double share_per_s = 0.0;  // 1e-5 = 0.06 % a minute
   double std_per_s = 0.0;
@@ -16,7 +16,7 @@ struct CommonDrift {
 };
 
 // Mean of the modes' own relative trends (ModeHistory), weighted by their inverse variances; its standard deviation is
-// raised by sqrt(chi^2 / (n - 1)) where the modes disagree. Sees about sqrt(n) times less than one mode's trend does.
+// raised by sqrt(chi^2 / (n - 1)) where the modes disagree. About sqrt(n) times more sensitive than one mode's trend.
 // Empty: fewer than two structural modes with a trend.
 [[nodiscard]] std::optional<CommonDrift> common_drift(const ModalEstimate& estimate) noexcept;
 

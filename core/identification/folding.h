@@ -6,9 +6,9 @@
 
 namespace core {
 
-// A pole seen at f_a in samples of rate f_s may be any signed frequency f_a + n f_s. Channels seen at different
-// instants (row delays) tell which: undoing the delays with the true pole makes the shape's phases collinear
-// (ARCHITECTURE.md).
+// Alias order. A pole seen at f_a in samples of rate f_s may be any signed frequency f_a + n f_s. Channels seen at
+// different instants (row delays) determine n: undoing the delays with the true pole makes the shape's phases collinear
+// (core/identification/METHOD.md).
 struct FoldingConfig {
   double rate_hz = 0.0;
   double max_frequency_hz = 0.0;  // |f_a + n f_s| beyond it are not considered
@@ -24,8 +24,8 @@ struct UnfoldedPole {
   double mpc = 0.0, emac = 0.0;
   std::optional<int> fold_n;          // empty: cannot be told (fewer than three channels, or no delays)
   std::optional<double> fold_margin;  // best MPC minus second best
-  // There are other frequencies below the limit, and nothing that could tell: s and shape are those of n = 0, mpc is
-  // that of the best.
+  // There are other frequencies below the limit, and the delays cannot distinguish them: s and shape are those of n =
+  // 0, mpc is that of the best.
   bool fold_open = false;
 };
 
@@ -33,10 +33,10 @@ struct UnfoldedPole {
 [[nodiscard]] UnfoldedPole unfold(std::complex<double> lambda, const std::vector<std::complex<double>>& shape,
                                   const FoldingConfig& config);
 
-// The shape as it was observed, before the delays were undone.
+// The shape as observed, with the delays.
 [[nodiscard]] std::vector<std::complex<double>> observed_shape(const UnfoldedPole& pole, const FoldingConfig& config);
 
-// Is the delay span long enough to tell n = 0 from n = +-1 at all?
+// Is the delay span long enough to distinguish n = 0 from n = +-1?
 [[nodiscard]] bool folding_observable(const FoldingConfig& config) noexcept;
 
 // Scales a shape so that its largest component is 1 (real).

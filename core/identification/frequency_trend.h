@@ -7,19 +7,19 @@ namespace core {
 
 // Trend of a frequency from successive estimates of one growing record.
 //
-// An estimate f(T) over the record 0..T averages what the record holds, so successive estimates share their data: with
-// variance c^2 / T each, Cov f(T1) f(T2) = c^2 / T2 for T1 < T2, and a line through f(T) would take shared noise for a
-// drift. Undoing the average leaves the part that is new,
+// An estimate f(T) over the record 0..T averages over it, so successive estimates share their data: with variance c^2 /
+// T each, Cov f(T1) f(T2) = c^2 / T2 for T1 < T2, and a line through f(T) would mistake shared noise for a drift.
+// Undoing the average leaves the new part,
 //     d_k = (T_k f_k - T_{k-1} f_{k-1}) / (T_k - T_{k-1})   about time (T_k + T_{k-1}) / 2,
 // independent from piece to piece, with variance c^2 / (T_k - T_{k-1}) (the difference rule of Hausman 1978,
 // Lemma 2.1). Least squares of d on time with weights T_k - T_{k-1} is then the best linear estimate, and a frequency
 // that drifts at r Hz/s gives d on a line of slope r exactly. Slope variance: c^2 / sum w (t - mean t)^2.
 //
-// c^2 = sigma_f^2 T comes from the caller; where the residuals scatter more than that, theirs is taken, so that
-// estimates jumping about (order changes, a weak mode) do not pass for a drift. Fixed memory, plain arithmetic.
+// c^2 = sigma_f^2 T comes from the caller; where the residuals scatter more, their variance is used, so that jumping
+// estimates (order changes, a weak mode) do not pass for a drift. Fixed memory, plain arithmetic.
 class FrequencyTrend {
  public:
-  // Estimates in the order of their records; one whose record did not grow brings nothing new and is ignored.
+  // Estimates in the order of their records; one whose record did not grow adds nothing and is ignored.
   void add(double frequency_hz, double record_s) noexcept;
   void restart() noexcept { *this = FrequencyTrend(); }
 

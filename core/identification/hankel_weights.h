@@ -6,7 +6,7 @@
 
 namespace core {
 
-// Of unit-variance channels. Larger values cost the weakest mode, smaller ones let Cholesky fail (ARCHITECTURE.md).
+// For unit-variance channels. Larger values cost the weakest mode, smaller ones let Cholesky fail (METHOD.md).
 inline constexpr double kLeastRidge = 1e-6;
 inline constexpr double kMostRidge = 1.0;
 
@@ -19,7 +19,7 @@ struct HankelWeights {
 // Root of the channels' variances.
 [[nodiscard]] Eigen::VectorXd channel_scale(const Correlations& correlations);
 
-// [T; B] factored (core/linear/dense.h: factor_stacked) with the smallest ridge that lets T be; false when none does.
+// [T; B] factored (core/linear/dense.h: factor_stacked) with the smallest sufficient ridge; false if none suffices.
 [[nodiscard]] bool factor_with_ridge(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& below,
                                      Eigen::MatrixXd& out);
 
@@ -31,7 +31,7 @@ struct HankelWeights {
 [[nodiscard]] bool hankel_weights(const Correlations& correlations, const EraConfig& config,
                                   const Eigen::VectorXd& scale, HankelWeights& out);
 
-// The order of the realisation: what is asked for, as far as singular values (descending) are not zero.
+// The order of the realisation: the requested one, limited by the nonzero singular values (descending).
 [[nodiscard]] Eigen::Index wanted_order(const EraConfig& config, const Eigen::VectorXd& singular_values);
 
 }  // namespace core

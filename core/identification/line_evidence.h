@@ -11,17 +11,17 @@
 
 namespace core {
 
-// What speaks for a line that is no mode of the structure: a vibration of the camera, or a steady force.
+// Evidence for a spectral line that is not a mode of the structure: a vibration of the camera, or a steady force.
 struct LineEvidence {
-  // Largest MAC of the observed shape with what a shaking camera shows: at frequencies beyond those looked for, where
-  // no mode is expected, a translation and a turn about the view (a constant and a slope along the rows) with phases of
-  // their own, its delays undone. 0: such frequencies cannot be told from the others by these delays.
+  // Largest MAC of the observed shape with that of a shaking camera: at frequencies beyond the search range, where no
+  // mode is expected, a translation and a rotation about the view (a constant and a slope along the rows) with
+  // independent phases, its delays undone. 0: these delays do not distinguish such frequencies from the others.
   double camera_mac = 0.0;
   double camera_hz = 0.0;  // the frequency at which it is that large
-  // Damping ratio by which the correlation decays from a tenth to half of a segment, where modes are spent and a steady
-  // force goes on. Empty: damped too much, too slow to tell in this record, or no correlation that far.
+  // Damping ratio by which the correlation decays from a tenth to half of a segment, where modes have decayed and a
+  // steady force continues. Empty: damped too much, too slow for this record, or no correlation at those lags.
   std::optional<double> late_damping_ratio;
-  // What is left of the correlation by then, 0..1 and scatter: of a mode that has decayed, the scatter of its estimate.
+  // Share of the correlation left by then, 0..1, and scatter: for a decayed mode, that of its estimate.
   double late_share = 0.0;
   double witness_share = 0.0;  // of the shape's square that goes with what rests (camera_share.h)
   bool witness_moves = false;  // ... which does not rest at this frequency

@@ -8,7 +8,7 @@
 
 namespace core {
 
-// One record of a structure whose sensors were moved between records, but for the references.
+// One record of a structure whose sensors were moved between records, except the references.
 struct SetupModes {
   std::string name;
   ModalEstimate estimate;
@@ -22,11 +22,11 @@ struct MergedSetups {
   std::vector<std::string> remarks;
 };
 
-// Set-ups identified one by one and joined (PoSER: Reynders, Magalhaes, De Roeck & Cunha 2009). Structural modes of
-// different set-ups are one where |df| / (0.03 f) + (1 - MAC over the references) / 0.5 < 1, the nearest pair first and
-// no two of one set-up. Frequency and damping are means weighted by duration: standard deviations of single records
-// scatter too much to weigh by. Shapes are scaled to the first set-up's reference part by least squares and joined; the
-// references' own rows are averaged, weighted by duration. Modes that a set-up lacks are rejected with the reason.
+// Set-ups identified separately and joined (PoSER: Reynders, Magalhaes, De Roeck & Cunha 2009). Structural modes of
+// different set-ups are the same where |df| / (0.03 f) + (1 - MAC over the references) / 0.5 < 1, the nearest pair
+// first, at most one per set-up. Frequency and damping are means weighted by duration: standard deviations of single
+// records are too uncertain. Shapes are scaled to the first set-up's reference part by least squares and joined; rows
+// of references are averaged, weighted by duration. Modes missing in a set-up are rejected, with the reason.
 //
 // Rates may differ. Throws std::invalid_argument: fewer than two set-ups, no reference, a reference that a set-up
 // lacks.

@@ -23,11 +23,11 @@ struct ModeTrackerConfig {
   double damping_target = 0.1;      // relative standard deviation that ModeHistory::more_s is about
 };
 
-// Follows modes from one estimate of a growing record to the next and gives each its own number.
+// Follows modes from one estimate of a growing record to the next and assigns each a number.
 //
-// Compared is what the camera saw: the apparent frequency, and the shape with its row delays put back. Both stay as
-// they are when the identification reads another fold from the same peak, so a mode keeps its number then. Cost of a
-// pair, cut at 1:
+// Compared is what the camera observed: the apparent frequency, and the shape with its row delays. Both are independent
+// of the alias order that the identification chooses, so a mode keeps its number when it changes. Cost of a pair, cut
+// at 1:
 //     (df / max(5 sigma, zeta f))^2 + (1 - MAC) / 0.5         sigma^2 = sigma_track^2 + sigma_mode^2
 // with the stated standard deviations, else the scatter 1.2 sqrt(zeta f / (2 pi T)) (core/planning/hover_time.h). The
 // sum of variances is an upper bound for estimates that share data; zeta f is half the half-power bandwidth, within
@@ -35,10 +35,10 @@ struct ModeTrackerConfig {
 // then new.
 //
 // A structural mode is new until the next estimate finds it too; then it has a number. Ambiguous poles continue a mode,
-// but begin none. An estimate whose status is not "ok" says nothing about any mode and ends none.
+// but start none. An estimate whose status is not "ok" has no effect.
 //
-// Where the estimate forgets (ModalEstimate::remembered_s), neither a drift nor more_s is stated: both are about a
-// record that grows.
+// With forgetting (ModalEstimate::remembered_s), neither a drift nor more_s is stated: both refer to a growing
+// record.
 //
 // Memory is fixed at construction. Deterministic. Used by one thread.
 class ModeTracker {
@@ -50,19 +50,19 @@ class ModeTracker {
 
   // From the next estimate on; as many as before.
   void set_row_delays(const std::vector<double>& row_delay_s) noexcept;
-  // What is followed is forgotten; new modes get new numbers. For estimates from another kind of record.
+  // Discards the followed modes; new ones get new numbers. For estimates from another kind of record.
   void restart() noexcept;
-  // Fills `history` of the estimate's modes. Modes with a frequency, damping or shape that is no number are left out.
+  // Fills `history` of the estimate's modes. Modes with a NaN frequency, damping or shape are excluded.
   void update(ModalEstimate& estimate) noexcept;
 
-  // To go on where another process ended. restore(): false, and nothing followed, where the bytes are not of a tracker
-  // of as many channels.
+  // To resume in another process. restore(): false, and nothing followed, if the bytes are not of a tracker of as many
+  // channels.
   void save(StateWriter& out) const noexcept { describe(out, *this); }
   [[nodiscard]] bool restore(StateReader& in) noexcept;
   [[nodiscard]] std::size_t state_bytes() const noexcept;  // at most
 
   [[nodiscard]] std::size_t n_followed() const noexcept;  // confirmed, not lost
-  // Modes that found no room: beyond kMaxTracks at once, or kMaxModes in one estimate.
+  // Modes beyond capacity: kMaxTracks at once, or kMaxModes in one estimate.
   [[nodiscard]] std::uint64_t n_left_out() const noexcept { return n_left_out_; }
 
  private:

@@ -25,7 +25,7 @@ class PairTransform {
     finish(out);
   }
 
-  // The same of the blocks' sums together.
+  // The same for the joined sums of the blocks.
   void inverse(std::span<const CpsdBlock> blocks, std::vector<std::complex<double>> CpsdBlock::*sum, int pair,
                std::vector<double>& out) {
     const auto pairs = static_cast<std::size_t>(sums_.n_pairs());
@@ -56,7 +56,7 @@ inline void difference_lags(std::vector<double>& values, int n_differences) {
   }
 }
 
-// Have all channels lacked the same samples, or none? Then one mask serves all pairs.
+// Do all channels lack the same samples, or none? Then one mask serves all pairs.
 inline bool one_mask(const CpsdSums& sums) {
   const auto pairs = static_cast<std::size_t>(sums.n_pairs());
   for (std::size_t k = 0; k < sums.mask_sum.size(); k += pairs) {
@@ -67,7 +67,7 @@ inline bool one_mask(const CpsdSums& sums) {
   return true;
 }
 
-// Where a lag stands in the inverse transform.
+// Index of a lag in the inverse transform.
 inline std::size_t circular(int lag, int n_fft) { return static_cast<std::size_t>(lag >= 0 ? lag : n_fft + lag); }
 
 }  // namespace core

@@ -43,7 +43,7 @@ void join(Named& a, const Named& b, ReadoutFinding& finding) {
   const bool a_stands = a.value.std_s <= b.value.std_s;
   const std::string contradicted = a_stands ? b.name : a.name;
   if (!a_stands) a = b;
-  a.name += ", better known than what it contradicts: " + contradicted;
+  a.name += ", more precise than the value it contradicts: " + contradicted;
 }
 
 }  // namespace
@@ -66,7 +66,7 @@ ReadoutFinding choose_readout(const ReadoutValue& declared, const std::optional<
   }
   Named used{declared, "declared"};
   if (!measured) {
-    used.name = "declared: neither tracks nor shapes tell the readout time";
+    used.name = "declared: neither tracks nor shapes determine the readout time";
   } else {
     join(used, *measured, finding);
   }

@@ -10,17 +10,17 @@
 
 namespace core {
 
-// A rolling shutter turns the phases of a real shape by the time at which each row is seen. The readout time that makes
-// the shapes of all modes real again is therefore that of the sensor, found without any clock (ARCHITECTURE.md).
+// A rolling shutter rotates the phases of a real shape by the time at which each row is seen. The readout time that
+// makes the shapes of all modes real again is that of the sensor, found without a clock (METHOD.md).
 
-// A pole as the samples show it: apparent frequency 0 .. rate / 2, shape with the delays still in it.
+// A pole as observed in the samples: apparent frequency 0 .. rate / 2, shape including the delays.
 struct ObservedPole {
   double apparent_hz = 0.0;
   std::vector<std::complex<double>> shape;
   std::vector<double> shape_std;  // per component; empty = unknown
 };
 
-// Puts the row delays of `channels` back into a mode's shape.
+// Restores the row delays of `channels` in a mode's shape.
 [[nodiscard]] ObservedPole observed_pole(const Mode& mode, const std::vector<ChannelInfo>& channels, double rate_hz);
 
 struct ReadoutSearch {
@@ -37,9 +37,9 @@ struct ReadoutFromShapes {
   int n_poles = 0;
 };
 
-// row_share: the part of the readout that has passed when each channel is seen, 0..1. Maximises the mean over the poles
-// of the best MPC over the folds. Empty: fewer than two poles of three components, rows too close together, or sizes
-// that do not fit. Poles above half the rate tell most; slow ones hardly anything.
+// row_share: readout fraction at which each channel is seen, 0..1. Maximises the mean over the poles of the best MPC
+// over the alias orders. Empty: fewer than two poles of three components, rows too close together, or inconsistent
+// sizes. Poles above half the rate are most informative; slow ones hardly at all.
 [[nodiscard]] std::optional<ReadoutFromShapes> readout_from_shapes(std::span<const ObservedPole> poles,
                                                                    std::span<const double> row_share,
                                                                    const ReadoutSearch& search);

@@ -14,13 +14,13 @@ namespace core {
 // Standard deviations by the delta method, without a second fit. With the weights and the subspace of a realisation
 // held fixed, a pole is a generalised eigenvalue of two matrices linear in the correlations R,
 //   left_map (dH1 - lambda dH0) right_map,
-// and so a linear functional of R, as its shape H0 right_map psi is. Blocks of the record (CpsdBlock) give independent
-// changes of R that sum to zero: var = K / (K - 1) sum of the squared changes, to be read with K - 1 degrees of freedom
-// (Student). Fewer blocks than ten say too little about a variance: nothing is stated then; more would be too
-// short, for they should span a few decays of the slowest mode.
+// and so a linear functional of R, as is its shape H0 right_map psi. Blocks of the record (CpsdBlock) give independent
+// changes of R that sum to zero: var = K / (K - 1) sum of the squared changes, with K - 1 degrees of freedom (Student).
+// With fewer than ten blocks a variance is too uncertain and is not stated; more would be too short, because a block
+// should span a few decays of the slowest mode.
 inline constexpr std::size_t kScatterBlocks = 10;
 
-// How one block moves a pole and its observed shape.
+// Change of a pole and its observed shape caused by one block.
 struct PoleChange {
   std::complex<double> lambda;
   std::vector<std::complex<double>> shape;
@@ -41,8 +41,8 @@ struct ModeScatter {
   double frequency_hz = 0.0, damping_ratio = 0.0;
   std::vector<double> shape;  // of the components' real parts, the largest component being 1
 };
-// Carries the changes through the logarithm, the fold and the row delays. Empty without enough blocks, or when the
-// result is not finite.
+// Propagates the changes through the logarithm, the alias order and the row delays. Empty without enough blocks, or
+// when the result is not finite.
 [[nodiscard]] std::optional<ModeScatter> mode_scatter(const PoleOfOrder& pole, const UnfoldedPole& unfolded,
                                                       const FoldingConfig& folding,
                                                       const std::vector<PoleChange>& changes);
@@ -51,9 +51,9 @@ struct ModeScatter {
 // linear in their reciprocal).
 [[nodiscard]] double student_95(double degrees_of_freedom) noexcept;
 
-// Of a damping ratio, symmetric in its logarithm: its scatter grows with itself, so that a damping that came out low
-// states too small a deviation. (600 simulated records, 30 cycles of memory: 93.0 % held the truth, 91.2 % of plain
-// ones.)
+// For a damping ratio, symmetric in its logarithm: its scatter grows with its value, so a low estimate states too small
+// a standard deviation. (600 simulated records, 30 cycles of memory: 93.0 % contained the truth, 91.2 % of plain
+// intervals.)
 struct Interval {
   double low = 0.0, high = 0.0;
 };

@@ -6,7 +6,7 @@
 
 namespace core {
 
-// The eigenvalues in the upper half plane of a real matrix, and what is seen of their eigenvectors.
+// Eigenvalues of a real matrix in the upper half plane, and the observed part of their eigenvectors.
 struct UpperEigen {
   std::vector<std::complex<double>> values;
   Eigen::MatrixXcd seen;  // rows of c x values: c times the eigenvector of unit norm

@@ -4,17 +4,17 @@
 
 namespace core {
 
-// All eigenvalues, and as many leading eigenvectors as are asked for, of a symmetric matrix: Householder's
-// tridiagonal form, Pal-Walker-Kahan QL, inverse iteration (Parlett, The Symmetric Eigenvalue Problem, 1998). The same
-// bits on every machine.
+// All eigenvalues, and the requested number of leading eigenvectors, of a symmetric matrix: Householder's tridiagonal
+// form, Pal-Walker-Kahan QL, inverse iteration (Parlett, The Symmetric Eigenvalue Problem, 1998). The same bits on
+// every machine.
 class SymmetricEigen {
  public:
   explicit SymmetricEigen(Eigen::MatrixXd a);  // n x n, lower triangle read; finite
 
   [[nodiscard]] const Eigen::VectorXd& values() const noexcept { return values_; }  // descending
 
-  // n x count, orthonormal. Inverse iteration cannot separate what rounding has merged; the whole decomposition by
-  // implicit QR takes over where the vectors come out oblique.
+  // n x count, orthonormal. Inverse iteration cannot separate eigenvalues merged by rounding; the whole decomposition
+  // by implicit QR is used if the vectors are not orthogonal.
   [[nodiscard]] Eigen::MatrixXd leading_vectors(Eigen::Index count) const;
 
  private:

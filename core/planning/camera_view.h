@@ -12,23 +12,23 @@ struct PlannedCamera {
   double rate_hz = 25.0;
   double readout_s = 0.026;  // signed; 0 = global shutter
   ReadoutDirection direction = ReadoutDirection::kDown;
-  double exposure_s = 0.004;  // 0 = so short that it does not matter
+  double exposure_s = 0.004;  // 0 = negligibly short
 };
 
-// The long direction of the structure in the picture: a tower stands, a bridge lies.
+// Long direction of the structure in the image: vertical for a tower, horizontal for a bridge.
 enum class LongAxis { kVertical, kHorizontal };
 
 // Throws std::invalid_argument naming the value and the range.
 void validate(const PlannedCamera& camera);
 
-// Focal length in px from what a data sheet states. `fov_deg`: across the width of the picture.
+// Focal length in px from data-sheet values. `fov_deg`: across the width of the image.
 [[nodiscard]] double focal_px_from_mm(double focal_mm, double sensor_width_mm, int width_px);
 [[nodiscard]] double focal_px_from_fov(double fov_deg, int width_px);
 
-// The camera turned by 90 degrees: picture and readout direction turn with it.
+// The camera rotated by 90 degrees, with image and readout direction.
 [[nodiscard]] PlannedCamera turned(const PlannedCamera& camera) noexcept;
 
-// S = Z / alpha for a camera that looks square at the structure.
+// S = Z / alpha for a camera that faces the structure squarely.
 [[nodiscard]] inline double mm_per_px(const PlannedCamera& camera, double distance_mm) noexcept {
   return distance_mm / camera.focal_px;
 }
@@ -40,9 +40,9 @@ void validate(const PlannedCamera& camera);
 
 [[nodiscard]] bool reads_along(const PlannedCamera& camera, LongAxis axis) noexcept;
 
-// Row delay of places along the structure (mm from its foot or left end), whose middle is in the middle of the picture;
-// the same for all where the readout runs across the structure. tau = T_r v / h (core/geometry,
-// ReadoutModel). A standing structure's foot is below.
+// Row delay of places along the structure (mm from its foot or left end), whose middle is in the middle of the image;
+// equal for all if the readout runs across the structure. tau = T_r v / h (core/geometry, ReadoutModel). The foot of a
+// vertical structure is below.
 [[nodiscard]] std::vector<double> row_delays_s(const PlannedCamera& camera, LongAxis axis, double distance_mm,
                                                double length_mm, const std::vector<double>& positions);
 

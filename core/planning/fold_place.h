@@ -12,9 +12,9 @@ namespace core::planning {
 inline constexpr double kHoverBandHz = 0.5;
 
 enum class FoldOutlook {
-  kDirect,     // no other frequency up to the highest looked for is seen at the same place
-  kResolved,   // the row delays tell which of several it is
-  kAmbiguous,  // they tell too little: the margin is below what the identification asks for
+  kDirect,     // no other frequency up to the highest searched appears at the same place
+  kResolved,   // the row delays determine which of several it is
+  kAmbiguous,  // the margin is below what the identification requires
   kNoDelays    // fewer than three regions, or all of them read at the same time
 };
 
@@ -24,17 +24,17 @@ struct FoldPlace {
   double apparent_hz = 0.0;  // 0 .. f_s / 2; of the damped frequency f sqrt(1 - zeta^2)
   int n = 0;
   FoldOutlook outlook = FoldOutlook::kDirect;
-  std::optional<double> margin;   // MPC of the true hypothesis (1: there is no noise here) minus the best of the others
-  std::vector<double> rivals_hz;  // what else it could be, ascending
+  std::optional<double> margin;   // MPC of the true hypothesis (1: no noise here) minus the best of the others
+  std::vector<double> rivals_hz;  // the alternatives, ascending
 };
 
-// The pole and the shape that the camera would see, through the identification's own `unfold`. `shape` and
+// The pole and the shape as observed by the camera, through the identification's own `unfold`. `shape` and
 // folding.delay_s: per region.
 [[nodiscard]] FoldPlace fold_place(double frequency_hz, double damping_ratio, const std::vector<double>& shape,
                                    const FoldingConfig& folding);
 
-// Two modes seen closer together than the mean of their half-power widths 2 zeta f (a fold keeps the width). Only
-// their shapes tell them apart then; below half the width that breaks down too.
+// Two apparent frequencies closer than the mean of the half-power widths 2 zeta f (aliasing keeps the width). Only the
+// shapes distinguish them then; below half the width that fails too.
 struct Overlap {
   std::size_t first = 0, second = 0;  // indices of the modes, first < second
   double gap_hz = 0.0, width_hz = 0.0;
@@ -43,7 +43,7 @@ struct Overlap {
 [[nodiscard]] std::vector<Overlap> overlaps(const std::vector<double>& apparent_hz,
                                             const std::vector<double>& half_power_hz);
 
-// Closer to 0 or to half the rate than half its width: the mode and its own mirror image run into one another.
+// Closer to 0 or to half the rate than half its width: the mode overlaps with its own mirror image.
 [[nodiscard]] bool at_edge(double apparent_hz, double half_power_hz, double rate_hz) noexcept;
 
 }  // namespace core::planning

@@ -11,8 +11,8 @@
 namespace core::planning {
 
 inline constexpr std::size_t kMaxModes = 40;
-inline constexpr double kLeastExposureGain = 0.7;  // below it the exposure takes too much of a mode
-inline constexpr double kSeenRatio = 10.0;         // 10 dB over the floor
+inline constexpr double kLeastExposureGain = 0.7;  // below it the exposure attenuates a mode too much
+inline constexpr double kSeenRatio = 10.0;         // 10 dB over the noise floor
 
 struct PlannedMode {
   double frequency_hz = 0.0;
@@ -41,8 +41,8 @@ struct PlanInput {
   std::vector<double> rates_hz;  // that the camera offers
 };
 
-// Regions as one would place them: every floor; even parts of a cantilever, its top the last; even parts of a beam
-// between its supports.
+// Default placement of regions: every floor; even parts of a cantilever, its top the last; even parts of a beam between
+// its supports.
 [[nodiscard]] std::vector<double> even_positions(StructureKind kind, int n);
 
 struct ModePlan {
@@ -59,15 +59,15 @@ struct ModePlan {
 
 enum class Obstacle { kNone, kReadoutTooLong, kExposureTooLong };
 
-// The camera as given but at another rate, perhaps turned by 90 degrees.
+// The given camera at another rate, perhaps rotated by 90 degrees.
 struct CameraOption {
   double rate_hz = 0.0;
   bool turned = false;
   Obstacle obstacle = Obstacle::kNone;
   bool fits = true;
-  int n_folded = 0, n_open = 0;  // modes above half the rate; modes whose fold stays open
+  int n_folded = 0, n_open = 0;  // modes above half the rate; modes with open alias order
   int n_overlaps = 0, n_merging = 0;
-  int n_hidden = 0;  // folded into the hover band, or onto an edge
+  int n_hidden = 0;  // aliased into the hover band, or onto an edge
   std::optional<double> least_margin;
   double penalty = 0.0;  // 3 open + 2 merging + 2 hidden + 1 other overlap + 1/4 folded; 10 where it does not fit
 };
@@ -75,9 +75,9 @@ struct CameraOption {
 struct HoverPlan {
   double mm_per_px = 0.0;
   double structure_px = 0.0, room_px = 0.0;
-  bool fits = true;                // within 90 % of the picture
+  bool fits = true;                // within 90 % of the image
   double delay_span_frames = 0.0;  // of the regions, in frames
-  double max_frequency_hz = 0.0;   // highest frequency to look for: 1.1 times the highest mode, rounded up
+  double max_frequency_hz = 0.0;   // highest frequency to search: 1.1 times the highest mode, rounded up
   NoiseFloor floor;
   double needed_s = 0.0, hover_s = 0.0;
   int segment = 0;
@@ -85,10 +85,10 @@ struct HoverPlan {
   std::vector<ModePlan> modes;
   std::vector<Overlap> overlaps;
   std::vector<CameraOption> options;  // the given camera, turned, then every other rate as held and turned
-  std::size_t best_option = 0;        // least penalty; of equals the one nearest to the given camera
+  std::size_t best_option = 0;        // smallest penalty; of equals the one closest to the given camera
 };
 
-// Throws std::invalid_argument: which value, and what is allowed.
+// Throws std::invalid_argument with the value and the allowed range.
 void validate(const PlanInput& input);
 [[nodiscard]] HoverPlan make_plan(const PlanInput& input);
 

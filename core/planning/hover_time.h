@@ -2,8 +2,8 @@
 
 namespace core::planning {
 
-// Scatter of our identification over the least that any method can reach in a record of this length, measured on
-// simulated records: 1.0 to 1.3.
+// Scatter of this identification over the lower bound of any method for a record of this length, measured on simulated
+// records: 1.0 to 1.3.
 inline constexpr double kMethodFactor = 1.2;
 
 // sigma_f / f = 1.2 sqrt(zeta / (2 pi f T)) and sigma_zeta / zeta = 1.2 / sqrt(2 pi zeta f T), T in seconds.
@@ -14,8 +14,8 @@ inline constexpr double kMethodFactor = 1.2;
 [[nodiscard]] double seconds_for_frequency(double frequency_hz, double damping_ratio, double relative_sigma) noexcept;
 [[nodiscard]] double seconds_for_damping(double frequency_hz, double damping_ratio, double relative_sigma) noexcept;
 
-// Welch segment: a power of two that holds two time constants 1 / (zeta w) of the slowest mode, and of which the record
-// still holds four lengths (seven half overlapping ones).
+// Welch segment: a power of two that contains two time constants 1 / (zeta w) of the slowest mode, with at least four
+// lengths (seven half-overlapping ones) in the record.
 [[nodiscard]] int segment_length(double slowest_hz, double damping_ratio, double rate_hz, double duration_s) noexcept;
 
 // Equivalent noise bandwidth of a Hann window.

@@ -5,12 +5,12 @@
 
 namespace core {
 
-// Takes every `factor`-th sample of a record after a linear-phase low-pass filter (windowed sinc, Kaiser window, 80
-// dB), without delay: sample k of the result stands at sample k * factor of the record. Flat within 1e-4 up to
-// kPassband * new rate; what lies between there and half the new rate is the filter's edge and carries aliases.
+// Every `factor`-th sample of a record after a linear-phase low-pass filter (windowed sinc, Kaiser window, 80 dB),
+// without delay: sample k of the result is at sample k * factor of the record. Flat within 1e-4 up to kPassband * new
+// rate; from there to half the new rate is the filter's edge, which contains aliases.
 //
 // NaN = missing, as is everything outside of the record. A result whose missing inputs weigh more than 1 % of the
-// filter is NaN (a gap masks its neighbourhood); with fewer the rest of the filter is scaled up.
+// filter is NaN (a gap masks its neighbourhood); with fewer the remaining weights are scaled up.
 class Decimator {
  public:
   static constexpr double kPassband = 0.4;  // of the new rate
@@ -27,7 +27,7 @@ class Decimator {
   double total_weight_ = 0.0;
 };
 
-// The largest factor that keeps frequencies up to max_frequency_hz in the passband; 1 where there is none to spare.
+// The largest factor that keeps frequencies up to max_frequency_hz in the passband; at least 1.
 [[nodiscard]] int decimation_factor(double rate_hz, double max_frequency_hz) noexcept;
 
 }  // namespace core

@@ -10,27 +10,27 @@
 
 namespace core {
 
-// One record's sums with what its channels are: what has to agree before records may be added.
+// Sums of one record with the properties that must agree before records may be added.
 struct RecordSums {
   CpsdSums sums;
   std::vector<ChannelInfo> channels;
 };
 
-// Why two records may not be added, empty when they may: channels (names, in order), quantities, rate, segment, window
-// and row delays must agree, those within `most_delay_apart_s`. Others are identified each and their modes combined
-// (combine_estimates.h, merge_setups.h).
+// Why two records may not be added, empty if they may: channels (names, in order), quantities, rate, segment, window
+// and row delays must agree, the latter within `most_delay_apart_s`. Other records are identified separately and their
+// modes combined (combine_estimates.h, merge_setups.h).
 inline constexpr double kSameDelay_s = 1e-4;
 [[nodiscard]] std::string why_not_addable(const RecordSums& a, const RecordSums& b,
                                           double most_delay_apart_s = kSameDelay_s);
-// A camera that hovers elsewhere sees every channel a little earlier or later. Up to a tenth of a sample that can be
-// undone in the sums.
+// A camera that hovers elsewhere sees every channel slightly earlier or later. Up to a tenth of a sample this can be
+// corrected in the sums.
 [[nodiscard]] inline double most_delay_undone_s(double rate_hz) noexcept { return 0.1 / rate_hz; }
 
-// Records as one, as if each had followed the one before it after a gap: all of the estimate is sums and counts. Their
-// blocks stand in order, joined to blocks as equal as can be, whatever the records' lengths: that is why the number of
-// segments of all must be known before. Row delays are brought to those of the first record: the cross-spectrum of
-// channels i, j seen d_i, d_j later than there is multiplied by exp(-i w (d_i - d_j)). The same records in the same
-// order give the same bits.
+// Adds records as if each followed the previous one after a gap: the estimate depends on sums and counts only. Blocks
+// stay in order, joined to blocks as equal as possible, whatever the records' lengths; for that the total number of
+// segments must be known before. Row delays are converted to those of the first record: the cross-spectrum of channels
+// i, j seen d_i, d_j later is multiplied by exp(-i w (d_i - d_j)). The same records in the same order give the same
+// bits.
 class SumOfRecords {
  public:
   SumOfRecords(std::uint64_t n_segments, std::size_t n_blocks) noexcept : n_expected_(n_segments), n_room_(n_blocks) {}

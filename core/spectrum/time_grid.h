@@ -6,13 +6,13 @@
 
 namespace core {
 
-// Puts time-stamped samples onto the uniform grid that spectra need: cell = round((t - t0) * rate). A sample that does
-// not fall one cell after its predecessor tells of lost samples (cells to be masked) or of a surplus one. Stamps that
-// jitter by less than half a cell keep their order; how much they jitter is measured and stated, not repaired.
+// Puts time-stamped samples onto the uniform grid that spectra need: cell = round((t - t0) * rate). A sample that is
+// not one cell after its predecessor indicates lost samples (cells to be masked) or a surplus one. Stamps that jitter
+// by less than half a cell keep their order; the jitter is measured and reported, not corrected.
 class TimeGrid {
  public:
   struct Placement {
-    bool accepted = false;               // false: the cell is already taken (repeated or backward stamp)
+    bool accepted = false;               // false: the cell is already occupied (repeated or backward stamp)
     std::uint64_t cell = 0;              // counted from the first sample
     std::uint64_t n_missing_before = 0;  // cells skipped between the previous sample and this one
   };
@@ -20,7 +20,7 @@ class TimeGrid {
   explicit TimeGrid(double rate_hz) noexcept : rate_hz_(rate_hz) {}
 
   [[nodiscard]] Placement place(std::int64_t t_ns) noexcept;
-  // To go on from the last cell, where the clock behind the stamps has gone on too.
+  // Resumes from the last cell; the clock behind the stamps has continued, too.
   void save(StateWriter& out) const noexcept;
   void restore(StateReader& in) noexcept;  // a place that cannot be makes `in` not ok
 

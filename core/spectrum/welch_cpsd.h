@@ -20,11 +20,11 @@ struct WelchConfig {
   double overlap = 0.5;  // 0 <= overlap < 1
   WindowKind window = WindowKind::kHann;
   double rate_hz = 1.0;
-  // Parts of the record that are summed apart as well. As it grows they are joined two and two, so that between half
-  // and all of them are in use once there were as many segments; where old segments are forgotten, only until all
-  // together span two forget_s, and then the oldest two become one. Even; 0 = none.
+  // Blocks of the record kept for variance estimates. When all are full, neighbours are merged, so between half and all
+  // are in use after as many segments; with forgetting, only until all together span two forget_s, and then the oldest
+  // two become one. Even; 0 = none.
   int n_blocks = 20;
-  // A segment counts exp(-age / forget_s): the estimate follows a structure that changes. 0 = never forgets.
+  // A segment is weighted by exp(-age / forget_s): for a structure that changes. 0 = all segments count alike.
   double forget_s = 0.0;
   bool bridge_losses = false;  // short gaps: see bridge_losses.h; false: every lost sample is masked
 };
@@ -33,7 +33,7 @@ struct WelchConfig {
 // Segments are detrended by their mean, windowed, zero-padded to a power of two >= 2 * segment so that correlations up
 // to one segment do not wrap around. A mask (1 seen, 0 missing) is windowed and transformed beside the data:
 //   R_ij(lag) = IFFT(sum X_i conj(X_j)) / IFFT(sum M_i conj(M_j))
-// is then unbiased, window and random losses alike (ARCHITECTURE.md). One thread; nothing allocates after construction.
+// is then unbiased, window and random losses alike (METHOD.md). One thread; nothing allocates after construction.
 class WelchCpsd {
  public:
   explicit WelchCpsd(const WelchConfig& config);  // throws std::invalid_argument
@@ -43,14 +43,14 @@ class WelchCpsd {
   // The sample's channels, then its witnesses.
   bool push(const DisplacementSample& sample) noexcept;
   bool push_missing() noexcept;
-  // The end of the record: what lies beyond the last full segment enters as a segment whose rest is masked.
+  // The end of the record: samples after the last full segment enter as a segment that is masked at its end.
   void flush() noexcept;
 
-  // Begins anew, as constructed, at another rate of the grid. Nothing is allocated. A memory that fades (forget_s)
-  // keeps its length in hops.
+  // Restarts, as constructed, at another rate of the grid. Nothing is allocated. With forgetting (forget_s) its length
+  // in hops stays.
   void restart(double rate_hz) noexcept;
 
-  // All that later samples build on: a restored accumulator goes on to the same bits. save() allocates nothing.
+  // The whole state: a restored accumulator continues to the same bits. save() allocates nothing.
   void save(StateWriter& out) const noexcept;
   [[nodiscard]] std::size_t state_bytes() const noexcept;  // at most
   // False, and the accumulator as constructed: the bytes are not of one with this configuration.

@@ -7,24 +7,24 @@
 
 namespace core::structure {
 
-// What is known of a shear frame before its modes are looked at; lowest storey first. Empty = not known.
+// Declared properties of a shear frame; lowest storey first. Empty = unknown.
 struct DeclaredFrame {
   std::size_t n_storeys = 0;
   std::vector<double> mass;             // relative, one a storey; empty: all equal
   std::vector<double> stiffness_ratio;  // relative, one a storey; empty: all equal
   std::optional<double> storey_height_mm;
-  // Of stiffness ratio 1 over mass 1. Empty: fitted, and a common factor of all frequencies then says nothing.
+  // For stiffness ratio 1 over mass 1. Empty: fitted; a common factor of all frequencies is then not informative.
   std::optional<double> stiffness_over_mass_per_s2;
-  bool simulated = false;           // the reference comes from a simulation: its integrator may bend frequencies
+  bool simulated = false;           // the reference comes from a simulation: its integrator may shift frequencies
   std::optional<double> dt_s;       // step of that integrator
-  double frequency_sigma = 0.0015;  // of a reference frequency that states none, relative
-  double shape_sigma = 0.02;        // of a shape component that states none, the largest component being 1
+  double frequency_sigma = 0.0015;  // of a reference frequency without sigma, relative
+  double shape_sigma = 0.02;        // of a shape component without sigma, the largest component being 1
   std::vector<std::string> floors;  // names of the reference's channels, one a storey; empty: no shapes are compared
 };
 
-// A measured mode, or one of another program.
+// A measured mode, or one from another program.
 struct ReferenceMode {
-  int number = 0;  // of the model's mode that it is, from 1 by frequency
+  int number = 0;  // of the corresponding mode of the model, from 1 by frequency
   double frequency_hz = 0.0;
   double sigma_hz = 0.0;
   std::vector<double> shape;        // per storey, largest component 1; empty: unknown
@@ -33,7 +33,7 @@ struct ReferenceMode {
 
 inline constexpr std::size_t kMaxStoreys = 100;
 
-// Throws std::invalid_argument: which value, which is allowed, what to do.
+// Throws std::invalid_argument with the value, the allowed range and a remedy.
 void validate(const DeclaredFrame& frame);
 void validate(const DeclaredFrame& frame, const std::vector<ReferenceMode>& reference);
 

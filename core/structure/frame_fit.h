@@ -8,7 +8,7 @@
 
 namespace core::structure {
 
-// A shear frame with effects: what is fitted to reference modes. Parameters: ln(stiffness over mass) unless declared,
+// A shear frame with effects, to be fitted to reference modes. Parameters: ln(stiffness over mass) unless declared,
 // then those of the effects in their order. Borrows all of them.
 struct FrameModel {
   const DeclaredFrame* declared = nullptr;
@@ -21,7 +21,7 @@ struct FrameModel {
 };
 
 [[nodiscard]] ShearFrame frame_of(const FrameModel& model, const Eigen::VectorXd& parameters);
-// Modes as they would be seen; empty where the frame has none.
+// Modes as observed; empty if the frame has none.
 [[nodiscard]] std::optional<FrameModes> seen_modes(const FrameModel& model, const Eigen::VectorXd& parameters,
                                                    bool with_shapes);
 
@@ -33,26 +33,26 @@ struct FrameFit {
   Eigen::MatrixXd jacobian;  // of those residuals; n_data x parameters
 };
 
-enum class Starts { kAll, kBest };  // begin at each effect's every start, or at the one that fits best
+enum class Starts { kAll, kBest };  // start at each effect's every start, or at the one that fits best
 
 // Least squares by Levenberg-Marquardt with bounds (Nocedal & Wright 10.3, 16.7), residuals: relative error of every
-// reference frequency over its sigma, and each shape's components, at its best scale, over theirs. The last effect's
-// parameters begin at its starts, all others at `before` (that of the model without the last effect), or, where
-// `before` holds all parameters, there. `without`: a place in `reference` that is left out; -1 none.
+// reference frequency over its sigma, and each shape's components, at its best scale, over theirs. Initial values: the
+// starts of the last effect, `before` for all others (from the model without the last effect), or `before` alone if it
+// has all parameters. `without`: index in `reference` that is held out; -1 none.
 [[nodiscard]] FrameFit fit_frame(const FrameModel& model, const std::vector<ReferenceMode>& reference,
                                  const Eigen::VectorXd& before, Starts starts, int without = -1);
 
-// Each reference mode predicted by a fit to all others, whose frequencies alone must suffice for its parameters: shapes
-// help, but their sigmas are often assumed.
+// Cross-validation: each reference mode predicted by a fit to all others, whose frequencies alone must determine its
+// parameters: shapes help, but their sigmas are often assumed.
 struct LeaveOneOut {
   std::vector<double> relative_error;  // of the frequency, per reference mode; empty: too few modes
   double chi2 = 0.0;                   // of frequencies and shapes
-  double rms_percent = 0.0;            // of the frequencies; infinite where it cannot be told
+  double rms_percent = 0.0;            // of the frequencies; infinite if it cannot be determined
 };
 [[nodiscard]] LeaveOneOut leave_one_out(const FrameModel& model, const std::vector<ReferenceMode>& reference,
                                         const FrameFit& fit);
 
-// Standard deviations of the parameters; NaN where one stands at a bound or the data do not fix it.
+// Standard deviations of the parameters; NaN at a bound or if the data do not determine one.
 [[nodiscard]] Eigen::VectorXd parameter_sigmas(const FrameFit& fit);
 
 // The 99.7 % level of chi-square with that many degrees of freedom (Wilson & Hilferty 1931).

@@ -15,13 +15,13 @@ namespace core::structure {
 struct EffectParameter {
   std::string name, unit;
   double neutral = 0.0;          // without the effect
-  std::vector<double> starts;    // where the fit begins; the best end counts
+  std::vector<double> starts;    // initial values of the fit; the best result counts
   double low = 0.0, high = 0.0;  // the fit stays within
 };
 
 struct Obstacle {
-  std::string reason;   // why it cannot be seen
-  std::string instead;  // what would show it
+  std::string reason;   // why it is not observable
+  std::string instead;  // what would make it observable
 };
 
 // One physical cause that a shear frame lacks: one file, one line in effects/registry.cpp. Stateless.
@@ -33,21 +33,21 @@ class StructuralEffect {
   virtual ~StructuralEffect() = default;
 
   [[nodiscard]] virtual std::string_view name() const = 0;
-  // May be none, where the declaration gives them.
+  // May be none, if the declaration gives them.
   [[nodiscard]] virtual std::vector<EffectParameter> parameters(const DeclaredFrame& declared) const = 0;
-  // Empty: it can be seen in frequencies and shapes of such a frame.
+  // Empty: observable in frequencies and shapes of such a frame.
   [[nodiscard]] virtual std::optional<Obstacle> obstacle(const DeclaredFrame& declared) const = 0;
-  // Puts it into the frame; effects are applied in the order of adoption, and each touches a field of its own.
+  // Applies the effect to the frame, in the order of adoption; each effect changes a field of its own.
   virtual void apply(std::span<const double> /*parameters*/, const DeclaredFrame&, ShearFrame&) const {}
-  // What a frequency of the frame is seen as.
+  // Frequency at which a frequency of the frame is observed.
   [[nodiscard]] virtual double seen_hz(double frequency_hz, std::span<const double> /*parameters*/,
                                        const DeclaredFrame&) const {
     return frequency_hz;
   }
-  // Empty where the fitted values may be true; else why not. `frame` is the fitted one, all effects in it.
+  // Empty if the fitted values are plausible; else why not. `frame` is the fitted one with all effects.
   [[nodiscard]] virtual std::string implausible(std::span<const double> parameters, const DeclaredFrame& declared,
                                                 const ShearFrame& frame) const = 0;
-  // What the parameters mean in other words, for a reader: "a storey height of 118 mm". May be empty.
+  // What the parameters imply, for a reader: "a storey height of 118 mm". May be empty.
   [[nodiscard]] virtual std::string meaning(std::span<const double> /*parameters*/, const DeclaredFrame&) const {
     return {};
   }
@@ -56,7 +56,7 @@ class StructuralEffect {
 // All of them; registry.cpp has one line each.
 [[nodiscard]] const std::vector<std::unique_ptr<StructuralEffect>>& structural_effects();
 
-// The frame as declared, with `stiffness_over_mass_per_s2` for what ratio 1 means.
+// The frame as declared; ratio 1 means `stiffness_over_mass_per_s2`.
 [[nodiscard]] ShearFrame uniform_frame(const DeclaredFrame& declared, double stiffness_over_mass_per_s2);
 
 }  // namespace core::structure

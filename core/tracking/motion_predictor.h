@@ -6,12 +6,12 @@
 
 namespace core {
 
-// By how much a region moves from one frame to the next, from how it moved: the best so far, by axis, of "stays", "goes
-// on" and an autoregression of the steps (a sinusoid is one of order two). "Goes on" is worse than "stays" for motion
-// above a sixth of the frame rate. Fixed memory; no allocation.
+// Predicts the step of a region to the next frame: per axis the best so far of hold, constant velocity and an
+// autoregression of the steps (a sinusoid is one of order two). Constant velocity is worse than hold for motion above a
+// sixth of the frame rate. Fixed memory; no allocation.
 class MotionPredictor {
  public:
-  // position: in this frame, px. after_gap: frames are missing before it, the steps across say nothing.
+  // position: in this frame, px. after_gap: frames are missing before it, so the step is not used.
   void update(const Vector2& position, bool after_gap) noexcept;
   void forget() noexcept { *this = MotionPredictor(); }
   [[nodiscard]] Vector2 step() const noexcept { return {u_.step(), v_.step()}; }

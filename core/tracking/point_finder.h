@@ -18,18 +18,18 @@ struct PointFinderConfig {
   int reseed_after = 250;    // frames until a point gets a new template (point_reseeder.h); 0: never
 };
 
-// All points of all regions in one image. First where each is expected; where the points of a region then do not agree
-// with one another, or look less like themselves than they use to, the region was expected in the wrong place: it is
-// looked for where it was last, where the others' surprise would put it, and, in a few regions a frame, as a whole
-// (region_search.h). The place that convinces most points counts. Nothing allocates after construction. One thread.
+// Finds all points of all regions in one image, each first at its predicted position. If the points of a region then
+// disagree, or match worse than usual, the region was predicted wrongly: it is searched for at its last position, at
+// that suggested by the other regions' prediction errors, and, for a few regions per frame, as a whole
+// (region_search.h). The place that convinces most points is used. Nothing allocates after construction. One thread.
 class PointFinder {
  public:
-  // keyframe: where the points are in that image; those of a region follow one another.
+  // keyframe: positions of the points in that image; the points of a region are consecutive.
   PointFinder(const PointFinderConfig& config, const GrayView& image, const std::vector<Vector2>& keyframe,
               const std::vector<std::uint16_t>& region_of_point, std::size_t n_regions);
 
   void find(const GrayView& gray, const RegionFollower& expected) noexcept;
-  // The same frame after outlier rejection: how the inliers use to look.
+  // The same frame after outlier rejection: updates the usual match quality of the inliers.
   void learn(const TrackFrame& judged) noexcept;
 
   [[nodiscard]] std::uint32_t n_reseeded() const noexcept { return reseeder_.n_reseeded(); }
@@ -40,7 +40,7 @@ class PointFinder {
     std::size_t first = 0, n = 0;  // of the points
     RegionSearch search;
   };
-  // How a region's points look: more of either is better, the first first.
+  // Match quality of a region's points: more of either is better, the first has priority.
   struct Look {
     int n_convincing = 0, n_agreeing = 0;
     Vector2 motion;  // the median

@@ -8,26 +8,26 @@
 
 namespace core {
 
-// A point that its region has done without for long (something covers it for good, its paint has come off, it lay on a
-// rope) gets a new template at its place, cut where the rest of the region says that the place is now: the similarity
-// (shift, turn, magnification) that takes the keyframe to this frame, by least squares. Then it is on trial. It does
-// not count while the new template is followed through kTrialFrames frames; one that scatters about its place twice as
-// much as the region's others about theirs is thrown away, and the next place nearby is tried. The mean distance from
-// its place over the trial is taken out of its datum, so that what is measured from it goes on from the keyframe: its
-// error there is that of a mean over the trial. One template a frame at most. Nothing allocates after construction. One
+// Re-seeds lost points. A point without an inlier sample for long (covered, peeled paint) gets a new
+// template near its original position, where the similarity (translation, rotation, magnification) from
+// the keyframe to the region's other points places it, by least squares. Then it is on trial: it does not
+// count while the new template is tracked through kTrialFrames frames; one whose scatter about its place
+// is twice that of the region's other points is discarded, and the next place nearby is tried. The mean
+// offset over the trial corrects the reference position, so the displacement continues from the keyframe
+// with the error of that mean. At most one template per frame. Nothing allocates after construction. One
 // thread.
 class PointReseeder {
  public:
   static constexpr int kTrialFrames = 50;
   static constexpr double kFarthest_px = 12.0;  // of a new template from its point
 
-  // keyframe: of the tracker's points; those of a region follow one another. after_frames: without the point while its
-  // region is measured; 0: never.
+  // keyframe: of the tracker's points; the points of a region are consecutive. after_frames: frames without the point
+  // while its region is measured; 0: never.
   PointReseeder(const KltTracker& tracker, const std::vector<Vector2>& keyframe,
                 const std::vector<std::uint16_t>& region_of_point, int after_frames, int min_points);
 
-  // An image in which the tracker has looked for its points. Points on trial are not seen afterwards. Returns the point
-  // that has a new template, -1 for none.
+  // An image in which the tracker has located its points. Points on trial are not seen afterwards. Returns the point
+  // with a new template, -1 for none.
   int judge(const GrayView& gray, std::vector<KltPoint>& found, KltTracker& tracker,
             TemplateAverage& templates) noexcept;
   // The same frame after outlier rejection.

@@ -20,9 +20,9 @@ struct TrackedPoint {
 };
 
 // Pyramidal Lucas-Kanade tracking (Bouguet 2001, OpenCV's implementation) of points of a keyframe in later images:
-// always against the keyframe, never frame to frame, so errors do not add up to drift. Points are first looked for near
-// their prediction, on the full image and the level above; only those not found there are looked for through the whole
-// pyramid, because its coarse windows also see what lies behind a plate and moves otherwise.
+// always against the keyframe, never frame to frame, so errors do not add up to drift. Points are searched first near
+// their prediction, on the full image and the level above; only those not found there through the whole pyramid,
+// because its coarse windows also contain background that moves differently.
 // One thread. After the first image nothing of ours allocates; OpenCV's own routine does.
 class PyramidKlt {
  public:

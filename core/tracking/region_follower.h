@@ -17,15 +17,15 @@ struct RegionFollowerConfig {
   double least_share_inside = 0.5;  // of a region's points that should lie in the image: with fewer it has left it
 };
 
-// Where the points of every region are to be looked for in the next frame, and what has become of the region. A point
-// of a measured region goes on from where it is as its region goes (motion_predictor.h). A region that is not measured
-// goes where the others go: the similarity (shift, turn, magnification) that takes the keyframe to the other regions'
-// points by least squares, plus what it was off from that when it was last measured. So it is found again after an
-// occlusion, or once the drifting camera has it back in the image; its points keep their keyframe, and the channel its
-// datum. Fixed memory; nothing allocates after construction. One thread.
+// Predicts where the points of every region are in the next frame, and keeps the region's state. A point of a measured
+// region is predicted from its position by the region's motion (motion_predictor.h). A region that is not measured
+// follows the others: the similarity (translation, rotation, magnification) from the keyframe to the other regions'
+// points, by least squares, plus its deviation from that when last measured. So it is found again after an occlusion,
+// or when the drifting camera sees it again; points and channel keep their reference positions. Fixed memory; nothing
+// allocates after construction. One thread.
 class RegionFollower {
  public:
-  // keyframe: where the points of all regions were, in any order of regions; region_of_point: < n_regions.
+  // keyframe: positions of the points of all regions, in any order of regions; region_of_point: < n_regions.
   RegionFollower(RegionFollowerConfig config, std::vector<Vector2> keyframe, std::vector<std::uint16_t> region_of_point,
                  std::size_t n_regions);
 

@@ -202,15 +202,15 @@ std::optional<ProposedRegion> propose_rest(const Survey& survey, const MotionGro
 
 std::string remark_on(const RegionProposal& proposal, const MotionGroups& groups) {
   if (proposal.n_points == 0)
-    return "no corner could be followed through the frames: too dark, blurred, or moving too fast";
+    return "no corner could be tracked through the frames: too dark, blurred, or moving too fast";
   if (proposal.regions.empty() && groups.has_rest)
-    return "everything rests: the motion is below what the tracker sees in these frames; take a part of the clip in "
-           "which the structure moves";
+    return "nothing moves: the motion is below the resolution of the tracker in these frames; use a "
+           "part of the clip in which the structure moves";
   if (proposal.regions.empty())
     return "no group of points moves together: too little texture, or too few points in view";
   if (!groups.has_rest)
-    return "nothing rests in view: parts are told from one another by their own motion alone, and the camera's is in "
-           "all";
+    return "no static region is in view: parts are distinguished by their own motion alone, which "
+           "includes the camera's";
   return {};
 }
 

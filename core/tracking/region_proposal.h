@@ -14,28 +14,28 @@ struct RegionProposalConfig {
   MotionGroupConfig groups{};
   std::size_t min_points = 6;  // of a region
   double min_side_px = 14.0;
-  double longest_share = 0.3;  // of the picture's longer side: what is longer is divided
-  double least_motion = 3.0;   // rms, of the region's own noise: what moves less is at rest
+  double longest_share = 0.3;  // of the image's longer side: longer regions are divided
+  double least_motion = 3.0;   // rms, in multiples of the region's own noise: with less it is static
   std::size_t max_regions = 12;
 };
 
 struct ProposedRegion {
   Region region;
   std::size_t n_points = 0;
-  double motion_px = 0.0;  // rms of the fast motion, without the camera's where something rests
+  double motion_px = 0.0;  // rms of the fast motion, without the camera's where a static group was found
   double noise_px = 0.0;   // expected, of one displacement of the region along its axis
 };
 
 struct RegionProposal {
   std::vector<ProposedRegion> regions;  // of the structure; the least noise first
   std::optional<ProposedRegion> rest;   // of role background: shows the camera's own motion
-  std::size_t n_points = 0;             // looked at
+  std::size_t n_points = 0;             // examined
   std::string remark;                   // what was not found, and why that may be; or empty
 };
 
-// Rectangles that do not overlap, each on points that move together and differently from what rests. Named part1,
-// part2, ... from the bottom up where they stand one above the other, else from the left, and `rest`. Pure: the same
-// points give the same rectangles. Few frames (less than two seconds) tell little.
+// Rectangles that do not overlap, each on points that move together and differently from the static ones. Named part1,
+// part2, ... from the bottom up if they stand one above the other, else from the left, and `rest` (static). Pure: the
+// same points give the same rectangles. Few frames (less than two seconds) are not conclusive.
 [[nodiscard]] RegionProposal propose_regions(const std::vector<SurveyedPoint>& points, double rate_hz, int width_px,
                                              int height_px, const RegionProposalConfig& config);
 

@@ -9,15 +9,15 @@
 
 namespace core {
 
-// Where a whole region went when its points are no longer near where they were expected: its picture in the keyframe,
-// made eight times coarser (four, if it is small), against the image about the expected place by normalised
-// correlation, then less and less coarse about the best place. As the whole region counts, one of a row of equal dots
-// is not taken for another; of places that look alike, the one nearest to the expected place is taken if it is clearly
-// the nearest. A translation, to a px or two. Buffers are made in the constructor; find() allocates nothing. One
+// Finds a whole region when its points are no longer near their predictions: its keyframe image, reduced eight
+// times (four, if it is small), is compared with the image about the predicted place by normalised correlation,
+// then at finer scales about the best place. The whole region counts, so one of a row of equal dots is not
+// confused with another; of similar places the one nearest to the prediction is used if it is clearly the
+// nearest. A translation, to a px or two. Buffers are made in the constructor; find() allocates nothing. One
 // thread.
 class RegionSearch {
  public:
-  // points: of the region, in the keyframe (8-bit grey). reach_px: how far from the expected place.
+  // points: of the region, in the keyframe (8-bit grey). reach_px: search radius around the predicted place.
   RegionSearch(const GrayView& keyframe, const std::vector<Vector2>& points, double reach_px);
 
   struct Found {
@@ -36,7 +36,7 @@ class RegionSearch {
     std::vector<float> cells;
   };
   static void reduce(const GrayView& gray, int left, int top, Picture& out) noexcept;
-  // A place for the pattern: px since the keyframe.
+  // A candidate place: px since the keyframe.
   struct Place {
     int du = 0, dv = 0;
     double correlation = -1.0;

@@ -9,7 +9,7 @@
 
 namespace core {
 
-// A corner of the first image and where it went, frame by frame, relative to that image.
+// A corner of the first image and its track, frame by frame, relative to that image.
 struct SurveyedPoint {
   Vector2 at;                   // in the first image
   double sigma_px = 0.0;        // of one position, per axis; mean over the frames
@@ -17,7 +17,7 @@ struct SurveyedPoint {
 };
 
 struct RegionSurveyConfig {
-  int tile_px = 48;          // corners are taken tile by tile, so that faint texture has its own
+  int tile_px = 48;          // corners are selected tile by tile, so that faint texture is represented
   int points_per_tile = 10;  // strongest first
   double min_distance_px = 8.0;
   double corner_quality = 0.05;
@@ -25,18 +25,18 @@ struct RegionSurveyConfig {
   KltConfig klt{};
 };
 
-// Every good corner of a clip, before anybody has said where the structure is. One thread.
+// Tracks every good corner of a clip, without any regions. One thread.
 class RegionSurvey {
  public:
   // Throws std::invalid_argument for an empty image.
   RegionSurvey(const GrayView& first, const RegionSurveyConfig& config);
 
-  // The next frame: each point is looked for where it was last, so it may move by klt.reach_px from frame to frame.
+  // The next frame: each point is searched at its last place, so it may move by klt.reach_px from frame to frame.
   void add(const GrayView& frame);
 
   [[nodiscard]] std::size_t n_frames() const noexcept { return n_frames_; }
   [[nodiscard]] std::size_t n_corners() const noexcept { return points_.size(); }
-  // Points that were followed to the end. Leaves the survey empty.
+  // Points tracked to the end. Leaves the survey empty.
   [[nodiscard]] std::vector<SurveyedPoint> take_points();
 
  private:

@@ -17,8 +17,8 @@ struct Box {
   }
 };
 
-// The rectangle that holds the most resting points and neither a point that moves otherwise nor a piece of what is
-// forbidden, with a margin about it; no larger than half the picture's width and height. Empty when there is none.
+// The rectangle with the most static points that contains neither a moving point nor a part of the forbidden areas,
+// with a margin; at most half the image's width and height. Empty if there is none.
 [[nodiscard]] std::optional<Box> rest_rectangle(const std::vector<SurveyedPoint>& points,
                                                 const std::vector<bool>& rests, const std::vector<Region>& forbidden,
                                                 int width_px, int height_px);

@@ -6,8 +6,8 @@
 
 namespace core {
 
-// What least squares for a similarity p = turn k + shift (shift, turn, magnification) needs of pairs (k, p): about
-// their means, turn = (along + i across) / spread, with k and p as complex numbers u + i v.
+// Sums for a least-squares similarity p = turn k + shift (translation, rotation, magnification) from pairs (k, p):
+// about their means, turn = (along + i across) / spread, with k and p as complex numbers u + i v.
 struct SimilarityMoments {
   double count = 0.0;
   Vector2 mean_k, mean_p;

@@ -24,15 +24,15 @@ struct StructureTrackerConfig {
   int reseed_after = 250;         // frames until a lost point gets a new template, its datum kept; 0: never
 };
 
-// All points of all regions through the frames: seeds them in the first frame (the keyframe), tracks them against it,
-// and predicts where to look from what the outlier rejection made of the previous frame (region_follower.h). Nothing
-// allocates in track() and learn().
+// Tracks all points of all regions: seeds them in the first frame (the keyframe), tracks them against it, and predicts
+// their positions from the previous frame after outlier rejection (region_follower.h). Nothing allocates in track() and
+// learn().
 // One thread: seed() or set_keyframe() once, then track() per frame followed by learn().
 class StructureTracker {
  public:
   explicit StructureTracker(StructureTrackerConfig config) : config_(std::move(config)) {}
 
-  // Returns an empty text, or which region lies where and has too little texture, and what to try.
+  // Returns an empty text, or which region has too little texture, and what to try.
   [[nodiscard]] std::string seed(const Frame& frame);
   // Instead of seed(): the keyframe of an earlier run, and its points, grouped by region.
   void set_keyframe(const Frame& image, const TrackFrame& keyframe);
@@ -40,10 +40,10 @@ class StructureTracker {
 
   // Fills `out.points` (sized n_points() beforehand). False: the tracker itself failed; no point is seen.
   [[nodiscard]] bool track(const Frame& frame, TrackFrame& out) noexcept;
-  // The same frame after outlier rejection set `inlier`: an outlier is looked for with its region next time, a region
+  // The same frame after outlier rejection set `inlier`: next time an outlier is searched for with its region, a region
   // with the others.
   void learn(const TrackFrame& judged) noexcept;
-  // After seed(). Points that were lost and have a new template.
+  // After seed(). Number of lost points that were re-seeded.
   [[nodiscard]] std::uint32_t n_reseeded() const noexcept { return finder_->n_reseeded(); }
   [[nodiscard]] const RegionFollower& regions() const noexcept { return *follower_; }
 

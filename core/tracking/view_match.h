@@ -6,10 +6,10 @@
 
 namespace core {
 
-// Is what the tracker found of a keyframe's points in another image the same view? Of every region at least half its
-// points, and min_points, must be seen and move alike to within a pixel, once the similarity (shift, turn,
-// magnification) that takes all points there is undone; the magnification must lie within 5 %. Sets `inlier` of the
-// points that agree. Empty: it is; else what speaks against it.
+// Do the points of a keyframe, as found in another image, show the same view? Of every region at least half its points,
+// and min_points, must be seen and agree to within a pixel, once the similarity (translation, rotation, magnification)
+// common to all points is removed; the magnification must be within 5 %. Sets `inlier` of the points that agree. Empty:
+// same view; else the reason against it.
 [[nodiscard]] std::string why_other_view(const TrackFrame& keyframe, TrackFrame& now, int min_points);
 
 }  // namespace core

@@ -8,7 +8,7 @@
 
 namespace core::closure {
 
-// What closing the loop over a stretch of a run has found: published by the service while it runs.
+// Residual diagnosis ("closing the loop") of one stretch of a run: published by the service in flight.
 struct ClosureReport {
   std::uint64_t number = 0;                             // 0, 1, 2, ... over the run
   std::uint64_t first_sequence = 0, last_sequence = 0;  // frames
@@ -18,8 +18,8 @@ struct ClosureReport {
   double took_s = 0.0;  // of processor's time, not part of the result
   std::string refused;  // why nothing can be concluded; `result` is then empty
   ClosureResult result;
-  // closure.adopt: auto. What is taken out of the points, or no longer, by this report, with the reason; and all that
-  // is.
+  // closure.adopt: auto. Corrections started or withdrawn by this report, with the reason; and all that are in
+  // force.
   std::vector<std::string> changes, in_force;
 };
 

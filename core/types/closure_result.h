@@ -8,7 +8,7 @@
 
 namespace core::closure {
 
-// Plain results of closing the loop; closure.json holds them. Errors and residuals are in the level's unit.
+// Plain results of residual diagnosis; closure.json holds them. Errors and residuals are in the level's unit.
 
 enum class EffectKind : std::uint8_t { kNamed, kLatent };
 
@@ -18,7 +18,7 @@ struct ParameterValue {
   std::optional<double> sigma;  // empty: unknown, as for a parameter that was given and not fitted
 };
 
-// What one candidate does on top of the effects adopted so far.
+// Result of one candidate on top of the effects adopted so far.
 struct CandidateScore {
   std::string effect;
   EffectKind kind = EffectKind::kNamed;
@@ -32,7 +32,7 @@ struct ClosureStep {
   std::string effect;
   EffectKind kind = EffectKind::kNamed;
   std::vector<ParameterValue> parameters;  // of the last joint fit
-  std::string meaning;                     // these in other words; of a latent effect what it looks like; may be empty
+  std::string meaning;                     // what these imply; for a latent effect its description; may be empty
   double heldout_before = 0.0, heldout_after = 0.0;
   double score = 0.0, threshold = 0.0;
   std::vector<std::string> rivals;     // in its place they would do as well: none of these is shown to be the cause
@@ -42,7 +42,7 @@ struct ClosureStep {
 struct NotObservable {
   std::string effect;
   std::string reason;   // which free quantity absorbs it
-  std::string instead;  // what to measure or film to see it
+  std::string instead;  // what to measure or film to observe it
 };
 
 // A mode of the model, or an identified one, beside its reference. Empty = unknown. Errors in percent of the reference.
@@ -55,14 +55,14 @@ struct ClosureMode {
 struct ClosureResult {
   std::string level, unit;
   double baseline_rms = 0.0;  // residual of the model without effects
-  double noise_floor = 0.0;   // what noise alone would leave
+  double noise_floor = 0.0;   // expected from noise alone
   double residual_rms = 0.0;  // with all adopted effects
   std::vector<ClosureStep> steps;
   double unexplained_fraction = 0.0;  // of the baseline's mean square above the noise
   std::string unexplained;
   std::vector<NotObservable> not_observable;
   std::vector<ClosureMode> modes_before, modes_after;
-  std::optional<double> reference_error_before, reference_error_after;  // rms, on what no fit saw
+  std::optional<double> reference_error_before, reference_error_after;  // rms, on held-out data
   std::string reference_unit;                                           // of these
   std::string stop_reason;
   std::vector<CandidateScore> refused;  // the last round's candidates, best first

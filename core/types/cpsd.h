@@ -17,16 +17,16 @@ struct SegmentWeight {
   [[nodiscard]] double effective() const noexcept { return squares > 0.0 ? sum * sum / squares : 0.0; }
 };
 
-// The sums of one of several contiguous parts of the record: what standard deviations are made of.
+// Sums of one of several contiguous parts of the record, from which standard deviations are computed.
 struct CpsdBlock {
   std::uint64_t n_segments = 0;
   SegmentWeight weight;
   std::vector<std::complex<double>> data_sum, mask_sum;  // as in CpsdSums
 };
 
-// Sums of a Welch estimate, not yet divided. bins x pairs; a pair (i <= j) stands at i * n - i (i - 1) / 2 + (j - i).
-// Bin k lies at k * rate_hz / n_fft. `mask_sum` is the same for the seen/missing masks: dividing the two inverse
-// transforms removes the window and the losses in one step (ARCHITECTURE.md).
+// Sums of a Welch estimate, not yet divided. bins x pairs; a pair (i <= j) is at i * n - i (i - 1) / 2 + (j - i). Bin k
+// is at k * rate_hz / n_fft. `mask_sum` is the same for the seen/missing masks: dividing the two inverse transforms
+// removes the window and the losses in one step (core/spectrum/METHOD.md).
 struct CpsdSums {
   int n_channels = 0;
   int n_fft = 0;

@@ -8,15 +8,15 @@
 
 namespace core {
 
-// A channel is one region along one axis. What is fixed over the run stands here, once.
+// A channel is one region along one axis. Its properties that are fixed over the run.
 struct ChannelInfo {
   std::uint16_t region = 0;
   std::string name;          // region name; "<region>.u" / "<region>.v" where a region has both axes
   double direction_u = 1.0;  // unit vector of the axis in the image
   double direction_v = 0.0;
-  double row_delay_s = 0.0;  // tau: the channel is seen this long after the frame's time stamp (ARCHITECTURE.md)
+  double row_delay_s = 0.0;  // tau: the channel is seen this long after the frame's time stamp (geometry/METHOD.md)
   bool is_base = false;      // region role `base`: measured input, kept as an output
-  bool is_witness = false;   // what rests, seen to move as the camera does: tells the camera's part of the others
+  bool is_witness = false;   // a static reference region, used to remove camera motion from the others
   int n_integrations = 0;    // from its samples to a displacement: 0 displacement, 1 velocity, 2 acceleration
 };
 
@@ -30,12 +30,12 @@ struct DisplacementSample {
   std::vector<double> sigma_mm;         // n_channels
   std::vector<std::uint8_t> seen;       // n_channels; 1 = a sample
   std::vector<std::uint16_t> n_points;  // n_channels: inlier points behind the sample
-  // Witnesses beside the channels (ChannelDisplacement::spectra()); no displacement of anything.
+  // Static reference regions (witnesses), after the channels (ChannelDisplacement::spectra()); not displacements.
   std::vector<double> witness_mm{};
   std::vector<std::uint8_t> witness_seen{};
   ReadoutEstimate readout{};  // from the tracks up to this frame
-  // Number of what was taken out of the points beyond what was declared (0: nothing); between two, displacements jump.
-  // Between two records, the channels' row delays have changed, too.
+  // Id of the correction set in force (0 = none beyond the declared ones): displacements jump where it changes.
+  // `record`: the epoch; a new one also changes the channels' row delays.
   std::uint32_t amendment = 0, record = 0;
   std::uint32_t stride = 1;  // of the source's frames, every so many are kept: more than 1 under overload
 };

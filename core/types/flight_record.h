@@ -5,10 +5,10 @@
 
 namespace core {
 
-// Stretches of a recorded flight at a uniform rate, as a flight log and an inertial sensor hold them. `from_s` is the
-// first sample's time since the start of the flight; sample k lies at from_s + k / rate_hz.
+// Stretches of a recorded flight at a uniform rate, from a flight log and an inertial sensor. `from_s`: time of the
+// first sample since the start of the flight; sample k is at from_s + k / rate_hz.
 
-// Where the aircraft was, about the mean of the stretch.
+// Position of the aircraft, about the mean of the stretch.
 struct FlightPath {
   double rate_hz = 0.0;
   double from_s = 0.0;
@@ -18,7 +18,7 @@ struct FlightPath {
   [[nodiscard]] std::size_t n_samples() const noexcept { return north_mm.size(); }
 };
 
-// How the aircraft was turned and accelerated, in the axes of an inertial sensor: x forward, y left, z up. Angles turn
+// Rotation and acceleration of the aircraft in the axes of an inertial sensor: x forward, y left, z up. Angles are
 // right-handed about x, y, z, in the order yaw, pitch, roll from the level to the sensor.
 struct FlightAttitude {
   double rate_hz = 0.0;

@@ -6,13 +6,13 @@
 
 namespace core {
 
-// The way the sensor's lines are read, as seen in the delivered (already rotated) image.
+// Direction in which the sensor's lines are read, in the delivered (already rotated) image.
 enum class ReadoutDirection : std::uint8_t { kDown, kUp, kLeft, kRight };
 
 // "down", "up", "left", "right": as in every file and message.
 [[nodiscard]] const char* to_string(ReadoutDirection direction) noexcept;
 
-// What a camera knows about itself before its first frame. Fixed while the camera runs.
+// Properties of a camera that are known before its first frame and fixed while it runs.
 struct CameraInfo {
   int width_px = 0;
   int height_px = 0;
@@ -25,7 +25,7 @@ struct CameraInfo {
   std::string description;        // for logs: device or file, codec, size
 };
 
-// One gray image and when it was taken. A ring slot: `pixels` is sized once, at set-up, and reused.
+// One gray image and its time. A ring slot: `pixels` is sized once, at set-up, and reused.
 struct Frame {
   std::uint64_t sequence = 0;    // frame number at the source; jumps where frames were lost
   std::int64_t t_start_ns = 0;   // start of exposure of row 0 (stream time for files, CLOCK_MONOTONIC for devices)

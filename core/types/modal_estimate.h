@@ -28,7 +28,7 @@ struct ModeHistory {
   std::optional<double> more_s;  // record still wanted for a damping good to 10 %; 0 = it is
 };
 
-// One pole with its shape. What is not known yet is empty, never invented.
+// One pole with its shape. Unknown values are empty, never invented.
 struct Mode {
   double frequency_hz = 0.0;  // true frequency (after unfolding, where that was resolved)
   std::optional<double> frequency_std_hz;
@@ -54,14 +54,14 @@ struct StabilisationPole {
   double frequency_hz = 0.0;
   double damping_ratio = 0.0;
   double mpc = 0.0;
-  // The line that it joined: an index into `modes`, from modes.size() on into `rejected`; -1 = none that is listed.
+  // The cluster that it joined: an index into `modes`, from modes.size() on into `rejected`; -1 = none that is listed.
   int i_line = -1;
 };
 
 // Of one estimate; orders beyond it are left out, highest first.
 inline constexpr std::size_t kMaxStabilisationPoles = 4096;
 
-// One answer of the identification: everything known at `n_samples` of stream time.
+// One result of the identification: everything known at `n_samples` of stream time.
 struct ModalEstimate {
   std::uint64_t number = 0;     // 0, 1, 2, ... over the run
   std::uint64_t n_samples = 0;  // stream time in samples
@@ -71,13 +71,13 @@ struct ModalEstimate {
   double rate_hz = 0.0;
   double duration_s = 0.0;
   double remembered_s = 0.0;  // of it; less only where old samples are forgotten
-  // Read the standard deviations with so many degrees of freedom (Student's t); 0 = none are stated.
+  // Degrees of freedom of the standard deviations (Student's t); 0 = none are stated.
   double degrees_of_freedom = 0.0;
   int model_order = 0;                    // order at which the canonical correlations fall off; 0 = unclear
   bool final = false;                     // the last of a run
   std::string status;                     // "ok", or why there are no modes
-  std::vector<std::string> amendments;    // effects that the run found and takes out, beyond what was declared
-  std::optional<ReadoutFinding> readout;  // behind the row delays that were undone; empty: not looked at
+  std::vector<std::string> amendments;    // effects found and corrected by the run, beyond the declared ones
+  std::optional<ReadoutFinding> readout;  // basis of the row delays; empty: not estimated
   std::vector<Mode> modes;                // structural, by frequency
   std::vector<Mode> rejected;             // every other pole, with its reason
   std::vector<StabilisationPole> poles;   // of all orders, ascending; at most kMaxStabilisationPoles

@@ -11,18 +11,18 @@ struct ReadoutEstimate {
   double frames = 0.0;
   double std_frames = 0.0;
   int n_degrees = 0;          // of freedom behind std_frames (Student's t)
-  int n_bands = 0;            // frequency bands with motion that tells ...
+  int n_bands = 0;            // frequency bands with informative motion ...
   int n_bands_against = 0;    // ... and those of them left out, because they contradict the others
   double seconds_used = 0.0;  // of record
 };
 
-// A readout time and how well it is known.
+// A readout time and its standard deviation.
 struct ReadoutValue {
   double readout_s = 0.0;
   double std_s = 0.0;  // 0 = exact
 };
 
-// What one estimate knew of the readout time and what it took.
+// Readout times known to one estimate, and the one it used.
 struct ReadoutFinding {
   ReadoutValue declared, used;
   std::optional<ReadoutValue> from_tracks, from_shapes;

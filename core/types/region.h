@@ -7,16 +7,16 @@
 
 namespace core {
 
-// kBase moves with the structure's ground; kGround rests, in the structure's plane; kBackground rests, elsewhere.
+// kBase moves with the structure's ground; kGround is static, in its plane; kBackground is static, elsewhere.
 enum class RegionRole : std::uint8_t { kStructure, kBase, kBackground, kGround };
 
-// What rests has no displacement.
+// Static regions have no displacement.
 [[nodiscard]] constexpr bool makes_channel(RegionRole role) noexcept {
   return role == RegionRole::kStructure || role == RegionRole::kBase;
 }
 
-// What a region does in the newest frame. Searching: not measured, but it should be in the image. Lost: it has left the
-// image, or was searched for too long; it is measured again as soon as it is seen.
+// State of a region in the newest frame. Searching: not measured, but expected in the image. Lost: outside the image,
+// or searched for too long; it is measured again as soon as it is seen.
 enum class RegionState : std::uint8_t { kMeasuring, kSearching, kLost };
 
 [[nodiscard]] constexpr const char* to_string(RegionState state) noexcept {

@@ -12,7 +12,7 @@
 
 namespace core {
 
-// Attitude samples that came since the frame before. More than fit are counted.
+// Attitude samples received since the previous frame. Samples that do not fit are counted.
 struct AttitudeBatch {
   static constexpr std::size_t kMost = 64;
   std::array<AttitudeSample, kMost> samples{};
@@ -36,16 +36,16 @@ struct NamedFile {
   std::string bytes;
 };
 
-// What a record of a run begins with: all that a replay needs beside the frames' points.
+// Head of a run record: everything that a replay needs beside the frames' points.
 struct RunHead {
   std::string config_yaml;
   CameraInfo camera;
   TrackFrame keyframe;  // of the first frame; a later one has its points in this order
   std::vector<NamedFile> files;
-  bool continues = false;  // the run goes on with the kept state of one before it
+  bool continues = false;  // the run resumes from the checkpoint of an earlier one
 };
 
-// One frame of a record.
+// One frame of a run record (a track record).
 struct RecordedFrame {
   TrackFrame tracks;
   AttitudeBatch attitude;

@@ -12,7 +12,7 @@ struct ResidualPair {
   double noise_px = 0.0;            // stated, per axis
 };
 
-// Leading pattern of what the model leaves, over the image, before and after; arrows in one scale, which is stated.
+// Leading pattern of the residual over the image, before and after; arrows in one scale, which is stated.
 [[nodiscard]] std::string closure_field_svg(const ResidualPair& residual);
 // Its spectrum and the rms of its patterns, before and after, beside the stated noise.
 [[nodiscard]] std::string closure_residual_svg(const ResidualPair& residual);

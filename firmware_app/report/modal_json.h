@@ -11,21 +11,21 @@
 
 namespace app {
 
-// What modal.json holds. Of `losses` only the counters that a replay reproduces are written.
+// Contents of modal.json. Of `losses` only the counters that a replay reproduces are written.
 struct ModalReport {
   std::string method;                      // "paper" | "hovermodal"
   std::vector<std::string> channel_names;  // of the shapes
   core::ModalEstimate estimate;
   std::vector<std::string> corrections;  // effects that were removed before the identification
   core::Health losses;
-  std::vector<std::string> caveats = {};  // what the result leaves open
+  std::vector<std::string> caveats = {};  // what the result leaves open, for a reader
 };
 
 [[nodiscard]] std::string_view to_text(Method method) noexcept;
 
-// Text of modal.json: no wall clock, no paths, no busy times, so that the same input gives the same bytes. What is
-// unknown is null. `n_not_finite`, where given, gets the number of NaNs and infinities that were written as null: a
-// fault of ours.
+// Text of modal.json: no wall clock, no paths, no busy times, so that the same input gives the same bytes. Unknown
+// values are null. `n_not_finite`, if given, receives the number of NaNs and infinities written as null: a fault of
+// ours.
 [[nodiscard]] std::string modal_json(const ModalReport& report, std::size_t* n_not_finite = nullptr);
 
 // Reads what modal_json wrote (also by other programs: missing optional keys are unknown values). Throws

@@ -12,9 +12,9 @@
 
 namespace app {
 
-// What a run looked like over time, for the pictures: displacement of every channel, scale, track quality of every
-// region, every mode over the estimates. Memory is fixed at construction, so that a run may take as long as it likes.
-// Used by one thread.
+// Time history of a run for the pictures: displacement of every channel, scale, track quality of every region,
+// every mode over the estimates. Memory is fixed at construction, whatever the length of the run. Used by one
+// thread.
 class RunHistory {
  public:
   struct Region {

@@ -18,15 +18,15 @@
 
 namespace app {
 
-// The files that a run leaves behind: tracks.csv and displacements.csv, written as it goes, and modal.json at the end.
-// Used by one thread. A file under way is called *.partial; only a complete one has its name.
+// The files of a run: tracks.csv and displacements.csv, written during the run, and modal.json at the end. Used by one
+// thread. A file being written is called *.partial; only a complete one has its name.
 class RunReport {
  public:
   // Makes the folder, opens the CSV files, removes the results of an earlier run there. Throws drivers::FileError.
   RunReport(const std::string& directory, const AppConfig& config, const core::CameraInfo& camera,
             const std::vector<core::ChannelInfo>& channels, const std::vector<std::string>& region_names);
 
-  // One frame, one sample. False: a file has failed (disk full); the rest of it is lost, counted, and told by finish().
+  // One frame, one sample. False: a file failed (disk full); its remainder is lost, counted, and reported by finish().
   bool add(const core::TrackFrame& frame) noexcept;
   bool add(const core::DisplacementSample& sample) noexcept;
   // One estimate, for the pictures of how the modes settled.
@@ -38,12 +38,12 @@ class RunReport {
   void finish(const core::ModalEstimate& last, const core::Health& losses, const std::vector<std::string>& corrections,
               const std::vector<std::string>& caveats = {}, const core::closure::ClosureReport* closure = nullptr);
 
-  // What came so far, for the pictures.
+  // Data so far, for the pictures.
   [[nodiscard]] const RunHistory& history() const noexcept { return history_; }
 
   // Frames and samples that came after a file had failed.
   [[nodiscard]] std::uint64_t n_items_lost() const noexcept { return n_items_lost_; }
-  // Values that were NaN or infinite: left out of the CSV files, null in modal.json. A fault of ours, to be logged.
+  // Values that were NaN or infinite: empty in the CSV files, null in modal.json. A fault of ours, to be logged.
   [[nodiscard]] std::uint64_t n_not_finite() const noexcept { return n_not_finite_; }
 
  private:

@@ -65,7 +65,7 @@ const std::vector<BadInput>& configuration_rows() {
       {"ScaleEndsOnOnePixel",
        [](const fs::path& f) { return with_rest(f, "scale: {known_length_mm: 100, from: [20, 30], to: [20, 30]}"); },
        2,
-       {"scale.to", "two ends"}},
+       {"scale.to", "two different ends"}},
       {"KnownLengthZero",
        [](const fs::path& f) { return with_rest(f, "scale: {known_length_mm: 0, from: [20, 30], to: [20, 60]}"); },
        2,

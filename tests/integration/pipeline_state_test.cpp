@@ -116,7 +116,7 @@ TEST_F(PipelineState, AStateOfAnotherConfigurationIsRefusedAndTheReasonTold) {
   (void)cut_off();
   Rig rig(frames(200), overrides("identification.min_mpc=0.7"));
   const auto after = rig.run();
-  EXPECT_THAT(after.health.warnings, Contains(HasSubstr("its configuration was another one")));
+  EXPECT_THAT(after.health.warnings, Contains(HasSubstr("its configuration was different")));
   EXPECT_EQ(after.estimate.n_samples, 200U);
 }
 

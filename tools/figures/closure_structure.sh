@@ -18,7 +18,7 @@ figure_4() {
   judge 4b "storey height implied $height mm, partner named with its rivals: $sound, leave-one-out error fell at each step: $falls" \
     "added only while the leave-one-out error falls; parameters physically plausible (storey height near 0.12 m); rivals that cannot be told apart named" "the same: ground storey and roof mass cannot be told apart" \
     "$height >= 80 && $height <= 160 && $sound == 1 && $falls == 1"
-  line 4c beside "$(ask paper 'f"""{c["reference_error_before"]:.2f} -> {c["reference_error_after"]:.2f} % rms"""'): $(grep -A 4 'no fit saw (--check)' "$out/paper.txt" | tail -n +2 | awk '$1 + 0 > 0 { printf "%s Hz %s %%  ", $3, $4 }')" \
+  line 4c beside "$(ask paper 'f"""{c["reference_error_before"]:.2f} -> {c["reference_error_after"]:.2f} % rms"""'): $(grep -A 4 'excluded from the fit (--check)' "$out/paper.txt" | tail -n +2 | awk '$1 + 0 > 0 { printf "%s Hz %s %%  ", $3, $4 }')" \
     "predicted with its error" "the accelerometers' three frequencies, which no fit saw"
 
   if [ -d "$data/mini_shake_table" ]; then

@@ -54,5 +54,5 @@ attitude=$(python3 tools/figures/lcm_log.py final "$out/service.lcm" build/relea
   python3 -c 'import json, re, sys; print(*[w for w in json.load(sys.stdin)["warnings"] if "attitude_channel" in w])')
 verdict=bad
 if [ "$alive" = " spy inspect subscribe python service spy inspect python2 service" ] &&
-  [ "$codes" = " spy 0 inspect 0 subscribe 0 python 0 python2 0 service 0" ] && [ "$spy_refused" -gt 0 ] && [[ "$attitude" =~ [1-9][0-9]*" messages are no attitude" ]]; then verdict=ok; fi
+  [ "$codes" = " spy 0 inspect 0 subscribe 0 python 0 python2 0 service 0" ] && [ "$spy_refused" -gt 0 ] && [[ "$attitude" =~ [1-9][0-9]*" messages are not an attitude" ]]; then verdict=ok; fi
 echo "$verdict $(tr '\n' ' ' <"$out/sent.txt"); exit codes:$codes; spy read $spy_read, refused $spy_refused; C++ example: $(tail -n 1 "$out/subscribe.log"); Python: $(tail -n 1 "$out/python.log"); service: $attitude" >"$out/result.txt"

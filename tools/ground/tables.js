@@ -110,7 +110,7 @@ export function showClosure(state) {
     out.push(bar("Before", c.before, largest, "", c.unit), bar("After", c.after, largest, "after", c.unit), bar("Noise alone", c.floor, largest, "", c.unit));
     out.push(element("p", c.steps.length ? "" : "Nothing found that explains more than chance."));
     for (const s of c.steps) {
-      out.push(element("p", [element("b", s.effect), ": " + s.numbers + (s.meaning ? " (" + s.meaning + ")" : "") + "; on data no fit saw " + fixed(s.before) + " → " + fixed(s.after) + " " + c.unit]));
+      out.push(element("p", [element("b", s.effect), ": " + s.numbers + (s.meaning ? " (" + s.meaning + ")" : "") + "; on held-out data " + fixed(s.before) + " → " + fixed(s.after) + " " + c.unit]));
     }
     if (c.left) out.push(element("p", "Left: " + c.left + (c.unexplained === null ? "" : " (" + fixed(100 * c.unexplained, 2) + " % of what is above the noise)"), "note"));
   }

@@ -132,8 +132,8 @@ void add_compare(CLI::App& app) {
       "Frequencies and shapes of one modal.json against another, or against a simulation's truth.json: MAC of the\n"
       "complex shapes, and of them taken as real ones\n"
       "  hovermodal compare --result out/modal.json --reference out/truth.json");
-  command->add_option("--result", options->result, "modal.json to judge")->required()->type_name("FILE");
-  command->add_option("--reference", options->reference, "modal.json or truth.json to judge it by")
+  command->add_option("--result", options->result, "modal.json to compare")->required()->type_name("FILE");
+  command->add_option("--reference", options->reference, "modal.json or truth.json to compare it with")
       ->required()
       ->type_name("FILE");
   command->add_option("--truth", options->truth, "truth.json: adds the error in units of the smallest possible scatter")

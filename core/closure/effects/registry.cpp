@@ -30,20 +30,23 @@ std::vector<NotObservable> never_observable() {
        "the displacement of every region is free in each frame and absorbs an error of the frame's time",
        "trust the source's stamps and sequence numbers, or film a clock; a predictor over time of the regions' motion "
        "could show them"},
-      {"clock rate", "a record that runs slow as a whole is a record of lower frequencies",
+      {"clock rate", "a wrong rate scales all frequencies alike and leaves no residual",
        "film a clock, or give reference frequencies"},
       {"scale, and its slow change", "zoom of the structure's plane is free in each frame",
        "declare a known length per region"},
       {"zoom about a displaced centre", "it is zoom about the principal point and a translation, both free",
        "film points at several known depths"},
       {"constant part of yaw and pitch", "it is a translation of the whole image, which is free in each frame",
-       "nothing is lost for modes: displacement relative to the base stays"},
+       "modes are unaffected: displacement relative to the base remains"},
       {"stabilisation warp",
-       "its translation and zoom are free in each frame; what it does beyond shows as a latent effect",
+       "its translation and zoom are free in each frame; any remaining warp appears as a latent "
+       "effect",
        "switch the camera's stabilisation off"},
-      {"flicker bands", "tracks hold no brightness; what bands do to single points shows as a latent effect",
-       "look at the frames themselves, or expose for a whole period of the lamps"},
-      {"tilt of single floors", "the model has no turn per region; a tilt shows as a latent effect",
+      {"flicker bands",
+       "tracks contain no brightness; the effect of bands on single points appears as a latent "
+       "effect",
+       "inspect the frames themselves, or expose for a whole period of the lamps"},
+      {"tilt of single floors", "the model has no rotation per region; a tilt appears as a latent effect",
        "declare larger regions, or several on one floor"},
   };
 }

@@ -10,7 +10,7 @@ namespace core::closure {
 // All named effects of the observation level.
 [[nodiscard]] std::vector<ObservationEffect> observation_effects();
 
-// What no record of tracks can show at this level, whatever its size.
+// Effects that no record of tracks can show at this level, whatever their size.
 [[nodiscard]] std::vector<NotObservable> never_observable();
 
 }  // namespace core::closure

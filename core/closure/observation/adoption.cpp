@@ -84,7 +84,7 @@ std::vector<std::string> Adoption::update(const ClosureReport& report, std::uint
       continue;
     }
     changes.push_back(from + "withdrawn, " + e->effect + ": frames " + std::to_string(report.first_sequence) + " to " +
-                      std::to_string(report.last_sequence) + " do not show it any more");
+                      std::to_string(report.last_sequence) + " no longer show it");
     changes_delays_ = changes_delays_ || e->effect == kReadout;
     e = in_force_.erase(e);
   }

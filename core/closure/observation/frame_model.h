@@ -8,20 +8,20 @@
 
 namespace core::closure {
 
-// Where the points stand on the average, in units of the focal length about the principal point, and in the readout.
+// Mean positions of the points, in units of the focal length about the principal point, and in the readout.
 struct PointGeometry {
   double alpha_px = 0.0;
   Eigen::VectorXd x, y, share;
 };
 [[nodiscard]] PointGeometry point_geometry(const ObservationRecord& record);
 
-// What moves the points, frame by frame and free in each, on top of their mean places (rows 2j, 2j+1 = u, v of point
-// j, divided by its sigma):
+// Motion of the points, free in every frame, relative to their mean positions (rows 2j, 2j+1 = u, v of point j, divided
+// by its sigma):
 //     z_kj = sum_c X_jc [ a_c(k) + rho (s_j - s_c) a_c'(k) + rho^2 (s_j - s_c)^2 a_c''(k) / 2 ]
 // Columns: every region of structure and base along its axis; translation and zoom of the structure's plane;
-// translation and zoom of the background; added ones. s: place in the readout, s_c the mean over the column's own
-// points; rho: readout in frames. Where translation is already spanned by the regions it falls out (rank). Camera
-// columns are low-passed at 3 Hz before they are differentiated: their noise would enter every point.
+// translation and zoom of the background; added ones. s: place in the readout, s_c: its mean over the column's points;
+// rho: readout in frames. Translation spanned by the regions is dropped (rank). Camera columns are low-passed at 3 Hz
+// before differentiation, because their noise would enter every point.
 //
 // Columns added for the low band exist up to kLowBand_hz only: there they are fitted with all others, above they are
 // zero. Cosines make this exact.
@@ -30,20 +30,20 @@ class FrameModel {
   static constexpr double kLowBand_hz = 3.0;
 
   explicit FrameModel(const ObservationRecord& record);  // of a checked record
-  // The same with the points at these mean places (2 points long, px): where a lens is taken out, zoom acts on the
-  // undistorted image. Added columns are lost; when a pixel is seen stays as it was.
-  // magnification: per point, of the noise on the way there.
+  // The same with the points at these mean positions (2 points long, px): after a lens correction, zoom acts on the
+  // undistorted image. Added columns are dropped; readout instants are unchanged.
+  // magnification: per point, by which the noise is multiplied.
   void set_places(const ObservationRecord& record, const Eigen::VectorXd& places_px,
                   const Eigen::VectorXd& magnification);
 
-  // Fields in px per unit, 2 points long.
+  // Fields in px per unit, vectors of 2 points.
   void set_added(const std::vector<Eigen::VectorXd>& full, const std::vector<Eigen::VectorXd>& low);
-  // positions: 2 points x frames, px, finite. Afterwards everything below speaks of this fit.
+  // positions: 2 points x frames, px, finite. All accessors below refer to this fit.
   void solve(const Eigen::MatrixXd& positions, double readout_frames, int rounds);
 
   [[nodiscard]] const Eigen::MatrixXd& residual() const noexcept { return residual_; }  // in sigmas
   [[nodiscard]] Eigen::MatrixXd residual_px() const;                                    // of the raw image
-  // Series over frames, px (added columns: their unit), one row per column as given; zero where it fell out.
+  // Series over frames, px (added columns: their unit), one row per column; zero where a column was dropped.
   [[nodiscard]] const Eigen::MatrixXd& amplitudes() const noexcept { return amplitude_; }
   [[nodiscard]] const Eigen::MatrixXd& rates() const noexcept { return first_; }  // their changes per frame
   [[nodiscard]] Eigen::Index row_of_region(std::size_t region) const noexcept {
@@ -60,7 +60,7 @@ class FrameModel {
   // Derivative of the prediction by the readout time in frames, in sigmas.
   [[nodiscard]] Eigen::MatrixXd readout_field() const;
 
-  // What the fit would leave of a field or record, 2 points x frames in sigmas; its mean over time is taken away.
+  // Residual of a field or record after the fit, 2 points x frames in sigmas; its mean over time is removed.
   [[nodiscard]] Eigen::MatrixXd left_of(const Eigen::MatrixXd& values) const;
   // Orthonormal columns above and within the low band.
   [[nodiscard]] const Eigen::MatrixXd& q_high() const noexcept { return q_high_; }

@@ -70,7 +70,7 @@ std::string latent_words(const Eigen::VectorXd& field, const Eigen::RowVectorXd&
                          const std::vector<KnownSignal>& known) {
   std::string out = place_words(field, record);
   const double plane = smooth_share(field, geometry, false), curved = smooth_share(field, geometry, true);
-  out += "; a plane field over the image holds " + percent(plane) + " of it, a quadratic one " + percent(curved);
+  out += "; a linear field over the image explains " + percent(plane) + " of it, a quadratic one " + percent(curved);
   std::string hz = std::to_string(strongest_hz(amplitude, record.rate_hz));
   out += "; strongest at " + hz.substr(0, hz.find('.') + 3) + " Hz";
   const Eigen::RowVectorXd a = amplitude.array() - amplitude.mean();
@@ -80,7 +80,8 @@ std::string latent_words(const Eigen::VectorXd& field, const Eigen::RowVectorXd&
     const Eigen::RowVectorXd s = signal.series.array() - signal.series.mean();
     const double norm = s.squaredNorm() * a.squaredNorm();
     const double share = norm > 0.0 ? s.dot(a) * s.dot(a) / norm : 0.0;
-    if (share > best) best = share, words = "; goes with " + signal.name + " (" + percent(share) + " of its variance)";
+    if (share > best)
+      best = share, words = "; correlates with " + signal.name + " (" + percent(share) + " of its variance)";
   }
   return out + words;
 }

@@ -9,15 +9,15 @@
 
 namespace core::closure {
 
-// A series that a pattern's amplitude may go with.
+// A series with which the amplitude of a pattern may correlate.
 struct KnownSignal {
   std::string name;
   Eigen::RowVectorXd series;
 };
 
-// What a pattern over the points (2 points long, px) with this amplitude over time looks like: which region and axis,
-// how smooth it is over the image (share of its squares that a plane field, a quadratic one, or one per row holds), its
-// strongest frequency, and the known signal that it goes with best.
+// Describes a pattern over the points (2 points long, px) with this amplitude over time: region and axis, smoothness
+// over the image (share of its squares explained by a linear field, a quadratic one, or one per row), strongest
+// frequency, and the known signal with which it correlates best.
 [[nodiscard]] std::string latent_words(const Eigen::VectorXd& field, const Eigen::RowVectorXd& amplitude,
                                        const ObservationRecord& record, const PointGeometry& geometry,
                                        const std::vector<KnownSignal>& known);

@@ -7,21 +7,21 @@
 
 namespace core::closure {
 
-// Rotation of the camera in a narrow band, as rotors cause it: seen row by row, its phase runs with the readout, so
-// that the true frequency among those that look alike at the frame rate can be told. For a bin at nu of the residual's
-// spectrum and the hypothesis n the pattern is (roll, pitch, yaw)_j exp(2 pi i (nu + n f_s) rho s_j / f_s).
-// A band that reaches over f_s / 2 is seen below it a second time, mirrored and with the opposite sense of rotation:
-// with the fold -(n + 1).
+// Spectral line: rotation of the camera in a narrow band, as caused by rotors. Its phase runs with the readout from
+// row to row, which determines the true frequency among the aliases. For a bin at nu of the residual's spectrum and
+// alias order n the pattern is (roll, pitch, yaw)_j exp(2 pi i (nu + n f_s) rho s_j / f_s). A band that extends
+// beyond f_s / 2 appears a second time below it, mirrored, with opposite sense of rotation and alias order -(n +
+// 1).
 struct LineFinding {
-  double apparent_hz = 0.0;  // middle of the band, 0 .. f_s / 2; 0 = none was looked for
+  double apparent_hz = 0.0;  // middle of the band, 0 .. f_s / 2; 0 = no line
   int fold = 0;
   double half_width_hz = 0.0;
-  double freedom = 0.0;    // numbers that its motion takes from the noise
+  double freedom = 0.0;    // degrees of freedom that its motion takes from the noise
   double gain = 0.0;       // drop of the held-out squares, in noise variances
-  double next_gain = 0.0;  // of the best other fold
+  double next_gain = 0.0;  // of the second-best alias order
 };
 
-// Mean frequency as seen (0 .. f_s / 2) and its standard deviation from eight stretches of the record.
+// Mean apparent frequency (0 .. f_s / 2) and its standard deviation from eight parts of the record.
 struct LineFrequency {
   double apparent_hz = 0.0, sigma_hz = 0.0;
 };
@@ -35,11 +35,11 @@ class LineSearch {
 
   // residual: 2 points x frames, in sigmas, as the model leaves it.
   [[nodiscard]] LineFinding find(const Eigen::MatrixXd& residual) const;
-  // What the best pattern of any other kind gains in the finding's band, learned on four fifths of its bins and judged
-  // on the fifth.
+  // Gain of the best pattern of any other kind in the finding's band, learned on four fifths of its bins and scored on
+  // the other fifth.
   [[nodiscard]] double pattern_gain(const Eigen::MatrixXd& residual, const LineFinding& finding) const;
   // The finding's motion in px, fitted to this residual.
-  // later: points x frames, how much later in the readout a point is seen than on the average, in readouts.
+  // later: points x frames, how much later in the readout a point is seen than on average, in readouts.
   [[nodiscard]] Eigen::MatrixXd motion(const Eigen::MatrixXd& residual, const LineFinding& finding,
                                        const Eigen::MatrixXd& later) const;
   [[nodiscard]] LineFrequency frequency(const Eigen::MatrixXd& motion_px, const LineFinding& finding) const;
@@ -58,13 +58,13 @@ class LineSearch {
   // Inverse of one-sided bins, as a complex (analytic) series.
   [[nodiscard]] Eigen::RowVectorXcd analytic(const Eigen::RowVectorXcd& bins, const Band& at, Eigen::Index n) const;
   [[nodiscard]] Band band(double centre_hz, double half_width_hz) const;
-  // The finding's band, and its mirror image where that reaches below f_s / 2 and the rows tell the two apart.
+  // The finding's band, and its mirror image if that extends below f_s / 2 and the rows distinguish the two.
   [[nodiscard]] std::vector<Side> sides(const LineFinding& finding) const;
   [[nodiscard]] std::vector<double> peaks(const Eigen::MatrixXcd& spectrum) const;
   [[nodiscard]] Eigen::MatrixXcd fields_of(double apparent_hz, int fold) const;
-  // Of all sides that hold the bin, side by side.
+  // All sides that contain the bin, side by side.
   [[nodiscard]] Eigen::MatrixXcd fields_at(Eigen::Index bin, double hz, const std::vector<Side>& sides) const;
-  // Part of them that the model's own columns leave, whitened.
+  // The part of them outside the model's own columns, whitened.
   [[nodiscard]] Eigen::MatrixXcd left_of(const Eigen::MatrixXcd& fields) const;
   [[nodiscard]] double gain(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& fields) const;
   [[nodiscard]] double gain_of_columns(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& g) const;

@@ -22,7 +22,8 @@ double rms(const Eigen::RowVectorXd& a) {
 std::vector<NotObservable> ObservationLevel::not_observable() const {
   std::vector<NotObservable> out = never_observable();
   if (model_.readout_field().norm() <= 1e-9 * std::sqrt(n_values()))
-    out.push_back({"readout time", "nothing moves across the lines", "film something that moves along more rows"});
+    out.push_back(
+        {"readout time", "no motion across the lines of the sensor", "film an object that moves over more rows"});
   for (const ObservationEffect& effect : open()) {
     if (effect.form != Form::kField) continue;
     const Eigen::VectorXd w = effect.field(model_.geometry()).cwiseProduct(model_.weight());
@@ -32,7 +33,9 @@ std::vector<NotObservable> ObservationLevel::not_observable() const {
           {effect.name, "the free motions of the regions span its pattern", "declare larger regions or a background"});
   }
   if (readout_frames_ == 0.0)
-    out.push_back({"true frequency of a rotor line", "without a readout all frequencies a frame rate apart look alike",
+    out.push_back({"true frequency of a rotor line",
+                   "without a known readout time, frequencies that differ by the frame rate cannot be "
+                   "distinguished",
                    "declare the readout time"});
   return out;
 }
@@ -51,7 +54,7 @@ std::vector<ParameterValue> ObservationLevel::parameters(std::size_t adopted) co
     out.push_back(
         {"frequency", "Hz", std::abs(a.line_hz.apparent_hz + a.line.fold * record_.rate_hz), a.line_hz.sigma_hz});
     out.push_back({"apparent frequency", "Hz", a.line_hz.apparent_hz, a.line_hz.sigma_hz});
-    out.push_back({"gain over the next fold", "", a.line.gain - a.line.next_gain, std::nullopt});
+    out.push_back({"gain over the next alias order", "", a.line.gain - a.line.next_gain, std::nullopt});
     return out;
   }
   if (a.effect.form != Form::kField) {
@@ -90,7 +93,8 @@ std::string ObservationLevel::meaning(std::size_t adopted) const {
   for (std::size_t c = 0; c < all.rows.size(); ++c)
     known.push_back({"the motion of " + all.info[c].name, amplitudes.row(all.rows[c])});
   const Eigen::Index plane = model_.first_plane_row();
-  const char* names[] = {"the camera's shift along u", "the camera's shift along v", "the camera's distance"};
+  const char* names[] = {"the camera's translation along u", "the camera's translation along v",
+                         "the camera's distance"};
   for (Eigen::Index i = 0; i < 3 && plane + i < model_.n_own(); ++i)
     known.push_back({names[i], amplitudes.row(plane + i)});
   const std::size_t n_plain = known.size();

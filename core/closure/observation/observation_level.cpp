@@ -271,7 +271,7 @@ void ObservationLevel::adopt(std::size_t candidate) {
 }
 
 void ObservationLevel::drop() {
-  if (adopted_.empty()) throw std::invalid_argument("no effect to take back");
+  if (adopted_.empty()) throw std::invalid_argument("no adopted effect to revert");
   adopted_.pop_back();
 }
 

@@ -17,35 +17,35 @@
 
 namespace core::closure {
 
-// Unit vector that holds most of a residual's squares, by power iteration from its strongest value; zero of nothing.
+// Unit vector that explains most of a residual's squares, by power iteration from its largest value; zero if none.
 [[nodiscard]] Eigen::VectorXd leading_pattern(const Eigen::MatrixXd& moments);
 
-// The observation level: where every point should be in every frame (FrameModel), and what that leaves, in pixels.
-// Held out is one point at a time, in closed form (LeaveOneOut); constants of the record are fitted on nine of ten
-// blocks of time and judged on the tenth, latent patterns learned on four of five. Score = drop of the held-out squares
-// in noise variances; share = score / number of residual values, the unit of the materiality bars.
+// Observation level: the model predicts the position of every point in every frame (FrameModel); residual in px.
+// Cross-validation: leave-one-point-out in closed form (LeaveOneOut); constants of the record are fitted on nine of ten
+// time blocks and scored on the tenth, latent patterns learned on four of five. Score = drop of held-out squares in
+// noise variances; share = score / number of residual values, the unit of the materiality thresholds.
 class ObservationLevel final : public ClosureLevel {
  public:
-  // Bars on the share, published: the model's own error reaches them no more than noise does (ARCHITECTURE.md).
-  static constexpr double kFullBandBar = 0.02;  // an amplitude per frame, and latent patterns
+  // Materiality thresholds on the share: the model's own error does not reach them (core/closure/METHOD.md).
+  static constexpr double kFullBandBar = 0.02;  // one amplitude per frame, and latent patterns
   static constexpr double kLowBandBar = 0.005;  // the same up to FrameModel::kLowBand_hz
-  static constexpr double kGlobalBar = 0.003;   // constants of the record, lines
-  // A named effect must reach so much of what the best pattern learned from the residual itself does, and so much of
-  // the squares above the noise; else it is a projection of something else.
+  static constexpr double kGlobalBar = 0.003;   // constants of the record, spectral lines
+  // A named effect must reach this share of the gain of the best pattern learned from the residual itself, and of the
+  // squares above the noise; otherwise it is a projection of another effect.
   static constexpr double kOfLatent = 0.7, kOfExcess = 0.1;
   static constexpr double kRival = 0.9;  // of the score of the effect in whose place it stands
   static constexpr std::size_t kMostLatent = 8;
-  static constexpr std::size_t kSurrogates = 12;  // read by a Gumbel distribution; the bars decide long before
+  static constexpr std::size_t kSurrogates = 12;  // evaluated by a Gumbel distribution; the thresholds are stricter
 
   // Throws std::invalid_argument with what check_record() says.
   explicit ObservationLevel(const ObservationRecord& record);
 
-  // Modes known from elsewhere; their shapes in the order of channel_names(), or empty. modes() are then theirs, with
-  // frequency 0 where none was found.
+  // Reference modes from another source; shapes in the order of channel_names(), or empty. modes() then lists them,
+  // with frequency 0 where none was found.
   void set_reference(std::vector<core::Mode> reference) { reference_ = std::move(reference); }
   [[nodiscard]] std::vector<std::string> channel_names() const;
 
-  // Without some effects of the registry, as if nobody had thought of them.
+  // Removes an effect from the catalogue (to test unknown effects).
   void forget(const std::string& effect);
 
   [[nodiscard]] std::string name() const override { return "observation"; }
@@ -88,13 +88,13 @@ class ObservationLevel final : public ClosureLevel {
     Eigen::MatrixXd line_motion;
   };
 
-  // A candidate's constants: derivative fields as the model leaves them, and their products per block of time.
+  // Constants of a candidate: derivative fields in the model's residual space, and their products per time block.
   struct Derivatives {
     std::vector<Eigen::MatrixXd> fields;
     std::vector<Eigen::MatrixXd> normal;  // per block
   };
 
-  // Second moments of a residual: what all per-frame scores are made of.
+  // Second moments of a residual, from which all per-frame scores are computed.
   struct Moments {
     std::vector<Eigen::MatrixXd> all, low;  // by parts of the record: times, cosines
     Eigen::MatrixXd all_sum, low_sum;
@@ -120,7 +120,7 @@ class ObservationLevel final : public ClosureLevel {
   [[nodiscard]] Eigen::VectorXd magnification(const Eigen::VectorXd& places_px) const;
   void take_out_turns(Eigen::MatrixXd& positions) const;
   [[nodiscard]] Eigen::MatrixXd later_in_readout() const;
-  bool refine_constants();  // false: nothing moved by more than a twentieth of its sigma
+  bool refine_constants();  // false: no constant changed by more than a twentieth of its sigma
   void refine_lines();
   [[nodiscard]] std::vector<Eigen::MatrixXd> derivatives_of(const ObservationEffect& effect,
                                                             const Eigen::VectorXd& values) const;
@@ -147,7 +147,7 @@ class ObservationLevel final : public ClosureLevel {
   std::vector<core::Mode> reference_;
   std::vector<ObservationEffect> registry_;
   std::vector<std::pair<Eigen::Index, Eigen::Index>> missing_;  // row, frame
-  Eigen::MatrixXd measured_;  // 2 points x frames, px; missing ones filled by the model
+  Eigen::MatrixXd measured_;  // 2 points x frames, px; missing ones predicted by the model
   FrameModel model_;
   std::optional<LeaveOneOut> high_, low_;
   std::vector<Adopted> adopted_;
@@ -157,7 +157,7 @@ class ObservationLevel final : public ClosureLevel {
   double sigma_px_ = 0.0;                             // rms over points
   std::vector<Derivatives> derivatives_;              // per open candidate; prepared once per fit
   std::vector<Trial> trials_;                         // of the last score(), latent last
-  mutable std::optional<core::ModalEstimate> modes_;  // of the last fit(), once asked for
+  mutable std::optional<core::ModalEstimate> modes_;  // of the last fit(), once requested
 };
 
 }  // namespace core::closure

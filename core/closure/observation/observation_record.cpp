@@ -33,7 +33,7 @@ void check_declared(const ObservationRecord& r, std::vector<std::string>& faults
   const auto n = static_cast<std::size_t>(r.n_points());
   if (r.v_px.rows() != r.u_px.rows() || r.v_px.cols() != r.u_px.cols() || r.region_of_point.size() != n ||
       r.sigma_px.size() != n || (!r.raw_share.empty() && r.raw_share.size() != n))
-    faults.emplace_back("ragged record: u, v, regions and sigmas speak of different numbers of points or frames");
+    faults.emplace_back("inconsistent record: u, v, regions and sigmas have different numbers of points or frames");
   for (const std::size_t region : r.region_of_point) {
     if (region >= r.regions.size()) {
       faults.emplace_back("a point belongs to no declared region");
@@ -87,12 +87,12 @@ void check_regions(const ObservationRecord& r, RecordCheck& check) {
   }
   if (n_used == 1)
     check.warnings.emplace_back(
-        "one region: its motion and the camera's cannot be told apart; lens, readout, roll and "
-        "the tracker's errors still can where the region is large");
+        "one region: its motion cannot be distinguished from the camera's; lens, readout, roll and "
+        "tracker errors still can if the region is large");
   if (!background)
     check.warnings.emplace_back(
-        "no background: roll of the camera and rocking of the whole structure look the same, "
-        "and absolute translation is unknown");
+        "no background: roll of the camera cannot be distinguished from rocking of the whole "
+        "structure, and absolute translation is unknown");
 }
 
 }  // namespace
@@ -108,22 +108,23 @@ RecordCheck check_record(const ObservationRecord& record) {
   const double seconds = static_cast<double>(record.n_frames()) / record.rate_hz;
   if (seconds < kLeastSeconds || record.n_frames() < 250)
     check.faults.push_back("record of " + number(seconds) + " s, " + std::to_string(record.n_frames()) +
-                           " frames: too short, held-out blocks want 20 s and 250 frames at least");
+                           " frames: too short, held-out blocks need at least 20 s and 250 frames");
   for (Eigen::Index j = 0; j < record.n_points(); ++j) {
     if (usable(record, j)) check.points.push_back(j);
   }
   const auto n_usable = static_cast<Eigen::Index>(check.points.size());
   if (n_usable < record.n_points())
     check.warnings.push_back(std::to_string(record.n_points() - n_usable) +
-                             " points left out: more than a fifth of their frames missing, or no sensible numbers");
+                             " points excluded: more than a fifth of their frames are missing, or their numbers are "
+                             "invalid");
   if (n_usable < kLeastPoints)
     check.faults.push_back(std::to_string(n_usable) + " usable points: at least " + std::to_string(kLeastPoints) +
                            " are needed to leave one out");
   if (!check.faults.empty()) return check;
   if (spread_ratio(record, check.points) < kLeastSpread)
     check.faults.emplace_back(
-        "all points lie on one line: no field over the image can be told from another; declare "
-        "regions beside it");
+        "all points lie on one line: fields over the image cannot be distinguished; declare regions "
+        "beside it");
   check_regions(record, check);
   return check;
 }

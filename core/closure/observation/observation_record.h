@@ -11,8 +11,8 @@
 
 namespace core::closure {
 
-// Tracks of one record as the observation level takes them, and what the operator declared. Plain data. Frames lie on
-// an even grid: a lost frame is a row of NaN.
+// Tracks of one record in the form used by the observation level, and the operator's declarations. Plain data. Frames
+// are on an even grid: a lost frame is a row of NaN.
 struct ObservationRecord {
   double rate_hz = 0.0;
   double alpha_px = 0.0;  // focal length
@@ -23,26 +23,26 @@ struct ObservationRecord {
   std::vector<Region> regions;
   std::vector<std::size_t> region_of_point;
   std::vector<double> sigma_px;   // per point and axis
-  std::vector<double> raw_share;  // per point, where in the readout it is; empty: as its place says
+  std::vector<double> raw_share;  // per point, its readout fraction; empty: computed from its position
   Eigen::MatrixXd u_px, v_px;     // frames x points; NaN = missing
 
   [[nodiscard]] Eigen::Index n_frames() const noexcept { return u_px.rows(); }
   [[nodiscard]] Eigen::Index n_points() const noexcept { return u_px.cols(); }
-  // Where in the readout a pixel is (core/geometry/rolling_shutter.h).
+  // Readout fraction of a pixel (core/geometry/rolling_shutter.h).
   [[nodiscard]] double readout_share(double u, double v) const noexcept;
 };
 
 struct RecordCheck {
-  std::vector<std::string> faults;    // the record cannot be used: what is missing
-  std::vector<std::string> warnings;  // what cannot be concluded from it, and what still can
+  std::vector<std::string> faults;    // reasons why the record cannot be used
+  std::vector<std::string> warnings;  // conclusions it does not allow, and those it still does
   std::vector<Eigen::Index> points;   // usable ones, ascending
 };
 
-// Never throws. Points that miss more than a fifth of the frames, stand still at NaN or leave any sensible range are
-// not among the usable ones.
+// Never throws. Points with more than a fifth of the frames missing, NaN throughout or out of range are not among the
+// usable ones.
 [[nodiscard]] RecordCheck check_record(const ObservationRecord& record);
 
-// With these points only.
+// The record with these points only.
 [[nodiscard]] ObservationRecord select_points(const ObservationRecord& record, const std::vector<Eigen::Index>& points);
 
 }  // namespace core::closure

@@ -192,7 +192,7 @@ std::string ObservationLevel::follows_motion(const ObservationEffect& effect, bo
   const Eigen::VectorXd right = motions * a.transpose();
   const double explained = right.dot(normal.ldlt().solve(right)) - static_cast<double>(motions.rows());
   const double signal = a.squaredNorm() - noise;
-  if (signal > 0.0 && explained > 0.9 * signal) return "its amplitude only follows the model's own motions";
+  if (signal > 0.0 && explained > 0.9 * signal) return "its amplitude only follows the motions already in the model";
   return {};
 }
 
@@ -202,13 +202,13 @@ std::string ObservationLevel::refusal(const ObservationEffect& effect, const Tri
   const double bar = field ? (trial.low_band ? kLowBandBar : kFullBandBar) : kGlobalBar;
   if (!(trial.gain > bar * n_values())) return "immaterial";
   if (trial.gain < kOfLatent * latent && latent > kLowBandBar * n_values())
-    return "a projection of something else: the best learned pattern does better";
+    return "a projection of another effect: the best learned pattern explains more";
   if (trial.gain < kOfExcess * excess) return "explains less than a tenth of the structured part";
   if (effect.form == Form::kLine) {
     const LineSearch search(model_, record_.rate_hz, readout_frames_, rotor_fields(model_.geometry(), readout_frames_),
                             record_.n_frames());
     if (trial.gain < kOfLatent * search.pattern_gain(model_.residual(), trial.line))
-      return "a projection of something else: in its band the best learned pattern does better";
+      return "a projection of another effect: in its band the best learned pattern explains more";
   }
   return field ? follows_motion(effect, trial.low_band) : std::string{};
 }

@@ -248,10 +248,11 @@ std::vector<std::string> screen_points(ObservationRecord& record) {
   std::vector<std::string> words;
   if (found.n_bad + found.n_doubtful > 0)
     words.push_back("points that do not move with their region, with up to " + std::to_string(std::lround(found.most)) +
-                    " times the others' scatter: " + std::to_string(found.n_bad) + " left out, " +
-                    std::to_string(found.n_doubtful) + " of less weight");
+                    " times the scatter of the others: " + std::to_string(found.n_bad) + " excluded, " +
+                    std::to_string(found.n_doubtful) + " with reduced weight");
   if (found.n_far > 0)
-    words.push_back(std::to_string(found.n_far) + " single positions left out: far from where their region puts them");
+    words.push_back(std::to_string(found.n_far) +
+                    " single positions excluded: far from the position predicted by their region");
   return words;
 }
 

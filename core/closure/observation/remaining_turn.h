@@ -7,14 +7,14 @@
 
 namespace core::closure {
 
-// Rotation of the picture that a model leaves in one frame pair, radians (camera axes), and what the pair tells of it:
-// along the rest a shift of the camera would do as well.
+// Rotation of the image that a model leaves in one frame pair, radians (camera axes), and its information; rotation
+// that a translation of the camera would explain as well is not informative.
 struct RemainingTurn {
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
 };
 
-// The most likely one near none, by Levenberg-Marquardt; the pair's shift is fitted with it.
+// Most likely rotation near zero, by Levenberg-Marquardt; the pair's translation is fitted with it.
 [[nodiscard]] RemainingTurn remaining_turn(std::vector<RestFlow> flows, const RestFlowModel& model,
                                            Eigen::Vector3d shift_px);
 

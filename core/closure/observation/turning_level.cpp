@@ -55,7 +55,8 @@ TurningLevel::TurningLevel(std::vector<FramePair> pairs, std::vector<GyroSample>
       if (pairs_[k].held_out) n_heldout_ += at_rest_.back().back();
     }
   }
-  if (!(n_heldout_ > 0.0)) throw std::invalid_argument("turning camera: no held-out frame pair; hold out every fourth");
+  if (!(n_heldout_ > 0.0))
+    throw std::invalid_argument("rotating camera: no held-out frame pair; hold out every fourth");
 }
 
 std::vector<TurningLevel::Effect> TurningLevel::open() const {
@@ -150,7 +151,7 @@ std::vector<CandidateScore> TurningLevel::score() {
     s.n_parameters = effect == Effect::kRotation ? 7 : 1;
     s.heldout = std::sqrt(squares_ / n_heldout_);
     if (effect == Effect::kReadout && !holds(adopted_, Effect::kRotation)) {
-      s.refusal = "acts on turns, and the model has none";
+      s.refusal = "acts on rotation, and the model has none";
       out.push_back(std::move(s));
       continue;
     }
@@ -199,7 +200,7 @@ void TurningLevel::adopt(std::size_t candidate) {
 }
 
 void TurningLevel::drop() {
-  if (adopted_.empty()) throw std::invalid_argument("no effect to take back");
+  if (adopted_.empty()) throw std::invalid_argument("no adopted effect to revert");
   adopted_.pop_back();
 }
 
@@ -246,13 +247,14 @@ double TurningLevel::remaining_turn_deg() const {
 }
 
 std::string TurningLevel::describe_residual() const {
-  return "the picture turns " + std::to_string(remaining_turn_deg_) + " deg rms a frame beyond the model";
+  return "the image rotates " + std::to_string(remaining_turn_deg_) + " deg rms a frame beyond the model";
 }
 
 std::vector<NotObservable> TurningLevel::not_observable() const {
-  return {{"shift of the camera", "it is free in every frame pair", "declare known lengths, or measure positions"},
-          {"lens, focal length", "they are taken as declared",
-           "calibrate the camera, or leave the focal length open (hovermodal readout)"}};
+  return {
+      {"translation of the camera", "it is free in every frame pair", "declare known lengths, or measure positions"},
+      {"lens, focal length", "they are used as declared",
+       "calibrate the camera, or estimate the focal length (hovermodal readout)"}};
 }
 
 }  // namespace core::closure

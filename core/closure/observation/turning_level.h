@@ -12,18 +12,18 @@
 
 namespace core::closure {
 
-// The observation level of a camera that is turned beside a gyro: where the points of one frame are in the next. The
-// model without effects is a global shutter that does not turn: all motion is a shift of the camera, of its own in
-// every frame pair, and what counts is how far points are from their epipolar lines. The effects are those of
-// core/geometry/gyro_problem.h, which fits them: the camera turns as the gyro says (its axes, clock offset and bias
-// fitted with it); lines are read one after the other. Held out are whole frame pairs: they take no part in the fit,
-// only their shifts are their own.
-// Score: drop of the held-out squares over the variance of a point, of the points that lie within five of its
-// deviations in the model with all effects: others move by themselves.
-// Surrogates: the gyro's record moved on in time, in a circle; readout places exchanged between the points of a pair.
+// Observation level of a camera that is rotated beside a gyro: the model predicts the points of one frame in the next.
+// Without effects it is a global shutter that does not rotate: all motion is a camera translation, free in every frame
+// pair, and the residual is the distance of points from their epipolar lines. Effects, fitted by
+// core/geometry/gyro_problem.h: the camera rotates as the gyro measures (axes, clock offset and bias are fitted); lines
+// are read one after the other. Whole frame pairs are held out: they are excluded from the fit; only their own camera
+// translation is estimated.
+// Score: drop of the held-out squares over the variance of a point, over the points within five standard deviations in
+// the model with all effects; the others move by themselves.
+// Surrogates: the gyro record, rotated circularly in time; readout fractions permuted among the points of a pair.
 class TurningLevel final : public ClosureLevel {
  public:
-  static constexpr double kBar = 0.003;  // least score per held-out point, as for constants of the record
+  static constexpr double kBar = 0.003;  // smallest score per held-out point, as for constants of the record
 
   // Throws what core::fit_gyro_readout() does.
   TurningLevel(std::vector<core::FramePair> pairs, std::vector<core::GyroSample> gyro,
@@ -41,8 +41,8 @@ class TurningLevel final : public ClosureLevel {
   [[nodiscard]] std::vector<ParameterValue> parameters(std::size_t adopted) const override;
   [[nodiscard]] std::vector<std::string> rivals(std::size_t, std::uint64_t) override { return {}; }
   [[nodiscard]] std::vector<ClosureMode> modes() const override { return {}; }
-  // Degrees rms per frame pair and axis: how far the picture turns beyond what the model says, over the held-out pairs,
-  // from the picture alone, weighted by what each pair tells; without the mean, which a steady shift bends.
+  // Degrees rms per frame pair and axis: rotation of the image beyond the model over the held-out pairs, from the image
+  // alone, weighted by information; without the mean, which a steady translation biases.
   [[nodiscard]] std::optional<double> reference_error() const override { return remaining_turn_deg_; }
   [[nodiscard]] std::string reference_unit() const override { return "deg a frame"; }
   [[nodiscard]] std::string describe_residual() const override;
@@ -57,7 +57,7 @@ class TurningLevel final : public ClosureLevel {
   [[nodiscard]] std::vector<Effect> open() const;
   [[nodiscard]] static const char* name_of(Effect effect);
   [[nodiscard]] static bool holds(const std::vector<Effect>& effects, Effect effect);
-  // brief: from one start, few rounds.
+  // brief: from one start, few iterations.
   [[nodiscard]] Fitted fit_with(const std::vector<Effect>& effects, const std::vector<core::FramePair>& pairs,
                                 const std::vector<core::GyroSample>& gyro, bool brief) const;
   [[nodiscard]] const Fitted& fit_of(const std::vector<Effect>& effects);  // of the record itself, fitted once
@@ -68,7 +68,7 @@ class TurningLevel final : public ClosureLevel {
   [[nodiscard]] double remaining_turn_deg() const;
 
   std::vector<core::FramePair> pairs_;
-  std::vector<core::GyroSample> gyro_, still_;  // still_: a gyro that never turns
+  std::vector<core::GyroSample> gyro_, still_;  // still_: a gyro that never rotates
   core::GyroReadoutConfig config_;
   double sigma_px_ = 0.0;                   // of a point, with all effects
   std::vector<std::vector<char>> at_rest_;  // per pair and point

@@ -7,9 +7,9 @@
 
 namespace core::closure {
 
-// Sample times that scatter by sigma: the innovation's covariance is C + sigma^2 v v^T, v = velocity predicted from the
-// samples before (the sample itself holds the error). C is what is left of the mean covariance once the jitter's mean
-// share is taken out. Everything in whitened coordinates.
+// Sample times with jitter of standard deviation sigma: the innovation's covariance is C + sigma^2 v v^T, v = velocity
+// predicted from the previous samples (the sample itself contains the error). C is the mean covariance minus the
+// jitter's mean share. Everything in whitened coordinates.
 struct JitterFit {
   double sigma_s = 0.0;
   Eigen::VectorXd squares;  // per sample, held out: -2 ln likelihood; as |whitened|^2 where sigma = 0

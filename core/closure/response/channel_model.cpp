@@ -58,17 +58,21 @@ std::vector<std::string> ChannelModel::effects() const {
 std::vector<NotObservable> ChannelModel::not_observable() const {
   std::vector<NotObservable> out{
       {"clock_rate", "a wrong rate scales every frequency alike", "film a clock, and give --clock"},
-      {"codec_period", "what a codec adds at f_s/GOP and its multiples is a line like any machine's",
+      {"codec_period", "a codec adds spectral lines at f_s/GOP and its multiples, like a machine",
        "record uncompressed for a minute, or change the GOP: the line moves with it"},
-      {"harmonic", "a steady force and a lightly damped mode look alike in two minutes (identify judges by its decay)",
-       "switch the machine, or record until the mode's own width shows"},
+      {"harmonic",
+       "a steady force cannot be distinguished from a lightly damped mode within two minutes "
+       "(identify evaluates its decay)",
+       "switch the machine off, or record until the width of the mode is resolved"},
       {"folded_mode",
-       "channels without row delays look alike for every fold (identify tests them where delays are known)",
+       "without row delays the alias order has no effect on the channels (identify tests it where "
+       "delays are known)",
        "film through a rolling shutter of known readout, or at a second rate"},
-      {"integrator_bias", "a record does not tell the step of the simulation that made it",
+      {"integrator_bias", "a record does not determine the time step of the simulation that generated it",
        "give the step in --structure (dt_s)"}};
   if (record_.input.cols() == 0)
-    out.push_back({"input_colour", "the input was not measured: its peaks and modes differ only in what the base does",
+    out.push_back({"input_colour",
+                   "the input was not measured: its peaks differ from modes only in the motion of the base",
                    "measure the base, and give --input"});
   return out;
 }
@@ -201,9 +205,9 @@ ResponseFit ChannelModel::fit(const std::vector<std::string>& effects) const {
   out.residual_rms = out.heldout_rms;
   out.noise_variance = 1.0;
   out.noise_floor = std::sqrt(unit);
-  out.words = "the effects sought show in no test of whiteness";
+  out.words = "these effects appear in no test of whiteness";
   out.left = "innovations " + number(out.heldout_rms) +
-             " of those of the model without effects, as a linear structure under white forces leaves them";
+             " of those of the model without effects, as expected of a linear structure under white forces";
   return out;
 }
 

@@ -13,12 +13,12 @@ namespace core::closure {
 
 enum class InputUse : std::uint8_t {
   kKnown,    // the measured base is part of the model from the start
-  kUnknown,  // the model takes its input for white; the measured one is an effect that may be adopted
+  kUnknown,  // the model assumes white input; the measured one is an effect that may be adopted
 };
 
-// A series of channels against a linear structure under white forces: the predictor of channel_predictor.h. Squares are
-// those of the whitened innovations; a sample that an effect takes out counts as if it were noise. Held out: ten
-// contiguous parts. Unit: the innovations' own deviation.
+// Series of channels against a linear structure under white forces: the predictor of channel_predictor.h. Squares are
+// those of the whitened innovations; a sample removed by an effect counts as noise. Held out: ten contiguous parts.
+// Unit: standard deviation of the innovations.
 class ChannelModel final : public ResponseModel {
  public:
   static constexpr Eigen::Index kOrder = 6;
@@ -35,11 +35,11 @@ class ChannelModel final : public ResponseModel {
   [[nodiscard]] std::unique_ptr<ResponseModel> surrogate(const std::vector<std::string>& effects,
                                                          std::uint64_t seed) const override;
 
-  // The record with the adopted effects' lost samples put in as gaps, and repeated ones taken out.
+  // The record with gaps for the adopted effects' lost samples, and without repeated ones.
   [[nodiscard]] ChannelRecord corrected(const std::vector<std::string>& effects) const;
 
  private:
-  // The record as the effects that change its samples leave it, and its predictor: shared by many sets of effects.
+  // The record after the effects that change its samples, and its predictor: shared by many sets of effects.
   struct Prepared {
     ChannelRecord record, scaled;
     ChannelPredictor predictor;
@@ -52,13 +52,13 @@ class ChannelModel final : public ResponseModel {
   [[nodiscard]] const Prepared& prepared(const Key& key) const;
   [[nodiscard]] double predictable_share_of_input() const;
 
-  // The innovations once a course of the frequencies is taken out, each part by the coefficient of the others.
+  // Innovations after removal of a frequency course, each part with the coefficient of the others.
   [[nodiscard]] static Eigen::MatrixXd without_course(const Prepared& prepared, const Eigen::VectorXd& course,
                                                       const Eigen::MatrixXd& innovation);
 
   ChannelRecord record_;
   InputUse use_;
-  bool made_up_ = false;  // a surrogate: only its score is asked for
+  bool made_up_ = false;  // a surrogate: only its score is needed
   mutable std::map<Key, std::unique_ptr<Prepared>> prepared_;
 };
 

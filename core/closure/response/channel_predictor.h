@@ -15,10 +15,10 @@ struct ChannelRecord {
   [[nodiscard]] Eigen::Index n_samples() const noexcept { return value.rows(); }
 };
 
-// Linear prediction of every sample from the `order` samples before it and the measured input up to its own time: what
-// a linear structure under white forces obeys (a vector autoregression with input, Ljung, System Identification, 4.2).
-// Innovations are held out: each of ten contiguous parts is predicted by a fit to the other nine. Rows whose innovation
-// is far out (more than 6 deviations of chi-square) take no part in the fits, but all are judged.
+// Linear prediction of every sample from the `order` samples before it and the measured input up to its own time: a
+// linear structure under white forces (a vector autoregression with input, Ljung, System Identification, 4.2).
+// Innovations are held out: each of ten contiguous parts is predicted by a fit to the other nine. Rows with an outlying
+// innovation (more than 6 standard deviations of chi-square) are excluded from the fits, but all are scored.
 struct ChannelPredictor {
   static constexpr Eigen::Index kParts = 10;
 
@@ -29,7 +29,7 @@ struct ChannelPredictor {
   std::vector<char> usable;         // per sample: it and all that predicts it was seen
   std::vector<char> plain;          // ... and its innovation is not far out
   Eigen::MatrixXd whitener;         // L^-1 of the innovations' covariance S = L L^T, of the plain rows
-  Eigen::VectorXd mean, deviation;  // of the channels, taken out before
+  Eigen::VectorXd mean, deviation;  // of the channels, removed before
   bool ok = false;
 
   [[nodiscard]] Eigen::Index part_of(Eigen::Index sample) const noexcept {
@@ -39,22 +39,22 @@ struct ChannelPredictor {
   [[nodiscard]] Eigen::MatrixXd lag(Eigen::Index i) const;
 };
 
-// `scaled`: filled with the record as the predictor sees it (about the mean, per deviation; inputs alike).
+// `scaled`: filled with the record as used by the predictor (about the mean, per deviation; inputs alike).
 [[nodiscard]] ChannelPredictor fit_predictor(const ChannelRecord& record, Eigen::Index order, ChannelRecord& scaled);
 
 // One step ahead from `history` (row 0 the newest) and the inputs of the step and before (row 0 of the step).
 [[nodiscard]] Eigen::VectorXd predict(const ChannelPredictor& predictor, const Eigen::MatrixXd& history,
                                       const Eigen::MatrixXd& input);
 
-// By how much the prediction changes where all frequencies of lightly damped poles below 0.36 of the rate grow by the
-// same small share: derivative of the lags' coefficients, channels x (order * channels), newest lag first. Poles above
-// may be folded, whose apparent frequency would fall. Empty where there is no such pole.
+// Change of the prediction if all frequencies of lightly damped poles below 0.36 of the rate grow by the same small
+// share: derivative of the lags' coefficients, channels x (order * channels), newest lag first. Poles above that may be
+// aliased, with falling apparent frequency. Empty if there is no such pole.
 [[nodiscard]] Eigen::MatrixXd frequency_derivative(const ChannelPredictor& predictor, double rate_hz);
 
-// By how much the same poles' frequencies differ, relative, per unit of the course, between the samples where it lies
-// above its median and those below: each half fitted by itself, modes weighted by f / damping (the inverse of their
-// frequencies' least variance). The derivative's own coefficient tells that there is a change, and is too small where
-// noise is in what predicts. `without`: a part that takes no share, -1 = none. 0 where it cannot be told.
+// Relative difference of the same poles' frequencies, per unit of the course, between samples above and below its
+// median: each half is fitted separately, modes weighted by f / damping (inverse of their frequencies' least variance).
+// The derivative's own coefficient detects a change, but is biased low by noise in the regressors. `without`: a part to
+// exclude, -1 = none. 0 if it cannot be determined.
 [[nodiscard]] double frequency_change(const ChannelRecord& scaled, const ChannelPredictor& predictor,
                                       const Eigen::VectorXd& course, Eigen::Index without);
 

@@ -75,7 +75,7 @@ ClockModel::ClockModel(ClockReadings readings, DeclaredTime declared) : declared
     values.push_back(readings.reading_s[i]);
   }
   if (frames.size() < kFewest)
-    refuse(std::to_string(frames.size()) + " readings are too few to leave some out; give " + std::to_string(kFewest) +
+    refuse(std::to_string(frames.size()) + " readings are too few for held-out data; give " + std::to_string(kFewest) +
            " or more");
   frame_ = Eigen::Map<const VectorXd>(frames.data(), static_cast<Index>(frames.size()));
   reading_s_ = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
@@ -92,7 +92,7 @@ ClockModel::ClockModel(ClockReadings readings, DeclaredTime declared) : declared
   n_misread_ = frames.size() - good.size();
   if (static_cast<double>(n_misread_) > kMostMisread * static_cast<double>(frames.size()))
     refuse(std::to_string(n_misread_) + " of " + std::to_string(frames.size()) +
-           " readings jump off their neighbours: no steady clock; read it again");
+           " readings deviate from their neighbours: not a steady clock; read it again");
   frame_ = picked(frame_, good);
   reading_s_ = picked(reading_s_, good);
   sigma_s_ = readings.sigma_s > 0.0 ? readings.sigma_s : std::max(robust_deviation(picked(off, good)), 1e-6);
@@ -108,9 +108,9 @@ std::vector<std::string> ClockModel::effects() const {
 }
 
 std::vector<NotObservable> ClockModel::not_observable() const {
-  return {{"clock_offset", "a filmed clock's zero means nothing: the offset is part of the model",
+  return {{"clock_offset", "the zero of a filmed clock is arbitrary: the offset is part of the model",
            "film an event that another record shows as well"},
-          {"time_stamp_jitter", "what scatters by less than the readings from frame to frame is hidden in them",
+          {"time_stamp_jitter", "jitter smaller than the scatter of the readings is hidden by them",
            "a clock that is read more finely, or time stamps of the camera"}};
 }
 
@@ -192,9 +192,10 @@ std::string ClockModel::describe(const VectorXd& residual_s) const {
     const double mean = residual_s.segment(i, kStretch).mean();
     if (std::abs(mean) > std::abs(worst)) worst = mean, at = i;
   }
-  return "readings stray together for a while, at most by " + number(1e3 * worst) + " ms (mean of 20, frames " +
+  return "readings deviate together for a while, at most by " + number(1e3 * worst) + " ms (mean of 20, frames " +
          number(frame_(at)) + " to " + number(frame_(std::min(at + kStretch, residual_s.size()) - 1)) +
-         "): the clock's display, or the camera; a moving structure filmed beside it would tell";
+         "): the clock's display, or the camera; a moving structure filmed beside it would "
+         "distinguish them";
 }
 
 std::unique_ptr<ResponseModel> ClockModel::surrogate(const std::vector<std::string>& effects,

@@ -8,30 +8,30 @@
 
 namespace core::closure {
 
-// A clock that was filmed, read in some of the frames.
+// A filmed clock, read in some of the frames.
 struct ClockReadings {
   std::vector<double> frame;      // ascending frame numbers
   std::vector<double> reading_s;  // NaN = not read there
   double sigma_s = 0.0;           // scatter of a reading; 0 = unknown, estimated from its steps
 };
 
-// What is said of the frames' times: frame number / rate.
+// Declared time of the frames: frame number / rate.
 struct DeclaredTime {
   double rate_hz = 0.0;
 };
 
-// A reading is offset + frame / rate, and what the effects add; the offset is always fitted, a clock's zero means
-// nothing here. Held out: ten contiguous parts, each predicted from the other nine. Misread readings (more than
-// kMisread robust deviations off the median of their neighbours, whatever the rate) take part in nothing and are
-// counted. Unit: ms.
+// A reading is offset + frame / rate + the effects; the offset is always fitted, because the zero of the clock is
+// arbitrary. Held out: ten contiguous parts, each predicted from the other nine. Misread readings (more than
+// kMisread robust deviations from the median of their neighbours, whatever the rate) are excluded and counted. Unit:
+// ms.
 class ClockModel final : public ResponseModel {
  public:
   static constexpr double kMisread = 5.0;
   static constexpr std::size_t kFewest = 40;  // readings
   static constexpr double kMaterial = 0.05;   // of the held-out squares
 
-  // Throws std::invalid_argument: no rate, frames that do not ascend, too few readings, a clock that stands still or
-  // runs backward, readings of which more than a quarter are misread.
+  // Throws std::invalid_argument: no rate, frame numbers that do not ascend, too few readings, a clock that stops or
+  // runs backward, more than a quarter of the readings misread.
   ClockModel(ClockReadings readings, DeclaredTime declared);
 
   [[nodiscard]] std::string unit() const override { return "ms"; }
@@ -57,7 +57,7 @@ class ClockModel final : public ResponseModel {
   [[nodiscard]] std::string describe(const Eigen::VectorXd& residual_s) const;
 
   DeclaredTime declared_;
-  Eigen::VectorXd frame_, reading_s_;  // misread ones taken out
+  Eigen::VectorXd frame_, reading_s_;  // without the misread ones
   double sigma_s_ = 0.0;
   std::size_t n_misread_ = 0;
 };

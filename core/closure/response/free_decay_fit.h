@@ -9,10 +9,10 @@
 
 namespace core::closure {
 
-// Free decays as one mode whose rates may follow its amplitude a (of the reference channel, the largest):
+// Free decays as one mode whose rates may depend on its amplitude a (of the reference channel, the largest):
 //   d ln a / dt = - rate(ln a),  d phase / dt = 2 pi frequency(ln a),  channel c = Re(shape_c a e^(i phase)) + rest_c,
-// where wanted with one more, linear mode. Common to all releases: rates, shapes, effects. Of each release: amplitude,
-// phase, rest (and its slope). Levenberg-Marquardt on differences.
+// optionally with one more, linear mode. Common to all releases: rates, shapes, effects. Per release: amplitude, phase,
+// equilibrium (and its slope). Levenberg-Marquardt with difference derivatives.
 class FreeDecayFit {
  public:
   // Borrows both.
@@ -28,7 +28,7 @@ class FreeDecayFit {
   [[nodiscard]] State linear_start() const;
   // From a fit with all effects but the last.
   [[nodiscard]] std::vector<State> starts_from(const State& before) const;
-  // Refines the state on all releases but `without` (-1 = none); that one's own numbers are fitted to it afterwards.
+  // Refines the state on all releases but `without` (-1 = none); that release's own numbers are fitted afterwards.
   void refine(State& state, int without, int n_iterations) const;
   [[nodiscard]] Eigen::MatrixXd residual(const State& state, std::size_t release) const;
   [[nodiscard]] Eigen::MatrixXd predicted(const State& state, std::size_t release) const;  // without rest

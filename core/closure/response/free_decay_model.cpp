@@ -45,11 +45,11 @@ std::string implausible(const FreeDecayFit& fit, const FreeDecayFit::State& stat
   if (!kind.adds_mode()) return {};
   const DecayRates rates = fit.further_rates(state);
   const double rate = std::exp(rates.log_rate), w = 2.0 * std::numbers::pi * rates.frequency_hz;
-  if (rate > FreeDecayModel::kMostDamping * std::hypot(w, rate)) return "it creeps and does not swing";
+  if (rate > FreeDecayModel::kMostDamping * std::hypot(w, rate)) return "it is overdamped and does not oscillate";
   const double likeness = mac(fit.shape(state, false), fit.shape(state, true));
   return likeness <= FreeDecayModel::kTwinMac ? ""
                                               : "it has the first mode's shape (MAC " + number(likeness) +
-                                                    "): how an amplitude-dependent mode looks to a linear model";
+                                                    "): an amplitude-dependent mode appears so in a linear model";
 }
 
 }  // namespace
@@ -66,8 +66,10 @@ std::vector<std::string> FreeDecayModel::effects() const {
 std::vector<NotObservable> FreeDecayModel::not_observable() const {
   std::vector<NotObservable> out{
       {"clock_rate", "a wrong rate scales every frequency and decay rate alike", "film a clock, and give --clock"},
-      {"folded_mode", "a decay sampled above half the rate looks like one below it",
-       "film at another rate: a folded mode moves, a true one stays"}};
+      {"folded_mode",
+       "a decay above half the rate (Nyquist frequency) cannot be distinguished from its alias "
+       "below it",
+       "film at another rate: an aliased mode moves, a true one stays"}};
   if (decays_.release.front().cols() < 2)
     out.push_back({"further_mode", "one channel has no shape", "film two floors or more"});
   return out;
@@ -135,7 +137,7 @@ ResponseFit FreeDecayModel::describe(const FreeDecayFit& fit, const State& state
   out.noise_variance = std::max(squares / n, 1e-300);
   out.structured = out.residual_rms > kMoreThanNoise * out.noise_floor;
   out.words = "the residual is " + number(out.residual_rms) + " " + decays_.unit +
-              " rms, the record at rest scatters by " + number(out.noise_floor);
+              " rms, the noise before the release is " + number(out.noise_floor);
   out.left = number(std::sqrt(early / std::max(n_early, 1.0))) + " " + decays_.unit +
              " rms in the first third of the decays, " +
              number(std::sqrt((squares - early) / std::max(n - n_early, 1.0))) + " after it";

@@ -11,13 +11,13 @@
 namespace core::closure {
 
 // Free decays against a linear modal model, release by release. Held out: one release at a time; poles, shapes and
-// effects come from the others, only its own amplitude, phase and place of rest (no model predicts how it was pulled)
-// are fitted to it. Unit: the record's.
+// effects come from the others, only its own amplitude, phase and equilibrium (no model predicts how it was pulled) are
+// fitted to it. Unit: the record's.
 class FreeDecayModel final : public ResponseModel {
  public:
   static constexpr double kMaterial = 0.1;     // of the held-out squares
-  static constexpr double kTwinMac = 0.9;      // a further mode of the first one's shape is none ...
-  static constexpr double kMostDamping = 0.3;  // ... nor is one that does not swing
+  static constexpr double kTwinMac = 0.9;      // a further mode with the shape of the first is rejected ...
+  static constexpr double kMostDamping = 0.3;  // ... and so is an overdamped one
 
   explicit FreeDecayModel(FreeDecays decays) : decays_(std::move(decays)) {}
 
@@ -33,13 +33,13 @@ class FreeDecayModel final : public ResponseModel {
 
  private:
   using State = FreeDecayFit::State;
-  // Remembered: every set of effects is asked for several times, and begins at the set without its last.
+  // Cached: every set of effects is requested several times, and starts from the set without its last effect.
   [[nodiscard]] const State& state_of(const std::vector<std::string>& effects) const;
   [[nodiscard]] ResponseFit describe(const FreeDecayFit& fit, const State& state,
                                      const std::vector<State>& without) const;
 
   FreeDecays decays_;
-  bool made_up_ = false;  // a surrogate: begins at the state it was made from, with few iterations
+  bool made_up_ = false;  // a surrogate: starts at the state from which it was generated, with few iterations
   mutable std::map<std::vector<std::string>, State> states_;
 };
 

@@ -113,9 +113,10 @@ FreeDecays find_free_decays(const std::vector<Values>& value, double rate_hz, co
     out.start.push_back(starts[r]);
   }
   if (out.release.size() < kFewestReleases)
-    throw std::invalid_argument("free decays: " + std::to_string(out.release.size()) +
-                                " releases found; three or more are needed, each after a moment of rest, so that one "
-                                "can be left out");
+    throw std::invalid_argument(
+        "free decays: " + std::to_string(out.release.size()) +
+        " releases found; three or more are needed, each after a moment without motion, so that one "
+        "can be left out");
   out.noise_rms = quiet_rms(value);
   return out;
 }

@@ -7,7 +7,7 @@
 
 namespace core::closure {
 
-// Free decays cut out of a record: after each release samples x channels, in the record's unit.
+// Free decays cut from a record: per release samples x channels, in the record's unit.
 struct FreeDecays {
   double rate_hz = 0.0;
   std::vector<std::string> channels;
@@ -19,14 +19,14 @@ struct FreeDecays {
 
 struct ReleaseSearch {
   double length_s = 1.3;  // of a decay, at most
-  double sudden = 0.2;    // a release begins with a step so large, of the record's largest ...
+  double sudden = 0.2;    // a release begins with a step of this size, relative to the record's largest ...
   double quiet = 0.1;     // ... after five steps smaller than this
 };
 
-// A structure that is pulled, released and left to itself: a decay begins where a sudden step has taken the largest
-// channel across its place of rest, and lasts length_s, or until the next release, or until a sample is missing.
-// `value`: per channel, NaN = missing. Throws std::invalid_argument: fewer than three releases of 12 samples or more,
-// ragged channels, no rate.
+// A structure that is pulled and released: a decay begins where a sudden step takes the largest channel across its
+// equilibrium, and ends after length_s, at the next release, or at a missing sample. `value`: per channel, NaN =
+// missing. Throws std::invalid_argument: fewer than three releases of 12 samples or more, channels of different length,
+// no rate.
 [[nodiscard]] FreeDecays find_free_decays(const std::vector<std::vector<double>>& value, double rate_hz,
                                           const std::vector<std::string>& channels, const std::string& unit,
                                           const ReleaseSearch& search = {});

@@ -8,8 +8,8 @@
 
 namespace core::closure {
 
-// Standard deviations from estimates that each lack one part of the record (the delete-one jackknife, Quenouille 1956):
-// it minds neither coloured residuals nor how the estimate was found. `without[k]` as `whole`, in the same order.
+// Standard deviations from estimates that each leave out one part of the record (delete-one jackknife, Quenouille
+// 1956): valid for coloured residuals and any estimator. `without[k]` as `whole`, in the same order.
 inline void add_jackknife_sigmas(std::vector<ParameterValue>& whole,
                                  const std::vector<std::vector<ParameterValue>>& without) {
   const auto n = static_cast<double>(without.size());

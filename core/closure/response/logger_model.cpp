@@ -63,11 +63,11 @@ std::vector<std::string> LoggerModel::effects() const {
 }
 
 std::vector<NotObservable> LoggerModel::not_observable() const {
-  std::vector<NotObservable> out{
-      {"common_offset", "all clocks late alike leave no trace", "an event that another clock stamps as well"}};
+  std::vector<NotObservable> out{{"common_offset", "an offset common to all clocks leaves no residual",
+                                  "an event that another clock stamps as well"}};
   if (rigid_below_hz_ <= 0.0)
-    out.push_back({kPolarity, "a logger mounted the other way round is half a turn, which opposite motion is too",
-                   "give modes (--reference): well below the first all loggers move as one"});
+    out.push_back({kPolarity, "a reversed logger shifts the phase by half a cycle, like motion in antiphase",
+                   "give modes (--reference): well below the first mode all loggers move in phase"});
   return out;
 }
 
@@ -170,7 +170,7 @@ ResponseFit LoggerModel::fit(const std::vector<std::string>& effects) const {
   out.heldout_rms = std::sqrt(out.heldout_squares() / n);
   out.noise_variance = std::max(out.residual_rms * out.residual_rms, 1e-12);
   out.noise_floor = 0.0;
-  out.words = "phases between loggers lie " + number(out.residual_rms) + " degrees rms off 0 and 180";
+  out.words = "phases between loggers are " + number(out.residual_rms) + " degrees rms off 0 and 180";
   out.left = "phases " + number(out.residual_rms) +
              " degrees rms off 0 and 180: leakage of short parts, damping that is not proportional, noise";
   for (const std::string& effect : effects) {

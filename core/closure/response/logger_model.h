@@ -9,19 +9,19 @@
 
 namespace core::closure {
 
-// Records of loggers on one structure, each with a clock of its own: the same rate, started together, so it is said.
+// Records of loggers on one structure, each with its own clock: nominally equal rates and a common start.
 struct LoggerRecords {
   double rate_hz = 0.0;
   std::vector<std::string> name;
-  std::vector<std::vector<double>> value;        // per logger; lengths may differ; NaN is taken as 0 (the mean)
+  std::vector<std::vector<double>> value;        // per logger; lengths may differ; NaN counts as 0 (the mean)
   double band_low_hz = 0.5, band_high_hz = 0.0;  // 0 = 0.2 of the rate
   double rigid_below_hz = 0.0;                   // well below the first mode, where all move as one; 0 = not known
 };
 
-// Proportionally damped structures answer in phase or against each other: the phase of a cross-spectrum between two
-// loggers, doubled, is 0 at every frequency, whatever the modes. What a clock's offset tau leaves is 2 pi f tau.
-// Residual: that phase, folded to +-90 degrees, over all bins of the parts of the record in which both loggers move,
-// the first logger against each other. Held out: one part in time at a time. Unit: degrees (52 = any phase).
+// Proportionally damped structures respond in phase or in antiphase: the doubled phase of a cross-spectrum between two
+// loggers is 0 at every frequency, whatever the modes. A clock offset tau leaves a phase of 2 pi f tau. Residual: that
+// phase, wrapped to +-90 degrees, over all bins of the parts in which both loggers move, the first logger against each
+// other. Held out: one part in time. Unit: degrees (52 = uniform phase).
 class LoggerModel final : public ResponseModel {
  public:
   static constexpr double kMaterial = 0.1;
@@ -38,10 +38,10 @@ class LoggerModel final : public ResponseModel {
   [[nodiscard]] std::unique_ptr<ResponseModel> surrogate(const std::vector<std::string>& effects,
                                                          std::uint64_t seed) const override;
 
-  // Mounted the other way round than the first one.
+  // Mounted in the opposite direction of the first one.
   [[nodiscard]] std::vector<bool> inverted(const std::vector<std::string>& effects) const;
 
-  // By how much each logger's samples are later than the first one's of the same number; 0 without the effect.
+  // Delay of each logger's samples relative to the first one's of the same number; 0 without the effect.
   [[nodiscard]] std::vector<double> offsets_s(const std::vector<std::string>& effects) const;
 
  private:

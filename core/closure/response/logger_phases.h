@@ -7,8 +7,8 @@
 
 namespace core::closure {
 
-// Phases of each logger's cross-spectrum with the first, part by part. Parts are cut where the coarse offset says that
-// the loggers saw the same motion; the phases are of the samples' numbers, as if they had not been.
+// Phases of each logger's cross-spectrum with the first, part by part. Parts are aligned by the coarse offset, so that
+// the loggers see the same motion; the phases refer to the sample numbers without that alignment.
 struct LoggerPhases {
   std::vector<double> coarse_s;  // per logger; whole samples
   Eigen::VectorXd frequency_hz;

@@ -9,10 +9,10 @@
 
 namespace core::closure {
 
-// The response level: a ResponseModel (clock readings, free decays, loggers, series of channels) in the one loop.
-// Score = drop of the held-out squares in units of the noise variance. Rival: its held-out squares exceed those of the
-// adopted model by no more than three standard errors of their difference over the left-out parts, and its held-out rms
-// is at most a quarter larger.
+// Response level: a ResponseModel (clock readings, free decays, loggers, series of channels) in the common loop. Score
+// = drop of the held-out squares in units of the noise variance. Rival: its held-out squares exceed those of the
+// adopted model by at most three standard errors of their difference over the left-out parts, and its held-out rms by
+// at most a quarter.
 class ResponseLevel final : public ClosureLevel {
  public:
   static constexpr double kRivalErrors = 3.0;

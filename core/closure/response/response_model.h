@@ -14,15 +14,15 @@ namespace core::closure {
 // A model of a response with some effects, fitted to its record.
 struct ResponseFit {
   double residual_rms = 0.0;         // in the model's unit
-  double heldout_rms = 0.0;          // of data that its fit did not see; infinite where it cannot be fitted
+  double heldout_rms = 0.0;          // of data excluded from its fit; infinite where it cannot be fitted
   std::vector<double> fold_squares;  // summed squares of that error, per left-out part of the record
   double noise_variance = 1.0;       // of one value of those squares
   double noise_floor = 0.0;          // what noise alone would leave
   bool structured = true;            // is the residual more than noise?
-  std::string words;                 // how that was found
+  std::string words;                 // result of that test, for a reader
   std::size_t n_parameters = 0;      // of the effects
   std::vector<std::vector<ParameterValue>> parameters;  // per effect, in the order asked for
-  std::vector<std::string> implausible;                 // per effect: why its numbers cannot be true; empty = they can
+  std::vector<std::string> implausible;                 // per effect: why its numbers are not plausible; or empty
   std::vector<ClosureMode> modes;
   std::string left;  // of the residual: where, how much
 
@@ -33,8 +33,8 @@ struct ResponseFit {
   }
 };
 
-// What a response level knows of one kind of record: how it is predicted with any set of effects, how made-up records
-// of the same model look. Plain data behind it; every function is a pure function of it and of its arguments. One
+// What a response level needs of one kind of record: its prediction with any set of effects, and surrogate records
+// of the same model. Plain data behind it; every function is a pure function of it and of its arguments. One
 // thread.
 class ResponseModel {
  public:
@@ -44,15 +44,15 @@ class ResponseModel {
   virtual ~ResponseModel() = default;
 
   [[nodiscard]] virtual std::string unit() const = 0;
-  // Effects that this record can show, in the order of the catalogue.
+  // Effects that are observable in this record, in the order of the catalogue.
   [[nodiscard]] virtual std::vector<std::string> effects() const = 0;
   [[nodiscard]] virtual std::vector<NotObservable> not_observable() const = 0;
-  // By which share the held-out squares must fall for an effect to matter.
+  // Materiality: share by which the held-out squares must fall.
   [[nodiscard]] virtual double material_share(const std::string& effect) const = 0;
-  // The model with these effects, in the order of their adoption. Never throws on data: what cannot be fitted has an
+  // The model with these effects, in the order of adoption. Never throws on data: a model that cannot be fitted has an
   // infinite held-out error.
   [[nodiscard]] virtual ResponseFit fit(const std::vector<std::string>& effects) const = 0;
-  // A record of the model with these effects and noise, of the same size.
+  // A surrogate: a record of the model with these effects and noise, of the same size.
   [[nodiscard]] virtual std::unique_ptr<ResponseModel> surrogate(const std::vector<std::string>& effects,
                                                                  std::uint64_t seed) const = 0;
 };

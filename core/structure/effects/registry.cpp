@@ -34,7 +34,7 @@ std::string outside(double value, double low, double high, std::string_view what
   if (value >= low && value <= high) return {};
   std::ostringstream text;
   text.precision(3);
-  text << what << " of " << value << " lies outside " << low << " .. " << high;
+  text << what << " of " << value << " is outside " << low << " .. " << high;
   return text.str();
 }
 

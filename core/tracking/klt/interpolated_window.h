@@ -8,14 +8,14 @@
 
 namespace core {
 
-// How well an image shows what a template shows: I = gain T + offset, by least squares.
+// Match of an image with a template: I = gain T + offset, by least squares.
 struct TemplateMatch {
   double gain = 0.0;
-  double residual = 0.0;     // variance of what is left, grey^2, of one pixel of the raw image if it is white noise
+  double residual = 0.0;     // residual variance, grey^2, of one pixel of the raw image if it is white noise
   double correlation = 0.0;  // over the window, both smoothed by the spline
 };
 
-// What an image shows about a position, beside a template: the raw pixels interpolated at a fraction of a pixel (spline
+// The image at a position, to be compared with a template: the raw pixels interpolated at a fraction of a pixel (spline
 // weights only: the prefilter is in the template). 16-bit integers throughout, grey values in 128ths: the same bits on
 // every machine. Reused from point to point; no allocation. One thread.
 class InterpolatedWindow {
@@ -25,7 +25,7 @@ class InterpolatedWindow {
   void move_to(int cell_u, int cell_v, double fraction_u, double fraction_v) noexcept;
   // px, from the position towards the template, for gain 1.
   [[nodiscard]] Vector2 step() const noexcept;
-  // rest: the step from here that is still taken; what it explains is no residual.
+  // rest: the remaining step from here; the part of the image that it explains is not residual.
   [[nodiscard]] TemplateMatch match(const Vector2& rest = {}) const noexcept;
 
  private:

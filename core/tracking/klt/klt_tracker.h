@@ -8,22 +8,22 @@
 namespace core {
 
 struct KltConfig {
-  int window_px = 21;  // side of what is compared, 5 ... 21
+  int window_px = 21;  // side of the window that is compared, 5 ... 21
   int max_iterations = 12;
-  double epsilon_px = 0.01;         // stop when a step is shorter, or half of what rounding to 8 bits does
-  double reach_px = 8.0;            // a point that is farther from its prediction is not looked for here
-  double least_correlation = 0.75;  // with the template, of what its noise lets one expect
+  double epsilon_px = 0.01;         // stop when a step is shorter, or shorter than half the effect of 8-bit rounding
+  double reach_px = 8.0;            // a point farther from its prediction is not found here
+  double least_correlation = 0.75;  // with the template, relative to what its noise allows
 };
 
 // One point in one image.
 struct KltPoint {
   Vector2 position;       // px
-  double sigma_px = 0.0;  // standard deviation per axis over images against one template (ARCHITECTURE.md)
+  double sigma_px = 0.0;  // standard deviation per axis over images against one template (core/tracking/METHOD.md)
   double gain = 1.0;      // of the light, against the template
   bool seen = false;
 };
 
-// Whether its place in other images can be told.
+// Whether its position in other images can be determined.
 [[nodiscard]] bool is_trackable(const GrayView& gray, const Vector2& point, int window_px);
 
 // Points of a keyframe in later images, each near its prediction: inverse-compositional Lucas-Kanade against a template
@@ -38,21 +38,21 @@ class KltTracker {
   [[nodiscard]] std::size_t n_points() const noexcept { return points_.size(); }
   [[nodiscard]] const PointTemplate& point_template(std::size_t i) const noexcept { return points_[i].pattern; }
 
-  // The mean of `n_averaged` images of the same place, which show less noise; the datum stays.
+  // Replaces the template by the mean of `n_averaged` aligned images, with less noise; the reference position stays.
   void replace_template(std::size_t i, const Patch& mean, int n_averaged) noexcept;
-  // A template from another image, about the pixel nearest to place + beside; the point is at `place` there. False, and
-  // nothing changes: the window leaves the image, or noise would move the point by a variance of more than that.
+  // Template from another image, about the pixel nearest to place + beside; the point is at `place` there. False,
+  // without effect: the window leaves the image, or noise would move the point by more than that variance.
   [[nodiscard]] bool renew(std::size_t i, const GrayView& gray, const Vector2& place, const Vector2& beside,
                            double most_variance_px2) noexcept;
-  // The point is less far by so much than was said.
+  // Subtracts `less` from the displacement of the point: shifts its reference position.
   void shift_datum(std::size_t i, const Vector2& less) noexcept;
-  // Where the template's middle lies when the point is at `position`.
+  // Position of the template's middle when the point is at `position`.
   [[nodiscard]] Vector2 middle_of(std::size_t i, const Vector2& position) const noexcept {
     const Point& point = points_[i];
     return {position.u - point.datum.u + point.u0, position.v - point.datum.v + point.v0};
   }
 
-  // gray: 8-bit, of any size. Not seen: no texture, its window leaves the image, too far away, or it looks different.
+  // gray: 8-bit, of any size. Not seen: no texture, window leaves the image, too far away, or correlation too low.
   [[nodiscard]] KltPoint find(const GrayView& gray, std::size_t i, const Vector2& predicted) noexcept;
 
  private:

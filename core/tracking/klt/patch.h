@@ -8,8 +8,8 @@
 
 namespace core {
 
-// Sizes of the patches about a tracked point, px. Window: what is compared, at most. Folded: the window and what the
-// interpolation's prefilter reaches beyond it. Patch: what the interpolation needs for every position in a cell of one
+// Sizes of the patches about a tracked point, px. Window: the compared part, at most. Folded: the window and the
+// support of the interpolation's prefilter beyond it. Patch: what the interpolation needs for every position within one
 // pixel.
 inline constexpr int kWindowRadius = 10;
 inline constexpr int kWindow = 2 * kWindowRadius + 1;

@@ -10,11 +10,11 @@ namespace core {
 // Fixed point, bits after the point: of interpolated grey values, and of those that are compared with the template.
 inline constexpr int kGreyBits = 7, kMatchBits = 3;
 
-// What a tracked point looks like, prepared so that a step towards it is linear in the raw image (inverse-compositional
+// Template of a tracked point, prepared so that a step towards it is linear in the raw image (inverse-compositional
 // Lucas-Kanade, Baker & Matthews 2004): step(p) = sum_x S(x) I(x + p). I(x + p) is interpolated by quintic splines
 // whose prefilter is folded into S once, so the image is never filtered. S is orthogonal to the template and to a
-// constant: gain and offset of the light move nothing. H = sum g_smooth g^T joins a gradient that noise disturbs little
-// (Gaussian derivative, 0.7 px) to the exact one, so that steps have the right length for fine texture too.
+// constant: gain and offset of the light have no effect. H = sum g_smooth g^T combines a gradient with little noise
+// (Gaussian derivative, 0.7 px) with the exact one, so that steps have the right length for fine texture too.
 struct PointTemplate {
   using Factors = std::array<std::int16_t, std::size_t{kFolded} * kRow>;  // rows of the folded window
 
@@ -38,7 +38,7 @@ struct PointTemplate {
   return 0.5 * (pattern.variance_u + pattern.variance_v) * pattern.noise;
 }
 
-// Whether a patch about a point has texture in two directions, so that its place in other images can be told.
+// Whether a patch about a point has texture in two directions, so that its position can be determined.
 [[nodiscard]] bool has_texture(const Patch& patch, int radius) noexcept;
 // `patch`: of one image, or the mean of n_averaged. radius: 2 ... kWindowRadius.
 void build_template(const Patch& patch, int radius, int n_averaged, PointTemplate& out) noexcept;

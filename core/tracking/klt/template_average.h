@@ -7,12 +7,12 @@
 
 namespace core {
 
-// What a point looks like about (u, v), between the pixels by quintic splines. Deterministic; no allocation.
+// The image about (u, v), interpolated between pixels by quintic splines. Deterministic; no allocation.
 void cut_patch_between(const GrayView& gray, double u, double v, Patch& out) noexcept;
 
-// Templates of faint texture are made anew from the mean of several images: one image's noise is in its gradients too,
-// and steps along those are not the best ones. Each image is laid where the point was found, its light undone, so the
-// datum stays. A few points at a time, so that no frame has much to do. Nothing allocates after construction. One
+// Renews templates of faint texture from the mean of several images, because the noise of a single image is in its
+// gradients too and degrades the steps. Each image is aligned at the position found, its light corrected, so the
+// reference position stays. A few points at a time bound the work per frame. Nothing allocates after construction. One
 // thread.
 class TemplateAverage {
  public:
@@ -21,7 +21,7 @@ class TemplateAverage {
 
   // An image in which the tracker has found its points.
   void add(const GrayView& gray, const std::vector<KltPoint>& found, KltTracker& tracker) noexcept;
-  // A point whose template has become another one.
+  // Call when the template of a point has been replaced.
   void forget(std::size_t point) noexcept;
   [[nodiscard]] bool is_done() const noexcept { return n_begun_ == faint_.size() && work_.empty(); }
 

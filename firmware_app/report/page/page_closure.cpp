@@ -29,8 +29,8 @@ std::string steps_table(const core::closure::ClosureResult& result) {
 std::string found_html(const ClosureReport& report) {
   const core::closure::ClosureResult& result = report.result;
   std::string out = paragraph_html(
-      fmt::format("Frames {} to {}: the points lie {:.4f} {} rms from where the model of camera, lens and tracker puts "
-                  "them; noise alone would leave {:.4f}.",
+      fmt::format("Frames {} to {}: the points deviate by {:.4f} {} rms from the positions predicted by the "
+                  "model of camera, lens and tracker; noise alone would leave {:.4f}.",
                   report.first_sequence, report.last_sequence, result.baseline_rms, result.unit, result.noise_floor));
   if (result.steps.empty()) return out + paragraph_html("No effect is missing: " + result.stop_reason + ".");
   out += steps_table(result);
@@ -38,13 +38,15 @@ std::string found_html(const ClosureReport& report) {
     std::string rivals;
     for (const std::string& rival : step.rivals) rivals += (rivals.empty() ? "" : ", ") + rival;
     if (!rivals.empty())
-      out += paragraph_html(step.effect + " cannot be told from: " + rivals + "; the cause is one of these.", "note");
+      out += paragraph_html(step.effect + " cannot be distinguished from: " + rivals + "; the cause is one of these.",
+                            "note");
   }
-  out += paragraph_html(fmt::format("With these {:.4f} {} are left.", result.residual_rms, result.unit));
-  for (const std::string& effect : report.in_force) out += paragraph_html("Taken out during the run: " + effect + ".");
+  out +=
+      paragraph_html(fmt::format("With these effects modelled, {:.4f} {} remain.", result.residual_rms, result.unit));
+  for (const std::string& effect : report.in_force) out += paragraph_html("Corrected during the run: " + effect + ".");
   if (report.in_force.size() < result.steps.size())
     out += paragraph_html(
-        "What was not taken out is still in the results: declare what was found, or correct its "
+        "Effects that were not corrected are still in the results: declare them, or remove their "
         "cause, and run again.");
   return out;
 }
@@ -53,9 +55,12 @@ std::string found_html(const ClosureReport& report) {
 
 std::string closure_section(const PictureInputs& inputs) {
   if (inputs.closure == nullptr)
-    return section_html("closure", kTitle, absent_html("Nobody looked: closure.adopt is off, or this was not a run."));
+    return section_html(
+        "closure", kTitle,
+        absent_html("No diagnosis was made: closure.adopt is off, or this was not a run of the service."));
   if (!inputs.closure->refused.empty())
-    return section_html("closure", kTitle, absent_html("The tracks tell nothing: " + inputs.closure->refused + "."));
+    return section_html("closure", kTitle,
+                        absent_html("The tracks allow no diagnosis: " + inputs.closure->refused + "."));
   return section_html("closure", kTitle, found_html(*inputs.closure));
 }
 

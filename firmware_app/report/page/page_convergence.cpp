@@ -16,7 +16,7 @@ constexpr double kPercentPerMinute = 6000.0;
 // Whether the structure as a whole changed under way.
 std::string drift_sentence(const core::ModalEstimate& estimate) {
   const auto drift = core::common_drift(estimate);
-  if (!drift) return "Whether the frequencies drift together cannot be told yet: fewer than two modes have a trend.";
+  if (!drift) return "Common drift of the frequencies cannot be determined yet: fewer than two modes have a trend.";
   return fmt::format("All {} modes together {}: {} ± {} % a minute.", drift->n_modes,
                      drift->drifts ? "drift" : "show no drift beyond what the record allows",
                      decimals_text(kPercentPerMinute * drift->share_per_s, 3),
@@ -37,7 +37,7 @@ std::string followed_table(const PictureInputs& inputs) {
                           decimals_text(per_minute * *history.drift_std_hz_per_s, 3));
       if (history.drifts) trend += ", drifts";
     }
-    if (history.n_fold_changes > 0) trend += fmt::format(", fold changed {} times", history.n_fold_changes);
+    if (history.n_fold_changes > 0) trend += fmt::format(", alias order changed {} times", history.n_fold_changes);
     table.add({{std::to_string(i + 1), {}},
                {four_digits_text(mode.frequency_hz) + " Hz", {}},
                {fmt::format("{} estimates", history.n_estimates), {}},
@@ -57,21 +57,21 @@ std::string convergence_section(const PictureInputs& inputs) {
   const std::string title = "Convergence";
   const std::string frequency = frequency_convergence_svg(inputs, kWideFormat);
   if (frequency.empty()) {
-    return section_html("convergence", title,
-                        absent_html("There is no course over the estimates: the run made fewer than three, or they "
-                                    "found no mode twice."));
+    return section_html(
+        "convergence", title,
+        absent_html("There is no history over the estimates: the run made fewer than three, or they found no "
+                    "mode twice."));
   }
   std::string body = paragraph_html(drift_sentence(*inputs.estimate)) + followed_table(inputs);
   body += paragraph_html("Still wanted: how much longer a record makes the damping good to 10 %.", "note");
-  body +=
-      "<h3>Frequency</h3>\n" +
-      figure_html(frequency, frequency_convergence_svg(inputs, kNarrowFormat), {},
-                  "Every mode's frequency in percent of the last estimate's, over the record behind it. A mode that "
-                  "stays as it is keeps between the grey lines 19 times out of 20: they hold what an estimate may "
-                  "differ from a later one that shares its data.");
+  body += "<h3>Frequency</h3>\n" +
+          figure_html(frequency, frequency_convergence_svg(inputs, kNarrowFormat), {},
+                      "Frequency of every mode in percent of the last estimate's, over the duration of the record. "
+                      "A mode that does not change stays between the grey lines 19 times out of 20: they allow for "
+                      "the difference between an estimate and a later one that shares its data.");
   body += "<h3>Damping</h3>\n" + figure_html(damping_convergence_svg(inputs, kWideFormat),
                                              damping_convergence_svg(inputs, kNarrowFormat), {},
-                                             "The same of the damping, which takes far longer to settle.");
+                                             "The same for damping, which converges much more slowly.");
   return section_html("convergence", title, body);
 }
 

@@ -132,17 +132,17 @@ std::string fold_section(const PictureInputs& inputs) {
   const double half = inputs.estimate->rate_hz / 2.0;
   const double searched = std::max(half, inputs.max_frequency_hz);
   std::string words = fmt::format(
-      "A camera at {} Hz shows a vibration faster than {} Hz at a lower frequency. The zigzag tells where: read a "
-      "mode's "
-      "possible true frequencies straight up from where it was seen.",
+      "A camera at {} Hz shows a vibration above {} Hz (the Nyquist frequency) at a lower "
+      "frequency, its alias. The zigzag gives both: read the possible true frequencies of a mode "
+      "straight up from its apparent frequency.",
       four_digits_text(inputs.estimate->rate_hz), four_digits_text(half));
   words +=
       searched > half * 1.0001
           ? fmt::format(" True frequencies up to {} Hz (solid) were considered; rings are the candidates not chosen.",
                         four_digits_text(searched))
           : fmt::format(
-                " This run looked no higher than {} Hz (solid): a faster mode would stand at a wrong frequency here. "
-                "Where one is possible, set identification.max_frequency_hz above it.",
+                " This run searched up to {} Hz (solid): a faster mode would appear at a wrong frequency "
+                "here. If one is possible, set identification.max_frequency_hz above it.",
                 four_digits_text(half));
   return section_html("folds", title, figure(inputs, fold_map_svg, {}, words));
 }
@@ -152,16 +152,17 @@ std::string stabilisation_section(const PictureInputs& inputs) {
   if (stabilisation_svg(inputs, kWideFormat).empty())
     return section_html(
         "stabilisation", title,
-        absent_html("There are no poles to show: the record carried no system, or its poles were not kept."));
+        absent_html("There are no poles to show: no system was identified in the record, or its poles were not "
+                    "kept."));
   const std::string loose =
       "<li><span class=\"mark\"><svg class=\"hm\" viewBox=\"0 0 14 14\"><circle class=\"m7\" cx=\"7\" cy=\"7\" "
       "r=\"2\"/></svg></span><b>loose</b> A pole of too few orders to be listed.</li>\n";
   return section_html(
       "stabilisation", title,
-      figure(
-          inputs, stabilisation_svg, {},
-          "Every pole of every model order where the camera saw it. A mode stands in one column over all orders; what "
-          "comes and goes is numerical. Behind: the summed spectrum of all channels, to no scale.") +
+      figure(inputs, stabilisation_svg, {},
+             "Every pole of every model order, at its apparent frequency. A mode stands in one column "
+             "over all orders; poles that come and go are numerical. Behind: the summed spectrum of all "
+             "channels, not to scale.") +
           marks_legend(inputs, loose));
 }
 
@@ -169,13 +170,13 @@ std::string displacements_section(const PictureInputs& inputs) {
   const std::string title = "Displacement over time";
   if (displacements_svg(inputs, kWideFormat).empty())
     return section_html("displacements", title,
-                        absent_html("There is no course over time: fewer than two samples were taken."));
+                        absent_html("There is no time history: fewer than two samples were measured."));
   return section_html(
       "displacements", title,
       figure(inputs, displacements_svg, {},
-             fmt::format("Displacement of every channel from the first frame, in {}. All panels span the same "
-                         "range, each about its own middle; gaps were not seen. The slow drift is the hovering "
-                         "camera's and is taken out before the modes are sought.",
+             fmt::format("Displacement of every channel relative to the first frame, in {}. All panels span the same "
+                         "range, each about its own middle; gaps are missing samples. The slow drift comes from the "
+                         "hovering camera and is removed before identification.",
                          inputs.unit)));
 }
 
@@ -196,7 +197,7 @@ std::string quality_section(const PictureInputs& inputs) {
   const std::string title = "Track quality";
   if (points_seen_svg(inputs, kWideFormat).empty())
     return section_html("quality", title,
-                        absent_html("There are no tracks: the input was a time series, or no frame was followed."));
+                        absent_html("There are no tracks: the input was a time series, or no frame was tracked."));
   return section_html("quality", title,
                       "<h3>Points seen</h3>\n" +
                           figure(inputs, points_seen_svg, {},

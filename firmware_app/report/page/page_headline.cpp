@@ -145,7 +145,7 @@ std::string headline_html(const PictureInputs& inputs) {
   std::string out = "<header>\n<h1>Modes of vibration</h1>\n";
   if (!facts.source.empty()) out += paragraph_html(facts.source, "source");
   if (has_fault(facts))
-    out += paragraph_html(facts.health.state + ". What follows is what was known by then.", "fault");
+    out += paragraph_html(facts.health.state + ". The results below are those known by then.", "fault");
   std::string words = modes_sentence(estimate);
   for (const std::string& sentence : {rejected_sentence(estimate), losses_sentence(facts)}) {
     if (!sentence.empty()) words += " " + sentence;

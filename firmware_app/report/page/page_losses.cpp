@@ -33,8 +33,8 @@ std::string losses_section(const PictureInputs& inputs) {
     return section_html("losses", title, absent_html("Nothing was counted: the input was a time series."));
   const core::Health& h = facts.health;
   const std::string body = counters_table(
-      {{"Frames taken", h.frames_in, "from the camera"},
-       {"Frames followed", h.frames_processed, "taken = followed + dropped"},
+      {{"Frames captured", h.frames_in, "from the camera"},
+       {"Frames followed", h.frames_processed, "captured = tracked + dropped"},
        {"Frames dropped", h.frames_dropped, "tracking was behind: its ring was full"},
        {"Frames missing", h.frames_missing, "lost before the service: jumps in the numbers or times of the frames"},
        {"Samples masked", h.samples_masked, "channel samples without a value; the spectra leave them out"},

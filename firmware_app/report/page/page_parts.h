@@ -8,7 +8,7 @@
 
 namespace app {
 
-// The sections of report.html, in their order. One that has nothing to show says why.
+// The sections of report.html, in their order. A section without content states why.
 [[nodiscard]] std::string headline_html(const PictureInputs& inputs);
 
 [[nodiscard]] std::string modes_section(const PictureInputs& inputs);

@@ -6,9 +6,9 @@
 
 namespace app {
 
-// The text of report.html: all of a run on one page for people, with nothing outside of it (no network, no files), for
-// a phone and a desk, light and dark, below 2 MB. Needs `inputs.facts`. What else is missing is told in its section.
-// The same input gives the same bytes, but for what stands between kVariesBegin and kVariesEnd: how long things took.
+// The text of report.html: a run on one page, without external content (no network, no files), for phone and desk,
+// light and dark, below 2 MB. Needs `inputs.facts`; other missing inputs are stated in their section. The same input
+// gives the same bytes, except between kVariesBegin and kVariesEnd: timing.
 [[nodiscard]] std::string report_html(const PictureInputs& inputs);
 
 inline constexpr const char* kReportName = "report.html";

@@ -16,9 +16,9 @@ namespace app {
 
 class RunHistory;
 
-// What only the page tells: how the run was made and what it lost.
+// For the page only: how the run was made and what it lost.
 struct RunFacts {
-  std::string source;  // what was watched, e.g. the clip's name; empty = unknown
+  std::string source;  // name of the source, e.g. of the clip; empty = unknown
   std::string method;  // "paper" | "hovermodal"
   std::vector<std::string> corrections, caveats;
   core::Health health;
@@ -26,7 +26,7 @@ struct RunFacts {
   int image_width_px = 0, image_height_px = 0;  // of the tracks, where there is no frame
 };
 
-// What the pictures show; everything is borrowed. A null pointer, an empty list: not there.
+// Contents of the pictures; everything is borrowed. A null pointer, an empty list: not available.
 struct PictureInputs {
   const core::Frame* first_frame = nullptr;
   const core::TrackFrame* keyframe = nullptr;  // points in the first frame
@@ -37,15 +37,15 @@ struct PictureInputs {
   const core::closure::ClosureReport* closure = nullptr;
   const RunHistory* history = nullptr;
   std::string unit = "px";          // of the displacements
-  double max_frequency_hz = 0.0;    // up to which folds were looked for; 0 = half the rate
+  double max_frequency_hz = 0.0;    // highest true frequency searched; 0 = half the rate
   const RunFacts* facts = nullptr;  // with them: report.html
 };
 
-// Draws what a run has found into an existing folder and returns the names of the files written: frame.png (regions and
+// Draws the results of a run into an existing folder and returns the names of the files written: frame.png (regions and
 // points in the first frame), displacements.svg, scale.svg (where the scale varies), spectra.svg, modes.svg, each below
-// 500 kB, and report.html (report_page.h). The same bytes for the same input. A picture without its inputs is left out,
-// and an older one of that name removed. Throws nothing but one drivers::FileError that names every picture that
-// failed; the others are complete.
+// 500 kB, and report.html (report_page.h). The same bytes for the same input. A picture without its inputs is omitted,
+// and an older one of that name removed. Throws only drivers::FileError, which names every picture that failed; the
+// others are complete.
 std::vector<std::string> write_pictures(const std::string& directory, const PictureInputs& inputs);
 
 }  // namespace app

@@ -13,10 +13,10 @@ constexpr std::array<VerdictMark, 6> kMarks{
     VerdictMark{Verdict::kCameraMotion, "camera motion", "camera motion", "w", Marker::kTriangle, "k7 n",
                 "All channels move alike: the camera moved, not the structure."},
     VerdictMark{Verdict::kInputPeak, "input peak", "input peaks", "w i", Marker::kSquare, "k1 n",
-                "The base moves too: what shakes the structure, not its answer."},
+                "The base moves too: a peak of the input that shakes the structure, not of its response."},
     VerdictMark{Verdict::kHarmonic, "harmonic", "harmonics", "w o", Marker::kDiamond, "k4 n",
-                "A machine turning at a constant speed, not a mode."},
-    VerdictMark{Verdict::kAmbiguous, "fold open", "fold open", "w u", Marker::kRing, "k3 n",
+                "A machine running at constant speed, not a mode."},
+    VerdictMark{Verdict::kAmbiguous, "alias open", "alias open", "w u", Marker::kRing, "k3 n",
                 "A mode, but the frame rate leaves open which of its possible frequencies is the true one."},
     VerdictMark{Verdict::kNumerical, "numerical", "numerical", "w", Marker::kCross, "k7 n",
                 "Does not persist over the model orders, or its components are out of phase: not trusted."}};

@@ -123,7 +123,7 @@ TEST(ClosureLoop, LeavesWhatChanceReaches) {
   level.known = {{"lucky", 1.5}};
   const ClosureResult result = close_loop(level);
   EXPECT_TRUE(level.adopted.empty());
-  EXPECT_THAT(result.stop_reason, HasSubstr("lucky, is not above what chance reaches"));
+  EXPECT_THAT(result.stop_reason, HasSubstr("lucky, does not exceed the chance threshold"));
 }
 
 TEST(ClosureLoop, RefusedCandidatesAreNamedAndNeverAdopted) {
@@ -148,7 +148,7 @@ TEST(ClosureLoop, TakesBackWhatTheRefitDoesNotKeep) {
   const ClosureResult result = close_loop(level);
   EXPECT_TRUE(level.adopted.empty());
   EXPECT_TRUE(result.steps.empty());
-  EXPECT_THAT(result.stop_reason, HasSubstr("taken back"));
+  EXPECT_THAT(result.stop_reason, HasSubstr("was reverted"));
 }
 
 TEST(ClosureLoop, WhatTakesOutLessThanWasAskedForIsNotTold) {

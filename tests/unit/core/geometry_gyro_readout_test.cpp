@@ -75,7 +75,7 @@ TEST(GyroReadout, RefusesWhatTellsNothing) {
   EXPECT_NE(refusal(clip).find("frame pairs to fit"), std::string::npos);
   clip = sound;
   clip.gyro.resize(clip.gyro.size() / 2);
-  EXPECT_NE(refusal(clip).find("does not hold the frames"), std::string::npos);
+  EXPECT_NE(refusal(clip).find("does not cover the frames"), std::string::npos);
   clip = sound;
   clip.gyro[10].rate_rad_s.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(refusal(clip).find("gyro sample 10"), std::string::npos);
@@ -86,7 +86,7 @@ TEST(GyroReadout, RefusesWhatTellsNothing) {
   for (FramePair& pair : clip.pairs) {
     for (PointPair& point : pair.points) point.to = point.from;
   }
-  EXPECT_NE(refusal(clip).find("hardly turns"), std::string::npos);
+  EXPECT_NE(refusal(clip).find("hardly rotates"), std::string::npos);
 }
 
 TEST(GyroAttitude, IntegratesLinearRatesAndInterpolatesBetweenSamples) {

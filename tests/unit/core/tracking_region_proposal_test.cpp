@@ -136,7 +136,7 @@ TEST(RegionProposal, SaysThatEverythingRests) {
   made.add_wall();
   const auto proposal = made.propose();
   EXPECT_TRUE(proposal.regions.empty());
-  EXPECT_THAT(proposal.remark, ::testing::HasSubstr("everything rests"));
+  EXPECT_THAT(proposal.remark, ::testing::HasSubstr("nothing moves"));
 }
 
 TEST(RegionProposal, WithoutAWallPartsAreToldApartByTheirOwnMotion) {
@@ -148,7 +148,7 @@ TEST(RegionProposal, WithoutAWallPartsAreToldApartByTheirOwnMotion) {
   const auto proposal = made.propose();
   EXPECT_EQ(proposal.regions.size(), 3U);
   EXPECT_FALSE(proposal.rest);
-  EXPECT_THAT(proposal.remark, ::testing::HasSubstr("nothing rests in view"));
+  EXPECT_THAT(proposal.remark, ::testing::HasSubstr("no static region is in view"));
 }
 
 TEST(RegionProposal, OfNoPointsNothingIsProposed) {

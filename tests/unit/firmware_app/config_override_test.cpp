@@ -50,7 +50,7 @@ TEST(Config, NamesTheOverrideThatIsRefused) {
   EXPECT_THAT(refusal(kGood, {"camera.rate=3"}),
               AllOf(StartsWith("--set camera.rate=3"), HasSubstr("`camera.rate_hz`")));
   EXPECT_THAT(refusal(kGood, {"regions.1.name=base"}),
-              AllOf(StartsWith("--set regions.1.name=base"), HasSubstr("is taken")));
+              AllOf(StartsWith("--set regions.1.name=base"), HasSubstr("is already used")));
   for (const char* text : {"",
                            "=",
                            "camera.rate_hz",

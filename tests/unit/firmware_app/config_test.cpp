@@ -185,7 +185,7 @@ TEST(Config, RefusesBrokenRegions) {
   EXPECT_THAT(refusal("camera: {source: a}\nregions: [{rect: [1, 2, 3, 4]}]\n"),
               HasSubstr("regions.0.name: nothing is refused"));
   EXPECT_THAT(refusal("camera: {source: a}\nregions: [{name: a, rect: [1, 2, 3, 4], role: background}]\n"),
-              HasSubstr("only what rests"));
+              HasSubstr("only static regions"));
   EXPECT_THAT(refusal("camera: {source: a}\nregions: [base]\n"), HasSubstr("regions.0: base is refused"));
 }
 

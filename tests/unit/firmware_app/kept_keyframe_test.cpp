@@ -73,7 +73,7 @@ TEST_F(KeptKeyframeFile, AnotherConfigurationSizeOrSetOfRegionsIsRefused) {
   core::CameraInfo other = camera();
   other.width_px = 6;
   other.height_px = 8;
-  EXPECT_THAT(read_keyframe(path, kHash, other, 2).refused, HasSubstr("another size"));
+  EXPECT_THAT(read_keyframe(path, kHash, other, 2).refused, HasSubstr("different size"));
 }
 
 TEST_F(KeptKeyframeFile, SenselessPointsAreRefused) {

@@ -140,15 +140,16 @@ TEST(ReportPage, TellsWhatTheModelLacks) {
   report.result.steps[0].rivals = {"a <rival>"};
   std::string page = page_of(run);
   expect_sound(page);
-  for (const char* text : {"What the model lacks", "Frames 0 to 1499", "readout = 22.5 +- 0.12 ms",
-                           "0.0433 → 0.0312 px", "cannot be told from: a &lt;rival&gt;", "in region roof, along u"})
+  for (const char* text :
+       {"What the model lacks", "Frames 0 to 1499", "readout = 22.5 +- 0.12 ms", "0.0433 → 0.0312 px",
+        "cannot be distinguished from: a &lt;rival&gt;", "in region roof, along u"})
     EXPECT_THAT(page, HasSubstr(text));
   report.result.steps.clear();
   EXPECT_THAT(page_of(run), HasSubstr("No effect is missing: noise."));
   report.refused = "too <short>";
   page = page_of(run);
   expect_sound(page);
-  EXPECT_THAT(page, HasSubstr("The tracks tell nothing: too &lt;short&gt;."));
+  EXPECT_THAT(page, HasSubstr("The tracks allow no diagnosis: too &lt;short&gt;."));
 }
 
 TEST(ReportPage, ATimeSeriesHasNoPictureButItsShapes) {

@@ -62,7 +62,7 @@ TEST(StructureScale, OneLengthLeavesObliquenessOpenAndSaysHowMuch) {
   ASSERT_EQ(scale.notes.size(), 1U);
   // Leaning by 10 degrees over 800 px of 2000: (1 + 0.2 tan 10) / (1 - 0.2 tan 10) = 1.073 between them.
   EXPECT_THAT(scale.notes[0], AllOf(HasSubstr("up to 10 degrees"), HasSubstr("up to 7."), HasSubstr("between regions"),
-                                    HasSubstr("scale.points would tell")));
+                                    HasSubstr("scale.points would determine it")));
   EXPECT_THAT(scale_of("scale: {known_length_mm: 200, from: [400, 500], to: [800, 500]}\n").notes[0],
               HasSubstr("without a calibration"));
 }
@@ -120,7 +120,7 @@ TEST(StructureScale, RefusesPointsThatShowNoPlane) {
   EXPECT_THAT(refusal("scale: {points: [[0, 0, 0], [1, 1, 1], [2, 2, 2], [3, 3, 3]]}\n"),
               HasSubstr("row 1: write a list of 4 numbers"));
   EXPECT_THAT(refusal("scale: {lengths: [[0, 0, 10, .nan, 5]]}\n"), HasSubstr("row 1, number 4"));
-  EXPECT_THAT(refusal("scale: {lengths: [[0, 0, 1, 0, 5]]}\n"), HasSubstr("a length needs two ends"));
+  EXPECT_THAT(refusal("scale: {lengths: [[0, 0, 1, 0, 5]]}\n"), HasSubstr("give the length two different ends"));
   EXPECT_THAT(refusal("scale: {lengths: [[0, 0, 9, 0, 5]], known_length_mm: 1, from: [0, 0], to: [5, 5]}\n"),
               HasSubstr("one of known_length_mm, lengths and points"));
   EXPECT_THROW(check_against_image(config("scale: {lengths: [[0, 0, 900, 0, 5]]}\n"), 800, 1080), ConfigError);

@@ -68,7 +68,7 @@ TEST(ViewSums, OtherViewsAreTold) {
   EXPECT_EQ(app::why_other_view(one, other), "");
   EXPECT_EQ(app::why_other_view(app::without_sums(one), app::without_sums(other)), "");
   other.view.scale_mm_per_px = 1.2;
-  EXPECT_THAT(app::why_other_view(one, other), HasSubstr("mm a pixel"));
+  EXPECT_THAT(app::why_other_view(one, other), HasSubstr("mm per pixel"));
   other = flight(2);
   other.basis.identifier.max_order = 20;
   EXPECT_THAT(app::why_other_view(one, other), HasSubstr("identified in another way"));

@@ -112,7 +112,7 @@ TEST_F(Plan, WarnsOfWhatAFlightCouldNotMend) {
   EXPECT_NE(tower.text.find("flights"), std::string::npos) << tower.text;
   const Outcome close = plan(kFrame + "--distance-m 1.7 --focal-px 2100");
   EXPECT_NE(close.text.find("does not fit"), std::string::npos) << close.text;
-  EXPECT_NE(close.text.find("or turn the camera"), std::string::npos) << close.text;
+  EXPECT_NE(close.text.find("or rotate the camera"), std::string::npos) << close.text;
 }
 
 TEST_F(Plan, TurnsTheCameraForABridge) {
@@ -120,7 +120,7 @@ TEST_F(Plan, TurnsTheCameraForABridge) {
       "--structure beam --size-m 40 --frequencies 2.1,8.3,18.5 --distance-m 150 --focal-mm 24 --sensor-width-mm 13.2 "
       "--image 2160p --fps 29.97 --rates 24,25,29.97 --readout-ms 20 --exposure-ms 2");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
-  EXPECT_NE(outcome.text.find("turn the camera by 90 degrees"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("rotate the camera by 90 degrees"), std::string::npos) << outcome.text;
 }
 
 TEST_F(Plan, ReadsGivenShapes) {

@@ -105,7 +105,7 @@ Worked work(const Options& options, std::vector<std::unique_ptr<Workers>> worker
   const Inventory found = find_flights(options.folder, options.out, options.config);
   for (const std::string& line : found.left_out) fmt::print(stderr, "left out: {}\n", line);
   if (found.flights.empty())
-    throw std::invalid_argument(options.folder + ": no flight in it; hovermodal batch --help tells what one is");
+    throw std::invalid_argument(options.folder + ": no flight in it; hovermodal batch --help explains what one is");
   Worked worked{orders_of(found, options), {}};
   workers.push_back(std::make_unique<LocalWorkers>(this_program(), jobs_of(options)));
   worked.failures = work_on_all(worked.orders, workers);
@@ -141,7 +141,7 @@ void add_batch(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "batch",
-      "Work on a folder of flights, several at a time, and combine what they say\n"
+      "Process a folder of flights, several at a time, and combine their results\n"
       "  hovermodal batch flights --out together\n"
       "  mpirun -n 16 hovermodal batch flights --out together --mpi     (a build with WITH_MPI; or Slurm's srun)\n"
       "A flight is, at any depth below the folder,\n"

@@ -61,7 +61,7 @@ class Combination {
     for (const Seen& seen : seen_) {
       if (app::same_samples(seen.print, print))
         throw std::runtime_error(
-            fmt::format("holds the samples of {}: counted once", result_.flights[seen.i_flight].name));
+            fmt::format("has the same samples as {}: counted once", result_.flights[seen.i_flight].name));
     }
     app::ViewSums head = app::without_sums(sums);
     std::size_t v = 0;

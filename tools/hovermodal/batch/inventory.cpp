@@ -70,7 +70,7 @@ class Finder {
  private:
   void take_clip(const fs::path& path) {
     if (fs::exists(path.parent_path() / "tracks.csv")) {
-      return leave_out(path, "there is a tracks.csv beside it, which is taken");
+      return leave_out(path, "there is a tracks.csv beside it, which is used instead");
     }
     fs::path own = path;
     own.replace_extension(".yaml");

@@ -120,7 +120,8 @@ class BoardSearch {
     if (found_.width_px == 0) found_.width_px = width_px, found_.height_px = height_px;
     if (found_.width_px == width_px && found_.height_px == height_px) return;
     throw std::invalid_argument(
-        fmt::format("{}: is {} x {} px, what came before is {} x {} px; calibrate each mode of the camera by itself",
+        fmt::format("{}: is {} x {} px, the images before it are {} x {} px; calibrate each mode of the camera "
+                    "separately",
                     file, width_px, height_px, found_.width_px, found_.height_px));
   }
 

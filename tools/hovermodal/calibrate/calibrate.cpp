@@ -31,14 +31,14 @@ constexpr const char* kFooter = R"(HOW TO FILM THE BOARD
   Print a chessboard, glue it to something flat and stiff (glass, a board), and measure one square. --board counts
   the inner corners, where four squares meet: a board of 10 x 7 squares has 9x6. An odd and an even number are best.
   - Film with the mode of the flight: same resolution, zoom, stabilisation off, focus as far as the flight's if it can
-    be locked. Changing any of them makes another camera.
-  - Let the board fill a third to all of the picture, and bring it into every corner of it: what the lens does where
-    no corner ever lay is a guess. The whole board must be seen, with a white rim.
-  - Tilt it by 20 to 40 degrees to the left, right, up and down, and turn it by 90 degrees once. Without tilt
-    the focal length cannot be told from the distance.
+    be locked. Changing any of them requires another calibration.
+  - Let the board fill a third to all of the image, and bring it into every corner: where no corner of the board was
+    ever seen, the distortion is extrapolated. The whole board must be visible, with a white rim.
+  - Tilt it by 20 to 40 degrees to the left, right, up and down, and rotate it by 90 degrees once. Without tilt
+    the focal length cannot be distinguished from the distance.
   - Good light and slow motion: hold still for a second at each of 20 to 40 places. A rolling shutter shears a board
     that moves.
-  A minute of clip does. The error should come out at 0.1 to 0.5 px.
+  A clip of one minute is enough. The reprojection error should be 0.1 to 0.5 px.
 
 EXAMPLE
   hovermodal calibrate board.mp4 --board 9x6 --square-mm 25 --out calibration.yaml --report calibration
@@ -110,9 +110,10 @@ CalibrationRun fit_run(const Options& options, const core::ChessBoard& board) {
                      {},    found.n_looked_at, found.views.size(), {}};
   keep(run, core::spread_views(board, run.views, run.width_px, run.height_px, static_cast<std::size_t>(options.views)));
   if (run.views.size() < core::kMinViews) {
-    throw std::runtime_error(fmt::format(
-        "the board lies in the same place in all {} images where it was found; move and tilt it between them",
-        found.views.size()));
+    throw std::runtime_error(
+        fmt::format("the board is at the same place in all {} images in which it was found; move and tilt it "
+                    "between them",
+                    found.views.size()));
   }
   const auto lens = options.model == "equidistant" ? core::LensModel::kEquidistant : core::LensModel::kRadialTangential;
   run.fit = core::fit_camera(board, run.views, lens, run.width_px, run.height_px);

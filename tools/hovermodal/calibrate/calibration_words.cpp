@@ -68,11 +68,11 @@ std::vector<std::string> calibration_warnings(const CalibrationRun& run) {
   const auto n_tilted =
       std::count_if(fit.tilt_deg.begin(), fit.tilt_deg.end(), [](double t) { return t > kTiltedDeg; });
   if (n_tilted < 3) {
-    out.push_back(fmt::format(
-        "poorly conditioned: the board faces the camera in nearly all views ({} of {} tilted by more than {:g} "
-        "degrees), "
-        "so focal length and distance cannot be told apart; film it tilted by 20 to 40 degrees to all four sides",
-        n_tilted, fit.tilt_deg.size(), kTiltedDeg));
+    out.push_back(
+        fmt::format("poorly conditioned: the board faces the camera in nearly all views ({} of {} tilted by more "
+                    "than {:g} degrees), so focal length and distance cannot be distinguished; film it tilted by "
+                    "20 to 40 degrees to all four sides",
+                    n_tilted, fit.tilt_deg.size(), kTiltedDeg));
   }
   const double focal_share = std::max(fit.sigma[0] / fit.camera.fx, fit.sigma[1] / fit.camera.fy);
   if (focal_share > 0.005)
@@ -80,8 +80,8 @@ std::vector<std::string> calibration_warnings(const CalibrationRun& run) {
         fmt::format("the focal length is known to {:.1f} % only; more views, more tilt", 100.0 * focal_share));
   if (fit.condition < 1e-8)
     out.push_back(
-        fmt::format("poorly conditioned: parameters can hardly be told apart (least eigenvalue {:.1g}); more "
-                    "tilt, and the board in the corners",
+        fmt::format("poorly conditioned: parameters are nearly indistinguishable (smallest eigenvalue {:.1g}); "
+                    "film with more tilt, and with the board in the corners",
                     fit.condition));
   if (run.views.size() < kFewViews) out.push_back(fmt::format("only {} views; 20 to 40 are usual", run.views.size()));
   std::vector<std::string> empty;
@@ -90,8 +90,9 @@ std::vector<std::string> calibration_warnings(const CalibrationRun& run) {
     if (count[i] == 0) empty.emplace_back(kNinths[i]);
   }
   if (!empty.empty()) {
-    out.push_back(fmt::format("no corner ever lay in: {}; what the lens does there is a guess, film the board there",
-                              fmt::join(empty, ", ")));
+    out.push_back(
+        fmt::format("no board corner was seen in: {}; the distortion there is extrapolated, film the board there",
+                    fmt::join(empty, ", ")));
   }
   if (fit.rms_px > 1.0)
     out.push_back(fmt::format("the error of {:.2f} px is large: is the board flat, the clip sharp, the model right?",
@@ -107,8 +108,10 @@ std::string calibration_words(const CalibrationRun& run) {
   const core::CameraFit& fit = run.fit;
   append("{} x {} px, board of {} x {} inner corners, squares of {:g} mm\n", run.width_px, run.height_px,
          run.board.columns, run.board.rows, run.board.square_mm);
-  append("images looked at {}, board found in {}, used {} (spread over the image; the others show nothing new)\n",
-         run.n_looked_at, run.n_found, run.views.size());
+  append(
+      "images examined {}, board found in {}, used {} (spread over the image; the others add no "
+      "information)\n",
+      run.n_looked_at, run.n_found, run.views.size());
   for (const std::string& reason : run.dropped) append("left out: {}\n", reason);
   append("\nreprojection error {:.3f} px rms; worst view {:.3f} px ({})\n\n", fit.rms_px,
          fit.view_rms_px[worst_view(run)], run.places[worst_view(run)]);

@@ -33,44 +33,44 @@ struct Options {
 };
 
 std::string help() {
-  return "Close the loop: fit a structural model to measured modes, find what it cannot explain, and the effect it "
+  return "Residual diagnosis (\"closing the loop\"): fit a structural model to measured modes, find the effect that it "
          "lacks\n"
          "\n"
-         "  1. Write down what is known, in frame.yaml:   structure: {kind: shear_frame, storeys: 6}\n"
+         "  1. Declare the structure in frame.yaml:   structure: {kind: shear_frame, storeys: 6}\n"
          "  2. Measured modes: modal.json of a run, or modes.csv with a column frequency_hz (lowest mode first)\n"
          "  3. hovermodal closeloop --structure frame.yaml --reference out/modal.json --report loop\n"
          "\n"
-         "The model is fitted; what is left is tested against the stated noise. Each candidate effect is fitted as "
+         "The model is fitted and its residual tested against the stated noise. Each candidate effect is fitted as "
          "well\n"
-         "and judged by modes that its fit did not see (one left out at a time). The best is adopted where its gain "
-         "is\n"
-         "above what chance reaches on made-up data without it, at least halves that error, and its numbers can be "
-         "true;\n"
-         "then all is fitted again, until nothing helps. Effects that would do as well are named beside it: then the\n"
-         "data do not tell which is the cause.\n"
-         "\nWith --record the points' tracks themselves are modelled instead: motion of each region and of the camera; "
-         "what\n"
-         "that leaves is traced to rotation, lens, readout time, the tracker, rotors, or told as a pattern of its "
-         "own:\n"
+         "and scored by cross-validation: on modes excluded from its fit, one at a time. The best is adopted if its "
+         "gain\n"
+         "exceeds the chance threshold (from surrogate data without the effect), at least halves that error, and its\n"
+         "numbers are plausible; then all are fitted again, until no effect helps. Effects that would explain the "
+         "data\n"
+         "as well are named beside it: the data then do not determine which is the cause.\n"
+         "\nWith --record the points' tracks themselves are modelled instead: motion of each region and of the camera. "
+         "The\n"
+         "residual is attributed to rotation, lens, readout time, the tracker or rotors, or reported as an unnamed "
+         "pattern:\n"
          "  hovermodal closeloop --record out --config flight.yaml --report loop\n"
          "\nKeys of frame.yaml, under `structure:`\n" +
          drivers::structure_keys_help() +
          "\nColumns of modes.csv: frequency_hz or frequency_rad_s; optional: mode (number from 1), sigma_hz, one a "
          "floor\n"
-         "(named as in `floors`) with the shape. The report holds closure.json and closure_modes.svg.\n"
-         "\nA record in place of modes (tables as `hovermodal identify` takes them):\n"
+         "(named as in `floors`) with the shape. The report consists of closure.json and closure_modes.svg.\n"
+         "\nA record in place of modes (tables as for `hovermodal identify`):\n"
          "  hovermodal closeloop --record out/displacements.csv --rate 20 --clock readings.csv --report loop\n"
-         "      the frames' times against a clock that was filmed: rate, lost frames; modes before and after\n"
+         "      the frames' times against a filmed clock: rate, lost frames; modes before and after\n"
          "  ... --free-decay    a structure pulled and released: does one linear mode explain every decay?\n"
          "  hovermodal closeloop --record out/displacements.csv --base base --report loop\n"
          "      lost, repeated and late frames, drift and softening of the frequencies\n"
          "  hovermodal closeloop --record table.csv --quantity a --input ground --input-unknown --report loop\n"
          "      are some of the modes peaks of the ground's motion?\n"
          "  hovermodal closeloop --record ground.csv floor1.csv floor2.csv --quantity a --input-record ground\n"
-         "      --reference modal.json    loggers with a clock of their own\n"
-         "\nA clip of a camera that is turned beside a gyro (files as `hovermodal readout` takes them):\n"
+         "      --reference modal.json    loggers with separate clocks\n"
+         "\nA clip of a camera that is rotated beside a gyro (files as for `hovermodal readout`):\n"
          "  hovermodal closeloop --clip frames --stamps framestamp.txt --gyro gyro.txt --focal-px 574 --report loop\n"
-         "      does the camera turn, and are its lines read one after the other?";
+         "      does the camera rotate, and are its lines read one after the other?";
 }
 
 void make_folder(const std::string& folder) {
@@ -82,7 +82,7 @@ void make_folder(const std::string& folder) {
 
 std::string check_text(const core::closure::StructureLevel& level) {
   if (level.check().empty()) return {};
-  std::string out = "modes that no fit saw (--check): predicted, given, error\n";
+  std::string out = "modes excluded from the fit (--check): predicted, given, error\n";
   const auto modes = level.model_modes();
   for (const auto& mode : level.check()) {
     const double hz = modes.frequency_hz(mode.number - 1);
@@ -94,7 +94,8 @@ std::string check_text(const core::closure::StructureLevel& level) {
 
 void run_record(const Options& options) {
   const LoopRequest& loop = options.loop;
-  if (!options.structure.empty()) throw std::invalid_argument("--structure is for modes; --record is a record");
+  if (!options.structure.empty())
+    throw std::invalid_argument("--structure applies to modes, not to --record: leave one out");
   if (!loop.report.empty()) make_folder(loop.report);
   if (loop.records.size() > 1 || !is_tracks_record(loop.records.front())) return close_series(loop, options.series);
   TracksLoop request = options.tracks;
@@ -106,7 +107,7 @@ void run_record(const Options& options) {
 void run(const Options& options) {
   if (!options.clip.clip.empty()) {
     if (!options.loop.records.empty() || !options.structure.empty())
-      throw std::invalid_argument("--clip is a record of its own: no --record, no --structure beside it");
+      throw std::invalid_argument("--clip cannot be combined with --record or --structure");
     if (!options.loop.report.empty()) make_folder(options.loop.report);
     return close_turning(options.loop, options.clip);
   }
@@ -149,24 +150,25 @@ void add_closeloop(CLI::App& app) {
   CLI::App* command = app.add_subcommand("closeloop", help());
   command
       ->add_option("--record", options->loop.records,
-                   "A record in place of modes: a run's folder or tracks.csv, or tables of samples")
+                   "Record in place of modes: a run's folder or tracks.csv, or tables of samples")
       ->type_name("DIR|FILE.csv...");
-  command->add_option("--config", options->tracks.config, "Of tracks: configuration of that run")->type_name("FILE");
-  command->add_option("--set", options->tracks.overrides, "Of tracks: override one key of it")
+  command->add_option("--config", options->tracks.config, "For tracks: configuration of that run")->type_name("FILE");
+  command->add_option("--set", options->tracks.overrides, "For tracks: override one key of that configuration")
       ->type_name("section.key=value")
       ->take_all();
-  command->add_option("--structure", options->structure, "What is known of the structure")->type_name("FILE.yaml");
+  command->add_option("--structure", options->structure, "Declared structural model")->type_name("FILE.yaml");
   command->add_option("--reference", options->loop.reference, "Measured modes: modal.json or modes.csv")
       ->type_name("FILE");
   command
-      ->add_option("--check", options->check, "Other measured modes, which no fit sees: the model's error against them")
+      ->add_option("--check", options->check,
+                   "Other measured modes, excluded from the fit: prints the model's error against them")
       ->type_name("FILE");
   command->add_option("--report", options->loop.report, "Folder for closure.json and pictures")->type_name("DIR");
   command
-      ->add_option("--surrogates", options->loop.n_surrogates, "Made-up records a step, to learn what chance reaches")
+      ->add_option("--surrogates", options->loop.n_surrogates, "Surrogate records per step, for the chance threshold")
       ->check(CLI::Range(8, 100000))
       ->capture_default_str();
-  command->add_option("--seed", options->loop.seed, "Of those records")->capture_default_str();
+  command->add_option("--seed", options->loop.seed, "Seed of the surrogates")->capture_default_str();
   add_series_options(*command, options->series);
   add_gyro_clip_options(*command, options->clip, false);
   command->callback([options] { run(*options); });

@@ -121,7 +121,7 @@ void add_series_options(CLI::App& command, SeriesLoop& options) {
       ->type_name("NAME");
   command.add_option("--input", request.input, "Of --record SERIES: column of the measured input (ground, table)")
       ->type_name("NAME");
-  command.add_option("--quantity", request.quantities, "Of --record SERIES: d, v or a, as identify takes them")
+  command.add_option("--quantity", request.quantities, "For --record SERIES: d, v or a, as for identify")
       ->delimiter(',')
       ->type_name("d|v|a");
   command.add_option("--max-frequency", options.max_frequency_hz, "Of --record SERIES: highest frequency of modes, Hz")

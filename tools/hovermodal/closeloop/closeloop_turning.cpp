@@ -33,8 +33,10 @@ void close_turning(const LoopRequest& request, const GyroClipOptions& options) {
   if (terminal) fmt::print(stderr, "\r\033[K");
   fmt::print("{}", closure_text(result));
   if (result.reference_error_before && result.reference_error_after)
-    fmt::print("the picture turns beyond the model, held-out frames: {:.4f} -> {:.4f} deg rms a frame\n",
-               *result.reference_error_before, *result.reference_error_after);
+    fmt::print(
+        "rotation of the image beyond the model, held-out frames: {:.4f} -> {:.4f} deg rms per "
+        "frame\n",
+        *result.reference_error_before, *result.reference_error_after);
   if (request.report.empty()) return;
   const auto path = (std::filesystem::path(request.report) / "closure.json").string();
   drivers::write_file_atomically(path, app::closure_json(result));

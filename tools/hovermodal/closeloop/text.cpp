@@ -26,12 +26,13 @@ std::string others_text(const std::vector<CandidateScore>& others, const std::st
 std::string step_text(const ClosureStep& step, std::size_t i, const std::string& unit) {
   std::string out = fmt::format("step {}: {}{}\n", i + 1, step.effect,
                                 step.kind == core::closure::EffectKind::kLatent ? " (latent)" : "");
-  out += fmt::format("    held-out error {:.3g} -> {:.3g} {}; score {:.4g}, chance reaches {:.3g}\n",
+  out += fmt::format("    held-out error {:.3g} -> {:.3g} {}; score {:.4g}, chance threshold {:.3g}\n",
                      step.heldout_before, step.heldout_after, unit, step.score, step.threshold);
   out += fmt::format("    {}{}\n", parameters_text(step), step.meaning.empty() ? "" : "; " + step.meaning);
   if (!step.rivals.empty())
-    out += fmt::format("    cannot be told from: {}; the cause is one of these\n", fmt::join(step.rivals, ", "));
-  if (!step.others.empty()) out += "    tried beside it:\n" + others_text(step.others, unit);
+    out +=
+        fmt::format("    cannot be distinguished from: {}; the cause is one of these\n", fmt::join(step.rivals, ", "));
+  if (!step.others.empty()) out += "    also tried:\n" + others_text(step.others, unit);
   return out;
 }
 
@@ -70,7 +71,7 @@ std::string closure_text(const ClosureResult& result) {
   out += fmt::format("residual {:.3g} -> {:.3g} {} rms; unexplained {:.0f} %: {}\n", result.baseline_rms,
                      result.residual_rms, unit, 100.0 * result.unexplained_fraction, result.unexplained);
   if (result.reference_error_before && result.reference_error_after)
-    out += fmt::format("error on what no fit saw {:.3g} -> {:.3g} {}\n", *result.reference_error_before,
+    out += fmt::format("error on data excluded from the fit {:.3g} -> {:.3g} {}\n", *result.reference_error_before,
                        *result.reference_error_after, result.reference_unit);
   out += modes_text(result);
   for (const auto& effect : result.not_observable)

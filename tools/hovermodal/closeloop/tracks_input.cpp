@@ -68,7 +68,7 @@ TracksInput read_tracks_input(const std::string& path, const app::AppConfig& con
   const drivers::TracksFile file = drivers::read_tracks_csv(file_path);
   if (file.frames.empty()) throw drivers::FileError(file_path + ": no frame with a point");
   if (file.frames.back().sequence - file.frames.front().sequence >= kMostFrames)
-    throw drivers::FileError(fmt::format("{}: frame numbers run over {} frames, at most {} are taken", file_path,
+    throw drivers::FileError(fmt::format("{}: frame numbers extend over {} frames, at most {} are allowed", file_path,
                                          file.frames.back().sequence - file.frames.front().sequence + 1, kMostFrames));
   TracksInput out;
   const Columns columns(file, config);

@@ -34,7 +34,7 @@ void add_ground(CLI::App& app) {
                      "Access token, 16 to 128 letters, digits, - and _; default: none on 127.0.0.1, else a random one");
   ground->add_option("--name", options->names,
                      "Also answer to this host name, e.g. ground.local (addresses and localhost always work)");
-  ground->add_option("--seconds", options->seconds, "End after so many seconds")->check(CLI::Range(0.1, 1e6));
+  ground->add_option("--seconds", options->seconds, "End after this many seconds")->check(CLI::Range(0.1, 1e6));
   ground->footer(
       "Examples:\n"
       "  hovermodal ground                                  then open http://127.0.0.1:8086/\n"

@@ -35,7 +35,7 @@ constexpr const char* kHelp =
     "  hovermodal identify --series frame.csv --rate 256 --quantity v,v,v,a,a --channels 1 2 3 4 5 --max-frequency 12\n"
     "      lasers beside accelerometers; decimated to just above 12 Hz; the columns by number\n"
     "  hovermodal identify --series table.csv --quantity a --input ground --max-frequency 22 --report out\n"
-    "      a measured ground: its own peaks are told from modes, and the response to it is listed\n"
+    "      a measured ground: its own peaks are distinguished from modes, and the response to it is listed\n"
     "  hovermodal identify --series a.csv b.csv c.csv --rate 256 --reference ref_x ref_y --merge --report out\n"
     "      set-ups with moved sensors, joined by the two that stayed\n"
     "A file: one row per sample; names on the first line, or none; comma, semicolon, tab or blanks between cells;\n"
@@ -112,17 +112,18 @@ void add_data_options(CLI::App& command, IdentifyOptions& options) {
                   "units in names and comments)")
       ->delimiter(',')
       ->type_name("d|v|a");
-  command.add_flag("--no-header", request.no_header, "The first line holds numbers (found out by itself as well)");
+  command.add_flag("--no-header", request.no_header,
+                   "The first line contains numbers, not names (also detected automatically)");
   command
       .add_option("--channels", request.channels, "Columns to use, by name or number from 1 (default: all but times)")
       ->type_name("NAME");
   command.add_option("--base", request.bases, "Columns that are the structure's base")->type_name("NAME");
   command
       .add_option("--input", request.input,
-                  "Column of the measured input (ground, table): what moves with it is an input peak, and the peaks of "
-                  "the response to it are listed")
+                  "Column of the measured input (ground, shaking table): poles in which it moves are input "
+                  "peaks, and the peaks of the response to it are listed")
       ->type_name("NAME");
-  command.add_option("--delays-ms", request.delays_ms, "When each channel is seen after the time of its row")
+  command.add_option("--delays-ms", request.delays_ms, "Delay of each channel relative to the time of its row")
       ->delimiter(',')
       ->type_name("MS");
 }
@@ -132,8 +133,8 @@ void add_method_options(CLI::App& command, IdentifyOptions& options) {
       ->type_name("NAME");
   command
       .add_option("--max-frequency", options.identifier.max_frequency_hz,
-                  "Highest true frequency, Hz: far below half the rate the record is decimated, above it poles are "
-                  "unfolded by the row delays (0 = half the rate)")
+                  "Highest true frequency, Hz: if far below half the rate the record is decimated; if above "
+                  "it, alias orders are determined from row delays (0 = half the rate)")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command.add_option("--segment", options.segment, "Samples of a Welch segment, after decimation; 0 = automatic")
@@ -143,7 +144,8 @@ void add_method_options(CLI::App& command, IdentifyOptions& options) {
   command.add_option("--differences", options.n_differences,
                      "Prewhitening differences (default: 1 where there are displacements, else 0)");
   command.add_flag("--merge", options.merge, "The files are set-ups of one structure, joined by --reference");
-  command.add_option("--report", options.report, "Folder for modal.json and report.html (of several files: one each)")
+  command
+      .add_option("--report", options.report, "Folder for modal.json and report.html (several files: one folder each)")
       ->type_name("DIR");
 }
 

@@ -151,9 +151,9 @@ class SeriesLoader {
   void remark_on_quantities() {
     if (!unknown_.empty())
       out_.remarks.push_back("no unit known of " + joined_names(unknown_) +
-                             ": taken as displacements; say --quantity a for accelerations, v for velocities");
+                             ": assumed to be displacements; set --quantity a for accelerations, v for velocities");
     if (file_.n_not_finite > 0)
-      out_.remarks.push_back(fmt::format("{} infinite values are taken as missing", file_.n_not_finite));
+      out_.remarks.push_back(fmt::format("{} infinite values are treated as missing", file_.n_not_finite));
     if (!file_.has_names) out_.remarks.push_back("the file has no line of names: its columns are c1, c2, ...");
   }
 

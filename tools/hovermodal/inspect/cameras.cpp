@@ -24,9 +24,10 @@ void print(std::size_t number, const drivers::AttachedCamera& camera, bool all_m
   for (std::size_t i = 0; i < n; ++i) fmt::print("   {:10}{}\n", i == 0 ? "modes" : "", camera.modes[i]);
   if (n < camera.modes.size()) fmt::print("   {:10}... and {} more (--all)\n", "", camera.modes.size() - n);
   fmt::print("   {:10}{}\n", "stamps", camera.stamps);
-  fmt::print("   {:10}{}\n", "readout", "not told: 'hovermodal readout' measures it, or closure finds it in flight");
-  if (!camera.locks.empty())
-    fmt::print("   {:10}{} are kept from changing while it measures\n", "controls", camera.locks);
+  fmt::print("   {:10}{}\n", "readout",
+             "not stated by the device: 'hovermodal readout' measures it, or closure estimates it in "
+             "flight");
+  if (!camera.locks.empty()) fmt::print("   {:10}{} are locked during a measurement\n", "controls", camera.locks);
   fmt::print("   put into the configuration:\n\n     camera:\n       driver: {}\n       source: \"{}\"\n",
              camera.driver, camera.source);
   if (camera.width_px > 0) fmt::print("       size: [{}, {}]\n", camera.width_px, camera.height_px);

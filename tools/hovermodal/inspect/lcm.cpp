@@ -55,7 +55,7 @@ void listen_for_a_service(const Options& options) {
   for (const std::string& words : monitor.other_versions()) print_line(drivers::FindingKind::kBad, words, "");
   if (!heard.empty()) {
     print_line(drivers::FindingKind::kOk,
-               fmt::format("heard in {} s from \"{}\": {}", options.seconds, printable(monitor.stream_id()), heard),
+               fmt::format("received in {} s from \"{}\": {}", options.seconds, printable(monitor.stream_id()), heard),
                "");
   } else if (monitor.other_versions().empty()) {
     print_line(drivers::FindingKind::kNote, fmt::format("no {}_* message in {} s", options.prefix, options.seconds),
@@ -71,8 +71,10 @@ void inspect_lcm(const Options& options) {
     n_bad += finding.kind == drivers::FindingKind::kBad ? 1 : 0;
   }
   if (n_bad > 0) {
-    throw std::runtime_error(fmt::format(
-        "LCM at \"{}\" does not work: mend what is BAD above, from the top (the commands as root)", options.url));
+    throw std::runtime_error(
+        fmt::format("LCM at \"{}\" does not work: correct each line marked BAD above, from the top (the commands "
+                    "as root)",
+                    options.url));
   }
   if (options.seconds > 0.0) listen_for_a_service(options);
 }
@@ -90,15 +92,15 @@ void inspect_lcm(const Options&) {
 }  // namespace
 
 void add_inspect_lcm(CLI::App& inspect) {
-  CLI::App* command = inspect.add_subcommand(
-      "lcm",
-      "Test the network that LCM needs, say what is wrong and how to mend it, and listen for a service.\n"
-      "Run it on both sides of a radio link, each with the URL of the service.");
+  CLI::App* command =
+      inspect.add_subcommand("lcm",
+                             "Test the network that LCM needs, report faults and how to correct them, and listen for a "
+                             "service.\nRun it on both sides of a radio link, each with the URL of the service.");
   const auto options = std::make_shared<Options>();
   command->add_option("--url", options->url, "LCM URL (telemetry.lcm_url)")->capture_default_str();
   command->add_option("--prefix", options->prefix, "Prefix of the LCM channels (telemetry.channel_prefix)")
       ->capture_default_str();
-  command->add_option("--seconds", options->seconds, "Listen so long for a service; 0 = do not")
+  command->add_option("--seconds", options->seconds, "Listen for a service for this time, s; 0 = do not listen")
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
   command->callback([options] { inspect_lcm(*options); });

@@ -42,10 +42,9 @@ Text view_words(const PlanInput& input, const HoverPlan& plan) {
   }
   const double least_m = 1e-3 * input.length_mm * input.camera.focal_px / (0.9 * plan.room_px);
   return fmt::format(
-      "The structure does not fit: it takes {:.0f} px and the picture has {:.0f} in that direction, a tenth of which "
-      "is "
-      "for drift; stand {:.3g} m away or further, take a shorter lens{}.",
-      plan.structure_px, plan.room_px, least_m, plan.options[1].fits ? ", or turn the camera" : "");
+      "The structure does not fit: it needs {:.0f} px and the image has {:.0f} in that direction, "
+      "a tenth of it reserved for drift; keep {:.3g} m or more distance, use a shorter lens{}.",
+      plan.structure_px, plan.room_px, least_m, plan.options[1].fits ? ", or rotate the camera" : "");
 }
 
 Text fold_words(const PlanInput& input, const HoverPlan& plan) {
@@ -66,7 +65,9 @@ Text fold_words(const PlanInput& input, const HoverPlan& plan) {
                        none ? "the regions are all read at nearly the same time, or there are fewer than three"
                             : "the delays between the rows differ too little for that shape");
   } else if (!folded.empty()) {
-    out += " The delays between the rows tell that they do: set identification.max_frequency_hz as below.";
+    out +=
+        " The delays between the rows determine that they do: set identification.max_frequency_hz as "
+        "below.";
   }
   return out;
 }
@@ -82,7 +83,7 @@ Text overlap_words(const HoverPlan& plan) {
   }
   const Indices edge = modes_where(plan, [](const ModePlan& m) { return m.edge && !m.in_hover_band; });
   if (!edge.empty())
-    out += fmt::format(" At the edge of the spectrum {} run{} into the mirror image.", mode_list(edge),
+    out += fmt::format(" At the edge of the spectrum {} overlap{} with the mirror image.", mode_list(edge),
                        edge.size() == 1 ? "s" : "");
   return out;
 }
@@ -93,8 +94,10 @@ Text turning_words(const PlanInput& input, const HoverPlan& plan) {
   const CameraOption& best = plan.options[plan.best_option];
   if (best.n_open == 0 || turned.n_open >= best.n_open || turned.fits) return {};
   const double room = core::planning::room_px(core::planning::turned(input.camera), input.axis);
-  return fmt::format(" Turned by 90 degrees the row delays would tell more; the structure fits so from {:.3g} m on.",
-                     1e-3 * input.length_mm * input.camera.focal_px / (0.9 * room));
+  return fmt::format(
+      " With the camera rotated by 90 degrees the row delays would determine more; the structure "
+      "then fits from {:.3g} m on.",
+      1e-3 * input.length_mm * input.camera.focal_px / (0.9 * room));
 }
 
 Text option_words(const PlanInput& input, const HoverPlan& plan) {
@@ -102,12 +105,12 @@ Text option_words(const PlanInput& input, const HoverPlan& plan) {
   const CameraOption& given = plan.options.front();
   if (plan.best_option == 0) {
     return given.penalty == 0.0 ? " The camera may stay as it is."
-                                : " No other frame rate of the list, and no turning of the camera, does better.";
+                                : " No other frame rate of the list, and no rotation of the camera, is better.";
   }
   Text out = " Better:";
   if (best.rate_hz != given.rate_hz) out += fmt::format(" fly with {:g} fps", best.rate_hz);
   if (best.turned) {
-    out += fmt::format("{} turn the camera by 90 degrees, so that its lines are read {} the structure",
+    out += fmt::format("{} rotate the camera by 90 degrees, so that its lines are read {} the structure",
                        best.rate_hz != given.rate_hz ? " and" : "",
                        core::planning::reads_along(input.camera, input.axis) ? "across" : "along");
   }
@@ -135,8 +138,9 @@ Text amplitude_words(const HoverPlan& plan) {
     });
     const double factor = std::pow(10.0, (10.0 - *plan.modes[*worst].over_floor_db) / 20.0);
     out += fmt::format(
-        " With the expected amplitude {} {} less than 10 dB over the noise floor: come closer or take a longer lens "
-        "({:.2g} times), mark larger regions with more points, or put targets on the structure.",
+        " With the expected amplitude {} {} less than 10 dB over the noise floor: go closer or use a "
+        "longer lens ({:.2g} times), mark larger regions with more points, or put targets on the "
+        "structure.",
         mode_list(faint), faint.size() == 1 ? "stands" : "stand", factor);
   }
   return out;
@@ -173,7 +177,8 @@ Text time_words(const PlanInput& input, const HoverPlan& plan) {
 Text drift_words(const HoverPlan& plan) {
   const Indices low = modes_where(plan, [](const ModePlan& m) { return m.in_hover_band; });
   if (low.empty())
-    return " Mark a region of role base at the foot, to tell modes from motion of the ground and the camera.";
+    return " Mark a region of role base at the foot, to distinguish modes from motion of the ground and "
+           "the camera.";
   return fmt::format(
       " Below {:g} Hz, where {} {} seen, the picture moves with the hovering camera: mark a base region at the foot "
       "and a "

@@ -17,7 +17,9 @@ void add_structure(CLI::App& command, PlanOptions& o) {
   command.add_option("--storey-mm", o.storey_mm, "shear: height of a storey, mm (or --size-m for all)")->group(group);
   command.add_option("--size-m", o.size_m, "Height or span, m")->group(group);
   command.add_option("--regions", o.regions, "cantilever, beam: regions spread evenly over it (6)")->group(group);
-  command.add_option("--axis", o.axis, "How it lies in the picture: vertical, horizontal (beam: horizontal)")
+  command
+      .add_option("--axis", o.axis,
+                  "Orientation of the structure in the image: vertical, horizontal (beam: horizontal)")
       ->check(CLI::IsMember({"vertical", "horizontal"}))
       ->group(group);
   command
@@ -64,7 +66,9 @@ void add_camera(CLI::App& command, PlanOptions& o) {
                   "Rolling shutter: first to last line, ms; 0 = global shutter. Half of all cameras need 15 or more")
       ->capture_default_str()
       ->group(group);
-  command.add_option("--readout-direction", o.direction, "The way lines are read in the picture as held")
+  command
+      .add_option("--readout-direction", o.direction,
+                  "Direction in which lines are read in the image, as the camera is held")
       ->check(CLI::IsMember({"down", "up", "left", "right"}))
       ->capture_default_str()
       ->group(group);
@@ -126,7 +130,7 @@ void add_plan_options(CLI::App& command, PlanOptions& options) {
       "It says: modes 5 and 6 are above half of 25 fps and appear at 12.07 and 10.66 Hz; the delays between the rows\n"
       "tell that, but mode 6 then lies within the width of mode 4; 29.97 fps shows all six at their own places.\n"
       "\n"
-      "A bridge deck of 40 m from 150 m, a lens of 24 mm on a sensor 13.2 mm wide; it says: turn the camera:\n"
+      "A bridge deck of 40 m from 150 m, a lens of 24 mm on a sensor 13.2 mm wide; it says: rotate the camera:\n"
       "  hovermodal plan --structure beam --size-m 40 --frequencies 2.1,8.3,18.5 --distance-m 150 \\\n"
       "    --focal-mm 24 --sensor-width-mm 13.2 --image 2160p --fps 29.97 --rates 24,25,29.97 --readout-ms 20 "
       "--exposure-ms 2");

@@ -42,8 +42,10 @@ void run(const CLI::App& command, const PlanOptions& options) {
 }  // namespace
 
 void add_plan(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "plan", "Before the flight: what each mode will look like, what the camera can tell apart, how long to hover");
+  CLI::App* command =
+      app.add_subcommand("plan",
+                         "Before the flight: where each mode will appear, what the camera can distinguish, how long "
+                         "to hover");
   auto options = std::make_shared<PlanOptions>();
   add_plan_options(*command, *options);
   command->callback([command, options] { run(*command, *options); });

@@ -76,13 +76,13 @@ GyroClip read_gyro_clip(const GyroClipOptions& options) {
 
 void add_gyro_clip_options(CLI::App& command, GyroClipOptions& options, bool required) {
   command.add_option("--clip", options.clip, "Video or folder of images")->required(required)->type_name("PATH");
-  command.add_option("--stamps", options.stamps, "Start of exposure of every frame's first line, one a line")
+  command.add_option("--stamps", options.stamps, "Start of exposure of the first line of every frame, one per line")
       ->required(required)
       ->type_name("FILE");
-  command.add_option("--gyro", options.gyro, "wx,wy,wz,t a line: rad/s and the stamps' clock")
+  command.add_option("--gyro", options.gyro, "wx,wy,wz,t per line: rad/s, and time on the stamps' clock")
       ->required(required)
       ->type_name("FILE");
-  command.add_option("--time-unit-s", options.time_unit_s, "Seconds in a unit of both files' times")
+  command.add_option("--time-unit-s", options.time_unit_s, "Time unit of both files, in seconds")
       ->check(CLI::Range(1e-9, 1.0))
       ->capture_default_str();
   command.add_option("--first-stamp", options.first_stamp, "Line of the clip's first frame, counted from 0")
@@ -93,24 +93,23 @@ void add_gyro_clip_options(CLI::App& command, GyroClipOptions& options, bool req
   command.add_option("--focal-px", options.focal_px, "Focal length; 0 = estimated")
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
-  command.add_option("--most-offset-s", options.most_offset_s, "The two clocks differ by less than this")
+  command.add_option("--most-offset-s", options.most_offset_s, "Largest offset between the two clocks")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
-  command
-      .add_option("--hold-out-every", options.hold_out_every, "Every so many frame pairs one is kept out of the fit")
+  command.add_option("--hold-out-every", options.hold_out_every, "One of this many frame pairs is held out of the fit")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
   const std::map<std::string, core::ReadoutDirection> directions{{"down", core::ReadoutDirection::kDown},
                                                                  {"up", core::ReadoutDirection::kUp},
                                                                  {"left", core::ReadoutDirection::kLeft},
                                                                  {"right", core::ReadoutDirection::kRight}};
-  command.add_option("--readout-direction", options.direction, "The way lines are read in the picture")
+  command.add_option("--readout-direction", options.direction, "Direction in which lines are read in the image")
       ->transform(CLI::CheckedTransformer(directions).description(""))  // its own shows the letters' values
       ->type_name("down|up|left|right");
   command
-      .add_option(
-          "--ignore", options.ignored,
-          "left,top,width,height (px) of what moves with the camera (a dashboard, a landing leg); may be repeated")
+      .add_option("--ignore", options.ignored,
+                  "left,top,width,height (px) of an object that moves with the camera (a dashboard, a landing "
+                  "leg); may be repeated")
       ->delimiter(',')
       ->type_name("RECT");
 }

@@ -44,10 +44,9 @@ void print(const Options& options, const ClipMotion& clip, const core::GyroReado
   fmt::print("# {} frame pairs, {} of them held out, {} points; value, standard deviation\n", clip.pairs.size(), n_held,
              n_points);
   fmt::print(
-      "# held_out_rms_px: points' distance from where the gyro and a shift of the camera put their epipolar lines, "
-      "with a\n"
-      "#   readout of 0 and with that found; all else is fitted in both. In hovermodald: camera.readout_ms,\n"
-      "#   camera.readout_sigma_ms\n");
+      "# held_out_rms_px: distance of points from the epipolar lines given by the gyro and a "
+      "translation of the camera, with\n#   a readout of 0 and with the estimated one; everything "
+      "else is fitted in both. In hovermodald: camera.readout_ms,\n#   camera.readout_sigma_ms\n");
 }
 
 void run(const Options& options) {

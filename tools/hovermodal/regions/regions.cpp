@@ -29,16 +29,16 @@ struct Options {
 };
 
 constexpr const char* kFooter = R"(HOW IT CHOOSES
-  It follows every good corner of the picture through the first seconds of the clip. Points near one another that move
-  together make a part; what covers most of the picture and moves as a camera's turn, shift or zoom would make it is
-  taken for what rests. A part that bends or reaches far is divided. The table ranks parts by the displacement noise to
-  be expected of them.
-  It sees what moves: take a part of the clip in which the structure does. It does not know a floor from a
-  lamp post: look at the picture, delete what does not belong, and draw what is missing.
+  Every good corner of the image is tracked through the first seconds of the clip. Neighbouring points that move
+  together form a part; the group that covers most of the image, and moves like a rotation, translation or zoom of the
+  camera, is the static region. A part that bends or is long is divided. The table ranks parts by their expected
+  displacement noise.
+  Only moving parts are found: use a part of the clip in which the structure moves. A floor and a lamp post are not
+  distinguished: check the picture, delete regions that do not belong, and draw those that are missing.
 
 BASE
-  The motion of the ground, where it is in view, tells its peaks from modes: give that region `role: base`. No picture
-  tells which region that is. --lowest-is-base gives it to the lowest one, where the parts stand one above the other.
+  A region that moves with the ground distinguishes peaks of the ground's motion from modes: give it `role: base`. The
+  image does not show which region that is; --lowest-is-base selects the lowest one, if parts are one above the other.
 
 EXAMPLE
   hovermodal regions flight.mp4 --out regions.yaml --picture regions.png
@@ -146,7 +146,7 @@ void run_regions(const Options& options) {
 
 void add_regions(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "regions", "Propose the regions of a clip: parts that have texture and move together, and one that rests");
+      "regions", "Propose the regions of a clip: parts that have texture and move together, and a static one");
   const auto options = std::make_shared<Options>();
   command->add_option("clip", options->clip, "Video or folder of images, as camera.source")->required();
   command->add_option("--out", options->out, "Write the regions: block here (YAML); without: it is printed");

@@ -59,8 +59,8 @@ std::string regions_table(const core::RegionProposal& proposal) {
 
 std::string regions_yaml(const std::vector<core::Region>& regions) {
   std::string out =
-      "# By `hovermodal regions`: look at the picture, delete what does not belong. role: base for a part that moves\n"
-      "# with the ground.\nregions:\n";
+      "# By `hovermodal regions`: check the picture, delete regions that do not belong. role: base "
+      "for a part that moves\n# with the ground.\nregions:\n";
   for (const core::Region& r : regions) {
     out += fmt::format("  - {{name: {}, rect: [{}, {}, {}, {}], role: {}, axis: {}}}\n", r.name, r.u_px, r.v_px,
                        r.width_px, r.height_px, core::to_string(r.role), axis_text(r));

@@ -98,8 +98,8 @@ std::string tracking_section(const Scene& scene) {
 
 std::string config_text(const SimulateJob& job, const SceneMotion& motion, const std::string& source) {
   std::string out =
-      "# Written by `hovermodal simulate`: what is declared of the simulated camera, and what a user would mark in the "
-      "first frame.\n";
+      "# Written by `hovermodal simulate`: the declared properties of the simulated camera, and "
+      "the regions that a user would mark.\n";
   if (job.depth == Depth::kTracks)
     out += "# No clip was drawn: the source is a file of tracks, for `hovermodal replay`.\n";
   if (job.depth == Depth::kChannels) {

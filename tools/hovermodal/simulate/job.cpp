@@ -45,8 +45,8 @@ void require_possible(const SimulateJob& job) {
   const auto& declare = job.file.declare;
   if (camera.lens.model != Lens::Model::kNone && declare.lens && !declare.focal_length) {
     throw std::invalid_argument(
-        "declare.lens: the lens cannot be told without the focal length: give declare: {lens: false}, or "
-        "focal_length: true");
+        "declare.lens: the lens cannot be declared without the focal length: give declare: {lens: "
+        "false}, or focal_length: true");
   }
 }
 

@@ -45,7 +45,7 @@ void simulate(const SimulateOptions& options) {
   if (options.help_scene) return fmt::print("{}", drivers::scene_help());
   const SimulateJob job = make_job(options);
   if (options.print_scene) return fmt::print("{}", drivers::scene_text(job.file));
-  if (options.folder.empty()) throw std::invalid_argument("--out is missing: name a folder for what is made");
+  if (options.folder.empty()) throw std::invalid_argument("--out is missing: name a folder for the product");
   const fs::path folder = options.folder;
   make_folder(folder);
   const std::string product = (folder / job.product()).string();
@@ -53,7 +53,7 @@ void simulate(const SimulateOptions& options) {
   // First, because it tells at once whether the folder can be written; and cheap enough to follow --method each time.
   write_config(folder, job, motion);
   if (!options.force && already_made(folder, job)) {
-    fmt::print("{}: already made from the same parameters; --force makes it anew\n", product);
+    fmt::print("{}: already made from the same parameters; --force makes it again\n", product);
     return;
   }
   // truth.json comes last: a folder with it is a finished one.
@@ -66,11 +66,11 @@ void simulate(const SimulateOptions& options) {
 }
 
 void add_scene_options(CLI::App& command, SimulateOptions& options) {
-  command.add_option("--scene", options.scene_path, "Scene file (YAML); --help-scene tells every key")
+  command.add_option("--scene", options.scene_path, "Scene file (YAML); --help-scene explains every key")
       ->type_name("FILE");
   command.add_option("--preset", options.preset, "Without a scene file: the scene to make (default: paper)")
       ->check(CLI::IsMember(drivers::scene_presets()));
-  command.add_option("--seed", options.seed, "Everything random follows from it (default: the scene's, or 1)")
+  command.add_option("--seed", options.seed, "Seed of all random numbers (default: the scene's, or 1)")
       ->check([](const std::string& text) {  // a negative number would wrap
         return drivers::parse_unsigned(text) ? "" : "give a whole number from 0";
       });
@@ -98,7 +98,7 @@ void add_product_options(CLI::App& command, SimulateOptions& options) {
   command.add_option("--threads", options.threads, "Threads that draw; 0 = one per core")
       ->check(CLI::Range(0, 256))
       ->capture_default_str();
-  command.add_flag("--force", options.force, "Make it anew even when it is there");
+  command.add_flag("--force", options.force, "Make it again even if it exists");
 }
 
 }  // namespace

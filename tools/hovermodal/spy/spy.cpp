@@ -17,10 +17,11 @@ std::shared_ptr<SpyOptions> add_listener(CLI::App* spy) {
   spy->add_option("--prefix", options->prefix, "Prefix of the LCM channels (telemetry.channel_prefix)")
       ->capture_default_str();
   spy->add_flag("--once", options->once, "End half a second after the service says it has finished");
-  spy->add_option("--seconds", options->seconds, "End after so many seconds; with --once that is a failure")
+  spy->add_option("--seconds", options->seconds, "End after this many seconds; with --once that is a failure")
       ->check(CLI::Range(0.1, 1e6));
   spy->add_flag("--plain", options->plain, "Plain lines, ASCII only, also on a terminal");
-  spy->add_option("--count", options->count_file, "Write the messages heard and missed to this JSON file at the end");
+  spy->add_option("--count", options->count_file,
+                  "Write the number of messages received and missed to this JSON file at the end");
   spy->callback([options, spy] {
     if (spy->get_subcommands().empty()) run_spy(*options);  // else the subcommand has done its work
   });

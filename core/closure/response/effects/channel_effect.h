@@ -10,16 +10,16 @@
 
 namespace core::closure {
 
-// What an effect may look at: the record, and what a linear predictor makes of it.
+// Inputs of an effect: the record, and the result of a linear predictor.
 struct ChannelContext {
   const ChannelRecord& record;
   const ChannelRecord& scaled;
   const ChannelPredictor& predictor;
 };
 
-// What a series of channels may show beside a linear structure that is fed white noise. An effect is one of: another
-// set of sample times (corrected), a course along which all frequencies change (course), uncertain sample times
-// (jitters), a measured input that is not white (adds_input).
+// Departures of a series of channels from a linear structure under white noise. An effect is one of: another set of
+// sample times (corrected), a course along which all frequencies change (course), uncertain sample times (jitters), a
+// measured input that is not white (adds_input).
 class ChannelEffect {
  public:
   struct Corrected {

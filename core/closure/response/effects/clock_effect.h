@@ -9,7 +9,7 @@
 
 namespace core::closure {
 
-// What a filmed clock may show beside a constant offset: columns that add to the predicted readings, in s.
+// Departures of a filmed clock from a constant offset: columns added to the predicted readings, in s.
 class ClockEffect {
  public:
   ClockEffect() = default;
@@ -18,7 +18,7 @@ class ClockEffect {
   virtual ~ClockEffect() = default;
 
   [[nodiscard]] virtual std::string name() const = 0;
-  // What is not linear, found from the residuals (s) of the model so far at the readings that may be seen; may be
+  // Nonlinear parameters, found from the residuals (s) of the model so far at the readings in the training data; may be
   // empty.
   [[nodiscard]] virtual Eigen::VectorXd place(const Eigen::VectorXd& /*frame*/, const Eigen::VectorXd& /*residual_s*/,
                                               const std::vector<char>& /*seen*/) const {

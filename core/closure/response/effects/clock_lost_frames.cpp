@@ -50,7 +50,8 @@ class ClockLostFrames final : public ClockEffect {
   }
   [[nodiscard]] std::string implausible(const Eigen::VectorXd& coefficients, double rate_hz) const override {
     const double lost = coefficients(0) * rate_hz;
-    return lost > 0.5 && std::abs(lost - std::round(lost)) < kWhole ? "" : "the step is no whole number of lost frames";
+    return lost > 0.5 && std::abs(lost - std::round(lost)) < kWhole ? ""
+                                                                    : "the step is not a whole number of lost frames";
   }
 };
 

@@ -8,13 +8,13 @@
 
 namespace core::closure {
 
-// Of one mode at one amplitude.
+// Rates of one mode at one amplitude.
 struct DecayRates {
   double log_rate = 0.0;      // ln of the decay rate, 1/s
   double frequency_hz = 0.0;  // damped
 };
 
-// What a free decay may show beside one linear mode.
+// Departures of a free decay from one linear mode.
 class DecayEffect {
  public:
   DecayEffect() = default;
