@@ -97,7 +97,7 @@ TEST_F(RunReportTest, ModalJsonHasExactlyTheAgreedLayout) {
         "roof": [1, 0]
       },
       "shape_real": {
-        "base": 0.1019803902718557,
+        "base": 0.10198039027185571,
         "roof": 1
       },
       "shape_std": null,
@@ -134,7 +134,7 @@ TEST_F(RunReportTest, ModalJsonHasExactlyTheAgreedLayout) {
         "roof": [1, 0]
       },
       "shape_real": {
-        "base": 0.1019803902718557,
+        "base": 0.10198039027185571,
         "roof": 1
       },
       "shape_std": {
