@@ -6,6 +6,7 @@ cd "$(dirname "$0")/../.."
 bin=build/release/bin clip=$1 out=$2 n=$3 seed=$4 url="udpm://239.255.76.72:7672?ttl=0"
 mkdir -p "$out"
 rm -f "$out"/*
+trap 'kill $(jobs -p) 2>/dev/null || true' EXIT # who listens would else go on for an hour where this ends early
 ip link set lo up
 ip route add 224.0.0.0/4 dev lo
 
