@@ -72,7 +72,7 @@ const std::vector<Effect> kEffects{
     {"frequency_drift", {"change.frequency_drift"}, {at<&S::change, &ChangeParameters::frequency_drift>}},
     {"softening", {"change.softening"}, {at<&S::change, &ChangeParameters::softening>}},
     {"sensor_noise", {"camera.noise_sigma"}, {at<&S::camera, &C::noise_sigma>}},
-    {"track_noise", {"tracks.noise_px"}, {at<&S::tracks, &T::noise_px>}},
+    {"track_noise", {"tracks.noise_px", "tracks.noise_spread", "tracks.sigma_error"}, {at<&S::tracks, &T::noise_px>}},
     {"track_loss", {"tracks.loss_probability"}, {at<&S::tracks, &T::loss_probability>}},
     {"channel_noise", {"channels.noise_mm"}, {at<&S::channels, &ChannelParameters::noise_mm>}},
     {"channel_loss", {"channels.loss_probability"}, {at<&S::channels, &ChannelParameters::loss_probability>}},

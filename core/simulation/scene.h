@@ -122,6 +122,8 @@ struct LightParameters {
 struct TrackParameters {
   int points_per_region = 30;
   double noise_px = 0.03;           // Gaussian, per axis, independent between points and frames
+  double noise_spread = 0.0;        // its points differ: sd of the noise's logarithm, rms over many points as above
+  double sigma_error = 0.0;         // of the sigma that is stated per point: sd of the logarithm of stated / true
   double loss_probability = 0.0;    // of a point in a frame
   double pixel_locking_px = 0.0;    // amplitude of an error periodic in the sub-pixel phase
   double brightness_bias_px = 0.0;  // error per unit of relative brightness change, in each point's own direction

@@ -123,6 +123,8 @@ void validate_effects(const Scene& s) {
   require_range("rate of the flicker (Hz)", s.light.flicker_hz, 0.1, 1e4);
   require_range("points per region", s.tracks.points_per_region, 1, 10000);
   require_range("track noise (px)", s.tracks.noise_px, 0.0, 100.0);
+  require_range("spread of the track noise over the points", s.tracks.noise_spread, 0.0, 2.0);
+  require_range("error of the stated track noise", s.tracks.sigma_error, 0.0, 2.0);
   require_range("loss probability of a point", s.tracks.loss_probability, 0.0, 1.0);
   require_range("pixel locking (px)", s.tracks.pixel_locking_px, 0.0, 1.0);
   require_range("bias by brightness (px)", s.tracks.brightness_bias_px, 0.0, 100.0);

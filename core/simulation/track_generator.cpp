@@ -14,6 +14,11 @@ double sub_pixel_error(double position_px) noexcept {
   return std::sin(phase) + 0.25 * std::sin(2.0 * phase + 0.5);
 }
 
+// Log-normal with a mean square of 1; exactly 1 without spread.
+double unequal(double spread, RandomStream& stream) noexcept {
+  return std::exp(spread * stream.gaussian() - spread * spread);
+}
+
 }  // namespace
 
 TrackGenerator::TrackGenerator(const Scene& scene)
@@ -22,11 +27,15 @@ TrackGenerator::TrackGenerator(const Scene& scene)
   for (std::size_t r = 0; r < marks.size(); ++r) {
     const auto& [body, low, high] = marks[r];
     RandomStream stream(scene.seed, "track_points", r), direction(scene.seed, "brightness_bias", r);
+    RandomStream spread(scene.seed, "track_noise_spread", r), error(scene.seed, "track_sigma_error", r);
     for (int i = 0; i < scene.tracks.points_per_region; ++i) {
       const double x_mm = low.x_mm + (high.x_mm - low.x_mm) * stream.uniform();
       const double y_mm = low.y_mm + (high.y_mm - low.y_mm) * stream.uniform();
       const double angle = 2.0 * std::numbers::pi * direction.uniform();
-      points_.push_back({body, static_cast<std::uint16_t>(r), {x_mm, y_mm}, std::cos(angle), std::sin(angle)});
+      const double noise_px = scene.tracks.noise_px * unequal(scene.tracks.noise_spread, spread);
+      const double stated_px = noise_px * unequal(scene.tracks.sigma_error, error);
+      points_.push_back(
+          {body, static_cast<std::uint16_t>(r), {x_mm, y_mm}, std::cos(angle), std::sin(angle), noise_px, stated_px});
     }
   }
 }
@@ -38,9 +47,8 @@ void TrackGenerator::generate_true(const DeliveredFrame& frame, core::TrackFrame
   out.points.resize(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const ImagePoint image = motion_.see(points_[i].body, points_[i].point, frame.t_s);
-    out.points[i] = {
-        image.u_px, image.v_px, motion_.scene().tracks.noise_px, static_cast<std::uint32_t>(i), points_[i].region,
-        true,       true};
+    out.points[i] = {image.u_px, image.v_px, points_[i].stated_px, static_cast<std::uint32_t>(i), points_[i].region,
+                     true,       true};
   }
 }
 
@@ -57,8 +65,8 @@ void TrackGenerator::generate(const DeliveredFrame& frame, core::TrackFrame& out
     const double bias_px = tracks.brightness_bias_px * brighter;
     const double locked_u = tracks.pixel_locking_px * sub_pixel_error(point.u_px);
     const double locked_v = tracks.pixel_locking_px * sub_pixel_error(point.v_px);
-    point.u_px += locked_u + bias_px * points_[i].bias_u + tracks.noise_px * noise.gaussian();
-    point.v_px += locked_v + bias_px * points_[i].bias_v + tracks.noise_px * noise.gaussian();
+    point.u_px += locked_u + bias_px * points_[i].bias_u + points_[i].noise_px * noise.gaussian();
+    point.v_px += locked_v + bias_px * points_[i].bias_v + points_[i].noise_px * noise.gaussian();
     point.seen = loss.uniform() >= tracks.loss_probability;
     point.inlier = point.seen;
   }

@@ -28,6 +28,8 @@ class TrackGenerator {
     std::uint16_t region;
     PlanePoint point;       // as SceneMotion::see takes it
     double bias_u, bias_v;  // direction of the error by brightness, unit length
+    double noise_px;        // rms per axis
+    double stated_px;       // what TrackPoint::sigma_px says of it
   };
   [[nodiscard]] const std::vector<MaterialPoint>& points() const noexcept { return points_; }
   [[nodiscard]] FrameTiming timing() const { return FrameTiming(motion_.scene()); }  // from frame 0

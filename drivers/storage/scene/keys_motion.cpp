@@ -117,6 +117,10 @@ void add_measurement_keys(std::vector<SceneKey>& keys) {
       scene_whole("tracks.points_per_region", "", of<s, &T::points_per_region>, {1, 10000}, "in tracks.csv"));
   keys.push_back(scene_number("tracks.noise_px", "px", of<s, &T::noise_px>, {0.0, 100.0},
                               "per axis, independent between points and frames"));
+  keys.push_back(scene_number("tracks.noise_spread", "", of<s, &T::noise_spread>, {0.0, 2.0},
+                              "points differ: standard deviation of the noise's logarithm"));
+  keys.push_back(scene_number("tracks.sigma_error", "", of<s, &T::sigma_error>, {0.0, 2.0},
+                              "of the stated sigma: standard deviation of the logarithm of stated / true"));
   keys.push_back(
       scene_number("tracks.loss_probability", "", of<s, &T::loss_probability>, {0.0, 1.0}, "of a point in a frame"));
   keys.push_back(scene_number("tracks.pixel_locking_px", "px", of<s, &T::pixel_locking_px>, {0.0, 1.0},

@@ -120,6 +120,8 @@ TEST(Scene, RefusesWhatCannotBeSimulated) {
       [](Scene& s) { s.tracks.points_per_region = 0; },
       [&](Scene& s) { s.tracks.noise_px = nan; },
       [](Scene& s) { s.tracks.noise_px = -0.1; },
+      [](Scene& s) { s.tracks.noise_spread = -0.1; },
+      [&](Scene& s) { s.tracks.sigma_error = nan; },
       [](Scene& s) { s.tracks.loss_probability = 1.5; },
       [](Scene& s) { s.background.depth_mm = 1000.0; },
       [](Scene& s) { s.plates[3].texture.pitch_mm = 0.0; }};

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "core/simulation/presets.h"
 
@@ -80,6 +81,46 @@ TEST(TrackGenerator, AddsNoiseOfTheDeclaredSpreadAndNothingElse) {
   }
   EXPECT_NEAR(sum / n, 0.0, 5 * 0.03 / std::sqrt(n));
   EXPECT_NEAR(std::sqrt(sum2 / n), 0.03, 5 * 0.03 / std::sqrt(2.0 * n));
+}
+
+TEST(TrackGenerator, SpreadsTheNoiseOverThePointsAndStatesItWithAnError) {
+  Scene scene = make_paper_scene(1, 10.0);
+  scene.tracks.points_per_region = 400;
+  scene.tracks.noise_spread = 0.4;
+  scene.tracks.sigma_error = 0.2;
+  const TrackGenerator tracks(scene);
+  double squares = 0.0, log_noise = 0.0, log_noise2 = 0.0, log_error2 = 0.0, log_error = 0.0;
+  for (const TrackGenerator::MaterialPoint& point : tracks.points()) {
+    const double noise = std::log(point.noise_px / scene.tracks.noise_px),
+                 error = std::log(point.stated_px / point.noise_px);
+    squares += point.noise_px * point.noise_px;
+    log_noise += noise, log_noise2 += noise * noise;
+    log_error += error, log_error2 += error * error;
+  }
+  const auto n = static_cast<double>(tracks.points().size());
+  EXPECT_NEAR(std::sqrt(squares / n), scene.tracks.noise_px, 0.05 * scene.tracks.noise_px);
+  EXPECT_NEAR(std::sqrt(log_noise2 / n - log_noise / n * log_noise / n), 0.4, 0.03);
+  EXPECT_NEAR(std::sqrt(log_error2 / n - log_error / n * log_error / n), 0.2, 0.015);
+}
+
+TEST(TrackGenerator, DrawsEachPointsNoiseAsLargeAsThatPointHasIt) {
+  Scene scene = make_paper_scene(3, 40.0);
+  scene.tracks.points_per_region = 2;
+  scene.tracks.noise_spread = 0.8;
+  const TrackGenerator tracks(scene);
+  std::vector<double> squares(tracks.points().size(), 0.0);
+  core::TrackFrame noisy, truth;
+  constexpr int kFrames = 1000;
+  for (std::uint64_t frame = 0; frame < kFrames; ++frame) {
+    tracks.generate(even_frame(frame), noisy);
+    tracks.generate_true(even_frame(frame), truth);
+    for (std::size_t i = 0; i < squares.size(); ++i)
+      squares[i] += std::pow(noisy.points[i].u_px - truth.points[i].u_px, 2);
+  }
+  for (std::size_t i = 0; i < squares.size(); ++i) {
+    EXPECT_NEAR(std::sqrt(squares[i] / kFrames), tracks.points()[i].noise_px, 0.12 * tracks.points()[i].noise_px);
+    EXPECT_EQ(noisy.points[i].sigma_px, tracks.points()[i].noise_px) << "stated without an error";
+  }
 }
 
 TEST(TrackGenerator, LosesTheDeclaredShareAndLeavesTheRestAlone) {
