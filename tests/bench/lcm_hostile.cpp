@@ -1,8 +1,9 @@
 // Malformed messages at every subscriber of ours, for tools/figures/ground_link.sh:
-//   lcm_hostile decode SEEDS N              N of each seed into a StreamMonitor, an AttitudeInbox and the decoders
-//   lcm_hostile send URL N PER_SECOND messages|datagrams
-//                                           N of seed 1 over the socket: malformed messages in LCM's frame, or with
-//                                           damaged heads and fragments among them
+//   lcm_hostile decode SEEDS N [FIRST]      N of each seed, from 1 or the first on, into a StreamMonitor, an
+//                                           AttitudeInbox and the decoders
+//   lcm_hostile send URL N PER_SECOND messages|datagrams [SEED]
+//                                           N of seed 1 or this over the socket: malformed messages in LCM's frame, or
+//                                           with damaged heads and fragments among them
 //   lcm_hostile end URL                     a well-formed status "finished", after which listeners end
 #include <arpa/inet.h>
 #include <fmt/format.h>
@@ -128,9 +129,9 @@ class Mouth {
   sockaddr_in to_{};
 };
 
-int send(const std::string& url, std::uint64_t n, double per_second, bool damages_datagrams) {
+int send(const std::string& url, std::uint64_t n, double per_second, bool damages_datagrams, std::uint32_t seed) {
   const Mouth mouth(url);
-  HostileMessages hostile(1);
+  HostileMessages hostile(seed);
   std::uint64_t n_fragments = 0, n_heads = 0, n_failed = 0;
   const auto begin = std::chrono::steady_clock::now();
   for (std::uint64_t i = 0; i < n; ++i) {
@@ -164,9 +165,13 @@ int end(const std::string& url) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 4 && std::string_view(argv[1]) == "decode") {
+  const auto number = [&](int i, std::uint32_t otherwise) {
+    return argc > i ? static_cast<std::uint32_t>(std::atoi(argv[i])) : otherwise;
+  };
+  if ((argc == 4 || argc == 5) && std::string_view(argv[1]) == "decode") {
     Tally sum;
-    for (std::uint32_t seed = 1; seed <= static_cast<std::uint32_t>(std::atoi(argv[2])); ++seed) {
+    const std::uint32_t first = number(4, 1);
+    for (std::uint32_t seed = first; seed < first + number(2, 0); ++seed) {
       const Tally tally = decode(seed, std::strtoull(argv[3], nullptr, 10));
       sum.n += tally.n;
       sum.taken += tally.taken;
@@ -175,11 +180,12 @@ int main(int argc, char** argv) {
     fmt::print("fed {} taken {} refused {}\n", sum.n, sum.taken, sum.refused);
     return sum.n == sum.taken + sum.refused ? 0 : 1;
   }
-  if (argc == 6 && std::string_view(argv[1]) == "send") {
+  if ((argc == 6 || argc == 7) && std::string_view(argv[1]) == "send") {
     return send(argv[2], std::strtoull(argv[3], nullptr, 10), std::atof(argv[4]),
-                std::string_view(argv[5]) == "datagrams");
+                std::string_view(argv[5]) == "datagrams", number(6, 1));
   }
   if (argc == 3 && std::string_view(argv[1]) == "end") return end(argv[2]);
-  fmt::print(stderr, "lcm_hostile decode SEEDS N | send URL N PER_SECOND messages|datagrams | end URL\n");
+  fmt::print(stderr,
+             "lcm_hostile decode SEEDS N [FIRST] | send URL N PER_SECOND messages|datagrams [SEED] | end URL\n");
   return 2;
 }

@@ -9,10 +9,42 @@ line() {
   [ "$2" != MISS ] || misses=$((misses + 1))
 }
 
-# judge NUMBER "measured" "bar" "what" AWK-CONDITION: ok when the condition holds, MISS when not or when it cannot be told.
+# judge NUMBER "measured" "bar" "what" AWK-CONDITION: ok when the condition holds; MISS when not, when it cannot be told, and
+# when one of its numbers is none: a word outside of quotes (nan, none) would count as 0.
 judge() {
-  if awk "BEGIN { exit !($5) }" 2>/dev/null; then line "$1" ok "$2" "$3" "$4"; else line "$1" MISS "$2" "$3" "$4"; fi
+  local numbers
+  numbers=$(sed -E 's/"[^"]*"//g; s/([0-9.])[eE]([-+]?[0-9])/\1\2/g' <<<"$5")
+  if [[ ! $numbers =~ [[:alpha:]] ]] && awk "BEGIN { exit !($5) }" 2>/dev/null; then
+    line "$1" ok "$2" "$3" "$4"
+  else
+    line "$1" MISS "$2" "$3" "$4"
+  fi
 }
+
+# arguments "FIGURES" "$@": sets quick (yes or nothing), first (the first seed: 1001 unless --first-seed N says; 1-100 are for
+# development) and figures (those named, or all of FIGURES). Whatever else ends the script.
+arguments() {
+  local known=" $1 "
+  shift
+  quick="" first=1001 figures=()
+  while [ $# -gt 0 ]; do
+    case $1 in
+    --quick) quick=yes ;;
+    --first-seed)
+      [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || { echo "${0##*/}: --first-seed is '${2:-}'; give a whole number from 1 on" >&2; exit 2; }
+      first=$2
+      shift
+      ;;
+    *)
+      [[ $known == *" $1 "* ]] || { echo "${0##*/}: '$1' is none of its figures:$known" >&2; exit 2; }
+      figures+=("$1")
+      ;;
+    esac
+    shift
+  done
+  [ "${#figures[@]}" -gt 0 ] || read -ra figures <<<"$known"
+}
+seeds_of() { echo "seeds $first-$((first + $1 - 1))"; }  # NUMBER OF SEEDS, in words
 
 # Median and worst (largest) of the numbers on standard input, "nan nan" when there are none.
 median_and_worst() {
@@ -46,12 +78,14 @@ telemetry: {lcm_url: ""}
 Y
 }
 
-# run_figures N...: figure_N of each, with the time it took; ends the script with 1 where a figure misses its bar.
+# run_figures N...: figure_N of each, with the time it took; ends the script with 1 where a figure misses its bar. Of
+# "N-drawn" figure_N with `drawn` set to "-drawn": camera, structure and noise from the seed as far as the figure lets them.
 run_figures() {
   local figure
   for figure in "$@"; do
-    SECONDS=0
-    "figure_$figure"
+    SECONDS=0 drawn=""
+    [ "$figure" = "${figure%-drawn}" ] || drawn=-drawn
+    "figure_${figure%-drawn}"
     echo "# figure $figure: $SECONDS s"
   done
   [ "$misses" -eq 0 ] || { echo "$misses figures miss their bar" >&2; exit 1; }
