@@ -1,5 +1,5 @@
 // Memory of the spectral accumulator: bytes before and after, and allocations during, N samples of 12 channels.
-//   accumulator_memory [SAMPLES]     by default 10^7; exit code 1 when anything was allocated or the heap grew
+//   accumulator_memory [SAMPLES] [SEED]    by default 10^7; exit code 1 when anything was allocated or the heap grew
 #include <malloc.h>
 
 #include <array>
@@ -43,7 +43,7 @@ void push_noise(core::WelchCpsd& welch, core::simulation::RandomStream& noise, l
 
 int main(int argc, char** argv) {
   const long n_samples = argc > 1 ? std::strtol(argv[1], nullptr, 10) : 10'000'000;
-  core::simulation::RandomStream noise(1, "accumulator");
+  core::simulation::RandomStream noise(argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1, "accumulator");
   const std::size_t bytes_without = heap_bytes();
   core::WelchCpsd welch({kChannels, 1024, 0.5, core::WindowKind::kHann, 30.0});
   push_noise(welch, noise, 2048);                   // every page of it touched once

@@ -1,8 +1,8 @@
 // One update of the identification, timed in process CPU time, on data that tests/bench/identification_speed.py reads
 // too: a new segment of 1024 samples into the sums, correlations, ERA, poles and shapes of orders 2-60, their clusters.
-//   identification_speed make DATA                             writes 12 channels, 300 s at 30 Hz, as doubles by sample
+//   identification_speed make DATA SEED                        writes 12 channels, 300 s at 30 Hz, as doubles by sample
 //   identification_speed run DATA plain|cva BLOCK_ROWS REPEATS POLES    prints the least milliseconds of an update
-//   identification_speed service CHANNELS UPDATES              the service's defaults, to count instructions
+//   identification_speed service CHANNELS UPDATES SEED         the service's defaults, to count instructions
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -27,8 +27,8 @@ constexpr double kRateHz = 30.0;
 const std::vector<int> kReferences{0, 5, 11};
 
 // Sums of modes of a cantilever-like frame under white force, with 1 % of noise: by sample, n_channels side by side.
-std::vector<double> make_motion(int n_channels, int n_samples) {
-  core::simulation::RandomStream random(1, "identification_speed");
+std::vector<double> make_motion(int n_channels, int n_samples, std::uint64_t seed) {
+  core::simulation::RandomStream random(seed, "identification_speed");
   std::vector<double> motion(static_cast<std::size_t>(n_channels) * static_cast<std::size_t>(n_samples));
   for (double& x : motion) x = 0.01 * random.gaussian();
   for (int m = 1; m <= n_channels; ++m) {
@@ -132,8 +132,8 @@ int run(const std::string& path, bool weighted, int block_rows, int repeats, con
   return 0;
 }
 
-int service(int n_channels, int n_updates) {
-  const std::vector<double> motion = make_motion(n_channels, 9000);
+int service(int n_channels, int n_updates, std::uint64_t seed) {
+  const std::vector<double> motion = make_motion(n_channels, 9000, seed);
   core::WelchCpsd welch({n_channels, 512, 0.5, core::WindowKind::kHann, kRateHz});
   push(welch, motion, static_cast<std::size_t>(n_channels), 0, 9000);
   std::vector<core::ChannelInfo> channels(static_cast<std::size_t>(n_channels));
@@ -150,8 +150,8 @@ int service(int n_channels, int n_updates) {
 
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
-  if (arguments.size() == 2 && arguments[0] == "make") {
-    const std::vector<double> motion = make_motion(12, 9000);
+  if (arguments.size() == 3 && arguments[0] == "make") {
+    const std::vector<double> motion = make_motion(12, 9000, std::stoull(arguments[2]));
     std::ofstream(arguments[1], std::ios::binary)
         .write(reinterpret_cast<const char*>(motion.data()),
                static_cast<std::streamsize>(motion.size() * sizeof(double)));
@@ -160,10 +160,10 @@ int main(int argc, char** argv) {
   if (arguments.size() == 6 && arguments[0] == "run") {
     return run(arguments[1], arguments[2] == "cva", std::stoi(arguments[3]), std::stoi(arguments[4]), arguments[5]);
   }
-  if (arguments.size() == 3 && arguments[0] == "service")
-    return service(std::stoi(arguments[1]), std::stoi(arguments[2]));
+  if (arguments.size() == 4 && arguments[0] == "service")
+    return service(std::stoi(arguments[1]), std::stoi(arguments[2]), std::stoull(arguments[3]));
   std::fprintf(stderr,
-               "usage: identification_speed make DATA | run DATA plain|cva BLOCK_ROWS REPEATS POLES | service "
-               "CHANNELS UPDATES\n");
+               "usage: identification_speed make DATA SEED | run DATA plain|cva BLOCK_ROWS REPEATS POLES | service "
+               "CHANNELS UPDATES SEED\n");
   return 2;
 }

@@ -2,7 +2,7 @@
 // decoded. Lines of "name<TAB>value": frames a second; of each stage the processor time a frame (us) and its share; the
 // same frames and points through OpenCV's tracker, which the service had before (pyramid_klt.h), and what the frames a
 // second would be with it.
-//   service_speed [FRAMES]
+//   service_speed [FRAMES] [SEED]
 #include <sched.h>
 
 #include <algorithm>
@@ -59,7 +59,8 @@ int main(int argc, char** argv) {
   const std::uint64_t n_frames = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 3000;
   stay_on_one_cpu();
   cv::setNumThreads(1);
-  const core::simulation::Scene scene = core::simulation::make_paper_scene(1, 10.0);
+  const core::simulation::Scene scene =
+      core::simulation::make_paper_scene(argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1, 10.0);
   const auto clip = std::make_shared<const tests::SceneClip>(scene, kDrawn);
   const app::AppConfig config = app::parse_config(tests::scene_config(clip->motion), "scene",
                                                   {"tracking.points_per_region=30", "tracking.window_px=21",

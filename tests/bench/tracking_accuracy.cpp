@@ -2,7 +2,8 @@
 // looks, never interpolated. Lines of tab-separated values:
 //   bound  CYCLES_PER_PX  NOISE  CONTRAST  GRADIENT/NOISE  OURS/BOUND  OPENCV/BOUND  STATED/SCATTER  LOST  POINTS
 //   averaged: lines of `bound` for texture whose gradient is below twice the noise, with templates of 16 images
-//   drift  OURS_FIRST  OURS_LAST  OPENCV_FIRST  OPENCV_LAST    rms px of the first and the last tenth
+//   drift  OURS_FIRST  OURS_LAST  OPENCV_FIRST  OPENCV_LAST  OURS_DEVIATION    rms px of the first and the last tenth;
+//          standard deviation of the difference of ours, of independent errors
 //   tracking_accuracy bound|averaged|drift [FRAMES] [SEED]
 #include <algorithm>
 #include <array>
@@ -122,7 +123,7 @@ void print_bound(int n_images, unsigned seed, bool is_averaged) {
 void print_drift(int n_images, unsigned seed) {
   const std::vector<core::Vector2> points = point_grid();
   const Texture texture(seed, 0.15, 20.0);
-  const cv::Mat keyframe = texture.image(0.0, 0.0, 1.0, 1);
+  const cv::Mat keyframe = texture.image(0.0, 0.0, 1.0, seed + 1);
   core::KltTracker tracker{core::KltConfig{}};
   tracker.set_keyframe(view(keyframe), points);
   std::array<std::array<Scatter, 2>, 2> tenths;
@@ -130,15 +131,16 @@ void print_drift(int n_images, unsigned seed) {
     const bool is_first = k < n_images / 10, is_last = k >= n_images - n_images / 10;
     if (!is_first && !is_last) continue;  // each image against the keyframe: those between change nothing
     const double du = 2.1 * std::sin(kTwoPi * 1.66 * k / 30.0) + 0.7 * std::sin(kTwoPi * 5.04 * k / 30.0);
-    const auto e =
-        errors(tracker, keyframe, texture.image(du, 0.3 * du, 1.0, static_cast<unsigned>(k) + 2), points, du, 0.3 * du);
+    const auto e = errors(tracker, keyframe, texture.image(du, 0.3 * du, 1.0, seed + static_cast<unsigned>(k) + 2),
+                          points, du, 0.3 * du);
     for (std::size_t which : {0U, 1U})
       for (const Error& error : e[which])
         if (error.seen) tenths[which][is_last ? 1U : 0U].add(error);
   }
   const auto rms = [](const Scatter& s) { return std::sqrt(0.5 * s.square / std::max(1, s.n)); };
-  std::printf("drift\t%.5f\t%.5f\t%.5f\t%.5f\n", rms(tenths[0][0]), rms(tenths[0][1]), rms(tenths[1][0]),
-              rms(tenths[1][1]));
+  const auto deviation = [&](const Scatter& s) { return rms(s) / std::sqrt(4.0 * std::max(1, s.n)); };
+  std::printf("drift\t%.5f\t%.5f\t%.5f\t%.5f\t%.6f\n", rms(tenths[0][0]), rms(tenths[0][1]), rms(tenths[1][0]),
+              rms(tenths[1][1]), std::hypot(deviation(tenths[0][0]), deviation(tenths[0][1])));
 }
 
 }  // namespace

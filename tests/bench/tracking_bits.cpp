@@ -2,7 +2,7 @@
 // compiled: six regions that sway, drift, jump, are hidden, and change their light, with noise. Without OpenCV, so that
 // it also runs where that is not installed. Prints a line for each ten frames: frame, points seen, hash of the bits of
 // all positions, sigmas and gains up to there.
-//   tracking_bits [FRAMES]
+//   tracking_bits [FRAMES] [SEED]
 #include <bit>
 #include <cstdint>
 #include <cstdio>
@@ -70,7 +70,7 @@ Motion motion_of(int band, int frame) {
   return {frame == 0 ? 0 : 3 * sway + 2 * frame + jump, frame == 0 ? 0 : sway - frame};
 }
 
-std::vector<std::uint8_t> image(const Texture& texture, int frame) {
+std::vector<std::uint8_t> image(const Texture& texture, int frame, std::uint64_t seed) {
   std::vector<std::uint8_t> out(std::size_t{kWidth} * kHeight);
   const int gain = 16 + (frame % 7) - 3;  // of the light, in 16ths
   for (int v = 0; v < kHeight; ++v) {
@@ -79,7 +79,8 @@ std::vector<std::uint8_t> image(const Texture& texture, int frame) {
     for (int u = 0; u < kWidth; ++u) {
       const int u_steps = (u + Texture::kMargin) * kStepsPerPx - motion.u_steps;
       const int v_steps = (v + Texture::kMargin) * kStepsPerPx - motion.v_steps;
-      const int noise = static_cast<int>(hashed(static_cast<std::uint64_t>((frame * kHeight + v) * kWidth + u)) % 5U);
+      const int noise =
+          static_cast<int>(hashed((seed << 32U) + static_cast<std::uint64_t>((frame * kHeight + v) * kWidth + u)) % 5U);
       const bool is_hidden = band == 2 && frame >= 20 && frame < 30;
       const int grey = is_hidden ? 90 : 120 + gain * texture.at(u_steps, v_steps) / 16 + noise;
       out[static_cast<std::size_t>(v * kWidth + u)] = static_cast<std::uint8_t>(grey < 0 ? 0 : grey > 255 ? 255 : grey);
@@ -139,9 +140,10 @@ core::TrackFrame judged(const std::vector<core::KltPoint>& found, const Points& 
 
 int main(int argc, char** argv) {
   const int n_frames = argc > 1 ? std::atoi(argv[1]) : 100;
-  const Texture texture(5);
+  const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
+  const Texture texture(seed << 32U);
   const Points points = grid();
-  const std::vector<std::uint8_t> keyframe = image(texture, 0);
+  const std::vector<std::uint8_t> keyframe = image(texture, 0, seed);
   const auto view = [](const std::vector<std::uint8_t>& pixels) {
     return core::GrayView{pixels.data(), kWidth, kHeight, kWidth};
   };
@@ -149,7 +151,7 @@ int main(int argc, char** argv) {
   core::RegionFollower follower(core::RegionFollowerConfig{kWidth, kHeight}, points.keyframe, points.region, kRegions);
   Hash hash;
   for (int frame = 0; frame < n_frames; ++frame) {
-    const std::vector<std::uint8_t> pixels = image(texture, frame);
+    const std::vector<std::uint8_t> pixels = image(texture, frame, seed);
     finder.find(view(pixels), follower);
     std::size_t n_seen = 0;
     for (const core::KltPoint& point : finder.points()) {

@@ -6,7 +6,7 @@
 //   point              of it, a point, without the pyramid
 //   kernel             the same start, one level
 //   fall-back          a frame in which every region jumped by 60 px, ours only
-//   tracking_speed [ROUNDS]         or   tracking_speed 0 FRAMES: ours only, prints nothing
+//   tracking_speed ROUNDS SEED     or   tracking_speed 0 SEED FRAMES: ours only, prints nothing
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -29,9 +29,9 @@ constexpr int kJump_px = 60;
 
 // Smoothed noise at twice the resolution: every second pixel of it is an image, and the pixels between are the image
 // half a pixel further, so nothing is interpolated.
-cv::Mat fine_texture(int width, int height) {
+cv::Mat fine_texture(int width, int height, std::uint64_t seed) {
   cv::Mat out(2 * height, 2 * width, CV_8UC1);
-  cv::RNG random(7);
+  cv::RNG random(seed);
   random.fill(out, cv::RNG::UNIFORM, 0, 255);
   cv::GaussianBlur(out, out, {0, 0}, 3.0);
   cv::normalize(out, out, 20, 235, cv::NORM_MINMAX);
@@ -55,9 +55,9 @@ struct Scene {
   std::vector<cv::Rect> boxes;
 };
 
-Scene scene(int width, int height) {
+Scene scene(int width, int height, std::uint64_t seed) {
   Scene s;
-  const cv::Mat fine = fine_texture(width, height);
+  const cv::Mat fine = fine_texture(width, height, seed);
   s.keyframe = moved(fine, 0, 0);
   s.frame = moved(fine, 1, -1);
   s.jumped = moved(fine, 2 * kJump_px, 0);
@@ -101,8 +101,8 @@ void print(const char* what, const Time& ours, const Time& theirs, double n = 1.
               theirs.median / ours.median, ours.least / n, theirs.least / n);
 }
 
-void compare(const char* name, int width, int height, int n_rounds) {
-  const Scene s = scene(width, height);
+void compare(const char* name, int width, int height, int n_rounds, std::uint64_t seed) {
+  const Scene s = scene(width, height, seed);
   const core::RegionFollowerConfig follow{width, height};
   core::RegionFollower follower(follow, s.points, s.region, kRegions);
   core::PointFinder finder({}, view(s.keyframe), s.points, s.region, kRegions);
@@ -174,8 +174,8 @@ void compare(const char* name, int width, int height, int n_rounds) {
 }
 
 // Frames of 180 points and nothing else, to count instructions.
-void follow_only(int n_frames) {
-  const Scene s = scene(1920, 1080);
+void follow_only(int n_frames, std::uint64_t seed) {
+  const Scene s = scene(1920, 1080, seed);
   core::RegionFollower follower(core::RegionFollowerConfig{1920, 1080}, s.points, s.region, kRegions);
   core::PointFinder finder({}, view(s.keyframe), s.points, s.region, kRegions);
   for (int k = 0; k < n_frames; ++k) finder.find(view(s.frame), follower);
@@ -185,11 +185,12 @@ void follow_only(int n_frames) {
 
 int main(int argc, char** argv) {
   cv::setNumThreads(1);
-  if (argc > 2) {
-    follow_only(std::atoi(argv[2]));
+  const int n_rounds = argc > 1 ? std::max(3, std::atoi(argv[1])) : 200;
+  const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
+  if (argc > 3) {
+    follow_only(std::atoi(argv[3]), seed);
     return 0;
   }
-  const int n_rounds = argc > 1 ? std::max(3, std::atoi(argv[1])) : 200;
-  compare("1080p", 1920, 1080, n_rounds);
-  compare("4K", 3840, 2160, n_rounds);
+  compare("1080p", 1920, 1080, n_rounds, seed);
+  compare("4K", 3840, 2160, n_rounds, seed);
 }

@@ -32,6 +32,31 @@ judge() {
   fi
 }
 
+# arguments "FIGURES" "$@": sets quick (yes or nothing), first (the first seed: 1001 unless --first-seed N says; 1-100 are for
+# development) and figures (those named, or all of FIGURES). Whatever else ends the script.
+arguments() {
+  local known=" $1 "
+  shift
+  quick="" first=1001 figures=()
+  while [ $# -gt 0 ]; do
+    case $1 in
+    --quick) quick=yes ;;
+    --first-seed)
+      [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || { echo "${0##*/}: --first-seed is '${2:-}'; give a whole number from 1 on" >&2; exit 2; }
+      first=$2
+      shift
+      ;;
+    *)
+      [[ $known == *" $1 "* ]] || { echo "${0##*/}: '$1' is none of its figures:$known" >&2; exit 2; }
+      figures+=("$1")
+      ;;
+    esac
+    shift
+  done
+  [ "${#figures[@]}" -gt 0 ] || read -ra figures <<<"$known"
+}
+seeds_of() { echo "seeds $first-$((first + $1 - 1))"; }  # NUMBER OF SEEDS, in words
+
 # Median and worst (largest) of the numbers on standard input, "nan nan" when there are none.
 median_and_worst() {
   sort -g | awk '{ v[NR] = $1 } END { if (NR == 0) print "nan nan"; else print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2, v[NR] }'
@@ -73,14 +98,16 @@ tell_unfinished() {
 }
 
 # run_figures N...: figure_N of each, with the time it took; then after_figures, if the script has one, and finish_figures.
+# Of "N-drawn" figure_N with `drawn` set to "-drawn": camera, structure and noise from the seed as far as the figure lets them.
 run_figures() {
   local figure
   unfinished=("$@")
   trap tell_unfinished EXIT
   trap 'exit 143' TERM INT
   for figure in "$@"; do
-    SECONDS=0
-    "figure_$figure"
+    SECONDS=0 drawn=""
+    [ "$figure" = "${figure%-drawn}" ] || drawn=-drawn
+    "figure_${figure%-drawn}"
     echo "# figure $figure: $SECONDS s"
     unfinished=("${unfinished[@]:1}")
   done

@@ -2,6 +2,7 @@
 
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/command.h"
@@ -97,7 +98,7 @@ TEST(Selftest, SaysTheSameOfTheGeometryOnAnyNumberOfThreads) {
   EXPECT_EQ(text, selftest("elevation --seeds 2 --duration 60 --threads 2"));
   const auto scale = rows(text, "elevation\t30deg\tone-scale\t");
   ASSERT_EQ(scale.size(), 1U) << text;
-  ASSERT_EQ(scale[0].size(), 21U) << text;
+  ASSERT_EQ(scale[0].size(), 22U) << text;
   EXPECT_EQ(scale[0][3], "2");
   EXPECT_EQ(scale[0][13], "6") << "true modes";
   EXPECT_LT(std::stod(scale[0][5]), 1.0) << "median error of the frequency, %";
@@ -130,6 +131,39 @@ TEST(Selftest, PlansTheDeckAsItIsFound) {
     EXPECT_EQ(cells[8], "0") << "certain and wrong: " << cells[1] << " " << cells[3];
   }
   EXPECT_EQ(n_folded, 4) << text;
+}
+
+// Drawn points are of unequal noise, which the bound knows.
+TEST(Selftest, NoDrawnNoiseFloorLiesBelowTheBound) {
+  const auto ways = rows(selftest("noise-floor-drawn --seeds 2 --duration 60"), "noise-floor-drawn\t");
+  ASSERT_EQ(ways.size(), 4U);
+  for (const auto& cells : ways) {
+    ASSERT_EQ(cells.size(), 14U);
+    if (cells[1] == "paper") continue;
+    EXPECT_GT(std::stod(cells[7]), 0.9 * std::stod(cells[8])) << cells[1];
+    EXPECT_GE(std::stod(cells[10]), std::stod(cells[8])) << cells[1];
+  }
+}
+
+TEST(Selftest, AnotherFirstSeedGivesOtherNumbers) {
+  for (const std::string check : {"signatures", "pixels", "klt --frames 1", "peaks --seeds 1", "null --seeds 1",
+                                  "elevation --seeds 1 --duration 60", "elevation-drawn --seeds 1 --duration 60"}) {
+    const std::string first = selftest(check + " --first-seed 1"), second = selftest(check + " --first-seed 2");
+    ASSERT_FALSE(first.empty() || second.empty()) << check;
+    EXPECT_EQ(first, selftest(check)) << check;
+    EXPECT_NE(first, second) << check;
+  }
+}
+
+TEST(Selftest, RefusesWhatACheckHasNoUseFor) {
+  for (const auto& [arguments, option] :
+       {std::pair{"shifts --seeds 3", "--seeds"}, std::pair{"peaks --threads 2", "--threads"},
+        std::pair{"bias --flight f.csv", "--flight"}, std::pair{"null --duration 60", "--duration"},
+        std::pair{"wind --frames 3", "--frames"}}) {
+    const tests::Outcome outcome = tests::run("hovermodal", std::string("selftest ") + arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_NE(outcome.text.find(option), std::string::npos) << outcome.text;
+  }
 }
 
 }  // namespace

@@ -6,14 +6,16 @@ namespace tools {
 
 // The whole chain behind the tracker on simulated flights of known truth: tracks -> geometry -> spectra -> modes, as
 // `hovermodal replay` runs it. Each prints tab-separated lines, with comment lines (#) that name their columns. Records
-// are those of seeds 1 to n_seeds, made on n_threads; what is printed does not depend on the number of threads.
+// are those of n_seeds seeds from first_seed on, made on n_threads; what is printed does not depend on the number of
+// threads.
 struct GeometryOptions {
   int n_seeds = 20;
   int n_threads = 2;
+  int first_seed = 1;
   double duration_s = 0.0;  // 0 = that of the figure
   std::string report;       // folder for pictures and reports; empty = none
   std::string flight;       // recorded flight (CSV) that carries the camera; empty = the hover model instead
-  int first_seed = 1;
+  bool is_drawn = false;    // camera, structure and noise from the seed, as far as the figure does not fix them
 };
 
 void print_geometry(const GeometryOptions& options);         // the paper's experiment, one correction after the other
@@ -25,5 +27,6 @@ void print_low_frequency(const GeometryOptions& options);    // a mode of 0.32 H
 void print_deck(const GeometryOptions& options);             // a bridge deck, camera upright and turned
 void print_elevation(const GeometryOptions& options);        // seen from 30 degrees below
 void print_noise_floor(const GeometryOptions& options);      // nothing moves but the camera
+void print_readout(const GeometryOptions& options);          // readout time from tracks of the paper's experiment
 
 }  // namespace tools

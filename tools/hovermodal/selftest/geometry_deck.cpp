@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -80,7 +81,7 @@ const char* words(core::planning::FoldOutlook outlook) {
   return "";
 }
 
-core::planning::HoverPlan plan(bool turned) {
+core::planning::HoverPlan plan(const core::simulation::Scene& scene, bool turned) {
   core::planning::PlanInput input;
   input.kind = core::planning::StructureKind::kBeam;
   input.axis = core::planning::LongAxis::kHorizontal;
@@ -92,25 +93,49 @@ core::planning::HoverPlan plan(bool turned) {
     for (int body = 1; body <= kPlaces; ++body) mode.shape.push_back(shape(m, body));
     input.modes.push_back(mode);
   }
-  input.distance_mm = kDistance_mm;
-  input.camera.focal_px = turned ? kFocalTurned_px : kFocalUpright_px;
-  input.camera.rate_hz = kRate_hz;
-  input.camera.readout_s = 1e-3 * kReadout_ms;
+  input.distance_mm = scene.plates.front().z_mm;
+  input.camera.focal_px = scene.camera.alpha_px;
+  input.camera.rate_hz = scene.camera.rate_hz;
+  input.camera.readout_s = scene.camera.readout_s;
   if (turned) input.camera = core::planning::turned(input.camera);
   return core::planning::make_plan(input);
 }
 
-void print_modes(const FigureCase& which, const CaseScores& scores, const core::planning::HoverPlan& plan) {
+// What became of one mode, or of all that the plan sees alike.
+struct ModeCount {
+  int n = 0, found = 0, ambiguous = 0, wrong = 0;
+  void add(const ModeScore& mode) {
+    ++n;
+    found += mode.found ? 1 : 0;
+    ambiguous += mode.ambiguous ? 1 : 0;
+    wrong += mode.wrong ? 1 : 0;
+  }
+};
+
+// [record]
+using Plans = std::vector<core::planning::HoverPlan>;
+
+Plans plans_of(const FigureCase& which, const GeometryOptions& options, bool turned) {
+  Plans plans;
+  for (int i = 0; i < options.n_seeds; ++i) {
+    const auto seed = static_cast<std::uint64_t>(options.first_seed + i);
+    plans.push_back(plan(flight_job(which.setup, seed, which.duration_s, options).scene(), turned));
+  }
+  return plans;
+}
+
+// By mode and outlook: where all records have the same camera, one line for each mode.
+void print_modes(const FigureCase& which, const CaseScores& scores, const Plans& plans) {
   for (std::size_t w = 0; w < scores.size(); ++w) {
     for (std::size_t m = 0; m < kFrequencies_hz.size(); ++m) {
-      int found = 0, ambiguous = 0, wrong = 0;
-      for (const RecordScore& record : scores[w]) {
-        found += record.modes[m].found ? 1 : 0;
-        ambiguous += record.modes[m].ambiguous ? 1 : 0;
-        wrong += record.modes[m].wrong ? 1 : 0;
+      std::map<std::string, ModeCount> counts;
+      for (std::size_t i = 0; i < plans.size(); ++i) {
+        counts[words(plans[i].modes[m].place.outlook)].add(scores[w][i].modes[m]);
       }
-      fmt::print("deck-mode\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", which.name, which.ways[w].name, kFrequencies_hz[m],
-                 words(plan.modes[m].place.outlook), scores[w].size(), found, ambiguous, wrong);
+      for (const auto& [outlook, count] : counts) {
+        fmt::print("{}-mode\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", which.figure, which.name, which.ways[w].name,
+                   kFrequencies_hz[m], outlook, count.n, count.found, count.ambiguous, count.wrong);
+      }
     }
   }
 }
@@ -118,16 +143,20 @@ void print_modes(const FigureCase& which, const CaseScores& scores, const core::
 }  // namespace
 
 void print_deck(const GeometryOptions& options) {
-  print_score_columns("deck", "modes 1-2");
-  fmt::print(
-      "# deck-mode: case, way, true Hz, as planned; records, found, called ambiguous, given a wrong frequency\n");
+  const std::string figure = options.is_drawn ? "deck-drawn" : "deck";
+  print_score_columns(figure, "modes 1-2");
+  fmt::print("# {}-mode: case, way, true Hz, as planned; records, found, called ambiguous, given a wrong frequency\n",
+             figure);
   for (const bool turned : {false, true}) {
-    const FigureCase which = deck_case(turned);
+    FigureCase which = deck_case(turned);
+    if (options.is_drawn) {
+      which = drawn_case(which, {.with_structure = false, .segment_s = 1024.0 / kRate_hz, .looks_for_folds = false});
+    }
     const CaseScores scores = score_case(which, options);
     for (std::size_t w = 0; w < scores.size(); ++w) {
       print_scores(which.figure, which.name, which.ways[w].name, scores[w], which.n_judged);
     }
-    print_modes(which, scores, plan(turned));
+    print_modes(which, scores, plans_of(which, options, turned));
   }
 }
 

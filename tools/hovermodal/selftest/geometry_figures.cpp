@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/hovermodal/selftest/geometry.h"
@@ -26,6 +27,13 @@ std::vector<std::string> identification(double max_frequency_hz, int segment) {
 
 Way paper() { return {"paper", {"method=paper"}}; }
 
+void print_figure(FigureCase which, const DrawnFlight& drawn, const std::string& judged,
+                  const GeometryOptions& options) {
+  if (options.is_drawn) which = drawn_case(std::move(which), drawn);
+  print_score_columns(which.figure, judged);
+  print_case(which, options);
+}
+
 }  // namespace
 
 // The recorded hover a quarter as large: indoors, 2 m away, the scale then changes by some 5 % as in the paper.
@@ -46,8 +54,7 @@ void print_geometry(const GeometryOptions& options) {
                 {"no-witness", {no_witness}},
                 {"ours", {}},
                 {"ours-motion", {kWholeMotion}}};
-  print_score_columns("geometry", "modes 1-3");
-  print_case(which, options);
+  print_figure(which, {}, "modes 1-3", options);
 }
 
 void print_wind(const GeometryOptions& options) {
@@ -64,8 +71,7 @@ void print_wind(const GeometryOptions& options) {
                 {"ours-attitude", {kWholeMotion}, StatedReadout::kTrue, false, 0.05},
                 {"ours-attitude-0.1", {kWholeMotion}, StatedReadout::kTrue, false, 0.1},
                 paper()};
-  print_score_columns("wind", "modes 1-3");
-  print_case(which, options);
+  print_figure(which, {.focal_share = 1200.0 / 2100.0}, "modes 1-3", options);
 }
 
 void print_low_frequency(const GeometryOptions& options) {
@@ -79,8 +85,8 @@ void print_low_frequency(const GeometryOptions& options) {
           kGimbal,
       identification(0.0, 1024), 1.0, true};
   which.ways = {{"ours", {kWholeMotion}}, {"scale"}, paper()};
-  print_score_columns("low-frequency", "mode 1");
-  print_case(which, options);
+  print_figure(which, {.with_structure = false, .segment_s = 1024.0 / 15.0, .looks_for_folds = false}, "mode 1",
+               options);
 }
 
 void print_elevation(const GeometryOptions& options) {
@@ -94,8 +100,7 @@ void print_elevation(const GeometryOptions& options) {
   if (configuration_knows("scale.points")) {
     which.ways.push_back({.name = "plane-pose", .plane_points = true});
   }
-  print_score_columns("elevation", "modes 1-3");
-  print_case(which, options);
+  print_figure(which, {.focal_share = 1900.0 / 2100.0, .elevation_deg = 30.0}, "modes 1-3", options);
 }
 
 }  // namespace tools

@@ -10,54 +10,18 @@
 #include <optional>
 #include <utility>
 
-#include "core/simulation/camera/recorded_motion.h"
 #include "core/simulation/channel_generator.h"
 #include "core/simulation/random_stream.h"
-#include "drivers/storage/flight_log.h"
 #include "firmware_app/track_analysis.h"
 #include "tools/hovermodal/selftest/geometry_attitude.h"
+#include "tools/hovermodal/selftest/recorded_hover.h"
 #include "tools/hovermodal/simulate/config.h"
 
 namespace tools {
 namespace {
 
 using core::simulation::DeliveredFrame;
-using core::simulation::RecordedMotion;
 using core::simulation::TrackGenerator;
-
-// The hover of the recorded flight (data set phantom4_hover).
-constexpr double kHoverFrom_s = 360.7, kHoverTo_s = 440.0;
-constexpr double kSeedsPerRound = 20.0;
-
-// The record from another of its instants on, there and back, as long as is needed.
-std::vector<double> from_phase(const std::vector<double>& values, std::size_t first, std::size_t n) {
-  std::vector<double> out;
-  if (values.empty()) return out;
-  const std::size_t round = 2 * (values.size() - 1);
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t i = (first + k) % round;
-    out.push_back(values[std::min(i, round - i)]);
-  }
-  return out;
-}
-
-std::shared_ptr<const RecordedMotion> carried_by(const std::string& path, const FlightSetup& setup, std::uint64_t seed,
-                                                 double duration_s) {
-  const core::FlightPath log = drivers::read_flight_path(path, kHoverFrom_s, kHoverTo_s);
-  const RecordedMotion recorded =
-      core::simulation::make_recorded_motion(log, nullptr, {log.mean_heading_deg, 0.0, 0.0});
-  const auto round = 2 * (recorded.x_mm.size() - 1);
-  const double share = std::fmod(static_cast<double>(seed - 1) / kSeedsPerRound, 1.0);
-  const auto first = static_cast<std::size_t>(std::llround(share * static_cast<double>(round)));
-  const auto n = static_cast<std::size_t>(std::ceil((duration_s + 1.0) * recorded.rate_hz)) + 4;
-  RecordedMotion out;
-  out.rate_hz = recorded.rate_hz;
-  for (auto axis : {&RecordedMotion::x_mm, &RecordedMotion::y_mm, &RecordedMotion::z_mm}) {
-    out.*axis = from_phase(recorded.*axis, first, n);
-    for (double& value : out.*axis) value *= setup.flight_scale;
-  }
-  return std::make_shared<const RecordedMotion>(std::move(out));
-}
 
 void hover_instead(core::simulation::HoverParameters& hover, double scale) {
   hover.x_rms_mm = hover.z_rms_mm = 120.0 * scale;
@@ -212,12 +176,21 @@ SimulateJob flight_job(const FlightSetup& setup, std::uint64_t seed, double dura
   job.file = drivers::parse_scene(setup.scene, "geometry", overrides);
   job.depth = Depth::kTracks;
   auto& scene = job.file.scene;
+  if (setup.drawn) scene = drawn_flight(scene, *setup.drawn);
   if (setup.flight_scale > 0.0 && options.flight.empty()) hover_instead(scene.hover, setup.flight_scale);
   if (setup.flight_scale > 0.0 && !options.flight.empty()) {
-    scene.flight = carried_by(options.flight, setup, seed, scene.duration_s);
+    scene.flight = recorded_hover(options.flight, setup.flight_scale, seed, scene.duration_s);
   }
   core::simulation::validate(scene);
   return job;
+}
+
+std::vector<std::string> configuration_of(const SimulateJob& job, const FlightSetup& setup) {
+  std::vector<std::string> overrides = setup.configuration;
+  if (!setup.drawn) return overrides;
+  const std::vector<std::string> own = drawn_configuration(job.scene(), *setup.drawn);
+  overrides.insert(overrides.end(), own.begin(), own.end());
+  return overrides;
 }
 
 DeclaredRun declared_run(const SimulateJob& job, const FlightSetup& setup, const Way& way,
@@ -229,7 +202,7 @@ DeclaredRun declared_run(const SimulateJob& job, const FlightSetup& setup, const
     readout = {drivers::Declared::Kind::kValue, 1e3 / job.scene().camera.rate_hz};
   }
   std::vector<std::string> overrides{"closure.adopt=off"};  // reports change no mode, and take seconds each
-  overrides.insert(overrides.end(), setup.configuration.begin(), setup.configuration.end());
+  for (const std::string& text : configuration_of(job, setup)) overrides.push_back(text);
   overrides.insert(overrides.end(), way.overrides.begin(), way.overrides.end());
   if (way.plane_points) overrides.push_back(plane_points(motion));
   if (way.attitude_sigma_deg > 0.0) {  // comes frame by frame, from no network

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "core/types/modal_estimate.h"
 #include "firmware_app/config.h"
 #include "tools/hovermodal/selftest/geometry.h"
+#include "tools/hovermodal/selftest/geometry_drawn.h"
 #include "tools/hovermodal/simulate/job.h"
 
 namespace tools {
@@ -35,15 +37,18 @@ struct FlightSetup {
   std::vector<std::string> configuration;  // overrides for every way, the true motion's included
   double flight_scale = 0.0;               // the recorded flight moves the camera, its path times this; 0 = it does not
   bool ground_rests = false;  // and the operator says so, but for the paper's chain, which knows no such thing
+  std::optional<DrawnFlight> drawn = {};  // in place of what `scene` says of camera, structure and noise
 };
 // Whether this build's configuration knows what is asked for, by the words of its help.
 [[nodiscard]] bool configuration_knows(const std::string& words);
 
-// The scene of one seed. The recorded flight starts elsewhere in its record for each seed, 1/20 of the way there and
-// back on, and runs back and forth; its attitude is the scene's own. Without a recording the path is the hover model's:
-// 120, 40, 120 mm rms to the side, up and ahead, times flight_scale.
+// The scene of one seed. A recorded flight moves its camera as recorded_hover() says; its attitude is the scene's own.
+// Without a recording the path is the hover model's: 120, 40, 120 mm rms to the side, up and ahead, times flight_scale.
 [[nodiscard]] SimulateJob flight_job(const FlightSetup& setup, std::uint64_t seed, double duration_s,
                                      const GeometryOptions& options);
+
+// The overrides for every way of a job.
+[[nodiscard]] std::vector<std::string> configuration_of(const SimulateJob& job, const FlightSetup& setup);
 
 // What came of one way, beside the same identification on the true motion with the same prewhitening.
 struct Analysed {

@@ -54,11 +54,11 @@ Eigen::Matrix<double, 2, 6> camera_field(const core::simulation::CameraParameter
   return camera.alpha_px * field;
 }
 
-// Cramer-Rao bounds of one sample of each channel, px, for n points of sigma each:
-//   camera known:      sigma / sqrt(n)
-//   camera estimated:  sigma sqrt(1 / n + h F^-1 h'), F = sum A'A over the points of what rests (background, ground),
-//   h the mean of the channel's own rows of A along its axis (for the ground itself no smaller than the first: as if it
-//   were not used twice); depths known.
+// Cramer-Rao bounds of one sample of each channel, px, for points of sigma each, known, with weights w = 1 / sigma^2:
+//   camera known:      1 / sqrt(sum w) over the channel's points
+//   camera estimated:  sqrt(1 / sum w + h F^-1 h'), F = sum w A'A over the points of what rests (background, ground),
+//   h the weighted mean of the channel's own rows of A along its axis (for the ground itself no smaller than the first:
+//   as if it were not used twice); depths known.
 struct Bounds {
   std::vector<double> known_px, estimated_px;
 };
@@ -69,15 +69,16 @@ Bounds bounds_of(const core::simulation::TrackGenerator& generator) {
   generator.generate_true({}, frame);
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
   std::vector<Eigen::Matrix<double, 1, 6>> rows;
-  std::vector<double> n;
+  std::vector<double> weights;
   for (std::size_t r = 0; r < generator.regions().size(); ++r) rows.emplace_back(Eigen::Matrix<double, 1, 6>::Zero());
-  n.assign(rows.size(), 0.0);
+  weights.assign(rows.size(), 0.0);
   for (const core::TrackPoint& point : frame.points) {
     const auto& region = generator.regions()[point.region];
     const auto field = camera_field(scene.camera, {point.u_px, point.v_px, generator.motion().depth_mm(region.body)});
-    if (region.body <= 0) information += field.transpose() * field;
-    rows[point.region] += field.row(0);
-    n[point.region] += 1.0;
+    const double weight = std::pow(generator.points()[point.id].noise_px, -2);
+    if (region.body <= 0) information += weight * field.transpose() * field;
+    rows[point.region] += weight * field.row(0);
+    weights[point.region] += weight;
   }
   // Conditioned by the units: translations in mm, turns in rad.
   const Eigen::Matrix<double, 6, 1> unit = information.diagonal().cwiseSqrt().cwiseMax(1e-12).cwiseInverse();
@@ -86,11 +87,10 @@ Bounds bounds_of(const core::simulation::TrackGenerator& generator) {
       unit.asDiagonal() * scaled.completeOrthogonalDecomposition().pseudoInverse() * unit.asDiagonal();
   Bounds out;
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    const double own = 1.0 / std::max(1.0, n[r]);
+    const double own = weights[r] > 0.0 ? 1.0 / weights[r] : 0.0;
     const Eigen::Matrix<double, 1, 6> mean = rows[r] * own;
-    const double sigma_px = scene.tracks.noise_px;
-    out.known_px.push_back(sigma_px * std::sqrt(own));
-    out.estimated_px.push_back(sigma_px * std::sqrt(own + (mean * covariance * mean.transpose()).value()));
+    out.known_px.push_back(std::sqrt(own));
+    out.estimated_px.push_back(std::sqrt(own + (mean * covariance * mean.transpose()).value()));
   }
   return out;
 }
@@ -128,38 +128,58 @@ Floors floors_of(const FlightSetup& setup, const std::vector<Way>& ways, std::ui
   return out;
 }
 
-void print_channel(const std::string& way, std::size_t w, std::size_t c, const std::vector<Floors>& records) {
-  std::vector<double> whole, white, known, estimated;
-  for (const Floors& record : records) {
-    whole.push_back(record.whole_mm[w][c]);
-    white.push_back(record.white_mm[w][c]);
-    known.push_back(record.bounds.known_px[c]);
-    estimated.push_back(record.bounds.estimated_px[c]);
+// Medians over records and channels: of one channel, or of all where records differ in their channels.
+class Row {
+ public:
+  void add(const Floors& record, std::size_t way, std::size_t channel) {
+    whole_.push_back(record.whole_mm[way][channel]);
+    white_.push_back(record.white_mm[way][channel]);
+    known_.push_back(record.bounds.known_px[channel]);
+    estimated_.push_back(record.bounds.estimated_px[channel]);
+    scale_.push_back(record.mm_per_px);
   }
-  const double s = records.front().mm_per_px;
-  const double a = statistics(whole).median, b = statistics(white).median, k = statistics(known).median,
-               e = statistics(estimated).median;
-  fmt::print(
-      "noise-floor\t{}\t{}\t{}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.2f}\t{:.2f}\n", way,
-      records.front().names[c], records.size(), a, a / s, b, b / s, k, k * s, e, e * s, a / s / e, b / s / e);
-}
+  void print(const std::string& figure, const std::string& way, const std::string& channel) const {
+    fmt::print("{}\t{}\t{}\t{}", figure, way, channel, scale_.size());
+    print_pair(whole_, false);
+    print_pair(white_, false);
+    print_pair(known_, true);
+    print_pair(estimated_, true);
+    std::vector<double> whole, white;
+    for (std::size_t i = 0; i < scale_.size(); ++i) {
+      whole.push_back(whole_[i] / scale_[i] / estimated_[i]);
+      white.push_back(white_[i] / scale_[i] / estimated_[i]);
+    }
+    fmt::print("\t{:.2f}\t{:.2f}\n", statistics(whole).median, statistics(white).median);
+  }
+
+ private:
+  // In the unit that it has, then in the other.
+  void print_pair(std::vector<double> values, bool is_px) const {
+    const double own = statistics(values).median;
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] *= is_px ? scale_[i] : 1.0 / scale_[i];
+    fmt::print("\t{:.5f}\t{:.5f}", own, statistics(values).median);
+  }
+
+  std::vector<double> whole_, white_, known_, estimated_, scale_;
+};
 
 }  // namespace
 
 void print_noise_floor(const GeometryOptions& options) {
-  const FlightSetup setup{
+  FlightSetup setup{
       "preset: paper\ncamera: {readout_ms: 28}\nexcitation: {rms_mm: 0}\nhover: {x_rms_mm: 0, y_rms_mm: 0, z_rms_mm: "
       "0, "
       "pitch_rms_deg: 0.022, yaw_rms_deg: 0.022, roll_rms_deg: 0.022}\n",
       {"spectrum.segment=1024", "identification.period=10000"},
       0.25,
       true};
+  if (options.is_drawn) setup.drawn = DrawnFlight{};
   const std::vector<Way> ways{{"ours"},
                               {"whole-motion", {"scale.only=false"}},
                               {"ours-no-background", {}, StatedReadout::kTrue, false},
                               {"paper", {"method=paper"}}};
-  const auto records = for_each_seed(options.n_seeds, options.n_threads,
-                                     [&](std::uint64_t seed) { return floors_of(setup, ways, seed, options); });
+  const auto records =
+      for_each_seed(options, [&](std::uint64_t seed) { return floors_of(setup, ways, seed, options); });
   fmt::print(
       "# noise-floor: way, channel, records; medians over the records of: rms of the displacement about its mean, mm,\n"
       "#   px; rms of white noise with its density above {} Hz, mm, px; Cramer-Rao bound with the camera known, px, "
@@ -167,7 +187,19 @@ void print_noise_floor(const GeometryOptions& options) {
       "#   and with the camera estimated from background and ground, px, mm; whole rms and white rms over that bound\n",
       kAboveHover_hz);
   for (std::size_t w = 0; w < ways.size(); ++w) {
-    for (std::size_t c = 0; c < records.front().whole_mm[w].size(); ++c) print_channel(ways[w].name, w, c, records);
+    if (options.is_drawn) {
+      Row all;
+      for (const Floors& record : records) {
+        for (std::size_t c = 0; c < record.whole_mm[w].size(); ++c) all.add(record, w, c);
+      }
+      all.print("noise-floor-drawn", ways[w].name, "all");
+      continue;
+    }
+    for (std::size_t c = 0; c < records.front().whole_mm[w].size(); ++c) {
+      Row channel;
+      for (const Floors& record : records) channel.add(record, w, c);
+      channel.print("noise-floor", ways[w].name, records.front().names[c]);
+    }
   }
 }
 

@@ -38,16 +38,17 @@ std::vector<RecordScore> score_clip(std::uint64_t seed, const GeometryOptions& o
   FlightSetup setup = paper_flight();
   setup.configuration.emplace_back("spectrum.segment=512");
   setup.configuration.emplace_back("closure.adopt=off");  // reports change no mode, and take seconds each
+  if (options.is_drawn) setup.drawn = DrawnFlight{.segment_s = 512.0 / 25.0};
   SimulateJob job = flight_job(setup, seed, 60.0, options);
   job.depth = Depth::kPixels;
   const core::simulation::SceneMotion motion(job.scene());
-  const fs::path folder = fs::path(options.report) / fmt::format("clip_{}", seed);
+  const fs::path folder = fs::path(options.report) / fmt::format("{}clip_{}", options.is_drawn ? "drawn_" : "", seed);
   fs::create_directories(folder);
   const std::string clip = (folder / "clip.mp4").string();
   write_clip(core::simulation::Renderer(job.scene()), clip, kQuality, options.n_threads);
 
   const auto config = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> overrides = setup.configuration;
+    std::vector<std::string> overrides = configuration_of(job, setup);
     overrides.insert(overrides.end(), more.begin(), more.end());
     return app::parse_config(config_text(job, motion, fs::absolute(clip).string()), "clip", overrides);
   };
@@ -68,14 +69,15 @@ std::vector<RecordScore> score_clip(std::uint64_t seed, const GeometryOptions& o
 
 void print_geometry_pixels(const GeometryOptions& options) {
   if (options.report.empty()) throw std::invalid_argument("--report is missing: name a folder for clips and reports");
-  print_score_columns("geometry-pixels", "modes 1-3");
+  const std::string figure = options.is_drawn ? "geometry-pixels-drawn" : "geometry-pixels";
+  print_score_columns(figure, "modes 1-3");
   CaseScores by_way(kWays.size());
-  for (int seed = 1; seed <= options.n_seeds; ++seed) {
-    const auto scores = score_clip(static_cast<std::uint64_t>(seed), options);
+  for (int i = 0; i < options.n_seeds; ++i) {
+    const auto scores = score_clip(static_cast<std::uint64_t>(options.first_seed + i), options);
     for (std::size_t w = 0; w < scores.size(); ++w) by_way[w].push_back(scores[w]);
   }
   for (std::size_t w = 0; w < kWays.size(); ++w) {
-    print_scores("geometry-pixels", "paper-60s", kWays[w].name, by_way[w], 3);
+    print_scores(figure, "paper-60s", kWays[w].name, by_way[w], 3);
   }
 }
 

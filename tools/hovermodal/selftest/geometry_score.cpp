@@ -61,6 +61,7 @@ struct Tally {
   double n_false = 0.0, n_ambiguous = 0.0, n_wrong = 0.0;
   std::vector<double> frequency, damping, mac_deficit;  // of each record with a judged mode
   std::vector<double> n_found;                          // of each record
+  std::size_t most_missing = 0;
   std::vector<double> frequency_scatters, damping_scatters;
 };
 
@@ -79,6 +80,7 @@ Tally tally_of(const std::vector<RecordScore>& records, std::size_t n_judged) {
     }
     const WorstOfRecord worst = worst_of(record, n_judged);
     tally.n_found.push_back(n_found);
+    tally.most_missing = std::max(tally.most_missing, record.modes.size() - static_cast<std::size_t>(n_found));
     tally.complete += worst.all ? 1 : 0;
     tally.n_false += record.n_false;
     if (!worst.any) continue;
@@ -110,18 +112,18 @@ RecordScore score(const Analysed& analysed, const std::vector<TrueMode>& truth, 
   return out;
 }
 
-void print_score_columns(const char* figure, const std::string& judged) {
+void print_score_columns(const std::string& figure, const std::string& judged) {
   fmt::print(
       "# {}: case, way, records; {}: records with all of them; worst of them in a record against the true motion's\n"
       "#   own identification, over the records: frequency % median, worst; damping % median, worst; least MAC "
       "median,\n"
       "#   worst; of all true modes found median, fewest, of; judged modes against the true parameters in the least\n"
       "#   possible scatter: frequency rms, worst, damping rms, worst; per record: structural poles that are no mode;\n"
-      "#   modes ambiguous, modes given a wrong frequency\n",
+      "#   modes ambiguous, modes given a wrong frequency; most modes that a record lacks\n",
       figure, judged);
 }
 
-void print_scores(const char* figure, const std::string& what, const std::string& way,
+void print_scores(const std::string& figure, const std::string& what, const std::string& way,
                   const std::vector<RecordScore>& records, std::size_t n_judged) {
   const Tally tally = tally_of(records, n_judged);
   const double n = static_cast<double>(std::max<std::size_t>(1, records.size()));
@@ -133,8 +135,8 @@ void print_scores(const char* figure, const std::string& what, const std::string
              tally.complete, median_and_worst(tally.frequency, 1e2, "{:.4f}"),
              median_and_worst(tally.damping, 1e2, "{:.2f}"), known * (1.0 + mac.median), known * (1.0 + mac.worst),
              k.median, fewest, records.empty() ? 0 : records.front().modes.size());
-  fmt::print("\t{:.2f}\t{:+.2f}\t{:.2f}\t{:+.2f}\t{:.2f}\t{:.2f}\t{:.2f}\n", f.rms, f.worst, z.rms, z.worst,
-             tally.n_false / n, tally.n_ambiguous / n, tally.n_wrong / n);
+  fmt::print("\t{:.2f}\t{:+.2f}\t{:.2f}\t{:+.2f}\t{:.2f}\t{:.2f}\t{:.2f}\t{}\n", f.rms, f.worst, z.rms, z.worst,
+             tally.n_false / n, tally.n_ambiguous / n, tally.n_wrong / n, tally.most_missing);
   std::fflush(stdout);
 }
 
@@ -144,8 +146,14 @@ std::vector<TrueMode> shaken_modes(const core::simulation::Scene& scene) {
   return modes;
 }
 
+FigureCase drawn_case(FigureCase which, const DrawnFlight& limits) {
+  which.figure += "-drawn";
+  which.setup.drawn = limits;
+  return which;
+}
+
 CaseScores score_case(const FigureCase& which, const GeometryOptions& options) {
-  const auto records = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t seed) {
+  const auto records = for_each_seed(options, [&](std::uint64_t seed) {
     const SimulateJob job = flight_job(which.setup, seed, which.duration_s, options);
     const std::vector<TrueMode> truth = shaken_modes(job.scene());
     const AnalysedFlight result = analyse_flight(job, which.setup, which.ways);

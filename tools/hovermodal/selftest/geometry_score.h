@@ -34,21 +34,24 @@ struct RecordScore {
                                 double duration_s);
 
 // The line that names the columns of print_scores.
-void print_score_columns(const char* figure, const std::string& judged);
+void print_score_columns(const std::string& figure, const std::string& judged);
 
 // Over the records of one way: what became of the first `n_judged` modes, and how many of all were found.
-void print_scores(const char* figure, const std::string& what, const std::string& way,
+void print_scores(const std::string& figure, const std::string& what, const std::string& way,
                   const std::vector<RecordScore>& records, std::size_t n_judged);
 
-// Seeds 1 .. n on all threads, every way of each; then one line for each way.
+// Every way of each seed; then one line for each way. A drawn case has "-drawn" behind the figure's name.
 struct FigureCase {
-  const char* figure = "";
+  std::string figure;
   std::string name;
   FlightSetup setup;
   double duration_s = 300.0;
   std::size_t n_judged = 3;
   std::vector<Way> ways;
 };
+// The case with what the figure does not fix drawn from the seed.
+[[nodiscard]] FigureCase drawn_case(FigureCase which, const DrawnFlight& limits);
+
 // [way][record]
 using CaseScores = std::vector<std::vector<RecordScore>>;
 [[nodiscard]] CaseScores score_case(const FigureCase& which, const GeometryOptions& options);

@@ -108,8 +108,9 @@ void print_table1(const GeometryOptions& options) {
       "# table1: sensor, mode, records, found in; Hz median; against the accelerometers of the same record: error %\n"
       "#   median, worst, MAC of the floors % median, worst\n"
       "# table1-published: mode; Hz of accelerometers, stationary camera, UAV; MAC of the cameras %; their errors %\n");
-  const auto records = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t seed) {
-    if (seed != 1 || options.report.empty()) return table_of(seed, options, nullptr);
+  const auto records = for_each_seed(options, [&](std::uint64_t seed) {
+    if (seed != static_cast<std::uint64_t>(options.first_seed) || options.report.empty())
+      return table_of(seed, options, nullptr);
     PaperPictures pictures(options.report);
     return table_of(seed, options, &pictures);
   });

@@ -6,13 +6,13 @@
 namespace tools {
 
 // The identification on simulated records of known truth: structure -> channel samples -> spectra -> modes, in process.
-// Each prints tab-separated lines, with a comment line (#) that names their columns. Records are those of seeds 1 to
-// n_seeds, made on n_threads; what is printed does not depend on the number of threads. Closing the loop begins with
-// first_seed instead of 1.
+// Each prints tab-separated lines, with a comment line (#) that names their columns. Records are those of n_seeds seeds
+// from first_seed on, made on n_threads; what is printed does not depend on the number of threads.
 struct IdentificationOptions {
   int n_seeds = 20;
   int n_threads = 2;
   int first_seed = 1;
+  std::string flight;  // recorded flight (CSV) that carries the camera of print_null; empty = the hover model
 };
 
 void print_bias(const IdentificationOptions& options);       // bias, scatter and stated intervals, six storeys at 60 Hz
@@ -20,7 +20,6 @@ void print_losses(const IdentificationOptions& options);     // samples and fram
 void print_folding(const IdentificationOptions& options);    // modes above half the frame rate
 void print_null(const IdentificationOptions& options);       // a rigid building under a hovering, vibrating camera
 void print_harmonics(const IdentificationOptions& options);  // rotor lines and steady forces beside modes
-void print_readout(const IdentificationOptions& options);    // readout time from tracks of the paper's experiment
 void print_closure(const IdentificationOptions& options);    // closing the loop on structures that lack one effect
 void print_closure_null(const IdentificationOptions& options);  // and on one that lacks none
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/identification/uncertainty.h"
 #include "core/simulation/random_stream.h"
@@ -21,9 +23,28 @@ using core::simulation::TrueMode;
 constexpr double kDegreesOfFreedom = 9.0;
 constexpr double kClearPeak_db = 20.0;
 
-// One mode over all records.
+// Six storeys of 1 % damping at 60 Hz, or everything drawn.
+struct RecordKind {
+  const char *bias, *losses;
+  bool is_drawn;
+};
+constexpr std::array kKinds{RecordKind{"bias", "losses", false}, RecordKind{"bias-drawn", "losses-drawn", true}};
+
+StoreysSetup long_record(bool is_drawn, std::uint64_t seed) {
+  const StoreysSetup fixed{.duration_s = 300.0, .rate_hz = 60.0};
+  return is_drawn ? drawn_storeys(fixed, seed) : fixed;
+}
+
+// Folds are looked for where a mode may lie near half the rate or above: 0 = nowhere.
+double search_limit_hz(const StoreysSetup& setup) {
+  return setup.frequency_hz.back() > 0.45 * setup.rate_hz ? fold_limit_hz(setup.rate_hz) : 0.0;
+}
+
+// One mode over all records that have it.
 struct Errors {
-  std::vector<double> frequency, damping;  // relative
+  std::vector<double> peaks_db;
+  std::vector<double> frequency, damping;                // relative
+  std::vector<double> frequency_bounds, damping_bounds;  // over the least possible scatter
   int n_stated = 0, n_frequency_inside = 0, n_damping_inside = 0;
 };
 
@@ -32,12 +53,16 @@ bool inside(double error, double standard_deviation) {
   return std::abs(error) <= core::student_95(kDegreesOfFreedom) * standard_deviation;
 }
 
-void add(Errors& errors, const Found& found, const TrueMode& truth) {
+void add(Errors& errors, const Found& found, const TrueMode& truth, double peak_db, double duration_s) {
+  errors.peaks_db.push_back(peak_db);
   if (found.as != Found::As::kRight) return;
   const double df = found.mode.frequency_hz - truth.frequency_hz;
   const double dz = found.mode.damping_ratio - truth.damping_ratio;
+  const double cycles = 2.0 * std::numbers::pi * truth.frequency_hz * duration_s;
   errors.frequency.push_back(df / truth.frequency_hz);
   errors.damping.push_back(dz / truth.damping_ratio);
+  errors.frequency_bounds.push_back(errors.frequency.back() / std::sqrt(truth.damping_ratio / cycles));
+  errors.damping_bounds.push_back(errors.damping.back() * std::sqrt(truth.damping_ratio * cycles));
   if (!found.mode.frequency_std_hz || !found.mode.damping_std) return;
   ++errors.n_stated;
   errors.n_frequency_inside += inside(df, *found.mode.frequency_std_hz) ? 1 : 0;
@@ -45,65 +70,79 @@ void add(Errors& errors, const Found& found, const TrueMode& truth) {
   errors.n_damping_inside += interval && inside(truth.damping_ratio, *interval) ? 1 : 0;
 }
 
-std::string percent(int part, int whole) { return whole > 0 ? fmt::format("{:.1f}", 100.0 * part / whole) : "-"; }
+std::string percent(int part, int whole) { return whole > 0 ? fmt::format("{:.1f}", 100.0 * part / whole) : "nan"; }
 
-void print_mode(const char* variant, const TrueMode& truth, double peak_db, const Errors& errors, double duration_s) {
-  const double cycles = 2.0 * std::numbers::pi * truth.frequency_hz * duration_s;
-  const double f_bound = std::sqrt(truth.damping_ratio / cycles),
-               z_bound = 1.0 / std::sqrt(truth.damping_ratio * cycles);
+void print_mode(const char* tag, const char* variant, const std::string& mode, bool is_clear, const Errors& errors) {
   const Statistics f = statistics(errors.frequency), z = statistics(errors.damping);
-  fmt::print("bias\t{}\t{:.3f}\t{:.1f}\t{}\t{}\t{:+.4f}\t{:.4f}\t{:+.2f}\t{:.2f}\t{:+.2f}\t{:.3f}\t{:.3f}\t{}\t{}\n",
-             variant, truth.frequency_hz, peak_db, peak_db >= kClearPeak_db ? "clear" : "weak", f.n, 1e2 * f.mean,
+  fmt::print("{}\t{}\t{}\t{:.1f}\t{}\t{}\t{:+.4f}\t{:.4f}\t{:+.2f}\t{:.2f}\t{:+.2f}\t{:.3f}\t{:.3f}\t{}\t{}\t{}\n", tag,
+             variant, mode, statistics(errors.peaks_db).median, is_clear ? "clear" : "weak", f.n, 1e2 * f.mean,
              1e2 * f.standard_error, 1e2 * z.mean, 1e2 * z.standard_error, 1e2 * z.median,
-             f.standard_deviation / f_bound, z.standard_deviation / z_bound,
-             percent(errors.n_frequency_inside, errors.n_stated), percent(errors.n_damping_inside, errors.n_stated));
+             statistics(errors.frequency_bounds).standard_deviation,
+             statistics(errors.damping_bounds).standard_deviation, percent(errors.n_frequency_inside, errors.n_stated),
+             percent(errors.n_damping_inside, errors.n_stated), errors.peaks_db.size());
 }
 
-struct BothWays {
+struct BiasRecord {
+  std::vector<TrueMode> truth;
+  std::vector<double> peaks_db;
+  double duration_s = 0.0;
   Match corrected, uncorrected;
 };
 
-void print_variant(const char* variant, const std::vector<BothWays>& records, Match BothWays::*which,
-                   const std::vector<TrueMode>& truth, const std::vector<double>& peaks_db, double duration_s) {
+void print_variant(const RecordKind& kind, const char* variant, const std::vector<BiasRecord>& records,
+                   Match BiasRecord::*which) {
   int n_false = 0, n_stated = 0, n_frequency_inside = 0, n_damping_inside = 0;
-  for (const BothWays& record : records) n_false += (record.*which).n_false;
-  for (std::size_t r = 0; r < truth.size(); ++r) {
-    Errors errors;
-    for (const BothWays& record : records) add(errors, (record.*which).modes[r], truth[r]);
-    print_mode(variant, truth[r], peaks_db[r], errors, duration_s);
-    n_stated += errors.n_stated;
-    n_frequency_inside += errors.n_frequency_inside;
-    n_damping_inside += errors.n_damping_inside;
+  for (const BiasRecord& record : records) n_false += (record.*which).n_false;
+  for (std::size_t r = 0; r < kMostStoreys; ++r) {
+    for (const bool is_clear : {true, false}) {
+      Errors errors;
+      for (const BiasRecord& record : records) {
+        if (r >= record.truth.size() || (record.peaks_db[r] >= kClearPeak_db) != is_clear) continue;
+        add(errors, (record.*which).modes[r], record.truth[r], record.peaks_db[r], record.duration_s);
+      }
+      if (errors.peaks_db.empty()) continue;
+      print_mode(kind.bias, variant,
+                 kind.is_drawn ? std::to_string(r + 1) : fmt::format("{:.3f}", records.front().truth[r].frequency_hz),
+                 is_clear, errors);
+      n_stated += errors.n_stated;
+      n_frequency_inside += errors.n_frequency_inside;
+      n_damping_inside += errors.n_damping_inside;
+    }
   }
-  fmt::print("bias-all\t{}\t{}\t{}\t{}\t{}\n", variant, records.size(), n_false, percent(n_frequency_inside, n_stated),
-             percent(n_damping_inside, n_stated));
+  fmt::print("{}-all\t{}\t{}\t{}\t{}\t{}\n", kind.bias, variant, records.size(), n_false,
+             percent(n_frequency_inside, n_stated), percent(n_damping_inside, n_stated));
 }
 
-StoreysSetup long_record() { return {.duration_s = 300.0, .rate_hz = 60.0}; }
+BiasRecord bias_record(bool is_drawn, std::uint64_t seed) {
+  const StoreysSetup setup = long_record(is_drawn, seed);
+  const core::simulation::Scene scene = storeys_scene(setup, seed);
+  const std::vector<TrueMode> truth = modes_of(scene.structure);
+  const Record record = structure_record(scene, false);
+  const core::CpsdSums sums = spectra(record);
+  const core::Identifier identifier(identifier_config(search_limit_hz(setup)), record.channels);
+  return {truth, peaks_over_noise_db(scene), scene.duration_s,
+          match_modes(identifier.identify(sums), truth, record.channels),
+          match_modes(identifier.identify(without_window_correction(sums)), truth, record.channels)};
+}
 
 }  // namespace
 
 void print_bias(const IdentificationOptions& options) {
-  const core::simulation::Scene scene = storeys_scene(long_record(), 1);
-  const std::vector<TrueMode> truth = modes_of(scene.structure);
-  const auto records = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t seed) {
-    const Record record = structure_record(storeys_scene(long_record(), seed), false);
-    const core::CpsdSums sums = spectra(record);
-    const core::Identifier identifier(identifier_config(), record.channels);
-    return BothWays{match_modes(identifier.identify(sums), truth, record.channels),
-                    match_modes(identifier.identify(without_window_correction(sums)), truth, record.channels)};
-  });
   fmt::print(
       "# bias: window corrected or not, true Hz, peak over noise dB, clear from 20 dB on, records in which it is "
       "found,\n"
       "#   f: mean error %, its standard error; damping: mean error %, its standard error, median;\n"
-      "#   scatter over its bound: f, damping; stated 95 % intervals that hold the truth, %: f, damping (- none "
-      "stated)\n"
+      "#   scatter over its bound: f, damping; stated 95 % intervals that hold the truth, %: f, damping (nan: none\n"
+      "#   stated); records that have it\n"
       "# bias-all: window corrected or not, records, structural poles that are no mode, coverage over all modes %: f, "
-      "damping\n");
-  const std::vector<double> peaks_db = peaks_over_noise_db(scene);
-  print_variant("corrected", records, &BothWays::corrected, truth, peaks_db, scene.duration_s);
-  print_variant("uncorrected", records, &BothWays::uncorrected, truth, peaks_db, scene.duration_s);
+      "damping\n"
+      "# bias-drawn, bias-drawn-all: the same with camera, structure and noise drawn; number of the mode for its Hz,\n"
+      "#   median of its peaks\n");
+  for (const RecordKind& kind : kKinds) {
+    const auto records = for_each_seed(options, [&](std::uint64_t seed) { return bias_record(kind.is_drawn, seed); });
+    print_variant(kind, "corrected", records, &BiasRecord::corrected);
+    print_variant(kind, "uncorrected", records, &BiasRecord::uncorrected);
+  }
 }
 
 namespace {
@@ -142,13 +181,17 @@ std::vector<LossCase> loss_cases() {
 // f of the first modes against the same record without losses, in percent; empty: not found.
 using Shifts = std::array<std::optional<double>, kJudgedModes>;
 
-std::vector<Shifts> shifts_of(std::uint64_t seed, const std::vector<TrueMode>& truth) {
-  const Record whole = structure_record(storeys_scene(long_record(), seed), false);
-  const Match reference = match_modes(identify_record(whole), truth, whole.channels);
+std::vector<Shifts> shifts_of(bool is_drawn, std::uint64_t seed) {
+  const StoreysSetup setup = long_record(is_drawn, seed);
+  const core::simulation::Scene scene = storeys_scene(setup, seed);
+  const std::vector<TrueMode> truth = modes_of(scene.structure);
+  const double limit_hz = search_limit_hz(setup);
+  const Record whole = structure_record(scene, false);
+  const Match reference = match_modes(identify_record(whole, limit_hz), truth, whole.channels);
   std::vector<Shifts> shifts;
   for (const LossCase& loss : loss_cases()) {
     const Record lossy = with_losses(whole, loss.probability, loss.whole_frames, seed);
-    const Match match = match_modes(identify_record(lossy, 0.0, loss.bridged), truth, lossy.channels);
+    const Match match = match_modes(identify_record(lossy, limit_hz, loss.bridged), truth, lossy.channels);
     Shifts& shift = shifts.emplace_back();
     for (std::size_t r = 0; r < kJudgedModes; ++r) {
       if (match.modes[r].as != Found::As::kRight || reference.modes[r].as != Found::As::kRight) continue;
@@ -161,25 +204,27 @@ std::vector<Shifts> shifts_of(std::uint64_t seed, const std::vector<TrueMode>& t
 }  // namespace
 
 void print_losses(const IdentificationOptions& options) {
-  const std::vector<TrueMode> truth = modes_of(storeys_scene(long_record(), 1).structure);
-  const auto records =
-      for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t seed) { return shifts_of(seed, truth); });
   fmt::print(
       "# losses: bridged or masked, what is lost, share lost %, true Hz, records in which it is found, of; f against "
-      "the estimate "
-      "without\n"
-      "#   losses of the same record, %: median magnitude, worst\n");
+      "the estimate\n"
+      "#   without losses of the same record, %: median magnitude, worst\n"
+      "# losses-drawn: the same with camera, structure and noise drawn; number of the mode for its Hz\n");
   const std::vector<LossCase> cases = loss_cases();
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    for (std::size_t r = 0; r < kJudgedModes; ++r) {
-      std::vector<double> magnitude;
-      for (const auto& record : records) {
-        if (record[i][r]) magnitude.push_back(std::abs(*record[i][r]));
+  for (const RecordKind& kind : kKinds) {
+    const auto records = for_each_seed(options, [&](std::uint64_t seed) { return shifts_of(kind.is_drawn, seed); });
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      for (std::size_t r = 0; r < kJudgedModes; ++r) {
+        std::vector<double> magnitude;
+        for (const auto& record : records) {
+          if (record[i][r]) magnitude.push_back(std::abs(*record[i][r]));
+        }
+        const Statistics s = statistics(magnitude);
+        fmt::print("{}\t{}\t{}\t{:.0f}\t{}\t{}\t{}\t{:.4f}\t{:.4f}\n", kind.losses,
+                   cases[i].bridged ? "bridged" : "masked", cases[i].whole_frames ? "frames" : "samples",
+                   1e2 * cases[i].probability,
+                   kind.is_drawn ? std::to_string(r + 1) : fmt::format("{:.3f}", storey_frequencies_hz()[r]), s.n,
+                   records.size(), s.median, s.worst);
       }
-      const Statistics s = statistics(magnitude);
-      fmt::print("losses\t{}\t{}\t{:.0f}\t{:.3f}\t{}\t{}\t{:.4f}\t{:.4f}\n", cases[i].bridged ? "bridged" : "masked",
-                 cases[i].whole_frames ? "frames" : "samples", 1e2 * cases[i].probability, truth[r].frequency_hz, s.n,
-                 records.size(), s.median, s.worst);
     }
   }
 }

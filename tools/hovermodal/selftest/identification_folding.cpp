@@ -16,14 +16,14 @@ namespace {
 
 using core::simulation::TrueMode;
 using Shaken = StoreysSetup::Shaken;
-constexpr double kMaxFrequency_hz = 20.0;
-constexpr double kLeastMac = 0.98;
+constexpr double kLeastMac = 0.98, kClearPeak_db = 20.0;
 
 struct FoldingCase {
   std::string name;
   StoreysSetup setup;
-  std::vector<std::size_t> keep;  // channels; empty: all floors
-  bool reads_off = false;         // the readout from the shapes, too
+  bool two_channels = false;  // or all floors
+  bool reads_off = false;     // the readout from the shapes, too
+  bool is_drawn = false;      // camera, structure and noise; the readout is the case's
 };
 
 std::vector<FoldingCase> folding_cases() {
@@ -32,26 +32,38 @@ std::vector<FoldingCase> folding_cases() {
     StoreysSetup setup{.rate_hz = 25.0, .readout_frames = readout};
     for (const double duration_s : {300.0, 600.0}) {
       setup.duration_s = duration_s;
+      setup.shaken = Shaken::kModalParts;
       for (const double noise_px : {0.003, 0.1}) {
-        setup.shaken = Shaken::kModalParts;
         setup.noise_px = noise_px;
-        cases.push_back({fmt::format("parts-{}px", noise_px), setup, {}, noise_px < 0.01});
+        cases.push_back({fmt::format("parts-{}px", noise_px), setup, false, noise_px < 0.01});
       }
+      cases.push_back({"parts", setup, false, true, true});
       setup.noise_px = 0.003;
       setup.shaken = Shaken::kBase;
-      cases.push_back({"base", setup, {}});
+      for (const bool is_drawn : {false, true}) cases.push_back({"base", setup, false, false, is_drawn});
     }
     setup.duration_s = 300.0;
     setup.shaken = Shaken::kModalParts;
-    cases.push_back({"two-channels", setup, {1, 4}});
+    for (const bool is_drawn : {false, true}) cases.push_back({"two-channels", setup, true, false, is_drawn});
     setup.row_span = 0.1;
-    cases.push_back({"span-0.1", setup, {}});
+    for (const bool is_drawn : {false, true}) cases.push_back({"span-0.1", setup, false, false, is_drawn});
   }
   return cases;
 }
 
+// Of the drawn ones the highest mode lies at 0.52 ... 0.75 of the frame rate.
+StoreysSetup setup_of(const FoldingCase& which, std::uint64_t seed) {
+  if (!which.is_drawn) return which.setup;
+  StoreysSetup setup = drawn_storeys(which.setup, seed, {.least_top = 0.52, .most_top = 0.75, .keeps_readout = true});
+  if (which.setup.row_span < 0.5) setup.row_span = which.setup.row_span;
+  return setup;
+}
+
 using core::ReadoutFromShapes;
 struct Outcome {
+  std::vector<TrueMode> truth;
+  std::vector<double> peaks_db;
+  double rate_hz = 0.0;
   Match match;
   std::optional<ReadoutFromShapes> stated, unknown;  // identified with the true readout, and without any
 };
@@ -73,23 +85,28 @@ std::optional<ReadoutFromShapes> read_off_shapes(const Record& record, const cor
       poles.push_back(core::observed_pole(mode, channels, record.rate_hz));
     }
   }
-  return core::readout_from_shapes(poles, row_share, {record.rate_hz, kMaxFrequency_hz, 1.0});
+  return core::readout_from_shapes(poles, row_share, {record.rate_hz, fold_limit_hz(record.rate_hz), 1.0});
 }
 
-Outcome judge(const FoldingCase& which, std::uint64_t seed, const std::vector<TrueMode>& truth) {
-  Record record = structure_record(storeys_scene(which.setup, seed), false);
-  if (!which.keep.empty()) record = select_channels(record, which.keep);
+Outcome judge(const FoldingCase& which, std::uint64_t seed) {
+  const StoreysSetup setup = setup_of(which, seed);
+  const core::simulation::Scene scene = storeys_scene(setup, seed);
+  Record record = structure_record(scene, false);
+  if (which.two_channels) record = select_channels(record, {1, record.channels.size() - 2});
   const core::CpsdSums sums = spectra(record);
-  core::IdentifierConfig config = identifier_config(kMaxFrequency_hz);
+  core::IdentifierConfig config = identifier_config(fold_limit_hz(setup.rate_hz));
   const core::ModalEstimate estimate = core::Identifier(config, record.channels).identify(sums);
-  Outcome outcome{match_modes(estimate, truth, record.channels), {}, {}};
+  Outcome outcome{modes_of(scene.structure), peaks_over_noise_db(scene), setup.rate_hz, {}, {}, {}};
+  outcome.match = match_modes(estimate, outcome.truth, record.channels);
   if (!which.reads_off) return outcome;
-  outcome.stated = read_off_shapes(record, estimate, true, which.setup.readout_frames);
+  outcome.stated = read_off_shapes(record, estimate, true, setup.readout_frames);
   config.undo_row_delays = false;
-  outcome.unknown = read_off_shapes(record, core::Identifier(config, record.channels).identify(sums), false,
-                                    which.setup.readout_frames);
+  outcome.unknown =
+      read_off_shapes(record, core::Identifier(config, record.channels).identify(sums), false, setup.readout_frames);
   return outcome;
 }
+
+const char* tag(const FoldingCase& which) { return which.is_drawn ? "-drawn" : ""; }
 
 void print_readout(const FoldingCase& which, const char* delays, const std::vector<Outcome>& records,
                    std::optional<ReadoutFromShapes> Outcome::*which_readout) {
@@ -100,22 +117,24 @@ void print_readout(const FoldingCase& which, const char* delays, const std::vect
     spread.push_back((record.*which_readout)->std_frames);
   }
   const Statistics e = statistics(error), s = statistics(spread);
-  fmt::print("folding-readout\t{}\t{:.2f}\t{:.0f}\t{}\t{}\t{}\t{:+.4f}\t{:.4f}\t{:.4f}\t{:.4f}\n", which.name,
-             which.setup.readout_frames, which.setup.duration_s, delays, records.size(), e.n, e.mean, e.rms,
+  fmt::print("folding-readout{}\t{}\t{:.2f}\t{:.0f}\t{}\t{}\t{}\t{:+.4f}\t{:.4f}\t{:.4f}\t{:.4f}\n", tag(which),
+             which.name, which.setup.readout_frames, which.setup.duration_s, delays, records.size(), e.n, e.mean, e.rms,
              std::abs(e.worst), s.median);
 }
 
-void print_mode(const FoldingCase& which, std::size_t r, const TrueMode& truth, const std::vector<Outcome>& records) {
-  using As = Found::As;
-  int right = 0, wrong = 0, ambiguous = 0, high_mac = 0;
-  std::vector<double> f, zeta;
+// What became of the modes of one kind.
+struct Tally {
+  int n = 0, right = 0, wrong = 0, ambiguous = 0, high_mac = 0;
+  std::vector<double> f, zeta;  // errors, %
   double least_mac = 1.0;
   std::optional<double> least_margin;  // none: no other frequency below the limit
-  for (const Outcome& record : records) {
-    const Found& found = record.match.modes[r];
+
+  void add(const Found& found, const TrueMode& truth) {
+    using As = Found::As;
+    ++n;
     wrong += found.as == As::kWrongFold ? 1 : 0;
     ambiguous += found.as == As::kAmbiguous ? 1 : 0;
-    if (found.as != As::kRight) continue;
+    if (found.as != As::kRight) return;
     ++right;
     f.push_back(1e2 * (found.mode.frequency_hz / truth.frequency_hz - 1.0));
     zeta.push_back(1e2 * (found.mode.damping_ratio / truth.damping_ratio - 1.0));
@@ -123,11 +142,59 @@ void print_mode(const FoldingCase& which, std::size_t r, const TrueMode& truth, 
     least_mac = std::min(least_mac, found.mac);
     if (found.mode.fold_margin) least_margin = std::min(least_margin.value_or(1.0), *found.mode.fold_margin);
   }
-  const Statistics sf = statistics(f), sz = statistics(zeta);
-  fmt::print("folding\t{}\t{:.2f}\t{:.0f}\t{:.3f}\t{}\t{}\t{}\t{}\t{}\t{:.4f}\t{:+.4f}\t{:.1f}\t{}\t{:.4f}\t{}\n",
-             which.name, which.setup.readout_frames, which.setup.duration_s, truth.frequency_hz, records.size(),
-             right + wrong + ambiguous, right, wrong, ambiguous, sf.rms, sf.worst, sz.rms, high_mac, least_mac,
-             least_margin ? fmt::format("{:.3f}", *least_margin) : "-");
+};
+
+void print_tally(const FoldingCase& which, const std::string& modes, const Tally& t) {
+  const Statistics sf = statistics(t.f), sz = statistics(t.zeta);
+  fmt::print("folding{}\t{}\t{:.2f}\t{:.0f}\t{}\t{}\t{}\t{}\t{}\t{}\t{:.4f}\t{:+.4f}\t{:.1f}\t{}\t{:.4f}\t{}\n",
+             tag(which), which.name, which.setup.readout_frames, which.setup.duration_s, modes, t.n,
+             t.right + t.wrong + t.ambiguous, t.right, t.wrong, t.ambiguous, sf.rms, sf.worst, sz.rms, t.high_mac,
+             t.least_mac, t.least_margin ? fmt::format("{:.3f}", *t.least_margin) : "-");
+}
+
+// One that shows itself below half the rate as no other frequency up to the limit does.
+bool has_no_rival(const Outcome& record, std::size_t r) {
+  return record.truth[r].frequency_hz < record.rate_hz - fold_limit_hz(record.rate_hz);
+}
+
+void print_drawn(const FoldingCase& which, const std::vector<Outcome>& records) {
+  const auto kind_of = [](const Outcome& record, std::size_t r) -> std::string {
+    const bool is_folded = record.truth[r].frequency_hz > 0.5 * record.rate_hz;
+    const char* kind = is_folded ? "folded" : (has_no_rival(record, r) ? "alone" : "direct");
+    return fmt::format("{}{}", kind, record.peaks_db[r] >= kClearPeak_db ? "" : "-weak");
+  };
+  for (const char* kind : {"alone", "direct", "folded", "alone-weak", "direct-weak", "folded-weak"}) {
+    Tally tally;
+    for (const Outcome& record : records) {
+      for (std::size_t r = 0; r < record.truth.size(); ++r) {
+        if (kind_of(record, r) == kind) tally.add(record.match.modes[r], record.truth[r]);
+      }
+    }
+    if (tally.n > 0) print_tally(which, kind, tally);
+  }
+}
+
+void print_modes(const FoldingCase& which, const std::vector<Outcome>& records) {
+  for (std::size_t r = 0; r < storey_frequencies_hz().size(); ++r) {
+    Tally tally;
+    for (const Outcome& record : records) tally.add(record.match.modes[r], record.truth[r]);
+    print_tally(which, fmt::format("{:.3f}", records.front().truth[r].frequency_hz), tally);
+  }
+}
+
+void print_case(const FoldingCase& which, const std::vector<Outcome>& records) {
+  if (which.is_drawn) {
+    print_drawn(which, records);
+  } else {
+    print_modes(which, records);
+  }
+  int n_false = 0;
+  for (const Outcome& record : records) n_false += record.match.n_false;
+  fmt::print("folding-all{}\t{}\t{:.2f}\t{:.0f}\t{}\t{}\n", tag(which), which.name, which.setup.readout_frames,
+             which.setup.duration_s, records.size(), n_false);
+  if (!which.reads_off) return;
+  print_readout(which, "stated", records, &Outcome::stated);
+  print_readout(which, "unknown", records, &Outcome::unknown);
 }
 
 }  // namespace
@@ -140,20 +207,14 @@ void print_folding(const IdentificationOptions& options) {
       "# folding-all: case, readout, seconds, records, structural poles that are no mode\n"
       "# folding-readout: case, readout, seconds, delays stated or unknown, records, read off the shapes in; frames: "
       "mean\n"
-      "#   error, rms, worst, median of the stated spread\n",
-      kLeastMac);
+      "#   error, rms, worst, median of the stated spread\n"
+      "# folding-drawn and so on: the same with camera, structure and noise drawn, the highest mode above half the\n"
+      "#   rate; for true Hz and records: kind of mode (alone: without rival below the limit; direct, folded: below "
+      "or\n"
+      "#   above half the rate; weak: peak less than {} dB over the noise), modes of all records\n",
+      kLeastMac, kClearPeak_db);
   for (const FoldingCase& which : folding_cases()) {
-    const std::vector<TrueMode> truth = modes_of(storeys_scene(which.setup, 1).structure);
-    const auto records = for_each_seed(options.n_seeds, options.n_threads,
-                                       [&](std::uint64_t seed) { return judge(which, seed, truth); });
-    for (std::size_t r = 0; r < truth.size(); ++r) print_mode(which, r, truth[r], records);
-    int n_false = 0;
-    for (const Outcome& record : records) n_false += record.match.n_false;
-    fmt::print("folding-all\t{}\t{:.2f}\t{:.0f}\t{}\t{}\n", which.name, which.setup.readout_frames,
-               which.setup.duration_s, records.size(), n_false);
-    if (!which.reads_off) continue;
-    print_readout(which, "stated", records, &Outcome::stated);
-    print_readout(which, "unknown", records, &Outcome::unknown);
+    print_case(which, for_each_seed(options, [&](std::uint64_t seed) { return judge(which, seed); }));
   }
 }
 

@@ -79,7 +79,10 @@ Match match_modes(const core::ModalEstimate& estimate, const std::vector<TrueMod
 Statistics statistics(std::vector<double> values) {
   Statistics s;
   s.n = values.size();
-  if (values.empty()) return s;
+  if (values.empty()) {
+    const double nan = std::nan("");
+    return {0, nan, nan, nan, nan, nan, nan};
+  }
   const double n = static_cast<double>(s.n);
   double squares = 0.0;
   for (const double v : values) {

@@ -44,6 +44,7 @@ struct Statistics {
   double mean = 0.0, standard_deviation = 0.0, standard_error = 0.0;  // of the mean
   double median = 0.0, rms = 0.0, worst = 0.0;                        // worst: largest magnitude
 };
+// Of nothing: not a number, so that no bar is met by accident.
 [[nodiscard]] Statistics statistics(std::vector<double> values);
 
 }  // namespace tools

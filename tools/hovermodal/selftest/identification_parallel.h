@@ -36,4 +36,10 @@ template <class Make>
   return results;
 }
 
+// Of the seeds that the options name.
+template <class Options, class Make>
+[[nodiscard]] auto for_each_seed(const Options& options, Make make) {
+  return for_each_seed(options.n_seeds, options.n_threads, make, options.first_seed);
+}
+
 }  // namespace tools

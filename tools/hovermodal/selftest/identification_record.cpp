@@ -1,6 +1,7 @@
 #include "tools/hovermodal/selftest/identification_record.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/simulation/channel_generator.h"
 #include "core/simulation/random_stream.h"
@@ -30,6 +31,22 @@ Record gather(const SceneMotion& motion, const std::vector<core::ChannelInfo>& c
   return record;
 }
 
+// The noise of each channel; unequal as that of points is. None where all have the scene's own.
+std::vector<double> unequal_noise_mm(const core::simulation::Scene& scene, std::size_t n_channels) {
+  std::vector<double> noise_mm;
+  const double spread = scene.tracks.noise_spread;
+  core::simulation::RandomStream stream(scene.seed, "channel_noise_spread");
+  for (std::size_t c = 0; c < n_channels && spread > 0.0; ++c) {
+    noise_mm.push_back(scene.channels.noise_mm * std::exp(spread * stream.gaussian() - spread * spread));
+  }
+  return noise_mm;
+}
+
+core::simulation::Scene without_channel_noise(core::simulation::Scene scene) {
+  scene.channels.noise_mm = 0.0;
+  return scene;
+}
+
 std::vector<std::size_t> all_but_base(const std::vector<core::ChannelInfo>& channels) {
   std::vector<std::size_t> keep;
   for (std::size_t c = 0; c < channels.size(); ++c) {
@@ -55,11 +72,15 @@ Record select_channels(const Record& record, const std::vector<std::size_t>& kee
 }
 
 Record structure_record(const core::simulation::Scene& scene, bool with_base) {
-  const SceneMotion motion(scene);
+  const bool is_unequal = scene.tracks.noise_spread > 0.0;
+  const SceneMotion motion(is_unequal ? without_channel_noise(scene) : scene);
   const ChannelGenerator generator(motion, scene.camera.readout_s);
+  const std::vector<double> noise_mm = unequal_noise_mm(scene, generator.channels().size());
   core::DisplacementSample sample = generator.sample_prototype();
   const Record record = gather(motion, generator.channels(), [&](const auto& frame, double* value, auto* seen) {
     generator.generate(frame, sample);
+    core::simulation::RandomStream noise(scene.seed, "channel_noise", frame.number);
+    for (std::size_t c = 0; c < noise_mm.size(); ++c) sample.value_mm[c] += noise_mm[c] * noise.gaussian();
     std::copy(sample.value_mm.begin(), sample.value_mm.end(), value);
     std::copy(sample.seen.begin(), sample.seen.end(), seen);
   });
@@ -73,13 +94,13 @@ Record image_record(const core::simulation::Scene& scene, bool with_base) {
   for (const auto& [body, region] : tracking_regions(motion)) {
     if (body != core::simulation::kBackgroundBody) bodies.push_back(body);
   }
-  std::vector<double> start_px;
+  std::vector<double> start_px, noise_mm = unequal_noise_mm(scene, bodies.size());
+  if (noise_mm.empty()) noise_mm.assign(bodies.size(), scene.channels.noise_mm);
   for (const int body : bodies) start_px.push_back(motion.see(body, {0.0, 0.0}, 0.0).u_px);
   const Record record = gather(motion, generator.channels(), [&](const auto& frame, double* value, auto* seen) {
     core::simulation::RandomStream noise(scene.seed, "channel_noise", frame.number);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-      value[i] =
-          motion.see(bodies[i], {0.0, 0.0}, frame.t_s).u_px - start_px[i] + scene.channels.noise_mm * noise.gaussian();
+      value[i] = motion.see(bodies[i], {0.0, 0.0}, frame.t_s).u_px - start_px[i] + noise_mm[i] * noise.gaussian();
       seen[i] = 1;
     }
   });

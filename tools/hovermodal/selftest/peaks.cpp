@@ -123,7 +123,8 @@ bool PeakCheck::passed() const {
   });
 }
 
-PeakCheck check_peaks(const Scene& scene, const core::simulation::StructureModel& declared, int n_seeds) {
+PeakCheck check_peaks(const Scene& scene, const core::simulation::StructureModel& declared, int n_seeds,
+                      int first_seed) {
   const std::vector<TrueMode> modes = modes_of(declared);
   if (n_seeds < 1) throw std::invalid_argument("number of seeds is " + std::to_string(n_seeds) + "; give 1 or more");
   if (modes.empty() || modes.front().displacement.size() < static_cast<Eigen::Index>(modes.size())) {
@@ -139,7 +140,7 @@ PeakCheck check_peaks(const Scene& scene, const core::simulation::StructureModel
   check.duration_s = scene.duration_s;
   for (const TrueMode& mode : modes) check.modes.push_back(declared_peak(mode, scene.duration_s));
   const Eigen::MatrixXd shapes = shapes_of(modes);
-  for (int seed = 1; seed <= n_seeds; ++seed) add_seed(check, scene, shapes, static_cast<std::uint64_t>(seed));
+  for (int i = 0; i < n_seeds; ++i) add_seed(check, scene, shapes, static_cast<std::uint64_t>(first_seed + i));
   for (ModePeak& mode : check.modes) {
     const int n = std::max(1, n_seeds - mode.n_failed);
     finish(mode.frequency, n);
@@ -149,9 +150,9 @@ PeakCheck check_peaks(const Scene& scene, const core::simulation::StructureModel
   return check;
 }
 
-PeakCheck check_peaks(int n_seeds, double duration_s) {
+PeakCheck check_peaks(int n_seeds, double duration_s, int first_seed) {
   const Scene scene = core::simulation::make_paper_scene(1, duration_s);
-  return check_peaks(scene, scene.structure, n_seeds);
+  return check_peaks(scene, scene.structure, n_seeds, first_seed);
 }
 
 }  // namespace tools

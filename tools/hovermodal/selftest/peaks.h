@@ -36,11 +36,11 @@ struct PeakCheck {
 // Do the peaks of the truth lie where the structure says, as wide as it says? Modal coordinates of the displacements
 // (least squares by the declared shapes, relative to the ground), each fitted as one oscillator under white force.
 // Structure in `scene`, declared modes in `declared`: the same unless the check itself is to be checked. Undamped
-// shapes must be real, and only the ground be shaken, without colour. Seeds 1 .. n_seeds. Throws std::invalid_argument
-// for a duration in which the lowest declared mode has fewer than 8 / zeta periods: its peak would be too blurred to
-// fit.
+// shapes must be real, and only the ground be shaken, without colour. n_seeds seeds from first_seed on. Throws
+// std::invalid_argument for a duration in which the lowest declared mode has fewer than 8 / zeta periods: its peak
+// would be too blurred to fit.
 [[nodiscard]] PeakCheck check_peaks(const core::simulation::Scene& scene,
-                                    const core::simulation::StructureModel& declared, int n_seeds);
-[[nodiscard]] PeakCheck check_peaks(int n_seeds, double duration_s);  // of the paper's scene
+                                    const core::simulation::StructureModel& declared, int n_seeds, int first_seed = 1);
+[[nodiscard]] PeakCheck check_peaks(int n_seeds, double duration_s, int first_seed = 1);  // of the paper's scene
 
 }  // namespace tools

@@ -1,14 +1,17 @@
 // The readout time estimated from tracks, against that of the simulated sensor.
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/geometry/readout_estimator.h"
 #include "core/simulation/presets.h"
 #include "core/simulation/track_generator.h"
-#include "tools/hovermodal/selftest/identification.h"
+#include "tools/hovermodal/selftest/drawn_scene.h"
+#include "tools/hovermodal/selftest/geometry.h"
 #include "tools/hovermodal/selftest/identification_match.h"
 #include "tools/hovermodal/selftest/identification_parallel.h"
 
@@ -18,8 +21,9 @@ namespace {
 constexpr std::array kReadouts{-1.0, -0.7, -0.3, 0.0, 0.3, 0.5, 0.7, 1.0};
 constexpr std::array kDurations_s{120.0, 300.0};
 
-core::simulation::Scene scene_of(double readout_frames, std::uint64_t seed, double duration_s) {
-  core::simulation::Scene scene = core::simulation::make_paper_scene(seed, duration_s);
+core::simulation::Scene scene_of(double readout_frames, std::uint64_t seed, double duration_s, bool is_drawn) {
+  core::simulation::Scene scene =
+      is_drawn ? draw_scene(seed, duration_s).scene : core::simulation::make_paper_scene(seed, duration_s);
   scene.camera.readout_s = std::abs(readout_frames) / scene.camera.rate_hz;
   // Read upwards is read downwards in negative time.
   if (readout_frames < 0.0) scene.camera.readout_direction = core::ReadoutDirection::kUp;
@@ -27,8 +31,8 @@ core::simulation::Scene scene_of(double readout_frames, std::uint64_t seed, doub
 }
 
 // The estimates at every duration.
-std::vector<core::ReadoutEstimate> estimate(double readout_frames, std::uint64_t seed) {
-  const core::simulation::TrackGenerator generator(scene_of(readout_frames, seed, kDurations_s.back()));
+std::vector<core::ReadoutEstimate> estimate(double readout_frames, std::uint64_t seed, bool is_drawn) {
+  const core::simulation::TrackGenerator generator(scene_of(readout_frames, seed, kDurations_s.back(), is_drawn));
   const core::simulation::Scene& scene = generator.motion().scene();
   core::ReadoutEstimator::Config config;
   config.rate_hz = scene.camera.rate_hz;
@@ -52,14 +56,14 @@ std::vector<core::ReadoutEstimate> estimate(double readout_frames, std::uint64_t
 
 }  // namespace
 
-void print_readout(const IdentificationOptions& options) {
+void print_readout(const GeometryOptions& options) {
   fmt::print(
       "# readout: true, frames; seconds; records, with an estimate in; error: mean, standard deviation, worst; stated "
       "standard\n"
       "#   deviation: median; worst error in stated deviations; share within two; bands left out, of\n");
   for (const double readout : kReadouts) {
     const auto records =
-        for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t seed) { return estimate(readout, seed); });
+        for_each_seed(options, [&](std::uint64_t seed) { return estimate(readout, seed, options.is_drawn); });
     for (std::size_t d = 0; d < kDurations_s.size(); ++d) {
       std::vector<double> error, stated;
       double worst_sigmas = 0.0, against = 0.0, bands = 0.0;
@@ -76,11 +80,12 @@ void print_readout(const IdentificationOptions& options) {
         bands += e.n_bands;
       }
       const Statistics e = statistics(error), s = statistics(stated);
-      fmt::print("readout\t{:+.2f}\t{:.0f}\t{}\t{}\t{:+.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.2f}\t{:.3f}\t{:.1f}\t{:.1f}\n",
-                 readout, kDurations_s[d], records.size(), e.n, e.mean,
-                 std::sqrt(std::max(0.0, e.rms * e.rms - e.mean * e.mean)), std::abs(e.worst), s.median, worst_sigmas,
-                 n_within / std::max(1.0, static_cast<double>(e.n)), against / static_cast<double>(records.size()),
-                 bands / static_cast<double>(records.size()));
+      fmt::print(
+          "readout{}\t{:+.2f}\t{:.0f}\t{}\t{}\t{:+.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.2f}\t{:.3f}\t{:.1f}\t{:.1f}\n",
+          options.is_drawn ? "-drawn" : "", readout, kDurations_s[d], records.size(), e.n, e.mean,
+          std::sqrt(std::max(0.0, e.rms * e.rms - e.mean * e.mean)), std::abs(e.worst), s.median, worst_sigmas,
+          n_within / std::max(1.0, static_cast<double>(e.n)), against / static_cast<double>(records.size()),
+          bands / static_cast<double>(records.size()));
     }
   }
 }

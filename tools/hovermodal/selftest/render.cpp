@@ -40,8 +40,8 @@ class Sum {
 };
 
 // Small, so that brute force ends; moving fast.
-Scene moving_scene() {
-  Scene scene = core::simulation::make_paper_scene(4, 10.0);
+Scene moving_scene(std::uint64_t seed) {
+  Scene scene = core::simulation::make_paper_scene(seed, 10.0);
   core::simulation::set_image_size(scene, 480, 270);
   scene.camera.exposure_s = 0.03;  // about a pixel of motion
   scene.excitation.rms_mm = 10.0;
@@ -50,8 +50,8 @@ Scene moving_scene() {
   return scene;
 }
 
-Scene turned_scene() {
-  Scene scene = moving_scene();
+Scene turned_scene(std::uint64_t seed) {
+  Scene scene = moving_scene(seed);
   scene.camera.roll_rad = 0.09;
   scene.camera.pitch_rad = 0.01;
   scene.hover.roll_rms_rad = scene.hover.yaw_rms_rad = 0.002;
@@ -140,21 +140,21 @@ double frames_per_s(const Scene& scene, Renderer::Way way, int n_threads) {
 
 }  // namespace
 
-std::vector<ReferenceError> check_reference_pixels() {
-  Scene still = moving_scene();
+std::vector<ReferenceError> check_reference_pixels(std::uint64_t seed) {
+  Scene still = moving_scene(seed);
   still.camera.exposure_s = 0.0;
-  Scene still_turned = turned_scene();
+  Scene still_turned = turned_scene(seed);
   still_turned.camera.exposure_s = 0.0;
-  return {compare("insides, straight", moving_scene(), false),
-          compare("insides, turned, lens, zoom", turned_scene(), false),
+  return {compare("insides, straight", moving_scene(seed), false),
+          compare("insides, turned, lens, zoom", turned_scene(seed), false),
           compare("edges, straight, still", flat(still), true),
-          compare("edges, straight, blurred", flat(moving_scene()), true),
+          compare("edges, straight, blurred", flat(moving_scene(seed)), true),
           compare("edges, turned, lens, still", flat(still_turned), true),
-          compare("edges, turned, lens, blurred", flat(turned_scene()), true)};
+          compare("edges, turned, lens, blurred", flat(turned_scene(seed)), true)};
 }
 
-double check_flicker_bands() {
-  Scene scene = core::simulation::make_paper_scene(2, 4.0);
+double check_flicker_bands(std::uint64_t seed) {
+  Scene scene = core::simulation::make_paper_scene(seed, 4.0);
   const std::vector<double> steady = row_means(scene);
   scene.light.flicker_depth = 0.2;
   const std::vector<double> lit = row_means(scene);
@@ -168,8 +168,8 @@ double check_flicker_bands() {
   return worst;
 }
 
-std::vector<RenderSpeed> check_render_speed(int n_threads) {
-  const Scene plain = core::simulation::make_paper_scene(1, 10.0);
+std::vector<RenderSpeed> check_render_speed(std::uint64_t seed, int n_threads) {
+  const Scene plain = core::simulation::make_paper_scene(seed, 10.0);
   Scene turned = plain;
   turned.camera.roll_rad = 0.05;
   turned.hover.roll_rms_rad = 0.001;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -7,7 +8,7 @@
 
 namespace tools {
 
-// Proofs of the renderer, each from scenes of its own.
+// Proofs of the renderer, each from scenes of its own; textures, motion and noise are those of the seed.
 
 // Error of a shift: measured less known, px.
 struct ShiftError {
@@ -19,7 +20,7 @@ struct ShiftError {
 // Plates at known sub-pixel shifts, drawn and measured again: Gauss-Newton with the texture itself as the model, on
 // light without noise; its own error lies below 1e-6 px. Smooth and sharp texture, still and blurred by motion, seen
 // straight, with 5 degrees roll, through a lens, and in all four directions of readout.
-[[nodiscard]] std::vector<ShiftError> check_known_shifts();
+[[nodiscard]] std::vector<ShiftError> check_known_shifts(std::uint64_t seed);
 
 // Rendered light less light by brute force (RenderReference), grey levels.
 struct ReferenceError {
@@ -29,7 +30,7 @@ struct ReferenceError {
 };
 // Insides of plates and background (64 instants), and edges of flat plates (256 points a pixel; grey levels of a step
 // of 100).
-[[nodiscard]] std::vector<ReferenceError> check_reference_pixels();
+[[nodiscard]] std::vector<ReferenceError> check_reference_pixels(std::uint64_t seed);
 
 // Tracks of OpenCV's KLT in rendered frames less the true tracks, px, per axis.
 struct TrackError {
@@ -40,16 +41,16 @@ struct TrackError {
 };
 // 1080p, noise of 2 grey levels, `n_frames` spread over a minute: the paper's scene; with 3 degrees roll, rotation and
 // a lens; read to the left.
-[[nodiscard]] std::vector<TrackError> check_opencv_tracks(int n_frames = 40);
+[[nodiscard]] std::vector<TrackError> check_opencv_tracks(std::uint64_t seed, int n_frames = 40);
 
 // Mean grey level of each row under flickering lamps over that without, less Light::factor: largest, relative.
-[[nodiscard]] double check_flicker_bands();
+[[nodiscard]] double check_flicker_bands(std::uint64_t seed);
 
 struct RenderSpeed {
   std::string name;
   double frames_per_s = 0.0;
 };
 // 1080p, 8 bits, on n_threads threads at once: the quick way and the general one.
-[[nodiscard]] std::vector<RenderSpeed> check_render_speed(int n_threads = 2);
+[[nodiscard]] std::vector<RenderSpeed> check_render_speed(std::uint64_t seed, int n_threads = 2);
 
 }  // namespace tools

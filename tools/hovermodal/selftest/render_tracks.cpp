@@ -27,7 +27,7 @@ struct Material {
 };
 
 // Points of the plates whose windows see nothing else in frame 0.
-std::vector<Material> seed(const core::simulation::SceneMotion& motion) {
+std::vector<Material> chosen_points(const core::simulation::SceneMotion& motion) {
   const Scene& scene = motion.scene();
   core::simulation::RandomStream random(scene.seed, "selftest_points");
   std::vector<Material> points;
@@ -65,7 +65,7 @@ TrackError check(std::string name, const Scene& scene, int n_frames) {
   const Renderer renderer(scene);
   Renderer::Scratch scratch = renderer.make_scratch();
   const cv::Mat first = draw(renderer, 0, scratch);
-  const std::vector<Material> points = seed(renderer.motion());
+  const std::vector<Material> points = chosen_points(renderer.motion());
   const std::vector<cv::Point2f> start = see(renderer.motion(), points, 0.0);
   core::simulation::RandomStream random(scene.seed, "selftest_start_error");
   const auto stray = [&random] { return static_cast<float>(kStartError_px * (2.0 * random.uniform() - 1.0)); };
@@ -102,8 +102,8 @@ TrackError check(std::string name, const Scene& scene, int n_frames) {
 
 }  // namespace
 
-std::vector<TrackError> check_opencv_tracks(int n_frames) {
-  const Scene paper = core::simulation::make_paper_scene(1, 60.0);
+std::vector<TrackError> check_opencv_tracks(std::uint64_t seed, int n_frames) {
+  const Scene paper = core::simulation::make_paper_scene(seed, 60.0);
   Scene turned = paper;
   turned.camera.roll_rad = 0.052;  // 3 degrees
   turned.hover.pitch_rms_rad = turned.hover.yaw_rms_rad = turned.hover.roll_rms_rad = 0.002;

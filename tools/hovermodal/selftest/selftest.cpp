@@ -4,8 +4,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tools/hovermodal/commands.h"
@@ -25,17 +28,19 @@ struct Options {
   double duration_s = 0.0, strength = 0.0;
   int first_seed = 1;
   std::string flight, report, effect;
+
+  [[nodiscard]] std::uint64_t seed() const noexcept { return static_cast<std::uint64_t>(first_seed); }
 };
 
-void print_signatures(const Options&) {
+void print_signatures(const Options& options) {
   fmt::print("# effect: tracks with it minus tracks without it, rms; what the first-order signature leaves of it\n");
-  for (const SignatureCheck& check : check_signatures()) {
+  for (const SignatureCheck& check : check_signatures(options.seed())) {
     fmt::print("signature\t{}\t{:.4f} px\t{:.5f} %\n", check.effect, check.rms_px, 1e2 * check.relative_error);
   }
 }
 
 void print_peaks(const Options& options) {
-  const PeakCheck check = check_peaks(options.n_seeds, 600.0);
+  const PeakCheck check = check_peaks(options.n_seeds, 600.0, options.first_seed);
   const auto print = [](const char* what, const ModePeak& mode, double value, double scatter,
                         const PeakErrors& errors) {
     fmt::print("peak\t{:.3f} Hz\t{}\t{:.5f}\t{:.5f}\t{:+.2f}\t{:.2f}\t{:+.2f}\n", mode.frequency_hz, what, value,
@@ -51,27 +56,27 @@ void print_peaks(const Options& options) {
   fmt::print("peaks\t{}\n", check.passed() ? "within the bars" : "OUTSIDE the bars");
 }
 
-void print_shifts(const Options&) {
+void print_shifts(const Options& options) {
   fmt::print("# plates shifted by known parts of a pixel, drawn and measured again: worst, rms, shifts\n");
-  for (const ShiftError& error : check_known_shifts()) {
+  for (const ShiftError& error : check_known_shifts(options.seed())) {
     fmt::print("shift\t{}\t{:.6f} px\t{:.6f} px\t{}\n", error.name, error.worst_px, error.rms_px, error.n_shifts);
   }
 }
 
-void print_pixels(const Options&) {
+void print_pixels(const Options& options) {
   fmt::print(
       "# light of pixels less the same by brute force, grey levels (edges: of a step of 100): worst, rms, pixels\n");
-  for (const ReferenceError& error : check_reference_pixels()) {
+  for (const ReferenceError& error : check_reference_pixels(options.seed())) {
     fmt::print("pixels\t{}\t{:.4f}\t{:.4f}\t{}\n", error.name, error.worst, error.rms, error.n_pixels);
   }
   fmt::print("# mean of each row under flickering lamps over that without, less the lamps' own: worst\n");
-  fmt::print("flicker\t{:.5f}\n", check_flicker_bands());
+  fmt::print("flicker\t{:.5f}\n", check_flicker_bands(options.seed()));
 }
 
 void print_klt(const Options& options) {
   fmt::print(
       "# OpenCV's KLT in drawn frames less the true tracks: worst, rms per axis; rms of the motion; points, lost\n");
-  for (const TrackError& error : check_opencv_tracks(options.n_frames)) {
+  for (const TrackError& error : check_opencv_tracks(options.seed(), options.n_frames)) {
     fmt::print("klt\t{}\t{:.4f} px\t{:.4f} px\t{:.2f} px\t{}\t{}\n", error.name, error.worst_px, error.rms_px,
                error.truth_rms_px, error.n_tracks, error.n_lost);
   }
@@ -79,7 +84,7 @@ void print_klt(const Options& options) {
 
 void print_speed(const Options& options) {
   fmt::print("# frames of 1080p per second on {} threads\n", options.n_threads);
-  for (const RenderSpeed& speed : check_render_speed(options.n_threads)) {
+  for (const RenderSpeed& speed : check_render_speed(options.seed(), options.n_threads)) {
     fmt::print("speed\t{}\t{:.1f}\n", speed.name, speed.frames_per_s);
   }
 }
@@ -87,13 +92,14 @@ void print_speed(const Options& options) {
 // The identification on simulated records.
 template <void (*print)(const IdentificationOptions&)>
 void identification(const Options& options) {
-  print({options.n_seeds, options.n_threads, options.first_seed});
+  print({options.n_seeds, options.n_threads, options.first_seed, options.flight});
 }
 
 // The whole chain behind the tracker on simulated flights.
-template <void (*print)(const GeometryOptions&)>
+template <void (*print)(const GeometryOptions&), bool is_drawn = false>
 void geometry(const Options& options) {
-  print({options.n_seeds, options.n_threads, options.duration_s, options.report, options.flight, options.first_seed});
+  print({options.n_seeds, options.n_threads, options.first_seed, options.duration_s, options.report, options.flight,
+         is_drawn});
 }
 
 // Closing the loop on tracks.
@@ -102,50 +108,95 @@ void closure_tracks(const Options& options) {
   print({options.n_seeds, options.n_threads, options.duration_s, options.first_seed, options.effect, options.strength});
 }
 
+// Options that a check may take; all others are refused.
+enum Takes : unsigned {
+  kSeed = 1,  // --first-seed
+  kSeeds = 2,
+  kFrames = 4,
+  kThreads = 8,
+  kDuration = 16,
+  kEffect = 32,
+  kStrength = 64,
+  kFlight = 128,
+  kReport = 256,
+  kRecords = kSeed | kSeeds | kThreads,
+  kFlights = kRecords | kDuration | kFlight
+};
+constexpr std::array<std::pair<const char*, unsigned>, 9> kOptions{{{"--first-seed", kSeed},
+                                                                    {"--seeds", kSeeds},
+                                                                    {"--frames", kFrames},
+                                                                    {"--threads", kThreads},
+                                                                    {"--duration", kDuration},
+                                                                    {"--effect", kEffect},
+                                                                    {"--strength", kStrength},
+                                                                    {"--flight", kFlight},
+                                                                    {"--report", kReport}}};
+
 struct Check {
   const char *name, *meaning;
   void (*print)(const Options&);
+  unsigned takes;
 };
 constexpr std::array kChecks{
-    Check{"signatures", "every effect's motion of the tracks against its linear signature", print_signatures},
-    Check{"peaks", "the true motion's frequencies and damping against those declared", print_peaks},
-    Check{"shifts", "plates drawn at known shifts, measured again", print_shifts},
-    Check{"pixels", "light of single pixels against brute force, flicker against the lamps'", print_pixels},
-    Check{"klt", "OpenCV's tracker in drawn frames against the true tracks", print_klt},
-    Check{"speed", "1080p frames drawn per second", print_speed},
-    Check{"bias", "bias, scatter and stated intervals of the identification", identification<print_bias>},
-    Check{"losses", "what random losses of samples and frames do to the modes", identification<print_losses>},
-    Check{"folding", "modes above half the frame rate", identification<print_folding>},
-    Check{"null", "a rigid building under a hovering camera: no mode", identification<print_null>},
-    Check{"harmonics", "rotor lines and steady forces beside modes", identification<print_harmonics>},
-    Check{"readout", "readout time estimated from tracks", identification<print_readout>},
-    Check{"closure", "closing the loop on structures that lack one known effect", identification<print_closure>},
+    Check{"signatures", "every effect's motion of the tracks against its linear signature", print_signatures, kSeed},
+    Check{"peaks", "the true motion's frequencies and damping against those declared", print_peaks, kSeed | kSeeds},
+    Check{"shifts", "plates drawn at known shifts, measured again", print_shifts, kSeed},
+    Check{"pixels", "light of single pixels against brute force, flicker against the lamps'", print_pixels, kSeed},
+    Check{"klt", "OpenCV's tracker in drawn frames against the true tracks", print_klt, kSeed | kFrames},
+    Check{"speed", "1080p frames drawn per second", print_speed, kSeed | kThreads},
+    Check{"bias", "bias, scatter and stated intervals of the identification", identification<print_bias>, kRecords},
+    Check{"losses", "what random losses of samples and frames do to the modes", identification<print_losses>, kRecords},
+    Check{"folding", "modes above half the frame rate", identification<print_folding>, kRecords},
+    Check{"null", "a rigid building under a hovering camera: no mode", identification<print_null>, kRecords | kFlight},
+    Check{"harmonics", "rotor lines and steady forces beside modes", identification<print_harmonics>, kRecords},
+    Check{"closure", "closing the loop on structures that lack one known effect", identification<print_closure>,
+          kRecords},
     Check{"closure-series", "closing the loop on two minutes of channels with one effect",
-          identification<print_closure_series>},
+          identification<print_closure_series>, kRecords},
     Check{"closure-series-outside", "the same with that effect taken out of the catalogue",
-          identification<print_closure_series_outside>},
-    Check{"closure-series-null", "and on channels without any", identification<print_closure_series_null>},
-    Check{"closure-null", "closing the loop on a structure that lacks none", identification<print_closure_null>},
+          identification<print_closure_series_outside>, kRecords},
+    Check{"closure-series-null", "and on channels without any", identification<print_closure_series_null>, kRecords},
+    Check{"closure-null", "closing the loop on a structure that lacks none", identification<print_closure_null>,
+          kRecords},
     Check{"closure-tracks", "closing the loop on tracks with an undeclared effect",
-          closure_tracks<print_closure_tracks>},
-    Check{"closure-tracks-pairs", "the same with two of them", closure_tracks<print_closure_tracks_pairs>},
-    Check{"closure-tracks-null", "closing the loop on tracks without one", closure_tracks<print_closure_tracks_null>},
+          closure_tracks<print_closure_tracks>, kRecords | kDuration | kEffect | kStrength},
+    Check{"closure-tracks-pairs", "the same with two of them", closure_tracks<print_closure_tracks_pairs>,
+          kRecords | kDuration | kStrength},
+    Check{"closure-tracks-null", "closing the loop on tracks without one", closure_tracks<print_closure_tracks_null>,
+          kRecords | kDuration},
     Check{"closure-tracks-outside", "the same with that effect taken out of the catalogue",
-          closure_tracks<print_closure_tracks_outside>},
+          closure_tracks<print_closure_tracks_outside>, kRecords | kDuration | kEffect | kStrength},
     Check{"closure-clip", "one drawn scene with an undeclared effect, as a file for simulate --scene",
-          closure_tracks<print_closure_clip>},
+          closure_tracks<print_closure_clip>, kSeed | kDuration | kEffect},
     Check{"closure-live", "effects that begin in mid-flight, taken out while the record runs",
-          closure_tracks<print_closure_live>},
-    Check{"closure-live-null", "the same on records without one", closure_tracks<print_closure_live_null>},
-    Check{"geometry", "the paper's experiment, one correction after the other", geometry<print_geometry>},
-    Check{"geometry-pixels", "the same from rendered clips through the service", geometry<print_geometry_pixels>},
-    Check{"paper", "the paper's experiment by its own chain, as published", geometry<print_paper>},
-    Check{"table1", "the paper's Table 1 and Figures 6 to 9, sensor by sensor", geometry<print_table1>},
-    Check{"wind", "gusts that turn the camera by 5 degrees", geometry<print_wind>},
-    Check{"low-frequency", "a mode of 0.32 Hz in the drift of the hover", geometry<print_low_frequency>},
-    Check{"deck", "a bridge deck, camera upright and turned", geometry<print_deck>},
-    Check{"elevation", "a tower seen from 30 degrees below", geometry<print_elevation>},
-    Check{"noise-floor", "nothing moves but the camera", geometry<print_noise_floor>}};
+          closure_tracks<print_closure_live>, kRecords | kDuration | kEffect | kStrength},
+    Check{"closure-live-null", "the same on records without one", closure_tracks<print_closure_live_null>,
+          kRecords | kDuration},
+    Check{"readout", "readout time estimated from tracks", geometry<print_readout>, kRecords},
+    Check{"readout-drawn", "the same with camera, structure and noise drawn", geometry<print_readout, true>, kRecords},
+    Check{"geometry", "the paper's experiment, one correction after the other", geometry<print_geometry>, kFlights},
+    Check{"geometry-drawn", "the same with camera, structure and noise drawn", geometry<print_geometry, true>,
+          kFlights},
+    Check{"geometry-pixels", "the paper's experiment from rendered clips through the service",
+          geometry<print_geometry_pixels>, kFlights | kReport},
+    Check{"geometry-pixels-drawn", "the same with camera, structure and noise drawn",
+          geometry<print_geometry_pixels, true>, kFlights | kReport},
+    Check{"paper", "the paper's experiment by its own chain, as published", geometry<print_paper>, kFlights},
+    Check{"table1", "the paper's Table 1 and Figures 6 to 9, sensor by sensor", geometry<print_table1>,
+          kFlights | kReport},
+    Check{"wind", "gusts that turn the camera by 5 degrees", geometry<print_wind>, kFlights},
+    Check{"wind-drawn", "the same with camera, structure and noise drawn", geometry<print_wind, true>, kFlights},
+    Check{"low-frequency", "a mode of 0.32 Hz in the drift of the hover", geometry<print_low_frequency>, kFlights},
+    Check{"low-frequency-drawn", "the same with camera, damping and noise drawn", geometry<print_low_frequency, true>,
+          kFlights},
+    Check{"deck", "a bridge deck, camera upright and turned", geometry<print_deck>, kFlights},
+    Check{"deck-drawn", "the same with camera, damping and noise drawn", geometry<print_deck, true>, kFlights},
+    Check{"elevation", "a tower seen from 30 degrees below", geometry<print_elevation>, kFlights},
+    Check{"elevation-drawn", "the same with camera, structure and noise drawn", geometry<print_elevation, true>,
+          kFlights},
+    Check{"noise-floor", "nothing moves but the camera", geometry<print_noise_floor>, kFlights},
+    Check{"noise-floor-drawn", "the same with camera, structure and noise drawn", geometry<print_noise_floor, true>,
+          kFlights}};
 
 std::string meanings() {
   std::string text = "What is checked";
@@ -159,10 +210,14 @@ std::vector<std::string> names() {
   return all;
 }
 
-void run(const Options& options) {
-  std::find_if(kChecks.begin(), kChecks.end(), [&](const Check& check) {
-    return options.what == check.name;
-  })->print(options);
+void run(const CLI::App& command, const Options& options) {
+  const Check& check =
+      *std::find_if(kChecks.begin(), kChecks.end(), [&](const Check& one) { return options.what == one.name; });
+  for (const auto& [option, taken_by] : kOptions) {
+    if (command.count(option) == 0 || (check.takes & taken_by) != 0U) continue;
+    throw std::invalid_argument(fmt::format("selftest {} has no use for {}; leave it out", check.name, option));
+  }
+  check.print(options);
 }
 
 }  // namespace
@@ -172,30 +227,30 @@ void add_selftest(CLI::App& app) {
       "selftest", "Check the simulator against theory, the identification against the simulator's truth");
   const auto options = std::make_shared<Options>();
   command->add_option("what", options->what, meanings())->required()->check(CLI::IsMember(names()));
-  command
-      ->add_option("--seeds", options->n_seeds, "peaks and checks of the identification: records, of seeds 1 to this")
+  command->add_option("--first-seed", options->first_seed, "Seed of the first record, or of the only scene")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->add_option("--seeds", options->n_seeds, "Records, one for each seed from the first on")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
   command->add_option("--frames", options->n_frames, "klt: frames of a minute that are drawn")
       ->check(CLI::Range(1, 1499))
       ->capture_default_str();
-  command->add_option("--threads", options->n_threads, "speed and checks of the identification: threads")
+  command->add_option("--threads", options->n_threads, "Threads, where records are made or frames drawn")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  command->add_option("--duration", options->duration_s, "checks of the geometry: seconds; 0 = that of the figure")
+  command->add_option("--duration", options->duration_s, "geometry, closure-tracks: seconds; 0 = that of the figure")
       ->check(CLI::Range(0.0, 3600.0));
-  command->add_option("--first-seed", options->first_seed, "closing the loop: seeds are those from this one on")
-      ->check(CLI::Range(1, 1000000));
   command->add_option("--effect", options->effect, "closure-tracks, -clip, -live: this effect only")->type_name("NAME");
   command->add_option("--strength", options->strength, "closure-tracks: this strength only; 0 = all")
       ->check(CLI::Range(0.0, 100.0));
-  command->add_option("--flight", options->flight, "checks of the geometry: the recorded flight that moves the camera")
+  command->add_option("--flight", options->flight, "null, geometry: the recorded flight that moves the camera")
       ->type_name("FILE");
   command
       ->add_option("--report", options->report,
                    "table1: folder for the pictures; geometry-pixels: for clips and reports")
       ->type_name("DIR");
-  command->callback([options] { run(*options); });
+  command->callback([command, options] { run(*command, *options); });
 }
 
 }  // namespace tools

@@ -210,8 +210,8 @@ std::vector<Case> cases() {
           {"flicker", [](Scene& s) { s.light.flicker_depth = 0.1, s.light.flicker_hz = 97.0; }, flicker_signature}};
 }
 
-Scene undisturbed() {
-  Scene scene = core::simulation::make_paper_scene(1, 10.0);
+Scene undisturbed(std::uint64_t seed) {
+  Scene scene = core::simulation::make_paper_scene(seed, 10.0);
   scene.hover.x_rms_mm = scene.hover.y_rms_mm = scene.hover.z_rms_mm = 0.0;
   scene.tracks.points_per_region = 4;
   scene.tracks.noise_px = 0.0;
@@ -219,8 +219,8 @@ Scene undisturbed() {
   return scene;
 }
 
-SignatureCheck check(const Case& which) {
-  Scene scene = undisturbed();
+SignatureCheck check(const Case& which, std::uint64_t seed) {
+  Scene scene = undisturbed(seed);
   const TrackGenerator without(scene);
   which.add(scene);
   const TrackGenerator with(scene);
@@ -257,9 +257,9 @@ SignatureCheck check(const Case& which) {
 
 }  // namespace
 
-std::vector<SignatureCheck> check_signatures() {
+std::vector<SignatureCheck> check_signatures(std::uint64_t seed) {
   std::vector<SignatureCheck> checks;
-  for (const Case& which : cases()) checks.push_back(check(which));
+  for (const Case& which : cases()) checks.push_back(check(which, seed));
   return checks;
 }
 

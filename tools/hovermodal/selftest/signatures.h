@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,6 @@ struct SignatureCheck {
 // For each effect that moves tracks: the paper's scene without and with a little of it, point by point and frame by
 // frame. The signatures (ARCHITECTURE.md) are written down here apart from core/simulation: the linear field of a small
 // camera motion, the lens polynomial, velocity times a time error, the modal sum of a harmonic response.
-[[nodiscard]] std::vector<SignatureCheck> check_signatures();
+[[nodiscard]] std::vector<SignatureCheck> check_signatures(std::uint64_t seed);
 
 }  // namespace tools
