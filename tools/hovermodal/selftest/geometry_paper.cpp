@@ -124,7 +124,7 @@ void print_paper(const GeometryOptions& options) {
         options.n_seeds, options.n_threads,
         [&](std::uint64_t seed) {
           const SimulateJob job = flight_job(setup, seed, 300.0, options);
-          const FlightResult flight = analyse_flight(job, setup, ways);
+          const AnalysedFlight flight = analyse_flight(job, setup, ways);
           std::vector<RecordResult> out;
           for (const Analysed& way : flight.ways) out.push_back(record_result(way, shaken_modes(job.scene())));
           return out;
