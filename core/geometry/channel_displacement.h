@@ -42,7 +42,7 @@ struct ChannelDisplacementConfig {
 // along the region's axis. Scale only, and `paper` (Eq. 4): d = S_i (p_i - c) - S_0 (p_0 - c), c = principal point.
 // Points are undistorted; outliers are rejected per region by MLESAC about the predicted, then the estimated motion.
 // `hovermodal` leaves the samples at the instants at which rows were read and states the delay of each channel
-// (ARCHITECTURE.md); `paper` moves them to row 0 with Eqs. 7-8. What rests (background, ground) makes no channel, but
+// (METHOD.md); `paper` moves them to row 0 with Eqs. 7-8. What rests (background, ground) makes no channel, but
 // where only the scale is followed a witness of the camera's shift along each direction of the channels: the resting
 // region with the most points, its own zoom taken away.
 // What no data tell of the camera's motion (its sideways shift, where nothing but the structure is seen) stays in all

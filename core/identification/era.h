@@ -19,7 +19,7 @@ struct EraConfig {
   std::vector<int> references;  // channel indices
   // Canonical-variate weighting of the Hankel matrix, G = Lf^-1 H Lp^-T with the Cholesky factors of future and past
   // covariance: scatter near the bound, weak modes appear, and the singular values are canonical correlations
-  // (ARCHITECTURE.md). false: the plain ERA of Juang & Pappa 1985.
+  // (METHOD.md). false: the plain ERA of Juang & Pappa 1985.
   bool canonical_variates = true;
   bool with_maps = true;  // fill left_map and right_map
 };

@@ -31,7 +31,7 @@ struct IdentifierConfig {
 };
 
 // From the sums of a spectrum to modes with a verdict each: NExT, canonical-variate ERA, a stabilisation over orders
-// (ARCHITECTURE.md). A pure function of its arguments: same sums, same bits.
+// (METHOD.md). A pure function of its arguments: same sums, same bits.
 class Identifier {
  public:
   // channels: of the sums that will come; witnesses, if any, last: shapes are without them (camera_share.h).

@@ -26,7 +26,7 @@ struct PoleCluster {
   UnfoldedPole representative;
 };
 
-// Average-linkage clustering on |df| / (0.015 f) + (1 - MAC) / 0.3, cut at 1 (ARCHITECTURE.md).
+// Average-linkage clustering on |df| / (0.015 f) + (1 - MAC) / 0.3, cut at 1 (METHOD.md).
 [[nodiscard]] std::vector<PoleCluster> cluster_poles(const std::vector<OrderPole>& poles, int n_orders);
 
 // Poles of a single order, each a line of its own.

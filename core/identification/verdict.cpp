@@ -72,16 +72,16 @@ void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response
         text("damping %.2f %% outside 0 .. %.0f %%", 100.0 * mode.damping_ratio, 100.0 * rules.max_damping));
   } else if (rules.max_apparent_hz > 0.0 && mode.apparent_hz > rules.max_apparent_hz) {
     set(mode, Verdict::kNumerical,
-        text("filter edge: above the %.4g Hz that the decimation lets through", rules.max_apparent_hz));
+        text("filter edge: above the %.4g Hz passed by the decimation filter", rules.max_apparent_hz));
   } else if (line.witness_share > rules.max_witness_share) {
     set(mode, Verdict::kCameraMotion,
-        text("what rests moves with it: %.0f %% of the shape is the camera's", 100.0 * line.witness_share));
+        text("a static region moves with it: %.0f %% of the shape is camera motion", 100.0 * line.witness_share));
   } else if (uniform > rules.max_uniform_mac) {
     set(mode, Verdict::kCameraMotion,
         text("all channels move alike (MAC %.3f with a translation of the camera)", uniform));
   } else if (line.camera_mac > rules.min_camera_mac) {
     set(mode, Verdict::kCameraMotion,
-        text("the camera vibrates at %.1f Hz: the rows' delays turn it into this shape (MAC %.3f)", line.camera_hz,
+        text("vibration of the camera at %.1f Hz: row delays give it this shape (MAC %.3f)", line.camera_hz,
              line.camera_mac));
   } else if (moves_with_base(base, response, rules)) {
     set(mode, Verdict::kInputPeak,
@@ -89,8 +89,8 @@ void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response
   } else if (line.late_damping_ratio && *line.late_damping_ratio < rules.max_late_damping &&
              line.late_share > rules.min_late_share) {
     set(mode, Verdict::kHarmonic,
-        text("a steady force: damping %.3f %%, and its correlation goes on as if it had %.3f %%",
-             100.0 * mode.damping_ratio, 100.0 * *line.late_damping_ratio));
+        text("a steady force: damping %.3f %%, but its correlation decays as with %.3f %%", 100.0 * mode.damping_ratio,
+             100.0 * *line.late_damping_ratio));
   } else if (cluster.presence < rules.min_presence || cluster.first_i_order > rules.last_first_i_order) {
     set(mode, Verdict::kNumerical,
         text("found in %.0f %% of the orders, first at order %d", 100.0 * cluster.presence, first_order));
@@ -98,17 +98,17 @@ void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response
     set(mode, Verdict::kNumerical, text("components not in phase: MPC %.2f < %.2f", mode.mpc, rules.min_mpc));
   } else if (mode.fold_n && (*mode.fold_margin < rules.least_fold_margin || mode.mpc < rules.least_certain_mpc)) {
     set(mode, Verdict::kAmbiguous,
-        text("a mode, but its true frequency is open: fold margin %.2f, MPC %.2f", *mode.fold_margin, mode.mpc));
+        text("a mode, but its alias order is open: fold margin %.2f, MPC %.2f", *mode.fold_margin, mode.mpc));
   } else if (cluster.representative.fold_open) {
     set(mode, Verdict::kAmbiguous,
-        "a mode, but its true frequency is open: the channels are seen too close in time to tell");
+        "a mode, but its alias order is open: the row delays of the channels differ too little");
   } else {
     set(mode, Verdict::kStructural,
         text("found in %.0f %% of the orders from order %d on, MPC %.3f", 100.0 * cluster.presence, first_order,
              mode.mpc));
   }
   if (line.witness_moves && mode.verdict == Verdict::kStructural)
-    mode.reason += "; what was declared to rest moves with it: nothing was taken for the camera's";
+    mode.reason += "; a region declared static moves with it: nothing was removed as camera motion";
 }
 
 Mode mode_of(const PoleCluster& cluster) {
@@ -157,7 +157,7 @@ void number_by_frequency(std::vector<Mode>& modes) {
   std::sort(structural.begin(), structural.end(),
             [](const Mode* a, const Mode* b) { return a->frequency_hz < b->frequency_hz; });
   for (std::size_t i = 0; i < structural.size(); ++i) {
-    structural[i]->reason = text("number %d by frequency; %s; no more is asked (as published)", static_cast<int>(i) + 1,
+    structural[i]->reason = text("number %d by frequency; %s; no further test (as published)", static_cast<int>(i) + 1,
                                  structural[i]->reason.c_str());
   }
 }

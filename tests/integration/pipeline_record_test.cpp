@@ -101,11 +101,11 @@ TEST_F(PipelineRecord, ARunThatWentOnWithAKeptStateToo) {
   ASSERT_GE(outcome.estimate.n_samples, 250U + 64U + 200U) << "it went on";
   const auto result = replayed({record}, "resumed");
   EXPECT_EQ(result.tracks.estimate.n_samples, outcome.estimate.n_samples);
-  EXPECT_THAT(result.remarks, Not(Contains(HasSubstr("went on with the state"))));
+  EXPECT_THAT(result.remarks, Not(Contains(HasSubstr("resumed from a state"))));
   expect_same_report("resumed");
 
   const auto other = replayed({record}, "other", {"spectrum.segment=32"});
-  EXPECT_THAT(other.remarks, Contains(HasSubstr("went on with the state")));
+  EXPECT_THAT(other.remarks, Contains(HasSubstr("resumed from a state")));
   EXPECT_EQ(other.tracks.estimate.n_samples, 200U);
 }
 

@@ -109,7 +109,7 @@ TEST(PublishedVerdict, NumbersModesByFrequency) {
   std::vector<Mode> modes{judged(pole(8.1, 0.0)), judged(pole(0.1, 0.95)), judged(pole(1.6, 0.0)),
                           judged(pole(5.0, 0.0))};
   number_by_frequency(modes);
-  EXPECT_THAT(modes[0].reason, AllOf(HasSubstr("number 3 by frequency"), HasSubstr("no more is asked")));
+  EXPECT_THAT(modes[0].reason, AllOf(HasSubstr("number 3 by frequency"), HasSubstr("no further test")));
   EXPECT_THAT(modes[1].reason, Not(HasSubstr("by frequency")));
   EXPECT_THAT(modes[2].reason, HasSubstr("number 1 by frequency"));
   EXPECT_THAT(modes[3].reason, HasSubstr("number 2 by frequency"));
