@@ -54,12 +54,22 @@ void warn_of_camera(const drivers::DeviceTrouble& trouble, core::Health& health)
   if (trouble.n_interruptions > 0)
     health.warnings.push_back(
         fmt::format("the camera was lost {} times (unplugged, disconnected or silent)", trouble.n_interruptions));
-  if (trouble.n_damaged > 0)
+  if (trouble.n_damaged > 0 && !health.times.known())
     health.warnings.push_back(fmt::format("{} frames from the camera were damaged and not used", trouble.n_damaged));
   if (trouble.has_no_clock)
     health.warnings.emplace_back(
         "the camera's time stamps do not match any clock of this computer: frames are stamped on "
         "arrival, with a few ms of jitter");
+}
+
+void warn_of_recording(const core::RecordingTimes& times, core::Health& health) {
+  if (!times.remark.empty()) health.warnings.push_back(times.remark);
+  if (times.n_damaged > 0) {
+    health.warnings.push_back(
+        fmt::format("{} frames of the file did not decode whole and were not used; {} more were "
+                    "predicted from them and may be wrong",
+                    times.n_damaged, times.n_after_damage));
+  }
 }
 
 void warn_of_record(const drivers::RunRecorder* recorder, const TrackingStage& tracking, core::Health& health) {
@@ -114,7 +124,11 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
     const std::lock_guard lock(warnings_mutex_);
     health.warnings = warnings_;
   }
-  if (camera_ != nullptr) warn_of_camera(camera_->trouble(), health);
+  if (camera_ != nullptr) {
+    health.times = camera_->times();
+    warn_of_recording(health.times, health);
+    warn_of_camera(camera_->trouble(), health);
+  }
   if (thinning.stride > 1) {
     health.warnings.push_back(
         fmt::format("overload: only every {}th frame is kept since frame {}, {:.4g} frames/s; spectra and alias "

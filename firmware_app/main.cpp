@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
     if (options.exit_code) return *options.exit_code;
     const app::AppConfig config = app::load_config(options.config_path, options.overrides);
     if (options.check_only) {
-      app::check_source(config);
+      if (const std::string words = app::check_source(config); !words.empty()) spdlog::info("{}", words);
       spdlog::info("{}: configuration and source are fine", options.config_path);
       return kDone;
     }

@@ -11,6 +11,7 @@
 #include "firmware_app/health.h"
 #include "firmware_app/pipeline_setup.h"
 #include "firmware_app/report/page/report_page.h"
+#include "firmware_app/report/recording_words.h"
 #include "firmware_app/run_head.h"
 #include "firmware_app/stages/closure_stage.h"
 #include "firmware_app/stages/identification_stage.h"
@@ -280,6 +281,8 @@ const core::CameraInfo& Pipeline::camera_info() const noexcept { return parts_->
 const std::vector<core::ChannelInfo>& Pipeline::channels() const noexcept { return parts_->source.channels(); }
 std::vector<std::string> Pipeline::warnings() const { return parts_->status().warnings; }
 
-void check_source(const AppConfig& config) { const Source source(open_camera(config), config); }
+std::string check_source(const AppConfig& config) {
+  return recording_words(Source(open_camera(config), config).camera->times());
+}
 
 }  // namespace app

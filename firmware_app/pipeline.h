@@ -64,7 +64,8 @@ class Pipeline {
   std::unique_ptr<Parts> parts_;
 };
 
-// Checks all that can be checked without running: opens the source, compares regions, seeds. For --check.
-void check_source(const AppConfig& config);
+// Checks all that can be checked without running: opens the source, compares regions, seeds. For --check. Returns how
+// even a recording's times are, in words; empty: not a recording.
+std::string check_source(const AppConfig& config);
 
 }  // namespace app

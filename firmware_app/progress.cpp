@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <ctime>
 
+#include "firmware_app/report/recording_words.h"
 #include "rt/clock.h"
 
 namespace app {
@@ -54,6 +55,8 @@ Progress::Progress(Pipeline& pipeline)
   const core::CameraInfo& info = pipeline.camera_info();
   spdlog::info("{}: {} x {} px, {:g} fps, readout {:g} ms", info.description, info.width_px, info.height_px,
                info.rate_hz, static_cast<double>(info.readout_ns) * 1e-6);
+  const core::RecordingTimes times = pipeline.health().times;
+  if (times.known()) spdlog::info("{}", recording_words(times));
   for (const core::ChannelInfo& channel : pipeline.channels()) {
     spdlog::info("channel {}{}: seen {:.2f} ms after row 0", channel.name, channel.is_base ? " (base)" : "",
                  1e3 * channel.row_delay_s);
@@ -105,6 +108,7 @@ bool Progress::finish(const Pipeline::Outcome& outcome) {
       "frames/s",
       h.frames_in, h.frames_processed, h.frames_dropped, h.frames_missing, h.samples_masked, elapsed_s,
       static_cast<double>(h.frames_processed) / elapsed_s);
+  if (h.times.known()) spdlog::info("{}", recording_words(h.times));
   for (const std::string& line : pipeline_.take_events()) spdlog::info("{}", line);
   if (stop_ns_ != 0) print_stop(outcome, stop_ns_);
   for (const std::string& warning : h.warnings) {

@@ -19,6 +19,7 @@ packages=(
   libcpp-httplib-dev
   ffmpeg
   libsystemd-dev
+  libavformat-dev libavcodec-dev libavutil-dev
   libcamera-dev libjpeg-dev
   libgtest-dev libgmock-dev librapidcheck-dev
 )

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/types/recording_times.h"
 #include "core/types/region.h"
 
 namespace core {
@@ -65,6 +66,7 @@ struct Health {
   std::vector<StageHealth> stages;
   HostHealth host;
   std::vector<RegionHealth> regions;  // empty where frames were not tracked here
+  RecordingTimes times;               // of a recording that was read here
 };
 
 }  // namespace core

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/types/frame.h"
+#include "core/types/recording_times.h"
 
 namespace drivers {
 
@@ -36,6 +37,8 @@ class Camera {
   // After kFault (and for a file that ended early): what went wrong, for the log. Empty when all is well.
   [[nodiscard]] virtual std::string fault() const { return {}; }
   [[nodiscard]] virtual DeviceTrouble trouble() const noexcept { return {}; }  // any thread
+  // A recording: how even its times are, and what it lacked so far. Any thread.
+  [[nodiscard]] virtual core::RecordingTimes times() const { return {}; }
 };
 
 }  // namespace drivers

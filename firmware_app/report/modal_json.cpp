@@ -122,6 +122,22 @@ Json losses_json(const core::Health& losses) {
           {"samples_masked", losses.samples_masked}, {"snapshots_skipped", losses.snapshots_skipped}};
 }
 
+Json recording_json(const core::RecordingTimes& times) {
+  return {{"rate_hz", times.rate_hz},
+          {"times_from", times.from},
+          {"stated_hz", positive_or_null(times.stated_hz)},
+          {"jitter_ms", 1e3 * times.jitter_s},
+          {"worst_jitter_ms", 1e3 * times.worst_s},
+          {"frames", times.n_frames},
+          {"frames_lost", times.n_lost},
+          {"gaps", times.n_gaps},
+          {"longest_gap_s", times.longest_gap_s},
+          {"frames_repeated", times.n_repeated},
+          {"frames_damaged", times.n_damaged},
+          {"frames_after_damage", times.n_after_damage},
+          {"remark", times.remark.empty() ? Json(nullptr) : Json(times.remark)}};
+}
+
 }  // namespace
 
 std::string_view to_text(Method method) noexcept { return method == Method::kPaper ? "paper" : "hovermodal"; }
@@ -143,6 +159,7 @@ std::string modal_json(const ModalReport& report, std::size_t* n_not_finite) {
   out["corrections"] = report.corrections;
   out["caveats"] = report.caveats;
   out["losses"] = losses_json(report.losses);
+  if (report.losses.times.known()) out["recording"] = recording_json(report.losses.times);
   drivers::JsonText text = drivers::to_json_text(out);
   if (n_not_finite != nullptr) *n_not_finite = text.n_not_finite;
   return std::move(text.text);

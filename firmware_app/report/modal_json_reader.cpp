@@ -37,6 +37,7 @@ class ModalReader {
     report_.corrections = texts(root, "corrections");
     report_.caveats = texts(root, "caveats");
     if (const Json* losses = find(root, "losses")) read_losses(*losses);
+    if (const Json* recording = find(root, "recording")) read_recording(*recording);
     return std::move(report_);
   }
 
@@ -205,6 +206,23 @@ class ModalReader {
     out.frames_missing = count(losses, "frames_missing");
     out.samples_masked = count(losses, "samples_masked");
     out.snapshots_skipped = count(losses, "snapshots_skipped");
+  }
+
+  void read_recording(const Json& recording) {
+    core::RecordingTimes& out = report_.losses.times;
+    out.rate_hz = optional_number(recording, "rate_hz").value_or(0.0);
+    out.from = text(recording, "times_from");
+    out.stated_hz = optional_number(recording, "stated_hz").value_or(0.0);
+    out.jitter_s = 1e-3 * optional_number(recording, "jitter_ms").value_or(0.0);
+    out.worst_s = 1e-3 * optional_number(recording, "worst_jitter_ms").value_or(0.0);
+    out.n_frames = count(recording, "frames");
+    out.n_lost = count(recording, "frames_lost");
+    out.n_gaps = count(recording, "gaps");
+    out.longest_gap_s = optional_number(recording, "longest_gap_s").value_or(0.0);
+    out.n_repeated = count(recording, "frames_repeated");
+    out.n_damaged = count(recording, "frames_damaged");
+    out.n_after_damage = count(recording, "frames_after_damage");
+    if (find(recording, "remark") != nullptr) out.remark = text(recording, "remark");
   }
 
   std::string path_;

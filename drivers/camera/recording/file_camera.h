@@ -1,13 +1,14 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "drivers/camera/camera.h"
+#include "drivers/camera/recording/frame_clock.h"
 #include "drivers/camera/recording/frame_queue.h"
 #include "drivers/camera/recording/frame_source.h"
 #include "drivers/camera/stream_pacer.h"
@@ -24,9 +25,9 @@ struct FileCameraConfig {
 };
 
 // A recording in place of a camera. A thread of its own decodes into a few frames ahead of `capture`.
-// Times are starts of exposure in stream time: those of the time stamp file where there is one (timestamp_file.h), else
-// frame number / rate. A container's rate is believed only within 1e-3 .. 1e6 Hz and where config.rate_hz is 0.
-// Nothing is ever skipped: every frame that decodes is delivered once, in order.
+// Times are starts of exposure in stream time, of the time stamp file, the container or the frame's number
+// (frame_clock.h); a frame's sequence is its cell on the grid of the nominal rate, and jumps where frames are missing.
+// Every frame that decodes whole is delivered once, in order, except those of a video that repeat the one before.
 // An early end (a truncated file) is kEndOfStream with a text in `fault`; kFault follows the last good frame.
 class FileCamera final : public Camera {
  public:
@@ -38,17 +39,20 @@ class FileCamera final : public Camera {
   CaptureStatus capture(core::Frame& out, std::chrono::milliseconds timeout) noexcept override;
   void stop() noexcept override;  // any thread; returns when the decoding thread has ended
   [[nodiscard]] std::string fault() const override;
+  [[nodiscard]] core::RecordingTimes times() const override;
+  [[nodiscard]] DeviceTrouble trouble() const noexcept override;
 
  private:
-  void take_times(const FileCameraConfig& config);
   void decode_all();
-  [[nodiscard]] std::int64_t frame_time_ns(std::uint64_t frame) const noexcept;
+  void note_trouble() noexcept;
   [[nodiscard]] std::string shortfall(std::uint64_t n_decoded) const;
 
   std::string path_;
   std::unique_ptr<FrameSource> source_;  // after start(): the decoding thread's
-  std::string stamp_file_;               // empty: none
-  std::vector<std::int64_t> stamps_ns_;
+  FrameClock clock_;
+  bool watches_repeats_ = false;
+  // Written by the decoding thread, read by any; relaxed: counts on their own.
+  std::atomic<std::uint64_t> n_damaged_{0}, n_after_damage_{0}, n_repeated_{0};
   core::CameraInfo info_;
   StreamPacer pacer_;
   std::unique_ptr<FrameQueue> queue_;

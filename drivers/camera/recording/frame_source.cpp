@@ -6,11 +6,14 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdlib>
 #include <filesystem>
 #include <mutex>
 #include <opencv2/core/utils/logger.hpp>
 #include <stdexcept>
+
+extern "C" {
+#include <libavutil/log.h>
+}
 
 #include "drivers/camera/device_missing.h"
 #include "drivers/camera/recording/image_folder_source.h"
@@ -70,8 +73,7 @@ void silence_media_libraries() {
   static std::once_flag once;
   std::call_once(once, [] {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-    // AV_LOG_QUIET. OpenCV reads it when its FFmpeg backend is first used; it has no call for the purpose.
-    setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);
+    av_log_set_level(AV_LOG_QUIET);
   });
 }
 

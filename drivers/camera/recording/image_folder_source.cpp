@@ -83,6 +83,7 @@ class ImageFolderSource final : public FrameSource {
 
   [[nodiscard]] const SourceInfo& info() const noexcept override { return info_; }
   [[nodiscard]] const std::string& error() const noexcept override { return error_; }
+  [[nodiscard]] std::uint64_t index() const noexcept override { return next_ == 0 ? 0 : next_ - 1; }
 
   ReadStatus read(core::Frame& out) noexcept override {
     if (next_ == files_.size()) return ReadStatus::kEnd;

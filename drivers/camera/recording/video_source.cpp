@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <opencv2/core.hpp>
-#include <opencv2/core/utility.hpp>
-#include <opencv2/videoio.hpp>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
-#include "drivers/camera/recording/gray_convert.h"
 #include "drivers/camera/recording/image_folder_source.h"
+#include "drivers/camera/recording/picture_luma.h"
+#include "drivers/camera/recording/video_decoder.h"
 
 namespace drivers {
 
@@ -19,150 +19,178 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string fourcc_text(int code) {
-  std::string text;
-  for (int shift = 0; shift < 32; shift += 8) {
-    const int byte = (code >> shift) & 0xff;
-    if (std::isprint(byte) != 0) text += static_cast<char>(byte);
-  }
-  return text;
-}
-
-// OpenCV hands every video over as 8-bit BGR and says nothing of what it threw away. The pixel format's tag tells; for
-// big-endian formats FFmpeg writes it backward. Ten and twelve bits (ordinary phone footage, and scaled to full range)
-// are let through: their upper eight bits are what we want. Sixteen often hold twelve unscaled, and come out black.
-std::string unwanted_pixel_format(int pixel_format_tag) {
-  std::string text = fourcc_text(pixel_format_tag);
-  for (int order = 0; order < 2; ++order) {
-    for (const char* alpha : {"RGBA", "BGRA", "ARGB", "ABGR", "RBA@", "BRA@", "ABR@", "ARB@"}) {
-      if (text == alpha) return "an alpha channel";
-    }
-    if (text.starts_with("Y4") || text.starts_with("Y2") || text.starts_with("G4")) return "an alpha channel";
-    const int first = pixel_format_tag & 0xff;
-    const int last = (pixel_format_tag >> 24) & 0xff;
-    if (text == "Y1" && (first == 16 || last == 16)) return "16 bit gray pixels";
-    if (text == "RGB0" || text == "BGR0") return "16 bits per channel";  // '0' is 48: bits per pixel
-    std::reverse(text.begin(), text.end());
-  }
-  return {};
-}
-
-// OpenCV 4.6.0 has the sign of the display matrix wrong: it states, and turns by, 270 degrees for 90 (mended in 4.7.0,
-// opencv issue 22088). Its own turning is therefore off, and we turn.
-int clockwise_turn_deg(const cv::VideoCapture& capture) {
-  const int stated = static_cast<int>(capture.get(cv::CAP_PROP_ORIENTATION_META));
-  if (stated != 90 && stated != 180 && stated != 270) return 0;  // OpenCV turns by quarter turns only, and so do we
-  const bool sign_is_wrong = cv::getVersionMajor() == 4 && cv::getVersionMinor() == 6;
-  return sign_is_wrong ? 360 - stated : stated;
-}
-
-cv::VideoCapture open_capture(const std::string& path) {
-  // Absolute: a name such as "concat:a" must not be taken for one of FFmpeg's protocols.
-  cv::VideoCapture capture(fs::absolute(path).string(), cv::CAP_FFMPEG);
-  if (capture.isOpened()) capture.set(cv::CAP_PROP_ORIENTATION_AUTO, 0.0);
-  return capture;
-}
-
 class VideoSource final : public FrameSource {
  public:
-  explicit VideoSource(const std::string& path) : path_(path), capture_(open_capture(path)) {
-    if (!capture_.isOpened()) {
-      throw std::runtime_error(
-          fmt::format("{}: not a video that can be opened: an unknown format, or an MP4 whose index is missing because "
-                      "the recording was cut off; if ffplay shows it, convert it: ffmpeg -i IN -crf 12 OUT.mp4; else "
-                      "record it again",
-                      path));
-    }
-    const int codec_tag = static_cast<int>(capture_.get(cv::CAP_PROP_FOURCC));
-    if (fourcc_text(codec_tag) == "ansi") {  // FFmpeg draws any text file as if on a terminal
-      throw std::runtime_error(fmt::format("{}: a text file, not a video: check camera.source", path));
-    }
-    const std::string unwanted = unwanted_pixel_format(static_cast<int>(capture_.get(cv::CAP_PROP_CODEC_PIXEL_FORMAT)));
-    if (!unwanted.empty()) {
-      throw std::runtime_error(fmt::format(
-          "{}: video has {}: convert it to 8 bits without alpha: ffmpeg -i IN -pix_fmt yuv420p -crf 12 OUT.mp4", path,
-          unwanted));
-    }
-    info_.turned_clockwise_deg = clockwise_turn_deg(capture_);
-    describe(codec_tag);
+  explicit VideoSource(const std::string& path) : path_(path), decoder_(path) {
+    info_.scan = std::make_shared<const PacketScan>(scan_packets(path));
+    info_.turned_clockwise_deg = decoder_.container().clockwise_turn_deg();
+    take_first_picture();
+    describe();
   }
 
   [[nodiscard]] const SourceInfo& info() const noexcept override { return info_; }
   [[nodiscard]] const std::string& error() const noexcept override { return error_; }
+  [[nodiscard]] std::uint64_t index() const noexcept override { return index_; }
+  [[nodiscard]] SourceTrouble trouble() const noexcept override { return trouble_; }
 
   ReadStatus read(core::Frame& out) noexcept override {
-    if (!first_is_waiting_ && !read_image()) return error_.empty() ? ReadStatus::kEnd : ReadStatus::kFault;
+    const bool is_there = first_is_waiting_ || next_picture();
     first_is_waiting_ = false;
-    const GrayStatus status = image_.cols == info_.width_px ? convert_to_gray(image_, out) : GrayStatus::kSizeMismatch;
-    if (status == GrayStatus::kOk) {
-      ++n_read_;
-      return ReadStatus::kFrame;
+    if (!is_there) {
+      note_end();
+      return ReadStatus::kEnd;
     }
-    error_ = fmt::format("{}: frame {} ({} x {} px): {}", path_, n_read_, image_.cols, image_.rows, to_string(status));
+    note_index();
+    try {
+      error_ = change(out);
+      if (error_.empty()) return convert(out), ReadStatus::kFrame;
+    } catch (const std::exception& thrown) {
+      error_ = fmt::format("{}: frame {}: {}", path_, index_, thrown.what());
+    }
     return ReadStatus::kFault;
   }
 
   [[nodiscard]] bool has_more_frames_than(std::uint64_t n) const override {
-    cv::VideoCapture counting = open_capture(path_);
-    for (std::uint64_t i = 0; i <= n; ++i) {
-      if (!counting.grab()) return false;
+    VideoDecoder counting(path_);
+    for (std::uint64_t i = 0; i <= n;) {
+      const DecodeStatus status = counting.next();
+      if (status == DecodeStatus::kEnd) return false;
+      if (status == DecodeStatus::kPicture) ++i;
     }
     return true;
   }
 
  private:
-  void describe(int codec_tag) {
-    if (!read_image()) {
+  void take_first_picture() {
+    if (!next_picture()) {
+      const bool is_encrypted = av_stream_get_side_data(&decoder_.container().stream(),
+                                                        AV_PKT_DATA_ENCRYPTION_INIT_INFO, nullptr) != nullptr ||
+                                decoder_.container().stream().codecpar->codec_tag == MKTAG('e', 'n', 'c', 'v');
       throw std::runtime_error(fmt::format(
-          "{}: opens as a video ({}) but not one frame decodes: the file is damaged or its codec is not supported; "
-          "try to play it with ffplay",
-          path_, fourcc_text(codec_tag)));
+          "{}: opens as a video ({}) but not one frame decodes: {}", path_, decoder_.container().codec_name(),
+          is_encrypted ? "it is encrypted; decrypt it first"
+                       : "the file is damaged or its codec is not supported; try to play it with ffplay"));
     }
     first_is_waiting_ = true;
-    require_usable_size(path_, image_.cols, image_.rows);
-    info_.width_px = image_.cols;
-    info_.height_px = image_.rows;
-    info_.has_rate = true;
-    info_.rate_hz = capture_.get(cv::CAP_PROP_FPS);
-    const double promised = capture_.get(cv::CAP_PROP_FRAME_COUNT);
-    if (promised >= 1.0 && promised < 1e12) info_.frame_count = static_cast<std::uint64_t>(promised);
-    info_.description =
-        fmt::format("video {} ({}, {} x {} px{})", path_, fourcc_text(codec_tag), info_.width_px, info_.height_px,
-                    info_.turned_clockwise_deg == 0 ? std::string()
-                                                    : fmt::format(", turned by {} deg", info_.turned_clockwise_deg));
+    const AVFrame& first = decoder_.picture();
+    const std::string unwanted = PictureLuma::unwanted(static_cast<AVPixelFormat>(first.format));
+    if (!unwanted.empty()) {
+      throw std::runtime_error(fmt::format(
+          "{}: video has {}: convert it to 8 bits without alpha: ffmpeg -i IN -pix_fmt yuv420p -crf 12 OUT.mp4", path_,
+          unwanted));
+    }
+    luma_.emplace(first);
+    stored_width_px_ = first.width, stored_height_px_ = first.height;
+    if (info_.turned_clockwise_deg != 0) stored_.create(first.height, first.width, CV_8UC1);
   }
 
-  bool read_image() noexcept {
-    try {
-      if (!capture_.read(stored_) || stored_.empty()) return false;
-      switch (info_.turned_clockwise_deg) {
-        case 90:
-          cv::rotate(stored_, image_, cv::ROTATE_90_CLOCKWISE);
+  void describe() {
+    const Container& container = decoder_.container();
+    const bool lies_on_its_side = info_.turned_clockwise_deg % 180 != 0;
+    info_.width_px = lies_on_its_side ? stored_height_px_ : stored_width_px_;
+    info_.height_px = lies_on_its_side ? stored_width_px_ : stored_height_px_;
+    require_usable_size(path_, info_.width_px, info_.height_px);
+    info_.has_rate = true;
+    info_.stated_rates_hz = container.stated_rates_hz();
+    info_.rate_hz = info_.stated_rates_hz.empty() ? 0.0 : info_.stated_rates_hz.front();
+    info_.promised_frames = container.promised_frames();
+    info_.frame_count = info_.scan->complete ? info_.scan->n_packets : info_.promised_frames;
+    info_.description = fmt::format(
+        "video {} ({}, {} x {} px{}{})", path_, container.codec_name(), info_.width_px, info_.height_px,
+        info_.turned_clockwise_deg == 0 ? std::string() : fmt::format(", turned by {} deg", info_.turned_clockwise_deg),
+        container.other_streams().empty() ? std::string() : ", beside it " + container.other_streams());
+  }
+
+  // False: the stream has ended. Damaged ones are counted and passed over.
+  bool next_picture() noexcept {
+    for (;;) {
+      switch (decoder_.next()) {
+        case DecodeStatus::kEnd:
+          return false;
+        case DecodeStatus::kDamaged:
+          ++n_bad_packets_;
+          since_damage_ = true;
           break;
-        case 180:
-          cv::rotate(stored_, image_, cv::ROTATE_180);
-          break;
-        case 270:
-          cv::rotate(stored_, image_, cv::ROTATE_90_COUNTERCLOCKWISE);
-          break;
-        default:
-          image_ = stored_;  // shares the pixels
+        case DecodeStatus::kPicture:
+          return true;
       }
-      return true;
-    } catch (const std::exception& thrown) {
-      error_ = fmt::format("{}: frame {}: {}", path_, n_read_, thrown.what());
-      return false;
     }
+  }
+
+  // Where in the order of the file the picture stands. What lies between it and the one before did not decode.
+  void note_index() noexcept {
+    const AVFrame& picture = decoder_.picture();
+    const std::vector<std::int64_t>& ticks = info_.scan->ticks;
+    const std::uint64_t next = n_read_ == 0 ? 0 : index_ + 1;
+    std::uint64_t at = next;
+    if (!ticks.empty() && picture.best_effort_timestamp != AV_NOPTS_VALUE) {
+      const auto begin = ticks.begin() + static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(next, ticks.size()));
+      const auto found = std::lower_bound(begin, ticks.end(), picture.best_effort_timestamp);
+      if (found != ticks.end() && *found == picture.best_effort_timestamp) {
+        at = static_cast<std::uint64_t>(found - ticks.begin());
+      }
+    } else {
+      at += std::exchange(n_bad_packets_, 0);
+    }
+    if (at > next) trouble_.n_damaged += at - next, since_damage_ = true;
+    if (picture.key_frame != 0) since_damage_ = false;
+    if (since_damage_) ++trouble_.n_after_damage;
+    index_ = at;
+    ++n_read_;
+  }
+
+  void note_end() noexcept {
+    const std::uint64_t next = n_read_ == 0 ? 0 : index_ + 1;
+    const std::uint64_t n_frames = info_.scan->complete ? info_.scan->ticks.size() : 0;
+    if (n_frames == 0) {
+      trouble_.n_damaged += std::exchange(n_bad_packets_, 0);
+    } else if (n_frames > next) {
+      trouble_.n_damaged += n_frames - next;
+      index_ = n_frames - 1;  // at the end again: counted once
+    }
+  }
+
+  // Empty, or in which way the picture is another than those before.
+  [[nodiscard]] std::string change(const core::Frame& out) const {
+    const AVFrame& picture = decoder_.picture();
+    if (picture.width != stored_width_px_ || picture.height != stored_height_px_) {
+      return fmt::format(
+          "{}: frame {} is {} x {} px, those before are {} x {} px: the picture changes its size in mid-stream; cut "
+          "the "
+          "clip there and analyse the parts apart: ffmpeg -i IN -t SECONDS -c copy OUT.mp4",
+          path_, index_, picture.width, picture.height, stored_width_px_, stored_height_px_);
+    }
+    if (!luma_->fits(picture))
+      return fmt::format("{}: frame {}: its pixel format changes in mid-stream", path_, index_);
+    const auto n_pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+    return out.pixels.size() == n_pixels ? std::string() : fmt::format("{}: frame slot of another size", path_);
+  }
+
+  void convert(core::Frame& out) {
+    out.width_px = info_.width_px;
+    out.height_px = info_.height_px;
+    if (info_.turned_clockwise_deg == 0) return luma_->read(decoder_.picture(), out.pixels.data());
+    luma_->read(decoder_.picture(), stored_.data);
+    cv::Mat turned(info_.height_px, info_.width_px, CV_8UC1, out.pixels.data());  // written in place
+    cv::rotate(stored_, turned,
+               info_.turned_clockwise_deg == 90    ? cv::ROTATE_90_CLOCKWISE
+               : info_.turned_clockwise_deg == 180 ? cv::ROTATE_180
+                                                   : cv::ROTATE_90_COUNTERCLOCKWISE);
   }
 
   std::string path_;
-  cv::VideoCapture capture_;
-  cv::Mat stored_;  // as decoded
-  cv::Mat image_;   // as delivered
+  VideoDecoder decoder_;
+  std::optional<PictureLuma> luma_;
+  cv::Mat stored_;  // as decoded, where the picture is turned
+  int stored_width_px_ = 0, stored_height_px_ = 0;
   SourceInfo info_;
+  SourceTrouble trouble_;
   std::string error_;
   std::uint64_t n_read_ = 0;
-  bool first_is_waiting_ = false;  // image_ holds the first frame, decoded to learn the size
+  std::uint64_t index_ = 0;
+  std::uint64_t n_bad_packets_ = 0;  // since the last picture; only where the packets carry no times
+  bool since_damage_ = false;        // and no key frame came
+  bool first_is_waiting_ = false;    // the decoder holds the first picture, decoded to learn the size
 };
 
 }  // namespace

@@ -7,9 +7,9 @@
 
 namespace drivers {
 
-// Any video that OpenCV's FFmpeg backend opens. Throws std::runtime_error unless its first frame decodes and is usable.
-// Rotation metadata is obeyed (frames are delivered as a player shows them) and reported in
-// SourceInfo::turned_clockwise_deg.
+// Any video that libavformat and libavcodec open (container.h). Throws std::runtime_error unless its first frame
+// decodes and is usable. Rotation metadata is obeyed (frames are delivered as a player shows them) and reported in
+// SourceInfo::turned_clockwise_deg. A frame that did not decode whole is left out and counted.
 [[nodiscard]] std::unique_ptr<FrameSource> open_video(const std::string& path);
 
 }  // namespace drivers

@@ -8,6 +8,7 @@
 
 #include "firmware_app/report/page/page_parts.h"
 #include "firmware_app/report/plot/verdict_marks.h"
+#include "firmware_app/report/recording_words.h"
 
 namespace app {
 namespace {
@@ -147,7 +148,8 @@ std::string headline_html(const PictureInputs& inputs) {
   if (has_fault(facts))
     out += paragraph_html(facts.health.state + ". The results below are those known by then.", "fault");
   std::string words = modes_sentence(estimate);
-  for (const std::string& sentence : {rejected_sentence(estimate), losses_sentence(facts)}) {
+  for (const std::string& sentence :
+       {rejected_sentence(estimate), losses_sentence(facts), recording_words(facts.health.times)}) {
     if (!sentence.empty()) words += " " + sentence;
   }
   out += paragraph_html(words, "verdict");

@@ -1,0 +1,162 @@
+#include "drivers/camera/recording/container.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+#include <tuple>
+
+extern "C" {
+#include <libavutil/display.h>
+}
+
+namespace drivers {
+
+namespace {
+
+// Names of libavformat's demuxers. Not among them: play lists, descriptions of sessions and scripts (hls, concat, dash,
+// sdp, lavfi), which open what they name, and tty, which draws any text file as if on a terminal.
+constexpr const char* kFormats =
+    "mov,matroska,avi,mpegts,mpeg,mpegvideo,h264,hevc,m4v,h263,av1,obu,ivf,vc1,vc1test,mjpeg,mjpeg_2000,flv,live_flv,"
+    "asf,ogg,mxf,gxf,dv,nut,yuv4mpegpipe,rm,gif,apng,png_pipe,jpeg_pipe,dirac,cavsvideo,swf,wtv,mpjpeg,film_cpk,nsv,"
+    "bmp_pipe,tiff_pipe,webp_pipe,pgm_pipe,ppm_pipe,pgmyuv_pipe,pam_pipe,j2k_pipe,xwd_pipe,dpx_pipe";
+
+AvHandle<AVFormatContext> open_format(const std::string& path) {
+  AVFormatContext* context = avformat_alloc_context();
+  if (context == nullptr) throw std::bad_alloc();
+  AVDictionary* options = nullptr;
+  av_dict_set(&options, "format_whitelist", kFormats, 0);
+  av_dict_set(&options, "protocol_whitelist", "file", 0);
+  // "file:" and absolute: a name such as "concat:a" must not be taken for a protocol.
+  const std::string url = "file:" + std::filesystem::absolute(path).string();
+  const int status = avformat_open_input(&context, url.c_str(), nullptr, &options);  // frees the context where it fails
+  av_dict_free(&options);
+  AvHandle<AVFormatContext> format(status < 0 ? nullptr : context);
+  if (!format || avformat_find_stream_info(format.get(), nullptr) < 0) {
+    throw std::runtime_error(
+        fmt::format("{}: not a video that can be opened: an unknown format, or an MP4 whose index is missing because "
+                    "the recording was cut off; if ffplay shows it, convert it: ffmpeg -i IN -crf 12 OUT.mp4; else "
+                    "record it again",
+                    path));
+  }
+  return format;
+}
+
+bool is_picture_beside(const AVStream& stream) noexcept {
+  return (stream.disposition & (AV_DISPOSITION_ATTACHED_PIC | AV_DISPOSITION_TIMED_THUMBNAILS)) != 0;
+}
+
+std::string stream_words(const AVStream& stream) {
+  const AVCodecParameters& p = *stream.codecpar;
+  if (p.codec_type == AVMEDIA_TYPE_VIDEO && is_picture_beside(stream)) return "a cover picture";
+  const char* type = av_get_media_type_string(p.codec_type);
+  const std::string kind = type != nullptr ? type : "unknown";
+  return p.codec_id == AV_CODEC_ID_NONE ? kind : fmt::format("{} {}", kind, avcodec_get_name(p.codec_id));
+}
+
+}  // namespace
+
+std::string av_error_text(int code) {
+  char text[AV_ERROR_MAX_STRING_SIZE] = {};
+  return av_strerror(code, text, sizeof text) == 0 ? text : fmt::format("error {}", code);
+}
+
+Container::Container(const std::string& path) : path_(path), format_(open_format(path)) {
+  choose_stream();
+  for (unsigned i = 0; i < format_->nb_streams; ++i) {
+    if (format_->streams[i] != stream_) format_->streams[i]->discard = AVDISCARD_ALL;
+  }
+}
+
+// A JPEG stream of one picture is a cover, however it is marked, unless there is nothing else.
+bool Container::may_be_the_film(const AVStream& stream) const noexcept {
+  return stream.codecpar->codec_type == AVMEDIA_TYPE_VIDEO && !is_picture_beside(stream);
+}
+
+void Container::choose_stream() {
+  std::tuple<bool, bool, std::int64_t> best{};
+  std::string unreadable;
+  for (unsigned i = 0; i < format_->nb_streams; ++i) {
+    AVStream& stream = *format_->streams[i];
+    if (!may_be_the_film(stream)) continue;
+    const AVCodec* decoder = avcodec_find_decoder(stream.codecpar->codec_id);
+    if (decoder == nullptr) {
+      unreadable = fmt::format("{}: no decoder for its video ({}); convert it: ffmpeg -i IN -crf 12 OUT.mp4", path_,
+                               avcodec_get_name(stream.codecpar->codec_id));
+      continue;
+    }
+    const std::tuple<bool, bool, std::int64_t> rank{
+        stream.nb_frames != 1, (stream.disposition & AV_DISPOSITION_DEFAULT) != 0,
+        static_cast<std::int64_t>(stream.codecpar->width) * stream.codecpar->height};
+    if (stream_ != nullptr && rank <= best) continue;
+    stream_ = &stream, decoder_ = decoder, best = rank;
+  }
+  if (stream_ != nullptr) return;
+  if (!unreadable.empty()) throw std::runtime_error(unreadable);
+  const std::string found = other_streams();
+  throw std::runtime_error(fmt::format("{}: not a video: it has no moving picture ({}): check camera.source", path_,
+                                       found.empty() ? "no stream at all" : "found: " + found));
+}
+
+bool Container::next(AVPacket& packet) noexcept {
+  for (;;) {
+    av_packet_unref(&packet);
+    const int status = av_read_frame(format_.get(), &packet);
+    if (status < 0) {
+      if (status != AVERROR_EOF) read_error_ = status;
+      return false;
+    }
+    if (packet.stream_index == stream_->index && packet.size > 0) return true;
+  }
+}
+
+std::string Container::codec_name() const { return avcodec_get_name(stream_->codecpar->codec_id); }
+
+int Container::clockwise_turn_deg() const noexcept {
+  const std::uint8_t* matrix = av_stream_get_side_data(stream_, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+  if (matrix == nullptr) return 0;
+  const double counter_clockwise = av_display_rotation_get(reinterpret_cast<const std::int32_t*>(matrix));
+  if (!std::isfinite(counter_clockwise)) return 0;
+  const double quarters = -counter_clockwise / 90.0;
+  if (std::abs(quarters - std::nearbyint(quarters)) > 0.01) return 0;  // quarter turns only
+  return (static_cast<int>(std::nearbyint(quarters)) % 4 + 4) % 4 * 90;
+}
+
+std::uint64_t Container::promised_frames() const noexcept {
+  if (stream_->nb_frames > 0) return static_cast<std::uint64_t>(stream_->nb_frames);
+  const std::vector<double> rates_hz = stated_rates_hz();
+  double duration_s = stream_->duration > 0 ? static_cast<double>(stream_->duration) * tick_s() : 0.0;
+  if (duration_s == 0.0 && format_->duration > 0) duration_s = static_cast<double>(format_->duration) / AV_TIME_BASE;
+  const double promised = rates_hz.empty() ? 0.0 : std::floor(duration_s * rates_hz.front() + 0.5);
+  return promised >= 1.0 && promised < 1e12 ? static_cast<std::uint64_t>(promised) : 0;
+}
+
+std::vector<double> Container::stated_rates_hz() const {
+  std::vector<double> rates_hz;
+  for (const AVRational rate :
+       {av_guess_frame_rate(format_.get(), stream_, nullptr), stream_->r_frame_rate, stream_->avg_frame_rate}) {
+    if (rate.num <= 0 || rate.den <= 0) continue;
+    const double rate_hz = av_q2d(rate);
+    if (std::find(rates_hz.begin(), rates_hz.end(), rate_hz) == rates_hz.end()) rates_hz.push_back(rate_hz);
+  }
+  return rates_hz;
+}
+
+std::string Container::other_streams() const {
+  std::string words;
+  constexpr unsigned kMostNamed = 6;
+  for (unsigned i = 0; i < std::min(format_->nb_streams, kMostNamed); ++i) {
+    if (format_->streams[i] == stream_) continue;
+    words += (words.empty() ? "" : ", ") + stream_words(*format_->streams[i]);
+  }
+  return words + (format_->nb_streams > kMostNamed ? ", ..." : "");
+}
+
+std::uint64_t Container::n_bytes_read() const noexcept {
+  const std::int64_t at = format_->pb != nullptr ? avio_tell(format_->pb) : 0;
+  return at > 0 ? static_cast<std::uint64_t>(at) : 0;
+}
+
+}  // namespace drivers

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "drivers/camera/recording/av_handles.h"
+
+namespace drivers {
+
+// An opened video file and the one stream of it that is read; all other streams (sound, GPMF, timecode, covers) are
+// passed over without a limit on how many packets of theirs lie in between. One thread. Only self-contained formats are
+// opened: a play list that names other files or addresses is no video here.
+class Container {
+ public:
+  // Throws std::runtime_error: what was found in `path` and what to do.
+  explicit Container(const std::string& path);
+
+  // The next packet of the stream, as stored. False at the end of the file; a read error ends it too (read_error).
+  [[nodiscard]] bool next(AVPacket& packet) noexcept;
+  [[nodiscard]] int read_error() const noexcept { return read_error_; }
+
+  [[nodiscard]] const AVStream& stream() const noexcept { return *stream_; }
+  [[nodiscard]] const AVCodec& decoder() const noexcept { return *decoder_; }
+  [[nodiscard]] std::string codec_name() const;
+  [[nodiscard]] int clockwise_turn_deg() const noexcept;         // 0, 90, 180, 270, as a player turns the picture
+  [[nodiscard]] std::uint64_t promised_frames() const noexcept;  // 0 = it does not say
+  // Frame rates as the container states them, the most trusted first; empty: it states none.
+  [[nodiscard]] std::vector<double> stated_rates_hz() const;
+  [[nodiscard]] double tick_s() const noexcept { return av_q2d(stream_->time_base); }
+  [[nodiscard]] std::string other_streams() const;  // in words, e.g. "audio aac, data"; empty: none
+  [[nodiscard]] std::uint64_t n_bytes_read() const noexcept;
+
+ private:
+  void choose_stream();
+  [[nodiscard]] bool may_be_the_film(const AVStream& stream) const noexcept;
+
+  std::string path_;
+  AvHandle<AVFormatContext> format_;
+  AVStream* stream_ = nullptr;        // of format_
+  const AVCodec* decoder_ = nullptr;  // static
+  int read_error_ = 0;
+};
+
+}  // namespace drivers

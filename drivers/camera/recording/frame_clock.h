@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/types/recording_times.h"
+#include "drivers/camera/recording/frame_source.h"
+#include "drivers/camera/recording/repeats.h"
+
+namespace drivers {
+
+// Where in time the frames of a recording lie, and on which uniform grid. Times come from, in this order: the file of
+// time stamps beside it, the container's presentation times, the number of the frame / rate. See make_frame_clock.
+class FrameClock {
+ public:
+  struct Place {
+    std::uint64_t cell = 0;  // of the grid: jumps where frames are missing; two frames may share one
+    std::int64_t t_ns = 0;   // start of exposure, stream time
+    bool repeats = false;    // the cadence of a rate conversion says: the picture before it once more
+  };
+
+  [[nodiscard]] Place place(std::uint64_t index) const noexcept;  // of a frame by its place in the file
+  [[nodiscard]] double rate_hz() const noexcept { return times_.rate_hz; }
+  [[nodiscard]] const core::RecordingTimes& times() const noexcept { return times_; }
+  [[nodiscard]] const std::string& stamp_file() const noexcept { return stamp_file_; }  // empty: none
+  [[nodiscard]] std::uint64_t n_stamps() const noexcept { return stamp_file_.empty() ? 0 : t_ns_.size(); }
+  [[nodiscard]] const std::optional<Cadence>& cadence() const noexcept { return cadence_; }
+
+ private:
+  friend class ClockMaker;
+
+  core::RecordingTimes times_;
+  std::string stamp_file_;
+  std::vector<std::uint64_t> cells_;  // empty: the index is the cell
+  std::vector<std::int64_t> t_ns_;    // empty: cell / rate
+  std::optional<Cadence> cadence_;
+};
+
+// rate_hz: as the user declares it, 0 = not. The declared rate
+// - with a file of stamps: is that of the grid, the stamps stay as they are;
+// - with evenly spaced container times: wins over them, they are scaled (slow motion, containers of high-speed
+// cameras);
+// - with uneven ones: is remarked on where it differs from theirs by more than 2 %, and wins; else they do.
+// Throws std::runtime_error naming file, finding and remedy: no rate, an absurd one, a rate that changes in mid-stream.
+[[nodiscard]] FrameClock make_frame_clock(const std::string& path, const FrameSource& source, double rate_hz);
+
+constexpr double kMinRate_hz = 1e-3;
+constexpr double kMaxRate_hz = 1e6;
+[[nodiscard]] inline bool is_usable_rate(double rate_hz) noexcept {  // false for NaN
+  return rate_hz >= kMinRate_hz && rate_hz <= kMaxRate_hz;
+}
+
+}  // namespace drivers

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "core/types/recording_times.h"
+
+namespace app {
+
+// How even the frames of a recording lie in time and what it lacks, in whole sentences for the log and the report's
+// first lines. Empty: not a recording.
+[[nodiscard]] std::string recording_words(const core::RecordingTimes& times);
+
+}  // namespace app

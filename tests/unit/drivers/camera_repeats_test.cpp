@@ -1,0 +1,68 @@
+#include "drivers/camera/recording/repeats.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace drivers {
+namespace {
+
+// Changes of a film shown at `rate` times its frames; repeats change by a twentieth of what others do.
+std::vector<double> converted(const Cadence& cadence, int n_frames, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> change(0.5, 3.0);
+  std::vector<double> out;
+  for (int k = 0; k < n_frames; ++k) {
+    const double usual = change(random);
+    out.push_back(cadence.repeats(static_cast<std::uint64_t>(k)) ? 0.05 * usual : usual);
+  }
+  return out;
+}
+
+TEST(Repeats, FindsEveryUsualConversion) {
+  for (const auto& [shown, of] : {std::pair{5, 6}, {4, 5}, {2, 5}, {1, 2}, {24, 25}, {5, 12}, {12, 25}}) {
+    for (const int phase : {0, of / 2, of - 1}) {
+      const auto found = find_cadence(converted({shown, of, phase}, 180, 5));
+      ASSERT_TRUE(found.has_value()) << shown << " of " << of << ", phase " << phase;
+      EXPECT_EQ(found->shown, shown);
+      EXPECT_EQ(found->of, of);
+      for (std::uint64_t k = 1; k < 180; ++k) {
+        EXPECT_EQ(found->repeats(k), (Cadence{shown, of, phase}).repeats(k)) << k;
+      }
+    }
+  }
+}
+
+TEST(Repeats, FindsNoConversionInAFilmWithoutOne) {
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    EXPECT_FALSE(find_cadence(converted({1, 1, 0}, 180, seed)).has_value()) << seed;
+  }
+  EXPECT_FALSE(find_cadence(std::vector<double>(180, 0.0)).has_value());
+}
+
+TEST(Repeats, ScatteredRepeatsAreNoConversion) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    std::vector<double> changes = converted({1, 1, 0}, 180, seed);
+    std::mt19937 random(seed);
+    for (int i = 0; i < 20; ++i) changes[random() % 180] = 0.01;
+    EXPECT_FALSE(find_cadence(changes).has_value()) << seed;
+  }
+}
+
+TEST(RepeatWatch, CallsASingleRepeatAndAFreezeByTheirName) {
+  RepeatWatch watch;
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> change(1.0, 4.0);
+  for (int k = 0; k < 300; ++k) {
+    const bool repeats = k == 50 || (k >= 100 && k < 125);
+    EXPECT_EQ(watch.is_repeat(repeats ? 0.1 : change(random)), repeats) << k;
+  }
+}
+
+TEST(RepeatWatch, SaysNothingOfAStillPictureWithoutNoise) {
+  RepeatWatch watch;
+  for (int k = 0; k < 100; ++k) EXPECT_FALSE(watch.is_repeat(k % 3 == 0 ? 0.0 : 0.02));
+}
+
+}  // namespace
+}  // namespace drivers
