@@ -41,7 +41,7 @@ Y
   touch "$in/done"
 }
 common=(--set telemetry.lcm_url= --set tracking.points_per_region=12)
-brief=(--set closure.window_s=20 --set closure.period_s=15 --set closure.delay_s=4)
+brief=(--set closure.window_s=24 --set closure.period_s=20 --set closure.delay_s=4)
 # service BIN FOLDER OPTION...: the clip through the service.
 service() {
   local programs=$1 folder=$2
