@@ -57,7 +57,7 @@ const std::vector<BadInput>& configuration_rows() {
          return with_regions(f, "[{name: roof, rect: [20, 20, 40, 50]}, {name: roof, rect: [60, 20, 40, 50]}]");
        },
        2,
-       {"roof", "taken", "rename"}},
+       {"roof", "already used", "rename"}},
       {"RegionOfNaN",
        [](const fs::path& f) { return with_regions(f, "[{name: roof, rect: [.nan, 20, 80, 50]}]"); },
        2,
@@ -131,8 +131,9 @@ const std::vector<BadInput>& output_rows() {
       {"DiskFullDuringTheReport",
        [](const fs::path& f) { return disk_full(f, 20000, 400); },
        1,
-       {"tracks.csv", "too large", "came after the fault", "Free space", "400 frames in = 400 processed"}},
-#ifndef __SANITIZE_THREAD__  // which writes a file of its own
+       {"tracks.csv", "too large", "came after the fault", "Free space", "395 frames in = 395 processed",
+        "5 missing at the source"}},  // noiseless: five equal the one before
+#ifndef __SANITIZE_THREAD__           // which writes a file of its own
       {"DiskFullFromTheFirstByte",
        [](const fs::path& f) { return disk_full(f, 0, 40); },
        1,

@@ -98,8 +98,8 @@ const std::vector<BadInput>& source_rows() {
          test_support::keep_first_bytes(input.source, 0.25);
          return input;
        },
-       0,
-       {"truncated", "fewer than one segment of 32", "1.3 s"}},
+       2,
+       {"spectrum.segment", "fewer than one segment of 32", "1.3 s"}},
       {"OnePixel",
        [](const fs::path& f) { return images(f, [](int) { return cv::Mat(1, 1, CV_8UC1, cv::Scalar(9)); }); },
        1,

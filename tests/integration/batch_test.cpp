@@ -51,7 +51,7 @@ TEST_F(Batch, GivesTheSameBytesForAnyNumberOfProcesses) {
     EXPECT_EQ(tests::read(folder_ / "one" / file), tests::read(folder_ / "two" / file)) << file;
 
   EXPECT_THAT(one.text, HasSubstr("5: failed: "));
-  EXPECT_THAT(one.text, HasSubstr("2_again: holds the samples of 2: counted once"));
+  EXPECT_THAT(one.text, HasSubstr("2_again: has the same samples as 2: counted once"));
   const nlohmann::json json = result("one");
   ASSERT_EQ(json["views"].size(), 2U);
   EXPECT_EQ(json["views"][0]["flights"], nlohmann::json({"1", "2", "3"}));

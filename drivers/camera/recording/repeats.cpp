@@ -18,6 +18,25 @@ constexpr std::size_t kEveryRow = 8;
 constexpr std::size_t kProbeFrames = 180;
 constexpr int kLongestCadence = 30;
 
+void take_rows(const core::Frame& frame, std::vector<std::uint8_t>& rows) {
+  const auto width = static_cast<std::size_t>(frame.width_px);
+  rows.clear();
+  for (std::size_t at = 0; at + width <= frame.pixels.size(); at += kEveryRow * width) {
+    const auto row = frame.pixels.begin() + static_cast<std::ptrdiff_t>(at);
+    rows.insert(rows.end(), row, row + static_cast<std::ptrdiff_t>(width));
+  }
+}
+
+// Mean, gray levels; empty: not of one size.
+std::optional<double> difference(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+  if (a.empty() || a.size() != b.size()) return {};
+  std::uint64_t sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    sum += static_cast<std::uint64_t>(std::abs(static_cast<int>(a[i]) - static_cast<int>(b[i])));
+  }
+  return static_cast<double>(sum) / static_cast<double>(a.size());
+}
+
 double quantile(std::vector<double>& values, double share) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
@@ -27,12 +46,18 @@ double quantile(std::vector<double>& values, double share) {
 // Whether the frames that `cadence` calls repeats are those that hardly change. On measured clips converted from 25 to
 // 30 fps and encoded at quality 12 to 23 repeats change by 0.01 to 0.1 of what others do; noise keeps others above
 // 0.15.
-bool explains(const Cadence& cadence, std::span<const double> changes) {
+// around[k]: from frame k - 2 to frame k + 1. It is small, too, where a noiseless motion turns back between k - 1 and
+// k.
+bool explains(const Cadence& cadence, std::span<const double> changes, std::span<const double> around) {
   constexpr std::size_t kFewestRepeats = 4;
   constexpr double kOfOthers = 0.25, kAmongOthers = 0.05;
-  std::vector<double> repeats, others;
+  std::vector<double> repeats, others, around_repeats;
   for (std::size_t k = 1; k < changes.size(); ++k) (cadence.repeats(k) ? repeats : others).push_back(changes[k]);
   if (repeats.size() < kFewestRepeats || others.empty()) return false;
+  for (std::size_t k = 2; k + 1 < changes.size() && k < around.size(); ++k) {
+    if (cadence.repeats(k)) around_repeats.push_back(around[k]);
+  }
+  if (!around_repeats.empty() && quantile(around_repeats, 0.5) < kOfOthers * quantile(others, 0.5)) return false;
   const double repeat = quantile(repeats, 0.9);
   if (!(repeat < kOfOthers * quantile(others, 0.5))) return false;
   const auto n_below = std::count_if(others.begin(), others.end(), [&](double change) { return change <= repeat; });
@@ -56,20 +81,10 @@ bool sizes_hint_at_repeats(const std::vector<std::uint32_t>& bytes) {
 }  // namespace
 
 std::optional<double> FrameChange::since_last(const core::Frame& frame) {
-  const auto width = static_cast<std::size_t>(frame.width_px);
-  now_.clear();
-  for (std::size_t at = 0; at + width <= frame.pixels.size(); at += kEveryRow * width) {
-    const auto row = frame.pixels.begin() + static_cast<std::ptrdiff_t>(at);
-    now_.insert(now_.end(), row, row + static_cast<std::ptrdiff_t>(width));
-  }
-  const bool is_first = last_.size() != now_.size();
-  std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < now_.size() && !is_first; ++i) {
-    sum += static_cast<std::uint64_t>(std::abs(static_cast<int>(now_[i]) - static_cast<int>(last_[i])));
-  }
+  take_rows(frame, now_);
+  const std::optional<double> change = difference(now_, last_);
   std::swap(now_, last_);
-  if (is_first || last_.empty()) return {};
-  return static_cast<double>(sum) / static_cast<double>(last_.size());
+  return change;
 }
 
 bool RepeatWatch::is_repeat(double change) {
@@ -84,13 +99,13 @@ bool RepeatWatch::is_repeat(double change) {
   return false;
 }
 
-std::optional<Cadence> find_cadence(std::span<const double> changes) {
+std::optional<Cadence> find_cadence(std::span<const double> changes, std::span<const double> around) {
   for (int of = 2; of <= kLongestCadence; ++of) {
     for (int shown = of - 1; 3 * shown >= of; --shown) {
       if (std::gcd(shown, of) != 1) continue;
       for (int phase = 0; phase < of; ++phase) {
         const Cadence cadence{shown, of, phase};
-        if (explains(cadence, changes)) return cadence;
+        if (explains(cadence, changes, around)) return cadence;
       }
     }
   }
@@ -102,8 +117,8 @@ std::optional<Cadence> find_cadence(const std::string& path, const PacketScan& s
   VideoDecoder decoder(path);
   std::optional<PictureLuma> luma;
   core::Frame frame;
-  FrameChange change;
-  std::vector<double> changes;
+  std::deque<std::vector<std::uint8_t>> rows;  // of the last four frames
+  std::vector<double> changes, around;
   while (changes.size() < kProbeFrames) {
     const DecodeStatus status = decoder.next();
     if (status == DecodeStatus::kEnd) break;
@@ -114,9 +129,14 @@ std::optional<Cadence> find_cadence(const std::string& path, const PacketScan& s
     frame.width_px = picture.width, frame.height_px = picture.height;
     frame.pixels.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
     luma->read(picture, frame.pixels.data());
-    changes.push_back(change.since_last(frame).value_or(0.0));
+    take_rows(frame, rows.emplace_back());
+    if (rows.size() > 4) rows.pop_front();
+    const std::size_t last = rows.size() - 1;
+    changes.push_back(last > 0 ? difference(rows[last], rows[last - 1]).value_or(0.0) : 0.0);
+    around.push_back(0.0);
+    if (last == 3) around[around.size() - 2] = difference(rows[3], rows[0]).value_or(0.0);
   }
-  return find_cadence(changes);
+  return find_cadence(changes, around);
 }
 
 }  // namespace drivers

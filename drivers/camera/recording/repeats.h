@@ -46,8 +46,10 @@ class RepeatWatch {
   std::deque<double> accepted_;
 };
 
-// The cadence of changes[k], from frame k - 1 to frame k; changes[0] is not used. Empty: no regular repeats.
-[[nodiscard]] std::optional<Cadence> find_cadence(std::span<const double> changes);
+// The cadence of changes[k], from frame k - 1 to frame k; changes[0] is not used. around[k], where given: the change
+// from frame k - 2 to frame k + 1, which tells a repeat from a noiseless motion that turns back. Empty: no regular
+// repeats.
+[[nodiscard]] std::optional<Cadence> find_cadence(std::span<const double> changes, std::span<const double> around = {});
 
 // The cadence of a video, from its first frames. They are decoded only where the sizes of the packets show that some
 // frames hold next to nothing new.

@@ -159,7 +159,9 @@ TEST(ClosureLoop, WhatTakesOutLessThanWasAskedForIsNotTold) {
     options.least_gain = least;
     const ClosureResult result = close_loop(level, options);
     EXPECT_EQ(result.steps.size(), least < 2.65 ? 1U : 0U);
-    EXPECT_EQ(result.stop_reason.find("small, takes out less than was asked for") != std::string::npos, least > 2.65);
+    EXPECT_EQ(result.stop_reason.find("small, reduces the residual by less than the smallest gain asked for") !=
+                  std::string::npos,
+              least > 2.65);
   }
 }
 

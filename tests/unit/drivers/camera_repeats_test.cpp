@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstddef>
+#include <numbers>
 #include <random>
+#include <vector>
 
 namespace drivers {
 namespace {
@@ -47,6 +51,18 @@ TEST(Repeats, ScatteredRepeatsAreNoConversion) {
     for (int i = 0; i < 20; ++i) changes[random() % 180] = 0.01;
     EXPECT_FALSE(find_cadence(changes).has_value()) << seed;
   }
+}
+
+// 3 Hz at 25 frames a second, without noise: once in 25 frames it turns back between two equal ones.
+TEST(Repeats, AMotionThatTurnsBackBetweenTwoEqualFramesIsNoConversion) {
+  std::vector<double> place, changes, around;
+  for (int k = 0; k < 180; ++k) place.push_back(std::cos(2.0 * std::numbers::pi * 3.0 * (k + 0.5) / 25.0));
+  for (std::size_t k = 0; k < place.size(); ++k) {
+    changes.push_back(k > 0 ? std::abs(place[k] - place[k - 1]) : 0.0);
+    around.push_back(k > 1 && k + 1 < place.size() ? std::abs(place[k + 1] - place[k - 2]) : 0.0);
+  }
+  EXPECT_TRUE(find_cadence(changes).has_value()) << "changes alone look like 24 of 25";
+  EXPECT_FALSE(find_cadence(changes, around).has_value());
 }
 
 TEST(RepeatWatch, CallsASingleRepeatAndAFreezeByTheirName) {

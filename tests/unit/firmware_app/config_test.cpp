@@ -169,8 +169,8 @@ TEST(Config, RefusesBrokenRegions) {
   EXPECT_THAT(refusal("camera: {source: a}\n"), HasSubstr("a.yaml: regions: no region is refused"));
   EXPECT_THAT(refusal("camera: {source: a}\nregions: []\n"), HasSubstr("a.yaml:2: regions"));
   EXPECT_THAT(refusal("camera: {source: a}\nregions:\n"), HasSubstr("a.yaml:2: regions"));
-  EXPECT_THAT(refusal_with("name: roof", "name: base"), AllOf(HasSubstr("a.yaml:8"), HasSubstr("`base` is taken")));
-  EXPECT_THAT(refusal_with("name: base", "name: roof.u"), HasSubstr("`roof.u` is taken"));
+  EXPECT_THAT(refusal_with("name: roof", "name: base"), AllOf(HasSubstr("a.yaml:8"), HasSubstr("`base` is already used")));
+  EXPECT_THAT(refusal_with("name: base", "name: roof.u"), HasSubstr("`roof.u` is already used"));
   for (const char* name : {"\"\"", "\"a b\"", "a/b", "a,b", "ä", "\"a\\nb\"", "~", "[a]"}) {
     EXPECT_THAT(refusal_with("name: roof", std::string("name: ") + name), HasSubstr("a.yaml:8: regions.1.name"))
         << name;

@@ -87,7 +87,7 @@ TEST(ReportPage, ShowsAllOfACompleteRun) {
                            "Convergence",
                            "%/min, drifts",
                            "All 3 modes together",
-                           "fold changed 1 times",
+                           "alias order changed 1 times",
                            "4.0 min",
                            "mode 2: 5.040 Hz",
                            "Frames missing",

@@ -73,7 +73,7 @@ TEST(Selftest, JudgesLossesAndRigidBuildings) {
 
 TEST(Selftest, ClosesTheLoopOnOtherRecordsFromAnotherFirstSeed) {
   for (const std::string what : {"closure --seeds 1", "closure-clip --duration 2",
-                                 "closure-tracks --seeds 1 --duration 20 --effect 'camera roll' --strength 1"}) {
+                                 "closure-tracks --seeds 1 --duration 24 --effect 'camera roll' --strength 1"}) {
     const std::string text = selftest(what + " --first-seed 1");
     EXPECT_GT(text.size(), 100U) << what;
     EXPECT_NE(text, selftest(what + " --first-seed 2")) << what;

@@ -107,21 +107,27 @@ void print_null_case(const IdentificationOptions& options, bool is_drawn, bool w
     return identify_record(image_record(scene, with_base), fold_limit_hz(scene.camera.rate_hz));
   });
   VerdictCounts records{};
+  std::vector<double> apparent;
   for (const core::ModalEstimate& estimate : estimates) {
     VerdictCounts poles{};
-    for (const Mode& mode : all_poles(estimate)) ++poles[place_of(mode.verdict)];
+    for (const Mode& mode : all_poles(estimate)) {
+      ++poles[place_of(mode.verdict)];
+      apparent.push_back(mode.apparent_hz);
+    }
     for (std::size_t i = 0; i < kVerdicts.size(); ++i) records[i] += poles[i] > 0 ? 1 : 0;
     records.back() += estimate.modes.empty() && estimate.rejected.empty() ? 1 : 0;
   }
-  fmt::print("null{}\t{}\t{}{}\n", is_drawn ? "-drawn" : "", channels_of(with_base), estimates.size(),
-             columns(records));
+  const Statistics hz = statistics(apparent);
+  fmt::print("null{}\t{}\t{}{}\t{}\t{:.4f}\n", is_drawn ? "-drawn" : "", channels_of(with_base), estimates.size(),
+             columns(records), hz.n, hz.median);
 }
 
 }  // namespace
 
 void print_null(const IdentificationOptions& options) {
   fmt::print(
-      "# null: channels, records; records with a pole called: {}\n"
+      "# null: channels, records; records with a pole called: {}; poles in all, median of their apparent frequency, "
+      "Hz\n"
       "# null-drawn: the same with camera and noise drawn\n",
       verdict_names());
   for (const bool is_drawn : {false, true}) {
