@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
   const long n_samples = argc > 1 ? std::strtol(argv[1], nullptr, 10) : 10'000'000;
   core::simulation::RandomStream noise(argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1, "accumulator");
   const std::size_t bytes_without = heap_bytes();
-  core::WelchCpsd welch({kChannels, 1024, 0.5, core::WindowKind::kHann, 30.0});
+  core::WelchCpsd welch({.n_channels = kChannels, .segment = 1024, .rate_hz = 30.0});
   push_noise(welch, noise, 2048);                   // every page of it touched once
   const long resident_before_kib = resident_kib();  // first: reading it allocates for good
   const std::size_t bytes_before = heap_bytes();

@@ -109,7 +109,7 @@ int run(const std::string& path, bool weighted, int block_rows, int repeats, con
   }
   // 16 segments, the last of them in the timed part.
   const std::size_t hop = kSegment / 2, begin = kSegment + 14 * hop;
-  core::WelchCpsd start({static_cast<int>(kChannels), kSegment, 0.5, core::WindowKind::kHann, kRateHz});
+  core::WelchCpsd start({.n_channels = static_cast<int>(kChannels), .segment = kSegment, .rate_hz = kRateHz});
   push(start, motion, kChannels, 0, begin);
   core::EraConfig config;
   config.block_rows = block_rows;
@@ -134,7 +134,7 @@ int run(const std::string& path, bool weighted, int block_rows, int repeats, con
 
 int service(int n_channels, int n_updates, std::uint64_t seed) {
   const std::vector<double> motion = make_motion(n_channels, 9000, seed);
-  core::WelchCpsd welch({n_channels, 512, 0.5, core::WindowKind::kHann, kRateHz});
+  core::WelchCpsd welch({.n_channels = n_channels, .segment = 512, .rate_hz = kRateHz});
   push(welch, motion, static_cast<std::size_t>(n_channels), 0, 9000);
   std::vector<core::ChannelInfo> channels(static_cast<std::size_t>(n_channels));
   const core::Identifier identifier({}, channels);
