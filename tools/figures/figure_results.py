@@ -3,6 +3,7 @@
 A part is one command of tools/figures with the rooms (files and folders) that its lines measure; parts.tsv lists them.
 tools/figures/all.sh runs parts and writes results/PART.txt: a head of "# key: value" lines, then the lines as printed.
 """
+import glob
 import hashlib
 import os
 import re
@@ -88,14 +89,16 @@ def read_result(name, folder=RESULTS):
 
 
 def tracked_files(room, root=ROOT):
-    """Files of a room, as git knows them; outside a checkout every file below it."""
+    """Files of a room (a file, a folder, or a pattern such as core/linear/real*), as git knows them; outside a checkout all."""
     listed = subprocess.run(["git", "-C", root, "ls-files", "-z", "--", room], capture_output=True, check=False)
     if listed.returncode == 0 and listed.stdout:
         names = listed.stdout.decode().split("\0")
     else:
-        below = os.path.join(root, room)
-        names = [room] if os.path.isfile(below) else [
-            os.path.relpath(os.path.join(folder, file), root) for folder, _, files in os.walk(below) for file in files]
+        names = []
+        for below in glob.glob(os.path.join(root, room)):
+            found = [below] if os.path.isfile(below) else [
+                os.path.join(folder, file) for folder, _, files in os.walk(below) for file in files]
+            names += [os.path.relpath(name, root) for name in found]
     return sorted(n for n in names if n and os.path.isfile(os.path.join(root, n)))
 
 

@@ -96,6 +96,15 @@ class Tables(unittest.TestCase):
         project.write("core/a.cpp", "int c;\n")
         self.assertEqual(project.run(), 0)
 
+    def test_a_room_may_be_a_pattern(self):
+        project = Project("part speed")
+        project.write("core/b.cpp", "int b;\n")
+        before = figure_results.room_digest("core/a*", project.root)
+        project.write("core/b.cpp", "int c;\n")
+        self.assertEqual(before, figure_results.room_digest("core/a*", project.root))
+        project.write("core/a.h", "int d;\n")
+        self.assertNotEqual(before, figure_results.room_digest("core/a*", project.root))
+
     def test_a_run_that_did_not_come_to_its_end_is_no_result(self):
         for text in (RESULT.replace("# whole: yes\n", ""), RESULT.replace("whole: yes", "whole: no")):
             with self.assertRaises(figure_results.Malformed):

@@ -89,7 +89,7 @@ void print(const IdentificationOptions& options, bool null) {
       count(result, structure, counts);
       rms += result.baseline_rms / options.n_seeds;
     }
-    fmt::print("closure\t{}\t{}\t{:.2f}\t{}\t{}\t{}\t{}\t{}\t{}\n", effect, options.n_seeds, rms, counts.alone,
+    fmt::print("closure\t{}\t{}\t{:.5f}\t{}\t{}\t{}\t{}\t{}\t{}\n", effect, options.n_seeds, rms, counts.alone,
                counts.first_of_rivals, counts.among_rivals, counts.wrong, counts.nothing, counts.within);
   }
 }
