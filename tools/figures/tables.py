@@ -106,7 +106,8 @@ def misses(book, _):
     for name, result in book.results.items():
         for line in [] if result is None else result.lines:
             if line.verdict == "MISS":
-                text += f"- {line.what}: {line.measured} (asked: {line.bar}; `{name}` {line.number})\n"
+                what = f"{book.parts[name].title}, {line.what}"
+                text += f"- {what}: {line.measured} (asked: {line.bar}; `{name}` {line.number})\n"
     absent = [name for name, result in book.results.items() if result is None]
     if absent:
         text += f"- not run on the delivered program: {', '.join(f'`{name}`' for name in absent)}\n"
