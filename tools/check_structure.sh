@@ -37,12 +37,17 @@ check_includes() {
     }
     function tools_rule(name) {
       if (name ~ /^(core|drivers)\//) return ""
-      if (name ~ /^firmware_app\/(pipeline|config|config_table|observation|analysis|track_analysis|view_sums)\.h$/ || name ~ /^firmware_app\/report\/.*\.h$/) return ""
-      return "tools may include core, drivers, and of firmware_app only pipeline.h, config.h, config_table.h, observation.h, analysis.h, track_analysis.h, view_sums.h and report/"
+      if (name ~ /^firmware_app\/(service\/pipeline|config\/config|config\/config_table|chain\/observation|chain\/state\/setup_sums|replay\/[a-z_]*|report\/.*)\.h$/) return ""
+      return "tools may include core, drivers, and of firmware_app only service/pipeline.h, config/config.h, config/config_table.h, chain/observation.h, chain/state/setup_sums.h, replay/ and report/"
+    }
+    function floor(path) {
+      return path ~ /\/config\// ? 1 : path ~ /\/chain\// ? 2 : path ~ /\/report\// ? 3 : path ~ /\/(replay|service)\// ? 4 : 5
     }
     function rule(file, room, name, target) {
       if (target == "tests") return room == "tests" ? "" : "only tests may include tests"
-      if (file ~ /^firmware_app\/chain\// && name ~ /^(rt\/|firmware_app\/(stages\/|report\/|pipeline|health|track_))/) return "the chain knows neither threads nor who calls it"
+      if (room == "firmware_app" && target == "firmware_app" && floor(name) > floor(file)) return "firmware_app: config < chain < report < replay, service; replay and service do not know each other"
+      if (file ~ /^firmware_app\/replay\// && name ~ /^firmware_app\/service\//) return "replay does not know the service"
+      if (file ~ /^firmware_app\/chain\// && name ~ /^rt\// && name != "rt/clock.h") return "the chain knows no threads"
       if (room == target) {
         if (file ~ /^core\/simulation\// && name ~ /^core\/closure\//) return "core/simulation must not know core/closure: a test must not be made by what it tests"
         if (file ~ /^core\/(closure|structure)\// && name ~ /^core\/simulation\//) return "core/closure and core/structure must not know core/simulation: a test must not be made by what it tests"

@@ -40,17 +40,17 @@ export ASAN_SYMBOLIZER_PATH=${ASAN_SYMBOLIZER_PATH:-$(command -v llvm-symbolizer
 # Whose lines count for a target: what reads its input, not what it is built on.
 concerned() {
   case $1 in
-    config) echo firmware_app/config{,_check,_key,_sections_input,_sections_output,_sections_scale,_table,_yaml}.cpp drivers/storage/{yaml,key_suggestion,text_file}.cpp ;;
+    config) echo firmware_app/config/config{,_check,_key,_sections_input,_sections_output,_sections_scale,_table,_yaml}.cpp drivers/storage/{yaml,key_suggestion,text_file}.cpp ;;
     calibration) echo drivers/storage/{calibration_file,calibration_text,yaml}.cpp core/geometry/{camera_model,lens_fault}.cpp ;;
     timestamps) echo drivers/camera/recording/timestamp_file.cpp ;;
     series) echo drivers/storage/{csv,csv_lines,csv_series,foreign_series,series_format,timed_columns,attitude_file}.cpp ;;
     lcm) echo drivers/telemetry/{stream_monitor,layout_watch,topics}.cpp drivers/telemetry/decode.h tools/hovermodal/ground/{json_series,json_status,live_stream,snapshot_json}.cpp ;;
     datagrams) echo drivers/telemetry/lcm_datagrams.cpp ;;
-    checkpoint) echo drivers/storage/checkpoint_file.cpp firmware_app/{kept_keyframe,run_state}.cpp core/identification/mode_tracker.cpp core/spectrum/{welch_state,time_grid}.cpp ;;
+    checkpoint) echo drivers/storage/checkpoint_file.cpp firmware_app/{service/kept_keyframe,chain/state/run_state}.cpp core/identification/mode_tracker.cpp core/spectrum/{welch_state,time_grid}.cpp ;;
     http) echo tools/hovermodal/ground/{web_connections,web_guard,web_head,web_routes}.cpp tools/hovermodal/regions/picker_json.cpp ;;
-    record) echo drivers/telemetry/{event_log_reader,run_record_reader,encode_run}.cpp firmware_app/{run_head,keyframe_jpeg}.cpp ;;
+    record) echo drivers/telemetry/{event_log_reader,run_record_reader,encode_run}.cpp firmware_app/chain/state/{run_head,keyframe_jpeg}.cpp ;;
     scene) echo drivers/storage/{structure_file,scene/{build,flight,key,keys_camera,keys_motion,keys_plates,keys_structure,presets,reader,table,writer}}.cpp core/simulation/scene_validation.cpp ;;
-    replay) echo firmware_app/{track_replay,record_replay,track_analysis,run_view}.cpp core/geometry/channel_displacement.cpp ;;
+    replay) echo firmware_app/{replay/track_replay,replay/record_replay,replay/track_analysis,chain/state/run_view}.cpp core/geometry/channel_displacement.cpp ;;
   esac
 }
 # Of these sources, the lines that the inputs reach: "reached total". Some are there for other callers: what writes a

@@ -6,8 +6,8 @@
 #include "core/geometry/attitude_prior.h"
 #include "core/geometry/camera_model.h"
 #include "core/geometry/camera_motion.h"
-#include "core/geometry/place_correction.h"
 #include "core/geometry/plane_pose.h"
+#include "core/geometry/point_correction.h"
 #include "core/geometry/published_shutter.h"
 #include "core/geometry/rolling_shutter.h"
 #include "core/geometry/scale_factor.h"
@@ -20,7 +20,7 @@ namespace core {
 struct ChannelDisplacementConfig {
   std::vector<Region> regions;
   CameraModel camera;
-  PlaceCorrection places = {};  // beyond the declared camera
+  PointCorrection places = {};  // beyond the declared camera
   ReadoutModel readout;
   double rate_hz = 0.0;
   double scale_mm_per_px = 1.0;  // S_0, of the keyframe

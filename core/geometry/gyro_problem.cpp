@@ -42,16 +42,16 @@ struct GyroProblem::Normal {
   double squares = 0.0, sigma_px = 0.0;  // that the points have, by one step of expectation-maximisation
 };
 
-RestFlowModel GyroState::model() const noexcept { return {std::exp(p[kFocal]), sigma_px}; }
+DerotatedFlowModel GyroState::model() const noexcept { return {std::exp(p[kFocal]), sigma_px}; }
 
-RestFlows GyroProblem::flows(const GyroState& state) const {
+DerotatedFlows GyroProblem::flows(const GyroState& state) const {
   const GyroAttitude attitude(gyro_, state.p.segment<3>(kBias));
-  RestFlows all(pairs_.size());
+  DerotatedFlows all(pairs_.size());
   for (std::size_t k = 0; k < pairs_.size(); ++k) rest(state, attitude, pairs_[k], all[k]);
   return all;
 }
 
-double GyroProblem::cost(GyroState& state, const RestFlows& flows, bool held_out) const {
+double GyroProblem::cost(GyroState& state, const DerotatedFlows& flows, bool held_out) const {
   double sum = 0.5 * state.p.segment<3>(kBias).squaredNorm() / (kBiasSigma_rad_s * kBiasSigma_rad_s);
   for (std::size_t k = 0; k < flows.size(); ++k) {
     if (pairs_[k].held_out == held_out) sum += fit_shift(flows[k], state.model(), state.shift_px[k]);
@@ -60,7 +60,7 @@ double GyroProblem::cost(GyroState& state, const RestFlows& flows, bool held_out
 }
 
 void GyroProblem::rest(const GyroState& state, const GyroAttitude& attitude, const FramePair& pair,
-                       std::vector<RestFlow>& out) const {
+                       std::vector<DerotatedFlow>& out) const {
   const double f = std::exp(state.p[kFocal]), readout_s = state.p[kReadout], offset_s = state.p[kOffset];
   const Quaterniond axes = turn(state.p.segment<3>(kAxes)) * state.axes;
   for (const PointPair& point : pair.points) {
@@ -74,19 +74,19 @@ void GyroProblem::rest(const GyroState& state, const GyroAttitude& attitude, con
 }
 
 // One pair at its fitted shift: where the slope by the shift is zero.
-void GyroProblem::add_pair(const GyroState& state, std::size_t k, const RestFlows& flows,
-                           const std::vector<RestFlows>& moved, Normal& normal) const {
+void GyroProblem::add_pair(const GyroState& state, std::size_t k, const DerotatedFlows& flows,
+                           const std::vector<DerotatedFlows>& moved, Normal& normal) const {
   GyroMatrix hessian = GyroMatrix::Zero();
   Eigen::Matrix<double, kGyroUnknowns, 3> mixed = Eigen::Matrix<double, kGyroUnknowns, 3>::Zero();
   Eigen::Matrix3d of_shift = 1e-9 * Eigen::Matrix3d::Identity();
   GyroVector score = GyroVector::Zero();
-  const RestFlowModel model = state.model();
+  const DerotatedFlowModel model = state.model();
   for (std::size_t j = 0; j < flows[k].size(); ++j) {
-    const RestFlowTerm term = judge(flows[k][j], state.shift_px[k], model);
+    const DerotatedFlowTerm term = judge(flows[k][j], state.shift_px[k], model);
     const Eigen::Matrix<double, 2, 3> effect = shift_effect(flows[k][j], model.focal_px);
     Eigen::Matrix<double, 2, kGyroUnknowns> slope;
     for (Index i = 0; i < kGyroUnknowns; ++i) {
-      const RestFlow& other = moved[static_cast<std::size_t>(i)][k][j];
+      const DerotatedFlow& other = moved[static_cast<std::size_t>(i)][k][j];
       const double step = kSteps[static_cast<std::size_t>(i)];
       slope.col(i) = (other.flow_px - flows[k][j].flow_px) / step;
       score[i] += (judge(other, state.shift_px[k], model).cost - term.cost) / step;
@@ -101,9 +101,9 @@ void GyroProblem::add_pair(const GyroState& state, std::size_t k, const RestFlow
   normal.scores.push_back(score);
 }
 
-GyroProblem::Normal GyroProblem::linearise(const GyroState& state, const RestFlows& flows,
+GyroProblem::Normal GyroProblem::linearise(const GyroState& state, const DerotatedFlows& flows,
                                            const std::vector<Index>& held) const {
-  std::vector<RestFlows> moved;
+  std::vector<DerotatedFlows> moved;
   for (Index i = 0; i < kGyroUnknowns; ++i) {
     GyroState ahead = state;
     ahead.p[i] += kSteps[static_cast<std::size_t>(i)];
@@ -133,7 +133,7 @@ GyroProblem::Normal GyroProblem::linearise(const GyroState& state, const RestFlo
 
 // Returns whether there was a way down.
 bool GyroProblem::step_down(const Normal& normal, double& damping, double before, GyroState& state,
-                            RestFlows& flows) const {
+                            DerotatedFlows& flows) const {
   for (; damping < 1e6; damping *= 10.0) {
     GyroMatrix raised = normal.hessian;
     raised.diagonal() *= 1.0 + damping;
@@ -141,7 +141,7 @@ bool GyroProblem::step_down(const Normal& normal, double& damping, double before
     next.p -= raised.ldlt().solve(normal.gradient);
     next.axes = (turn(next.p.segment<3>(kAxes)) * next.axes).normalized();
     next.p.segment<3>(kAxes).setZero();
-    RestFlows after = this->flows(next);
+    DerotatedFlows after = this->flows(next);
     const double now = cost(next, after);
     if (!(now < before)) continue;
     damping = std::max(1e-9, 0.1 * damping);
@@ -153,7 +153,7 @@ bool GyroProblem::step_down(const Normal& normal, double& damping, double before
 }
 
 double GyroProblem::minimise(const std::vector<Index>& held, int most_rounds, GyroState& state) const {
-  RestFlows flows = this->flows(state);
+  DerotatedFlows flows = this->flows(state);
   double damping = 1e-3;
   int settled = 0;
   for (int round = 0; round < most_rounds && settled < kSettled; ++round) {

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "core/geometry/derotated_flow.h"
 #include "core/geometry/gyro_readout.h"
-#include "core/geometry/rest_flow.h"
 
 namespace core {
 
@@ -13,7 +13,7 @@ namespace core {
 enum GyroUnknown : Eigen::Index { kReadout, kOffset, kFocal, kBias, kAxes = kBias + 3, kGyroUnknowns = kAxes + 3 };
 using GyroVector = Eigen::Matrix<double, kGyroUnknowns, 1>;
 using GyroMatrix = Eigen::Matrix<double, kGyroUnknowns, kGyroUnknowns>;
-using RestFlows = std::vector<std::vector<RestFlow>>;  // per pair
+using DerotatedFlows = std::vector<std::vector<DerotatedFlow>>;  // per pair
 
 struct GyroState {
   GyroVector p = GyroVector::Zero();  // focal as logarithm; axes as a small rotation after `axes`
@@ -21,7 +21,7 @@ struct GyroState {
   double sigma_px = 1.0;
   std::vector<Eigen::Vector3d> shift_px;  // per pair
 
-  [[nodiscard]] RestFlowModel model() const noexcept;
+  [[nodiscard]] DerotatedFlowModel model() const noexcept;
 };
 
 // Refers to what it was made of.
@@ -30,9 +30,9 @@ class GyroProblem {
   GyroProblem(const std::vector<FramePair>& pairs, const std::vector<GyroSample>& gyro, const GyroReadoutConfig& config)
       : pairs_(pairs), gyro_(gyro), config_(config) {}
 
-  [[nodiscard]] RestFlows flows(const GyroState& state) const;
+  [[nodiscard]] DerotatedFlows flows(const GyroState& state) const;
   // Minus log likelihood of the pairs that are (not) held out; fits their translations.
-  double cost(GyroState& state, const RestFlows& flows, bool held_out = false) const;
+  double cost(GyroState& state, const DerotatedFlows& flows, bool held_out = false) const;
   // Levenberg-Marquardt with everything but `held` free; returns the cost.
   double minimise(const std::vector<Eigen::Index>& held, int most_rounds, GyroState& state) const;
   [[nodiscard]] GyroMatrix covariance(const GyroState& state, const std::vector<Eigen::Index>& held) const;
@@ -42,13 +42,13 @@ class GyroProblem {
   struct Normal;
 
   void rest(const GyroState& state, const class GyroAttitude& attitude, const FramePair& pair,
-            std::vector<RestFlow>& out) const;
-  void add_pair(const GyroState& state, std::size_t k, const RestFlows& flows, const std::vector<RestFlows>& moved,
+            std::vector<DerotatedFlow>& out) const;
+  void add_pair(const GyroState& state, std::size_t k, const DerotatedFlows& flows, const std::vector<DerotatedFlows>& moved,
                 Normal& normal) const;
-  [[nodiscard]] Normal linearise(const GyroState& state, const RestFlows& flows,
+  [[nodiscard]] Normal linearise(const GyroState& state, const DerotatedFlows& flows,
                                  const std::vector<Eigen::Index>& held) const;
   [[nodiscard]] bool step_down(const Normal& normal, double& damping, double before, GyroState& state,
-                               RestFlows& flows) const;
+                               DerotatedFlows& flows) const;
 
   const std::vector<FramePair>& pairs_;
   const std::vector<GyroSample>& gyro_;

@@ -22,11 +22,11 @@ constexpr double kFocalPerWidth = 0.75;  // to begin with
 
 // Distances from the epipolar lines, per pair.
 std::vector<std::vector<double>> distances(const GyroProblem& problem, GyroState state) {
-  const RestFlows flows = problem.flows(state);
+  const DerotatedFlows flows = problem.flows(state);
   (void)problem.cost(state, flows, true);
   std::vector<std::vector<double>> all(flows.size());
   for (std::size_t k = 0; k < flows.size(); ++k) {
-    for (const RestFlow& flow : flows[k]) all[k].push_back(judge(flow, state.shift_px[k], state.model()).across_px);
+    for (const DerotatedFlow& flow : flows[k]) all[k].push_back(judge(flow, state.shift_px[k], state.model()).across_px);
   }
   return all;
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/geometry/camera_model.h"
-#include "core/geometry/place_correction.h"
+#include "core/geometry/point_correction.h"
 #include "core/geometry/rolling_shutter.h"
 #include "core/types/track.h"
 
@@ -36,7 +36,7 @@ class RegionShear {
     std::size_t n_regions = 0;
     CameraModel camera;           // points are undistorted; without calibration relative to the image centre
     ReadoutModel readout;         // direction and image size; its time is not used
-    PlaceCorrection places = {};  // beyond the camera
+    PointCorrection places = {};  // beyond the camera
   };
   // keyframe: contains every later point; points lost or not finite there are excluded. Throws std::invalid_argument: a
   // point without a region.
@@ -94,7 +94,7 @@ class RegionShear {
   [[nodiscard]] bool accumulate(const TrackFrame& tracks, RegionFit& region) noexcept;
 
   CameraModel camera_;
-  PlaceCorrection places_;
+  PointCorrection places_;
   bool corrects_places_;
   std::vector<Point> points_;
   std::vector<RegionFit> regions_;

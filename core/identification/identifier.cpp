@@ -6,7 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "core/identification/camera_share.h"
+#include "core/identification/camera_leakage.h"
 #include "core/identification/line_evidence.h"
 #include "core/identification/model_fit.h"
 #include "core/identification/uncertainty.h"
@@ -38,7 +38,7 @@ double apparent_hz(const DiscretePole& pole, double rate_hz) {
 }
 
 Poles poles_of_orders(const Realisation& realisation, const std::vector<int>& orders, const FoldingConfig& folding,
-                      const CameraShare& camera) {
+                      const CameraLeakage& camera) {
   Poles poles;
   for (std::size_t i = 0; i < orders.size(); ++i) {
     for (DiscretePole& pole : poles_of_order(realisation, orders[i])) {
@@ -79,7 +79,7 @@ struct Fitted {
   const CpsdSums& sums;
   const ModelFit& fit;
   const FoldingConfig& folding;
-  const CameraShare& camera;
+  const CameraLeakage& camera;
   const std::vector<int>& orders;
   const Poles& poles;
 };
@@ -100,11 +100,11 @@ struct JudgedChannels {
 std::vector<Mode> judge_lines(const Fitted& fitted, const std::vector<PoleCluster>& lines,
                               const JudgedChannels& channels, const VerdictRules& rules) {
   std::vector<Mode> modes;
-  LineExaminer examiner(fitted.sums, fitted.folding);
+  SpectralLineTest examiner(fitted.sums, fitted.folding);
   for (const PoleCluster& line : lines) {
-    LineEvidence evidence = examiner.examine(line.representative);
+    SpectralLineEvidence evidence = examiner.examine(line.representative);
     const DiscretePole& observed = fitted.poles.observed[line.i_representative].pole;
-    const CameraShare::Finding found = fitted.camera.examine(observed.shape, line.apparent_hz);
+    const CameraLeakage::Finding found = fitted.camera.examine(observed.shape, line.apparent_hz);
     evidence.witness_share = found.share, evidence.witness_moves = found.is_doubtful;
     const BaseResponse response = base_response(fitted.sums, channels.all, line.apparent_hz);
     modes.push_back(judge(line, response, channels.outputs, fitted.orders, rules, evidence));
@@ -218,7 +218,7 @@ ModalEstimate Identifier::identify(const CpsdSums& sums) const {
   }
   const std::vector<int> orders = orders_from(fit.order, fit.realisation);
   const FoldingConfig folding = folding_config(sums.rate_hz);
-  const CameraShare camera(sums, delays_as_undone());
+  const CameraLeakage camera(sums, delays_as_undone());
   const Poles poles = poles_of_orders(fit.realisation, orders, folding, camera);
   const std::vector<PoleCluster> lines = config_.as_published
                                              ? lines_of_one_order(poles.unfolded)

@@ -34,7 +34,7 @@ struct IdentifierConfig {
 // (METHOD.md). A pure function of its arguments: same sums, same bits.
 class Identifier {
  public:
-  // channels: of the sums that will come; witnesses, if any, last: shapes are without them (camera_share.h).
+  // channels: of the sums that will come; witnesses, if any, last: shapes are without them (camera_leakage.h).
   // Throws std::invalid_argument: a reference that is no channel, no channel at all.
   Identifier(IdentifierConfig config, std::vector<ChannelInfo> channels);
 

@@ -66,7 +66,7 @@ double explained_by_slope(const std::vector<Complex>& shape, const std::vector<d
 
 }  // namespace
 
-void LineExaminer::find_camera(const std::vector<Complex>& observed, double apparent_hz, LineEvidence& out) const {
+void SpectralLineTest::find_camera(const std::vector<Complex>& observed, double apparent_hz, SpectralLineEvidence& out) const {
   const double rate_hz = folding_.rate_hz, limit_hz = std::max(folding_.max_frequency_hz, 0.5 * rate_hz);
   if (observed.size() < 5 || folding_.delay_s.size() != observed.size()) return;  // a constant, a slope and a check
   const int reach = static_cast<int>(std::ceil(kFastestCamera_hz / rate_hz)) + 1;
@@ -87,7 +87,7 @@ void LineExaminer::find_camera(const std::vector<Complex>& observed, double appa
 
 // |sum over lags of phi' R(lag) phi exp(-i w lag)|, Hann weighted: what the correlation of the shape still has at that
 // frequency.
-double LineExaminer::envelope(const std::vector<Complex>& observed, double apparent_hz, int first_lag,
+double SpectralLineTest::envelope(const std::vector<Complex>& observed, double apparent_hz, int first_lag,
                               int n_lags) const {
   const auto n = static_cast<int>(observed.size());  // witnesses come after
   const double turn = kTwoPi * apparent_hz / sums_.rate_hz;
@@ -107,7 +107,7 @@ double LineExaminer::envelope(const std::vector<Complex>& observed, double appar
   return std::abs(sum);
 }
 
-void LineExaminer::find_decay(const std::vector<Complex>& observed, const UnfoldedPole& pole, LineEvidence& out) {
+void SpectralLineTest::find_decay(const std::vector<Complex>& observed, const UnfoldedPole& pole, SpectralLineEvidence& out) {
   const double segment = 0.5 * sums_.n_fft;
   const int n_lags = static_cast<int>(kWindow * segment), late = static_cast<int>(kLateStart * segment);
   if (!status_) status_ = compute_correlations(sums_, late + n_lags, kDifferences, correlations_);
@@ -122,8 +122,8 @@ void LineExaminer::find_decay(const std::vector<Complex>& observed, const Unfold
   out.late_damping_ratio = -std::log(out.late_share) / (kTwoPi * frequency_hz(pole.s) * apart_s);
 }
 
-LineEvidence LineExaminer::examine(const UnfoldedPole& pole) {
-  LineEvidence evidence;
+SpectralLineEvidence SpectralLineTest::examine(const UnfoldedPole& pole) {
+  SpectralLineEvidence evidence;
   const std::vector<Complex> observed = observed_shape(pole, folding_);
   find_camera(observed, pole.apparent_hz, evidence);
   const double damping = damping_ratio(pole.s), duration_s = sums_.n_remembered() / sums_.rate_hz;

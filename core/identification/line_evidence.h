@@ -12,7 +12,7 @@
 namespace core {
 
 // Evidence for a spectral line that is not a mode of the structure: a vibration of the camera, or a steady force.
-struct LineEvidence {
+struct SpectralLineEvidence {
   // Largest MAC of the observed shape with that of a shaking camera: at frequencies beyond the search range, where no
   // mode is expected, a translation and a rotation about the view (a constant and a slope along the rows) with
   // independent phases, its delays undone. 0: these delays do not distinguish such frequencies from the others.
@@ -23,20 +23,20 @@ struct LineEvidence {
   std::optional<double> late_damping_ratio;
   // Share of the correlation left by then, 0..1, and scatter: for a decayed mode, that of its estimate.
   double late_share = 0.0;
-  double witness_share = 0.0;  // of the shape's square that goes with what rests (camera_share.h)
+  double witness_share = 0.0;  // of the shape's square that goes with what rests (camera_leakage.h)
   bool witness_moves = false;  // ... which does not rest at this frequency
 };
 
 // Of one spectrum; keeps references to its arguments. One thread.
-class LineExaminer {
+class SpectralLineTest {
  public:
-  LineExaminer(const CpsdSums& sums, const FoldingConfig& folding) : sums_(sums), folding_(folding) {}
+  SpectralLineTest(const CpsdSums& sums, const FoldingConfig& folding) : sums_(sums), folding_(folding) {}
 
-  [[nodiscard]] LineEvidence examine(const UnfoldedPole& pole);
+  [[nodiscard]] SpectralLineEvidence examine(const UnfoldedPole& pole);
 
  private:
-  void find_camera(const std::vector<std::complex<double>>& observed, double apparent_hz, LineEvidence& out) const;
-  void find_decay(const std::vector<std::complex<double>>& observed, const UnfoldedPole& pole, LineEvidence& out);
+  void find_camera(const std::vector<std::complex<double>>& observed, double apparent_hz, SpectralLineEvidence& out) const;
+  void find_decay(const std::vector<std::complex<double>>& observed, const UnfoldedPole& pole, SpectralLineEvidence& out);
   [[nodiscard]] double envelope(const std::vector<std::complex<double>>& observed, double apparent_hz, int first_lag,
                                 int n_lags) const;
 

@@ -63,7 +63,7 @@ bool moves_with_base(double base_share, const BaseResponse& response, const Verd
 
 void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response,
             const std::vector<ChannelInfo>& channels, const std::vector<int>& orders, const VerdictRules& rules,
-            const LineEvidence& line) {
+            const SpectralLineEvidence& line) {
   const double uniform = uniform_mac(mode, channels);
   const double base = base_share(mode, channels);
   const int first_order = orders[static_cast<std::size_t>(cluster.first_i_order)];
@@ -128,7 +128,7 @@ Mode mode_of(const PoleCluster& cluster) {
 }  // namespace
 
 Mode judge(const PoleCluster& cluster, const BaseResponse& response, const std::vector<ChannelInfo>& channels,
-           const std::vector<int>& orders, const VerdictRules& rules, const LineEvidence& line) {
+           const std::vector<int>& orders, const VerdictRules& rules, const SpectralLineEvidence& line) {
   Mode mode = mode_of(cluster);
   decide(mode, cluster, response, channels, orders, rules, line);
   return mode;

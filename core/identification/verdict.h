@@ -33,7 +33,7 @@ struct VerdictRules {
 // A cluster as a mode with its verdict and the reason in words.
 [[nodiscard]] Mode judge(const PoleCluster& cluster, const BaseResponse& response,
                          const std::vector<ChannelInfo>& channels, const std::vector<int>& orders,
-                         const VerdictRules& rules, const LineEvidence& line = {});
+                         const VerdictRules& rules, const SpectralLineEvidence& line = {});
 
 // The published chain knows poles by frequency and by their motion at the base, no more: every vibration (damping above
 // 0 and up to `max_damping`) that the base takes little part in (max_published_base_share) is a mode.

@@ -36,7 +36,7 @@ struct DisplacementSample {
   ReadoutEstimate readout{};  // from the tracks up to this frame
   // Id of the correction set in force (0 = none beyond the declared ones): displacements jump where it changes.
   // `record`: the epoch; a new one also changes the channels' row delays.
-  std::uint32_t amendment = 0, record = 0;
+  std::uint32_t correction_set = 0, record = 0;
   std::uint32_t stride = 1;  // of the source's frames, every so many are kept: more than 1 under overload
 };
 

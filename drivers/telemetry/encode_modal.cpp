@@ -9,7 +9,7 @@ namespace {
 using hovermodal::modal_estimate_t;
 using hovermodal::mode_t;
 
-constexpr std::size_t kMaxAmendmentBytes = 100;
+constexpr std::size_t kMaxCorrectionSetBytes = 100;
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 static_assert(static_cast<int>(core::Verdict::kStructural) == mode_t::STRUCTURAL);
@@ -87,7 +87,7 @@ modal_estimate_t head(const core::ModalEstimate& estimate, const std::vector<cor
   out.n_structural = to_int16(estimate.modes.size());
   out.n_rejected = to_int16(estimate.rejected.size());
   out.n_amendments = to_int16(estimate.amendments.size());
-  for (const std::string& words : estimate.amendments) out.amendments.push_back(clipped(words, kMaxAmendmentBytes));
+  for (const std::string& words : estimate.amendments) out.amendments.push_back(clipped(words, kMaxCorrectionSetBytes));
   out.n_channels = to_int16(channels.size());
   for (const auto& channel : channels) out.channel_names.push_back(clipped(channel.name, kMaxNameBytes));
   return out;

@@ -7,9 +7,9 @@
 
 #include "core/types/closure_report.h"
 #include "core/types/track.h"
-#include "firmware_app/amendment.h"
+#include "firmware_app/chain/correction_set.h"
 #include "firmware_app/chain/items.h"
-#include "firmware_app/loop_closer.h"
+#include "firmware_app/chain/missing_effect_search.h"
 
 namespace app {
 
@@ -17,10 +17,10 @@ namespace app {
 // which frame on. What it makes lives as long as this. One thread.
 class Diagnosis {
  public:
-  using MakeGeometry = std::function<std::unique_ptr<Geometry>(const Amendment&)>;
+  using MakeGeometry = std::function<std::unique_ptr<Geometry>(const CorrectionSet&)>;
 
   // make may throw: nothing changes, and the report says why.
-  Diagnosis(LoopCloserConfig config, AmendmentBook& book, MakeGeometry make);
+  Diagnosis(MissingEffectSearchConfig config, CorrectionLog& book, MakeGeometry make);
 
   void take(const core::TrackFrame& frame) noexcept { loop_.take(frame); }  // allocates nothing
   [[nodiscard]] bool is_due() const noexcept { return loop_.is_due(); }
@@ -30,16 +30,16 @@ class Diagnosis {
   [[nodiscard]] core::closure::ClosureReport report(bool final);
 
   // By the last report, even a lost one: what changes. Before the first: when that one is due.
-  [[nodiscard]] ViewChange change() const noexcept;
+  [[nodiscard]] CorrectionSwitch change() const noexcept;
 
  private:
   void amend(core::closure::ClosureReport& report);
-  [[nodiscard]] std::string begin(const Amendment& amendment);  // why it cannot be; empty: it will
+  [[nodiscard]] std::string begin(const CorrectionSet& correction_set);  // why it cannot be; empty: it will
 
-  LoopCloser loop_;
-  AmendmentBook& book_;
+  MissingEffectSearch loop_;
+  CorrectionLog& book_;
   MakeGeometry make_;
-  ViewChange change_;
+  CorrectionSwitch change_;
   std::vector<std::unique_ptr<Geometry>> made_;  // frames are measured by the last but one or the last
 };
 

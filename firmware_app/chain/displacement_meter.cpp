@@ -6,7 +6,7 @@ bool DisplacementMeter::begin_frame(std::uint64_t sequence) noexcept {
   if (pending_.geometry == nullptr || sequence < pending_.from_sequence) return false;
   channels_ = &pending_.geometry->displacement;
   readout_ = &pending_.geometry->readout;
-  amendment_ = pending_.amendment, record_ = pending_.record;
+  correction_set_ = pending_.correction_set, record_ = pending_.record;
   pending_ = {};
   return true;
 }
@@ -17,7 +17,7 @@ void DisplacementMeter::measure(core::TrackFrame& tracks, std::uint32_t stride,
   // Its filters are made for the camera's own rate; the readout is the same at any.
   if (stride == 1) readout_->update(tracks);
   out.readout = readout_->estimate();
-  out.amendment = amendment_, out.record = record_;
+  out.correction_set = correction_set_, out.record = record_;
   out.stride = stride;
 }
 

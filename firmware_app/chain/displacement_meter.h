@@ -22,7 +22,7 @@ class DisplacementMeter {
   // An attitude that came since the last frame.
   void take(const core::AttitudeSample& sample) noexcept { channels_->take(sample); }
   // In the order of the diagnosis' reports.
-  void take(const ViewChange& change) noexcept {
+  void take(const CorrectionSwitch& change) noexcept {
     if (change.geometry != nullptr) pending_ = change;
   }
   // Before each frame. True: a correction begins with it.
@@ -30,14 +30,14 @@ class DisplacementMeter {
   // Marks the inliers among the points. stride: every how many frames of the source one is kept.
   void measure(core::TrackFrame& tracks, std::uint32_t stride, core::DisplacementSample& out) noexcept;
 
-  [[nodiscard]] std::uint32_t amendment() const noexcept { return amendment_; }  // in force
+  [[nodiscard]] std::uint32_t correction_set() const noexcept { return correction_set_; }  // in force
   [[nodiscard]] const core::ChannelDisplacement& channels() const noexcept { return *channels_; }
 
  private:
   core::ChannelDisplacement* channels_;
   core::ReadoutEstimator* readout_;
-  ViewChange pending_;  // geometry null: none
-  std::uint32_t amendment_ = 0, record_ = 0;
+  CorrectionSwitch pending_;  // geometry null: none
+  std::uint32_t correction_set_ = 0, record_ = 0;
 };
 
 }  // namespace app

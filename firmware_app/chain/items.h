@@ -7,7 +7,7 @@
 #include "core/types/cpsd.h"
 #include "core/types/modal_estimate.h"
 #include "core/types/readout.h"
-#include "firmware_app/amendment.h"
+#include "firmware_app/chain/correction_set.h"
 
 namespace app {
 
@@ -15,11 +15,11 @@ namespace app {
 
 // diagnosis -> displacement, one per report: what is measured by from a frame on, and when the next report is due.
 // Frames later than next_report_at + n_delay_frames may be changed by it.
-struct ViewChange {
+struct CorrectionSwitch {
   std::uint64_t next_report_at = 0, n_delay_frames = 0;
   Geometry* geometry = nullptr;  // null: nothing changes; the diagnosis' own, it lives to the run's end
   std::uint64_t from_sequence = 0;
-  std::uint32_t amendment = 0, record = 0;  // numbers in the AmendmentBook
+  std::uint32_t correction_set = 0, record = 0;  // numbers in the CorrectionLog
 };
 
 // spectrum -> modes.
@@ -28,7 +28,7 @@ struct SpectrumSnapshot {
   std::uint64_t number = 0;                 // 0, 1, 2, ... in stream time
   std::int64_t t_last_ns = 0;               // time stamp of the newest sample in the sums
   bool final = false;                       // the record has ended
-  std::uint32_t amendment = 0, record = 0;  // of the newest sample in the sums; the record is that of all of them
+  std::uint32_t correction_set = 0, record = 0;  // of the newest sample in the sums; the record is that of all of them
   core::ReadoutEstimate readout = {};
 };
 

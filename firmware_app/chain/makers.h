@@ -7,7 +7,7 @@
 #include "core/types/track.h"
 #include "firmware_app/chain/diagnosis.h"
 #include "firmware_app/chain/mode_identification.h"
-#include "firmware_app/config.h"
+#include "firmware_app/config/config.h"
 
 namespace app {
 

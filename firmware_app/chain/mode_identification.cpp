@@ -4,7 +4,7 @@
 
 namespace app {
 
-ModeIdentification::ModeIdentification(double rate_hz, MakeIdentifier make_identifier, const AmendmentBook& book)
+ModeIdentification::ModeIdentification(double rate_hz, MakeIdentifier make_identifier, const CorrectionLog& book)
     : make_identifier_(std::move(make_identifier)),
       book_(book),
       rate_hz_(rate_hz),
@@ -14,7 +14,7 @@ ModeIdentification::ModeIdentification(double rate_hz, MakeIdentifier make_ident
 void ModeIdentification::identify(const SpectrumSnapshot& snapshot, IdentificationResult& out) {
   follow(snapshot);
   out.estimate = identifier_->identify(snapshot.sums, snapshot.readout);
-  out.estimate.amendments = book_.at(amendment_).words;
+  out.estimate.amendments = book_.at(correction_set_).words;
   tracker_.set_row_delays(identifier_->delay_s(out.estimate));
   out.sums.copy_totals(snapshot.sums, identifier_->n_outputs());
   out.estimate.number = n_estimates_++;
@@ -26,10 +26,10 @@ void ModeIdentification::identify(const SpectrumSnapshot& snapshot, Identificati
 // Other rate, other folds: what was an apparent frequency is another one now. A new record shares nothing with the old.
 void ModeIdentification::follow(const SpectrumSnapshot& snapshot) {
   const bool begins = snapshot.sums.rate_hz != rate_hz_ || snapshot.record != record_;
-  if (!begins && snapshot.amendment == amendment_) return;
-  identifier_ = make_identifier_(snapshot.sums.rate_hz, book_.at(snapshot.amendment));
+  if (!begins && snapshot.correction_set == correction_set_) return;
+  identifier_ = make_identifier_(snapshot.sums.rate_hz, book_.at(snapshot.correction_set));
   rate_hz_ = snapshot.sums.rate_hz;
-  amendment_ = snapshot.amendment, record_ = snapshot.record;
+  correction_set_ = snapshot.correction_set, record_ = snapshot.record;
   if (begins) tracker_.restart();
 }
 

@@ -7,9 +7,9 @@
 #include <span>
 
 #include "core/identification/mode_tracker.h"
-#include "firmware_app/amendment.h"
+#include "firmware_app/chain/correction_set.h"
 #include "firmware_app/chain/items.h"
-#include "firmware_app/readout_use.h"
+#include "firmware_app/chain/readout_aware_identifier.h"
 
 namespace app {
 
@@ -18,9 +18,9 @@ namespace app {
 class ModeIdentification {
  public:
   // For samples of another rate than the camera's, or under a correction; may throw.
-  using MakeIdentifier = std::function<std::unique_ptr<const ReadoutUse>(double rate_hz, const Amendment& amendment)>;
+  using MakeIdentifier = std::function<std::unique_ptr<const ReadoutAwareIdentifier>(double rate_hz, const CorrectionSet& correction_set)>;
 
-  ModeIdentification(double rate_hz, MakeIdentifier make_identifier, const AmendmentBook& book);
+  ModeIdentification(double rate_hz, MakeIdentifier make_identifier, const CorrectionLog& book);
 
   // Throws std::bad_alloc: this estimate is lost, the next may succeed.
   void identify(const SpectrumSnapshot& snapshot, IdentificationResult& out);
@@ -33,16 +33,16 @@ class ModeIdentification {
   // The same with the modes, and the count of estimates, of another object, which loses them.
   void go_on_from(ModeIdentification& earlier) noexcept;
 
-  [[nodiscard]] const ReadoutUse& identifier() const noexcept { return *identifier_; }  // of the newest snapshot
+  [[nodiscard]] const ReadoutAwareIdentifier& identifier() const noexcept { return *identifier_; }  // of the newest snapshot
 
  private:
   void follow(const SpectrumSnapshot& snapshot);
 
   MakeIdentifier make_identifier_;
-  const AmendmentBook& book_;
+  const CorrectionLog& book_;
   double rate_hz_;
-  std::uint32_t amendment_ = 0, record_ = 0;
-  std::unique_ptr<const ReadoutUse> identifier_;
+  std::uint32_t correction_set_ = 0, record_ = 0;
+  std::unique_ptr<const ReadoutAwareIdentifier> identifier_;
   core::ModeTracker tracker_;
   std::uint64_t n_estimates_ = 0;
 };

@@ -23,8 +23,8 @@ bool SpectrumAccumulator::step(const core::DisplacementSample& sample) noexcept 
   if (!is_placed_) {
     const bool is_other = sample.stride != stride_ || sample.record != record_;
     if (is_other && !begin_other_sums(sample)) return false;
-    const bool jumps = !is_other && sample.amendment != amendment_;
-    amendment_ = sample.amendment;
+    const bool jumps = !is_other && sample.correction_set != correction_set_;
+    correction_set_ = sample.correction_set;
     place(sample);
     if (jumps) n_to_mask_ += segment();
     if (n_to_mask_ > 0) return false;
@@ -72,7 +72,7 @@ void SpectrumAccumulator::take_snapshot(SpectrumSnapshot& out) noexcept {
   out.number = n_snapshots_++;
   out.t_last_ns = t_stream_ns_;
   out.final = is_finished_;
-  out.amendment = amendment_, out.record = record_;
+  out.correction_set = correction_set_, out.record = record_;
   out.readout = readout_;
   out.readout.frames /= stride_;  // frames are longer now
   out.readout.std_frames /= stride_;
@@ -89,7 +89,7 @@ void SpectrumAccumulator::keep_state(double period_s) noexcept {
 bool SpectrumAccumulator::state_is_due() const noexcept {
   // A sample that has its cell but is not in the sums yet would be lost to the next run.
   const bool is_between_samples = n_to_mask_ == 0 && !is_placed_;
-  const bool is_plain = stride_ == 1 && amendment_ == 0;
+  const bool is_plain = stride_ == 1 && correction_set_ == 0;
   return state_period_cells_ > 0 && is_plain && is_between_samples && welch_.sums().n_samples >= next_state_cell_;
 }
 

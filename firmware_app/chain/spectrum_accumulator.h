@@ -63,7 +63,7 @@ class SpectrumAccumulator {
   core::WelchCpsd welch_;
   std::uint64_t period_hops_;
   std::uint32_t stride_ = 1;                  // of the samples in the sums
-  std::uint32_t record_ = 0, amendment_ = 0;  // likewise; the amendment of the newest
+  std::uint32_t record_ = 0, correction_set_ = 0;  // likewise; the correction_set of the newest
   std::uint64_t n_masked_before_ = 0;         // in sums that were ended
   std::uint64_t n_missing_ = 0;
   std::uint64_t state_period_cells_ = 0, next_state_cell_ = 0;  // period 0: no state is kept

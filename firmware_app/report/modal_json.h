@@ -7,7 +7,7 @@
 
 #include "core/types/health.h"
 #include "core/types/modal_estimate.h"
-#include "firmware_app/config.h"
+#include "firmware_app/config/config.h"
 
 namespace app {
 

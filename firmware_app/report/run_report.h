@@ -13,7 +13,7 @@
 #include "core/types/modal_estimate.h"
 #include "core/types/track.h"
 #include "drivers/storage/csv_writer.h"
-#include "firmware_app/config.h"
+#include "firmware_app/config/config.h"
 #include "firmware_app/report/run_history.h"
 
 namespace app {

@@ -20,10 +20,10 @@
 #include "core/spectrum/welch_cpsd.h"
 #include "drivers/storage/checkpoint_file.h"
 #include "drivers/telemetry/run_record_reader.h"
-#include "firmware_app/core_config.h"
-#include "firmware_app/run_head.h"
-#include "firmware_app/run_state.h"
-#include "firmware_app/track_analysis.h"
+#include "firmware_app/chain/state/run_head.h"
+#include "firmware_app/chain/state/run_state.h"
+#include "firmware_app/config/core_config.h"
+#include "firmware_app/replay/track_analysis.h"
 
 namespace {
 

@@ -22,8 +22,8 @@
 
 #include "core/spectrum/welch_cpsd.h"
 #include "drivers/storage/checkpoint_file.h"
-#include "firmware_app/stages/checkpoint_stage.h"
-#include "firmware_app/stages/spectrum_stage.h"
+#include "firmware_app/service/stages/checkpoint_stage.h"
+#include "firmware_app/service/stages/spectrum_stage.h"
 #include "rt/clock.h"
 #include "rt/stage_runner.h"
 

@@ -11,7 +11,7 @@
 
 #include "core/linear/median.h"
 #include "core/tracking/pyramid_klt.h"
-#include "firmware_app/core_config.h"
+#include "firmware_app/config/core_config.h"
 #include "rt/clock.h"
 #include "tests/support/memory_camera.h"
 #include "tests/support/pipeline_run.h"

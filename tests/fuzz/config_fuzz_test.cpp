@@ -11,7 +11,7 @@
 #include "drivers/storage/calibration_file.h"
 #include "drivers/storage/csv.h"
 #include "drivers/storage/text_file.h"
-#include "firmware_app/config.h"
+#include "firmware_app/config/config.h"
 #include "firmware_app/report/modal_json.h"
 #include "tests/support/places.h"
 

@@ -9,7 +9,7 @@
 #include "drivers/storage/text_file.h"
 #include "drivers/telemetry/encode_run.h"
 #include "drivers/telemetry/event_log.h"
-#include "firmware_app/keyframe_jpeg.h"
+#include "firmware_app/chain/state/keyframe_jpeg.h"
 #include "tests/fuzz/make_corpus.h"
 #include "tests/fuzz/small_state.h"
 #include "tests/support/hostile_messages.h"

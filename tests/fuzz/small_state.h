@@ -4,7 +4,7 @@
 
 #include "core/identification/mode_tracker.h"
 #include "core/spectrum/welch_cpsd.h"
-#include "firmware_app/run_state.h"
+#include "firmware_app/chain/state/run_state.h"
 
 namespace tests::fuzz {
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "drivers/telemetry/record_folder.h"
-#include "firmware_app/analysis.h"
+#include "firmware_app/replay/analysis.h"
 #include "tests/support/pipeline_rig.h"
 
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "firmware_app/pipeline.h"
-#include "firmware_app/pipeline_setup.h"
+#include "firmware_app/service/pipeline.h"
+#include "firmware_app/service/pipeline_setup.h"
 #include "tests/support/measured_data.h"
 #include "tests/support/pipeline_run.h"
 

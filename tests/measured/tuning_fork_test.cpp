@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "firmware_app/pipeline.h"
+#include "firmware_app/service/pipeline.h"
 #include "tests/support/measured_data.h"
 #include "tests/support/pipeline_run.h"
 

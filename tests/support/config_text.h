@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_app/config.h"
+#include "firmware_app/config/config.h"
 
 namespace tests {
 

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_app/pipeline.h"
+#include "firmware_app/service/pipeline.h"
 #include "tests/support/memory_publisher.h"
 #include "tests/support/patience.h"
 #include "tests/support/places.h"

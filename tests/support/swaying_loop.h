@@ -4,8 +4,8 @@
 #include <numeric>
 #include <vector>
 
-#include "firmware_app/amendment.h"
-#include "firmware_app/loop_closer.h"
+#include "firmware_app/chain/correction_set.h"
+#include "firmware_app/chain/missing_effect_search.h"
 #include "tests/support/swaying_record.h"
 
 namespace test_support {
@@ -13,7 +13,7 @@ namespace test_support {
 inline constexpr double kWindow_s = 40.0, kPeriod_s = 30.0, kDelay_s = 10.0;
 
 // The loop closed over a swaying record whose readout time and lens nobody declared.
-inline app::LoopCloserConfig loop_over(const core::closure::ObservationRecord& record, bool adopts) {
+inline app::MissingEffectSearchConfig loop_over(const core::closure::ObservationRecord& record, bool adopts) {
   core::closure::ObservationRecord declared = record;
   declared.readout_frames = 0.0;
   const core::CameraModel camera{record.alpha_px, record.alpha_px, record.cx_px, record.cy_px, {}};

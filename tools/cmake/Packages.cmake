@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 set(PACKAGE_DIR ${CMAKE_SOURCE_DIR}/tools/package)
 set(MADE_DIR ${CMAKE_BINARY_DIR}/package)
-set(SERVICE_DIR ${CMAKE_SOURCE_DIR}/firmware_app/service)
+set(SERVICE_DIR ${CMAKE_SOURCE_DIR}/firmware_app/service/units)
 set(CPACK_PACKAGE_CONTACT "The hovermodal authors <authors@hovermodal.example>" CACHE STRING "Maintainer of the packages")
 
 # The time of the last change, not of the build: the same sources make the same packages.
@@ -54,7 +54,7 @@ install(FILES ${MADE_DIR}/hovermodal.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/ma
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/drivers/telemetry/messages DESTINATION ${CMAKE_INSTALL_DATADIR}/hovermodal COMPONENT tools)
 set(EXAMPLES ${CMAKE_INSTALL_DATADIR}/doc/hovermodal-tools/examples)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/tools/scenes DESTINATION ${EXAMPLES} COMPONENT tools)
-install(FILES ${CMAKE_SOURCE_DIR}/firmware_app/config/example.yaml ${CMAKE_SOURCE_DIR}/firmware_app/config/synthetic.yaml
+install(FILES ${CMAKE_SOURCE_DIR}/firmware_app/config/example.yaml ${CMAKE_SOURCE_DIR}/firmware_app/config/config/synthetic.yaml
   ${CMAKE_SOURCE_DIR}/tools/examples/subscribe.cpp ${CMAKE_SOURCE_DIR}/tools/examples/lcm_receiver.py
   DESTINATION ${EXAMPLES} COMPONENT tools)
 install(PROGRAMS ${CMAKE_SOURCE_DIR}/tools/examples/subscribe.py DESTINATION ${EXAMPLES} COMPONENT tools)

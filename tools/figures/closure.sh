@@ -22,12 +22,12 @@ done
 out=build/figures/closure
 mkdir -p "$out"
 tools/setup.sh
-quietly tools/build.sh hovermodal hovermodald
+quietly tools/build.sh hovermodal hovermodald hovermodal-validate
 
-selftest() { # NAME SEEDS ...: the table of a self-test, in $out/NAME.txt
+validate() { # NAME SEEDS ...: the table of a self-test, in $out/NAME.txt
   local name=$1 n=$2
   shift 2
-  "$bin/hovermodal" selftest "$name" --first-seed "$first" --seeds "$n" --threads "$(nproc)" "$@" >"$out/$name.txt"
+  "$bin/hovermodal-validate" "$name" --first-seed "$first" --seeds "$n" --threads "$(nproc)" "$@" >"$out/$name.txt"
 }
 # closeloop NAME ARGUMENTS...: report in $out/NAME, text in $out/NAME.txt
 closeloop() {

@@ -18,7 +18,7 @@ figure_8() {
 # --- 9: rendered clips, through the service ------------------------------------------------------------------------------
 clip() { # NAME SEED EFFECT: a drawn scene with it, rendered, followed, and the modes of its true motion
   local folder=$out/clip_$1
-  "$bin/hovermodal" selftest closure-clip --first-seed "$2" --duration "$clip_s" --effect "$3" >"$folder.yaml"
+  "$bin/hovermodal-validate" closure-clip --first-seed "$2" --duration "$clip_s" --effect "$3" >"$folder.yaml"
   rm -rf "$folder"
   quietly "$bin/hovermodal" simulate --scene "$folder.yaml" --size 720p --out "$folder" --threads "$(nproc)"
   quietly "$bin/hovermodal" identify --series "$folder/truth_displacements.csv" --base base --report "$folder/truth"

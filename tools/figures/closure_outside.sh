@@ -6,7 +6,7 @@ figure_3() {
   figure_3_series
 }
 figure_3_tracks() {
-  selftest closure-tracks-outside "$few"
+  validate closure-tracks-outside "$few"
   local effect n latent half described modal names
   while IFS=$'\t' read -r effect n latent half described modal names; do
     judge "3.${effect// /_}" "latent (or with its rivals) in $latent of $n, half of the named effect's gain in $half, described as it is in $described, modal error not worse in $modal" \
@@ -33,7 +33,7 @@ for effect, rows in cells.items():
 PY
 }
 figure_3_series() {
-  selftest closure-series-outside "$few"
+  validate closure-series-outside "$few"
   local effect n latent half names
   while IFS=$'\t' read -r effect n latent half names; do
     judge "3.$effect" "latent in $latent of $n, half of the named effect's gain in $half" \

@@ -8,7 +8,7 @@ figure_1() {
   figure_1_structures
 }
 figure_1_tracks() {
-  selftest closure-tracks "$known"
+  validate closure-tracks "$known"
   grep '^# bars' "$out/closure-tracks.txt"
   echo "# confusion: effect, strength, what was named, records"
   awk -F'\t' '$1 == "closure-tracks" { n[$2 "\t" $4 "\t" $10]++ } END { for (k in n) print "#\t" k "\t" n[k] }' "$out/closure-tracks.txt" | sort
@@ -50,7 +50,7 @@ for (effect, strength), rows in cells.items():
 PY
 }
 figure_1_pairs() {
-  selftest closure-tracks-pairs "$known"
+  validate closure-tracks-pairs "$known"
   local pair n both more
   while IFS=$'\t' read -r pair n both more; do
     judge "1p.${pair// /_}" "both and nothing else in $both of $n, both and more in $more" "both named (and nothing else) in 0.85" \
@@ -68,7 +68,7 @@ PY
   )
 }
 figure_1_series() {
-  selftest closure-series "$known"
+  validate closure-series "$known"
   local effect strength n alone with wrong nothing within number before after condition bar
   while IFS=$'\t' read -r effect strength n alone with wrong nothing within number before after; do
     case $effect in
@@ -100,7 +100,7 @@ for (effect, strength), rows in cells.items():
 PY
 }
 figure_1_structures() {
-  selftest closure "$known"
+  validate closure "$known"
   local effect n rms alone first_of among wrong nothing within
   while IFS=$'\t' read -r _ effect n rms alone first_of among wrong nothing within; do
     judge "1s.$effect" "named $((alone + first_of)) (alone $alone), among the rivals $among, wrong $wrong, nothing $nothing of $n; of those named all parameters within 3 sigma $within" \
@@ -117,7 +117,7 @@ figure_2() {
 }
 figure_2_tracks() {
   local false_ones n
-  selftest closure-tracks-null "$(((seeds + 11) / 12))"
+  validate closure-tracks-null "$(((seeds + 11) / 12))"
   IFS=$'\t' read -r _ false_ones n < <(grep '^closure-tracks-false' "$out/closure-tracks-null.txt")
   judge 2t "$false_ones of $n" "at most 3 false adoptions of 300, named and latent together" \
     "tracks: shaken and wind-driven, with and without background, readout 0, 0.7 and 1 of a frame" "$false_ones <= 0.01 * $n"
@@ -127,14 +127,14 @@ figure_2_tracks() {
 }
 figure_2_series() {
   local n false_ones which
-  selftest closure-series-null "$(((seeds + 1) / 2))"
+  validate closure-series-null "$(((seeds + 1) / 2))"
   IFS=$'\t' read -r n false_ones which < <(awk -F'\t' '$1 == "series-null" { n++; if ($4 != "nothing") { f++; which = which " " $2 ": " $4 ";" } }
     END { print n "\t" f + 0 "\t" which }' "$out/closure-series-null.txt")
   judge 2.series "$false_ones of $n${which:+:$which}" "at most 3 false adoptions of 300" "series of channels, shaken and wind-driven" "$false_ones <= 0.01 * $n"
 }
 figure_2_structures() {
   local false_ones
-  selftest closure-null "$seeds"
+  validate closure-null "$seeds"
   false_ones=$(awk -F'\t' '$2 == "none" { print $3 - $9 }' "$out/closure-null.txt")
   judge 2s "$false_ones of $seeds" "at most 3 false adoptions of 300" "uniform frames with noise" "$false_ones <= 0.01 * $seeds"
 }

@@ -18,7 +18,7 @@ figures=("$@")
 out=build/figures/documents
 mkdir -p "$out"
 tools/setup.sh
-quietly tools/build.sh hovermodal
+quietly tools/build.sh hovermodal hovermodal-validate
 
 # --- 2: the tables -------------------------------------------------------------------------------------------------------
 figure_2() {
@@ -48,19 +48,19 @@ figure_4() {
   while IFS=$'\t' read -r name small; do
     eval "options=($small)"
     for where in 1 2; do
-      "$bin/hovermodal" selftest "$name" --first-seed $((first + where - 1)) "${options[@]}" 2>"$out/$name.log" |
+      "$bin/hovermodal-validate" "$name" --first-seed $((first + where - 1)) "${options[@]}" 2>"$out/$name.log" |
         grep -v '^#' | sed -E 's/\t[0-9.]+ s(\t|$)/\1/g' >"$out/seed_$where.txt" || true
     done
     lines=$(wc -l <"$out/seed_1.txt")
     moved=$(diff "$out/seed_1.txt" "$out/seed_2.txt" | grep -c '^<' || true)
     judge "4.$name" "$moved of $lines lines differ" "every selftest's numbers move" \
-      "selftest $name, first seed $first against $((first + 1)), $small" "$moved > 0 && $lines > 0"
-  done < <(selftests)
+      "hovermodal-validate $name, first seed $first against $((first + 1)), $small" "$moved > 0 && $lines > 0"
+  done < <(validations)
 }
-selftests() { # the names that the program lists, each with the options that keep its records small
+validations() { # the names that the program lists, each with the options that keep its records small
   local records
   records="--seeds 2 --threads $(nproc)"
-  "$bin/hovermodal" selftest --help | sed -n 's/^ \{20,\}\([a-z0-9-]*\): .*/\1/p' | while read -r name; do
+  "$bin/hovermodal-validate" --help | sed -n 's/^ \{20,\}\([a-z0-9-]*\): .*/\1/p' | while read -r name; do
     case $name in
       signatures | shifts | pixels) printf '%s\t\n' "$name" ;;
       peaks) printf '%s\t%s\n' "$name" "--seeds 2" ;;

@@ -1,7 +1,7 @@
 # Figure 1 of documents.sh: the published chain (method: paper) on the paper's own experiment. Sourced, with lib.sh,
 # $out, $first and $seeds.
 
-paper_row() { # READOUT WAY: a summary line of selftest paper, columns by name
+paper_row() { # READOUT WAY: a summary line of validate paper, columns by name
   awk -F'\t' -v readout="$1" -v way="$2" '$1 == "paper" && $2 == readout && $3 == way { $1 = $2 = $3 = ""; print }' "$out/paper.txt"
 }
 read_paper_row() { # READOUT WAY: into variables, "nan" where there is no such line
@@ -28,7 +28,7 @@ figure_1() {
     line 1 SKIP "no data at $flight" "-" "recorded hover (HOVERMODAL_DATA names the folder): the hover model moves the camera instead"
     moved_by="modelled hover" use_flight=()
   fi
-  "$bin/hovermodal" selftest paper --seeds "$seeds" --first-seed "$first" --threads "$(nproc)" "${use_flight[@]}" >"$out/paper.txt"
+  "$bin/hovermodal-validate" paper --seeds "$seeds" --first-seed "$first" --threads "$(nproc)" "${use_flight[@]}" >"$out/paper.txt"
   local parts=([40]=1a [26]=1b)
   for readout in 40 26; do
     read_paper_row "$readout" paper

@@ -16,7 +16,7 @@ seeds=20 longest=20 clips=20 shorter=()
 out=build/figures/geometry
 mkdir -p "$out"
 tools/setup.sh
-quietly tools/build.sh hovermodal
+quietly tools/build.sh hovermodal hovermodal-validate
 
 flight=$data/phantom4_hover/flight_10hz.csv
 moved_by="hover recorded in flight" use_flight=(--flight "$flight")
@@ -28,8 +28,8 @@ fi
 check() { # NAME SEEDS ...: the table of a self-test
   local name=$1 n=$2
   shift 2
-  "$bin/hovermodal" selftest "$name" --first-seed "$first" --seeds "$n" --threads "$(nproc)" "${use_flight[@]}" "$@" >"$out/$name.txt" ||
-    echo "# selftest $name failed" # and its lines miss
+  "$bin/hovermodal-validate" "$name" --first-seed "$first" --seeds "$n" --threads "$(nproc)" "${use_flight[@]}" "$@" >"$out/$name.txt" ||
+    echo "# validate $name failed" # and its lines miss
 }
 row() { # FIGURE CASE WAY: columns 4 on of its line
   awk -F'\t' -v c="$2" -v w="$3" '$2 == c && $3 == w { for (i = 4; i <= NF; ++i) printf "%s ", $i }' "$out/$1.txt"
@@ -116,8 +116,8 @@ figure_3() {
 # --- 4: readout ---------------------------------------------------------------------------------------------------------
 figure_4a() {
   local rows missing worst sigmas n=$seeds
-  "$bin/hovermodal" selftest "readout$drawn" --first-seed "$first" --seeds "$seeds" --threads "$(nproc)" >"$out/readout$drawn.txt" ||
-    echo "# selftest readout$drawn failed"
+  "$bin/hovermodal-validate" "readout$drawn" --first-seed "$first" --seeds "$seeds" --threads "$(nproc)" >"$out/readout$drawn.txt" ||
+    echo "# validate readout$drawn failed"
   # readout, true frames, seconds, records, with an estimate, mean, deviation, worst error, stated, worst in sigmas, ...
   read -r rows missing worst sigmas < <(awk -F'\t' -v f="readout$drawn" '$1 == f && $3 == 300 { n++; missing += $4 - $5; if ($8 ~ /n/ || $10 ~ /n/) none = 1; if ($8 > w) w = $8; if ($10 > s) s = $10 }
     END { print n + 0, missing + 0, none ? "nan nan" : w + 0 " " s + 0 }' "$out/readout$drawn.txt")

@@ -2,7 +2,7 @@
 # The figures of the identification: spectra, measured records, simulated records of known truth, cost. One line a figure.
 #   tools/figures/identification.sh [--quick] [--first-seed N] [FIGURE...]      FIGURE: some of 1 ... 10 (default: all)
 # --quick takes a tenth of the seeds, and little of the clock. Figures 1, 9, 10 come from identification_speed.sh, 2-4 from
-# identification_measured.sh, 5-8 from `hovermodal selftest`, whose tables stay in build/figures/identification; their
+# identification_measured.sh, 5-8 from `hovermodal-validate`, whose tables stay in build/figures/identification; their
 # "-drawn" lines hold the same bars to records whose camera, structure and noise are drawn from the seed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -13,7 +13,7 @@ many=200 seeds=100 few=20
 out=build/figures/identification
 mkdir -p "$out"
 tools/setup.sh
-quietly tools/build.sh hovermodal
+quietly tools/build.sh hovermodal hovermodal-validate
 
 part() { # SCRIPT FIGURE: its lines; its misses are ours
   local text
@@ -24,8 +24,8 @@ part() { # SCRIPT FIGURE: its lines; its misses are ours
 check() { # NAME SEEDS ...: the table of a self-test
   local name=$1 n=$2
   shift 2
-  "$bin/hovermodal" selftest "$name" --first-seed "$first" --seeds "$n" --threads "$(nproc)" "$@" >"$out/$name.txt" ||
-    echo "# selftest $name failed" # and its lines miss
+  "$bin/hovermodal-validate" "$name" --first-seed "$first" --seeds "$n" --threads "$(nproc)" "$@" >"$out/$name.txt" ||
+    echo "# validate $name failed" # and its lines miss
 }
 # table NAME FILTER PROGRAM END: awk over the rows of a table that the filter takes. num(x) is a number of a row; where one is
 # none, all that is printed is nan.

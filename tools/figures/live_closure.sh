@@ -22,12 +22,12 @@ done
 out=$PWD/build/figures/live_closure
 mkdir -p "$out"
 tools/setup.sh
-quietly tools/build.sh hovermodal hovermodald overload_run
+quietly tools/build.sh hovermodal hovermodald overload_run hovermodal-validate
 brief=(--set closure.adopt=auto --set closure.window_s=60 --set closure.period_s=30 --set closure.delay_s=15)
 
 # --- 1: effects that begin in mid-flight ------------------------------------------------------------------------------
 figure_1() {
-  "$bin/hovermodal" selftest closure-live --first-seed "$first" --seeds "$seeds" --threads "$(nproc)" >"$out/tracks.txt"
+  "$bin/hovermodal-validate" closure-live --first-seed "$first" --seeds "$seeds" --threads "$(nproc)" >"$out/tracks.txt"
   local name n alone after with with_error without without_error twin twin_error total=0 right=0
   while IFS=$'\t' read -r name n alone after with with_error without without_error twin twin_error; do
     line "1.${name// /_}" beside "taken out and nothing else in $alone of $n, $after s after the onset; modes found $with with the loop, $without without it, $twin without the effect; error and sigma $with_error, $without_error, $twin_error % rms" \
@@ -62,7 +62,7 @@ clip() {
   for half in before after; do
     effects=$2
     [ $half = after ] || effects=
-    "$bin/hovermodal" selftest closure-clip --first-seed "$3" --duration "$clip_s" --effect "$effects" >"$folder/$half.yaml"
+    "$bin/hovermodal-validate" closure-clip --first-seed "$3" --duration "$clip_s" --effect "$effects" >"$folder/$half.yaml"
     quietly "$bin/hovermodal" simulate --scene "$folder/$half.yaml" --size 960x540 --out "$folder/$half" --threads "$(nproc)"
   done
   quietly ffmpeg -nostdin -y -t 60 -i "$folder/before/clip.mp4" -ss 60 -i "$folder/after/clip.mp4" \
@@ -112,7 +112,7 @@ PY
 
 # --- 2: nothing to find -----------------------------------------------------------------------------------------------
 figure_2() {
-  "$bin/hovermodal" selftest closure-live-null --first-seed "$first" --seeds "$nulls" --threads "$(nproc)" >"$out/null.txt"
+  "$bin/hovermodal-validate" closure-live-null --first-seed "$first" --seeds "$nulls" --threads "$(nproc)" >"$out/null.txt"
   local changed worst
   read -r changed worst < <(awk -F'\t' '$1 == "closure-live-null" { if ($3 > 0) c++; if ($4 > w) w = $4 } END { print c + 0, w + 0 }' "$out/null.txt")
   judge 2 "$changed of $nulls adopt something; frequencies and damping within $worst sigma of those with the loop off" "at most 1 adoption of 100; modal results within 0.05 sigma" \

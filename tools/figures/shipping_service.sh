@@ -20,7 +20,7 @@ exposure() {
   command -v systemd-analyze >/dev/null ||
     { line 2.exposure SKIP "no systemd-analyze" "at most 2.5, printed" "systemd-analyze security; installed by: apt-get install -y systemd"; return; }
   local score
-  score=$(systemd-analyze security --offline=true firmware_app/service/hovermodald.service 2>/dev/null | sed -n 's/.*exposure level.*: \([0-9.]*\).*/\1/p' || true)
+  score=$(systemd-analyze security --offline=true firmware_app/service/units/hovermodald.service 2>/dev/null | sed -n 's/.*exposure level.*: \([0-9.]*\).*/\1/p' || true)
   judge 2.exposure "${score:-none}" "at most 2.5, printed" "systemd-analyze security --offline=true" "${score:-nan} <= 2.5"
 }
 booted() { # KERNEL

@@ -12,12 +12,12 @@ seconds=60
 out=build/figures/truth_and_report
 mkdir -p "$out"
 tools/setup.sh
-quietly tools/build.sh hovermodald hovermodal
+quietly tools/build.sh hovermodald hovermodal hovermodal-validate
 
 # --- 1: known shifts -------------------------------------------------------------------------------------------------
 figure_1() {
   local n worst smooth
-  "$bin/hovermodal" selftest shifts --first-seed "$first" >"$out/shifts.txt"
+  "$bin/hovermodal-validate" shifts --first-seed "$first" >"$out/shifts.txt"
   read -r n worst smooth < <(awk -F'\t' '$1 == "shift" { n++; w = $3 + 0 > w ? $3 + 0 : w; if ($2 ~ /^smooth/ && $4 + 0 > s) s = $4 + 0 }
     END { print n + 0, w + 0, s + 0 }' "$out/shifts.txt")
   judge 1 "$n scenes, worst $worst px, rms of smooth texture at most $smooth px" "16 scenes, 0.005 px worst, 0.001 px rms" \
@@ -26,13 +26,13 @@ figure_1() {
 }
 
 # --- 2: peaks of the truth -------------------------------------------------------------------------------------------
-peaks() { # modes, largest |mean|, least and largest rms of a table of `selftest peaks`
+peaks() { # modes, largest |mean|, least and largest rms of a table of `hovermodal-validate peaks`
   awk -F'\t' '$1 == "peak" { n++; if ($6 !~ /[0-9]/ || $7 !~ /[0-9]/) none = 1; m = $6 < 0 ? -$6 : $6; if (m > w) w = m; if (l == "" || $7 < l) l = $7; if ($7 > h) h = $7 }
     END { if (none) print n / 2, "nan nan nan"; else printf "%d %.2f %.2f %.2f\n", n / 2, w, l, h }' "$1"
 }
 peaks_figure() { # NUMBER SEEDS MEAN LEAST MOST WHAT
   local modes mean low high
-  "$bin/hovermodal" selftest peaks --first-seed "$first" --seeds "$2" >"$out/peaks$2.txt"
+  "$bin/hovermodal-validate" peaks --first-seed "$first" --seeds "$2" >"$out/peaks$2.txt"
   read -r modes mean low high < <(peaks "$out/peaks$2.txt")
   judge "$1" "$modes modes, mean error at most $mean, rms $low ... $high of the theoretical scatter" "mean <= $3, rms $4 ... $5" \
     "$6, $(seeds_of "$2")" "$modes == 6 && $mean <= $3 && $low >= $4 && $high <= $5"
@@ -46,7 +46,7 @@ figure_2b() {
 # --- 3: each effect against its first-order signature ----------------------------------------------------------------
 figure_3() {
   local effects worst name
-  "$bin/hovermodal" selftest signatures --first-seed "$first" >"$out/signatures.txt"
+  "$bin/hovermodal-validate" signatures --first-seed "$first" >"$out/signatures.txt"
   read -r effects worst name < <(awk -F'\t' '$1 == "signature" { n++; split($4, e, " "); if (e[1] >= w) { w = e[1]; name = $2 } }
     END { gsub(" ", "_", name); print n + 0, w, name }' "$out/signatures.txt")
   judge 3 "$effects effects, worst $worst % ($name)" "1 % of the effect's rms" \
@@ -65,7 +65,7 @@ figure_4() {
   took=$(awk -v a="$started" -v b="$(date +%s.%N)" 'BEGIN { printf "%.1f", b - a }')
   rows=$(grep -c '^[0-9]' "$out/channels/displacements.csv")
   judge 4b "$took s, $rows rows" "30 s, 90000 rows" "an hour of displacement samples of 7 channels at 25 fps" "$took <= 30 && $rows == 90000"
-  "$bin/hovermodal" selftest speed --first-seed "$first" >"$out/speed.txt"
+  "$bin/hovermodal-validate" speed --first-seed "$first" >"$out/speed.txt"
   rates=$(awk -F'\t' '$1 == "speed" { printf "%s%s %s", s, $3, $2; s = ", " }' "$out/speed.txt")
   judge 4c "$rates" "printed" "1080p frames drawn per second on 2 threads" "$(awk -F'\t' '$1 == "speed" { n++ } END { print n + 0 }' "$out/speed.txt") == 3"
 }
@@ -73,7 +73,7 @@ figure_4() {
 # --- 5: other people's tracker in our frames --------------------------------------------------------------------------
 figure_5() {
   local n worst lost
-  "$bin/hovermodal" selftest klt --first-seed "$first" >"$out/klt.txt"
+  "$bin/hovermodal-validate" klt --first-seed "$first" >"$out/klt.txt"
   read -r n worst lost < <(awk -F'\t' '$1 == "klt" { n += $6; l += $7; if ($4 + 0 > w) w = $4 + 0 } END { print n + 0, w + 0, l + 0 }' "$out/klt.txt")
   judge 5 "three scenes, $n points, $lost lost, rms at most $worst px" "0.05 px rms per axis" \
     "OpenCV's KLT in drawn frames with noise of 2 grey levels, against the true tracks" \

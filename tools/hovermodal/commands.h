@@ -25,6 +25,5 @@ void add_inspect_lcm(CLI::App& inspect);
 void add_regions(CLI::App& app);
 void add_readout(CLI::App& app);
 void add_ground(CLI::App& app);
-void add_selftest(CLI::App& app);
 
 }  // namespace tools

@@ -27,7 +27,6 @@ int main(int argc, char** argv) {
   tools::add_regions(app);
   tools::add_ground(app);
   tools::add_readout(app);
-  tools::add_selftest(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

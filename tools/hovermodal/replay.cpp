@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_app/analysis.h"
+#include "firmware_app/replay/analysis.h"
 #include "firmware_app/report/page/report_page.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/modes_text.h"

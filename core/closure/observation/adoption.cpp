@@ -104,8 +104,8 @@ double Adoption::value(const std::string& effect, std::size_t parameter) const n
   return found != in_force_.end() && parameter < found->parameters.size() ? found->parameters[parameter].value : 0.0;
 }
 
-PlaceCorrection Adoption::places(const CameraModel& camera) const {
-  PlaceCorrection out;
+PointCorrection Adoption::places(const CameraModel& camera) const {
+  PointCorrection out;
   for (std::size_t i = 0; i < out.locking_px.size(); ++i) out.locking_px[i] = value(kLocking, i);
   const double k1 = value(kRadial, 0), p1 = value(kTangential, 0), p2 = value(kTangential, 1);
   if (k1 != 0.0 || p1 != 0.0 || p2 != 0.0)

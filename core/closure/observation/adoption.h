@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry/place_correction.h"
+#include "core/geometry/point_correction.h"
 #include "core/types/closure_report.h"
 
 namespace core::closure {
@@ -32,7 +32,7 @@ class Adoption {
   // "readout time: added readout = 0.56 +- 0.001 frames, from frame 3600 on".
   [[nodiscard]] std::vector<std::string> words() const;
   // camera: that of the record from which the reports are made; focal length and centre of the lens effects.
-  [[nodiscard]] PlaceCorrection places(const CameraModel& camera) const;
+  [[nodiscard]] PointCorrection places(const CameraModel& camera) const;
   // The last update changed the row delays themselves, and not only their precision: the readout time was not in every
   // report since the first.
   [[nodiscard]] bool changes_delays() const noexcept { return changes_delays_; }

@@ -28,7 +28,7 @@ Field field_at(const Vector2d& at_px, double f) {
 // How a change of d, where the shift takes a point of mean depth, moves it from where it was seen: along the epipolar
 // line as it is, across by the line's turn, times what the point itself went along it. The depth that this tells of is
 // what tells a turn from a shift.
-Matrix2d lever(const RestFlow& flow, const Vector2d& d) {
+Matrix2d lever(const DerotatedFlow& flow, const Vector2d& d) {
   const double size = d.norm();
   if (size < kLeastShift_px) return Matrix2d::Identity();
   const Vector2d e = d / size;
@@ -40,15 +40,15 @@ struct Normal {
   Vector3d slope = Vector3d::Zero();        // of the cost by the turn that is taken away
 };
 
-Normal linearise(const std::vector<RestFlow>& flows, const RestFlowModel& model, const Vector3d& shift_px) {
+Normal linearise(const std::vector<DerotatedFlow>& flows, const DerotatedFlowModel& model, const Vector3d& shift_px) {
   Normal out;
   Matrix3d turns = Matrix3d::Zero(), mixed = Matrix3d::Zero(), shifts = 1e-9 * Matrix3d::Identity();
-  for (const RestFlow& flow : flows) {
+  for (const DerotatedFlow& flow : flows) {
     const Field field = field_at(flow.at_px, model.focal_px);
     const Field effect = shift_effect(flow, model.focal_px);
-    const RestFlowTerm term = judge(flow, shift_px, model);
+    const DerotatedFlowTerm term = judge(flow, shift_px, model);
     for (Index axis = 0; axis < 2; ++axis) {
-      RestFlow less = flow;
+      DerotatedFlow less = flow;
       less.flow_px[axis] -= kStep_px;
       out.slope += field.row(axis).transpose() * (judge(less, shift_px, model).cost - term.cost) / kStep_px;
     }
@@ -62,14 +62,14 @@ Normal linearise(const std::vector<RestFlow>& flows, const RestFlowModel& model,
   return out;
 }
 
-std::vector<RestFlow> without(std::vector<RestFlow> flows, const Vector3d& turn, double f) {
-  for (RestFlow& flow : flows) flow.flow_px -= field_at(flow.at_px, f) * turn;
+std::vector<DerotatedFlow> without(std::vector<DerotatedFlow> flows, const Vector3d& turn, double f) {
+  for (DerotatedFlow& flow : flows) flow.flow_px -= field_at(flow.at_px, f) * turn;
   return flows;
 }
 
 }  // namespace
 
-RemainingTurn remaining_turn(std::vector<RestFlow> flows, const RestFlowModel& model, Vector3d shift_px) {
+RemainingTurn remaining_turn(std::vector<DerotatedFlow> flows, const DerotatedFlowModel& model, Vector3d shift_px) {
   RemainingTurn out;
   double before = fit_shift(flows, model, shift_px), damping = kLeastDamping;
   for (int round = 0; round < kRounds; ++round) {
@@ -82,7 +82,7 @@ RemainingTurn remaining_turn(std::vector<RestFlow> flows, const RestFlowModel& m
       raised.diagonal() *= 1.0 + damping;
       change = -raised.ldlt().solve(normal.slope);
       if (!change.allFinite()) return out;
-      std::vector<RestFlow> next = without(flows, change, model.focal_px);
+      std::vector<DerotatedFlow> next = without(flows, change, model.focal_px);
       Vector3d shift = shift_px;
       const double now = fit_shift(next, model, shift);
       if (!(now < before)) continue;

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/geometry/rest_flow.h"
+#include "core/geometry/derotated_flow.h"
 
 namespace core::closure {
 
@@ -15,7 +15,7 @@ struct RemainingTurn {
 };
 
 // Most likely rotation near zero, by Levenberg-Marquardt; the pair's translation is fitted with it.
-[[nodiscard]] RemainingTurn remaining_turn(std::vector<RestFlow> flows, const RestFlowModel& model,
+[[nodiscard]] RemainingTurn remaining_turn(std::vector<DerotatedFlow> flows, const DerotatedFlowModel& model,
                                            Eigen::Vector3d shift_px);
 
 }  // namespace core::closure

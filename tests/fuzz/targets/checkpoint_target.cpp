@@ -9,8 +9,8 @@
 #include "core/spectrum/time_grid.h"
 #include "core/spectrum/welch_cpsd.h"
 #include "drivers/storage/checkpoint_file.h"
-#include "firmware_app/kept_keyframe.h"
-#include "firmware_app/run_state.h"
+#include "firmware_app/chain/state/run_state.h"
+#include "firmware_app/service/kept_keyframe.h"
 #include "tests/fuzz/memory_file.h"
 #include "tests/fuzz/small_state.h"
 

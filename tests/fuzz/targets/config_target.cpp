@@ -1,5 +1,5 @@
-#include "firmware_app/config.h"
-#include "firmware_app/config_yaml.h"
+#include "firmware_app/config/config.h"
+#include "firmware_app/config/config_yaml.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace tests::fuzz {

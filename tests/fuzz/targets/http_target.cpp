@@ -4,7 +4,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "firmware_app/config.h"
+#include "firmware_app/config/config.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/support/raw_http.h"
 #include "tools/hovermodal/ground/web_head.h"

@@ -2,8 +2,8 @@
 #include <stdexcept>
 
 #include "drivers/telemetry/run_record_reader.h"
-#include "firmware_app/analysis.h"
-#include "firmware_app/run_head.h"
+#include "firmware_app/chain/state/run_head.h"
+#include "firmware_app/replay/analysis.h"
 #include "tests/fuzz/memory_file.h"
 
 namespace tests::fuzz {

@@ -35,7 +35,7 @@ TEST(Adoption, OneReportIsNotEnoughAndTwoThatAgreeAre) {
               ElementsAre(AllOf(HasSubstr("from frame 2000 on taken out, radial distortion"), HasSubstr("k1 = -0.0702"),
                                 HasSubstr("held-out error 0.0500 -> 0.0300 px"))));
   ASSERT_EQ(a.in_force().size(), 1U);
-  const PlaceCorrection places = a.places({2000.0, 2000.0, 960.0, 540.0, {}});
+  const PointCorrection places = a.places({2000.0, 2000.0, 960.0, 540.0, {}});
   EXPECT_EQ(places.lens.distortion[0], -0.0702);
   EXPECT_EQ(places.lens.fx, 2000.0);
   EXPECT_THAT(a.words(), ElementsAre(HasSubstr("from frame 2000 on")));

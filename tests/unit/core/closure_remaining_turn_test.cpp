@@ -11,17 +11,17 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr RestFlowModel kModel{600.0, 0.1};
+constexpr DerotatedFlowModel kModel{600.0, 0.1};
 
 // Points over a picture of 800 x 600 px that turns, and whose camera is shifted past points at many depths.
-std::vector<RestFlow> flows_of(const Vector3d& turn, const Vector3d& shift_px, std::uint64_t seed) {
+std::vector<DerotatedFlow> flows_of(const Vector3d& turn, const Vector3d& shift_px, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::normal_distribution<double> noise(0.0, kModel.sigma_px), depth(0.0, 1.0);
-  std::vector<RestFlow> flows;
+  std::vector<DerotatedFlow> flows;
   for (int i = 0; i < 60; ++i) {
     const double x = 400.0 * unit(random), y = 300.0 * unit(random), f = kModel.focal_px;
-    RestFlow flow;
+    DerotatedFlow flow;
     flow.at_px = {x, y};
     flow.flow_px = shift_effect(flow, f) * shift_px * (1.0 + depth(random));
     flow.flow_px += Eigen::Vector2d(x * y / f * turn.x() - (f + x * x / f) * turn.y() + y * turn.z(),
@@ -55,8 +55,8 @@ TEST(RemainingTurn, OfNoneIsNearNone) {
 
 // A steady turn about the picture's own axes looks like a shift where all depths are equal and the view is narrow.
 TEST(RemainingTurn, SaysThatANarrowViewCannotTellItFromAShift) {
-  std::vector<RestFlow> wide = flows_of(Vector3d::Zero(), {2.0, 0.0, 0.0}, 1), narrow = wide;
-  for (RestFlow& flow : narrow) flow.at_px *= 0.05;
+  std::vector<DerotatedFlow> wide = flows_of(Vector3d::Zero(), {2.0, 0.0, 0.0}, 1), narrow = wide;
+  for (DerotatedFlow& flow : narrow) flow.at_px *= 0.05;
   const Vector3d shift(2.0, 0.0, 0.0);
   const double told = remaining_turn(wide, kModel, shift).information(1, 1);
   EXPECT_LT(remaining_turn(narrow, kModel, shift).information(1, 1), 0.2 * told);

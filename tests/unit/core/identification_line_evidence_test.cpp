@@ -54,34 +54,34 @@ UnfoldedPole pole_at(double frequency_hz, double damping_ratio, std::vector<Comp
 
 const std::vector<Complex> kPlain(kShape.begin(), kShape.end());
 
-TEST(LineEvidence, ASteadyLineDoesNotDecay) {
+TEST(SpectralLineEvidence, ASteadyLineDoesNotDecay) {
   const FoldingConfig folding = rows(0.0);
   const CpsdSums sums = record(4.0, 0.0, true);
-  const LineEvidence line = LineExaminer(sums, folding).examine(pole_at(4.0, 0.0005, kPlain));
+  const SpectralLineEvidence line = SpectralLineTest(sums, folding).examine(pole_at(4.0, 0.0005, kPlain));
   ASSERT_TRUE(line.late_damping_ratio.has_value());
   EXPECT_LT(std::abs(*line.late_damping_ratio), 2e-4);
   EXPECT_GT(line.late_share, 0.9);
 }
 
-TEST(LineEvidence, AModeDecaysAsMuchAsItIsDamped) {
+TEST(SpectralLineEvidence, AModeDecaysAsMuchAsItIsDamped) {
   const FoldingConfig folding = rows(0.0);
   const CpsdSums sums = record(5.0, 0.004, false);
-  const LineEvidence mode = LineExaminer(sums, folding).examine(pole_at(5.0, 0.004, kPlain));
+  const SpectralLineEvidence mode = SpectralLineTest(sums, folding).examine(pole_at(5.0, 0.004, kPlain));
   ASSERT_TRUE(mode.late_damping_ratio.has_value());
   EXPECT_LT(mode.late_share, 0.4);
 }
 
 // A fifth of a lost 0.1 % takes 32 cycles: the lags of a segment hold fewer of a slow line.
-TEST(LineEvidence, LinesTooSlowForTheSegmentAreNotExamined) {
+TEST(SpectralLineEvidence, LinesTooSlowForTheSegmentAreNotExamined) {
   const FoldingConfig folding = rows(0.0);
   const CpsdSums sums = record(1.0, 0.0, true);
-  EXPECT_FALSE(LineExaminer(sums, folding).examine(pole_at(1.0, 0.0005, kPlain)).late_damping_ratio.has_value());
+  EXPECT_FALSE(SpectralLineTest(sums, folding).examine(pole_at(1.0, 0.0005, kPlain)).late_damping_ratio.has_value());
 }
 
-TEST(LineEvidence, WellDampedPolesAreNotExamined) {
+TEST(SpectralLineEvidence, WellDampedPolesAreNotExamined) {
   const FoldingConfig folding = rows(0.0);
   const CpsdSums sums = record(2.0, 0.02, false);
-  EXPECT_FALSE(LineExaminer(sums, folding).examine(pole_at(2.0, 0.02, kPlain)).late_damping_ratio.has_value());
+  EXPECT_FALSE(SpectralLineTest(sums, folding).examine(pole_at(2.0, 0.02, kPlain)).late_damping_ratio.has_value());
 }
 
 // Yaw and roll of the camera at a rate far above the modes, each with its own phase.
@@ -94,7 +94,7 @@ std::vector<Complex> shaken(double true_hz, const FoldingConfig& folding) {
   return shape;
 }
 
-TEST(LineEvidence, AShakingCameraIsSeenThroughTheDelaysOfItsRows) {
+TEST(SpectralLineEvidence, AShakingCameraIsSeenThroughTheDelaysOfItsRows) {
   const FoldingConfig folding = rows(0.66);
   const CpsdSums sums = record(4.0, 0.01, false);
   for (const double true_hz : {79.0, 96.0, 104.0, 146.0}) {
@@ -103,20 +103,20 @@ TEST(LineEvidence, AShakingCameraIsSeenThroughTheDelaysOfItsRows) {
     UnfoldedPole pole = pole_at(std::abs(std::remainder(true_hz, kRate_hz)), 0.0, shaken(signed_hz, folding));
     const FoldingConfig none = {kRate_hz, 20.0, std::vector<double>(6, 0.0)};
     for (std::size_t c = 0; c < 6; ++c) pole.shape[c] *= std::exp(-pole.s * folding.delay_s[c]);  // as if n were 0
-    const LineEvidence line = LineExaminer(sums, folding).examine(pole);
+    const SpectralLineEvidence line = SpectralLineTest(sums, folding).examine(pole);
     EXPECT_GT(line.camera_mac, 0.9999) << true_hz;
     EXPECT_NEAR(line.camera_hz, true_hz, 1e-9);
-    EXPECT_EQ(LineExaminer(sums, none).examine(pole).camera_mac, 0.0) << "without delays nothing tells";
+    EXPECT_EQ(SpectralLineTest(sums, none).examine(pole).camera_mac, 0.0) << "without delays nothing tells";
   }
 }
 
-TEST(LineEvidence, AModeOfTheStructureIsNoShakingCamera) {
+TEST(SpectralLineEvidence, AModeOfTheStructureIsNoShakingCamera) {
   const CpsdSums sums = record(4.0, 0.01, false);
   const std::vector<Complex> sway{1.0, 0.9, 0.75, 0.55, 0.35, 0.1};  // nearly a slope
   for (const double readout : {0.05, 0.3, 0.66, 0.9}) {
     const FoldingConfig folding = rows(readout);
     for (const auto& shape : {kPlain, sway}) {
-      EXPECT_LT(LineExaminer(sums, folding).examine(pole_at(1.7, 0.01, shape)).camera_mac, 0.95) << readout;
+      EXPECT_LT(SpectralLineTest(sums, folding).examine(pole_at(1.7, 0.01, shape)).camera_mac, 0.95) << readout;
     }
   }
 }

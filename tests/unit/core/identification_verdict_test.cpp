@@ -134,18 +134,18 @@ TEST(Verdict, AFoldWithoutAClearLeadIsAmbiguous) {
 
 TEST(Verdict, AShakingCameraBeyondTheModesIsNoMode) {
   PoleCluster cluster = flawless();
-  const LineEvidence camera{0.995, 95.0, {}, 0.0};
+  const SpectralLineEvidence camera{0.995, 95.0, {}, 0.0};
   const Mode mode = judge(cluster, {}, channels(), kOrders, VerdictRules{}, camera);
   EXPECT_EQ(mode.verdict, Verdict::kCameraMotion);
   EXPECT_NE(mode.reason.find("95.0 Hz"), std::string::npos) << mode.reason;
-  const LineEvidence hardly{0.9, 95.0, {}, 0.0};
+  const SpectralLineEvidence hardly{0.9, 95.0, {}, 0.0};
   EXPECT_EQ(judge(cluster, {}, channels(), kOrders, VerdictRules{}, hardly).verdict, Verdict::kStructural);
 }
 
 TEST(Verdict, ACorrelationThatDoesNotDecayIsASteadyForce) {
   PoleCluster cluster = flawless();
   cluster.damping_ratio = 0.0008;
-  const LineEvidence steady{0.0, 0.0, 0.0001, 0.9}, decays{0.0, 0.0, 0.004, 0.9}, gone{0.0, 0.0, 0.0009, 0.2};
+  const SpectralLineEvidence steady{0.0, 0.0, 0.0001, 0.9}, decays{0.0, 0.0, 0.004, 0.9}, gone{0.0, 0.0, 0.0009, 0.2};
   const Mode mode = judge(cluster, {}, channels(), kOrders, VerdictRules{}, steady);
   EXPECT_EQ(mode.verdict, Verdict::kHarmonic);
   EXPECT_NE(mode.reason.find("steady force"), std::string::npos) << mode.reason;

@@ -1,4 +1,4 @@
-#include "firmware_app/stages/closure_stage.h"
+#include "firmware_app/service/stages/closure_stage.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,18 +21,18 @@ using test_support::track_frame;
 using ::testing::HasSubstr;
 
 // The stage fed with a record, run to its end; its reports, and what it tells tracking if it is asked to adopt.
-std::vector<ClosureReport> reports_of(const ObservationRecord& record, std::vector<ViewChange>* changes = nullptr,
-                                      AmendmentBook* book = nullptr) {
+std::vector<ClosureReport> reports_of(const ObservationRecord& record, std::vector<CorrectionSwitch>* changes = nullptr,
+                                      CorrectionLog* book = nullptr) {
   rt::SpscRing<core::TrackFrame> tracks(16, track_frame(record, 0));
   rt::SpscRing<ClosureReport> reports(8, ClosureReport{});
-  rt::SpscRing<ViewChange> view_changes(8, ViewChange{});
+  rt::SpscRing<CorrectionSwitch> correction_switches(8, CorrectionSwitch{});
   const bool adopts = changes != nullptr;
-  AmendmentBook unused;
+  CorrectionLog unused;
   Diagnosis diagnosis(loop_over(record, adopts), book != nullptr ? *book : unused,
-                      [&](const Amendment&) { return no_geometry(record); });
+                      [&](const CorrectionSet&) { return no_geometry(record); });
   ClosureStage::Ends ends{tracks.reader(), reports.writer()};
   if (adopts) {
-    ends.changes.emplace(view_changes.writer());
+    ends.changes.emplace(correction_switches.writer());
     changes->push_back(diagnosis.change());
   }
   ClosureStage stage(std::move(ends), diagnosis);
@@ -49,7 +49,7 @@ std::vector<ClosureReport> reports_of(const ObservationRecord& record, std::vect
   EXPECT_EQ(last, rt::StepStatus::kFinished);
   stage.finish();
   std::vector<ClosureReport> out;
-  auto heard = view_changes.reader();
+  auto heard = correction_switches.reader();
   for (; heard.front() != nullptr; heard.pop()) changes->push_back(*heard.front());
   auto reader = reports.reader();
   for (; reader.front() != nullptr; reader.pop()) out.push_back(*reader.front());
@@ -105,8 +105,8 @@ TEST(ClosureStage, TheSameTracksGiveTheSameBits) {
 }
 
 TEST(ClosureStage, AdoptsWhatTwoReportsAgreeOnAndTellsTrackingOncePerReport) {
-  std::vector<ViewChange> changes;
-  AmendmentBook book;
+  std::vector<CorrectionSwitch> changes;
+  CorrectionLog book;
   const std::vector<ClosureReport> reports = reports_of(swaying_record(25 * 95, {.k1 = -0.05}), &changes, &book);
   ASSERT_EQ(reports.size(), 3U);
   EXPECT_TRUE(reports[0].changes.empty());
@@ -120,20 +120,20 @@ TEST(ClosureStage, AdoptsWhatTwoReportsAgreeOnAndTellsTrackingOncePerReport) {
   EXPECT_EQ(changes[1].geometry, nullptr);
   ASSERT_NE(changes[2].geometry, nullptr);
   EXPECT_EQ(changes[2].from_sequence, 1750U);
-  EXPECT_EQ(changes[2].amendment, 1U);
+  EXPECT_EQ(changes[2].correction_set, 1U);
   EXPECT_EQ(changes[3].geometry, nullptr);
-  const Amendment& amendment = book.at(1);
-  EXPECT_NEAR(amendment.places.lens.distortion[0], -0.05, 0.002);
-  EXPECT_TRUE(amendment.places.in_keyframe);  // it was there from the first frame on
-  EXPECT_EQ(amendment.words.size(), 1U);
+  const CorrectionSet& correction_set = book.at(1);
+  EXPECT_NEAR(correction_set.places.lens.distortion[0], -0.05, 0.002);
+  EXPECT_TRUE(correction_set.places.in_keyframe);  // it was there from the first frame on
+  EXPECT_EQ(correction_set.words.size(), 1U);
 }
 
 TEST(ClosureStage, WithoutAnEffectNothingIsAdopted) {
-  std::vector<ViewChange> changes;
-  AmendmentBook book;
+  std::vector<CorrectionSwitch> changes;
+  CorrectionLog book;
   const std::vector<ClosureReport> reports = reports_of(swaying_record(25 * 62, {}), &changes, &book);
   for (const ClosureReport& report : reports) EXPECT_TRUE(report.changes.empty());
-  for (const ViewChange& change : changes) EXPECT_EQ(change.geometry, nullptr);
+  for (const CorrectionSwitch& change : changes) EXPECT_EQ(change.geometry, nullptr);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "firmware_app/config.h"
+#include "firmware_app/config/config.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <map>
 #include <sstream>
 
-#include "firmware_app/config_image.h"
-#include "firmware_app/config_table.h"
+#include "firmware_app/config/config_image.h"
+#include "firmware_app/config/config_table.h"
 #include "tests/support/config_text.h"
 #include "tests/support/places.h"
 
@@ -104,7 +104,7 @@ TEST(Config, ExampleInTheHelpIsValid) {
 
 TEST(Config, ShippedFilesAreValid) {
   int n_files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(tests::source_path("firmware_app/config"))) {
+  for (const auto& entry : std::filesystem::directory_iterator(tests::source_path("firmware_app/config/config"))) {
     if (entry.path().extension() != ".yaml") continue;
     EXPECT_NO_THROW(check_against_image(load_config(entry.path().string()), 1920, 1080)) << entry.path();
     ++n_files;

@@ -1,4 +1,4 @@
-#include "firmware_app/config.h"
+#include "firmware_app/config/config.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <map>
 #include <sstream>
 
-#include "firmware_app/config_image.h"
-#include "firmware_app/config_table.h"
+#include "firmware_app/config/config_image.h"
+#include "firmware_app/config/config_table.h"
 #include "tests/support/config_text.h"
 
 namespace app {

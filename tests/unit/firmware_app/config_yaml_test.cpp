@@ -1,8 +1,8 @@
-#include "firmware_app/config_yaml.h"
+#include "firmware_app/config/config_yaml.h"
 
 #include <gtest/gtest.h>
 
-#include "firmware_app/config_table.h"
+#include "firmware_app/config/config_table.h"
 
 namespace app {
 namespace {

@@ -27,10 +27,10 @@ const core::closure::ObservationRecord& bent_record() {
 
 struct Told {
   ClosureReport report;
-  ViewChange change;
+  CorrectionSwitch change;
 };
 
-std::vector<Told> told_by(AmendmentBook& book, const Diagnosis::MakeGeometry& make) {
+std::vector<Told> told_by(CorrectionLog& book, const Diagnosis::MakeGeometry& make) {
   const auto& record = bent_record();
   Diagnosis diagnosis(loop_over(record, true), book, make);
   std::vector<Told> out;
@@ -44,24 +44,24 @@ std::vector<Told> told_by(AmendmentBook& book, const Diagnosis::MakeGeometry& ma
 }
 
 TEST(Diagnosis, WhatTwoReportsAgreeOnIsInTheBookAndChangesTheGeometry) {
-  AmendmentBook book;
-  const auto told = told_by(book, [](const Amendment&) { return no_geometry(bent_record()); });
+  CorrectionLog book;
+  const auto told = told_by(book, [](const CorrectionSet&) { return no_geometry(bent_record()); });
   ASSERT_EQ(told.size(), 2U);
   EXPECT_EQ(told[0].change.geometry, nullptr);
   EXPECT_NE(told[1].change.geometry, nullptr);
-  EXPECT_EQ(told[1].change.amendment, 1U);
+  EXPECT_EQ(told[1].change.correction_set, 1U);
   EXPECT_EQ(book.newest().words, told[1].report.in_force);
   EXPECT_EQ(told[1].report.in_force.size(), 1U);
 }
 
 TEST(Diagnosis, WithAFullBookNothingChangesAndTheReportSaysSo) {
-  AmendmentBook book;
+  CorrectionLog book;
   while (!book.full()) {
-    Amendment before;
+    CorrectionSet before;
     before.words = {"what was there before"};
     book.add(before);
   }
-  const auto told = told_by(book, [](const Amendment&) { return no_geometry(bent_record()); });
+  const auto told = told_by(book, [](const CorrectionSet&) { return no_geometry(bent_record()); });
   ASSERT_EQ(told.size(), 2U);
   ASSERT_EQ(told[1].report.changes.size(), 2U);
   EXPECT_EQ(told[1].report.changes[1], "none of this is done: too many changes in one run");
@@ -71,9 +71,9 @@ TEST(Diagnosis, WithAFullBookNothingChangesAndTheReportSaysSo) {
 }
 
 TEST(Diagnosis, AGeometryThatCannotBeMadeChangesNothingAndTheReportSaysWhy) {
-  AmendmentBook book;
+  CorrectionLog book;
   const auto told =
-      told_by(book, [](const Amendment&) -> std::unique_ptr<Geometry> { throw std::runtime_error("no such lens"); });
+      told_by(book, [](const CorrectionSet&) -> std::unique_ptr<Geometry> { throw std::runtime_error("no such lens"); });
   ASSERT_EQ(told.size(), 2U);
   ASSERT_EQ(told[1].report.changes.size(), 2U);
   EXPECT_THAT(told[1].report.changes[1], HasSubstr("none of this is done: no such lens"));

@@ -1,4 +1,4 @@
-#include "firmware_app/kept_keyframe.h"
+#include "firmware_app/service/kept_keyframe.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

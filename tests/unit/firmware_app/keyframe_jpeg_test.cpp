@@ -1,4 +1,4 @@
-#include "firmware_app/keyframe_jpeg.h"
+#include "firmware_app/chain/state/keyframe_jpeg.h"
 
 #include <gtest/gtest.h>
 

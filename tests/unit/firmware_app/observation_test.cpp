@@ -1,4 +1,4 @@
-#include "firmware_app/observation.h"
+#include "firmware_app/chain/observation.h"
 
 #include <gtest/gtest.h>
 

@@ -46,7 +46,7 @@ TEST(RunPathAllocation, SpectraAccumulateWithoutAllocating) {
     sample.sequence = k < 90 ? k : k + 7;
     sample.t_start_ns = static_cast<std::int64_t>(sample.sequence) * 20'000'000;
     sample.value_mm = {std::sin(0.7 * static_cast<double>(k))}, sample.seen = {1};
-    sample.amendment = k < 150 ? 0 : k < 200 ? 1 : 2;
+    sample.correction_set = k < 150 ? 0 : k < 200 ? 1 : 2;
     sample.record = k < 200 ? 0 : 2;
     sample.stride = k < 300 ? 1 : 2;
   }

@@ -1,4 +1,4 @@
-#include "firmware_app/run_state.h"
+#include "firmware_app/chain/state/run_state.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

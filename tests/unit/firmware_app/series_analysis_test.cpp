@@ -8,7 +8,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "firmware_app/analysis.h"
+#include "firmware_app/replay/analysis.h"
 
 namespace app {
 namespace {

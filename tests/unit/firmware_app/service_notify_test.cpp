@@ -1,4 +1,4 @@
-#include "firmware_app/service_notify.h"
+#include "firmware_app/service/service_notify.h"
 
 #include <gtest/gtest.h>
 

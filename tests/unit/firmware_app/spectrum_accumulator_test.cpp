@@ -103,15 +103,15 @@ TEST(SpectrumAccumulator, ACorrectedPlaceMasksASegmentAndCorrectedRowDelaysBegin
   SpectrumAccumulator spectra(config(), 1000);
   (void)push(spectra, 0, 100);
   core::DisplacementSample sample = sample_at(100);
-  sample.amendment = 1;
+  sample.correction_set = 1;
   EXPECT_TRUE(push(spectra, sample).empty());
   EXPECT_EQ(spectra.sums().n_samples, 100U + kSegment + 1U);
   EXPECT_EQ(spectra.n_masked(), static_cast<std::uint64_t>(kSegment));
   sample = sample_at(101);
-  sample.amendment = sample.record = 2;
+  sample.correction_set = sample.record = 2;
   const auto snapshots = push(spectra, sample);
   ASSERT_EQ(snapshots.size(), 1U);
-  EXPECT_EQ(snapshots[0].amendment, 1U);
+  EXPECT_EQ(snapshots[0].correction_set, 1U);
   EXPECT_EQ(snapshots[0].record, 0U);
   EXPECT_EQ(spectra.sums().n_samples, 1U);
   EXPECT_EQ(spectra.n_masked(), static_cast<std::uint64_t>(kSegment)) << "what was masked before still counts";

@@ -1,4 +1,4 @@
-#include "firmware_app/structure_scale.h"
+#include "firmware_app/config/structure_scale.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <string>
 
-#include "firmware_app/calibration.h"
-#include "firmware_app/config_image.h"
+#include "firmware_app/config/calibration.h"
+#include "firmware_app/config/config_image.h"
 #include "tests/support/config_text.h"
 #include "tests/support/folder_test.h"
 

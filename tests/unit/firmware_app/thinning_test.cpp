@@ -1,4 +1,4 @@
-#include "firmware_app/stages/thinning.h"
+#include "firmware_app/service/stages/thinning.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "firmware_app/track_analysis.h"
+#include "firmware_app/replay/track_analysis.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -39,14 +39,14 @@ class CheckStructure : public ::testing::Test {
     fs::remove_all(root_);
     for (const char* header :
          {"core/types/frame.h", "core/closure/model.h", "core/simulation/scene.h", "rt/spsc_ring.h", "rt/clock.h",
-          "rt/stage.h", "drivers/camera/camera.h", "firmware_app/pipeline.h", "firmware_app/stages/items.h",
+          "rt/stage.h", "drivers/camera/camera.h", "firmware_app/service/pipeline.h", "firmware_app/service/stages/items.h",
           "tools/hovermodal/commands.h"}) {
       write(header, "#pragma once\n");
     }
     write("drivers/camera/synthetic_camera.cpp",
           "#include \"core/simulation/scene.h\"\n#include \"core/types/frame.h\"\n#include \"rt/clock.h\"\n");
     write("tools/hovermodal/replay.cpp",
-          "#include \"drivers/camera/camera.h\"\n#include \"firmware_app/pipeline.h\"\n");
+          "#include \"drivers/camera/camera.h\"\n#include \"firmware_app/service/pipeline.h\"\n");
   }
 
   void write(const std::string& path, const std::string& text) {
@@ -96,7 +96,7 @@ TEST_F(CheckStructure, RefusesSimulationInAnyOtherDriver) {
 }
 
 TEST_F(CheckStructure, RefusesAToolThatKnowsStages) {
-  expect_refused("tools/hovermodal/spy/spy.cpp", "\n\n#include \"firmware_app/stages/items.h\"\n", 3);
+  expect_refused("tools/hovermodal/spy/spy.cpp", "\n\n#include \"firmware_app/service/stages/items.h\"\n", 3);
 }
 
 TEST_F(CheckStructure, RefusesAChainThatKnowsThreads) {
@@ -104,11 +104,11 @@ TEST_F(CheckStructure, RefusesAChainThatKnowsThreads) {
 }
 
 TEST_F(CheckStructure, RefusesAChainThatKnowsItsStages) {
-  expect_refused("firmware_app/chain/diagnosis.cpp", "#include \"firmware_app/stages/items.h\"\n", 1);
+  expect_refused("firmware_app/chain/diagnosis.cpp", "#include \"firmware_app/service/stages/items.h\"\n", 1);
 }
 
 TEST_F(CheckStructure, RefusesAServiceThatKnowsTools) {
-  expect_refused("firmware_app/main.cpp", "#include \"tools/hovermodal/commands.h\"\n", 1);
+  expect_refused("firmware_app/service/main.cpp", "#include \"tools/hovermodal/commands.h\"\n", 1);
 }
 
 TEST_F(CheckStructure, RefusesAnIncludeThatIsNotWrittenFromTheRoot) {

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "firmware_app/config.h"
+#include "firmware_app/config/config.h"
 #include "tests/support/command.h"
 #include "tests/support/xml_fault.h"
 

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <string>
 
-#include "firmware_app/config.h"
+#include "firmware_app/config/config.h"
 #include "tests/support/command.h"
 
 // `hovermodal simulate` as a user runs it.

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "drivers/storage/checkpoint_file.h"
-#include "firmware_app/view_sums.h"
+#include "firmware_app/chain/state/setup_sums.h"
 #include "tools/hovermodal/batch/flight_order.h"
 
 namespace tools {
@@ -17,12 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-app::ViewSums read_sums(const std::string& folder) {
+app::SetupSums read_sums(const std::string& folder) {
   const std::string path = (fs::path(folder) / kSumsFile).string();
   const drivers::CheckpointRead read = drivers::read_checkpoint(path);
   if (!read.exists) throw std::runtime_error(path + ": is not there");
   if (!read.refused.empty()) throw std::runtime_error(path + ": " + read.refused);
-  return app::view_sums_of(read.bytes);
+  return app::setup_sums_of(read.bytes);
 }
 
 class Combination {
@@ -56,14 +56,14 @@ class Combination {
   void sort_in(std::size_t f) {
     FlightResult& flight = result_.flights[f];
     flight.report = app::read_modal_json((fs::path(folders_[f]) / kModesFile).string());
-    const app::ViewSums sums = read_sums(folders_[f]);
+    const app::SetupSums sums = read_sums(folders_[f]);
     app::SumsFingerprint print = app::fingerprint(sums.record.sums);
     for (const Seen& seen : seen_) {
       if (app::same_samples(seen.print, print))
         throw std::runtime_error(
             fmt::format("has the same samples as {}: counted once", result_.flights[seen.i_flight].name));
     }
-    app::ViewSums head = app::without_sums(sums);
+    app::SetupSums head = app::without_sums(sums);
     std::size_t v = 0;
     while (v < heads_.size() && !app::why_other_view(heads_[v], head).empty()) ++v;
     if (v == heads_.size()) {
@@ -128,7 +128,7 @@ class Combination {
 
   const std::vector<std::string>& folders_;
   BatchResult result_;
-  std::vector<app::ViewSums> heads_;       // of each view, its first flight's, without the sums
+  std::vector<app::SetupSums> heads_;       // of each view, its first flight's, without the sums
   std::vector<std::uint64_t> n_segments_;  // of each view
   std::vector<Seen> seen_;
 };

@@ -11,9 +11,9 @@
 #include <thread>
 
 #include "drivers/storage/checkpoint_file.h"
-#include "firmware_app/analysis.h"
-#include "firmware_app/pipeline.h"
-#include "firmware_app/view_sums.h"
+#include "firmware_app/chain/state/setup_sums.h"
+#include "firmware_app/replay/analysis.h"
+#include "firmware_app/service/pipeline.h"
 #include "tools/hovermodal/batch/flight_order.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/modes_text.h"

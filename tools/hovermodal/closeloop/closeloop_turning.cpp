@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/closure/closure_loop.h"
-#include "core/closure/observation/turning_level.h"
+#include "core/closure/observation/gyro_rotation_level.h"
 #include "drivers/storage/json.h"
 #include "firmware_app/report/closure_json.h"
 #include "tools/hovermodal/closeloop/words.h"
@@ -23,7 +23,7 @@ constexpr std::size_t kSurrogates = 8;  // each is a fit of its own; read by a G
 void close_turning(const LoopRequest& request, const GyroClipOptions& options) {
   if (options.stamps.empty() || options.gyro.empty()) throw std::invalid_argument("--clip needs --stamps and --gyro");
   GyroClip clip = read_gyro_clip(options);
-  core::closure::TurningLevel level(std::move(clip.motion.pairs), std::move(clip.gyro), clip.config);
+  core::closure::GyroRotationLevel level(std::move(clip.motion.pairs), std::move(clip.gyro), clip.config);
   core::closure::ClosureOptions loop;
   loop.n_surrogates = kSurrogates;
   loop.seed = request.seed;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/types/closure_result.h"
-#include "firmware_app/analysis.h"
+#include "firmware_app/replay/analysis.h"
 
 namespace tools {
 

@@ -11,7 +11,7 @@
 #include "core/closure/observation/recent_tracks.h"
 #include "drivers/storage/csv.h"
 #include "drivers/storage/text_file.h"
-#include "firmware_app/observation.h"
+#include "firmware_app/chain/observation.h"
 #include "firmware_app/report/modal_json.h"
 
 namespace tools {

@@ -5,7 +5,7 @@
 
 #include "core/closure/observation/observation_record.h"
 #include "core/types/modal_estimate.h"
-#include "firmware_app/config.h"
+#include "firmware_app/config/config.h"
 
 namespace tools {
 

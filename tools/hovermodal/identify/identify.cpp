@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "drivers/storage/text_file.h"
-#include "firmware_app/analysis.h"
+#include "firmware_app/replay/analysis.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/identify/series_input.h"
 #include "tools/hovermodal/identify/series_output.h"

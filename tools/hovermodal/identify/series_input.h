@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_app/analysis.h"
+#include "firmware_app/replay/analysis.h"
 
 namespace tools {
 

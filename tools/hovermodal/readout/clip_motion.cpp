@@ -8,8 +8,8 @@
 
 #include "core/geometry/rolling_shutter.h"
 #include "core/linear/median.h"
-#include "core/tracking/pyramid_klt.h"
 #include "core/tracking/point_seeder.h"
+#include "core/tracking/pyramid_klt.h"
 #include "drivers/camera/recording/frame_source.h"
 
 namespace tools {

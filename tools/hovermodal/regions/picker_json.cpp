@@ -7,7 +7,7 @@
 
 #include "core/types/role_names.h"
 #include "drivers/storage/text_file.h"
-#include "firmware_app/config_table.h"
+#include "firmware_app/config/config_table.h"
 #include "tools/hovermodal/regions/picker.h"
 #include "tools/hovermodal/regions/regions_text.h"
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "drivers/storage/json.h"
-#include "firmware_app/config.h"
+#include "firmware_app/config/config.h"
 
 namespace tools {
 namespace {

@@ -1,0 +1,84 @@
+#include "core/geometry/derotated_flow.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace core {
+
+namespace {
+
+constexpr double kDegrees = 3.0;  // of Student's t
+constexpr double kLeastShift_px = 1e-6;
+constexpr int kRounds = 40;
+constexpr double kEnough = 1e-7;  // of the cost
+
+}  // namespace
+
+Eigen::Matrix<double, 2, 3> shift_effect(const DerotatedFlow& point, double focal_px) noexcept {
+  Eigen::Matrix<double, 2, 3> effect;
+  effect << 1.0, 0.0, -point.at_px.x() / focal_px, 0.0, 1.0, -point.at_px.y() / focal_px;
+  return effect;
+}
+
+DerotatedFlowTerm judge(const DerotatedFlow& point, const Eigen::Vector3d& shift_px, const DerotatedFlowModel& model) noexcept {
+  const Eigen::Vector2d d = shift_effect(point, model.focal_px) * shift_px;
+  const double size = d.norm(), s2 = model.sigma_px * model.sigma_px, along2 = s2 + size * size;
+  const Eigen::Vector2d e =
+      size > kLeastShift_px ? Eigen::Vector2d(d / size) : Eigen::Vector2d(Eigen::Vector2d::UnitX());
+  const Eigen::Vector2d h(-e.y(), e.x());
+  const double there = point.flow_px.dot(e), along = there - size;
+  DerotatedFlowTerm term;
+  term.across_px = point.flow_px.dot(h);
+  const double distance2 = along * along / along2 + term.across_px * term.across_px / s2;
+  term.weight = (kDegrees + 2.0) / (kDegrees + distance2);
+  term.cost = 0.5 * (kDegrees + 2.0) * std::log1p(distance2 / kDegrees) + 0.5 * std::log(along2 * s2);
+  // Along e the length of d changes, and the variance with it; along h its direction.
+  const double growth = size / along2;
+  const double by_length = -2.0 * along / along2 - 2.0 * along * along * growth / along2;
+  const double by_turn = size > kLeastShift_px ? 2.0 * term.across_px * (along / along2 - there / s2) / size : 0.0;
+  term.slope = (0.5 * term.weight * by_length + growth) * e + 0.5 * term.weight * by_turn * h;
+  const double share = std::min(1.0, term.weight);
+  const Eigen::Matrix2d ee = e * e.transpose(), hh = h * h.transpose();
+  term.flow_information = share * (ee / along2 + hh / s2);
+  term.information = term.flow_information + growth * growth * ee;
+  return term;
+}
+
+double cost(std::span<const DerotatedFlow> points, const Eigen::Vector3d& shift_px, const DerotatedFlowModel& model) noexcept {
+  double sum = 0.0;
+  for (const DerotatedFlow& point : points) sum += judge(point, shift_px, model).cost;
+  return sum;
+}
+
+// Levenberg-Marquardt.
+double fit_shift(std::span<const DerotatedFlow> points, const DerotatedFlowModel& model, Eigen::Vector3d& shift_px) noexcept {
+  double now = cost(points, shift_px, model), damping = 1e-3;
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix3d information = 1e-9 * Eigen::Matrix3d::Identity();
+    Eigen::Vector3d slope = Eigen::Vector3d::Zero();
+    for (const DerotatedFlow& point : points) {
+      const DerotatedFlowTerm term = judge(point, shift_px, model);
+      const Eigen::Matrix<double, 2, 3> effect = shift_effect(point, model.focal_px);
+      information += effect.transpose() * term.information * effect;
+      slope += effect.transpose() * term.slope;
+    }
+    double gained = 0.0;
+    for (; damping < 1e6 && gained == 0.0; damping *= 10.0) {
+      Eigen::Matrix3d raised = information;
+      raised.diagonal() *= 1.0 + damping;
+      const Eigen::Vector3d next = shift_px - raised.ldlt().solve(slope);
+      const double then = cost(points, next, model);
+      if (!(then < now)) continue;
+      gained = now - then;
+      shift_px = next;
+      now = then;
+      damping *= 0.01;  // a tenth, after the loop's own factor
+    }
+    if (gained <= kEnough * std::abs(now)) break;
+    damping = std::max(1e-9, damping);
+  }
+  return now;
+}
+
+}  // namespace core

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "core/geometry/camera_model.h"
+#include "core/types/frame.h"
+#include "firmware_app/config/config.h"
+
+namespace app {
+
+// The camera of `config`, from calibration.file or from inline values; not calibrated if there is neither. Throws
+// ConfigError / FileError if it does not fit the image of `camera` (drivers::calibration_fault), or was made for
+// another resolution: then with the values that scaling would give, if the shape of the image is equal.
+[[nodiscard]] core::CameraModel camera_model(const AppConfig& config, const core::CameraInfo& camera);
+
+}  // namespace app

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "firmware_app/config/config_key.h"
+
+namespace app {
+
+// The keys of the table, section by section (firmware_app/config/config_table.h joins them).
+void add_camera_keys(std::vector<ConfigKey>& keys);
+void add_calibration_keys(std::vector<ConfigKey>& keys);
+void add_region_keys(std::vector<ConfigKey>& keys);
+void add_region_length_key(std::vector<ConfigKey>& keys);
+void add_scale_keys(std::vector<ConfigKey>& keys);
+void add_tracking_keys(std::vector<ConfigKey>& keys);
+void add_analysis_keys(std::vector<ConfigKey>& keys);
+void add_closure_keys(std::vector<ConfigKey>& keys);
+void add_output_keys(std::vector<ConfigKey>& keys);
+
+}  // namespace app

@@ -1,0 +1,161 @@
+#include "firmware_app/config/core_config.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "core/geometry/keyframe_view.h"
+#include "drivers/storage/attitude_file.h"
+#include "firmware_app/config/calibration.h"
+#include "firmware_app/config/structure_scale.h"
+
+namespace app {
+
+namespace {
+
+// An inline camera matrix alone says where the axis is; a file is taken to know the lens.
+bool undistorts(const CalibrationConfig& calibration) {
+  const auto& k = calibration.distortion;
+  return !calibration.file.empty() ||
+         (calibration.fx > 0.0 && (calibration.model == core::LensModel::kEquidistant ||
+                                   std::any_of(k.begin(), k.end(), [](double value) { return value != 0.0; })));
+}
+
+std::optional<core::AttitudeConfig> attitude_config(const AppConfig& config, const core::CameraInfo& camera) {
+  const CameraConfig& c = config.camera;
+  if (c.attitude_file.empty() && c.attitude_channel.empty()) return std::nullopt;
+  constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+  core::AttitudeConfig out;
+  out.sigma_rad = c.attitude_sigma_deg * kRadPerDeg;
+  for (std::size_t i = 0; i < 3; ++i) out.mount_rpy_rad[i] = c.mount_rpy_deg[i] * kRadPerDeg;
+  out.delay_s = 0.5e-9 * static_cast<double>(camera.exposure_ns);
+  if (!c.attitude_file.empty()) out.record = drivers::read_attitude_csv(c.attitude_file);
+  return out;
+}
+
+// What is removed of the camera's motion, and what cannot be.
+std::string camera_correction(const AppConfig& config, const core::CameraModel& camera) {
+  if (config.method == Method::kPaper) return "scale per frame, two points (Eq. 6)";
+  const std::string scale = "scale per frame, least squares over all points";
+  const bool rests = std::any_of(config.regions.begin(), config.regions.end(),
+                                 [](const auto& r) { return !core::makes_channel(r.role); });
+  if (config.scale.only) {
+    return rests && config.spectrum.witness
+               ? scale + "; the part of a mode shape that is coherent with a static region is removed as camera motion"
+               : scale;
+  }
+  const bool told = !config.camera.attitude_file.empty() || !config.camera.attitude_channel.empty();
+  if (told && !core::tells_camera_motion(config.regions, camera))
+    return "camera motion per frame from all points and a measured attitude: distance, rotation; "
+           "translation along the channels' axes remains";
+  if (!core::tells_camera_motion(config.regions, camera)) {
+    return scale + (camera.calibrated()
+                        ? "; no static region (role background or ground): the camera's rotation remains"
+                        : "; no focal length is known: the camera's rotation remains");
+  }
+  const bool ground = std::any_of(config.regions.begin(), config.regions.end(),
+                                  [](const auto& r) { return r.role == core::RegionRole::kGround; });
+  return std::string("camera motion per frame from all points: distance, roll, perspective; ") +
+         (ground ? "translation and rotation together, from static points in the structure's plane"
+                 : "yaw and pitch from the background, translation as far as its distance is known");
+}
+
+}  // namespace
+
+core::StructureTrackerConfig tracker_config(const AppConfig& config) {
+  const TrackingConfig& t = config.tracking;
+  core::StructureTrackerConfig tracker;
+  tracker.regions = config.regions;
+  tracker.min_points = t.min_points;
+  tracker.seed = {t.points_per_region, t.min_distance_px, t.corner_quality, t.window_px};
+  tracker.klt = {t.window_px, t.max_iterations, t.epsilon_px, t.reach_px, t.least_correlation};
+  tracker.search_px = t.search_px;
+  tracker.reseed_after = t.reseed_after;
+  return tracker;
+}
+
+core::ChannelDisplacementConfig displacement_config(const AppConfig& config, const core::CameraInfo& camera) {
+  core::ChannelDisplacementConfig out;
+  out.regions = config.regions;
+  out.camera = camera_model(config, camera);
+  out.readout = {static_cast<double>(camera.readout_ns) * 1e-9, camera.readout_direction, camera.width_px,
+                 camera.height_px};
+  out.rate_hz = camera.rate_hz;
+  StructureScale scale = structure_scale(config, out.camera);
+  out.scale_mm_per_px = scale.mm_per_px;
+  if (config.method != Method::kPaper) {
+    out.region_scale_mm_per_px = std::move(scale.region_mm_per_px);
+    out.plane = std::move(scale.plane);
+  }
+  out.adaptive_scale = config.scale.adaptive;
+  out.scale_only = config.scale.only;
+  out.witness = config.spectrum.witness;
+  out.paper_method = config.method == Method::kPaper;
+  out.shutter_velocity = config.paper.velocity;
+  out.attitude = attitude_config(config, camera);
+  out.inlier_sigma_px = config.tracking.inlier_sigma_px;
+  out.min_points = config.tracking.min_points;
+  return out;
+}
+
+core::WelchConfig welch_config(const SpectrumConfig& spectrum, std::size_t n_channels, double rate_hz,
+                               std::size_t n_witnesses) {
+  const core::WindowKind window = core::window_kind(spectrum.window).value_or(core::WindowKind::kHann);
+  core::WelchConfig out;
+  out.n_channels = static_cast<int>(n_channels), out.n_witnesses = static_cast<int>(n_witnesses);
+  out.segment = spectrum.segment, out.overlap = spectrum.overlap, out.window = window, out.rate_hz = rate_hz;
+  out.bridge_losses = true;
+  out.forget_s = spectrum.forget_s;
+  return out;
+}
+
+core::IdentifierConfig identifier_config(const AppConfig& config, const std::vector<core::ChannelInfo>& channels,
+                                         double rate_hz) {
+  const IdentificationConfig& i = config.identification;
+  core::IdentifierConfig out;
+  for (const std::string& name : i.references) {
+    const auto found = std::find_if(channels.begin(), channels.end(), [&](const auto& c) { return c.name == name; });
+    if (found == channels.end())
+      throw ConfigError(fmt::format("identification.references: '{}' is not a channel", name));
+    out.references.push_back(static_cast<int>(found - channels.begin()));
+  }
+  out.block_rows = i.block_rows;
+  out.max_order = i.max_order;
+  out.min_mpc = i.min_mpc;
+  out.max_damping = i.max_damping;
+  out.undo_row_delays = config.method == Method::kHovermodal;
+  out.as_published = config.method == Method::kPaper;
+  out.max_frequency_hz = out.undo_row_delays ? i.max_frequency_hz : rate_hz / 2.0;
+  return out;
+}
+
+std::vector<std::string> region_names(const AppConfig& config) {
+  std::vector<std::string> names;
+  for (const core::Region& region : config.regions) names.push_back(region.name);
+  return names;
+}
+
+std::vector<std::string> corrections(const AppConfig& config, const core::CameraInfo& camera) {
+  std::vector<std::string> list;
+  const bool paper = config.method == Method::kPaper;
+  if (undistorts(config.calibration)) list.emplace_back("lens distortion (points undistorted)");
+  if (config.scale.adaptive) list.push_back(camera_correction(config, camera_model(config, camera)));
+  if (paper) {
+    list.push_back(
+        fmt::format("rolling shutter by {} velocity from frame to frame, readout = one frame (Eqs. 7-8)",
+                    config.paper.velocity == core::ShutterVelocity::kCamera ? "the camera's" : "each region's"));
+  } else if (camera.readout_ns != 0) {
+    list.push_back(fmt::format("rolling shutter {} ms: row delays undone at each mode",
+                               static_cast<double>(camera.readout_ns) * 1e-6));
+  }
+  return list;
+}
+
+std::vector<std::string> caveats(const AppConfig& config, const core::CameraInfo& camera) {
+  return structure_scale(config, camera_model(config, camera)).notes;
+}
+
+}  // namespace app

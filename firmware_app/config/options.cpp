@@ -1,0 +1,51 @@
+#include "firmware_app/config/options.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "firmware_app/config/config.h"
+
+namespace app {
+
+Options parse_options(int argc, char** argv) {
+  CLI::App cli{
+      "hovermodald: natural frequencies, damping and mode shapes of a structure, from the video of a hovering camera, "
+      "in flight.\n\n"
+      "  hovermodald --config flight.yaml                     run until the source ends or Ctrl-C\n"
+      "  hovermodald --config flight.yaml --report out        also leave modal.json, displacements.csv, tracks.csv\n"
+      "  hovermodald --config flight.yaml --check             validate configuration and source, run nothing\n"
+      "  hovermodald --config clip.yaml --set camera.rate_hz=250 --set spectrum.segment=256\n\n"
+      "Watch it from another terminal or the ground: hovermodal spy\n"
+      "Exit codes: 0 done, 1 fault while running, 2 configuration or usage, 3 device missing, 4 real-time settings "
+      "refused."};
+  Options options;
+  std::string report;
+  bool help_config = false;
+  cli.add_option("--config", options.config_path, "Configuration file (YAML); --help-config explains every key")
+      ->type_name("FILE");
+  cli.add_option("--set", options.overrides, "Override one key, after the file; may be repeated")
+      ->type_name("section.key=value")
+      ->take_all();
+  cli.add_option("--report", report, "Folder for modal.json, displacements.csv and tracks.csv")->type_name("DIR");
+  cli.add_flag("--check", options.check_only, "Validate the configuration and check the source, without running");
+  cli.add_flag("--help-config", help_config, "Every key of the configuration: unit, default, range, meaning");
+  cli.set_version_flag("--version", "hovermodald " HOVERMODAL_VERSION);
+  try {
+    cli.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    options.exit_code = cli.exit(e) == 0 ? 0 : 2;
+    return options;
+  }
+  if (help_config) {
+    std::fputs(config_help().c_str(), stdout);
+    options.exit_code = 0;
+  } else if (options.config_path.empty()) {
+    std::fputs("hovermodald: --config FILE is missing; --help shows the usage, --help-config a complete example\n",
+               stderr);
+    options.exit_code = 2;
+  }
+  if (!report.empty()) options.overrides.push_back("report.directory=" + report);
+  return options;
+}
+
+}  // namespace app

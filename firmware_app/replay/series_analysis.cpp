@@ -1,0 +1,161 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "core/spectrum/decimator.h"
+#include "core/spectrum/welch_cpsd.h"
+#include "firmware_app/config/core_config.h"
+#include "firmware_app/replay/analysis.h"
+#include "firmware_app/replay/series_channels.h"
+#include "firmware_app/report/modal_json.h"
+#include "firmware_app/report/pictures/pictures.h"
+#include "firmware_app/report/run_history.h"
+
+namespace app {
+
+namespace {
+
+constexpr std::size_t kSamplesPerReport = 1 << 17;
+// Of the free decay's time constant 1 / (zeta w): a shorter segment biases the damping (core/spectrum/METHOD.md).
+constexpr double kLeastSegmentDecays = 1.5;
+
+struct SeriesSpectra {
+  core::CpsdSums sums;
+  RunHistory history;
+};
+
+SeriesSpectra spectra_of(const ChannelSeries& series, const SpectrumConfig& spectrum,
+                         const std::function<void(double)>& progress) {
+  const std::size_t n_channels = series.channels.size();
+  const std::size_t n_samples = series.value.front().size();
+  core::WelchCpsd cpsd(welch_config(spectrum, n_channels, series.rate_hz));
+  std::vector<double> value(n_channels);
+  std::vector<std::uint8_t> seen(n_channels);
+  RunHistory history(series.rate_hz, n_channels, 0);
+  for (std::size_t t = 0; t < n_samples; ++t) {
+    for (std::size_t c = 0; c < n_channels; ++c) {
+      value[c] = series.value[c][t];
+      seen[c] = std::isfinite(value[c]) ? 1 : 0;
+    }
+    (void)cpsd.push(value, seen);
+    history.add(t, value);
+    if (progress && (t + 1) % kSamplesPerReport == 0)
+      progress(static_cast<double>(t + 1) / static_cast<double>(n_samples));
+  }
+  cpsd.flush();
+  return {cpsd.sums(), std::move(history)};
+}
+
+void draw(const ChannelSeries& series, const SeriesSpectra& spectra, const core::ModalEstimate& estimate,
+          const SeriesOptions& options) {
+  RunFacts facts;
+  facts.source = options.source;
+  facts.method = to_text(Method::kHovermodal);
+  facts.counted = false;
+  PictureInputs inputs;
+  inputs.channels = series.channels;
+  inputs.spectrum = &spectra.sums;
+  inputs.estimate = &estimate;
+  inputs.history = &spectra.history;
+  inputs.unit = series.unit;
+  inputs.max_frequency_hz = options.identifier.max_frequency_hz;
+  inputs.facts = &facts;
+  (void)write_pictures(options.report_directory, inputs);
+}
+
+void require_samples(const ChannelSeries& series, int segment) {
+  const std::size_t n_samples = series.value.front().size();
+  if (n_samples >= static_cast<std::size_t>(segment)) return;
+  throw std::invalid_argument(
+      fmt::format("{} samples{} are fewer than one segment of {}: at least {:.4g} s at {:g} Hz, or a shorter segment",
+                  n_samples, series.rate_hz > 0.0 ? fmt::format(" ({:g} a second)", series.rate_hz) : "", segment,
+                  segment / series.rate_hz, series.rate_hz));
+}
+
+double wanted_segment_s(const core::Mode& mode) {
+  return kLeastSegmentDecays / (std::max(mode.damping_ratio, 1e-9) * 2.0 * std::numbers::pi * mode.frequency_hz);
+}
+
+// Where nobody chose the segment: is it far too short for the lowest mode, and would twice as long still fit?
+bool should_double(const SeriesResult& result, std::size_t n_samples) {
+  constexpr double kMostOfTheRecord = 0.7;
+  if (result.estimate.modes.empty()) return false;
+  const double segment_s = result.segment / result.estimate.rate_hz;
+  return 2.0 * segment_s < wanted_segment_s(result.estimate.modes.front()) &&
+         2.0 * result.segment < kMostOfTheRecord * static_cast<double>(n_samples);
+}
+
+void remark_on_segment(SeriesResult& result) {
+  const double segment_s = result.segment / result.estimate.rate_hz;
+  for (const core::Mode& mode : result.estimate.modes) {
+    const double wanted_s = wanted_segment_s(mode);
+    if (segment_s >= wanted_s || mode.damping_ratio <= 0.0) continue;
+    result.remarks.push_back(fmt::format(
+        "the segment of {:.3g} s is shorter than 1.5 decay times of {:.4g} Hz ({:.3g} s): its damping may read high",
+        segment_s, mode.frequency_hz, wanted_s));
+    return;
+  }
+}
+
+int base_channel(const std::vector<core::ChannelInfo>& channels) {
+  const auto base = std::find_if(channels.begin(), channels.end(), [](const auto& c) { return c.is_base; });
+  return base == channels.end() ? -1 : static_cast<int>(base - channels.begin());
+}
+
+void require_even_columns(const ChannelSeries& series) {
+  if (series.channels.empty() || series.value.size() != series.channels.size())
+    throw std::invalid_argument("a record without channels");
+  for (const auto& values : series.value) {
+    if (values.size() != series.value.front().size()) throw std::invalid_argument("channels of different lengths");
+  }
+  if (!(series.rate_hz > 0.0) || !std::isfinite(series.rate_hz))
+    throw std::invalid_argument(fmt::format("a rate of {} Hz", series.rate_hz));
+}
+
+}  // namespace
+
+SeriesResult identify_series(const ChannelSeries& given, const SeriesOptions& options) {
+  require_even_columns(given);
+  ChannelSeries series = given;
+  SeriesResult result;
+  core::IdentifierConfig identifier = options.identifier;
+  leave_out_unusable(series, identifier.references, result.remarks);
+  if (options.decimate) result.decimation = decimate_to(series, identifier.max_frequency_hz, result.remarks);
+  if (result.decimation > 1) identifier.edge_hz = core::Decimator::kPassband * series.rate_hz;
+  identifier.least_power = 0.0;  // channels that stand still are out, whatever the unit
+
+  SpectrumConfig spectrum = options.spectrum;
+  const std::size_t n_samples = series.value.front().size();
+  const bool choose_segment = spectrum.segment <= 0;
+  if (choose_segment) spectrum.segment = automatic_segment(n_samples);
+  result.segment = spectrum.segment;
+  require_samples(series, spectrum.segment);
+  const core::Identifier identify(identifier, series.channels);
+  SeriesSpectra spectra = spectra_of(series, spectrum, options.progress);
+  result.estimate = identify.identify(spectra.sums);
+  while (choose_segment && should_double(result, n_samples)) {
+    result.segment = spectrum.segment *= 2;
+    spectra = spectra_of(series, spectrum, options.progress);
+    result.estimate = identify.identify(spectra.sums);
+  }
+  if (choose_segment) {
+    result.remarks.push_back(
+        fmt::format("segment of {} samples ({:.4g} s)", spectrum.segment, spectrum.segment / series.rate_hz));
+  }
+  result.estimate.final = true;
+  result.channels = series.channels;
+  if (series.channels.size() == 1)
+    result.remarks.push_back(
+        "one channel has no shape: a mode cannot be distinguished from a spectral line of the input");
+  remark_on_segment(result);
+  const int base = base_channel(series.channels);
+  const double top_hz = identifier.edge_hz > 0.0 ? identifier.edge_hz : series.rate_hz / 2.0;
+  if (base >= 0) result.response = core::response_peaks(spectra.sums, base, top_hz);
+  if (!options.report_directory.empty()) draw(series, spectra, result.estimate, options);
+  return result;
+}
+
+}  // namespace app

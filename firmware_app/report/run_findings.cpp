@@ -1,0 +1,36 @@
+#include "firmware_app/report/run_findings.h"
+
+#include <filesystem>
+
+#include "firmware_app/config/calibration.h"
+#include "firmware_app/config/core_config.h"
+#include "firmware_app/config/structure_scale.h"
+#include "firmware_app/report/modal_json.h"
+
+namespace app {
+
+PictureInputs picture_inputs(const AppConfig& config, const core::CameraInfo& camera,
+                             const std::vector<core::ChannelInfo>& channels) {
+  PictureInputs inputs;
+  inputs.regions = config.regions;
+  inputs.channels = channels;
+  inputs.unit = structure_scale(config, camera_model(config, camera)).known ? "mm" : "px";
+  inputs.max_frequency_hz = identifier_config(config, channels, camera.rate_hz).max_frequency_hz;
+  return inputs;
+}
+
+RunFacts run_facts(const AppConfig& config, const core::CameraInfo& camera, const std::string& source,
+                   const core::Health& health, const core::ModalEstimate& estimate) {
+  RunFacts facts;
+  facts.source = std::filesystem::path(source).filename().string();
+  if (facts.source.empty() && config.camera.driver == CameraDriver::kSynthetic) facts.source = "synthetic camera";
+  facts.method = to_text(config.method);
+  facts.corrections = corrections(config, camera);
+  facts.corrections.insert(facts.corrections.end(), estimate.amendments.begin(), estimate.amendments.end());
+  facts.caveats = caveats(config, camera);
+  facts.health = health;
+  facts.image_width_px = camera.width_px, facts.image_height_px = camera.height_px;
+  return facts;
+}
+
+}  // namespace app

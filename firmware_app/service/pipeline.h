@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/types/displacement.h"
+#include "core/types/frame.h"
+#include "core/types/health.h"
+#include "core/types/modal_estimate.h"
+#include "drivers/camera/camera.h"
+#include "drivers/telemetry/publisher.h"
+#include "firmware_app/config/config.h"
+
+namespace app {
+
+// The whole way from frames to modes. Construction is set-up: it opens the camera, takes the first frame, seeds the
+// points, opens telemetry and report, and builds rings and stages; it may throw. Afterwards memory is fixed.
+//
+//   Pipeline pipeline(config);
+//   pipeline.start();
+//   while (pipeline.running()) ...sleep, or request_stop()...
+//   const Outcome outcome = pipeline.join();
+class Pipeline {
+ public:
+  struct Outcome {
+    core::ModalEstimate estimate;      // the last one
+    core::Health health;               // final counters
+    std::string fault;                 // empty: done; else what went wrong (exit code 1)
+    std::vector<std::string> notes;    // e.g. a truncated clip
+    std::int64_t stages_ended_ns = 0;  // CLOCK_MONOTONIC when the last stage took its last step; the report came after
+    std::string page;                  // path of report.html; empty: no report was wanted
+  };
+
+  // Throws ConfigError (configuration does not fit the source), drivers::DeviceMissing, std::runtime_error.
+  explicit Pipeline(const AppConfig& config);
+  // The same with a camera and a publisher of the caller's: for tests.
+  Pipeline(const AppConfig& config, std::unique_ptr<drivers::Camera> camera,
+           std::unique_ptr<drivers::Publisher> publisher);
+  ~Pipeline();
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+
+  // Starts the threads back to front. Throws std::system_error when a real-time priority is refused and rt.required.
+  void start();
+  // No further frame is taken; everything on its way is finished. Any thread.
+  void request_stop() noexcept;
+  // False when every stage has ended. Call it now and then: it is also what ends the others when one fails.
+  [[nodiscard]] bool running() noexcept;
+  [[nodiscard]] Outcome join();
+
+  [[nodiscard]] core::Health health() const;
+  // The stage that has been in one step for too long, in words; empty: all go on. Any thread.
+  [[nodiscard]] std::string stall() const;
+  // What the stages had to say since the last call, one line each. One thread.
+  [[nodiscard]] std::vector<std::string> take_events();
+  [[nodiscard]] const core::CameraInfo& camera_info() const noexcept;
+  [[nodiscard]] const std::vector<core::ChannelInfo>& channels() const noexcept;
+  [[nodiscard]] std::vector<std::string> warnings() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+// Checks all that can be checked without running: opens the source, compares regions, seeds. For --check. Returns how
+// even a recording's times are, in words; empty: not a recording.
+std::string check_source(const AppConfig& config);
+
+}  // namespace app

@@ -1,0 +1,34 @@
+#include "firmware_app/service/stages/identification_stage.h"
+
+#include <utility>
+
+namespace app {
+
+IdentificationStage::IdentificationStage(Ends ends, ModeIdentification& modes)
+    : ends_(std::move(ends)), modes_(modes) {}
+
+rt::StepStatus IdentificationStage::step() noexcept {
+  IdentificationResult* slot = ends_.results.try_claim();
+  if (slot == nullptr) return rt::StepStatus::kIdle;
+  if (!ends_.snapshots.refresh()) return ends_.snapshots.finished() ? rt::StepStatus::kFinished : rt::StepStatus::kIdle;
+  rt::StageStats::add(stats().n_in);
+  if (!identify(*slot)) {
+    rt::StageStats::add(stats().n_dropped);
+    return rt::StepStatus::kWorked;
+  }
+  if (ends_.states != nullptr && modes_.save(ends_.states->back())) ends_.states->publish();
+  ends_.results.publish();
+  rt::StageStats::add(stats().n_out);
+  return rt::StepStatus::kWorked;
+}
+
+bool IdentificationStage::identify(IdentificationResult& out) noexcept {
+  try {
+    modes_.identify(ends_.snapshots.front(), out);
+    return true;
+  } catch (...) {  // out of memory: this estimate is lost and counted, the next may succeed
+    return false;
+  }
+}
+
+}  // namespace app

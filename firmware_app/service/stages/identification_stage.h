@@ -1,0 +1,34 @@
+#pragma once
+
+#include "firmware_app/chain/mode_identification.h"
+#include "firmware_app/service/stages/items.h"
+#include "rt/spsc_ring.h"
+#include "rt/stage.h"
+#include "rt/triple_buffer.h"
+
+namespace app {
+
+// newest snapshot -> ModeIdentification -> results, and the modes followed for a later run. Runs at ordinary priority
+// and may take its time: nothing upstream waits for it but a lossless source.
+class IdentificationStage : public rt::Stage {
+ public:
+  struct Ends {
+    rt::TripleBuffer<SpectrumSnapshot>& snapshots;
+    rt::RingWriter<IdentificationResult> results;
+    rt::TripleBuffer<StateBytes>* states = nullptr;  // null: no state is kept
+  };
+  // modes: touched by nobody else once the stage runs.
+  IdentificationStage(Ends ends, ModeIdentification& modes);
+
+  [[nodiscard]] std::string_view name() const noexcept override { return "identification"; }
+  [[nodiscard]] rt::StepStatus step() noexcept override;
+  void finish() noexcept override { ends_.results.close(); }
+
+ private:
+  [[nodiscard]] bool identify(IdentificationResult& out) noexcept;
+
+  Ends ends_;
+  ModeIdentification& modes_;
+};
+
+}  // namespace app

@@ -1,0 +1,112 @@
+#include "firmware_app/service/stages/publish_stage.h"
+
+#include <exception>
+#include <utility>
+
+#include "rt/clock.h"
+
+namespace app {
+
+namespace {
+constexpr std::int64_t kHealthPeriodNs = 1'000'000'000;
+}
+
+PublishStage::PublishStage(Ends ends, Outlets outlets) : ends_(std::move(ends)), outlets_(std::move(outlets)) {}
+
+rt::StepStatus PublishStage::step() noexcept {
+  publish_health_when_due();
+  if (const IdentificationResult* result = ends_.results.front()) {
+    publish_result(*result);
+    ends_.results.pop();
+    return rt::StepStatus::kWorked;
+  }
+  if (const core::closure::ClosureReport* closure = ends_.closures ? ends_.closures->front() : nullptr) {
+    publish_closure(*closure);
+    ends_.closures->pop();
+    return rt::StepStatus::kWorked;
+  }
+  if (ends_.previews.refresh()) {
+    (void)outlets_.publisher.publish(ends_.previews.front(), outlets_.regions);
+    return rt::StepStatus::kWorked;
+  }
+  if (const FrameRecord* record = ends_.records.front()) {
+    publish_record(*record);
+    ends_.records.pop();
+    rt::StageStats::add(stats().n_in);
+    return rt::StepStatus::kWorked;
+  }
+  const bool is_over =
+      ends_.records.finished() && ends_.results.finished() && (!ends_.closures || ends_.closures->finished());
+  return is_over ? rt::StepStatus::kFinished : rt::StepStatus::kIdle;
+}
+
+void PublishStage::publish_record(const FrameRecord& record) noexcept {
+  const auto due = [this](int every) { return every > 0 && n_records_ % static_cast<std::uint64_t>(every) == 0; };
+  if (due(outlets_.telemetry.displacement_every)) (void)outlets_.publisher.publish(record.sample, outlets_.channels);
+  if (due(outlets_.telemetry.tracks_every)) (void)outlets_.publisher.publish(record.tracks);
+  if (outlets_.recorder != nullptr) (void)outlets_.recorder->add(record.tracks, record.attitude, record.sample.stride);
+  if (outlets_.report != nullptr) {
+    // A failed file is counted by the report and told by its finish().
+    (void)outlets_.report->add(record.tracks);
+    (void)outlets_.report->add(record.sample);
+  }
+  ++n_records_;
+}
+
+void PublishStage::publish_result(const IdentificationResult& result) noexcept {
+  (void)outlets_.publisher.publish(result.estimate, outlets_.channels);
+  (void)outlets_.publisher.publish(result.sums, outlets_.channels);
+  if (outlets_.report != nullptr) outlets_.report->add(result.estimate);
+  try {
+    last_estimate_ = result.estimate;
+    last_sums_ = result.sums;
+  } catch (...) {
+    fault_ = "out of memory for an estimate";
+  }
+  n_estimates_.store(n_estimates_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+  rt::StageStats::add(stats().n_out);
+}
+
+void PublishStage::publish_closure(const core::closure::ClosureReport& report) noexcept {
+  (void)outlets_.publisher.publish(report);
+  try {
+    last_closure_ = report;
+  } catch (...) {
+    fault_ = "out of memory for a report of closing the loop";
+  }
+}
+
+// By the wall clock, because it is for a person who watches; it enters no result.
+void PublishStage::publish_health_when_due() noexcept {
+  const std::int64_t now_ns = rt::monotonic_ns();
+  if (now_ns < next_health_ns_) return;
+  next_health_ns_ = now_ns + kHealthPeriodNs;
+  try {
+    (void)outlets_.publisher.publish(outlets_.health());
+  } catch (...) {  // out of memory: the next one is a second away
+  }
+}
+
+void PublishStage::complete_report(const core::Health& health) {
+  if (outlets_.report != nullptr)
+    outlets_.report->finish(last_estimate_, health, outlets_.corrections, outlets_.caveats, closure());
+  if (outlets_.draw) outlets_.draw({last_estimate_, last_sums_, closure()}, health);
+}
+
+void PublishStage::finish() noexcept {
+  try {
+    core::Health health = outlets_.health();
+    try {
+      complete_report(health);
+    } catch (const std::exception& e) {
+      fault_ = e.what();
+      health.state = "fault: " + fault_;
+    }
+    if (health.state.rfind("fault", 0) != 0) health.state = "finished";
+    (void)outlets_.publisher.publish(health);
+  } catch (const std::exception& e) {
+    fault_ = e.what();
+  }
+}
+
+}  // namespace app

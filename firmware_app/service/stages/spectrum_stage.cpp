@@ -1,0 +1,56 @@
+#include "firmware_app/service/stages/spectrum_stage.h"
+
+#include <utility>
+
+namespace app {
+
+SpectrumStage::SpectrumStage(Ends ends, SpectrumAccumulator& spectra, bool lossless)
+    : ends_(std::move(ends)), spectra_(spectra), lossless_(lossless) {}
+
+rt::StepStatus SpectrumStage::step() noexcept {
+  if (spectra_.is_due()) return hand_over();
+  if (ends_.states != nullptr && spectra_.state_is_due()) hand_over_state();
+  const core::DisplacementSample* sample = ends_.samples.front();
+  if (sample == nullptr) return ends_.samples.finished() ? end_record() : rt::StepStatus::kIdle;
+  const bool is_done = spectra_.step(*sample);
+  note();
+  if (!is_done) return rt::StepStatus::kWorked;
+  ends_.samples.pop();
+  rt::StageStats::add(stats().n_in);
+  if (spectra_.refused()) rt::StageStats::add(stats().n_dropped);
+  return rt::StepStatus::kWorked;
+}
+
+rt::StepStatus SpectrumStage::end_record() noexcept {
+  if (spectra_.finished()) return rt::StepStatus::kFinished;
+  spectra_.finish();
+  return rt::StepStatus::kWorked;
+}
+
+rt::StepStatus SpectrumStage::hand_over() noexcept {
+  if (!ends_.snapshots.taken()) {
+    if (lossless_ || spectra_.finished()) return rt::StepStatus::kIdle;  // the last one is never skipped
+    n_skipped_.store(n_skipped_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  }
+  spectra_.take_snapshot(ends_.snapshots.back());
+  ends_.snapshots.publish();
+  rt::StageStats::add(stats().n_out);
+  return rt::StepStatus::kWorked;
+}
+
+void SpectrumStage::hand_over_state() noexcept {
+  if (spectra_.save(ends_.states->back())) ends_.states->publish();
+}
+
+void SpectrumStage::note() noexcept {
+  n_masked_.store(spectra_.n_masked(), std::memory_order_relaxed);
+  t_stream_ns_.store(spectra_.t_stream_ns(), std::memory_order_relaxed);
+  worst_jitter_cells_.store(spectra_.worst_jitter_cells(), std::memory_order_relaxed);
+}
+
+void SpectrumStage::finish() noexcept {
+  ends_.snapshots.close();
+  if (ends_.states != nullptr) ends_.states->close();
+}
+
+}  // namespace app

@@ -1,0 +1,156 @@
+#include "firmware_app/service/stages/tracking_stage.h"
+
+#include <utility>
+
+#include "rt/clock.h"
+
+namespace app {
+
+namespace {
+void add(std::atomic<std::uint64_t>& count) noexcept {
+  count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+}
+}  // namespace
+
+TrackingStage::TrackingStage(Ends ends, Calls calls, bool lossless, const CorrectionSwitch& first_change)
+    : ends_(std::move(ends)),
+      calls_(calls),
+      decision_(first_change),
+      lossless_(lossless),
+      regions_(calls.tracker.regions().n_regions()) {
+  for (std::size_t r = 0; r < regions_.size(); ++r) regions_[r].points_total = calls_.tracker.regions().n_points(r);
+  scratch_.tracks.points.resize(calls_.tracker.n_points());
+  scratch_.sample = calls_.meter.channels().sample_prototype();
+}
+
+rt::StepStatus TrackingStage::step() noexcept {
+  const core::Frame* frame = ends_.frames.front();
+  if (frame == nullptr) return ends_.frames.finished() ? rt::StepStatus::kFinished : rt::StepStatus::kIdle;
+  if (ends_.changes && !is_decided(frame->sequence)) return rt::StepStatus::kIdle;
+  core::DisplacementSample* sample = ends_.samples.try_claim();
+  FrameRecord* record = ends_.records.try_claim();
+  core::TrackFrame* shown = ends_.tracks ? ends_.tracks->try_claim() : nullptr;
+  const bool is_full = sample == nullptr || record == nullptr || (ends_.tracks && shown == nullptr);
+  if (lossless_ && is_full) return rt::StepStatus::kIdle;
+
+  const std::int64_t t_taken_ns = frame->t_taken_ns;
+  measure(*frame);
+  show_preview(*frame);
+  ends_.frames.pop();
+  rt::StageStats::add(stats().n_in);
+  hand_over(sample, record);
+  if (sample != nullptr && t_taken_ns != 0) frame_latency_.add(rt::monotonic_ns() - t_taken_ns);
+  if (ends_.tracks) show(shown);
+  return rt::StepStatus::kWorked;
+}
+
+void TrackingStage::hand_over(core::DisplacementSample* sample, FrameRecord* record) noexcept {
+  if (sample != nullptr) {
+    *sample = scratch_.sample;  // same sizes: copies values, allocates nothing
+    sample->gap_before = sample->gap_before || gap_before_next_;
+    ends_.samples.publish();
+  }
+  rt::StageStats::add(sample != nullptr ? stats().n_out : stats().n_dropped);
+  gap_before_next_ = sample == nullptr;
+  if (record == nullptr) return add(n_records_lost_);
+  *record = scratch_;
+  ends_.records.publish();
+}
+
+bool TrackingStage::is_decided(std::uint64_t sequence) noexcept {
+  while (const CorrectionSwitch* change = ends_.changes->front()) {
+    decision_ = *change;
+    calls_.meter.take(decision_);
+    ends_.changes->pop();
+  }
+  const bool is_coming = n_shown_through_ > decision_.next_report_at;  // all frames of that report were shown
+  const bool is_decided = !is_coming || sequence <= decision_.next_report_at + decision_.n_delay_frames;
+  return !lossless_ || is_decided || ends_.changes->finished();
+}
+
+void TrackingStage::show(core::TrackFrame* slot) noexcept {
+  if (slot == nullptr) return add(n_shown_lost_);
+  *slot = scratch_.tracks;
+  if (n_shown_through_ == 0) decision_.next_report_at += scratch_.tracks.sequence;  // the stream begins here
+  n_shown_through_ = scratch_.tracks.sequence + 1;
+  ends_.tracks->publish();
+}
+
+void TrackingStage::show_preview(const core::Frame& frame) noexcept {
+  if (!calls_.preview_maker.is_due(frame.t_start_ns)) return;
+  calls_.preview_maker.make(frame, scratch_.tracks, ends_.previews.back());
+  if (!ends_.previews.publish()) add(n_previews_lost_);
+}
+
+void TrackingStage::measure(const core::Frame& frame) noexcept {
+  if (calls_.meter.begin_frame(frame.sequence))
+    events().write("correction {} from frame {} on", calls_.meter.correction_set(),
+                   static_cast<std::int64_t>(frame.sequence));
+  if (!calls_.tracker.track(frame, scratch_.tracks)) add(n_failed_);
+  take_attitude();
+  calls_.meter.measure(scratch_.tracks, calls_.thinning.at(frame.sequence).stride, scratch_.sample);
+  calls_.tracker.learn(scratch_.tracks);
+  count_frame();
+  count_attitude();
+  count_regions();
+}
+
+// What is in the ring now, and no more: a flood does not hold up a frame.
+void TrackingStage::take_attitude() noexcept {
+  if (!ends_.attitude) return;
+  scratch_.attitude.clear();
+  constexpr int kMost = 1024;
+  for (int i = 0; i < kMost; ++i) {
+    const core::AttitudeSample* sample = ends_.attitude->front();
+    if (sample == nullptr) return;
+    calls_.meter.take(*sample);
+    scratch_.attitude.add(*sample);
+    ends_.attitude->pop();
+  }
+}
+
+void TrackingStage::count_frame() noexcept {
+  camera_given_up_.store(calls_.meter.channels().camera_given_up(), std::memory_order_relaxed);
+  n_reseeded_.store(calls_.tracker.n_reseeded(), std::memory_order_relaxed);
+  std::uint64_t n_tracked = 0;
+  for (const core::TrackPoint& point : scratch_.tracks.points) n_tracked += point.inlier ? 1U : 0U;
+  points_tracked_.store(n_tracked, std::memory_order_relaxed);
+}
+
+void TrackingStage::count_attitude() noexcept {
+  const core::AttitudePrior* attitude = calls_.meter.channels().attitude();
+  if (attitude == nullptr) return;
+  attitude_given_up_.store(attitude->given_up(), std::memory_order_relaxed);
+  n_with_attitude_.store(attitude->n_used(), std::memory_order_relaxed);
+  n_without_attitude_.store(attitude->n_without(), std::memory_order_relaxed);
+}
+
+void TrackingStage::count_regions() noexcept {
+  for (std::size_t r = 0; r < regions_.size(); ++r) {
+    RegionCounts& counts = regions_[r];
+    const core::RegionState state = calls_.tracker.regions().state(r);
+    counts.state.store(state, std::memory_order_relaxed);
+    counts.points_tracked.store(calls_.tracker.regions().n_inliers(r), std::memory_order_relaxed);
+    if (state == core::RegionState::kSearching) rt::StageStats::add(counts.frames_searching);
+    if (state == core::RegionState::kLost) rt::StageStats::add(counts.frames_lost);
+  }
+}
+
+std::vector<core::RegionHealth> TrackingStage::regions() const {
+  std::vector<core::RegionHealth> out;
+  for (const RegionCounts& counts : regions_) {
+    out.push_back({"", counts.state.load(std::memory_order_relaxed),
+                   counts.points_tracked.load(std::memory_order_relaxed), counts.points_total,
+                   counts.frames_searching.load(std::memory_order_relaxed),
+                   counts.frames_lost.load(std::memory_order_relaxed)});
+  }
+  return out;
+}
+
+void TrackingStage::finish() noexcept {
+  ends_.samples.close();
+  ends_.records.close();
+  if (ends_.tracks) ends_.tracks->close();
+}
+
+}  // namespace app

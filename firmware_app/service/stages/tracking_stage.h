@@ -1,0 +1,118 @@
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/tracking/preview_maker.h"
+#include "core/tracking/structure_tracker.h"
+#include "core/types/attitude.h"
+#include "core/types/frame.h"
+#include "core/types/health.h"
+#include "core/types/preview.h"
+#include "firmware_app/chain/displacement_meter.h"
+#include "firmware_app/service/stages/items.h"
+#include "firmware_app/service/stages/thinning.h"
+#include "rt/spsc_ring.h"
+#include "rt/stage.h"
+#include "rt/triple_buffer.h"
+
+namespace app {
+
+// frame ring -> StructureTracker -> DisplacementMeter -> spectrum ring and publish ring; every frame's points to
+// closure, a preview now and then to publish.
+class TrackingStage : public rt::Stage {
+ public:
+  struct Ends {
+    rt::RingReader<core::Frame> frames;
+    rt::RingWriter<core::DisplacementSample> samples;
+    rt::RingWriter<FrameRecord> records;
+    rt::TripleBuffer<core::Preview>& previews;
+    std::optional<rt::RingReader<core::AttitudeSample>> attitude = {};  // taken in before each frame; empty: none comes
+    std::optional<rt::RingWriter<core::TrackFrame>> tracks = {};        // what finds no room there is counted
+    // Measure by what the diagnosis makes, from the frames it says. A lossless source waits for each decision.
+    std::optional<rt::RingReader<CorrectionSwitch>> changes = {};
+  };
+  // What is called for a frame; touched by nobody else once the stage runs.
+  struct Calls {
+    core::StructureTracker& tracker;
+    DisplacementMeter& meter;
+    core::PreviewMaker& preview_maker;
+    const ThinningSchedule& thinning;
+  };
+  // first_change: of the diagnosis, before it has seen anything.
+  TrackingStage(Ends ends, Calls calls, bool lossless, const CorrectionSwitch& first_change);
+
+  [[nodiscard]] std::string_view name() const noexcept override { return "tracking"; }
+  [[nodiscard]] rt::StepStatus step() noexcept override;
+  void finish() noexcept override;
+
+  // Any thread: of the newest frame.
+  [[nodiscard]] std::uint64_t points_tracked() const noexcept {
+    return points_tracked_.load(std::memory_order_relaxed);
+  }
+  [[nodiscard]] std::uint64_t points_total() const noexcept { return scratch_.tracks.points.size(); }
+  // Any thread: of the newest frame, and since start.
+  [[nodiscard]] std::vector<core::RegionHealth> regions() const;
+  // Any thread: from a frame taken to its displacement handed on; the first frame, taken at set-up, is left out.
+  [[nodiscard]] const rt::LatencyHistogram& frame_latency() const noexcept { return frame_latency_; }
+  [[nodiscard]] bool camera_given_up() const noexcept { return camera_given_up_.load(std::memory_order_relaxed); }
+  [[nodiscard]] bool attitude_given_up() const noexcept { return attitude_given_up_.load(std::memory_order_relaxed); }
+  // Frames whose camera motion rests on a measured attitude too, and those that had none though it was announced.
+  [[nodiscard]] std::uint64_t n_with_attitude() const noexcept {
+    return n_with_attitude_.load(std::memory_order_relaxed);
+  }
+  [[nodiscard]] std::uint64_t n_without_attitude() const noexcept {
+    return n_without_attitude_.load(std::memory_order_relaxed);
+  }
+  [[nodiscard]] std::uint64_t n_failed_frames() const noexcept { return n_failed_.load(std::memory_order_relaxed); }
+  // Any thread: points that were lost and are tracked by a new template.
+  [[nodiscard]] std::uint32_t n_reseeded() const noexcept { return n_reseeded_.load(std::memory_order_relaxed); }
+  // Any thread: frames that publish never saw, because its ring was full.
+  [[nodiscard]] std::uint64_t n_records_lost() const noexcept {
+    return n_records_lost_.load(std::memory_order_relaxed);
+  }
+  // Any thread: previews that publish never sent, because a newer one came first.
+  [[nodiscard]] std::uint64_t n_previews_lost() const noexcept {
+    return n_previews_lost_.load(std::memory_order_relaxed);
+  }
+  // Any thread: frames that closure never saw, because its ring was full.
+  [[nodiscard]] std::uint64_t n_shown_lost() const noexcept { return n_shown_lost_.load(std::memory_order_relaxed); }
+
+ private:
+  struct RegionCounts {  // written here only; relaxed: each a count on its own
+    std::atomic<core::RegionState> state{core::RegionState::kMeasuring};
+    std::atomic<std::uint64_t> points_tracked{0}, frames_searching{0}, frames_lost{0};
+    std::uint64_t points_total = 0;
+  };
+
+  [[nodiscard]] bool is_decided(std::uint64_t sequence) noexcept;  // by what this frame is measured
+  void measure(const core::Frame& frame) noexcept;
+  void hand_over(core::DisplacementSample* sample, FrameRecord* record) noexcept;  // null: no room
+  void show(core::TrackFrame* slot) noexcept;                                      // null: no room
+  void show_preview(const core::Frame& frame) noexcept;
+  void take_attitude() noexcept;
+  void count_frame() noexcept;
+  void count_attitude() noexcept;
+  void count_regions() noexcept;
+
+  Ends ends_;
+  Calls calls_;
+  CorrectionSwitch decision_;  // newest
+  std::uint64_t n_shown_through_ = 0;
+  bool lossless_;
+  FrameRecord scratch_;
+  bool gap_before_next_ = false;
+  rt::LatencyHistogram frame_latency_;
+  std::vector<RegionCounts> regions_;
+  std::atomic<bool> attitude_given_up_{false};
+  std::atomic<std::uint64_t> n_with_attitude_{0}, n_without_attitude_{0};
+  std::atomic<bool> camera_given_up_{false};
+  std::atomic<std::uint64_t> points_tracked_{0};  // written here only; relaxed: a count on its own
+  std::atomic<std::uint64_t> n_failed_{0};
+  std::atomic<std::uint64_t> n_records_lost_{0}, n_shown_lost_{0}, n_previews_lost_{0};
+  std::atomic<std::uint32_t> n_reseeded_{0};
+};
+
+}  // namespace app

@@ -1,0 +1,113 @@
+// Records with an effect that the catalogue lacks.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "core/closure/observation/frame_model.h"
+#include "core/closure/observation/latent_words.h"
+#include "core/closure/observation/observation_level.h"
+#include "tools/validate/closure_effects.h"
+#include "tools/validate/closure_tracks.h"
+#include "tools/validate/closure_tracks_run.h"
+#include "tools/validate/identification_parallel.h"
+
+namespace tools {
+namespace {
+
+using core::closure::ObservationRecord;
+using core::simulation::Scene;
+
+// The leading pattern of what the effect really does beyond the free motions, without noise, in the same words.
+std::string true_words(const ObservationRecord& with, const ObservationRecord& without) {
+  const core::closure::FrameModel model(without);
+  Eigen::MatrixXd change(2 * without.n_points(), without.n_frames());
+  for (Eigen::Index j = 0; j < without.n_points(); ++j) {
+    change.row(2 * j) = (with.u_px.col(j) - without.u_px.col(j)).transpose() * model.weight()(2 * j);
+    change.row(2 * j + 1) = (with.v_px.col(j) - without.v_px.col(j)).transpose() * model.weight()(2 * j + 1);
+  }
+  const Eigen::MatrixXd left = model.left_of(change);
+  const Eigen::VectorXd pattern = core::closure::leading_pattern(left * left.transpose());
+  return core::closure::latent_words(pattern.cwiseQuotient(model.weight()), pattern.transpose() * left, without,
+                                     model.geometry(), {});
+}
+
+// Numbers of latent_words(): shares in percent, Hz.
+struct Description {
+  double along_v = NAN, plane = NAN, quadratic = NAN, hz = NAN;
+};
+Description read_words(const std::string& words) {
+  Description out;
+  const auto number_after = [&](const std::string& start, double& value) {
+    const std::size_t at = words.find(start);
+    if (at != words.npos) value = std::atof(words.c_str() + at + start.size());
+  };
+  number_after(", a quadratic one ", out.quadratic);
+  number_after("a plane field over the image holds ", out.plane);
+  number_after("strongest at ", out.hz);
+  const std::size_t along = words.find(" % of it along v"), comma = words.rfind(", ", along);
+  if (along != words.npos && comma != words.npos) out.along_v = std::atof(words.c_str() + comma + 2);
+  return out;
+}
+
+// The first latent effect says of the field and its course what is true within a fifth of the whole, and 0.3 Hz.
+bool described(const core::closure::ClosureResult& result, const std::string& truth) {
+  constexpr double kShare = 20.0, kHz = 0.3;
+  const auto latent = std::find_if(result.steps.begin(), result.steps.end(),
+                                   [](const auto& s) { return s.kind == core::closure::EffectKind::kLatent; });
+  if (latent == result.steps.end()) return false;
+  const Description said = read_words(latent->meaning), is = read_words(truth);
+  return std::abs(said.along_v - is.along_v) <= kShare && std::abs(said.plane - is.plane) <= kShare &&
+         std::abs(said.quadratic - is.quadratic) <= kShare && std::abs(said.hz - is.hz) <= kHz;
+}
+
+// All latent; or, where another effect of the catalogue can absorb it, that one beside its rivals.
+bool answered(const core::closure::ClosureResult& result, const std::string& effect) {
+  const bool absorbed = effect == "radial distortion" || effect == "tangential distortion";
+  return !result.steps.empty() && std::all_of(result.steps.begin(), result.steps.end(), [&](const auto& s) {
+    return s.kind == core::closure::EffectKind::kLatent || (absorbed && !s.rivals.empty());
+  });
+}
+
+std::string outside_line(const HiddenEffect& effect, const RecordSetup& setup, double strength, std::uint64_t seed) {
+  const Scene declared = closure_scene(setup, seed);
+  const Scene scene = with_effects({&effect}, declared, strength, setup.background).scene;
+  const ObservationRecord with = observation_record(scene, declared, setup.background);
+  const ObservationRecord without = observation_record(declared, declared, setup.background);
+  const TracksOutcome o = close_tracks_record(with, scene, seed, effect.called);
+  const double named = close_tracks_record(with, scene, seed).heldout_after();
+  const std::string truth = true_words(with, without);
+  const EffectStrength is = strength_of(with, without, noise_px(declared, setup.background), true);
+  const double nan = std::nan("");
+  return fmt::format(
+      "closure-tracks-outside\t{}\t{:.2f}\t{:.3f}\t{}\t{}\t{:d}\t{:d}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.4f}\t{:.4f}\t"
+      "{}\t{{{}}}\t{:.1f}\n",
+      effect.name, is.plain, is.visible, seed, o.names(), answered(o.result, effect.name), described(o.result, truth),
+      o.result.baseline_rms, o.heldout_after(), o.result.noise_floor, named,
+      o.result.reference_error_before.value_or(nan), o.result.reference_error_after.value_or(nan),
+      o.words + o.refused(), truth, o.seconds);
+}
+
+}  // namespace
+
+void print_closure_tracks_outside(const ClosureTracksOptions& options) {
+  fmt::print(
+      "# closure-tracks-outside: effect taken out of the catalogue, strength, visible part, seed, adopted, right "
+      "answer, "
+      "described as it is, held-out before, after, floor (px), after with the whole catalogue, modal error before, "
+      "after "
+      "(% rms), words, the truth in the same words, seconds\n");
+  const RecordSetup setup = setup_for(options);
+  for (const HiddenEffect& effect : hidden_effects()) {
+    if (!options.effect.empty() && options.effect != effect.name) continue;
+    const auto lines = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t index) {
+      return outside_line(effect, setup, options.strength > 0.0 ? options.strength : 1.0, seed_of(options, index));
+    });
+    for (const std::string& line : lines) fmt::print("{}", line);
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace tools

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/closure/observation/observation_record.h"
+#include "core/simulation/scene.h"
+#include "core/types/closure_result.h"
+#include "tools/validate/closure_tracks.h"
+#include "tools/validate/closure_tracks_record.h"
+
+namespace tools {
+
+// One record through the loop.
+struct TracksOutcome {
+  core::closure::ClosureResult result;
+  std::string words;  // of the latent effects
+  double seconds = 0.0;
+  double values = 0.0;  // of the record: points x axes x frames
+
+  [[nodiscard]] double heldout_after() const;
+  [[nodiscard]] std::string names() const;       // "a + b", in the order of their names; "nothing"
+  [[nodiscard]] std::string parameters() const;  // of all steps
+  [[nodiscard]] std::string refused() const;     // the last round: share of the noise, why not
+};
+
+// The loop on a record; modal errors are against the scene's true modes below half the rate. without: an effect that
+// the catalogue lacks.
+[[nodiscard]] TracksOutcome close_tracks_record(const core::closure::ObservationRecord& record,
+                                                const core::simulation::Scene& scene, std::uint64_t seed,
+                                                const std::string& without = {});
+// rms error of frequency, percent, of the model without effects; NaN without a mode.
+[[nodiscard]] double plain_modal_error(const core::closure::ObservationRecord& record,
+                                       const core::simulation::Scene& scene);
+
+[[nodiscard]] std::uint64_t seed_of(const ClosureTracksOptions& options, std::uint64_t index) noexcept;
+[[nodiscard]] RecordSetup setup_for(const ClosureTracksOptions& options);
+
+}  // namespace tools
