@@ -8,8 +8,8 @@
 #include "firmware_app/config/config.h"
 #include "firmware_app/config/options.h"
 #include "firmware_app/service/pipeline.h"
-#include "firmware_app/service/pipeline_setup.h"
 #include "firmware_app/service/progress.h"
+#include "firmware_app/service/real_time.h"
 #include "firmware_app/service/service_notify.h"
 
 namespace {

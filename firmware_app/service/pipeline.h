@@ -15,6 +15,8 @@
 
 namespace app {
 
+struct DataFlow;
+
 // The whole way from frames to modes. Construction is set-up: it opens the camera, takes the first frame, seeds the
 // points, opens telemetry and report, and builds rings and stages; it may throw. Afterwards memory is fixed.
 //
@@ -60,8 +62,7 @@ class Pipeline {
   [[nodiscard]] std::vector<std::string> warnings() const;
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  std::unique_ptr<DataFlow> flow_;
 };
 
 // Checks all that can be checked without running: opens the source, compares regions, seeds. For --check. Returns how

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "firmware_app/service/pipeline.h"
-#include "firmware_app/service/pipeline_setup.h"
+#include "firmware_app/service/source.h"
 #include "tests/support/measured_data.h"
 #include "tests/support/pipeline_run.h"
 

@@ -1,0 +1,91 @@
+#include "firmware_app/service/outlets.h"
+
+#include <fmt/core.h>
+
+#include <utility>
+
+#include "drivers/telemetry/publisher_factory.h"
+#include "firmware_app/config/core_config.h"
+#include "firmware_app/report/pictures/pictures.h"
+#include "firmware_app/report/run_findings.h"
+
+namespace app {
+
+std::unique_ptr<drivers::RunRecorder> open_recorder(const AppConfig& config) {
+  if (config.record.directory.empty()) return nullptr;
+  constexpr std::uint64_t kMb = 1'000'000;
+  const TelemetryConfig& t = config.telemetry;
+  return drivers::make_run_recorder({config.record.directory,
+                                     kMb * static_cast<std::uint64_t>(config.record.file_mb),
+                                     kMb * static_cast<std::uint64_t>(config.record.quota_mb),
+                                     t.channel_prefix,
+                                     {t.stream_id, config.hash}});
+}
+
+std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config, drivers::RunRecorder* recorder,
+                                                   std::string& warning) {
+  const TelemetryConfig& t = config.telemetry;
+  return drivers::make_publisher({t.lcm_url,
+                                  t.channel_prefix,
+                                  t.log_file,
+                                  {t.stream_id, config.hash},
+                                  t.max_kbit_s,
+                                  recorder != nullptr ? recorder->log() : nullptr},
+                                 &warning);
+}
+
+std::unique_ptr<RunReport> open_report(const AppConfig& config, const Source& source) {
+  if (config.report.directory.empty()) return nullptr;
+  return std::make_unique<RunReport>(config.report.directory, config, source.info, source.channels(),
+                                     region_names(config));
+}
+
+std::string short_record(const AppConfig& config, const core::CameraInfo& info, const core::ModalEstimate& estimate) {
+  const auto segment = static_cast<std::uint64_t>(config.spectrum.segment);
+  if (estimate.n_samples >= segment) return {};
+  return fmt::format(
+      "the record holds {} samples, fewer than one segment of {}: its modes are a guess. Film at least {:.1f} s at "
+      "{:g} fps, or lower "
+      "spectrum.segment",
+      estimate.n_samples, segment, static_cast<double>(segment) / info.rate_hz, info.rate_hz);
+}
+
+std::function<void(const PublishStage::Findings&, const core::Health&)> picture_drawer(const AppConfig& config,
+                                                                                       const Source& source,
+                                                                                       const RunReport* report) {
+  if (report == nullptr) return {};
+  return [&config, &source, report](const PublishStage::Findings& found, const core::Health& health) {
+    PictureInputs inputs = picture_inputs(config, source.info, source.channels());
+    inputs.first_frame = &source.keyframe_image();
+    inputs.keyframe = &source.keyframe;
+    inputs.spectrum = &found.spectrum;
+    inputs.estimate = &found.estimate;
+    inputs.closure = found.closure;
+    inputs.history = &report->history();
+    const RunFacts facts = run_facts(config, source.info, config.camera.source, health, found.estimate);
+    inputs.facts = &facts;
+    (void)write_pictures(config.report.directory, inputs);
+  };
+}
+
+core::PreviewMaker preview_maker_for(const AppConfig& config, const Source& source) {
+  const bool is_heard = !config.telemetry.lcm_url.empty() || !config.telemetry.log_file.empty();
+  return {{is_heard ? config.telemetry.preview_period_s : 0.0, config.telemetry.preview_px},
+          source.info.width_px,
+          source.info.height_px,
+          source.keyframe,
+          config.regions.size()};
+}
+
+FrameRecord record_prototype(const Source& source) { return {source.keyframe, source.displacement.sample_prototype()}; }
+
+std::string event_line(std::string_view stage, const rt::Event& event) {
+  std::string text = event.what;
+  for (const std::int64_t value : event.values) {
+    const std::size_t at = text.find("{}");
+    if (at != text.npos) text.replace(at, 2, std::to_string(value));
+  }
+  return fmt::format("{}: {}", stage, text);
+}
+
+}  // namespace app

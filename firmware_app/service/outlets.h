@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "core/tracking/preview_maker.h"
+#include "drivers/telemetry/publisher.h"
+#include "drivers/telemetry/run_recorder.h"
+#include "firmware_app/config/config.h"
+#include "firmware_app/report/run_report.h"
+#include "firmware_app/service/source.h"
+#include "firmware_app/service/stages/items.h"
+#include "firmware_app/service/stages/publish_stage.h"
+#include "rt/event_log.h"
+
+namespace app {
+
+[[nodiscard]] std::unique_ptr<drivers::RunRecorder> open_recorder(const AppConfig& config);  // null: none wanted
+[[nodiscard]] std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config,
+                                                                 drivers::RunRecorder* recorder, std::string& warning);
+[[nodiscard]] std::unique_ptr<RunReport> open_report(const AppConfig& config,
+                                                     const Source& source);  // null: none wanted
+// What to say of a record shorter than one segment, which a source of unknown length may turn out to be; else empty.
+[[nodiscard]] std::string short_record(const AppConfig& config, const core::CameraInfo& info,
+                                       const core::ModalEstimate& estimate);
+// What PublishStage::Outlets::draw calls; empty: no report wanted. All arguments must outlive it.
+[[nodiscard]] std::function<void(const PublishStage::Findings&, const core::Health&)> picture_drawer(
+    const AppConfig& config, const Source& source, const RunReport* report);
+[[nodiscard]] core::PreviewMaker preview_maker_for(const AppConfig& config, const Source& source);
+[[nodiscard]] FrameRecord record_prototype(const Source& source);
+[[nodiscard]] std::string event_line(std::string_view stage, const rt::Event& event);
+
+}  // namespace app
