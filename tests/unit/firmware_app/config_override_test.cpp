@@ -104,7 +104,7 @@ TEST(Config, ExampleInTheHelpIsValid) {
 
 TEST(Config, ShippedFilesAreValid) {
   int n_files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(tests::source_path("firmware_app/config/config"))) {
+  for (const auto& entry : std::filesystem::directory_iterator(tests::source_path("firmware_app/config"))) {
     if (entry.path().extension() != ".yaml") continue;
     EXPECT_NO_THROW(check_against_image(load_config(entry.path().string()), 1920, 1080)) << entry.path();
     ++n_files;
