@@ -26,6 +26,11 @@ const Switch kHarmonics{[](const Scene& s) { return !s.excitation.harmonics.empt
 const Switch kBaseColour{[](const Scene& s) { return s.excitation.base > 0.0 && !s.excitation.base_peaks.empty(); },
                          [](Scene& s) { s.excitation.base_peaks.clear(); }};
 
+const Switch kTailedShift{[](const Scene& s) { return s.tailed_hover.rms_mm != std::array<double, 3>{}; },
+                          [](Scene& s) { s.tailed_hover.rms_mm = {}; }};
+const Switch kTailedTurn{[](const Scene& s) { return s.tailed_hover.rms_rad != std::array<double, 3>{}; },
+                         [](Scene& s) { s.tailed_hover.rms_rad = {}; }};
+
 struct Effect {
   std::string name;
   std::vector<std::string> keys;
@@ -56,6 +61,11 @@ const std::vector<Effect> kEffects{
     {"yaw", {"hover.yaw_rms_deg"}, {at<&S::hover, &H::yaw_rms_rad>}},
     {"roll", {"hover.roll_rms_deg"}, {at<&S::hover, &H::roll_rms_rad>}},
     {"zoom", {"hover.zoom_rms"}, {at<&S::hover, &H::zoom_rms>}},
+    {"tailed_hover", {"tailed_hover.rms_mm", "tailed_hover.corner_hz", "tailed_hover.order"}, {}, kTailedShift},
+    {"tailed_rotation",
+     {"tailed_hover.rms_deg", "tailed_hover.turn_corner_hz", "tailed_hover.turn_order"},
+     {},
+     kTailedTurn},
     {"flight", {"flight"}, {}, kFlight},
     {"rotor",
      {"rotor"},

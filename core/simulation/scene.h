@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/simulation/injected/tailed_hover.h"
 #include "core/simulation/structure/structure_model.h"
 #include "core/types/frame.h"
 
@@ -146,6 +147,7 @@ struct Scene {
   std::vector<Plate> plates;  // by body: plates[0] stands on the ground
   BackgroundParameters background;
   HoverParameters hover;
+  TailedHoverParameters tailed_hover;
   std::shared_ptr<const RecordedMotion> flight;  // beside the hover model; null = none
   RotorParameters rotor;
   TimingParameters timing;

@@ -105,6 +105,17 @@ void validate_hover(const HoverParameters& hover) {
   require_range("upper limit of the drift (Hz)", hover.limit_hz, hover.corner_hz, 100.0);
 }
 
+void validate_tails(const TailedHoverParameters& tails) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    require_range("tailed hover (mm rms)", tails.rms_mm[i], 0.0, 1e5);
+    require_range("tailed rotation (rad rms)", tails.rms_rad[i], 0.0, 0.1);
+    for (const double hz : {tails.corner_hz[i], tails.turn_corner_hz[i]})
+      require_range("corner of the tailed hover (Hz)", hz, 0.001, 50.0);
+    for (const double order : {tails.order[i], tails.turn_order[i]})
+      require_range("order of the tailed hover", order, 2.0, 24.0);
+  }
+}
+
 void validate_effects(const Scene& s) {
   require_range("rotor rate (Hz)", s.rotor.frequency_hz, 1.0, 1e3);
   require_range("wander of the rotor rate (Hz rms)", s.rotor.wander_rms_hz, 0.0, 50.0);
@@ -135,8 +146,13 @@ void validate_effects(const Scene& s) {
 // How far the camera strays from its mean pose: three standard deviations of the drift, all of a recorded flight.
 std::array<double, 6> reach_of(const Scene& s) {
   const HoverParameters& hover = s.hover;
-  std::array<double, 6> reach{3.0 * hover.x_rms_mm,      3.0 * hover.y_rms_mm,    3.0 * hover.z_rms_mm,
-                              3.0 * hover.pitch_rms_rad, 3.0 * hover.yaw_rms_rad, 3.0 * hover.roll_rms_rad};
+  const TailedHoverParameters& tails = s.tailed_hover;
+  std::array<double, 6> reach{hover.x_rms_mm,      hover.y_rms_mm,    hover.z_rms_mm,
+                              hover.pitch_rms_rad, hover.yaw_rms_rad, hover.roll_rms_rad};
+  for (std::size_t i = 0; i < 3; ++i) {
+    reach[i] = 3.0 * std::hypot(reach[i], tails.rms_mm[i]);
+    reach[3 + i] = 3.0 * std::hypot(reach[3 + i], tails.rms_rad[i]);
+  }
   if (s.flight == nullptr) return reach;
   const std::array axes{&s.flight->x_mm,      &s.flight->y_mm,    &s.flight->z_mm,
                         &s.flight->pitch_rad, &s.flight->yaw_rad, &s.flight->roll_rad};
@@ -213,6 +229,7 @@ void validate(const Scene& scene) {
   validate(scene.structure);
   validate_excitation(scene.excitation, scene.n_bodies());
   validate_hover(scene.hover);
+  validate_tails(scene.tailed_hover);
   validate_plates(scene);
   validate_effects(scene);
   validate_view(scene);

@@ -14,12 +14,16 @@ struct ClosureTracksOptions {
   int first_seed = 1;
   std::string effect;     // that one only (clip: with these, joined by " + "); empty = all (clip: none)
   double strength = 0.0;  // that one only; 0 = all
+  std::string flight;     // foreign: the recorded flight that moves the camera in one of four; empty = none
 };
 
 void print_closure_tracks(const ClosureTracksOptions& options);          // undeclared effects: which are named
 void print_closure_tracks_pairs(const ClosureTracksOptions& options);    // two of them at once
 void print_closure_tracks_null(const ClosureTracksOptions& options);     // records without an effect
 void print_closure_tracks_outside(const ClosureTracksOptions& options);  // each effect taken out of the catalogue
+
+// Records that are not made after the model (foreign_scene.h): without an effect; with one.
+void print_closure_tracks_foreign_null(const ClosureTracksOptions& options);
 
 void print_closure_clip(const ClosureTracksOptions& options);  // a drawn scene to render, as a file for `simulate`
 

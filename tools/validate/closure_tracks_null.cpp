@@ -14,23 +14,6 @@ namespace {
 
 using core::simulation::Scene;
 
-struct Largest {
-  double named = -1e9, latent = -1e9;  // shares of the noise
-  std::string name;
-};
-
-Largest largest_refused(const TracksOutcome& o) {
-  Largest out;
-  for (const auto& s : o.result.refused) {
-    const double share = s.score / o.values;
-    if (s.kind == core::closure::EffectKind::kLatent)
-      out.latent = share;
-    else if (share > out.named)
-      out.named = share, out.name = s.effect;
-  }
-  return out;
-}
-
 // How many adopted something.
 int print_nulls(const ClosureTracksOptions& options, const RecordSetup& setup) {
   const auto outcomes = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t index) {
@@ -40,7 +23,7 @@ int print_nulls(const ClosureTracksOptions& options, const RecordSetup& setup) {
   int n_false = 0;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const TracksOutcome& o = outcomes[i];
-    const Largest largest = largest_refused(o);
+    const LargestRefused largest = largest_refused(o);
     n_false += o.result.steps.empty() ? 0 : 1;
     fmt::print("closure-tracks-null\t{}\t{}\t{}\t{}\t{}\t{:.5f}\t{}\t{:.5f}\t{:.5f}\t{:.5f}\t{}\t{:.1f}\n",
                setup.shaking == Shaking::kGround ? "ground" : "wind", setup.background ? "yes" : "no",

@@ -55,6 +55,8 @@ double change_px(const Scene& with, const Scene& without, bool background) {
   return std::sqrt(std::max(total, 0.0) / static_cast<double>(sum.size()));
 }
 
+}  // namespace
+
 bool holds_the_view(const Scene& scene) {
   try {
     core::simulation::validate(scene);
@@ -63,8 +65,6 @@ bool holds_the_view(const Scene& scene) {
     return false;
   }
 }
-
-}  // namespace
 
 Scene closure_scene(const RecordSetup& setup, std::uint64_t seed) {
   Scene scene = draw_scene(seed, setup.duration_s).scene;

@@ -38,6 +38,9 @@ struct EffectStrength {
 // rms over the record's points.
 [[nodiscard]] double noise_px(const core::simulation::Scene& scene, bool background);
 
+// core::simulation::validate() accepts it.
+[[nodiscard]] bool holds_the_view(const core::simulation::Scene& scene);
+
 // The scene with these effects: of these sizes, or each of this plain strength by itself; less where an effect's
 // largest size, or a view that no longer holds the structure, ends it.
 struct SizedScene {

@@ -52,6 +52,18 @@ std::string TracksOutcome::refused() const {
   return text;
 }
 
+LargestRefused largest_refused(const TracksOutcome& outcome) {
+  LargestRefused out;
+  for (const auto& s : outcome.result.refused) {
+    const double share = s.score / outcome.values;
+    if (s.kind == core::closure::EffectKind::kLatent)
+      out.latent = share;
+    else if (share > out.named)
+      out.named = share, out.name = s.effect;
+  }
+  return out;
+}
+
 TracksOutcome close_tracks_record(const core::closure::ObservationRecord& record, const core::simulation::Scene& scene,
                                   std::uint64_t seed, const std::string& without) {
   const auto start = std::chrono::steady_clock::now();

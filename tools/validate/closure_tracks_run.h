@@ -25,6 +25,13 @@ struct TracksOutcome {
   [[nodiscard]] std::string refused() const;     // the last round: share of the noise, why not
 };
 
+// Of the last round.
+struct LargestRefused {
+  double named = -1e9, latent = -1e9;  // shares of the noise
+  std::string name;
+};
+[[nodiscard]] LargestRefused largest_refused(const TracksOutcome& outcome);
+
 // The loop on a record; modal errors are against the scene's true modes below half the rate. without: an effect that
 // the catalogue lacks.
 [[nodiscard]] TracksOutcome close_tracks_record(const core::closure::ObservationRecord& record,

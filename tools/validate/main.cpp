@@ -105,7 +105,8 @@ void geometry(const Options& options) {
 // Closing the loop on tracks.
 template <void (*print)(const ClosureTracksOptions&)>
 void closure_tracks(const Options& options) {
-  print({options.n_seeds, options.n_threads, options.duration_s, options.first_seed, options.effect, options.strength});
+  print({options.n_seeds, options.n_threads, options.duration_s, options.first_seed, options.effect, options.strength,
+         options.flight});
 }
 
 // Options that a check may take; all others are refused.
@@ -166,6 +167,8 @@ constexpr std::array kChecks{
           kRecords | kDuration},
     Check{"closure-tracks-outside", "the same with that effect taken out of the catalogue",
           closure_tracks<print_closure_tracks_outside>, kRecords | kDuration | kEffect | kStrength},
+    Check{"closure-tracks-foreign-null", "closing the loop on tracks that are foreign to the model, without an effect",
+          closure_tracks<print_closure_tracks_foreign_null>, kFlights},
     Check{"closure-clip", "one drawn scene with an undeclared effect, as a file for simulate --scene",
           closure_tracks<print_closure_clip>, kSeed | kDuration | kEffect},
     Check{"closure-live", "effects that begin in mid-flight, taken out while the record runs",
@@ -239,7 +242,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--effect", options.effect, "closure-tracks, -clip, -live: this effect only")->type_name("NAME");
   app.add_option("--strength", options.strength, "closure-tracks: this strength only; 0 = all")
       ->check(CLI::Range(0.0, 100.0));
-  app.add_option("--flight", options.flight, "null, geometry: the recorded flight that moves the camera")
+  app.add_option("--flight", options.flight, "null, geometry, closure-tracks-foreign: the recorded flight that moves the camera")
       ->type_name("FILE");
   app.add_option("--report", options.report, "table1: folder for the pictures; geometry-pixels: for clips and reports")
       ->type_name("DIR");

@@ -21,6 +21,8 @@ bool shakes(const RotorParameters& rotor) {
   return rotor.pitch_rms_rad > 0.0 || rotor.yaw_rms_rad > 0.0 || rotor.roll_rms_rad > 0.0;
 }
 
+bool any(const std::array<double, 3>& rms) { return rms[0] > 0.0 || rms[1] > 0.0 || rms[2] > 0.0; }
+
 }  // namespace
 
 CameraMotion::CameraMotion(const Scene& scene)
@@ -32,7 +34,10 @@ CameraMotion::CameraMotion(const Scene& scene)
       vibrates_(shakes(scene.rotor)) {
   const HoverParameters& hover = scene.hover;
   const std::array<double, 7> rms = hover_rms(hover);
-  rotates_ = vibrates_ || rms[3] > 0.0 || rms[4] > 0.0 || rms[5] > 0.0;
+  const TailedHoverParameters& tails = scene.tailed_hover;
+  tailed_ = any(tails.rms_mm) || any(tails.rms_rad);
+  if (tailed_) tailed_hover_ = TailedHover(tails, scene.seed, duration_s_);
+  rotates_ = vibrates_ || any(tails.rms_rad) || rms[3] > 0.0 || rms[4] > 0.0 || rms[5] > 0.0;
   zooms_ = rms[6] > 0.0;
   if (scene.flight != nullptr) {
     flight_.emplace(*scene.flight);
@@ -58,6 +63,9 @@ std::array<double, 7> CameraMotion::deviation(double t_s) const noexcept {
   for (std::size_t i = 0; i < value.size(); ++i) value[i] = hover_[i].at(t_s);
   if (flight_) {
     for (int axis = 0; axis < 6; ++axis) value[static_cast<std::size_t>(axis)] += flight_->at(axis, t_s);
+  }
+  if (tailed_) {
+    for (std::size_t i = 0; i < 6; ++i) value[i] += tailed_hover_.at(i, t_s);
   }
   if (vibrates_) {
     const double phase = rotor_phase(t_s);

@@ -89,6 +89,7 @@ void add_structure_keys(std::vector<SceneKey>& keys);
 void add_plate_keys(std::vector<SceneKey>& keys);
 void add_excitation_keys(std::vector<SceneKey>& keys);
 void add_motion_keys(std::vector<SceneKey>& keys);
+void add_injected_keys(std::vector<SceneKey>& keys);
 void add_record_keys(std::vector<SceneKey>& keys);
 
 [[nodiscard]] const SceneKey* find_scene_key(const std::string& path);

@@ -13,6 +13,7 @@ std::vector<SceneKey> build_keys() {
   add_plate_keys(keys);
   add_excitation_keys(keys);
   add_motion_keys(keys);
+  add_injected_keys(keys);
   add_record_keys(keys);
   return keys;
 }

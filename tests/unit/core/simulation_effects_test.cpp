@@ -18,6 +18,8 @@ Scene troubled_scene() {
   scene.camera.pitch_rad = 0.01;
   scene.hover.pitch_rms_rad = scene.hover.yaw_rms_rad = scene.hover.roll_rms_rad = 1e-4;
   scene.hover.zoom_rms = 1e-4;
+  scene.tailed_hover.rms_mm = {0.5, 0.0, 0.0};
+  scene.tailed_hover.rms_rad = {0.0, 0.0, 1e-4};
   scene.flight = std::make_shared<const RecordedMotion>();
   scene.rotor.roll_rms_rad = 1e-5;
   scene.timing.jitter_rms_s = 1e-3;
