@@ -57,7 +57,7 @@ std::string words_of(const ForeignScene& foreign) {
                         tails.rms_mm[0], tails.rms_mm[1], tails.rms_mm[2], tails.corner_hz[0], tails.corner_hz[1],
                         tails.corner_hz[2], tails.order[0], tails.order[1], tails.order[2]);
   }
-  return fmt::format("{}; {} storeys on {}, {} of their modes fold at {:.2f} frames/s; noise {:.4f} px, stated {:.4f}",
+  return fmt::format("{}; {} storeys, {}, {} of their modes fold at {:.2f} frames/s; noise {:.4f} px, stated {:.4f}",
                      hover, s.structure.n_bodies(), foreign.shaken, foreign.n_folded, s.camera.rate_hz,
                      s.tracks.noise_px, foreign.stated_px);
 }
