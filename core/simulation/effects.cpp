@@ -31,6 +31,12 @@ const Switch kTailedShift{[](const Scene& s) { return s.tailed_hover.rms_mm != s
 const Switch kTailedTurn{[](const Scene& s) { return s.tailed_hover.rms_rad != std::array<double, 3>{}; },
                          [](Scene& s) { s.tailed_hover.rms_rad = {}; }};
 
+const Switch kVibration{[](const Scene& s) {
+                          return s.vibration.rms_rad != std::array<double, 3>{} ||
+                                 s.vibration.rms_mm != std::array<double, 3>{};
+                        },
+                        [](Scene& s) { s.vibration.rms_rad = s.vibration.rms_mm = {}; }};
+
 struct Effect {
   std::string name;
   std::vector<std::string> keys;
@@ -70,12 +76,21 @@ const std::vector<Effect> kEffects{
     {"rotor",
      {"rotor"},
      {at<&S::rotor, &R::pitch_rms_rad>, at<&S::rotor, &R::yaw_rms_rad>, at<&S::rotor, &R::roll_rms_rad>}},
+    {"vibration", {"vibration"}, {}, kVibration},
+    {"stabiliser", {"stabiliser"}, {at<&S::stabiliser, &StabiliserParameters::gain>}},
+    {"breathing", {"breathing"}, {at<&S::breathing, &BreathingParameters::rms>}},
+    {"shimmer", {"shimmer"}, {at<&S::shimmer, &ShimmerParameters::rms_px>}},
+    {"flap", {"flap"}, {at<&S::flap, &FlapParameters::rms_mm>}},
+    {"rocking", {"rocking"}, {at<&S::rocking, &RockingParameters::rms_rad>}},
+    {"torsion", {"torsion"}, {at<&S::torsion, &TorsionParameters::rms_rad>}},
+    {"sway", {"sway"}, {at<&S::sway, &SwayParameters::rms_mm>}},
     {"jitter", {"timing.jitter_rms_ms"}, {at<&S::timing, &Ti::jitter_rms_s>}},
     {"drops", {"timing.drop_probability"}, {at<&S::timing, &Ti::drop_probability>}},
     {"duplicates", {"timing.duplicate_probability"}, {at<&S::timing, &Ti::duplicate_probability>}},
     {"gain", {"light.gain_rms", "light.gain_corner_hz"}, {at<&S::light, &L::gain_rms>}},
     {"flicker", {"light.flicker_depth", "light.flicker_hz"}, {at<&S::light, &L::flicker_depth>}},
     {"pixel_locking", {"tracks.pixel_locking_px"}, {at<&S::tracks, &T::pixel_locking_px>}},
+    {"template_zoom", {"tracks.template_zoom_px"}, {at<&S::tracks, &T::template_zoom_px>}},
     {"brightness_bias", {"tracks.brightness_bias_px"}, {at<&S::tracks, &T::brightness_bias_px>}},
     {"harmonic", {"excitation.harmonics"}, {}, kHarmonics},
     {"base_colour", {"excitation.base_peaks"}, {}, kBaseColour},

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/simulation/injected/tailed_hover.h"
+#include "core/simulation/injected/parameters.h"
 #include "core/simulation/structure/structure_model.h"
 #include "core/types/frame.h"
 
@@ -127,6 +127,7 @@ struct TrackParameters {
   double sigma_error = 0.0;         // of the sigma that is stated per point: sd of the logarithm of stated / true
   double loss_probability = 0.0;    // of a point in a frame
   double pixel_locking_px = 0.0;    // amplitude of an error periodic in the sub-pixel phase
+  double template_zoom_px = 0.0;    // error per unit of magnification since the first frame, in that direction
   double brightness_bias_px = 0.0;  // error per unit of relative brightness change, in each point's own direction
 };
 
@@ -148,6 +149,14 @@ struct Scene {
   BackgroundParameters background;
   HoverParameters hover;
   TailedHoverParameters tailed_hover;
+  VibrationParameters vibration;
+  FlapParameters flap;
+  RockingParameters rocking;
+  TorsionParameters torsion;
+  SwayParameters sway;
+  ShimmerParameters shimmer;
+  StabiliserParameters stabiliser;
+  BreathingParameters breathing;
   std::shared_ptr<const RecordedMotion> flight;  // beside the hover model; null = none
   RotorParameters rotor;
   TimingParameters timing;

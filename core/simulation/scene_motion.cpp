@@ -13,7 +13,7 @@ const Scene& validated(const Scene& scene) {
 
 }  // namespace
 
-SceneMotion::SceneMotion(const Scene& scene) : scene_(validated(scene)), structure_(scene_), camera_(scene_) {}
+SceneMotion::SceneMotion(const Scene& scene) : scene_(validated(scene)), structure_(scene_), camera_(scene_), own_(scene_), warp_(scene_, camera_) {}
 
 double SceneMotion::line_time_s(double t_frame_s, ImagePoint image) const noexcept {
   const CameraParameters& camera = scene_.camera;
@@ -27,22 +27,40 @@ double SceneMotion::depth_mm(int body) const noexcept {
 }
 
 BodyPose SceneMotion::body_at(int body, double t_s) const noexcept {
-  if (body == kBackgroundBody) return {};
+  if (body == kBackgroundBody) return {own_.sway_mm(t_s), 0.0, 0.0};
   const double shift_mm = structure_.displacement_mm(body, t_s);
   const bool along_x = scene_.structure.axis == StructureModel::Axis::kX;
-  return {along_x ? shift_mm : 0.0, along_x ? 0.0 : shift_mm, structure_.tilt_rad(body, t_s)};
+  BodyPose pose{along_x ? shift_mm : 0.0, along_x ? 0.0 : shift_mm, structure_.tilt_rad(body, t_s)};
+  if (!own_.rocks()) return pose;
+  const double turn_rad = own_.rocking_rad(t_s), c = std::cos(turn_rad), s = std::sin(turn_rad);
+  const Plate &plate = scene_.plates[static_cast<std::size_t>(body)], &base = scene_.plates[0];
+  const double x_mm = plate.x_mm + pose.x_mm - base.x_mm, y_mm = plate.y_mm + pose.y_mm - base.y_mm;
+  pose.x_mm = base.x_mm + c * x_mm - s * y_mm - plate.x_mm;
+  pose.y_mm = base.y_mm + s * x_mm + c * y_mm - plate.y_mm;
+  pose.tilt_rad += turn_rad;
+  return pose;
+}
+
+SceneMotion::Place SceneMotion::place_at(int body, PlanePoint point, double t_s) const noexcept {
+  const BodyPose pose = body_at(body, t_s);
+  if (body == kBackgroundBody) return {pose.x_mm + point.x_mm, pose.y_mm + point.y_mm, depth_mm(body)};
+  const Plate& plate = scene_.plates[static_cast<std::size_t>(body)];
+  double x_mm = point.x_mm, y_mm = point.y_mm;
+  if (body == scene_.flap.body && x_mm > (scene_.flap.from_share - 0.5) * plate.width_mm) {
+    const bool along_x = scene_.structure.axis == StructureModel::Axis::kX;
+    (along_x ? x_mm : y_mm) += own_.flap_mm(t_s);
+  }
+  const double torsion_rad = own_.torsion_rad(t_s) * body / (scene_.n_bodies() - 1);
+  const double ahead_mm = x_mm * std::sin(torsion_rad);
+  x_mm *= std::cos(torsion_rad);
+  const double c = std::cos(pose.tilt_rad), s = std::sin(pose.tilt_rad);
+  return {plate.x_mm + pose.x_mm + c * x_mm - s * y_mm, plate.y_mm + pose.y_mm + s * x_mm + c * y_mm,
+          plate.z_mm + ahead_mm};
 }
 
 ImagePoint SceneMotion::see_at(int body, PlanePoint point, double t_s) const noexcept {
-  double x_mm = point.x_mm, y_mm = point.y_mm;
-  if (body != kBackgroundBody) {
-    const BodyPose pose = body_at(body, t_s);
-    const Plate& plate = scene_.plates[static_cast<std::size_t>(body)];
-    const double c = std::cos(pose.tilt_rad), s = std::sin(pose.tilt_rad);
-    x_mm = plate.x_mm + pose.x_mm + c * point.x_mm - s * point.y_mm;
-    y_mm = plate.y_mm + pose.y_mm + s * point.x_mm + c * point.y_mm;
-  }
-  return project(scene_.camera, camera_.at(t_s), x_mm, y_mm, depth_mm(body));
+  const Place place = place_at(body, point, t_s);
+  return project(scene_.camera, camera_.at(t_s), place.x_mm, place.y_mm, place.z_mm);
 }
 
 ImagePoint SceneMotion::see(int body, PlanePoint point, double t_frame_s) const noexcept {
@@ -68,14 +86,14 @@ ImagePoint SceneMotion::see(int body, PlanePoint point, double t_frame_s) const 
     if (std::abs(dt_s) * (std::abs(velocity.u_px) + std::abs(velocity.v_px)) < kEnough_px) break;
     t_s += dt_s;
   }
-  return image;
+  return warp_.apply(image, t_s, t_frame_s);
 }
 
 PlanePoint SceneMotion::material_point(int body, ImagePoint image, double t_frame_s) const noexcept {
   const double t_s = line_time_s(t_frame_s, image);
-  PlanePoint point = back_project(scene_.camera, camera_.at(t_s), image, depth_mm(body));
-  if (body == kBackgroundBody) return point;
+  const PlanePoint point = back_project(scene_.camera, camera_.at(t_s), image, depth_mm(body));
   const BodyPose pose = body_at(body, t_s);
+  if (body == kBackgroundBody) return {point.x_mm - pose.x_mm, point.y_mm - pose.y_mm};
   const Plate& plate = scene_.plates[static_cast<std::size_t>(body)];
   const double x_mm = point.x_mm - plate.x_mm - pose.x_mm, y_mm = point.y_mm - plate.y_mm - pose.y_mm;
   const double c = std::cos(pose.tilt_rad), s = std::sin(pose.tilt_rad);

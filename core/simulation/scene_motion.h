@@ -6,6 +6,8 @@
 
 #include "core/simulation/camera/camera_motion.h"
 #include "core/simulation/camera/projection.h"
+#include "core/simulation/injected/image_warp.h"
+#include "core/simulation/injected/own_motion.h"
 #include "core/simulation/scene.h"
 #include "core/simulation/structure/structure_response.h"
 #include "core/types/region.h"
@@ -15,7 +17,8 @@ namespace core::simulation {
 // Marks the background wherever a body is asked for.
 inline constexpr int kBackgroundBody = -1;
 
-// Where a body is: its shift from rest and its turn about its centre, from X towards Y.
+// Where a body is: its shift from rest and its turn about its centre, from X towards Y. Rocking of the whole structure
+// and sway of the background are in it; a flapping part and torsion are not.
 struct BodyPose {
   double x_mm = 0.0, y_mm = 0.0, tilt_rad = 0.0;
 };
@@ -28,6 +31,8 @@ class SceneMotion {
   [[nodiscard]] const Scene& scene() const noexcept { return scene_; }
   [[nodiscard]] const StructureResponse& structure() const noexcept { return structure_; }
   [[nodiscard]] const CameraMotion& camera() const noexcept { return camera_; }
+  [[nodiscard]] const OwnMotion& own() const noexcept { return own_; }
+  [[nodiscard]] const ImageWarp& warp() const noexcept { return warp_; }
 
   // Middle of the exposure of the line that holds the pixel, in the frame whose row 0 starts at t_frame_s.
   [[nodiscard]] double line_time_s(double t_frame_s, ImagePoint image) const noexcept;
@@ -35,21 +40,29 @@ class SceneMotion {
   // motion) lie this far before and after its middle.
   [[nodiscard]] double exposure_offset_s() const noexcept;
   [[nodiscard]] double depth_mm(int body) const noexcept;
-  [[nodiscard]] BodyPose body_at(int body, double t_s) const noexcept;  // the background rests
+  [[nodiscard]] BodyPose body_at(int body, double t_s) const noexcept;
 
   // Where a point fixed to a body is in the image, averaged over the exposure (three Gauss-Legendre instants: a sine of
   // f T = 0.5 is met to 0.1 %) and solved for the time at which its own line is exposed. Points are relative to the
   // plate's centre (background: absolute), in the body's own axes.
   [[nodiscard]] ImagePoint see(int body, PlanePoint point, double t_frame_s) const noexcept;
-  // The point of a body that stands at this pixel of the frame, in the middle of its exposure.
+  // The point of a body that stands at this pixel of the frame, in the middle of its exposure; without flap, torsion and
+  // what happens to the image behind its projection.
   [[nodiscard]] PlanePoint material_point(int body, ImagePoint image, double t_frame_s) const noexcept;
 
  private:
+  // Where a point of a body is in the world.
+  struct Place {
+    double x_mm, y_mm, z_mm;
+  };
+  [[nodiscard]] Place place_at(int body, PlanePoint point, double t_s) const noexcept;
   [[nodiscard]] ImagePoint see_at(int body, PlanePoint point, double t_s) const noexcept;
 
   Scene scene_;
   StructureResponse structure_;
   CameraMotion camera_;
+  OwnMotion own_;
+  ImageWarp warp_;
 };
 
 // What is to be tracked: a rectangle on each body, in its own axes (background: absolute), clear of the plate's rim.

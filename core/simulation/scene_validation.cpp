@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/simulation/camera/projection.h"
+#include "core/simulation/injected/validation.h"
 #include "core/simulation/scene.h"
 
 namespace core::simulation {
@@ -105,17 +106,6 @@ void validate_hover(const HoverParameters& hover) {
   require_range("upper limit of the drift (Hz)", hover.limit_hz, hover.corner_hz, 100.0);
 }
 
-void validate_tails(const TailedHoverParameters& tails) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    require_range("tailed hover (mm rms)", tails.rms_mm[i], 0.0, 1e5);
-    require_range("tailed rotation (rad rms)", tails.rms_rad[i], 0.0, 0.1);
-    for (const double hz : {tails.corner_hz[i], tails.turn_corner_hz[i]})
-      require_range("corner of the tailed hover (Hz)", hz, 0.001, 50.0);
-    for (const double order : {tails.order[i], tails.turn_order[i]})
-      require_range("order of the tailed hover", order, 2.0, 24.0);
-  }
-}
-
 void validate_effects(const Scene& s) {
   require_range("rotor rate (Hz)", s.rotor.frequency_hz, 1.0, 1e3);
   require_range("wander of the rotor rate (Hz rms)", s.rotor.wander_rms_hz, 0.0, 50.0);
@@ -138,6 +128,7 @@ void validate_effects(const Scene& s) {
   require_range("error of the stated track noise", s.tracks.sigma_error, 0.0, 2.0);
   require_range("loss probability of a point", s.tracks.loss_probability, 0.0, 1.0);
   require_range("pixel locking (px)", s.tracks.pixel_locking_px, 0.0, 1.0);
+  require_range("error by zoom (px)", s.tracks.template_zoom_px, 0.0, 100.0);
   require_range("bias by brightness (px)", s.tracks.brightness_bias_px, 0.0, 100.0);
   require_range("channel noise (mm)", s.channels.noise_mm, 0.0, 1e4);
   require_range("loss probability of a channel", s.channels.loss_probability, 0.0, 1.0);
@@ -150,8 +141,8 @@ std::array<double, 6> reach_of(const Scene& s) {
   std::array<double, 6> reach{hover.x_rms_mm,      hover.y_rms_mm,    hover.z_rms_mm,
                               hover.pitch_rms_rad, hover.yaw_rms_rad, hover.roll_rms_rad};
   for (std::size_t i = 0; i < 3; ++i) {
-    reach[i] = 3.0 * std::hypot(reach[i], tails.rms_mm[i]);
-    reach[3 + i] = 3.0 * std::hypot(reach[3 + i], tails.rms_rad[i]);
+    reach[i] = 3.0 * std::hypot(reach[i], tails.rms_mm[i], s.vibration.rms_mm[i]);
+    reach[3 + i] = 3.0 * std::hypot(reach[3 + i], tails.rms_rad[i], s.vibration.rms_rad[i]);
   }
   if (s.flight == nullptr) return reach;
   const std::array axes{&s.flight->x_mm,      &s.flight->y_mm,    &s.flight->z_mm,
@@ -229,7 +220,7 @@ void validate(const Scene& scene) {
   validate(scene.structure);
   validate_excitation(scene.excitation, scene.n_bodies());
   validate_hover(scene.hover);
-  validate_tails(scene.tailed_hover);
+  validate_injected(scene);
   validate_plates(scene);
   validate_effects(scene);
   validate_view(scene);

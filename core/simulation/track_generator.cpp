@@ -40,6 +40,15 @@ TrackGenerator::TrackGenerator(const Scene& scene)
   }
 }
 
+// Magnification of a body since the first frame, less 1.
+double TrackGenerator::grown(int body, double t_s) const noexcept {
+  const auto scale = [&](double at_s) {
+    const auto moved = motion_.camera().deviation(at_s);
+    return (1.0 + moved[6]) / (motion_.depth_mm(body) - motion_.scene().camera.z_mm - moved[2]);
+  };
+  return motion_.scene().tracks.template_zoom_px > 0.0 ? scale(t_s) / scale(0.0) - 1.0 : 0.0;
+}
+
 void TrackGenerator::generate_true(const DeliveredFrame& frame, core::TrackFrame& out) const {
   out.sequence = frame.sequence;
   out.t_start_ns = std::llround(frame.stamp_s * 1e9);
@@ -61,8 +70,9 @@ void TrackGenerator::generate(const DeliveredFrame& frame, core::TrackFrame& out
   RandomStream loss(motion_.scene().seed, "track_loss", frame.number);
   for (std::size_t i = 0; i < out.points.size(); ++i) {
     core::TrackPoint& point = out.points[i];
-    const double brighter = light_.factor(motion_.line_time_s(frame.t_s, {point.u_px, point.v_px})) - 1.0;
-    const double bias_px = tracks.brightness_bias_px * brighter;
+    const double t_s = motion_.line_time_s(frame.t_s, {point.u_px, point.v_px});
+    const double brighter = light_.factor(t_s) - 1.0;
+    const double bias_px = tracks.brightness_bias_px * brighter + tracks.template_zoom_px * grown(points_[i].body, t_s);
     const double locked_u = tracks.pixel_locking_px * sub_pixel_error(point.u_px);
     const double locked_v = tracks.pixel_locking_px * sub_pixel_error(point.v_px);
     point.u_px += locked_u + bias_px * points_[i].bias_u + points_[i].noise_px * noise.gaussian();

@@ -27,7 +27,7 @@ class TrackGenerator {
     int body;
     std::uint16_t region;
     PlanePoint point;       // as SceneMotion::see takes it
-    double bias_u, bias_v;  // direction of the error by brightness, unit length
+    double bias_u, bias_v;  // direction of the error by brightness or zoom, unit length
     double noise_px;        // rms per axis
     double stated_px;       // what TrackPoint::sigma_px says of it
   };
@@ -35,6 +35,8 @@ class TrackGenerator {
   [[nodiscard]] FrameTiming timing() const { return FrameTiming(motion_.scene()); }  // from frame 0
 
  private:
+  [[nodiscard]] double grown(int body, double t_s) const noexcept;
+
   SceneMotion motion_;
   Light light_;
   std::vector<SceneRegion> regions_;

@@ -2,16 +2,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "drivers/storage/flight_log.h"
 #include "drivers/storage/scene/scene_file.h"
 #include "tools/validate/closure_effects.h"
 #include "tools/validate/closure_tracks.h"
 #include "tools/validate/closure_tracks_record.h"
 #include "tools/validate/closure_tracks_run.h"
+#include "tools/validate/drawn_scene.h"
+#include "tools/validate/foreign_effects.h"
+#include "tools/validate/foreign_scene.h"
+#include "tools/validate/recorded_hover.h"
 
 namespace tools {
 namespace {
@@ -19,6 +25,8 @@ namespace {
 using core::simulation::Scene;
 
 constexpr double kDropProbability = 0.02;
+constexpr double kClipNoise_px = 0.09;  // of a 1080p view: 0.03 px of a tracker in pictures of a third of its size
+constexpr double kTallerPlates = 1.9;  // two thirds of a storey: small pictures have few rows
 
 drivers::SceneStructure::Rows rows_of(const Eigen::MatrixXd& matrix) {
   drivers::SceneStructure::Rows rows;
@@ -66,16 +74,64 @@ Scene with_these(std::vector<std::string> names, const Scene& declared) {
 
 }  // namespace
 
-void print_closure_clip(const ClosureTracksOptions& options) {
-  const Scene declared = closure_scene(setup_for(options), seed_of(options, 1));
-  drivers::SceneFile file;
-  file.scene = with_these(names_in(options.effect), declared);
+namespace {
+
+// A record longer than the hover runs on back and forth.
+double drawn_start_s(std::uint64_t seed, double duration_s) {
+  return kHoverFrom_s + std::max(0.0, kHoverTo_s - kHoverFrom_s - duration_s) * Draw(seed, "clip_flight").uniform(0.0, 1.0);
+}
+
+// Comment lines by which a figure script knows the answer.
+void print_truth(const ForeignEffect& effect, const Scene& scene, const Scene& declared) {
+  for (const std::string& name : effect.names) fmt::print("# name\t{}\n", name);
+  for (const KnownValue& known : effect.effect.truth(scene, declared))
+    fmt::print("# truth\t{}\t{:.9g}\n", known.name, known.value);
+}
+
+void print_scene(drivers::SceneFile file, const Scene& declared) {
   file.structure.mass = rows_of(declared.structure.mass);
   file.structure.damping = rows_of(declared.structure.damping);
   file.structure.stiffness = rows_of(declared.structure.stiffness);
   file.declare.readout_ms = {drivers::Declared::Kind::kValue, 1e3 * declared.camera.readout_s};
   file.declare.lens = false;  // the declared camera has none
   fmt::print("{}", drivers::scene_text(file));
+}
+
+}  // namespace
+
+void print_closure_clip(const ClosureTracksOptions& options) {
+  const Scene declared = closure_scene(setup_for(options), seed_of(options, 1));
+  drivers::SceneFile file;
+  file.scene = with_these(names_in(options.effect), declared);
+  print_scene(file, declared);
+}
+
+void print_closure_clip_foreign(const ClosureTracksOptions& options) {
+  const std::uint64_t seed = seed_of(options, 1);
+  ForeignScene foreign = draw_foreign_scene(seed, setup_for(options).duration_s, options.flight);
+  for (auto& plate : foreign.scene.plates) plate.height_mm *= kTallerPlates;
+  while (!holds_the_view(foreign.scene)) {
+    for (auto& plate : foreign.scene.plates) plate.height_mm *= 0.95;
+  }
+  foreign.scene.tracks.noise_px = kClipNoise_px;  // what strength is counted in
+  drivers::SceneFile file;
+  file.scene = foreign.scene;
+  if (!options.effect.empty()) {
+    const ForeignEffect& effect = foreign_effect_named(options.effect);
+    const double strength = options.strength > 0.0 ? options.strength : 1.0;
+    file.scene = with_effects({&effect.effect}, foreign.scene, strength, foreign.background).scene;
+    print_truth(effect, file.scene, foreign.scene);
+  }
+  if (foreign.scene.flight != nullptr) {
+    file.flight.file = std::filesystem::absolute(options.flight).string();
+    file.flight.to_s = kHoverTo_s;
+    file.flight.from_s = drawn_start_s(seed, setup_for(options).duration_s);
+    file.flight.facing_deg = drivers::read_flight_path(options.flight, kHoverFrom_s, kHoverTo_s).mean_heading_deg;
+    file.flight.gimbal_residual = 0.0;
+    file.flight.scale = foreign.flight_scale;
+  }
+  fmt::print("# {}\n", foreign.words);
+  print_scene(file, foreign.scene);
 }
 
 }  // namespace tools

@@ -7,9 +7,11 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "core/simulation/camera/camera_motion.h"
+#include "core/simulation/camera/recorded_motion.h"
 #include "core/simulation/structure/periodic_signal.h"
 #include "tools/validate/drawn_scene.h"
 
@@ -39,7 +41,15 @@ void set_fast_roll(Scene& s, double size) {
                                               core::simulation::grid_size(period_s, 20.0 * kHigh_hz));
   const auto flight = std::make_shared<core::simulation::RecordedMotion>();
   flight->rate_hz = kRate_hz;
-  for (double t_s = 0.0; t_s < s.duration_s + 1.0; t_s += 1.0 / kRate_hz) flight->roll_rad.push_back(roll.at(t_s));
+  std::optional<core::simulation::RecordedPath> before;
+  if (s.flight != nullptr) before.emplace(*s.flight);
+  for (double t_s = 0.0; t_s < s.duration_s + 1.0; t_s += 1.0 / kRate_hz) {
+    flight->roll_rad.push_back(roll.at(t_s));
+    if (!before) continue;
+    flight->x_mm.push_back(before->at(0, t_s));
+    flight->y_mm.push_back(before->at(1, t_s));
+    flight->z_mm.push_back(before->at(2, t_s));
+  }
   s.flight = flight;
 }
 

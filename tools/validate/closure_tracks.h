@@ -24,8 +24,13 @@ void print_closure_tracks_outside(const ClosureTracksOptions& options);  // each
 
 // Records that are not made after the model (foreign_scene.h): without an effect; with one.
 void print_closure_tracks_foreign_null(const ClosureTracksOptions& options);
+void print_closure_tracks_foreign(const ClosureTracksOptions& options);
+void print_closure_tracks_foreign_sets(const ClosureTracksOptions& options);     // pairs and triples of them
+void print_closure_tracks_foreign_outside(const ClosureTracksOptions& options);  // taken out of the catalogue
 
 void print_closure_clip(const ClosureTracksOptions& options);  // a drawn scene to render, as a file for `simulate`
+
+void print_closure_clip_foreign(const ClosureTracksOptions& options);  // the same of a record foreign to the model
 
 void print_closure_live(const ClosureTracksOptions& options);  // effects that begin in mid-flight, closure.adopt: auto
 void print_closure_live_null(const ClosureTracksOptions& options);  // the same without an effect

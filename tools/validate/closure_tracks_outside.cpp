@@ -12,6 +12,8 @@
 #include "tools/validate/closure_effects.h"
 #include "tools/validate/closure_tracks.h"
 #include "tools/validate/closure_tracks_run.h"
+#include "tools/validate/foreign_effects.h"
+#include "tools/validate/foreign_scene.h"
 #include "tools/validate/identification_parallel.h"
 
 namespace tools {
@@ -71,43 +73,79 @@ bool answered(const core::closure::ClosureResult& result, const std::string& eff
   });
 }
 
-std::string outside_line(const HiddenEffect& effect, const RecordSetup& setup, double strength, std::uint64_t seed) {
+struct OutsideCase {
+  Scene scene;
+  ObservationRecord with, without;
+  double noise_px;
+};
+OutsideCase own_case(const HiddenEffect& effect, const RecordSetup& setup, double strength, std::uint64_t seed) {
   const Scene declared = closure_scene(setup, seed);
   const Scene scene = with_effects({&effect}, declared, strength, setup.background).scene;
-  const ObservationRecord with = observation_record(scene, declared, setup.background);
-  const ObservationRecord without = observation_record(declared, declared, setup.background);
+  return {scene, observation_record(scene, declared, setup.background),
+          observation_record(declared, declared, setup.background), noise_px(declared, setup.background)};
+}
+OutsideCase foreign_case(const HiddenEffect& effect, const ClosureTracksOptions& options, double strength,
+                         std::uint64_t seed) {
+  const ForeignScene foreign = draw_foreign_scene(seed, setup_for(options).duration_s, options.flight);
+  const Scene scene = with_effects({&effect}, foreign.scene, strength, foreign.background).scene;
+  return {scene, foreign_record(scene, foreign), foreign_record(foreign.scene, foreign),
+          noise_px(foreign.scene, foreign.background)};
+}
+
+std::string outside_line(const char* check, const HiddenEffect& effect, const OutsideCase& made, std::uint64_t seed) {
+  const auto& [scene, with, without, noise] = made;
   const TracksOutcome o = close_tracks_record(with, scene, seed, effect.called);
   const double named = close_tracks_record(with, scene, seed).heldout_after();
   const std::string truth = true_words(with, without);
-  const EffectStrength is = strength_of(with, without, noise_px(declared, setup.background), true);
+  const EffectStrength is = strength_of(with, without, noise, true);
   const double nan = std::nan("");
   return fmt::format(
-      "closure-tracks-outside\t{}\t{:.2f}\t{:.3f}\t{}\t{}\t{:d}\t{:d}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.4f}\t{:.4f}\t"
+      "{}\t{}\t{:.2f}\t{:.3f}\t{}\t{}\t{:d}\t{:d}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.4f}\t{:.4f}\t"
       "{}\t{{{}}}\t{:.1f}\n",
-      effect.name, is.plain, is.visible, seed, o.names(), answered(o.result, effect.name), described(o.result, truth),
+      check, effect.name, is.plain, is.visible, seed, o.names(), answered(o.result, effect.name), described(o.result, truth),
       o.result.baseline_rms, o.heldout_after(), o.result.noise_floor, named,
       o.result.reference_error_before.value_or(nan), o.result.reference_error_after.value_or(nan),
       o.words + o.refused(), truth, o.seconds);
 }
 
-}  // namespace
-
-void print_closure_tracks_outside(const ClosureTracksOptions& options) {
+void print_columns(const char* check) {
   fmt::print(
-      "# closure-tracks-outside: effect taken out of the catalogue, strength, visible part, seed, adopted, right "
-      "answer, "
-      "described as it is, held-out before, after, floor (px), after with the whole catalogue, modal error before, "
-      "after "
-      "(% rms), words, the truth in the same words, seconds\n");
-  const RecordSetup setup = setup_for(options);
+      "# {}: effect taken out of the catalogue, strength, visible part, seed, adopted, right answer, described as it "
+      "is, held-out before, after, floor (px), after with the whole catalogue, modal error before, after (% rms), "
+      "words, the truth in the same words, seconds\n",
+      check);
+}
+
+// Effects that the catalogue has.
+template <class MakeCase>
+void print_lines(const char* check, const ClosureTracksOptions& options, MakeCase make_case) {
+  print_columns(check);
+  const double strength = options.strength > 0.0 ? options.strength : 1.0;
   for (const HiddenEffect& effect : hidden_effects()) {
     if (!options.effect.empty() && options.effect != effect.name) continue;
     const auto lines = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t index) {
-      return outside_line(effect, setup, options.strength > 0.0 ? options.strength : 1.0, seed_of(options, index));
+      const std::uint64_t seed = seed_of(options, index);
+      return outside_line(check, effect, make_case(effect, strength, seed), seed);
     });
     for (const std::string& line : lines) fmt::print("{}", line);
     std::fflush(stdout);
   }
+}
+
+}  // namespace
+
+void print_closure_tracks_outside(const ClosureTracksOptions& options) {
+  const RecordSetup setup = setup_for(options);
+  print_lines("closure-tracks-outside", options, [&](const HiddenEffect& effect, double strength, std::uint64_t seed) {
+    return own_case(effect, setup, strength, seed);
+  });
+}
+
+void print_closure_tracks_foreign_outside(const ClosureTracksOptions& options) {
+  print_lines("closure-tracks-foreign-outside", options,
+              [&](const HiddenEffect& effect, double strength, std::uint64_t seed) {
+                return foreign_case(foreign_effect_named(effect.name).effect, options, strength, seed);
+              });
 }
 
 }  // namespace tools

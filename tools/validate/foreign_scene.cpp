@@ -18,8 +18,9 @@ constexpr double kShareRecorded = 0.25, kShareFolded = 0.25, kShareBackground = 
 constexpr double kFlightScale = 0.25;  // of the recorded hover, as 2 m away
 constexpr double kStatedError = 0.3;   // sd of the logarithm
 
-// Hover that the view has room for.
-void fit_hover(Scene& scene) {
+// Hover that the view has room for: by how much the recorded one is less.
+double fit_hover(Scene& scene) {
+  double factor = 1.0;
   while (!holds_the_view(scene)) {
     for (double& mm : scene.tailed_hover.rms_mm) mm *= 0.8;
     if (scene.flight == nullptr) continue;
@@ -28,7 +29,9 @@ void fit_hover(Scene& scene) {
       for (double& mm : *axis) mm *= 0.8;
     }
     scene.flight = less;
+    factor *= 0.8;
   }
+  return factor;
 }
 
 void draw_tails(Scene& scene, Draw draw) {
@@ -86,7 +89,8 @@ ForeignScene draw_foreign_scene(std::uint64_t seed, double duration_s, const std
   for (const auto& mode : modes_of(scene.structure)) {
     if (mode.frequency_hz > 0.5 * scene.camera.rate_hz) ++out.n_folded;
   }
-  fit_hover(scene);
+  const double factor = fit_hover(scene);
+  if (recorded) out.flight_scale = kFlightScale * factor;
   core::simulation::validate(scene);
   out.words = words_of(out);
   return out;

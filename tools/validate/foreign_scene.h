@@ -18,6 +18,7 @@ namespace tools {
 struct ForeignScene {
   core::simulation::Scene scene;
   bool background = true;
+  double flight_scale = 0.0;  // of the recorded flight, where it moves the camera
   double stated_px = 0.0;     // sigma that the record states for each of its points
   std::string hover, shaken;  // "recorded" or "tails"; "table" or "wind"
   int n_folded = 0;           // modes above half the rate

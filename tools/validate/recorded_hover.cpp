@@ -14,8 +14,6 @@ namespace {
 
 using core::simulation::RecordedMotion;
 
-// The hover of the recorded flight (data set phantom4_hover).
-constexpr double kHoverFrom_s = 360.7, kHoverTo_s = 440.0;
 constexpr double kSeedsPerRound = 20.0;
 
 // The record from another of its instants on, there and back, as long as is needed.

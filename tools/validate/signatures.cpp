@@ -10,45 +10,14 @@
 #include "core/simulation/presets.h"
 #include "core/simulation/random_stream.h"
 #include "core/simulation/track_generator.h"
+#include "tools/validate/signature_cases.h"
 
 namespace tools {
-namespace {
 
 using core::simulation::ImagePoint;
 using core::simulation::Scene;
 using core::simulation::TrackGenerator;
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
-constexpr std::uint64_t kFrames = 250, kEvery = 7;
 
-// One point of one frame, as the scene without the effect shows it.
-struct Sight {
-  const TrackGenerator& without;
-  const TrackGenerator& with;
-  std::size_t i_point;
-  core::simulation::DeliveredFrame frame, frame_with;
-  ImagePoint image;
-  double x, y, depth_mm;  // ray and distance
-  double t_s;             // middle of the exposure of its line
-
-  [[nodiscard]] const TrackGenerator::MaterialPoint& point() const { return without.points()[i_point]; }
-  [[nodiscard]] ImagePoint seen_at(double t_frame_s) const {
-    return without.motion().see(point().body, point().point, t_frame_s);
-  }
-  [[nodiscard]] ImagePoint velocity() const {  // px/s
-    constexpr double kStep_s = 1e-4;
-    const ImagePoint a = seen_at(frame.t_s - kStep_s), b = seen_at(frame.t_s + kStep_s);
-    return {(b.u_px - a.u_px) / (2 * kStep_s), (b.v_px - a.v_px) / (2 * kStep_s)};
-  }
-  [[nodiscard]] ImagePoint acceleration() const {
-    constexpr double kStep_s = 1e-3;
-    const ImagePoint a = seen_at(frame.t_s - kStep_s), b = seen_at(frame.t_s + kStep_s);
-    return {(a.u_px + b.u_px - 2 * image.u_px) / (kStep_s * kStep_s),
-            (a.v_px + b.v_px - 2 * image.v_px) / (kStep_s * kStep_s)};
-  }
-  [[nodiscard]] double alpha_px() const { return without.motion().scene().camera.alpha_px; }
-};
-
-// The field of a small camera motion: translation in mm, rotation in rad, zoom.
 ImagePoint motion_field(const Sight& s, const std::array<double, 7>& m) {
   const auto& [tx, ty, tz, wx, wy, wz, zoom] = m;
   const double x = s.x, y = s.y, z = s.depth_mm;
@@ -56,7 +25,6 @@ ImagePoint motion_field(const Sight& s, const std::array<double, 7>& m) {
           s.alpha_px() * (-ty / z + y * tz / z + (1 + y * y) * wx - x * y * wy - x * wz + y * zoom)};
 }
 
-// A shift of the image also shifts the line's time: du = field + velocity readout / height dv, to first order.
 ImagePoint with_line_time(const Sight& s, ImagePoint field) {
   const auto& camera = s.without.motion().scene().camera;
   const ImagePoint v = s.velocity();
@@ -64,7 +32,6 @@ ImagePoint with_line_time(const Sight& s, ImagePoint field) {
   return {field.u_px + v.u_px * camera.readout_s / camera.height_px * dv, dv};
 }
 
-// Camera motion of the scene with the effect minus that of the one without, at the point's time.
 ImagePoint camera_signature(const Sight& s) {
   auto with = s.with.motion().camera().deviation(s.t_s);
   const auto without = s.without.motion().camera().deviation(s.t_s);
@@ -72,7 +39,12 @@ ImagePoint camera_signature(const Sight& s) {
   return with_line_time(s, motion_field(s, with));
 }
 
-// As above, where the motion within the exposure is a sine: its mean is sinc(f T) of its middle.
+namespace {
+
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+constexpr std::uint64_t kFrames = 250, kEvery = 7;
+
+// As camera_signature(), where the motion within the exposure is a sine: its mean is sinc(f T) of its middle.
 ImagePoint rotor_signature(const Sight& s) {
   const auto& scene = s.with.motion().scene();
   const double half_turn = std::numbers::pi * scene.rotor.frequency_hz * scene.camera.exposure_s;
@@ -161,13 +133,7 @@ ImagePoint flicker_signature(const Sight& s) {
   return {bias_px * s.point().bias_u, bias_px * s.point().bias_v};
 }
 
-struct Case {
-  const char* effect;
-  std::function<void(Scene&)> add;
-  std::function<ImagePoint(const Sight&)> signature;
-};
-
-std::vector<Case> cases() {
+std::vector<SignatureCase> cases() {
   using Lens = core::simulation::LensParameters;
   const auto lens = [](std::size_t i, double k) {
     return [i, k](Scene& s) { s.camera.lens.model = Lens::Model::kRadialTangential, s.camera.lens.k[i] = k; };
@@ -219,8 +185,9 @@ Scene undisturbed(std::uint64_t seed) {
   return scene;
 }
 
-SignatureCheck check(const Case& which, std::uint64_t seed) {
+SignatureCheck check(const SignatureCase& which, std::uint64_t seed) {
   Scene scene = undisturbed(seed);
+  if (which.prepare) which.prepare(scene);
   const TrackGenerator without(scene);
   which.add(scene);
   const TrackGenerator with(scene);
@@ -259,7 +226,9 @@ SignatureCheck check(const Case& which, std::uint64_t seed) {
 
 std::vector<SignatureCheck> check_signatures(std::uint64_t seed) {
   std::vector<SignatureCheck> checks;
-  for (const Case& which : cases()) checks.push_back(check(which, seed));
+  for (const auto& list : {cases(), injected_cases()}) {
+    for (const SignatureCase& which : list) checks.push_back(check(which, seed));
+  }
   return checks;
 }
 

@@ -37,7 +37,10 @@ CameraMotion::CameraMotion(const Scene& scene)
   const TailedHoverParameters& tails = scene.tailed_hover;
   tailed_ = any(tails.rms_mm) || any(tails.rms_rad);
   if (tailed_) tailed_hover_ = TailedHover(tails, scene.seed, duration_s_);
-  rotates_ = vibrates_ || any(tails.rms_rad) || rms[3] > 0.0 || rms[4] > 0.0 || rms[5] > 0.0;
+  const VibrationParameters& vibration = scene.vibration;
+  in_band_ = any(vibration.rms_mm) || any(vibration.rms_rad);
+  if (in_band_) gimbal_vibration_ = GimbalVibration(vibration, scene.seed, duration_s_);
+  rotates_ = vibrates_ || any(tails.rms_rad) || any(vibration.rms_rad) || rms[3] > 0.0 || rms[4] > 0.0 || rms[5] > 0.0;
   zooms_ = rms[6] > 0.0;
   if (scene.flight != nullptr) {
     flight_.emplace(*scene.flight);
@@ -66,6 +69,9 @@ std::array<double, 7> CameraMotion::deviation(double t_s) const noexcept {
   }
   if (tailed_) {
     for (std::size_t i = 0; i < 6; ++i) value[i] += tailed_hover_.at(i, t_s);
+  }
+  if (in_band_) {
+    for (std::size_t i = 0; i < 6; ++i) value[i] += gimbal_vibration_.at(i, t_s);
   }
   if (vibrates_) {
     const double phase = rotor_phase(t_s);

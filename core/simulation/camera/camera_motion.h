@@ -6,6 +6,7 @@
 
 #include "core/simulation/camera/projection.h"
 #include "core/simulation/camera/recorded_motion.h"
+#include "core/simulation/injected/gimbal_vibration.h"
 #include "core/simulation/injected/tailed_hover.h"
 #include "core/simulation/scene.h"
 #include "core/simulation/structure/periodic_signal.h"
@@ -13,7 +14,8 @@
 namespace core::simulation {
 
 // Where the camera is at any time: its mean pose, the drift of hovering (independent Gaussian processes with the
-// density of HoverParameters or TailedHoverParameters, one random stream each), a recorded flight, the rotors' vibration. Everything but the
+// density of HoverParameters or TailedHoverParameters, one random stream each), a recorded flight,
+// the gimbal's and the rotors' vibration. Everything but the
 // mean pose has the mean zero over all time; at t = 0 the camera is somewhere within its drift.
 class CameraMotion {
  public:
@@ -33,9 +35,10 @@ class CameraMotion {
   Eigen::Matrix3d mean_attitude_;
   RotorParameters rotor_;
   double duration_s_, rate_hz_;
-  bool rotates_, zooms_, vibrates_, tailed_;
+  bool rotates_, zooms_, vibrates_, tailed_, in_band_;
   std::array<PeriodicSignal, 7> hover_;
   TailedHover tailed_hover_;
+  GimbalVibration gimbal_vibration_;
   std::optional<RecordedPath> flight_;
   PeriodicSignal rotor_wander_;  // cycles
   std::array<double, 3> rotor_phase_rad_{};

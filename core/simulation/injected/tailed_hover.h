@@ -3,18 +3,12 @@
 #include <array>
 #include <cstdint>
 
+#include "core/simulation/injected/parameters.h"
 #include "core/simulation/structure/periodic_signal.h"
 
 namespace core::simulation {
 
-// Hover whose spectrum falls off as a power law instead of ending: per axis a Gaussian process of its own, with a
-// one-sided density ~ 1 / (1 + (f / corner)^order) up to 100 Hz, which no camera resolves. Axes: X, Y, Z (mm), pitch,
-// yaw, roll (rad). Beside HoverParameters, which it may replace.
-struct TailedHoverParameters {
-  std::array<double, 3> rms_mm{}, corner_hz{0.2, 0.2, 0.2}, order{4.0, 4.0, 4.0};
-  std::array<double, 3> rms_rad{}, turn_corner_hz{0.2, 0.2, 0.2}, turn_order{4.0, 4.0, 4.0};
-};
-
+// TailedHoverParameters over time. Axes: X, Y, Z (mm), pitch, yaw, roll (rad).
 class TailedHover {
  public:
   static constexpr double kLimit_hz = 100.0;

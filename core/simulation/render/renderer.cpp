@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 
 #include "core/simulation/render/render_row.h"
 #include "core/simulation/render/render_textures.h"
@@ -20,7 +22,22 @@ bool looks_straight(const SceneMotion& motion) {
   const CameraParameters& camera = motion.scene().camera;
   const bool turned =
       motion.camera().rotates() || camera.pitch_rad != 0.0 || camera.yaw_rad != 0.0 || camera.roll_rad != 0.0;
-  return !turned && !motion.structure().tilts() && camera.lens.model == LensParameters::Model::kNone;
+  return !turned && !motion.structure().tilts() && !motion.own().rocks() && camera.lens.model == LensParameters::Model::kNone;
+}
+
+// What pictures do not show.
+const Scene& drawable(const Scene& scene) {
+  const auto refuse = [](bool there, const char* what) {
+    if (there)
+      throw std::invalid_argument(std::string("simulation: pictures do not show ") + what +
+                                  "; leave it out, or make tracks");
+  };
+  refuse(scene.flap.rms_mm > 0.0, "a flapping part of a plate (flap.rms_mm)");
+  refuse(scene.torsion.rms_rad > 0.0, "torsion (torsion.rms_deg)");
+  refuse(scene.shimmer.rms_px > 0.0, "shimmer (shimmer.rms_px)");
+  refuse(scene.stabiliser.gain > 0.0, "electronic stabilisation (stabiliser.gain)");
+  refuse(scene.breathing.rms > 0.0, "focus breathing (breathing.rms)");
+  return scene;
 }
 
 // Nearest first; of plates at the same depth the first in the list.
@@ -35,7 +52,7 @@ std::vector<std::size_t> front_to_back(const std::vector<Plate>& plates) {
 }  // namespace
 
 Renderer::Renderer(const Scene& scene, Way way)
-    : motion_(scene),
+    : motion_(drawable(scene)),
       light_(scene),
       rays_(scene.camera, scene.hover.zoom_rms),
       sensor_(scene),
@@ -110,11 +127,13 @@ void Renderer::draw_line(double t_frame_s, int index, RenderLine& line) const no
 void Renderer::draw_row(const Instant& a, const Instant& b, int v, RenderLine& line) const noexcept {
   const CameraParameters& camera = scene().camera;
   const double pitch = background_.pitch_mm();
-  const auto look = [&](const CameraPose& pose) -> TextureRow {
+  const auto look = [&](const CameraPose& pose, double sway_mm) -> TextureRow {
     const double scale = (scene().background.depth_mm - pose.z_mm) / (camera.alpha_px * pose.zoom);  // mm per px
-    return {pose.y_mm + (v - camera.cy_px) * scale, (pose.x_mm - camera.cx_px * scale) / pitch, scale / pitch};
+    return {pose.y_mm + (v - camera.cy_px) * scale, (pose.x_mm - sway_mm - camera.cx_px * scale) / pitch,
+            scale / pitch};
   };
-  draw_background_row(background_, look(a.pose), look(b.pose), camera.width_px, line);
+  draw_background_row(background_, look(a.pose, motion_.own().sway_mm(a.t_s)),
+                      look(b.pose, motion_.own().sway_mm(b.t_s)), camera.width_px, line);
   line.light = line.background;
   for (const std::size_t body : front_to_back_) {
     add_plate_row(body, a, 0, v, line);
@@ -159,19 +178,21 @@ void Renderer::draw_any_line(const Instant& a, const Instant& b, int index, Rend
     std::fill_n(y + n, Texture::kLook, y[n - 1]);
     return {x, y, n, camera, pose.zoom};
   };
-  const auto draw = [&](const CameraPose& pose, const LineRays& rays, std::vector<float>& light) {
+  const auto draw = [&](const Instant& instant, const LineRays& rays, std::vector<float>& light) {
+    const CameraPose& pose = instant.pose;
     // Whole periods of the texture keep the numbers small wherever the camera is.
     const double period_mm = background_.period_mm();
     const PlanePoint origin{period_mm * std::round(pose.x_mm / period_mm),
                             period_mm * std::round(pose.y_mm / period_mm)};
-    const PlaneView view(pose, origin, 0.0, scene().background.depth_mm, background_.pitch_mm());
+    const PlanePoint moved{origin.x_mm + motion_.own().sway_mm(instant.t_s), origin.y_mm};
+    const PlaneView view(pose, moved, 0.0, scene().background.depth_mm, background_.pitch_mm());
     draw_plane(view, background_, rays, 0, line_length(), light.data());
   };
   const bool blurred = b.t_s > a.t_s;
   const LineRays rays_a = trace(a.pose, 0), rays_b = b.pose.zoom == a.pose.zoom ? rays_a : trace(b.pose, 1);
-  draw(a.pose, rays_a, line.background);
+  draw(a, rays_a, line.background);
   if (blurred) {
-    draw(b.pose, rays_b, line.plate);
+    draw(b, rays_b, line.plate);
     for (std::size_t u = 0; u < line.plate.size(); ++u) {
       line.background[u] = 0.5F * (line.background[u] + line.plate[u]);
     }

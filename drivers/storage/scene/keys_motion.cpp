@@ -125,6 +125,8 @@ void add_measurement_keys(std::vector<SceneKey>& keys) {
       scene_number("tracks.loss_probability", "", of<s, &T::loss_probability>, {0.0, 1.0}, "of a point in a frame"));
   keys.push_back(scene_number("tracks.pixel_locking_px", "px", of<s, &T::pixel_locking_px>, {0.0, 1.0},
                               "amplitude of an error periodic in the sub-pixel position"));
+  keys.push_back(scene_number("tracks.template_zoom_px", "px", of<s, &T::template_zoom_px>, {0.0, 100.0},
+                              "error per unit of magnification since the first frame"));
   keys.push_back(scene_number("tracks.brightness_bias_px", "px", of<s, &T::brightness_bias_px>, {0.0, 100.0},
                               "error per unit of relative brightness change"));
   constexpr auto c = &Scene::channels;

@@ -20,6 +20,14 @@ Scene troubled_scene() {
   scene.hover.zoom_rms = 1e-4;
   scene.tailed_hover.rms_mm = {0.5, 0.0, 0.0};
   scene.tailed_hover.rms_rad = {0.0, 0.0, 1e-4};
+  scene.vibration.rms_rad = {1e-5, 0.0, 0.0};
+  scene.stabiliser.gain = 0.5;
+  scene.breathing.rms = 1e-4;
+  scene.shimmer.rms_px = 0.05;
+  scene.flap.rms_mm = 0.1;
+  scene.rocking.rms_rad = scene.torsion.rms_rad = 1e-4;
+  scene.sway.rms_mm = 0.2;
+  scene.tracks.template_zoom_px = 0.1;
   scene.flight = std::make_shared<const RecordedMotion>();
   scene.rotor.roll_rms_rad = 1e-5;
   scene.timing.jitter_rms_s = 1e-3;

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "core/simulation/injected/parameters.h"
+#include "core/simulation/random_stream.h"
+#include "core/simulation/structure/periodic_signal.h"
+
+namespace core::simulation {
+
+// Response of the oscillator to white noise, scaled to a standard deviation of `rms`; zero without.
+[[nodiscard]] PeriodicSignal oscillation(const OscillatorParameters& oscillator, double rms, RandomStream stream,
+                                         double duration_s);
+
+}  // namespace core::simulation
