@@ -70,8 +70,9 @@ validations() { # the names that the program lists, each with the options that k
       table1) printf '%s\t%s\n' "$name" "$records --duration 60 --report $out/table1" ;;
       low-frequency*) printf '%s\t%s\n' "$name" "$records --duration 300" ;;
       geometry* | paper | wind* | deck* | elevation* | noise-floor*) printf '%s\t%s\n' "$name" "$records --duration 60" ;;
+      closure-clip-foreign) printf '%s\t%s\n' "$name" "--duration 40 --effect 'readout time'" ;;
       closure-clip) printf '%s\t%s\n' "$name" "--duration 40 --effect 'readout time'" ;;
-      closure-tracks | closure-tracks-outside) printf '%s\t%s\n' "$name" "$records --duration 40 --effect 'readout time'" ;;
+      closure-tracks | closure-tracks-outside | closure-tracks-foreign | closure-tracks-foreign-outside) printf '%s\t%s\n' "$name" "$records --duration 40 --effect 'readout time'" ;;
       closure-tracks*) printf '%s\t%s\n' "$name" "$records --duration 40" ;;
       closure-live) printf '%s\t%s\n' "$name" "--seeds 1 --threads $(nproc) --duration 240 --effect 'readout time'" ;;
       closure-live-null) printf '%s\t%s\n' "$name" "$records --duration 120" ;;

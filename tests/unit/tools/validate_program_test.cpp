@@ -80,6 +80,23 @@ TEST(Validate, ClosesTheLoopOnOtherRecordsFromAnotherFirstSeed) {
   }
 }
 
+// But for the seconds, which are the last cell of a line.
+std::string without_seconds(const std::string& text) {
+  std::istringstream lines(text);
+  std::string out;
+  for (std::string line; std::getline(lines, line);) out += line.substr(0, line.rfind('\t')) + "\n";
+  return out;
+}
+
+TEST(Validate, SaysTheSameOfForeignRecordsOnAnyNumberOfThreads) {
+  const std::string null = "closure-tracks-foreign-null --seeds 2 --duration 24";
+  const std::string text = without_seconds(validate(null + " --threads 1"));
+  EXPECT_EQ(text, without_seconds(validate(null + " --threads 2")));
+  EXPECT_EQ(count_lines(text, "closure-tracks-foreign-null\t"), 2) << text;
+  const std::string with = "closure-tracks-foreign --seeds 1 --duration 24 --effect 'camera roll' --strength 5";
+  EXPECT_EQ(count_lines(validate(with), "closure-tracks-foreign\tcamera roll\t5\t"), 1);
+}
+
 // The cells of every line that starts so.
 std::vector<std::vector<std::string>> rows(const std::string& text, const std::string& start) {
   std::istringstream lines(text);
