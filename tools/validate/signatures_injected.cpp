@@ -14,14 +14,6 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 const Scene& scene_of(const Sight& s) { return s.with.motion().scene(); }
 
-// Place of the point at rest, relative to the camera's mean position.
-ImagePoint at_rest_mm(const Sight& s) {
-  const auto& [body, region, point, u, v, noise, stated] = s.point();
-  if (body < 0) return {point.x_mm, point.y_mm};
-  const auto& plate = scene_of(s).plates[static_cast<std::size_t>(body)];
-  return {plate.x_mm + point.x_mm, plate.y_mm + point.y_mm};
-}
-
 ImagePoint flap_signature(const Sight& s) {
   const auto& flap = scene_of(s).flap;
   const double width_mm = scene_of(s).plates[static_cast<std::size_t>(flap.body)].width_mm;
@@ -32,9 +24,8 @@ ImagePoint flap_signature(const Sight& s) {
 ImagePoint rocking_signature(const Sight& s) {
   if (s.point().body < 0) return {};
   const auto& base = scene_of(s).plates[0];
-  const ImagePoint at = at_rest_mm(s);
-  const double px = s.alpha_px() / s.depth_mm * s.with.motion().own().rocking_rad(s.t_s);
-  return with_line_time(s, {-px * (at.v_px - base.y_mm), px * (at.u_px - base.x_mm)});
+  const double px_mm = s.alpha_px() / s.depth_mm, turn = s.with.motion().own().rocking_rad(s.t_s);
+  return with_line_time(s, {-turn * (s.alpha_px() * s.y - px_mm * base.y_mm), turn * (s.alpha_px() * s.x - px_mm * base.x_mm)});
 }
 
 // The point comes nearer or goes away by its distance from the axis.
