@@ -7,7 +7,6 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-. tools/figures/arguments.sh
 take_arguments "tools/figures/cameras.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
 all_or_named 1 2 3 4 5 6
 draws 2 6

@@ -8,16 +8,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-seeds=300 known=40 few=20 clip_s=60 null_clips=40 effect_clips=20 first=1001 figures=()
-while [ $# -gt 0 ]; do
-  case $1 in
-    --quick) seeds=30 known=4 few=2 clip_s=40 null_clips=2 effect_clips=2 ;;
-    --seeds) seeds=${2:?} known=$2 few=$2 && shift ;;
-    --first-seed) first=${2:?} && shift ;;
-    *) figures+=("$1") ;;
-  esac
-  shift
-done
+take_arguments "tools/figures/closure.sh [--quick] [--seeds N] [--first-seed N] [FIGURE...]" "$@"
+seeds=300 known=40 few=20 clip_s=60 null_clips=40 effect_clips=20
+[ -z "$quick" ] || seeds=30 known=4 few=2 clip_s=40 null_clips=2 effect_clips=2
+[ -z "$n_seeds" ] || seeds=$n_seeds known=$n_seeds few=$n_seeds
 [ ${#figures[@]} -gt 0 ] || figures=(1 2 3 4 5 6 7 8 9 10 11 12 13 15)
 out=build/figures/closure
 mkdir -p "$out"
@@ -27,7 +21,7 @@ quietly tools/build.sh hovermodal hovermodald hovermodal-validate
 validate() { # NAME SEEDS ...: the table of a self-test, in $out/NAME.txt
   local name=$1 n=$2
   shift 2
-  "$bin/hovermodal-validate" "$name" --first-seed "$first" --seeds "$n" --threads "$(nproc)" "$@" >"$out/$name.txt"
+  "$bin/hovermodal-validate" "$name" --first-seed "$first_seed" --seeds "$n" --threads "$(nproc)" "$@" >"$out/$name.txt"
 }
 # closeloop NAME ARGUMENTS...: report in $out/NAME, text in $out/NAME.txt
 closeloop() {

@@ -34,9 +34,9 @@ pixels() { # NAME EFFECT WHAT: from the reports of $out/pixels_NAME; errors and 
 }
 figure_9() {
   local points=tracking.points_per_region=12 name=
-  clip readout "$first" "readout time"
-  clip lens "$((first + 1))" "radial distortion"
-  clip lost "$((first + 2))" "dropped frames"
+  clip readout "$first_seed" "readout time"
+  clip lens "$((first_seed + 1))" "radial distortion"
+  clip lost "$((first_seed + 2))" "dropped frames"
   for name in readout lens; do
     closeloop "pixels_$name" --record "$out/clip_$name/run" --config "$out/clip_$name/config.yaml" --set "$points" \
       --reference "$out/clip_$name/truth/modal.json"

@@ -15,21 +15,14 @@ figure_3_tracks() {
   done < <(outside_cells)
 }
 outside_cells() { # a line per effect, from the records' lines
-  python3 - "$out/closure-tracks-outside.txt" <<'PY'
-import collections, sys
-cells = collections.OrderedDict()
-for row in open(sys.argv[1]):
-    f = row.rstrip("\n").split("\t")
-    if f[0] == "closure-tracks-outside":
-        cells.setdefault(f[1], []).append(f)
+  cells "$out/closure-tracks-outside.txt" closure-tracks-outside 1 <<'PY'
+latent, described = (sum(r[i] == "1" for r in rows) for i in (6, 7))
 def half(before, after, named):
     return before ** 2 - after ** 2 >= 0.5 * (before ** 2 - named ** 2)
-for effect, rows in cells.items():
-    latent, described = (sum(r[i] == "1" for r in rows) for i in (6, 7))
-    lowered = sum(half(float(r[8]), float(r[9]), float(r[11])) for r in rows)
-    modal = sum(float(r[13]) <= float(r[12]) for r in rows)
-    names = collections.Counter(r[5] for r in rows)
-    print(effect, len(rows), latent, lowered, described, modal, "; ".join(f"{k} x{v}" for k, v in names.most_common()), sep="\t")
+lowered = sum(half(float(r[8]), float(r[9]), float(r[11])) for r in rows)
+modal = sum(float(r[13]) <= float(r[12]) for r in rows)
+names = collections.Counter(r[5] for r in rows)
+put(*key, len(rows), latent, lowered, described, modal, "; ".join(f"{k} x{v}" for k, v in names.most_common()))
 PY
 }
 figure_3_series() {
@@ -39,18 +32,11 @@ figure_3_series() {
     judge "3.$effect" "latent in $latent of $n, half of the named effect's gain in $half" \
       "reported as latent, half of the named effect's gain; a wrong single name is a miss" "not in the catalogue, series of channels; reported: $names" \
       "$latent == $n && $half == $n"
-  done < <(python3 - "$out/closure-series-outside.txt" <<'PY'
-import collections, sys
-cells = collections.OrderedDict()
-for row in open(sys.argv[1]):
-    f = row.rstrip("\n").split("\t")
-    if f[0] == "series-outside":
-        cells.setdefault(f[1], []).append(f)
-for effect, rows in cells.items():
-    latent = sum(r[5] == "1" for r in rows)
-    half = sum(float(r[6]) ** 2 - float(r[7]) ** 2 >= 0.5 * (float(r[6]) ** 2 - float(r[8]) ** 2) for r in rows)
-    names = collections.Counter(r[4] for r in rows)
-    print(effect, len(rows), latent, half, "; ".join(f"{k} x{v}" for k, v in names.most_common()), sep="\t")
+  done < <(cells "$out/closure-series-outside.txt" series-outside 1 <<'PY'
+latent = sum(r[5] == "1" for r in rows)
+half = sum(float(r[6]) ** 2 - float(r[7]) ** 2 >= 0.5 * (float(r[6]) ** 2 - float(r[8]) ** 2) for r in rows)
+names = collections.Counter(r[4] for r in rows)
+put(*key, len(rows), latent, half, "; ".join(f"{k} x{v}" for k, v in names.most_common()))
 PY
   )
 }

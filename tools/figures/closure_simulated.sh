@@ -29,24 +29,13 @@ figure_1_tracks() {
   done < <(tracks_cells)
 }
 tracks_cells() { # a line per effect and strength, from the records' lines
-  python3 - "$out/closure-tracks.txt" <<'PY'
-import collections, math, statistics, sys
-cells = collections.OrderedDict()
-for row in open(sys.argv[1]):
-    f = row.rstrip("\n").split("\t")
-    if f[0] == "closure-tracks":
-        cells.setdefault((f[1], f[3]), []).append(f)
-def middle(rows, i):
-    values = [float(r[i]) for r in rows if not math.isnan(float(r[i]))]
-    return statistics.median(values) if values else float("nan")
-for (effect, strength), rows in cells.items():
-    exact = [r for r in rows if r[9] == r[2]]
-    within = [r for r in exact if float(r[13]) <= 3.0]
-    after = [float(r[11]) / float(r[12]) for r in rows]
-    worst = float("nan") if any(map(math.isnan, after)) else max(after)
-    bias = statistics.mean(float(r[14]) for r in exact) if exact else float("nan")
-    print(effect, strength, len(rows), len(exact), len(within), f"{worst:.3f}", f"{bias:.4g}", f"{middle(rows, 6):.3f}",
-          *(f"{middle(rows, i):.3f}" for i in (15, 16, 17)), sep="\t")
+  cells "$out/closure-tracks.txt" closure-tracks 1,3 <<'PY'
+exact = [r for r in rows if r[9] == r[2]]
+within = [r for r in exact if float(r[13]) <= 3.0]
+after = [float(r[11]) / float(r[12]) for r in rows]
+worst = float("nan") if any(map(math.isnan, after)) else max(after)
+bias = statistics.mean(float(r[14]) for r in exact) if exact else float("nan")
+put(*key, len(rows), len(exact), len(within), f"{worst:.3f}", f"{bias:.4g}", f"{middle(6):.3f}", *(f"{middle(i):.3f}" for i in (15, 16, 17)))
 PY
 }
 figure_1_pairs() {
@@ -55,15 +44,9 @@ figure_1_pairs() {
   while IFS=$'\t' read -r pair n both more; do
     judge "1p.${pair// /_}" "both and nothing else in $both of $n, both and more in $more" "both named (and nothing else) in 0.85" \
       "two effects, each of strength 1" "$both >= 0.85 * $n"
-  done < <(python3 - "$out/closure-tracks-pairs.txt" <<'PY'
-import collections, sys
-cells = collections.OrderedDict()
-for row in open(sys.argv[1]):
-    f = row.rstrip("\n").split("\t")
-    if f[0] == "closure-tracks-pair":
-        cells.setdefault(f[1], []).append((set(f[1].split(" + ")), set(f[4].split(" + "))))
-for pair, rows in cells.items():
-    print(pair, len(rows), sum(truth == named for truth, named in rows), sum(truth < named for truth, named in rows), sep="\t")
+  done < <(cells "$out/closure-tracks-pairs.txt" closure-tracks-pair 1 <<'PY'
+truth, named = set(key[0].split(" + ")), [set(r[4].split(" + ")) for r in rows]
+put(*key, len(rows), sum(truth == n for n in named), sum(truth < n for n in named))
 PY
   )
 }
@@ -81,22 +64,16 @@ figure_1_series() {
   done < <(series_cells)
 }
 series_cells() { # a line per effect and strength, from the records' lines
-  python3 - "$out/closure-series.txt" <<'PY'
-import collections, math, statistics, sys
-cells = collections.OrderedDict()
-for row in open(sys.argv[1]):
-    f = row.rstrip("\n").split("\t")
-    if f[0] == "series":
-        cells.setdefault((f[1], f[2]), []).append(f)
-for (effect, strength), rows in cells.items():
-    named = [r for r in rows if effect in r[4].split(" + ")]
-    alone, nothing = sum(r[4] == effect for r in rows), sum(r[4] == "nothing" for r in rows)
-    ratios = [float(r[6]) / float(r[5]) for r in named if float(r[5]) != 0.0]
-    within = sum(float(r[7]) <= 3.0 for r in named)
-    unstated = sum(math.isinf(float(r[7])) for r in named)
-    number = (f"{statistics.median(ratios):.3f}" if ratios else "nan") + (f", no sigma stated in {unstated}" if unstated else "")
-    print(effect, strength, len(rows), alone, len(named) - alone, len(rows) - len(named) - nothing, nothing, within, number,
-          *(f"{statistics.mean(float(r[i]) for r in rows):.4f}" for i in (8, 9)), sep="\t")
+  cells "$out/closure-series.txt" series 1,2 <<'PY'
+effect = key[0]
+named = [r for r in rows if effect in r[4].split(" + ")]
+alone, nothing = sum(r[4] == effect for r in rows), sum(r[4] == "nothing" for r in rows)
+ratios = [float(r[6]) / float(r[5]) for r in named if float(r[5]) != 0.0]
+within = sum(float(r[7]) <= 3.0 for r in named)
+unstated = sum(math.isinf(float(r[7])) for r in named)
+number = (f"{statistics.median(ratios):.3f}" if ratios else "nan") + (f", no sigma stated in {unstated}" if unstated else "")
+put(*key, len(rows), alone, len(named) - alone, len(rows) - len(named) - nothing, nothing, within, number,
+    *(f"{statistics.mean(float(r[i]) for r in rows):.4f}" for i in (8, 9)))
 PY
 }
 figure_1_structures() {

@@ -5,16 +5,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-seeds=20 first=1001
-while [ $# -gt 0 ]; do
-  case $1 in
-    --quick) seeds=2 && shift ;;
-    --first-seed) first=$2 && shift 2 ;;
-    *) break ;;
-  esac
-done
-figures=("$@")
-[ $# -gt 0 ] || figures=(1 2 3 4)
+take_arguments "tools/figures/documents.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
+all_or_named 1 2 3 4
+seeds=20
+[ -z "$quick" ] || seeds=2
 out=build/figures/documents
 mkdir -p "$out"
 tools/setup.sh
@@ -48,13 +42,13 @@ figure_4() {
   while IFS=$'\t' read -r name small; do
     eval "options=($small)"
     for where in 1 2; do
-      "$bin/hovermodal-validate" "$name" --first-seed $((first + where - 1)) "${options[@]}" 2>"$out/$name.log" |
+      "$bin/hovermodal-validate" "$name" --first-seed $((first_seed + where - 1)) "${options[@]}" 2>"$out/$name.log" |
         grep -v '^#' | sed -E 's/\t[0-9.]+ s(\t|$)/\1/g' >"$out/seed_$where.txt" || true
     done
     lines=$(wc -l <"$out/seed_1.txt")
     moved=$(diff "$out/seed_1.txt" "$out/seed_2.txt" | grep -c '^<' || true)
     judge "4.$name" "$moved of $lines lines differ" "every selftest's numbers move" \
-      "hovermodal-validate $name, first seed $first against $((first + 1)), $small" "$moved > 0 && $lines > 0"
+      "hovermodal-validate $name, first seed $first_seed against $((first_seed + 1)), $small" "$moved > 0 && $lines > 0"
   done < <(validations)
 }
 validations() { # the names that the program lists, each with the options that keep its records small

@@ -1,5 +1,5 @@
 # Figure 1 of documents.sh: the published chain (method: paper) on the paper's own experiment. Sourced, with lib.sh,
-# $out, $first and $seeds.
+# $out, $first_seed and $seeds.
 
 paper_row() { # READOUT WAY: a summary line of validate paper, columns by name
   awk -F'\t' -v readout="$1" -v way="$2" '$1 == "paper" && $2 == readout && $3 == way { $1 = $2 = $3 = ""; print }' "$out/paper.txt"
@@ -28,12 +28,12 @@ figure_1() {
     line 1 SKIP "no data at $flight" "-" "recorded hover (HOVERMODAL_DATA names the folder): the hover model moves the camera instead"
     moved_by="modelled hover" use_flight=()
   fi
-  "$bin/hovermodal-validate" paper --seeds "$seeds" --first-seed "$first" --threads "$(nproc)" "${use_flight[@]}" >"$out/paper.txt"
+  "$bin/hovermodal-validate" paper --seeds "$seeds" --first-seed "$first_seed" --threads "$(nproc)" "${use_flight[@]}" >"$out/paper.txt"
   local parts=([40]=1a [26]=1b)
   for readout in 40 26; do
     read_paper_row "$readout" paper
     judge "${parts[readout]}" "$(paper_words)" "$bar" \
-      "method: paper, the paper's experiment, 300 s, $moved_by, readout $readout ms of a frame of 40, seeds $first-$((first + seeds - 1))" \
+      "method: paper, the paper's experiment, 300 s, $moved_by, readout $readout ms of a frame of 40, seeds $first_seed-$((first_seed + seeds - 1))" \
       "$n == $seeds && $complete * 20 >= 18 * $n && ${real[0]} + 0 >= .9999 && ${real[1]} + 0 >= .998 && ${real[2]} + 0 >= .996"
     for way in region ours; do
       read_paper_row "$readout" "$way"

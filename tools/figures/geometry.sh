@@ -10,7 +10,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-arguments "1a 1c 1d 2 3 4a 4b 5 6 7 1a-drawn 1c-drawn 2-drawn 3-drawn 4a-drawn 5-drawn 6-drawn 7-drawn" "$@"
+take_arguments "tools/figures/geometry.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
+all_or_named 1a 1c 1d 2 3 4a 4b 5 6 7 1a-drawn 1c-drawn 2-drawn 3-drawn 4a-drawn 5-drawn 6-drawn 7-drawn
 seeds=20 longest=20 clips=20 shorter=()
 [ -z "$quick" ] || { seeds=3 longest=1 clips=0 shorter=(--duration 120); }
 out=build/figures/geometry
@@ -28,7 +29,7 @@ fi
 check() { # NAME SEEDS ...: the table of a self-test
   local name=$1 n=$2
   shift 2
-  "$bin/hovermodal-validate" "$name" --first-seed "$first" --seeds "$n" --threads "$(nproc)" "${use_flight[@]}" "$@" >"$out/$name.txt" ||
+  "$bin/hovermodal-validate" "$name" --first-seed "$first_seed" --seeds "$n" --threads "$(nproc)" "${use_flight[@]}" "$@" >"$out/$name.txt" ||
     echo "# validate $name failed" # and its lines miss
 }
 row() { # FIGURE CASE WAY: columns 4 on of its line
@@ -116,7 +117,7 @@ figure_3() {
 # --- 4: readout ---------------------------------------------------------------------------------------------------------
 figure_4a() {
   local rows missing worst sigmas n=$seeds
-  "$bin/hovermodal-validate" "readout$drawn" --first-seed "$first" --seeds "$seeds" --threads "$(nproc)" >"$out/readout$drawn.txt" ||
+  "$bin/hovermodal-validate" "readout$drawn" --first-seed "$first_seed" --seeds "$seeds" --threads "$(nproc)" >"$out/readout$drawn.txt" ||
     echo "# validate readout$drawn failed"
   # readout, true frames, seconds, records, with an estimate, mean, deviation, worst error, stated, worst in sigmas, ...
   read -r rows missing worst sigmas < <(awk -F'\t' -v f="readout$drawn" '$1 == f && $3 == 300 { n++; missing += $4 - $5; if ($8 ~ /n/ || $10 ~ /n/) none = 1; if ($8 > w) w = $8; if ($10 > s) s = $10 }

@@ -7,7 +7,6 @@
 set -uo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-. tools/figures/arguments.sh
 take_arguments "tools/figures/ground.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
 all_or_named 1 2 3 4 5 6 6h 7 7p
 draws 1 3 4 5 6 6h 7 7p

@@ -6,7 +6,6 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-. tools/figures/arguments.sh
 take_arguments "tools/figures/ground_link.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
 all_or_named 4 5 6 7
 seconds=60 hostile=1000000

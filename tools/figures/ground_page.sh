@@ -6,7 +6,6 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-. tools/figures/arguments.sh
 take_arguments "tools/figures/ground_page.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
 all_or_named 1 2 6h 7p
 draws 1 6h 7p

@@ -4,7 +4,6 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-. tools/figures/arguments.sh
 take_arguments "tools/figures/ground_record.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
 all_or_named 3
 runs=10 duration_s=60

@@ -7,7 +7,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-arguments "1 2 3 4 5 6 7 8 9 10" "$@"
+take_arguments "tools/figures/identification.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
+all_or_named 1 2 3 4 5 6 7 8 9 10
 many=200 seeds=100 few=20
 [ -z "$quick" ] || many=20 seeds=10 few=4
 out=build/figures/identification
@@ -17,14 +18,14 @@ quietly tools/build.sh hovermodal hovermodal-validate
 
 part() { # SCRIPT FIGURE: its lines; its misses are ours
   local text
-  text=$("tools/figures/$1" ${quick:+--quick} --first-seed "$first" "$2" 2>&1) || true
+  text=$("tools/figures/$1" ${quick:+--quick} --first-seed "$first_seed" "$2" 2>&1) || true
   grep -E '^[0-9]' <<<"$text" || { echo "$text" >&2; line "$2" MISS "the script failed" "-" "tools/figures/$1 $2"; }
   misses=$((misses + $(grep -cE '^[0-9a-z.]+ MISS ' <<<"$text" || true)))
 }
 check() { # NAME SEEDS ...: the table of a self-test
   local name=$1 n=$2
   shift 2
-  "$bin/hovermodal-validate" "$name" --first-seed "$first" --seeds "$n" --threads "$(nproc)" "$@" >"$out/$name.txt" ||
+  "$bin/hovermodal-validate" "$name" --first-seed "$first_seed" --seeds "$n" --threads "$(nproc)" "$@" >"$out/$name.txt" ||
     echo "# validate $name failed" # and its lines miss
 }
 # table NAME FILTER PROGRAM END: awk over the rows of a table that the filter takes. num(x) is a number of a row; where one is

@@ -7,7 +7,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-arguments "2 3 4" "$@"
+take_arguments "tools/figures/identification_measured.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
+all_or_named 2 3 4
 out=build/figures/identification_measured
 mkdir -p "$out"
 tools/setup.sh

@@ -8,7 +8,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-arguments "1 9 10" "$@"
+take_arguments "tools/figures/identification_speed.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
+all_or_named 1 9 10
 rounds=8 samples=10000000
 [ -z "$quick" ] || rounds=2 samples=1000000
 out=build/figures/identification_speed
@@ -38,7 +39,7 @@ figure_1() {
 # --- 9: the accumulator -----------------------------------------------------------------------------------------------
 figure_9() {
   local verdict=MISS
-  ! "$bin/accumulator_memory" "$samples" "$first" >"$out/memory.txt" || verdict=ok
+  ! "$bin/accumulator_memory" "$samples" "$first_seed" >"$out/memory.txt" || verdict=ok
   line 9 $verdict "$(tr '\t\n' ' ;' <"$out/memory.txt")" "no allocation, no byte more" "12 channels, segments of 1024, hops of 512"
 }
 
@@ -101,14 +102,14 @@ update_line() { # METHOD BLOCK_ROWS COMPARATOR BAR OUR_MS
 # Instructions of one update: of five runs less those of one, so that making the data does not count.
 instructions() { # CHANNELS UPDATES
   local count
-  count=$(perf stat -x, -e instructions:u "$speed" service "$1" "$2" "$first" 2>&1 >/dev/null | awk -F, '$3 ~ /instructions/ && $1 + 0 > 0 { print $1 }' || true)
-  [ -n "$count" ] || count=$(valgrind --tool=callgrind --callgrind-out-file=/dev/null "$speed" service "$1" "$2" "$first" 2>&1 | awk '/Collected/ { print $4 }')
+  count=$(perf stat -x, -e instructions:u "$speed" service "$1" "$2" "$first_seed" 2>&1 >/dev/null | awk -F, '$3 ~ /instructions/ && $1 + 0 > 0 { print $1 }' || true)
+  [ -n "$count" ] || count=$(valgrind --tool=callgrind --callgrind-out-file=/dev/null "$speed" service "$1" "$2" "$first_seed" 2>&1 | awk '/Collected/ { print $4 }')
   echo "${count:-0}"
 }
 figure_10() {
   local openblas channels one five each
   find_openblas
-  "$speed" make "$out/motion.bin" "$first"
+  "$speed" make "$out/motion.bin" "$first_seed"
   if "$python" -c 'import scipy.linalg' 2>/dev/null; then
     compare_update plain 100 10 5
     compare_update cva 20 10 5

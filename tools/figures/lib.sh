@@ -32,30 +32,106 @@ judge() {
   fi
 }
 
-# arguments "FIGURES" "$@": sets quick (yes or nothing), first (the first seed: 1001 unless --first-seed N says; 1-100 are for
-# development) and figures (those named, or all of FIGURES). Whatever else ends the script.
-arguments() {
-  local known=" $1 "
+# What a figure script is asked for:
+#   take_arguments USAGE "$@"     USAGE names the options that the script has, of [--quick] [--seeds N] [--first-seed N] [FIGURE...]
+# quick: yes or empty; n_seeds: as given, or empty; first_seed: the first seed of whatever is drawn at random (1001; 1 - 100 are
+# for development); figures: as named; handed_on: the options, for another figure script. Anything else ends the script.
+usage='' quick='' n_seeds='' first_seed=1001 seed_given='' figures=() handed_on=()
+
+refuse() { # TEXT...
+  echo "$(basename "$0"): $*" >&2
+  exit 2
+}
+
+take_arguments() {
+  usage=$1
   shift
-  quick="" first=1001 figures=()
   while [ $# -gt 0 ]; do
+    [[ $1 != --[a-z]* || $1 == --help || "$usage " == *"[$1"[\]\ ]* ]] || refuse "$1: unknown; usage: $usage"
     case $1 in
-    --quick) quick=yes ;;
-    --first-seed)
-      [[ ${2:-} =~ ^[1-9][0-9]*$ ]] || { echo "${0##*/}: --first-seed is '${2:-}'; give a whole number from 1 on" >&2; exit 2; }
-      first=$2
-      shift
-      ;;
-    *)
-      [[ $known == *" $1 "* ]] || { echo "${0##*/}: '$1' is none of its figures:$known" >&2; exit 2; }
-      figures+=("$1")
-      ;;
+      --quick) quick=yes ;;
+      --seeds | --first-seed)
+        [[ ${2:-} =~ ^[0-9]{1,9}$ && $((10#$2)) -gt 0 ]] || refuse "$1: expected a whole number from 1 on, got \"${2:-}\""
+        if [ "$1" = --seeds ]; then n_seeds=$((10#$2)); else first_seed=$((10#$2)) seed_given=yes; fi
+        shift
+        ;;
+      -h | --help) echo "usage: $usage" && exit 0 ;;
+      -*) refuse "$1: unknown; usage: $usage" ;;
+      *) figures+=("$1") ;;
     esac
     shift
   done
-  [ "${#figures[@]}" -gt 0 ] || read -ra figures <<<"$known"
+  handed_on=(${quick:+--quick} ${seed_given:+--first-seed "$first_seed"})
 }
-seeds_of() { echo "seeds $first-$((first + $1 - 1))"; }  # NUMBER OF SEEDS, in words
+
+# all_or_named ALL...: all figures where none is named; an unknown name ends the script.
+all_or_named() {
+  local figure
+  [ ${#figures[@]} -gt 0 ] || figures=("$@")
+  for figure in "${figures[@]}"; do
+    [[ " $* " == *" $figure "* ]] || refuse "$figure: there are $*; usage: $usage"
+  done
+}
+
+# draws FIGURE...: the figures that draw at random. A first seed is refused where none of them is asked for.
+draws() {
+  local figure
+  [ -n "$seed_given" ] || return 0
+  for figure in "${figures[@]}"; do
+    [[ " $* " != *" $figure "* ]] || return 0
+  done
+  refuse "--first-seed: nothing is drawn at random in ${figures[*]}${1:+; it is in $*}"
+}
+seeds_of() { echo "seeds $first_seed-$((first_seed + $1 - 1))"; }  # NUMBER OF SEEDS, in words
+
+# set_up OPTION...: tools/setup.sh; where packages are missing and cannot be installed, a SKIP for each figure, and the end.
+set_up() {
+  local figure
+  ! quietly tools/setup.sh "$@" || return 0
+  for figure in "${figures[@]}"; do
+    line "$figure" SKIP "packages are missing" "-" "figure $figure; they are installed by: tools/setup.sh${*:+ $*}, as root"
+  done
+  finish_figures
+  exit 0
+}
+
+# run_script SCRIPT ARGUMENT...: another figure script, as a part of this one; finish_scripts: in place of finish_figures.
+scripts_cut_off=0
+run_script() {
+  local status
+  "$@" | awk '/^# whole: / { whole = 1; next } { print; fflush() } END { exit !whole }'
+  status=("${PIPESTATUS[@]}")
+  [ "${status[1]}" -eq 0 ] || scripts_cut_off=$((scripts_cut_off + 1))
+  [ "${status[0]}" -eq 0 ] || misses=$((misses + 1))
+}
+finish_scripts() {
+  [ $scripts_cut_off -eq 0 ] || { echo "$scripts_cut_off figures did not come to their end" >&2 && exit 1; }
+  finish_figures
+}
+
+# cells FILE NAME COLUMNS: the lines of a table (cells separated by tabs) whose first cell is NAME, grouped by these columns
+# (numbers from 0, separated by commas). The Python on standard input is run for each group: `key`, the group's cells; `rows`, its
+# lines; column(i), its numbers that are not nan; middle(i), their median; put(...), which prints a line.
+cells() {
+  python3 -c '
+import collections, math, statistics, sys
+path, name, columns = sys.argv[1:]
+groups, body = collections.OrderedDict(), compile(sys.stdin.read(), "cells", "exec")
+with open(path, encoding="utf-8") as table:
+    for cells in (line.rstrip("\n").split("\t") for line in table):
+        if cells[0] == name:
+            groups.setdefault(tuple(cells[int(c)] for c in columns.split(",")), []).append(cells)
+def put(*words):
+    print(*words, sep="\t")
+for key, rows in groups.items():
+    def column(i):
+        return [float(r[i]) for r in rows if not math.isnan(float(r[i]))]
+    def middle(i):
+        return statistics.median(column(i)) if column(i) else float("nan")
+    exec(body, {"collections": collections, "math": math, "statistics": statistics, "put": put,
+                "key": key, "rows": rows, "column": column, "middle": middle})
+' "$@"
+}
 
 # Median and worst (largest) of the numbers on standard input, "nan nan" when there are none.
 median_and_worst() {

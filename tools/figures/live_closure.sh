@@ -8,16 +8,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-seeds=5 nulls=100 clip_s=300 latency_s=60 first=1001 figures=()
-while [ $# -gt 0 ]; do
-  case $1 in
-    --quick) seeds=1 nulls=20 clip_s=240 latency_s=25 ;;
-    --seeds) seeds=${2:?} nulls=$2 && shift ;;
-    --first-seed) first=${2:?} && shift ;;
-    *) figures+=("$1") ;;
-  esac
-  shift
-done
+take_arguments "tools/figures/live_closure.sh [--quick] [--seeds N] [--first-seed N] [FIGURE...]" "$@"
+seeds=5 nulls=100 clip_s=300 latency_s=60
+[ -z "$quick" ] || seeds=1 nulls=20 clip_s=240 latency_s=25
+[ -z "$n_seeds" ] || seeds=$n_seeds nulls=$n_seeds
 [ ${#figures[@]} -gt 0 ] || figures=(1 1c 2 3 4 5)
 out=$PWD/build/figures/live_closure
 mkdir -p "$out"
@@ -27,7 +21,7 @@ brief=(--set closure.adopt=auto --set closure.window_s=60 --set closure.period_s
 
 # --- 1: effects that begin in mid-flight ------------------------------------------------------------------------------
 figure_1() {
-  "$bin/hovermodal-validate" closure-live --first-seed "$first" --seeds "$seeds" --threads "$(nproc)" >"$out/tracks.txt"
+  "$bin/hovermodal-validate" closure-live --first-seed "$first_seed" --seeds "$seeds" --threads "$(nproc)" >"$out/tracks.txt"
   local name n alone after with with_error without without_error twin twin_error total=0 right=0
   while IFS=$'\t' read -r name n alone after with with_error without without_error twin twin_error; do
     line "1.${name// /_}" beside "taken out and nothing else in $alone of $n, $after s after the onset; modes found $with with the loop, $without without it, $twin without the effect; error and sigma $with_error, $without_error, $twin_error % rms" \
@@ -37,22 +31,13 @@ figure_1() {
   judge 1 "$right of $total" "one or two effects from mid-flight on: all taken out, nothing else, in 0.95" "track records, effects of strength 1" "$right >= 0.95 * $total"
 }
 tracks_cells() { # a line per case, from the records' lines
-  python3 - "$out/tracks.txt" <<'PY'
-import collections, math, statistics, sys
-cells = collections.OrderedDict()
-for row in open(sys.argv[1]):
-    f = row.rstrip("\n").split("\t")
-    if f[0] == "closure-live":
-        cells.setdefault(f[1], []).append(f)
-for name, rows in cells.items():
-    alone = [r for r in rows if not math.isnan(float(r[3])) and r[4] == "0"]
-    times = [float(r[3]) for r in rows if not math.isnan(float(r[3]))]
-    found = [f"{sum(int(r[i].split('/')[0]) for r in rows)}/{sum(int(r[i].split('/')[1]) for r in rows)}" for i in (6, 9, 12)]
-    def middle(i):
-        return f"{statistics.median(float(r[i]) for r in rows):.3f}"
-    errors = [f"{middle(i)} +- {middle(i + 1)}" for i in (7, 10, 13)]
-    print(name, len(rows), len(alone), f"{statistics.median(times):.0f}" if times else "-",
-          *(word for pair in zip(found, errors) for word in pair), sep="\t")
+  cells "$out/tracks.txt" closure-live 1 <<'PY'
+alone = [r for r in rows if not math.isnan(float(r[3])) and r[4] == "0"]
+found = [f"{sum(int(r[i].split('/')[0]) for r in rows)}/{sum(int(r[i].split('/')[1]) for r in rows)}" for i in (6, 9, 12)]
+def median(i):
+    return f"{statistics.median(float(r[i]) for r in rows):.3f}"
+errors = [f"{median(i)} +- {median(i + 1)}" for i in (7, 10, 13)]
+put(*key, len(rows), len(alone), f"{middle(3):.0f}" if column(3) else "-", *(word for pair in zip(found, errors) for word in pair))
 PY
 }
 # clip NAME EFFECTS SEED: a drawn scene as declared until 60 s, with these effects from there on; both through the service.
@@ -82,11 +67,11 @@ pixels() { # NAME EFFECTS SEED
   judge "1c.$1" "in force at the end: ${found:-nothing}; modes, error and sigma $(errors_of "$1" auto) with the loop, $(errors_of "$1" off) without it" \
     "$2 taken out" "drawn clip of $clip_s s, the effect from 60 s on" "$all"
 }
-figure_1c_readout() { pixels readout "readout time" "$first"; }
-figure_1c_radial() { pixels radial "radial distortion" "$((first + 1))"; }
-figure_1c_radial_2() { pixels radial_2 "radial distortion" "$((first + 2))"; }
-figure_1c_tangential() { pixels tangential "tangential distortion" "$((first + 3))"; }
-figure_1c_both() { pixels both "readout time + radial distortion" "$((first + 4))"; }
+figure_1c_readout() { pixels readout "readout time" "$first_seed"; }
+figure_1c_radial() { pixels radial "radial distortion" "$((first_seed + 1))"; }
+figure_1c_radial_2() { pixels radial_2 "radial distortion" "$((first_seed + 2))"; }
+figure_1c_tangential() { pixels tangential "tangential distortion" "$((first_seed + 3))"; }
+figure_1c_both() { pixels both "readout time + radial distortion" "$((first_seed + 4))"; }
 figure_1c() {
   local name
   for name in readout radial radial_2 tangential both; do "figure_1c_$name"; done
@@ -112,7 +97,7 @@ PY
 
 # --- 2: nothing to find -----------------------------------------------------------------------------------------------
 figure_2() {
-  "$bin/hovermodal-validate" closure-live-null --first-seed "$first" --seeds "$nulls" --threads "$(nproc)" >"$out/null.txt"
+  "$bin/hovermodal-validate" closure-live-null --first-seed "$first_seed" --seeds "$nulls" --threads "$(nproc)" >"$out/null.txt"
   local changed worst
   read -r changed worst < <(awk -F'\t' '$1 == "closure-live-null" { if ($3 > 0) c++; if ($4 > w) w = $4 } END { print c + 0, w + 0 }' "$out/null.txt")
   judge 2 "$changed of $nulls adopt something; frequencies and damping within $worst sigma of those with the loop off" "at most 1 adoption of 100; modal results within 0.05 sigma" \
@@ -122,7 +107,7 @@ figure_2() {
 # --- 3: again ---------------------------------------------------------------------------------------------------------
 figure_3() {
   local folder=$out/radial same=0 again=0 n=0 file record of_run of_replay
-  [ -s "$folder/auto/modal.json" ] && [ -s "$folder/clip.mp4" ] || clip radial "radial distortion" "$((first + 1))"
+  [ -s "$folder/auto/modal.json" ] && [ -s "$folder/clip.mp4" ] || clip radial "radial distortion" "$((first_seed + 1))"
   rm -rf "$folder/record"
   quietly "$bin/hovermodald" --config "$folder/before/config.yaml" --set "camera.source=$folder/clip.mp4" --set telemetry.lcm_url= \
     --set tracking.points_per_region=12 "${brief[@]}" --set rt.frame_slots=4 --set rt.sample_slots=16 --set "record.directory=$folder/record" --report "$folder/again"

@@ -6,7 +6,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-arguments "1a 1b 1c 1d 2 3 4 5 6" "$@"
+take_arguments "tools/figures/main_job.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
+all_or_named 1a 1b 1c 1d 2 3 4 5 6
 seeds=10
 [ -z "$quick" ] || seeds=3
 out=build/figures/main_job
@@ -57,19 +58,19 @@ compare_to_truth() {  # RESULT FOLDER TABLE
 
 # --- 1: the demo's clips, and tracks of many seeds -------------------------------------------------------------------
 clip_figure() {  # NUMBER SECONDS FOLDER
-  quietly tools/demo.sh --seconds "$2" --seed "$first" --out "$3" || { line "$1" MISS "the demo failed" "-" "$2 s clip"; return; }
+  quietly tools/demo.sh --seconds "$2" --seed "$first_seed" --out "$3" || { line "$1" MISS "the demo failed" "-" "$2 s clip"; return; }
   compare_to_truth "$3/modal.json" "$3" "$3/table.txt"
   local segment=512
   [ "$2" -ge 45 ] || segment=256
   quietly "$bin/hovermodal" replay --tracks "$3/tracks.csv" --config "$3/config.yaml" --set method=paper \
     --set spectrum.segment=$segment --report "$3/paper"
   compare_to_truth "$3/paper/modal.json" "$3" "$3/table_paper.txt"
-  judge_modes "$1" "$2 s of rendered 1080p25, seed $first; $(truth_of "$3/table.txt")" "$3/table.txt"
+  judge_modes "$1" "$2 s of rendered 1080p25, seed $first_seed; $(truth_of "$3/table.txt")" "$3/table.txt"
 }
 
 track_figure() {  # NUMBER SECONDS SEGMENT
   local tables=() seed method
-  for seed in $(seq "$first" $((first + seeds - 1))); do
+  for seed in $(seq "$first_seed" $((first_seed + seeds - 1))); do
     local folder=$out/tracks_$2_$seed
     quietly "$bin/hovermodal" simulate --preset paper --tracks-only --duration "$2" --seed "$seed" --force --out "$folder"
     quietly "$bin/hovermodal" identify --series "$folder/truth_displacements.csv" --base base --segment "$3" --report "$folder/true_motion"

@@ -1,9 +1,9 @@
 # Figures 4 to 6 of the main job: LCM, the same run twice, every frame accounted for. Sourced by main_job.sh.
 small=$out/small
 small_clip() { # drawn once for each seed
-  [ "$(cat "$small/seed.txt" 2>/dev/null)" != "$first" ] || return 0
-  quietly "$bin/hovermodal" simulate --preset paper --size 480x270 --duration 40 --seed "$first" --force --out "$small"
-  echo "$first" >"$small/seed.txt"
+  [ "$(cat "$small/seed.txt" 2>/dev/null)" != "$first_seed" ] || return 0
+  quietly "$bin/hovermodal" simulate --preset paper --size 480x270 --duration 40 --seed "$first_seed" --force --out "$small"
+  echo "$first_seed" >"$small/seed.txt"
 }
 
 # --- 4: LCM, in a network of its own (loopback and a multicast route, nothing else) --------------------------------------
@@ -43,7 +43,7 @@ figure_5() {
     fork_config fork_64hz_250fps 250 "[276, 64, 50, 80]" "[340, 64, 50, 80]"
     replay_twice "$out/fork_64hz_250fps.yaml"
   fi
-  judge 5 "$compared files compared, identical: $same" "byte-identical" "the same clip twice, seed $first" \
+  judge 5 "$compared files compared, identical: $same" "byte-identical" "the same clip twice, seed $first_seed" \
     "\"$same\" == \"yes\" && $compared > 0"
 }
 

@@ -6,7 +6,6 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-. tools/figures/arguments.sh
 take_arguments "tools/figures/runtime.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
 all_or_named 1 2 3 4 5 6 7 8
 draws 3 4 5 6 7

@@ -5,7 +5,6 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-. tools/figures/arguments.sh
 take_arguments "tools/figures/shipping_batch.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
 all_or_named 4
 flights=8 duration_s=180

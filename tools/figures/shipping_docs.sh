@@ -9,7 +9,6 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-. tools/figures/arguments.sh
 take_arguments "tools/figures/shipping_docs.sh [--quick] [PART...]" "$@"
 all_or_named root demo test own readout spy
 draws

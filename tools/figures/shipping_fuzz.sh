@@ -5,7 +5,6 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-. tools/figures/arguments.sh
 take_arguments "tools/figures/shipping_fuzz.sh [--quick] [--first-seed N] [TARGET...]" "$@"
 [ -z "$quick" ] || [ ${#figures[@]} -gt 0 ] || left_out=(scene replay)
 all_or_named config calibration timestamps series lcm datagrams checkpoint http record scene replay
@@ -22,12 +21,14 @@ figure_3() {
       line "3.$target" SKIP "not with --quick" "10 minutes without a finding" "run: tools/figures/shipping_fuzz.sh $target"
       continue
     fi
+    # A clean short run is no measurement of the bar; a finding misses it at once.
     verdict=ok
+    [ -z "$quick" ] || verdict=SKIP
     text=$(tools/fuzz.sh "$target" --seconds $seconds --seed "$first_seed" --coverage 2>"$out/fuzz_$target.err") || verdict=MISS
     [ -n "$text" ] || text=$(tail -n 1 "$out/fuzz_$target.err")
     line "3.$target" $verdict "$(head -n 1 <<<"$text" | sed 's/^[a-z]* //')" "10 minutes without a finding, coverage printed" \
       "libFuzzer with AddressSanitizer and UndefinedBehaviorSanitizer, $seconds s from seed $first_seed, tests/fuzz/targets/${target}_target.cpp"
-    [ $verdict = ok ] || tail -n +2 <<<"$text"
+    [ $verdict != MISS ] || tail -n +2 <<<"$text"
   done
   kept_bytes=$(find tests/fuzz/corpus -type f -printf '%s\n' | awk '{ n += $1 } END { print n + 0 }')
   judge 3.corpus "$(find tests/fuzz/corpus -type f | wc -l) inputs, $kept_bytes bytes" "below 200 kB" "kept in the project, run by every tools/test.sh" \

@@ -7,7 +7,6 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
 seconds=60 segment=512 unit_tests=(core rt drivers firmware_app)
-. tools/figures/arguments.sh
 take_arguments "tools/figures/shipping_packages.sh [--quick] [--first-seed N] [PART...]" "$@"
 all_or_named build install demo arm64
 draws demo

@@ -5,7 +5,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-arguments "1 2 3 4 5 6 7" "$@"
+take_arguments "tools/figures/tracking.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
+all_or_named 1 2 3 4 5 6 7
 rounds=400 images=24 textures=8 drift_images=10000 bit_frames=1000 light_s=120 service_frames=5000
 [ -z "$quick" ] || rounds=60 images=8 textures=2 drift_images=1000 bit_frames=100 light_s=40 service_frames=1000
 out=$PWD/build/figures/tracking
@@ -16,7 +17,7 @@ quietly tools/build.sh tracking_accuracy tracking_bias tracking_speed hovermodal
 
 # --- 1: time -------------------------------------------------------------------------------------------------------------
 figure_1() {
-  "$bin/tracking_speed" $rounds "$first" >"$out/speed.txt"
+  "$bin/tracking_speed" $rounds "$first_seed" >"$out/speed.txt"
   local what ours theirs ratio bar
   while IFS=$'\t' read -r what ours theirs ratio _; do
     case $what in
@@ -39,12 +40,12 @@ figure_1() {
   fi
 }
 instructions() { # FRAMES: of that many frames
-  valgrind --tool=callgrind --callgrind-out-file=/dev/null "$bin/tracking_speed" 0 "$first" "$1" 2>&1 | awk '/Collected/ { print $4 }'
+  valgrind --tool=callgrind --callgrind-out-file=/dev/null "$bin/tracking_speed" 0 "$first_seed" "$1" 2>&1 | awk '/Collected/ { print $4 }'
 }
 
 # --- 2, 3: accuracy ------------------------------------------------------------------------------------------------------
 figure_2() {
-  "$bin/tracking_accuracy" bound $images "$first" >"$out/bound.txt"
+  "$bin/tracking_accuracy" bound $images "$first_seed" >"$out/bound.txt"
   local most ratio noise contrast steep theirs
   echo "# cycles/px, noise, contrast, gradient/noise: ours and OpenCV's error over the bound, stated over scatter, lost"
   awk -F'\t' '{ printf "#   %s\t%s\t%s\t%s\t%s\t%s\t%s\t%s of %s\n", $2, $3, $4, $5, $6, $7, $8, $9, $10 }' "$out/bound.txt"
@@ -52,10 +53,10 @@ figure_2() {
   judge 2 "worst $ratio (OpenCV $theirs)" "<= 1.2" "error over the Cramer-Rao bound, texture to 0.3 cycles/px, gradient twice the noise" "$ratio <= 1.2"
   read -r ratio theirs < <(awk -F'\t' '$2 == 0.35 && $5 >= 2 { if ($6 > m) m = $6; if ($7 > t) t = $7 } END { print m, t }' "$out/bound.txt")
   judge 2 "worst $ratio (OpenCV $theirs)" "<= 1.3" "the same at 0.35 cycles/px" "$ratio <= 1.3"
-  "$bin/tracking_accuracy" averaged $images "$first" >"$out/averaged.txt"
+  "$bin/tracking_accuracy" averaged $images "$first_seed" >"$out/averaged.txt"
   read -r ratio theirs < <(awk -F'\t' '{ if ($6 > m) m = $6; if ($7 > t) t = $7 } END { print m, t }' "$out/averaged.txt")
   judge 2 "worst $ratio (OpenCV $theirs)" "<= 1.25" "faint texture (gradient below twice the noise), templates averaged over 16 images" "$ratio <= 1.25"
-  "$bin/tracking_bias" $textures "$first" "$out/bias.svg" >"$out/bias.txt"
+  "$bin/tracking_bias" $textures "$first_seed" "$out/bias.svg" >"$out/bias.txt"
   echo "# curves in $out/bias.svg"
   bias() { # KIND LEAST MOST: the largest of ours and of OpenCV's
     awk -F'\t' -v kind="$1" -v least="$2" -v most="$3" '$1 == "bias" && $2 == kind && $3 + 0 >= least && $3 + 0 <= most {
@@ -71,11 +72,11 @@ figure_2() {
   judge 2 "$ratio px (OpenCV $theirs)" "<= 0.002" "texture to 0.35 cycles/px" "$ratio <= 0.002"
 }
 figure_3() {
-  "$bin/tracking_accuracy" bound $images "$first" >"$out/bound.txt"
+  "$bin/tracking_accuracy" bound $images "$first_seed" >"$out/bound.txt"
   local least most begin end deviation
   read -r least most < <(awk -F'\t' '$5 >= 2 { if (!n++ || $8 < l) l = $8; if ($8 > m) m = $8 } END { print l, m }' "$out/bound.txt")
   judge 3 "$least ... $most" "0.9 ... 1.1" "stated deviation over scatter, all textures with gradient twice the noise" "$least >= 0.9 && $most <= 1.1"
-  "$bin/tracking_accuracy" drift $drift_images "$first" >"$out/drift.txt"
+  "$bin/tracking_accuracy" drift $drift_images "$first_seed" >"$out/drift.txt"
   IFS=$'\t' read -r _ begin end _ _ deviation <"$out/drift.txt"
   judge 3 "$begin px, then $end px (+- $deviation)" "does not grow (three standard deviations of the difference)" \
     "error in the first and the last tenth of $drift_images frames" "$end - $begin <= 3 * $deviation"
@@ -112,7 +113,7 @@ judge_forks() {
 # --- 5: light that changes ------------------------------------------------------------------------------------------------
 figure_5() {
   quietly tools/build.sh tracking_light
-  "$bin/tracking_light" "$light_s" "$first" >"$out/light.txt"
+  "$bin/tracking_light" "$light_s" "$first_seed" >"$out/light.txt"
   value() { cell "$out/light.txt" "$@"; }
   against() { # LIGHT OTHER: of points and of regions, "+5.4 % (regions +9.0 %)"
     awk -v a="$(value "$1" 2)" -v b="$(value "$2" 2)" -v c="$(value "$1" 4)" -v d="$(value "$2" 4)" \
@@ -146,9 +147,9 @@ figure_6() {
   if grep -qw avx2 /proc/cpuinfo; then  # without FMA, which GCC 12 uses for complex products whatever -ffp-contract says
     build_bits avx2 g++ -DHOVERMODAL_NO_VECTOR_CLONES -mavx2 && machines+=(avx2)
   fi
-  for name in "${machines[@]}"; do "$out/bits_$name" "$bit_frames" "$first" >"$out/bits_$name.txt"; done
+  for name in "${machines[@]}"; do "$out/bits_$name" "$bit_frames" "$first_seed" >"$out/bits_$name.txt"; done
   build_bits arm64 aarch64-linux-gnu-g++ -static
-  qemu-aarch64 "$out/bits_arm64" "$bit_frames" "$first" >"$out/bits_arm64.txt"
+  qemu-aarch64 "$out/bits_arm64" "$bit_frames" "$first_seed" >"$out/bits_arm64.txt"
   seen=$(awk -F'\t' '{ n += $2; of += substr($2, index($2, "of ") + 3) } END { printf "%d of %d", n, of }' "$out/bits_sse2.txt")
   for name in "${machines[@]:1}" arm64; do
     judge 6 "$(tail -n 1 "$out/bits_$name.txt" | cut -f 3), $seen points seen" "that of SSE2: $(tail -n 1 "$out/bits_sse2.txt" | cut -f 3)" \
@@ -159,7 +160,7 @@ figure_6() {
 # --- 7: the whole service ------------------------------------------------------------------------------------------------
 figure_7() {
   quietly tools/build.sh service_speed hooks_tests
-  "$bin/service_speed" "$service_frames" "$first" >"$out/service.txt"
+  "$bin/service_speed" "$service_frames" "$first_seed" >"$out/service.txt"
   value() { cell "$out/service.txt" "$@"; }
   local stage shares="" n_calls
   for stage in capture tracking spectrum identification publish; do

@@ -6,7 +6,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-arguments "1 2a 2b 3 4 5 6" "$@"
+take_arguments "tools/figures/truth_and_report.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
+all_or_named 1 2a 2b 3 4 5 6
 seconds=60
 [ -z "$quick" ] || seconds=12
 out=build/figures/truth_and_report
@@ -17,7 +18,7 @@ quietly tools/build.sh hovermodald hovermodal hovermodal-validate
 # --- 1: known shifts -------------------------------------------------------------------------------------------------
 figure_1() {
   local n worst smooth
-  "$bin/hovermodal-validate" shifts --first-seed "$first" >"$out/shifts.txt"
+  "$bin/hovermodal-validate" shifts --first-seed "$first_seed" >"$out/shifts.txt"
   read -r n worst smooth < <(awk -F'\t' '$1 == "shift" { n++; w = $3 + 0 > w ? $3 + 0 : w; if ($2 ~ /^smooth/ && $4 + 0 > s) s = $4 + 0 }
     END { print n + 0, w + 0, s + 0 }' "$out/shifts.txt")
   judge 1 "$n scenes, worst $worst px, rms of smooth texture at most $smooth px" "16 scenes, 0.005 px worst, 0.001 px rms" \
@@ -32,7 +33,7 @@ peaks() { # modes, largest |mean|, least and largest rms of a table of `hovermod
 }
 peaks_figure() { # NUMBER SEEDS MEAN LEAST MOST WHAT
   local modes mean low high
-  "$bin/hovermodal-validate" peaks --first-seed "$first" --seeds "$2" >"$out/peaks$2.txt"
+  "$bin/hovermodal-validate" peaks --first-seed "$first_seed" --seeds "$2" >"$out/peaks$2.txt"
   read -r modes mean low high < <(peaks "$out/peaks$2.txt")
   judge "$1" "$modes modes, mean error at most $mean, rms $low ... $high of the theoretical scatter" "mean <= $3, rms $4 ... $5" \
     "$6, $(seeds_of "$2")" "$modes == 6 && $mean <= $3 && $low >= $4 && $high <= $5"
@@ -46,7 +47,7 @@ figure_2b() {
 # --- 3: each effect against its first-order signature ----------------------------------------------------------------
 figure_3() {
   local effects worst name
-  "$bin/hovermodal-validate" signatures --first-seed "$first" >"$out/signatures.txt"
+  "$bin/hovermodal-validate" signatures --first-seed "$first_seed" >"$out/signatures.txt"
   read -r effects worst name < <(awk -F'\t' '$1 == "signature" { n++; split($4, e, " "); if (e[1] >= w) { w = e[1]; name = $2 } }
     END { gsub(" ", "_", name); print n + 0, w, name }' "$out/signatures.txt")
   judge 3 "$effects effects, worst $worst % ($name)" "1 % of the effect's rms" \
@@ -57,15 +58,15 @@ figure_3() {
 figure_4() {
   local started took rows rates
   started=$(date +%s.%N)
-  quietly "$bin/hovermodal" simulate --tracks-only --points 9 --duration 300 --seed "$first" --force --out "$out/tracks"
+  quietly "$bin/hovermodal" simulate --tracks-only --points 9 --duration 300 --seed "$first_seed" --force --out "$out/tracks"
   took=$(awk -v a="$started" -v b="$(date +%s.%N)" 'BEGIN { printf "%.1f", b - a }')
   judge 4a "$took s" "10 s" "300 s of tracks, 72 points at 25 fps" "$took <= 10"
   started=$(date +%s.%N)
-  quietly "$bin/hovermodal" simulate --channels-only --duration 3600 --seed "$first" --force --out "$out/channels"
+  quietly "$bin/hovermodal" simulate --channels-only --duration 3600 --seed "$first_seed" --force --out "$out/channels"
   took=$(awk -v a="$started" -v b="$(date +%s.%N)" 'BEGIN { printf "%.1f", b - a }')
   rows=$(grep -c '^[0-9]' "$out/channels/displacements.csv")
   judge 4b "$took s, $rows rows" "30 s, 90000 rows" "an hour of displacement samples of 7 channels at 25 fps" "$took <= 30 && $rows == 90000"
-  "$bin/hovermodal-validate" speed --first-seed "$first" >"$out/speed.txt"
+  "$bin/hovermodal-validate" speed --first-seed "$first_seed" >"$out/speed.txt"
   rates=$(awk -F'\t' '$1 == "speed" { printf "%s%s %s", s, $3, $2; s = ", " }' "$out/speed.txt")
   judge 4c "$rates" "printed" "1080p frames drawn per second on 2 threads" "$(awk -F'\t' '$1 == "speed" { n++ } END { print n + 0 }' "$out/speed.txt") == 3"
 }
@@ -73,7 +74,7 @@ figure_4() {
 # --- 5: other people's tracker in our frames --------------------------------------------------------------------------
 figure_5() {
   local n worst lost
-  "$bin/hovermodal-validate" klt --first-seed "$first" >"$out/klt.txt"
+  "$bin/hovermodal-validate" klt --first-seed "$first_seed" >"$out/klt.txt"
   read -r n worst lost < <(awk -F'\t' '$1 == "klt" { n += $6; l += $7; if ($4 + 0 > w) w = $4 + 0 } END { print n + 0, w + 0, l + 0 }' "$out/klt.txt")
   judge 5 "three scenes, $n points, $lost lost, rms at most $worst px" "0.05 px rms per axis" \
     "OpenCV's KLT in drawn frames with noise of 2 grey levels, against the true tracks" \
@@ -83,7 +84,7 @@ figure_5() {
 # --- 6: the report in a browser --------------------------------------------------------------------------------------
 figure_6() {
   local words
-  if quietly tools/demo.sh --seconds "$seconds" --seed "$first" --out "$out/demo"; then
+  if quietly tools/demo.sh --seconds "$seconds" --seed "$first_seed" --out "$out/demo"; then
     words=$(tools/figures/check_report.sh "$out/demo/report.html" --screenshots "$out/screenshots" 2>&1 | tail -n 1) || true
     case $words in
       ok*) line 6 ok "${words#ok }" "no console error, no request, < 2 MB" "report.html of the demo in headless Chromium" ;;
