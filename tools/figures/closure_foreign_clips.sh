@@ -78,7 +78,7 @@ figure_10_demo() {
 # --- 15: clips with an effect ----------------------------------------------------------------------------------------------
 figure_15() {
   local effects=("readout time" "radial distortion" "tangential distortion" "camera roll" "camera pitch" "camera yaw" "rotor line"
-    "gimbal vibration" "whole lens" "fisheye" "oblique view" "rocking" "sway")
+    "gimbal vibration" "whole lens" "fisheye" "oblique view" "rocking" "sway" "flap")
   local i name effect right within numbers named=0 kept=0
   for ((i = 0; i < effect_clips; i++)); do
     effect=${effects[i % ${#effects[@]}]} name=effect_$i
