@@ -86,7 +86,7 @@ PY
 
 # --- 12: pairs and triples -------------------------------------------------------------------------------------------------
 figure_12() {
-  foreign closure-tracks-foreign-sets "$((seeds * 2 / 3))"
+  foreign closure-tracks-foreign-sets "$(((seeds * 2 + 2) / 3))"
   local size n named part misnamed latent nothing share
   while IFS=$'\t' read -r size n named part latent misnamed nothing; do
     share=$([ "$size" = 2 ] && echo 0.85 || echo 0.7)

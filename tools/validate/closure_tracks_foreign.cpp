@@ -37,7 +37,10 @@ ForeignOutcome inject(const Effects& effects, const ClosureTracksOptions& option
   ForeignOutcome out;
   out.declared = draw_foreign_scene(seed, setup_for(options).duration_s, options.flight);
   std::vector<const HiddenEffect*> hidden;
-  for (const ForeignEffect* effect : effects) hidden.push_back(&effect->effect);
+  for (const ForeignEffect* effect : effects) {
+    hidden.push_back(&effect->effect);
+    out.declared.background = out.declared.background || effect->in_background;
+  }
   const SizedScene sized = with_effects(hidden, out.declared.scene, strength, out.declared.background);
   out.scene = sized.scene, out.size = sized.size;
   const auto with = foreign_record(out.scene, out.declared);

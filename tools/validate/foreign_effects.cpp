@@ -156,6 +156,7 @@ std::vector<ForeignEffect> all_effects() {
   add("rocking", 2.0, 0.002, set_turning<&Scene::rocking>, {"rocking", "base rocking", "rigid motion"}, unknown);
   add("torsion", 5.0, 0.02, set_turning<&Scene::torsion>, {"torsion", "rigid motion"}, unknown);
   add("sway", 100.0, 0.1, set_sway, {"moving background", "background motion"}, unknown);
+  all.back().in_background = true;
   add("stabiliser", 1.0, 0.1, set_stabiliser, {"stabiliser", "stabilisation"}, unknown);
   add("focus breathing", 0.05, 1e-4, set_breathing, {"focus breathing"}, unknown);
   add("template zoom", 20.0, 0.5, set_template_zoom, {"template zoom"}, unknown);

@@ -12,6 +12,7 @@ namespace tools {
 struct ForeignEffect {
   HiddenEffect effect;             // `called`: the first of the names
   std::vector<std::string> names;  // any of them, and nothing else, is right
+  bool in_background = false;      // it shows nowhere else: records with it hold the background
 };
 // Those of hidden_effects(), then those that only foreign records have.
 [[nodiscard]] const std::vector<ForeignEffect>& foreign_effects();

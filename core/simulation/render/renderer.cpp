@@ -22,7 +22,8 @@ bool looks_straight(const SceneMotion& motion) {
   const CameraParameters& camera = motion.scene().camera;
   const bool turned =
       motion.camera().rotates() || camera.pitch_rad != 0.0 || camera.yaw_rad != 0.0 || camera.roll_rad != 0.0;
-  return !turned && !motion.structure().tilts() && !motion.own().rocks() && camera.lens.model == LensParameters::Model::kNone;
+  return !turned && !motion.structure().tilts() && !motion.own().rocks() &&
+         motion.scene().flap.rms_mm <= 0.0 && camera.lens.model == LensParameters::Model::kNone;
 }
 
 // What pictures do not show.
@@ -32,7 +33,6 @@ const Scene& drawable(const Scene& scene) {
       throw std::invalid_argument(std::string("simulation: pictures do not show ") + what +
                                   "; leave it out, or make tracks");
   };
-  refuse(scene.flap.rms_mm > 0.0, "a flapping part of a plate (flap.rms_mm)");
   refuse(scene.torsion.rms_rad > 0.0, "torsion (torsion.rms_deg)");
   refuse(scene.shimmer.rms_px > 0.0, "shimmer (shimmer.rms_px)");
   refuse(scene.stabiliser.gain > 0.0, "electronic stabilisation (stabiliser.gain)");
@@ -206,15 +206,38 @@ void Renderer::draw_any_line(const Instant& a, const Instant& b, int index, Rend
 
 void Renderer::add_plate(std::size_t body, const Instant& instant, const LineRays& rays, std::size_t i_instant,
                          float weight, RenderLine& line) const noexcept {
+  const double width_mm = scene().plates[body].width_mm;
+  const FlapParameters& flap = scene().flap;
+  if (flap.rms_mm <= 0.0 || flap.body != static_cast<int>(body)) {
+    add_part(body, {-0.5 * width_mm, 0.5 * width_mm, 0.0, 0.0}, instant, rays, i_instant, weight, line);
+    return;
+  }
+  const double from_mm = (flap.from_share - 0.5) * width_mm, moved_mm = motion_.own().flap_mm(instant.t_s);
+  const bool along_x = scene().structure.axis == StructureModel::Axis::kX;
+  add_part(body, {-0.5 * width_mm, from_mm, 0.0, 0.0}, instant, rays, i_instant, weight, line);
+  add_part(body, {from_mm, 0.5 * width_mm, along_x ? moved_mm : 0.0, along_x ? 0.0 : moved_mm}, instant, rays, i_instant,
+           weight, line);
+}
+
+void Renderer::add_part(std::size_t body, const PlatePart& part, const Instant& instant, const LineRays& rays,
+                        std::size_t i_instant, float weight, RenderLine& line) const noexcept {
+  if (part.high_mm <= part.low_mm) return;
   const Plate& plate = scene().plates[body];
   const BodyPose moved = motion_.body_at(static_cast<int>(body), instant.t_s);
-  const double pitch = plate_[body].pitch_mm();
-  const PlaneView view(instant.pose, {plate.x_mm + moved.x_mm, plate.y_mm + moved.y_mm}, moved.tilt_rad, plate.z_mm,
-                       pitch);
+  const double pitch = plate_[body].pitch_mm(), c = std::cos(moved.tilt_rad), s = std::sin(moved.tilt_rad);
+  const auto view_from = [&](double x_mm, double y_mm) -> PlaneView {  // of a place in the plate's axes
+    return {instant.pose,
+            {plate.x_mm + moved.x_mm + c * x_mm - s * y_mm, plate.y_mm + moved.y_mm + s * x_mm + c * y_mm},
+            moved.tilt_rad,
+            plate.z_mm,
+            pitch};
+  };
+  const double middle_mm = 0.5 * (part.low_mm + part.high_mm);
   const PixelRange range =
-      cover_plate(view, 0.5 * plate.width_mm / pitch, 0.5 * plate.height_mm / pitch, rays, line.cover.data());
+      cover_plate(view_from(middle_mm + part.x_mm, part.y_mm), 0.5 * (part.high_mm - part.low_mm) / pitch,
+                  0.5 * plate.height_mm / pitch, rays, line.cover.data());
   if (range.begin >= range.end) return;
-  draw_plane(view, plate_[body], rays, range.begin, range.end, line.plate.data());
+  draw_plane(view_from(part.x_mm, part.y_mm), plate_[body], rays, range.begin, range.end, line.plate.data());
   lay_plate(line, range.begin, range.end, i_instant, weight);
 }
 

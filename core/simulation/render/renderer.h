@@ -64,6 +64,12 @@ class Renderer {
   void draw_any_line(const Instant& a, const Instant& b, int index, RenderLine& line) const noexcept;
   void add_plate(std::size_t body, const Instant& instant, const LineRays& rays, std::size_t i_instant, float weight,
                  RenderLine& line) const noexcept;
+  // A plate from low to high, moved by x, y in its own axes.
+  struct PlatePart {
+    double low_mm, high_mm, x_mm, y_mm;
+  };
+  void add_part(std::size_t body, const PlatePart& part, const Instant& instant, const LineRays& rays,
+                std::size_t i_instant, float weight, RenderLine& line) const noexcept;
 
   SceneMotion motion_;
   Light light_;

@@ -105,7 +105,7 @@ void add_own_motion_keys(std::vector<SceneKey>& keys) {
   using Flap = core::simulation::FlapParameters;
   constexpr auto f = &Scene::flap;
   keys.push_back(scene_number("flap.rms_mm", "mm", of<f, &Flap::rms_mm>, {0.0, 1e3},
-                              "a part of a plate moves by itself along the structure's axis; tracks only"));
+                              "a part of a plate moves by itself along the structure's axis"));
   keys.push_back(scene_whole("flap.body", "", of<f, &Flap::body>, {0, 127}, "whose plate; 0 = the ground"));
   keys.push_back(scene_number("flap.from_share", "", of<f, &Flap::from_share>, {0.0, 1.0},
                               "the part to the right of this share of its width"));

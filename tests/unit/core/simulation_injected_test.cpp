@@ -166,13 +166,44 @@ TEST(Stabiliser, HoldsTheImageStillWithAGlobalShutter) {
   EXPECT_LT(spread(steady), 0.03 * spread(shaky));
 }
 
+TEST(Renderer, DrawsTheLoosePartWhereItIs) {
+  Scene scene = still_scene();
+  set_image_size(scene, 480, 270);
+  scene.excitation.base = 0.0, scene.excitation.rms_mm = 0.0;
+  scene.camera.exposure_s = scene.camera.readout_s = scene.camera.noise_sigma = 0.0;
+  const auto light_of = [](const Scene& which) {
+    std::vector<float> light(480UL * 270UL);
+    Renderer(which, Renderer::Way::kGeneral).render_light(std::uint64_t{100}, light.data());
+    return light;
+  };
+  const std::vector<float> still = light_of(scene);
+  scene.flap.rms_mm = 8.0, scene.flap.body = 3, scene.flap.from_share = 0.5;
+  const std::vector<float> flapping = light_of(scene);
+  Scene moved = scene;
+  moved.flap.rms_mm = 0.0;
+  moved.plates[3].x_mm += SceneMotion(scene).own().flap_mm(4.0);  // of frame 100
+  const std::vector<float> all_moved = light_of(moved);
+  ASSERT_NE(moved.plates[3].x_mm, scene.plates[3].x_mm);
+  const auto row = static_cast<std::size_t>(std::lround(scene.camera.cy_px + scene.plates[3].y_mm / 2000.0 * scene.camera.alpha_px));
+  const auto middle = static_cast<std::size_t>(scene.camera.cx_px);
+  double left = 0.0, right = 0.0, change = 0.0;
+  for (std::size_t u = 15; u < 30; ++u) {  // clear of the seam and of the rims
+    const std::size_t before = 480 * row + middle - u, behind = 480 * row + middle + u;
+    left = std::max(left, std::abs(static_cast<double>(flapping[before] - still[before])));
+    right = std::max(right, std::abs(static_cast<double>(flapping[behind] - all_moved[behind])));
+    change = std::max(change, std::abs(static_cast<double>(all_moved[behind] - still[behind])));
+  }
+  EXPECT_LT(left, 1e-3);
+  EXPECT_LT(right, 1e-3);
+  EXPECT_GT(change, 5.0);
+}
+
 TEST(Renderer, RefusesWhatPicturesDoNotShow) {
   const auto refuses = [](auto change) {
     Scene scene = still_scene();
     change(scene);
     EXPECT_THROW(Renderer{scene}, std::invalid_argument);
   };
-  refuses([](Scene& s) { s.flap.rms_mm = 1.0; });
   refuses([](Scene& s) { s.torsion.rms_rad = 1e-3; });
   refuses([](Scene& s) { s.shimmer.rms_px = 0.1; });
   refuses([](Scene& s) { s.stabiliser.gain = 0.5; });

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -53,6 +54,31 @@ TEST(SceneFile, EveryPresetIsWrittenAndReadBackToTheSameScene) {
     // Described by what it was built from: matrices would not be read by anybody.
     EXPECT_NE(file.structure.type, SceneStructure::Type::kMatrices) << preset;
   }
+}
+
+TEST(SceneFile, ReadsTheEffectsOfRealRecordsInTheirUnits) {
+  const std::string text =
+      "tailed_hover: {rms_mm: [20, 1, 15], order: [3, 4, 5], rms_deg: [0, 0, 0.09]}\n"
+      "vibration: {rms_mdeg: [1, 2, 18]}\nstabiliser: {gain: 0.7, lag_ms: 40}\nbreathing: {rms: 0.001, centre_px: [90, -20]}\n"
+      "shimmer: {rms_px: 0.3, drift_px_s: [5, -6]}\nflap: {rms_mm: 2, body: 3}\nrocking: {rms_deg: 0.18}\n"
+      "torsion: {rms_deg: 1.8, frequency_hz: 2.5}\nsway: {rms_mm: 4}\ntracks: {template_zoom_px: 1.2}\n";
+  const SceneFile file = parse(text);
+  const auto& scene = file.scene;
+  constexpr double kDegree = 180.0 / std::numbers::pi;
+  EXPECT_EQ(scene.tailed_hover.rms_mm, (std::array<double, 3>{20.0, 1.0, 15.0}));
+  EXPECT_EQ(scene.tailed_hover.order, (std::array<double, 3>{3.0, 4.0, 5.0}));
+  EXPECT_DOUBLE_EQ(scene.tailed_hover.rms_rad[2], 0.09 / kDegree);
+  EXPECT_DOUBLE_EQ(scene.vibration.rms_rad[2], 0.018 / kDegree);
+  EXPECT_DOUBLE_EQ(scene.stabiliser.lag_s, 0.04);
+  EXPECT_EQ(scene.breathing.centre_px[1], -20.0);
+  EXPECT_EQ(scene.shimmer.drift_px_s[1], -6.0);
+  EXPECT_EQ(scene.flap.body, 3);
+  EXPECT_DOUBLE_EQ(scene.rocking.rms_rad, 0.18 / kDegree);
+  EXPECT_DOUBLE_EQ(scene.torsion.rms_rad, 1.8 / kDegree);
+  EXPECT_EQ(scene.torsion.frequency_hz, 2.5);
+  EXPECT_EQ(scene.sway.rms_mm, 4.0);
+  EXPECT_EQ(scene.tracks.template_zoom_px, 1.2);
+  EXPECT_EQ(scene_json(parse(scene_text(file))), scene_json(file));
 }
 
 TEST(SceneFile, TheCommandLineWins) {

@@ -54,7 +54,10 @@ TEST(ForeignScene, StatesOneSigmaThatIsNotThatOfThePoints) {
 }
 
 TEST(ForeignEffects, EachAddsSomethingThatTheDeclaredSceneLacks) {
-  const ForeignScene foreign = draw_foreign_scene(5, 5.0, "");
+  ForeignScene foreign = draw_foreign_scene(5, 2.0, "");
+  foreign.background = true;
+  foreign.scene.tailed_hover = {};  // takes long to compute
+  foreign.scene.hover.x_rms_mm = foreign.scene.hover.y_rms_mm = foreign.scene.hover.z_rms_mm = 3.0;
   for (const ForeignEffect& effect : foreign_effects()) {
     const SizedScene sized = with_effects({&effect.effect}, foreign.scene, 1.0, foreign.background);
     const auto with = foreign_record(sized.scene, foreign), without = foreign_record(foreign.scene, foreign);

@@ -1,0 +1,73 @@
+# Figure 11b of closing the loop: compressed clips. Sourced by closure.sh after closure_foreign_clips.sh.
+
+figure_11b() {
+  local codec bits i seed name clip effects=("readout time" "radial distortion" "camera roll") effect scene_px right
+  local false_ones=0 n=0 named=0 given_way=0 said=$out/codec_readout.txt
+  : >"$said"
+  for codec in libx264 libx265; do
+    for bits in 0.05 0.15 0.4; do
+      for ((i = 0; i < coded_clips; i++)); do
+        seed=$((first_seed + i)) name=codec_${codec}_${bits}_$i effect=${effects[i % 3]} n=$((n + 1))
+        foreign_clip "$name" "$seed"
+        foreign_coded "$name" "$bits" "$codec"
+        clip=$PWD/$out/${name}_$bits.mp4
+        foreign_closed "${name}_null" "$name" "$clip"
+        [ "$(adopted "${name}_null")" = nothing ] || false_ones=$((false_ones + 1))
+        codec_readout "$name" "${name}_null_run" >>"$said"
+        foreign_run "${name}_wrong" "$name" "$clip" --set "camera.readout_ms=$(codec_wrong_readout "$name")"
+        given_way=$((given_way + $(codec_gives_way "$name" "${name}_wrong_run")))
+        scene_px=$(ask "${name}_null" '"%.4f" % (3 * c["baseline"]["residual_rms"])') # of the 1080p view that the scene describes
+        foreign_clip "${name}_with" "$seed" "$effect" "$(awk "BEGIN { print $scene_px / 0.09 }")"
+        foreign_coded "${name}_with" "$bits" "$codec"
+        foreign_closed "${name}_found" "${name}_with" "$PWD/$out/${name}_with_$bits.mp4"
+        read -r right _ < <(foreign_answer "${name}_with" "${name}_found")
+        named=$((named + right))
+        echo "# $codec $bits bits a pixel, seed $seed: without effect $(adopted "${name}_null"); $effect of $scene_px px: $(adopted "${name}_found")"
+        rm -f "$out/$name/clip.mp4" "$out/${name}_with/clip.mp4" "$clip" "$out/${name}_with_$bits.mp4"
+      done
+    done
+  done
+  judge 11b.null "$false_ones of $n" "false adoptions <= 1 in 30" "H.264 and HEVC at 0.05, 0.15, 0.4 bits a pixel" "$false_ones <= $n / 30"
+  judge 11b.named "$named of $n" "readout, k1, roll named wherever their strength over the *codec's* noise is 1" "the residual of the same clip without the effect" "$named == $n"
+  local mean covered values
+  read -r mean covered values < <(awk -F'\t' '{ s += $1; v++; if ($2 <= 1.96) c++ } END { if (v) print s / v, c + 0, v; else print "nan 0 0" }' "$said")
+  judge 11b.readout "mean error $mean of a frame, 95 % intervals hold in $covered of $values" "readout from tracks unbiased (<= 0.02 of a frame), 95 % intervals hold" \
+    "declared as it is" "$mean <= 0.02 && $mean >= -0.02 && $covered >= 0.9 * $values && $values > 0"
+  judge 11b.declared "$given_way of $n" "a declared value contradicted by 4 sigma gives way with a word" "readout declared wrong by 0.4 of a frame; where the tracks contradict it by less, it may stay" \
+    "$given_way == $n"
+}
+# NAME RUN: error of the readout from tracks, frames; in its sigmas. Nothing where there is none.
+codec_readout() {
+  python3 - "$out/$1/config.yaml" "$out/$2/modal.json" <<'PY'
+import json, sys
+text = {k.strip(): v.strip() for k, _, v in (row.partition(":") for row in open(sys.argv[1]))}
+found = json.load(open(sys.argv[2]))["readout"]["from_tracks"]
+if found:
+    off = found["readout_ms"] - float(text["readout_ms"])
+    print(off * 1e-3 * float(text["rate_hz"]), abs(off) / found["std_ms"], sep="\t")
+PY
+}
+codec_wrong_readout() { # NAME: 0.4 of a frame from the truth, within 0 and one frame
+  python3 - "$out/$1/config.yaml" <<'PY'
+import sys
+text = {k.strip(): v.strip() for k, _, v in (row.partition(":") for row in open(sys.argv[1]))}
+frame_ms = 1e3 / float(text["rate_hz"])
+true_ms = float(text["readout_ms"])
+print(true_ms + (0.4 if true_ms < 0.5 * frame_ms else -0.4) * frame_ms)
+PY
+}
+# NAME RUN: 1 where the used readout is not the declared one although the tracks contradict it by 4 sigma, or they do not.
+codec_gives_way() {
+  python3 - "$out/$2/modal.json" <<'PY'
+import json, math, sys
+r = json.load(open(sys.argv[1]))["readout"]
+found, declared, used = r["from_tracks"], r["declared"], r["used"]
+if not found:
+    print(1)
+else:
+    off = abs(found["readout_ms"] - declared["readout_ms"])
+    contradicted = off > 4 * math.hypot(found["std_ms"], declared["std_ms"])
+    away = abs(used["readout_ms"] - found["readout_ms"]) <= 2 * found["std_ms"] and "declared" in r["why"]
+    print(int(away or not contradicted))
+PY
+}
