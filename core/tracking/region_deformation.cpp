@@ -12,7 +12,8 @@ namespace {
 constexpr double kOwnSpread = 0.003;    // of a region's deformation about what all share: depth, perspective, own motion
 constexpr double kCommonSpread = 0.05;  // of the common one about none
 constexpr double kLeastSigma_px = 0.01;  // of a point: no sigma covers all of its error
-constexpr double kFar = 4.0 * 1.4826;    // of the median distance from the first fit
+constexpr double kFar = 4.5;             // times the median distance from the fit; some five sigma of an axis
+constexpr int kGates = 2;                // the first fit leans towards what is far off
 constexpr std::size_t kLeastForGate = 5;
 
 double precision(double spread) noexcept { return 1.0 / (spread * spread); }
@@ -34,11 +35,12 @@ RegionDeformation::RegionDeformation(const std::vector<Vector2>& keyframe,
 void RegionDeformation::update(const std::vector<KltPoint>& found) noexcept {
   for (std::size_t i = 0; i < is_used_.size(); ++i) is_used_[i] = found[i].seen && is_inlier_[i] != 0 ? 1 : 0;
   for (Region& region : regions_) region.moments = moments_of(region, found);
-  const Deformation first = common();
-  for (Region& region : regions_) {
-    region.now = region.moments.fit(first, precision(kOwnSpread));
-    leave_out_far(region, found);
-    region.moments = moments_of(region, found);
+  for (int k = 0; k < kGates; ++k) {
+    const Deformation all = common();
+    for (Region& region : regions_) {
+      region.now = region.moments.fit(all, precision(kOwnSpread));
+      if (leave_out_far(region, found)) region.moments = moments_of(region, found);
+    }
   }
   const Deformation all = common();
   for (Region& region : regions_) region.now = region.moments.fit(all, precision(kOwnSpread));
@@ -93,7 +95,7 @@ Deformation RegionDeformation::common() const noexcept {
   return sum.fit({}, precision(kCommonSpread));
 }
 
-void RegionDeformation::leave_out_far(const Region& region, const std::vector<KltPoint>& found) noexcept {
+bool RegionDeformation::leave_out_far(const Region& region, const std::vector<KltPoint>& found) noexcept {
   sorted_.clear();
   for (std::size_t i = region.first; i < region.first + region.n; ++i) {
     if (is_used_[i] == 0) continue;
@@ -103,10 +105,12 @@ void RegionDeformation::leave_out_far(const Region& region, const std::vector<Kl
     off_[i] = length(p.u - m.mean_p.u - fitted.u, p.v - m.mean_p.v - fitted.v);
     sorted_.push_back(off_[i]);
   }
-  if (sorted_.size() < kLeastForGate) return;
+  if (sorted_.size() < kLeastForGate) return false;
+  bool is_changed = false;
   const double far = kFar * std::max(kLeastSigma_px, median_in_place(sorted_));
   for (std::size_t i = region.first; i < region.first + region.n; ++i)
-    if (is_used_[i] != 0 && off_[i] > far) is_used_[i] = 0;
+    if (is_used_[i] != 0 && off_[i] > far) is_used_[i] = 0, is_changed = true;
+  return is_changed;
 }
 
 }  // namespace core

@@ -12,7 +12,7 @@ namespace core {
 // Affine deformation of each region against the keyframe, in every image: magnification, roll, perspective and the shear
 // of a rolling shutter, by weighted least squares over the region's points about their mean. What all regions share (the
 // camera's part) is the prior mean of each, so that few points, or points in a line, do not make noise of it. Points
-// that were no inliers in the image before, or are far off the first fit, take no part. Nothing allocates after
+// that were no inliers in the image before, or are far off the fit, take no part. Nothing allocates after
 // construction. One thread.
 class RegionDeformation {
  public:
@@ -44,7 +44,8 @@ class RegionDeformation {
 
   [[nodiscard]] Moments moments_of(const Region& region, const std::vector<KltPoint>& found) const noexcept;
   [[nodiscard]] Deformation common() const noexcept;
-  void leave_out_far(const Region& region, const std::vector<KltPoint>& found) noexcept;
+  // True: some.
+  bool leave_out_far(const Region& region, const std::vector<KltPoint>& found) noexcept;
   [[nodiscard]] Vector2 motion(std::size_t i, const std::vector<KltPoint>& found) const noexcept {
     return {found[i].position.u - keyframe_[i].u, found[i].position.v - keyframe_[i].v};
   }
