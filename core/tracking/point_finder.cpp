@@ -112,8 +112,8 @@ void PointFinder::leave_out_disturbed(const Region& region) noexcept {
   if (scratch_u_.empty()) return;
   const double common = std::max(1.0, median_in_place(scratch_u_));
   for (std::size_t i = region.first; i < region.first + region.n; ++i)
-    if (is_known(i) && strangeness(found_[i]) >
-                           length(kDisturbed * common * usual_[i], kUnmodelled * found_[i].deformed_px * found_[i].gain))
+    if (is_known(i) && strangeness(found_[i]) > length(kDisturbed * common * usual_[i],
+                                                       kUnmodelled * found_[i].deformed_px * found_[i].gain))
       found_[i].seen = false;
 }
 

@@ -9,8 +9,8 @@ namespace core {
 
 namespace {
 
-constexpr double kOwnSpread = 0.003;    // of a region's deformation about what all share: depth, perspective, own motion
-constexpr double kCommonSpread = 0.05;  // of the common one about none
+constexpr double kOwnSpread = 0.003;  // of a region's deformation about what all share: depth, perspective, own motion
+constexpr double kCommonSpread = 0.05;   // of the common one about none
 constexpr double kLeastSigma_px = 0.01;  // of a point: no sigma covers all of its error
 constexpr double kFar = 4.5;             // times the median distance from the fit; some five sigma of an axis
 constexpr int kGates = 2;                // the first fit leans towards what is far off
@@ -82,8 +82,8 @@ RegionDeformation::Moments RegionDeformation::moments_of(const Region& region,
 Deformation RegionDeformation::Moments::fit(const Deformation& prior, double own) const noexcept {
   const double a = uu + own, b = uv, c = vv + own, determinant = a * c - b * b;
   const Deformation m = motion + own * prior;
-  return {(m.uu * c - m.uv * b) / determinant, (m.uv * a - m.uu * b) / determinant,
-          (m.vu * c - m.vv * b) / determinant, (m.vv * a - m.vu * b) / determinant};
+  return {(m.uu * c - m.uv * b) / determinant, (m.uv * a - m.uu * b) / determinant, (m.vu * c - m.vv * b) / determinant,
+          (m.vv * a - m.vu * b) / determinant};
 }
 
 Deformation RegionDeformation::common() const noexcept {

@@ -9,10 +9,10 @@
 
 namespace core {
 
-// Affine deformation of each region against the keyframe, in every image: magnification, roll, perspective and the shear
-// of a rolling shutter, by weighted least squares over the region's points about their mean. What all regions share (the
-// camera's part) is the prior mean of each, so that few points, or points in a line, do not make noise of it. Points
-// that were no inliers in the image before, or are far off the fit, take no part. Nothing allocates after
+// Affine deformation of each region against the keyframe, in every image: magnification, roll, perspective and the
+// shear of a rolling shutter, by weighted least squares over the region's points about their mean. What all regions
+// share (the camera's part) is the prior mean of each, so that few points, or points in a line, do not make noise of
+// it. Points that were no inliers in the image before, or are far off the fit, take no part. Nothing allocates after
 // construction. One thread.
 class RegionDeformation {
  public:

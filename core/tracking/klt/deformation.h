@@ -6,8 +6,8 @@
 
 namespace core {
 
-// Deformation of the image about a point since its template was cut: what was at x beside the point is now at (1 + A) x.
-// Magnification, roll, the shear of a rolling shutter and perspective, all to first order.
+// Deformation of the image about a point since its template was cut: what was at x beside the point is now at (1 + A)
+// x. Magnification, roll, the shear of a rolling shutter and perspective, all to first order.
 struct Deformation {
   double uu = 0.0, uv = 0.0, vu = 0.0, vv = 0.0;  // A by rows: d(du)/du, d(du)/dv; d(dv)/du, d(dv)/dv
 
@@ -32,8 +32,8 @@ struct DeformationResponse {
   // How far beside its place the template is found, px per unit of each element: sum_x S(x) g(x) x^T (METHOD.md).
   // Texture does not lie evenly about the point, so its window is pulled.
   std::array<Vector2, 4> pull{};
-  // Quadratic form of the residual that is the deformation's, grey^2 summed over the window: rows of its upper triangle,
-  // those off the diagonal twice.
+  // Quadratic form of the residual that is the deformation's, grey^2 summed over the window: rows of its upper
+  // triangle, those off the diagonal twice.
   std::array<double, kPairs> energy{};
 
   [[nodiscard]] Vector2 pull_of(const Deformation& a) const noexcept {

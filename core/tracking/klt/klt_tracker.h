@@ -17,11 +17,11 @@ struct KltConfig {
 
 // One point in one image.
 struct KltPoint {
-  Vector2 position;       // px
-  double sigma_px = 0.0;  // standard deviation per axis over images against one template (core/tracking/METHOD.md)
-  double gain = 1.0;      // of the light, against the template
-  double deformed_px = 0.0;  // what the deformation would have added to sigma_px
-  double residual = 0.0;  // variance per pixel after gain and offset, grey^2, with what the deformation adds
+  Vector2 position;            // px
+  double sigma_px = 0.0;       // standard deviation per axis over images against one template (core/tracking/METHOD.md)
+  double gain = 1.0;           // of the light, against the template
+  double deformed_px = 0.0;    // what the deformation would have added to sigma_px
+  double residual = 0.0;       // variance per pixel after gain and offset, grey^2, with what the deformation adds
   double residual_unit = 0.0;  // of it, for one of DeformationResponse::energy
   bool seen = false;
 };
@@ -51,8 +51,8 @@ class KltTracker {
                            double most_variance_px2) noexcept;
   // Subtracts `less` from the displacement of the point: shifts its reference position.
   void shift_datum(std::size_t i, const Vector2& less) noexcept;
-  // How the image about the point is deformed against the keyframe, from here on: find() corrects for it. `found` in this
-  // image: corrected, too.
+  // How the image about the point is deformed against the keyframe, from here on: find() corrects for it. `found` in
+  // this image: corrected, too.
   void set_deformation(std::size_t i, const Deformation& now, KltPoint& found) noexcept;
   [[nodiscard]] const Deformation& deformation(std::size_t i) const noexcept { return points_[i].deformation; }
   // Position of the template's middle when the point is at `position`.

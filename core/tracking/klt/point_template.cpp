@@ -176,16 +176,15 @@ void keep_deformation_energy(const Patch& patch, PointTemplate& out) noexcept {
   std::array<std::array<double, 8>, 8> gram{};
   for_window(out.radius, [&](std::size_t y, std::size_t x) {
     const auto change = change_by_deformation(slope_u, slope_v, y, x);
-    const std::array<double, 8> row{1.0,       texture[y][x] - out.mean, slope_u[y][x], slope_v[y][x],
-                                    change[0], change[1],                change[2],     change[3]};
+    const std::array<double, 8> row{
+        1.0, texture[y][x] - out.mean, slope_u[y][x], slope_v[y][x], change[0], change[1], change[2], change[3]};
     for (std::size_t k = 0; k < row.size(); ++k)
       for (std::size_t l = k; l < row.size(); ++l) gram[k][l] += row[k] * row[l];
   });
   for (std::size_t pivot = 0; pivot < 4; ++pivot) {  // eliminates offset, gain, shift
     if (!(gram[pivot][pivot] > 0.0)) continue;
     for (std::size_t k = pivot + 1; k < gram.size(); ++k)
-      for (std::size_t l = k; l < gram.size(); ++l)
-        gram[k][l] -= gram[pivot][k] * gram[pivot][l] / gram[pivot][pivot];
+      for (std::size_t l = k; l < gram.size(); ++l) gram[k][l] -= gram[pivot][k] * gram[pivot][l] / gram[pivot][pivot];
   }
   for (std::size_t k = 0, at = 0; k < 4; ++k)
     for (std::size_t l = k; l < 4; ++l) out.deformed.energy[at++] = (k == l ? 1.0 : 2.0) * gram[4 + k][4 + l];

@@ -92,8 +92,11 @@ TEST(RegionDeformation, PointsOfADeformedImageAreWhereTheyAreAndTheirSigmaHolds)
   Rig rig;
   const double still = rig.error({{}, {0.3, -0.2}}), stated = rig.stated_px;
   EXPECT_LT(still, 0.01);
-  for (const Deformation& a : {Deformation{0.01, 0.0, 0.0, 0.01}, {0.02, 0.0, 0.0, 0.02}, {-0.015, 0.0, 0.0, -0.015},
-                               {0.0, -0.015, 0.015, 0.0}, {0.0, 0.01, 0.0, 0.004}}) {
+  for (const Deformation& a : {Deformation{0.01, 0.0, 0.0, 0.01},
+                               {0.02, 0.0, 0.0, 0.02},
+                               {-0.015, 0.0, 0.0, -0.015},
+                               {0.0, -0.015, 0.015, 0.0},
+                               {0.0, 0.01, 0.0, 0.004}}) {
     EXPECT_LT(rig.error({a, {0.6, 0.4}}), 1.15 * still) << a.uu << " " << a.uv;
     EXPECT_NEAR(rig.stated_px / stated, 1.0, 0.12) << a.uu << " " << a.uv;
   }
