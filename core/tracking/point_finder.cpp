@@ -13,6 +13,7 @@ constexpr double kNoticeable_px = 1.0;  // a shorter way brings nothing that the
 constexpr double kAgreeing_px = 3.0;    // points of one region, about their median
 constexpr double kUnusual = 5.0;        // times the usual strangeness: another edge that looks alike
 constexpr double kDisturbed = 1.5;      // times the usual strangeness, while the region's other points have theirs
+constexpr double kUnmodelled = 0.5;     // of what a deformation adds to the strangeness, by its second order
 constexpr double kLearning = 0.05;      // of the usual strangeness, a frame
 constexpr int kSearchesPerFrame = 3;    // whole regions: about a millisecond each
 
@@ -33,6 +34,7 @@ PointFinder::PointFinder(const PointFinderConfig& config, const GrayView& image,
       klt_(tracker_at(config.klt, image, keyframe)),
       templates_(klt_),
       reseeder_(klt_, keyframe, region_of_point, config.reseed_after, config.min_points),
+      deformation_(keyframe, region_of_point, n_regions),
       keyframe_(keyframe) {
   std::size_t first = 0, most = 0;
   for (std::size_t r = 0; r < n_regions; ++r) {
@@ -86,10 +88,18 @@ void PointFinder::find(const GrayView& gray, const RegionFollower& expected) noe
     look_for_rest(gray, region, best);
     surprise = to(best.motion), other_motion = best.motion;
   }
+  correct_for_deformation();
   for (const Region& region : regions_) leave_out_disturbed(region);
   const int renewed = reseeder_.judge(gray, found_, klt_, templates_);
   if (renewed >= 0) usual_[static_cast<std::size_t>(renewed)] = 0.0;
   templates_.add(gray, found_, klt_);
+}
+
+void PointFinder::correct_for_deformation() noexcept {
+  deformation_.update(found_);
+  for (std::size_t r = 0; r < regions_.size(); ++r)
+    for (std::size_t i = regions_[r].first; i < regions_[r].first + regions_[r].n; ++i)
+      klt_.set_deformation(i, deformation_.of(r), found_[i]);
 }
 
 // The edge of a shadow, a rope or a bird moves over a few points of a region and takes them along for a while: they
@@ -102,7 +112,9 @@ void PointFinder::leave_out_disturbed(const Region& region) noexcept {
   if (scratch_u_.empty()) return;
   const double common = std::max(1.0, median_in_place(scratch_u_));
   for (std::size_t i = region.first; i < region.first + region.n; ++i)
-    if (is_known(i) && strangeness(found_[i]) > kDisturbed * common * usual_[i]) found_[i].seen = false;
+    if (is_known(i) && strangeness(found_[i]) > length(kDisturbed * common * usual_[i],
+                                                       kUnmodelled * found_[i].deformed_px * found_[i].gain))
+      found_[i].seen = false;
 }
 
 void PointFinder::look(const GrayView& gray, const Region& region, const RegionFollower& expected,
@@ -183,6 +195,7 @@ void PointFinder::learn(const TrackFrame& judged) noexcept {
     usual = usual == 0.0 ? now : usual + kLearning * (now - usual);
   }
   reseeder_.learn(judged);
+  deformation_.learn(judged);
 }
 
 }  // namespace core

@@ -5,6 +5,7 @@
 
 #include "core/tracking/klt/template_average.h"
 #include "core/tracking/point_reseeder.h"
+#include "core/tracking/region_deformation.h"
 #include "core/tracking/region_follower.h"
 #include "core/tracking/region_search.h"
 #include "core/types/track.h"
@@ -21,7 +22,8 @@ struct PointFinderConfig {
 // Finds all points of all regions in one image, each first at its predicted position. If the points of a region then
 // disagree, or match worse than usual, the region was predicted wrongly: it is searched for at its last position, at
 // that suggested by the other regions' prediction errors, and, for a few regions per frame, as a whole
-// (region_search.h). The place that convinces most points is used. Nothing allocates after construction. One thread.
+// (region_search.h). The place that convinces most points is used. Positions are corrected for the deformation of each
+// region in the same image (region_deformation.h). Nothing allocates after construction. One thread.
 class PointFinder {
  public:
   // keyframe: positions of the points in that image; the points of a region are consecutive.
@@ -55,6 +57,7 @@ class PointFinder {
   void look_for_rest(const GrayView& gray, const Region& region, const Look& look) noexcept;
   [[nodiscard]] bool improves(const GrayView& gray, const Region& region, const RegionFollower& expected,
                               const Vector2& shift, Look& best) noexcept;
+  void correct_for_deformation() noexcept;
   void leave_out_disturbed(const Region& region) noexcept;
   [[nodiscard]] Vector2 median_motion(const Region& region) noexcept;
 
@@ -62,6 +65,7 @@ class PointFinder {
   KltTracker klt_;
   TemplateAverage templates_;
   PointReseeder reseeder_;
+  RegionDeformation deformation_;
   std::vector<Vector2> keyframe_;
   std::vector<Region> regions_;
   std::vector<KltPoint> found_, best_;

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # The point tracker, figure by figure; one line each, MISS where a bar is not met. About 15 minutes; --quick: 5.
-#   tools/figures/tracking.sh [--quick] [--first-seed N] [FIGURE...]      FIGURE: some of 1 ... 7 (default: all)
+#   tools/figures/tracking.sh [--quick] [--first-seed N] [FIGURE...]      FIGURE: some of 1 ... 8 (default: all)
 # Figures 1 and 7 measure time: leave the machine alone meanwhile. 4 needs measured data (HOVERMODAL_DATA), which know no seed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
 take_arguments "tools/figures/tracking.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
-all_or_named 1 2 3 4 5 6 7
-rounds=400 images=24 textures=8 drift_images=10000 bit_frames=1000 light_s=120 service_frames=5000
-[ -z "$quick" ] || rounds=60 images=8 textures=2 drift_images=1000 bit_frames=100 light_s=40 service_frames=1000
+all_or_named 1 2 3 4 5 6 7 8
+rounds=400 images=24 textures=8 drift_images=10000 bit_frames=1000 light_s=120 service_frames=5000 zoom_s=30
+[ -z "$quick" ] || rounds=60 images=8 textures=2 drift_images=1000 bit_frames=100 light_s=40 service_frames=1000 zoom_s=10
 out=$PWD/build/figures/tracking
 cell() { awk -F'\t' -v name="$2" -v column="${3:-2}" '$1 == name { print $column }' "$1"; } # FILE ROW [COLUMN]
 mkdir -p "$out"
@@ -136,7 +136,7 @@ build_bits() { # NAME COMPILER FLAG...: tracking_bits without the rest of the pr
   local name=$1 compiler=$2
   shift 2
   "$compiler" -std=c++20 -O3 -ffp-contract=off -I. "$@" tests/bench/tracking_bits.cpp \
-    core/tracking/{point_finder,point_reseeder,region_search,region_follower,motion_predictor,outlier_rejection}.cpp core/tracking/klt/*.cpp \
+    core/tracking/{point_finder,point_reseeder,region_deformation,region_search,region_follower,motion_predictor,outlier_rejection}.cpp core/tracking/klt/*.cpp \
     -o "$out/bits_$name"
 }
 figure_6() {
@@ -173,6 +173,19 @@ figure_7() {
   HOVERMODAL_HOOK_FRAMES=1000 HOVERMODAL_HOOK_REPORT=$out/hooks.tsv build/release/tests/hooks_tests >"$out/hooks.txt" 2>&1 || true
   n_calls=$(awk -F'\t' '$1 == "site" && $2 == "hm-tracking" { n += $4 } END { print n + 0 }' "$out/hooks.tsv")
   judge 7 "$n_calls" 0 "allocations and locks of the tracking stage over 1000 frames" "$n_calls == 0 && $(grep -c PASSED "$out/hooks.txt" || true) == 1"
+}
+
+# --- 8: images that a moving camera deforms --------------------------------------------------------------------------------
+figure_8() {
+  quietly tools/build.sh tracking_deformation
+  local noise what n error per_zoom per_roll left ratio share zoom
+  for noise in 0.5 2; do
+    while IFS=$'\t' read -r what n error per_zoom per_roll left ratio share zoom; do
+      line 8 beside "$error px, $left px without the part that goes with it ($per_zoom px a unit)" "-" \
+        "error of $n points on $what, noise $noise, magnification $(awk -v z="$zoom" 'BEGIN { printf "%.2f", 100 * z }') % rms, $share of them seen"
+      judge 8 "$ratio" "0.9 ... 1.1" "stated deviation over scatter of these" "$ratio >= 0.9 && $ratio <= 1.1"
+    done < <("$bin/tracking_deformation" "$zoom_s" "$first_seed" 540 25 "$noise")
+  done
 }
 
 run_figures "${figures[@]}"

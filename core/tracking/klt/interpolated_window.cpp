@@ -154,7 +154,8 @@ TemplateMatch InterpolatedWindow::match(const Vector2& rest) const noexcept {
   // By the gradients of the image, as weak as the spline makes its texture.
   const double explained = (rest.u * rest.u / point_->variance_u + rest.v * rest.v / point_->variance_v) *
                            point_->texture_variance / point_->variance;
-  match.residual = std::max(0.0, (image2 - match.gain * both) * n - explained) / freedom / passed_noise_;
+  match.residual_unit = 1.0 / (freedom * passed_noise_);
+  match.residual = std::max(0.0, (image2 - match.gain * both) * n - explained) * match.residual_unit;
   match.correlation = both / std::sqrt(image2 * point_->texture_variance);
   return match;
 }

@@ -11,8 +11,9 @@ namespace core {
 // Match of an image with a template: I = gain T + offset, by least squares.
 struct TemplateMatch {
   double gain = 0.0;
-  double residual = 0.0;     // residual variance, grey^2, of one pixel of the raw image if it is white noise
-  double correlation = 0.0;  // over the window, both smoothed by the spline
+  double residual = 0.0;       // residual variance, grey^2, of one pixel of the raw image if it is white noise
+  double residual_unit = 0.0;  // of the residual variance, for a sum of squares over the interpolated window
+  double correlation = 0.0;    // over the window, both smoothed by the spline
 };
 
 // The image at a position, to be compared with a template: the raw pixels interpolated at a fraction of a pixel (spline

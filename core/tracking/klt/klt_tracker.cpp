@@ -50,14 +50,17 @@ void KltTracker::set_keyframe(const GrayView& gray, const std::vector<Vector2>& 
   }
 }
 
-void KltTracker::replace_template(std::size_t i, const Patch& mean, int n_averaged) noexcept {
+void KltTracker::replace_template(std::size_t i, const Patch& mean, int n_averaged,
+                                  const Deformation& deformation) noexcept {
   Point& point = points_[i];
   PointTemplate averaged;
   averaged.noise = point.pattern.noise;  // of one image
   build_template(mean, point.pattern.radius, n_averaged, averaged);
   if (!averaged.is_trackable) return;
   point.pattern = averaged;
+  point.reference = deformation;
   judge_texture(point);
+  correct(point);
 }
 
 bool KltTracker::renew(std::size_t i, const GrayView& gray, const Vector2& place, const Vector2& beside,
@@ -71,7 +74,7 @@ bool KltTracker::renew(std::size_t i, const GrayView& gray, const Vector2& place
   PointTemplate pattern;
   build_template(patch, config_.window_px / 2, 1, pattern);
   if (!pattern.is_trackable || !(place_variance(pattern) <= most_variance_px2)) return false;
-  point = {pattern, place, middle.u, middle.v, 1.0, 0.0};
+  point = {pattern, place, middle.u, middle.v, 1.0, 0.0, point.deformation, point.deformation, {}};
   judge_texture(point);
   return true;
 }
@@ -79,6 +82,41 @@ bool KltTracker::renew(std::size_t i, const GrayView& gray, const Vector2& place
 void KltTracker::shift_datum(std::size_t i, const Vector2& less) noexcept {
   Vector2& datum = points_[i].datum;
   datum = {datum.u - less.u, datum.v - less.v};
+}
+
+void KltTracker::set_deformation(std::size_t i, const Deformation& now, KltPoint& found) noexcept {
+  Point& point = points_[i];
+  const Vector2 before = point.correction;
+  point.deformation = now;
+  correct(point);
+  if (!found.seen) return;
+  found.position = {found.position.u + (point.correction.u - before.u),
+                    found.position.v + (point.correction.v - before.v)};
+  state_sigma(point, found);
+}
+
+// The template is found where its window is pulled to; the point itself lies beside the window's middle, and that
+// distance is deformed as well.
+void KltTracker::correct(Point& point) noexcept {
+  const Deformation since = point.deformation - point.reference;
+  const Vector2 pull = point.pattern.deformed.pull_of(since), beside = since.of(point.beside());
+  point.correction = {beside.u - pull.u, beside.v - pull.v};
+}
+
+void KltTracker::state_sigma(const Point& point, KltPoint& found) noexcept {
+  const PointTemplate& pattern = point.pattern;
+  const double energy = pattern.deformed.energy_of(point.deformation - point.reference);
+  const double deformed = found.residual_unit * std::max(0.0, found.gain * found.gain * energy);
+  const double noise = std::max(kRounding, (found.residual - deformed) / (1.0 + 1.0 / pattern.n_averaged));
+  const double per_noise = 0.5 * (pattern.variance_u + pattern.variance_v);
+  found.sigma_px = std::sqrt(noise * per_noise) / found.gain;
+  found.deformed_px = std::sqrt(deformed * per_noise) / found.gain;
+}
+
+Vector2 KltTracker::middle_of(std::size_t i, const Vector2& position) const noexcept {
+  const Point& point = points_[i];
+  const Vector2 beside = (point.deformation - point.reference).of(point.beside());
+  return {position.u - point.datum.u + point.u0 - beside.u, position.v - point.datum.v + point.v0 - beside.v};
 }
 
 void KltTracker::judge_texture(Point& point) const noexcept {
@@ -97,9 +135,10 @@ double KltTracker::gain_here(double otherwise) const noexcept {
 
 KltPoint KltTracker::find(const GrayView& gray, std::size_t i, const Vector2& predicted) noexcept {
   Point& point = points_[i];
-  KltPoint out{predicted, 0.0, point.gain, false};
+  KltPoint out{predicted, 0.0, point.gain};
   if (!point.pattern.is_trackable) return out;
-  const auto [start_u, start_v] = middle_of(i, predicted);
+  const double start_u = predicted.u - point.datum.u + point.u0 - point.correction.u;
+  const double start_v = predicted.v - point.datum.v + point.v0 - point.correction.v;
   // Also where a prediction is not a number.
   if (!(std::abs(start_u) < kFarthest_px) || !(std::abs(start_v) < kFarthest_px)) return out;
   double u = start_u, v = start_v;
@@ -126,13 +165,13 @@ KltPoint KltTracker::find(const GrayView& gray, std::size_t i, const Vector2& pr
     is_settled = advance() < enough_px;
     if (!(length(u - start_u, v - start_v) <= config_.reach_px)) return out;
   }
-  out.position = {u - point.u0 + point.datum.u, v - point.v0 + point.datum.v};
+  out.position = {u - point.u0 + point.datum.u + point.correction.u, v - point.v0 + point.datum.v + point.correction.v};
   if (!is_settled) return out;
   const TemplateMatch match = window_.match(step);
   if (!(match.correlation >= point.least_correlation) || match.gain < kLeastGain || match.gain > kMostGain) return out;
-  const double noise = std::max(kRounding, match.residual / (1.0 + 1.0 / point.pattern.n_averaged));
-  out.sigma_px = std::sqrt(0.5 * noise * (point.pattern.variance_u + point.pattern.variance_v)) / match.gain;
   out.gain = point.gain = match.gain;
+  out.residual = match.residual, out.residual_unit = match.residual_unit;
+  state_sigma(point, out);
   out.seen = true;
   return out;
 }

@@ -160,6 +160,36 @@ void keep_texture(const Folded& samples, PointTemplate& out) {
   out.texture_variance = square / area(out.radius) - out.texture_mean * out.texture_mean;
 }
 
+// g x^T: the fall of a window's grey values per unit of each element of A.
+std::array<double, 4> change_by_deformation(const Window& slope_u, const Window& slope_v, std::size_t y,
+                                            std::size_t x) noexcept {
+  const double u = static_cast<double>(x) - kWindowRadius, v = static_cast<double>(y) - kWindowRadius;
+  return {slope_u[y][x] * u, slope_u[y][x] * v, slope_v[y][x] * u, slope_v[y][x] * v};
+}
+
+// Of that what neither offset, gain nor shift explains, as interpolated windows show it: smoothed by the spline.
+void keep_deformation_energy(const Patch& patch, PointTemplate& out) noexcept {
+  Window texture{}, slope_u{}, slope_v{};
+  filter(patch, kAtSample, kAtSample, kWindowRadius, texture);
+  filter(patch, kSplineSlope, kAtSample, kWindowRadius, slope_u);
+  filter(patch, kAtSample, kSplineSlope, kWindowRadius, slope_v);
+  std::array<std::array<double, 8>, 8> gram{};
+  for_window(out.radius, [&](std::size_t y, std::size_t x) {
+    const auto change = change_by_deformation(slope_u, slope_v, y, x);
+    const std::array<double, 8> row{
+        1.0, texture[y][x] - out.mean, slope_u[y][x], slope_v[y][x], change[0], change[1], change[2], change[3]};
+    for (std::size_t k = 0; k < row.size(); ++k)
+      for (std::size_t l = k; l < row.size(); ++l) gram[k][l] += row[k] * row[l];
+  });
+  for (std::size_t pivot = 0; pivot < 4; ++pivot) {  // eliminates offset, gain, shift
+    if (!(gram[pivot][pivot] > 0.0)) continue;
+    for (std::size_t k = pivot + 1; k < gram.size(); ++k)
+      for (std::size_t l = k; l < gram.size(); ++l) gram[k][l] -= gram[pivot][k] * gram[pivot][l] / gram[pivot][pivot];
+  }
+  for (std::size_t k = 0, at = 0; k < 4; ++k)
+    for (std::size_t l = k; l < 4; ++l) out.deformed.energy[at++] = (k == l ? 1.0 : 2.0) * gram[4 + k][4 + l];
+}
+
 // From differences that a plane, and most of a smooth texture, does not have (Immerkaer 1996).
 double noise_variance(const Patch& patch, int radius) {
   double sum = 0.0;
@@ -217,6 +247,14 @@ bool linearise(const Patch& patch, int radius, PointTemplate& out, Window& step_
     var_u += step_u[y][x] * step_u[y][x], var_v += step_v[y][x] * step_v[y][x];
   });
   out.variance_u = var_u, out.variance_v = var_v;
+  out.deformed.pull = {};
+  for_window(radius, [&](std::size_t y, std::size_t x) {
+    const std::array<double, 4> change = change_by_deformation(slope_u, slope_v, y, x);
+    for (std::size_t k = 0; k < change.size(); ++k) {
+      Vector2& pull = out.deformed.pull[k];
+      pull = {pull.u + step_u[y][x] * change[k], pull.v + step_v[y][x] * change[k]};
+    }
+  });
   return true;
 }
 
@@ -249,6 +287,7 @@ void build_template(const Patch& patch, int radius, int n_averaged, PointTemplat
   out.origin_v = sum_at_origin(samples, out.step_v);
 
   keep_texture(samples, out);
+  keep_deformation_energy(patch, out);
 }
 
 }  // namespace core

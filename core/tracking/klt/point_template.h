@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/tracking/klt/deformation.h"
 #include "core/tracking/klt/patch.h"
 
 namespace core {
@@ -27,6 +28,7 @@ struct PointTemplate {
   double mean = 0.0, variance = 0.0;                  // of the window's grey values
   double texture_mean = 0.0, texture_variance = 0.0;  // of `texture`, grey and grey^2
   double variance_u = 0.0, variance_v = 0.0;          // px^2 for white noise of variance 1 in the image
+  DeformationResponse deformed;
   double noise =
       0.0;  // variance of an image's noise, at most: fine texture counts as noise, up to half of the variance
   int n_averaged = 1;         // images in it

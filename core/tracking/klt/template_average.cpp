@@ -73,7 +73,7 @@ void TemplateAverage::add(const GrayView& gray, const std::vector<KltPoint>& fou
     if (work.n < kImages) continue;
     for (auto& row : work.sum)
       for (double& value : row) value /= work.n;
-    tracker.replace_template(work.point, work.sum, work.n);
+    tracker.replace_template(work.point, work.sum, work.n, (1.0 / work.n) * work.deformation);
   }
   std::erase_if(work_, [](const Work& work) { return work.n >= kImages; });
 }
@@ -93,6 +93,7 @@ void TemplateAverage::add_to(Work& work, const GrayView& gray, const KltPoint& f
   const double mean = mean_of_window(now_, pattern.radius);
   for (std::size_t y = 0; y < kPatch; ++y)
     for (std::size_t x = 0; x < kPatch; ++x) work.sum[y][x] += (now_[y][x] - mean) / found.gain + pattern.mean;
+  work.deformation = work.deformation + tracker.deformation(work.point);
   ++work.n;
 }
 

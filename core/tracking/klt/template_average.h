@@ -28,7 +28,8 @@ class TemplateAverage {
  private:
   struct Work {
     std::size_t point = 0;
-    int n = 0;  // images so far
+    int n = 0;                // images so far
+    Deformation deformation;  // their sum
     Patch sum{};
   };
   void add_to(Work& work, const GrayView& gray, const KltPoint& found, const KltTracker& tracker) noexcept;

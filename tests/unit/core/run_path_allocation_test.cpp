@@ -9,6 +9,7 @@
 #include "core/spectrum/time_grid.h"
 #include "core/spectrum/welch_cpsd.h"
 #include "core/tracking/outlier_rejection.h"
+#include "core/tracking/point_finder.h"
 #include "core/tracking/preview_maker.h"
 #include "tests/support/alloc_guard.h"
 #include "tests/support/swaying_record.h"
@@ -40,6 +41,46 @@ TEST(RunPathAllocation, WelchPushAndFlushAllocateNothing) {
     n_calls = guard.n_new() + guard.n_delete();
   }
   EXPECT_GT(snapshot.n_segments, 15U);
+  EXPECT_EQ(n_calls, 0U);
+}
+
+// Points in two regions of a smooth texture that moves: found, corrected for its deformation, templates averaged.
+TEST(RunPathAllocation, FindingPointsAllocatesNothing) {
+  constexpr int kWidth = 200, kHeight = 120, kImages = 20;
+  std::vector<std::vector<std::uint8_t>> images(kImages);
+  for (int k = 0; k < kImages; ++k)
+    for (int v = 0; v < kHeight; ++v)
+      for (int u = 0; u < kWidth; ++u)
+        images[static_cast<std::size_t>(k)].push_back(
+            static_cast<std::uint8_t>(128.0 + 6.0 * std::sin(0.7 * (u - 0.1 * k) + 0.2 * v) +
+                                      6.0 * std::sin(0.5 * v - 0.3 * (u - 0.1 * k)) + (u * 7 + v * 13 + k * 29) % 5));
+  const auto view = [&](int k) {
+    return GrayView{images[static_cast<std::size_t>(k)].data(), kWidth, kHeight, kWidth};
+  };
+  std::vector<Vector2> keyframe;
+  std::vector<std::uint16_t> region;
+  for (int i = 0; i < 20; ++i)
+    keyframe.push_back({40.0 + 25.0 * (i % 5), 40.0 + 12.0 * (i / 5)}), region.push_back(i < 10 ? 0 : 1);
+  RegionFollower follower(RegionFollowerConfig{kWidth, kHeight}, keyframe, region, 2);
+  PointFinder finder({}, view(0), keyframe, region, 2);
+  TrackFrame judged;
+  judged.points.resize(keyframe.size());
+  std::size_t n_calls = 0, n_seen = 0;
+  {
+    const AllocGuard guard;
+    for (int k = 1; k < kImages; ++k) {
+      finder.find(view(k), follower);
+      for (std::size_t i = 0; i < keyframe.size(); ++i) {
+        const KltPoint& p = finder.points()[i];
+        judged.points[i] = {p.position.u, p.position.v, p.sigma_px, 0, region[i], p.seen, p.seen};
+        n_seen += p.seen ? 1 : 0;
+      }
+      follower.update(judged);
+      finder.learn(judged);
+    }
+    n_calls = guard.n_new() + guard.n_delete();
+  }
+  EXPECT_GT(n_seen, 19U * 15U);
   EXPECT_EQ(n_calls, 0U);
 }
 
