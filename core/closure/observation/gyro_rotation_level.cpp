@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/closure/observation/remaining_turn.h"
+#include "core/closure/observation/residual_rotation.h"
 #include "core/geometry/gyro_start.h"
 
 namespace core::closure {
@@ -134,7 +134,7 @@ double GyroRotationLevel::heldout_squares(const Fitted& fitted, const std::vecto
 LevelFit GyroRotationLevel::fit() {
   fitted_ = fit_of(adopted_);
   squares_ = heldout_squares(fitted_, adopted_, pairs_, gyro_);
-  remaining_turn_deg_ = remaining_turn_deg();
+  residual_rotation_deg_ = residual_rotation_deg();
   LevelFit out;
   out.heldout = out.residual_rms = std::sqrt(squares_ / n_heldout_);
   out.noise_floor = sigma_px_;
@@ -221,13 +221,13 @@ std::vector<ParameterValue> GyroRotationLevel::parameters(std::size_t adopted) c
           value("gyro bias z", "deg/s", core::kBias + 2, kDegree)};
 }
 
-double GyroRotationLevel::remaining_turn_deg() const {
+double GyroRotationLevel::residual_rotation_deg() const {
   const GyroProblem problem = this->problem(adopted_);
   GyroState state = fitted_.state;
   state.sigma_px = sigma_px_;
   const DerotatedFlows flows = problem.flows(state);
   (void)problem.cost(state, flows, true);
-  std::vector<RemainingTurn> turns;
+  std::vector<ResidualRotation> turns;
   Matrix3d information = Matrix3d::Zero();
   Vector3d weighted = Vector3d::Zero();
   for (std::size_t k = 0; k < flows.size(); ++k) {
@@ -236,18 +236,18 @@ double GyroRotationLevel::remaining_turn_deg() const {
     for (std::size_t j = 0; j < flows[k].size(); ++j) {
       if (at_rest_[k][j] != 0) at_rest.push_back(flows[k][j]);
     }
-    turns.push_back(remaining_turn(std::move(at_rest), state.model(), state.shift_px[k]));
+    turns.push_back(residual_rotation(std::move(at_rest), state.model(), state.shift_px[k]));
     information += turns.back().information;
     weighted += turns.back().information * turns.back().turn;
   }
   const Vector3d mean = information.ldlt().solve(weighted);
   double squares = 0.0;
-  for (const RemainingTurn& one : turns) squares += (one.turn - mean).dot(one.information * (one.turn - mean));
+  for (const ResidualRotation& one : turns) squares += (one.turn - mean).dot(one.information * (one.turn - mean));
   return kDegree * std::sqrt(squares / (information.trace() / 3.0));
 }
 
 std::string GyroRotationLevel::describe_residual() const {
-  return "the image rotates " + std::to_string(remaining_turn_deg_) + " deg rms a frame beyond the model";
+  return "the image rotates " + std::to_string(residual_rotation_deg_) + " deg rms a frame beyond the model";
 }
 
 std::vector<NotObservable> GyroRotationLevel::not_observable() const {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/closure/observation/frame_model.h"
+#include "core/closure/observation/point_motion_model.h"
 #include "core/closure/observation/observation_record.h"
 
 namespace core::closure {
