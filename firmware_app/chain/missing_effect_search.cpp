@@ -15,7 +15,7 @@
 namespace app {
 
 MissingEffectSearchConfig missing_effect_search_config(const AppConfig& config, const core::CameraInfo& camera,
-                                    const core::TrackFrame& keyframe) {
+                                                       const core::TrackFrame& keyframe) {
   const DeclaredObservation declared = declared_observation(config, camera);
   ObservedPoints points = observed_points(keyframe, config.regions.size(), config.closure.points_per_region);
   std::vector<core::Vector2> keyframe_px;

@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <string>
 
-#include "core/closure/observation/point_motion_model.h"
 #include "core/closure/observation/latent_words.h"
 #include "core/closure/observation/observation_level.h"
+#include "core/closure/observation/point_motion_model.h"
 #include "tools/validate/closure_effects.h"
 #include "tools/validate/closure_tracks.h"
 #include "tools/validate/closure_tracks_run.h"

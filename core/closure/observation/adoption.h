@@ -34,8 +34,8 @@ class Adoption {
   [[nodiscard]] std::vector<std::string> words() const;
   // Of all effects in force. camera: that of the record from which the reports are made.
   [[nodiscard]] RunCorrection correction(const CameraModel& camera) const;
-  // The last update changed the row delays themselves, and not only their precision: an effect that changes them was not
-  // in every report since the first.
+  // The last update changed the row delays themselves, and not only their precision: an effect that changes them was
+  // not in every report since the first.
   [[nodiscard]] bool changes_delays() const noexcept { return changes_delays_; }
 
  private:
@@ -49,7 +49,7 @@ class Adoption {
   void update_in_all(const std::vector<Finding>& now);
 
   std::vector<EffectInForce> in_force_;
-  std::vector<Finding> last_;  // of the previous report
+  std::vector<Finding> last_;     // of the previous report
   std::vector<EffectId> in_all_;  // effects found by every report
   bool has_reports_ = false, changes_delays_ = false;
 };

@@ -17,7 +17,7 @@ struct TestedResidual {
 
 // Why an effect is not behind a gain, though it explains it.
 struct Objection {
-  std::string words;           // empty: none
+  std::string words;            // empty: none
   bool is_other_cause = false;  // it repeats a motion of the model: not even a rival
 };
 

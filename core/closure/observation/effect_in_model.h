@@ -50,8 +50,8 @@ class EffectInModel {
   [[nodiscard]] virtual double added_readout_frames() const { return 0.0; }
 
   // Removes the effect from positions (2 points x frames, px), if it belongs to this stage.
-  virtual void correct(CorrectionStage /*stage*/, const CorrectionView& /*view*/, Eigen::MatrixXd& /*positions*/) const {
-  }
+  virtual void correct(CorrectionStage /*stage*/, const CorrectionView& /*view*/,
+                       Eigen::MatrixXd& /*positions*/) const {}
 
   // A motion that the effect estimates itself: refined between two solutions of the model.
   [[nodiscard]] virtual bool is_refined() const { return n_constants() > 0; }

@@ -27,7 +27,7 @@ class GyroRotationLevel final : public ClosureLevel {
 
   // Throws what core::fit_gyro_readout() does.
   GyroRotationLevel(std::vector<core::FramePair> pairs, std::vector<core::GyroSample> gyro,
-               const core::GyroReadoutConfig& config);
+                    const core::GyroReadoutConfig& config);
 
   [[nodiscard]] std::string name() const override { return "observation"; }
   [[nodiscard]] std::string unit() const override { return "px"; }

@@ -81,8 +81,8 @@ LevelFit ObservationScores::quality() const {
   out.noise_floor = view.sigma_px * std::sqrt(view.held_out.noise_variance() + freedom / n_values);
   out.residual_rms = out.heldout;
   out.structured = true;  // the surrogates show how much noise can do
-  out.words = "held-out residual is " + std::to_string(out.heldout / out.noise_floor) +
-              " of the floor of the declared noise";
+  out.words =
+      "held-out residual is " + std::to_string(out.heldout / out.noise_floor) + " of the floor of the declared noise";
   if (!std::isfinite(out.heldout)) throw std::runtime_error("observation level: the fit did not stay finite");
   return out;
 }

@@ -147,7 +147,7 @@ void PointMotionModel::add_plane_columns(const ObservationRecord& record) {
 }
 
 void PointMotionModel::set_places(const ObservationRecord& record, const Eigen::VectorXd& places_px,
-                            const Eigen::VectorXd& magnification) {
+                                  const Eigen::VectorXd& magnification) {
   for (Eigen::Index j = 0; j < geometry_.x.size(); ++j) {
     geometry_.x(j) = (places_px(2 * j) - record.cx_px) / record.alpha_px;
     geometry_.y(j) = (places_px(2 * j + 1) - record.cy_px) / record.alpha_px;
@@ -254,7 +254,9 @@ void PointMotionModel::solve(const Eigen::MatrixXd& positions, double readout_fr
   }
 }
 
-Eigen::MatrixXd PointMotionModel::residual_px() const { return (residual_.array().colwise() * sigma_px_.array()).matrix(); }
+Eigen::MatrixXd PointMotionModel::residual_px() const {
+  return (residual_.array().colwise() * sigma_px_.array()).matrix();
+}
 
 Eigen::RowVectorXd PointMotionModel::zoom_of_point(Eigen::Index point) const {
   const Eigen::Index row = zoom_row_of_point_[static_cast<std::size_t>(point)];

@@ -26,8 +26,8 @@ Field field_at(const Vector2d& at_px, double f) {
 }
 
 // How a change of d, where the shift takes a point of mean depth, moves it from where it was seen: along the epipolar
-// line as it is, across by the line's turn, times what the point itself went along it. The depth that this tells of is
-// what tells a turn from a shift.
+// line unchanged, across by the line's rotation, times the point's own motion along it. The depth that this shows is
+// what distinguishes a rotation from a translation.
 Matrix2d lever(const DerotatedFlow& flow, const Vector2d& d) {
   const double size = d.norm();
   if (size < kLeastShift_px) return Matrix2d::Identity();
@@ -37,12 +37,12 @@ Matrix2d lever(const DerotatedFlow& flow, const Vector2d& d) {
 
 struct Normal {
   Matrix3d information = Matrix3d::Zero();  // the shift eliminated
-  Vector3d slope = Vector3d::Zero();        // of the cost by the turn that is taken away
+  Vector3d slope = Vector3d::Zero();        // of the cost by the rotation that is removed
 };
 
 Normal linearise(const std::vector<DerotatedFlow>& flows, const DerotatedFlowModel& model, const Vector3d& shift_px) {
   Normal out;
-  Matrix3d turns = Matrix3d::Zero(), mixed = Matrix3d::Zero(), shifts = 1e-9 * Matrix3d::Identity();
+  Matrix3d rotations = Matrix3d::Zero(), mixed = Matrix3d::Zero(), shifts = 1e-9 * Matrix3d::Identity();
   for (const DerotatedFlow& flow : flows) {
     const Field field = field_at(flow.at_px, model.focal_px);
     const Field effect = shift_effect(flow, model.focal_px);
@@ -52,24 +52,25 @@ Normal linearise(const std::vector<DerotatedFlow>& flows, const DerotatedFlowMod
       less.flow_px[axis] -= kStep_px;
       out.slope += field.row(axis).transpose() * (judge(less, shift_px, model).cost - term.cost) / kStep_px;
     }
-    turns += field.transpose() * term.flow_information * field;
+    rotations += field.transpose() * term.flow_information * field;
     const Field by_shift = lever(flow, effect * shift_px) * effect;
     const Matrix2d& of_flow = term.flow_information;
     mixed += field.transpose() * of_flow * by_shift;
     shifts += by_shift.transpose() * of_flow * by_shift + effect.transpose() * (term.information - of_flow) * effect;
   }
-  out.information = turns - mixed * shifts.ldlt().solve(mixed.transpose());
+  out.information = rotations - mixed * shifts.ldlt().solve(mixed.transpose());
   return out;
 }
 
-std::vector<DerotatedFlow> without(std::vector<DerotatedFlow> flows, const Vector3d& turn, double f) {
-  for (DerotatedFlow& flow : flows) flow.flow_px -= field_at(flow.at_px, f) * turn;
+std::vector<DerotatedFlow> without(std::vector<DerotatedFlow> flows, const Vector3d& rotation, double f) {
+  for (DerotatedFlow& flow : flows) flow.flow_px -= field_at(flow.at_px, f) * rotation;
   return flows;
 }
 
 }  // namespace
 
-ResidualRotation residual_rotation(std::vector<DerotatedFlow> flows, const DerotatedFlowModel& model, Vector3d shift_px) {
+ResidualRotation residual_rotation(std::vector<DerotatedFlow> flows, const DerotatedFlowModel& model,
+                                   Vector3d shift_px) {
   ResidualRotation out;
   double before = fit_shift(flows, model, shift_px), damping = kLeastDamping;
   for (int round = 0; round < kRounds; ++round) {
@@ -88,7 +89,7 @@ ResidualRotation residual_rotation(std::vector<DerotatedFlow> flows, const Derot
       if (!(now < before)) continue;
       went = true;
       before = now, shift_px = shift, flows = std::move(next);
-      out.turn += change;
+      out.rotation += change;
       damping = std::max(kLeastDamping, 0.01 * damping);  // a tenth, after the loop's own factor
     }
     if (!went || change.norm() < kStill_rad) break;

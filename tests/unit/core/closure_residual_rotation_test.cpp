@@ -37,9 +37,9 @@ TEST(ResidualRotation, IsFoundBesideAShiftPastManyDepths) {
   double squares = 0.0;
   constexpr int kSeeds = 60;
   for (int seed = 1; seed <= kSeeds; ++seed) {
-    const ResidualRotation found =
-        residual_rotation(flows_of(turn, {2.0, -1.0, 6.0}, static_cast<std::uint64_t>(seed)), kModel, Vector3d(0, 0, 1));
-    const Vector3d off = found.turn - turn;
+    const ResidualRotation found = residual_rotation(flows_of(turn, {2.0, -1.0, 6.0}, static_cast<std::uint64_t>(seed)),
+                                                     kModel, Vector3d(0, 0, 1));
+    const Vector3d off = found.rotation - turn;
     EXPECT_LT(off.dot(found.information * off), 21.0) << seed;  // chi-square of three: 99.99 %
     EXPECT_LT(off.norm(), 0.1 * turn.norm()) << seed;
     squares += off.dot(found.information * off) / 3.0;
@@ -50,7 +50,7 @@ TEST(ResidualRotation, IsFoundBesideAShiftPastManyDepths) {
 TEST(ResidualRotation, OfNoneIsNearNone) {
   const ResidualRotation found =
       residual_rotation(flows_of(Vector3d::Zero(), {2.0, -1.0, 6.0}, 1), kModel, Vector3d(0, 0, 1));
-  EXPECT_LT(found.turn.dot(found.information * found.turn), 16.0);  // chi-square of three: 99.9 %
+  EXPECT_LT(found.rotation.dot(found.information * found.rotation), 16.0);  // chi-square of three: 99.9 %
 }
 
 // A steady turn about the picture's own axes looks like a shift where all depths are equal and the view is narrow.
@@ -64,7 +64,7 @@ TEST(ResidualRotation, SaysThatANarrowViewCannotTellItFromAShift) {
 
 TEST(ResidualRotation, OfNoPointsTellsNothing) {
   const ResidualRotation found = residual_rotation({}, kModel, Vector3d(0, 0, 1));
-  EXPECT_EQ(found.turn, Vector3d::Zero());
+  EXPECT_EQ(found.rotation, Vector3d::Zero());
   EXPECT_EQ(found.information, Eigen::Matrix3d::Zero());
 }
 

@@ -23,7 +23,8 @@ class ReadoutTime final : public ConstantEffect, private InFlightCorrection {
   [[nodiscard]] double added_readout_frames(const Eigen::VectorXd& values) const override { return values(0); }
   [[nodiscard]] std::optional<NotObservable> obstacle(const FitView& fit, bool /*is_adopted*/) const override {
     if (fit.model.readout_field().norm() > kLeastMotion * std::sqrt(fit.held_out.n_values())) return std::nullopt;
-    return NotObservable{name(), "no motion across the lines of the sensor", "film an object that moves over more rows"};
+    return NotObservable{name(), "no motion across the lines of the sensor",
+                         "film an object that moves over more rows"};
   }
 
   [[nodiscard]] const InFlightCorrection* in_flight() const override { return this; }

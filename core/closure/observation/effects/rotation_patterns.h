@@ -8,8 +8,8 @@
 
 namespace core::closure {
 
-// First order of a rotation of the camera: px per rad, 2 points long. Of pitch and yaw the constant part, a translation,
-// is left out: it is free in every frame.
+// First order of a rotation of the camera: px per rad, 2 points long. Of pitch and yaw the constant part, a
+// translation, is left out: it is free in every frame.
 [[nodiscard]] Eigen::VectorXd roll_pattern(const PointGeometry& g);
 [[nodiscard]] Eigen::VectorXd pitch_pattern(const PointGeometry& g);
 [[nodiscard]] Eigen::VectorXd yaw_pattern(const PointGeometry& g);

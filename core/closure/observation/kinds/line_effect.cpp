@@ -11,8 +11,8 @@ namespace {
 constexpr double kOfPattern = 0.7;  // of the gain of the best pattern learned in its band
 
 LineSearch search_in(const LineEffect& effect, const FitView& fit) {
-  return {fit.model, fit.record.rate_hz, fit.readout_frames,
-          effect.patterns(fit.model.geometry(), fit.readout_frames), fit.record.n_frames()};
+  return {fit.model, fit.record.rate_hz, fit.readout_frames, effect.patterns(fit.model.geometry(), fit.readout_frames),
+          fit.record.n_frames()};
 }
 
 // Points x frames: how much later in the readout than on average a point is seen, as it drifts over the lines.
