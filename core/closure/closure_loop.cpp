@@ -78,6 +78,7 @@ class Loop {
     }
     ClosureStep step;
     step.effect = scores[best].effect;
+    step.id = scores[best].id;
     step.kind = scores[best].kind;
     step.heldout_before = before.heldout;
     step.heldout_after = fit_.heldout;

@@ -9,6 +9,7 @@
 #include "core/closure/closure_loop.h"
 #include "core/closure/noise_stream.h"
 #include "core/closure/structure_words.h"
+#include "core/structure/effects/catalogue.h"
 
 namespace core::closure {
 
@@ -112,6 +113,7 @@ std::vector<CandidateScore> StructureLevel::score() {
     const LeaveOneOut loo = leave_one_out(model, reference_, fit);
     CandidateScore score;
     score.effect = effect->name();
+    score.id = {score.effect};
     score.n_parameters = effect->parameters(declared_).size();
     score.heldout = loo.rms_percent;
     score.score = std::isfinite(loo.chi2) ? loo_.chi2 - loo.chi2 : -std::numeric_limits<double>::infinity();

@@ -4,6 +4,7 @@
 
 #include "core/closure/structure_level.h"
 #include "core/closure/structure_words.h"
+#include "core/structure/effects/catalogue.h"
 
 namespace core::closure {
 

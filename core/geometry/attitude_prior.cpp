@@ -87,7 +87,7 @@ std::optional<AttitudePrior::Turn> AttitudePrior::at(double t_s) const noexcept 
   return Turn{before.camera, std::hypot(config_.sigma_rad, rate_rad_s * age_s)};
 }
 
-void AttitudePrior::before(CameraMotion& motion, double t_s) noexcept {
+void AttitudePrior::before(CameraMotionEstimator& motion, double t_s) noexcept {
   measured_.reset();
   motion.measure_turn(std::nullopt);
   if (given_up_) return;
@@ -105,7 +105,7 @@ void AttitudePrior::before(CameraMotion& motion, double t_s) noexcept {
   ++n_used_;
 }
 
-void AttitudePrior::after(const CameraMotion& motion) noexcept {
+void AttitudePrior::after(const CameraMotionEstimator& motion) noexcept {
   if (!measured_) return;
   const Vector3d left = *measured_ - motion.estimate().segment<3>(kPitch);
   if (!left.allFinite()) return;

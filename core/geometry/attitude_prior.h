@@ -35,8 +35,8 @@ class AttitudePrior {
 
   void take(const AttitudeSample& sample) noexcept;
   // Between predict() and correct() of the frame at t_s; after settle().
-  void before(CameraMotion& motion, double t_s) noexcept;
-  void after(const CameraMotion& motion) noexcept;
+  void before(CameraMotionEstimator& motion, double t_s) noexcept;
+  void after(const CameraMotionEstimator& motion) noexcept;
 
   // Rotation of the camera relative to the first attitude requested, and its standard deviation (rad, per axis).
   struct Turn {

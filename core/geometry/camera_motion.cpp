@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace core {
 
@@ -28,24 +29,16 @@ constexpr double kPoorlyTold = 10.0;
 
 }  // namespace
 
-CameraMotion::CameraMotion(const CameraMotionConfig& config, const std::vector<KeyframePoint>& points,
-                           const std::vector<KeyframeRegion>& regions, double t_keyframe_s)
+CameraMotionEstimator::CameraMotionEstimator(const CameraMotionConfig& config, const std::vector<KeyframePoint>& points,
+                                             const std::vector<KeyframeRegion>& regions, double t_keyframe_s)
     : config_(config),
       process_(kCorner_hz),
       before_(kCorner_hz),
       settled_(kCorner_hz),
       t_s_(t_keyframe_s),
       equations_(config.fx, config.fy, config.readout_s, mean_share(points), regions.size()) {
-  for (const KeyframeRegion& region : regions) regions_.push_back({.about = region});
-  for (const KeyframePoint& point : points) {
-    MotionPoint p;
-    p.ray = {point.x, point.y, 1.0};
-    p.inverse_depth = point.inverse_depth;
-    p.region = point.region;
-    points_.push_back(p);
-  }
-  place_middles(points);
-  add_own_columns(points);
+  MotionKeyframe keyframe = motion_keyframe(points, regions, config.distance_mm);
+  points_ = std::move(keyframe.points), regions_ = std::move(keyframe.regions), middle_ = keyframe.middle;
   rests_ = std::any_of(regions.begin(), regions.end(),
                        [](const KeyframeRegion& region) { return region.kind != KeyframeRegion::Kind::kMoving; });
   const double d = config.distance_mm;
@@ -55,13 +48,13 @@ CameraMotion::CameraMotion(const CameraMotionConfig& config, const std::vector<K
   process_.start(sd_);
 }
 
-double CameraMotion::mean_share(const std::vector<KeyframePoint>& points) noexcept {
+double CameraMotionEstimator::mean_share(const std::vector<KeyframePoint>& points) noexcept {
   double sum = 0.0;
   for (const KeyframePoint& point : points) sum += point.readout_share;
   return points.empty() ? 0.0 : sum / static_cast<double>(points.size());
 }
 
-void CameraMotion::set_sd() noexcept {
+void CameraMotionEstimator::set_sd() noexcept {
   log_variance_[0] = std::clamp(log_variance_[0], 2.0 * std::log(kLeastTurn_rad), 2.0 * std::log(kMostTurn_rad));
   log_variance_[1] = std::clamp(log_variance_[1], 2.0 * std::log(kLeastShift), 2.0 * std::log(kMostShift));
   sd_ = base_;
@@ -69,7 +62,7 @@ void CameraMotion::set_sd() noexcept {
   sd_.segment<3>(kShiftX) *= std::exp(0.5 * log_variance_[1]);
 }
 
-void CameraMotion::predict(double t_s) noexcept {
+void CameraMotionEstimator::predict(double t_s) noexcept {
   raised_ = false;
   settled_ = process_;
   dt_s_ = std::max(0.0, t_s - t_s_);
@@ -82,7 +75,7 @@ void CameraMotion::predict(double t_s) noexcept {
 
 // The derivatives by time enter as what they are now estimated to be: rows tell them too, but a wrong readout time, and
 // what moved while the keyframe itself was read, would pass for them.
-void CameraMotion::iterate(const MotionObservation& seen) noexcept {
+void CameraMotionEstimator::iterate(const MotionObservation& seen) noexcept {
   process_ = before_;
   MotionStateVector linear = before_.mean(), step = MotionStateVector::Zero();
   for (int pass = 0; pass < kIterations; ++pass) {
@@ -104,14 +97,14 @@ void CameraMotion::iterate(const MotionObservation& seen) noexcept {
   taken_ = process_.mean();
 }
 
-void CameraMotion::add_turn(const MotionStateVector& linear, MotionVector& gradient) noexcept {
+void CameraMotionEstimator::add_turn(const MotionStateVector& linear, MotionVector& gradient) noexcept {
   if (!turn_) return;
   const double weight = 1.0 / (turn_->sigma_rad * turn_->sigma_rad);
   information_.diagonal().segment<3>(kPitch).array() += weight;
   gradient.segment<3>(kPitch) += weight * (turn_->turn_rad - linear.segment<3>(kPitch));
 }
 
-void CameraMotion::correct(const MotionObservation& seen) noexcept {
+void CameraMotionEstimator::correct(const MotionObservation& seen) noexcept {
   iterate(seen);
   if (raised_ || !surprised()) return;
   raised_ = true;
@@ -122,7 +115,7 @@ void CameraMotion::correct(const MotionObservation& seen) noexcept {
 }
 
 // A group of components that moved by far more than its prior lets it: the prior is widened at once.
-bool CameraMotion::surprised() noexcept {
+bool CameraMotionEstimator::surprised() noexcept {
   bool any = false;
   for (std::size_t g = 0; g < log_variance_.size(); ++g) {
     double most = 0.0;
@@ -139,7 +132,7 @@ bool CameraMotion::surprised() noexcept {
 }
 
 // One step up the likelihood of the group's variance: each component's correction against what the filter expects.
-void CameraMotion::learn() noexcept {
+void CameraMotionEstimator::learn() noexcept {
   for (std::size_t g = 0; g < log_variance_.size(); ++g) {
     double sum = 0.0, count = 0.0;
     for (int i = static_cast<int>(3 * g); i < static_cast<int>(3 * g) + 3; ++i) {
@@ -153,7 +146,7 @@ void CameraMotion::learn() noexcept {
   }
 }
 
-bool CameraMotion::settle() noexcept {
+bool CameraMotionEstimator::settle() noexcept {
   position_covariance_ = process_.covariance().topLeftCorner<n, n>();
   open_.fill(false);
   const bool left_out = leave_out_poorly_told();
@@ -164,7 +157,7 @@ bool CameraMotion::settle() noexcept {
 }
 
 // Greatest effect along an axis of the region.
-double CameraMotion::effect_px(const MotionVector& motion, std::size_t r) const noexcept {
+double CameraMotionEstimator::effect_px(const MotionVector& motion, std::size_t r) const noexcept {
   const MotionRegion& region = regions_[r];
   const Eigen::Vector2d px = region.effect * motion;
   double most = 0.0;
@@ -175,7 +168,7 @@ double CameraMotion::effect_px(const MotionVector& motion, std::size_t r) const 
 }
 
 // What is known of the others, this one given.
-void CameraMotion::give_up(int component) noexcept {
+void CameraMotionEstimator::give_up(int component) noexcept {
   open_[static_cast<std::size_t>(component)] = true;
   const MotionVector column = position_covariance_.col(component);
   if (column(component) > 0.0) position_covariance_ -= column * column.transpose() / column(component);
@@ -185,7 +178,7 @@ void CameraMotion::give_up(int component) noexcept {
 
 // This frame alone (and the prior's size) leaves a shift and what goes with it the direction `along`: the state is
 // moved along it to where the shift is zero, and fits the frame as before.
-bool CameraMotion::leave_out_poorly_told() noexcept {
+bool CameraMotionEstimator::leave_out_poorly_told() noexcept {
   const auto scale = sd_.asDiagonal();
   MotionMatrix scaled = scale * information_ * scale;
   scaled.diagonal().array() += 1.0;
@@ -213,7 +206,7 @@ bool CameraMotion::leave_out_poorly_told() noexcept {
 }
 
 // From the component that is known worst, in px at the channels: what is open is taken as given, the rest judged again.
-void CameraMotion::find_open() noexcept {
+void CameraMotionEstimator::find_open() noexcept {
   for (int round = 0; round < n; ++round) {
     int worst = -1;
     double worst_px = kOpen_px;
@@ -229,13 +222,13 @@ void CameraMotion::find_open() noexcept {
   }
 }
 
-double CameraMotion::sigma_px(std::size_t region, double e_u, double e_v) const noexcept {
+double CameraMotionEstimator::sigma_px(std::size_t region, double e_u, double e_v) const noexcept {
   const MotionVector effect = (Eigen::RowVector2d(e_u, e_v) * regions_[region].effect).transpose();
   return std::sqrt(std::max(0.0, effect.dot(position_covariance_ * effect)));
 }
 
 // The point's ray of this frame in keyframe axes, up to the point's plane.
-Vector2 CameraMotion::stabilised(std::size_t i, const Vector2& position, double share) const noexcept {
+Vector2 CameraMotionEstimator::stabilised(std::size_t i, const Vector2& position, double share) const noexcept {
   const MotionPoint& point = points_[i];
   const MotionPose pose = equations_.pose(taken_, share);
   const Eigen::Vector3d seen(position.u / config_.fx, position.v / config_.fy, 1.0);
@@ -253,7 +246,7 @@ Vector2 CameraMotion::stabilised(std::size_t i, const Vector2& position, double 
           config_.fy * ((point.ray.y() + moved.y()) / z - point.ray.y())};
 }
 
-double CameraMotion::magnification() const noexcept {
+double CameraMotionEstimator::magnification() const noexcept {
   const MotionPose pose(taken_.head<n>());
   return 1.0 / (pose.turn * (middle_ + pose.face * pose.shift / config_.distance_mm)).z();
 }

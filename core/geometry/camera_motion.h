@@ -9,19 +9,11 @@
 #include <vector>
 
 #include "core/geometry/motion_equations.h"
+#include "core/geometry/motion_keyframe.h"
 #include "core/geometry/motion_process.h"
 #include "core/types/vector2.h"
 
 namespace core {
-
-// One point of the keyframe. (x, y, 1) = its ray, undistorted; q = 1 / depth, 0 for far away.
-struct KeyframePoint {
-  double x = 0.0, y = 0.0;
-  double inverse_depth = 0.0;  // 1/mm
-  double readout_share = 0.0;  // along the readout, of the raw row
-  double sigma_px = 0.03;
-  std::uint16_t region = 0;
-};
 
 struct CameraMotionConfig {
   double fx = 0.0, fy = 0.0;    // px
@@ -61,11 +53,11 @@ struct TurnMeasurement {
 //
 // One thread; nothing allocates after construction; the same bits in every run. Never NaN: frames whose solution is not
 // finite are counted and stay at the prediction.
-class CameraMotion {
+class CameraMotionEstimator {
  public:
   // t_keyframe_s: when row 0 of the keyframe was read, any origin. Needs a static region or measured rotations.
-  CameraMotion(const CameraMotionConfig& config, const std::vector<KeyframePoint>& points,
-               const std::vector<KeyframeRegion>& regions, double t_keyframe_s);
+  CameraMotionEstimator(const CameraMotionConfig& config, const std::vector<KeyframePoint>& points,
+                        const std::vector<KeyframeRegion>& regions, double t_keyframe_s);
 
   // Predicts the frame whose row 0 is read at t_s. A time before the last one counts as the same time.
   void predict(double t_s) noexcept;
@@ -100,9 +92,6 @@ class CameraMotion {
  private:
   // The state refers to the instant of this row.
   [[nodiscard]] static double mean_share(const std::vector<KeyframePoint>& points) noexcept;
-  [[nodiscard]] bool in_plane(const MotionPoint& point) const noexcept;
-  void place_middles(const std::vector<KeyframePoint>& points);
-  void add_own_columns(const std::vector<KeyframePoint>& points);
   void set_sd() noexcept;
   void learn() noexcept;
   void iterate(const MotionObservation& seen) noexcept;

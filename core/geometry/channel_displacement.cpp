@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "core/geometry/channel_layout.h"
 #include "core/geometry/keyframe_view.h"
 #include "core/geometry/resting_region.h"
 #include "core/tracking/outlier_rejection.h"
@@ -77,8 +79,6 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
   inlier_ = inlier_before_ = seen_;
   if (config_.paper_method) shutter_ = make_published_shutter();
   make_channels();
-  spectra_ = channels_;
-  if (config_.witness && config_.scale_only && !config_.paper_method) make_witnesses();
   if (!config_.adaptive_scale || config_.scale_only || config_.paper_method) return;
   const bool turns_measured = config_.attitude && config_.camera.calibrated();
   if (!turns_measured && !tells_camera_motion(config_.regions, config_.camera)) return;
@@ -88,6 +88,55 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
   config_.attitude->delay_s += config_.readout.readout_s * mean_of(readout_share_);  // where the motion's state counts
   attitude_.emplace(*config_.attitude);
   attitude_->before(*camera_motion_, static_cast<double>(keyframe.t_start_ns) * 1e-9);
+}
+
+// Delays are of the same weighted mean as the channel's.
+std::vector<RegionPoints> ChannelDisplacement::region_points() const {
+  std::vector<RegionPoints> out;
+  for (const RegionRange& range : ranges_) {
+    double share = 0.0, weight = 0.0;
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      share += weight_[i] * readout_share_[i];
+      weight += weight_[i];
+    }
+    const bool is_late = weight > 0.0 && !config_.paper_method;
+    out.push_back({range.size(), is_late ? config_.readout.readout_s * share / weight : 0.0});
+  }
+  return out;
+}
+
+void ChannelDisplacement::make_channels() {
+  const std::vector<RegionPoints> points = region_points();
+  channels_ = channel_layout(config_.regions, points);
+  spectra_ = channels_;
+  if (!config_.witness || !config_.scale_only || config_.paper_method) return;
+  for (ChannelInfo& witness : witness_layout(config_.regions, points, channels_, config_.min_points))
+    spectra_.push_back(std::move(witness));
+}
+
+// The camera's velocity against the structure is told where the structure itself does not vibrate: at its base. Where
+// none is declared, all of its points are taken; part of every mode's own velocity is then in their mean.
+PublishedShutter ChannelDisplacement::make_published_shutter() const {
+  const std::vector<Region>& all = config_.regions;
+  const bool has_base =
+      std::any_of(all.begin(), all.end(), [](const Region& region) { return region.role == RegionRole::kBase; });
+  std::vector<PublishedShutter::Region> regions;
+  for (std::size_t r = 0; r < ranges_.size(); ++r) {
+    const bool follows = has_base ? all[r].role == RegionRole::kBase : makes_channel(all[r].role);
+    regions.push_back({ranges_[r].begin, ranges_[r].end, follows});
+  }
+  return {config_.shutter_velocity, std::move(regions), keyframe_.size()};
+}
+
+DisplacementSample ChannelDisplacement::sample_prototype() const {
+  DisplacementSample sample;
+  sample.value_mm.assign(channels_.size(), 0.0);
+  sample.sigma_mm.assign(channels_.size(), 0.0);
+  sample.seen.assign(channels_.size(), 0);
+  sample.n_points.assign(channels_.size(), 0);
+  sample.witness_mm.assign(n_witnesses(), 0.0);
+  sample.witness_seen.assign(n_witnesses(), 0);
+  return sample;
 }
 
 void ChannelDisplacement::place_points(const TrackFrame& tracks) noexcept {

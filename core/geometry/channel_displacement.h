@@ -6,6 +6,7 @@
 #include "core/geometry/attitude_prior.h"
 #include "core/geometry/camera_model.h"
 #include "core/geometry/camera_motion.h"
+#include "core/geometry/channel_layout.h"
 #include "core/geometry/plane_pose.h"
 #include "core/geometry/point_correction.h"
 #include "core/geometry/published_shutter.h"
@@ -38,10 +39,10 @@ struct ChannelDisplacementConfig {
 };
 
 // From the points of one frame to the displacement of every channel relative to the keyframe: each point's motion in
-// the structure's plane with the camera's motion taken away (CameraMotion), weighted mean of the region's inliers,
-// along the region's axis. Scale only, and `paper` (Eq. 4): d = S_i (p_i - c) - S_0 (p_0 - c), c = principal point.
-// Points are undistorted; outliers are rejected per region by MLESAC about the predicted, then the estimated motion.
-// `hovermodal` leaves the samples at the instants at which rows were read and states the delay of each channel
+// the structure's plane with the camera's motion taken away (CameraMotionEstimator), weighted mean of the region's
+// inliers, along the region's axis. Scale only, and `paper` (Eq. 4): d = S_i (p_i - c) - S_0 (p_0 - c), c = principal
+// point. Points are undistorted; outliers are rejected per region by MLESAC about the predicted, then the estimated
+// motion. `hovermodal` leaves the samples at the instants at which rows were read and states the delay of each channel
 // (METHOD.md); `paper` moves them to row 0 with Eqs. 7-8. What rests (background, ground) makes no channel, but
 // where only the scale is followed a witness of the camera's shift along each direction of the channels: the resting
 // region with the most points, its own zoom taken away.
@@ -73,7 +74,7 @@ class ChannelDisplacement {
   // null: none was announced, or no camera motion is estimated.
   [[nodiscard]] const AttitudePrior* attitude() const noexcept { return attitude_ ? &*attitude_ : nullptr; }
   // null: not estimated.
-  [[nodiscard]] const CameraMotion* camera_motion() const noexcept {
+  [[nodiscard]] const CameraMotionEstimator* camera_motion() const noexcept {
     return camera_motion_ ? &*camera_motion_ : nullptr;
   }
 
@@ -84,9 +85,8 @@ class ChannelDisplacement {
     [[nodiscard]] std::size_t size() const noexcept { return end - begin; }
   };
 
+  [[nodiscard]] std::vector<RegionPoints> region_points() const;
   void make_channels();
-  void make_witnesses();
-  [[nodiscard]] double delay_s(const RegionRange& range) const noexcept;
   void follow_what_rests() noexcept;
   void place_points(const TrackFrame& tracks) noexcept;
   [[nodiscard]] double follow_camera(std::int64_t t_start_ns) noexcept;
@@ -115,7 +115,7 @@ class ChannelDisplacement {
   ScaleFactor scale_;
   int n_contradicted_ = 0;
   bool camera_given_up_ = false;
-  std::optional<CameraMotion> camera_motion_;  // none: scale only, paper, or a camera that stands still
+  std::optional<CameraMotionEstimator> camera_motion_;  // none: scale only, paper, or a camera that stands still
   std::optional<AttitudePrior> attitude_;
   std::vector<Vector2> position_, motion_;    // undistorted px from the principal point; step since the keyframe with
                                               // the camera's motion taken away, keyframe px

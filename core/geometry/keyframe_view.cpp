@@ -63,9 +63,9 @@ bool tells_camera_motion(const std::vector<Region>& regions, const CameraModel& 
          std::any_of(regions.begin(), regions.end(), [](const Region& region) { return !makes_channel(region.role); });
 }
 
-CameraMotion make_camera_motion(const std::vector<Region>& regions, const CameraModel& camera,
-                                const ReadoutModel& readout, double scale_mm_per_px, const TrackFrame& keyframe,
-                                const std::optional<PlanePose>& plane) {
+CameraMotionEstimator make_camera_motion(const std::vector<Region>& regions, const CameraModel& camera,
+                                         const ReadoutModel& readout, double scale_mm_per_px,
+                                         const TrackFrame& keyframe, const std::optional<PlanePose>& plane) {
   CameraMotionConfig config;
   config.fx = camera.fx;
   config.fy = camera.fy;

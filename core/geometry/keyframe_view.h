@@ -19,10 +19,10 @@ namespace core {
 // The estimator for the view of the first frame: structure, base and ground in a plane that faces the camera at
 // distance fx * scale_mm_per_px, or has the pose `plane`; background at its region's depth_m, or infinitely far. Needs
 // a calibrated camera and a static region (tells_camera_motion).
-[[nodiscard]] CameraMotion make_camera_motion(const std::vector<Region>& regions, const CameraModel& camera,
-                                              const ReadoutModel& readout, double scale_mm_per_px,
-                                              const TrackFrame& keyframe,
-                                              const std::optional<PlanePose>& plane = std::nullopt);
+[[nodiscard]] CameraMotionEstimator make_camera_motion(const std::vector<Region>& regions, const CameraModel& camera,
+                                                       const ReadoutModel& readout, double scale_mm_per_px,
+                                                       const TrackFrame& keyframe,
+                                                       const std::optional<PlanePose>& plane = std::nullopt);
 
 // Unit vector of the axis along which a region moves (Region::axis_deg).
 [[nodiscard]] Vector2 axis_of(const Region& region) noexcept;

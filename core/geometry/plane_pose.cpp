@@ -56,9 +56,9 @@ struct Prepared {
   Spread image, plane;
 };
 
-Prepared prepare(std::span<const PlanePoint> points, const CameraModel& camera) {
+Prepared prepare(std::span<const PlaneCorrespondence> points, const CameraModel& camera) {
   Prepared out;
-  for (const PlanePoint& p : points) {
+  for (const PlaneCorrespondence& p : points) {
     out.rays.emplace_back((p.ideal_px.u - camera.cx) / camera.fx, (p.ideal_px.v - camera.cy) / camera.fy);
     out.places.emplace_back(p.place.x_mm, p.place.y_mm);
   }
@@ -104,9 +104,9 @@ struct Equations {
   bool in_front = true;
 };
 
-Equations equations(const PlanePose& pose, std::span<const PlanePoint> points) {
+Equations equations(const PlanePose& pose, std::span<const PlaneCorrespondence> points) {
   Equations out;
-  for (const PlanePoint& point : points) {
+  for (const PlaneCorrespondence& point : points) {
     const Vector3d p = in_camera(pose, point.place);
     if (!(p.z() > 0.0)) {
       out.in_front = false;
@@ -138,7 +138,7 @@ PlanePose moved(PlanePose pose, const Vector6& step) {
 }
 
 // Levenberg-Marquardt: plain Gauss-Newton may step over to the other solution.
-bool refine(PlanePose& pose, std::span<const PlanePoint> points, double sigma_px) {
+bool refine(PlanePose& pose, std::span<const PlaneCorrespondence> points, double sigma_px) {
   constexpr int kSteps = 100;
   double damping = 1e-4;
   Equations now = equations(pose, points);
@@ -237,7 +237,7 @@ double PlanePose::obliqueness_sigma_deg() const noexcept {
   return std::sqrt(across.dot(turn * across)) * kDegrees;
 }
 
-PlanePoseFit fit_plane_pose(std::span<const PlanePoint> points, const CameraModel& camera, double sigma_px) {
+PlanePoseFit fit_plane_pose(std::span<const PlaneCorrespondence> points, const CameraModel& camera, double sigma_px) {
   PlanePoseFit out;
   const auto refused = [&out](PlaneStatus status) {
     out.status = status;

@@ -14,7 +14,7 @@ struct PlanePlace {
   double x_mm = 0.0, y_mm = 0.0;
 };
 
-struct PlanePoint {
+struct PlaneCorrespondence {
   Vector2 ideal_px;  // undistorted (CameraModel::undistort)
   PlanePlace place;
 };
@@ -63,7 +63,7 @@ struct PlanePoseFit {
 // from it (Zhang 2000, 3.1), Gauss-Newton on the reprojection error; the second start mirrors the depths about the
 // points' middle (Schweighofer & Pinz 2006). sigma_px: of a pixel, per axis; the covariance grows with the residual
 // where that is larger. Status kNoFit: the points contradict each other, or are behind the camera.
-[[nodiscard]] PlanePoseFit fit_plane_pose(std::span<const PlanePoint> points, const CameraModel& camera,
+[[nodiscard]] PlanePoseFit fit_plane_pose(std::span<const PlaneCorrespondence> points, const CameraModel& camera,
                                           double sigma_px);
 
 }  // namespace core

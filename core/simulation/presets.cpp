@@ -47,7 +47,7 @@ constexpr Cantilever kChimney{30.0e3, 8, 2.8e8, 170.0, 80.0};
 StructureDescription cantilever_structure() { return {kChimney, {{0.008, 0.010, 0.012}}}; }
 
 StructureDescription shear_frame_structure() {
-  ShearFrame frame;
+  ShearBuilding frame;
   frame.mass_kg = {12.0, 11.0, 11.0, 8.0};
   frame.stiffness_n_per_m = {1.9e4, 1.6e4, 1.4e4, 1.2e4};
   return {frame, {{0.010, 0.008, 0.012, 0.015}}};
@@ -63,7 +63,7 @@ struct Builder {
     ratio.resize(chain.frequency_hz.size(), ratio.back());
     return uniform_chain(chain.frequency_hz, ratio);
   }
-  StructureModel operator()(const ShearFrame& frame) const { return shear_frame(frame, damping); }
+  StructureModel operator()(const ShearBuilding& frame) const { return shear_frame(frame, damping); }
   StructureModel operator()(const Cantilever& tower) const { return cantilever(tower, damping); }
   StructureModel operator()(const BridgeDeck& deck) const { return bridge_deck(deck, damping); }
 };

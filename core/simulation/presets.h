@@ -31,7 +31,7 @@ struct UniformChain {
   std::vector<double> frequency_hz;
 };
 struct StructureDescription {
-  std::variant<UniformChain, ShearFrame, Cantilever, BridgeDeck> kind;
+  std::variant<UniformChain, ShearBuilding, Cantilever, BridgeDeck> kind;
   ModalDamping damping;  // the last ratio holds for all modes above
 };
 [[nodiscard]] StructureModel build(const StructureDescription& description);

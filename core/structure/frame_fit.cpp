@@ -200,6 +200,15 @@ std::vector<double> FrameModel::of_effect(std::size_t i_effect, const VectorXd& 
   return {parameters.data() + at, parameters.data() + at + n};
 }
 
+ShearFrame uniform_frame(const DeclaredFrame& declared, double stiffness_over_mass_per_s2) {
+  ShearFrame frame;
+  frame.mass = declared.mass.empty() ? std::vector<double>(declared.n_storeys, 1.0) : declared.mass;
+  frame.stiffness_per_s2 =
+      declared.stiffness_ratio.empty() ? std::vector<double>(declared.n_storeys, 1.0) : declared.stiffness_ratio;
+  for (double& k : frame.stiffness_per_s2) k *= stiffness_over_mass_per_s2;
+  return frame;
+}
+
 ShearFrame frame_of(const FrameModel& model, const VectorXd& parameters) {
   const double scale =
       model.n_scale() == 1 ? std::exp(parameters(0)) : model.declared->stiffness_over_mass_per_s2.value_or(1.0);

@@ -20,6 +20,8 @@ struct FrameModel {
   [[nodiscard]] std::vector<double> of_effect(std::size_t i_effect, const Eigen::VectorXd& parameters) const;
 };
 
+// The frame as declared; ratio 1 means `stiffness_over_mass_per_s2`.
+[[nodiscard]] ShearFrame uniform_frame(const DeclaredFrame& declared, double stiffness_over_mass_per_s2);
 [[nodiscard]] ShearFrame frame_of(const FrameModel& model, const Eigen::VectorXd& parameters);
 // Modes as observed; empty if the frame has none.
 [[nodiscard]] std::optional<FrameModes> seen_modes(const FrameModel& model, const Eigen::VectorXd& parameters,

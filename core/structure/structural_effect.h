@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,7 +23,7 @@ struct Obstacle {
   std::string instead;  // what would make it observable
 };
 
-// One physical cause that a shear frame lacks: one file, one line in effects/registry.cpp. Stateless.
+// One physical cause that a shear frame lacks: one file and one line in effects/catalogue.h. Stateless.
 class StructuralEffect {
  public:
   StructuralEffect() = default;
@@ -52,11 +51,5 @@ class StructuralEffect {
     return {};
   }
 };
-
-// All of them; registry.cpp has one line each.
-[[nodiscard]] const std::vector<std::unique_ptr<StructuralEffect>>& structural_effects();
-
-// The frame as declared; ratio 1 means `stiffness_over_mass_per_s2`.
-[[nodiscard]] ShearFrame uniform_frame(const DeclaredFrame& declared, double stiffness_over_mass_per_s2);
 
 }  // namespace core::structure

@@ -12,6 +12,12 @@ namespace core::closure {
 
 enum class EffectKind : std::uint8_t { kNamed, kLatent };
 
+// Key of an effect in the catalogue of its level: for programs. Readers are shown its name.
+struct EffectId {
+  std::string key;
+  friend bool operator==(const EffectId&, const EffectId&) = default;
+};
+
 struct ParameterValue {
   std::string name, unit;
   double value = 0.0;
@@ -26,6 +32,7 @@ struct CandidateScore {
   double heldout = 0.0;  // error on data that its fit did not see
   double score = 0.0;    // drop of the held-out squares in units of the noise variance; more is better
   std::string refusal;   // why it may not be adopted however large its score: immaterial, implausible; empty = it may
+  EffectId id{};
 };
 
 struct ClosureStep {
@@ -37,6 +44,7 @@ struct ClosureStep {
   double score = 0.0, threshold = 0.0;
   std::vector<std::string> rivals;     // in its place they would do as well: none of these is shown to be the cause
   std::vector<CandidateScore> others;  // the other candidates of that step, best first
+  EffectId id{};
 };
 
 struct NotObservable {

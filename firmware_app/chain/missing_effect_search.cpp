@@ -15,7 +15,7 @@
 namespace app {
 
 MissingEffectSearchConfig missing_effect_search_config(const AppConfig& config, const core::CameraInfo& camera,
-                                    const core::TrackFrame& keyframe) {
+                                                       const core::TrackFrame& keyframe) {
   const DeclaredObservation declared = declared_observation(config, camera);
   ObservedPoints points = observed_points(keyframe, config.regions.size(), config.closure.points_per_region);
   std::vector<core::Vector2> keyframe_px;
@@ -90,11 +90,11 @@ std::optional<CorrectionSet> MissingEffectSearch::correction_set() const {
   if (!has_changed_) return std::nullopt;
   CorrectionSet out;
   out.from_sequence = changes_from_;
-  out.places = adoption_.places(config_.camera);
+  const core::closure::RunCorrection correction = adoption_.correction(config_.camera);
+  out.places = correction.places;
   if (out.places.lens.calibrated()) out.places.in_keyframe = lens_in_keyframe(out.places.lens);
-  const core::closure::ParameterValue readout = adoption_.added_readout();
-  out.added_readout_frames = readout.value;
-  out.readout_sigma_frames = readout.sigma.value_or(0.0);
+  out.added_readout_frames = correction.added_readout.value;
+  out.readout_sigma_frames = correction.added_readout.sigma.value_or(0.0);
   out.begins_record = adoption_.changes_delays();
   out.words = adoption_.words();
   return out;

@@ -86,7 +86,7 @@ class ScaleReader {
     }
   }
 
-  [[nodiscard]] core::PlanePoseFit fit_plane(std::span<const core::PlanePoint> points) const {
+  [[nodiscard]] core::PlanePoseFit fit_plane(std::span<const core::PlaneCorrespondence> points) const {
     const core::PlanePoseFit fit = core::fit_plane_pose(points, camera_, scale_.point_sigma_px);
     const auto refuse = [](const std::string& why) {
       throw ConfigError("scale.points: are refused: allowed 4 or more points of one plane; " + why);
@@ -122,13 +122,13 @@ class ScaleReader {
   }
 
   void take_plane() {
-    std::vector<core::PlanePoint> points;
+    std::vector<core::PlaneCorrespondence> points;
     for (const auto& row : scale_.points) points.push_back({seen({row[0], row[1]}), {row[2], row[3]}});
     const core::PlanePoseFit fit = fit_plane(points);
     out_.plane = fit.pose;
     out_.known = true;
     core::PlanePlace middle;
-    for (const core::PlanePoint& p : points) {
+    for (const core::PlaneCorrespondence& p : points) {
       middle.x_mm += p.place.x_mm / static_cast<double>(points.size());
       middle.y_mm += p.place.y_mm / static_cast<double>(points.size());
     }

@@ -13,7 +13,7 @@ namespace tools {
 namespace {
 
 using core::simulation::ModalDamping;
-using core::simulation::ShearFrame;
+using core::simulation::ShearBuilding;
 using core::simulation::StructureModel;
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -28,8 +28,8 @@ struct Uniform {
   Index n_storeys = 6;
   double stiffness = 1900.0;  // N/m
 
-  [[nodiscard]] ShearFrame frame() const {
-    ShearFrame out;
+  [[nodiscard]] ShearBuilding frame() const {
+    ShearBuilding out;
     out.mass_kg.assign(static_cast<std::size_t>(n_storeys), 1.0);
     out.stiffness_n_per_m.assign(out.mass_kg.size(), stiffness);
     return out;
@@ -41,7 +41,7 @@ struct Uniform {
   }
 };
 
-std::vector<double> frequencies(const ShearFrame& frame) {
+std::vector<double> frequencies(const ShearBuilding& frame) {
   std::vector<double> out;
   for (const auto& mode : modes_of(shear_frame(frame, kDamping))) {
     if (out.size() < frame.mass_kg.size()) out.push_back(mode.frequency_hz);
@@ -116,7 +116,7 @@ double integrated_hz(double frequency_hz, double dt_s) {
 // A departure of this name and about the size that figures have always had: drawn within -30 % ... +40 % of it.
 void depart(KnownStructure& out, const Uniform& u, Draw& draw) {
   const double factor = draw.log_uniform(0.7, 1.4);
-  ShearFrame frame = u.frame();
+  ShearBuilding frame = u.frame();
   if (out.effect == "ground_storey") {
     frame.ground_spring_n_per_m = factor * u.stiffness;  // in series: half the stiffness
     out.truth = {{"stiffness_ratio", factor / (1.0 + factor)}};

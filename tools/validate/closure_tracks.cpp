@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/closure/observation/observation_level.h"
+#include "core/closure/observation/kinds/materiality.h"
 #include "tools/validate/closure_effects.h"
 #include "tools/validate/closure_tracks_run.h"
 #include "tools/validate/identification_parallel.h"
@@ -68,9 +68,8 @@ std::vector<double> twins_of(const ClosureTracksOptions& options, const RecordSe
 }  // namespace
 
 void print_closure_tracks(const ClosureTracksOptions& options) {
-  using Level = core::closure::ObservationLevel;
   fmt::print("# bars on the share of the noise: full band {}, low band {}, constants and lines {}\n",
-             Level::kFullBandBar, Level::kLowBandBar, Level::kGlobalBar);
+             core::closure::kFullBandBar, core::closure::kLowBandBar, core::closure::kGlobalBar);
   fmt::print(
       "# closure-tracks: effect, its name in the catalogue, wanted strength, strength, constant part, visible part, "
       "size, seed, named, held-out before, after, floor (px), worst error of its parameters in their sigmas, error of "

@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <string>
 
-#include "core/closure/observation/frame_model.h"
 #include "core/closure/observation/latent_words.h"
 #include "core/closure/observation/observation_level.h"
+#include "core/closure/observation/point_motion_model.h"
 #include "tools/validate/closure_effects.h"
 #include "tools/validate/closure_tracks.h"
 #include "tools/validate/closure_tracks_run.h"
@@ -24,7 +24,7 @@ using core::simulation::Scene;
 
 // The leading pattern of what the effect really does beyond the free motions, without noise, in the same words.
 std::string true_words(const ObservationRecord& with, const ObservationRecord& without) {
-  const core::closure::FrameModel model(without);
+  const core::closure::PointMotionModel model(without);
   Eigen::MatrixXd change(2 * without.n_points(), without.n_frames());
   for (Eigen::Index j = 0; j < without.n_points(); ++j) {
     change.row(2 * j) = (with.u_px.col(j) - without.u_px.col(j)).transpose() * model.weight()(2 * j);

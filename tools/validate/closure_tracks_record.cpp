@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "core/closure/observation/frame_model.h"
+#include "core/closure/observation/point_motion_model.h"
 #include "core/simulation/track_generator.h"
 #include "tools/validate/drawn_scene.h"
 
@@ -122,7 +122,7 @@ EffectStrength strength_of(const ObservationRecord& with, const ObservationRecor
   out.plain = std::sqrt(change.squaredNorm() / n) / noise_px;
   out.constant = std::sqrt(mean.squaredNorm() / static_cast<double>(mean.size())) / noise_px;
   if (!visible) return out;
-  const core::closure::FrameModel model(without);
+  const core::closure::PointMotionModel model(without);
   change.array().colwise() *= model.weight().array();
   out.visible = std::sqrt(model.left_of(change).squaredNorm() / n);
   return out;

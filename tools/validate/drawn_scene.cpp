@@ -24,7 +24,7 @@ void draw_camera(Scene& scene, Draw draw) {
 }
 
 core::simulation::StructureModel draw_structure(int n_storeys, Draw& draw) {
-  core::simulation::ShearFrame frame;
+  core::simulation::ShearBuilding frame;
   core::simulation::ModalDamping damping;
   for (int i = 0; i < n_storeys; ++i) {
     frame.mass_kg.push_back(std::exp(kUnequalMass * draw.gaussian()));

@@ -4,19 +4,22 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <string_view>
 #include <utility>
+
+#include "core/closure/observation/effects/catalogue.h"
 
 namespace core::closure {
 namespace {
 
-constexpr const char *kReadout = "readout time", *kRadial = "radial distortion", *kTangential = "tangential distortion",
-                     *kLocking = "pixel locking";
-constexpr std::array<std::string_view, 4> kConstants{kReadout, kRadial, kTangential, kLocking};
-
 template <class List>
-auto find(List& list, const std::string& effect) {
-  return std::find_if(list.begin(), list.end(), [&](const auto& e) { return e.effect == effect; });
+auto find(List& list, const EffectId& id) {
+  return std::find_if(list.begin(), list.end(), [&](const auto& e) { return e.id == id; });
+}
+
+// nullptr: the effect is not corrected in flight.
+const InFlightCorrection* in_flight(const EffectId& id) {
+  const ObservationEffect* effect = observation_effect(id);
+  return effect != nullptr ? effect->in_flight() : nullptr;
 }
 
 // Of the strongest parameter: the others may be next to nothing.
@@ -49,11 +52,18 @@ std::string numbers_text(const std::string& effect, const std::vector<ParameterV
 std::vector<Adoption::Finding> Adoption::findings(const ClosureResult& result) {
   std::vector<Finding> out;
   for (const ClosureStep& step : result.steps) {
-    const bool constant = std::find(kConstants.begin(), kConstants.end(), step.effect) != kConstants.end();
-    if (step.kind == EffectKind::kNamed && constant && step.rivals.empty())
-      out.push_back({step.effect, step.parameters, step.heldout_before, step.heldout_after});
+    if (step.kind == EffectKind::kNamed && in_flight(step.id) != nullptr && step.rivals.empty())
+      out.push_back({step.id, step.effect, step.parameters, step.heldout_before, step.heldout_after});
   }
   return out;
+}
+
+void Adoption::update_in_all(const std::vector<Finding>& now) {
+  if (!has_reports_) {
+    for (const Finding& finding : now) in_all_.push_back(finding.id);
+  }
+  std::erase_if(in_all_, [&](const EffectId& id) { return find(now, id) == now.end(); });
+  has_reports_ = true;
 }
 
 std::vector<std::string> Adoption::update(const ClosureReport& report, std::uint64_t from_sequence) {
@@ -62,30 +72,30 @@ std::vector<std::string> Adoption::update(const ClosureReport& report, std::uint
   if (!report.refused.empty()) return changes;
   const std::string from = "from frame " + std::to_string(from_sequence) + " on ";
   std::vector<Finding> now = findings(report.result);
-  readout_in_all_ = find(now, kReadout) != now.end() && (!has_reports_ || readout_in_all_);
-  has_reports_ = true;
+  update_in_all(now);
   for (const Finding& finding : now) {
-    const auto before = find(last_, finding.effect);
+    const auto before = find(last_, finding.id);
     if (before == last_.end() || !same(finding.parameters, before->parameters)) continue;
-    const auto known = find(in_force_, finding.effect);
+    const auto known = find(in_force_, finding.id);
     if (known != in_force_.end() && same(finding.parameters, known->parameters)) continue;
-    changes_delays_ = changes_delays_ || (finding.effect == kReadout && !readout_in_all_);
+    changes_delays_ = changes_delays_ || (in_flight(finding.id)->changes_row_delays() &&
+                                          std::find(in_all_.begin(), in_all_.end(), finding.id) == in_all_.end());
     const char* what = known == in_force_.end() ? "taken out, " : "taken out with new numbers, ";
     changes.push_back(from + what + numbers_text(finding.effect, finding.parameters) + "; " +
                       error_text(finding.heldout_before, finding.heldout_after, report.result.unit));
     if (known != in_force_.end())
-      *known = {finding.effect, finding.parameters, from_sequence};
+      *known = {finding.id, finding.effect, finding.parameters, from_sequence};
     else
-      in_force_.push_back({finding.effect, finding.parameters, from_sequence});
+      in_force_.push_back({finding.id, finding.effect, finding.parameters, from_sequence});
   }
   for (auto e = in_force_.begin(); e != in_force_.end();) {
-    if (find(now, e->effect) != now.end() || report.first_sequence < e->from_sequence) {
+    if (find(now, e->id) != now.end() || report.first_sequence < e->from_sequence) {
       ++e;
       continue;
     }
     changes.push_back(from + "withdrawn, " + e->effect + ": frames " + std::to_string(report.first_sequence) + " to " +
                       std::to_string(report.last_sequence) + " no longer show it");
-    changes_delays_ = changes_delays_ || e->effect == kReadout;
+    changes_delays_ = changes_delays_ || in_flight(e->id)->changes_row_delays();
     e = in_force_.erase(e);
   }
   last_ = std::move(now);
@@ -99,24 +109,10 @@ std::vector<std::string> Adoption::words() const {
   return out;
 }
 
-double Adoption::value(const std::string& effect, std::size_t parameter) const noexcept {
-  const auto found = find(in_force_, effect);
-  return found != in_force_.end() && parameter < found->parameters.size() ? found->parameters[parameter].value : 0.0;
-}
-
-PointCorrection Adoption::places(const CameraModel& camera) const {
-  PointCorrection out;
-  for (std::size_t i = 0; i < out.locking_px.size(); ++i) out.locking_px[i] = value(kLocking, i);
-  const double k1 = value(kRadial, 0), p1 = value(kTangential, 0), p2 = value(kTangential, 1);
-  if (k1 != 0.0 || p1 != 0.0 || p2 != 0.0)
-    out.lens = {camera.fx, camera.fx, camera.cx, camera.cy, {k1, 0.0, p1, p2}, LensModel::kRadialTangential};
+RunCorrection Adoption::correction(const CameraModel& camera) const {
+  RunCorrection out;
+  for (const EffectInForce& e : in_force_) in_flight(e.id)->add_to(out, e.parameters, camera);
   return out;
-}
-
-ParameterValue Adoption::added_readout() const {
-  const auto found = find(in_force_, kReadout);
-  if (found == in_force_.end() || found->parameters.empty()) return {};
-  return found->parameters.front();
 }
 
 }  // namespace core::closure

@@ -4,23 +4,24 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry/point_correction.h"
+#include "core/closure/observation/run_correction.h"
 #include "core/types/closure_report.h"
 
 namespace core::closure {
 
 // An effect that a run corrects in its own points.
 struct EffectInForce {
-  std::string effect;
+  EffectId id;
+  std::string effect;  // its name
   std::vector<ParameterValue> parameters;
   std::uint64_t from_sequence = 0;  // frame
 };
 
 // Decides from consecutive reports of the observation level which effects a run corrects in its own points. Reports are
 // made of the points as measured, so a corrected effect is found again as long as the correction helps. Corrected are
-// constants only (readout time, lens, pixel locking), once two consecutive reports name them with the same numbers and
-// no rival. Withdrawn if a report made entirely of later frames does not find it. Latent or time-varying effects are
-// reported but not corrected.
+// effects that can be (ObservationEffect::in_flight), once two consecutive reports name them with the same numbers and
+// no rival. Withdrawn if a report made entirely of later frames does not find it. All others are reported but not
+// corrected.
 class Adoption {
  public:
   static constexpr double kSameSigmas = 5.0, kSameShare = 0.1;  // of two numbers for one quantity: either is enough
@@ -31,26 +32,26 @@ class Adoption {
   [[nodiscard]] const std::vector<EffectInForce>& in_force() const noexcept { return in_force_; }
   // "readout time: added readout = 0.56 +- 0.001 frames, from frame 3600 on".
   [[nodiscard]] std::vector<std::string> words() const;
-  // camera: that of the record from which the reports are made; focal length and centre of the lens effects.
-  [[nodiscard]] PointCorrection places(const CameraModel& camera) const;
-  // The last update changed the row delays themselves, and not only their precision: the readout time was not in every
-  // report since the first.
+  // Of all effects in force. camera: that of the record from which the reports are made.
+  [[nodiscard]] RunCorrection correction(const CameraModel& camera) const;
+  // The last update changed the row delays themselves, and not only their precision: an effect that changes them was
+  // not in every report since the first.
   [[nodiscard]] bool changes_delays() const noexcept { return changes_delays_; }
-  // Readout beyond the declared one, in frames, with its standard deviation; value 0 if none.
-  [[nodiscard]] ParameterValue added_readout() const;
 
  private:
   struct Finding {
+    EffectId id;
     std::string effect;
     std::vector<ParameterValue> parameters;
     double heldout_before = 0.0, heldout_after = 0.0;
   };
   [[nodiscard]] static std::vector<Finding> findings(const ClosureResult& result);
-  [[nodiscard]] double value(const std::string& effect, std::size_t parameter) const noexcept;
+  void update_in_all(const std::vector<Finding>& now);
 
   std::vector<EffectInForce> in_force_;
-  std::vector<Finding> last_;  // of the previous report
-  bool has_reports_ = false, readout_in_all_ = false, changes_delays_ = false;
+  std::vector<Finding> last_;     // of the previous report
+  std::vector<EffectId> in_all_;  // effects found by every report
+  bool has_reports_ = false, changes_delays_ = false;
 };
 
 }  // namespace core::closure

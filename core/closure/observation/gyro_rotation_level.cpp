@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/closure/observation/remaining_turn.h"
+#include "core/closure/observation/residual_rotation.h"
 #include "core/geometry/gyro_start.h"
 
 namespace core::closure {
@@ -37,7 +37,7 @@ bool GyroRotationLevel::holds(const std::vector<Effect>& effects, Effect effect)
 }
 
 GyroRotationLevel::GyroRotationLevel(std::vector<FramePair> pairs, std::vector<GyroSample> gyro,
-                           const core::GyroReadoutConfig& config)
+                                     const core::GyroReadoutConfig& config)
     : pairs_(std::move(pairs)), gyro_(std::move(gyro)), still_(gyro_), config_(config) {
   core::check_gyro_record(pairs_, gyro_, config_);
   for (GyroSample& sample : still_) sample.rate_rad_s.setZero();
@@ -75,8 +75,9 @@ std::vector<std::string> GyroRotationLevel::candidates() const {
 
 // Without rotation only shifts and the points' scatter are fitted. With it, the most likely of three readouts wins
 // where the readout is free.
-GyroRotationLevel::Fitted GyroRotationLevel::fit_with(const std::vector<Effect>& effects, const std::vector<FramePair>& pairs,
-                                            const std::vector<GyroSample>& gyro, bool brief) const {
+GyroRotationLevel::Fitted GyroRotationLevel::fit_with(const std::vector<Effect>& effects,
+                                                      const std::vector<FramePair>& pairs,
+                                                      const std::vector<GyroSample>& gyro, bool brief) const {
   const bool turns = holds(effects, Effect::kRotation);
   const bool reads = turns && holds(effects, Effect::kReadout);
   const double focal_px = config_.focal_px > 0.0 ? config_.focal_px : kFocalPerWidth * config_.width_px;
@@ -115,7 +116,8 @@ const GyroRotationLevel::Fitted& GyroRotationLevel::fit_of(const std::vector<Eff
 }
 
 double GyroRotationLevel::heldout_squares(const Fitted& fitted, const std::vector<Effect>& effects,
-                                     const std::vector<FramePair>& pairs, const std::vector<GyroSample>& gyro) const {
+                                          const std::vector<FramePair>& pairs,
+                                          const std::vector<GyroSample>& gyro) const {
   const GyroProblem problem(pairs, holds(effects, Effect::kRotation) ? gyro : still_, config_);
   GyroState state = fitted.state;
   const DerotatedFlows flows = problem.flows(state);
@@ -134,7 +136,7 @@ double GyroRotationLevel::heldout_squares(const Fitted& fitted, const std::vecto
 LevelFit GyroRotationLevel::fit() {
   fitted_ = fit_of(adopted_);
   squares_ = heldout_squares(fitted_, adopted_, pairs_, gyro_);
-  remaining_turn_deg_ = remaining_turn_deg();
+  residual_rotation_deg_ = residual_rotation_deg();
   LevelFit out;
   out.heldout = out.residual_rms = std::sqrt(squares_ / n_heldout_);
   out.noise_floor = sigma_px_;
@@ -148,6 +150,7 @@ std::vector<CandidateScore> GyroRotationLevel::score() {
   for (const Effect effect : open()) {
     CandidateScore s;
     s.effect = name_of(effect);
+    s.id = {effect == Effect::kRotation ? "camera_rotation" : "readout_time"};
     s.n_parameters = effect == Effect::kRotation ? 7 : 1;
     s.heldout = std::sqrt(squares_ / n_heldout_);
     if (effect == Effect::kReadout && !holds(adopted_, Effect::kRotation)) {
@@ -221,13 +224,13 @@ std::vector<ParameterValue> GyroRotationLevel::parameters(std::size_t adopted) c
           value("gyro bias z", "deg/s", core::kBias + 2, kDegree)};
 }
 
-double GyroRotationLevel::remaining_turn_deg() const {
+double GyroRotationLevel::residual_rotation_deg() const {
   const GyroProblem problem = this->problem(adopted_);
   GyroState state = fitted_.state;
   state.sigma_px = sigma_px_;
   const DerotatedFlows flows = problem.flows(state);
   (void)problem.cost(state, flows, true);
-  std::vector<RemainingTurn> turns;
+  std::vector<ResidualRotation> rotations;
   Matrix3d information = Matrix3d::Zero();
   Vector3d weighted = Vector3d::Zero();
   for (std::size_t k = 0; k < flows.size(); ++k) {
@@ -236,18 +239,19 @@ double GyroRotationLevel::remaining_turn_deg() const {
     for (std::size_t j = 0; j < flows[k].size(); ++j) {
       if (at_rest_[k][j] != 0) at_rest.push_back(flows[k][j]);
     }
-    turns.push_back(remaining_turn(std::move(at_rest), state.model(), state.shift_px[k]));
-    information += turns.back().information;
-    weighted += turns.back().information * turns.back().turn;
+    rotations.push_back(residual_rotation(std::move(at_rest), state.model(), state.shift_px[k]));
+    information += rotations.back().information;
+    weighted += rotations.back().information * rotations.back().rotation;
   }
   const Vector3d mean = information.ldlt().solve(weighted);
   double squares = 0.0;
-  for (const RemainingTurn& one : turns) squares += (one.turn - mean).dot(one.information * (one.turn - mean));
+  for (const ResidualRotation& one : rotations)
+    squares += (one.rotation - mean).dot(one.information * (one.rotation - mean));
   return kDegree * std::sqrt(squares / (information.trace() / 3.0));
 }
 
 std::string GyroRotationLevel::describe_residual() const {
-  return "the image rotates " + std::to_string(remaining_turn_deg_) + " deg rms a frame beyond the model";
+  return "the image rotates " + std::to_string(residual_rotation_deg_) + " deg rms a frame beyond the model";
 }
 
 std::vector<NotObservable> GyroRotationLevel::not_observable() const {

@@ -27,7 +27,7 @@ class GyroRotationLevel final : public ClosureLevel {
 
   // Throws what core::fit_gyro_readout() does.
   GyroRotationLevel(std::vector<core::FramePair> pairs, std::vector<core::GyroSample> gyro,
-               const core::GyroReadoutConfig& config);
+                    const core::GyroReadoutConfig& config);
 
   [[nodiscard]] std::string name() const override { return "observation"; }
   [[nodiscard]] std::string unit() const override { return "px"; }
@@ -43,7 +43,7 @@ class GyroRotationLevel final : public ClosureLevel {
   [[nodiscard]] std::vector<ClosureMode> modes() const override { return {}; }
   // Degrees rms per frame pair and axis: rotation of the image beyond the model over the held-out pairs, from the image
   // alone, weighted by information; without the mean, which a steady translation biases.
-  [[nodiscard]] std::optional<double> reference_error() const override { return remaining_turn_deg_; }
+  [[nodiscard]] std::optional<double> reference_error() const override { return residual_rotation_deg_; }
   [[nodiscard]] std::string reference_unit() const override { return "deg a frame"; }
   [[nodiscard]] std::string describe_residual() const override;
 
@@ -65,7 +65,7 @@ class GyroRotationLevel final : public ClosureLevel {
                                        const std::vector<core::FramePair>& pairs,
                                        const std::vector<core::GyroSample>& gyro) const;
   [[nodiscard]] core::GyroProblem problem(const std::vector<Effect>& effects) const;
-  [[nodiscard]] double remaining_turn_deg() const;
+  [[nodiscard]] double residual_rotation_deg() const;
 
   std::vector<core::FramePair> pairs_;
   std::vector<core::GyroSample> gyro_, still_;  // still_: a gyro that never rotates
@@ -76,7 +76,7 @@ class GyroRotationLevel final : public ClosureLevel {
   std::vector<Effect> adopted_;
   std::array<std::optional<Fitted>, 3> known_;  // by the number of effects: readout only beside rotation
   Fitted fitted_;
-  double squares_ = 0.0, remaining_turn_deg_ = 0.0;
+  double squares_ = 0.0, residual_rotation_deg_ = 0.0;
 };
 
 }  // namespace core::closure

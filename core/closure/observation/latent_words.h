@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/closure/observation/frame_model.h"
 #include "core/closure/observation/observation_record.h"
+#include "core/closure/observation/point_motion_model.h"
 
 namespace core::closure {
 

@@ -57,7 +57,7 @@ Eigen::MatrixXcd orthonormal(const Eigen::MatrixXcd& columns, const Eigen::Vecto
 
 }  // namespace
 
-LineSearch::LineSearch(const FrameModel& model, double rate_hz, double readout_frames, Eigen::MatrixXd fields,
+LineSearch::LineSearch(const PointMotionModel& model, double rate_hz, double readout_frames, Eigen::MatrixXd fields,
                        Eigen::Index n_frames)
     : model_(model),
       rate_hz_(rate_hz),

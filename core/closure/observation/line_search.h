@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/closure/observation/frame_model.h"
+#include "core/closure/observation/point_motion_model.h"
 
 namespace core::closure {
 
@@ -30,7 +30,7 @@ class LineSearch {
  public:
   static constexpr int kMostFolds = 8;
   // fields: 2 points x 3, px per rad. The model must outlive it.
-  LineSearch(const FrameModel& model, double rate_hz, double readout_frames, Eigen::MatrixXd fields,
+  LineSearch(const PointMotionModel& model, double rate_hz, double readout_frames, Eigen::MatrixXd fields,
              Eigen::Index n_frames);
 
   // residual: 2 points x frames, in sigmas, as the model leaves it.
@@ -71,7 +71,7 @@ class LineSearch {
   [[nodiscard]] double band_gain(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const;
   void try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz, LineFinding& best) const;
 
-  const FrameModel& model_;
+  const PointMotionModel& model_;
   double rate_hz_, readout_frames_;
   Eigen::MatrixXd fields_;
   Eigen::Index n_frames_;

@@ -7,6 +7,7 @@
 
 #include "core/closure/noise_stream.h"
 #include "core/closure/response/channel_jitter.h"
+#include "core/closure/response/effects/catalogue.h"
 #include "core/closure/response/jackknife.h"
 #include "core/closure/structure_words.h"
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "core/closure/noise_stream.h"
-#include "core/closure/response/effects/clock_effect.h"
+#include "core/closure/response/effects/catalogue.h"
 #include "core/closure/response/jackknife.h"
 #include "core/closure/structure_words.h"
 #include "core/linear/median.h"

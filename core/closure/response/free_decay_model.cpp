@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/closure/noise_stream.h"
+#include "core/closure/response/effects/catalogue.h"
 #include "core/closure/response/jackknife.h"
 #include "core/closure/structure_words.h"
 

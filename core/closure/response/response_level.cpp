@@ -67,7 +67,7 @@ std::vector<CandidateScore> ResponseLevel::score() {
   for (const std::string& effect : candidates()) {
     const ResponseFit fit = model_.fit(with(effect));
     CandidateScore score;
-    score.effect = effect;
+    score.effect = effect, score.id = {effect};
     score.n_parameters = fit.n_parameters - fit_.n_parameters;
     score.heldout = fit.heldout_rms;
     score.score = score_of(fit_, fit);

@@ -23,7 +23,7 @@ void require_count(const std::string& what, std::size_t n, std::size_t wanted) {
   refuse_structure("number of " + what + " is " + std::to_string(n) + "; give " + std::to_string(wanted));
 }
 
-void require_frame(const ShearFrame& frame) {
+void require_frame(const ShearBuilding& frame) {
   const std::size_t n = frame.mass_kg.size();
   require_structure(n >= 1 && n <= 64, "number of storeys", static_cast<double>(n), "give the masses of 1 to 64");
   require_count("storey stiffnesses", frame.stiffness_n_per_m.size(), n);
@@ -40,7 +40,7 @@ void require_frame(const ShearFrame& frame) {
 }
 
 // With what gravity takes and the ground's spring gives.
-std::vector<double> storey_stiffness(const ShearFrame& frame) {
+std::vector<double> storey_stiffness(const ShearBuilding& frame) {
   std::vector<double> stiffness = frame.stiffness_n_per_m;
   if (frame.ground_spring_n_per_m > 0.0) stiffness[0] = 1.0 / (1.0 / stiffness[0] + 1.0 / frame.ground_spring_n_per_m);
   if (frame.storey_height_mm.empty()) return stiffness;
@@ -56,7 +56,7 @@ std::vector<double> storey_stiffness(const ShearFrame& frame) {
 
 }  // namespace
 
-StructureModel shear_frame(const ShearFrame& frame, const Damping& damping) {
+StructureModel shear_frame(const ShearBuilding& frame, const Damping& damping) {
   require_frame(frame);
   const std::vector<double> stiffness = storey_stiffness(frame);
   const auto n = static_cast<Index>(stiffness.size());

@@ -13,7 +13,7 @@ namespace core::simulation {
 
 // Rigid floors on columns that shear, one coordinate a floor (Chopra, Dynamics of Structures, 9.1): K is tridiagonal,
 // K(i, i) = k(i) + k(i+1), K(i, i+1) = -k(i+1).
-struct ShearFrame {
+struct ShearBuilding {
   std::vector<double> mass_kg;            // by storey from the lowest
   std::vector<double> stiffness_n_per_m;  // of the columns below that floor
   // A spring without mass under the columns of the lowest storey, in series with them; 0 = rigid.
@@ -21,7 +21,7 @@ struct ShearFrame {
   // Given, gravity softens every storey (P-delta, linear: Chopra 9.1 / Wilson 11): k(i) - g * (mass from i up) / h(i).
   std::vector<double> storey_height_mm;
 };
-[[nodiscard]] StructureModel shear_frame(const ShearFrame& frame, const Damping& damping);
+[[nodiscard]] StructureModel shear_frame(const ShearBuilding& frame, const Damping& damping);
 
 // Modes as they are: bodies x modes of displacement and (rad per mm) tilt, at any scale. Modal mass r is the sum over
 // bodies of mass * shape^2, participation the sum of mass * shape. No tilts: 0 x 0.

@@ -1,4 +1,4 @@
-#include "core/structure/effects/all.h"
+#include "core/structure/effects/catalogue.h"
 
 namespace core::structure {
 namespace {

@@ -1,6 +1,7 @@
 #include <sstream>
 
-#include "core/structure/effects/all.h"
+#include "core/structure/effects/catalogue.h"
+#include "core/structure/effects/plausibility.h"
 
 namespace core::structure {
 namespace {

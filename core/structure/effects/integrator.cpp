@@ -2,7 +2,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "core/structure/effects/all.h"
+#include "core/structure/effects/catalogue.h"
 
 namespace core::structure {
 namespace {

@@ -1,4 +1,5 @@
-#include "core/structure/effects/all.h"
+#include "core/structure/effects/catalogue.h"
+#include "core/structure/effects/plausibility.h"
 
 namespace core::structure {
 namespace {

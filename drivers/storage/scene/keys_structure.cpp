@@ -31,7 +31,7 @@ auto& in(SceneFile& file, std::size_t) {
 }
 
 void add_frame_keys(std::vector<SceneKey>& keys) {
-  using Frame = core::simulation::ShearFrame;
+  using Frame = core::simulation::ShearBuilding;
   keys.push_back(only_for(scene_numbers("structure.mass_kg", "kg", in<&S::frame, &Frame::mass_kg>, {1e-9, 1e12},
                                         "of each floor (modes: of each body; [] = equal), from the lowest"),
                           {Type::kShearFrame, Type::kModes}));

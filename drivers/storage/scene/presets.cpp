@@ -9,7 +9,7 @@ namespace {
 
 using core::simulation::BridgeDeck;
 using core::simulation::Cantilever;
-using core::simulation::ShearFrame;
+using core::simulation::ShearBuilding;
 using core::simulation::UniformChain;
 using Type = SceneStructure::Type;
 
@@ -19,7 +19,7 @@ struct Describe {
     out.type = Type::kUniformChain;
     out.frequency_hz = chain.frequency_hz;
   }
-  void operator()(const ShearFrame& frame) const {
+  void operator()(const ShearBuilding& frame) const {
     out.type = Type::kShearFrame;
     out.frame = frame;
   }

@@ -36,9 +36,9 @@ struct SceneStructure {
   Type type = Type::kMatrices;
   core::simulation::StructureModel::Axis axis = core::simulation::StructureModel::Axis::kX;
   std::vector<double> frequency_hz;
-  core::simulation::ShearFrame frame;  // its masses also where modes are given
-  core::simulation::Cantilever tower;  // its EI and mass per metre also of the deck
-  core::simulation::BridgeDeck deck;   // its number of bodies also of the tower
+  core::simulation::ShearBuilding frame;  // its masses also where modes are given
+  core::simulation::Cantilever tower;     // its EI and mass per metre also of the deck
+  core::simulation::BridgeDeck deck;      // its number of bodies also of the tower
   DampingKind damping_kind = DampingKind::kModal;
   core::simulation::ModalDamping modal_damping;
   core::simulation::RayleighDamping rayleigh;

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/closure/observation/adoption.h"
 
 namespace core::closure {
@@ -13,7 +15,8 @@ using ::testing::IsEmpty;
 
 ClosureStep step(const std::string& effect, double value, double sigma = 1e-4) {
   ClosureStep out;
-  out.effect = effect;
+  out.effect = effect, out.id.key = effect;
+  std::replace(out.id.key.begin(), out.id.key.end(), ' ', '_');
   out.parameters = {{"k1", "", value, sigma}};
   out.heldout_before = 0.05, out.heldout_after = 0.03;
   return out;
@@ -35,7 +38,7 @@ TEST(Adoption, OneReportIsNotEnoughAndTwoThatAgreeAre) {
               ElementsAre(AllOf(HasSubstr("from frame 2000 on taken out, radial distortion"), HasSubstr("k1 = -0.0702"),
                                 HasSubstr("held-out error 0.0500 -> 0.0300 px"))));
   ASSERT_EQ(a.in_force().size(), 1U);
-  const PointCorrection places = a.places({2000.0, 2000.0, 960.0, 540.0, {}});
+  const PointCorrection places = a.correction({2000.0, 2000.0, 960.0, 540.0, {}}).places;
   EXPECT_EQ(places.lens.distortion[0], -0.0702);
   EXPECT_EQ(places.lens.fx, 2000.0);
   EXPECT_THAT(a.words(), ElementsAre(HasSubstr("from frame 2000 on")));
@@ -63,20 +66,20 @@ TEST(Adoption, IsWithdrawnByFramesThatAllCameAfterItAndDoNotShowIt) {
   Adoption a;
   (void)a.update(report(0, 999, {step("pixel locking", 0.04)}), 1500);
   ASSERT_EQ(a.update(report(500, 1499, {step("pixel locking", 0.04)}), 2000).size(), 1U);
-  EXPECT_EQ(a.places({}).locking_px[0], 0.04);
+  EXPECT_EQ(a.correction({}).places.locking_px[0], 0.04);
   EXPECT_THAT(a.update(report(1000, 1999, {}), 2500), IsEmpty());  // half of its frames are older
   EXPECT_THAT(a.update(report(2000, 2999, {}), 3500),
               ElementsAre(AllOf(HasSubstr("from frame 3500 on withdrawn, pixel locking"), HasSubstr("2000 to 2999"))));
-  EXPECT_FALSE(a.places({}).corrects());
+  EXPECT_FALSE(a.correction({}).places.corrects());
 }
 
 TEST(Adoption, OtherNumbersTwiceReplaceTheOld) {
   Adoption a;
   for (const double value : {0.5, 0.5}) (void)a.update(report(0, 999, {step("readout time", value)}), 1000);
-  EXPECT_EQ(a.added_readout().value, 0.5);
+  EXPECT_EQ(a.correction({}).added_readout.value, 0.5);
   EXPECT_THAT(a.update(report(0, 999, {step("readout time", 0.7)}), 2000), IsEmpty());
   EXPECT_THAT(a.update(report(0, 999, {step("readout time", 0.7)}), 3000), ElementsAre(HasSubstr("new numbers")));
-  EXPECT_EQ(a.added_readout().value, 0.7);
+  EXPECT_EQ(a.correction({}).added_readout.value, 0.7);
   EXPECT_EQ(a.in_force().size(), 1U);
 }
 

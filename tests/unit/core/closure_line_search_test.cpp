@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include "core/closure/effects/rotor_line.h"
+#include "core/closure/observation/effects/catalogue.h"
+#include "core/closure/observation/kinds/line_effect.h"
 #include "core/closure/observation/line_search.h"
 #include "tests/support/swaying_record.h"
 
@@ -38,10 +39,11 @@ LineFit fit_line(double frequency_hz, double wander_hz) {
       record.u_px(k, j) = positions(2 * j, k), record.v_px(k, j) = positions(2 * j + 1, k);
     }
   }
-  FrameModel model(record);
+  PointMotionModel model(record);
   model.solve(positions, kReadout_frames, 1);
-  const LineSearch search(model, record.rate_hz, kReadout_frames, rotor_fields(model.geometry(), kReadout_frames),
-                          kFrames);
+  const auto rotor = std::unique_ptr<ObservationEffect>(make_rotor_line());
+  const LineSearch search(model, record.rate_hz, kReadout_frames,
+                          dynamic_cast<const LineEffect&>(*rotor).patterns(model.geometry(), kReadout_frames), kFrames);
   LineFit fit{search.find(model.residual()), 0.0};
   const Eigen::MatrixXd later = Eigen::MatrixXd::Zero(record.n_points(), kFrames);
   Eigen::MatrixXd motion = search.motion(model.residual(), fit.finding, later);

@@ -9,7 +9,7 @@
 
 #include "core/closure/closure_loop.h"
 #include "core/closure/noise_stream.h"
-#include "core/closure/observation/leave_one_out.h"
+#include "core/closure/observation/leave_one_point_out.h"
 #include "core/closure/observation/observation_level.h"
 #include "core/closure/observation/point_screening.h"
 #include "core/closure/observation/time_filter.h"
@@ -46,7 +46,7 @@ std::string fault(const ObservationRecord& record) {
   return {};
 }
 
-TEST(LeaveOneOut, ClosedFormIsTheFitWithoutThePoint) {
+TEST(LeaveOnePointOut, ClosedFormIsTheFitWithoutThePoint) {
   Eigen::MatrixXd x(12, 3);
   NoiseStream noise(3);
   for (double& value : x.reshaped()) value = noise.gaussian();
@@ -63,7 +63,7 @@ TEST(LeaveOneOut, ClosedFormIsTheFitWithoutThePoint) {
     direct += (z.segment(2 * j, 2) - x.middleRows(2 * j, 2) * a).squaredNorm();
   }
   const Eigen::VectorXd r = z - q * (q.transpose() * z);
-  EXPECT_NEAR(LeaveOneOut(q).squares(r * r.transpose()), direct, 1e-9);
+  EXPECT_NEAR(LeaveOnePointOut(q).squares(r * r.transpose()), direct, 1e-9);
 }
 
 TEST(TimeFilter, DerivativeOfASineInItsBand) {

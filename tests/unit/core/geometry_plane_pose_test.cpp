@@ -25,11 +25,11 @@ PlanePose truth(double tilt_x_deg, double tilt_y_deg, double turn_deg, double di
   return pose;
 }
 
-std::vector<PlanePoint> points_of(const PlanePose& pose, const std::vector<PlanePlace>& places, double noise_px = 0.0,
-                                  unsigned seed = 1) {
+std::vector<PlaneCorrespondence> points_of(const PlanePose& pose, const std::vector<PlanePlace>& places,
+                                           double noise_px = 0.0, unsigned seed = 1) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0.0, noise_px);
-  std::vector<PlanePoint> points;
+  std::vector<PlaneCorrespondence> points;
   for (const PlanePlace& place : places) {
     const Vector2 px = pose.project(place).value();
     points.push_back({{px.u + normal(random), px.v + normal(random)}, place});

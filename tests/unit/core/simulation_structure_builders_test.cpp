@@ -17,15 +17,15 @@ namespace {
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 const Damping kOnePercent = ModalDamping{{0.01}};
 
-ShearFrame uniform_frame(int n) {
-  ShearFrame frame;
+ShearBuilding uniform_frame(int n) {
+  ShearBuilding frame;
   frame.mass_kg.assign(static_cast<std::size_t>(n), 8.0);
   frame.stiffness_n_per_m.assign(static_cast<std::size_t>(n), 2.0e4);
   return frame;
 }
 
 // w_r = 2 sqrt(k / m) sin((2 r - 1) pi / (4 n + 2)).
-TEST(ShearFrame, HasTheFrequenciesAndShapesOfTheUniformChain) {
+TEST(ShearBuilding, HasTheFrequenciesAndShapesOfTheUniformChain) {
   for (const int n : {1, 2, 6, 20}) {
     const std::vector<TrueMode> modes = modes_of(shear_frame(uniform_frame(n), kOnePercent));
     ASSERT_EQ(modes.size(), static_cast<std::size_t>(n));
@@ -44,27 +44,27 @@ TEST(ShearFrame, HasTheFrequenciesAndShapesOfTheUniformChain) {
 }
 
 // Two storeys of mass m and 2 k, k: w^2 = k / m (2 -+ sqrt(2)).
-TEST(ShearFrame, SolvesTheTwoStoreyTextbookFrame) {
+TEST(ShearBuilding, SolvesTheTwoStoreyTextbookFrame) {
   const std::vector<TrueMode> modes = modes_of(shear_frame({{3.0, 3.0}, {2.0e3, 1.0e3}, 0.0, {}}, kOnePercent));
   EXPECT_NEAR(std::pow(kTwoPi * modes[0].frequency_hz, 2), 1.0e3 / 3.0 * (2.0 - std::numbers::sqrt2), 1e-8);
   EXPECT_NEAR(std::pow(kTwoPi * modes[1].frequency_hz, 2), 1.0e3 / 3.0 * (2.0 + std::numbers::sqrt2), 1e-8);
 }
 
-TEST(ShearFrame, PutsTheGroundSpringInSeriesWithTheLowestStorey) {
-  ShearFrame frame{{2.0}, {3.0e3}, 1.5e3, {}};
+TEST(ShearBuilding, PutsTheGroundSpringInSeriesWithTheLowestStorey) {
+  ShearBuilding frame{{2.0}, {3.0e3}, 1.5e3, {}};
   EXPECT_NEAR(modes_of(shear_frame(frame, kOnePercent))[0].frequency_hz, std::sqrt(1.0e3 / 2.0) / kTwoPi, 1e-12);
 }
 
 // One storey: an inverted pendulum on a spring, w^2 = k / m - g / h.
-TEST(ShearFrame, IsSoftenedByGravity) {
-  ShearFrame frame{{2.0}, {3.0e3}, 0.0, {120.0}};
+TEST(ShearBuilding, IsSoftenedByGravity) {
+  ShearBuilding frame{{2.0}, {3.0e3}, 0.0, {120.0}};
   const double w2 = 3.0e3 / 2.0 - 9.80665 / 0.12;
   EXPECT_NEAR(modes_of(shear_frame(frame, kOnePercent))[0].frequency_hz, std::sqrt(w2) / kTwoPi, 1e-12);
   frame.storey_height_mm = {6.0};
   EXPECT_THROW(shear_frame(frame, kOnePercent), std::invalid_argument);
 }
 
-TEST(ShearFrame, MovesAsOneWithTheGroundWhenItIsPushedSlowly) {
+TEST(ShearBuilding, MovesAsOneWithTheGroundWhenItIsPushedSlowly) {
   const StructureModel model = shear_frame(uniform_frame(4), kOnePercent);
   EXPECT_TRUE(model.influence.isApprox(model.mass * Eigen::VectorXd::Ones(4)));
 }

@@ -12,7 +12,7 @@ namespace core::simulation {
 namespace {
 
 std::vector<StructureModel> models() {
-  const ShearFrame frame{{10.0, 8.0, 12.0}, {1.8e4, 1.2e4, 1.5e4}, 0.0, {}};
+  const ShearBuilding frame{{10.0, 8.0, 12.0}, {1.8e4, 1.2e4, 1.5e4}, 0.0, {}};
   return {shear_frame(frame, ModalDamping{{0.01, 0.03}}), shear_frame(frame, Dashpots{{4.0, 0.0, 40.0}}),
           shear_frame(frame, Dashpots{{5000.0, 0.0, 0.0}}),  // one mode does not oscillate
           cantilever({30.0e3, 8, 3.0e8, 160.0, 250.0}, ModalDamping{{0.01}}),

@@ -1,3 +1,4 @@
+#include "core/structure/effects/catalogue.h"
 #include "core/structure/frame_fit.h"
 
 #include <gtest/gtest.h>

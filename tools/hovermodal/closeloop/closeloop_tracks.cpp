@@ -27,7 +27,8 @@ using core::closure::ObservationLevel;
 using core::closure::ResidualView;
 
 ResidualView view_of(const ObservationLevel& level) {
-  return core::closure::residual_view(level.model().residual_px(), level.mean_places_px(), level.record().rate_hz);
+  return core::closure::residual_view(level.state().model().residual_px(), level.state().mean_places_px(),
+                                      level.state().record().rate_hz);
 }
 
 void write_pictures_of(const TracksLoop& request, const ObservationLevel& level, const ClosureResult& result,
@@ -37,9 +38,10 @@ void write_pictures_of(const TracksLoop& request, const ObservationLevel& level,
     if (!text.empty()) drivers::write_file_atomically((folder / name).string(), text);
   };
   double squares = 0.0;
-  for (const double sigma : level.record().sigma_px) squares += sigma * sigma;
-  const app::ResidualPair pair{before, view_of(level), level.record().width_px, level.record().height_px,
-                               std::sqrt(squares / static_cast<double>(level.record().sigma_px.size()))};
+  for (const double sigma : level.state().record().sigma_px) squares += sigma * sigma;
+  const app::ResidualPair pair{before, view_of(level), level.state().record().width_px,
+                               level.state().record().height_px,
+                               std::sqrt(squares / static_cast<double>(level.state().record().sigma_px.size()))};
   write("closure.json", app::closure_json(result));
   write("closure_field.svg", app::closure_field_svg(pair));
   write("closure_residual.svg", app::closure_residual_svg(pair));

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -47,17 +46,5 @@ class ChannelEffect {
   [[nodiscard]] virtual ParameterValue describe(double value) const = 0;
   [[nodiscard]] virtual std::string immaterial(double /*value*/) const { return {}; }
 };
-
-[[nodiscard]] std::unique_ptr<ChannelEffect> make_duplicated_frames();
-[[nodiscard]] std::unique_ptr<ChannelEffect> make_dropped_frames();
-[[nodiscard]] std::unique_ptr<ChannelEffect> make_time_stamp_jitter();
-[[nodiscard]] std::unique_ptr<ChannelEffect> make_frequency_drift();
-[[nodiscard]] std::unique_ptr<ChannelEffect> make_softening();
-[[nodiscard]] std::unique_ptr<ChannelEffect> make_input_colour();
-
-// All of them, one line each.
-[[nodiscard]] const std::vector<std::unique_ptr<ChannelEffect>>& channel_effects();
-// Throws std::invalid_argument.
-[[nodiscard]] const ChannelEffect& channel_effect(const std::string& name);
 
 }  // namespace core::closure

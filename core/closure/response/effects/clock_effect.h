@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -35,14 +34,5 @@ class ClockEffect {
     return {};
   }
 };
-
-[[nodiscard]] std::unique_ptr<ClockEffect> make_clock_rate();
-[[nodiscard]] std::unique_ptr<ClockEffect> make_clock_rate_drift();
-[[nodiscard]] std::unique_ptr<ClockEffect> make_clock_lost_frames();
-
-// All of them, one line each.
-[[nodiscard]] const std::vector<std::unique_ptr<ClockEffect>>& clock_effects();
-// Throws std::invalid_argument.
-[[nodiscard]] const ClockEffect& clock_effect(const std::string& name);
 
 }  // namespace core::closure

@@ -1,4 +1,4 @@
-#include "core/closure/response/effects/clock_effect.h"
+#include "core/closure/response/effects/catalogue.h"
 
 namespace core::closure {
 namespace {

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "core/closure/response/effects/clock_effect.h"
+#include "core/closure/response/effects/catalogue.h"
 
 namespace core::closure {
 namespace {

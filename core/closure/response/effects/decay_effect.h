@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -32,15 +31,5 @@ class DecayEffect {
   [[nodiscard]] virtual bool adds_mode() const { return false; }
   [[nodiscard]] virtual bool rest_drifts() const { return false; }
 };
-
-[[nodiscard]] std::unique_ptr<DecayEffect> make_amplitude_frequency();
-[[nodiscard]] std::unique_ptr<DecayEffect> make_amplitude_damping();
-[[nodiscard]] std::unique_ptr<DecayEffect> make_further_mode();
-[[nodiscard]] std::unique_ptr<DecayEffect> make_rest_drift();
-
-// All of them, one line each.
-[[nodiscard]] const std::vector<std::unique_ptr<DecayEffect>>& decay_effects();
-// Throws std::invalid_argument.
-[[nodiscard]] const DecayEffect& decay_effect(const std::string& name);
 
 }  // namespace core::closure

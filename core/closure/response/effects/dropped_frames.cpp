@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/closure/response/effects/channel_effect.h"
+#include "core/closure/response/effects/catalogue.h"
 
 namespace core::closure {
 namespace {

@@ -1,6 +1,6 @@
 #include <limits>
 
-#include "core/closure/response/effects/channel_effect.h"
+#include "core/closure/response/effects/catalogue.h"
 
 namespace core::closure {
 namespace {

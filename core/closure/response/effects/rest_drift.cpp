@@ -1,4 +1,4 @@
-#include "core/closure/response/effects/decay_effect.h"
+#include "core/closure/response/effects/catalogue.h"
 
 namespace core::closure {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/closure/response/effects/channel_effect.h"
+#include "core/closure/response/effects/catalogue.h"
 #include "core/closure/structure_words.h"
 
 namespace core::closure {

@@ -1,9 +1,0 @@
-#pragma once
-
-#include "core/closure/effects/observation_effect.h"
-
-namespace core::closure {
-
-[[nodiscard]] ObservationEffect tangential_distortion_effect();
-
-}  // namespace core::closure

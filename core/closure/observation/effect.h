@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/closure/observation/effect_candidate.h"
+#include "core/closure/observation/effect_in_model.h"
+#include "core/closure/observation/fit_view.h"
+#include "core/closure/observation/run_correction.h"
+#include "core/types/closure_result.h"
+
+namespace core::closure {
+
+// One physical cause that the observation level may lack: one file in effects/ and one line in effects/catalogue.h. A
+// subclass of one of the kinds (kinds/): a pattern over the image with an amplitude per frame, constants of the record,
+// a spectral line. Stateless: what is found in a record is in its candidate, what is fitted in its EffectInModel.
+class ObservationEffect {
+ public:
+  ObservationEffect() = default;
+  ObservationEffect(const ObservationEffect&) = delete;
+  ObservationEffect& operator=(const ObservationEffect&) = delete;
+  virtual ~ObservationEffect() = default;
+
+  [[nodiscard]] virtual EffectId id() const = 0;
+  [[nodiscard]] virtual std::string name() const = 0;  // for readers
+  [[nodiscard]] virtual std::size_t n_parameters() const = 0;
+
+  // Empty: observable in this record, or already adopted.
+  [[nodiscard]] virtual std::optional<NotObservable> obstacle(const FitView& fit, bool is_adopted) const = 0;
+  // Valid until the next fit. The effect must outlive it.
+  [[nodiscard]] virtual std::unique_ptr<EffectCandidate> candidate(const FitView& fit) const = 0;
+
+  // Whether a run corrects this effect in its own points, once reports agree on it, and how. By default it does not.
+  [[nodiscard]] virtual const InFlightCorrection* in_flight() const { return nullptr; }
+};
+
+}  // namespace core::closure

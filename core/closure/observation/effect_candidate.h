@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+
+#include "core/closure/observation/effect_in_model.h"
+#include "core/closure/observation/held_out.h"
+
+namespace core::closure {
+
+// A residual under test: 2 points x frames, in sigmas, as the model leaves it.
+struct TestedResidual {
+  const Eigen::MatrixXd& values;
+  const ResidualMoments& moments;
+};
+
+// Why an effect is not behind a gain, though it explains it.
+struct Objection {
+  std::string words;            // empty: none
+  bool is_other_cause = false;  // it repeats a motion of the model: not even a rival
+};
+
+// An effect under test on top of one fit.
+class EffectCandidate {
+ public:
+  EffectCandidate() = default;
+  EffectCandidate(const EffectCandidate&) = delete;
+  EffectCandidate& operator=(const EffectCandidate&) = delete;
+  virtual ~EffectCandidate() = default;
+
+  // Drop of the held-out squares in noise variances, on any residual.
+  [[nodiscard]] virtual double gain(const TestedResidual& residual) const = 0;
+
+  // The same on the fit's own residual; the functions below refer to what it found.
+  virtual double find(const TestedResidual& residual) = 0;
+  [[nodiscard]] virtual double material_share() const = 0;  // smallest gain per residual value
+  [[nodiscard]] virtual Objection objection() const { return {}; }
+  [[nodiscard]] virtual std::unique_ptr<EffectInModel> adopted() const = 0;
+};
+
+}  // namespace core::closure

@@ -1,0 +1,20 @@
+#include "core/closure/observation/effects/catalogue.h"
+#include "core/closure/observation/effects/rotation_patterns.h"
+
+namespace core::closure {
+namespace {
+
+// Rotation about the optical axis.
+class CameraRoll final : public RotationEffect {
+ public:
+  [[nodiscard]] EffectId id() const override { return {"camera_roll"}; }
+  [[nodiscard]] std::string name() const override { return "camera roll"; }
+  [[nodiscard]] Eigen::VectorXd pattern(const PointGeometry& geometry) const override { return roll_pattern(geometry); }
+  [[nodiscard]] Eigen::Vector3d rotation() const override { return {0.0, 0.0, -1.0}; }
+};
+
+}  // namespace
+
+std::unique_ptr<ObservationEffect> make_camera_roll() { return std::make_unique<CameraRoll>(); }
+
+}  // namespace core::closure

@@ -1,0 +1,47 @@
+#include "core/closure/observation/effects/catalogue.h"
+
+namespace core::closure {
+
+const EffectList<ObservationEffect>& observation_effects() {
+  static const EffectList<ObservationEffect> kAll = [] {
+    EffectList<ObservationEffect> all;
+#define HOVERMODAL_MAKE(name) all.push_back(make_##name());
+    HOVERMODAL_OBSERVATION_EFFECTS(HOVERMODAL_MAKE)
+#undef HOVERMODAL_MAKE
+    return all;
+  }();
+  return kAll;
+}
+
+const ObservationEffect* observation_effect(const EffectId& id) {
+  return find_effect(observation_effects(), id.key, [](const ObservationEffect& effect) { return effect.id().key; });
+}
+
+std::vector<NotObservable> never_observable() {
+  return {
+      {"time stamp jitter, dropped and duplicated frames",
+       "the displacement of every region is free in each frame and absorbs an error of the frame's time",
+       "trust the source's stamps and sequence numbers, or film a clock; a predictor over time of the regions' motion "
+       "could show them"},
+      {"clock rate", "a wrong rate scales all frequencies alike and leaves no residual",
+       "film a clock, or give reference frequencies"},
+      {"scale, and its slow change", "zoom of the structure's plane is free in each frame",
+       "declare a known length per region"},
+      {"zoom about a displaced centre", "it is zoom about the principal point and a translation, both free",
+       "film points at several known depths"},
+      {"constant part of yaw and pitch", "it is a translation of the whole image, which is free in each frame",
+       "modes are unaffected: displacement relative to the base remains"},
+      {"stabilisation warp",
+       "its translation and zoom are free in each frame; any remaining warp appears as a latent "
+       "effect",
+       "switch the camera's stabilisation off"},
+      {"flicker bands",
+       "tracks contain no brightness; the effect of bands on single points appears as a latent "
+       "effect",
+       "inspect the frames themselves, or expose for a whole period of the lamps"},
+      {"tilt of single floors", "the model has no rotation per region; a tilt appears as a latent effect",
+       "declare larger regions, or several on one floor"},
+  };
+}
+
+}  // namespace core::closure

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/closure/observation/effect.h"
+#include "core/types/effect_catalogue.h"
+
+// The named effects of the observation level, one line each, in the order in which they are tried: the file
+// effects/NAME.cpp defines make_NAME().
+#define HOVERMODAL_OBSERVATION_EFFECTS(EFFECT) \
+  EFFECT(camera_roll)                          \
+  EFFECT(camera_pitch)                         \
+  EFFECT(camera_yaw)                           \
+  EFFECT(readout_time)                         \
+  EFFECT(radial_distortion)                    \
+  EFFECT(tangential_distortion)                \
+  EFFECT(pixel_locking)                        \
+  EFFECT(rotor_line)
+
+namespace core::closure {
+
+#define HOVERMODAL_DECLARE(name) [[nodiscard]] std::unique_ptr<ObservationEffect> make_##name();
+HOVERMODAL_OBSERVATION_EFFECTS(HOVERMODAL_DECLARE)
+#undef HOVERMODAL_DECLARE
+
+[[nodiscard]] const EffectList<ObservationEffect>& observation_effects();
+// nullptr: not in the catalogue.
+[[nodiscard]] const ObservationEffect* observation_effect(const EffectId& id);
+
+// Effects that no record of tracks can show at this level, whatever their size.
+[[nodiscard]] std::vector<NotObservable> never_observable();
+
+}  // namespace core::closure

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "core/closure/observation/effect.h"
+
+namespace core::closure {
+
+// A few constants of the whole record. Scored on one of ten blocks of time, fitted on the other nine.
+class ConstantEffect : public ObservationEffect {
+ public:
+  struct Parameter {
+    std::string name;
+    double waves_per_px = 0.0;  // where it multiplies a wave over the image: an uncertain place blurs it
+  };
+  [[nodiscard]] virtual std::vector<Parameter> constants() const = 0;
+  [[nodiscard]] virtual std::string unit() const { return {}; }
+  [[nodiscard]] virtual double most() const = 0;  // largest plausible magnitude of a value
+  // Of the prediction by each constant, at these values, as the model leaves them (2 points x frames, in sigmas).
+  [[nodiscard]] virtual std::vector<Eigen::MatrixXd> derivatives(const Eigen::VectorXd& values,
+                                                                 const FitView& fit) const = 0;
+  [[nodiscard]] virtual double added_readout_frames(const Eigen::VectorXd& /*values*/) const { return 0.0; }
+  virtual void correct(CorrectionStage /*stage*/, const Eigen::VectorXd& /*values*/, const CorrectionView& /*view*/,
+                       Eigen::MatrixXd& /*positions*/) const {}
+
+  [[nodiscard]] std::size_t n_parameters() const final { return constants().size(); }
+  [[nodiscard]] std::optional<NotObservable> obstacle(const FitView& /*fit*/, bool /*is_adopted*/) const override {
+    return std::nullopt;
+  }
+  [[nodiscard]] std::unique_ptr<EffectCandidate> candidate(const FitView& fit) const final;
+};
+
+// Constants that move the points: everything follows from how they are removed from positions.
+class PositionEffect : public ConstantEffect {
+ public:
+  [[nodiscard]] virtual CorrectionStage stage() const = 0;
+  [[nodiscard]] virtual double step() const = 0;  // for derivatives: small relative to what is observable
+  virtual void remove(const Eigen::VectorXd& values, const CorrectionView& view, Eigen::MatrixXd& positions) const = 0;
+
+  [[nodiscard]] std::vector<Eigen::MatrixXd> derivatives(const Eigen::VectorXd& values, const FitView& fit) const final;
+  void correct(CorrectionStage at, const Eigen::VectorXd& values, const CorrectionView& view,
+               Eigen::MatrixXd& positions) const final {
+    if (at == stage()) remove(values, view, positions);
+  }
+};
+
+}  // namespace core::closure

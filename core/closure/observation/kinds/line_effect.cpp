@@ -1,0 +1,100 @@
+#include "core/closure/observation/kinds/line_effect.h"
+
+#include <cmath>
+
+#include "core/closure/observation/kinds/materiality.h"
+#include "core/closure/observation/line_search.h"
+
+namespace core::closure {
+namespace {
+
+constexpr double kOfPattern = 0.7;  // of the gain of the best pattern learned in its band
+
+LineSearch search_in(const LineEffect& effect, const FitView& fit) {
+  return {fit.model, fit.record.rate_hz, fit.readout_frames, effect.patterns(fit.model.geometry(), fit.readout_frames),
+          fit.record.n_frames()};
+}
+
+// Points x frames: how much later in the readout than on average a point is seen, as it drifts over the lines.
+Eigen::MatrixXd later_in_readout(const FitView& fit) {
+  Eigen::MatrixXd later(fit.record.n_points(), fit.record.n_frames());
+  for (Eigen::Index j = 0; j < later.rows(); ++j) {
+    for (Eigen::Index k = 0; k < later.cols(); ++k)
+      later(j, k) = fit.record.readout_share(fit.predicted_px(2 * j, k), fit.predicted_px(2 * j + 1, k));
+    later.row(j).array() -= later.row(j).mean();
+  }
+  return later;
+}
+
+class LineInModel final : public EffectInModel {
+ public:
+  LineInModel(const LineEffect& effect, const LineFinding& line)
+      : EffectInModel(effect.id(), effect.name()), effect_(effect), line_(line) {}
+  [[nodiscard]] std::unique_ptr<EffectInModel> clone() const override { return std::make_unique<LineInModel>(*this); }
+  [[nodiscard]] std::vector<ParameterValue> parameters(const FitView& fit,
+                                                       const Eigen::RowVectorXd& /*amplitude*/) const override {
+    return {{"frequency", "Hz", std::abs(hz_.apparent_hz + line_.fold * fit.record.rate_hz), hz_.sigma_hz},
+            {"apparent frequency", "Hz", hz_.apparent_hz, hz_.sigma_hz},
+            {"gain over the next alias order", "", line_.gain - line_.next_gain, std::nullopt}};
+  }
+  void correct(CorrectionStage stage, const CorrectionView& /*view*/, Eigen::MatrixXd& positions) const override {
+    if (stage == CorrectionStage::kVibration && motion_px_.size() > 0) positions -= motion_px_;
+  }
+  [[nodiscard]] bool is_refined() const override { return true; }
+  void refine(const FitView& fit) override {
+    const LineSearch search = search_in(effect_, fit);
+    const Eigen::MatrixXd more = search.motion(fit.model.residual(), line_, later_in_readout(fit));
+    motion_px_ = motion_px_.size() > 0 ? (motion_px_ + more).eval() : more;
+    hz_ = search.frequency(motion_px_, line_);
+  }
+  [[nodiscard]] double freedom() const override { return line_.freedom; }
+
+ private:
+  const LineEffect& effect_;
+  LineFinding line_;
+  LineFrequency hz_;
+  Eigen::MatrixXd motion_px_;
+};
+
+class LineCandidate final : public EffectCandidate {
+ public:
+  LineCandidate(const LineEffect& effect, const FitView& fit)
+      : effect_(effect), fit_(fit), search_(search_in(effect, fit)) {}
+  [[nodiscard]] double gain(const TestedResidual& residual) const override {
+    return search_.find(residual.values).gain;
+  }
+  double find(const TestedResidual& residual) override {
+    found_ = search_.find(residual.values);
+    return found_.gain;
+  }
+  [[nodiscard]] double material_share() const override { return kGlobalBar; }
+  [[nodiscard]] Objection objection() const override {
+    if (!(found_.gain < kOfPattern * search_.pattern_gain(fit_.model.residual(), found_))) return {};
+    return {"a projection of another effect: in its band the best learned pattern explains more", false};
+  }
+  [[nodiscard]] std::unique_ptr<EffectInModel> adopted() const override {
+    return std::make_unique<LineInModel>(effect_, found_);
+  }
+
+ private:
+  const LineEffect& effect_;
+  const FitView fit_;
+  LineSearch search_;
+  LineFinding found_;
+};
+
+}  // namespace
+
+std::optional<NotObservable> LineEffect::obstacle(const FitView& fit, bool /*is_adopted*/) const {
+  if (fit.readout_frames != 0.0) return std::nullopt;
+  return NotObservable{
+      "true frequency of a " + name(),
+      "without a known readout time, frequencies that differ by the frame rate cannot be distinguished",
+      "declare the readout time"};
+}
+
+std::unique_ptr<EffectCandidate> LineEffect::candidate(const FitView& fit) const {
+  return std::make_unique<LineCandidate>(*this, fit);
+}
+
+}  // namespace core::closure

@@ -1,0 +1,186 @@
+#include "core/closure/observation/observation_fit.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/closure/observation/rotation_second_order.h"
+#include "core/closure/observation/stacked_positions.h"
+
+namespace core::closure {
+namespace {
+
+constexpr int kReadoutRounds = 3, kRefinedRounds = 8, kFillRounds = 3, kRotationRounds = 2;
+constexpr double kStill = 0.05;  // of its sigma: a constant that has converged
+
+}  // namespace
+
+ObservationFit::ObservationFit(ObservationRecord record)
+    : record_(std::move(record)),
+      measured_(stacked_positions(record_, missing_)),
+      model_(record_),
+      held_out_(std::make_unique<HeldOut>(model_)),
+      predicted_px_(measured_) {
+  double squares = 0.0;
+  for (const double sigma : record_.sigma_px) squares += sigma * sigma;
+  sigma_px_ = std::sqrt(squares / static_cast<double>(record_.sigma_px.size()));
+}
+
+ObservationFit::Effects ObservationFit::copy_effects() const {
+  Effects out;
+  for (const auto& effect : effects_) out.push_back(effect->clone());
+  return out;
+}
+
+void ObservationFit::set_columns() {
+  std::vector<Eigen::VectorXd> full, low;
+  for (const auto& effect : effects_) {
+    effect->set_places(model_.geometry());
+    if (effect->pattern() != nullptr) (effect->is_low_band() ? low : full).push_back(*effect->pattern());
+  }
+  model_.set_added(full, low);
+}
+
+void ObservationFit::set_places(const Eigen::VectorXd& mean_px) {
+  model_.set_places(record_, mean_px, magnification(measured_.rowwise().mean()));
+  set_columns();
+}
+
+Eigen::Index ObservationFit::amplitude_row(std::size_t effect) const {
+  Eigen::Index full = model_.n_own(), low = full;
+  for (const auto& other : effects_) low += other->pattern() != nullptr && !other->is_low_band() ? 1 : 0;
+  for (std::size_t i = 0; i < effect; ++i) {
+    if (effects_[i]->pattern() != nullptr) ++(effects_[i]->is_low_band() ? low : full);
+  }
+  return effects_[effect]->is_low_band() ? low : full;
+}
+
+Eigen::RowVectorXd ObservationFit::amplitude(std::size_t effect) const {
+  if (effects_.at(effect)->pattern() == nullptr) return {};
+  return model_.amplitudes().row(amplitude_row(effect));
+}
+
+double ObservationFit::freedom_beside() const {
+  double sum = 0.0;
+  for (const auto& effect : effects_) sum += effect->freedom();
+  return sum;
+}
+
+void ObservationFit::fill_missing() {
+  for (const auto& [row, frame] : missing_)
+    measured_(row, frame) = predicted_px_(row, frame) + tracker_error_px_(row, frame);
+}
+
+void ObservationFit::sum_readout() {
+  readout_frames_ = record_.readout_frames;
+  for (const auto& effect : effects_) readout_frames_ += effect->added_readout_frames();
+}
+
+// Measured positions less what the adopted effects do to them.
+Eigen::MatrixXd ObservationFit::corrected(bool solved) {
+  Eigen::MatrixXd positions = measured_;
+  const CorrectionView view{record_, predicted_px_};
+  const auto correct = [&](CorrectionStage stage) {
+    for (const auto& effect : effects_) effect->correct(stage, view, positions);
+  };
+  correct(CorrectionStage::kVibration);
+  tracker_error_px_ = positions;
+  correct(CorrectionStage::kTracker);
+  tracker_error_px_ -= positions;
+  correct(CorrectionStage::kLens);
+  if (solved) remove_second_orders(positions);
+  return positions;
+}
+
+// How much the adopted lens stretches the image at the points when it is removed; noise is stretched alike.
+Eigen::VectorXd ObservationFit::magnification(const Eigen::VectorXd& places_px) const {
+  constexpr double kApart_px = 1.0;
+  const Eigen::Index n = places_px.size() / 2;
+  Eigen::MatrixXd around(places_px.size(), 4);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    around.middleRows(2 * j, 2).colwise() = places_px.segment<2>(2 * j);
+    around.block<2, 2>(2 * j, 0) += kApart_px * Eigen::Matrix2d::Identity();
+    around.block<2, 2>(2 * j, 2) -= kApart_px * Eigen::Matrix2d::Identity();
+  }
+  for (const auto& effect : effects_) effect->correct(CorrectionStage::kLens, {record_, predicted_px_}, around);
+  Eigen::VectorXd out(n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const Eigen::Matrix2d stretch = (around.block<2, 2>(2 * j, 0) - around.block<2, 2>(2 * j, 2)) / (2.0 * kApart_px);
+    const double area = std::abs(stretch.determinant());
+    out(j) = area > 0.1 && area < 10.0 ? std::sqrt(area) : 1.0;
+  }
+  return out;
+}
+
+// Of the adopted rotations; their series are those of the solution before.
+void ObservationFit::remove_second_orders(Eigen::MatrixXd& positions) const {
+  Eigen::MatrixXd rotations = Eigen::MatrixXd::Zero(3, positions.cols()), rates = rotations;
+  double share = 0.0;
+  bool any = false;
+  for (std::size_t i = 0; i < effects_.size(); ++i) {
+    const Eigen::Vector3d rotation = effects_[i]->rotation();
+    if (rotation.isZero() || amplitude_row(i) >= model_.amplitudes().rows()) continue;
+    const Eigen::Index row = amplitude_row(i);
+    rotations += rotation * model_.amplitudes().row(row);
+    rates += rotation * model_.rates().row(row);
+    share = model_.share_of_column(row);
+    any = true;
+  }
+  if (any) remove_second_order(record_, model_.geometry(), rotations, rates, readout_frames_, share, positions);
+}
+
+// One Gauss-Newton step of all constants together.
+bool ObservationFit::refine_constants() {
+  std::vector<Eigen::MatrixXd> fields;
+  for (const auto& effect : effects_) {
+    if (effect->n_constants() == 0) continue;
+    for (Eigen::MatrixXd& field : effect->derivatives(view())) fields.push_back(std::move(field));
+  }
+  if (fields.empty()) return false;
+  const auto n = static_cast<Eigen::Index>(fields.size());
+  Eigen::MatrixXd normal(n, n);
+  Eigen::VectorXd right(n);
+  for (Eigen::Index a = 0; a < n; ++a) {
+    const Eigen::MatrixXd& field = fields[static_cast<std::size_t>(a)];
+    right(a) = field.cwiseProduct(model_.residual()).sum();
+    for (Eigen::Index b = 0; b <= a; ++b)
+      normal(a, b) = normal(b, a) = field.cwiseProduct(fields[static_cast<std::size_t>(b)]).sum();
+  }
+  const Eigen::MatrixXd covariance = normal.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+  const Eigen::VectorXd change = covariance * right;
+  if (!change.allFinite()) return false;
+  Eigen::Index at = 0;
+  for (const auto& effect : effects_) {
+    const Eigen::Index count = effect->n_constants();
+    if (count == 0) continue;
+    effect->change_constants(change.segment(at, count), covariance.block(at, at, count, count));
+    at += count;
+  }
+  return (change.array().square() > kStill * kStill * covariance.diagonal().array()).any();
+}
+
+void ObservationFit::solve() {
+  set_places(measured_.rowwise().mean());
+  const auto any = [&](const auto& holds) { return std::any_of(effects_.begin(), effects_.end(), holds); };
+  const bool refined = any([](const auto& effect) { return effect->is_refined(); });
+  const bool rotates = any([](const auto& effect) { return !effect->rotation().isZero(); });
+  int rounds =
+      std::max({refined ? kRefinedRounds : 1, rotates ? kRotationRounds : 1, missing_.empty() ? 1 : kFillRounds});
+  for (int round = 0; round <= rounds; ++round) {
+    sum_readout();
+    const Eigen::MatrixXd positions = corrected(round > 0);
+    if (refined || rotates) set_places(positions.rowwise().mean());
+    model_.solve(positions, readout_frames_, kReadoutRounds);
+    predicted_px_ = measured_ - model_.residual_px() - tracker_error_px_;
+    if (round == rounds) break;
+    fill_missing();
+    for (const auto& effect : effects_) effect->refine(view());
+    if (!refine_constants() && round >= kFillRounds) rounds = round + 1;
+  }
+  held_out_ = std::make_unique<HeldOut>(model_);
+  if (!model_.residual().allFinite()) throw std::runtime_error("observation level: the fit did not stay finite");
+}
+
+}  // namespace core::closure

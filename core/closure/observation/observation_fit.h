@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/closure/observation/effect_in_model.h"
+#include "core/closure/observation/fit_view.h"
+
+namespace core::closure {
+
+// The model of the points' positions with its adopted effects, fitted to one record: PointMotionModel, free in every
+// frame; patterns as further columns of it; constants by Gauss-Newton steps; lines by themselves; missing samples
+// predicted by the model.
+class ObservationFit {
+ public:
+  using Effects = std::vector<std::unique_ptr<EffectInModel>>;
+
+  // record: checked, of usable points.
+  explicit ObservationFit(ObservationRecord record);
+
+  // Everything below refers to the last solve(), or to the model without effects. Throws std::runtime_error: a fit that
+  // did not stay finite.
+  void solve();
+
+  [[nodiscard]] const Effects& effects() const noexcept { return effects_; }  // in the order of adoption
+  void add(std::unique_ptr<EffectInModel> effect) { effects_.push_back(std::move(effect)); }
+  void remove(std::size_t effect) { effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(effect)); }
+  [[nodiscard]] Effects copy_effects() const;
+  void set_effects(Effects effects) { effects_ = std::move(effects); }
+
+  [[nodiscard]] FitView view() const noexcept {
+    return {record_, model_, *held_out_, predicted_px_, readout_frames_, sigma_px_};
+  }
+  [[nodiscard]] const ObservationRecord& record() const noexcept { return record_; }
+  [[nodiscard]] const PointMotionModel& model() const noexcept { return model_; }
+  [[nodiscard]] double readout_frames() const noexcept { return readout_frames_; }
+  [[nodiscard]] double sigma_px() const noexcept { return sigma_px_; }  // rms over points
+  [[nodiscard]] Eigen::VectorXd mean_places_px() const { return measured_.rowwise().mean(); }
+  // Of an effect's pattern, over the frames; empty: it has none.
+  [[nodiscard]] Eigen::RowVectorXd amplitude(std::size_t effect) const;
+  // Degrees of freedom that effects take from the noise beside the model's columns.
+  [[nodiscard]] double freedom_beside() const;
+
+ private:
+  [[nodiscard]] Eigen::Index amplitude_row(std::size_t effect) const;  // of an effect with a pattern
+  void set_columns();
+  void set_places(const Eigen::VectorXd& mean_px);
+  void fill_missing();
+  void sum_readout();
+  [[nodiscard]] Eigen::MatrixXd corrected(bool solved);  // solved: with these effects before
+  [[nodiscard]] Eigen::VectorXd magnification(const Eigen::VectorXd& places_px) const;
+  void remove_second_orders(Eigen::MatrixXd& positions) const;
+  bool refine_constants();  // false: no constant changed by more than a twentieth of its sigma
+
+  ObservationRecord record_;
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> missing_;  // row, frame
+  Eigen::MatrixXd measured_;  // 2 points x frames, px; missing ones predicted by the model
+  PointMotionModel model_;
+  std::unique_ptr<HeldOut> held_out_;
+  Effects effects_;
+  double readout_frames_ = 0.0, sigma_px_ = 0.0;
+  Eigen::MatrixXd predicted_px_;      // in the raw image, without the tracker's errors
+  Eigen::MatrixXd tracker_error_px_;  // of the adopted effects
+};
+
+}  // namespace core::closure

@@ -1,0 +1,78 @@
+#include "core/closure/observation/observation_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/closure/observation/effects/catalogue.h"
+#include "core/closure/observation/latent_words.h"
+#include "core/closure/observation/region_modes.h"
+
+namespace core::closure {
+namespace {
+
+// Motions of the fit with which a latent effect's amplitude may go, and their squares.
+std::vector<KnownSignal> motions_of(const FitView& fit) {
+  const Eigen::MatrixXd& amplitudes = fit.model.amplitudes();
+  std::vector<KnownSignal> out;
+  const RegionChannels channels = region_channels(fit);
+  for (std::size_t c = 0; c < channels.rows.size(); ++c)
+    out.push_back({"the motion of " + channels.info[c].name, amplitudes.row(channels.rows[c])});
+  const Eigen::Index plane = fit.model.first_plane_row();
+  const char* names[] = {"the camera's translation along u", "the camera's translation along v",
+                         "the camera's distance"};
+  for (Eigen::Index i = 0; i < 3 && plane + i < fit.model.n_own(); ++i)
+    out.push_back({names[i], amplitudes.row(plane + i)});
+  const std::size_t n_plain = out.size();
+  for (std::size_t i = 0; i < n_plain; ++i) {
+    const Eigen::RowVectorXd s = out[i].series.array() - out[i].series.mean();
+    out.push_back({"the square of " + out[i].name, s.cwiseAbs2()});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<NotObservable> not_observable(const ObservationFit& fit,
+                                          const std::vector<const ObservationEffect*>& catalogue) {
+  std::vector<NotObservable> out = never_observable();
+  for (const ObservationEffect* effect : catalogue) {
+    const bool is_adopted = std::any_of(fit.effects().begin(), fit.effects().end(),
+                                        [&](const auto& adopted) { return adopted->id() == effect->id(); });
+    if (std::optional<NotObservable> obstacle = effect->obstacle(fit.view(), is_adopted))
+      out.push_back(std::move(*obstacle));
+  }
+  return out;
+}
+
+std::vector<ParameterValue> effect_parameters(const ObservationFit& fit, std::size_t effect) {
+  return fit.effects().at(effect)->parameters(fit.view(), fit.amplitude(effect));
+}
+
+std::string effect_meaning(const ObservationFit& fit, std::size_t effect) {
+  const EffectInModel& latent = *fit.effects().at(effect);
+  if (latent.kind() != EffectKind::kLatent) return {};
+  std::vector<KnownSignal> known = motions_of(fit.view());
+  for (std::size_t i = 0; i < fit.effects().size(); ++i) {
+    if (i != effect && fit.effects()[i]->pattern() != nullptr)
+      known.push_back({fit.effects()[i]->name(), fit.amplitude(i)});
+  }
+  return latent_words(*latent.pattern(), fit.amplitude(effect), fit.record(), fit.model().geometry(), known);
+}
+
+std::string describe_residual(const ObservationFit& fit) {
+  const ObservationRecord& record = fit.record();
+  const ResidualMoments moments = residual_moments(fit.model().residual(), fit.model().cosines());
+  const Eigen::VectorXd pattern = leading_pattern(moments.all_sum);
+  const double along_v = Eigen::Map<const Eigen::MatrixXd>(pattern.data(), 2, pattern.size() / 2).row(1).squaredNorm();
+  std::vector<double> share(record.regions.size(), 0.0);
+  for (Eigen::Index j = 0; j < record.n_points(); ++j)
+    share[record.region_of_point[static_cast<std::size_t>(j)]] += pattern.segment<2>(2 * j).squaredNorm();
+  const auto most = static_cast<std::size_t>(std::max_element(share.begin(), share.end()) - share.begin());
+  const double slow = moments.low_sum.trace() / std::max(moments.all_sum.trace(), 1e-300);
+  return "leading pattern: " + std::to_string(std::lround(100.0 * share[most])) + " % in region " +
+         record.regions[most].name + ", " + std::to_string(std::lround(100.0 * along_v)) + " % along v; " +
+         std::to_string(std::lround(100.0 * slow)) + " % of the residual below " +
+         std::to_string(PointMotionModel::kLowBand_hz).substr(0, 3) + " Hz";
+}
+
+}  // namespace core::closure

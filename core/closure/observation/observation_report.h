@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/closure/observation/effect.h"
+#include "core/closure/observation/observation_fit.h"
+#include "core/types/closure_result.h"
+
+namespace core::closure {
+
+// What a fit of the observation level shows, for readers. Pure functions of the fit.
+
+// Effects of the catalogue that this record cannot show, and those that no record of tracks can.
+[[nodiscard]] std::vector<NotObservable> not_observable(const ObservationFit& fit,
+                                                        const std::vector<const ObservationEffect*>& catalogue);
+
+[[nodiscard]] std::vector<ParameterValue> effect_parameters(const ObservationFit& fit, std::size_t effect);
+
+// Describes a latent effect: place, smoothness, frequency, the signal with which it correlates. Empty for named ones.
+[[nodiscard]] std::string effect_meaning(const ObservationFit& fit, std::size_t effect);
+
+// Of the residual's leading pattern: region, axis, share of the low band.
+[[nodiscard]] std::string describe_residual(const ObservationFit& fit);
+
+}  // namespace core::closure

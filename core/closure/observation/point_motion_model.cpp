@@ -1,0 +1,278 @@
+#include "core/closure/observation/point_motion_model.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/closure/observation/time_filter.h"
+#include "core/linear/dense.h"
+
+namespace core::closure {
+namespace {
+
+constexpr double kCamera_hz = 3.0;      // camera motion above it is not differentiated
+constexpr double kRegionCutoff = 0.48;  // cycles per frame
+constexpr double kParallel_deg = 2.0;
+constexpr int kTaps = 25;
+constexpr double kLeastNorm = 1e-3;  // of a column beside those before it, else it falls out
+
+double mean_seen(const Eigen::MatrixXd& values, Eigen::Index j) {
+  double sum = 0.0;
+  Eigen::Index n = 0;
+  for (Eigen::Index k = 0; k < values.rows(); ++k) {
+    if (std::isnan(values(k, j))) continue;
+    sum += values(k, j);
+    ++n;
+  }
+  return n > 0 ? sum / static_cast<double>(n) : 0.0;
+}
+
+Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(a.rows(), b.cols());
+  add_product(out, 1.0, a, b);
+  return out;
+}
+
+// Orthonormal basis of columns in their order; which of them add to those before; R of X = Q R.
+struct Factor {
+  std::vector<Eigen::Index> kept;
+  Eigen::MatrixXd q, r;
+};
+
+Factor factorise_columns(const Eigen::MatrixXd& x) {
+  Factor factor;
+  factor.q.resize(x.rows(), 0);
+  for (Eigen::Index c = 0; c < x.cols(); ++c) {
+    Eigen::VectorXd v = x.col(c);
+    const double norm = v.norm();
+    for (int twice = 0; twice < 2; ++twice) v -= factor.q * (factor.q.transpose() * v);
+    if (!(v.norm() > kLeastNorm * norm)) continue;
+    factor.q.conservativeResize(Eigen::NoChange, factor.q.cols() + 1);
+    factor.q.col(factor.q.cols() - 1) = v.normalized();
+    factor.kept.push_back(c);
+  }
+  Eigen::MatrixXd kept(x.rows(), factor.q.cols());
+  for (Eigen::Index i = 0; i < kept.cols(); ++i) kept.col(i) = x.col(factor.kept[static_cast<std::size_t>(i)]);
+  factor.r = factor.q.transpose() * kept;  // upper triangular
+  return factor;
+}
+
+// Mean of the regions' axes. Axes that differ by less than they can be declared are taken to be parallel: a shift of
+// the camera would else be the tiny difference of large motions.
+double common_axis_deg(const ObservationRecord& record) {
+  double sum = 0.0, n = 0.0;
+  for (const Region& region : record.regions) {
+    if (makes_channel(region.role) && !region.both_axes) sum += region.axis_deg, n += 1.0;
+  }
+  return n > 0.0 ? sum / n : 0.0;
+}
+
+}  // namespace
+
+PointGeometry point_geometry(const ObservationRecord& record) {
+  const Eigen::Index n = record.n_points();
+  PointGeometry geometry{record.alpha_px, Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const double u = mean_seen(record.u_px, j), v = mean_seen(record.v_px, j);
+    geometry.x(j) = (u - record.cx_px) / record.alpha_px;
+    geometry.y(j) = (v - record.cy_px) / record.alpha_px;
+    geometry.share(j) =
+        record.raw_share.empty() ? record.readout_share(u, v) : record.raw_share[static_cast<std::size_t>(j)];
+  }
+  return geometry;
+}
+
+PointMotionModel::PointMotionModel(const ObservationRecord& record)
+    : rate_hz_(record.rate_hz),
+      geometry_(point_geometry(record)),
+      weight_(2 * record.n_points()),
+      cosines_(low_cosines(record.n_frames(), record.rate_hz, kLowBand_hz)),
+      region_row_(2 * record.regions.size(), -1) {
+  for (Eigen::Index j = 0; j < record.n_points(); ++j)
+    weight_.segment<2>(2 * j).setConstant(1.0 / record.sigma_px[static_cast<std::size_t>(j)]);
+  sigma_px_ = weight_.cwiseInverse();
+  add_region_columns(record);
+  n_region_ = static_cast<Eigen::Index>(own_.size());
+  add_plane_columns(record);
+  n_own_ = static_cast<Eigen::Index>(own_.size());
+  factorise();
+}
+
+void PointMotionModel::add_column(const Eigen::VectorXd& field, bool is_region) {
+  own_.emplace_back(field.cwiseProduct(weight_));
+  is_region_.push_back(is_region ? 1 : 0);
+}
+
+void PointMotionModel::add_region_columns(const ObservationRecord& record) {
+  const double common_deg = common_axis_deg(record);
+  for (std::size_t r = 0; r < record.regions.size(); ++r) {
+    const Region& region = record.regions[r];
+    if (!makes_channel(region.role)) continue;
+    const double axis_deg = std::abs(region.axis_deg - common_deg) < kParallel_deg ? common_deg : region.axis_deg;
+    const double angle = region.both_axes ? 0.0 : axis_deg * std::numbers::pi / 180.0;
+    for (int axis = 0; axis < (region.both_axes ? 2 : 1); ++axis) {
+      Eigen::VectorXd field = Eigen::VectorXd::Zero(weight_.size());
+      const double turn = angle + axis * 0.5 * std::numbers::pi;
+      for (Eigen::Index j = 0; j < record.n_points(); ++j) {
+        if (record.region_of_point[static_cast<std::size_t>(j)] == r)
+          field.segment<2>(2 * j) = Eigen::Vector2d(std::cos(turn), std::sin(turn));
+      }
+      if (field.squaredNorm() == 0.0) continue;
+      region_row_[2 * r + static_cast<std::size_t>(axis)] = static_cast<Eigen::Index>(own_.size());
+      add_column(field, true);
+    }
+  }
+}
+
+void PointMotionModel::add_plane_columns(const ObservationRecord& record) {
+  zoom_row_of_point_.assign(static_cast<std::size_t>(record.n_points()), -1);
+  for (const bool background : {false, true}) {
+    Eigen::VectorXd along = Eigen::VectorXd::Zero(weight_.size()), across = along, zoom = along;
+    for (Eigen::Index j = 0; j < record.n_points(); ++j) {
+      const Region& region = record.regions[record.region_of_point[static_cast<std::size_t>(j)]];
+      if ((region.role == RegionRole::kBackground) != background) continue;
+      along(2 * j) = across(2 * j + 1) = 1.0;
+      zoom.segment<2>(2 * j) = geometry_.alpha_px * Eigen::Vector2d(geometry_.x(j), geometry_.y(j));
+    }
+    for (const Eigen::VectorXd& field : {along, across, zoom}) {
+      if (field.squaredNorm() > 0.0) add_column(field, false);
+    }
+    if (!(zoom.squaredNorm() > 0.0)) continue;
+    for (Eigen::Index j = 0; j < record.n_points(); ++j) {
+      if (along(2 * j) > 0.0)
+        zoom_row_of_point_[static_cast<std::size_t>(j)] = static_cast<Eigen::Index>(own_.size()) - 1;
+    }
+  }
+}
+
+void PointMotionModel::set_places(const ObservationRecord& record, const Eigen::VectorXd& places_px,
+                                  const Eigen::VectorXd& magnification) {
+  for (Eigen::Index j = 0; j < geometry_.x.size(); ++j) {
+    geometry_.x(j) = (places_px(2 * j) - record.cx_px) / record.alpha_px;
+    geometry_.y(j) = (places_px(2 * j + 1) - record.cy_px) / record.alpha_px;
+    weight_.segment<2>(2 * j) = (magnification(j) * sigma_px_.segment<2>(2 * j)).cwiseInverse();
+  }
+  own_.clear(), is_region_.clear(), full_.clear(), low_.clear();
+  add_region_columns(record);
+  add_plane_columns(record);
+  factorise();
+}
+
+void PointMotionModel::set_added(const std::vector<Eigen::VectorXd>& full, const std::vector<Eigen::VectorXd>& low) {
+  full_.clear();
+  low_.clear();
+  for (const Eigen::VectorXd& field : full) full_.emplace_back(field.cwiseProduct(weight_));
+  for (const Eigen::VectorXd& field : low) low_.emplace_back(field.cwiseProduct(weight_));
+  factorise();
+}
+
+void PointMotionModel::factorise() {
+  const auto n_full = n_own_ + static_cast<Eigen::Index>(full_.size());
+  x_.resize(weight_.size(), n_full + static_cast<Eigen::Index>(low_.size()));
+  Eigen::Index at = 0;
+  for (const auto* list : {&own_, &full_, &low_}) {
+    for (const Eigen::VectorXd& field : *list) x_.col(at++) = field;
+  }
+  place_in_readout();
+  Factor factor = factorise_columns(x_);
+  kept_ = std::move(factor.kept);
+  const auto below = [&](Eigen::Index limit) {
+    return std::count_if(kept_.begin(), kept_.end(), [&](Eigen::Index c) { return c < limit; });
+  };
+  own_rank_ = below(n_own_);
+  const Eigen::Index n_high = below(n_full), n_extra = factor.q.cols() - n_high;
+  q_low_ = std::move(factor.q);
+  q_high_ = q_low_.leftCols(n_high);
+  extra_ = q_low_.rightCols(n_extra);
+  const auto high = factor.r.topLeftCorner(n_high, n_high).triangularView<Eigen::Upper>();
+  solve_high_ = high.solve(q_high_.transpose());
+  solve_extra_ = factor.r.bottomRightCorner(n_extra, n_extra).triangularView<Eigen::Upper>().solve(extra_.transpose());
+  give_back_ = high.solve(factor.r.topRightCorner(n_high, n_extra));
+}
+
+void PointMotionModel::place_in_readout() {
+  share_.resize(x_.cols());
+  x_first_ = x_second_ = x_;
+  for (Eigen::Index c = 0; c < x_.cols(); ++c) {
+    double sum = 0.0, weights = 0.0;
+    for (Eigen::Index j = 0; j < geometry_.x.size(); ++j) {
+      const double w = x_.col(c).segment<2>(2 * j).squaredNorm() > 0.0 ? weight_(2 * j) * weight_(2 * j) : 0.0;
+      sum += w * geometry_.share(j), weights += w;
+    }
+    share_(c) = weights > 0.0 ? sum / weights : 0.0;
+    for (Eigen::Index j = 0; j < geometry_.x.size(); ++j) {
+      const double later = geometry_.share(j) - share_(c);
+      x_first_.col(c).segment<2>(2 * j) *= later;
+      x_second_.col(c).segment<2>(2 * j) *= 0.5 * later * later;
+    }
+  }
+}
+
+// Amplitudes of all columns; what is left goes to residual_.
+Eigen::MatrixXd PointMotionModel::fit_columns(const Eigen::MatrixXd& z) {
+  Eigen::MatrixXd amplitude = Eigen::MatrixXd::Zero(x_.cols(), z.cols());
+  Eigen::MatrixXd high = product(solve_high_, z);
+  if (extra_.cols() > 0) {
+    const Eigen::MatrixXd extra = solve_extra_ * z * cosines_ * cosines_.transpose();
+    high -= give_back_ * extra;
+    for (Eigen::Index i = 0; i < extra.rows(); ++i)
+      amplitude.row(kept_[static_cast<std::size_t>(high.rows() + i)]) = extra.row(i);
+  }
+  for (Eigen::Index i = 0; i < high.rows(); ++i) amplitude.row(kept_[static_cast<std::size_t>(i)]) = high.row(i);
+  residual_ = z;
+  add_product(residual_, -1.0, x_, amplitude);
+  return amplitude;
+}
+
+void PointMotionModel::differentiate(double rate_hz) {
+  const double cutoff = std::min(kCamera_hz / rate_hz, kRegionCutoff);
+  const std::vector<double> camera = derivative_taps(cutoff, kTaps), region = derivative_taps(kRegionCutoff, kTaps);
+  first_ = filter_odd(amplitude_, camera);
+  second_ = filter_odd(first_, camera);
+  for (Eigen::Index c = 0; c < n_own_; ++c) {
+    if (is_region_[static_cast<std::size_t>(c)] == 0) continue;
+    first_.row(c) = filter_odd(amplitude_.row(c), region);
+    second_.row(c).setZero();  // within a region's rows it is nothing
+  }
+}
+
+void PointMotionModel::solve(const Eigen::MatrixXd& positions, double readout_frames, int rounds) {
+  readout_frames_ = readout_frames;
+  Eigen::MatrixXd z = positions.colwise() - positions.rowwise().mean();
+  z.array().colwise() *= weight_.array();
+  amplitude_ = fit_columns(z);
+  differentiate(rate_hz_);
+  if (readout_frames == 0.0) return;
+  for (int round = 0; round < rounds; ++round) {
+    Eigen::MatrixXd left = z;
+    add_product(left, -readout_frames, x_first_, first_);
+    add_product(left, -readout_frames * readout_frames, x_second_, second_);
+    left.colwise() -= left.rowwise().mean().eval();
+    amplitude_ = fit_columns(left);
+    differentiate(rate_hz_);
+  }
+}
+
+Eigen::MatrixXd PointMotionModel::residual_px() const {
+  return (residual_.array().colwise() * sigma_px_.array()).matrix();
+}
+
+Eigen::RowVectorXd PointMotionModel::zoom_of_point(Eigen::Index point) const {
+  const Eigen::Index row = zoom_row_of_point_[static_cast<std::size_t>(point)];
+  return row < 0 ? Eigen::RowVectorXd::Zero(amplitude_.cols()).eval() : amplitude_.row(row).eval();
+}
+
+Eigen::MatrixXd PointMotionModel::readout_field() const {
+  return x_first_ * first_ + 2.0 * readout_frames_ * (x_second_ * second_);
+}
+
+Eigen::MatrixXd PointMotionModel::left_of(const Eigen::MatrixXd& values) const {
+  Eigen::MatrixXd left = values;
+  add_product(left, -1.0, q_high_, product(q_high_.transpose(), values));
+  if (extra_.cols() > 0) left -= extra_ * (extra_.transpose() * values * cosines_ * cosines_.transpose());
+  left.colwise() -= left.rowwise().mean().eval();
+  return left;
+}
+
+}  // namespace core::closure

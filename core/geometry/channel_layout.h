@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/types/displacement.h"
+#include "core/types/region.h"
+
+namespace core {
+
+// What is known of a region's points when its channels are made.
+struct RegionPoints {
+  std::size_t n = 0;
+  double delay_s = 0.0;  // after the time stamp, of the weighted mean of the points' rows
+};
+
+// The channels of the structure's and the base's regions, in their order: one along a region's axis, or two (u, v).
+[[nodiscard]] std::vector<ChannelInfo> channel_layout(const std::vector<Region>& regions,
+                                                      const std::vector<RegionPoints>& points);
+
+// Witnesses of the camera's translation along each direction of the channels: the static region with the most points,
+// at least min_points (3 or more); empty without one.
+[[nodiscard]] std::vector<ChannelInfo> witness_layout(const std::vector<Region>& regions,
+                                                      const std::vector<RegionPoints>& points,
+                                                      const std::vector<ChannelInfo>& channels, int min_points);
+
+}  // namespace core

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/structure/structural_effect.h"
+
+namespace core::structure {
+
+// "a mass of 1.93 is outside 0.2 .. 5"; empty where it lies inside.
+[[nodiscard]] std::string outside(double value, double low, double high, std::string_view what);
+// Effects that change one storey against the others need others.
+[[nodiscard]] std::optional<Obstacle> needs_storeys(const DeclaredFrame& declared, std::size_t n);
+
+}  // namespace core::structure
