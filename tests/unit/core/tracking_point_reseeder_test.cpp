@@ -136,9 +136,6 @@ TEST(PointReseeder, NothingToTrackThereSpoilsNoOther) {
     for (const TrackPoint& point : scene.tracks.points) {
       EXPECT_TRUE(point.inlier || !scene.is_free(point)) << point.id;
       EXPECT_TRUE(!point.seen || std::abs(scene.error(point)) < 0.3) << point.id << " at " << scene.k;
-      if (point.id == 2 && scene.k > 60)
-        printf("%d %d %.3f %.3f v %.3f\n", scene.k, point.seen, scene.error(point), point.sigma_px,
-               point.v_px - scene.keyframe.points[2].v_px);
     }
   }
 }
