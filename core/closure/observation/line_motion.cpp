@@ -16,12 +16,15 @@ constexpr int kStretches = 8;
 
 }  // namespace
 
-Eigen::RowVectorXcd LineSearch::analytic(const Eigen::RowVectorXcd& bins, const Band& at, Eigen::Index n) const {
+Eigen::RowVectorXcd LineSearch::analytic(const Eigen::RowVectorXcd& bins, const Band& at, Eigen::Index n,
+                                         double frames) const {
   RealFft fft(n_fft_);
   std::vector<std::complex<double>> part(static_cast<std::size_t>(fft.n_bins()), 0.0);
   std::vector<double> cosine(static_cast<std::size_t>(n_fft_)), sine = cosine;
-  for (Eigen::Index i = 0; i < at.count; ++i)
-    part[static_cast<std::size_t>(at.first + i)] = bins(i) / std::sqrt(2.0 / n_fft_);
+  for (Eigen::Index i = 0; i < at.count; ++i) {
+    const double angle = 2.0 * std::numbers::pi * frames * static_cast<double>(at.first + i) / n_fft_;
+    part[static_cast<std::size_t>(at.first + i)] = bins(i) / std::sqrt(2.0 / n_fft_) * std::polar(1.0, angle);
+  }
   fft.inverse(part, cosine);
   for (std::complex<double>& bin : part) bin *= std::complex<double>(0.0, -1.0);
   fft.inverse(part, sine);
@@ -38,8 +41,7 @@ Eigen::MatrixXd LineSearch::motion(const Eigen::MatrixXd& residual, const LineFi
   const Eigen::MatrixXcd bins = spectrum(residual).middleCols(b.first, b.count);
   std::vector<Eigen::MatrixXcd> motion(both.size(), Eigen::MatrixXcd::Zero(bins.rows(), bins.cols()));
   for (Eigen::Index c = 0; c < b.count; ++c) {
-    const double bin_hz = rate_hz_ / n_fft_ * static_cast<double>(b.first + c);
-    const Eigen::MatrixXcd fields = fields_at(b.first + c, bin_hz, both), w = left_of(fields);
+    const Eigen::MatrixXcd fields = fields_at(b.first + c, both), w = left_of(fields);
     const Eigen::VectorXcd amplitude = (w.adjoint() * w).ldlt().solve(w.adjoint() * bins.col(c));
     for (std::size_t side = 0, at = 0; side < both.size(); ++side) {
       if (!both[side].band.holds(b.first + c)) continue;
@@ -51,7 +53,8 @@ Eigen::MatrixXd LineSearch::motion(const Eigen::MatrixXd& residual, const LineFi
   for (std::size_t side = 0; side < both.size(); ++side) {
     const double turns = (both[side].apparent_hz + both[side].fold * rate_hz_) / rate_hz_ * readout_frames_;
     for (Eigen::Index i = 0; i < out.rows(); ++i) {
-      const Eigen::RowVectorXcd series = analytic(motion[side].row(i), b, out.cols());
+      const double frames = readout_frames_ * (model_.geometry().share(i / 2) - PointMotionModel::kCommonShare);
+      const Eigen::RowVectorXcd series = analytic(motion[side].row(i), b, out.cols(), frames);
       for (Eigen::Index k = 0; k < out.cols(); ++k)
         out(i, k) += (series(k) * std::polar(1.0, 2.0 * std::numbers::pi * turns * later(i / 2, k))).real();
     }

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::array<double, 4> kHalfWidth_hz{3.0, 2.0, 1.0, 0.3};
 constexpr double kFoldWidth_hz = 1.0;  // in which the fold is told
-constexpr double kStrip_hz = 0.25;     // of one phase, while widths are compared
 constexpr double kLowest_hz = 3.5;     // below, slow rotations are effects of their own
+constexpr double kNearlyAll = 0.99;    // of a line's gain
 constexpr std::size_t kPeaks = 2;
 constexpr double kMirrorReadout_frames = 0.2;  // from which the rows tell a band from its mirror image
 constexpr double kPeakApart_hz = 1.0, kPeakWidth_hz = 0.3;
@@ -116,20 +116,20 @@ std::vector<double> LineSearch::peaks(const Eigen::MatrixXcd& spectrum) const {
   return out;
 }
 
-Eigen::MatrixXcd LineSearch::fields_of(double apparent_hz, int fold) const {
+Eigen::MatrixXcd LineSearch::fields_of(int fold) const {
   Eigen::MatrixXcd fields = fields_.cast<std::complex<double>>();
-  const double turns = (apparent_hz + fold * rate_hz_) / rate_hz_ * readout_frames_;
+  const double turns = fold * readout_frames_;
   for (Eigen::Index j = 0; j < fields.rows() / 2; ++j)
     fields.middleRows(2 * j, 2) *= std::polar(1.0, 2.0 * std::numbers::pi * turns * model_.geometry().share(j));
   return fields;
 }
 
-Eigen::MatrixXcd LineSearch::fields_at(Eigen::Index bin, double hz, const std::vector<Side>& sides) const {
+Eigen::MatrixXcd LineSearch::fields_at(Eigen::Index bin, const std::vector<Side>& sides) const {
   Eigen::MatrixXcd fields(fields_.rows(), 0);
   for (const Side& side : sides) {
     if (!side.band.holds(bin)) continue;
     fields.conservativeResize(Eigen::NoChange, fields.cols() + fields_.cols());
-    fields.rightCols(fields_.cols()) = fields_of(hz, side.fold);
+    fields.rightCols(fields_.cols()) = fields_of(side.fold);
   }
   return fields;
 }
@@ -188,16 +188,56 @@ double LineSearch::pattern_gain(const Eigen::MatrixXd& residual, const LineFindi
   return gained;
 }
 
-// Strip by strip, each with the phase of its own middle. Without the mirror image: a line must stand by its own side.
+// Without the mirror image: a line must stand by its own side.
 double LineSearch::band_gain(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const {
-  const double low = finding.apparent_hz - finding.half_width_hz;
+  const Band b = band(finding.apparent_hz, finding.half_width_hz);
+  return b.count < 1 ? 0.0 : gain(moments_of(spectrum.middleCols(b.first, b.count)), fields_of(finding.fold));
+}
+
+double LineSearch::freedom_of(const LineFinding& finding) const {
   double sum = 0.0;
-  for (double at = low; at < low + 2.0 * finding.half_width_hz - 1e-9; at += kStrip_hz) {
-    const Band b = band(at + 0.5 * kStrip_hz, 0.5 * kStrip_hz);
-    if (b.count < 1) continue;
-    sum += gain(moments_of(spectrum.middleCols(b.first, b.count)), fields_of(at + 0.5 * kStrip_hz, finding.fold));
-  }
+  for (const Side& side : sides(finding)) sum += 6.0 * static_cast<double>(side.band.count * n_frames_) / n_fft_;
   return sum;
+}
+
+std::array<double, 3> LineSearch::quantiles_hz(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const {
+  const Band b = band(finding.apparent_hz, finding.half_width_hz);
+  const Eigen::MatrixXcd fields = fields_of(finding.fold);
+  const Eigen::VectorXd norms =
+      (fields.array().colwise() * model_.weight().array().cast<std::complex<double>>()).matrix().colwise().norm();
+  const Eigen::MatrixXcd g = orthonormal(left_of(fields), norms);
+  const Eigen::MatrixXcd seen = g.adjoint() * spectrum.middleCols(b.first, b.count);
+  const double noise = 2.0 * static_cast<double>(g.cols() * n_frames_) / n_fft_;
+  const Eigen::VectorXd excess = seen.colwise().squaredNorm().transpose().array() - noise;
+  const double whole = excess.sum();
+  std::array<double, 3> out{};
+  double sum = 0.0;
+  std::size_t reached = 0;
+  for (Eigen::Index k = 0; k < b.count && reached < 3; ++k) {
+    sum += excess(k);
+    while (reached < 3 && sum >= std::array{0.16, 0.5, 0.84}[reached] * whole)
+      out[reached++] = rate_hz_ / n_fft_ * static_cast<double>(b.first + k);
+  }
+  while (reached < 3) out[reached++] = rate_hz_ / n_fft_ * static_cast<double>(b.first + b.count);
+  return out;
+}
+
+// The middle of its power, and the narrowest band that holds nearly all of it.
+void LineSearch::recentre(const Eigen::MatrixXcd& spectrum, LineFinding& finding) const {
+  if (!(finding.gain > 0.0)) return;
+  LineFinding trial = finding;
+  trial.apparent_hz = quantiles_hz(spectrum, finding)[1];
+  for (std::size_t i = kHalfWidth_hz.size(); i-- > 0;) {
+    trial.half_width_hz = kHalfWidth_hz[i];
+    trial.gain = band_gain(spectrum, trial);
+    if (!(trial.gain > kNearlyAll * finding.gain)) continue;
+    trial.freedom = freedom_of(trial);
+    trial.next_gain += trial.gain - finding.gain;
+    finding = trial;
+    break;
+  }
+  const std::array<double, 3> places = quantiles_hz(spectrum, finding);
+  finding.spread_hz = 0.5 * (places[2] - places[0]);
 }
 
 void LineSearch::try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz, LineFinding& best) const {
@@ -209,7 +249,7 @@ void LineSearch::try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz,
   own.apparent_hz = apparent_hz;
   own.gain = own.next_gain = -1e300;
   for (int fold = -most; fold <= most; ++fold) {
-    const double g = gain(moments, fields_of(apparent_hz, fold));
+    const double g = gain(moments, fields_of(fold));
     if (g > own.gain)
       own.next_gain = own.gain, own.gain = g, own.fold = fold;
     else
@@ -221,9 +261,7 @@ void LineSearch::try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz,
   own.gain = -1e300;
   for (const double half_width_hz : kHalfWidth_hz) {
     trial.half_width_hz = half_width_hz;
-    trial.freedom = 0.0;
-    for (const Side& side : sides(trial))
-      trial.freedom += 6.0 * static_cast<double>(side.band.count * n_frames_) / n_fft_;
+    trial.freedom = freedom_of(trial);
     trial.gain = band_gain(spectrum, trial);
     if (trial.gain > own.gain) own = trial;
   }
@@ -235,6 +273,7 @@ LineFinding LineSearch::find(const Eigen::MatrixXd& residual) const {
   const Eigen::MatrixXcd bins = spectrum(residual);
   LineFinding best;
   for (const double peak : peaks(bins)) try_folds(bins, peak, best);
+  recentre(bins, best);
   return best;
 }
 

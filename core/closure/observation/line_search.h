@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cmath>
 #include <vector>
 
 #include "core/closure/observation/point_motion_model.h"
@@ -8,17 +10,23 @@
 namespace core::closure {
 
 // Spectral line: rotation of the camera in a narrow band, as caused by rotors. Its phase runs with the readout from
-// row to row, which determines the true frequency among the aliases. For a bin at nu of the residual's spectrum and
-// alias order n the pattern is (roll, pitch, yaw)_j exp(2 pi i (nu + n f_s) rho s_j / f_s). A band that extends
+// row to row, which determines the true frequency among the aliases: at the frames' common instants what is seen at nu
+// and has the alias order n, true frequency nu + n f_s, keeps the phase exp(2 pi i n rho s_j). A band that extends
 // beyond f_s / 2 appears a second time below it, mirrored, with opposite sense of rotation and alias order -(n +
 // 1).
 struct LineFinding {
   double apparent_hz = 0.0;  // middle of the band, 0 .. f_s / 2; 0 = no line
   int fold = 0;
   double half_width_hz = 0.0;
+  double spread_hz = 0.0;  // half of the distance between the 16 % and 84 % points of its power in excess of the noise
   double freedom = 0.0;    // degrees of freedom that its motion takes from the noise
   double gain = 0.0;       // drop of the held-out squares, in noise variances
   double next_gain = 0.0;  // of the second-best alias order
+
+  // Width of a steady line: of what turns at a rate that is held within a hundredth. Wider is a band.
+  [[nodiscard]] bool is_steady(double rate_hz) const noexcept {
+    return spread_hz <= 0.05 + 0.01 * std::abs(apparent_hz + fold * rate_hz);
+  }
 };
 
 // Mean apparent frequency (0 .. f_s / 2) and its standard deviation from eight parts of the record.
@@ -55,20 +63,25 @@ class LineSearch {
     Band band;
   };
   [[nodiscard]] Eigen::MatrixXcd spectrum(const Eigen::MatrixXd& residual) const;
-  // Inverse of one-sided bins, as a complex (analytic) series.
-  [[nodiscard]] Eigen::RowVectorXcd analytic(const Eigen::RowVectorXcd& bins, const Band& at, Eigen::Index n) const;
+  // Inverse of one-sided bins, as a complex (analytic) series, so many frames later.
+  [[nodiscard]] Eigen::RowVectorXcd analytic(const Eigen::RowVectorXcd& bins, const Band& at, Eigen::Index n,
+                                             double frames = 0.0) const;
   [[nodiscard]] Band band(double centre_hz, double half_width_hz) const;
   // The finding's band, and its mirror image if that extends below f_s / 2 and the rows distinguish the two.
   [[nodiscard]] std::vector<Side> sides(const LineFinding& finding) const;
   [[nodiscard]] std::vector<double> peaks(const Eigen::MatrixXcd& spectrum) const;
-  [[nodiscard]] Eigen::MatrixXcd fields_of(double apparent_hz, int fold) const;
+  [[nodiscard]] Eigen::MatrixXcd fields_of(int fold) const;
   // All sides that contain the bin, side by side.
-  [[nodiscard]] Eigen::MatrixXcd fields_at(Eigen::Index bin, double hz, const std::vector<Side>& sides) const;
+  [[nodiscard]] Eigen::MatrixXcd fields_at(Eigen::Index bin, const std::vector<Side>& sides) const;
   // The part of them outside the model's own columns, whitened.
   [[nodiscard]] Eigen::MatrixXcd left_of(const Eigen::MatrixXcd& fields) const;
   [[nodiscard]] double gain(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& fields) const;
   [[nodiscard]] double gain_of_columns(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& g) const;
   [[nodiscard]] double band_gain(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const;
+  void recentre(const Eigen::MatrixXcd& spectrum, LineFinding& finding) const;
+  // Places in the band where its power in excess of the noise reaches these shares, Hz.
+  [[nodiscard]] std::array<double, 3> quantiles_hz(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const;
+  [[nodiscard]] double freedom_of(const LineFinding& finding) const;
   void try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz, LineFinding& best) const;
 
   const PointMotionModel& model_;

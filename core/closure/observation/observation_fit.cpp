@@ -12,7 +12,7 @@
 namespace core::closure {
 namespace {
 
-constexpr int kReadoutRounds = 3, kRefinedRounds = 8, kFillRounds = 3, kRotationRounds = 2;
+constexpr int kReadoutRounds = 1, kRefinedRounds = 8, kFillRounds = 3, kRotationRounds = 2;
 constexpr double kStill = 0.05;  // of its sigma: a constant that has converged
 
 }  // namespace
@@ -172,6 +172,7 @@ void ObservationFit::solve() {
     sum_readout();
     const Eigen::MatrixXd positions = corrected(round > 0);
     if (refined || rotates) set_places(positions.rowwise().mean());
+    model_.set_drift(later_in_readout(record_, predicted_px_));
     model_.solve(positions, readout_frames_, kReadoutRounds);
     predicted_px_ = measured_ - model_.residual_px() - tracker_error_px_;
     if (round == rounds) break;

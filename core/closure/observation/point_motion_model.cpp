@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/closure/observation/time_filter.h"
 #include "core/linear/dense.h"
@@ -11,10 +12,7 @@
 namespace core::closure {
 namespace {
 
-constexpr double kCamera_hz = 3.0;      // camera motion above it is not differentiated
-constexpr double kRegionCutoff = 0.48;  // cycles per frame
 constexpr double kParallel_deg = 2.0;
-constexpr int kTaps = 25;
 constexpr double kLeastNorm = 1e-3;  // of a column beside those before it, else it falls out
 
 double mean_seen(const Eigen::MatrixXd& values, Eigen::Index j) {
@@ -83,8 +81,19 @@ PointGeometry point_geometry(const ObservationRecord& record) {
   return geometry;
 }
 
+Eigen::MatrixXd later_in_readout(const ObservationRecord& record, const Eigen::MatrixXd& positions) {
+  Eigen::MatrixXd later(record.n_points(), record.n_frames());
+  for (Eigen::Index j = 0; j < later.rows(); ++j) {
+    for (Eigen::Index k = 0; k < later.cols(); ++k)
+      later(j, k) = record.readout_share(positions(2 * j, k), positions(2 * j + 1, k));
+    later.row(j).array() -= later.row(j).mean();
+  }
+  return later;
+}
+
 PointMotionModel::PointMotionModel(const ObservationRecord& record)
     : rate_hz_(record.rate_hz),
+      shift_(record.n_frames()),
       geometry_(point_geometry(record)),
       weight_(2 * record.n_points()),
       cosines_(low_cosines(record.n_frames(), record.rate_hz, kLowBand_hz)),
@@ -99,10 +108,7 @@ PointMotionModel::PointMotionModel(const ObservationRecord& record)
   factorise();
 }
 
-void PointMotionModel::add_column(const Eigen::VectorXd& field, bool is_region) {
-  own_.emplace_back(field.cwiseProduct(weight_));
-  is_region_.push_back(is_region ? 1 : 0);
-}
+void PointMotionModel::add_column(const Eigen::VectorXd& field) { own_.emplace_back(field.cwiseProduct(weight_)); }
 
 void PointMotionModel::add_region_columns(const ObservationRecord& record) {
   const double common_deg = common_axis_deg(record);
@@ -120,7 +126,7 @@ void PointMotionModel::add_region_columns(const ObservationRecord& record) {
       }
       if (field.squaredNorm() == 0.0) continue;
       region_row_[2 * r + static_cast<std::size_t>(axis)] = static_cast<Eigen::Index>(own_.size());
-      add_column(field, true);
+      add_column(field);
     }
   }
 }
@@ -136,7 +142,7 @@ void PointMotionModel::add_plane_columns(const ObservationRecord& record) {
       zoom.segment<2>(2 * j) = geometry_.alpha_px * Eigen::Vector2d(geometry_.x(j), geometry_.y(j));
     }
     for (const Eigen::VectorXd& field : {along, across, zoom}) {
-      if (field.squaredNorm() > 0.0) add_column(field, false);
+      if (field.squaredNorm() > 0.0) add_column(field);
     }
     if (!(zoom.squaredNorm() > 0.0)) continue;
     for (Eigen::Index j = 0; j < record.n_points(); ++j) {
@@ -153,7 +159,7 @@ void PointMotionModel::set_places(const ObservationRecord& record, const Eigen::
     geometry_.y(j) = (places_px(2 * j + 1) - record.cy_px) / record.alpha_px;
     weight_.segment<2>(2 * j) = (magnification(j) * sigma_px_.segment<2>(2 * j)).cwiseInverse();
   }
-  own_.clear(), is_region_.clear(), full_.clear(), low_.clear();
+  own_.clear(), full_.clear(), low_.clear();
   add_region_columns(record);
   add_plane_columns(record);
   factorise();
@@ -193,7 +199,6 @@ void PointMotionModel::factorise() {
 
 void PointMotionModel::place_in_readout() {
   share_.resize(x_.cols());
-  x_first_ = x_second_ = x_;
   for (Eigen::Index c = 0; c < x_.cols(); ++c) {
     double sum = 0.0, weights = 0.0;
     for (Eigen::Index j = 0; j < geometry_.x.size(); ++j) {
@@ -201,61 +206,109 @@ void PointMotionModel::place_in_readout() {
       sum += w * geometry_.share(j), weights += w;
     }
     share_(c) = weights > 0.0 ? sum / weights : 0.0;
-    for (Eigen::Index j = 0; j < geometry_.x.size(); ++j) {
-      const double later = geometry_.share(j) - share_(c);
-      x_first_.col(c).segment<2>(2 * j) *= later;
-      x_second_.col(c).segment<2>(2 * j) *= 0.5 * later * later;
-    }
   }
 }
 
 // Amplitudes of all columns; what is left goes to residual_.
-Eigen::MatrixXd PointMotionModel::fit_columns(const Eigen::MatrixXd& z) {
-  Eigen::MatrixXd amplitude = Eigen::MatrixXd::Zero(x_.cols(), z.cols());
+void PointMotionModel::fit_columns(const Eigen::MatrixXd& z) {
+  common_ = Eigen::MatrixXd::Zero(x_.cols(), z.cols());
   Eigen::MatrixXd high = product(solve_high_, z);
   if (extra_.cols() > 0) {
     const Eigen::MatrixXd extra = solve_extra_ * z * cosines_ * cosines_.transpose();
     high -= give_back_ * extra;
     for (Eigen::Index i = 0; i < extra.rows(); ++i)
-      amplitude.row(kept_[static_cast<std::size_t>(high.rows() + i)]) = extra.row(i);
+      common_.row(kept_[static_cast<std::size_t>(high.rows() + i)]) = extra.row(i);
   }
-  for (Eigen::Index i = 0; i < high.rows(); ++i) amplitude.row(kept_[static_cast<std::size_t>(i)]) = high.row(i);
+  for (Eigen::Index i = 0; i < high.rows(); ++i) common_.row(kept_[static_cast<std::size_t>(i)]) = high.row(i);
   residual_ = z;
-  add_product(residual_, -1.0, x_, amplitude);
-  return amplitude;
+  add_product(residual_, -1.0, x_, common_);
 }
 
-void PointMotionModel::differentiate(double rate_hz) {
-  const double cutoff = std::min(kCamera_hz / rate_hz, kRegionCutoff);
-  const std::vector<double> camera = derivative_taps(cutoff, kTaps), region = derivative_taps(kRegionCutoff, kTaps);
-  first_ = filter_odd(amplitude_, camera);
-  second_ = filter_odd(first_, camera);
-  for (Eigen::Index c = 0; c < n_own_; ++c) {
-    if (is_region_[static_cast<std::size_t>(c)] == 0) continue;
-    first_.row(c) = filter_odd(amplitude_.row(c), region);
-    second_.row(c).setZero();  // within a region's rows it is nothing
+// z: at the common instants.
+void PointMotionModel::fit_common(const Eigen::MatrixXd& z) {
+  fit_columns(z);
+  aliased_.reset();
+  if (readout_frames_ == 0.0) return;
+  aliased_.emplace(shift_, AliasedMotion::Columns{x_, n_own_, n_region_, geometry_.share, share_, q_high_}, rate_hz_,
+                   readout_frames_);
+  const Eigen::MatrixXd folded = aliased_->folded(common_, residual_);
+  if (folded.size() > 0) fit_columns(z - folded);
+  const Eigen::MatrixXd inverse = solve_high_ * solve_high_.transpose();
+  Eigen::VectorXd noise = Eigen::VectorXd::Zero(n_own_);
+  for (Eigen::Index i = 0; i < own_rank_; ++i) noise(kept_[static_cast<std::size_t>(i)]) = inverse(i, i);
+  aliased_->learn_tail(common_, noise, residual_);
+}
+
+// Coefficients of orthonormal columns have independent noise of unit variance, amplitudes do not.
+void PointMotionModel::estimate_rates() {
+  const Eigen::Index n_high = q_high_.cols();
+  Eigen::MatrixXd kept(x_.rows(), q_low_.cols()), amplitude(q_low_.cols(), common_.cols());
+  for (Eigen::Index i = 0; i < kept.cols(); ++i) {
+    const Eigen::Index c = kept_[static_cast<std::size_t>(i)];
+    kept.col(i) = x_.col(c), amplitude.row(i) = common_.row(c);
   }
+  const Eigen::MatrixXd r = product(q_low_.transpose(), kept);  // upper triangular
+  Eigen::MatrixXd rate = shift_.signal_rates(product(r, amplitude), 1.0);
+  const auto high = r.topLeftCorner(n_high, n_high).triangularView<Eigen::Upper>();
+  const Eigen::Index n_extra = r.cols() - n_high;
+  if (n_extra > 0) {
+    rate.bottomRows(n_extra) =
+        r.bottomRightCorner(n_extra, n_extra).triangularView<Eigen::Upper>().solve(rate.bottomRows(n_extra)).eval();
+    rate.topRows(n_high) -= r.topRightCorner(n_high, n_extra) * rate.bottomRows(n_extra);
+  }
+  rate.topRows(n_high) = high.solve(rate.topRows(n_high)).eval();
+  rate_common_ = Eigen::MatrixXd::Zero(x_.cols(), common_.cols());
+  for (Eigen::Index i = 0; i < rate.rows(); ++i) rate_common_.row(kept_[static_cast<std::size_t>(i)]) = rate.row(i);
+}
+
+// Of the points' rows after the common one, in frames.
+Eigen::VectorXd PointMotionModel::row_instants() const {
+  Eigen::VectorXd out(weight_.size());
+  for (Eigen::Index i = 0; i < out.size(); ++i) out(i) = readout_frames_ * (geometry_.share(i / 2) - kCommonShare);
+  return out;
+}
+
+Eigen::VectorXd PointMotionModel::column_instants() const {
+  return readout_frames_ * (share_.array() - kCommonShare).matrix();
+}
+
+// Of the points' predicted positions at the instants of their own rows, in sigmas per frame.
+Eigen::MatrixXd PointMotionModel::velocities() const {
+  Eigen::MatrixXd out = product(x_, rate_common_);
+  shift_.advance(out, row_instants());
+  return out;
+}
+
+Eigen::MatrixXd PointMotionModel::at_common_instants(Eigen::MatrixXd series) const {
+  shift_.advance(series, -row_instants());
+  return series;
 }
 
 void PointMotionModel::solve(const Eigen::MatrixXd& positions, double readout_frames, int rounds) {
   readout_frames_ = readout_frames;
   Eigen::MatrixXd z = positions.colwise() - positions.rowwise().mean();
   z.array().colwise() *= weight_.array();
-  amplitude_ = fit_columns(z);
-  differentiate(rate_hz_);
-  if (readout_frames == 0.0) return;
-  for (int round = 0; round < rounds; ++round) {
-    Eigen::MatrixXd left = z;
-    add_product(left, -readout_frames, x_first_, first_);
-    add_product(left, -readout_frames * readout_frames, x_second_, second_);
+  fit_common(at_common_instants(z));
+  estimate_rates();
+  for (int round = 0; round < rounds && readout_frames != 0.0 && later_.size() > 0; ++round) {
+    Eigen::MatrixXd left = velocities();
+    for (Eigen::Index i = 0; i < left.rows(); ++i)
+      left.row(i) = z.row(i) - readout_frames * later_.row(i / 2).cwiseProduct(left.row(i));
     left.colwise() -= left.rowwise().mean().eval();
-    amplitude_ = fit_columns(left);
-    differentiate(rate_hz_);
+    fit_common(at_common_instants(std::move(left)));
+    estimate_rates();
   }
+  if (aliased_) aliased_->weigh(residual_);
+  residual_.colwise() -= residual_.rowwise().mean().eval();
+  amplitude_ = common_, rate_ = rate_common_;
+  shift_.advance(amplitude_, column_instants());
+  shift_.advance(rate_, column_instants());
 }
 
 Eigen::MatrixXd PointMotionModel::residual_px() const {
-  return (residual_.array().colwise() * sigma_px_.array()).matrix();
+  Eigen::MatrixXd out = residual_;
+  shift_.advance(out, row_instants());
+  return (out.array().colwise() * sigma_px_.array()).matrix();
 }
 
 Eigen::RowVectorXd PointMotionModel::zoom_of_point(Eigen::Index point) const {
@@ -264,7 +317,21 @@ Eigen::RowVectorXd PointMotionModel::zoom_of_point(Eigen::Index point) const {
 }
 
 Eigen::MatrixXd PointMotionModel::readout_field() const {
-  return x_first_ * first_ + 2.0 * readout_frames_ * (x_second_ * second_);
+  Eigen::MatrixXd out = velocities();
+  for (Eigen::Index i = 0; i < out.rows(); ++i) {
+    const double share = geometry_.share(i / 2) - kCommonShare;
+    if (later_.size() > 0)
+      out.row(i).array() *= later_.row(i / 2).array() + share;
+    else
+      out.row(i) *= share;
+  }
+  return out;
+}
+
+Eigen::MatrixXd PointMotionModel::left_at_common_instants(Eigen::MatrixXd series) const {
+  Eigen::MatrixXd left = left_of(at_common_instants(std::move(series)));
+  if (aliased_) aliased_->weigh(left);
+  return left;
 }
 
 Eigen::MatrixXd PointMotionModel::left_of(const Eigen::MatrixXd& values) const {

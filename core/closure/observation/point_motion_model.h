@@ -1,9 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "core/closure/observation/aliased_motion.h"
+#include "core/closure/observation/frame_shift.h"
 #include "core/closure/observation/observation_record.h"
 
 namespace core::closure {
@@ -15,19 +18,30 @@ struct PointGeometry {
 };
 [[nodiscard]] PointGeometry point_geometry(const ObservationRecord& record);
 
+// Points x frames, in readouts: how much later a point at these positions (2 points x frames, px) is seen than on
+// average, as it drifts over the lines.
+[[nodiscard]] Eigen::MatrixXd later_in_readout(const ObservationRecord& record, const Eigen::MatrixXd& positions);
+
 // Motion of the points, free in every frame, relative to their mean positions (rows 2j, 2j+1 = u, v of point j, divided
-// by its sigma):
-//     z_kj = sum_c X_jc [ a_c(k) + rho (s_j - s_c) a_c'(k) + rho^2 (s_j - s_c)^2 a_c''(k) / 2 ]
+// by its sigma). Row j is seen rho s_j later than the frame begins (rho: readout in frames, s_j: place in the readout):
+//     z_kj = sum_c X_jc a_c(k + rho s_j)
 // Columns: every region of structure and base along its axis; translation and zoom of the structure's plane;
-// translation and zoom of the background; added ones. s: place in the readout, s_c: its mean over the column's points;
-// rho: readout in frames. Translation spanned by the regions is dropped (rank). Camera columns are low-passed at 3 Hz
-// before differentiation, because their noise would enter every point.
+// translation and zoom of the background; added ones. Translation spanned by the regions is dropped (rank).
+//
+// The points' series are brought to one common instant of each frame, the middle of the readout, by band-limited
+// interpolation (FrameShift), and there z = X a is a linear fit in each frame. A shift in time changes neither the
+// variance nor the whiteness of the noise, so that the fit is the exact joint least squares for motion of any spectrum
+// up to half the frame rate: nothing is differentiated, and no part of the motion is left to the residual. What moves
+// above half the rate is that of AliasedMotion. What a point's place in the readout changes by as it drifts over the
+// lines (set_drift) times its velocity is removed first. Velocities are those of the motion without its noise
+// (FrameShift::signal_rates).
 //
 // Columns added for the low band exist up to kLowBand_hz only: there they are fitted with all others, above they are
 // zero. Cosines make this exact.
 class PointMotionModel {
  public:
   static constexpr double kLowBand_hz = 3.0;
+  static constexpr double kCommonShare = 0.5;  // place in the readout of the frames' common instant
 
   explicit PointMotionModel(const ObservationRecord& record);  // of a checked record
   // The same with the points at these mean positions (2 points long, px): after a lens correction, zoom acts on the
@@ -38,14 +52,22 @@ class PointMotionModel {
 
   // Fields in px per unit, vectors of 2 points.
   void set_added(const std::vector<Eigen::VectorXd>& full, const std::vector<Eigen::VectorXd>& low);
+  // As later_in_readout(); empty: not at all.
+  void set_drift(Eigen::MatrixXd later) { later_ = std::move(later); }
   // positions: 2 points x frames, px, finite. All accessors below refer to this fit.
   void solve(const Eigen::MatrixXd& positions, double readout_frames, int rounds);
 
-  [[nodiscard]] const Eigen::MatrixXd& residual() const noexcept { return residual_; }  // in sigmas
-  [[nodiscard]] Eigen::MatrixXd residual_px() const;                                    // of the raw image
-  // Series over frames, px (added columns: their unit), one row per column; zero where a column was dropped.
+  // At the frames' common instants, in sigmas.
+  [[nodiscard]] const Eigen::MatrixXd& residual() const noexcept { return residual_; }
+  [[nodiscard]] Eigen::MatrixXd residual_px() const;  // at the instants of the points' own rows, of the raw image
+  // Series of the points' rows (2 points x frames), seen at the frames' common instants of the last solve().
+  [[nodiscard]] Eigen::MatrixXd at_common_instants(Eigen::MatrixXd series) const;
+  // left_of() the rows' series at the common instants, weighted as the residual is.
+  [[nodiscard]] Eigen::MatrixXd left_at_common_instants(Eigen::MatrixXd series) const;
+  // Series over frames, px (added columns: their unit), one row per column, at the mean instant of the column's points;
+  // zero where a column was dropped.
   [[nodiscard]] const Eigen::MatrixXd& amplitudes() const noexcept { return amplitude_; }
-  [[nodiscard]] const Eigen::MatrixXd& rates() const noexcept { return first_; }  // their changes per frame
+  [[nodiscard]] const Eigen::MatrixXd& rates() const noexcept { return rate_; }  // their signal's changes per frame
   [[nodiscard]] Eigen::Index row_of_region(std::size_t region) const noexcept {
     return region_row_[region];
   }                                                                     // -1: none
@@ -57,10 +79,11 @@ class PointMotionModel {
   // Leading columns of q_high() and q_low() that come from own columns.
   [[nodiscard]] Eigen::Index own_rank() const noexcept { return own_rank_; }
   [[nodiscard]] double share_of_column(Eigen::Index column) const { return share_(column); }
-  // Derivative of the prediction by the readout time in frames, in sigmas.
+  // Derivative of the prediction by the readout time in frames, in sigmas, at the instants of the points' own rows.
   [[nodiscard]] Eigen::MatrixXd readout_field() const;
 
-  // Residual of a field or record after the fit, 2 points x frames in sigmas; its mean over time is removed.
+  // Residual of a field or record at the frames' common instants after the fit, 2 points x frames in sigmas; its mean
+  // over time is removed.
   [[nodiscard]] Eigen::MatrixXd left_of(const Eigen::MatrixXd& values) const;
   // Orthonormal columns above and within the low band.
   [[nodiscard]] const Eigen::MatrixXd& q_high() const noexcept { return q_high_; }
@@ -72,28 +95,35 @@ class PointMotionModel {
  private:
   void add_region_columns(const ObservationRecord& record);
   void add_plane_columns(const ObservationRecord& record);
-  void add_column(const Eigen::VectorXd& field, bool is_region);
+  void add_column(const Eigen::VectorXd& field);
   void factorise();
   void place_in_readout();
-  [[nodiscard]] Eigen::MatrixXd fit_columns(const Eigen::MatrixXd& z);
-  void differentiate(double rate_hz);
+  void fit_columns(const Eigen::MatrixXd& z);
+  void estimate_rates();
+  [[nodiscard]] Eigen::VectorXd row_instants() const;
+  [[nodiscard]] Eigen::VectorXd column_instants() const;
+  [[nodiscard]] Eigen::MatrixXd velocities() const;
+  void fit_common(const Eigen::MatrixXd& z);
 
   double rate_hz_;
+  FrameShift shift_;
+  std::optional<AliasedMotion> aliased_;
   double readout_frames_ = 0.0;
   PointGeometry geometry_;
   Eigen::VectorXd weight_, sigma_px_;
   Eigen::MatrixXd cosines_;
   std::vector<Eigen::VectorXd> own_, full_, low_;  // whitened fields
-  std::vector<char> is_region_;
   std::vector<Eigen::Index> region_row_, zoom_row_of_point_;
   Eigen::Index n_own_ = 0, n_region_ = 0, own_rank_ = 0;
-  Eigen::VectorXd share_;                   // s_c
-  Eigen::MatrixXd x_, x_first_, x_second_;  // fields; times (s_j - s_c); times its square / 2
-  std::vector<Eigen::Index> kept_;          // those of q_high_ first, then what the low band adds
+  Eigen::VectorXd share_;           // mean of s_j over the column's points
+  Eigen::MatrixXd x_;               // fields
+  Eigen::MatrixXd later_;           // see set_drift()
+  std::vector<Eigen::Index> kept_;  // those of q_high_ first, then what the low band adds
   // q_low_ = [q_high_, extra_]. solve_high_: z -> amplitudes; solve_extra_: z in the low band -> amplitudes of what it
   // adds; give_back_: those -> what they take from the amplitudes before.
   Eigen::MatrixXd q_high_, q_low_, extra_, solve_high_, solve_extra_, give_back_;
-  Eigen::MatrixXd amplitude_, first_, second_, residual_;
+  // common_: amplitudes at the common instants, rate_common_ their signal's changes per frame.
+  Eigen::MatrixXd common_, rate_common_, amplitude_, rate_, residual_;
 };
 
 }  // namespace core::closure

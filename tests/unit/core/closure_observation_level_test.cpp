@@ -12,7 +12,6 @@
 #include "core/closure/observation/leave_one_point_out.h"
 #include "core/closure/observation/observation_level.h"
 #include "core/closure/observation/point_screening.h"
-#include "core/closure/observation/time_filter.h"
 #include "tests/support/swaying_record.h"
 
 namespace core::closure {
@@ -64,16 +63,6 @@ TEST(LeaveOnePointOut, ClosedFormIsTheFitWithoutThePoint) {
   }
   const Eigen::VectorXd r = z - q * (q.transpose() * z);
   EXPECT_NEAR(LeaveOnePointOut(q).squares(r * r.transpose()), direct, 1e-9);
-}
-
-TEST(TimeFilter, DerivativeOfASineInItsBand) {
-  Eigen::MatrixXd sine(1, 400), cosine(1, 400);
-  for (Eigen::Index k = 0; k < 400; ++k) {
-    sine(0, k) = std::sin(0.3 * static_cast<double>(k));
-    cosine(0, k) = 0.3 * std::cos(0.3 * static_cast<double>(k));
-  }
-  const Eigen::MatrixXd found = filter_odd(sine, derivative_taps(0.48, 25));
-  EXPECT_LT((found - cosine).middleCols(30, 340).cwiseAbs().maxCoeff(), 2e-3 * 0.3);
 }
 
 TEST(ObservationLevel, RollIsNamedAndItsSizeFound) {

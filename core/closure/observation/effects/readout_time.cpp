@@ -18,7 +18,7 @@ class ReadoutTime final : public ConstantEffect, private InFlightCorrection {
   [[nodiscard]] double most() const override { return 1.5; }
   [[nodiscard]] std::vector<Eigen::MatrixXd> derivatives(const Eigen::VectorXd& /*values*/,
                                                          const FitView& fit) const override {
-    return {fit.model.left_of(fit.model.readout_field())};
+    return {fit.model.left_at_common_instants(fit.model.readout_field())};
   }
   [[nodiscard]] double added_readout_frames(const Eigen::VectorXd& values) const override { return values(0); }
   [[nodiscard]] std::optional<NotObservable> obstacle(const FitView& fit, bool /*is_adopted*/) const override {

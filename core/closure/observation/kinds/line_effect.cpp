@@ -15,17 +15,6 @@ LineSearch search_in(const LineEffect& effect, const FitView& fit) {
           fit.record.n_frames()};
 }
 
-// Points x frames: how much later in the readout than on average a point is seen, as it drifts over the lines.
-Eigen::MatrixXd later_in_readout(const FitView& fit) {
-  Eigen::MatrixXd later(fit.record.n_points(), fit.record.n_frames());
-  for (Eigen::Index j = 0; j < later.rows(); ++j) {
-    for (Eigen::Index k = 0; k < later.cols(); ++k)
-      later(j, k) = fit.record.readout_share(fit.predicted_px(2 * j, k), fit.predicted_px(2 * j + 1, k));
-    later.row(j).array() -= later.row(j).mean();
-  }
-  return later;
-}
-
 class LineInModel final : public EffectInModel {
  public:
   LineInModel(const LineEffect& effect, const LineFinding& line)
@@ -43,7 +32,8 @@ class LineInModel final : public EffectInModel {
   [[nodiscard]] bool is_refined() const override { return true; }
   void refine(const FitView& fit) override {
     const LineSearch search = search_in(effect_, fit);
-    const Eigen::MatrixXd more = search.motion(fit.model.residual(), line_, later_in_readout(fit));
+    const Eigen::MatrixXd more =
+        search.motion(fit.model.residual(), line_, later_in_readout(fit.record, fit.predicted_px));
     motion_px_ = motion_px_.size() > 0 ? (motion_px_ + more).eval() : more;
     hz_ = search.frequency(motion_px_, line_);
   }

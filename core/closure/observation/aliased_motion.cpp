@@ -1,0 +1,181 @@
+#include "core/closure/observation/aliased_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+#include "core/linear/dense.h"
+#include "core/linear/symmetric_eigen.h"
+
+namespace core::closure {
+namespace {
+
+using Complex = std::complex<double>;
+using Index = Eigen::Index;
+
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+constexpr double kLeastReadout_frames = 0.15;  // less does not tell the orders apart
+constexpr int kMostOrders = 2;
+constexpr double kStrip_hz = 0.25;
+constexpr double kEvidence = 20.0;   // drop of the squares that an order other than 0 needs, in noise variances
+constexpr double kOrderError = 0.3;  // most that the shear may differ from that of its order, in orders
+constexpr std::ptrdiff_t kNeighbours = 4;
+constexpr double kTopOfBand = 0.8;    // of half the rate: from there on the tail's level is read
+constexpr double kTailOrder = 3.0;    // the least steep spectrum of a hover, f^-3
+constexpr double kOverNoise = 1.15;   // a level that noise reaches as well
+constexpr double kLeastPower = 0.05;  // of a direction that counts, in noise variances
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+AliasedMotion::AliasedMotion(const FrameShift& shift, const Columns& columns, double rate_hz, double readout_frames)
+    : shift_(shift), columns_(columns), rate_hz_(rate_hz), readout_frames_(readout_frames) {}
+
+Eigen::VectorXd AliasedMotion::beside(Eigen::VectorXd field) const {
+  const Eigen::VectorXd in = columns_.q.transpose() * field;
+  return field - columns_.q * in;
+}
+
+// Of the strips: with a shear field G of a region, beside the model's columns, and its displacement a, the shear of
+// order n is i theta a G, theta = 2 pi n rho: the squares drop by 2 theta b - theta^2 c.
+std::vector<AliasedMotion::Strip> AliasedMotion::strips(const Eigen::MatrixXd& amplitudes,
+                                                        const Eigen::MatrixXd& residual) const {
+  Eigen::MatrixXd shear(columns_.n_regions, residual.cols()), moved = amplitudes.topRows(columns_.n_regions);
+  Eigen::VectorXd squares(columns_.n_regions);
+  for (Index r = 0; r < columns_.n_regions; ++r) {
+    Eigen::VectorXd field = columns_.x.col(r);
+    for (Index i = 0; i < field.size(); ++i) field(i) *= columns_.share(i / 2) - columns_.column_share(r);
+    field = beside(std::move(field));
+    squares(r) = field.squaredNorm();
+    shear.row(r) = field.transpose() * residual;
+  }
+  // Hann's window: what leaks from a peak has not the peak's phase.
+  for (Index k = 0; k < shear.cols(); ++k) {
+    const double w = 1.0 - std::cos(kTwoPi * (static_cast<double>(k) + 0.5) / static_cast<double>(shear.cols()));
+    shear.col(k) *= w, moved.col(k) *= w;
+  }
+  const Eigen::MatrixXcd seen = shift_.spectra(shear), spectra = shift_.spectra(moved);
+  const double scale = 2.0 / shift_.n_fft() / 1.5;  // the window's mean square is 1.5
+  const auto width = std::max<Index>(1, static_cast<Index>(std::llround(kStrip_hz * shift_.n_fft() / rate_hz_)));
+  std::vector<Strip> out;
+  for (Index from = 0; from < seen.cols(); from += width) {
+    Strip strip{from, std::min(width, seen.cols() - from), 0.0, 0.0, 0};
+    for (Index r = 0; r < columns_.n_regions; ++r) {
+      for (Index k = from; k < from + strip.count; ++k) {
+        strip.b += scale * (std::conj(spectra(r, k)) * seen(r, k)).imag();
+        strip.c += scale * squares(r) * std::norm(spectra(r, k));
+      }
+    }
+    out.push_back(strip);
+  }
+  return out;
+}
+
+// An order needs evidence, or a neighbour of that order and no evidence against it: a peak leaks into its neighbours.
+void AliasedMotion::decide(std::vector<Strip>& strips) const {
+  const double order = kTwoPi * readout_frames_;
+  const auto drop = [&](const Strip& s, int n) { return 2.0 * n * order * s.b - n * n * order * order * s.c; };
+  std::vector<Strip*> decided;
+  for (Strip& s : strips) {
+    if (!(s.c > 0.0)) continue;
+    const int n = std::clamp(static_cast<int>(std::lround(s.b / s.c / order)), -kMostOrders, kMostOrders);
+    if (n == 0 || std::abs(s.b / s.c / order - n) > kOrderError || !(drop(s, n) > kEvidence)) continue;
+    s.order = n;
+    decided.push_back(&s);
+  }
+  for (const Strip* peak : decided) {
+    for (const std::ptrdiff_t step : {-1, 1}) {
+      for (std::ptrdiff_t i = peak - strips.data() + step, n = 0; n < kNeighbours; i += step, ++n) {
+        if (i < 0 || i >= static_cast<std::ptrdiff_t>(strips.size())) break;
+        Strip& s = strips[static_cast<std::size_t>(i)];
+        if (s.order != 0 || s.c > peak->c || drop(s, peak->order) < 0.0) break;
+        s.order = peak->order;
+      }
+    }
+  }
+}
+
+Eigen::MatrixXd AliasedMotion::folded(const Eigen::MatrixXd& amplitudes, const Eigen::MatrixXd& residual) const {
+  if (std::abs(readout_frames_) < kLeastReadout_frames || columns_.n_regions == 0) return {};
+  const Eigen::MatrixXcd regions = shift_.spectra(amplitudes.topRows(columns_.n_regions));
+  std::vector<Strip> all = strips(amplitudes, residual);
+  decide(all);
+  Eigen::MatrixXd out;
+  for (int n = -kMostOrders; n <= kMostOrders; ++n) {
+    if (n == 0 || std::none_of(all.begin(), all.end(), [n](const Strip& s) { return s.order == n; })) continue;
+    Eigen::MatrixXcd part = Eigen::MatrixXcd::Zero(regions.rows(), regions.cols());
+    for (const Strip& s : all) {
+      if (s.order == n) part.middleCols(s.from, s.count) = regions.middleCols(s.from, s.count);
+    }
+    const Eigen::MatrixXd in_phase = shift_.series(part), later = shift_.series(Complex(0.0, 1.0) * part);
+    if (out.size() == 0) out = Eigen::MatrixXd::Zero(residual.rows(), residual.cols());
+    for (Index r = 0; r < columns_.n_regions; ++r) {
+      for (Index i = 0; i < out.rows(); ++i) {
+        const double x = columns_.x(i, r);
+        if (x == 0.0) continue;
+        const double angle = kTwoPi * n * readout_frames_ * (columns_.share(i / 2) - columns_.column_share(r));
+        out.row(i) += x * ((std::cos(angle) - 1.0) * in_phase.row(r) + std::sin(angle) * later.row(r));
+      }
+    }
+  }
+  return out;
+}
+
+void AliasedMotion::learn_tail(const Eigen::MatrixXd& amplitudes, const Eigen::VectorXd& noise,
+                               const Eigen::MatrixXd& residual) {
+  directions_.resize(0, 0);
+  const Eigen::MatrixXcd spectra = shift_.spectra(amplitudes.topRows(columns_.n_own));
+  const auto from = static_cast<Index>(kTopOfBand * static_cast<double>(spectra.cols()));
+  const double freedom =
+      static_cast<double>(residual.rows() - columns_.q.cols()) / static_cast<double>(residual.rows());
+  const double noise_scale = residual.squaredNorm() / static_cast<double>(residual.size()) / freedom;
+  std::vector<Eigen::VectorXd> fields;
+  for (Index c = 0; c < columns_.n_own; ++c) {
+    std::vector<double> power;
+    for (Index k = from; k < spectra.cols(); ++k) power.push_back(std::norm(spectra(c, k)) / shift_.n_fft());
+    const double level = median(std::move(power)) / std::numbers::ln2 - kOverNoise * noise_scale * noise(c);
+    if (!(level > 0.0)) continue;
+    const bool region = c < columns_.n_regions;
+    for (int order = 1; order <= (region ? 1 : 2); ++order) {
+      // At order 2 the least steep spectrum is down to this share of what it is at half the rate.
+      const double share = order == 1 ? 1.0 : std::pow(3.0, -kTailOrder) + std::pow(5.0, -kTailOrder);
+      Eigen::VectorXd sine = std::sqrt(level * share / noise_scale) * columns_.x.col(c), cosine = sine;
+      for (Index i = 0; i < sine.size(); ++i) {
+        const double angle = kTwoPi * order * readout_frames_ * (columns_.share(i / 2) - columns_.column_share(c));
+        sine(i) *= std::sin(angle), cosine(i) *= std::cos(angle);
+      }
+      fields.push_back(beside(std::move(sine)));
+      if (!region) fields.push_back(beside(std::move(cosine)));
+    }
+  }
+  if (fields.empty()) return;
+  Eigen::MatrixXd tail(residual.rows(), static_cast<Index>(fields.size()));
+  for (Index i = 0; i < tail.cols(); ++i) tail.col(i) = fields[static_cast<std::size_t>(i)];
+  const SymmetricEigen eigen(gram(tail.transpose()));
+  const auto count = (eigen.values().array() > kLeastPower).count();
+  if (count == 0) return;
+  power_ = eigen.values().head(count);
+  directions_ = tail * eigen.leading_vectors(count) * power_.cwiseSqrt().cwiseInverse().asDiagonal();
+}
+
+void AliasedMotion::weigh(Eigen::MatrixXd& series) const {
+  if (directions_.size() == 0) return;
+  Eigen::MatrixXcd bins = shift_.spectra(directions_.transpose() * series);
+  const auto half = static_cast<double>(bins.cols() - 1);
+  for (Index k = 0; k < bins.cols(); ++k) {
+    const double place =
+        static_cast<double>(k) / half;  // of half the rate; order -1 comes from 2 - place, +1 from 2 + place
+    const double shape = std::pow(2.0 - place, -kTailOrder) + std::pow(2.0 + place, -kTailOrder);
+    for (Index i = 0; i < bins.rows(); ++i) bins(i, k) *= 1.0 / std::sqrt(1.0 + shape * power_(i)) - 1.0;
+  }
+  series += directions_ * shift_.series(bins);
+}
+
+}  // namespace core::closure

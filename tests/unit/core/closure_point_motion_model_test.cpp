@@ -1,0 +1,131 @@
+#include "core/closure/observation/point_motion_model.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "core/closure/noise_stream.h"
+#include "tests/support/swaying_record.h"
+
+namespace core::closure {
+namespace {
+
+using test_support::kPi;
+
+constexpr Eigen::Index kFrames = 800;
+constexpr double kNoise_px = 0.005, kRate_hz = 25.0;
+
+// What is seen of points whose motion is known at every instant, each at the instant of its own row.
+struct View {
+  double readout_frames = 0.9;
+  double mode_hz = 1.7;                                 // of the structure, in proportion to the floor
+  std::vector<std::array<double, 3>> along_u, along_v;  // of the camera: px, Hz, phase
+  double zoom = 0.0;                                    // relative, at 0.4 Hz
+
+  [[nodiscard]] static double sum(const std::vector<std::array<double, 3>>& sines, double t) {
+    double out = 0.0;
+    for (const auto& [px, hz, phase] : sines) out += px * std::sin(2.0 * kPi * hz * t + phase);
+    return out;
+  }
+
+  [[nodiscard]] ObservationRecord record() const {
+    ObservationRecord r = test_support::swaying_record(kFrames, {});
+    r.readout_frames = readout_frames;
+    r.sigma_px.assign(r.sigma_px.size(), kNoise_px);
+    const Eigen::RowVectorXd u = r.u_px.colwise().mean(), v = r.v_px.colwise().mean();
+    NoiseStream noise(4);
+    for (Eigen::Index j = 0; j < r.n_points(); ++j) {
+      const auto floor = static_cast<double>(r.region_of_point[static_cast<std::size_t>(j)]);
+      for (Eigen::Index k = 0; k < kFrames; ++k) {
+        double seen_u = u(j), seen_v = v(j);
+        for (int round = 0; round < 4; ++round) {  // the row depends on where the point is at its instant
+          const double t = (static_cast<double>(k) + readout_frames * seen_v / r.height_px) / r.rate_hz;
+          const double scale = 1.0 + zoom * std::sin(2.0 * kPi * 0.4 * t);
+          const double sway = 0.5 * floor * std::sin(2.0 * kPi * mode_hz * t);
+          seen_u = r.cx_px + scale * (u(j) - r.cx_px) + sum(along_u, t) + sway;
+          seen_v = r.cy_px + scale * (v(j) - r.cy_px) + sum(along_v, t);
+        }
+        r.u_px(k, j) = seen_u + kNoise_px * noise.gaussian();
+        r.v_px(k, j) = seen_v + kNoise_px * noise.gaussian();
+      }
+    }
+    return r;
+  }
+};
+
+struct Solved {
+  double residual = 0.0;  // rms in sigmas, of what noise leaves
+  Eigen::MatrixXd amplitudes;
+};
+
+Solved solve(const ObservationRecord& record) {
+  Eigen::MatrixXd positions(2 * record.n_points(), kFrames), later(record.n_points(), kFrames);
+  for (Eigen::Index j = 0; j < record.n_points(); ++j) {
+    positions.row(2 * j) = record.u_px.col(j).transpose();
+    positions.row(2 * j + 1) = record.v_px.col(j).transpose();
+    later.row(j) = (record.v_px.col(j).array() - record.v_px.col(j).mean()).transpose() / record.height_px;
+  }
+  PointMotionModel model(record);
+  model.set_drift(later);
+  model.solve(positions, record.readout_frames, 1);
+  const double freedom =
+      static_cast<double>(positions.rows() - model.q_high().cols()) / static_cast<double>(positions.rows());
+  return {std::sqrt(model.residual().squaredNorm() / static_cast<double>(positions.size()) / freedom),
+          model.amplitudes()};
+}
+
+// Camera motion of 8 px at 0.14 Hz, and of less and less up to 11 Hz.
+TEST(PointMotionModel, CameraMotionOfAnySpectrumUpToHalfTheRateLeavesNoiseOnly) {
+  View view;
+  view.zoom = 0.01;
+  view.along_u = {{8.0, 0.14, 0.0}, {1.0, 1.1, 2.0}, {0.3, 3.7, 1.0}, {0.2, 8.3, 4.0}, {0.1, 11.1, 0.5}};
+  view.along_v = {{5.0, 0.11, 1.0}, {0.8, 0.9, 3.0}, {0.3, 4.1, 0.0}, {0.2, 7.7, 1.0}, {0.1, 10.9, 2.5}};
+  const double residual = solve(view.record()).residual;
+  EXPECT_LT(residual, 1.02);
+  EXPECT_GT(residual, 0.9);  // what may be the tail of that motion weighs less
+}
+
+TEST(PointMotionModel, AmplitudesAreThoseOfTheMeanRow) {
+  View view;
+  view.mode_hz = 9.0;
+  const ObservationRecord record = view.record();
+  const Eigen::MatrixXd amplitudes = solve(record).amplitudes;
+  for (Eigen::Index floor = 1; floor < 4; ++floor) {
+    const double row = record.v_px.middleCols(8 * floor, 8).mean() / record.height_px;
+    double worst = 0.0;
+    for (Eigen::Index k = 60; k < kFrames - 60; ++k) {
+      const double t = (static_cast<double>(k) + view.readout_frames * row) / kRate_hz;
+      worst = std::max(worst, std::abs(amplitudes(floor, k) -
+                                       0.5 * static_cast<double>(floor) * std::sin(2.0 * kPi * view.mode_hz * t)));
+    }
+    EXPECT_LT(worst, 0.03) << floor;
+  }
+}
+
+// 16.3 Hz at 25 frames/s is seen at 8.7 Hz, with the phases of 16.3 Hz over the rows.
+TEST(PointMotionModel, AModeThatFoldsLeavesNoiseOnly) {
+  View view;
+  view.mode_hz = 16.3;
+  EXPECT_NEAR(solve(view.record()).residual, 1.0, 0.03);
+}
+
+// The power-law tail of a hover on both sides of half the rate, f^-4: a line in every bin of the record's spectrum from
+// 6 to 22 Hz, 0.05 px together above 12.5 Hz.
+TEST(PointMotionModel, TheTailOfTheCamerasMotionIsNotLeftInTheResidual) {
+  constexpr double kStep_hz = kRate_hz / static_cast<double>(kFrames);
+  View view;
+  for (int i = 0; i < 512; ++i) {
+    const double hz = 6.0 + kStep_hz * i, px = 0.0055 * std::pow(12.5 / hz, 2.0);
+    view.along_u.push_back({px, hz, 2.4 * i * i});
+    view.along_v.push_back({px, hz, 3.9 * i * i});
+  }
+  const double residual = solve(view.record()).residual;
+  EXPECT_LT(residual, 1.06);
+  EXPECT_GT(residual, 0.8);
+}
+
+}  // namespace
+}  // namespace core::closure
