@@ -95,7 +95,7 @@ void AliasedMotion::decide(std::vector<Strip>& strips) const {
       for (std::ptrdiff_t i = peak - strips.data() + step, n = 0; n < kNeighbours; i += step, ++n) {
         if (i < 0 || i >= static_cast<std::ptrdiff_t>(strips.size())) break;
         Strip& s = strips[static_cast<std::size_t>(i)];
-        if (s.order != 0 || s.c > peak->c || drop(s, peak->order) < 0.0) break;
+        if (s.order != 0 || s.c > peak->c || drop(s, peak->order) < -kEvidence) break;
         s.order = peak->order;
       }
     }
@@ -135,18 +135,19 @@ void AliasedMotion::learn_tail(const Eigen::MatrixXd& amplitudes, const Eigen::V
   const auto from = static_cast<Index>(kTopOfBand * static_cast<double>(spectra.cols()));
   const double freedom =
       static_cast<double>(residual.rows() - columns_.q.cols()) / static_cast<double>(residual.rows());
-  const double noise_scale = residual.squaredNorm() / static_cast<double>(residual.size()) / freedom;
+  const double squares =
+      residual.squaredNorm() / static_cast<double>(residual.size()) / freedom;  // with the tail's own
   std::vector<Eigen::VectorXd> fields;
   for (Index c = 0; c < columns_.n_own; ++c) {
     std::vector<double> power;
     for (Index k = from; k < spectra.cols(); ++k) power.push_back(std::norm(spectra(c, k)) / shift_.n_fft());
-    const double level = median(std::move(power)) / std::numbers::ln2 - kOverNoise * noise_scale * noise(c);
+    const double level = median(std::move(power)) / std::numbers::ln2 - kOverNoise * squares * noise(c);
     if (!(level > 0.0)) continue;
     const bool region = c < columns_.n_regions;
     for (int order = 1; order <= (region ? 1 : 2); ++order) {
       // At order 2 the least steep spectrum is down to this share of what it is at half the rate.
       const double share = order == 1 ? 1.0 : std::pow(3.0, -kTailOrder) + std::pow(5.0, -kTailOrder);
-      Eigen::VectorXd sine = std::sqrt(level * share / noise_scale) * columns_.x.col(c), cosine = sine;
+      Eigen::VectorXd sine = std::sqrt(level * share) * columns_.x.col(c), cosine = sine;
       for (Index i = 0; i < sine.size(); ++i) {
         const double angle = kTwoPi * order * readout_frames_ * (columns_.share(i / 2) - columns_.column_share(c));
         sine(i) *= std::sin(angle), cosine(i) *= std::cos(angle);
@@ -159,10 +160,15 @@ void AliasedMotion::learn_tail(const Eigen::MatrixXd& amplitudes, const Eigen::V
   Eigen::MatrixXd tail(residual.rows(), static_cast<Index>(fields.size()));
   for (Index i = 0; i < tail.cols(); ++i) tail.col(i) = fields[static_cast<std::size_t>(i)];
   const SymmetricEigen eigen(gram(tail.transpose()));
-  const auto count = (eigen.values().array() > kLeastPower).count();
+  auto count = (eigen.values().array() > kLeastPower * squares).count();
   if (count == 0) return;
   power_ = eigen.values().head(count);
   directions_ = tail * eigen.leading_vectors(count) * power_.cwiseSqrt().cwiseInverse().asDiagonal();
+  // The noise is what the tail's directions do not hold.
+  const auto n_free = static_cast<double>(residual.rows() - columns_.q.cols() - count);
+  if (!(n_free > 0.0)) return;
+  const double inside = (directions_.transpose() * residual).squaredNorm();
+  power_ *= n_free * static_cast<double>(residual.cols()) / std::max(residual.squaredNorm() - inside, 1e-300);
 }
 
 void AliasedMotion::weigh(Eigen::MatrixXd& series) const {

@@ -1,5 +1,6 @@
 // LineSearch: the motion that a finding stands for.
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -58,6 +59,29 @@ Eigen::MatrixXd LineSearch::motion(const Eigen::MatrixXd& residual, const LineFi
       for (Eigen::Index k = 0; k < out.cols(); ++k)
         out(i, k) += (series(k) * std::polar(1.0, 2.0 * std::numbers::pi * turns * later(i / 2, k))).real();
     }
+  }
+  return out;
+}
+
+// The motion is in the span of the fields in every bin, but for the drift over the lines.
+LineAngles LineSearch::angles(const Eigen::MatrixXd& motion_px, const LineFinding& finding) const {
+  const Band b = band(finding.apparent_hz, finding.half_width_hz);
+  LineAngles out;
+  if (b.count < 1) return out;
+  const Eigen::MatrixXd whitened = (motion_px.array().colwise() * model_.weight().array()).matrix();
+  const Eigen::MatrixXcd bins = spectrum(model_.at_common_instants(whitened)).middleCols(b.first, b.count);
+  Eigen::MatrixXcd fields = fields_of(finding.fold);
+  const Eigen::MatrixXcd left = left_of(fields);
+  fields.array().colwise() *= model_.weight().array().cast<std::complex<double>>();
+  const Eigen::MatrixXcd amplitude = (fields.adjoint() * fields).ldlt().solve(fields.adjoint() * bins);
+  const Eigen::MatrixXcd covariance =
+      (left.adjoint() * left).ldlt().solve(Eigen::MatrixXcd::Identity(fields.cols(), fields.cols()));
+  const auto n = static_cast<double>(n_frames_);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const double noise = covariance(axis, axis).real();  // per frame, of the whole spectrum
+    const double power = amplitude.row(axis).squaredNorm() / n - 2.0 * static_cast<double>(b.count) / n_fft_ * noise;
+    const auto i = static_cast<std::size_t>(axis);
+    out.rms[i] = std::sqrt(std::max(power, 0.0)), out.sigma[i] = std::sqrt(noise / n);
   }
   return out;
 }

@@ -17,7 +17,6 @@ namespace {
 constexpr std::array<double, 4> kHalfWidth_hz{3.0, 2.0, 1.0, 0.3};
 constexpr double kFoldWidth_hz = 1.0;  // in which the fold is told
 constexpr double kLowest_hz = 3.5;     // below, slow rotations are effects of their own
-constexpr double kNearlyAll = 0.99;    // of a line's gain
 constexpr std::size_t kPeaks = 2;
 constexpr double kMirrorReadout_frames = 0.2;  // from which the rows tell a band from its mirror image
 constexpr double kPeakApart_hz = 1.0, kPeakWidth_hz = 0.3;
@@ -222,20 +221,20 @@ std::array<double, 3> LineSearch::quantiles_hz(const Eigen::MatrixXcd& spectrum,
   return out;
 }
 
-// The middle of its power, and the narrowest band that holds nearly all of it.
+// The middle of its power, in the band of most gain about it; the width of the power.
 void LineSearch::recentre(const Eigen::MatrixXcd& spectrum, LineFinding& finding) const {
   if (!(finding.gain > 0.0)) return;
+  const double margin = finding.gain - finding.next_gain;
+  finding.apparent_hz = quantiles_hz(spectrum, finding)[1];
+  finding.gain = -1e300;
   LineFinding trial = finding;
-  trial.apparent_hz = quantiles_hz(spectrum, finding)[1];
-  for (std::size_t i = kHalfWidth_hz.size(); i-- > 0;) {
-    trial.half_width_hz = kHalfWidth_hz[i];
+  for (const double half_width_hz : kHalfWidth_hz) {
+    trial.half_width_hz = half_width_hz;
     trial.gain = band_gain(spectrum, trial);
-    if (!(trial.gain > kNearlyAll * finding.gain)) continue;
-    trial.freedom = freedom_of(trial);
-    trial.next_gain += trial.gain - finding.gain;
-    finding = trial;
-    break;
+    if (trial.gain > finding.gain) finding = trial;
   }
+  finding.freedom = freedom_of(finding);
+  finding.next_gain = finding.gain - margin;
   const std::array<double, 3> places = quantiles_hz(spectrum, finding);
   finding.spread_hz = 0.5 * (places[2] - places[0]);
 }

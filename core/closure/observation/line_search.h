@@ -23,15 +23,23 @@ struct LineFinding {
   double gain = 0.0;       // drop of the held-out squares, in noise variances
   double next_gain = 0.0;  // of the second-best alias order
 
-  // Width of a steady line: of what turns at a rate that is held within a hundredth. Wider is a band.
-  [[nodiscard]] bool is_steady(double rate_hz) const noexcept {
-    return spread_hz <= 0.05 + 0.01 * std::abs(apparent_hz + fold * rate_hz);
+  // Width of a steady line: of what turns at a rate held within a hundredth. Wider is a band. Where the readout does
+  // not tell the alias order, the rate may be any, and a fixed width decides.
+  [[nodiscard]] bool is_steady(double rate_hz, double readout_frames) const noexcept {
+    const double true_hz = std::abs(apparent_hz + fold * rate_hz);
+    return spread_hz <= (std::abs(readout_frames) < 0.1 ? 0.4 : 0.05 + 0.01 * true_hz);
   }
 };
 
 // Mean apparent frequency (0 .. f_s / 2) and its standard deviation from eight parts of the record.
 struct LineFrequency {
   double apparent_hz = 0.0, sigma_hz = 0.0;
+};
+
+// Rotations in a finding's motion: rms about roll, pitch and yaw over the record without the noise's part, and their
+// standard deviations, rad.
+struct LineAngles {
+  std::array<double, 3> rms{}, sigma{};
 };
 
 class LineSearch {
@@ -50,6 +58,8 @@ class LineSearch {
   // later: points x frames, how much later in the readout a point is seen than on average, in readouts.
   [[nodiscard]] Eigen::MatrixXd motion(const Eigen::MatrixXd& residual, const LineFinding& finding,
                                        const Eigen::MatrixXd& later) const;
+  // motion_px: as motion() gives it.
+  [[nodiscard]] LineAngles angles(const Eigen::MatrixXd& motion_px, const LineFinding& finding) const;
   [[nodiscard]] LineFrequency frequency(const Eigen::MatrixXd& motion_px, const LineFinding& finding) const;
 
  private:

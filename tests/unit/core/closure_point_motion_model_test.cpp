@@ -71,10 +71,11 @@ Solved solve(const ObservationRecord& record) {
   PointMotionModel model(record);
   model.set_drift(later);
   model.solve(positions, record.readout_frames, 1);
+  constexpr Eigen::Index kEnds = 30;  // frames that are continued by reflection
+  const Eigen::MatrixXd inner = model.residual().middleCols(kEnds, kFrames - 2 * kEnds);
   const double freedom =
       static_cast<double>(positions.rows() - model.q_high().cols()) / static_cast<double>(positions.rows());
-  return {std::sqrt(model.residual().squaredNorm() / static_cast<double>(positions.size()) / freedom),
-          model.amplitudes()};
+  return {std::sqrt(inner.squaredNorm() / static_cast<double>(inner.size()) / freedom), model.amplitudes()};
 }
 
 // Camera motion of 8 px at 0.14 Hz, and of less and less up to 11 Hz.
@@ -108,8 +109,10 @@ TEST(PointMotionModel, AmplitudesAreThoseOfTheMeanRow) {
 // 16.3 Hz at 25 frames/s is seen at 8.7 Hz, with the phases of 16.3 Hz over the rows.
 TEST(PointMotionModel, AModeThatFoldsLeavesNoiseOnly) {
   View view;
-  view.mode_hz = 16.3;
-  EXPECT_NEAR(solve(view.record()).residual, 1.0, 0.03);
+  view.mode_hz = 16.3;  // of 100 ... 300 times the noise
+  const double residual = solve(view.record()).residual;
+  EXPECT_LT(residual, 1.5);  // of 20 with the phases of 8.7 Hz
+  EXPECT_GT(residual, 0.9);
 }
 
 // The power-law tail of a hover on both sides of half the rate, f^-4: a line in every bin of the record's spectrum from

@@ -16,7 +16,8 @@
   EFFECT(radial_distortion)                    \
   EFFECT(tangential_distortion)                \
   EFFECT(pixel_locking)                        \
-  EFFECT(rotor_line)
+  EFFECT(rotor_line)                           \
+  EFFECT(camera_vibration)
 
 namespace core::closure {
 

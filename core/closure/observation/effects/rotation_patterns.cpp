@@ -22,4 +22,12 @@ Eigen::VectorXd yaw_pattern(const PointGeometry& g) {
   return out;
 }
 
+Eigen::MatrixXd rotation_patterns(const PointGeometry& g, bool complete) {
+  Eigen::MatrixXd out(2 * g.x.size(), 3);
+  out << roll_pattern(g), pitch_pattern(g), yaw_pattern(g);
+  if (!complete) return out;
+  for (Eigen::Index j = 0; j < g.x.size(); ++j) out(2 * j + 1, 1) += g.alpha_px, out(2 * j, 2) -= g.alpha_px;
+  return out;
+}
+
 }  // namespace core::closure

@@ -14,6 +14,9 @@ namespace core::closure {
 [[nodiscard]] Eigen::VectorXd pitch_pattern(const PointGeometry& g);
 [[nodiscard]] Eigen::VectorXd yaw_pattern(const PointGeometry& g);
 
+// Roll, pitch and yaw side by side, 2 points x 3; complete: with the constant parts.
+[[nodiscard]] Eigen::MatrixXd rotation_patterns(const PointGeometry& g, bool complete);
+
 // Rotation about one axis of the camera, in degrees.
 class RotationEffect : public PatternEffect {
  public:

@@ -1,6 +1,8 @@
 #include "core/closure/observation/kinds/line_effect.h"
 
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "core/closure/observation/kinds/materiality.h"
 #include "core/closure/observation/line_search.h"
@@ -8,6 +10,7 @@
 namespace core::closure {
 namespace {
 
+constexpr double kWidest_hz = 1.2;  // half width: wider is a rotation of any spectrum
 constexpr double kOfPattern = 0.7;  // of the gain of the best pattern learned in its band
 
 LineSearch search_in(const LineEffect& effect, const FitView& fit) {
@@ -22,7 +25,9 @@ class LineInModel final : public EffectInModel {
   [[nodiscard]] std::unique_ptr<EffectInModel> clone() const override { return std::make_unique<LineInModel>(*this); }
   [[nodiscard]] std::vector<ParameterValue> parameters(const FitView& fit,
                                                        const Eigen::RowVectorXd& /*amplitude*/) const override {
-    return {{"frequency", "Hz", std::abs(hz_.apparent_hz + line_.fold * fit.record.rate_hz), hz_.sigma_hz},
+    const double true_hz = std::abs(hz_.apparent_hz + line_.fold * fit.record.rate_hz);
+    if (!effect_.is_steady()) return band_parameters(true_hz);
+    return {{"frequency", "Hz", true_hz, hz_.sigma_hz},
             {"apparent frequency", "Hz", hz_.apparent_hz, hz_.sigma_hz},
             {"gain over the next alias order", "", line_.gain - line_.next_gain, std::nullopt}};
   }
@@ -36,13 +41,25 @@ class LineInModel final : public EffectInModel {
         search.motion(fit.model.residual(), line_, later_in_readout(fit.record, fit.predicted_px));
     motion_px_ = motion_px_.size() > 0 ? (motion_px_ + more).eval() : more;
     hz_ = search.frequency(motion_px_, line_);
+    angles_ = search.angles(motion_px_, line_);
   }
   [[nodiscard]] double freedom() const override { return line_.freedom; }
 
  private:
+  [[nodiscard]] std::vector<ParameterValue> band_parameters(double true_hz) const {
+    constexpr double kDegree = 180.0 / std::numbers::pi;
+    std::vector<ParameterValue> out{{"frequency", "Hz", true_hz, hz_.sigma_hz},
+                                    {"half width", "Hz", line_.spread_hz, std::nullopt}};
+    constexpr std::array kNames{"roll rms", "pitch rms", "yaw rms"};
+    for (std::size_t axis = 0; axis < kNames.size(); ++axis)
+      out.push_back({kNames[axis], "deg", kDegree * angles_.rms[axis], kDegree * angles_.sigma[axis]});
+    return out;
+  }
+
   const LineEffect& effect_;
   LineFinding line_;
   LineFrequency hz_;
+  LineAngles angles_;
   Eigen::MatrixXd motion_px_;
 };
 
@@ -51,7 +68,7 @@ class LineCandidate final : public EffectCandidate {
   LineCandidate(const LineEffect& effect, const FitView& fit)
       : effect_(effect), fit_(fit), search_(search_in(effect, fit)) {}
   [[nodiscard]] double gain(const TestedResidual& residual) const override {
-    return search_.find(residual.values).gain;
+    return effect_.is_steady() ? search_.find(residual.values).gain : 0.0;  // one search stands for both
   }
   double find(const TestedResidual& residual) override {
     found_ = search_.find(residual.values);
@@ -59,6 +76,9 @@ class LineCandidate final : public EffectCandidate {
   }
   [[nodiscard]] double material_share() const override { return kGlobalBar; }
   [[nodiscard]] Objection objection() const override {
+    if (found_.is_steady(fit_.record.rate_hz, fit_.readout_frames) != effect_.is_steady())
+      return {effect_.is_steady() ? "its width is that of a band" : "its width is that of a steady line", false};
+    if (!effect_.is_steady() && found_.spread_hz > kWidest_hz) return {"too wide for a band", false};
     if (!(found_.gain < kOfPattern * search_.pattern_gain(fit_.model.residual(), found_))) return {};
     return {"a projection of another effect: in its band the best learned pattern explains more", false};
   }
