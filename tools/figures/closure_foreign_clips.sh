@@ -56,7 +56,7 @@ figure_10_clips() {
     foreign_closed "${name}_h264" "$name" "$PWD/$out/${name}_0.4.mp4"
     for said in rendered h264; do
       n=$((n + 1))
-      echo "# seed $seed $said: $(adopted "${name}_$said"), residual before $(ask "${name}_$said" 'f"""{c["baseline"]["residual_rms"]:.4f}, floor {c["baseline"]["noise_floor"]:.4f}"""') px; $(sed -n 's/^# //p' "$out/$name.yaml" | head -1)"
+      echo "# seed $seed $said: $(adopted "${name}_$said"), residual before $(ask "${name}_$said" 'f"""{c["baseline"]["residual_rms"]:.4f}, floor {c["baseline"]["noise_floor"]:.4f}"""') px; $(sed -n 's/^# //p' "$out/$name.yaml" | head -n 1)"
       [ "$(adopted "${name}_$said")" = nothing ] || { false_ones=$((false_ones + 1)) listed+=" $seed $said: $(adopted "${name}_$said");"; }
     done
     rm -f "$out/$name/clip.mp4" "$out/${name}_0.4.mp4"
