@@ -85,7 +85,7 @@ set(CPACK_DEBIAN_SERVICE_PACKAGE_DEPENDS "${SYSTEMD_HELPERS}")
 set(CPACK_DEBIAN_SERVICE_PACKAGE_SUGGESTS "libopencv-imgcodecs406")  # folders of images
 set(CPACK_DEBIAN_SERVICE_PACKAGE_RECOMMENDS "hovermodal-tools, libcamera-ipa, udev")
 set(CPACK_DEBIAN_SERVICE_DESCRIPTION "A service for a drone's companion computer: it watches a structure through the
-camera while the drone hovers, and tells the structure's natural frequencies,
+camera while the drone hovers, and reports its natural frequencies,
 damping and mode shapes over LCM.
 
 Edit /etc/hovermodal/hovermodald.yaml, then enable hovermodald.service.")

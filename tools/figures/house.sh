@@ -179,7 +179,7 @@ log = open(sys.argv[1] + ".log", "w")
 status = subprocess.run(sys.argv[2:], stdout=log, stderr=log, stdin=subprocess.DEVNULL).returncode
 used = resource.getrusage(resource.RUSAGE_CHILDREN)
 with open(sys.argv[1], "w") as file:
-    file.write(f"{(used.ru_utime + used.ru_stime) / 60:.2f}\n")
+    file.write(f"{(used.ru_utime + used.ru_stime) / 60:.3f}\n")
 sys.exit(status)
 PY
 }

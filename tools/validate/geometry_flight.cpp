@@ -28,7 +28,7 @@ void hover_instead(core::simulation::HoverParameters& hover, double scale) {
   hover.y_rms_mm = 40.0 * scale;
 }
 
-// A hundredth of what the tracker leaves of each channel: ground that rests would be no channel at all without.
+// A hundredth of the tracker's noise in each channel: a static ground region without any noise would be no channel.
 double whisper_mm(const core::simulation::Scene& scene) {
   const double mm_per_px = (scene.plates.front().z_mm - scene.camera.z_mm) / scene.camera.alpha_px;
   return 0.01 * mm_per_px * scene.tracks.noise_px / std::sqrt(scene.tracks.points_per_region);
