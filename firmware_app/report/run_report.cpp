@@ -1,6 +1,6 @@
+#include "firmware_app/report/run_report.h"
 #include "firmware_app/config/calibration.h"
 #include "firmware_app/config/structure_scale.h"
-#include "firmware_app/report/run_report.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

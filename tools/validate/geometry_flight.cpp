@@ -13,9 +13,9 @@
 #include "core/simulation/channel_generator.h"
 #include "core/simulation/random_stream.h"
 #include "firmware_app/replay/track_analysis.h"
+#include "tools/hovermodal/simulate/config.h"
 #include "tools/validate/geometry_attitude.h"
 #include "tools/validate/recorded_hover.h"
-#include "tools/hovermodal/simulate/config.h"
 
 namespace tools {
 namespace {
