@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what the build, the tests and the demo need on Debian 12, from Debian's packages; nothing when all is there.
-#   tools/setup.sh [--runtime] [--device] [--lcm] [--ground] [--package] [--package-arm64] [--mpi] [--fuzz] [--data]
+#   tools/setup.sh [--runtime] [--device] [--lcm] [--ground] [--package] [--package-arm64] [--mpi] [--fuzz] [--style] [--data]
 #     --runtime   also what tools/figures/runtime.sh needs: a model checker, an arm64 compiler and emulator
 #     --lcm       also lcm-spy with the message types of hovermodal: a JDK, LCM's Java library, an X server without a screen
 #     --device    also what tests/device needs: a machine emulator, a kernel for it, and tools to build a kernel module
@@ -8,6 +8,7 @@
 #     --package   also what tools/package.sh needs; --package-arm64: for that architecture, with an emulator to run it
 #     --mpi       also what WITH_MPI needs, for `hovermodal batch` across machines: OpenMPI
 #     --fuzz      also what tools/fuzz.sh needs: clang 14 with its fuzzer and sanitizers
+#     --style     also what the tests of the sources' form need: clang-format and clang-tidy
 #     --data      also what tools/data.sh needs to fetch and convert measured data
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -20,7 +21,7 @@ packages=(
   ffmpeg
   libsystemd-dev
   libavformat-dev libavcodec-dev libavutil-dev
-  libcamera-dev libjpeg-dev
+  libcamera-dev libjpeg-dev libpng-dev
   libgtest-dev libgmock-dev librapidcheck-dev
 )
 
@@ -35,6 +36,7 @@ for wanted in "$@"; do
     --package-arm64) packages+=(g++-aarch64-linux-gnu qemu-user mmdebstrap) ;;
     --mpi) packages+=(libopenmpi-dev openmpi-bin) ;;
     --fuzz) packages+=(clang-14 libclang-rt-14-dev llvm-14) ;;
+    --style) packages+=(clang-format clang-tidy) ;;
     --data) packages+=(ca-certificates git python3 python3-numpy python3-scipy ffmpeg) ;;
     *) echo "setup: $wanted: unknown; see the head of tools/setup.sh" >&2; exit 2 ;;
   esac

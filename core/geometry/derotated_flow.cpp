@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear/damped_least_squares.h"
+
 namespace core {
 
 namespace {
@@ -21,7 +23,8 @@ Eigen::Matrix<double, 2, 3> shift_effect(const DerotatedFlow& point, double foca
   return effect;
 }
 
-DerotatedFlowTerm judge(const DerotatedFlow& point, const Eigen::Vector3d& shift_px, const DerotatedFlowModel& model) noexcept {
+DerotatedFlowTerm judge(const DerotatedFlow& point, const Eigen::Vector3d& shift_px,
+                        const DerotatedFlowModel& model) noexcept {
   const Eigen::Vector2d d = shift_effect(point, model.focal_px) * shift_px;
   const double size = d.norm(), s2 = model.sigma_px * model.sigma_px, along2 = s2 + size * size;
   const Eigen::Vector2d e =
@@ -45,15 +48,17 @@ DerotatedFlowTerm judge(const DerotatedFlow& point, const Eigen::Vector3d& shift
   return term;
 }
 
-double cost(std::span<const DerotatedFlow> points, const Eigen::Vector3d& shift_px, const DerotatedFlowModel& model) noexcept {
+double cost(std::span<const DerotatedFlow> points, const Eigen::Vector3d& shift_px,
+            const DerotatedFlowModel& model) noexcept {
   double sum = 0.0;
   for (const DerotatedFlow& point : points) sum += judge(point, shift_px, model).cost;
   return sum;
 }
 
-// Levenberg-Marquardt.
-double fit_shift(std::span<const DerotatedFlow> points, const DerotatedFlowModel& model, Eigen::Vector3d& shift_px) noexcept {
-  double now = cost(points, shift_px, model), damping = 1e-3;
+double fit_shift(std::span<const DerotatedFlow> points, const DerotatedFlowModel& model,
+                 Eigen::Vector3d& shift_px) noexcept {
+  double now = cost(points, shift_px, model);
+  Damping damping;
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Matrix3d information = 1e-9 * Eigen::Matrix3d::Identity();
     Eigen::Vector3d slope = Eigen::Vector3d::Zero();
@@ -64,19 +69,15 @@ double fit_shift(std::span<const DerotatedFlow> points, const DerotatedFlowModel
       slope += effect.transpose() * term.slope;
     }
     double gained = 0.0;
-    for (; damping < 1e6 && gained == 0.0; damping *= 10.0) {
-      Eigen::Matrix3d raised = information;
-      raised.diagonal() *= 1.0 + damping;
-      const Eigen::Vector3d next = shift_px - raised.ldlt().solve(slope);
-      const double then = cost(points, next, model);
-      if (!(then < now)) continue;
+    const bool moved = damped_step(information, slope, damping, [&](const Eigen::Vector3d& step) {
+      const double then = cost(points, shift_px + step, model);
+      if (!(then < now)) return false;
       gained = now - then;
-      shift_px = next;
+      shift_px += step;
       now = then;
-      damping *= 0.01;  // a tenth, after the loop's own factor
-    }
-    if (gained <= kEnough * std::abs(now)) break;
-    damping = std::max(1e-9, damping);
+      return true;
+    });
+    if (!moved || gained <= kEnough * std::abs(now)) break;
   }
   return now;
 }

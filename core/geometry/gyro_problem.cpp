@@ -132,35 +132,34 @@ GyroProblem::Normal GyroProblem::linearise(const GyroState& state, const Derotat
 }
 
 // Returns whether there was a way down.
-bool GyroProblem::step_down(const Normal& normal, double& damping, double before, GyroState& state,
+bool GyroProblem::step_down(const Normal& normal, Damping& damping, double before, GyroState& state,
                             DerotatedFlows& flows) const {
-  for (; damping < 1e6; damping *= 10.0) {
-    GyroMatrix raised = normal.hessian;
-    raised.diagonal() *= 1.0 + damping;
+  double gained = 0.0;
+  const bool moved = damped_step(normal.hessian, normal.gradient, damping, [&](const GyroVector& step) {
     GyroState next = state;
-    next.p -= raised.ldlt().solve(normal.gradient);
+    next.p += step;
     next.axes = (turn(next.p.segment<3>(kAxes)) * next.axes).normalized();
     next.p.segment<3>(kAxes).setZero();
     DerotatedFlows after = this->flows(next);
     const double now = cost(next, after);
-    if (!(now < before)) continue;
-    damping = std::max(1e-9, 0.1 * damping);
+    if (!(now < before)) return false;
+    gained = before - now;
     state = std::move(next);
     flows = std::move(after);
-    return before - now > kEnough * std::abs(before);
-  }
-  return false;
+    return true;
+  });
+  return moved && gained > kEnough * std::abs(before);
 }
 
 double GyroProblem::minimise(const std::vector<Index>& held, int most_rounds, GyroState& state) const {
   DerotatedFlows flows = this->flows(state);
-  double damping = 1e-3;
+  Damping damping;
   int settled = 0;
   for (int round = 0; round < most_rounds && settled < kSettled; ++round) {
     const double before = cost(state, flows);
     const Normal normal = linearise(state, flows, held);
     const bool went = step_down(normal, damping, before, state, flows);
-    if (!went) damping = 1e-3;
+    if (!went) damping = {};
     const bool changed = std::abs(normal.sigma_px - state.sigma_px) > 1e-3 * state.sigma_px;
     state.sigma_px = normal.sigma_px;
     settled = went || changed ? 0 : settled + 1;

@@ -5,6 +5,7 @@
 
 #include "core/geometry/derotated_flow.h"
 #include "core/geometry/gyro_readout.h"
+#include "core/linear/damped_least_squares.h"
 
 namespace core {
 
@@ -43,11 +44,11 @@ class GyroProblem {
 
   void rest(const GyroState& state, const class GyroAttitude& attitude, const FramePair& pair,
             std::vector<DerotatedFlow>& out) const;
-  void add_pair(const GyroState& state, std::size_t k, const DerotatedFlows& flows, const std::vector<DerotatedFlows>& moved,
-                Normal& normal) const;
+  void add_pair(const GyroState& state, std::size_t k, const DerotatedFlows& flows,
+                const std::vector<DerotatedFlows>& moved, Normal& normal) const;
   [[nodiscard]] Normal linearise(const GyroState& state, const DerotatedFlows& flows,
                                  const std::vector<Eigen::Index>& held) const;
-  [[nodiscard]] bool step_down(const Normal& normal, double& damping, double before, GyroState& state,
+  [[nodiscard]] bool step_down(const Normal& normal, Damping& damping, double before, GyroState& state,
                                DerotatedFlows& flows) const;
 
   const std::vector<FramePair>& pairs_;

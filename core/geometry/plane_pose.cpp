@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/linear/damped_least_squares.h"
+
 namespace core {
 namespace {
 
@@ -124,7 +126,7 @@ Equations equations(const PlanePose& pose, std::span<const PlaneCorrespondence> 
     const Eigen::Vector2d r(point.ideal_px.u - pose.camera.cx - pose.camera.fx * x,
                             point.ideal_px.v - pose.camera.cy - pose.camera.fy * y);
     out.hessian += j.transpose() * j;
-    out.gradient += j.transpose() * r;
+    out.gradient -= j.transpose() * r;
     out.cost += r.squaredNorm();
   }
   return out;
@@ -140,25 +142,20 @@ PlanePose moved(PlanePose pose, const Vector6& step) {
 // Levenberg-Marquardt: plain Gauss-Newton may step over to the other solution.
 bool refine(PlanePose& pose, std::span<const PlaneCorrespondence> points, double sigma_px) {
   constexpr int kSteps = 100;
-  double damping = 1e-4;
+  Damping damping{.value = 1e-4, .least = 1e-12, .most = 1e12};
   Equations now = equations(pose, points);
   if (!now.in_front || !std::isfinite(now.cost)) return false;
-  for (int i = 0; i < kSteps && damping < 1e12; ++i) {
-    Matrix6 damped = now.hessian;
-    damped.diagonal() *= 1.0 + damping;
-    const Vector6 step = damped.ldlt().solve(now.gradient);
-    if (!step.allFinite()) return false;
-    const PlanePose next_pose = moved(pose, step);
-    const Equations next = equations(next_pose, points);
-    if (!next.in_front || !(next.cost <= now.cost)) {
-      damping *= 10.0;
-      continue;
-    }
-    const bool settled = now.cost - next.cost <= 1e-12 * now.cost;
-    pose = next_pose;
-    now = next;
-    damping = std::max(1e-12, 0.1 * damping);
-    if (settled) break;
+  for (int i = 0; i < kSteps; ++i) {
+    const Equations before = now;
+    const bool went = damped_step(before.hessian, before.gradient, damping, [&](const Vector6& step) {
+      const PlanePose next_pose = moved(pose, step);
+      const Equations next = equations(next_pose, points);
+      if (!next.in_front || !(next.cost <= now.cost)) return false;
+      pose = next_pose;
+      now = next;
+      return true;
+    });
+    if (!went || before.cost - now.cost <= 1e-12 * before.cost) break;
   }
   const auto n = static_cast<double>(points.size());
   pose.rms_px = std::sqrt(now.cost / n);

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/linear/damped_least_squares.h"
+
 namespace core::structure {
 namespace {
 
@@ -16,7 +18,6 @@ using Eigen::VectorXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kIterations = 60;
-constexpr int kDampings = 12;  // tries of one iteration
 
 struct Bounds {
   VectorXd low, high, step;  // step of differences
@@ -97,7 +98,7 @@ class Problem {
     p = p.cwiseMax(bounds_.low).cwiseMin(bounds_.high);
     VectorXd r;
     if (!residuals(p, r)) return false;
-    double damping = 1e-4;
+    Damping damping{.value = 1e-4, .most = 1e12};
     MatrixXd j;
     for (int i = 0; i < kIterations && p.size() > 0; ++i) {
       if (!jacobian(p, r, j)) return false;
@@ -113,7 +114,7 @@ class Problem {
 
  private:
   // One step that lowers the squares; false where there is none worth taking.
-  bool improve(const MatrixXd& j, VectorXd& p, VectorXd& r, double& damping) const {
+  bool improve(const MatrixXd& j, VectorXd& p, VectorXd& r, Damping& damping) const {
     const VectorXd gradient = j.transpose() * r;
     MatrixXd normal = j.transpose() * j;
     for (Index k = 0; k < p.size(); ++k) {  // what stands at a bound and would leave it stays
@@ -123,27 +124,22 @@ class Problem {
       normal.col(k).setZero();
       normal(k, k) = 1.0;
     }
-    for (int attempt = 0; attempt < kDampings; ++attempt) {
-      MatrixXd damped = normal;
-      damped.diagonal() *= 1.0 + damping;
-      VectorXd step = -damped.llt().solve(gradient);
+    double gain = 0.0;
+    const double before = r.squaredNorm();
+    const bool went = damped_step(normal, gradient, damping, [&](VectorXd step) {
       for (Index k = 0; k < p.size(); ++k) {
         if ((p(k) <= bounds_.low(k) && gradient(k) > 0.0) || (p(k) >= bounds_.high(k) && gradient(k) < 0.0))
           step(k) = 0.0;
       }
       const VectorXd q = (p + step).cwiseMax(bounds_.low).cwiseMin(bounds_.high);
       VectorXd moved;
-      if (residuals(q, moved) && moved.squaredNorm() < r.squaredNorm()) {
-        const double gain = r.squaredNorm() - moved.squaredNorm();
-        const bool worth = gain > 1e-10 * (r.squaredNorm() + 1e-6);
-        p = q;
-        r = std::move(moved);
-        damping = std::max(damping * 0.1, 1e-9);
-        return worth;
-      }
-      damping = std::min(damping * 10.0, 1e12);
-    }
-    return false;
+      if (!residuals(q, moved) || !(moved.squaredNorm() < before)) return false;
+      gain = before - moved.squaredNorm();
+      p = q;
+      r = std::move(moved);
+      return true;
+    });
+    return went && gain > 1e-10 * (before + 1e-6);
   }
 
   const FrameModel& model_;

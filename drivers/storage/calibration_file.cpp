@@ -179,7 +179,8 @@ class CalibrationReader {
                        printable(model.text)));
   }
 
-  // OpenCV itself names no model: the number of coefficients tells, and a flag in the files of its fisheye sample.
+  // OpenCV itself names no model: it follows from the number of coefficients, and from a flag in its fisheye sample's
+  // files.
   [[nodiscard]] Form matrix_form_distortion(const YamlNode& root) const {
     const YamlNode* model = root.find("distortion_model");
     if (model != nullptr && !model->text.empty()) return form_of(*model);

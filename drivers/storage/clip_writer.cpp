@@ -92,7 +92,7 @@ std::vector<std::string> encoder_arguments(const std::string& part_path, const s
           "file:" + part_path};
 }
 
-// A program that cannot be started is told by posix_spawn or, as POSIX also has it, by the child's exit code.
+// A program that cannot be started is reported by posix_spawn or, as POSIX also allows, by the child's exit code.
 constexpr int kNotStarted = 127;
 
 std::runtime_error not_started(const std::string& path, const std::string& why) {

@@ -60,7 +60,7 @@ std::string usable_names() {
   return names.empty() ? "none is up and has an address" : names;
 }
 
-// The address that the kernel sends from to the group: tells the route. Nothing is sent.
+// The address from which the kernel would send to the group: it shows the route. Nothing is sent.
 std::optional<in_addr_t> source_address(const UdpmUrl& url, int& error) {
   const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in group{};

@@ -1,7 +1,8 @@
 #include "drivers/telemetry/preview_jpeg.h"
 
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
+
+#include "drivers/images/image_encoder.h"
 
 namespace drivers {
 
@@ -14,9 +15,7 @@ std::vector<std::uint8_t> preview_jpeg(const core::Preview& preview) {
   const cv::Mat image(preview.height_px, preview.width_px, CV_8UC1, const_cast<std::uint8_t*>(preview.pixels.data()));
   std::vector<std::uint8_t> bytes;
   for (const int quality : {50, 30, 15, 5}) {
-    if (!cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, quality, cv::IMWRITE_JPEG_OPTIMIZE, 1})) {
-      throw std::runtime_error("preview: no JPEG could be made");
-    }
+    bytes = encode_jpeg(image, quality, true);
     if (bytes.size() <= kPreviewJpegBytes) break;
   }
   return bytes;

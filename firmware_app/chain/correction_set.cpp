@@ -10,7 +10,7 @@
 namespace app {
 
 namespace {
-// A readout time that a record has told is not better known than this, whatever its fit says: rows have a height.
+// Least standard deviation of a readout time estimated from a record, whatever its fit states: rows have a height.
 constexpr double kLeastSigma_frames = 0.002;
 }  // namespace
 

@@ -48,7 +48,7 @@ void ChannelAnalysis::go_on_from(ChannelAnalysis& earlier) {
 
 bool ChannelAnalysis::resume(const RunState& state) noexcept {
   if (!spectra_.resume(state.spectrum, !state.boot_id.empty())) return false;
-  (void)modes_.resume(state.modes);  // else they begin anew, as the run's did
+  (void)modes_.resume(state.modes);  // else mode tracking starts again, as in the run
   return true;
 }
 

@@ -1,6 +1,6 @@
+#include "firmware_app/report/run_report.h"
 #include "firmware_app/config/calibration.h"
 #include "firmware_app/config/structure_scale.h"
-#include "firmware_app/report/run_report.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -64,7 +64,7 @@ RunReport::RunReport(const std::string& directory, const AppConfig& config, cons
   make_directory(directory);
   for (const core::ChannelInfo& channel : channels) channel_names_.push_back(channel.name);
   for (const char* old : {"modal.json", "modal.json.partial", "tracks.csv", "report.html", "closure.json"}) {
-    std::error_code ignored;  // opening the new file tells what matters
+    std::error_code ignored;  // opening the new file reports the error that matters
     std::filesystem::remove(in_directory(directory, old), ignored);
   }
   displacements_.emplace(in_directory(directory, "displacements.csv"));

@@ -54,14 +54,14 @@ std::optional<RunState> resume_state(const std::string& path, const RunState& vi
         const core::CpsdSums& sums = spectra.sums();
         health.warn(fmt::format("goes on with the state in {}: {:.1f} s of record, {} segments{}", path,
                                 static_cast<double>(sums.n_samples) / sums.rate_hz, sums.n_segments,
-                                has_modes ? "" : "; its modes begin anew"));
+                                has_modes ? "" : "; mode tracking starts again"));
         return saved;
       }
     }
   } catch (const std::exception& e) {
     refused = e.what();
   }
-  health.warn(fmt::format("the state in {} is not taken: {}; the record begins anew", path, refused));
+  health.warn(fmt::format("the state in {} is not taken: {}; the record starts again", path, refused));
   return {};
 }
 

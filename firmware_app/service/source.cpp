@@ -56,7 +56,7 @@ core::StructureTracker tracker_of_kept(const AppConfig& config, const core::Fram
   (void)tracker.track(first, found);
   const std::string other = core::why_other_view(kept->points, found, config.tracking.min_points);
   datum = other.empty() ? "displacements are measured from the keyframe of the run before"
-                        : "points are seeded anew: " + other;
+                        : "points are seeded again: " + other;
   if (!other.empty()) {
     kept.reset();
     return tracker;
@@ -70,7 +70,7 @@ core::StructureTracker tracker_of_kept(const AppConfig& config, const core::Fram
 std::optional<KeptKeyframe> find_kept(const AppConfig& config, const core::CameraInfo& info, std::string& datum) {
   if (config.state.directory.empty()) return {};
   KeyframeRead read = read_keyframe(keyframe_path(config), config.hash, info, config.regions.size());
-  if (!read.refused.empty()) datum = "points are seeded anew: " + read.refused;
+  if (!read.refused.empty()) datum = "points are seeded again: " + read.refused;
   return std::move(read.keyframe);
 }
 

@@ -115,7 +115,7 @@ class Uninterrupted {
     const bool readable = saved.restore(in);
     const std::uint64_t n_cells = readable ? saved.sums().n_samples : 0;
     const std::uint64_t before = welch_.sums().n_samples;
-    // A file's stamps begin anew with each run: one masked segment lies between two.
+    // A file's time stamps start again with each run: one masked segment lies between two.
     if (!last_.empty()) {
       for (int k = 0; k < welch_.sums().n_fft / 2; ++k) (void)welch_.push_missing();
     }

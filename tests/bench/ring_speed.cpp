@@ -26,7 +26,7 @@ struct Frame {
   unsigned char pixels[kFrameBytes]{};
 };
 
-// What a camera does: writes every pixel of where it is told to.
+// What a camera does: writes every pixel of the slot.
 void expose(Frame& frame, std::uint64_t number) noexcept {
   frame.number = number;
   std::memset(frame.pixels, static_cast<int>(number & 0xFFU), sizeof frame.pixels);

@@ -32,7 +32,7 @@ for name in "${cases[@]}"; do
     status=$?
   fi
   grep -aE $'^(ok|MISS|figure)\t' "build/device/$name.log" || status=$((status > 1 ? status : 125))
-  # 1 is a miss of the case's own, which it told.
+  # 1: the case missed a bar and printed it.
   [ $status -le 1 ] || printf 'MISS\t%s\tended with status %s\tto come to its end\n' "$name" "$status"
   [ $status -eq 0 ] || { echo "device: $name ended with status $status; its log is build/device/$name.log" >&2 && failed=1; }
 done

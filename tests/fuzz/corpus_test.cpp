@@ -64,7 +64,7 @@ TEST_P(FuzzCorpus, HoldsForDamagedInputs) {
     for (std::uint32_t seed = 1; seed <= kSeeds && whole.size() > 1; ++seed) {
       std::mt19937 random(seed);
       std::vector<std::uint8_t> bytes = whole;
-      // The first byte often tells what the rest is.
+      // The first byte often selects what the rest is.
       for (std::uint_fast32_t i = 0, n = 1 + random() % 6; i < n; ++i)
         bytes[1 + random() % (bytes.size() - 1)] = static_cast<std::uint8_t>(random());
       expect_to_hold(GetParam(), bytes, path.filename().string() + ", seed " + std::to_string(seed));

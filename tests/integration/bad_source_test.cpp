@@ -83,7 +83,7 @@ const std::vector<BadInput>& source_rows() {
        },
        1,
        {"clip.mp4", "cut off"}},
-      // What decodes is worth having; the loss is told.
+      // What decodes is kept; the loss is reported.
       {"CutInTheMiddle",
        [](const fs::path& f) {
          Input input = clip(f);

@@ -110,7 +110,7 @@ TEST_F(PipelineRecord, ARunThatWentOnWithAKeptStateToo) {
 }
 
 // From the frame on from which the run kept every n-th only, new spectra begin in the replay, too. What was dropped in
-// front of the tracker is told by the run's last word, which this publisher does not write.
+// front of the tracker is reported in the run's last message, which this publisher does not write.
 TEST_F(PipelineRecord, ARunUnderOverloadToo) {
 #ifdef __SANITIZE_THREAD__
   GTEST_SKIP() << "instrumented tracking follows one frame in sixty: too few are left to compare";

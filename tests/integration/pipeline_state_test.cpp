@@ -90,7 +90,7 @@ TEST_F(PipelineState, AnotherViewIsSeededAnewAndTheReasonTold) {
   ASSERT_EQ(drivers::write_checkpoint(keyframe.string(), read.bytes), "");
   Rig rig(frames(200), overrides());
   const auto after = rig.run();
-  EXPECT_THAT(after.health.warnings, Contains(HasSubstr("points are seeded anew")));
+  EXPECT_THAT(after.health.warnings, Contains(HasSubstr("points are seeded again")));
   EXPECT_THAT(after.health.warnings, Contains(HasSubstr("goes on with the state in")));
   EXPECT_EQ(after.fault, "");
 }
@@ -99,7 +99,7 @@ TEST_F(PipelineState, ModesKeepTheirNumbers) {
   (void)cut_off();
   Rig rig(frames(200), overrides());
   const auto after = rig.run();
-  EXPECT_THAT(after.health.warnings, Not(Contains(HasSubstr("its modes begin anew"))));
+  EXPECT_THAT(after.health.warnings, Not(Contains(HasSubstr("mode tracking starts again"))));
   ASSERT_FALSE(after.estimate.modes.empty());
   bool followed_from_before = false;
   for (const core::Mode& mode : after.estimate.modes) {

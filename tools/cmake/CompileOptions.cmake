@@ -6,6 +6,7 @@ target_compile_options(hovermodal_options INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(hovermodal_options INTERFACE -Wno-restrict)  # false alarms on std::string (GCC bug 105651)
 endif()
+target_link_options(hovermodal_options INTERFACE -Wl,--as-needed)  # a program loads the libraries that it calls
 if(HOVERMODAL_WERROR)
   target_compile_options(hovermodal_options INTERFACE -Werror)
 endif()

@@ -9,16 +9,15 @@ find_package(spdlog REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(JPEG REQUIRED)
+find_package(PNG REQUIRED)
 pkg_check_modules(LIBAV REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil)
 
 # OpenCV's and yaml-cpp's Debian packages give plain variables or bare targets: wrap them, headers as SYSTEM.
 add_library(hovermodal_opencv INTERFACE)
 target_include_directories(hovermodal_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
 target_link_libraries(hovermodal_opencv INTERFACE opencv_core opencv_imgproc opencv_video opencv_calib3d)
-add_library(hovermodal_images INTERFACE)
-target_link_libraries(hovermodal_images INTERFACE hovermodal_opencv opencv_imgcodecs)
-add_library(hovermodal_videoio INTERFACE)  # tests write clips with it
-target_link_libraries(hovermodal_videoio INTERFACE hovermodal_images opencv_videoio)
+add_library(hovermodal_videoio INTERFACE)  # tests write images and clips with it
+target_link_libraries(hovermodal_videoio INTERFACE hovermodal_opencv opencv_imgcodecs opencv_videoio)
 
 option(WITH_SYSTEMD "Tell systemd when the service is ready and alive" ON)
 if(WITH_SYSTEMD)

@@ -54,7 +54,7 @@ install(FILES ${MADE_DIR}/hovermodal.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/ma
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/drivers/telemetry/messages DESTINATION ${CMAKE_INSTALL_DATADIR}/hovermodal COMPONENT tools)
 set(EXAMPLES ${CMAKE_INSTALL_DATADIR}/doc/hovermodal-tools/examples)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/tools/scenes DESTINATION ${EXAMPLES} COMPONENT tools)
-install(FILES ${CMAKE_SOURCE_DIR}/firmware_app/config/example.yaml ${CMAKE_SOURCE_DIR}/firmware_app/config/config/synthetic.yaml
+install(FILES ${CMAKE_SOURCE_DIR}/firmware_app/config/example.yaml ${CMAKE_SOURCE_DIR}/firmware_app/config/synthetic.yaml
   ${CMAKE_SOURCE_DIR}/tools/examples/subscribe.cpp ${CMAKE_SOURCE_DIR}/tools/examples/lcm_receiver.py
   DESTINATION ${EXAMPLES} COMPONENT tools)
 install(PROGRAMS ${CMAKE_SOURCE_DIR}/tools/examples/subscribe.py DESTINATION ${EXAMPLES} COMPONENT tools)
@@ -82,9 +82,10 @@ set(SYSTEMD_HELPERS "systemd | systemd-standalone-sysusers | systemd-sysusers, s
 set(CPACK_DEBIAN_SERVICE_PACKAGE_NAME hovermodal)
 set(CPACK_DEBIAN_SERVICE_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_SERVICE_PACKAGE_DEPENDS "${SYSTEMD_HELPERS}")
+set(CPACK_DEBIAN_SERVICE_PACKAGE_SUGGESTS "libopencv-imgcodecs406")  # folders of images
 set(CPACK_DEBIAN_SERVICE_PACKAGE_RECOMMENDS "hovermodal-tools, libcamera-ipa, udev")
 set(CPACK_DEBIAN_SERVICE_DESCRIPTION "A service for a drone's companion computer: it watches a structure through the
-camera while the drone hovers, and tells the structure's natural frequencies,
+camera while the drone hovers, and reports its natural frequencies,
 damping and mode shapes over LCM.
 
 Edit /etc/hovermodal/hovermodald.yaml, then enable hovermodald.service.")
@@ -93,7 +94,7 @@ set(CPACK_DEBIAN_SERVICE_PACKAGE_CONTROL_EXTRA ${PACKAGE_DIR}/service/conffiles 
 
 set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME hovermodal-tools)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "ffmpeg")
+set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "ffmpeg, libopencv-imgcodecs406")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS "hovermodal, liblcm-bin")
 set(CPACK_DEBIAN_TOOLS_DESCRIPTION "The companion of the service hovermodald, at the desk and on the ground: plan a
 flight, calibrate the camera, simulate, replay and compare runs, identify modes

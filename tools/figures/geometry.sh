@@ -126,7 +126,7 @@ figure_4a() {
     "0.02 of a frame, 2.5 sigma" "readout over -1 ... 1 of a frame, from tracks of 300 s under the hover, $rows readouts, $(of_records)" \
     "$rows > 0 && $missing == 0 && $worst <= 0.02 && $sigmas <= 2.5"
 }
-# A phone in a moving car. Nothing tells the true readout; that the program which came with the clip takes a whole frame
+# A phone in a moving car. The true readout is unknown; that the program which came with the clip takes a whole frame
 # time (33.312 ms, with a focal length of 574.4 px) is printed beside it.
 figure_4b() {
   local clip=$data/phone_rolling_shutter_gyro

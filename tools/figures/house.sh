@@ -1,31 +1,40 @@
 #!/usr/bin/env bash
-# One chain with two drivers: an edit of form changes no byte, and a replay gives the bytes of its run. Six minutes.
-#   tools/figures/house.sh [--before BIN] [--keep] [FIGURE...]      FIGURE: some of 1, 2 (default: both)
+# The house itself. One chain with two drivers: an edit of form changes no byte (1), a replay gives the bytes of its run (2).
+# What a build and the tests cost (3), the shape of the code beside others' (4), passages of its prose (5).
+#   tools/figures/house.sh [--before BIN] [--keep] [--quick] [--beside DIR]... [FIGURE...]    FIGURE: some of 1 ... 5 (default: all)
 #     --before BIN   figure 1 compares with the programs in that folder (hovermodal, hovermodald of another build), on the same
 #                    clips, instead of with the hashes in house_hashes.txt
 #     --keep         figure 1 writes its hashes into house_hashes.txt: after a change that is meant to change results
+#     --quick        figure 3 measures one library and one test program only
+#     --beside DIR   figure 4: the sources of kiss-icp, libcamera, drake's lcm folder or cactus-rt; the folder's name names them
+# 1 and 2 take six minutes on two processors, 3 some 200 processor minutes (--quick: five), 4 and 5 seconds.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
-before='' keep=''
-while [[ ${1:-} == --* ]]; do
+before='' keep='' beside=() rest=()
+while [ $# -gt 0 ]; do
   case $1 in
-    --before) before=$2 && shift 2 ;;
-    --keep) keep=1 && shift ;;
-    *) echo "house.sh: $1 is no option of it" >&2 && exit 2 ;;
+    --before | --beside)
+      [ -d "${2:-}" ] || refuse "$1: a folder is expected, got \"${2:-}\""
+      if [ "$1" = --before ]; then before=$2; else beside+=("${2%/}"); fi
+      shift
+      ;;
+    --keep) keep=1 ;;
+    *) rest+=("$1") ;;
   esac
+  shift
 done
-figures=("${@:-}")
-[ -n "${figures[0]}" ] || figures=(1 2)
+take_arguments "tools/figures/house.sh [--before BIN] [--keep] [--quick] [--beside DIR]... [FIGURE...]" "${rest[@]}"
+all_or_named 1 2 3 4 5
 out=$PWD/build/figures/house
 hashes=tools/figures/house_hashes.txt
 files=(modal.json tracks.csv displacements.csv closure.json)
 mkdir -p "$out"
 tools/setup.sh
-quietly tools/build.sh hovermodal hovermodald
 
 # The inputs: a clip of a minute with a lens that nobody declares, and tracks that lack points.
 inputs() {
+  quietly tools/build.sh hovermodal hovermodald
   local in=$out/input
   [ ! -s "$in/done" ] || return 0
   rm -rf "$in" && mkdir -p "$in"
@@ -158,6 +167,118 @@ figure_2() {
   local n_dropped rate_hz
   read -r n_dropped rate_hz < <(losses_of "$out/again/overload/live/modal.json" frames_dropped rate_hz)
   compared overload "$n_dropped frames dropped, $rate_hz of 200 frames a second kept" "$n_dropped > 0 && $rate_hz < 200"
+}
+
+# --- 3: what a contributor waits for ----------------------------------------------------------------------------------
+reference=02909f7
+# processor_minutes FILE COMMAND...: user and system time of the command and all its children, into FILE.
+processor_minutes() {
+  python3 - "$@" <<'PY'
+import resource, subprocess, sys
+log = open(sys.argv[1] + ".log", "w")
+status = subprocess.run(sys.argv[2:], stdout=log, stderr=log, stdin=subprocess.DEVNULL).returncode
+used = resource.getrusage(resource.RUSAGE_CHILDREN)
+with open(sys.argv[1], "w") as file:
+    file.write(f"{(used.ru_utime + used.ru_stime) / 60:.3f}\n")
+sys.exit(status)
+PY
+}
+# scratch COMMIT: a clone of that commit, without any build, in $out/scratch/COMMIT. The compiler's cache is off.
+scratch() {
+  rm -rf "$out/scratch/$1"
+  quietly git clone --quiet --shared --no-checkout . "$out/scratch/$1"
+  quietly git -C "$out/scratch/$1" checkout --quiet "$(git rev-parse "$1")"
+  export CCACHE_DISABLE=1
+}
+# build_cost COMMIT NAME TARGET...: processor minutes for these targets in its clone, configuring included where it is the first.
+build_cost() {
+  local commit=$1 name=$2
+  shift 2
+  processor_minutes "$out/cost_${name}_$commit.txt" "$out/scratch/$commit/tools/build.sh" "$@" || return 1
+  cat "$out/cost_${name}_$commit.txt"
+}
+# compared_cost NUMBER BAR WHAT NOW BEFORE: the ratio of processor minutes; without a bar it is printed beside.
+compared_cost() {
+  local ratio
+  ratio=$(awk "BEGIN { if ($5 > 0) printf \"%.2f\", $4 / $5; else print \"nan\" }")
+  if [ "$2" = - ]; then
+    line "$1" beside "$4 of $5 processor minutes, ratio $ratio" "-" "$3"
+  else
+    judge "$1" "$4 of $5 processor minutes, ratio $ratio" "<= $2" "$3" "$ratio <= $2"
+  fi
+}
+figure_3() {
+  local now commit what now_demo now_all before_demo before_all
+  now=$(git rev-parse --short HEAD)
+  if ! git cat-file -e "$reference^{commit}" 2>/dev/null; then
+    line 3 SKIP "no history" "<= 0.40, <= 0.50, 3 min" "commit $reference is not in this clone (git fetch --unshallow)"
+    return
+  fi
+  [ -z "$(git status --porcelain --untracked-files=no)" ] || echo "# measured: $now, without what is not committed"
+  what="cold build without the compiler's cache, $now against $reference in the same run"
+  for commit in "$now" "$reference"; do scratch "$commit"; done
+  if [ -n "$quick" ]; then
+    now_demo=$(build_cost "$now" part hovermodal_storage unit_rt_tests) || now_demo=nan
+    before_demo=$(build_cost "$reference" part hovermodal_storage unit_rt_tests) || before_demo=nan
+    compared_cost 3.part - "hovermodal_storage and unit_rt_tests only: $what" "$now_demo" "$before_demo"
+    line 3.demo SKIP "not with --quick" "<= 0.40" "processor minutes of the demo's $what"
+    line 3.tests SKIP "not with --quick" "<= 0.50" "processor minutes of all tests' $what"
+    line 3.quick SKIP "not with --quick" "3 min" "processor minutes of tools/test.sh --quick"
+  else
+    now_demo=$(build_cost "$now" demo hovermodald hovermodal) || now_demo=nan
+    before_demo=$(build_cost "$reference" demo hovermodald hovermodal) || before_demo=nan
+    compared_cost 3.demo 0.40 "the programs of tools/demo.sh: $what" "$now_demo" "$before_demo"
+    now_all=$(build_cost "$now" rest) || now_all=nan
+    before_all=$(build_cost "$reference" rest) || before_all=nan
+    compared_cost 3.tests 0.50 "everything, tests included: $what" \
+      "$(awk "BEGIN { print $now_demo + $now_all }")" "$(awk "BEGIN { print $before_demo + $before_all }")"
+    local passed=1 seconds=$SECONDS
+    processor_minutes "$out/cost_quick.txt" "$out/scratch/$now/tools/test.sh" --quick || passed=0
+    judge 3.quick "$(cat "$out/cost_quick.txt") processor minutes, $((SECONDS - seconds)) s; $(tail -n 1 "$out/cost_quick.txt.log")" "3 min" \
+      "tools/test.sh --quick, already built" "$(cat "$out/cost_quick.txt") <= 3 && $passed"
+  fi
+  unset CCACHE_DISABLE
+  rm -rf "$out/scratch"
+}
+
+# --- 4: its shape -----------------------------------------------------------------------------------------------------
+# The file of each in which the way of an item (a frame, a scan, a message) can be read; the types named there are the concepts.
+declare -A way_of=([kiss-icp]=cpp/kiss_icp/pipeline/KissICP.cpp [libcamera]=src/libcamera/camera.cpp [drake]=lcm/drake_lcm.cc
+  [lcm]=drake_lcm.cc [cactus-rt]=src/cactus_rt/cyclic_thread.cc)
+print_shape() { # NUMBER DIR WAY NAME
+  local text
+  text=$(tools/figures/code_shape.py shape "$2" ${3:+--way "$3"})
+  line "4.$1" beside "$(head -n 1 <<<"$text")" "-" "$4; median, 90 %, largest"
+  [ -z "$3" ] || echo "# concepts on the way of a frame: $(tail -n 1 <<<"$text")"
+}
+figure_4() {
+  local own=$out/own folder name way
+  rm -rf "$own" && mkdir -p "$own"
+  git ls-files -z -- '*.h' '*.cpp' | xargs -0 cp --parents -t "$own"
+  print_shape hovermodal "$own" firmware_app/service/data_flow.h "this tree, tests included"
+  rm -rf "$own/tests"
+  print_shape product "$own" "" "this tree without tests"
+  for folder in "${beside[@]}"; do
+    name=${folder##*/}
+    way=${way_of[$name]:-}
+    [ -n "$way" ] && [ -e "$folder/$way" ] || way=
+    print_shape "$name" "$folder" "$way" "$folder"
+  done
+  [ ${#beside[@]} -gt 0 ] || line 4.beside SKIP "no other project's folder" "-" "kiss-icp, libcamera, drake's lcm, cactus-rt: --beside DIR..."
+}
+
+# --- 5: its prose -----------------------------------------------------------------------------------------------------
+figure_5() {
+  quietly tools/build.sh hovermodal hovermodald
+  local own=$out/prose command programs=(--help-of "$bin/hovermodald --help" --help-of "$bin/hovermodald --help-config")
+  rm -rf "$own" && mkdir -p "$own"
+  git ls-files -z -- '*.h' '*.cpp' '*.sh' '*.py' '*.md' | xargs -0 cp --parents -t "$own"
+  for command in $("$bin/hovermodal" --help | sed -n '/^Subcommands:$/,$s/^  \([a-z]*\) .*/\1/p'); do
+    programs+=(--help-of "$bin/hovermodal $command --help")
+  done
+  tools/figures/code_shape.py passages "$own" --seed 1001 --count 20 "${programs[@]}" >"$out/passages.txt"
+  line 5 beside "$(tail -n +2 "$out/passages.txt" | wc -l) passages, $(head -n 1 "$out/passages.txt" | tr -d '#' | xargs)" "-" "drawn with seed 1001 from comments, help and documents; read them:"
+  tail -n +2 "$out/passages.txt" | sed 's/^/  /'
 }
 
 run_figures "${figures[@]}"

@@ -20,7 +20,7 @@ finish_figures() {
   [ "$misses" -eq 0 ] || exit 1
 }
 
-# judge NUMBER "measured" "bar" "what" AWK-CONDITION: ok when the condition holds, MISS when not or when it cannot be told.
+# judge NUMBER "measured" "bar" "what" AWK-CONDITION: ok when the condition holds, MISS when not or when it cannot be evaluated.
 # To awk a bare word such as nan or inf is an unset variable, and less than any bar.
 judge() {
   local bare

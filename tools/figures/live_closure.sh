@@ -160,7 +160,7 @@ PY
 }
 
 # --- 5: measured clips, wrongly declared ------------------------------------------------------------------------------
-told() { # NAME: what the operator was told, report by report
+reported() { # NAME: the messages to the operator, report by report
   "$bin/hovermodal" spy --url "file://$out/$1.lcm?speed=0" --plain --once 2>/dev/null | sed -n '/^LOOP/,/^[A-Z]/p' | grep -v '^[A-KM-Z]' | sed 's/^ *//' | tr '\n' ';' | cut -c1-400
 }
 figure_5() {
@@ -186,8 +186,8 @@ Y
     ended=1
     "${how[@]}" --set closure.adopt=auto --set "telemetry.log_file=$out/$name.lcm" --report "$out/$name" >"$out/$name.txt" 2>&1 || ended=0
     "${how[@]}" --set closure.adopt=off --report "$out/${name}_off" >"$out/${name}_off.txt" 2>&1 || ended=0
-    judge "5.$name" "$(told "$name") taken out: $(corrections "$name" || echo unknown); modes $(modes_of "${name}_off") Hz -> $(modes_of "$name") Hz" "$bar" \
-      "measured clip, wrongly declared, through the service with the loop closed" "$ended && $([ -n "$(told "$name")" ] && echo 1 || echo 0)"
+    judge "5.$name" "$(reported "$name") corrected: $(corrections "$name" || echo unknown); modes $(modes_of "${name}_off") Hz -> $(modes_of "$name") Hz" "$bar" \
+      "measured clip, wrongly declared, through the service with the loop closed" "$ended && $([ -n "$(reported "$name")" ] && echo 1 || echo 0)"
   done
 }
 modes_of() { python3 -c 'import json, sys; print(" ".join("%.2f" % m["frequency_hz"] for m in json.load(open(sys.argv[1]))["modes"]) or "no")' "$out/$1/modal.json" || echo unknown; }

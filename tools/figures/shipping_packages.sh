@@ -68,7 +68,7 @@ installed() {
   (. tools/package/completion_check.sh "$root/usr/share/bash-completion/completions/hovermodal" inside) >"$out/completion.log" 2>&1
   wrong=$(grep -c '^missing' "$out/completion.log" || true)
   judge 1.completion "$(grep -c '^ok' "$out/completion.log" || true) commands complete, $wrong words missing" "every word completes" \
-    "bash completes every subcommand and option that --help tells" "$wrong == 0 && $(grep -c '^ok' "$out/completion.log" || true) > 10"
+    "bash completes every subcommand and option of --help" "$wrong == 0 && $(grep -c '^ok' "$out/completion.log" || true) > 10"
 }
 
 demonstrated() {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Whether bash completes what the programs' --help tells: every subcommand, and every option of each. Prints a line a
+# Whether bash completes what the programs' --help lists: every subcommand, and every option of each. Prints a line a
 # command, "ok COMMAND: N words", and "missing COMMAND: WORD" for what is not offered; then the exit status is 1.
 #   tools/package/completion_check.sh     the completion of this tree, for the programs that are in the PATH
 #   (. tools/package/completion_check.sh FILE BEFORE)    of FILE; BEFORE: a function of the caller, which runs programs elsewhere

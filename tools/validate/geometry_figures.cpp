@@ -44,7 +44,7 @@ FlightSetup paper_flight(double readout_ms) {
 
 void print_geometry(const GeometryOptions& options) {
   FigureCase which{"geometry", "paper-300s", paper_flight(), 300.0, 3, {}};
-  // Without delays nothing above half the rate can be told: nobody would look there.
+  // Without row delays the alias order of a mode above half the rate cannot be found: no such modes are drawn.
   const std::string half_rate = "identification.max_frequency_hz=0";
   const std::string no_witness = "spectrum.witness=false";
   which.ways = {{"raw", {"scale.adaptive=false", half_rate, no_witness}, StatedReadout::kNone},
@@ -75,7 +75,7 @@ void print_wind(const GeometryOptions& options) {
 }
 
 void print_low_frequency(const GeometryOptions& options) {
-  // A chimney of 46.5 m in the wind, 0.32 Hz, seen from 70 m at 15 fps; the ground rests in its plane.
+  // A chimney of 46.5 m in the wind, 0.32 Hz, seen from 70 m at 15 fps; static ground in its plane.
   FigureCase which{"low-frequency", "chimney-900s", {}, 900.0, 1, {}};
   which.setup = {
       std::string(

@@ -13,9 +13,9 @@
 #include "core/simulation/channel_generator.h"
 #include "core/simulation/random_stream.h"
 #include "firmware_app/replay/track_analysis.h"
+#include "tools/hovermodal/simulate/config.h"
 #include "tools/validate/geometry_attitude.h"
 #include "tools/validate/recorded_hover.h"
-#include "tools/hovermodal/simulate/config.h"
 
 namespace tools {
 namespace {
@@ -28,7 +28,7 @@ void hover_instead(core::simulation::HoverParameters& hover, double scale) {
   hover.y_rms_mm = 40.0 * scale;
 }
 
-// A hundredth of what the tracker leaves of each channel: ground that rests would be no channel at all without.
+// A hundredth of the tracker's noise in each channel: a static ground region without any noise would be no channel.
 double whisper_mm(const core::simulation::Scene& scene) {
   const double mm_per_px = (scene.plates.front().z_mm - scene.camera.z_mm) / scene.camera.alpha_px;
   return 0.01 * mm_per_px * scene.tracks.noise_px / std::sqrt(scene.tracks.points_per_region);

@@ -44,7 +44,7 @@ struct Place {
   double u_px, v_px, depth_mm;
 };
 
-// Motion of a point that rests, for a small camera motion (t / mm, w / rad), px per unit; along u and v.
+// Image motion of a static point, for a small camera motion (t / mm, w / rad), px per unit; along u and v.
 Eigen::Matrix<double, 2, 6> camera_field(const core::simulation::CameraParameters& camera, const Place& place) {
   const double x = (place.u_px - camera.cx_px) / camera.alpha_px, y = (place.v_px - camera.cy_px) / camera.alpha_px;
   const double z = place.depth_mm;
@@ -56,9 +56,9 @@ Eigen::Matrix<double, 2, 6> camera_field(const core::simulation::CameraParameter
 
 // Cramer-Rao bounds of one sample of each channel, px, for points of sigma each, known, with weights w = 1 / sigma^2:
 //   camera known:      1 / sqrt(sum w) over the channel's points
-//   camera estimated:  sqrt(1 / sum w + h F^-1 h'), F = sum w A'A over the points of what rests (background, ground),
-//   h the weighted mean of the channel's own rows of A along its axis (for the ground itself no smaller than the first:
-//   as if it were not used twice); depths known.
+//   camera estimated:  sqrt(1 / sum w + h F^-1 h'), F = sum w A'A over the points of static regions (background,
+//   ground), h the weighted mean of the channel's own rows of A along its axis (for the ground itself no smaller than
+//   the first: as if it were not used twice); depths known.
 struct Bounds {
   std::vector<double> known_px, estimated_px;
 };

@@ -1,4 +1,4 @@
-// Modes above half the frame rate, told by the instants at which the rows are seen.
+// Modes above half the frame rate: their alias order from the instants at which the rows are seen.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -75,7 +75,7 @@ ImagePoint exposure_signature(const Sight& s) {
   return {v.u_px * late_s + a.u_px * bent_s2, v.v_px * late_s + a.v_px * bent_s2};
 }
 
-// Another instant than the one told: velocity and curvature times the time error.
+// An error of the time stamp: velocity and curvature times that error.
 ImagePoint time_signature(const Sight& s) {
   const double late_s = s.frame_with.t_s - s.frame.t_s;
   const ImagePoint v = s.velocity(), a = s.acceleration();

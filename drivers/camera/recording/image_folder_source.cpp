@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "drivers/camera/recording/gray_convert.h"
+#include "drivers/images/image_reader.h"
 
 namespace drivers {
 
@@ -47,7 +48,7 @@ std::vector<fs::path> list_images(const std::string& folder) {
 
 // Empty, or why the image cannot be used. IMREAD_UNCHANGED shows depth and alpha as they are stored.
 std::string load(const fs::path& file, cv::Mat& image) {
-  image = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
+  image = read_image(file.string(), cv::IMREAD_UNCHANGED);
   if (image.empty()) return "cannot be decoded: the file is damaged, unreadable or not an image";
   if (image.depth() == CV_32F || image.depth() == CV_64F) {
     return "has floating-point pixels: convert the images to 8 bits";

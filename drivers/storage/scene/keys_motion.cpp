@@ -141,9 +141,9 @@ void add_declare_keys(std::vector<SceneKey>& keys) {
                                 "what config.yaml says of it: true = the truth, false = nothing, or a wrong value"));
   keys.push_back(scene_declared("declare.exposure_ms", "ms", declare<&D::exposure_ms>, {0.0, 1000.0}, "likewise"));
   keys.push_back(scene_declared("declare.rate_hz", "Hz", declare<&D::rate_hz>, {1.0, 1e4}, "likewise"));
-  keys.push_back(scene_switch("declare.lens", declare<&D::lens>, "config.yaml tells the lens; equidistant never"));
+  keys.push_back(scene_switch("declare.lens", declare<&D::lens>, "config.yaml declares the lens; equidistant never"));
   keys.push_back(scene_switch("declare.focal_length", declare<&D::focal_length>,
-                              "config.yaml tells focal length and principal point"));
+                              "config.yaml declares focal length and principal point"));
   keys.push_back(scene_switch("declare.timestamps", of<&Scene::timing, &Ti::stamps_tell>,
                               "stamps tell the true times and gaps; false: frame number / rate"));
 }

@@ -95,7 +95,7 @@ void add_excitation_keys(std::vector<SceneKey>& keys) {
       "of the last body relative to the ground, by a weight of 1; scales ground and forces alike. 0 = at rest"));
   keys.push_back(scene_number(
       "excitation.base", "", excitation<&E::base>, {0.0, 1e6},
-      "weight of the ground's motion: alone it moves the last body by base * rms_mm; 0 = the ground rests"));
+      "weight of the ground's motion: alone it moves the last body by base * rms_mm; 0 = the ground is static"));
   keys.push_back(scene_number("excitation.forces", "", excitation<&E::forces>, {0.0, 1e6},
                               "weight of independent forces on every body (wind, traffic): alone forces * rms_mm"));
   keys.push_back(scene_tuple("excitation.band_hz", "Hz", {excitation<&E::band_low_hz>, excitation<&E::band_high_hz>}, 2,

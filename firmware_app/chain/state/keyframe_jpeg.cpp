@@ -1,10 +1,9 @@
 #include "firmware_app/chain/state/keyframe_jpeg.h"
 
-#include <opencv2/imgcodecs.hpp>
-#include <stdexcept>
 #include <vector>
 
 #include "drivers/camera/device/luma.h"
+#include "drivers/images/image_encoder.h"
 
 namespace app {
 namespace {
@@ -19,9 +18,7 @@ std::string keyframe_jpeg(const core::Frame& image) {
   if (n_pixels == 0 || image.pixels.size() < n_pixels) return {};
   // The header borrows the pixels; they are only read.
   const cv::Mat gray(image.height_px, image.width_px, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data()));
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".jpg", gray, bytes, {cv::IMWRITE_JPEG_QUALITY, kQuality}))
-    throw std::runtime_error("record: the image library cannot write JPEG");
+  const std::vector<std::uint8_t> bytes = drivers::encode_jpeg(gray, kQuality);
   return {bytes.begin(), bytes.end()};
 }
 

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
+#include "drivers/images/image_encoder.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/page/page_parts.h"
 #include "firmware_app/report/pictures/parts.h"
@@ -25,9 +25,7 @@ std::string jpeg_at(const core::Frame& frame, double scale) {
   const cv::Size size(std::max(1, cvRound(frame.width_px * scale)), std::max(1, cvRound(frame.height_px * scale)));
   cv::Mat sized;
   cv::resize(gray, sized, size, 0.0, 0.0, cv::INTER_AREA);
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".jpg", sized, bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality}))
-    throw drivers::FileError("report.html: the image library cannot write JPEG");
+  const std::vector<std::uint8_t> bytes = drivers::encode_jpeg(sized, kJpegQuality);
   return {bytes.begin(), bytes.end()};
 }
 

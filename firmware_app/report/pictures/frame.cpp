@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
 #include "core/types/role_names.h"
+#include "drivers/images/image_encoder.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/pictures/parts.h"
 
@@ -16,6 +16,7 @@ namespace {
 constexpr double kLongSidePx = 1200.0;  // larger frames are reduced
 constexpr double kShortestPx = 640.0;   // smaller ones are enlarged, or their labels would cover them
 constexpr std::size_t kMaxBytes = 480'000;
+constexpr int kPngLevel = 6;
 constexpr int kGrayStep = 4;  // the sensor's noise would be most of the file
 constexpr std::size_t kMaxNameBytes = 32;
 constexpr double kFontScale = 0.45;
@@ -64,10 +65,7 @@ class FramePicture {
   }
 
   [[nodiscard]] std::string encoded() const {
-    std::vector<std::uint8_t> bytes;
-    if (!cv::imencode(".png", picture_, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6})) {
-      throw drivers::FileError("frame.png: the image library cannot write PNG");
-    }
+    const std::vector<std::uint8_t> bytes = drivers::encode_png(picture_, kPngLevel);
     return {bytes.begin(), bytes.end()};
   }
 

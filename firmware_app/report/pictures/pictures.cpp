@@ -26,7 +26,7 @@ class PictureWriter {
   void write(const char* name, const Draw& draw) {
     attempt(name, [&] {
       const std::string path = (std::filesystem::path(directory_) / name).string();
-      std::error_code ignored;  // writing the new file tells what matters
+      std::error_code ignored;  // writing the new file reports the error that matters
       std::filesystem::remove(path, ignored);
       const std::string content = draw();
       if (content.empty()) return;

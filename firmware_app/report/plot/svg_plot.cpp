@@ -48,7 +48,7 @@ std::vector<PlotTick> log_ticks(const PlotAxis& axis, int n_wanted) {
 
 PlotAxis axis_around(double low, double high, const std::string& label) {
   if (!std::isfinite(low) || !std::isfinite(high) || low > high) low = 0.0, high = 1.0;
-  // Narrower than this cannot be told apart from rounding.
+  // A narrower range is indistinguishable from rounding.
   const double least = std::max(1e-9, 1e-9 * std::max(std::abs(low), std::abs(high)));
   const double air = high - low > least ? 0.04 * (high - low) : std::max(least, 0.01 * std::abs(low));
   return {low - air, high + air, false, label};

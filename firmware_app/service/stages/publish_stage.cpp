@@ -46,7 +46,7 @@ void PublishStage::publish_record(const FrameRecord& record) noexcept {
   if (due(outlets_.telemetry.tracks_every)) (void)outlets_.publisher.publish(record.tracks);
   if (outlets_.recorder != nullptr) (void)outlets_.recorder->add(record.tracks, record.attitude, record.sample.stride);
   if (outlets_.report != nullptr) {
-    // A failed file is counted by the report and told by its finish().
+    // A failed file is counted by the report; its finish() reports it.
     (void)outlets_.report->add(record.tracks);
     (void)outlets_.report->add(record.sample);
   }

@@ -18,7 +18,7 @@ wait_for 60 grep -q "listening on" /out/spy.txt
   --set camera.rate_hz="$rate" --set camera.readout_ms="$(awk '/readout_ms/ { print $2 / '$slow' }' $clip/config.yaml)" \
   --set tracking.points_per_region=8 --set spectrum.segment=256 --set closure.adopt=off --report /out/report >/out/service.txt 2>&1 &
 service_pid=$!
-# It must end before the clip begins anew.
+# It must end before the clip starts again.
 for ((i = 0; i < ${WATCH_S:-140}; i++)); do
   sleep 1
   kill -0 $service_pid 2>/dev/null || break

@@ -73,7 +73,7 @@ began=$(now_ms)
 wait_for 400 is NRestarts 1
 wait_for 400 is ActiveState active
 took=$((($(now_ms) - began) / 1000))
-judge "a hung stage: restarted by the watchdog" "$(cat /out/held.txt), $(said 'stalled: ') times told, $(journal | grep -oE 'watchdog timeout|Watchdog timeout' | head -n 1), active again after $took s, goes on with the state: $(said 'goes on with the state')" \
+judge "a hung stage: restarted by the watchdog" "$(cat /out/held.txt), $(said 'stalled: ') times reported, $(journal | grep -oE 'watchdog timeout|Watchdog timeout' | head -n 1), active again after $took s, goes on with the state: $(said 'goes on with the state')" \
   "told, one restart, state resumed" "$(said 'stalled: ') > 0 && $(property NRestarts) == 1 && $(said '[Ww]atchdog timeout') > 0 && $(said 'goes on with the state') == 1"
 
 pid=$(property MainPID)

@@ -80,7 +80,7 @@ void look_at_keyframe(Bytes bytes) {
   }
 }
 
-// The first byte tells what the rest is: f a file, b the bytes of a run's state, s of its spectrum, m of its modes, k
+// The first byte says what the rest is: f a file, b the bytes of a run's state, s of its spectrum, m of its modes, k
 // of a keyframe.
 void run(Bytes bytes) {
   Input input(bytes);

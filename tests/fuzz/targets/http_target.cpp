@@ -82,7 +82,7 @@ void ask_server(std::string_view request) {
     made->start();
     return made;
   }();
-  // An address has 28 000 ports, each of which rests for a minute: one address is soon used up.
+  // An address has 28 000 ports, each of which stays closed for a minute: one address is soon used up.
   static std::uint8_t source = 0;
   source = static_cast<std::uint8_t>(source % 250 + 1);
   RawConnection connection(server->port(), source);
@@ -96,7 +96,7 @@ void ask_server(std::string_view request) {
   require(!answer.starts_with("HTTP/1.1 500"), "no handler throws");
 }
 
-// The first byte tells how the server is set up and reached, the rest is what a client sends.
+// The first byte selects how the server is set up and reached; the rest is what a client sends.
 void run(Bytes bytes) {
   static const std::array sites{site(false, false), site(true, false), site(false, true), site(true, true)};
   Input input(bytes);

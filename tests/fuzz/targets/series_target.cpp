@@ -37,7 +37,7 @@ void check_columns(const std::string& path) {
   require(std::isfinite(columns.rate_hz) && columns.rate_hz > 0.0, "the rate is one");
 }
 
-// The first byte tells which reader takes the rest: s series, f what other programs write, n the same without names, t
+// The first byte selects the reader of the rest: s series, f what other programs write, n the same without names, t
 // tracks, a attitude, c columns beside a time.
 void run(Bytes bytes) {
   Input input(bytes);

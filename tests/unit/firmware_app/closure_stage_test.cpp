@@ -20,7 +20,8 @@ using test_support::swaying_record;
 using test_support::track_frame;
 using ::testing::HasSubstr;
 
-// The stage fed with a record, run to its end; its reports, and what it tells tracking if it is asked to adopt.
+// The stage fed with a record, run to its end; its reports, and the corrections that it sends to tracking with
+// closure.adopt: auto.
 std::vector<ClosureReport> reports_of(const ObservationRecord& record, std::vector<CorrectionSwitch>* changes = nullptr,
                                       CorrectionLog* book = nullptr) {
   rt::SpscRing<core::TrackFrame> tracks(16, track_frame(record, 0));

@@ -168,7 +168,7 @@ TEST_F(PicturesTest, AFailureIsAFileErrorAndTheOtherPicturesAreComplete) {
   fs::create_directories(folder_ / "out" / "scale.svg" / "in the way");
   try {
     (void)write(run);
-    FAIL() << "a picture that could not be written was not told";
+    FAIL() << "a picture that could not be written was not reported";
   } catch (const drivers::FileError& error) {
     EXPECT_THAT(error.what(), HasSubstr("scale.svg"));
   }

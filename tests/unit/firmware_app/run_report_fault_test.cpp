@@ -59,7 +59,7 @@ TEST_F(RunReportTest, TellsOnceThatTheDiskIsFull) {
   EXPECT_GT(report.n_items_lost(), 0U);
   try {
     report.finish(estimate(), {}, {});
-    ADD_FAILURE() << "a lost file was not told";
+    ADD_FAILURE() << "a lost file was not reported";
   } catch (const drivers::FileError& error) {
     EXPECT_THAT(error.what(), AllOf(HasSubstr("tracks.csv"), HasSubstr("No space left"), HasSubstr(".partial")));
   }

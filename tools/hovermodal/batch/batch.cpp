@@ -34,7 +34,7 @@ std::string absolute(const std::string& path) {
   return (whole.has_filename() ? whole : whole.parent_path()).string();  // "flights/" is "flights"
 }
 
-// Not the path it names: the program may be built anew while a batch is under way.
+// Not the path it names: the program may be rebuilt while a batch is running.
 std::string this_program() { return "/proc/self/exe"; }
 
 int jobs_of(const Options& options) {

@@ -67,7 +67,7 @@ app::TracksResult tracked_clip(const FlightOrder& order) {
   if (found.empty())
     throw std::runtime_error("the clip left no record: this build may lack LCM, which records are written with");
   app::TracksResult result = replayed_record(order, found.front().path, {});
-  fs::remove_all(records);  // large, and made anew from the clip at any time
+  fs::remove_all(records);  // large, and can be made from the clip again
   return result;
 }
 

@@ -13,6 +13,7 @@
 
 #include "drivers/camera/recording/frame_source.h"
 #include "drivers/camera/recording/image_folder_source.h"
+#include "drivers/images/image_reader.h"
 #include "tools/hovermodal/simulate/progress.h"
 
 namespace tools {
@@ -79,7 +80,7 @@ class BoardSearch {
   }
 
   void look_at_image(const std::string& file) {
-    const cv::Mat image = cv::imread(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+    const cv::Mat image = drivers::read_image(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
     if (image.empty()) throw std::runtime_error(file + ": cannot be decoded: damaged, or not an image");
     require_size(file, image.cols, image.rows);
     look(image, file);

@@ -9,7 +9,7 @@ namespace {
 
 using drivers::StreamMonitor;
 
-// Of all topics: the channel that hears the restart first tells it; the others follow, and are no further one.
+// Over all topics: the first channel that receives a message of the new run counts the restart; the others follow it.
 constexpr double kOneRestart_ns = 5e9;
 constexpr std::size_t kMostJpegBytes = 300'000;  // far above a preview of ours
 

@@ -190,7 +190,7 @@ class PlanPicture {
     const double x = box.right() + 14.0;
     double y = box.y + 12.0;
     const std::pair<const char*, const char*> kinds[] = {
-        {"m0", "at its own place"}, {"m2", "told by row delays"}, {"m1", "stays open"}, {"b x", "could also be"}};
+        {"m0", "at its own place"}, {"m2", "resolved by row delays"}, {"m1", "stays open"}, {"b x", "could also be"}};
     for (const auto& [css_class, label] : kinds) {
       svg.circle(x + 9.0, y - 4.0, 4.5, css_class);
       svg.text(x + 22.0, y, label);

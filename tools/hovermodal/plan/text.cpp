@@ -50,8 +50,8 @@ Text fold_words(const ModePlan& mode) {
 
 Text mode_table(const PlanInput& input, const HoverPlan& plan) {
   Text out;
-  add(out, "{:>4} {:>9} {:>9} {:>4}  {:<15} {:>8} {:>10} {:>10} {:>8} {:>8} {:>8}\n", "mode", "true Hz", "seen Hz",
-      "fold", "told by delays", "exposure", "least mm", "expect mm", "dB over", "sigma f", "sigma z");
+  add(out, "{:>4} {:>9} {:>9} {:>4}  {:<15} {:>8} {:>10} {:>10} {:>8} {:>8} {:>8}\n", "mode", "true Hz", "seen Hz", "n",
+      "from delays", "exposure", "least mm", "expect mm", "dB over", "sigma f", "sigma z");
   for (std::size_t i = 0; i < plan.modes.size(); ++i) {
     const ModePlan& mode = plan.modes[i];
     const auto& rms_mm = input.modes[i].rms_mm;

@@ -74,7 +74,7 @@ double rms_between(const SampledTracks& with, const TrackGenerator& without) {
   return squares.n > 0 ? std::sqrt(squares.sum / static_cast<double>(squares.n)) : 0.0;
 }
 
-// What of the effect the operator tells the service; the rest cannot be told.
+// The part of the effect that is declared to the service; the rest has no key in the configuration.
 Json declared(const SimulateJob& job, const std::string& effect, const Json& scene) {
   if (effect == "readout") return drivers::scene_value(scene, "declare.readout_ms");
   if (effect == "exposure") return drivers::scene_value(scene, "declare.exposure_ms");

@@ -50,7 +50,7 @@ void simulate(const SimulateOptions& options) {
   make_folder(folder);
   const std::string product = (folder / job.product()).string();
   const SceneMotion motion(job.scene());
-  // First, because it tells at once whether the folder can be written; and cheap enough to follow --method each time.
+  // First, because it fails at once where the folder cannot be written; and cheap enough to follow --method each time.
   write_config(folder, job, motion);
   if (!options.force && already_made(folder, job)) {
     fmt::print("{}: already made from the same parameters; --force makes it again\n", product);

@@ -95,7 +95,7 @@ bool already_made(const std::filesystem::path& folder, const SimulateJob& job) {
     return truth.value("parameters", "") == parameter_line(job) &&
            truth.value("product_bytes", std::uintmax_t{0}) == size;
   } catch (const std::exception&) {
-    return false;  // absent, or not ours: made anew
+    return false;  // absent, or not ours: written again
   }
 }
 

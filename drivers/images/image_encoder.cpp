@@ -1,0 +1,140 @@
+#include "drivers/images/image_encoder.h"
+
+#include <png.h>
+
+#include <array>
+#include <csetjmp>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+// After <cstdio>: it uses FILE without including it.
+#include <jpeglib.h>
+
+namespace drivers {
+namespace {
+
+void require_type(const cv::Mat& image, int type, const char* what) {
+  if (image.empty() || image.type() != type) throw std::invalid_argument(std::string(what) + ": wrong type of pixels");
+}
+
+// libjpeg and libpng report errors by calls that must not return: longjmp, over their C frames only. Nothing with a
+// destructor is constructed between setjmp and the jump.
+struct JpegWriter {
+  jpeg_compress_struct encoder{};
+  jpeg_error_mgr errors{};
+  std::jmp_buf failed{};
+  std::array<char, JMSG_LENGTH_MAX> message{};
+  unsigned char* bytes = nullptr;  // malloc'd by libjpeg
+  unsigned long n_bytes = 0;
+
+  JpegWriter() {
+    encoder.err = jpeg_std_error(&errors);
+    encoder.client_data = this;
+    errors.error_exit = [](j_common_ptr common) {
+      auto* self = static_cast<JpegWriter*>(common->client_data);
+      self->errors.format_message(common, self->message.data());
+      std::longjmp(self->failed, 1);
+    };
+    errors.emit_message = [](j_common_ptr, int) {};  // warnings go to stderr otherwise
+    errors.output_message = [](j_common_ptr) {};
+    jpeg_create_compress(&encoder);
+  }
+  ~JpegWriter() {
+    jpeg_destroy_compress(&encoder);
+    std::free(bytes);
+  }
+  JpegWriter(const JpegWriter&) = delete;
+  JpegWriter& operator=(const JpegWriter&) = delete;
+
+  [[nodiscard]] bool write(const cv::Mat& gray, int quality, bool optimize) noexcept {
+    if (setjmp(failed) != 0) return false;
+    jpeg_mem_dest(&encoder, &bytes, &n_bytes);
+    encoder.image_width = static_cast<JDIMENSION>(gray.cols);
+    encoder.image_height = static_cast<JDIMENSION>(gray.rows);
+    encoder.input_components = 1;
+    encoder.in_color_space = JCS_GRAYSCALE;
+    jpeg_set_defaults(&encoder);
+    jpeg_set_quality(&encoder, quality, TRUE);
+    encoder.optimize_coding = optimize ? TRUE : FALSE;
+    jpeg_start_compress(&encoder, TRUE);
+    while (encoder.next_scanline < encoder.image_height) {
+      auto* row = const_cast<JSAMPROW>(gray.ptr(static_cast<int>(encoder.next_scanline)));
+      jpeg_write_scanlines(&encoder, &row, 1);
+    }
+    jpeg_finish_compress(&encoder);
+    return true;
+  }
+};
+
+struct PngWriter {
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  std::array<char, 128> message{};
+  std::vector<std::uint8_t> bytes;
+
+  PngWriter() {
+    png = png_create_write_struct(
+        PNG_LIBPNG_VER_STRING, this,
+        [](png_structp failed, png_const_charp text) {
+          auto* self = static_cast<PngWriter*>(png_get_error_ptr(failed));
+          std::snprintf(self->message.data(), self->message.size(), "%s", text);
+          png_longjmp(failed, 1);
+        },
+        [](png_structp, png_const_charp) {});
+    if (png != nullptr) info = png_create_info_struct(png);
+  }
+  ~PngWriter() { png_destroy_write_struct(&png, &info); }
+  PngWriter(const PngWriter&) = delete;
+  PngWriter& operator=(const PngWriter&) = delete;
+
+  static void append(png_structp png, png_bytep data, std::size_t n) {
+    auto* self = static_cast<PngWriter*>(png_get_io_ptr(png));
+    bool full = false;
+    try {
+      self->bytes.insert(self->bytes.end(), data, data + n);
+    } catch (const std::bad_alloc&) {
+      full = true;
+    }
+    if (full) png_error(png, "out of memory");
+  }
+
+  [[nodiscard]] bool write(const cv::Mat& bgr, int level) {
+    if (png == nullptr || info == nullptr) return false;
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    png_set_write_fn(png, this, &append, [](png_structp) {});
+    png_set_compression_level(png, level);
+    png_set_compression_strategy(png, 0);  // Z_DEFAULT_STRATEGY
+    png_set_IHDR(png, info, static_cast<png_uint_32>(bgr.cols), static_cast<png_uint_32>(bgr.rows), 8,
+                 PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_write_info(png, info);
+    png_set_bgr(png);
+    for (int v = 0; v < bgr.rows; ++v) png_write_row(png, bgr.ptr(v));
+    png_write_end(png, info);
+    return true;
+  }
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_jpeg(const cv::Mat& gray, int quality, bool optimize) {
+  require_type(gray, CV_8UC1, "JPEG");
+  JpegWriter writer;
+  if (!writer.write(gray, quality, optimize)) {
+    throw std::runtime_error(std::string("the image cannot be written as JPEG: ") + writer.message.data());
+  }
+  return {writer.bytes, writer.bytes + writer.n_bytes};
+}
+
+std::vector<std::uint8_t> encode_png(const cv::Mat& bgr, int level) {
+  require_type(bgr, CV_8UC3, "PNG");
+  PngWriter writer;
+  if (!writer.write(bgr, level)) {
+    throw std::runtime_error(std::string("the image cannot be written as PNG: ") + writer.message.data());
+  }
+  return std::move(writer.bytes);
+}
+
+}  // namespace drivers
