@@ -33,10 +33,10 @@ std::vector<std::int64_t> clock_of(const SrtFile& file) {
   return out;
 }
 
-// Where a block stands in the video: its cue, otherwise the camera's clock, otherwise a second each.
+// Where a block stands in the video: its cue, where cues go on, otherwise the camera's clock, otherwise a second each.
 double place_s(const SrtFile& file, std::size_t i) {
-  const SrtBlock &block = file.blocks[i], &first = file.blocks.front();
-  if (block.cue_s && first.cue_s) return *block.cue_s - *first.cue_s;
+  const SrtBlock &block = file.blocks[i], &first = file.blocks.front(), &last = file.blocks.back();
+  if (block.cue_s && first.cue_s && last.cue_s && *last.cue_s > *first.cue_s) return *block.cue_s - *first.cue_s;
   if (block.clock_s && first.clock_s) return *block.clock_s - *first.clock_s;
   return static_cast<double>(i);
 }

@@ -119,12 +119,12 @@ class ClockMaker {
     if (n_times + 1 < n_frames || n_times > n_frames + 1)
       return fmt::format("they are {} for {} frames", n_times, n_frames);
     if (!is_usable_rate(fit.rate_hz)) return "they give no rate";
-    if (fit.change) return fmt::format("their rate changes at {:.1f} s", fit.change->at_s);
     if (contradicts(fit.rate_hz))
       return fmt::format("they say {:.6g} Hz, camera.rate_hz = {:.6g}", fit.rate_hz, declared_hz_);
     const bool share_a_cell = std::adjacent_find(fit.cells.begin(), fit.cells.end()) != fit.cells.end();
     if (share_a_cell || fit.jitter_s > kTooScattered * fit.period_s)
       return fmt::format("they scatter by {:.2g} ms rms about {:.6g} Hz", 1e3 * fit.jitter_s, fit.rate_hz);
+    if (fit.change) return fmt::format("their rate changes at {:.1f} s", fit.change->at_s);
     return {};
   }
 
