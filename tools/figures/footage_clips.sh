@@ -6,11 +6,11 @@ whole_clip() {
   local seconds=60
   segment=512
   [ -z "$quick" ] || seconds=30 segment=256
-  [ -e "$whole/clip_$seconds.$first" ] && return
+  [ -e "$whole/clip_$seconds.$first_seed" ] && return
   rm -rf "$whole"
-  quietly "$bin/hovermodal" simulate --preset paper --duration $seconds --seed "$first" --out "$whole" &&
+  quietly "$bin/hovermodal" simulate --preset paper --duration $seconds --seed "$first_seed" --out "$whole" &&
     quietly "$bin/hovermodald" --config "$whole/config.yaml" --set telemetry.lcm_url= --set spectrum.segment=$segment --report "$whole/report" &&
-    touch "$whole/clip_$seconds.$first"
+    touch "$whole/clip_$seconds.$first_seed"
 }
 
 encode() { # FFMPEG ARGUMENTS... OUT: 10 s of rendering a minute; what is encoded again is near the first encoding

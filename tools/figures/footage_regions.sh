@@ -8,7 +8,7 @@ structural() {
 proposed_scene() { # NAME
   local dir=$out/scene_$1 declared proposed n code=0
   rm -rf "$dir"
-  quietly "$bin/hovermodal" simulate --scene "tools/scenes/$1.yaml" --duration 60 --seed "$first" --out "$dir" || { line 5 MISS "no clip" "-" "$1"; return; }
+  quietly "$bin/hovermodal" simulate --scene "tools/scenes/$1.yaml" --duration 60 --seed "$first_seed" --out "$dir" || { line 5 MISS "no clip" "-" "$1"; return; }
   "$bin/hovermodal" regions "$dir/clip.mp4" --out "$dir/regions.yaml" >"$dir/regions.txt" 2>&1 || code=$?
   awk '/^regions:/ { skip = 1; next } /^[a-z]/ { skip = /^scale:/ } !skip' "$dir/config.yaml" >"$dir/proposed.yaml"
   cat "$dir/regions.yaml" >>"$dir/proposed.yaml"

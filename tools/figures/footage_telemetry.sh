@@ -66,7 +66,7 @@ duration_s: ${quick:+30}${quick:-60}
 timing: {jitter_rms_ms: 1, drop_probability: 0.01}
 Y
   sed -i 's/30yes/30/' "$dir.yaml"
-  quietly "$bin/hovermodal" simulate --scene "$dir.yaml" --seed "$first" --out "$dir" || { line 3 MISS "no clip" "-" "rendered clip"; return; }
+  quietly "$bin/hovermodal" simulate --scene "$dir.yaml" --seed "$first_seed" --out "$dir" || { line 3 MISS "no clip" "-" "rendered clip"; return; }
   quietly "$bin/hovermodald" --config "$dir/config.yaml" --set telemetry.lcm_url= --report "$dir/stamps" || { line 3 MISS "the run failed" "-" "with stamps"; return; }
   srt_for "$dir"
   quietly "$bin/hovermodald" --config "$dir/config.yaml" --set telemetry.lcm_url= --set "camera.source=$dir/zoomed/clip.mp4" --report "$dir/srt" || { line 3 MISS "the run failed" "-" "with the SRT"; return; }
