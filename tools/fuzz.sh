@@ -2,7 +2,7 @@
 # Fuzzes what comes from outside: every reader of a file, a message or a request (tests/fuzz/targets), under AddressSanitizer and
 # UndefinedBehaviorSanitizer, from the kept corpus on. One line a target; ends with 1 where one has a finding.
 #   tools/fuzz.sh [TARGET...] [--seconds S] [--seed N] [--coverage] [--keep]
-#     TARGET       config calibration timestamps series lcm datagrams checkpoint http record (default: all of these); or
+#     TARGET       config calibration timestamps clip_telemetry series lcm datagrams checkpoint http record (default: all of these); or
 #                  replay (the whole way from a record to its modes) and scene (of the simulator; the structures of
 #                  closeloop), for which all of core is built
 #     --seconds    of each target; default 60
@@ -23,7 +23,7 @@ while [ $# -gt 0 ]; do
     *) targets+=("$1"); shift ;;
   esac
 done
-[ ${#targets[@]} -gt 0 ] || targets=(config calibration timestamps series lcm datagrams checkpoint http record)
+[ ${#targets[@]} -gt 0 ] || targets=(config calibration timestamps clip_telemetry series lcm datagrams checkpoint http record)
 for target in "${targets[@]}"; do
   [ -f "tests/fuzz/targets/${target}_target.cpp" ] || { echo "fuzz: $target: no such target; there are: $(cd tests/fuzz/targets && ls | sed 's/_target.cpp//' | paste -sd' ')" >&2; exit 2; }
 done

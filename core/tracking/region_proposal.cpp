@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/tracking/moving_parts.h"
 #include "core/tracking/rest_rectangle.h"
 
 namespace core {
@@ -162,15 +163,29 @@ void name_regions(std::vector<ProposedRegion>& regions) {
   for (std::size_t i = 0; i < order.size(); ++i) order[i]->region.name = "part" + std::to_string(i + 1);
 }
 
-// Those with the least noise, none over another.
-std::vector<ProposedRegion> chosen(std::vector<ProposedRegion> all, std::size_t max_regions) {
-  std::stable_sort(all.begin(), all.end(),
-                   [](const ProposedRegion& a, const ProposedRegion& b) { return a.noise_px < b.noise_px; });
+// One after the other, none over another: the most shared motion, the farthest above its noise, the least like what is
+// already there.
+std::vector<ProposedRegion> chosen(std::vector<MovingPart> all, std::size_t max_regions) {
+  rate_parts(all);
+  std::stable_sort(all.begin(), all.end(), [](const MovingPart& a, const MovingPart& b) {
+    return a.proposed.noise_px < b.proposed.noise_px;
+  });
+  std::vector<double> novelty(all.size(), 1.0);
+  std::vector<bool> is_open(all.size(), true);
   std::vector<ProposedRegion> out;
-  for (const ProposedRegion& one : all) {
-    const bool is_free = std::none_of(out.begin(), out.end(),
-                                      [&](const ProposedRegion& other) { return overlap(one.region, other.region); });
-    if (is_free && out.size() < max_regions) out.push_back(one);
+  while (out.size() < max_regions) {
+    std::size_t best = all.size();
+    double best_score = 0.0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const double score = all[i].merit * novelty[i];
+      if (is_open[i] && score > best_score) best = i, best_score = score;
+    }
+    if (best == all.size()) break;
+    out.push_back(all[best].proposed);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      is_open[i] = is_open[i] && !overlap(all[i].proposed.region, out.back().region);
+      novelty[i] = std::min(novelty[i], unlike(all[i], all[best]));
+    }
   }
   return out;
 }
@@ -233,14 +248,16 @@ RegionProposal propose_regions(const std::vector<SurveyedPoint>& points, double 
   const MotionGroups groups = group_by_motion(points, rate_hz, width_px, height_px, config.groups);
   const Survey survey{points, groups.fast_motion, config,
                       config.longest_share * static_cast<double>(std::max(width_px, height_px))};
-  std::vector<ProposedRegion> all;
+  std::vector<MovingPart> all;
   for (const MotionGroup& group : groups.groups) {
     if (group.is_at_rest || group.members.size() < config.min_points) continue;
+    for (const std::size_t i : group.members) out.lowest_moving_v_px = std::max(out.lowest_moving_v_px, points[i].at.v);
     std::vector<Members> pieces;
     divide(survey, group.members, pieces);
     for (const Members& piece : pieces) {
       const auto one = propose_one(survey, piece);
-      if (one && one->motion_px > config.least_motion * std::numbers::sqrt2 * one->noise_px) all.push_back(*one);
+      if (one && one->motion_px > config.least_motion * std::numbers::sqrt2 * one->noise_px)
+        all.push_back({*one, mean_motion(survey, piece), 0.0});
     }
   }
   out.regions = chosen(std::move(all), config.max_regions);

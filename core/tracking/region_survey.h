@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/tracking/klt/klt_tracker.h"
+#include "core/tracking/region_search.h"
 #include "core/types/gray_view.h"
 #include "core/types/vector2.h"
 
@@ -21,7 +22,9 @@ struct RegionSurveyConfig {
   int points_per_tile = 10;  // strongest first
   double min_distance_px = 8.0;
   double corner_quality = 0.05;
-  double most_missing = 0.1;  // share of the frames in which a point may be unseen; it is then where it was seen last
+  double most_missing = 0.25;  // share of the frames in which a point may be unseen; its motion is interpolated there
+  int patch_px = 96;           // points of such a square that are lost together are searched for together
+  double search_px = 200.0;    // how far
   KltConfig klt{};
 };
 
@@ -31,7 +34,8 @@ class RegionSurvey {
   // Throws std::invalid_argument for an empty image.
   RegionSurvey(const GrayView& first, const RegionSurveyConfig& config);
 
-  // The next frame: each point is searched at its last place, so it may move by klt.reach_px from frame to frame.
+  // The next frame: each point is searched at its last place, and where its motion would take it; a patch that has lost
+  // half of its points is searched for as a whole, and points still missing where their found neighbours have moved.
   void add(const GrayView& frame);
 
   [[nodiscard]] std::size_t n_frames() const noexcept { return n_frames_; }
@@ -43,7 +47,22 @@ class RegionSurvey {
   RegionSurveyConfig config_;
   KltTracker tracker_;
   std::vector<SurveyedPoint> points_;
-  std::vector<std::size_t> n_missing_;
+  struct Patch {
+    std::vector<std::size_t> members;
+    RegionSearch search;
+    Vector2 motion;  // where it was last
+  };
+
+  void make_patches(const GrayView& first);
+  [[nodiscard]] bool is_seen(std::size_t i) const noexcept { return seen_[i].back() + 1 == n_frames_; }
+  // Whether the point is found after it moved by so much since the first frame; its motion is then the frame's.
+  bool find_at(const GrayView& frame, std::size_t i, const Vector2& motion);
+  void search_patches(const GrayView& frame);
+  void follow_neighbours(const GrayView& frame);
+
+  std::vector<Patch> patches_;
+  std::vector<std::size_t> patch_of_;            // of each point
+  std::vector<std::vector<std::size_t>> seen_;   // per point: the frames in which it was found, rising
   std::size_t n_frames_ = 1;
 };
 

@@ -2,6 +2,7 @@
 #include <spdlog/spdlog.h>
 
 #include <csignal>
+#include <cstdio>
 #include <exception>
 
 #include "drivers/camera/device_missing.h"
@@ -44,7 +45,7 @@ int main(int argc, char** argv) {
     if (options.exit_code) return *options.exit_code;
     const app::AppConfig config = app::load_config(options.config_path, options.overrides);
     if (options.check_only) {
-      if (const std::string words = app::check_source(config); !words.empty()) spdlog::info("{}", words);
+      std::fputs(app::check_source(config).c_str(), stdout);
       spdlog::info("{}: configuration and source are fine", options.config_path);
       return kDone;
     }

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "firmware_app/report/page/report_page.h"
-#include "firmware_app/report/recording_words.h"
 #include "firmware_app/service/data_flow.h"
+#include "firmware_app/service/preflight.h"
 
 namespace app {
 
@@ -92,7 +92,8 @@ const std::vector<core::ChannelInfo>& Pipeline::channels() const noexcept { retu
 std::vector<std::string> Pipeline::warnings() const { return flow_->status().warnings; }
 
 std::string check_source(const AppConfig& config) {
-  return recording_words(Source(open_camera(config), config).camera->times());
+  Source source(open_camera(config), config);
+  return preflight_text(preflight(config, source));
 }
 
 }  // namespace app

@@ -9,6 +9,7 @@
 #include "core/tracking/view_match.h"
 #include "drivers/camera/camera_factory.h"
 #include "firmware_app/config/config_image.h"
+#include "firmware_app/config/config_timing.h"
 #include "firmware_app/config/core_config.h"
 #include "firmware_app/service/kept_state.h"
 
@@ -22,6 +23,7 @@ constexpr std::chrono::seconds kFirstFrameTimeout{10};
 core::CameraInfo started(drivers::Camera& camera, const AppConfig& config) {
   const core::CameraInfo info = camera.info();
   check_against_image(config, info.width_px, info.height_px);
+  check_against_rate(config, info.rate_hz);
   const auto segment = static_cast<std::uint64_t>(config.spectrum.segment);
   if (info.frame_count != 0 && info.frame_count < segment) {
     throw ConfigError(

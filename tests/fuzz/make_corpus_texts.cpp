@@ -55,6 +55,17 @@ void write_tables() {
        "\xEF\xBB\xBF"
        "# made by hand\r\nframe , t_s\r\n\r\n0,-1e-9\r\n# pause\r\n1,8.9e9\r\n");
   keep("timestamps", "backward", "frame,t_s\n0,1\n1,0.5\n");
+  keep("clip_telemetry", "srt_frames",
+       "s1\n00:00:00,000 --> 00:00:00,033\n<font size=\"36\">SrtCnt : 1, DiffTime : 33ms\n2022-08-07 13:40:40,774,808\n"
+       "[iso : 100] [shutter : 1/80.0] [focal_len : 240] [dzoom_ratio: 10000, delta:0]\n\n2\n2022-08-07 13:40:40.808\n"
+       "[gb_yaw: 1 gb_pitch: -2 gb_roll: 0.5]\n");
+  keep("clip_telemetry", "srt_seconds",
+       "s1\r\n00:00:01,000 --> 00:00:02,000\r\nHOME(149.0251,-20.2532) 2017.8.5 14:11:51\r\nISO:100 TV:60 EV: 0\r\n\r\n"
+       "2\r\nF/5.6, SS 400, G.PRY (-27.3\xC2\xB0, 0.0\xC2\xB0, -76.0\xC2\xB0)\r\n");
+  using namespace std::string_literals;
+  keep("clip_telemetry", "gpmf",
+       "gDEVC\0\1\0\x50" "DVNMc\1\0\4Cam1" "STRM\0\1\0\x3C" "STMPJ\x08\0\1\0\0\0\0\0\1\0\0" "ORINc\1\0\3XzY\0"
+       "SCALs\2\0\1\1\0\0\0" "GYROs\6\0\2\0\1\0\2\0\3\0\4\0\5\0\6"s);
   keep("series", "series", "s# unit: mm\nframe,t_s,a,\"b\"\n0,0.1,1.5,\n1,0.14,nan,2e-3\n");
   keep("series", "one_column", "sa\n1\n\n3\n");
   keep("series", "semicolons", "fZeit [s];ax [m/s^2]\n0,00;1,5\n0,01;-2,5e-3\n0,02;inf\n");

@@ -1,4 +1,5 @@
 #include "tests/support/bad_input.h"
+#include "tests/support/ffmpeg_clip.h"
 
 namespace {
 
@@ -155,6 +156,73 @@ const std::vector<BadInput>& source_rows() {
   return rows;
 }
 
+// Files of ffmpeg: what stands beside a film, and what is none.
+Input made_by_ffmpeg(const fs::path& folder, const char* name, const std::string& arguments) {
+  clip(folder);
+  test_support::ffmpeg(fmt::format("-i {} {} {}", test_support::quoted(folder / "clip.avi"), arguments,
+                                   test_support::quoted(folder / name)));
+  return from(folder / name);
+}
+
+const std::vector<BadInput>& stream_rows() {
+  static const std::vector<BadInput> rows{
+      {"AudioOnly",
+       [](const fs::path& f) {
+         test_support::ffmpeg("-f lavfi -i sine=d=2 -c:a aac " + test_support::quoted(f / "sound.mp4"));
+         return from(f / "sound.mp4");
+       },
+       1,
+       {"sound.mp4", "no moving picture", "audio aac", "camera.source"}},
+      {"SoundWithACoverOnly",
+       [](const fs::path& f) {
+         test_support::ffmpeg("-f lavfi -i testsrc2=s=320x240:d=1 -frames:v 1 " + test_support::quoted(f / "cover.jpg"));
+         test_support::ffmpeg(fmt::format("-f lavfi -i sine=d=2 -i {} -map 0 -map 1 -c:a aac -c:v copy "
+                                          "-disposition:v:0 attached_pic {}",
+                                          test_support::quoted(f / "cover.jpg"), test_support::quoted(f / "song.mp4")));
+         return from(f / "song.mp4");
+       },
+       1,
+       {"song.mp4", "no moving picture", "a cover picture"}},
+      {"ACoverBeforeTheFilm",
+       [](const fs::path& f) {
+         test_support::ffmpeg("-f lavfi -i testsrc2=s=640x480:d=1 -frames:v 1 " + test_support::quoted(f / "cover.jpg"));
+         return made_by_ffmpeg(f, "covered.mp4",
+                               fmt::format("-i {} -map 1 -map 0:v -c:v:0 copy -c:v:1 libx264 -crf 10 "
+                                           "-disposition:v:0 attached_pic",
+                                           test_support::quoted(f / "cover.jpg")));
+       },
+       0,
+       {"100 frames in = 100 processed"}},
+      {"AnAttachment",
+       [](const fs::path& f) {
+         test_support::write_text(f / "font.ttf", std::string(3000, 'x'));
+         return made_by_ffmpeg(f, "attached.mkv",
+                               fmt::format("-map 0:v -c:v libx264 -crf 10 -attach {} -metadata:s:t "
+                                           "mimetype=application/x-truetype-font",
+                                           test_support::quoted(f / "font.ttf")));
+       },
+       0,
+       {"attachment", "100 frames in = 100 processed"}},
+      {"Encrypted",
+       [](const fs::path& f) {
+         return made_by_ffmpeg(f, "locked.mp4",
+                               "-map 0:v -c:v libx264 -crf 10 -encryption_scheme cenc-aes-ctr -encryption_key "
+                               "76a6c65c5ea762046bd749a2e632ccbb -encryption_kid a7e61c373e219033c21091fa607bf3b8");
+       },
+       1,
+       {"locked.mp4", "not one frame decodes", "encrypted"}},
+      {"StillBeingRecorded",  // an MP4 has its index at the end
+       [](const fs::path& f) {
+         Input input = made_by_ffmpeg(f, "growing.mp4", "-map 0:v -c:v libx264 -crf 10");
+         test_support::keep_first_bytes(input.source, 0.9);
+         return input;
+       },
+       1,
+       {"growing.mp4", "index is missing"}},
+  };
+  return rows;
+}
+
 const std::vector<BadInput>& time_rows() {
   static const std::vector<BadInput> rows{
       {"OneFramePerSecond",
@@ -226,6 +294,7 @@ class BadSource : public ::testing::TestWithParam<BadInput> {};
 TEST_P(BadSource, EndsWithItsExitCodeAndSaysWhatToDo) { expect_as_told(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Pictures, BadSource, ::testing::ValuesIn(source_rows()), name_of);
+INSTANTIATE_TEST_SUITE_P(Streams, BadSource, ::testing::ValuesIn(stream_rows()), name_of);
 INSTANTIATE_TEST_SUITE_P(Times, BadSource, ::testing::ValuesIn(time_rows()), name_of);
 
 }  // namespace

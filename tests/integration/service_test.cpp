@@ -83,6 +83,16 @@ TEST(Service, CheckLooksAtConfigurationAndSourceAndLeavesNothing) {
   const ServiceRun good = run_service(clip_arguments({"--check", "--report", (folder / "report").string()}));
   EXPECT_EQ(good.code, 0) << good.output;
   EXPECT_FALSE(fs::exists(folder / "report"));
+  EXPECT_THAT(good.output, AllOf(HasSubstr("noise expected"), HasSubstr("mm per px"), HasSubstr("times: Frames lie 1/25 s apart"),
+                                 HasSubstr("readout: 26 ms of a frame of 40 ms")));
+  EXPECT_THAT(good.output, ::testing::Not(HasSubstr("warning:")));
+  const ServiceRun slips =
+      run_service(clip_arguments({"--check", "--set", "scale.known_length_mm=0.84", "--set", "camera.readout_ms=0.026"}));
+  EXPECT_EQ(slips.code, 0) << slips.output;
+  EXPECT_THAT(slips.output, AllOf(HasSubstr("metres instead of mm?"), HasSubstr("seconds? Then it is 26 ms")));
+  const ServiceRun slow = run_service(clip_arguments({"--check", "--set", "camera.readout_ms=1000"}));
+  EXPECT_EQ(slow.code, 2) << slow.output;
+  EXPECT_THAT(slow.output, AllOf(HasSubstr("camera.readout_ms: 1000 is refused"), HasSubstr("40 ms at 25 Hz")));
   EXPECT_EQ(run_service(clip_arguments({"--check", "--set", "camera.source=none.mp4"})).code, 3);
   const ServiceRun bad = run_service(clip_arguments({"--check", "--set", "spectrum.segment=4096"}));
   EXPECT_EQ(bad.code, 2);

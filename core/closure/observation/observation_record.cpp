@@ -28,7 +28,8 @@ void check_declared(const ObservationRecord& r, std::vector<std::string>& faults
   if (!positive(r.alpha_px)) faults.push_back("focal length " + number(r.alpha_px) + " px: must be positive");
   if (!std::isfinite(r.cx_px) || !std::isfinite(r.cy_px)) faults.emplace_back("principal point: not a number");
   if (r.width_px <= 0 || r.height_px <= 0) faults.emplace_back("image size: width and height must be positive");
-  if (!std::isfinite(r.readout_frames) || std::abs(r.readout_frames) > 1.0)
+  constexpr double kRounding = 1e-3;  // of times in ms, and of rates with few digits
+  if (!std::isfinite(r.readout_frames) || std::abs(r.readout_frames) > 1.0 + kRounding)
     faults.push_back("readout of " + number(r.readout_frames) + " frames: must lie between -1 and 1");
   const auto n = static_cast<std::size_t>(r.n_points());
   if (r.v_px.rows() != r.u_px.rows() || r.v_px.cols() != r.u_px.cols() || r.region_of_point.size() != n ||

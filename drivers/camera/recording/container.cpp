@@ -48,6 +48,12 @@ bool is_picture_beside(const AVStream& stream) noexcept {
   return (stream.disposition & (AV_DISPOSITION_ATTACHED_PIC | AV_DISPOSITION_TIMED_THUMBNAILS)) != 0;
 }
 
+bool has_tag(const AVStream& stream, const char* tag) noexcept {
+  std::uint32_t value = 0;
+  for (std::size_t i = 4; i-- > 0;) value = value << 8U | static_cast<std::uint8_t>(tag[i]);
+  return stream.codecpar->codec_type == AVMEDIA_TYPE_DATA && stream.codecpar->codec_tag == value;
+}
+
 std::string stream_words(const AVStream& stream) {
   const AVCodecParameters& p = *stream.codecpar;
   if (p.codec_type == AVMEDIA_TYPE_VIDEO && is_picture_beside(stream)) return "a cover picture";
@@ -65,6 +71,24 @@ std::string av_error_text(int code) {
 
 Container::Container(const std::string& path) : path_(path), format_(open_format(path)) {
   choose_stream();
+  discard_others();
+}
+
+Container::Container(const std::string& path, const char* data_tag) : path_(path), format_(open_format(path)) {
+  for (unsigned i = 0; i < format_->nb_streams && stream_ == nullptr; ++i) {
+    if (has_tag(*format_->streams[i], data_tag)) stream_ = format_->streams[i];
+  }
+  discard_others();
+}
+
+bool Container::has_data(const char* tag) const noexcept {
+  for (unsigned i = 0; i < format_->nb_streams; ++i) {
+    if (has_tag(*format_->streams[i], tag)) return true;
+  }
+  return false;
+}
+
+void Container::discard_others() noexcept {
   for (unsigned i = 0; i < format_->nb_streams; ++i) {
     if (format_->streams[i] != stream_) format_->streams[i]->discard = AVDISCARD_ALL;
   }

@@ -15,11 +15,15 @@ class Container {
  public:
   // Throws std::runtime_error: what was found in `path` and what to do.
   explicit Container(const std::string& path);
+  // The stream of data with this tag instead of the video, e.g. "gpmd". has_stream() is false where there is none.
+  Container(const std::string& path, const char* data_tag);
 
   // The next packet of the stream, as stored. False at the end of the file; a read error ends it too (read_error).
   [[nodiscard]] bool next(AVPacket& packet) noexcept;
   [[nodiscard]] int read_error() const noexcept { return read_error_; }
 
+  [[nodiscard]] bool has_stream() const noexcept { return stream_ != nullptr; }
+  [[nodiscard]] bool has_data(const char* tag) const noexcept;  // whether another stream has this tag
   [[nodiscard]] const AVStream& stream() const noexcept { return *stream_; }
   [[nodiscard]] const AVCodec& decoder() const noexcept { return *decoder_; }
   [[nodiscard]] std::string codec_name() const;
@@ -33,6 +37,7 @@ class Container {
 
  private:
   void choose_stream();
+  void discard_others() noexcept;
   [[nodiscard]] bool may_be_the_film(const AVStream& stream) const noexcept;
 
   std::string path_;

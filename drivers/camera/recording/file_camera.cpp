@@ -1,13 +1,17 @@
 #include "drivers/camera/recording/file_camera.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 
 #include "drivers/camera/line_timing.h"
-#include "drivers/camera/recording/repeats.h"
+#include "drivers/camera/recording/clip_telemetry.h"
+#include "drivers/camera/recording/repeat_watch.h"
 
 namespace drivers {
 
@@ -15,6 +19,21 @@ namespace {
 
 constexpr std::size_t kQueueSlots = 4;   // evens out key frames, which take several times as long to decode
 constexpr double kExpectedShare = 0.98;  // containers round their frame count; a larger loss is reported
+
+std::uintmax_t size_of(const std::string& path) {
+  std::error_code error;
+  const std::uintmax_t n_bytes = std::filesystem::file_size(path, error);
+  return error ? 0 : n_bytes;  // a folder of images has none
+}
+
+std::int64_t usual_exposure_ns(const ClipTelemetry& telemetry) {
+  std::vector<double> exposures_s;
+  for (const TimedValue& one : telemetry.exposure_s) exposures_s.push_back(one.value);
+  if (exposures_s.empty()) return 0;
+  const auto middle = exposures_s.begin() + static_cast<std::ptrdiff_t>(exposures_s.size() / 2);
+  std::nth_element(exposures_s.begin(), middle, exposures_s.end());
+  return std::llround(*middle * 1e9);
+}
 
 }  // namespace
 
@@ -24,15 +43,19 @@ FileCamera::FileCamera(const FileCameraConfig& config) : path_(config.source), p
                                             config.rate_hz, kMinRate_hz, kMaxRate_hz, path_));
   }
   const LineTiming timing = checked_line_timing(config.readout_ms, config.exposure_ms);
+  n_bytes_ = size_of(path_);
   source_ = open_frame_source(path_);
   const SourceInfo& source = source_->info();
   info_.width_px = source.width_px;
   info_.height_px = source.height_px;
   info_.readout_ns = timing.readout_ns;
   info_.readout_direction = turn_clockwise(config.readout_direction, source.turned_clockwise_deg);
-  info_.exposure_ns = timing.exposure_ns;
+  const ClipTelemetry telemetry = find_telemetry(path_, source.holds_gpmf);
+  refuse_zoom(path_, telemetry);
+  info_.exposure_ns = timing.exposure_ns != 0 ? timing.exposure_ns : usual_exposure_ns(telemetry);
   info_.lossless = !config.realtime;
-  clock_ = make_frame_clock(path_, *source_, config.rate_hz);
+  clock_ = make_frame_clock(path_, *source_, config.rate_hz, telemetry);
+  if (telemetry.found()) telemetry_words_ = fmt::format("from {}: {}", telemetry.from, fmt::join(telemetry_words(telemetry), ", "));
   info_.rate_hz = clock_.rate_hz();
   info_.frame_count = clock_.n_stamps() > 0 ? clock_.n_stamps() : source.frame_count;
   if (clock_.cadence()) info_.frame_count = clock_.place(info_.frame_count).cell;
@@ -58,16 +81,19 @@ void FileCamera::start() {
 }
 
 void FileCamera::decode_all() {
-  FrameChange change;
-  RepeatWatch repeats;
-  std::uint64_t next_sequence = 0, n_decoded = 0;
+  RepeatFilter repeats;
+  std::uint64_t n_decoded = 0;
+  next_sequence_ = 0;
   for (;;) {
     core::Frame* slot = queue_->claim();
     if (slot == nullptr) return;
     const ReadStatus status = source_->read(*slot);
     note_trouble();
-    if (status == ReadStatus::kEnd) return queue_->finish(CaptureStatus::kEndOfStream, shortfall(n_decoded));
-    if (status == ReadStatus::kFault) return queue_->finish(CaptureStatus::kFault, source_->error());
+    if (status != ReadStatus::kFrame) {
+      if (repeats.end(*slot)) publish(*slot);
+      return status == ReadStatus::kEnd ? queue_->finish(CaptureStatus::kEndOfStream, shortfall(n_decoded))
+                                        : queue_->finish(CaptureStatus::kFault, source_->error());
+    }
     ++n_decoded;
     if (clock_.n_stamps() > 0 && source_->index() >= clock_.n_stamps()) {
       return queue_->finish(CaptureStatus::kFault,
@@ -75,20 +101,28 @@ void FileCamera::decode_all() {
                                         clock_.stamp_file(), clock_.n_stamps(), path_));
     }
     const FrameClock::Place place = clock_.place(source_->index());
-    if (watches_repeats_) {
-      const std::optional<double> changed = change.since_last(*slot);
-      if (place.repeats || (changed && repeats.is_repeat(*changed))) {
-        n_repeated_.fetch_add(1, std::memory_order_relaxed);
-        continue;  // the slot is claimed again
-      }
-    }
-    slot->sequence = std::max(place.cell, next_sequence);
-    next_sequence = slot->sequence + 1;
+    slot->sequence = place.cell;
     slot->t_start_ns = place.t_ns;
     slot->exposure_ns = info_.exposure_ns;
     slot->gap_before = false;
-    queue_->publish();
+    RepeatFilter::Ready ready{.current = true};
+    if (watches_repeats_) ready = repeats.push(*slot, place.repeats);
+    n_repeated_.store(repeats.n_repeated(), std::memory_order_relaxed);
+    if (ready.held) {
+      repeats.exchange(*slot);
+      publish(*slot);
+      slot = queue_->claim();
+      if (slot == nullptr) return;
+      repeats.exchange(*slot);
+    }
+    if (ready.current) publish(*slot);  // else it is claimed again
   }
+}
+
+void FileCamera::publish(core::Frame& slot) {
+  slot.sequence = std::max(slot.sequence, next_sequence_);
+  next_sequence_ = slot.sequence + 1;
+  queue_->publish();
 }
 
 void FileCamera::note_trouble() noexcept {
@@ -99,6 +133,7 @@ void FileCamera::note_trouble() noexcept {
 
 core::RecordingTimes FileCamera::times() const {
   core::RecordingTimes out = clock_.times();
+  if (!telemetry_words_.empty()) out.remark += (out.remark.empty() ? "" : "; ") + telemetry_words_;
   out.n_damaged = n_damaged_.load(std::memory_order_relaxed);
   out.n_after_damage = n_after_damage_.load(std::memory_order_relaxed);
   out.n_repeated = n_repeated_.load(std::memory_order_relaxed);
@@ -112,6 +147,12 @@ DeviceTrouble FileCamera::trouble() const noexcept {
 }
 
 std::string FileCamera::shortfall(std::uint64_t n_decoded) const {
+  if (const std::uintmax_t n_bytes = size_of(path_); n_bytes > n_bytes_) {
+    return fmt::format(
+        "{}: the file grew from {} to {} bytes while it was read: it is still being recorded or copied; {} frames were "
+        "read, analyse it again when it is complete",
+        path_, n_bytes_, n_bytes, n_decoded);
+  }
   if (const std::uint64_t n_stamps = clock_.n_stamps(); n_decoded < n_stamps) {
     return fmt::format("{}: {} time stamps, but only {} frames decoded from {}: the file is truncated or damaged",
                        clock_.stamp_file(), n_stamps, n_decoded, path_);

@@ -34,12 +34,14 @@ FrameClock::Place FrameClock::place(std::uint64_t index) const noexcept {
 
 class ClockMaker {
  public:
-  ClockMaker(const std::string& path, const FrameSource& source, double declared_hz)
-      : path_(path), info_(source.info()), declared_hz_(declared_hz) {
+  ClockMaker(const std::string& path, const FrameSource& source, double declared_hz, const ClipTelemetry& telemetry)
+      : path_(path), info_(source.info()), declared_hz_(declared_hz), telemetry_(telemetry) {
     clock_.times_.stated_hz = info_.has_rate && std::isfinite(info_.rate_hz) ? info_.rate_hz : 0.0;
     clock_.stamp_file_ = find_timestamp_file(path);
     if (!clock_.stamp_file_.empty()) {
       take_stamps(source);
+    } else if (take_telemetry_times()) {
+      return;
     } else if (info_.scan == nullptr || info_.scan->times_ns.size() < 2 || !take_container_times()) {
       count_frames();
     }
@@ -71,17 +73,59 @@ class ClockMaker {
     }
     if (declared_hz_ == 0.0) refuse_change(clock_.stamp_file_, fit);
     if (contradicts(fit.rate_hz)) {
-      times.remark = fmt::format(
+      remark(fmt::format(
           "camera.rate_hz = {:.6g} contradicts the stamps of {}, which lie {:.6g} Hz apart: frames are put on a grid "
           "of "
           "{:.6g} Hz and cells without a frame are masked; leave camera.rate_hz out to use the stamps' own rate",
-          declared_hz_, clock_.stamp_file_, fit.rate_hz, declared_hz_);
+          declared_hz_, clock_.stamp_file_, fit.rate_hz, declared_hz_));
     }
     for (const std::int64_t t_ns : stamps_ns) {
       clock_.cells_.push_back(static_cast<std::uint64_t>(
           std::nearbyint(static_cast<double>(t_ns - stamps_ns.front()) * 1e-9 * times.rate_hz)));
     }
     clock_.t_ns_ = std::move(stamps_ns);
+  }
+
+  // False: there are none for every frame, or they cannot be those of the frames; a remark says why.
+  bool take_telemetry_times() {
+    if (telemetry_.times_ns.size() < 2) return false;
+    const std::uint64_t n_frames = info_.frame_count, n_times = telemetry_.times_ns.size();
+    const TimeFit fit = fit_times(telemetry_.times_ns, telemetry_.tick_s, info_.stated_rates_hz);
+    if (const std::string reason = unusable(fit, n_frames, n_times); !reason.empty()) {
+      remark(fmt::format("the times in {} were not used: {}", telemetry_.from, reason));
+      return false;
+    }
+    describe("the times in " + telemetry_.from, fit);
+    clock_.times_.n_frames = n_frames;
+    clock_.times_.rate_hz = fit.rate_hz;
+    clock_.cells_ = fit.cells;
+    const double container_hz = clock_.times_.stated_hz;
+    if (container_hz > 0.0 && std::abs(container_hz / fit.rate_hz - 1.0) > kContradicts) {
+      remark(fmt::format("the container states {:.6g} Hz, {} {:.6g} Hz, which is used", container_hz,
+                                         telemetry_.from, fit.rate_hz));
+    }
+    // A sensor is paced by a crystal: small scatter is that of writing the times down.
+    constexpr double kScatter = 0.05;  // of a period
+    if (fit.jitter_s <= kScatter * fit.period_s) return true;
+    for (const std::int64_t t_ns : telemetry_.times_ns) {
+      const double t_s = clock_.t_ns_.empty() ? 0.0 : static_cast<double>(t_ns) * 1e-9 - fit.phase_s;
+      clock_.t_ns_.push_back(nanoseconds(std::max(0.0, t_s)));
+    }
+    return true;
+  }
+
+  [[nodiscard]] std::string unusable(const TimeFit& fit, std::uint64_t n_frames, std::uint64_t n_times) const {
+    constexpr double kTooScattered = 0.2;  // of a period: neighbours could change places
+    if (n_times + 1 < n_frames || n_times > n_frames + 1)
+      return fmt::format("they are {} for {} frames", n_times, n_frames);
+    if (!is_usable_rate(fit.rate_hz)) return "they give no rate";
+    if (contradicts(fit.rate_hz))
+      return fmt::format("they say {:.6g} Hz, camera.rate_hz = {:.6g}", fit.rate_hz, declared_hz_);
+    const bool share_a_cell = std::adjacent_find(fit.cells.begin(), fit.cells.end()) != fit.cells.end();
+    if (share_a_cell || fit.jitter_s > kTooScattered * fit.period_s)
+      return fmt::format("they scatter by {:.2g} ms rms about {:.6g} Hz", 1e3 * fit.jitter_s, fit.rate_hz);
+    if (fit.change) return fmt::format("their rate changes at {:.1f} s", fit.change->at_s);
+    return {};
   }
 
   // False: they say nothing.
@@ -118,19 +162,19 @@ class ClockMaker {
   [[nodiscard]] double scale_to_declared(const TimeFit& fit) {
     if (declared_hz_ == 0.0) return 1.0;
     if (!fit.is_even && !contradicts(fit.rate_hz)) {
-      clock_.times_.remark = fmt::format(
+      remark(fmt::format(
           "camera.rate_hz = {:.6g} was not needed: the container's times are uneven and say {:.6g} Hz, which "
           "is used",
-          declared_hz_, fit.rate_hz);
+          declared_hz_, fit.rate_hz));
       return 1.0;
     }
     clock_.times_.from = kDeclared;
     if (contradicts(fit.rate_hz) && !fit.is_even) {
-      clock_.times_.remark = fmt::format(
+      remark(fmt::format(
           "camera.rate_hz = {:.6g} contradicts the container, whose uneven times say {:.6g} Hz: they were scaled to "
           "the "
           "declared rate, as for slow motion; leave camera.rate_hz out to use them as they are",
-          declared_hz_, fit.rate_hz);
+          declared_hz_, fit.rate_hz));
     }
     clock_.times_.jitter_s *= fit.rate_hz / declared_hz_, clock_.times_.worst_s *= fit.rate_hz / declared_hz_;
     clock_.times_.longest_gap_s *= fit.rate_hz / declared_hz_;
@@ -149,10 +193,10 @@ class ClockMaker {
     double& rate_hz = clock_.times_.rate_hz;
     const bool is_of_recording = declared_hz_ != 0.0 && contradicts(fit.rate_hz);
     if (!is_of_recording) rate_hz *= static_cast<double>(shown) / of;
-    clock_.times_.remark = fmt::format(
+    remark(fmt::format(
         "{} of every {} frames repeat the one before: the recording was converted from {:.6g} to {:.6g} "
         "frames a second, which was undone",
-        of - shown, of, rate_hz, rate_hz * of / shown);
+        of - shown, of, rate_hz, rate_hz * of / shown));
   }
 
   void count_frames() {
@@ -170,6 +214,11 @@ class ClockMaker {
     throw std::runtime_error(fmt::format(
         "{}: the container states a rate of {} Hz, not within {} .. {}: set camera.rate_hz to the true rate", path_,
         times.rate_hz, kMinRate_hz, kMaxRate_hz));
+  }
+
+  void remark(const std::string& words) {
+    std::string& all = clock_.times_.remark;
+    all += (all.empty() ? "" : "; ") + words;
   }
 
   [[nodiscard]] bool contradicts(double rate_hz) const noexcept {
@@ -194,11 +243,13 @@ class ClockMaker {
   const std::string& path_;
   const SourceInfo& info_;
   double declared_hz_;
+  const ClipTelemetry& telemetry_;
   FrameClock clock_;
 };
 
-FrameClock make_frame_clock(const std::string& path, const FrameSource& source, double rate_hz) {
-  return ClockMaker(path, source, rate_hz).take();
+FrameClock make_frame_clock(const std::string& path, const FrameSource& source, double rate_hz,
+                            const ClipTelemetry& telemetry) {
+  return ClockMaker(path, source, rate_hz, telemetry).take();
 }
 
 }  // namespace drivers

@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "core/types/recording_times.h"
+#include "drivers/camera/recording/clip_telemetry.h"
 #include "drivers/camera/recording/frame_source.h"
 #include "drivers/camera/recording/repeats.h"
 
 namespace drivers {
 
 // Where in time the frames of a recording lie, and on which uniform grid. Times come from, in this order: the file of
-// time stamps beside it, the container's presentation times, the number of the frame / rate. See make_frame_clock.
+// time stamps beside it, the camera's telemetry where it states a time for every frame, the container's presentation
+// times, the number of the frame / rate. See make_frame_clock.
 class FrameClock {
  public:
   struct Place {
@@ -43,8 +45,10 @@ class FrameClock {
 // - with evenly spaced container times: wins over them, they are scaled (slow motion, containers of high-speed
 // cameras);
 // - with uneven ones: is remarked on where it differs from theirs by more than 2 %, and wins; else they do.
+// Times of telemetry are used where no rate is declared, or one that agrees with them.
 // Throws std::runtime_error naming file, finding and remedy: no rate, an absurd one, a rate that changes in mid-stream.
-[[nodiscard]] FrameClock make_frame_clock(const std::string& path, const FrameSource& source, double rate_hz);
+[[nodiscard]] FrameClock make_frame_clock(const std::string& path, const FrameSource& source, double rate_hz,
+                                          const ClipTelemetry& telemetry = {});
 
 constexpr double kMinRate_hz = 1e-3;
 constexpr double kMaxRate_hz = 1e6;

@@ -22,6 +22,7 @@ struct SourceInfo {
   std::uint64_t promised_frames = 0;         // by the container; 0 = it does not say
   std::vector<double> stated_rates_hz{};     // the container's, the most trusted first
   std::shared_ptr<const PacketScan> scan{};  // null: an image folder
+  bool holds_gpmf = false;       // a stream of GoPro's metadata is beside the video
   int turned_clockwise_deg = 0;  // by how much a delivered image is turned against the sensor's: 0, 90, 180, 270
   std::string description;
 };

@@ -3,39 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <numeric>
+#include <vector>
 
 #include "drivers/camera/recording/packet_scan.h"
 #include "drivers/camera/recording/picture_luma.h"
+#include "drivers/camera/recording/repeat_watch.h"
 #include "drivers/camera/recording/video_decoder.h"
 
 namespace drivers {
 
 namespace {
 
-constexpr std::size_t kEveryRow = 8;
 constexpr std::size_t kProbeFrames = 180;
 constexpr int kLongestCadence = 30;
-
-void take_rows(const core::Frame& frame, std::vector<std::uint8_t>& rows) {
-  const auto width = static_cast<std::size_t>(frame.width_px);
-  rows.clear();
-  for (std::size_t at = 0; at + width <= frame.pixels.size(); at += kEveryRow * width) {
-    const auto row = frame.pixels.begin() + static_cast<std::ptrdiff_t>(at);
-    rows.insert(rows.end(), row, row + static_cast<std::ptrdiff_t>(width));
-  }
-}
-
-// Mean, gray levels; empty: not of one size.
-std::optional<double> difference(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
-  if (a.empty() || a.size() != b.size()) return {};
-  std::uint64_t sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    sum += static_cast<std::uint64_t>(std::abs(static_cast<int>(a[i]) - static_cast<int>(b[i])));
-  }
-  return static_cast<double>(sum) / static_cast<double>(a.size());
-}
+constexpr double kOfOthers = 0.25;  // repeats change by less than this share of what others do
 
 double quantile(std::vector<double>& values, double share) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -50,16 +32,17 @@ double quantile(std::vector<double>& values, double share) {
 // k.
 bool explains(const Cadence& cadence, std::span<const double> changes, std::span<const double> around) {
   constexpr std::size_t kFewestRepeats = 4;
-  constexpr double kOfOthers = 0.25, kAmongOthers = 0.05;
+  constexpr double kAmongOthers = 0.05;
   std::vector<double> repeats, others, around_repeats;
   for (std::size_t k = 1; k < changes.size(); ++k) (cadence.repeats(k) ? repeats : others).push_back(changes[k]);
   if (repeats.size() < kFewestRepeats || others.empty()) return false;
   for (std::size_t k = 2; k + 1 < changes.size() && k < around.size(); ++k) {
     if (cadence.repeats(k)) around_repeats.push_back(around[k]);
   }
-  if (!around_repeats.empty() && quantile(around_repeats, 0.5) < kOfOthers * quantile(others, 0.5)) return false;
+  const double usual = quantile(others, 0.5);
+  if (!around_repeats.empty() && quantile(around_repeats, 0.5) < kOfOthers * usual) return false;
   const double repeat = quantile(repeats, 0.9);
-  if (!(repeat < kOfOthers * quantile(others, 0.5))) return false;
+  if (!(repeat < kOfOthers * usual)) return false;
   const auto n_below = std::count_if(others.begin(), others.end(), [&](double change) { return change <= repeat; });
   return static_cast<double>(n_below) <= kAmongOthers * static_cast<double>(others.size());
 }
@@ -78,26 +61,22 @@ bool sizes_hint_at_repeats(const std::vector<std::uint32_t>& bytes) {
   return n_small >= kFewest || n_same >= kFewest;
 }
 
+// Two of the longest cadences: in so many frames each of them shows two repeats, and differs from any other.
+constexpr std::size_t kEnoughFrames = 2 * static_cast<std::size_t>(kLongestCadence) + 1;
+
+// Whether no frame changes by so little that it could be a repeat. Up to two thirds of all may be repeats.
+bool has_no_repeat(std::vector<double> changes) {
+  const double least = *std::min_element(changes.begin() + 1, changes.end());
+  return !(least < kOfOthers * quantile(changes, 0.9));
+}
+
+bool has_enough_repeats(const Cadence& cadence, std::size_t n_frames) {
+  constexpr std::size_t kEnough = 10;
+  return n_frames * static_cast<std::size_t>(cadence.of - cadence.shown) / static_cast<std::size_t>(cadence.of) >=
+         kEnough;
+}
+
 }  // namespace
-
-std::optional<double> FrameChange::since_last(const core::Frame& frame) {
-  take_rows(frame, now_);
-  const std::optional<double> change = difference(now_, last_);
-  std::swap(now_, last_);
-  return change;
-}
-
-bool RepeatWatch::is_repeat(double change) {
-  constexpr std::size_t kRemembered = 63, kFewest = 8;
-  constexpr double kOfLeast = 0.4, kNoise = 0.05;  // gray levels
-  if (accepted_.size() >= kFewest) {
-    const double least = *std::min_element(accepted_.begin(), accepted_.end());
-    if (least > kNoise && change < kOfLeast * least) return true;
-  }
-  accepted_.push_back(change);
-  if (accepted_.size() > kRemembered) accepted_.pop_front();
-  return false;
-}
 
 std::optional<Cadence> find_cadence(std::span<const double> changes, std::span<const double> around) {
   for (int of = 2; of <= kLongestCadence; ++of) {
@@ -117,8 +96,9 @@ std::optional<Cadence> find_cadence(const std::string& path, const PacketScan& s
   VideoDecoder decoder(path);
   std::optional<PictureLuma> luma;
   core::Frame frame;
-  std::deque<std::vector<std::uint8_t>> rows;  // of the last four frames
+  FrameChange change;
   std::vector<double> changes, around;
+  constexpr std::size_t kAsked = 30;  // frames between two attempts
   while (changes.size() < kProbeFrames) {
     const DecodeStatus status = decoder.next();
     if (status == DecodeStatus::kEnd) break;
@@ -129,12 +109,14 @@ std::optional<Cadence> find_cadence(const std::string& path, const PacketScan& s
     frame.width_px = picture.width, frame.height_px = picture.height;
     frame.pixels.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
     luma->read(picture, frame.pixels.data());
-    take_rows(frame, rows.emplace_back());
-    if (rows.size() > 4) rows.pop_front();
-    const std::size_t last = rows.size() - 1;
-    changes.push_back(last > 0 ? difference(rows[last], rows[last - 1]).value_or(0.0) : 0.0);
+    change.push(frame);
+    changes.push_back(change.between(1, 0).value_or(0.0));
     around.push_back(0.0);
-    if (last == 3) around[around.size() - 2] = difference(rows[3], rows[0]).value_or(0.0);
+    if (const auto outer = change.between(3, 0)) around[around.size() - 2] = *outer;
+    if (changes.size() < kEnoughFrames || changes.size() % kAsked != 0) continue;
+    if (has_no_repeat(changes)) return {};
+    const std::optional<Cadence> cadence = find_cadence(changes, around);
+    if (cadence && has_enough_repeats(*cadence, changes.size())) return cadence;
   }
   return find_cadence(changes, around);
 }

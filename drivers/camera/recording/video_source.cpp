@@ -93,6 +93,7 @@ class VideoSource final : public FrameSource {
     info_.has_rate = true;
     info_.stated_rates_hz = container.stated_rates_hz();
     info_.rate_hz = info_.stated_rates_hz.empty() ? 0.0 : info_.stated_rates_hz.front();
+    info_.holds_gpmf = container.has_data("gpmd");
     info_.promised_frames = container.promised_frames();
     info_.frame_count = info_.scan->complete ? info_.scan->n_packets : info_.promised_frames;
     info_.description = fmt::format(

@@ -65,20 +65,5 @@ TEST(Repeats, AMotionThatTurnsBackBetweenTwoEqualFramesIsNoConversion) {
   EXPECT_FALSE(find_cadence(changes, around).has_value());
 }
 
-TEST(RepeatWatch, CallsASingleRepeatAndAFreezeByTheirName) {
-  RepeatWatch watch;
-  std::mt19937 random(2);
-  std::uniform_real_distribution<double> change(1.0, 4.0);
-  for (int k = 0; k < 300; ++k) {
-    const bool repeats = k == 50 || (k >= 100 && k < 125);
-    EXPECT_EQ(watch.is_repeat(repeats ? 0.1 : change(random)), repeats) << k;
-  }
-}
-
-TEST(RepeatWatch, SaysNothingOfAStillPictureWithoutNoise) {
-  RepeatWatch watch;
-  for (int k = 0; k < 100; ++k) EXPECT_FALSE(watch.is_repeat(k % 3 == 0 ? 0.0 : 0.02));
-}
-
 }  // namespace
 }  // namespace drivers

@@ -216,6 +216,17 @@ TEST(FileCameraFootage, SoundAloneIsNoVideo) {
   EXPECT_THAT(refusal(clip), AllOf(HasSubstr("no moving picture"), HasSubstr("audio aac")));
 }
 
+TEST(FileCameraFootage, AFileThatGrowsWhileItIsReadIsSaid) {
+  const auto clip = fresh_folder() / "growing.mkv";
+  ffmpeg(fmt::format("{} {} {}", noisy_film(50), kH264, quoted(clip)));
+  FileCamera camera({.source = clip.string()});
+  test_support::write_text(clip, test_support::read_bytes(clip) + std::string(1000, '\0'));
+  camera.start();
+  const Drained run = drain(camera);
+  EXPECT_EQ(run.frames.size(), 50U);
+  EXPECT_THAT(run.fault, AllOf(HasSubstr("growing.mkv"), HasSubstr("grew from"), HasSubstr("still being recorded")));
+}
+
 TEST(FileCameraFootage, ACoverIsNotTheFilm) {
   const auto folder = fresh_folder();
   ffmpeg(fmt::format("{} -frames:v 1 {}", noisy_film(1, 25.0, "640x480"), quoted(folder / "cover.jpg")));

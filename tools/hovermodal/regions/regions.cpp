@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -16,6 +17,7 @@
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/regions/picker.h"
 #include "tools/hovermodal/regions/regions_text.h"
+#include "tools/hovermodal/stop_signal.h"
 
 namespace tools {
 namespace {
@@ -29,16 +31,19 @@ struct Options {
 };
 
 constexpr const char* kFooter = R"(HOW IT CHOOSES
-  Every good corner of the image is tracked through the first seconds of the clip. Neighbouring points that move
-  together form a part; the group that covers most of the image, and moves like a rotation, translation or zoom of the
-  camera, is the static region. A part that bends or is long is divided. The table ranks parts by their expected
-  displacement noise.
+  Every good corner of the image is tracked through the first seconds of the clip, also where it moves by far more than
+  its own size. Neighbouring points that move together form a part; the group that covers most of the image, and moves
+  like a rotation, translation or zoom of the camera, is the static region. A part that bends or is long is divided. The
+  table begins with what moves like a structure: parts that share their motion with others (column "shared", 0 to 1),
+  far above their expected noise, and of several that move alike one before the others.
   Only moving parts are found: use a part of the clip in which the structure moves. A floor and a lamp post are not
   distinguished: check the picture, delete regions that do not belong, and draw those that are missing.
 
 BASE
   A region that moves with the ground distinguishes peaks of the ground's motion from modes: give it `role: base`. The
-  image does not show which region that is; --lowest-is-base selects the lowest one, if parts are one above the other.
+  image does not show which region that is; --lowest-is-base selects the lowest one, if parts are one above the other,
+  nothing below it moves, and no other part moves less. Otherwise the regions are written without a base, and the
+  command ends with exit code 1 and the reason.
 
 EXAMPLE
   hovermodal regions flight.mp4 --out regions.yaml --picture regions.png
@@ -51,6 +56,22 @@ struct Watched {
   std::vector<core::SurveyedPoint> points;
   std::size_t n_frames = 0;
   std::size_t n_corners = 0;
+};
+
+// A line on standard error every few seconds.
+class Progress {
+ public:
+  explicit Progress(std::size_t n_wanted) : n_wanted_(n_wanted) {}
+  void tell(std::size_t n_frames) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_ < std::chrono::seconds(2)) return;
+    last_ = now;
+    fmt::print(stderr, "regions: frame {} of {}; Ctrl-C ends here with what was seen\n", n_frames, n_wanted_);
+  }
+
+ private:
+  std::size_t n_wanted_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
 // Throws std::runtime_error when there is not even a second to look at.
@@ -67,7 +88,8 @@ Watched watch(const Options& options) {
   camera->start();
   const auto n_wanted = static_cast<std::size_t>(options.seconds * out.info.rate_hz) + 1;
   std::optional<core::RegionSurvey> survey;
-  while (out.n_frames < n_wanted) {
+  Progress progress(n_wanted);
+  while (out.n_frames < n_wanted && stop_requested == 0) {
     const auto status = camera->capture(frame, std::chrono::milliseconds(1000));
     if (status == drivers::CaptureStatus::kTimeout) continue;
     if (status != drivers::CaptureStatus::kFrame) break;
@@ -77,6 +99,7 @@ Watched watch(const Options& options) {
     } else {
       survey->add(core::gray_view(frame));
     }
+    progress.tell(out.n_frames);
   }
   const std::string fault = camera->fault();
   camera->stop();
@@ -118,20 +141,17 @@ void run_regions(const Options& options) {
     throw std::invalid_argument(
         "regions --serve: --out FILE is missing: where the page's Save button writes the regions");
   }
+  watch_stop_signals();
   const Watched watched = watch(options);
   core::RegionProposalConfig config;
   config.max_regions = options.most;
   core::RegionProposal proposal = core::propose_regions(watched.points, watched.info.rate_hz, watched.info.width_px,
                                                         watched.info.height_px, config);
-  if (options.lowest_is_base) make_lowest_base(proposal);
+  const std::string doubt = options.lowest_is_base ? make_lowest_base(proposal) : std::string();
   fmt::print("{} corners, {} followed through {} frames ({:.3g} s)\n\n", watched.n_corners, watched.points.size(),
              watched.n_frames, static_cast<double>(watched.n_frames) / watched.info.rate_hz);
   fmt::print("{}", regions_table(proposal));
   if (!proposal.remark.empty()) fmt::print("\n{}\n", proposal.remark);
-  if (proposal.regions.empty()) {
-    throw std::runtime_error(
-        fmt::format("regions: \"{}\": no region found: {}", drivers::printable(options.clip), proposal.remark));
-  }
   const std::string yaml = regions_yaml(in_order(proposal));
   if (options.out.empty()) {
     fmt::print("\n{}", yaml);
@@ -139,7 +159,16 @@ void run_regions(const Options& options) {
     drivers::write_file_atomically(options.out, yaml);
   }
   if (!options.picture.empty()) write_picture(options, watched, proposal);
+  if (proposal.regions.empty()) {
+    throw std::runtime_error(
+        fmt::format("regions: \"{}\": no region found: {}", drivers::printable(options.clip), proposal.remark));
+  }
   if (options.serve) serve(options, watched, proposal);
+  if (!doubt.empty()) {
+    throw std::runtime_error(fmt::format("regions: --lowest-is-base: {}; the regions are {} without a base: write role: base "
+                                         "at the right one by hand, or declare none",
+                                         doubt, options.out.empty() ? "printed" : "written to " + options.out));
+  }
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "core/types/role_names.h"
 
@@ -12,11 +11,15 @@ namespace {
 
 using core::ProposedRegion;
 
+constexpr double kBelow = 1.5;  // heights of the lowest region
+constexpr double kLess = 0.8;   // motion of another part, as a share of the lowest one's
+
 std::string table_line(const std::string& rank, const ProposedRegion& one) {
   const core::Region& r = one.region;
-  return fmt::format("{:>4}  {:<8} {:>5} {:>5} {:>5} {:>5}  {:<10} {:>4} {:>7} {:>10.3f} {:>9.4f}\n", rank, r.name,
+  return fmt::format("{:>4}  {:<8} {:>5} {:>5} {:>5} {:>5}  {:<10} {:>4} {:>7} {:>10.3f} {:>9.4f} {:>7}\n", rank, r.name,
                      r.u_px, r.v_px, r.width_px, r.height_px, core::to_string(r.role), axis_text(r), one.n_points,
-                     one.motion_px, one.noise_px);
+                     one.motion_px, one.noise_px,
+                     one.shared > 0.0 ? fmt::format("{:.2f}", one.shared) : std::string("-"));
 }
 
 }  // namespace
@@ -37,20 +40,29 @@ std::vector<core::Region> in_order(const core::RegionProposal& proposal) {
   return out;
 }
 
-void make_lowest_base(core::RegionProposal& proposal) {
-  if (proposal.regions.size() < 2 || !core::is_upright(proposal.regions)) {
-    throw std::invalid_argument(
-        "--lowest-is-base: the parts do not stand one above the other; write role: base at the right one by hand");
-  }
+std::string make_lowest_base(core::RegionProposal& proposal) {
+  if (proposal.regions.size() < 2 || !core::is_upright(proposal.regions))
+    return "the parts do not stand one above the other";
   auto& lowest =
       *std::max_element(proposal.regions.begin(), proposal.regions.end(),
                         [](const ProposedRegion& a, const ProposedRegion& b) { return a.region.v_px < b.region.v_px; });
+  const double bottom_px = lowest.region.v_px + lowest.region.height_px;
+  if (proposal.lowest_moving_v_px > bottom_px + kBelow * lowest.region.height_px) {
+    return fmt::format("points below {}, down to v = {:.0f}, move as well: it is not the lowest part", lowest.region.name,
+                       proposal.lowest_moving_v_px);
+  }
+  for (const ProposedRegion& other : proposal.regions) {
+    if (other.motion_px >= kLess * lowest.motion_px) continue;
+    return fmt::format("{} moves less than {}, the lowest ({:.3g} against {:.3g} px): a base moves the least",
+                       other.region.name, lowest.region.name, other.motion_px, lowest.motion_px);
+  }
   lowest.region.role = core::RegionRole::kBase;
   lowest.region.name = "base";
+  return {};
 }
 
 std::string regions_table(const core::RegionProposal& proposal) {
-  std::string out = "rank  name         u     v width height  role       axis  points  motion px  noise px\n";
+  std::string out = "rank  name         u     v width height  role       axis  points  motion px  noise px  shared\n";
   for (std::size_t i = 0; i < proposal.regions.size(); ++i)
     out += table_line(std::to_string(i + 1), proposal.regions[i]);
   if (proposal.rest) out += table_line("-", *proposal.rest);
@@ -61,6 +73,7 @@ std::string regions_yaml(const std::vector<core::Region>& regions) {
   std::string out =
       "# By `hovermodal regions`: check the picture, delete regions that do not belong. role: base "
       "for a part that moves\n# with the ground.\nregions:\n";
+  if (regions.empty()) out.replace(out.size() - 1, 1, " []  # none was found\n");
   for (const core::Region& r : regions) {
     out += fmt::format("  - {{name: {}, rect: [{}, {}, {}, {}], role: {}, axis: {}}}\n", r.name, r.u_px, r.v_px,
                        r.width_px, r.height_px, core::to_string(r.role), axis_text(r));

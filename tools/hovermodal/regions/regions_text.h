@@ -10,11 +10,11 @@ namespace tools {
 // By name, part1 first, the resting one last: the order of the file and of the picture.
 [[nodiscard]] std::vector<core::Region> in_order(const core::RegionProposal& proposal);
 
-// Gives the lowest part the role `base` and the name "base". Throws std::invalid_argument unless the parts stand one
-// above the other.
-void make_lowest_base(core::RegionProposal& proposal);
+// Gives the lowest part the role `base` and the name "base", and returns nothing; or changes nothing and returns why that
+// would be a guess: the parts do not stand one above the other, something below it moves, another one moves less.
+[[nodiscard]] std::string make_lowest_base(core::RegionProposal& proposal);
 
-// One line a region, the least noise first.
+// One line a region, in the order of the proposal.
 [[nodiscard]] std::string regions_table(const core::RegionProposal& proposal);
 
 // The regions: block of a configuration.
