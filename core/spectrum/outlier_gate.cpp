@@ -15,9 +15,11 @@ constexpr std::uint32_t kScaleShare = 8;
 constexpr double kFar = 5.0;
 constexpr std::uint32_t kLeastDepartures = 16;
 // Of the outlier's own departure: a sample this near to where the earlier ones lead has returned.
-constexpr double kReturned = 0.5;
+constexpr double kReturned = 0.25;
 // The line through two samples, two steps further on, errs by three second differences: six departures.
 constexpr double kExtrapolation = 6.0;
+// Samples: what departs again within so many vibrates.
+constexpr std::uint32_t kSuccession = 4;
 
 bool can_judge(const Channel& channel) noexcept { return channel.n_departures >= kLeastDepartures; }
 
@@ -83,7 +85,9 @@ bool OutlierGate::push(std::size_t channel, double value, bool seen) noexcept {
     if (c.n_last == c.last.size() && can_judge(c) && is_far(c, departure)) {
       const double expected = c.last[1] + 2.0 * (c.last[1] - c.last[0]);
       const double away = std::abs(value - expected);
-      is_outlier = away <= kReturned * std::abs(departure) || is_usual(c, away / kExtrapolation);
+      const bool is_candidate = away <= kReturned * std::abs(departure) || is_usual(c, away / kExtrapolation);
+      is_outlier = is_candidate && c.n_since_candidate > kSuccession;
+      if (is_candidate) c.n_since_candidate = 0;
     }
     if (is_outlier) {
       middle = line;
@@ -92,6 +96,7 @@ bool OutlierGate::push(std::size_t channel, double value, bool seen) noexcept {
     note(c, departure);
   }
   append(c, value);
+  c.n_since_candidate = std::min<std::uint32_t>(c.n_since_candidate + 1, kMemory);
   return is_outlier;
 }
 

@@ -12,7 +12,9 @@ namespace core {
 //   - it departs from the line between its neighbours by more than kFar times what nearly all samples of the last
 //     kMemory did, and
 //   - the next sample is back where the samples before it lead to.
-// A release, an impact or a step does not return with the next sample and is kept (METHOD.md). The decision about a
+// A release, an impact or a step does not return with the next sample and is kept; of samples that depart like this in
+// close succession (an impact on something that vibrates at a quarter of the rate or faster) only the first is an
+// outlier (METHOD.md). The decision about a
 // sample is made with the next one. One thread; nothing allocates after construction.
 class OutlierGate {
  public:
@@ -31,6 +33,7 @@ class OutlierGate {
     std::array<double, 3> last = {};              // the newest samples in order, outliers replaced by their line
     std::array<double, kMemory> departure = {};   // of the line between the neighbours, a ring
     std::uint32_t n_last = 0, n_departures = 0, i_next = 0;
+    std::uint32_t n_since_candidate = kMemory;  // samples since one that departed as an outlier does
   };
   [[nodiscard]] std::vector<Channel>& state() noexcept { return channels_; }
   [[nodiscard]] const std::vector<Channel>& state() const noexcept { return channels_; }
