@@ -47,7 +47,8 @@ TEST(Folding, StatesTheFrequenciesThatTheSamplesDoNotExclude) {
   const Seen seen = observe(3.0, blind.delay_s);
   const std::vector<double> others = other_frequencies(unfold(seen.lambda, seen.shape, blind), blind, 0.3);
   ASSERT_EQ(others.size(), 4U);
-  for (std::size_t i = 0; i < others.size(); ++i) EXPECT_NEAR(others[i], std::vector{22.0, 28.0, 47.0, 53.0}[i], 0.02);
+  const std::vector<double> wanted{22.0, 28.0, 47.0, 53.0};
+  for (std::size_t i = 0; i < others.size(); ++i) EXPECT_NEAR(others[i], wanted[i], 0.02);
   // Declared: nothing above half the rate.
   blind.max_frequency_hz = 12.0;
   EXPECT_TRUE(other_frequencies(unfold(seen.lambda, seen.shape, blind), blind, 0.3).empty());
