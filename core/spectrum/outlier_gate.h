@@ -11,10 +11,10 @@ namespace core {
 // region was tracked wrongly, a spike of a logger. A sample is an outlier when
 //   - it departs from the line between its neighbours by more than kFar times what nearly all samples of the last
 //     kMemory did, and
-//   - the next sample is back where the samples before it lead to.
-// A release, an impact or a step does not return with the next sample and is kept; of samples that depart like this in
-// close succession (an impact on something that vibrates at a quarter of the rate or faster) only the first is an
-// outlier (METHOD.md). The decision about a
+//   - the next sample is back where the samples before it lead to, and
+//   - its neighbours are no farther apart than usual.
+// A release, an impact or a step does not return with the next sample and is kept, and so is what follows it for
+// kMotion samples: at most the first sample of an impact is lost (METHOD.md). The decision about a
 // sample is made with the next one. One thread; nothing allocates after construction.
 class OutlierGate {
  public:
@@ -32,8 +32,11 @@ class OutlierGate {
   struct Channel {
     std::array<double, 3> last = {};              // the newest samples in order, outliers replaced by their line
     std::array<double, kMemory> departure = {};   // of the line between the neighbours, a ring
+    std::array<double, kMemory> step = {};        // between the neighbours, likewise
     std::uint32_t n_last = 0, n_departures = 0, i_next = 0;
-    std::uint32_t n_since_candidate = kMemory;  // samples since one that departed as an outlier does
+    std::uint32_t n_since_far = kMemory;  // samples since one departed far and was no outlier
+    std::uint32_t n_since_outlier = kMemory;
+    std::uint32_t is_last_far = 0;        // 1: the newest judged sample did, and the next may turn out to be the reason
   };
   [[nodiscard]] std::vector<Channel>& state() noexcept { return channels_; }
   [[nodiscard]] const std::vector<Channel>& state() const noexcept { return channels_; }
