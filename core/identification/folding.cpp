@@ -65,6 +65,26 @@ std::vector<Complex> observed_shape(const UnfoldedPole& pole, const FoldingConfi
   return shape;
 }
 
+std::vector<double> other_frequencies(const UnfoldedPole& pole, const FoldingConfig& config, double least_margin) {
+  std::vector<double> out;
+  const double rate_hz = config.rate_hz;
+  if (config.max_frequency_hz > 0.0 && config.max_frequency_hz <= 0.5 * rate_hz) return out;
+  const double limit_hz = config.max_frequency_hz > 0.0 ? config.max_frequency_hz : kOthersUpTo * rate_hz;
+  const std::vector<Complex> observed = observed_shape(pole, config);
+  const Complex s_apparent(pole.s.real(), 2.0 * std::numbers::pi * pole.apparent_hz);
+  const bool observable = folding_observable(config);
+  const int reach = static_cast<int>(std::ceil(limit_hz / rate_hz)) + 1;
+  for (int n = -reach; n <= reach; ++n) {
+    const double hz = std::abs(pole.apparent_hz + n * rate_hz);
+    if (n == pole.fold_n.value_or(0) || hz > limit_hz) continue;
+    if (observable && pole.mpc - evaluate(s_apparent, n, observed, config).mpc >= least_margin) continue;
+    out.push_back(hz);
+  }
+  std::sort(out.begin(), out.end());
+  if (out.size() > kMostOthers) out.resize(kMostOthers);
+  return out;
+}
+
 UnfoldedPole unfold(Complex lambda, const std::vector<Complex>& shape, const FoldingConfig& config) {
   const Complex s_apparent = std::log(lambda) * config.rate_hz;
   UnfoldedPole out;

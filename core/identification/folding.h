@@ -33,6 +33,14 @@ struct UnfoldedPole {
 [[nodiscard]] UnfoldedPole unfold(std::complex<double> lambda, const std::vector<std::complex<double>>& shape,
                                   const FoldingConfig& config);
 
+// Every other true frequency that this pole may have, ascending, at most kMostOthers: of |f_a + n f_s| up to
+// max_frequency_hz (0: up to kOthersUpTo f_s), those that the delays do not exclude by a margin of MPC. None where
+// max_frequency_hz declares that nothing is above half the rate.
+inline constexpr std::size_t kMostOthers = 4;
+inline constexpr double kOthersUpTo = 2.5;
+[[nodiscard]] std::vector<double> other_frequencies(const UnfoldedPole& pole, const FoldingConfig& config,
+                                                    double least_margin);
+
 // The shape as observed, with the delays.
 [[nodiscard]] std::vector<std::complex<double>> observed_shape(const UnfoldedPole& pole, const FoldingConfig& config);
 

@@ -7,8 +7,10 @@
 #include <stdexcept>
 
 #include "core/identification/camera_leakage.h"
+#include "core/identification/combination_lines.h"
 #include "core/identification/line_evidence.h"
 #include "core/identification/model_fit.h"
+#include "core/identification/spectral_peaks.h"
 #include "core/identification/uncertainty.h"
 #include "core/identification/verdict.h"
 
@@ -25,6 +27,7 @@ void copy_stream_facts(const CpsdSums& sums, ModalEstimate& estimate) {
   estimate.rate_hz = sums.rate_hz;
   estimate.duration_s = static_cast<double>(sums.n_samples) / sums.rate_hz;
   estimate.remembered_s = sums.n_remembered() / sums.rate_hz;
+  estimate.resolution_hz = resolution_hz(sums);
 }
 
 // Every pole of every order, as observed and unfolded; the two lists run in parallel.
@@ -77,6 +80,7 @@ void note_poles(const std::vector<OrderPole>& poles, const std::vector<int>& ord
 // A record's realisation, with what its poles are judged by.
 struct Fitted {
   const CpsdSums& sums;
+  const std::vector<ChannelRecord>& records;
   const ModelFit& fit;
   const FoldingConfig& folding;
   const CameraLeakage& camera;
@@ -84,12 +88,17 @@ struct Fitted {
   const Poles& poles;
 };
 
-VerdictRules verdict_rules(const IdentifierConfig& config, const ModelFit& fit) {
+VerdictRules verdict_rules(const IdentifierConfig& config, const ModelFit& fit, const CpsdSums& sums) {
   VerdictRules rules;
   rules.min_mpc = config.min_mpc;
   rules.max_damping = config.max_damping;
   rules.max_apparent_hz = config.edge_hz;
   rules.last_first_i_order = fit.last_first_i_order;
+  // Where a decimation filter was before, its edge is the limit.
+  if (!(config.edge_hz > 0.0)) rules.max_frequency_hz = config.max_frequency_hz;
+  rules.record_s = sums.n_remembered() / sums.rate_hz;
+  rules.resolution_hz = resolution_hz(sums);
+  rules.samples_per_row = sums.n_remembered() / static_cast<double>(fit.era.block_rows * sums.n_channels);
   return rules;
 }
 
@@ -108,7 +117,13 @@ std::vector<Mode> judge_lines(const Fitted& fitted, const std::vector<PoleCluste
     evidence.witness_share = found.share, evidence.witness_moves = found.is_doubtful;
     const BaseResponse response = base_response(fitted.sums, channels.all, line.apparent_hz);
     modes.push_back(judge(line, response, channels.outputs, fitted.orders, rules, evidence));
+    modes.back().may_be_hz = other_frequencies(line.representative, fitted.folding, rules.least_fold_margin);
+    const int lone = lone_masked_channel(modes.back().shape, fitted.records);
+    if (lone < 0) continue;
+    const auto c = static_cast<std::size_t>(lone);
+    reject_lone_motion(modes.back(), channels.outputs[c].name, fitted.records[c].seen);
   }
+  reject_combinations(fitted.sums, channels.all, modes);
   return modes;
 }
 
@@ -204,9 +219,13 @@ FoldingConfig Identifier::folding_config(double rate_hz) const {
   return folding;
 }
 
-ModalEstimate Identifier::identify(const CpsdSums& sums) const {
+ModalEstimate Identifier::identify_all(const CpsdSums& sums, const std::vector<ChannelRecord>& records) const {
   ModalEstimate estimate;
   copy_stream_facts(sums, estimate);
+  estimate.peaks = spectral_peaks(sums, channels_);
+  estimate.channels = records;
+  estimate.channels.resize(n_outputs());  // witnesses come last
+  for (SpectralPeak& peak : estimate.peaks) peak.share.resize(n_outputs());
   ModelFit fit;
   estimate.status = fit_model(sums, config_, channels_, fit);
   if (estimate.status != "ok") return estimate;
@@ -223,9 +242,9 @@ ModalEstimate Identifier::identify(const CpsdSums& sums) const {
   const std::vector<PoleCluster> lines = config_.as_published
                                              ? lines_of_one_order(poles.unfolded)
                                              : lines_of(poles.unfolded, static_cast<int>(orders.size()));
-  const Fitted fitted{sums, fit, folding, camera, orders, poles};
+  const Fitted fitted{sums, records, fit, folding, camera, orders, poles};
   const JudgedChannels channels{channels_, outputs_};
-  const VerdictRules rules = verdict_rules(config_, fit);
+  const VerdictRules rules = verdict_rules(config_, fit, sums);
   std::vector<Mode> modes = config_.as_published ? judge_published_lines(lines, channels, rules)
                                                  : judge_lines(fitted, lines, channels, rules);
   if (sums.n_blocks >= kScatterBlocks) estimate.degrees_of_freedom = state_scatter(fitted, lines, modes);

@@ -5,6 +5,7 @@
 
 #include "core/identification/correlation.h"
 #include "core/identification/folding.h"
+#include "core/identification/participation.h"
 #include "core/types/cpsd.h"
 #include "core/types/displacement.h"
 #include "core/types/modal_estimate.h"
@@ -38,7 +39,9 @@ class Identifier {
   // Throws std::invalid_argument: a reference that is no channel, no channel at all.
   Identifier(IdentifierConfig config, std::vector<ChannelInfo> channels);
 
-  // Fills modes, rejected, model_order, status and what the sums know. Never throws on data; NaN never leaves it.
+  // Fills modes, rejected, peaks, channels, model_order, status and what the sums know. Never throws on data; NaN never
+  // leaves it. Channels with too little record take no part (participation.h): their components are 0 and stated as
+  // unknown in ModalEstimate::channels.
   [[nodiscard]] ModalEstimate identify(const CpsdSums& sums) const;
 
   [[nodiscard]] const std::vector<ChannelInfo>& channels() const noexcept { return channels_; }
@@ -47,6 +50,9 @@ class Identifier {
   [[nodiscard]] std::vector<double> undone_delay_s() const;
 
  private:
+  [[nodiscard]] ModalEstimate identify_all(const CpsdSums& sums, const std::vector<ChannelRecord>& records) const;
+  [[nodiscard]] ModalEstimate identify_kept(const CpsdSums& sums, const Participation& part) const;
+  [[nodiscard]] Identifier with_channels(const std::vector<std::size_t>& kept) const;
   [[nodiscard]] std::vector<ChannelInfo> delays_as_undone() const;
   [[nodiscard]] FoldingConfig folding_config(double rate_hz) const;
 

@@ -108,6 +108,25 @@ EraStatus realise_from_canonical_order(const IdentifierConfig& config, ModelFit&
 
 }  // namespace
 
+namespace {
+
+// Which channel is meant: the one with the least power.
+std::string still_channel(const CpsdSums& sums, const std::vector<ChannelInfo>& channels) {
+  std::size_t still = 0;
+  double least = HUGE_VAL;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const auto pair = static_cast<std::size_t>(
+        CpsdSums::pair_index(static_cast<int>(c), static_cast<int>(c), sums.n_channels));
+    double power = 0.0;
+    for (std::size_t at = pair; at < sums.data_sum.size(); at += static_cast<std::size_t>(sums.n_pairs()))
+      power += sums.data_sum[at].real();
+    if (power < least) least = power, still = c;
+  }
+  return channels.empty() ? "" : ": " + channels[still].name;
+}
+
+}  // namespace
+
 std::string fit_model(const CpsdSums& sums, const IdentifierConfig& config, const std::vector<ChannelInfo>& channels,
                       ModelFit& out) {
   out.n_differences = config.as_published         ? 0
@@ -116,6 +135,7 @@ std::string fit_model(const CpsdSums& sums, const IdentifierConfig& config, cons
   out.era = era_config(sums, config, channels, out.n_differences);
   const CorrelationStatus status = compute_correlations(sums, 2 * out.era.block_rows + out.era.first_lag,
                                                         out.n_differences, out.correlations, {}, config.least_power);
+  if (status == CorrelationStatus::kNoPower) return to_string(status) + still_channel(sums, channels);
   if (status != CorrelationStatus::kOk) return to_string(status);
   const EraStatus era_status =
       config.as_published ? realise_as_published(config.max_order, out) : realise_from_canonical_order(config, out);

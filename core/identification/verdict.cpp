@@ -61,6 +61,21 @@ bool moves_with_base(double base_share, const BaseResponse& response, const Verd
   return base_share > rules.open_base_share || !answers;
 }
 
+bool is_too_short(const Mode& mode, const VerdictRules& rules) noexcept {
+  if (!(rules.record_s > 0.0)) return false;
+  return mode.apparent_hz * rules.record_s < rules.least_cycles || rules.samples_per_row < rules.least_samples_per_row;
+}
+
+std::string candidate_reason(const Mode& mode, const VerdictRules& rules) {
+  const double cycles = mode.apparent_hz * rules.record_s;
+  if (cycles < rules.least_cycles)
+    return text("%.1f cycles in the record, a verdict needs %.0f: may be a mode, to %.2g Hz", cycles,
+                rules.least_cycles, rules.resolution_hz);
+  return text("the record is too short for a verdict (%.1f samples for each equation of the model, %.0f are needed): may "
+              "be a mode, to %.2g Hz",
+              rules.samples_per_row, rules.least_samples_per_row, rules.resolution_hz);
+}
+
 void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response,
             const std::vector<ChannelInfo>& channels, const std::vector<int>& orders, const VerdictRules& rules,
             const SpectralLineEvidence& line) {
@@ -73,6 +88,8 @@ void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response
   } else if (rules.max_apparent_hz > 0.0 && mode.apparent_hz > rules.max_apparent_hz) {
     set(mode, Verdict::kNumerical,
         text("filter edge: above the %.4g Hz passed by the decimation filter", rules.max_apparent_hz));
+  } else if (rules.max_frequency_hz > 0.0 && mode.frequency_hz > rules.max_frequency_hz) {
+    set(mode, Verdict::kNumerical, text("above the %.4g Hz of max_frequency_hz", rules.max_frequency_hz));
   } else if (line.witness_share > rules.max_witness_share) {
     set(mode, Verdict::kCameraMotion,
         text("a static region moves with it: %.0f %% of the shape is camera motion", 100.0 * line.witness_share));
@@ -96,6 +113,8 @@ void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response
         text("found in %.0f %% of the orders, first at order %d", 100.0 * cluster.presence, first_order));
   } else if (mode.mpc < rules.min_mpc) {
     set(mode, Verdict::kNumerical, text("components not in phase: MPC %.2f < %.2f", mode.mpc, rules.min_mpc));
+  } else if (is_too_short(mode, rules)) {
+    set(mode, Verdict::kCandidate, candidate_reason(mode, rules));
   } else if (mode.fold_n && (*mode.fold_margin < rules.least_fold_margin || mode.mpc < rules.least_certain_mpc)) {
     set(mode, Verdict::kAmbiguous,
         text("a mode, but its alias order is open: fold margin %.2f, MPC %.2f", *mode.fold_margin, mode.mpc));
@@ -147,6 +166,14 @@ Mode judge_as_published(const PoleCluster& pole, const std::vector<ChannelInfo>&
     set(mode, Verdict::kStructural, text("the base moves %.2f of the largest channel", base));
   }
   return mode;
+}
+
+void reject_lone_motion(Mode& mode, const std::string& channel, double seen) {
+  if (mode.verdict != Verdict::kStructural && mode.verdict != Verdict::kAmbiguous &&
+      mode.verdict != Verdict::kCandidate)
+    return;
+  set(mode, Verdict::kNumerical,
+      text("only %.60s moves, and %.0f %% of its record is missing", channel.c_str(), 100.0 * (1.0 - seen)));
 }
 
 void number_by_frequency(std::vector<Mode>& modes) {

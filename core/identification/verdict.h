@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/identification/base_response.h"
@@ -28,6 +29,11 @@ struct VerdictRules {
   double least_certain_mpc = 0.85;  // a folded frequency is certain from here on ...
   double least_fold_margin = 0.3;   // ... and with this lead over the next hypothesis
   double max_published_base_share = 0.3;
+  double max_frequency_hz = 0.0;  // above it nobody looks for modes; 0 = no limit
+  // Of the record: what a verdict needs. Fewer cycles, or samples per row of the Hankel matrix, leave a candidate.
+  double record_s = 0.0, resolution_hz = 0.0, samples_per_row = 0.0;  // record_s 0 = unknown: not tested
+  double least_cycles = 10.0;
+  double least_samples_per_row = 8.0;
 };
 
 // A cluster as a mode with its verdict and the reason in words.
@@ -39,6 +45,9 @@ struct VerdictRules {
 // 0 and up to `max_damping`) that the base takes little part in (max_published_base_share) is a mode.
 [[nodiscard]] Mode judge_as_published(const PoleCluster& pole, const std::vector<ChannelInfo>& channels,
                                       const VerdictRules& rules);
+// A pole that moves in one channel only, of which a part of the record is missing, is no mode of the structure.
+void reject_lone_motion(Mode& mode, const std::string& channel, double seen);
+
 // Their numbers by frequency, as the paper's Table 1 has them, into their reasons.
 void number_by_frequency(std::vector<Mode>& modes);
 

@@ -115,6 +115,8 @@ void SumOfRecords::join(const CpsdSums& record) {
   sums.weight.join(record.weight);
   sums.n_samples += record.n_samples;
   sums.n_missing += record.n_missing;
+  sums.n_outlying.resize(std::max(sums.n_outlying.size(), record.n_outlying.size()), 0);
+  for (std::size_t c = 0; c < record.n_outlying.size(); ++c) sums.n_outlying[c] += record.n_outlying[c];
   take_blocks(record);
 }
 

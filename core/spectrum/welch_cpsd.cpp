@@ -8,7 +8,6 @@
 
 #include "core/linear/vector_clones.h"
 #include "core/spectrum/bridge_losses.h"
-#include "core/spectrum/join_blocks.h"
 
 namespace core {
 
@@ -61,6 +60,7 @@ CpsdSums WelchCpsd::empty_sums(const WelchConfig& config) {
   const auto size = static_cast<std::size_t>(sums.n_bins()) * static_cast<std::size_t>(sums.n_pairs());
   sums.data_sum.assign(size, 0.0);
   sums.mask_sum.assign(size, 0.0);
+  sums.n_outlying.assign(static_cast<std::size_t>(config.n_channels), 0);
   sums.blocks.resize(static_cast<std::size_t>(config.n_blocks));
   for (CpsdBlock& block : sums.blocks) {
     block.data_sum.assign(size, 0.0);
@@ -70,7 +70,12 @@ CpsdSums WelchCpsd::empty_sums(const WelchConfig& config) {
 }
 
 WelchCpsd::WelchCpsd(const WelchConfig& config)
-    : config_(config), fft_(padded_length(config)), sums_(empty_sums(config)) {
+    : config_(config),
+      fft_(padded_length(config)),
+      gate_(static_cast<std::size_t>(config.n_channels)),
+      sums_(empty_sums(config)),
+      aside_(static_cast<std::size_t>(config.n_channels), 0.0),
+      is_aside_(static_cast<std::size_t>(config.n_channels), 0) {
   hop_ = std::max(1, config.segment - static_cast<int>(std::floor(config.segment * config.overlap)));
   window_ = make_window(config.window, config.segment);
   if (config.forget_s > 0.0) {
@@ -102,6 +107,8 @@ void WelchCpsd::restart(double rate_hz) noexcept {
   std::fill(sums_.data_sum.begin(), sums_.data_sum.end(), Complex());
   std::fill(sums_.mask_sum.begin(), sums_.mask_sum.end(), Complex());
   for (CpsdBlock& block : sums_.blocks) block.n_segments = 0, block.weight = {};
+  std::fill(sums_.n_outlying.begin(), sums_.n_outlying.end(), std::uint64_t{0});
+  gate_.restart();
   n_filled_ = n_new_ = 0;
   segments_per_block_ = 1;
   std::fill(value_.begin(), value_.end(), 0.0);
@@ -116,7 +123,21 @@ void WelchCpsd::put(std::size_t first, std::span<const double> value, std::span<
     value_[at] = valid ? value[c] : 0.0;
     seen_[at] = valid ? 1 : 0;
     if (!valid && first + c < n_counted()) ++sums_.n_missing;
+    gate(first + c, value[c], valid);
   }
+}
+
+// Before the newest sample is counted as filled: the one before it is the last that is.
+void WelchCpsd::gate(std::size_t channel, double value, bool valid) noexcept {
+  if (!config_.gate_outliers || !gate_.push(channel, value, valid)) return;
+  ++sums_.n_outlying[channel];
+  if (channel < n_counted()) ++sums_.n_missing;
+  if (n_filled_ > 0) mask(channel, n_filled_ - 1);
+}
+
+void WelchCpsd::mask(std::size_t channel, int at) noexcept {
+  const std::size_t sample = channel * static_cast<std::size_t>(config_.segment) + static_cast<std::size_t>(at);
+  value_[sample] = 0.0, seen_[sample] = 0;
 }
 
 bool WelchCpsd::push(std::span<const double> value, std::span<const std::uint8_t> seen) noexcept {
@@ -137,6 +158,7 @@ bool WelchCpsd::push_missing() noexcept {
   for (std::size_t c = 0; c < static_cast<std::size_t>(config_.n_channels); ++c) {
     const std::size_t at = c * segment + static_cast<std::size_t>(n_filled_);
     value_[at] = 0.0, seen_[at] = 0;
+    gate(c, 0.0, false);
   }
   sums_.n_missing += n_counted();
   return advance();
@@ -147,7 +169,9 @@ bool WelchCpsd::advance() noexcept {
   ++n_filled_;
   ++n_new_;
   if (n_filled_ < config_.segment) return false;
+  set_doubtful_aside();
   accumulate_segment();
+  restore_doubtful();
   const auto segment = static_cast<std::ptrdiff_t>(config_.segment);
   for (std::ptrdiff_t c = 0; c < config_.n_channels; ++c) {
     std::copy(value_.begin() + c * segment + hop_, value_.begin() + (c + 1) * segment, value_.begin() + c * segment);
@@ -157,7 +181,28 @@ bool WelchCpsd::advance() noexcept {
   return true;
 }
 
+void WelchCpsd::set_doubtful_aside() noexcept {
+  for (std::size_t c = 0; c < is_aside_.size(); ++c) {
+    is_aside_[c] = config_.gate_outliers && gate_.is_doubtful(c) ? 1 : 0;
+    if (is_aside_[c] == 0) continue;
+    const auto segment = static_cast<std::size_t>(config_.segment);
+    aside_[c] = value_[c * segment + static_cast<std::size_t>(n_filled_ - 1)];
+    mask(c, n_filled_ - 1);
+  }
+}
+
+void WelchCpsd::restore_doubtful() noexcept {
+  for (std::size_t c = 0; c < is_aside_.size(); ++c) {
+    if (is_aside_[c] == 0) continue;
+    const auto segment = static_cast<std::size_t>(config_.segment);
+    const std::size_t at = c * segment + static_cast<std::size_t>(config_.segment - 1);
+    value_[at] = aside_[c], seen_[at] = 1;
+  }
+}
+
+// Nothing will confirm the last sample.
 void WelchCpsd::flush() noexcept {
+  for (std::size_t c = 0; c < is_aside_.size(); ++c) gate(c, 0.0, false);
   if (n_new_ == 0) return;
   const auto segment = static_cast<std::ptrdiff_t>(config_.segment);
   for (std::ptrdiff_t c = 0; c < config_.n_channels; ++c) {
@@ -224,49 +269,6 @@ void WelchCpsd::transform_mask(int channel) noexcept {
   std::fill(padded_.begin() + static_cast<std::ptrdiff_t>(segment), padded_.end(), 0.0);
   for (std::size_t t = 0; t < segment; ++t) padded_[t] = seen[t] != 0 ? window_[t] : 0.0;
   fft_.forward(padded_, {mask_.data() + c * bins, bins});
-}
-
-void WelchCpsd::fade() noexcept {
-  if (kept_per_hop_ == 1.0) return;
-  const auto scale = [this](std::vector<Complex>& sum) {
-    for (Complex& z : sum) z *= kept_per_hop_;
-  };
-  scale(sums_.data_sum), scale(sums_.mask_sum);
-  sums_.weight.fade(kept_per_hop_);
-  for (std::size_t b = 0; b < sums_.n_blocks; ++b) {
-    scale(sums_.blocks[b].data_sum), scale(sums_.blocks[b].mask_sum);
-    sums_.blocks[b].weight.fade(kept_per_hop_);
-  }
-}
-
-void WelchCpsd::make_room() noexcept {
-  std::vector<CpsdBlock>& blocks = sums_.blocks;
-  if (2 * segments_per_block_ > most_segments_per_block_) {
-    join_blocks(blocks[0], blocks[1]);
-    std::rotate(blocks.begin() + 1, blocks.begin() + 2, blocks.end());
-    --sums_.n_blocks;
-    return;
-  }
-  for (std::size_t b = 0; b < blocks.size(); b += 2) {
-    join_blocks(blocks[b], blocks[b + 1]);
-    std::swap(blocks[b / 2], blocks[b]);
-  }
-  sums_.n_blocks /= 2;
-  segments_per_block_ *= 2;
-}
-
-// The block that takes the next segment is the last in use.
-CpsdBlock& WelchCpsd::current_block() noexcept {
-  std::vector<CpsdBlock>& blocks = sums_.blocks;
-  if (sums_.n_blocks > 0 && blocks[sums_.n_blocks - 1].n_segments < segments_per_block_)
-    return blocks[sums_.n_blocks - 1];
-  if (sums_.n_blocks == blocks.size()) make_room();
-  CpsdBlock& next = blocks[sums_.n_blocks++];
-  next.n_segments = 0;
-  next.weight = {};
-  std::fill(next.data_sum.begin(), next.data_sum.end(), Complex());
-  std::fill(next.mask_sum.begin(), next.mask_sum.end(), Complex());
-  return next;
 }
 
 void WelchCpsd::add_products(bool one_mask, std::vector<Complex>& data_sum, std::vector<Complex>& mask_sum) noexcept {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/spectrum/outlier_gate.h"
 #include "core/spectrum/real_fft.h"
 #include "core/spectrum/window.h"
 #include "core/types/cpsd.h"
@@ -27,13 +28,18 @@ struct WelchConfig {
   // A segment is weighted by exp(-age / forget_s): for a structure that changes. 0 = all segments count alike.
   double forget_s = 0.0;
   bool bridge_losses = false;  // short gaps: see bridge_losses.h; false: every lost sample is masked
+  // Single samples that their neighbours in time do not allow are masked and counted (outlier_gate.h); false: they were
+  // gated before.
+  bool gate_outliers = true;
 };
 
 // Streaming Welch estimate of the cross-power spectra of all channels (Welch 1967), fixed memory.
 // Segments are detrended by their mean, windowed, zero-padded to a power of two >= 2 * segment so that correlations up
 // to one segment do not wrap around. A mask (1 seen, 0 missing) is windowed and transformed beside the data:
 //   R_ij(lag) = IFFT(sum X_i conj(X_j)) / IFFT(sum M_i conj(M_j))
-// is then unbiased, window and random losses alike (METHOD.md). One thread; nothing allocates after construction.
+// is then unbiased, window and random losses alike (METHOD.md). A sample that the gate rejects is masked when the next
+// one comes; where a segment ends before that, it is masked in this segment while it is doubtful.
+// One thread; nothing allocates after construction.
 class WelchCpsd {
  public:
   explicit WelchCpsd(const WelchConfig& config);  // throws std::invalid_argument
@@ -69,8 +75,12 @@ class WelchCpsd {
   [[nodiscard]] std::size_t n_counted() const noexcept {
     return static_cast<std::size_t>(config_.n_channels - config_.n_witnesses);
   }
+  void gate(std::size_t channel, double value, bool valid) noexcept;
+  void mask(std::size_t channel, int at) noexcept;
   bool advance() noexcept;
   void accumulate_segment() noexcept;
+  void set_doubtful_aside() noexcept;
+  void restore_doubtful() noexcept;
   void transform_channel(int channel) noexcept;
   void transform_mask(int channel) noexcept;
   // one_mask: all channels lack the same samples
@@ -84,6 +94,7 @@ class WelchCpsd {
   int hop_;
   std::vector<double> window_;
   RealFft fft_;
+  OutlierGate gate_;
   CpsdSums sums_;
   int n_filled_ = 0;  // samples in the segment being gathered
   int n_new_ = 0;     // of them, not yet part of any accumulated segment
@@ -91,6 +102,8 @@ class WelchCpsd {
   std::uint64_t segments_per_block_ = 1, most_segments_per_block_ = UINT64_MAX;
   std::vector<double> value_;                   // channels x segment
   std::vector<std::uint8_t> seen_;              // channels x segment
+  std::vector<double> aside_;                   // channels: newest samples, masked while a segment is summed
+  std::vector<std::uint8_t> is_aside_;          // channels
   std::vector<double> bridged_;                 // channels x segment; empty unless losses are bridged
   std::vector<std::uint8_t> held_;              // channels x segment; empty unless losses are bridged
   std::vector<double> padded_;                  // n_fft

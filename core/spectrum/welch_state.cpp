@@ -28,6 +28,7 @@ void WelchCpsd::describe(Archive& archive, Self& self) noexcept {
   archive.value(sums.weight);
   archive.value(sums.n_samples);
   archive.value(sums.n_missing);
+  archive.array(sums.n_outlying);
   archive.array(sums.data_sum);
   archive.array(sums.mask_sum);
   archive.value(sums.n_blocks);
@@ -43,6 +44,7 @@ void WelchCpsd::describe(Archive& archive, Self& self) noexcept {
   archive.value(self.segments_per_block_);
   archive.array(self.value_);
   archive.array(self.seen_);
+  archive.array(self.gate_.state());
 }
 
 void WelchCpsd::save(StateWriter& out) const noexcept {
@@ -58,7 +60,8 @@ void WelchCpsd::save(StateWriter& out) const noexcept {
 
 std::size_t WelchCpsd::state_bytes() const noexcept {
   const std::size_t sums = 2 * (sums_.data_sum.size() * sizeof(Complex) + 64);
-  return 512 + (1 + sums_.blocks.size()) * sums + value_.size() * (sizeof(double) + 1);
+  return 512 + (1 + sums_.blocks.size()) * sums + value_.size() * (sizeof(double) + 1) +
+         gate_.state().size() * (sizeof(OutlierGate::Channel) + sizeof(std::uint64_t));
 }
 
 bool WelchCpsd::restore(StateReader& in) noexcept {
@@ -82,7 +85,7 @@ bool WelchCpsd::is_consistent() const noexcept {
       is_finite(sums_.data_sum) && is_finite(sums_.mask_sum) &&
       std::all_of(value_.begin(), value_.end(), [](double x) { return std::isfinite(x); }) &&
       std::all_of(sums_.blocks.begin(), sums_.blocks.end(), [](const CpsdBlock& block) { return is_finite(block); });
-  return has_numbers && sums_.n_blocks <= sums_.blocks.size() && n_filled_ >= 0 && n_filled_ < config_.segment &&
+  return has_numbers && gate_.is_consistent() && sums_.n_blocks <= sums_.blocks.size() && n_filled_ >= 0 && n_filled_ < config_.segment &&
          n_new_ >= 0 && n_new_ <= n_filled_ && segments_per_block_ > 0;
 }
 

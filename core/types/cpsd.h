@@ -35,6 +35,7 @@ struct CpsdSums {
   SegmentWeight weight;                        // of those segments: densities divide by its sum
   std::uint64_t n_samples = 0;                 // stream position: grid cells consumed, seen or missing
   std::uint64_t n_missing = 0;                 // channel samples masked out
+  std::vector<std::uint64_t> n_outlying;       // per channel: of them, rejected by the gate in time; may be empty
   double window_power = 0.0;                   // sum of squared window values of one full segment
   std::vector<std::complex<double>> data_sum;  // mm^2
   std::vector<std::complex<double>> mask_sum;  // dimensionless
@@ -53,6 +54,8 @@ struct CpsdSums {
     n_channels = n_first, n_fft = other.n_fft, rate_hz = other.rate_hz;
     n_segments = other.n_segments, n_samples = other.n_samples, n_missing = other.n_missing;
     window_power = other.window_power, weight = other.weight;
+    n_outlying = other.n_outlying;
+    n_outlying.resize(n_outlying.empty() ? 0 : static_cast<std::size_t>(n_first), 0);
     copy_pairs(other.data_sum, other.n_channels, data_sum);
     copy_pairs(other.mask_sum, other.n_channels, mask_sum);
     blocks.clear(), n_blocks = 0;

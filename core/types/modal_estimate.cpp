@@ -16,6 +16,8 @@ const char* to_string(Verdict verdict) noexcept {
       return "ambiguous";
     case Verdict::kNumerical:
       return "numerical";
+    case Verdict::kCandidate:
+      return "candidate";
   }
   return "numerical";
 }

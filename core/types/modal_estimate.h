@@ -11,7 +11,16 @@
 
 namespace core {
 
-enum class Verdict : std::uint8_t { kStructural, kCameraMotion, kInputPeak, kHarmonic, kAmbiguous, kNumerical };
+// kCandidate: a pole that may be a mode, in a record too short for a verdict.
+enum class Verdict : std::uint8_t {
+  kStructural,
+  kCameraMotion,
+  kInputPeak,
+  kHarmonic,
+  kAmbiguous,
+  kNumerical,
+  kCandidate
+};
 
 [[nodiscard]] const char* to_string(Verdict verdict) noexcept;
 
@@ -42,6 +51,8 @@ struct Mode {
   double mpc = 0.0;                         // modal phase collinearity, 0..1
   double emac = 0.0;                        // extended modal amplitude coherence, 0..1; times MPC: CMI
   double presence = 0.0;                    // share of model orders in which the pole was found, 0..1
+  // Other true frequencies that the samples do not exclude, ascending: those below the limit of ModalEstimate.
+  std::vector<double> may_be_hz;
   Verdict verdict = Verdict::kNumerical;
   std::string reason;
   std::optional<ModeHistory> history;  // empty: not followed, or seen in one estimate only
@@ -61,6 +72,22 @@ struct StabilisationPole {
 // Of one estimate; orders beyond it are left out, highest first.
 inline constexpr std::size_t kMaxStabilisationPoles = 4096;
 
+// What one channel contributed to an estimate.
+struct ChannelRecord {
+  double seen = 1.0;             // share of the record in which it has a sample, 0..1
+  std::uint64_t n_outlying = 0;  // samples that were masked because their neighbours in time do not allow them
+  bool takes_part = true;        // false: its component is unknown in every shape (it is 0 there)
+  std::string reason;            // why not; may name a doubt where it takes part
+};
+
+// A peak of the spectrum of all channels together: no verdict, but an observation that needs no model.
+struct SpectralPeak {
+  double frequency_hz = 0.0;   // apparent
+  double resolution_hz = 0.0;  // two lines nearer than this are one peak
+  double height = 0.0;         // over the spectrum around it, a ratio of powers
+  std::vector<double> share;   // per channel: its amplitude there, the largest is 1; 0 where it takes no part
+};
+
 // One result of the identification: everything known at `n_samples` of stream time.
 struct ModalEstimate {
   std::uint64_t number = 0;     // 0, 1, 2, ... over the run
@@ -78,6 +105,10 @@ struct ModalEstimate {
   std::string status;                     // "ok", or why there are no modes
   std::vector<std::string> amendments;    // effects found and corrected by the run, beyond the declared ones
   std::optional<ReadoutFinding> readout;  // basis of the row delays; empty: not estimated
+  // Two lines nearer than this cannot be distinguished: one over the longest stretch that is analysed; 0 = unknown.
+  double resolution_hz = 0.0;
+  std::vector<ChannelRecord> channels;    // as the components of the shapes; empty = all take part
+  std::vector<SpectralPeak> peaks;        // by frequency
   std::vector<Mode> modes;                // structural, by frequency
   std::vector<Mode> rejected;             // every other pole, with its reason
   std::vector<StabilisationPole> poles;   // of all orders, ascending; at most kMaxStabilisationPoles

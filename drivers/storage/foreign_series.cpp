@@ -86,14 +86,15 @@ class ForeignReader {
     if (split_comment(text, key, value)) out_.comments[key] = value;
   }
 
-  // Up to the second end mark; the line after it is returned: names, with a column X_Value and one for comments.
+  // Up to the second end mark; the line after it is returned: names, with a column X_Value and one for comments. Cells
+  // of the head are separated as those of the table: by tabs or, where a line has none, by commas.
   std::string read_labview_head() {
     std::string_view line;
     int n_ends = 0;
     std::vector<std::string_view> cells;
     while (next(line)) {
       if (line.starts_with(kLabviewEnd) && ++n_ends == 2) break;
-      split_series_cells(line, '\t', cells);
+      split_series_cells(line, line.find('\t') == std::string_view::npos ? ',' : '\t', cells);
       const bool has_value = cells.size() > 1 && !cells[1].empty();
       if (has_value && cells[0] == "X_Columns" && cells[1] != "No" && cells[1] != "One")
         lines_.fail("X_Columns Multi: a column of times for every channel is not read; export with one or none");

@@ -18,6 +18,7 @@ static_assert(static_cast<int>(core::Verdict::kInputPeak) == mode_t::INPUT_PEAK)
 static_assert(static_cast<int>(core::Verdict::kHarmonic) == mode_t::HARMONIC);
 static_assert(static_cast<int>(core::Verdict::kAmbiguous) == mode_t::AMBIGUOUS);
 static_assert(static_cast<int>(core::Verdict::kNumerical) == mode_t::NUMERICAL);
+static_assert(static_cast<int>(core::Verdict::kCandidate) == mode_t::CANDIDATE);
 
 float known(const std::optional<double>& value) { return value ? static_cast<float>(*value) : kUnknown; }
 

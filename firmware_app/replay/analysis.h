@@ -30,6 +30,7 @@ struct SeriesOptions {
   core::IdentifierConfig identifier;      // references are indices into ChannelSeries::channels
   // Slower rate: the record is decimated as far as identifier.max_frequency_hz stays in the filter's passband.
   bool decimate = true;
+  bool mask_faults = true;                          // series_faults.h; false: every number counts
   std::string report_directory;                     // must exist; empty = no report
   std::string source;                               // input named in the report
   std::function<void(double share)> progress = {};  // called now and then with the share done, 0..1

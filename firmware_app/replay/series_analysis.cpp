@@ -10,6 +10,7 @@
 #include "firmware_app/config/core_config.h"
 #include "firmware_app/replay/analysis.h"
 #include "firmware_app/replay/series_channels.h"
+#include "firmware_app/replay/series_faults.h"
 #include "firmware_app/report/modal_json.h"
 #include "firmware_app/report/pictures/pictures.h"
 #include "firmware_app/report/run_history.h"
@@ -31,7 +32,9 @@ SeriesSpectra spectra_of(const ChannelSeries& series, const SpectrumConfig& spec
                          const std::function<void(double)>& progress) {
   const std::size_t n_channels = series.channels.size();
   const std::size_t n_samples = series.value.front().size();
-  core::WelchCpsd cpsd(welch_config(spectrum, n_channels, series.rate_hz));
+  core::WelchConfig config = welch_config(spectrum, n_channels, series.rate_hz);
+  config.gate_outliers = false;  // before the decimation, by mask_faults()
+  core::WelchCpsd cpsd(config);
   std::vector<double> value(n_channels);
   std::vector<std::uint8_t> seen(n_channels);
   RunHistory history(series.rate_hz, n_channels, 0);
@@ -115,6 +118,15 @@ void require_even_columns(const ChannelSeries& series) {
     throw std::invalid_argument(fmt::format("a rate of {} Hz", series.rate_hz));
 }
 
+// By name: some channels are left out.
+void count_outliers(const ChannelSeries& given, const std::vector<std::uint64_t>& n_outlying, SeriesResult& result) {
+  for (std::size_t c = 0; c < result.channels.size() && c < result.estimate.channels.size(); ++c) {
+    for (std::size_t g = 0; g < n_outlying.size(); ++g) {
+      if (given.channels[g].name == result.channels[c].name) result.estimate.channels[c].n_outlying = n_outlying[g];
+    }
+  }
+}
+
 }  // namespace
 
 SeriesResult identify_series(const ChannelSeries& given, const SeriesOptions& options) {
@@ -122,6 +134,8 @@ SeriesResult identify_series(const ChannelSeries& given, const SeriesOptions& op
   ChannelSeries series = given;
   SeriesResult result;
   core::IdentifierConfig identifier = options.identifier;
+  std::vector<std::uint64_t> n_outlying;
+  if (options.mask_faults) n_outlying = mask_faults(series, result.remarks);
   leave_out_unusable(series, identifier.references, result.remarks);
   if (options.decimate) result.decimation = decimate_to(series, identifier.max_frequency_hz, result.remarks);
   if (result.decimation > 1) identifier.edge_hz = core::Decimator::kPassband * series.rate_hz;
@@ -147,6 +161,7 @@ SeriesResult identify_series(const ChannelSeries& given, const SeriesOptions& op
   }
   result.estimate.final = true;
   result.channels = series.channels;
+  count_outliers(given, n_outlying, result);
   if (series.channels.size() == 1)
     result.remarks.push_back(
         "one channel has no shape: a mode cannot be distinguished from a spectral line of the input");

@@ -28,28 +28,32 @@ std::string channel_name(const std::vector<std::string>& names, std::size_t i) {
   return i < names.size() ? names[i] : fmt::format("channel_{}", i);
 }
 
-Json shape_json(const core::Mode& mode, const std::vector<std::string>& names) {
-  if (mode.shape.empty()) return nullptr;
-  Json shape = Json::object();
-  for (std::size_t i = 0; i < mode.shape.size(); ++i) {
-    shape[channel_name(names, i)] = {mode.shape[i].real(), mode.shape[i].imag()};
+// Components of channels that took no part are unknown.
+template <class Value>
+Json components_json(const ModalReport& report, std::size_t n, Value value) {
+  if (n == 0) return nullptr;
+  Json out = Json::object();
+  const auto& channels = report.estimate.channels;
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool is_known = i >= channels.size() || channels[i].takes_part;
+    out[channel_name(report.channel_names, i)] = is_known ? Json(value(i)) : Json(nullptr);
   }
-  return shape;
+  return out;
 }
 
-Json real_shape_json(const core::Mode& mode, const std::vector<std::string>& names) {
-  if (mode.shape.empty()) return nullptr;
-  Json shape = Json::object();
+Json shape_json(const core::Mode& mode, const ModalReport& report) {
+  return components_json(report, mode.shape.size(), [&](std::size_t i) {
+    return Json{mode.shape[i].real(), mode.shape[i].imag()};
+  });
+}
+
+Json real_shape_json(const core::Mode& mode, const ModalReport& report) {
   const std::vector<double> real = core::real_shape(mode.shape);
-  for (std::size_t i = 0; i < real.size(); ++i) shape[channel_name(names, i)] = real[i];
-  return shape;
+  return components_json(report, real.size(), [&](std::size_t i) { return real[i]; });
 }
 
-Json shape_std_json(const core::Mode& mode, const std::vector<std::string>& names) {
-  if (mode.shape_std.empty()) return nullptr;
-  Json shape_std = Json::object();
-  for (std::size_t i = 0; i < mode.shape_std.size(); ++i) shape_std[channel_name(names, i)] = mode.shape_std[i];
-  return shape_std;
+Json shape_std_json(const core::Mode& mode, const ModalReport& report) {
+  return components_json(report, mode.shape_std.size(), [&](std::size_t i) { return mode.shape_std[i]; });
 }
 
 Json history_json(const std::optional<core::ModeHistory>& history) {
@@ -73,19 +77,19 @@ Json interval_json(const std::optional<core::Interval>& interval) {
 // The paper's shapes are real ones: its chain gives both.
 Json mode_json(const core::Mode& mode, const ModalReport& report) {
   const core::ModalEstimate& estimate = report.estimate;
-  const std::vector<std::string>& names = report.channel_names;
   Json out = Json::object();
   out["frequency_hz"] = mode.frequency_hz;
   out["frequency_std_hz"] = or_null(mode.frequency_std_hz);
   out["apparent_hz"] = mode.apparent_hz;
   out["fold_n"] = or_null(mode.fold_n);
   out["fold_margin"] = or_null(mode.fold_margin);
+  out["may_be_hz"] = mode.may_be_hz;
   out["damping_ratio"] = mode.damping_ratio;
   out["damping_std"] = or_null(mode.damping_std);
   out["damping_interval_95"] = interval_json(core::damping_interval_95(mode, estimate.degrees_of_freedom));
-  out["shape"] = shape_json(mode, names);
-  if (report.method == to_text(Method::kPaper)) out["shape_real"] = real_shape_json(mode, names);
-  out["shape_std"] = shape_std_json(mode, names);
+  out["shape"] = shape_json(mode, report);
+  if (report.method == to_text(Method::kPaper)) out["shape_real"] = real_shape_json(mode, report);
+  out["shape_std"] = shape_std_json(mode, report);
   out["mpc"] = mode.mpc;
   out["emac"] = mode.emac;
   out["cmi"] = mode.emac * mode.mpc;
@@ -98,6 +102,30 @@ Json mode_json(const core::Mode& mode, const ModalReport& report) {
 Json modes_json(const std::vector<core::Mode>& modes, const ModalReport& report) {
   Json out = Json::array();
   for (const core::Mode& mode : modes) out.push_back(mode_json(mode, report));
+  return out;
+}
+
+Json channels_json(const ModalReport& report) {
+  Json out = Json::array();
+  for (std::size_t i = 0; i < report.estimate.channels.size(); ++i) {
+    const core::ChannelRecord& channel = report.estimate.channels[i];
+    out.push_back({{"name", channel_name(report.channel_names, i)},
+                   {"seen", channel.seen},
+                   {"outlying", channel.n_outlying},
+                   {"takes_part", channel.takes_part},
+                   {"reason", channel.reason.empty() ? Json(nullptr) : Json(channel.reason)}});
+  }
+  return out;
+}
+
+Json peaks_json(const ModalReport& report) {
+  Json out = Json::array();
+  for (const core::SpectralPeak& peak : report.estimate.peaks) {
+    out.push_back({{"frequency_hz", peak.frequency_hz},
+                   {"resolution_hz", peak.resolution_hz},
+                   {"height", peak.height},
+                   {"share", components_json(report, peak.share.size(), [&](std::size_t i) { return peak.share[i]; })}});
+  }
   return out;
 }
 
@@ -153,8 +181,11 @@ std::string modal_json(const ModalReport& report, std::size_t* n_not_finite) {
   out["segments"] = estimate.n_segments;
   out["remembered_s"] = estimate.remembered_s;
   out["degrees_of_freedom"] = positive_or_null(estimate.degrees_of_freedom);
+  out["resolution_hz"] = positive_or_null(estimate.resolution_hz);
+  out["channels"] = channels_json(report);
   out["modes"] = modes_json(estimate.modes, report);
   out["rejected"] = modes_json(estimate.rejected, report);
+  out["peaks"] = peaks_json(report);
   out["readout"] = readout_json(estimate.readout);
   out["corrections"] = report.corrections;
   out["caveats"] = report.caveats;

@@ -31,8 +31,11 @@ class ModalReader {
     estimate.n_segments = count(root, "segments");
     estimate.degrees_of_freedom = optional_number(root, "degrees_of_freedom").value_or(0.0);
     estimate.final = true;
+    estimate.resolution_hz = optional_number(root, "resolution_hz").value_or(0.0);
+    read_channels(root);
     estimate.modes = modes(root, "modes");
     estimate.rejected = modes(root, "rejected");
+    read_peaks(root);
     if (const Json* readout = find(root, "readout")) estimate.readout = readout_of(*readout);
     report_.corrections = texts(root, "corrections");
     report_.caveats = texts(root, "caveats");
@@ -109,6 +112,10 @@ class ModalReader {
       out.fold_n = static_cast<int>(n);
     }
     out.fold_margin = optional_number(item, "fold_margin");
+    if (const Json* others = find(item, "may_be_hz")) {
+      if (!others->is_array()) refuse(name + ".may_be_hz", "is no list");
+      for (const Json& hz : *others) out.may_be_hz.push_back(finite(hz, name + ".may_be_hz"));
+    }
     out.damping_ratio = optional_number(item, "damping_ratio").value_or(0.0);
     out.damping_std = optional_number(item, "damping_std");
     out.mpc = optional_number(item, "mpc").value_or(0.0);
@@ -164,7 +171,7 @@ class ModalReader {
     using core::Verdict;
     if (name_of_verdict.empty()) return Verdict::kStructural;  // a truth.json, where nothing was judged
     for (const Verdict verdict : {Verdict::kStructural, Verdict::kCameraMotion, Verdict::kInputPeak, Verdict::kHarmonic,
-                                  Verdict::kAmbiguous, Verdict::kNumerical}) {
+                                  Verdict::kAmbiguous, Verdict::kNumerical, Verdict::kCandidate}) {
       if (name_of_verdict == core::to_string(verdict)) return verdict;
     }
     refuse(name + ".verdict", fmt::format("`{}` is unknown", drivers::printable(name_of_verdict)));
@@ -181,8 +188,15 @@ class ModalReader {
     if (shape->size() != report_.channel_names.size())
       refuse(name + ".shape", "has other channels than the modes before");
     const Json* shape_std = find(item, "shape_std");
-    for (const std::string& channel : report_.channel_names) {
+    for (std::size_t i = 0; i < report_.channel_names.size(); ++i) {
+      const std::string& channel = report_.channel_names[i];
       const Json* value = find(*shape, channel.c_str());
+      const auto& records = report_.estimate.channels;
+      if (value == nullptr && i < records.size() && !records[i].takes_part) {  // unknown
+        out.shape.emplace_back(0.0);
+        if (shape_std != nullptr) out.shape_std.push_back(0.0);
+        continue;
+      }
       out.shape.push_back(component(value, fmt::format("{}.shape.{}", name, drivers::printable(channel))));
       if (shape_std == nullptr) continue;
       const auto channel_std = optional_number(*shape_std, channel.c_str());
@@ -196,6 +210,43 @@ class ModalReader {
     if (value != nullptr && value->is_number()) return finite(*value, name);
     if (value == nullptr || !value->is_array() || value->size() != 2) refuse(name, "is neither [re, im] nor a number");
     return {finite((*value)[0], name), finite((*value)[1], name)};
+  }
+
+  [[nodiscard]] bool truth(const Json& object, const char* key, bool otherwise) const {
+    const Json* value = find(object, key);
+    if (value == nullptr) return otherwise;
+    if (!value->is_boolean()) refuse(key, "is neither true nor false");
+    return value->get<bool>();
+  }
+
+  // They name the channels of all shapes.
+  void read_channels(const Json& root) {
+    const Json* list = find(root, "channels");
+    if (list == nullptr) return;
+    if (!list->is_array()) refuse("channels", "is no list");
+    for (const Json& item : *list) {
+      report_.channel_names.push_back(text(item, "name"));
+      core::ChannelRecord& record = report_.estimate.channels.emplace_back();
+      record.seen = optional_number(item, "seen").value_or(1.0);
+      record.n_outlying = count(item, "outlying");
+      record.takes_part = truth(item, "takes_part", true);
+      record.reason = text(item, "reason");
+    }
+  }
+
+  void read_peaks(const Json& root) {
+    const Json* list = find(root, "peaks");
+    if (list == nullptr) return;
+    if (!list->is_array()) refuse("peaks", "is no list");
+    for (const Json& item : *list) {
+      core::SpectralPeak& peak = report_.estimate.peaks.emplace_back();
+      peak.frequency_hz = optional_number(item, "frequency_hz").value_or(0.0);
+      peak.resolution_hz = optional_number(item, "resolution_hz").value_or(0.0);
+      peak.height = optional_number(item, "height").value_or(0.0);
+      const Json* share = find(item, "share");
+      for (const std::string& channel : report_.channel_names)
+        peak.share.push_back(share == nullptr ? 0.0 : optional_number(*share, channel.c_str()).value_or(0.0));
+    }
   }
 
   void read_losses(const Json& losses) {

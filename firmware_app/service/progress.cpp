@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <ctime>
 
+#include "firmware_app/report/estimate_words.h"
 #include "firmware_app/report/recording_words.h"
 #include "rt/clock.h"
 
@@ -16,12 +17,17 @@ namespace {
 constexpr std::int64_t kLinePeriodNs = 5'000'000'000;
 constexpr timespec kPace{0, 50'000'000};
 
-void print_mode(const core::Mode& mode, const std::vector<core::ChannelInfo>& channels) {
+void print_mode(const core::Mode& mode, const std::vector<core::ChannelInfo>& channels,
+                const std::vector<core::ChannelRecord>& records) {
   std::string shape;
   for (std::size_t c = 0; c < channels.size() && c < mode.shape.size(); ++c) {
-    shape += fmt::format(" {}={:+.2f}", channels[c].name, mode.shape[c].real());
+    const bool known = c >= records.size() || records[c].takes_part;
+    shape += known ? fmt::format(" {}={:+.2f}", channels[c].name, mode.shape[c].real())
+                   : fmt::format(" {}=?", channels[c].name);
   }
-  const std::string fold = mode.fold_n.value_or(0) != 0 ? fmt::format(" (seen at {:.3f} Hz)", mode.apparent_hz) : "";
+  const std::string fold =
+      (mode.fold_n.value_or(0) != 0 ? fmt::format(" (seen at {:.3f} Hz)", mode.apparent_hz) : "") +
+      other_frequencies_text(mode);
   spdlog::info("  {:9.4f} Hz{}  damping {:5.2f} %  MPC {:.3f} {}", mode.frequency_hz, fold, 100.0 * mode.damping_ratio,
                mode.mpc, shape);
 }
@@ -123,7 +129,9 @@ bool Progress::finish(const Pipeline::Outcome& outcome) {
   for (const std::string& note : outcome.notes) spdlog::warn("{}", note);
   spdlog::info("{} modes from {:.1f} s ({} segments){}", outcome.estimate.modes.size(), outcome.estimate.duration_s,
                outcome.estimate.n_segments, outcome.estimate.status == "ok" ? "" : ": " + outcome.estimate.status);
-  for (const core::Mode& mode : outcome.estimate.modes) print_mode(mode, pipeline_.channels());
+  for (const core::Mode& mode : outcome.estimate.modes)
+    print_mode(mode, pipeline_.channels(), outcome.estimate.channels);
+  for (const std::string& words : estimate_words(outcome.estimate, pipeline_.channels())) spdlog::warn("{}", words);
   if (!outcome.page.empty()) spdlog::info("open {}", outcome.page);
   if (outcome.fault.empty()) return true;
   spdlog::error("{}", outcome.fault);

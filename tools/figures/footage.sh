@@ -14,13 +14,10 @@ first=$first_seed
 out=build/figures/footage
 mkdir -p "$out"
 tools/setup.sh
-quietly tools/build.sh hovermodald hovermodal
+quietly tools/build.sh hovermodald hovermodal hovermodal-validate
 . tools/figures/footage_clips.sh
 . tools/figures/footage_telemetry.sh
 . tools/figures/footage_regions.sh
-if [ -e tools/figures/footage_signal.sh ]; then . tools/figures/footage_signal.sh; fi
-for figure in 2 4; do
-  declare -F "figure_$figure" >/dev/null || eval "figure_$figure() { line $figure SKIP 'not in this state of the project' '-' 'covered regions, short records'; }"
-done
+. tools/figures/footage_signal.sh
 
 run_figures "${figures[@]}"

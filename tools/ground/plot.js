@@ -14,6 +14,7 @@ export const kVerdicts = {
   "camera motion": { colour: "#cc79a7", shape: "diamond", say: "camera motion" },
   "input peak": { colour: "#b37700", shape: "triangle", say: "peak of the input" },
   "ambiguous": { colour: "#009e73", shape: "square", say: "ambiguous" },
+  "candidate": { colour: "#56b4e9", shape: "square", say: "candidate: record too short for a verdict" },
   "numerical": { colour: "#777777", shape: "dot", say: "numerical" },
 };
 export const verdictStyle = (name) => kVerdicts[name] || kVerdicts.numerical;

@@ -54,10 +54,18 @@ Match find(const app::ModalReport& report, const core::Mode& wanted, const std::
   return best;
 }
 
+// Not of a channel that took no part: its component is unknown.
+bool is_known(const app::ModalReport& report, const std::string& name) {
+  const auto at = std::find(report.channel_names.begin(), report.channel_names.end(), name);
+  const auto c = static_cast<std::size_t>(at - report.channel_names.begin());
+  return at != report.channel_names.end() &&
+         (c >= report.estimate.channels.size() || report.estimate.channels[c].takes_part);
+}
+
 std::vector<std::string> common_channels(const app::ModalReport& a, const app::ModalReport& b) {
   std::vector<std::string> names;
   for (const std::string& name : a.channel_names) {
-    if (std::find(b.channel_names.begin(), b.channel_names.end(), name) != b.channel_names.end()) names.push_back(name);
+    if (is_known(a, name) && is_known(b, name)) names.push_back(name);
   }
   return names;
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include "firmware_app/report/estimate_words.h"
+
 namespace tools {
 
 std::string modes_text(const core::ModalEstimate& estimate, const std::vector<core::ChannelInfo>& channels) {
@@ -12,15 +14,30 @@ std::string modes_text(const core::ModalEstimate& estimate, const std::vector<co
     text += fmt::format("  {:9.4f} Hz  damping {:5.2f} %  MPC {:.3f} ", mode.frequency_hz, 100.0 * mode.damping_ratio,
                         mode.mpc);
     for (std::size_t c = 0; c < channels.size() && c < mode.shape.size(); ++c) {
-      text += fmt::format(" {} {:+.3f}", channels[c].name, mode.shape[c].real());
+      const bool known = c >= estimate.channels.size() || estimate.channels[c].takes_part;
+      text += known ? fmt::format(" {} {:+.3f}", channels[c].name, mode.shape[c].real())
+                    : fmt::format(" {} unknown", channels[c].name);
     }
     if (mode.fold_n.value_or(0) != 0)
       text += fmt::format("  (seen at {:.4f} Hz, margin {:.2f})", mode.apparent_hz, mode.fold_margin.value_or(0.0));
+    if (const std::string others = app::other_frequencies_text(mode); !others.empty())
+      text += fmt::format("  (aliases not excluded{})", others);
     text += '\n';
   }
   for (const core::Mode& mode : estimate.rejected) {
     text += fmt::format("  {:9.4f} Hz  {}: {}\n", mode.frequency_hz, core::to_string(mode.verdict), mode.reason);
   }
+  if (!estimate.peaks.empty()) text += "peaks of the spectra, without a verdict:\n";
+  for (const core::SpectralPeak& peak : estimate.peaks) {
+    text += fmt::format("  {:9.4f} Hz  to {:.2g} Hz, height {:.0f} ", peak.frequency_hz, peak.resolution_hz, peak.height);
+    for (std::size_t c = 0; c < channels.size() && c < peak.share.size(); ++c) {
+      const bool known = c >= estimate.channels.size() || estimate.channels[c].takes_part;
+      text += known ? fmt::format(" {} {:.2f}", channels[c].name, peak.share[c])
+                    : fmt::format(" {} unknown", channels[c].name);
+    }
+    text += '\n';
+  }
+  for (const std::string& words : app::estimate_words(estimate, channels)) text += "note: " + words + "\n";
   return text;
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "tools/validate/closure_tracks.h"
+#include "tools/validate/footage.h"
 #include "tools/validate/geometry.h"
 #include "tools/validate/identification.h"
 #include "tools/validate/peaks.h"
@@ -102,6 +103,12 @@ void geometry(const Options& options) {
          is_drawn});
 }
 
+// What real footage lacks.
+template <void (*print)(const FootageOptions&)>
+void footage(const Options& options) {
+  print({options.n_seeds, options.n_threads, options.first_seed});
+}
+
 // Closing the loop on tracks.
 template <void (*print)(const ClosureTracksOptions&)>
 void closure_tracks(const Options& options) {
@@ -183,6 +190,10 @@ constexpr std::array kChecks{
           closure_tracks<print_closure_live>, kRecords | kDuration | kEffect | kStrength},
     Check{"closure-live-null", "the same on records without one", closure_tracks<print_closure_live_null>,
           kRecords | kDuration},
+    Check{"footage-covered", "a floor covered from some frame on", footage<print_covered>, kRecords},
+    Check{"footage-glitches", "single frames in which a region was tracked wrongly", footage<print_glitches>, kRecords},
+    Check{"footage-short", "records of a few cycles, and pure noise: what is called a mode", footage<print_short>,
+          kRecords},
     Check{"readout", "readout time estimated from tracks", geometry<print_readout>, kRecords},
     Check{"readout-drawn", "the same with camera, structure and noise drawn", geometry<print_readout, true>, kRecords},
     Check{"geometry", "the paper's experiment, one correction after the other", geometry<print_geometry>, kFlights},

@@ -16,7 +16,7 @@ namespace {
 
 const auto kBlocks = static_cast<std::size_t>(core::WelchConfig{}.n_blocks);
 constexpr double kSamePower = 1e-5;            // rounding in a tracks.csv changes less; another flight more
-constexpr std::uint32_t kLayout = 0x32767368;  // first of the bytes
+constexpr std::uint32_t kLayout = 0x33767368;  // first of the bytes
 
 template <class Archive, class Sums>
 void describe_totals(Archive& archive, Sums& sums) {
@@ -27,6 +27,7 @@ void describe_totals(Archive& archive, Sums& sums) {
   archive.value(sums.weight);
   archive.value(sums.n_samples);
   archive.value(sums.n_missing);
+  archive.list(sums.n_outlying);
   archive.value(sums.window_power);
   archive.list(sums.data_sum);
   archive.list(sums.mask_sum);
@@ -78,6 +79,7 @@ bool is_consistent(const SetupSums& view) {
   if (sums.n_channels < 1 || sums.n_fft < 2 || !(sums.rate_hz > 0.0)) return false;
   const auto channels = static_cast<std::size_t>(sums.n_channels);
   if (view.record.channels.size() != channels || view.basis.row_share.size() != channels) return false;
+  if (!sums.n_outlying.empty() && sums.n_outlying.size() != channels) return false;
   const std::size_t size = channels * (channels + 1) / 2 * static_cast<std::size_t>(sums.n_bins());
   const auto fits = [size](const auto& part) { return part.data_sum.size() == size && part.mask_sum.size() == size; };
   return fits(sums) && std::all_of(sums.blocks.begin(), sums.blocks.end(), fits);

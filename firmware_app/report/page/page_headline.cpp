@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware_app/report/estimate_words.h"
 #include "firmware_app/report/page/page_parts.h"
 #include "firmware_app/report/plot/verdict_marks.h"
 #include "firmware_app/report/recording_words.h"
@@ -108,6 +109,7 @@ HtmlCell frequency_cell(const core::Mode& mode) {
   std::string out = four_digits_text(mode.frequency_hz);
   if (mode.frequency_std_hz) out += " ± " + decimals_text(*mode.frequency_std_hz, 3);
   out += " Hz";
+  out += other_frequencies_text(mode);
   if (!is_folded(mode)) return {out, {}};
   return {out, fmt::format("<small>seen at {} Hz</small>", svg_escaped(four_digits_text(mode.apparent_hz)))};
 }
@@ -138,6 +140,30 @@ std::string poles_table(const std::vector<core::Mode>& modes, const char* first_
   return table.html();
 }
 
+std::string peaks_html(const PictureInputs& inputs, const core::ModalEstimate& estimate) {
+  if (estimate.peaks.empty()) return {};
+  std::vector<std::string> columns{"Frequency", "Height"};
+  for (const core::ChannelInfo& channel : inputs.channels) columns.push_back(channel.name);
+  HtmlTable table(std::move(columns));
+  for (const core::SpectralPeak& peak : estimate.peaks) {
+    std::vector<HtmlCell> cells{{fmt::format("{} ± {} Hz", four_digits_text(peak.frequency_hz),
+                                             decimals_text(0.5 * peak.resolution_hz, 3)),
+                                 {}},
+                                {decimals_text(peak.height, 0), {}}};
+    for (std::size_t c = 0; c < inputs.channels.size(); ++c) {
+      const bool known = c < peak.share.size() && (c >= estimate.channels.size() || estimate.channels[c].takes_part);
+      cells.push_back({known ? decimals_text(peak.share[c], 2) : "–", {}});
+    }
+    table.add(std::move(cells));
+  }
+  return fmt::format("<details><summary>{} of the spectra, without a verdict</summary>\n{}{}</details>\n",
+                     plural(estimate.peaks.size(), "peak", "peaks"),
+                     paragraph_html("Height: power over that beside it; then each channel's amplitude, the largest is 1. "
+                                    "Motion of the camera, inputs and machines have peaks, too.",
+                                    "note"),
+                     table.html());
+}
+
 }  // namespace
 
 std::string headline_html(const PictureInputs& inputs) {
@@ -152,6 +178,7 @@ std::string headline_html(const PictureInputs& inputs) {
        {rejected_sentence(estimate), losses_sentence(facts), recording_words(facts.health.times)}) {
     if (!sentence.empty()) words += " " + sentence;
   }
+  for (const std::string& sentence : estimate_words(estimate, inputs.channels)) words += " " + sentence;
   out += paragraph_html(words, "verdict");
   return out + facts_html(inputs, estimate) + "</header>\n";
 }
@@ -169,6 +196,7 @@ std::string modes_section(const PictureInputs& inputs) {
                         plural(estimate.rejected.size(), "rejected pole", "rejected poles"),
                         poles_table(estimate.rejected, "Pole"));
   }
+  body += peaks_html(inputs, estimate);
   return section_html("modes", "Modes", body);
 }
 

@@ -11,6 +11,7 @@
 
 #include "drivers/storage/json.h"
 #include "drivers/storage/text_file.h"
+#include "firmware_app/report/estimate_words.h"
 #include "firmware_app/report/page/report_page.h"
 #include "firmware_app/report/pictures/parts.h"
 
@@ -64,7 +65,15 @@ class PictureWriter {
 
 }  // namespace
 
-std::vector<std::string> write_pictures(const std::string& directory, const PictureInputs& inputs) {
+std::vector<std::string> write_pictures(const std::string& directory, const PictureInputs& given) {
+  PictureInputs inputs = given;
+  core::ModalEstimate estimate;
+  const auto takes_part = [](const core::ChannelRecord& channel) { return channel.takes_part; };
+  if (given.estimate != nullptr &&
+      !std::all_of(given.estimate->channels.begin(), given.estimate->channels.end(), takes_part)) {
+    estimate = with_unknown_components(*given.estimate);
+    inputs.estimate = &estimate;
+  }
   PictureWriter writer(directory);
   writer.write("frame.png", [&] { return frame_png(inputs); });
   writer.write("displacements.svg", [&] { return displacements_svg(inputs, kFileFormat); });

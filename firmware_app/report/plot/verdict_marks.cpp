@@ -7,7 +7,7 @@ namespace {
 
 using core::Verdict;
 
-constexpr std::array<VerdictMark, 6> kMarks{
+constexpr std::array<VerdictMark, 7> kMarks{
     VerdictMark{Verdict::kStructural, "mode", "modes", "v", Marker::kDot, "m0",
                 "A mode of vibration of the structure."},
     VerdictMark{Verdict::kCameraMotion, "camera motion", "camera motion", "w", Marker::kTriangle, "k7 n",
@@ -18,12 +18,14 @@ constexpr std::array<VerdictMark, 6> kMarks{
                 "A machine running at constant speed, not a mode."},
     VerdictMark{Verdict::kAmbiguous, "alias open", "alias open", "w u", Marker::kRing, "k3 n",
                 "A mode, but the frame rate leaves open which of its possible frequencies is the true one."},
+    VerdictMark{Verdict::kCandidate, "candidate", "candidates", "w u", Marker::kRing, "k2 n",
+                "May be a mode, but the record is too short for a verdict: seen over too few cycles."},
     VerdictMark{Verdict::kNumerical, "numerical", "numerical", "w", Marker::kCross, "k7 n",
                 "Does not persist over the model orders, or its components are out of phase: not trusted."}};
 
 }  // namespace
 
-const std::array<VerdictMark, 6>& verdict_marks() noexcept { return kMarks; }
+const std::array<VerdictMark, 7>& verdict_marks() noexcept { return kMarks; }
 
 const VerdictMark& mark_of(core::Verdict verdict) noexcept {
   const auto found =

@@ -18,7 +18,7 @@ struct VerdictMark {
   const char* meaning;  // one sentence for people
 };
 
-[[nodiscard]] const std::array<VerdictMark, 6>& verdict_marks() noexcept;
+[[nodiscard]] const std::array<VerdictMark, 7>& verdict_marks() noexcept;
 [[nodiscard]] const VerdictMark& mark_of(core::Verdict verdict) noexcept;
 
 }  // namespace app

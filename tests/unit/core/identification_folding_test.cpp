@@ -41,6 +41,23 @@ Seen observe(double frequency_hz, const std::vector<double>& delay_s) {
   return seen;
 }
 
+TEST(Folding, StatesTheFrequenciesThatTheSamplesDoNotExclude) {
+  // Rows read at once: no delay tells the alias order.
+  FoldingConfig blind{kRate, 0.0, std::vector<double>(kShape.size(), 0.0)};
+  const Seen seen = observe(3.0, blind.delay_s);
+  const std::vector<double> others = other_frequencies(unfold(seen.lambda, seen.shape, blind), blind, 0.3);
+  ASSERT_EQ(others.size(), 4U);
+  const std::vector<double> wanted{22.0, 28.0, 47.0, 53.0};
+  for (std::size_t i = 0; i < others.size(); ++i) EXPECT_NEAR(others[i], wanted[i], 0.02);
+  // Declared: nothing above half the rate.
+  blind.max_frequency_hz = 12.0;
+  EXPECT_TRUE(other_frequencies(unfold(seen.lambda, seen.shape, blind), blind, 0.3).empty());
+  // Row delays exclude them, though nobody asked for the alias order.
+  const FoldingConfig rows = seven_rows(0.9 / kRate, 0.0);
+  const Seen rolled = observe(3.0, rows.delay_s);
+  EXPECT_TRUE(other_frequencies(unfold(rolled.lambda, rolled.shape, rows), rows, 0.3).empty());
+}
+
 TEST(Folding, RecoversEveryFold) {
   const FoldingConfig config = seven_rows(0.9 / kRate, 60.0);
   const struct {

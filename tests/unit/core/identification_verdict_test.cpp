@@ -63,6 +63,35 @@ TEST(Verdict, ScatterBelowZeroDampingIsForgiven) {
   EXPECT_EQ(judged(cluster).verdict, Verdict::kStructural);
 }
 
+TEST(Verdict, FewCyclesOrFewSamplesLeaveACandidate) {
+  VerdictRules rules;
+  rules.record_s = 20.0, rules.samples_per_row = 100.0, rules.resolution_hz = 0.05;  // 60 cycles of 3 Hz
+  EXPECT_EQ(judge(flawless(), {}, channels(), kOrders, rules).verdict, Verdict::kStructural);
+  rules.record_s = 2.0;
+  const Mode brief = judge(flawless(), {}, channels(), kOrders, rules);
+  EXPECT_EQ(brief.verdict, Verdict::kCandidate);
+  EXPECT_EQ(brief.frequency_hz, 3.0);
+  EXPECT_NE(brief.reason.find("6.0 cycles"), std::string::npos) << brief.reason;
+  EXPECT_NE(brief.reason.find("0.05 Hz"), std::string::npos) << brief.reason;
+  rules.record_s = 20.0, rules.samples_per_row = 3.0;
+  EXPECT_EQ(judge(flawless(), {}, channels(), kOrders, rules).verdict, Verdict::kCandidate);
+}
+
+TEST(Verdict, AboveTheDeclaredHighestFrequencyNothingIsAMode) {
+  VerdictRules rules;
+  rules.max_frequency_hz = 2.0;
+  EXPECT_EQ(judge(flawless(), {}, channels(), kOrders, rules).verdict, Verdict::kNumerical);
+  rules.max_frequency_hz = 4.0;
+  EXPECT_EQ(judge(flawless(), {}, channels(), kOrders, rules).verdict, Verdict::kStructural);
+}
+
+TEST(Verdict, MotionOfOnePartlyMaskedChannelIsNoMode) {
+  Mode mode = judged(flawless());
+  reject_lone_motion(mode, "floor2", 0.6);
+  EXPECT_EQ(mode.verdict, Verdict::kNumerical);
+  EXPECT_NE(mode.reason.find("only floor2 moves, and 40 %"), std::string::npos) << mode.reason;
+}
+
 TEST(Verdict, AllChannelsAlikeAreTheCamera) {
   PoleCluster cluster = flawless();
   cluster.representative.shape = {0.97, 1.0, 0.99, 1.0};

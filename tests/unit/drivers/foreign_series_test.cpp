@@ -89,6 +89,18 @@ TEST_F(ForeignSeries, LabviewMeasurementsKeepUnitsAndRate) {
   EXPECT_EQ(series.units[1], "g");
 }
 
+TEST_F(ForeignSeries, LabviewHeadsWithCommasAreReadAsThoseWithTabs) {
+  const SeriesFile series = read(
+      "LabVIEW Measurement,\nSeparator,Comma\nDecimal_Separator,.\nX_Columns,One\n***End_of_Header***,\n,\n"
+      "Channels,2,,\nSamples,2,2,\nY_Unit_Label,g,Newtons,\nDelta_X,0.001,0.001,\n***End_of_Header***,,,\n"
+      "X_Value,Acceleration,Force,Comment\n0.0000000,-0.5,1\n0.0009766,0.25,2\n");
+  ASSERT_TRUE(series.rate_hz.has_value());
+  EXPECT_NEAR(*series.rate_hz, 1000.0, 1e-9);
+  EXPECT_THAT(series.names, ElementsAre("X_Value", "Acceleration", "Force"));
+  EXPECT_THAT(series.columns[1], ElementsAre(-0.5, 0.25));
+  EXPECT_EQ(series.units[2], "Newtons");
+}
+
 TEST_F(ForeignSeries, RefusalsNameTheLine) {
   EXPECT_THAT(refusal("a,b\n1,2\n3\n"), AllOf(HasSubstr("a.csv:3:"), HasSubstr("1 cells instead of 2")));
   EXPECT_THAT(refusal("a,b\n1,2\n3,x\n"), AllOf(HasSubstr("a.csv:3:"), HasSubstr("`x` is no number")));

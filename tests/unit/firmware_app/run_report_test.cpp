@@ -82,6 +82,8 @@ TEST_F(RunReportTest, ModalJsonHasExactlyTheAgreedLayout) {
   "segments": 4,
   "remembered_s": 0,
   "degrees_of_freedom": null,
+  "resolution_hz": null,
+  "channels": [],
   "modes": [
     {
       "frequency_hz": 1.657,
@@ -89,6 +91,7 @@ TEST_F(RunReportTest, ModalJsonHasExactlyTheAgreedLayout) {
       "apparent_hz": 1.657,
       "fold_n": null,
       "fold_margin": null,
+      "may_be_hz": [],
       "damping_ratio": 0.01,
       "damping_std": null,
       "damping_interval_95": null,
@@ -126,6 +129,7 @@ TEST_F(RunReportTest, ModalJsonHasExactlyTheAgreedLayout) {
       "apparent_hz": 1.657,
       "fold_n": -1,
       "fold_margin": 0.25,
+      "may_be_hz": [],
       "damping_ratio": 0.01,
       "damping_std": null,
       "damping_interval_95": null,
@@ -149,6 +153,7 @@ TEST_F(RunReportTest, ModalJsonHasExactlyTheAgreedLayout) {
       "history": null
     }
   ],
+  "peaks": [],
   "readout": null,
   "corrections": [
     "camera roll"

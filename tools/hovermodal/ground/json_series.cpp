@@ -32,6 +32,8 @@ const char* verdict_name(std::int8_t verdict) {
       return "harmonic";
     case Mode::AMBIGUOUS:
       return "ambiguous";
+    case Mode::CANDIDATE:
+      return "candidate";
     default:
       return "numerical";
   }

@@ -24,7 +24,7 @@ struct IdentifyOptions {
   int segment = 0;
   int n_differences = -1;  // -1 = automatic
   core::IdentifierConfig identifier;
-  bool merge = false;
+  bool merge = false, keep_all = false;
   std::string report;
 };
 
@@ -55,6 +55,7 @@ SeriesFindings identify_file(const IdentifyOptions& options, const std::string& 
     // Of set-ups they are what joins the shapes; each alone uses all its channels.
     if (!options.merge) series.identifier.references.push_back(channel);
   }
+  series.mask_faults = !options.keep_all;
   series.report_directory = report;
   series.source = std::filesystem::path(path).filename().string();
   series.progress = [&](double share) { fmt::print(stderr, "{}: spectra {:.0f} %\n", path, 100.0 * share); };
@@ -143,6 +144,8 @@ void add_method_options(CLI::App& command, IdentifyOptions& options) {
       ->capture_default_str();
   command.add_option("--differences", options.n_differences,
                      "Prewhitening differences (default: 1 where there are displacements, else 0)");
+  command.add_flag("--keep-all", options.keep_all,
+                   "Use every number: fill values, stuck stretches and single outliers are not masked");
   command.add_flag("--merge", options.merge, "The files are set-ups of one structure, joined by --reference");
   command
       .add_option("--report", options.report, "Folder for modal.json and report.html (several files: one folder each)")

@@ -77,8 +77,9 @@ std::string lower_without_blanks(const std::string& name) {
 }  // namespace
 
 int time_column(const drivers::SeriesFile& file) {
-  constexpr std::array<std::string_view, 9> kNames{"t_s",     "t",       "time",    "time_s", "t[s]",
-                                                   "time[s]", "time(s)", "seconds", "t(s)"};
+  // x_value: LabVIEW's, with more digits than the Delta_X of its head.
+  constexpr std::array<std::string_view, 10> kNames{"t_s",     "t",       "time", "time_s",  "t[s]",
+                                                    "time[s]", "time(s)", "seconds", "t(s)", "x_value"};
   for (std::size_t c = 0; c < file.names.size(); ++c) {
     const std::string name = lower_without_blanks(file.names[c]);
     if (std::find(kNames.begin(), kNames.end(), name) != kNames.end()) return static_cast<int>(c);
@@ -99,7 +100,8 @@ SampleGrid sample_grid(const drivers::SeriesFile& file, double rate_hz, const st
       grid.rate_hz = rate_hz > 0.0 ? rate_hz : measured_hz;
       return grid;
     }
-    grid.remarks.push_back(fmt::format("column {} is not used: its times do not go forward",
+    const bool is_empty = std::all_of(t.begin(), t.end(), [](double x) { return std::isnan(x); });
+    if (!is_empty) grid.remarks.push_back(fmt::format("column {} is not used: its times do not go forward",
                                        file.names[static_cast<std::size_t>(i_time)]));
   }
   if (file.rate_hz) require_agreement(rate_hz, *file.rate_hz, "head", path);

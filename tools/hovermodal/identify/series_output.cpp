@@ -40,6 +40,26 @@ std::string write_findings(const app::SeriesResult& result, const std::string& d
   return page_of(directory);
 }
 
+namespace {
+
+// Unknown components must not be joined as zeros.
+void leave_out_unknown(core::SetupModes& setup) {
+  for (std::size_t c = setup.channels.size(); c-- > 0;) {
+    if (c >= setup.estimate.channels.size() || setup.estimate.channels[c].takes_part) continue;
+    const auto at = static_cast<std::ptrdiff_t>(c);
+    setup.channels.erase(setup.channels.begin() + at);
+    setup.estimate.channels.erase(setup.estimate.channels.begin() + at);
+    for (auto* modes : {&setup.estimate.modes, &setup.estimate.rejected}) {
+      for (core::Mode& mode : *modes) {
+        if (c < mode.shape.size()) mode.shape.erase(mode.shape.begin() + at);
+        if (c < mode.shape_std.size()) mode.shape_std.erase(mode.shape_std.begin() + at);
+      }
+    }
+  }
+}
+
+}  // namespace
+
 app::SeriesResult merge_findings(const std::vector<SeriesFindings>& setups) {
   std::vector<core::SetupModes> list;
   for (const SeriesFindings& setup : setups) {
@@ -48,6 +68,7 @@ app::SeriesResult merge_findings(const std::vector<SeriesFindings>& setups) {
     one.estimate = setup.result.estimate;
     one.channels = setup.result.channels;
     one.references = setup.references;
+    leave_out_unknown(one);
   }
   core::MergedSetups merged = core::merge_setups(list);
   app::SeriesResult result;
