@@ -114,7 +114,7 @@ void validate_effects(const Scene& s) {
     require_range("vibration by the rotors (rad rms)", rms, 0.0, 0.01);
   }
   require_range("drift of the frequencies", s.change.frequency_drift, -0.5, 0.5);
-  require_range("softening", s.change.softening, -0.1, 0.1);
+  require_range("softening", s.change.softening, -0.15, 0.15);
   require_range("jitter (s rms)", s.timing.jitter_rms_s, 0.0, 0.2 / s.camera.rate_hz);
   require_range("probability of a drop", s.timing.drop_probability, 0.0, 0.5);
   require_range("probability of a duplicate", s.timing.duplicate_probability, 0.0, 0.5);

@@ -25,6 +25,13 @@ void Diagnosis::amend(core::closure::ClosureReport& report) {
     if (!refused.empty()) report.changes.push_back("none of this is done: " + refused);
   }
   report.in_force = book_.newest().words;
+  // At the end of the run: what was to begin later never did.
+  for (std::uint32_t i = book_.newest().number; report.final && i > 0 && begins_after(i, report.last_sequence); --i)
+    report.in_force = book_.at(i - 1).words;
+}
+
+bool Diagnosis::begins_after(std::uint32_t number, std::uint64_t last_sequence) const {
+  return book_.at(number).from_sequence > last_sequence;
 }
 
 std::string Diagnosis::begin(const CorrectionSet& correction_set) {

@@ -34,6 +34,7 @@ class Diagnosis {
 
  private:
   void amend(core::closure::ClosureReport& report);
+  [[nodiscard]] bool begins_after(std::uint32_t number, std::uint64_t last_sequence) const;
   [[nodiscard]] std::string begin(const CorrectionSet& correction_set);  // why it cannot be; empty: it will
 
   MissingEffectSearch loop_;

@@ -34,7 +34,8 @@ MissingEffectSearchConfig missing_effect_search_config(const AppConfig& config, 
           config.closure.period_s,
           std::min(config.closure.delay_s, config.closure.period_s),
           config.closure.adopt == ClosureAdopt::kAuto,
-          config.closure.least_px};
+          config.closure.least_px,
+          camera.frame_count};
 }
 
 void MissingEffectSearch::take(const core::TrackFrame& frame) noexcept {
@@ -80,7 +81,8 @@ core::closure::ClosureReport MissingEffectSearch::report(bool final) {
   conclude(out);
   if (!config_.adopts) return out;
   changes_from_ = first_unreported_ + n_delay_frames();
-  if (!final) out.changes = adoption_.update(out, changes_from_);
+  const bool ends_before = config_.n_frames > 0 && changes_from_ >= config_.n_frames;
+  if (!final && !ends_before) out.changes = adoption_.update(out, changes_from_);
   out.in_force = adoption_.words();
   has_changed_ = !out.changes.empty();
   return out;

@@ -24,6 +24,7 @@ struct MissingEffectSearchConfig {
   double delay_s = 30.0;   // from the last frame of a report to the first that it changes
   bool adopts = false;
   double least_px = 0.0;  // rms: what moves the points less is not told
+  std::uint64_t n_frames = 0;  // of a recording: nothing begins after its last frame; 0 = not known
 };
 // With closure.adopt: off it keeps one frame.
 [[nodiscard]] MissingEffectSearchConfig missing_effect_search_config(const AppConfig& config, const core::CameraInfo& camera,

@@ -53,6 +53,10 @@ std::string closure_json(const core::closure::ClosureResult& result) {
   out["baseline"] = {{"residual_rms", result.baseline_rms}, {"noise_floor", result.noise_floor}, {"unit", result.unit}};
   out["steps"] = Json::array();
   for (const auto& step : result.steps) out["steps"].push_back(step_json(step));
+  out["refused"] = Json::array();
+  for (const auto& candidate : result.refused)
+    out["refused"].push_back(
+        {{"effect", candidate.effect}, {"heldout", candidate.heldout}, {"reason", candidate.refusal}});
   out["unexplained"] = {{"fraction", result.unexplained_fraction}, {"description", result.unexplained}};
   out["not_observable"] = Json::array();
   for (const auto& effect : result.not_observable)

@@ -11,6 +11,7 @@ namespace app {
 
 // The residual of each mode before and after, percent of frequency, with one standard deviation of the reference to
 // both sides; a file of its own. Empty where no mode has a reference.
-[[nodiscard]] std::string closure_modes_svg(const core::closure::ClosureResult& result);
+[[nodiscard]] std::string closure_modes_svg(const core::closure::ClosureResult& result,
+                                            const std::string& axis = "frequency of the model less the reference, %");
 
 }  // namespace app

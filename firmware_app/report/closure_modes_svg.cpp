@@ -23,7 +23,7 @@ struct Series {
   const char *fill, *line, *label;
 };
 
-PlotAxis error_axis(const ClosureResult& result) {
+PlotAxis error_axis(const ClosureResult& result, const std::string& axis) {
   double low = 0.0, high = 0.0;
   for (const auto* modes : {&result.modes_before, &result.modes_after}) {
     for (const ClosureMode& mode : *modes) {
@@ -32,7 +32,7 @@ PlotAxis error_axis(const ClosureResult& result) {
       high = std::max(high, *mode.error_percent + mode.sigma_percent.value_or(0.0));
     }
   }
-  return axis_around(low, high, "frequency of the model less the reference, %");
+  return axis_around(low, high, axis);
 }
 
 void draw_series(SvgDocument& svg, const PlotPanel& panel, const Series& series) {
@@ -52,7 +52,7 @@ void draw_series(SvgDocument& svg, const PlotPanel& panel, const Series& series)
 
 }  // namespace
 
-std::string closure_modes_svg(const ClosureResult& result) {
+std::string closure_modes_svg(const ClosureResult& result, const std::string& axis) {
   int last = 0;
   for (const ClosureMode& mode : result.modes_before) {
     if (mode.error_percent) last = std::max(last, mode.number);
@@ -63,7 +63,7 @@ std::string closure_modes_svg(const ClosureResult& result) {
            fmt::format("Residual of each mode: rms {:.2f} % before, {:.2f} % after", result.baseline_rms,
                        result.residual_rms),
            Anchor::kStart, "h");
-  PlotPanel panel(svg, kBox, {0.5, last + 0.5, false, "mode"}, error_axis(result));
+  PlotPanel panel(svg, kBox, {0.5, last + 0.5, false, "mode"}, error_axis(result, axis));
   panel.draw_x_axis(true, std::min(last, 10));
   panel.draw_y_axis(true, 8);
   panel.draw_frame();

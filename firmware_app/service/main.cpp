@@ -10,6 +10,7 @@
 #include "firmware_app/config/options.h"
 #include "firmware_app/service/pipeline.h"
 #include "firmware_app/service/progress.h"
+#include "firmware_app/service/run_diagnosis.h"
 #include "firmware_app/service/real_time.h"
 #include "firmware_app/service/service_notify.h"
 
@@ -25,8 +26,10 @@ int run(const app::AppConfig& config) {
   pipeline.start();
   progress.started();
   service.ready("running");
+  bool was_stopped = false;
   while (pipeline.running()) {
     if (signals.stop_requested()) {
+      was_stopped = true;
       pipeline.request_stop();
       progress.stopping();
       service.stopping();
@@ -34,7 +37,12 @@ int run(const app::AppConfig& config) {
     progress.tick();
     service.tick(pipeline.stall());
   }
-  return progress.finish(pipeline.join()) ? kDone : kFault;
+  const app::Pipeline::Outcome outcome = pipeline.join();
+  const bool is_done = progress.finish(outcome);
+  // A flight that was stopped ends at once; a recording that came to its end is gone through once more.
+  const auto goes_on = [&] { return service.tick({}), !signals.stop_requested(); };
+  if (is_done && !was_stopped) app::diagnose_run(config, outcome, goes_on);
+  return is_done ? kDone : kFault;
 }
 
 }  // namespace

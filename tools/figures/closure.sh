@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The figures of closing the loop: residual, effect, error before and after. One line a figure.
 #   tools/figures/closure.sh [--quick] [--seeds N] [--first-seed N] [FIGURE...]
-# FIGURE: some of 1 ... 11, 11b, 12, 13, 15 (default: all), or parts of 1 to 3 and 10: 1_tracks 1_pairs 1_series 1_structures
+# FIGURE: some of 1 ... 11, 11b, 12, 13, 14, 15 (default: all), or parts of 1 to 3 and 10: 1_tracks 1_pairs 1_series 1_structures
 # 2_tracks 2_series 2_structures 3_tracks 3_series 10_tracks 10_clips 10_demo. --quick takes a tenth of the seeds, --seeds so
 # many for each case; they begin with --first-seed (1001: those that nobody looked at while the loop was made).
 # Reports stay in build/figures/closure. SKIP where measured data (HOVERMODAL_DATA) are absent.
@@ -12,7 +12,7 @@ take_arguments "tools/figures/closure.sh [--quick] [--seeds N] [--first-seed N] 
 seeds=300 known=40 few=20 clip_s=60 null_clips=40 effect_clips=20 coded_clips=10
 [ -z "$quick" ] || seeds=30 known=4 few=2 clip_s=40 null_clips=2 effect_clips=2 coded_clips=1
 [ -z "$n_seeds" ] || seeds=$n_seeds known=$n_seeds few=$n_seeds
-[ ${#figures[@]} -gt 0 ] || figures=(1 2 3 4 5 6 7 8 9 10 11 11b 12 13 15)
+[ ${#figures[@]} -gt 0 ] || figures=(1 2 3 4 5 6 7 8 9 10 11 11b 12 13 14 15)
 out=build/figures/closure
 mkdir -p "$out"
 tools/setup.sh
@@ -70,6 +70,7 @@ PY
 . tools/figures/closure_outside.sh
 . tools/figures/closure_structure.sh
 . tools/figures/closure_response.sh
+. tools/figures/closure_series_tracked.sh
 . tools/figures/closure_camera.sh
 . tools/figures/closure_foreign.sh
 . tools/figures/closure_foreign_clips.sh

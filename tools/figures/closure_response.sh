@@ -35,7 +35,7 @@ figure_7() {
   closeloop shake_input --record "$shake/flexible_northridge.csv" --input ground_m_s2 --input-unknown --max-frequency 24 --reference "$out/shake_peaks.csv"
   local before after true_before true_after
   read -r before after true_before true_after < <(ask shake_input '" ".join(str(sum((m["reference_hz"] is None) == false for m in c[key])) for false in (True, False) for key in ("modes_before", "modes_after"))')
-  judge 7a "false modes $before -> $after, true ones $true_before -> $true_after of $(($(wc -l <"$out/shake_peaks.csv") - 1)); held-out innovations $(ask shake_input 'f"""{c["reference_error_before"]:.2f} -> {c["reference_error_after"]:.2f}"""'): $(ask shake_input '", ".join(s) or "nothing"')" \
+  judge 7a "false modes $before -> $after, true ones $true_before -> $true_after of $(($(wc -l <"$out/shake_peaks.csv") - 1)); held-out innovations $(ask shake_input 'f"""{c["reference_error_before"]:.2f} -> {c["reference_error_after"]:.2f}"""'): $(ask shake_input '", ".join(s) or "nothing"')$(ask shake_input '"".join("; " + r["effect"] + " " + r["reason"] for r in c["refused"] if "from zero" in r["reason"])')" \
     "false modes before, after: fewer, traced to the input's colour, no true mode lost" "shake table under an earthquake, the ground not declared" \
     "$after < $before && $true_after >= $true_before && $(ask shake_input 'int("input_colour" in s)') == 1"
   mkdir -p "$out/logger_tables"

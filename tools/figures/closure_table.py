@@ -45,6 +45,12 @@ def effect(step):
     return words
 
 
+def not_from_zero(c):
+    """Effects that the data do not tell from zero: said, not adopted."""
+    return [r["effect"].replace("_", " ") + " " + r["reason"] for r in c.get("refused", [])
+            if "cannot be distinguished from zero" in r["reason"]]
+
+
 def modes(c):
     found = [(len([m for m in c[k] if m["reference_hz"] is not None and m["frequency_hz"] > 0])) for k in ("modes_before", "modes_after")]
     false = [(len([m for m in c[k] if m["reference_hz"] is None])) for k in ("modes_before", "modes_after")]
@@ -64,7 +70,7 @@ def main():
         unit, steps = c["baseline"]["unit"], c["steps"]
         held = pair(steps[0]["heldout_before"], steps[-1]["heldout_after"], unit) if steps else "-"
         print("|", " | ".join([
-            words, f"{short(c['baseline']['residual_rms'])} {unit}", "; ".join(effect(s) for s in steps) or "nothing", held,
+            words, f"{short(c['baseline']['residual_rms'])} {unit}", "; ".join([effect(s) for s in steps] + not_from_zero(c)) or "nothing", held,
             pair(c["reference_error_before"], c["reference_error_after"], c["reference_unit"]), modes(c)]), "|")
 
 

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "tools/validate/closure_series_tracked.h"
 #include "tools/validate/closure_tracks.h"
 #include "tools/validate/footage.h"
 #include "tools/validate/geometry.h"
@@ -164,6 +165,10 @@ constexpr std::array kChecks{
     Check{"closure-series-outside", "the same with that effect taken out of the catalogue",
           identification<print_closure_series_outside>, kRecords},
     Check{"closure-series-null", "and on channels without any", identification<print_closure_series_null>, kRecords},
+    Check{"closure-series-tracked", "the same on displacements measured from tracks, with row delays",
+          closure_tracks<print_closure_series_tracked>, kRecords | kEffect},
+    Check{"closure-series-tracked-null", "and on such without any, from flights of many kinds",
+          closure_tracks<print_closure_series_tracked_null>, kRecords},
     Check{"closure-null", "closing the loop on a structure that lacks none", identification<print_closure_null>,
           kRecords},
     Check{"closure-tracks", "closing the loop on tracks with an undeclared effect",

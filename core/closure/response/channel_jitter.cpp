@@ -84,6 +84,16 @@ VectorXd squares_at(double sigma_s, const Rows& rows, const MatrixXd& whitened, 
   return out;
 }
 
+// The top of the parabola through the best of the grid and its neighbours, over ln sigma; 0: none is best.
+double sigma_at_top(const std::vector<double>& grid, const VectorXd& gain, Index best) {
+  if (best == 0) return 0.0;
+  const auto at = static_cast<std::size_t>(best);
+  if (best == 1 || at + 1 >= grid.size()) return grid[at];
+  const double low = gain(best - 1), top = gain(best), high = gain(best + 1), bend = low - 2.0 * top + high;
+  const double shift = bend < 0.0 ? std::clamp(0.5 * (low - high) / bend, -0.5, 0.5) : 0.0;
+  return grid[at] * std::pow(grid[at] / grid[at - 1], shift);
+}
+
 }  // namespace
 
 JitterFit fit_jitter(const ChannelRecord& scaled, const ChannelPredictor& predictor, const MatrixXd& whitened) {
@@ -106,35 +116,40 @@ JitterFit fit_jitter(const ChannelRecord& scaled, const ChannelPredictor& predic
   mean_outer /= n_plain;
   constexpr Index kParts = ChannelPredictor::kParts;
   const double ratio = std::pow(kMostOfStep / scaled.rate_hz / kLeast_s, 1.0 / (kGrid - 1));
-  VectorXd best = VectorXd::Zero(kParts + 1);  // drop of the sum without each part, and of all
-  std::vector<double> sigma(static_cast<std::size_t>(kParts) + 1, 0.0);
   VectorXd plain_squares(static_cast<Index>(rows.sample.size()));
   for (std::size_t i = 0; i < rows.sample.size(); ++i)
     plain_squares(static_cast<Index>(i)) = out.squares(rows.sample[i]);
-  std::vector<VectorXd> at_best(static_cast<std::size_t>(kParts) + 1, plain_squares);
-  double candidate = kLeast_s;
-  for (int g = 0; g < kGrid; ++g, candidate *= ratio) {
+  // Drop of the sum, by sigma (first row: none): without each part, and of all.
+  MatrixXd gain = MatrixXd::Zero(kGrid + 1, kParts + 1);
+  std::vector<VectorXd> squares_of{plain_squares};
+  std::vector<double> grid{kLeast_s / ratio};
+  for (int g = 0; g < kGrid; ++g) {
+    const double candidate = grid.back() * ratio;
     const VectorXd squares = squares_at(candidate, rows, whitened, mean_outer);
     if (!std::isfinite(squares(0))) break;
-    VectorXd gain = VectorXd::Zero(kParts + 1);
     for (std::size_t i = 0; i < rows.sample.size(); ++i) {
       if (predictor.plain[static_cast<std::size_t>(rows.sample[i])] == 0) continue;
       const double drop = plain_squares(static_cast<Index>(i)) - squares(static_cast<Index>(i));
-      gain(kParts) += drop;
-      gain(predictor.part_of(rows.sample[i])) -= drop;
+      gain.row(g + 1).array() += drop;
+      gain(g + 1, predictor.part_of(rows.sample[i])) -= drop;
     }
-    for (Index part = 0; part <= kParts; ++part) {
-      const double total = part < kParts ? gain(kParts) + gain(part) : gain(kParts);
-      if (total <= best(part)) continue;
-      best(part) = total;
-      sigma[static_cast<std::size_t>(part)] = candidate;
-      at_best[static_cast<std::size_t>(part)] = squares;
+    squares_of.push_back(squares);
+    grid.push_back(candidate);
+  }
+  std::vector<Index> best(static_cast<std::size_t>(kParts) + 1);
+  for (Index part = 0; part <= kParts; ++part) {
+    const auto n_tried = static_cast<Index>(grid.size());
+    gain.col(part).head(n_tried).maxCoeff(&best[static_cast<std::size_t>(part)]);
+    const double sigma_s = sigma_at_top(grid, gain.col(part).head(n_tried), best[static_cast<std::size_t>(part)]);
+    if (part < kParts) {
+      out.sigma_without_s.push_back(sigma_s);
+    } else {
+      out.sigma_s = sigma_s;
     }
   }
-  out.sigma_s = sigma.back();
   for (std::size_t i = 0; i < rows.sample.size(); ++i) {
     const auto part = static_cast<std::size_t>(predictor.part_of(rows.sample[i]));
-    out.squares(rows.sample[i]) = at_best[part](static_cast<Index>(i));
+    out.squares(rows.sample[i]) = squares_of[static_cast<std::size_t>(best[part])](static_cast<Index>(i));
   }
   return out;
 }

@@ -12,6 +12,7 @@ namespace core::closure {
 // jitter's mean share. Everything in whitened coordinates.
 struct JitterFit {
   double sigma_s = 0.0;
+  std::vector<double> sigma_without_s;  // without one part each, for its standard deviation
   Eigen::VectorXd squares;  // per sample, held out: -2 ln likelihood; as |whitened|^2 where sigma = 0
 };
 

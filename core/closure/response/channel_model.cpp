@@ -50,6 +50,7 @@ ChannelModel::ChannelModel(ChannelRecord record, InputUse use) : record_(std::mo
 std::vector<std::string> ChannelModel::effects() const {
   std::vector<std::string> out;
   for (const auto& effect : channel_effects()) {
+    if (record_.times_known && effect->is_of_the_clock()) continue;
     if (!effect->adds_input() || (use_ == InputUse::kUnknown && record_.input.cols() > 0))
       out.push_back(effect->name());
   }
@@ -71,6 +72,11 @@ std::vector<NotObservable> ChannelModel::not_observable() const {
        "film through a rolling shutter of known readout, or at a second rate"},
       {"integrator_bias", "a record does not determine the time step of the simulation that generated it",
        "give the step in --structure (dt_s)"}};
+  for (const auto& effect : channel_effects()) {
+    if (record_.times_known && effect->is_of_the_clock())
+      out.push_back({effect->name(), "the frames' times are known: gaps and repeats are in the record as such",
+                     "nothing: compare the times with another clock where they are doubted"});
+  }
   if (record_.input.cols() == 0)
     out.push_back({"input_colour",
                    "the input was not measured: its peaks differ from modes only in the motion of the base",
@@ -99,14 +105,19 @@ const ChannelModel::Prepared& ChannelModel::prepared(const Key& key) const {
                           });
   out->record = record_;
   if (!with_input) out->record.input.resize(record_.n_samples(), 0);
-  out->predictor = fit_predictor(out->record, kOrder, out->scaled);
+  const auto fit_again = [&out] {
+    out->relative = relative_to_input(out->record);
+    out->predictor = fit_predictor(out->relative, kOrder, out->scaled);
+  };
+  fit_again();
   for (const std::string& name : key) {
     const ChannelEffect& effect = channel_effect(name);
-    if (!effect.corrects() || !out->predictor.ok) continue;
-    ChannelEffect::Corrected corrected = effect.corrected({out->record, out->scaled, out->predictor});
-    out->n_places.push_back(corrected.n_places);
-    out->record = std::move(corrected.record);
-    out->predictor = fit_predictor(out->record, kOrder, out->scaled);
+    if (!effect.corrects()) continue;
+    out->done.emplace_back();
+    if (!out->predictor.ok) continue;
+    out->done.back() = effect.corrected({out->record, out->relative, out->scaled, out->predictor});
+    out->record = std::move(out->done.back().record);
+    fit_again();
   }
   if (out->predictor.ok) {
     out->derivative = frequency_derivative(out->predictor, record_.rate_hz);
@@ -146,6 +157,12 @@ MatrixXd ChannelModel::without_course(const Prepared& prepared, const VectorXd& 
   return out;
 }
 
+const CourseFit& ChannelModel::fitted_course(const Prepared& prepared, const std::string& effect,
+                                             const VectorXd& course) {
+  if (const auto found = prepared.course_fit.find(effect); found != prepared.course_fit.end()) return found->second;
+  return prepared.course_fit.emplace(effect, fit_course(prepared.relative, kOrder, course)).first->second;
+}
+
 ResponseFit ChannelModel::fit(const std::vector<std::string>& effects) const {
   ResponseFit out;
   const Prepared& here = prepared(key_of(effects));
@@ -166,18 +183,21 @@ ResponseFit ChannelModel::fit(const std::vector<std::string>& effects) const {
     const ChannelEffect& effect = channel_effect(name);
     double value = 0.0;
     std::vector<std::vector<ParameterValue>> others;
-    if (effect.corrects()) value = static_cast<double>(here.n_places[place++]);
+    if (effect.corrects()) value = here.done[place].count;
     if (effect.adds_input()) value = predictable_share_of_input();
     if (effect.has_course()) {
-      const VectorXd course = effect.course({here.record, here.scaled, predictor});
+      const VectorXd course = effect.course({here.record, here.relative, here.scaled, predictor});
       innovation = without_course(here, course, innovation);
-      if (!made_up_) value = frequency_change(here.scaled, predictor, course, -1);
-      for (Index part = 0; part < ChannelPredictor::kParts && !made_up_; ++part)
-        others.push_back({effect.describe(frequency_change(here.scaled, predictor, course, part))});
+      if (!made_up_) {
+        const CourseFit& course_fit = fitted_course(here, name, course);
+        value = course_fit.change;
+        for (const double change : course_fit.without) others.push_back({effect.describe(change)});
+      }
     }
     jitters = jitters || effect.jitters();
     out.parameters.push_back({effect.describe(value)});
     add_jackknife_sigmas(out.parameters.back(), others);
+    if (effect.corrects()) out.parameters.back().front().sigma = here.done[place++].sigma;
     out.implausible.push_back(effect.jitters() ? "" : effect.immaterial(value));
     ++out.n_parameters;
   }
@@ -190,6 +210,9 @@ ResponseFit ChannelModel::fit(const std::vector<std::string>& effects) const {
       const ChannelEffect& effect = channel_effect(effects[e]);
       if (!effect.jitters()) continue;
       out.parameters[e] = {effect.describe(jitter.sigma_s)};
+      std::vector<std::vector<ParameterValue>> without;
+      for (const double sigma_s : jitter.sigma_without_s) without.push_back({effect.describe(sigma_s)});
+      add_jackknife_sigmas(out.parameters[e], without);
       out.implausible[e] = effect.immaterial(jitter.sigma_s);
     }
   }
@@ -239,6 +262,7 @@ std::unique_ptr<ResponseModel> ChannelModel::surrogate(const std::vector<std::st
   const Index p = predictor.order, n = std::min(record_.n_samples(), here.scaled.n_samples());
   made.value = here.scaled.value.topRows(n);
   made.input = record_.input.topRows(n);
+  made.input_alike = false;  // its channels are relative already
   if (!predictor.ok) return std::make_unique<ChannelModel>(record_, use_);
   for (Index k = 0; k < n; ++k) {
     if (!made.value.row(k).allFinite()) made.value.row(k).setZero();
@@ -260,10 +284,6 @@ std::unique_ptr<ResponseModel> ChannelModel::surrogate(const std::vector<std::st
   auto out = std::make_unique<ChannelModel>(std::move(made), use_);
   out->made_up_ = true;
   return out;
-}
-
-ChannelRecord ChannelModel::corrected(const std::vector<std::string>& effects) const {
-  return prepared(key_of(effects)).record;
 }
 
 }  // namespace core::closure

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/closure/response/channel_course.h"
 #include "core/closure/response/channel_predictor.h"
 #include "core/closure/response/effects/channel_effect.h"
 #include "core/closure/response/response_model.h"
@@ -35,22 +36,29 @@ class ChannelModel final : public ResponseModel {
   [[nodiscard]] std::unique_ptr<ResponseModel> surrogate(const std::vector<std::string>& effects,
                                                          std::uint64_t seed) const override;
 
-  // The record with gaps for the adopted effects' lost samples, and without repeated ones.
+  // The record as the effects correct it: with gaps for lost samples, without repeated ones, and with a time axis along
+  // which the frequencies stay what they are (in the mean of a drift, at no amplitude of a softening).
   [[nodiscard]] ChannelRecord corrected(const std::vector<std::string>& effects) const;
+  // What that does, in words, one entry per effect.
+  [[nodiscard]] std::vector<std::string> repairs(const std::vector<std::string>& effects) const;
 
  private:
   // The record after the effects that change its samples, and its predictor: shared by many sets of effects.
   struct Prepared {
-    ChannelRecord record, scaled;
+    ChannelRecord record, relative, scaled;
     ChannelPredictor predictor;
-    std::vector<std::size_t> n_places;  // per effect that corrects
+    std::vector<ChannelEffect::Corrected> done;  // per effect that corrects, in the key's order; without the record
     Eigen::MatrixXd derivative;         // frequency_derivative
     double log_det = 0.0;               // of the whitener
+    mutable std::map<std::string, CourseFit> course_fit;  // by effect; takes long, so each once
   };
   using Key = std::vector<std::string>;
   [[nodiscard]] Key key_of(const std::vector<std::string>& effects) const;
   [[nodiscard]] const Prepared& prepared(const Key& key) const;
   [[nodiscard]] double predictable_share_of_input() const;
+
+  [[nodiscard]] static const CourseFit& fitted_course(const Prepared& prepared, const std::string& effect,
+                                                      const Eigen::VectorXd& course);
 
   // Innovations after removal of a frequency course, each part with the coefficient of the others.
   [[nodiscard]] static Eigen::MatrixXd without_course(const Prepared& prepared, const Eigen::VectorXd& course,

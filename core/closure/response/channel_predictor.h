@@ -7,13 +7,22 @@
 
 namespace core::closure {
 
-// Channels on a uniform grid, for the predictor.
+// Channels on a uniform grid, for the predictor. Sample k of a channel is seen at k / rate_hz + its delay.
 struct ChannelRecord {
   double rate_hz = 0.0;
   Eigen::MatrixXd value;  // samples x channels; a row with NaN is missing
   Eigen::MatrixXd input;  // samples x inputs (measured base); may have no columns
+  std::vector<double> delay_s = {}, input_delay_s = {};  // row delays, per column; empty: 0
+  bool input_alike = false;      // the first input measures what the channels do (quantity and unit)
+  bool rate_is_average = false;  // rate_hz is samples / duration: samples put in or taken out leave the duration
+  bool times_known = false;      // lost and late frames were told by time stamps: nothing is left to find
   [[nodiscard]] Eigen::Index n_samples() const noexcept { return value.rows(); }
 };
+
+// The channels' motion relative to the first input, where that measures the same; else the channels as they are. The
+// input is interpolated to each channel's own instants. What camera and ground do to all alike is no motion of the
+// structure: without this a change of its frequencies would be sought in the camera's drift.
+[[nodiscard]] ChannelRecord relative_to_input(const ChannelRecord& record);
 
 // Linear prediction of every sample from the `order` samples before it and the measured input up to its own time: a
 // linear structure under white forces (a vector autoregression with input, Ljung, System Identification, 4.2).
@@ -50,12 +59,5 @@ struct ChannelPredictor {
 // share: derivative of the lags' coefficients, channels x (order * channels), newest lag first. Poles above that may be
 // aliased, with falling apparent frequency. Empty if there is no such pole.
 [[nodiscard]] Eigen::MatrixXd frequency_derivative(const ChannelPredictor& predictor, double rate_hz);
-
-// Relative difference of the same poles' frequencies, per unit of the course, between samples above and below its
-// median: each half is fitted separately, modes weighted by f / damping (inverse of their frequencies' least variance).
-// The derivative's own coefficient detects a change, but is biased low by noise in the regressors. `without`: a part to
-// exclude, -1 = none. 0 if it cannot be determined.
-[[nodiscard]] double frequency_change(const ChannelRecord& scaled, const ChannelPredictor& predictor,
-                                      const Eigen::VectorXd& course, Eigen::Index without);
 
 }  // namespace core::closure

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/closure/structure_words.h"
+
 namespace core::closure {
 namespace {
 
@@ -22,6 +24,16 @@ double difference_in_errors(const ResponseFit& a, const ResponseFit& b) {
   for (std::size_t i = 0; i < n; ++i) squares += std::pow(b.fold_squares[i] - a.fold_squares[i] - mean, 2);
   if (n < 2 || !(squares > 0.0)) return sum > 0.0 ? std::numeric_limits<double>::infinity() : 0.0;
   return sum / std::sqrt(squares * static_cast<double>(n) / static_cast<double>(n - 1));
+}
+
+// Of an effect whose every number is within three of its standard deviations of zero; empty: one is not, or has none.
+std::string not_from_zero(const std::vector<ParameterValue>& parameters) {
+  std::string numbers;
+  for (const ParameterValue& p : parameters) {
+    if (!p.sigma || (p.value != 0.0 && std::abs(p.value) >= ResponseLevel::kFromZero * *p.sigma)) return {};
+    numbers += (numbers.empty() ? "" : ", ") + number(p.value) + " +- " + number(*p.sigma) + " " + p.unit;
+  }
+  return numbers.empty() ? "" : "cannot be distinguished from zero: " + numbers;
 }
 
 }  // namespace
@@ -55,6 +67,9 @@ std::string ResponseLevel::refusal(const std::string& effect, const ResponseFit&
   if (!std::isfinite(fit.heldout_rms)) return "cannot be fitted to parts of this record";
   for (std::size_t i = 0; i < fit.implausible.size(); ++i) {
     if (!fit.implausible[i].empty()) return "implausible: " + fit.implausible[i];
+  }
+  for (const auto& parameters : fit.parameters) {
+    if (const std::string words = not_from_zero(parameters); !words.empty()) return words;
   }
   const double before = fit_.heldout_squares(), after = fit.heldout_squares();
   if (after >= before) return "does not lower the held-out error";
@@ -95,8 +110,11 @@ std::vector<std::string> ResponseLevel::rivals(std::size_t adopted, std::uint64_
     const ResponseFit fit = model_.fit(effects);
     const bool plausible =
         std::all_of(fit.implausible.begin(), fit.implausible.end(), [](const auto& words) { return words.empty(); });
+    // One that finds nothing of itself in the record explains nothing.
+    const bool is_there = std::all_of(fit.parameters.begin(), fit.parameters.end(),
+                                      [](const auto& parameters) { return not_from_zero(parameters).empty(); });
     const bool alike = fit.heldout_rms <= kRivalRms * fit_.heldout_rms;
-    if (plausible && alike && difference_in_errors(fit_, fit) <= kRivalErrors) out.push_back(effect);
+    if (plausible && is_there && alike && difference_in_errors(fit_, fit) <= kRivalErrors) out.push_back(effect);
   }
   return out;
 }

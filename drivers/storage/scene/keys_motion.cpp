@@ -98,7 +98,7 @@ void add_change_keys(std::vector<SceneKey>& keys) {
   constexpr auto s = &Scene::change;
   keys.push_back(scene_number("change.frequency_drift", "", of<s, &Chg::frequency_drift>, {-0.5, 0.5},
                               "of all frequencies over the clip, relative"));
-  keys.push_back(scene_number("change.softening", "", of<s, &Chg::softening>, {-0.1, 0.1},
+  keys.push_back(scene_number("change.softening", "", of<s, &Chg::softening>, {-0.15, 0.15},
                               "share of stiffness lost at an amplitude of 1.41 times the last body's rms"));
 }
 

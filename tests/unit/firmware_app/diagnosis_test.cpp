@@ -30,9 +30,11 @@ struct Told {
   CorrectionSwitch change;
 };
 
-std::vector<Told> told_by(CorrectionLog& book, const Diagnosis::MakeGeometry& make) {
+std::vector<Told> told_by(CorrectionLog& book, const Diagnosis::MakeGeometry& make, std::uint64_t n_frames = 0) {
   const auto& record = bent_record();
-  Diagnosis diagnosis(loop_over(record, true), book, make);
+  MissingEffectSearchConfig config = loop_over(record, true);
+  config.n_frames = n_frames;
+  Diagnosis diagnosis(std::move(config), book, make);
   std::vector<Told> out;
   for (Eigen::Index k = 0; k < record.n_frames(); ++k) {
     diagnosis.take(track_frame(record, k));
@@ -52,6 +54,30 @@ TEST(Diagnosis, WhatTwoReportsAgreeOnIsInTheBookAndChangesTheGeometry) {
   EXPECT_EQ(told[1].change.correction_set, 1U);
   EXPECT_EQ(book.newest().words, told[1].report.in_force);
   EXPECT_EQ(told[1].report.in_force.size(), 1U);
+}
+
+TEST(Diagnosis, NothingBeginsAfterTheLastFrameOfARecording) {
+  CorrectionLog book;
+  const auto make = [](const CorrectionSet&) { return no_geometry(bent_record()); };
+  // The second report comes at frame 1499 and would change frames from 1750 on.
+  const auto told = told_by(book, make, static_cast<std::uint64_t>(bent_record().n_frames()));
+  ASSERT_EQ(told.size(), 2U);
+  EXPECT_TRUE(told[1].report.changes.empty());
+  EXPECT_TRUE(told[1].report.in_force.empty());
+  EXPECT_EQ(told[1].change.geometry, nullptr);
+  EXPECT_EQ(book.newest().number, 0U);
+}
+
+TEST(Diagnosis, TheLastReportOfARunOmitsWhatNeverBegan) {
+  CorrectionLog book;
+  const auto& record = bent_record();
+  Diagnosis diagnosis(loop_over(record, true), book, [](const CorrectionSet&) { return no_geometry(bent_record()); });
+  for (Eigen::Index k = 0; k < record.n_frames(); ++k) {
+    diagnosis.take(track_frame(record, k));
+    if (diagnosis.is_due()) (void)diagnosis.report(false);
+  }
+  EXPECT_EQ(book.newest().number, 1U);
+  EXPECT_TRUE(diagnosis.report(true).in_force.empty()) << "the record ends 200 frames before the correction";
 }
 
 TEST(Diagnosis, WithAFullBookNothingChangesAndTheReportSaysSo) {

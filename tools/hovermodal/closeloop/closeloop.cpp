@@ -14,6 +14,7 @@
 #include "drivers/storage/structure_file.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/closure_json.h"
+#include "tools/hovermodal/closeloop/closeloop_run.h"
 #include "tools/hovermodal/closeloop/closeloop_series.h"
 #include "tools/hovermodal/closeloop/closeloop_tracks.h"
 #include "tools/hovermodal/closeloop/closeloop_turning.h"
@@ -25,7 +26,7 @@ namespace tools {
 namespace {
 
 struct Options {
-  std::string structure, check;
+  std::string structure, check, run;
   LoopRequest loop;
   SeriesLoop series;
   TracksLoop tracks;
@@ -48,6 +49,11 @@ std::string help() {
          "numbers are plausible; then all are fitted again, until no effect helps. Effects that would explain the "
          "data\n"
          "as well are named beside it: the data then do not determine which is the cause.\n"
+         "\nWith --run all levels of a finished run are gone through, each on what the one before repaired: clock and frames,\n"
+         "observation (tracks), response (displacements) and, with --structure, the structure. At the end stand the "
+         "residuals\n"
+         "and the modes before and after, against --reference or else the two halves of the record; loop.html, loop.json:\n"
+         "  hovermodal closeloop --run out --config flight.yaml\n"
          "\nWith --record the points' tracks themselves are modelled instead: motion of each region and of the camera. "
          "The\n"
          "residual is attributed to rotation, lens, readout time, the tracker or rotors, or reported as an unnamed "
@@ -104,7 +110,20 @@ void run_record(const Options& options) {
   close_tracks(request);
 }
 
+void run_levels(const Options& options) {
+  if (!options.loop.records.empty() || !options.clip.clip.empty() || !options.check.empty())
+    throw std::invalid_argument("--run cannot be combined with --record, --clip or --check");
+  if (!options.loop.report.empty()) make_folder(options.loop.report);
+  RunLoop request;
+  request.folder = options.run, request.config = options.tracks.config, request.overrides = options.tracks.overrides;
+  request.structure = options.structure, request.reference = options.loop.reference;
+  request.report = options.loop.report, request.bases = options.series.request.bases;
+  request.max_frequency_hz = options.series.max_frequency_hz, request.seed = options.loop.seed;
+  close_run(request);
+}
+
 void run(const Options& options) {
+  if (!options.run.empty()) return run_levels(options);
   if (!options.clip.clip.empty()) {
     if (!options.loop.records.empty() || !options.structure.empty())
       throw std::invalid_argument("--clip cannot be combined with --record or --structure");
@@ -113,7 +132,7 @@ void run(const Options& options) {
   }
   if (!options.loop.records.empty()) return run_record(options);
   if (options.structure.empty() || options.loop.reference.empty())
-    throw std::invalid_argument("closeloop needs --structure with --reference, --record, or --clip");
+    throw std::invalid_argument("closeloop needs --run, --structure with --reference, --record, or --clip");
   const core::structure::DeclaredFrame declared = drivers::read_structure(options.structure);
   auto reference = read_reference(options.loop.reference, declared);
   auto check =
@@ -148,6 +167,10 @@ void run(const Options& options) {
 void add_closeloop(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("closeloop", help());
+  command
+      ->add_option("--run", options->run,
+                   "Report folder of a run: all levels, one after the other, each on what the one before repaired")
+      ->type_name("DIR");
   command
       ->add_option("--record", options->loop.records,
                    "Record in place of modes: a run's folder or tracks.csv, or tables of samples")

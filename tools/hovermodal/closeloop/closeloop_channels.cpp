@@ -1,70 +1,38 @@
 // hovermodal closeloop --record series.csv: the response of channels to unknown forces, or to a measured base.
 #include <fmt/format.h>
+#include <unistd.h>
 
-#include <cmath>
+#include <algorithm>
 #include <stdexcept>
 
-#include "core/closure/response/channel_model.h"
+#include "firmware_app/replay/response_analysis.h"
+#include "firmware_app/replay/run_folder.h"
 #include "tools/hovermodal/closeloop/series_loop.h"
 #include "tools/hovermodal/closeloop/series_modes.h"
 
 namespace tools {
-namespace {
 
-using core::closure::ChannelRecord;
-using Eigen::Index;
-
-ChannelRecord record_of(const app::ChannelSeries& series) {
-  ChannelRecord out;
-  out.rate_hz = series.rate_hz;
-  const auto n = static_cast<Index>(series.value.front().size());
-  Index n_base = 0;
-  for (const auto& channel : series.channels) n_base += channel.is_base ? 1 : 0;
-  out.value.resize(n, static_cast<Index>(series.channels.size()) - n_base);
-  out.input.resize(n, n_base);
-  Index value = 0, input = 0;
-  for (std::size_t c = 0; c < series.channels.size(); ++c) {
-    const Eigen::Map<const Eigen::VectorXd> column(series.value[c].data(), n);
-    if (series.channels[c].is_base) {
-      out.input.col(input++) = column;
-    } else {
-      out.value.col(value++) = column;
-    }
-  }
-  return out;
-}
-
-// The record as the model corrects it, in the series' order of channels.
-app::ChannelSeries series_of(const ChannelRecord& record, const app::ChannelSeries& like, bool with_input) {
-  app::ChannelSeries out;
-  out.rate_hz = record.rate_hz;
-  out.unit = like.unit;
-  Index value = 0, input = 0;
-  for (const auto& channel : like.channels) {
-    if (channel.is_base && (!with_input || record.input.cols() == 0)) continue;
-    const Eigen::VectorXd column = channel.is_base ? record.input.col(input++) : record.value.col(value++);
-    out.channels.push_back(channel);
-    out.value.emplace_back(column.begin(), column.end());
-  }
-  return out;
-}
-
-}  // namespace
-
-void close_channels(const LoopRequest& request, const SeriesLoop& options, const app::ChannelSeries& series) {
-  const ChannelRecord record = record_of(series);
-  if (options.input_unknown && record.input.cols() == 0)
+void close_channels(const LoopRequest& request, const SeriesLoop& options, app::ChannelSeries series) {
+  const bool has_base = std::any_of(series.channels.begin(), series.channels.end(), [](auto& c) { return c.is_base; });
+  if (options.input_unknown && !has_base)
     throw std::invalid_argument("--input-unknown needs --input: the column of the measured input");
-  const core::closure::ChannelModel model(
-      record, options.input_unknown ? core::closure::InputUse::kUnknown : core::closure::InputUse::kKnown);
-  std::vector<std::string> adopted;
-  core::closure::ClosureResult result = close_response(request, model, request.n_surrogates, &adopted);
-  const bool coloured = std::find(adopted.begin(), adopted.end(), "input_colour") != adopted.end();
-  const ChannelRecord after = model.corrected(adopted);
-  add_modes(result, series_of(record, series, !options.input_unknown),
-            series_of(after.input.cols() > 0 ? after : record, series, !options.input_unknown || coloured),
-            options.max_frequency_hz, request.reference);
-  show_response(request, result, "closure.json");
+  app::ResponseOptions loop;
+  loop.input_unknown = options.input_unknown;
+  loop.clock.rate_is_average = options.average_rate;
+  loop.clock.times_known = app::use_measured_times(request.records.front(), series);
+  if (loop.clock.times_known)
+    fmt::print("the frames' times were measured: the series is interpolated to an even grid, its clock is known\n");
+  loop.n_surrogates = request.n_surrogates;
+  loop.seed = request.seed;
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  if (terminal) loop.progress = [](const std::string& words) { fmt::print(stderr, "\r\033[K{}", words); };
+  app::ResponseAnalysis found = app::analyse_response(series, loop);
+  if (terminal) fmt::print(stderr, "\r\033[K");
+  add_modes(found.result, found.before, found.after, options.max_frequency_hz, request.reference);
+  show_response(request, found.result, "closure.json");
+  for (std::size_t i = 0; i < found.adopted.size(); ++i)
+    fmt::print("repair of {}: {}\n", found.adopted[i],
+               found.repairs[i].empty() ? "not applicable, the series stays as it is" : found.repairs[i]);
 }
 
 }  // namespace tools

@@ -15,7 +15,7 @@ struct SeriesLoop {
   std::string clock;
   std::string input_record;
   double clock_sigma_ms = 0.0;
-  bool free_decay = false, input_unknown = false;
+  bool free_decay = false, input_unknown = false, average_rate = false;
   double decay_s = 1.3, max_frequency_hz = 0.0;
 };
 

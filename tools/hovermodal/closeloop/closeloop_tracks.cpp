@@ -14,9 +14,10 @@
 #include "core/closure/observation/residual_view.h"
 #include "drivers/storage/json.h"
 #include "drivers/storage/text_file.h"
+#include "firmware_app/replay/tracks_record.h"
 #include "firmware_app/report/closure_json.h"
 #include "firmware_app/report/closure_pictures.h"
-#include "tools/hovermodal/closeloop/tracks_input.h"
+#include "tools/hovermodal/closeloop/series_modes.h"
 #include "tools/hovermodal/closeloop/words.h"
 
 namespace tools {
@@ -68,7 +69,7 @@ void close_tracks(const TracksLoop& request) {
   if (request.config.empty())
     throw std::invalid_argument("--record of tracks needs --config: the regions and the camera of that run");
   const app::AppConfig config = app::load_config(request.config, request.overrides);
-  const TracksInput input = read_tracks_input(request.record, config);
+  const app::TracksRecord input = app::read_tracks_record(request.record, config);
   ObservationLevel level(input.record);
   level.set_reference(read_known_modes(request.reference, level.channel_names()));
   for (const auto* list : {&input.warnings, &level.warnings()}) {

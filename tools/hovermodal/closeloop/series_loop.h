@@ -24,6 +24,6 @@ void add_modes(core::closure::ClosureResult& result, const app::ChannelSeries& b
 // One file a logger.
 void close_loggers(const LoopRequest& request, const SeriesLoop& options);
 // Ambient response or a measured input.
-void close_channels(const LoopRequest& request, const SeriesLoop& options, const app::ChannelSeries& series);
+void close_channels(const LoopRequest& request, const SeriesLoop& options, app::ChannelSeries series);
 
 }  // namespace tools

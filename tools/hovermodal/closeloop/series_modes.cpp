@@ -71,6 +71,33 @@ std::vector<KnownMode> read_reference_modes(const std::string& path) {
   return out;
 }
 
+std::vector<core::Mode> read_known_modes(const std::string& path, const std::vector<std::string>& channels) {
+  std::vector<core::Mode> out;
+  if (path.empty()) return out;
+  if (!path.ends_with(".json")) {
+    const drivers::SeriesFile file = drivers::read_foreign_series(path);
+    const int column = file.column("frequency_hz");
+    if (column < 0) throw drivers::FileError(path + ": no column frequency_hz");
+    for (const double hz : file.columns[static_cast<std::size_t>(column)]) {
+      if (!(std::isfinite(hz) && hz > 0.0)) throw drivers::FileError(path + ": frequency_hz must be positive numbers");
+      out.emplace_back().frequency_hz = hz;
+    }
+    return out;
+  }
+  const app::ModalReport report = app::read_modal_json(path);
+  for (core::Mode mode : report.estimate.modes) {
+    std::vector<std::complex<double>> shape;
+    for (const std::string& name : channels) {
+      const auto found = std::find(report.channel_names.begin(), report.channel_names.end(), name);
+      const auto i = static_cast<std::size_t>(found - report.channel_names.begin());
+      if (i < mode.shape.size()) shape.push_back(mode.shape[i]);
+    }
+    mode.shape = shape.size() == channels.size() ? std::move(shape) : std::vector<std::complex<double>>{};
+    out.push_back(std::move(mode));
+  }
+  return out;
+}
+
 std::vector<ClosureMode> modes_of_series(const app::ChannelSeries& series, double max_frequency_hz,
                                          const std::vector<KnownMode>& reference) {
   app::SeriesOptions options;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/types/closure_result.h"
+#include "core/types/modal_estimate.h"
 #include "firmware_app/replay/analysis.h"
 
 namespace tools {
@@ -18,6 +19,11 @@ struct KnownMode {
 
 // Of a modal.json, or of a table with a column frequency_hz; none for "". Throws drivers::FileError.
 [[nodiscard]] std::vector<KnownMode> read_reference_modes(const std::string& path);
+
+// Modes of a modal.json (structural ones, shapes in the order of `channels` where all are named) or of a table with a
+// column frequency_hz. Throws drivers::FileError.
+[[nodiscard]] std::vector<core::Mode> read_known_modes(const std::string& path,
+                                                       const std::vector<std::string>& channels);
 
 // The structural modes that identify finds, each beside the reference mode within 5 % of it (where shapes are known:
 // of the largest MAC over the channels that both name). None, where the record is too short.

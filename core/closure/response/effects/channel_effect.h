@@ -9,9 +9,10 @@
 
 namespace core::closure {
 
-// Inputs of an effect: the record, and the result of a linear predictor.
+// Inputs of an effect: the record, its channels relative to the base, and the result of a linear predictor of these.
 struct ChannelContext {
   const ChannelRecord& record;
+  const ChannelRecord& relative;
   const ChannelRecord& scaled;
   const ChannelPredictor& predictor;
 };
@@ -23,7 +24,8 @@ class ChannelEffect {
  public:
   struct Corrected {
     ChannelRecord record;
-    std::size_t n_places = 0;  // samples that were changed
+    double count = 0.0, sigma = 0.0;  // samples that were put in, taken out or blanked, and its standard deviation
+    std::string words = {};            // what was done; may be empty
   };
 
   ChannelEffect() = default;
@@ -34,10 +36,19 @@ class ChannelEffect {
   [[nodiscard]] virtual std::string name() const = 0;
 
   [[nodiscard]] virtual bool corrects() const { return false; }
-  [[nodiscard]] virtual Corrected corrected(const ChannelContext& context) const { return {context.record, 0}; }
+  [[nodiscard]] virtual Corrected corrected(const ChannelContext& context) const { return {context.record}; }
+
+  // Its evidence are frames at other times than stated: not sought where time stamps tell them.
+  [[nodiscard]] virtual bool is_of_the_clock() const { return false; }
 
   [[nodiscard]] virtual bool has_course() const { return false; }
   [[nodiscard]] virtual Eigen::VectorXd course(const ChannelContext& /*context*/) const { return {}; }
+
+  // The course where the structure is as it is looked for: in the mean (0), at rest, ...
+  [[nodiscard]] virtual double course_at_rest() const { return 0.0; }
+
+  // How the record is repaired, in words; "" = it is not.
+  [[nodiscard]] virtual std::string repair() const { return {}; }
 
   [[nodiscard]] virtual bool jitters() const { return false; }
   [[nodiscard]] virtual bool adds_input() const { return false; }

@@ -16,6 +16,9 @@ class FrequencyDrift final : public ChannelEffect {
   [[nodiscard]] Eigen::VectorXd course(const ChannelContext& context) const override {
     return Eigen::VectorXd::LinSpaced(context.record.n_samples(), -0.5, 0.5);
   }
+  [[nodiscard]] std::string repair() const override {
+    return "put on a time along which the frequencies stay those of the middle of the record";
+  }
   [[nodiscard]] ParameterValue describe(double value) const override {
     return {"change_over_record", "%", 100.0 * value, {}};
   }

@@ -21,7 +21,7 @@ class Softening final : public ChannelEffect {
 
   // Squared envelope over its mean, minus 1.
   [[nodiscard]] VectorXd course(const ChannelContext& context) const override {
-    const VectorXd moved = motion(context.record);
+    const VectorXd moved = motion(context.relative);
     const Index n = moved.size(), period = period_of(moved);
     VectorXd out = VectorXd::Zero(n);
     double sum = 0.0, counted = 0.0;
@@ -34,6 +34,10 @@ class Softening final : public ChannelEffect {
     for (Index k = 0; k < n; ++k) out(k) = k < 2 * period ? 0.0 : out(k) * counted / sum - 1.0;
     return out;
   }
+  [[nodiscard]] double course_at_rest() const override { return -1.0; }
+  [[nodiscard]] std::string repair() const override {
+    return "put on a time along which the frequencies stay those of small motion";
+  }
   [[nodiscard]] ParameterValue describe(double value) const override {
     return {"stiffness_change_at_mean_square", "%", 200.0 * value, {}};
   }
@@ -44,13 +48,12 @@ class Softening final : public ChannelEffect {
   }
 
  private:
-  // Of the channel that moves most, to the first input where there is one; a gap holds the value before it.
+  // Of the channel that moves most; a gap holds the value before it.
   static VectorXd motion(const ChannelRecord& record) {
     VectorXd best = VectorXd::Zero(record.n_samples());
     double most = -1.0;
     for (Index c = 0; c < record.value.cols(); ++c) {
       VectorXd own = record.value.col(c);
-      if (record.input.cols() > 0) own -= record.input.col(0);
       double held = 0.0, squares = 0.0;
       for (double& v : own) {
         v = std::isfinite(v) ? v : held;

@@ -1,0 +1,69 @@
+#include "core/closure/response/channel_retime.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace core::closure {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kWidestStep = 1.75;  // steps of the grid: more is a gap
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// Lagrange's polynomial through the four uneven nodes around `at`; a line through two beside a gap or an end.
+double through(const VectorXd& time_s, const Eigen::Ref<const VectorXd>& value, Index below, double at) {
+  const auto lagrange = [&](Index first, Index last) {
+    double sum = 0.0;
+    for (Index i = first; i <= last; ++i) {
+      double weight = 1.0;
+      for (Index j = first; j <= last; ++j) {
+        if (j != i) weight *= (at - time_s(j)) / (time_s(i) - time_s(j));
+      }
+      sum += weight * value(i);
+    }
+    return sum;
+  };
+  const auto apart = [&](Index k) { return time_s(k + 1) - time_s(k); };
+  const bool is_among = below > 0 && below + 2 < time_s.size();
+  if (is_among && std::max(apart(below - 1), apart(below + 1)) < 3.0 * apart(below)) {
+    if (const double cubic = lagrange(below - 1, below + 2); std::isfinite(cubic)) return cubic;
+  }
+  return lagrange(below, below + 1);
+}
+
+}  // namespace
+
+ChannelRecord retimed(const ChannelRecord& record, const VectorXd& time_s) {
+  ChannelRecord out = record;
+  const Index n_old = record.n_samples();
+  if (n_old < 2) return out;
+  const Index n = static_cast<Index>(std::floor((time_s(n_old - 1) - time_s(0)) * record.rate_hz + 1e-9)) + 1;
+  out.value.setConstant(n, record.value.cols(), kNaN);
+  out.input.setConstant(n, record.input.cols(), kNaN);
+  Index below = 0;
+  for (Index k = 0; k < n; ++k) {
+    const double at = time_s(0) + static_cast<double>(k) / record.rate_hz;
+    while (below + 2 < n_old && time_s(below + 1) <= at) ++below;
+    if (time_s(below + 1) - time_s(below) > kWidestStep / record.rate_hz) continue;
+    for (Index c = 0; c < out.value.cols(); ++c) out.value(k, c) = through(time_s, record.value.col(c), below, at);
+    for (Index c = 0; c < out.input.cols(); ++c) out.input(k, c) = through(time_s, record.input.col(c), below, at);
+  }
+  return out;
+}
+
+VectorXd time_of_factor(const VectorXd& factor, double rate_hz) {
+  VectorXd out(factor.size());
+  double now = 0.0;
+  for (Index k = 0; k < factor.size(); ++k) {
+    out(k) = now;
+    const double next = k + 1 < factor.size() ? factor(k + 1) : factor(k);
+    now += std::max(0.5 * (factor(k) + next), 0.1) / rate_hz;
+  }
+  return out;
+}
+
+}  // namespace core::closure

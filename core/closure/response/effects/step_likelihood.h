@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/closure/response/channel_predictor.h"
+
+namespace core::closure {
+
+// How many steps of time lie between two samples of a record, by what the predictor expects: ln of how much likelier it
+// is that the structure went on for another number of steps than for one. The samples after it count as well: a gust, a
+// shock or a mistracked frame is followed by samples that the unchanged order of samples predicts, a lost or inserted
+// frame is not. Errors have the tails of a t distribution, so that a wild sample decides nothing by itself.
+class StepLikelihood {
+ public:
+  // Of a record and its predictor; both outlive this.
+  StepLikelihood(const ChannelRecord& scaled, const ChannelPredictor& predictor);
+
+  [[nodiscard]] bool ok() const noexcept { return ok_; }
+
+  struct Ratio {
+    double own = 0.0;    // of sample k
+    double after = 0.0;  // of the samples after it, as long as their prediction reaches back to the step
+    bool possible = false;  // the changed number of steps explains the sample
+  };
+  // Two steps between samples k - 1 and k: one frame is missing before k.
+  [[nodiscard]] Ratio frame_missing(Eigen::Index k) const;
+  // Samples k - 1 and k show the same picture (a repeated frame), and k + 1 follows k - 1 by one step, not by two: the
+  // frame was inserted, and did not take the place of another.
+  [[nodiscard]] double inserted(Eigen::Index k) const;
+
+ private:
+  // Rows of values and of inputs in an order of their own, oldest first.
+  struct Window {
+    std::vector<Eigen::RowVectorXd> value, input;
+    void add(const ChannelRecord& scaled, Eigen::Index k);
+  };
+  [[nodiscard]] Eigen::VectorXd ahead(const Window& window) const;  // of its last row from those before
+  [[nodiscard]] double log_one(const Eigen::VectorXd& error) const;
+  [[nodiscard]] double log_two(const Eigen::VectorXd& error) const;
+  [[nodiscard]] double log_tail(double squares) const;
+  [[nodiscard]] bool seen(Eigen::Index first, Eigen::Index last) const;
+  [[nodiscard]] Window until(Eigen::Index k) const;  // the samples that predict k
+  void append_unseen(Window& window, Eigen::Index before, Eigen::Index after) const;  // a row between two samples
+
+  const ChannelRecord& scaled_;
+  const ChannelPredictor& predictor_;
+  Eigen::LLT<Eigen::MatrixXd> two_;
+  double log_det_one_ = 0.0, log_det_two_ = 0.0;  // of the whiteners
+  bool ok_ = false;
+};
+
+// A number of events from the logarithms of their likelihood ratios, one per place: each place has one with the
+// probability that follows from its ratio and from the share of places that have one, which is estimated with them
+// (expectation maximisation). count = sum of the probabilities p, its variance the sum of p (1 - p), enlarged by what
+// the share's own uncertainty adds.
+struct EventCount {
+  double count = 0.0, sigma = 0.0;
+  double evidence = 0.0;              // ln of the likelihood with events over that without
+  std::vector<std::size_t> likely{};  // places of p above one half
+};
+[[nodiscard]] EventCount count_events(const std::vector<double>& log_ratios);
+
+}  // namespace core::closure

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/types/closure_result.h"
+
+namespace core::closure {
+
+// Plain results of residual diagnosis over all levels of one run, each on what the one before repaired.
+
+// One level: clock and frames, observation, response, structure.
+struct LoopLevel {
+  std::string level;
+  std::string skipped;  // why there is no result: what is missing; empty: there is one
+  std::optional<double> residual_before, residual_after;
+  std::string unit;  // of these
+  struct Finding {
+    std::string effect;  // with its numbers
+    std::string repair;  // what was done to the record; empty: nothing can be done to it at this level
+  };
+  std::vector<Finding> findings;
+  std::string left;                     // what stays unexplained, in words
+  std::optional<ClosureResult> result;  // of levels that run the common loop
+};
+
+// A mode as identified before any repair and after the last.
+struct LoopMode {
+  struct Estimate {
+    double frequency_hz = 0.0, damping_ratio = 0.0;
+    std::optional<double> frequency_std_hz, damping_std;
+    std::optional<double> error_percent;  // of the frequency, against the reference
+    std::optional<double> halves_percent;  // frequency of the second half of the record less that of the first
+  };
+  std::optional<Estimate> before, after;
+  std::optional<double> reference_hz;
+};
+
+struct LoopResult {
+  std::vector<LoopLevel> levels;
+  std::vector<LoopMode> modes;
+  bool has_reference = false;
+  std::optional<double> error_before, error_after;  // rms over the modes: of error_percent, or else of halves_percent
+  std::vector<std::string> remarks;
+};
+
+}  // namespace core::closure

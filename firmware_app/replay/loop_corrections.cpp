@@ -1,0 +1,61 @@
+#include "firmware_app/replay/loop_corrections.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "core/closure/observation/adoption.h"
+
+namespace app {
+namespace {
+
+using core::closure::Adoption;
+using core::closure::ClosureReport;
+using core::closure::ClosureResult;
+
+// A flight adopts what two reports agree on; a whole record agrees with itself.
+Adoption adoption_of(const ClosureResult& result) {
+  ClosureReport report;
+  report.result = result;
+  Adoption out;
+  (void)out.update(report, 0);
+  (void)out.update(report, 0);
+  return out;
+}
+
+}  // namespace
+
+bool is_corrected(const core::closure::ClosureStep& step) {
+  ClosureResult alone;
+  alone.steps = {step};
+  return !adoption_of(alone).in_force().empty();
+}
+
+CorrectionSet corrections_of(const ClosureResult& result, const core::CameraModel& camera) {
+  const Adoption adoption = adoption_of(result);
+  CorrectionSet out;
+  out.places = adoption.places(camera);
+  out.places.in_keyframe = out.places.lens.calibrated();
+  const core::closure::ParameterValue readout = adoption.added_readout();
+  out.added_readout_frames = readout.value;
+  out.readout_sigma_frames = readout.sigma.value_or(0.0);
+  out.words = adoption.words();
+  return out;
+}
+
+TracksRecord thinned(TracksRecord record, int points_per_region) {
+  core::closure::ObservationRecord& all = record.record;
+  std::vector<std::vector<Eigen::Index>> of_region(all.regions.size());
+  for (std::size_t j = 0; j < all.region_of_point.size(); ++j)
+    of_region[all.region_of_point[j]].push_back(static_cast<Eigen::Index>(j));
+  const auto most = static_cast<std::size_t>(std::max(points_per_region, 1));
+  std::vector<Eigen::Index> kept;
+  for (const auto& own : of_region) {
+    const std::size_t n = std::min(own.size(), most);
+    for (std::size_t i = 0; i < n; ++i) kept.push_back(own[i * own.size() / n]);
+  }
+  std::sort(kept.begin(), kept.end());
+  if (kept.size() != all.region_of_point.size()) all = core::closure::select_points(all, kept);
+  return record;
+}
+
+}  // namespace app

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/closure/observation/observation_record.h"
+#include "drivers/storage/csv.h"
+#include "firmware_app/config/config.h"
+
+namespace app {
+
+struct TracksRecord {
+  core::closure::ObservationRecord record;
+  std::vector<std::string> warnings;  // what was assumed
+};
+
+// tracks.csv, or the folder of a run that holds one, with the regions, the camera and its calibration as `config`
+// declares them. Frames lie on the grid of their numbers. Throws drivers::FileError, ConfigError.
+[[nodiscard]] TracksRecord tracks_record(const drivers::TracksFile& file, const std::string& path,
+                                         const AppConfig& config);
+[[nodiscard]] TracksRecord read_tracks_record(const std::string& path, const AppConfig& config);
+
+}  // namespace app

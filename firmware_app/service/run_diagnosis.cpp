@@ -1,0 +1,33 @@
+#include "firmware_app/service/run_diagnosis.h"
+
+#include <spdlog/spdlog.h>
+
+#include <exception>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "firmware_app/replay/level_loop.h"
+#include "firmware_app/report/loop_report.h"
+
+namespace app {
+
+void diagnose_run(const AppConfig& config, const Pipeline::Outcome& outcome, const std::function<bool()>& goes_on) {
+  if (outcome.page.empty() || !config.report.tracks || config.closure.adopt == ClosureAdopt::kOff) return;
+  try {
+    LevelLoopInputs inputs;
+    inputs.folder = config.report.directory;
+    inputs.config = config;
+    inputs.progress = [&goes_on](const std::string&) {
+      if (!goes_on()) throw std::runtime_error("stopped");
+    };
+    const core::closure::LoopResult result = close_levels(inputs);
+    write_loop_report(inputs.folder, result);
+    std::istringstream lines(loop_text(result));
+    for (std::string line; std::getline(lines, line);) spdlog::info("{}", line);
+  } catch (const std::exception& e) {
+    spdlog::info("residual diagnosis over all levels: none: {}", e.what());
+  }
+}
+
+}  // namespace app

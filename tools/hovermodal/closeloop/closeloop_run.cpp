@@ -1,0 +1,38 @@
+// hovermodal closeloop --run out: residual diagnosis over all levels of one run.
+#include "tools/hovermodal/closeloop/closeloop_run.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "drivers/storage/structure_file.h"
+#include "firmware_app/replay/level_loop.h"
+#include "firmware_app/report/loop_report.h"
+#include "tools/hovermodal/closeloop/series_modes.h"
+
+namespace tools {
+
+void close_run(const RunLoop& request) {
+  app::LevelLoopInputs inputs;
+  inputs.folder = request.folder;
+  if (!std::filesystem::is_directory(request.folder))
+    throw std::invalid_argument("--run " + request.folder + ": is no folder; name the report folder of a run");
+  if (!request.config.empty()) inputs.config = app::load_config(request.config, request.overrides);
+  inputs.bases = request.bases;
+  if (!request.structure.empty()) inputs.structure = drivers::read_structure(request.structure);
+  for (const KnownMode& mode : read_reference_modes(request.reference)) inputs.reference_hz.push_back(mode.frequency_hz);
+  inputs.max_frequency_hz = request.max_frequency_hz;
+  inputs.seed = request.seed;
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  if (terminal) inputs.progress = [](const std::string& words) { fmt::print(stderr, "\r\033[K{}", words); };
+  const core::closure::LoopResult result = app::close_levels(inputs);
+  if (terminal) fmt::print(stderr, "\r\033[K");
+  fmt::print("{}", app::loop_text(result));
+  const std::string& folder = request.report.empty() ? request.folder : request.report;
+  app::write_loop_report(folder, result);
+  fmt::print("open {}\n", (std::filesystem::path(folder) / "loop.html").string());
+}
+
+}  // namespace tools
