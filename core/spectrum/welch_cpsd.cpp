@@ -10,7 +10,6 @@
 #include "core/spectrum/bridge_losses.h"
 
 namespace core {
-
 namespace {
 
 using Complex = std::complex<double>;
@@ -166,8 +165,7 @@ bool WelchCpsd::push_missing() noexcept {
 
 bool WelchCpsd::advance() noexcept {
   ++sums_.n_samples;
-  ++n_filled_;
-  ++n_new_;
+  ++n_filled_, ++n_new_;
   if (n_filled_ < config_.segment) return false;
   set_doubtful_aside();
   accumulate_segment();
