@@ -33,11 +33,11 @@ bool is_corrected(const core::closure::ClosureStep& step) {
 CorrectionSet corrections_of(const ClosureResult& result, const core::CameraModel& camera) {
   const Adoption adoption = adoption_of(result);
   CorrectionSet out;
-  out.places = adoption.places(camera);
+  const core::closure::RunCorrection correction = adoption.correction(camera);
+  out.places = correction.places;
   out.places.in_keyframe = out.places.lens.calibrated();
-  const core::closure::ParameterValue readout = adoption.added_readout();
-  out.added_readout_frames = readout.value;
-  out.readout_sigma_frames = readout.sigma.value_or(0.0);
+  out.added_readout_frames = correction.added_readout.value;
+  out.readout_sigma_frames = correction.added_readout.sigma.value_or(0.0);
   out.words = adoption.words();
   return out;
 }

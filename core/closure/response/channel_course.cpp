@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "core/closure/response/channel_retime.h"
 
@@ -21,6 +22,24 @@ constexpr double kStep = 0.0025;
 constexpr int kFirst[] = {-25, -13, -5, 5, 13, 25};
 constexpr int kMost = 61, kAround = 8;  // steps to either side of the best
 
+// Below a third of the rate: modes above it may be folded ones, whose apparent frequency falls while the true one rises.
+MatrixXd low_passed(const MatrixXd& values) {
+  constexpr Index kHalf = 12;
+  constexpr double kCut = 0.33;  // of the rate
+  VectorXd tap(2 * kHalf + 1);
+  for (Index i = -kHalf; i <= kHalf; ++i) {
+    const double x = 2.0 * kCut * static_cast<double>(i);
+    const double sinc = i == 0 ? 1.0 : std::sin(std::numbers::pi * x) / (std::numbers::pi * x);
+    tap(i + kHalf) = 2.0 * kCut * sinc * (0.54 + 0.46 * std::cos(std::numbers::pi * static_cast<double>(i) / (kHalf + 1)));
+  }
+  MatrixXd out = MatrixXd::Zero(values.rows(), values.cols());
+  for (Index i = -kHalf; i <= kHalf; ++i) {
+    const Index first = std::max<Index>(0, -i), n = values.rows() - std::abs(i);
+    if (n > 0) out.middleRows(first, n) += tap(i + kHalf) * values.middleRows(first + i, n);
+  }
+  return out;
+}
+
 // Squared innovations of each part of the retimed record, mean per sample, in the metric of the first call.
 class Objective {
  public:
@@ -32,20 +51,25 @@ class Objective {
     if (const auto found = known_.find(step); found != known_.end()) return found->second;
     const VectorXd factor = (1.0 + kStep * step * course_.array()).max(0.2);
     ChannelRecord scaled;
-    const ChannelRecord even = retimed(record_, time_of_factor(factor, record_.rate_hz));
+    const ChannelRecord even = warped(record_, time_of_factor(factor, record_.rate_hz));
     const ChannelPredictor predictor = fit_predictor(even, order_, scaled);
     VectorXd out;
     if (predictor.ok) {
       // To the channels' own units: their deviations differ a little from change to change.
       const MatrixXd own = predictor.innovation * predictor.deviation.asDiagonal();
       if (metric_.size() == 0) metric_ = predictor.whitener * predictor.deviation.cwiseInverse().asDiagonal();
-      out = VectorXd::Zero(kParts);
+      MatrixXd white = own * metric_.transpose();
       VectorXd n = VectorXd::Zero(kParts);
-      for (Index k = 0; k < own.rows(); ++k) {
-        if (predictor.plain[static_cast<std::size_t>(k)] == 0) continue;
-        out(predictor.part_of(k)) += (metric_ * own.row(k).transpose()).squaredNorm();
-        n(predictor.part_of(k)) += 1.0;
+      for (Index k = 0; k < white.rows(); ++k) {
+        if (predictor.plain[static_cast<std::size_t>(k)] == 0) {
+          white.row(k).setZero();
+        } else {
+          n(predictor.part_of(k)) += 1.0;
+        }
       }
+      white = low_passed(white);
+      out = VectorXd::Zero(kParts);
+      for (Index k = 0; k < white.rows(); ++k) out(predictor.part_of(k)) += white.row(k).squaredNorm();
       out.array() /= n.array().max(1.0);
     }
     return known_.emplace(step, std::move(out)).first->second;

@@ -8,7 +8,7 @@
 namespace core::closure {
 
 // Change of all frequencies along a course, relative and per unit of the course: that with which the record, put on a
-// time along which the frequencies stay (channel_retime.h), is predicted best. Unlike the coefficient of the predictor's
+// time along which the frequencies stay (channel_retime.h), is predicted best below a third of the rate. Unlike the coefficient of the predictor's
 // derivative it is not biased by noise in the regressors.
 struct CourseFit {
   double change = 0.0;

@@ -23,7 +23,7 @@ ChannelRecord ChannelModel::corrected(const std::vector<std::string>& effects) c
     factor.array() *= (1.0 + change * course.array()) / (1.0 + change * effect.course_at_rest());
     moves = true;
   }
-  return moves ? retimed(here.record, time_of_factor(factor, here.record.rate_hz)) : here.record;
+  return moves ? warped(here.record, time_of_factor(factor, here.record.rate_hz)) : here.record;
 }
 
 std::vector<std::string> ChannelModel::repairs(const std::vector<std::string>& effects) const {

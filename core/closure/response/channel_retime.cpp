@@ -1,8 +1,10 @@
 #include "core/closure/response/channel_retime.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace core::closure {
 namespace {
@@ -37,7 +39,12 @@ double through(const VectorXd& time_s, const Eigen::Ref<const VectorXd>& value, 
 
 }  // namespace
 
-ChannelRecord retimed(const ChannelRecord& record, const VectorXd& time_s) {
+namespace {
+
+// Values of a column at an instant between samples `below` and `below + 1`.
+using Interpolate = double (*)(const VectorXd& time_s, const Eigen::Ref<const VectorXd>& value, Index below, double at);
+
+ChannelRecord on_even_grid(const ChannelRecord& record, const VectorXd& time_s, Interpolate interpolate) {
   ChannelRecord out = record;
   const Index n_old = record.n_samples();
   if (n_old < 2) return out;
@@ -49,10 +56,53 @@ ChannelRecord retimed(const ChannelRecord& record, const VectorXd& time_s) {
     const double at = time_s(0) + static_cast<double>(k) / record.rate_hz;
     while (below + 2 < n_old && time_s(below + 1) <= at) ++below;
     if (time_s(below + 1) - time_s(below) > kWidestStep / record.rate_hz) continue;
-    for (Index c = 0; c < out.value.cols(); ++c) out.value(k, c) = through(time_s, record.value.col(c), below, at);
-    for (Index c = 0; c < out.input.cols(); ++c) out.input(k, c) = through(time_s, record.input.col(c), below, at);
+    for (Index c = 0; c < out.value.cols(); ++c) out.value(k, c) = interpolate(time_s, record.value.col(c), below, at);
+    for (Index c = 0; c < out.input.cols(); ++c) out.input(k, c) = interpolate(time_s, record.input.col(c), below, at);
   }
   return out;
+}
+
+// Kaiser's window of beta 6 over shares of its half-width, 0 .. 1, from a table.
+double kaiser(double share) {
+  constexpr std::size_t kSteps = 2048;
+  static const std::array<double, kSteps + 2> kTable = [] {
+    constexpr double kBeta = 6.0;
+    std::array<double, kSteps + 2> out{};
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const double s = static_cast<double>(i) / kSteps;
+      out[i] = std::cyl_bessel_i(0.0, kBeta * std::sqrt(std::max(0.0, 1.0 - s * s))) / std::cyl_bessel_i(0.0, kBeta);
+    }
+    return out;
+  }();
+  const double at = std::min(std::abs(share), 1.0) * kSteps;
+  const auto below = static_cast<std::size_t>(at);
+  return kTable[below] + (at - static_cast<double>(below)) * (kTable[below + 1] - kTable[below]);
+}
+
+// Even samples: a sinc under that window.
+double by_sinc(const VectorXd& time_s, const Eigen::Ref<const VectorXd>& value, Index below, double at) {
+  constexpr Index kHalf = 16;
+  const double x = (at - time_s(below)) / (time_s(below + 1) - time_s(below));
+  if (below + 1 < kHalf || below + kHalf >= value.size()) return through(time_s, value, below, at);
+  if (x < 1e-9) return value(below);
+  double sum = 0.0;
+  const double sine = std::sin(std::numbers::pi * x) / std::numbers::pi;
+  for (Index i = 1 - kHalf; i <= kHalf; ++i) {
+    const double off = x - static_cast<double>(i);
+    sum += (i % 2 == 0 ? 1.0 : -1.0) * sine / off * kaiser(off / static_cast<double>(kHalf)) * value(below + i);
+  }
+  if (!std::isfinite(sum)) return through(time_s, value, below, at);
+  return sum;
+}
+
+}  // namespace
+
+ChannelRecord retimed(const ChannelRecord& record, const VectorXd& time_s) {
+  return on_even_grid(record, time_s, through);
+}
+
+ChannelRecord warped(const ChannelRecord& record, const VectorXd& time_s) {
+  return on_even_grid(record, time_s, by_sinc);
 }
 
 VectorXd time_of_factor(const VectorXd& factor, double rate_hz) {

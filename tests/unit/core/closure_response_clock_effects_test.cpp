@@ -92,7 +92,11 @@ std::vector<std::string> names_of(const ClosureResult& result) {
 
 TEST(ChannelClockEffects, ADriftIsNamedBehindADriftingCameraWithTheBaseAsInput) {
   const ChannelModel model(made({.drift = 0.05, .hover = 20.0}, 1));
-  EXPECT_THAT(names_of(close(model)), Contains("frequency_drift"));
+  const ClosureResult result = close(model);
+  ASSERT_THAT(names_of(result), Contains("frequency_drift"));
+  const ParameterValue& change = result.steps.front().parameters.front();
+  EXPECT_NEAR(change.value, 5.0, 3.0 * change.sigma.value());
+  EXPECT_LT(change.sigma.value(), 1.5);
 }
 
 TEST(ChannelClockEffects, MotionRelativeToTheBaseIsTakenAtEachChannelsOwnInstant) {
@@ -172,6 +176,20 @@ TEST(ChannelRetime, AChirpBecomesASine) {
   const ChannelRecord out = retimed(record, time_s);
   for (Eigen::Index k = 2; k + 2 < out.n_samples(); ++k)
     ASSERT_NEAR(out.value(k, 0), std::sin(4.0 * std::numbers::pi * static_cast<double>(k) / kRate_hz), 0.01);
+}
+
+TEST(ChannelRetime, AWarpKeepsAmplitudesUpToFourTenthsOfTheRate) {
+  constexpr Eigen::Index kN = 1000;
+  const Eigen::VectorXd factor = Eigen::VectorXd::LinSpaced(kN, 0.97, 1.03);
+  const Eigen::VectorXd time_s = time_of_factor(factor, kRate_hz);
+  ChannelRecord record;
+  record.rate_hz = kRate_hz;
+  record.value.resize(kN, 1), record.input.resize(kN, 0);
+  const auto wave = [](double t_s) { return std::sin(2.0 * std::numbers::pi * 10.0 * t_s); };
+  for (Eigen::Index k = 0; k < kN; ++k) record.value(k, 0) = wave(time_s(k));
+  const ChannelRecord out = warped(record, time_s);
+  for (Eigen::Index k = 20; k + 20 < out.n_samples(); ++k)
+    ASSERT_NEAR(out.value(k, 0), wave(static_cast<double>(k) / kRate_hz), 0.02) << k;
 }
 
 TEST(ChannelRetime, NoSampleIsMadeAcrossAGap) {

@@ -6,7 +6,7 @@
 namespace core::closure {
 namespace {
 
-constexpr double kMaterial = 0.012;  // records without drift show up to so much
+constexpr double kMaterial = 0.01;  // records without drift show up to so much
 
 // All frequencies change steadily by the same share over the record.
 class FrequencyDrift final : public ChannelEffect {

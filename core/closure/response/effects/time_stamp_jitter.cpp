@@ -11,6 +11,7 @@ class TimeStampJitter final : public ChannelEffect {
  public:
   [[nodiscard]] std::string name() const override { return "time_stamp_jitter"; }
   [[nodiscard]] bool jitters() const override { return true; }
+  [[nodiscard]] bool is_of_the_clock() const override { return true; }
   [[nodiscard]] ParameterValue describe(double value) const override { return {"rms", "ms", 1e3 * value, {}}; }
   [[nodiscard]] std::string immaterial(double value) const override {
     return value >= kMaterial_s ? "" : "records without jitter show as much: " + number(1e3 * value) + " ms";
