@@ -11,9 +11,9 @@
 #include "core/types/displacement.h"
 #include "core/types/modal_estimate.h"
 #include "firmware_app/config/config.h"
+#include "tools/hovermodal/simulate/job.h"
 #include "tools/validate/geometry.h"
 #include "tools/validate/geometry_drawn.h"
-#include "tools/hovermodal/simulate/job.h"
 
 namespace tools {
 
@@ -33,9 +33,9 @@ struct Way {
 };
 
 struct FlightSetup {
-  std::string scene;                       // YAML, as drivers::parse_scene takes it
-  std::vector<std::string> configuration;  // overrides for every way, the true motion's included
-  double flight_scale = 0.0;               // the recorded flight moves the camera, its path times this; 0 = it does not
+  std::string scene;                            // YAML, as drivers::parse_scene takes it
+  std::vector<std::string> configuration = {};  // overrides for every way, the true motion's included
+  double flight_scale = 0.0;  // the recorded flight moves the camera, its path times this; 0 = it does not
   bool ground_rests = false;  // and the operator says so, but for the paper's chain, which knows no such thing
   std::optional<DrawnFlight> drawn = {};  // in place of what `scene` says of camera, structure and noise
 };
