@@ -208,7 +208,7 @@ TEST(Pipeline, TheSameReplayTwiceGivesTheSameBits) {
   std::vector<std::shared_ptr<Heard>> heard;
   const auto folder = tests::own_folder();
   for (const char* name : {"first", "second"}) {
-    Rig rig(frames(400),
+    Rig rig(frames(1200),  // as many as a verdict needs
             {"spectrum.segment=64", "identification.period=2", "rt.frame_slots=" + std::to_string(2 + heard.size()),
              "report.directory=" + (folder / name).string()});
     heard.push_back(rig.heard);

@@ -1,6 +1,7 @@
 #include "drivers/camera/recording/repeat_watch.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdlib>
 #include <utility>
@@ -14,7 +15,7 @@ constexpr std::size_t kKept = 4;  // frames: a suspect, two before it, one after
 constexpr std::size_t kRemembered = 63, kFewest = 8;
 constexpr double kOfLeast = 0.4;  // of the least change among the last frames
 constexpr double kNoise = 0.05;   // gray levels
-constexpr double kAround = 0.7;   // of the same: noise alone makes any two frames differ about so much
+constexpr double kAround = 0.7;   // of the median change: noise alone makes any two frames differ about so much
 // Around the turning point of a smooth motion the outer frames differ three times as much as the inner two.
 constexpr double kOfTurning = 4.0;
 
@@ -56,6 +57,14 @@ bool RepeatWatch::is_suspect(double change) const {
   return least > kNoise && change < kOfLeast * least;
 }
 
+double RepeatWatch::median_change() const {
+  std::array<double, kRemembered> sorted{};
+  const auto end = std::copy(accepted_.begin(), accepted_.end(), sorted.begin());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(accepted_.size() / 2);
+  std::nth_element(sorted.begin(), middle, end);
+  return *middle;
+}
+
 void RepeatWatch::accept(double change) {
   accepted_.push_back(change);
   if (accepted_.size() > kRemembered) accepted_.pop_front();
@@ -70,9 +79,8 @@ RepeatWatch::Finding RepeatWatch::push(double change) {
 }
 
 bool RepeatWatch::settle(std::optional<double> next_change, std::optional<double> around) {
-  const double least = *std::min_element(accepted_.begin(), accepted_.end());
   const bool stays = next_change && is_suspect(*next_change);
-  const bool differs_around = around && *around >= std::max(kAround * least, kOfTurning * suspect_change_);
+  const bool differs_around = around && *around >= std::max(kAround * median_change(), kOfTurning * suspect_change_);
   if (!stays && !differs_around) return accept(suspect_change_), false;
   last_repeated_ = true;
   return true;

@@ -25,8 +25,8 @@ class FrameChange {
 // less than noise and motion make any two of the last frames differ: such a frame is a suspect. A noiseless motion that
 // turns back between two frames makes them as alike. What comes next decides:
 // - a second suspect, or one that follows a repeat: repeats (a smooth motion cannot stay for three frames);
-// - otherwise a repeat only if the frames around it differ, from two before to one after: where a motion turns back,
-//   these are alike too.
+// - otherwise a repeat only if the frames around it differ, from two before to one after, about as much as most frames
+//   do: where a motion turns back, these are alike too.
 // Where frames hardly differ at all (a still picture without noise) nothing can be known, and none is a repeat. Allocates
 // while the first frames come.
 class RepeatWatch {
@@ -41,6 +41,7 @@ class RepeatWatch {
 
  private:
   [[nodiscard]] bool is_suspect(double change) const;
+  [[nodiscard]] double median_change() const;
   void accept(double change);
 
   std::deque<double> accepted_;

@@ -19,6 +19,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Whether one of the first packets says so; the container's own name for it may be any codec's.
+bool is_encrypted(const std::string& path) {
+  constexpr int kFirstPackets = 16;
+  Container container(path);
+  const AvHandle<AVPacket> packet(av_packet_alloc());
+  for (int i = 0; i < kFirstPackets && packet && container.next(*packet); ++i) {
+    const bool found = av_packet_get_side_data(packet.get(), AV_PKT_DATA_ENCRYPTION_INFO, nullptr) != nullptr;
+    av_packet_unref(packet.get());
+    if (found) return true;
+  }
+  return false;
+}
+
 class VideoSource final : public FrameSource {
  public:
   explicit VideoSource(const std::string& path) : path_(path), decoder_(path) {
@@ -63,12 +76,9 @@ class VideoSource final : public FrameSource {
  private:
   void take_first_picture() {
     if (!next_picture()) {
-      const bool is_encrypted = av_stream_get_side_data(&decoder_.container().stream(),
-                                                        AV_PKT_DATA_ENCRYPTION_INIT_INFO, nullptr) != nullptr ||
-                                decoder_.container().stream().codecpar->codec_tag == MKTAG('e', 'n', 'c', 'v');
       throw std::runtime_error(fmt::format(
           "{}: opens as a video ({}) but not one frame decodes: {}", path_, decoder_.container().codec_name(),
-          is_encrypted ? "it is encrypted; decrypt it first"
+          is_encrypted(path_) ? "it is encrypted; decrypt it first"
                        : "the file is damaged or its codec is not supported; try to play it with ffplay"));
     }
     first_is_waiting_ = true;

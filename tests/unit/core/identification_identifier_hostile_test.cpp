@@ -95,8 +95,13 @@ TEST(IdentifierHostile, OneChannelConstant) {
   }
 }
 
-TEST(IdentifierHostile, OneChannelMissing) {
-  expect_refused(spectra({}, [](int c, int t) { return c == 1 ? kNaN : noise(c, t); }));
+TEST(IdentifierHostile, OneChannelMissingTakesNoPartAndIsNamed) {
+  const ModalEstimate estimate = identify(spectra({}, [](int c, int t) { return c == 1 ? kNaN : noise(c, t); }));
+  EXPECT_EQ(estimate.status, "ok");
+  ASSERT_GE(estimate.channels.size(), 2U);
+  EXPECT_TRUE(estimate.channels[0].takes_part);
+  EXPECT_FALSE(estimate.channels[1].takes_part);
+  EXPECT_FALSE(estimate.channels[1].reason.empty());
 }
 
 TEST(IdentifierHostile, NaNInTheSpectra) {

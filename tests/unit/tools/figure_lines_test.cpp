@@ -41,14 +41,17 @@ TEST(FigureLines, MissWhereANumberIsNone) {
 }
 
 TEST(FigureLines, TakeFirstSeedAndFiguresInAnyOrder) {
-  const std::string show = "; echo \"$first ${figures[*]} quick=$quick\"";
-  EXPECT_EQ(script("all", "arguments '1 2 3a'" + show), "1001 1 2 3a quick=\nexit 0");
-  EXPECT_EQ(script("some", "arguments '1 2 3a' 3a --first-seed 7 --quick 1" + show), "7 3a 1 quick=yes\nexit 0");
+  const std::string usage = "take_arguments 'x.sh [--quick] [--first-seed N] [FIGURE...]' ";
+  const std::string show = "; all_or_named 1 2 3a; echo \"$first_seed ${figures[*]} quick=$quick\"";
+  EXPECT_EQ(script("all", usage + show), "1001 1 2 3a quick=\nexit 0");
+  EXPECT_EQ(script("some", usage + "3a --first-seed 7 --quick 1" + show), "7 3a 1 quick=yes\nexit 0");
 }
 
 TEST(FigureLines, RefuseFiguresAndSeedsThatAreNone) {
   for (const char* arguments : {"4", "--first-seed", "--first-seed 0", "--first-seed x", "--seed 3"}) {
-    const std::string text = script("refused", std::string("arguments '1 2 3a' ") + arguments + "; echo went on");
+    const std::string text =
+        script("refused", std::string("take_arguments 'x.sh [--quick] [--first-seed N] [FIGURE...]' ") + arguments +
+                              "; all_or_named 1 2 3a; echo went on");
     EXPECT_EQ(text.find("went on"), std::string::npos) << text;
     EXPECT_NE(text.find("exit 2"), std::string::npos) << text;
   }

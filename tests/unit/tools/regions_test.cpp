@@ -34,16 +34,6 @@ TEST_F(Regions, ProposesABlockThatTheServiceTakesAsItIs) {
   EXPECT_EQ(check.exit_code, 0) << check.text;
 }
 
-// The parts of a bridge lie beside one another: none of them is below the others.
-TEST_F(Regions, WritesWhatItFoundWithoutABaseWhereTheBaseIsAGuess) {
-  const auto made = tests::run("hovermodal", "simulate --preset deck --duration 5 --size 540p --out " + path("clip"));
-  ASSERT_EQ(made.exit_code, 0) << made.text;
-  const auto regions = tests::run("hovermodal", "regions " + path("clip/clip.mp4") + " --lowest-is-base --out " + path("regions.yaml"));
-  EXPECT_EQ(regions.exit_code, 1) << regions.text;
-  EXPECT_THAT(regions.text, HasSubstr("without a base"));
-  EXPECT_THAT(tests::read(path("regions.yaml")), HasSubstr("rect: ["));
-}
-
 TEST_F(Regions, RefusesWhatIsNoClip) {
   const auto missing = tests::run("hovermodal", "regions " + path("none.mp4"));
   EXPECT_NE(missing.exit_code, 0);

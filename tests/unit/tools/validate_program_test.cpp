@@ -30,7 +30,7 @@ TEST(Validate, FindsEveryEffectWhereItsSignatureSaysItIs) {
     EXPECT_LT(std::stod(error), 1.0) << effect;
     ++n_effects;
   }
-  EXPECT_EQ(n_effects, 20);
+  EXPECT_EQ(n_effects, 31);
 }
 
 TEST(Validate, OpenCvFindsTheDrawnPointsWhereTheTracksAre) {
