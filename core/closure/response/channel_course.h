@@ -7,9 +7,9 @@
 
 namespace core::closure {
 
-// Change of all frequencies along a course, relative and per unit of the course: that with which the record, put on a
-// time along which the frequencies stay (channel_retime.h), is predicted best below a third of the rate. Unlike the coefficient of the predictor's
-// derivative it is not biased by noise in the regressors.
+// Change of all frequencies along a course, relative and per unit of the course: that with which nothing of the course
+// is left in the record once it is put on a time along which the frequencies stay (channel_retime.h). Sought by poles
+// below 0.36 of the rate only: above, a mode may be a folded one, whose apparent frequency falls while the true one rises.
 struct CourseFit {
   double change = 0.0;
   std::vector<double> without;  // without one part of the record each, for its standard deviation
