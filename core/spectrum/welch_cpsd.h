@@ -28,9 +28,9 @@ struct WelchConfig {
   // A segment is weighted by exp(-age / forget_s): for a structure that changes. 0 = all segments count alike.
   double forget_s = 0.0;
   bool bridge_losses = false;  // short gaps: see bridge_losses.h; false: every lost sample is masked
-  // Single samples that their neighbours in time do not allow are masked and counted (outlier_gate.h); false: they were
-  // gated before.
-  bool gate_outliers = true;
+  // Single samples that their neighbours in time do not allow are masked and counted (outlier_gate.h): for displacements
+  // from pictures. Not for decimated series, whose modes reach up to half the rate.
+  bool gate_outliers = false;
 };
 
 // Streaming Welch estimate of the cross-power spectra of all channels (Welch 1967), fixed memory.

@@ -108,6 +108,7 @@ core::WelchConfig welch_config(const SpectrumConfig& spectrum, std::size_t n_cha
   out.n_channels = static_cast<int>(n_channels), out.n_witnesses = static_cast<int>(n_witnesses);
   out.segment = spectrum.segment, out.overlap = spectrum.overlap, out.window = window, out.rate_hz = rate_hz;
   out.bridge_losses = true;
+  out.gate_outliers = true;
   out.forget_s = spectrum.forget_s;
   return out;
 }
