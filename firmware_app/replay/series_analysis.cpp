@@ -33,7 +33,7 @@ SeriesSpectra spectra_of(const ChannelSeries& series, const SpectrumConfig& spec
   const std::size_t n_channels = series.channels.size();
   const std::size_t n_samples = series.value.front().size();
   core::WelchConfig config = welch_config(spectrum, n_channels, series.rate_hz);
-  // Outliers were masked before the decimation, by mask_faults().
+  config.gate_outliers = false;  // before the decimation, by mask_faults()
   core::WelchCpsd cpsd(config);
   std::vector<double> value(n_channels);
   std::vector<std::uint8_t> seen(n_channels);
