@@ -162,9 +162,10 @@ SeriesResult identify_series(const ChannelSeries& given, const SeriesOptions& op
   result.estimate.final = true;
   result.channels = series.channels;
   count_outliers(given, n_outlying, result);
-  if (series.channels.size() == 1)
-    result.remarks.push_back(
+  if (series.channels.size() == 1) {
+    result.remarks.emplace_back(
         "one channel has no shape: a mode cannot be distinguished from a spectral line of the input");
+  }
   remark_on_segment(result);
   const int base = base_channel(series.channels);
   const double top_hz = identifier.edge_hz > 0.0 ? identifier.edge_hz : series.rate_hz / 2.0;

@@ -79,7 +79,9 @@ class Programs:
         return re.findall(r"(?m)^  ([a-z]+) ", text[text.index("Subcommands:"):])
 
     def all_help(self):
-        return "".join(self.help("hovermodal", name, "--help") for name in self.subcommands()) + self.help("hovermodald", "--help")
+        nested = [("inspect", "cameras"), ("inspect", "telemetry"), ("inspect", "lcm")]
+        commands = [(name,) for name in self.subcommands()] + nested
+        return "".join(self.help("hovermodal", *names, "--help") for names in commands) + self.help("hovermodald", "--help")
 
     def keys(self):
         """section.key of every key of the configuration, and the sections."""
