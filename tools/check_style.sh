@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # The form of changed sources: clang-format and clang-tidy. Prints what differs, by file; exits with 1 when something does.
 #   tools/check_style.sh format [FILE...]   without files: the changed ones
-#   tools/check_style.sh tidy [FILE...]     needs build/release; without files: at most HOVERMODAL_TIDY_FILES (3) changed ones
+#   tools/check_style.sh tidy [FILE...]     needs build/release; without files: at most HOVERMODAL_TIDY_FILES (1) changed ones
 # Changed: against the branch that HEAD tracks, or against the commit before HEAD where that is the same; with what is not
 # committed. Where the tool or git is missing: a line that says so, and exit status 77.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 what=${1:-} && shift || true
-most=${HOVERMODAL_TIDY_FILES:-3}
+most=${HOVERMODAL_TIDY_FILES:-1}
 
 skip() { echo "SKIP: $*" && exit 77; }
 tool() { # the version that the configuration is written for, else the plain name

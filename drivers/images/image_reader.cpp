@@ -15,9 +15,8 @@ Imread* load_imread() {
   void* library = dlopen(HOVERMODAL_IMGCODECS, RTLD_NOW | RTLD_LOCAL);
   void* symbol = library == nullptr ? nullptr : dlsym(library, kSymbol);
   if (symbol == nullptr) {
-    const char* why = dlerror();
-    throw std::runtime_error(std::string("still images cannot be read without OpenCV's imgcodecs (apt install ") +
-                             "libopencv-imgcodecs406), or convert them to a clip: " + (why == nullptr ? "" : why));
+    throw std::runtime_error("still images cannot be read: " HOVERMODAL_IMGCODECS
+                             " is not installed (apt install libopencv-imgcodecs406); or convert them to a clip");
   }
   return reinterpret_cast<Imread*>(symbol);
 }

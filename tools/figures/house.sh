@@ -124,7 +124,14 @@ compared() {
     n=$((n + 1))
     ! cmp -s "$folder/live/$file" "$folder/again/$file" || same=$((same + 1))
   done
-  judge "2.$1" "$same of $n files the same bytes; $2" "all" "the run's report and that of its record's replay" "$same == $n && $n >= 3 && $3"
+  local apart
+  apart=$(python3 - "$folder/live/modal.json" "$folder/again/modal.json" <<'PY'
+import json, sys
+a, b = (json.load(open(path)) for path in sys.argv[1:])
+print(" ".join(key for key in sorted({*a, *b}) if a.get(key) != b.get(key)) or "none")
+PY
+)
+  judge "2.$1" "$same of $n files the same bytes (parts of modal.json that differ: $apart); $2" "all" "the run's report and that of its record's replay" "$same == $n && $n >= 3 && $3"
 }
 # losses_of MODAL_JSON LOSS KEY: the two numbers.
 losses_of() {
@@ -162,7 +169,7 @@ figure_2() {
   # Eight times too fast, on one processor.
   local on_one=(taskset -c 0)
   quietly "${on_one[@]}" "$bin/hovermodald" --config "$out/input/clip/config.yaml" --set telemetry.lcm_url= --set camera.pace=realtime \
-    --set camera.rate_hz=200 --set tracking.points_per_region=60 --set spectrum.segment=64 --set closure.adopt=off \
+    --set camera.rate_hz=200 --set camera.readout_ms=4 --set tracking.points_per_region=60 --set spectrum.segment=64 --set closure.adopt=off \
     --set "record.directory=$out/again/overload/record" --report "$out/again/overload/live"
   local n_dropped rate_hz
   read -r n_dropped rate_hz < <(losses_of "$out/again/overload/live/modal.json" frames_dropped rate_hz)
