@@ -12,7 +12,7 @@ using Channel = OutlierGate::Channel;
 // Seven eighths of the departures in memory are smaller than the scale: a vibration's own peaks are 1.4 of it, and a
 // few outliers in memory do not move it.
 constexpr std::uint32_t kScaleShare = 8;
-constexpr double kFar = 10.0;
+constexpr double kFar = 16.0;
 constexpr std::uint32_t kLeastDepartures = 16;
 // Of the outlier's own departure: a sample this near to where the earlier ones lead has returned.
 constexpr double kReturned = 0.25;
