@@ -16,11 +16,11 @@ constexpr double kFar = 16.0;
 constexpr std::uint32_t kLeastDepartures = 16;
 // Of the outlier's own departure: a sample this near to where the earlier ones lead has returned.
 constexpr double kReturned = 0.25;
-// The line through two samples, two steps further on, errs by three second differences: six departures, and more where a
-// vibration is just then larger than most of the time.
+// The line through two samples, two steps further on, errs by three second differences: six departures, and more where
+// a vibration is just then larger than most of the time.
 constexpr double kExtrapolation = 9.0;
-// Neighbours farther apart than this share of the departure, and than this many times what nearly all in memory were, do not
-// lie beside an outlier.
+// Neighbours farther apart than this share of the departure, and than this many times what nearly all in memory were,
+// do not lie beside an outlier.
 constexpr double kApart = 0.55, kUsualStep = 2.0;
 // Samples: what departs again so soon after motion that departed far is motion.
 constexpr std::uint32_t kMotion = 16;

@@ -73,14 +73,16 @@ std::vector<double> event(const std::function<double(double)>& after) {
 
 TEST(OutlierGate, KeepsAReleaseUpToFourTenthsOfTheRate) {
   for (const double f : {0.02, 0.05, 0.1, 0.2, 0.25, 0.35, 0.4}) {
-    const auto x = event([f](double t) { return t < 0.0 ? 10.0 : 10.0 * std::exp(-0.01 * t) * std::cos(kTwoPi * f * t); });
+    const auto x =
+        event([f](double t) { return t < 0.0 ? 10.0 : 10.0 * std::exp(-0.01 * t) * std::cos(kTwoPi * f * t); });
     EXPECT_TRUE(rejected(x).empty()) << f << " of the rate";
   }
 }
 
 TEST(OutlierGate, OfAnImpactAtMostOneSampleIsLost) {
   for (const double f : {0.02, 0.05, 0.1, 0.2, 0.25, 0.35, 0.45}) {
-    const auto x = event([f](double t) { return t < 0.0 ? 0.0 : 10.0 * std::exp(-0.01 * t) * std::sin(kTwoPi * f * t); });
+    const auto x =
+        event([f](double t) { return t < 0.0 ? 0.0 : 10.0 * std::exp(-0.01 * t) * std::sin(kTwoPi * f * t); });
     EXPECT_LE(rejected(x).size(), 1U) << f << " of the rate";
   }
 }
