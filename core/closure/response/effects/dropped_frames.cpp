@@ -17,6 +17,7 @@ constexpr double kLogLikelihood = 6.0;
 constexpr double kNever = -20.0;  // ln of the ratio where a drop does not explain the samples
 constexpr double kLikely = 3.0;   // ln of a ratio that casts doubt on the places beside it
 constexpr Index kCluster = 6;     // samples that one drop disturbs
+constexpr double kUnsure = 0.75;  // of the correction for such drops: one standard deviation
 
 // Frames that nobody counted are missing: the structure has gone on for two steps between two samples, and the samples
 // after it confirm it.
@@ -30,7 +31,11 @@ class DroppedFrames final : public ChannelEffect {
     if (!(drops.evidence > kLogLikelihood)) return {context.record};
     std::vector<Index> before;
     for (const std::size_t k : drops.likely) before.push_back(static_cast<Index>(k));
-    return {with_gaps(context.record, before), drops.count, drops.sigma};
+    // Of drops that follow each other within a cluster one is counted, as by a detector with a dead time.
+    const double blind = drops.count * static_cast<double>(kCluster - 1) / static_cast<double>(context.record.n_samples());
+    const double count = drops.count / (1.0 - std::min(blind, 0.6));
+    const double unsure = std::min(kUnsure * (count - drops.count), 0.25 * count);
+    return {with_gaps(context.record, before), count, std::hypot(drops.sigma, unsure)};
   }
   [[nodiscard]] std::string repair() const override { return "lost samples are gaps"; }
   [[nodiscard]] ParameterValue describe(double value) const override { return {"drops", "frames", value, {}}; }
