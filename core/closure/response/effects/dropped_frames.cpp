@@ -32,7 +32,8 @@ class DroppedFrames final : public ChannelEffect {
     std::vector<Index> before;
     for (const std::size_t k : drops.likely) before.push_back(static_cast<Index>(k));
     // Of drops that follow each other within a cluster one is counted, as by a detector with a dead time.
-    const double blind = drops.count * static_cast<double>(kCluster - 1) / static_cast<double>(context.record.n_samples());
+    const double blind =
+        drops.count * static_cast<double>(kCluster - 1) / static_cast<double>(context.record.n_samples());
     const double count = drops.count / (1.0 - std::min(blind, 0.6));
     const double unsure = std::min(kUnsure * (count - drops.count), 0.25 * count);
     return {with_gaps(context.record, before), count, std::hypot(drops.sigma, unsure)};
