@@ -10,7 +10,6 @@ cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
 take_arguments "tools/figures/footage.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
 all_or_named 1 2 3 4 5 6
-first=$first_seed
 out=build/figures/footage
 mkdir -p "$out"
 tools/setup.sh
