@@ -21,6 +21,7 @@ struct RecordingTimes {
   std::uint64_t n_after_damage = 0;  // so far: frames predicted from a damaged one; used
   std::string remark;                // what does not fit together, in words; empty: nothing
 
+  bool operator==(const RecordingTimes&) const = default;
   [[nodiscard]] bool known() const noexcept { return !from.empty(); }
 };
 

@@ -93,6 +93,41 @@ hovermodal::run_frame_t to_message(const core::TrackFrame& tracks, const core::A
   return out;
 }
 
+hovermodal::run_recording_t to_message(const core::RecordingTimes& times) {
+  const auto count = [](std::uint64_t n) { return static_cast<std::int64_t>(n); };
+  hovermodal::run_recording_t out{};
+  out.times_from = times.from;
+  out.rate_hz = times.rate_hz;
+  out.stated_hz = times.stated_hz;
+  out.jitter_s = times.jitter_s;
+  out.worst_s = times.worst_s;
+  out.n_frames = count(times.n_frames);
+  out.n_lost = count(times.n_lost);
+  out.n_gaps = count(times.n_gaps);
+  out.longest_gap_s = times.longest_gap_s;
+  out.n_repeated = count(times.n_repeated);
+  out.n_damaged = count(times.n_damaged);
+  out.n_after_damage = count(times.n_after_damage);
+  out.remark = times.remark;
+  return out;
+}
+
+std::optional<core::RecordingTimes> from_message(const hovermodal::run_recording_t& message) {
+  const auto all = [](auto holds, auto... values) { return (holds(values) && ...); };
+  const bool can_be = !message.times_from.empty() &&
+                      all([](double v) { return std::isfinite(v) && v >= 0.0; }, message.rate_hz, message.stated_hz,
+                          message.jitter_s, message.worst_s, message.longest_gap_s) &&
+                      all([](std::int64_t n) { return n >= 0; }, message.n_frames, message.n_lost, message.n_gaps,
+                          message.n_repeated, message.n_damaged, message.n_after_damage);
+  if (!can_be) return std::nullopt;
+  const auto count = [](std::int64_t n) { return static_cast<std::uint64_t>(n); };
+  return core::RecordingTimes{
+      message.times_from,    message.rate_hz,           message.stated_hz,        message.jitter_s,
+      message.worst_s,       count(message.n_frames),   count(message.n_lost),    count(message.n_gaps),
+      message.longest_gap_s, count(message.n_repeated), count(message.n_damaged), count(message.n_after_damage),
+      message.remark};
+}
+
 std::optional<core::RunHead> from_message(const hovermodal::run_t& message) {
   const auto direction = direction_of(message.readout_direction);
   const auto is_side = [](std::int32_t px) { return px > 0 && px <= kMostSide_px; };

@@ -8,6 +8,7 @@
 #include "drivers/telemetry/publisher.h"
 #include "hovermodal/run_file_t.hpp"
 #include "hovermodal/run_frame_t.hpp"
+#include "hovermodal/run_recording_t.hpp"
 #include "hovermodal/run_t.hpp"
 #include "hovermodal/run_thinned_frame_t.hpp"
 
@@ -18,15 +19,18 @@ namespace drivers {
 inline constexpr const char* kRunSuffix = "_RUN";
 inline constexpr const char* kRunFileSuffix = "_RUN_FILE";
 inline constexpr const char* kRunFrameSuffix = "_RUN_FRAME";
+inline constexpr const char* kRunRecordingSuffix = "_RUN_RECORDING";
 inline constexpr const char* kRunThinnedFrameSuffix = "_RUN_THINNED_FRAME";
 inline constexpr std::size_t kFilePieceBytes = std::size_t{256} << 10;
 
 [[nodiscard]] hovermodal::run_t to_message(const core::RunHead& head, const StreamIdentity& identity);
 [[nodiscard]] std::vector<hovermodal::run_file_t> to_messages(const core::NamedFile& file);
 [[nodiscard]] hovermodal::run_frame_t to_message(const core::TrackFrame& tracks, const core::AttitudeBatch& attitude);
+[[nodiscard]] hovermodal::run_recording_t to_message(const core::RecordingTimes& times);
 
 // Empty: what it says cannot be (sizes that differ, a rate that is none).
 [[nodiscard]] std::optional<core::RunHead> from_message(const hovermodal::run_t& message);
+[[nodiscard]] std::optional<core::RecordingTimes> from_message(const hovermodal::run_recording_t& message);
 // `out` is sized as the keyframe. False: it has other points.
 [[nodiscard]] bool take_frame(const hovermodal::run_frame_t& message, core::RecordedFrame& out);
 // The same, also where the stride is none.

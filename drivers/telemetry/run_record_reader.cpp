@@ -35,6 +35,7 @@ class RunRecordReader::Impl {
     while (next_event()) {
       const std::string_view channel = event_.channel;
       if (channel.ends_with(kTopicSuffixes[kHealth])) hear();
+      if (channel.ends_with(kRunRecordingSuffix)) hear_times();
       const bool is_frame = (channel.ends_with(kRunFrameSuffix) && take<hovermodal::run_frame_t>(out)) ||
                             (channel.ends_with(kRunThinnedFrameSuffix) && take<hovermodal::run_thinned_frame_t>(out));
       if (!is_frame) continue;
@@ -50,6 +51,7 @@ class RunRecordReader::Impl {
   bool starts_late = false;
   std::string end;
   std::optional<core::RunCounts> counts;
+  core::RecordingTimes times;
 
  private:
   template <class Message>
@@ -122,6 +124,16 @@ class RunRecordReader::Impl {
               count(health->frames_missing), count(health->snapshots_skipped)};
   }
 
+  void hear_times() {
+    const auto message = decode<hovermodal::run_recording_t>();
+    if (!message) return;
+    if (auto heard = from_message(*message)) {
+      times = std::move(*heard);
+    } else {
+      ++n_damaged;
+    }
+  }
+
   std::optional<EventLogReader> log_;
   EventLogReader::Event event_;
   std::size_t n_opened_ = 0;
@@ -138,5 +150,6 @@ std::uint64_t RunRecordReader::n_attitudes_left_out() const noexcept { return im
 bool RunRecordReader::starts_late() const noexcept { return impl_->starts_late; }
 const std::string& RunRecordReader::end() const noexcept { return impl_->end; }
 const std::optional<core::RunCounts>& RunRecordReader::counts() const noexcept { return impl_->counts; }
+const core::RecordingTimes& RunRecordReader::times() const noexcept { return impl_->times; }
 
 }  // namespace drivers

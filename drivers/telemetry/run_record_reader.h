@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/types/recording_times.h"
 #include "core/types/run_record.h"
 
 namespace drivers {
@@ -29,6 +30,8 @@ class RunRecordReader {
   // The service's last word: "finished", "fault: ...". Empty: it was cut off. After the last frame.
   [[nodiscard]] const std::string& end() const noexcept;
   [[nodiscard]] const std::optional<core::RunCounts>& counts() const noexcept;  // of that word
+  // Of the recording that the run read, known after the last frame; empty: a camera, or a record that was cut off.
+  [[nodiscard]] const core::RecordingTimes& times() const noexcept;
 
  private:
   class Impl;

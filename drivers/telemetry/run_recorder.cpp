@@ -42,6 +42,14 @@ class LcmRunRecorder : public RunRecorder {
     return false;
   }
 
+  bool end(const core::RecordingTimes& times) noexcept override {
+    try {
+      return log_->write(prefix_ + kRunRecordingSuffix, encoded(to_message(times)), rt::utc_ns());
+    } catch (...) {  // no memory
+      return false;
+    }
+  }
+
   [[nodiscard]] std::uint64_t n_lost() const noexcept override { return n_lost_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::string path() const override { return log_->path(); }
   [[nodiscard]] std::shared_ptr<EventLog> log() override { return log_; }

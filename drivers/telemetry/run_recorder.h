@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "core/types/recording_times.h"
 #include "core/types/run_record.h"
 #include "drivers/telemetry/publisher.h"
 
@@ -29,6 +30,8 @@ class RunRecorder {
   // stride: as DisplacementSample::stride. False: not recorded (the disk or the quota is full), and counted.
   virtual bool add(const core::TrackFrame& tracks, const core::AttitudeBatch& attitude,
                    std::uint32_t stride) noexcept = 0;
+  // After the last frame: how the frames of a recording lay in time. False: not recorded.
+  virtual bool end(const core::RecordingTimes& times) noexcept = 0;
   [[nodiscard]] virtual std::uint64_t n_lost() const noexcept = 0;  // any thread
   [[nodiscard]] virtual std::string path() const = 0;               // of the first file
   // Where the run's messages go, too.

@@ -34,7 +34,9 @@ class Record {
             [this](core::RecordedFrame& out) { return reader_.next(out); },
             recorded_.image() ? &*recorded_.image() : nullptr,
             resumed(),
-            [this] { return reader_.counts(); }};
+            [this] {
+              return RunAccount{reader_.counts(), reader_.times()};
+            }};
   }
 
   // is_first: of the records that are replayed together.
@@ -42,7 +44,8 @@ class Record {
     const auto say = [&](const std::string& what) { remarks.push_back(path_ + ": " + what); };
     if (reader_.starts_late()) say("its first files are missing: the estimate is based on the remaining files");
     if (reader_.head().continues && is_first && resumed() == nullptr)
-      say("the run resumed from a state that this replay cannot use: give the record of the earlier run too, before this "
+      say("the run resumed from a state that this replay cannot use: give the record of the earlier run too, before "
+          "this "
           "one");
     if (reader_.n_damaged() > 0) say(fmt::format("{} damaged messages were left out", reader_.n_damaged()));
     if (reader_.n_attitudes_left_out() > 0)

@@ -52,7 +52,7 @@ class Replay {
     result_.channels = analysis_->channels();
     result_.estimate = analysis_->finish();
     result_.losses = analysis_->analysis().losses();
-    if (is_alone && last.counts) take_counts(last.counts());
+    if (is_alone && last.account) take_account(last.account());
     result_.sums = analysis_->analysis().setup_sums();
     result_.sums.view = view_;
     result_.n_differences = analysis_->analysis().n_differences();
@@ -88,7 +88,9 @@ class Replay {
   }
 
   // What was lost on the way to the record, where all that was processed is in it.
-  void take_counts(const std::optional<core::RunCounts>& counts) {
+  void take_account(const RunAccount& account) {
+    result_.losses.times = account.times;
+    const std::optional<core::RunCounts>& counts = account.counts;
     if (!counts || counts->frames_processed != result_.losses.frames_processed) return;
     result_.losses.frames_in = counts->frames_in;
     result_.losses.frames_dropped = counts->frames_dropped;

@@ -5,12 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "core/types/recording_times.h"
 #include "core/types/run_record.h"
 #include "firmware_app/chain/state/run_state.h"
 #include "firmware_app/config/config.h"
 #include "firmware_app/replay/analysis.h"
 
 namespace app {
+
+// What a run counted, and how the frames of the recording that it read lay in time.
+struct RunAccount {
+  std::optional<core::RunCounts> counts;
+  core::RecordingTimes times;
+};
 
 // Tracks of one run, frame by frame.
 struct TrackSource {
@@ -21,8 +28,8 @@ struct TrackSource {
   std::function<bool(core::RecordedFrame& out)> next;  // points as in the keyframe; false: the end
   const core::Frame* image = nullptr;                  // of the keyframe, for pictures; null: none
   const RunState* resumed = nullptr;  // what the run went on with, where nothing comes before it here; null: nothing
-  // After the last frame: what the run itself counted; empty: not known.
-  std::function<std::optional<core::RunCounts>()> counts = {};
+  // After the last frame: what the run itself found; empty: not known.
+  std::function<RunAccount()> account = {};
 };
 
 // Processes the runs one after the other, each continuing the sums of those before; writes a report if the directory is

@@ -96,6 +96,7 @@ void PublishStage::complete_report(const core::Health& health) {
 void PublishStage::finish() noexcept {
   try {
     core::Health health = outlets_.health();
+    if (outlets_.recorder != nullptr && health.times.known()) (void)outlets_.recorder->end(health.times);
     try {
       complete_report(health);
     } catch (const std::exception& e) {

@@ -5,6 +5,7 @@
 #include "hovermodal/attitude_t.hpp"
 #include "hovermodal/run_file_t.hpp"
 #include "hovermodal/run_frame_t.hpp"
+#include "hovermodal/run_recording_t.hpp"
 #include "hovermodal/run_t.hpp"
 #include "hovermodal/tracks_t.hpp"
 #include "tests/fuzz/fuzz_target.h"
@@ -90,6 +91,7 @@ const std::vector<Kind>& kinds() {
                                      kind<run_t>("_RUN"),
                                      kind<run_file_t>("_RUN_FILE"),
                                      kind<run_frame_t>("_RUN_FRAME"),
+                                     kind<run_recording_t>(drivers::kRunRecordingSuffix),
                                      {"_MODAL_V2", 0, &check<attitude_t>}};
   return all;
 }

@@ -119,6 +119,44 @@ TEST_F(RunRecord, ComesBackToTheLastBit) {
   EXPECT_EQ(reader.end(), "") << "no last word: cut off";
 }
 
+core::RecordingTimes uneven_times() {
+  core::RecordingTimes times;
+  times.from = "the container's times";
+  times.rate_hz = 29.97, times.stated_hz = 30.0;
+  times.jitter_s = 1.0 / 3e4, times.worst_s = 0.011;
+  times.n_frames = 1500, times.n_lost = 13, times.n_gaps = 2, times.longest_gap_s = 0.4;
+  times.n_repeated = 7, times.n_damaged = 3, times.n_after_damage = 11;
+  times.remark = "the frames are parts of two recordings";
+  return times;
+}
+
+TEST_F(RunRecord, HowTheRecordingLayInTimeComesBackBehindTheLastFrame) {
+  const auto recorder = make_run_recorder(options());
+  recorder->begin(head());
+  (void)recorder->add(frame_of(0), attitude_of(0), 1);
+  ASSERT_TRUE(recorder->end(uneven_times()));
+  RunRecordReader reader(recorder->path());
+  EXPECT_FALSE(reader.times().known()) << "nothing is known before the end";
+  core::RecordedFrame frame;
+  while (reader.next(frame)) {
+  }
+  EXPECT_EQ(reader.times(), uneven_times());
+  EXPECT_EQ(reader.n_damaged(), 0U);
+}
+
+TEST_F(RunRecord, TimesThatCannotBeAreCountedAsDamaged) {
+  core::RecordingTimes times = uneven_times();
+  times.jitter_s = std::numeric_limits<double>::quiet_NaN();
+  const auto recorder = make_run_recorder(options());
+  recorder->begin(head());
+  ASSERT_TRUE(recorder->end(times));
+  RunRecordReader reader(recorder->path());
+  core::RecordedFrame frame;
+  EXPECT_FALSE(reader.next(frame));
+  EXPECT_FALSE(reader.times().known());
+  EXPECT_EQ(reader.n_damaged(), 1U);
+}
+
 TEST_F(RunRecord, GoesOnInFurtherFilesEachOfWhichHasTheHead) {
   const std::string path = record(5000, options(1'000'000));
   const auto parts = record_parts(folder_.string());
