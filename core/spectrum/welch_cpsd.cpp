@@ -36,8 +36,7 @@ int padded_length(const WelchConfig& config) {
 
 namespace welch_kernels {
 
-// Adds x_i conj(x_j) of all channels i <= j to `sum`. by_real: re x, -im x; by_imaginary: im x, re x, channel by
-// channel.
+// Adds x_i conj(x_j), i <= j, to `sum`. by_real: re x, -im x; by_imaginary: im x, re x; channel by channel.
 HOVERMODAL_VECTOR_CLONES
 void add_outer_product(const double* __restrict by_real, const double* __restrict by_imaginary, int n_channels,
                        double* __restrict sum) {

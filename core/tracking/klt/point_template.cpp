@@ -81,7 +81,7 @@ constexpr double noise_in_both() {
 }
 constexpr double kNoiseInBoth = noise_in_both();
 constexpr double kLeastWithoutNoise =
-    0.6;  // what is taken for noise may be fine texture: steps stay shorter than twice the way
+    0.6;  // apparent noise may be fine texture: a step overshoots by less than a factor of two
 
 template <class Function>
 void for_window(int radius, const Function& function) {
