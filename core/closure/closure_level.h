@@ -20,9 +20,9 @@ struct LevelFit {
 };
 
 // One level of residual diagnosis ("closing the loop": model correction, not SLAM's loop closure): a model of a record,
-// its candidate effects and their scores. State: the adopted effects. A level owns its record. Candidate ids are valid
-// until the next adopt() or drop(); adopted effects are numbered in order of adoption. Only surrogate_score() is
-// random, by its seed. One thread.
+// its candidate effects and their scores. The state is the list of adopted effects. A level owns its record. Candidate
+// ids are valid until the next adopt() or drop(); adopted effects are numbered in order of adoption. Only
+// surrogate_score() is random; its seed determines the result. One thread.
 class ClosureLevel {
  public:
   ClosureLevel() = default;
@@ -33,10 +33,10 @@ class ClosureLevel {
   [[nodiscard]] virtual std::string name() const = 0;  // "observation" | "response" | "structure"
   [[nodiscard]] virtual std::string unit() const = 0;  // of residuals and held-out errors
 
-  // Effects that are not observable in this record, whatever their size.
+  // Effects that are not observable in this record, however large they are.
   [[nodiscard]] virtual std::vector<NotObservable> not_observable() const = 0;
 
-  // Effects that may still be adopted: named ones, and latent ones as far as the level supports them.
+  // Effects that may still be adopted: named ones, and latent ones if the level supports them.
   [[nodiscard]] virtual std::vector<std::string> candidates() const = 0;
 
   // Fits the model with every adopted effect.
@@ -58,15 +58,15 @@ class ClosureLevel {
   // What the parameters imply, e.g. a storey height; for a latent effect, its description. May be empty.
   [[nodiscard]] virtual std::string meaning(std::size_t /*adopted*/) const { return {}; }
 
-  // Candidates that would explain the data as well in the place of an adopted effect: their held-out score is within
-  // its uncertainty. `seed`: for levels that estimate that uncertainty from surrogates.
+  // Candidates that explain the data as well as the adopted effect when they replace it: the held-out scores agree
+  // within their uncertainty. `seed`: for levels that estimate that uncertainty from surrogates.
   [[nodiscard]] virtual std::vector<std::string> rivals(std::size_t adopted, std::uint64_t seed) = 0;
 
   // Results of the last fit().
   [[nodiscard]] virtual std::vector<ClosureMode> modes() const = 0;
   [[nodiscard]] virtual std::optional<double> reference_error() const = 0;
   [[nodiscard]] virtual std::string reference_unit() const { return unit(); }  // of reference_error()
-  [[nodiscard]] virtual std::string describe_residual() const = 0;             // of the last fit: where, how much
+  [[nodiscard]] virtual std::string describe_residual() const = 0;             // of the last fit: where and how large
 };
 
 }  // namespace core::closure

@@ -13,9 +13,9 @@ namespace core::closure {
 namespace {
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-constexpr double kTie = 0.01;         // of the score: as good as equal
-constexpr double kPlain = 3.0;        // times what few surrogates say of chance
-constexpr double kKeptOfScore = 0.5;  // a refit must keep so much of the predicted drop in held-out squares
+constexpr double kTie = 0.01;         // relative difference of two scores that are treated as equal
+constexpr double kPlain = 3.0;        // early stop: factor over the threshold that the few surrogates imply
+constexpr double kKeptOfScore = 0.5;  // share of the predicted decrease of held-out squares that a refit must reach
 
 class Loop {
  public:
@@ -117,7 +117,7 @@ class Loop {
     return best;
   }
 
-  // All but one, best first; those that may be adopted before those that may not.
+  // All scores except `without`, best first; adoptable candidates precede refused ones.
   [[nodiscard]] static std::vector<CandidateScore> ranked(std::vector<CandidateScore> scores, std::size_t without) {
     if (without != kNone) scores.erase(scores.begin() + static_cast<std::ptrdiff_t>(without));
     for (CandidateScore& s : scores) {
@@ -159,7 +159,7 @@ class Loop {
     result_.unexplained = fit_.structured ? level_.describe_residual() : "nothing: " + fit_.words;
   }
 
-  // Never the same twice in a run: (seed, count) through splitmix64's constant keeps streams of other runs apart.
+  // Never repeats within a run. splitmix64's constant separates the streams of runs with different seeds.
   [[nodiscard]] std::uint64_t next_seed() noexcept { return options_.seed * 0x9e3779b97f4a7c15ULL + n_drawn_++; }
 
   void tell(const std::string& words) const {
@@ -187,7 +187,7 @@ double chance_threshold(std::vector<double> scores) {
   double squares = 0.0;
   for (const double s : scores) squares += (s - mean) * (s - mean);
   const double deviation = std::sqrt(squares / std::max(n - 1.0, 1.0));
-  const double gumbel = -std::log(-std::log(1.0 - kChance));  // standard Gumbel at that level
+  const double gumbel = -std::log(-std::log(1.0 - kChance));  // quantile of the standard Gumbel distribution
   return mean + deviation * std::sqrt(6.0) / std::numbers::pi * (gumbel - std::numbers::egamma);
 }
 

@@ -11,22 +11,22 @@
 namespace core::closure {
 
 struct ClosureOptions {
-  std::size_t n_surrogates = 333;  // per step; the smallest number whose largest score is the 99.7 % level
+  std::size_t n_surrogates = 333;  // per step; 333 is the smallest number whose largest score is the 99.7 % level
   // Early stop: after this many surrogates, draw no more if the best score already exceeds three times the threshold
   // that they imply. 0 = never stop early. For levels whose surrogates are costly.
   std::size_t n_surrogates_when_plain = 0;
   std::uint64_t seed = 1;
   std::size_t max_steps = 8;
-  double least_gain = 0.0;  // in the level's unit (rms, held out): a step that gains less is not adopted
+  double least_gain = 0.0;  // in the level's unit (rms, held out): a step with a smaller gain is not adopted
   std::function<void(const std::string&)> progress = {};  // called with a description of the current step
 };
 
-// Probability that an effect is adopted in a record that has none.
+// Probability that an effect is adopted in a record that contains none.
 inline constexpr double kChance = 0.003;
 
-// Level that the maximum over all candidates exceeds by chance with probability kChance: of n surrogates the k-th
-// largest, k = kChance (n + 1), exact for any distribution. With fewer than 333, a Gumbel distribution of the same mean
-// and standard deviation is used instead (mean + 4.08 sd). `scores` must not be empty.
+// Threshold that the largest score of all candidates exceeds by chance with probability kChance: of n surrogates the
+// k-th largest score, k = kChance (n + 1), exact for any distribution. With fewer than 333 surrogates it is computed
+// from a Gumbel distribution of the same mean and standard deviation (mean + 4.08 sd). `scores` must not be empty.
 [[nodiscard]] double chance_threshold(std::vector<double> scores);
 
 // Fit -> residual -> structured? -> score every candidate on held-out data -> adopt the best that exceeds the chance

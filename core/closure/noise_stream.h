@@ -6,8 +6,8 @@
 
 namespace core::closure {
 
-// Seeded normal numbers for surrogates. The generator is fixed by the standard, the polar method (Marsaglia & Bray
-// 1964) by this code: the same numbers with every standard library.
+// Seeded normal numbers for surrogates. The C++ standard defines the generator and this code the polar method
+// (Marsaglia & Bray 1964), so the numbers are the same with every standard library.
 class NoiseStream {
  public:
   explicit NoiseStream(std::uint64_t seed) : engine_(seed) {}

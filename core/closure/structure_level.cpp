@@ -163,14 +163,14 @@ void StructureLevel::drop() {
   fit_.parameters = fit_.parameters.head(model_.n_parameters()).eval();
 }
 
-// Where the residual is more than the stated noise, what is left is taken as noise: Birge's ratio.
+// Birge ratio: a residual larger than the stated noise raises the noise estimate to the residual.
 double StructureLevel::spread() const {
   const double freedom = static_cast<double>(fit_.n_data - fit_.parameters.size());
   return freedom > 0.0 ? std::max(std::sqrt(fit_.chi2 / freedom), 1.0) : 1.0;
 }
 
-// Would data made by the rival ever favour the adopted model by as much as the reference does (Cox 1961, by
-// surrogates)?
+// Tests whether data simulated from the rival favour the adopted model by as much as the reference does (Cox 1961, with
+// surrogates).
 bool StructureLevel::is_rival(const FrameModel& rival, std::uint64_t seed) const {
   const FrameFit fit = fit_frame(rival, reference_, {}, Starts::kAll);
   const LeaveOneOut loo = leave_one_out(rival, reference_, fit);

@@ -7,16 +7,16 @@
 
 namespace core::closure {
 
-// Structure level: frequencies (and shapes, where given) of a declared shear frame against reference modes. Unit:
-// percent of frequency. Cross-validation: one mode at a time is held out and predicted from the others. Score = drop of
-// the summed squared prediction errors, in units of the reference's variances.
+// Structure level: frequencies (and shapes, where given) of a declared shear frame are compared with reference modes.
+// Unit: percent of frequency. Cross-validation: one mode at a time is held out and predicted from the others. Score =
+// decrease of the summed squared prediction errors, in units of the reference's variances.
 class StructureLevel final : public ClosureLevel {
  public:
   // Materiality threshold: an effect must at least halve the leave-one-out error.
   static constexpr double kMaterial = 0.5;
 
-  // Throws std::invalid_argument (core/structure/declared_frame.h). `check`: modes excluded from every fit; if given,
-  // reference_error() refers to them, otherwise it is the leave-one-out error.
+  // Throws std::invalid_argument (core/structure/declared_frame.h). `check`: modes excluded from every fit. If it is
+  // given, reference_error() is computed on these modes, otherwise it is the leave-one-out error.
   StructureLevel(structure::DeclaredFrame declared, std::vector<structure::ReferenceMode> reference,
                  std::vector<structure::ReferenceMode> check = {});
 
@@ -44,14 +44,14 @@ class StructureLevel final : public ClosureLevel {
   using Effect = const structure::StructuralEffect*;
   using Reference = std::vector<structure::ReferenceMode>;
 
-  [[nodiscard]] std::vector<Effect> open() const;  // observable, not adopted
+  [[nodiscard]] std::vector<Effect> open() const;  // observable and not adopted
   [[nodiscard]] structure::FrameModel with(Effect effect) const;
   [[nodiscard]] std::string refusal(const structure::FrameModel& model, const structure::FrameFit& fit,
                                     const structure::LeaveOneOut& loo) const;
   [[nodiscard]] std::string implausible(const structure::FrameModel& model, const structure::FrameFit& fit) const;
   [[nodiscard]] Reference surrogate(const structure::FrameModel& model, const structure::FrameFit& fit, double spread,
                                     std::uint64_t seed) const;
-  [[nodiscard]] double spread() const;  // of the residual in sigmas, at least 1
+  [[nodiscard]] double spread() const;  // standard deviation of the residual in sigmas, at least 1
   [[nodiscard]] bool is_rival(const structure::FrameModel& rival, std::uint64_t seed) const;
 
   structure::DeclaredFrame declared_;

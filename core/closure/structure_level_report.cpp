@@ -1,4 +1,4 @@
-// What the structure level says of its last fit.
+// StructureLevel: description of the last fit.
 #include <cmath>
 #include <sstream>
 

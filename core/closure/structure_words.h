@@ -9,7 +9,7 @@
 
 namespace core::closure {
 
-// Small helpers of structure_level*.cpp.
+// Text helpers of structure_level*.cpp.
 
 inline double relative_sigma(const structure::ReferenceMode& mode) { return mode.sigma_hz / mode.frequency_hz; }
 

@@ -12,12 +12,12 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr double kLeastSigma_rad = 1e-7;
-constexpr double kDrift_rad2_per_s = 3e-9;  // of the bias: 0.003 degrees in a second
+constexpr double kDrift_rad2_per_s = 3e-9;  // of the bias: 0.003 degrees in one second
 constexpr double kContradicts_sigmas = 6.0, kShareRate = 0.02, kMostContradicted = 0.5;
 
 Quaterniond quaternion(const std::array<double, 4>& wxyz) noexcept { return {wxyz[0], wxyz[1], wxyz[2], wxyz[3]}; }
 
-// Camera axes (X right, Y down, Z ahead) to those of a body that looks the same way (X ahead, Y right, Z down).
+// Camera axes (X right, Y down, Z forward) to those of a body with the same view (X forward, Y right, Z down).
 Quaterniond from_camera() {
   Eigen::Matrix3d axes;
   axes << 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0;
@@ -68,7 +68,7 @@ void AttitudePrior::take(const AttitudeSample& sample) noexcept {
 
 std::optional<AttitudePrior::Turn> AttitudePrior::at(double t_s) const noexcept {
   if (n_ == 0 || !(t_s >= kept(0).t_s)) return std::nullopt;
-  std::size_t low = 0, high = n_;  // the last sample that is not later
+  std::size_t low = 0, high = n_;  // index of the last sample that is not later
   while (high - low > 1) {
     const std::size_t middle = (low + high) / 2;
     (kept(middle).t_s <= t_s ? low : high) = middle;

@@ -13,11 +13,11 @@ namespace core {
 
 struct AttitudeConfig {
   double sigma_rad = 1e-3;                  // white noise of a sample, per axis
-  std::array<double, 3> mount_rpy_rad{};    // of the camera relative to the body: 0 = looks ahead, its top up
-  double delay_s = 0.0;                     // from the start of row 0 to the instant to which the motion refers
-  double most_gap_s = 0.25;                 // no interpolation across longer gaps, no use of older samples
-  std::size_t n_kept = 4096;                // number of received samples kept; a record is kept whole
-  std::vector<AttitudeSample> record = {};  // known beforehand
+  std::array<double, 3> mount_rpy_rad{};    // of the camera relative to the body: 0 = looks forward, top up
+  double delay_s = 0.0;                     // from the start of row 0 to the instant of the estimated motion
+  double most_gap_s = 0.25;                 // longest gap that is interpolated, and oldest sample that is used
+  std::size_t n_kept = 4096;                // received samples that are kept; a record is kept whole
+  std::vector<AttitudeSample> record = {};  // samples known in advance
 };
 
 // Attitude as a measurement of the camera's rotation. With C(t) = A(t) M^T, A the attitude, M from body to camera axes,
@@ -25,16 +25,16 @@ struct AttitudeConfig {
 //     R(w(t)) = C(t)^T C_ref,      C_ref = C(t_1) R(w(t_1)) at the first frame t_1 with an attitude
 // A is interpolated between the samples around the frame's instant (slerp); a frame newer than all samples uses the
 // newest, with its variance raised by the rate of rotation. The reference's error (the noise of that first attitude, a
-// drifting compass) is common to neighbouring frames: a bias per axis, a random walk, is estimated. The attitude is
-// dropped, and this is reported, if the image contradicts it by more than six standard deviations in most frames: a
-// wrong mounting, different clocks, or a noise stated too small. One thread; nothing allocates after construction.
-// Invalid samples (NaN, zero, time that does not increase) are counted and ignored.
+// drifting compass) is common to neighbouring frames: a bias per axis, modelled as a random walk, is estimated. If the
+// image contradicts the attitude by more than six standard deviations in most frames (wrong mounting, different clocks,
+// or a stated noise that is too small), it is dropped and this is reported. One thread; does not allocate after
+// construction. Invalid samples (NaN, zero, time that does not increase) are counted and ignored.
 class AttitudePrior {
  public:
   explicit AttitudePrior(AttitudeConfig config);
 
   void take(const AttitudeSample& sample) noexcept;
-  // Between predict() and correct() of the frame at t_s; after settle().
+  // Call between predict() and correct() of the frame at t_s; after() follows settle().
   void before(CameraMotionEstimator& motion, double t_s) noexcept;
   void after(const CameraMotionEstimator& motion) noexcept;
 
@@ -63,7 +63,7 @@ class AttitudePrior {
   std::vector<Kept> ring_;
   std::size_t first_ = 0, n_ = 0;
   std::optional<Eigen::Quaterniond> reference_;  // C_ref
-  std::optional<Eigen::Vector3d> measured_;      // of this frame, less the bias
+  std::optional<Eigen::Vector3d> measured_;      // of this frame, bias subtracted
   double sigma_rad_ = 0.0, last_s_ = 0.0;
   Eigen::Vector3d bias_rad_ = Eigen::Vector3d::Zero(), bias_variance_;
   double contradicted_ = 0.0;  // share of recent frames

@@ -72,8 +72,8 @@ double CameraAdjustment::corner_sigma_px() const {
   return n_free > 0.0 ? std::sqrt(cost() / n_free) : std::numeric_limits<double>::infinity();
 }
 
-// d(raw px) with respect to the camera's parameters and to a turn w about the camera's axes and a shift t of the board:
-// dp = w x (R b) + t.
+// d(raw px) with respect to the camera's parameters, to a rotation w about the camera's axes and to a translation t of
+// the board: dp = w x (R b) + t.
 void CameraAdjustment::add_corner(std::size_t i_view, std::size_t i_corner, View& view, Normal& normal) const {
   const BoardPose& pose = poses_[i_view];
   const Eigen::Vector3d turned = pose.rotation * board_point(board_, i_corner);
@@ -94,7 +94,7 @@ void CameraAdjustment::add_corner(std::size_t i_view, std::size_t i_corner, View
   by_camera(1, 1) = at.y;
   by_camera(0, 2) = by_camera(1, 3) = 1.0;
   for (int i = 4; i < n_parameters_; ++i) {
-    constexpr double kStep = 0.5;  // the models are linear in their coefficients (the rational ones are not fitted)
+    constexpr double kStep = 0.5;  // exact: the models are linear in their coefficients (rational ones are not fitted)
     CameraModel more = camera_;
     more.distortion[static_cast<std::size_t>(i - 4)] += kStep;
     const LensBend there = bend(more, x, y);
@@ -110,7 +110,7 @@ void CameraAdjustment::add_corner(std::size_t i_view, std::size_t i_corner, View
   view.gradient += by_pose.transpose() * r;
 }
 
-// Normal equations with the poses eliminated.
+// Normal equations after elimination of the poses.
 CameraAdjustment::Normal CameraAdjustment::sum_up() const {
   Normal out;
   out.hessian = Eigen::MatrixXd::Zero(n_parameters_, n_parameters_);

@@ -7,7 +7,7 @@
 
 namespace core {
 
-// Pose of a board: board point p (mm) -> rotation * p + translation_mm in camera axes (right, down, ahead).
+// Pose of a board: board point p (mm) -> rotation * p + translation_mm in camera axes (right, down, forward).
 struct BoardPose {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation_mm = Eigen::Vector3d::Zero();
@@ -23,10 +23,10 @@ class CameraAdjustment {
   [[nodiscard]] const BoardPose& pose(std::size_t i_view) const { return poses_[i_view]; }
   [[nodiscard]] const CameraModel& camera() const noexcept { return camera_; }
 
-  // Fits fx fy cx cy, the first `n_coefficients` and all poses. False if the parameters are not distinguishable.
+  // Fits fx fy cx cy, the first `n_coefficients` and all poses. False if the parameters cannot be distinguished.
   bool solve(int n_coefficients);
 
-  // After solve().
+  // Standard deviations after solve().
   [[nodiscard]] const std::vector<double>& sigma() const noexcept { return sigma_; }
   [[nodiscard]] double condition() const noexcept { return condition_; }
   [[nodiscard]] double rms_px() const;

@@ -43,7 +43,7 @@ CameraModel model_of(const cv::Mat& k, const cv::Mat& coefficients, LensModel le
   return camera;
 }
 
-// OpenCV's own fit with the fewest coefficients.
+// OpenCV's fit with the fewest coefficients, as the initial value.
 CameraAdjustment start(const ChessBoard& board, const std::vector<BoardView>& views, LensModel lens, cv::Size size) {
   const std::vector<std::vector<cv::Point3f>> objects(views.size(), board_points(board));
   std::vector<std::vector<cv::Point2f>> images;
@@ -78,7 +78,7 @@ CameraAdjustment start(const ChessBoard& board, const std::vector<BoardView>& vi
   return out;
 }
 
-// All coefficients; fewer only where that is more than the views can tell: a fold in the picture, or no solution.
+// Fits all coefficients; fewer only if the views do not determine them: the lens folds the image, or no solution.
 int fit_with_possible_coefficients(CameraAdjustment& fit, LensModel lens, int width_px, int height_px) {
   const int least = lens == LensModel::kEquidistant ? 2 : 4;
   const int most = lens == LensModel::kEquidistant ? 4 : 5;
@@ -92,7 +92,7 @@ int fit_with_possible_coefficients(CameraAdjustment& fit, LensModel lens, int wi
   return least;
 }
 
-// What a board's place, size, turn and tilt look like, each about as large as the share of the image it changes.
+// Features of a board's position, size, rotation and tilt, each scaled by the share of the image that it changes.
 std::vector<double> look_of(const ChessBoard& board, const BoardView& view, int width_px, int height_px) {
   const auto columns = static_cast<std::size_t>(board.columns);
   const Vector2 a = view.front(), b = view[columns - 1], c = view.back(), d = view[view.size() - columns];
@@ -161,7 +161,7 @@ std::vector<std::size_t> spread_views(const ChessBoard& board, const std::vector
   constexpr double kLeastDistance = 0.05;
   std::vector<std::vector<double>> looks;
   for (const BoardView& view : views) looks.push_back(look_of(board, view, width_px, height_px));
-  std::vector<double> gap(views.size(), 1e9);  // to the nearest chosen view; the largest board comes first
+  std::vector<double> gap(views.size(), 1e9);  // distance to the nearest chosen view; the largest board is chosen first
   for (std::size_t i = 0; i < views.size(); ++i) gap[i] += looks[i][2];
   std::vector<std::size_t> chosen;
   while (chosen.size() < most && !gap.empty()) {

@@ -12,8 +12,8 @@ namespace {
 constexpr int kNewtonSteps = 40;
 constexpr int kHalvings = 12;
 constexpr double kTolerance = 1e-13;
-constexpr double kGoodEnough = 1e-10;    // rounding keeps strong lenses from the tolerance
-constexpr double kWidestAngle = 1.5707;  // rad: beyond, a pinhole image has no place for the ray
+constexpr double kGoodEnough = 1e-10;    // with strong lenses rounding prevents a smaller tolerance
+constexpr double kWidestAngle = 1.5707;  // rad: at larger angles a ray has no pinhole image
 
 struct Point {
   double x = 0.0, y = 0.0;
@@ -23,7 +23,7 @@ LensBend radial_tangential(const std::array<double, 8>& k, double x, double y) n
   const double r2 = x * x + y * y;
   const double above = 1.0 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
   const double below = 1.0 + r2 * (k[5] + r2 * (k[6] + r2 * k[7]));
-  const double d_above = k[0] + r2 * (2.0 * k[1] + r2 * 3.0 * k[4]);  // with respect to r2
+  const double d_above = k[0] + r2 * (2.0 * k[1] + r2 * 3.0 * k[4]);  // derivative by r2
   const double d_below = k[5] + r2 * (2.0 * k[6] + r2 * 3.0 * k[7]);
   const double radial = above / below;
   const double d_radial = (d_above - radial * d_below) / below;
@@ -51,7 +51,7 @@ LensBend equidistant(const std::array<double, 8>& k, double x, double y) noexcep
   if (r < 1e-9) return {x, y};
   const auto [bent, slope] = angle_bent(k, std::atan(r));
   const double ratio = bent / r;
-  const double along = slope / (1.0 + r * r);  // d r' / d r; across the radius it is the ratio
+  const double along = slope / (1.0 + r * r);  // d r' / d r along the radius; across it the ratio r' / r
   const double cx = x / r;
   const double cy = y / r;
   return {x * ratio,
@@ -62,8 +62,8 @@ LensBend equidistant(const std::array<double, 8>& k, double x, double y) noexcep
           along * cy * cy + ratio * cx * cx};
 }
 
-// The inverse of angle_bent on the interval from 0 on which it rises: Newton's method, bisection where that leaves the
-// bracket. NaN where there is none.
+// Inverse of angle_bent on the interval from 0 on which it increases: Newton's method, bisection if a step leaves the
+// bracket. NaN if there is no inverse.
 double angle_unbent(const std::array<double, 8>& k, double bent) noexcept {
   constexpr int kPieces = 64;
   double low = 0.0;
@@ -87,7 +87,7 @@ double angle_unbent(const std::array<double, 8>& k, double bent) noexcept {
   return theta;
 }
 
-// From `p`, where the determinant is positive, towards the point that is seen at `raw`.
+// Newton's method from `p`, where the determinant is positive, towards the point that is seen at `raw`.
 bool newton(const CameraModel& camera, Point raw, Point& p) noexcept {
   LensBend at = bend(camera, p.x, p.y);
   double error = std::hypot(raw.x - at.x, raw.y - at.y);
@@ -103,7 +103,7 @@ bool newton(const CameraModel& camera, Point raw, Point& p) noexcept {
       const Point next{p.x + share * step_x, p.y + share * step_y};
       const LensBend there = bend(camera, next.x, next.y);
       const double there_error = std::hypot(raw.x - there.x, raw.y - there.y);
-      if (!(there_error < error) || !(there.determinant() > 0.0)) continue;  // NaN is no progress
+      if (!(there_error < error) || !(there.determinant() > 0.0)) continue;  // a NaN counts as no progress
       better = true;
       p = next, at = there, error = there_error;
     }
@@ -112,8 +112,8 @@ bool newton(const CameraModel& camera, Point raw, Point& p) noexcept {
   return error < kGoodEnough;
 }
 
-// Whether the lens unfolds all the way from the axis to `p`: otherwise it is another ray that is seen at the same
-// place.
+// True if the lens does not fold between the axis and `p`: otherwise another ray is seen at the same
+// pixel.
 bool on_branch_of_axis(const CameraModel& camera, Point p) noexcept {
   constexpr int kSteps = 8;
   for (int i = 1; i <= kSteps; ++i) {

@@ -25,9 +25,9 @@ struct CameraModel {
 
   [[nodiscard]] bool calibrated() const noexcept { return fx > 0.0 && fy > 0.0; }
   [[nodiscard]] bool distorts() const noexcept;
-  // Raw pixel -> the pixel that an undistorted camera with the same fx fy cx cy would see. For points, never for
-  // images. NaN where no ray reaches the pixel: beyond the circle at which the distortion folds back, or 90 degrees and
-  // more off the axis. Newton's method on the branch that starts at the axis, to 1e-12 of the focal length.
+  // Raw pixel -> the pixel that an undistorted camera with the same fx fy cx cy would see. For points, not for images.
+  // NaN if no ray reaches the pixel: beyond the circle at which the distortion folds back, or 90 degrees and more off
+  // the axis. Newton's method on the branch that starts at the axis, to 1e-12 of the focal length.
   [[nodiscard]] Vector2 undistort(const Vector2& raw_px) const noexcept;
   [[nodiscard]] Vector2 distort(const Vector2& ideal_px) const noexcept;
 };

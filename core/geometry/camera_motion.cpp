@@ -11,20 +11,21 @@ namespace core {
 namespace {
 
 constexpr int n = kMotionSize;
-// An aircraft that holds its place by satellite and vision, and its gimbal, move below about this.
+// Corner frequency of the motion of an aircraft in position hold (satellite and vision) and of its gimbal.
 constexpr double kCorner_hz = 0.5;
-// Standard deviations to begin with, and what learning keeps to. Shifts: shares of the distance to the structure.
+// Initial standard deviations and the limits of learning. Translations: as shares of the distance to the structure.
 constexpr double kTurn_rad = 0.035, kLeastTurn_rad = 1e-6, kMostTurn_rad = 0.2;
 constexpr double kShift = 0.03, kLeastShift = 1e-6, kMostShift = 0.2;
-// The perspective turn is as good as free: see the header.
+// Almost free perspective rotation: see the header.
 constexpr double kFace_rad = 1.0;
 constexpr int kIterations = 3;
-// Learning: rate per frame; pull towards rest, which nothing but motion that is clearly there withstands; what a single
-// frame may say; and where the prior is plainly too narrow.
+// Learning of the prior's variances: rate per frame; decay towards zero motion, which only clear motion counteracts;
+// largest update by one frame; and the update above which the prior is obviously too narrow.
 constexpr double kLearningRate = 0.1, kTowardsRest = 0.02, kMostSurprise = 4.0, kPlainSurprise = 16.0;
-constexpr double kLeastShare = 0.05;  // of its variance that a component has from this frame, to be asked
+constexpr double kLeastShare = 0.05;  // smallest share of a component's variance that this frame must reduce
 constexpr double kOpen_px = 0.5;
-// A shift that a frame tells this many times worse than a channel's own points tell where the channel is.
+// A translation is dropped if its uncertainty from one frame moves a channel by this multiple of the channel's own
+// sigma.
 constexpr double kPoorlyTold = 10.0;
 
 }  // namespace
@@ -73,8 +74,8 @@ void CameraMotionEstimator::predict(double t_s) noexcept {
   taken_ = process_.mean();
 }
 
-// The derivatives by time enter as what they are now estimated to be: rows tell them too, but a wrong readout time, and
-// what moved while the keyframe itself was read, would pass for them.
+// Time derivatives are taken at their current estimates and not fitted: rows would determine them, too, but an error of
+// the readout time, and motion during the readout of the keyframe, would be mistaken for them.
 void CameraMotionEstimator::iterate(const MotionObservation& seen) noexcept {
   process_ = before_;
   MotionStateVector linear = before_.mean(), step = MotionStateVector::Zero();
@@ -114,7 +115,7 @@ void CameraMotionEstimator::correct(const MotionObservation& seen) noexcept {
   iterate(seen);
 }
 
-// A group of components that moved by far more than its prior lets it: the prior is widened at once.
+// If a group of components moved far beyond its prior, the prior is widened at once.
 bool CameraMotionEstimator::surprised() noexcept {
   bool any = false;
   for (std::size_t g = 0; g < log_variance_.size(); ++g) {
@@ -131,7 +132,7 @@ bool CameraMotionEstimator::surprised() noexcept {
   return any;
 }
 
-// One step up the likelihood of the group's variance: each component's correction against what the filter expects.
+// One ascent step of the likelihood of the group's variance: actual against expected correction of each component.
 void CameraMotionEstimator::learn() noexcept {
   for (std::size_t g = 0; g < log_variance_.size(); ++g) {
     double sum = 0.0, count = 0.0;
@@ -156,7 +157,7 @@ bool CameraMotionEstimator::settle() noexcept {
   return left_out;
 }
 
-// Greatest effect along an axis of the region.
+// Largest effect along an axis of the region.
 double CameraMotionEstimator::effect_px(const MotionVector& motion, std::size_t r) const noexcept {
   const MotionRegion& region = regions_[r];
   const Eigen::Vector2d px = region.effect * motion;
@@ -167,7 +168,7 @@ double CameraMotionEstimator::effect_px(const MotionVector& motion, std::size_t 
   return region.about.kind == KeyframeRegion::Kind::kMoving ? most : 0.0;
 }
 
-// What is known of the others, this one given.
+// Conditions the covariance of the other components on this one.
 void CameraMotionEstimator::give_up(int component) noexcept {
   open_[static_cast<std::size_t>(component)] = true;
   const MotionVector column = position_covariance_.col(component);
@@ -176,8 +177,8 @@ void CameraMotionEstimator::give_up(int component) noexcept {
   position_covariance_.col(component).setZero();
 }
 
-// This frame alone (and the prior's size) leaves a shift and what goes with it the direction `along`: the state is
-// moved along it to where the shift is zero, and fits the frame as before.
+// The data of this frame (with the prior's size) do not determine a translation and the components correlated with it:
+// the direction `along`. The state is moved along it to zero translation, where it fits the frame equally well.
 bool CameraMotionEstimator::leave_out_poorly_told() noexcept {
   const auto scale = sd_.asDiagonal();
   MotionMatrix scaled = scale * information_ * scale;
@@ -205,7 +206,7 @@ bool CameraMotionEstimator::leave_out_poorly_told() noexcept {
   return any;
 }
 
-// From the component that is known worst, in px at the channels: what is open is taken as given, the rest judged again.
+// Repeatedly takes the component with the largest uncertainty, in px at the channels, as given, and updates the others.
 void CameraMotionEstimator::find_open() noexcept {
   for (int round = 0; round < n; ++round) {
     int worst = -1;
@@ -227,19 +228,19 @@ double CameraMotionEstimator::sigma_px(std::size_t region, double e_u, double e_
   return std::sqrt(std::max(0.0, effect.dot(position_covariance_ * effect)));
 }
 
-// The point's ray of this frame in keyframe axes, up to the point's plane.
+// Intersects the point's ray in this frame, in keyframe axes, with the point's plane.
 Vector2 CameraMotionEstimator::stabilised(std::size_t i, const Vector2& position, double share) const noexcept {
   const MotionPoint& point = points_[i];
   const MotionPose pose = equations_.pose(taken_, share);
   const Eigen::Vector3d seen(position.u / config_.fx, position.v / config_.fy, 1.0);
-  // seen ~ R(w) [c + R(f) (x)], x = where the point is now in the keyframe's axes, from c, up to a factor.
+  // seen ~ R(w) [c + R(f) (x)] up to a factor; x: position of the point relative to c in the keyframe's axes.
   const Eigen::Vector3d direction = pose.face.transpose() * (pose.turn.transpose() * seen);
   const Eigen::Vector3d origin = point.inverse_depth * pose.shift + pose.face.transpose() * point.middle;
   const Eigen::Vector3d rest = point.ray - point.middle;
   const MotionRegion& region = regions_[point.region];
   const Eigen::Vector3d& normal = region.about.normal;
   Eigen::Vector3d moved = direction * (normal.dot(rest + origin) / normal.dot(direction)) - origin - rest;
-  // What is far rests: its zoom is the camera's too.
+  // A far point is static: its zoom is camera motion, too.
   if (region.about.kind == KeyframeRegion::Kind::kFar) moved -= point.own * region.value;
   const double z = 1.0 + moved.z();
   return {config_.fx * ((point.ray.x() + moved.x()) / z - point.ray.x()),

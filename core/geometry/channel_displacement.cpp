@@ -13,10 +13,10 @@ namespace core {
 
 namespace {
 
-// No point is better than this: rounding and the optics. It bounds the weights.
+// Lower bound of a point's sigma, set by rounding and optics; it bounds the weights.
 constexpr double kLeastSigmaPx = 0.003;
 
-// Frames in a row that contradict the estimated camera motion, until it is given up.
+// Consecutive frames that contradict the estimated camera motion, after which it is given up.
 constexpr int kMostContradicted = 50;
 
 std::vector<ScaleFactor::Point> scale_points(const std::vector<Region>& regions, const CameraModel& camera,
@@ -31,7 +31,7 @@ std::vector<ScaleFactor::Point> scale_points(const std::vector<Region>& regions,
   return points;
 }
 
-// The keyframe as the declared camera alone would have seen it.
+// The keyframe as the declared camera, without corrections, would have seen it.
 TrackFrame as_declared(const ChannelDisplacementConfig& config, const TrackFrame& keyframe) {
   TrackFrame out = keyframe;
   if (!config.places.corrects() || !config.places.in_keyframe) return out;
@@ -55,7 +55,7 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
       corrects_places_(config_.places.corrects()),
       scale_(scale_points(config_.regions, config_.camera, as_declared(config_, raw_keyframe))) {
   const TrackFrame keyframe = as_declared(config_, raw_keyframe);
-  if (!config_.camera.calibrated()) {  // the centre is all that is needed of it then
+  if (!config_.camera.calibrated()) {  // only the principal point is needed then
     config_.camera.cx = 0.5 * (config_.readout.width_px - 1);
     config_.camera.cy = 0.5 * (config_.readout.height_px - 1);
   }
@@ -65,7 +65,7 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
     RegionRange& range = ranges_[keyframe.points[i].region];
     if (range.end == range.begin) range.begin = i;
     range.end = i + 1;
-    const double sigma_px = std::max(kLeastSigmaPx, keyframe.points[i].sigma_px);  // NaN gives the first
+    const double sigma_px = std::max(kLeastSigmaPx, keyframe.points[i].sigma_px);  // a NaN becomes the lower bound
     weight_.push_back(1.0 / (sigma_px * sigma_px));
     const Vector2 ideal = config_.camera.undistort({keyframe.points[i].u_px, keyframe.points[i].v_px});
     keyframe_.push_back({ideal.u - config_.camera.cx, ideal.v - config_.camera.cy});
@@ -85,12 +85,12 @@ ChannelDisplacement::ChannelDisplacement(ChannelDisplacementConfig config, const
   camera_motion_.emplace(make_camera_motion(config_.regions, config_.camera, config_.readout, config_.scale_mm_per_px,
                                             keyframe, config_.plane));
   if (!turns_measured) return;
-  config_.attitude->delay_s += config_.readout.readout_s * mean_of(readout_share_);  // where the motion's state counts
+  config_.attitude->delay_s += config_.readout.readout_s * mean_of(readout_share_);  // to the instant of the state
   attitude_.emplace(*config_.attitude);
   attitude_->before(*camera_motion_, static_cast<double>(keyframe.t_start_ns) * 1e-9);
 }
 
-// Delays are of the same weighted mean as the channel's.
+// Delays use the same weights as the channel's mean.
 std::vector<RegionPoints> ChannelDisplacement::region_points() const {
   std::vector<RegionPoints> out;
   for (const RegionRange& range : ranges_) {
@@ -114,8 +114,8 @@ void ChannelDisplacement::make_channels() {
     spectra_.push_back(std::move(witness));
 }
 
-// The camera's velocity against the structure is told where the structure itself does not vibrate: at its base. Where
-// none is declared, all of its points are taken; part of every mode's own velocity is then in their mean.
+// The camera's velocity relative to the structure is measured where the structure does not vibrate: at its base. If no
+// base is declared, all points are used; their mean then contains part of every mode's velocity.
 PublishedShutter ChannelDisplacement::make_published_shutter() const {
   const std::vector<Region>& all = config_.regions;
   const bool has_base =
@@ -156,7 +156,7 @@ void ChannelDisplacement::place_points(const TrackFrame& tracks) noexcept {
   }
 }
 
-// Step since the keyframe in keyframe pixels: p / b - p0.
+// Motion since the keyframe in keyframe pixels: p / b - p0.
 void ChannelDisplacement::remove_scale(double magnification) noexcept {
   for (std::size_t i = 0; i < keyframe_.size(); ++i) {
     motion_[i] = {position_[i].u / magnification - keyframe_[i].u, position_[i].v / magnification - keyframe_[i].v};
@@ -190,8 +190,8 @@ double ChannelDisplacement::estimate_scale() noexcept {
   return b;
 }
 
-// Outliers are told about the predicted motion. After a jump that nothing predicted most points would be: then all that
-// are seen take part (with Huber's weights), and are judged by what they give.
+// Outliers are rejected relative to the predicted motion. After an unpredicted jump most points would be outliers: then
+// all seen points are used (with Huber weights), and are rejected relative to the result.
 double ChannelDisplacement::follow_camera(std::int64_t t_start_ns) noexcept {
   camera_motion_->predict(static_cast<double>(t_start_ns) * 1e-9);
   if (attitude_) attitude_->before(*camera_motion_, static_cast<double>(t_start_ns) * 1e-9);
@@ -211,7 +211,7 @@ double ChannelDisplacement::follow_camera(std::int64_t t_start_ns) noexcept {
   }
   if (camera_motion_->settle()) stabilise();
   if (attitude_) attitude_->after(*camera_motion_);
-  // A datum that does not rest, or a view that the model cannot hold: most points contradict it for long.
+  // A reference region that is not static, or a view outside the model: most points contradict the motion for long.
   n_contradicted_ = 4 * count(inlier_) < count(seen_) ? n_contradicted_ + 1 : 0;
   if (n_contradicted_ > kMostContradicted) camera_given_up_ = true;
   return camera_motion_->magnification();
@@ -253,7 +253,7 @@ void ChannelDisplacement::average_channel(std::size_t channel, double magnificat
   out.sigma_mm[channel] = mean.enough ? s0 * std::hypot(mean.sigma_px, camera_px) / magnification : 0.0;
 }
 
-// What rests at another distance has another zoom: its points agree about a motion only without their own.
+// A static region at another distance has another zoom; its points share one motion only after removal of that zoom.
 void ChannelDisplacement::follow_what_rests() noexcept {
   if (n_witnesses() == 0) return;
   const RegionRange& range = ranges_[spectra_.back().region];

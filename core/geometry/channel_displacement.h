@@ -21,41 +21,41 @@ namespace core {
 struct ChannelDisplacementConfig {
   std::vector<Region> regions;
   CameraModel camera;
-  PointCorrection places = {};  // beyond the declared camera
+  PointCorrection places = {};  // corrections beyond the declared camera
   ReadoutModel readout;
   double rate_hz = 0.0;
   double scale_mm_per_px = 1.0;  // S_0, of the keyframe
-  // Per region, where an oblique plane or a length of its own gives it another scale than S_0; empty = S_0 for all.
+  // Scale per region, if an oblique plane or a length of its own gives it another scale than S_0; empty = S_0 for all.
   std::vector<double> region_scale_mm_per_px = {};
-  std::optional<PlanePose> plane = {};  // of the structure; empty: it faces the camera
-  bool adaptive_scale = true;           // follow the camera; false: it stands still
-  bool scale_only = false;              // of its motion only the distance (paper Eq. 6), from all points
-  bool witness = true;                  // where only the scale is followed: what rests is followed beside
+  std::optional<PlanePose> plane = {};  // of the structure; empty: frontal view
+  bool adaptive_scale = true;           // true: camera motion is removed; false: the camera is static
+  bool scale_only = false;              // only the distance is estimated (paper Eq. 6), from all points
+  bool witness = true;                  // with scale_only: static regions are measured as witnesses
   bool paper_method = false;            // two-point scale; rolling shutter by Eqs. 7-8 on the samples, with rho = 1
-  ShutterVelocity shutter_velocity = ShutterVelocity::kCamera;  // V_rel there
-  std::optional<AttitudeConfig> attitude = {};  // an attitude is measured beside; delay_s counts for half the exposure
+  ShutterVelocity shutter_velocity = ShutterVelocity::kCamera;  // choice of V_rel in paper_method
+  std::optional<AttitudeConfig> attitude = {};  // measured attitude, if any; delay_s contains half the exposure
   double inlier_sigma_px = 0.3;
-  int min_points = 3;  // fewer inliers: the channel has no sample in this frame
+  int min_points = 3;  // with fewer inliers the channel has no sample in this frame
 };
 
-// From the points of one frame to the displacement of every channel relative to the keyframe: each point's motion in
-// the structure's plane with the camera's motion taken away (CameraMotionEstimator), weighted mean of the region's
+// Converts the points of one frame to the displacement of every channel relative to the keyframe: each point's motion
+// in the structure's plane without the camera's motion (CameraMotionEstimator), weighted mean over the region's
 // inliers, along the region's axis. Scale only, and `paper` (Eq. 4): d = S_i (p_i - c) - S_0 (p_0 - c), c = principal
 // point. Points are undistorted; outliers are rejected per region by MLESAC about the predicted, then the estimated
 // motion. `hovermodal` leaves the samples at the instants at which rows were read and states the delay of each channel
-// (METHOD.md); `paper` moves them to row 0 with Eqs. 7-8. What rests (background, ground) makes no channel, but
-// where only the scale is followed a witness of the camera's shift along each direction of the channels: the resting
-// region with the most points, its own zoom taken away.
-// What no data tell of the camera's motion (its sideways shift, where nothing but the structure is seen) stays in all
-// channels alike; sigma_mm is without it.
-// One thread; nothing allocates after construction.
+// (METHOD.md); `paper` moves them to row 0 with Eqs. 7-8. Static regions (background, ground) are not channels. If only
+// the scale is estimated, the static region with the most points, without its own zoom, is a witness of the camera's
+// translation along each direction of the channels.
+// Unobservable camera motion (sideways translation if only the structure is seen) remains in all channels alike;
+// sigma_mm does not contain it.
+// One thread; does not allocate after construction.
 class ChannelDisplacement {
  public:
-  // raw_keyframe: the first frame's tracks; every point that will come, seen.
+  // raw_keyframe: tracks of the first frame; it must contain every later point, seen.
   ChannelDisplacement(ChannelDisplacementConfig config, const TrackFrame& raw_keyframe);
 
   [[nodiscard]] const std::vector<ChannelInfo>& channels() const noexcept { return channels_; }
-  // The channels, then the witnesses.
+  // The channels, followed by the witnesses.
   [[nodiscard]] const std::vector<ChannelInfo>& spectra() const noexcept { return spectra_; }
 
   [[nodiscard]] std::size_t n_witnesses() const noexcept { return spectra_.size() - channels_.size(); }
@@ -64,16 +64,16 @@ class ChannelDisplacement {
   void update(TrackFrame& tracks, DisplacementSample& out) noexcept;
   [[nodiscard]] DisplacementSample sample_prototype() const;
 
-  // Most points contradicted it for two seconds and more (something was declared to rest that does not): only the scale
-  // has been followed since.
+  // True after most points contradicted the camera motion for two seconds or more (a region declared static moves):
+  // since then only the scale has been estimated.
   [[nodiscard]] bool camera_given_up() const noexcept { return camera_given_up_; }
-  // An attitude sample that came since, before the frames it tells of; ignored without config.attitude.
+  // Adds a new attitude sample, before the frames at its time; ignored without config.attitude.
   void take(const AttitudeSample& sample) noexcept {
     if (attitude_) attitude_->take(sample);
   }
-  // null: none was announced, or no camera motion is estimated.
+  // null: no attitude is declared, or no camera motion is estimated.
   [[nodiscard]] const AttitudePrior* attitude() const noexcept { return attitude_ ? &*attitude_ : nullptr; }
-  // null: not estimated.
+  // null: camera motion is not estimated.
   [[nodiscard]] const CameraMotionEstimator* camera_motion() const noexcept {
     return camera_motion_ ? &*camera_motion_ : nullptr;
   }
@@ -81,7 +81,7 @@ class ChannelDisplacement {
  private:
   [[nodiscard]] bool follows_camera() const noexcept { return camera_motion_ && !camera_given_up_; }
   struct RegionRange {
-    std::size_t begin = 0, end = 0;  // of the points
+    std::size_t begin = 0, end = 0;  // range of its points
     [[nodiscard]] std::size_t size() const noexcept { return end - begin; }
   };
 
@@ -110,16 +110,16 @@ class ChannelDisplacement {
   std::vector<ChannelInfo> channels_, spectra_;
   std::vector<RegionRange> ranges_;    // per region
   std::vector<Vector2> keyframe_;      // undistorted px
-  std::vector<double> weight_;         // of a point in its channel: inverse variance by its texture, constant
-  std::vector<double> readout_share_;  // along the readout, of the raw row: rows are read as they lie on the sensor
+  std::vector<double> weight_;         // weight of a point in its channel: inverse variance from its texture, constant
+  std::vector<double> readout_share_;  // readout fraction of the raw row: rows are read in the order of the sensor
   ScaleFactor scale_;
   int n_contradicted_ = 0;
   bool camera_given_up_ = false;
-  std::optional<CameraMotionEstimator> camera_motion_;  // none: scale only, paper, or a camera that stands still
+  std::optional<CameraMotionEstimator> camera_motion_;  // empty: scale only, paper, or a static camera
   std::optional<AttitudePrior> attitude_;
-  std::vector<Vector2> position_, motion_;    // undistorted px from the principal point; step since the keyframe with
-                                              // the camera's motion taken away, keyframe px
-  std::vector<double> share_now_, sigma_px_;  // of the row where the point is now; of this frame
+  std::vector<Vector2> position_, motion_;    // undistorted px from the principal point; motion since the keyframe
+                                              // without the camera's motion, keyframe px
+  std::vector<double> share_now_, sigma_px_;  // readout fraction of the point's present row; sigma in this frame
   std::vector<std::uint8_t> seen_, inlier_, inlier_before_;
   PublishedShutter shutter_;  // paper mode
 };

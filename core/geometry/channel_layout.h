@@ -8,13 +8,13 @@
 
 namespace core {
 
-// What is known of a region's points when its channels are made.
+// Properties of a region's points that its channels need.
 struct RegionPoints {
   std::size_t n = 0;
-  double delay_s = 0.0;  // after the time stamp, of the weighted mean of the points' rows
+  double delay_s = 0.0;  // after the time stamp: weighted mean over the points' rows
 };
 
-// The channels of the structure's and the base's regions, in their order: one along a region's axis, or two (u, v).
+// Channels of the structure and base regions, in their order: one along the region's axis, or two (u, v).
 [[nodiscard]] std::vector<ChannelInfo> channel_layout(const std::vector<Region>& regions,
                                                       const std::vector<RegionPoints>& points);
 

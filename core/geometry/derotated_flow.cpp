@@ -36,7 +36,7 @@ DerotatedFlowTerm judge(const DerotatedFlow& point, const Eigen::Vector3d& shift
   const double distance2 = along * along / along2 + term.across_px * term.across_px / s2;
   term.weight = (kDegrees + 2.0) / (kDegrees + distance2);
   term.cost = 0.5 * (kDegrees + 2.0) * std::log1p(distance2 / kDegrees) + 0.5 * std::log(along2 * s2);
-  // Along e the length of d changes, and the variance with it; along h its direction.
+  // Along e the length of d changes, and with it the variance; along h the direction of d.
   const double growth = size / along2;
   const double by_length = -2.0 * along / along2 - 2.0 * along * along * growth / along2;
   const double by_turn = size > kLeastShift_px ? 2.0 * term.across_px * (along / along2 - there / s2) / size : 0.0;

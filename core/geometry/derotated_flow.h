@@ -13,7 +13,7 @@ namespace core {
 // is informative along both axes. Student's t of three degrees for moving objects and false tracks.
 
 struct DerotatedFlow {
-  Eigen::Vector2d at_px = Eigen::Vector2d::Zero();  // predicted by the rotation alone
+  Eigen::Vector2d at_px = Eigen::Vector2d::Zero();  // position predicted by the rotation alone
   Eigen::Vector2d flow_px = Eigen::Vector2d::Zero();
 };
 
@@ -22,14 +22,14 @@ struct DerotatedFlowModel {
   double sigma_px = 1.0;
 };
 
-// One point: minus log likelihood, and its derivatives by d.
+// Minus log likelihood of one point, and its derivatives by d.
 struct DerotatedFlowTerm {
   double cost = 0.0;
-  double across_px = 0.0;  // from the epipolar line
-  double weight = 0.0;     // at most 5/3; decreases with the distance
+  double across_px = 0.0;  // distance from the epipolar line
+  double weight = 0.0;     // robust weight, at most 5/3; decreases with the distance
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();       // of d
-  Eigen::Matrix2d flow_information = Eigen::Matrix2d::Zero();  // of the flow, d held
+  Eigen::Matrix2d flow_information = Eigen::Matrix2d::Zero();  // of the flow, for fixed d
 };
 
 [[nodiscard]] Eigen::Matrix<double, 2, 3> shift_effect(const DerotatedFlow& point, double focal_px) noexcept;  // d(d) / d(t)

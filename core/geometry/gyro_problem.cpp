@@ -17,10 +17,10 @@ using Eigen::Vector3d;
 
 constexpr int kSettled = 4, kNeighbours = 3;
 constexpr double kLeastSigma_px = 0.003, kEnough = 1e-8;
-constexpr double kBiasSigma_rad_s = 0.05;  // what a chip's bias may be
+constexpr double kBiasSigma_rad_s = 0.05;  // plausible bias of a MEMS gyro
 constexpr std::array<double, kGyroUnknowns> kSteps{1e-5, 1e-5, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4, 1e-4};
 
-// Sum of the scores' outer products; neighbours with Bartlett's weights.
+// Sum of the outer products of the scores; neighbouring scores with Bartlett weights.
 GyroMatrix spread(const std::vector<GyroVector>& scores) {
   GyroMatrix sum = GyroMatrix::Zero();
   for (std::size_t k = 0; k < scores.size(); ++k) {
@@ -39,7 +39,7 @@ struct GyroProblem::Normal {
   GyroMatrix hessian = GyroMatrix::Zero();
   GyroVector gradient = GyroVector::Zero();
   std::vector<GyroVector> scores;        // per fitted pair
-  double squares = 0.0, sigma_px = 0.0;  // that the points have, by one step of expectation-maximisation
+  double squares = 0.0, sigma_px = 0.0;  // squares of the points; their sigma, by one step of expectation-maximisation
 };
 
 DerotatedFlowModel GyroState::model() const noexcept { return {std::exp(p[kFocal]), sigma_px}; }
@@ -73,7 +73,7 @@ void GyroProblem::rest(const GyroState& state, const GyroAttitude& attitude, con
   }
 }
 
-// One pair at its fitted shift: where the slope by the shift is zero.
+// Adds one pair at its fitted translation, where the gradient with respect to the translation is zero.
 void GyroProblem::add_pair(const GyroState& state, std::size_t k, const DerotatedFlows& flows,
                            const std::vector<DerotatedFlows>& moved, Normal& normal) const {
   GyroMatrix hessian = GyroMatrix::Zero();
@@ -131,7 +131,7 @@ GyroProblem::Normal GyroProblem::linearise(const GyroState& state, const Derotat
   return normal;
 }
 
-// Returns whether there was a way down.
+// Returns true if a step reduced the cost.
 bool GyroProblem::step_down(const Normal& normal, Damping& damping, double before, GyroState& state,
                             DerotatedFlows& flows) const {
   double gained = 0.0;

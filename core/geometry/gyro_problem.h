@@ -9,7 +9,7 @@
 
 namespace core {
 
-// The likelihood for gyro_readout.h, and its maximum.
+// Likelihood of the model in gyro_readout.h, and its maximisation.
 
 enum GyroUnknown : Eigen::Index { kReadout, kOffset, kFocal, kBias, kAxes = kBias + 3, kGyroUnknowns = kAxes + 3 };
 using GyroVector = Eigen::Matrix<double, kGyroUnknowns, 1>;
@@ -17,7 +17,7 @@ using GyroMatrix = Eigen::Matrix<double, kGyroUnknowns, kGyroUnknowns>;
 using DerotatedFlows = std::vector<std::vector<DerotatedFlow>>;  // per pair
 
 struct GyroState {
-  GyroVector p = GyroVector::Zero();  // focal as logarithm; axes as a small rotation after `axes`
+  GyroVector p = GyroVector::Zero();  // focal length as logarithm; axes as a small rotation after `axes`
   Eigen::Quaterniond axes = Eigen::Quaterniond::Identity();
   double sigma_px = 1.0;
   std::vector<Eigen::Vector3d> shift_px;  // per pair
@@ -25,7 +25,7 @@ struct GyroState {
   [[nodiscard]] DerotatedFlowModel model() const noexcept;
 };
 
-// Refers to what it was made of.
+// Keeps references to its constructor's arguments.
 class GyroProblem {
  public:
   GyroProblem(const std::vector<FramePair>& pairs, const std::vector<GyroSample>& gyro, const GyroReadoutConfig& config)
@@ -34,7 +34,7 @@ class GyroProblem {
   [[nodiscard]] DerotatedFlows flows(const GyroState& state) const;
   // Minus log likelihood of the pairs that are (not) held out; fits their translations.
   double cost(GyroState& state, const DerotatedFlows& flows, bool held_out = false) const;
-  // Levenberg-Marquardt with everything but `held` free; returns the cost.
+  // Levenberg-Marquardt over all parameters except `held`; returns the cost.
   double minimise(const std::vector<Eigen::Index>& held, int most_rounds, GyroState& state) const;
   [[nodiscard]] GyroMatrix covariance(const GyroState& state, const std::vector<Eigen::Index>& held) const;
   [[nodiscard]] const std::vector<FramePair>& pairs() const noexcept { return pairs_; }

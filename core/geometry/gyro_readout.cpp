@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 constexpr std::size_t kLeastPairs = 8, kLeastPoints = 8;
 constexpr int kRounds = 80, kStartRounds = 12;
 constexpr double kOutlier_sigmas = 5.0;
-constexpr double kFocalPerWidth = 0.75;  // to begin with
+constexpr double kFocalPerWidth = 0.75;  // initial value
 
 // Distances from the epipolar lines, per pair.
 std::vector<std::vector<double>> distances(const GyroProblem& problem, GyroState state) {
@@ -48,12 +48,12 @@ void compare(const GyroProblem& problem, const GyroState& without, const GyroSta
   out.rms_with_px = std::sqrt(sum_after / std::max(1.0, count));
 }
 
-// Infinite where the data leave it open.
+// Infinite if the data do not determine it.
 double deviation(const GyroMatrix& errors, Index i) {
   return errors(i, i) > 0.0 ? std::sqrt(errors(i, i)) : std::numeric_limits<double>::infinity();
 }
 
-// Of the pairs that are fitted, the first or the second half alone.
+// Estimate from the first or the second half of the fitted pairs alone.
 ReadoutValue of_half(std::vector<FramePair> pairs, bool second, const std::vector<GyroSample>& gyro,
                      const GyroReadoutConfig& config, const std::vector<Index>& held, GyroState state) {
   const double middle_s = 0.5 * (pairs.front().from_s + pairs.back().to_s);

@@ -52,8 +52,9 @@ struct GyroReadout {
   Eigen::Vector3d bias_rad_s = Eigen::Vector3d::Zero();
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // R
   double sigma_px = 0.0;                               // of a point, per axis
-  // Held-out frames: distance of points from their epipolar lines, everything else fitted with a readout of zero; and
-  // with the estimated readout. Over points within 5 sigma_px in one of the two: the others move by themselves.
+  // Rms distance of the points of held-out frames from their epipolar lines: with a readout of zero and everything else
+  // fitted; and with the estimated readout. Points beyond 5 sigma_px in both are excluded, because they move by
+  // themselves.
   double rms_without_px = 0.0, rms_with_px = 0.0;
   std::vector<double> pair_rms_without_px, pair_rms_with_px;  // every pair
 };
@@ -62,7 +63,7 @@ struct GyroReadout {
 void check_gyro_record(const std::vector<FramePair>& pairs, const std::vector<GyroSample>& gyro,
                        const GyroReadoutConfig& config);
 
-// Throws what check_gyro_record() does, and std::invalid_argument: the camera does not rotate.
+// Throws as check_gyro_record(), and std::invalid_argument if the camera does not rotate.
 [[nodiscard]] GyroReadout fit_gyro_readout(const std::vector<FramePair>& pairs, const std::vector<GyroSample>& gyro,
                                            const GyroReadoutConfig& config);
 

@@ -15,11 +15,11 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kLeastTurn_rad = 5e-4;  // rms per frame: below it, a frame's rotation is lost in the tracks' noise
+constexpr double kLeastTurn_rad = 5e-4;  // rms per frame: a smaller rotation is below the tracks' noise
 constexpr double kOffsetStep_s = 2e-3;
-constexpr double kHandicap = 1.5;  // of axes that lie anyhow: shifts of the camera bend them
+constexpr double kHandicap = 1.5;  // penalty of arbitrary axes: camera translations bias them
 
-// Rotation of the camera between two frames, first order, by least squares over the points.
+// Camera rotation between two frames to first order, by least squares over the points.
 Vector3d image_rotation(const FramePair& pair, const GyroReadoutConfig& config, double focal_px) {
   Matrix3d normal = Matrix3d::Zero();
   Vector3d right = Vector3d::Zero();
@@ -32,7 +32,7 @@ Vector3d image_rotation(const FramePair& pair, const GyroReadoutConfig& config, 
   return normal.ldlt().solve(right);
 }
 
-// Returns the rms of what is left.
+// Subtracts the mean and returns the rms of the remainder.
 double take_mean(std::vector<Vector3d>& turns) {
   Vector3d mean = Vector3d::Zero();
   for (const Vector3d& turn : turns) mean += turn / static_cast<double>(turns.size());
@@ -47,7 +47,7 @@ Matrix3d nearest_rotation(const Matrix3d& m) {
   return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
 }
 
-// The 24 rotations that take axes to axes.
+// The 24 rotations that map coordinate axes to coordinate axes.
 std::vector<Matrix3d> aligned_axes() {
   std::vector<Matrix3d> all;
   for (int first = 0; first < 6; ++first) {

@@ -22,8 +22,8 @@ KeyframeRegion keyframe_region(const Region& region) {
   return out;
 }
 
-// Axes that are meant to be one, but for how they were drawn or for perspective, become one: where each had its own
-// direction, the differences would seem to tell the shift along them.
+// Replaces axes that differ only by drawing errors or perspective by one common axis: otherwise their differences would
+// seem to determine the translation along them.
 void share_axis(std::vector<KeyframeRegion>& regions) {
   constexpr double kAlike = 0.996;  // cosine of 5 degrees
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -38,7 +38,7 @@ void share_axis(std::vector<KeyframeRegion>& regions) {
   }
 }
 
-// Of what lies in the structure's plane.
+// Inverse depth of a point in the structure's plane.
 double inverse_depth(const std::optional<PlanePose>& plane, const Vector2& ideal_px, double distance_mm) noexcept {
   const auto place = plane ? plane->place_at(ideal_px) : std::nullopt;
   if (!place) return 1.0 / distance_mm;
@@ -47,7 +47,7 @@ double inverse_depth(const std::optional<PlanePose>& plane, const Vector2& ideal
   return z_mm > 0.0 ? 1.0 / z_mm : 1.0 / distance_mm;
 }
 
-// The direction in space of a motion along an image direction, where the plane meets this pixel.
+// Direction in space of a motion along an image direction, where the plane meets this pixel.
 Eigen::Vector3d axis_in_plane(const PlanePose& plane, const Vector2& ideal_px, const Eigen::Vector3d& image_axis) {
   const auto place = plane.place_at(ideal_px);
   if (!place) return image_axis;
@@ -80,7 +80,7 @@ CameraMotionEstimator make_camera_motion(const std::vector<Region>& regions, con
     const Vector2 middle =
         camera.undistort({region.u_px + 0.5 * region.width_px, region.v_px + 0.5 * region.height_px});
     for (Eigen::Vector3d& axis : about.back().axis) axis = axis_in_plane(*plane, middle, axis);
-    about.back().normal = -plane->normal();  // away from the camera
+    about.back().normal = -plane->normal();  // pointing away from the camera
   }
   share_axis(about);
   std::vector<KeyframePoint> points;

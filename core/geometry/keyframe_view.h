@@ -12,13 +12,13 @@
 
 namespace core {
 
-// Whether camera motion is distinguishable from structural motion: needs a focal length and a static region. Otherwise
-// motion of the structure passes for camera motion (a bending cantilever's tilt for roll).
+// True if camera motion can be distinguished from structural motion: this needs a focal length and a static region.
+// Otherwise structural motion is mistaken for camera motion (a bending cantilever's tilt for roll).
 [[nodiscard]] bool tells_camera_motion(const std::vector<Region>& regions, const CameraModel& camera) noexcept;
 
-// The estimator for the view of the first frame: structure, base and ground in a plane that faces the camera at
-// distance fx * scale_mm_per_px, or has the pose `plane`; background at its region's depth_m, or infinitely far. Needs
-// a calibrated camera and a static region (tells_camera_motion).
+// Estimator for the view of the first frame: structure, base and ground lie in a frontal plane at distance fx *
+// scale_mm_per_px, or in the plane of pose `plane`; background at its region's depth_m, or infinitely far. Needs a
+// calibrated camera and a static region (tells_camera_motion).
 [[nodiscard]] CameraMotionEstimator make_camera_motion(const std::vector<Region>& regions, const CameraModel& camera,
                                                        const ReadoutModel& readout, double scale_mm_per_px,
                                                        const TrackFrame& keyframe,

@@ -21,14 +21,14 @@ Vector3d ray_of(const CameraModel& camera, const Vector2& px) {
   return {(px.u - camera.cx) / camera.fx, (px.v - camera.cy) / camera.fy, 1.0};
 }
 
-// A plane n . P = distance; what follows is per unit of distance.
+// A plane n . P = distance; lengths below are per unit of distance.
 struct Tilt {
-  Vector3d normal;  // away from the camera
+  Vector3d normal;  // pointing away from the camera
   double angle_deg;
 
   [[nodiscard]] std::optional<Vector3d> meet(const Vector3d& ray) const {
     const double along = normal.dot(ray);
-    if (!(along > 0.02)) return std::nullopt;  // edge on
+    if (!(along > 0.02)) return std::nullopt;  // the plane is seen edge-on
     return Vector3d(ray / along);
   }
   // Length in the plane of one pixel along the direction at `ray`.
@@ -47,17 +47,17 @@ struct Candidate {
   std::vector<double> scale;  // mm/px per place
 };
 
-// nullopt: some length or place would be seen edge on or from behind.
+// nullopt: a length or place would be seen edge-on or from behind.
 std::optional<Candidate> judge(const Tilt& tilt, std::span<const KnownLength> lengths,
                                std::span<const ScaledPlace> places, const CameraModel& camera, double sigma_px) {
-  std::vector<double> per_distance;  // known length as it would be at distance 1
+  std::vector<double> per_distance;  // length in the plane for distance 1
   double mixed = 0.0, square = 0.0;
   for (const KnownLength& known : lengths) {
     const auto from = tilt.meet(ray_of(camera, known.from_px));
     const auto to = tilt.meet(ray_of(camera, known.to_px));
     if (!from || !to) return std::nullopt;
     per_distance.push_back((*to - *from).norm());
-    const double weight = length_px(known) / known.length_mm;  // a pixel's worth, as large as the error of its ends
+    const double weight = length_px(known) / known.length_mm;  // px per mm: equal variance for all lengths
     mixed += weight * weight * known.length_mm * per_distance.back();
     square += weight * weight * per_distance.back() * per_distance.back();
   }
@@ -104,7 +104,7 @@ LengthScale fit_length_scale(std::span<const KnownLength> lengths, double sigma_
   }
   if (!(mixed > 0.0) || !std::isfinite(mixed)) return out;
   out.mm_per_px = lengths.size() == 1 ? lengths[0].length_mm / length_px(lengths[0]) : square / mixed;
-  const double px_sigma = std::numbers::sqrt2 * sigma_px;  // of a length: two ends
+  const double px_sigma = std::numbers::sqrt2 * sigma_px;  // sigma of a length in px: it has two ends
   double worst_error = -1.0;
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     const double d = length_px(lengths[i]);

@@ -25,7 +25,7 @@ std::optional<LensFault> fault_along(const CameraModel& camera, const Rectangle&
     const LensBend at = bend(camera, r * cos_phi, r * sin_phi);
     const double u = camera.cx + camera.fx * at.x;
     const double v = camera.cy + camera.fy * at.y;
-    // A pole of the rational form is no number; it shows as a fold or a jump.
+    // A pole of the rational model gives values that are not finite; it appears as a fold or a jump.
     if (!(at.determinant() > 0.0) || !std::isfinite(u) || !std::isfinite(v)) {
       return LensFault{{u, v}, std::hypot(u - camera.cx, v - camera.cy), std::atan(r) * 180.0 / std::numbers::pi};
     }

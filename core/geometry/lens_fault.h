@@ -6,11 +6,11 @@
 
 namespace core {
 
-// Where a distortion folds the image: two rays fall on one pixel, and points there cannot be undistorted.
+// Point at which a distortion folds the image: two rays reach one pixel, and points there cannot be undistorted.
 struct LensFault {
-  Vector2 raw_px;          // the nearest to the axis
+  Vector2 raw_px;          // nearest to the axis
   double radius_px = 0.0;  // from the principal point, in the raw image
-  double angle_deg = 0.0;  // of its ray off the axis
+  double angle_deg = 0.0;  // angle between its ray and the axis
 };
 
 // Follows rays from the axis outwards in all directions until they leave the image (widened to include the principal

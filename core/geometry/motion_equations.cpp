@@ -9,9 +9,9 @@ namespace core {
 
 namespace {
 
-constexpr double kLeastDepth = 0.05;  // of the keyframe's: nearer, or behind, is no picture of the point
+constexpr double kLeastDepth = 0.05;  // relative to the keyframe's; nearer points, or points behind, are not imaged
 constexpr double kHuberSigmas = 3.0;
-// No point is better than this: rounding and the optics.
+// Lower bound of a point's sigma, set by rounding and optics.
 constexpr double kLeastSigma_px = 0.003;
 
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& w) noexcept {
@@ -20,7 +20,7 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& w) noexcept {
   return m;
 }
 
-// Rodrigues. The series ends below 1e-11 for the angles of a camera that still sees the structure.
+// Rodrigues' formula as a series, exact to 1e-11 at the angles of a camera that still sees the structure.
 Eigen::Matrix3d rotation(const Eigen::Vector3d& w) noexcept {
   const double a2 = w.squaredNorm();
   double sine = 1.0 - a2 / 6.0 * (1.0 - a2 / 20.0 * (1.0 - a2 / 42.0 * (1.0 - a2 / 72.0)));
@@ -124,7 +124,7 @@ void MotionEquations::build(const MotionStateVector& state, std::span<const Moti
     MotionRegion& region = regions[points[i].region];
     if (!project(points[i], region, seen.share[i], pose(state, seen.share[i]), row)) continue;
     row.residual = {seen.position[i].u - row.px.u, seen.position[i].v - row.px.v};
-    const double sigma_px = std::max(kLeastSigma_px, seen.sigma_px[i]);  // NaN gives the first
+    const double sigma_px = std::max(kLeastSigma_px, seen.sigma_px[i]);  // a NaN becomes the lower bound
     double weight = 1.0 / (sigma_px * sigma_px);
     const double distance = std::hypot(row.residual.u, row.residual.v);
     if (!std::isfinite(distance)) continue;

@@ -12,10 +12,10 @@
 
 namespace core {
 
-// Motion that a region's points may have by themselves.
+// Kind of motion that a region's points may have relative to the keyframe.
 struct KeyframeRegion {
   enum class Kind : std::uint8_t {
-    kMoving,  // slides along its axes, may rotate in its plane: structure, base
+    kMoving,  // translates along its axes, may rotate in its plane: structure, base
     kStatic,  // static, at known depths
     kFar,     // static, far away (depths unknown)
   };
@@ -23,7 +23,7 @@ struct KeyframeRegion {
   std::array<Eigen::Vector3d, 2> axis{Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};  // unit, in the keyframe
   int n_axes = 1;
   bool background = false;                            // not in the structure's plane
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // of its plane
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // normal of its plane
 };
 
 // Largest number of a region's own motions.
@@ -43,15 +43,15 @@ struct MotionPoint {
 struct MotionRegion {
   KeyframeRegion about;
   int n_own = 0;
-  std::array<bool, kMaxOwn> by_row{};  // nu_k grows along the readout: its column is times (share - this share)
+  std::array<bool, kMaxOwn> by_row{};  // true: the column of nu_k is multiplied by (share - this share)
   double share = 0.0;
   OwnVector value = OwnVector::Zero(), prior_sd = OwnVector::Ones();  // nu
   std::uint32_t n_used = 0;
-  double sum_weight = 0.0;                     // of them, 1/px^2
+  double sum_weight = 0.0;                     // of the points in use, 1/px^2
   MotionEffect effect = MotionEffect::Zero();  // weighted mean over the points in use
 };
 
-// Ideal (undistorted) px from the principal point; share along the readout of the raw row where the point is now.
+// Undistorted px from the principal point; readout fraction of the raw row of the point's present position.
 struct MotionObservation {
   std::span<const Vector2> position;
   std::span<const double> share;
@@ -59,7 +59,7 @@ struct MotionObservation {
   std::span<const std::uint8_t> usable;
 };
 
-// The camera at one row.
+// Camera pose at one row.
 struct MotionPose {
   Eigen::Matrix3d turn, face, turn_jacobian;  // R(w), R(f), left Jacobian of w
   Eigen::Vector3d shift;
@@ -67,8 +67,8 @@ struct MotionPose {
   explicit MotionPose(const MotionVector& motion) noexcept;
 };
 
-// The normal equations of one frame, every region's own motions eliminated (Schur complement). One thread; nothing
-// allocates after construction.
+// Normal equations of one frame, with every region's own motions eliminated (Schur complement). One thread; does not
+// allocate after construction.
 class MotionEquations {
  public:
   MotionEquations(double fx, double fy, double readout_s, double reference_share, std::size_t n_regions);
@@ -76,7 +76,7 @@ class MotionEquations {
   // Linearises about `state` and the regions' values. robust: Huber weights. Sets n_used and effect of the regions.
   void build(const MotionStateVector& state, std::span<const MotionPoint> points, std::span<MotionRegion> regions,
              const MotionObservation& seen, bool robust) noexcept;
-  // Updates the regions' values after a step of the camera.
+  // Updates the regions' values after a step of the camera parameters.
   void update_own(const MotionVector& step, std::span<MotionRegion> regions) noexcept;
 
   [[nodiscard]] const MotionMatrix& information() const noexcept { return information_; }

@@ -5,15 +5,15 @@
 namespace core {
 namespace {
 
-// The regions' own motions, in every frame: shares of the distance, rad, relative zoom.
+// Prior of the regions' own motions in every frame: shares of the distance, rad, relative zoom.
 constexpr double kSlide = 1e3, kSlidePerReadout = 10.0, kTilt_rad = 1.0, kZoom = 0.2;
 
-// Background has a middle of its own, known depth or not.
+// False for background, which has a centre of its own, whether its depth is known or not.
 bool in_plane(const MotionKeyframe& keyframe, const MotionPoint& point) noexcept {
   return point.inverse_depth > 0.0 && !keyframe.regions[point.region].about.background;
 }
 
-// c: of all points in the structure's plane alike; of each far region its own.
+// Sets c: common to all points in the structure's plane; for each far region its own.
 void place_middles(const std::vector<KeyframePoint>& points, MotionKeyframe& out) {
   std::vector<Eigen::Vector3d> own(out.regions.size(), Eigen::Vector3d::Zero());
   std::vector<double> count(out.regions.size(), 0.0);

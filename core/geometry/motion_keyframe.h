@@ -12,7 +12,7 @@ namespace core {
 struct KeyframePoint {
   double x = 0.0, y = 0.0;
   double inverse_depth = 0.0;  // 1/mm
-  double readout_share = 0.0;  // along the readout, of the raw row
+  double readout_share = 0.0;  // readout fraction of the raw row
   double sigma_px = 0.03;
   std::uint16_t region = 0;
 };
@@ -21,9 +21,9 @@ struct KeyframePoint {
 struct MotionKeyframe {
   std::vector<MotionPoint> points;
   std::vector<MotionRegion> regions;
-  Eigen::Vector3d middle = Eigen::Vector3d::UnitZ();  // of the structure: ray
+  Eigen::Vector3d middle = Eigen::Vector3d::UnitZ();  // ray to the centre of the structure
 };
-// distance_mm: to the structure, scale of plausible translations.
+// distance_mm: to the structure, the scale of plausible translations.
 [[nodiscard]] MotionKeyframe motion_keyframe(const std::vector<KeyframePoint>& points,
                                              const std::vector<KeyframeRegion>& regions, double distance_mm);
 

@@ -22,7 +22,7 @@ void MotionProcess::start(const MotionVector& sd) noexcept {
   factor();
 }
 
-// exp(A dt), A = companion matrix of (s + lambda)^3: (A + lambda I)^3 = 0 ends the series.
+// exp(A dt) for the companion matrix A of (s + lambda)^3: (A + lambda I)^3 = 0, so the series is finite.
 MotionProcess::Matrix3 MotionProcess::transition(double dt_s) const noexcept {
   const double l = lambda_;
   Matrix3 n;
@@ -30,8 +30,8 @@ MotionProcess::Matrix3 MotionProcess::transition(double dt_s) const noexcept {
   return std::exp(-l * dt_s) * (Matrix3::Identity() + n * dt_s + n * n * (0.5 * dt_s * dt_s));
 }
 
-// Integral of q phi phi^T, phi the response to white noise of density q = 16/3 lambda^5, by Gauss-Legendre for short
-// steps, where P - F P F^T would lose all its digits.
+// Integral of q phi phi^T, phi the response to white noise of density q = 16/3 lambda^5; by Gauss-Legendre quadrature
+// for short steps, where P - F P F^T would lose all significant digits.
 MotionProcess::Matrix3 MotionProcess::process_noise(double dt_s, const Matrix3& transition) const noexcept {
   constexpr double kShort = 0.5;
   const double l = lambda_;
@@ -76,7 +76,7 @@ void MotionProcess::predict(double dt_s, const MotionVector& sd) noexcept {
   factor();
 }
 
-// Lower triangle with root root^T = covariance; a direction of no variance keeps a column of zeros.
+// Lower triangle with root root^T = covariance; a direction without variance has a column of zeros.
 void MotionProcess::factor() noexcept {
   constexpr double kNothing = 1e-13;
   root_.setZero();
@@ -94,7 +94,7 @@ void MotionProcess::factor() noexcept {
   }
 }
 
-// With P = root root^T, L its block of the components: step = root_left (I + L^T information L)^-1 L^T rhs.
+// With P = root root^T and L its rows of the components: step = root_left (I + L^T information L)^-1 L^T rhs.
 bool MotionProcess::step(const MotionMatrix& information, const MotionVector& rhs, MotionStateVector& step) noexcept {
   constexpr int n = kMotionSize;
   const MotionMatrix l = root_.topLeftCorner<n, n>();

@@ -6,7 +6,7 @@
 namespace core {
 
 // Estimated camera motion relative to the keyframe: rotation vector w (rad) and translation t (mm) that map keyframe
-// camera coordinates to present ones, and two rotations about the middle of the view (rad, about x and y).
+// camera coordinates to present ones, and two rotations about the centre of the view (rad, about x and y).
 inline constexpr int kMotionSize = 8;
 enum MotionIndex : int {
   kPitch = 0,   // w about x
@@ -15,10 +15,10 @@ enum MotionIndex : int {
   kShiftX = 3,  // t
   kShiftY = 4,
   kShiftZ = 5,
-  kFaceX = 6,  // perspective rotation about x, about the middle: see camera_motion.h
+  kFaceX = 6,  // perspective rotation about x through the centre: see camera_motion.h
   kFaceY = 7
 };
-// Each with its first and second derivative by time: entry d * kMotionSize + i is the d-th derivative of component i.
+// Each component with its first and second time derivative: entry d * kMotionSize + i is derivative d of component i.
 inline constexpr int kMotionState = 3 * kMotionSize;
 
 using MotionVector = Eigen::Matrix<double, kMotionSize, 1>;
@@ -28,14 +28,14 @@ using MotionMatrix = Eigen::Matrix<double, kMotionSize, kMotionSize>;
 
 // Independent stationary Gaussian processes with Matern covariance, nu = 5/2 (power density ~ (1 + (f/fc)^2)^-3, as of
 // an aircraft in position hold), in state-space form [Hartikainen & Sarkka 2010]: exact for any time step. Unobserved
-// components keep the prior's variance. One thread; nothing allocates.
+// components keep the prior's variance. One thread; does not allocate.
 class MotionProcess {
  public:
   explicit MotionProcess(double corner_hz);
 
-  // The keyframe: position zero, known; derivatives with the prior's variance. sd: of each component.
+  // Starts at the keyframe: position zero and known; derivatives with the prior's variance. sd: of each component.
   void start(const MotionVector& sd) noexcept;
-  // dt_s < 0 counts as 0.
+  // A negative dt_s counts as 0.
   void predict(double dt_s, const MotionVector& sd) noexcept;
   // Data on the components themselves, with information matrix `information` and gradient `rhs` about the predicted
   // mean: the most likely state is the predicted one + step. May be called again with other data; no information matrix
@@ -46,7 +46,7 @@ class MotionProcess {
 
   [[nodiscard]] const MotionStateVector& mean() const noexcept { return mean_; }
   [[nodiscard]] const MotionStateMatrix& covariance() const noexcept { return covariance_; }
-  // At `tau_s` from the state's instant.
+  // Components at `tau_s` after the state's instant.
   [[nodiscard]] static MotionVector at(const MotionStateVector& state, double tau_s) noexcept;
 
  private:
@@ -60,7 +60,7 @@ class MotionProcess {
   Matrix3 stationary_;  // of unit variance
   MotionStateVector mean_ = MotionStateVector::Zero();
   MotionStateMatrix covariance_ = MotionStateMatrix::Zero();
-  MotionStateMatrix root_ = MotionStateMatrix::Zero();  // lower triangle: of the predicted covariance
+  MotionStateMatrix root_ = MotionStateMatrix::Zero();  // lower-triangular root of the predicted covariance
   MotionMatrix inner_ = MotionMatrix::Identity();       // Cholesky factor of I + L^T information L
   MotionStateMatrix work_ = MotionStateMatrix::Zero(), half_ = MotionStateMatrix::Zero();
 };

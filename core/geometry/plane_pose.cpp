@@ -16,16 +16,16 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-constexpr double kThinnest = 1e-3;      // breadth over length of the points, below which they are a line
-constexpr double kNotMuchWorse = 11.8;  // chi square
+constexpr double kThinnest = 1e-3;      // width over length of the points: below, they count as collinear
+constexpr double kNotMuchWorse = 11.8;  // difference in chi square
 constexpr double kSamePoseRad = 1e-3;
 
 Vector3d in_camera(const PlanePose& pose, const PlanePlace& place) {
   return pose.rotation.col(0) * place.x_mm + pose.rotation.col(1) * place.y_mm + pose.translation_mm;
 }
 
-// Translation and scale that bring points to zero mean and unit spread: without it the transformation is ill
-// conditioned (Hartley 1997).
+// Translation and scale that give the points zero mean and unit spread; without them the homography is ill-conditioned
+// (Hartley 1997).
 struct Normaliser {
   double x = 0.0, y = 0.0, scale = 1.0;
   [[nodiscard]] Matrix3d matrix() const {
@@ -37,7 +37,7 @@ struct Normaliser {
 
 struct Spread {
   Normaliser normaliser;
-  double thinness = 0.0;  // 0 = a line
+  double thinness = 0.0;  // 0 = collinear
 };
 
 Spread spread_of(const std::vector<Eigen::Vector2d>& points) {
@@ -69,7 +69,7 @@ Prepared prepare(std::span<const PlaneCorrespondence> points, const CameraModel&
   return out;
 }
 
-// mm -> normalised image coordinates; false when the points leave it open (three of four on a line).
+// mm -> normalised image coordinates; false if the points do not determine it (three of four on a line).
 bool homography(const Prepared& points, Matrix3d& h) {
   const auto n = static_cast<Eigen::Index>(points.rays.size());
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 9);
@@ -98,7 +98,7 @@ Matrix3d nearest_rotation(const Vector3d& x, const Vector3d& y) {
   return r;
 }
 
-// Normal equations of the reprojection error in px, for a turn w about the camera's axes and a shift t.
+// Normal equations of the reprojection error in px, for a rotation w about the camera's axes and a translation t.
 struct Equations {
   Matrix6 hessian = Matrix6::Zero();
   Vector6 gradient = Vector6::Zero();
@@ -139,7 +139,7 @@ PlanePose moved(PlanePose pose, const Vector6& step) {
   return pose;
 }
 
-// Levenberg-Marquardt: plain Gauss-Newton may step over to the other solution.
+// Levenberg-Marquardt, because plain Gauss-Newton may jump to the other solution.
 bool refine(PlanePose& pose, std::span<const PlaneCorrespondence> points, double sigma_px) {
   constexpr int kSteps = 100;
   Damping damping{.value = 1e-4, .least = 1e-12, .most = 1e12};
@@ -166,7 +166,7 @@ bool refine(PlanePose& pose, std::span<const PlaneCorrespondence> points, double
   return pose.covariance.allFinite();
 }
 
-// The plane as it would look the same from infinitely far: depths about the points' middle turned round.
+// The plane with the same image from infinitely far: depths mirrored about the points' centre.
 PlanePose turned_round(const PlanePose& pose, const PlanePlace& middle) {
   const Vector3d centre = in_camera(pose, middle);
   const Vector3d sight = centre.normalized();
@@ -223,7 +223,7 @@ double PlanePose::obliqueness_deg() const noexcept {
   return std::atan2(std::hypot(n.x(), n.y()), std::abs(n.z())) * kDegrees;
 }
 
-// A turn w moves the normal by w x n; the angle's change is that along the direction in which the normal leans.
+// A rotation w changes the normal by w x n; the angle changes by the component along the direction of tilt.
 double PlanePose::obliqueness_sigma_deg() const noexcept {
   const Vector3d n = normal();
   const double lean = std::hypot(n.x(), n.y());

@@ -9,7 +9,7 @@
 
 namespace core {
 
-// A place in the structure's plane, in the coordinates of whoever measured it; x and y at right angles, either sense.
+// A place in the structure's plane, in the coordinates of the survey; x and y are perpendicular, of either handedness.
 struct PlanePlace {
   double x_mm = 0.0, y_mm = 0.0;
 };
@@ -20,17 +20,18 @@ struct PlaneCorrespondence {
 };
 
 // Pose of the structure's plane: place (x, y) -> rotation * (x, y, 0) + translation_mm in camera axes (right, down,
-// ahead). Pixels are ideal ones throughout: the lens is not applied. A plain value; any thread.
+// forward). Pixels are ideal ones throughout: the lens is not applied. A plain value; any thread.
 struct PlanePose {
   CameraModel camera;
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation_mm{0.0, 0.0, 1.0};
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  // of a turn about the camera's axes
-                                                                                 // (rad), then of the shift (mm)
-  double rms_px = 0.0;      // distance of the given pixel from the predicted one
-  double chi_square = 0.0;  // in the stated sigma_px
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  // of a rotation about the camera's
+                                                                                 // axes (rad), then of the translation
+                                                                                 // (mm)
+  double rms_px = 0.0;      // distance between given and predicted pixels
+  double chi_square = 0.0;  // for the stated sigma_px
 
-  // nullopt: behind the camera; the ray never meets the plane.
+  // nullopt: the place is behind the camera, or the ray does not meet the plane.
   [[nodiscard]] std::optional<Vector2> project(const PlanePlace& place) const noexcept;
   [[nodiscard]] std::optional<PlanePlace> place_at(const Vector2& ideal_px) const noexcept;
 
@@ -45,7 +46,7 @@ struct PlanePose {
 
   // Angle between the plane's normal and the optical axis: 0 = frontal view, one scale everywhere.
   [[nodiscard]] double obliqueness_deg() const noexcept;
-  // Its standard deviation; where the angle is smaller than it, that of the tilt in its least certain direction.
+  // Standard deviation of the obliqueness; if the angle is smaller, that of the tilt in its least certain direction.
   [[nodiscard]] double obliqueness_sigma_deg() const noexcept;
 };
 
@@ -59,10 +60,10 @@ struct PlanePoseFit {
   std::optional<PlanePose> other;
 };
 
-// At least four points, not on one line: homography (direct linear transformation, Hartley & Zisserman 2003, 4.1), pose
-// from it (Zhang 2000, 3.1), Gauss-Newton on the reprojection error; the second start mirrors the depths about the
-// points' middle (Schweighofer & Pinz 2006). sigma_px: of a pixel, per axis; the covariance grows with the residual
-// where that is larger. Status kNoFit: the points contradict each other, or are behind the camera.
+// Needs at least four points, not collinear: homography (direct linear transformation, Hartley & Zisserman 2003, 4.1),
+// pose from it (Zhang 2000, 3.1), Gauss-Newton on the reprojection error; the second start mirrors the depths about the
+// points' centre (Schweighofer & Pinz 2006). sigma_px: of a pixel, per axis; if the residual is larger, the covariance
+// is scaled by it. Status kNoFit: the points contradict each other, or are behind the camera.
 [[nodiscard]] PlanePoseFit fit_plane_pose(std::span<const PlaneCorrespondence> points, const CameraModel& camera,
                                           double sigma_px);
 

@@ -7,7 +7,7 @@
 namespace core {
 namespace {
 
-// Newton's method on p + e(p) = measured. Where e is so steep that two places look alike, the nearest is as good.
+// Newton's method on p + e(p) = measured. If e is so steep that two positions fit, the nearest is used.
 double unlocked(double measured_px, const std::array<double, 4>& e) noexcept {
   constexpr int kSteps = 6;
   constexpr double kLeastSlope = 0.3, kTurn = 2.0 * std::numbers::pi;

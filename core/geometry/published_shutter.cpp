@@ -34,7 +34,7 @@ void PublishedShutter::correct(std::uint64_t sequence, std::span<const double> r
   }
 }
 
-// The flow of points that are seen in both frames: one that comes or goes does not move the mean.
+// Mean flow of the points seen in both frames, so that a point that appears or disappears does not change the mean.
 void PublishedShutter::correct_by_camera(double n_frames, std::span<const double> share,
                                          std::span<const std::uint8_t> inlier, std::span<Vector2> motion) noexcept {
   Vector2 flow;

@@ -9,10 +9,10 @@ namespace {
 
 using Sums = ReadoutEstimator::Sums;
 using Bands = std::array<Sums, ReadoutEstimator::kMaxBands>;
-constexpr double kOverlap = 1.2;        // segments that overlap by half share part of their noise
-constexpr double kLeastVelocity = 3.0;  // velocity against its noise, below which a band tells nothing
+constexpr double kOverlap = 1.2;        // variance factor: segments with 50 % overlap share part of their noise
+constexpr double kLeastVelocity = 3.0;  // ratio of velocity to its noise, below which a band is not informative
 constexpr double kAgree_sigmas = 4.0;
-constexpr double kAgree_frames = 0.03;  // beyond the deviations: what the model itself leaves
+constexpr double kAgree_frames = 0.03;  // tolerance in addition to the standard deviations, for model errors
 constexpr double kObservable_frames = 0.25;
 constexpr int kRounds = 8;
 
@@ -31,7 +31,7 @@ struct Band {
   bool tells = false, agrees = false;
 };
 
-// s_b^2 at a readout, and the velocity's sum without its noise.
+// Computes s_b^2 at a given readout, and the sum of the velocity without its noise.
 void settle(Band& band, const Sums& sums, double frames) noexcept {
   const double residual = sums.shear - 2.0 * frames * sums.cross + frames * frames * sums.velocity;
   const double values = sums.n_values + frames * frames * sums.velocity_noise;
@@ -59,8 +59,8 @@ bool agree(const Band& a, const Band& b) noexcept {
 
 using BandList = std::array<Band, ReadoutEstimator::kMaxBands>;
 
-// Marks the largest set of bands that agree with one of them. Large is the sum of log(1 + (0.1 / deviation)^2), so that
-// a single strong line outweighs no number of others; of equals the lowest, where motion is never folded.
+// Marks the largest set of bands that agree with one of them. Its size is the sum of log(1 + (0.1 / deviation)^2), so
+// that a single strong line does not outweigh many other bands; of equal sets the lowest, where motion is not aliased.
 void mark_agreement(BandList& bands) noexcept {
   double best = -1.0;
   std::size_t anchor = 0;
@@ -93,7 +93,7 @@ struct Deviation {
   int n_degrees = 0;
 };
 
-// The largest of: noise alone; scatter of the blocks; noise widened by what the bands disagree.
+// The largest of: sigma from noise alone; scatter of the blocks; noise scaled up by the disagreement of the bands.
 Deviation deviation(const BandList& bands, double frames, std::span<const Bands> blocks,
                     double window_energy) noexcept {
   double weight = 0.0, chi2 = 0.0, squares = 0.0;

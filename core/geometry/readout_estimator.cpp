@@ -14,8 +14,8 @@ namespace core {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kSegment_s = 8.0;  // slow drift tells much: a few of its periods
-constexpr double kTop = 0.42;       // of the rate: highest bin, where the differentiator is still good
+constexpr double kSegment_s = 8.0;  // slow drift is informative: a segment contains a few of its periods
+constexpr double kTop = 0.42;       // of the rate: highest bin, where the differentiator is still accurate
 constexpr double kKaiserBeta = 8.0;
 
 int segment_length(double rate_hz) {
@@ -43,7 +43,7 @@ ReadoutEstimator::ReadoutEstimator(const Config& config, const TrackFrame& keyfr
     taps_[static_cast<std::size_t>(k)] = (k % 2 == 0 ? -1.0 : 1.0) / k * kaiser_window(edge, kKaiserBeta);
     slope += 2.0 * k * taps_[static_cast<std::size_t>(k)];
   }
-  for (double& tap : taps_) tap /= slope;  // a straight line's slope is met exactly
+  for (double& tap : taps_) tap /= slope;  // exact for a straight line
   const auto n = static_cast<std::size_t>(segment_);
   for (std::size_t t = 0; t < n; ++t)
     window_.push_back(0.5 - 0.5 * std::cos(2.0 * kPi * (static_cast<double>(t) + 0.5) / segment_));
@@ -64,7 +64,7 @@ ReadoutEstimator::ReadoutEstimator(const Config& config, const TrackFrame& keyfr
     velocity_gain_.push_back(bin == 0 || !(gain > 0.0) ? 1.0 : omega / gain);
     noise_gain_.push_back(omega * omega);
   }
-  // Half an octave wide, one bin at least; bin 0 holds the keyframe's errors.
+  // Bands are half an octave wide, at least one bin; bin 0 is excluded, because it contains the keyframe's errors.
   const auto last = static_cast<std::size_t>(kTop * segment_);
   double edge = 1.0;
   first_bin_[0] = 1;
@@ -88,7 +88,7 @@ void ReadoutEstimator::update(const TrackFrame& tracks) noexcept {
   push_cell(true);
 }
 
-// What is left in the segment stays: the seam is one sample, and both series have it.
+// The segment keeps its content: the discontinuity affects one sample, equally in both series.
 void ReadoutEstimator::clear_ring() noexcept {
   n_cells_ = 0;
   std::fill(last_seen_.begin(), last_seen_.end(), -1);
@@ -110,7 +110,7 @@ void ReadoutEstimator::push_cell(bool seen) noexcept {
   if (n_cells_ >= kRing) differentiate();
 }
 
-// Straight lines over the cells that the region was lost for, in both series.
+// Interpolates linearly over the cells in which the region was lost, in both series.
 void ReadoutEstimator::bridge(std::size_t region) noexcept {
   const std::int64_t from = last_seen_[region], gap = n_cells_ - from;
   if (from < 0 || gap < 2 || gap > kMostBridged + 1) return;
@@ -126,7 +126,7 @@ void ReadoutEstimator::bridge(std::size_t region) noexcept {
   }
 }
 
-// The cell in the middle of the filter gets its velocity and joins the segment.
+// Computes the velocity of the cell at the filter's centre and adds it to the segment.
 void ReadoutEstimator::differentiate() noexcept {
   const std::int64_t middle = n_cells_ - 1 - kMostBridged - kHalf;
   const auto n = static_cast<std::size_t>(segment_), t = static_cast<std::size_t>(filled_);

@@ -18,43 +18,43 @@ namespace core {
 // by rho V px from the first to the last line (RegionShear), rho = T_r f_s.
 //
 // V is the derivative of the region's mean motion by a band-limited differentiator (Kaiser window, accurate to 0.44 of
-// the rate), in the same frame as the shear: no motion common to the image is needed. Both series, with the same
-// window, are transformed by segments; instantaneous proportionality is preserved by any window, mask and band. Per
+// the rate), in the same frame as the shear: no motion common to the image is needed. Both series are transformed by
+// segments with the same window; instantaneous proportionality is preserved by any window, mask and band. Per
 // band b and block k of the record, with M the Fisher information of the shears:
 //     A = sum V* M V - its noise    B = sum Re V* M S    rho_b = B / A    s_b^2 = mean residual of S - rho V
 // and rho = sum B_b / s_b^2 / sum A_b / s_b^2 over the bands that agree. The noise of V follows from s_b^2, because
-// the mean of a region is uncorrelated with its shear (errors in variables). A motion above half the frame rate is
-// aliased, with a velocity of wrong sign and size; its band contradicts the others: the largest set of bands that
-// agree within their deviations is used, the rest is excluded and counted. The mean of every segment is subtracted,
-// which removes errors of the keyframe. Errors proportional to displacement (lens, parallax) are in quadrature to
-// velocity. Standard deviation: the larger of that of about twenty contiguous blocks (Student's t) and that of s_b^2
-// alone.
+// the mean of a region is uncorrelated with its shear (errors in variables). Motion above half the frame rate is
+// aliased and has a velocity of wrong sign and size, so its band contradicts the others: the largest set of bands that
+// agree within their standard deviations is used, the rest is excluded and counted. The mean of every segment is
+// subtracted, which removes errors of the keyframe. Errors proportional to displacement (lens, parallax) are in
+// quadrature to velocity. Standard deviation: the larger of that from about twenty contiguous blocks (Student's t) and
+// that from s_b^2 alone.
 //
-// Fixed memory; nothing allocates after construction. One thread. Deterministic.
+// Fixed memory; does not allocate after construction. One thread. Deterministic.
 class ReadoutEstimator {
  public:
   struct Config {
     RegionShear::Config shear;
     double rate_hz = 0.0;
   };
-  // Throws std::invalid_argument: a rate that is not positive, a point of no region.
+  // Throws std::invalid_argument: a rate that is not positive, or a point without a region.
   ReadoutEstimator(const Config& config, const TrackFrame& keyframe);
 
-  // One frame, in order. Gaps of a few frames are bridged, longer ones split the record.
+  // Adds one frame, in order. Gaps of a few frames are interpolated, longer ones split the record.
   void update(const TrackFrame& tracks) noexcept;
-  // Over all segments so far; updated when one is complete.
+  // Estimate over all segments so far; updated when a segment is complete.
   [[nodiscard]] const ReadoutEstimate& estimate() const noexcept { return estimate_; }
 
   static constexpr std::size_t kMaxBands = 20;
   static constexpr std::size_t kMaxBlocks = 20;
-  struct Sums {  // of one band
+  struct Sums {  // sums of one band
     double velocity = 0.0, cross = 0.0, shear = 0.0;
     double velocity_noise = 0.0;  // of `velocity` per unit of s^2
     double n_values = 0.0;        // degrees of freedom of `shear`, times 1 per unit of s^2
   };
 
  private:
-  static constexpr int kHalf = 16;        // of the differentiator
+  static constexpr int kHalf = 16;        // half length of the differentiator
   static constexpr int kMostBridged = 5;  // frames
   static constexpr int kRing = 2 * kHalf + 1 + kMostBridged;
   using Block = std::array<Sums, kMaxBands>;
@@ -78,22 +78,22 @@ class ReadoutEstimator {
   TimeGrid grid_;
   std::array<double, kHalf + 1> taps_{};
   std::array<RegionShear::Sample, kRing> ring_;
-  std::int64_t n_cells_ = 0;             // pushed since the ring was cleared
+  std::int64_t n_cells_ = 0;             // cells pushed since the ring was cleared
   std::vector<std::int64_t> last_seen_;  // per region, cell; -1 = none
   RegionShear::Sample frame_;
 
   int segment_;
   std::size_t n_bands_ = 0;
   std::array<std::size_t, kMaxBands + 1> first_bin_{};
-  std::vector<double> window_, window_sum_;  // segment; per channel: energy of the window where it was seen
+  std::vector<double> window_, window_sum_;  // segment; per channel: energy of the window over observed cells
   std::vector<double> velocity_, shear_px_;  // channels x segment, oldest first
   std::vector<std::uint8_t> seen_;           // regions x segment
   int filled_ = 0;
   RealFft fft_;
   std::vector<double> work_;
   std::vector<std::complex<double>> velocity_bins_, shear_bins_;  // channels x bins
-  std::vector<double> velocity_gain_;                             // per bin: gain that the differentiator lacks
-  std::vector<double> noise_gain_;                                // per bin: of white noise of a mean in its velocity
+  std::vector<double> velocity_gain_;                             // per bin: inverse gain of the differentiator
+  std::vector<double> noise_gain_;                                // per bin: velocity noise for unit white noise
 
   std::array<Block, kMaxBlocks> blocks_{};
   std::size_t n_blocks_ = 0, segments_in_last_ = 0, segments_per_block_ = 1;

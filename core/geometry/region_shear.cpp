@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kLeastSigmaPx = 0.003, kMostSigmaPx = 100.0;
 constexpr double kMostMotion_px = 1e5;
-constexpr double kLeastOwnShare = 1e-4;   // of a column that the columns before it do not explain
-constexpr double kLeastPivotShare = 0.1;  // of a frame against the keyframe: fewer points tell too little
-constexpr std::size_t kLeastPoints = 4;   // a region's six unknowns from eight coordinates
+constexpr double kLeastOwnShare = 1e-4;   // smallest share of a column that the previous columns do not explain
+constexpr double kLeastPivotShare = 0.1;  // smallest pivot relative to the keyframe's: below, too few points are seen
+constexpr std::size_t kLeastPoints = 4;   // a region has six unknowns; four points give eight coordinates
 
 }  // namespace
 
@@ -39,7 +39,7 @@ void RegionShear::place_columns(const Config& config, const TrackFrame& keyframe
     Point point;
     point.keyframe = places_.corrected_keyframe(camera_.undistort({seen.u_px, seen.v_px}));
     point.region = seen.region;
-    const double sigma_px = std::min(kMostSigmaPx, std::max(kLeastSigmaPx, seen.sigma_px));  // NaN gives the least
+    const double sigma_px = std::min(kMostSigmaPx, std::max(kLeastSigmaPx, seen.sigma_px));  // NaN: lower bound
     point.weight = 1.0 / (sigma_px * sigma_px);
     const double x = point.keyframe.u - centre.u, y = point.keyframe.v - centre.v;
     const double fraction = config.readout.fraction(seen.u_px, seen.v_px);
@@ -56,7 +56,7 @@ void RegionShear::place_columns(const Config& config, const TrackFrame& keyframe
   for (Point& point : points_) point.weight *= n_known / sum;
 }
 
-// Subtracts the weighted means, so that the region's mean motion varies together with nothing else, and scales.
+// Subtracts the weighted means, so that the region's mean motion is uncorrelated with the other unknowns, and scales.
 void RegionShear::centre_columns(RegionFit& region) {
   double weight = 0.0;
   std::array<std::array<double, kAll>, kAxes> mean{};
@@ -97,8 +97,8 @@ void RegionShear::add_point(const Point& point, Vector2 motion, Normal& normal) 
 
 namespace {
 
-// Gaussian elimination of the first `n` unknowns of a symmetric system of which the upper half and the right-hand side
-// are held; the rest becomes the reduced system. Rows already eliminated keep what back-substitution needs.
+// Gaussian elimination of the first `n` unknowns of a symmetric system stored as upper half and right-hand side; the
+// remainder becomes the reduced system. Eliminated rows keep the values needed for back-substitution.
 template <class Normal>
 void eliminate(Normal& normal, std::size_t n) noexcept {
   const std::size_t all = normal.size();
@@ -111,7 +111,7 @@ void eliminate(Normal& normal, std::size_t n) noexcept {
   }
 }
 
-// Unknowns p < n from the eliminated rows; x holds those from n on.
+// Back-substitution of unknowns p < n; x contains those from n on.
 template <class Normal, class Vector>
 void back_substitute(const Normal& normal, std::size_t n, Vector& x) noexcept {
   const std::size_t all = normal.size();
@@ -134,7 +134,7 @@ Turn solve_turn(double pp, double py, double yy, double p, double y) noexcept {
 
 }  // namespace
 
-// A region is usable where its own six unknowns can be told apart.
+// A region is usable if its own six unknowns can be distinguished.
 void RegionShear::judge_regions() {
   for (RegionFit& region : regions_) {
     Normal reduced = region.normal;
@@ -160,7 +160,7 @@ RegionShear::Sample RegionShear::sample_prototype() const {
   return sample;
 }
 
-// The region's normal equations of this frame, its own unknowns eliminated. False: it is not seen.
+// Builds the region's normal equations of this frame and eliminates its own unknowns. False: it is not seen.
 bool RegionShear::accumulate(const TrackFrame& tracks, RegionFit& region) noexcept {
   region.normal = {};
   std::size_t n_seen = 0;
@@ -201,7 +201,7 @@ void RegionShear::fit(const TrackFrame& tracks, Sample& out) noexcept {
     unknown[6] = turn.pitch;
     unknown[7] = turn.yaw;
     if (out.seen[r] != 0) back_substitute(regions_[r].normal, kOwn, unknown);
-    // The rows stand apart by what the region has grown since the keyframe.
+    // The distance between rows scales with the region's growth since the keyframe.
     const double grown = std::clamp(1.0 + unknown[kTurn + 1], 0.5, 2.0);
     for (std::size_t a = 0; a < kAxes; ++a) {
       out.carrier_px[kAxes * r + a] = unknown[a];

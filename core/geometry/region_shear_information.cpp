@@ -1,4 +1,4 @@
-// What the keyframe's points can tell: covariances of carriers and shears, made once.
+// RegionShear: covariances of carriers and shears from the keyframe's points, computed once.
 #include <Eigen/Dense>
 
 #include "core/geometry/region_shear.h"
@@ -77,8 +77,8 @@ void RegionShear::make_information() {
   }
 }
 
-// Right-hand side of the normal equations for points of one region that are shifted by their readout fraction times the
-// field of one unknown, of size one.
+// Right-hand side of the normal equations if the points of one region are shifted by their readout fraction times the
+// field of one unknown of unit size.
 Eigen::VectorXd RegionShear::field_response(std::size_t region, std::size_t unknown) const {
   using Eigen::Index;
   const RegionFit& own = regions_[region];

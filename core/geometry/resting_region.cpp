@@ -8,7 +8,7 @@ namespace core {
 
 namespace {
 
-// Keyframe centre: of all points, so that a lost one moves nothing.
+// The keyframe centre is that of all points, so that a lost point does not shift it.
 void remove_zoom(const RestingPoints& points, std::span<const std::uint8_t> counts,
                  std::span<Vector2> motion) noexcept {
   const auto& position = points.position;

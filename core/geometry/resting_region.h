@@ -7,16 +7,16 @@
 
 namespace core {
 
-// Points of one static region, undistorted px: now, in the keyframe, and whether each is seen now.
+// Points of one static region, undistorted px: present, in the keyframe, and whether each is seen at present.
 struct RestingPoints {
   std::span<const Vector2> position, keyframe;
   std::span<const std::uint8_t> seen;
 };
 
 // Motion of each point since the keyframe without the region's own zoom about its keyframe centre (least squares over
-// the inliers): a static region at another distance than the structure has another zoom, and its points share one
-// motion only after its removal. Inliers by mlesac_translation() about it, at sigma_px. Motion of unseen points is
-// undefined. No allocation.
+// the inliers). A static region at another distance than the structure has another zoom, and its points share one
+// motion only after its removal. Inliers are found by mlesac_translation(), with sigma_px. The motion of unseen points
+// is undefined. Does not allocate.
 void follow_resting_region(const RestingPoints& points, double sigma_px, std::span<Vector2> motion,
                            std::span<std::uint8_t> inlier) noexcept;
 

@@ -42,7 +42,7 @@ void ScaleFactor::list_farthest_pairs() {
   farthest_.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(n));
 }
 
-// For each point its farthest partner in the same region, and its farthest one across the axis of motion.
+// Pairs each point with its farthest partner in the same region, and with its farthest one across the axis of motion.
 void ScaleFactor::list_motion_free_pairs() {
   for (std::size_t i = 0; i < points_.size(); ++i) {
     Pair within{i, i, {}, kLeastPairPx};
@@ -106,7 +106,7 @@ double ScaleFactor::least_squares(std::span<const Vector2> position, std::span<c
   std::fill(count_.begin(), count_.end(), 0.0);
   double across_now = 0.0, across_keyframe = 0.0, across_count = 0.0;
   const auto normal_part = [](const Point& p, const Vector2& x) { return -p.axis_v * x.u + p.axis_u * x.v; };
-  const auto counts_across = [&](const Point& p) {  // only regions whose axis is that of the first
+  const auto counts_across = [&](const Point& p) {  // only regions with the same axis as the first
     return !p.both_axes && std::abs(p.axis_u * points_.front().axis_v - p.axis_v * points_.front().axis_u) < 1e-6;
   };
   for (std::size_t i = 0; i < points_.size(); ++i) {

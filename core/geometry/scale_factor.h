@@ -9,20 +9,20 @@
 namespace core {
 
 // Magnification of the image relative to the keyframe, b = |p_i1 - p_i2| / |p_01 - p_02|; the paper's scale is S_i =
-// S_0 / b (Eq. 6). Structural motion is not magnification, so only distances in which it cancels are used.
+// S_0 / b (Eq. 6). Structural motion is not magnification, so only distances are used in which it cancels.
 class ScaleFactor {
  public:
   struct Point {
     Vector2 keyframe;  // undistorted px
     std::uint16_t region = 0;
     double axis_u = 1.0, axis_v = 0.0;  // unit axis of the region's motion
-    bool both_axes = false;             // it may move in any direction
-    bool counts = true;                 // false: at another distance (background), excluded
+    bool both_axes = false;             // motion in any direction is possible
+    bool counts = true;                 // false: excluded, because it is at another distance (background)
   };
 
   explicit ScaleFactor(std::vector<Point> points);
 
-  // The paper's: the two keyframe points farthest apart; while one of them is lost, the next farthest of a fixed list.
+  // Method of the paper: the two keyframe points farthest apart; if one of them is lost, the next pair of a fixed list.
   // Keeps its last value if no listed pair is seen.
   [[nodiscard]] double two_point(std::span<const Vector2> position, std::span<const std::uint8_t> usable) noexcept;
 
@@ -30,15 +30,15 @@ class ScaleFactor {
   [[nodiscard]] double median_of_pairs(std::span<const Vector2> position,
                                        std::span<const std::uint8_t> usable) noexcept;
 
-  // Least squares on all usable points: inside a region distances from its centre, across regions only the part
+  // Least squares over all usable points: inside a region distances from its centre, across regions only the component
   // perpendicular to their axes of motion. Keeps its last value if no point is seen.
   [[nodiscard]] double least_squares(std::span<const Vector2> position, std::span<const std::uint8_t> usable) noexcept;
 
  private:
   struct Pair {
     std::size_t i, j;
-    Vector2 direction;   // unit; the distance is measured along it
-    double distance_px;  // in the keyframe
+    Vector2 direction;   // unit vector along which the distance is measured
+    double distance_px;  // of the keyframe
   };
 
   void list_farthest_pairs();

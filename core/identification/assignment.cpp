@@ -10,7 +10,7 @@ constexpr double kAlone = 1.0;
 constexpr double kForbidden = 1e6;
 }  // namespace
 
-// Behind the real columns every row has one of its own, which stands for going alone.
+// After the real columns every row has one extra column, which stands for "unassigned".
 Assignment::Assignment(std::size_t max_rows, std::size_t max_columns)
     : max_rows_(max_rows),
       max_columns_(max_columns),
@@ -25,7 +25,7 @@ Assignment::Assignment(std::size_t max_rows, std::size_t max_columns)
 double Assignment::cost_of(std::size_t row, std::size_t column) const noexcept {
   if (column > n_real_) return column - n_real_ == row ? kAlone : kForbidden;
   const double cost = cost_[(row - 1) * n_real_ + (column - 1)];
-  return cost < kAlone ? cost : kForbidden;  // also where it is no number
+  return cost < kAlone ? cost : kForbidden;  // also if it is NaN
 }
 
 void Assignment::add_row(std::size_t row) noexcept {
@@ -54,7 +54,7 @@ void Assignment::add_row(std::size_t row) noexcept {
     }
     column = next;
   } while (row_of_column_[column] != 0);
-  while (column != 0) {  // back along the path, moving every row one column on
+  while (column != 0) {  // back along the path: every row moves to the next column
     const std::size_t before = column_before_[column];
     row_of_column_[column] = row_of_column_[before];
     column = before;

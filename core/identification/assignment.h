@@ -8,7 +8,7 @@ namespace core {
 
 // Assigns rows to columns so that the sum of costs is minimal, where an unassigned row costs 1: a pair that costs 1 or
 // more (or NaN) is never made. Hungarian method with potentials [Kuhn 1955; Munkres 1957], one augmenting path per row:
-// O(rows^2 (rows + columns)). Unlike a greedy choice it does not trade one good pair for two bad ones where two modes
+// O(rows^2 (rows + columns)). Unlike a greedy choice it does not give up one good pair for two bad ones where two modes
 // move together. Memory is fixed at construction. Used by one thread.
 class Assignment {
  public:
@@ -16,8 +16,8 @@ class Assignment {
 
   Assignment(std::size_t max_rows, std::size_t max_columns);
 
-  // `cost`: n_rows x n_columns, row-major, >= 0; sizes up to those of the construction, else nothing is paired.
-  // Gives the column of every row or kNone; valid until the next call.
+  // `cost`: n_rows x n_columns, row-major, >= 0. If a size exceeds that of the construction, nothing is paired. Returns
+  // the column of every row or kNone; valid until the next call.
   [[nodiscard]] std::span<const std::size_t> solve(std::span<const double> cost, std::size_t n_rows,
                                                    std::size_t n_columns) noexcept;
 

@@ -37,7 +37,7 @@ class AverageLinkage {
  private:
   [[nodiscard]] double& at(std::size_t i, std::size_t j) { return distance_[i * n_ + j]; }
 
-  // Among the clusters behind i.
+  // Finds the nearest of the clusters after i.
   void find_nearest(std::size_t i) {
     nearest_distance_[i] = kFar;
     const double* row = distance_.data() + i * n_;

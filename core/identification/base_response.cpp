@@ -14,7 +14,7 @@ class BaseSpectra {
   BaseSpectra(const CpsdSums& sums, const std::vector<ChannelInfo>& channels, int base)
       : sums_(sums), channels_(channels), base_(base) {}
 
-  // Averaged over three bins: a Hann window spreads a line over as many.
+  // Mean over three bins, because a Hann window spreads a line over three.
   [[nodiscard]] double gain(double frequency_hz) const {
     const double position = frequency_hz * sums_.n_fft / sums_.rate_hz;
     const int centre = std::clamp(static_cast<int>(std::lround(position)), 1, sums_.n_bins() - 2);

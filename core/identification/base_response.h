@@ -7,11 +7,11 @@
 
 namespace core {
 
-// Does the structure respond to its measured base near a frequency? |S_rb| / S_bb, the largest over the other channels:
-// a mode is a local maximum of it, a peak of the base's own spectrum (or of the camera's motion) is not.
+// Response of the structure to its measured base motion near a frequency: |S_rb| / S_bb, the largest over the other
+// channels. A mode is a local maximum of it; a peak of the base's own spectrum (or of the camera's motion) is not.
 struct BaseResponse {
-  double gain = 0.0;         // at the frequency; 0 where no base is measured
-  double gain_beside = 0.0;  // the larger of the two sides, one tenth of the frequency away
+  double gain = 0.0;         // at the frequency; 0 if no base is measured
+  double gain_beside = 0.0;  // larger of the gains at one tenth of the frequency above and below
 };
 
 [[nodiscard]] BaseResponse base_response(const CpsdSums& sums, const std::vector<ChannelInfo>& channels,

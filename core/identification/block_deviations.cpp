@@ -32,7 +32,7 @@ class Deviations {
     return squares > 0.0 ? std::max(0.0, sum * sum / squares - 1.0) : 0.0;
   }
 
-  // Of R(i, j, lag), i <= j, over lags of either sign; all parts but the last, which is minus their sum.
+  // Transforms R(i, j, lag), i <= j, lags of either sign, of all parts but the last, which is minus their sum.
   void transform(int i, int j) {
     const int pair = CpsdSums::pair_index(i, j, sums_.n_channels);
     same_mask_ = shared_mask_ && !mask_.front().empty();
@@ -46,7 +46,7 @@ class Deviations {
     }
   }
 
-  // Rows of `channel`, columns of the `reference`-th of n_references; mirrored: the transformed pair is (j, i).
+  // Writes rows of `channel`, columns of the `reference`-th of n_references. mirrored: the transformed pair is (j, i).
   void write(Index channel, Index reference, Index n_references, bool mirrored, Eigen::MatrixXd& out) {
     const int reach = lags_.n_differences;
     const Index n_channels = sums_.n_channels, last = channel + n_channels * static_cast<Index>(data_.size());
@@ -73,7 +73,7 @@ class Deviations {
   PairTransform transform_;
   bool shared_mask_, same_mask_ = false;
   std::vector<std::span<const CpsdBlock>> groups_;
-  std::vector<std::vector<double>> data_, mask_;  // per part: circular lags
+  std::vector<std::vector<double>> data_, mask_;  // circular lags per part
   std::vector<double> r_, all_mask_, moved_;
 };
 

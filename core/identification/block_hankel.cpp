@@ -6,7 +6,8 @@ Eigen::MatrixXd block_hankel(const Correlations& correlations, const std::vector
                              const Eigen::VectorXd& scale, int block_rows, int block_columns, int first_lag) {
   const int ny = correlations.n_channels();
   const auto nr = static_cast<int>(references.size());
-  // One block column by lags, then each the one before it moved up by a block, with one new lag at its end.
+  // The first block column is filled lag by lag; each next one is the previous one moved up by a block, plus one new
+  // lag.
   Eigen::MatrixXd hankel(block_rows * ny, block_columns * nr);
   for (int b = 0; b < block_columns; ++b) {
     const int first_row = b == 0 ? 0 : block_rows - 1;
@@ -28,7 +29,8 @@ Eigen::MatrixXd block_hankel(const Correlations& correlations, const std::vector
 Eigen::MatrixXd block_toeplitz(const Correlations& correlations, const std::vector<int>& channels,
                                const Eigen::VectorXd& scale, int n_blocks, bool past_order) {
   const auto n = static_cast<int>(channels.size());
-  // The first block column by lags, then each the one before it moved down by a block, with one new lag at its top.
+  // The first block column is filled lag by lag; each next one is the previous one moved down a block, plus one new
+  // lag.
   Eigen::MatrixXd toeplitz(n_blocks * n, n_blocks * n);
   for (int b = 0; b < n_blocks; ++b) {
     const int end_row = b == 0 ? n_blocks : 1;

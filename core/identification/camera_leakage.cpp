@@ -12,10 +12,10 @@ using Complex = std::complex<double>;
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kSameDirection = 0.99;
-constexpr int kHalfWidth_bins = 8;    // of averages over bins
-constexpr double kQuietShare = 0.25;  // of the bins hold no more than noise
+constexpr int kHalfWidth_bins = 8;    // of the moving average over bins
+constexpr double kQuietShare = 0.25;  // share of the bins that are taken to contain only noise
 constexpr double kNoiseAboveQuiet = 1.05;
-constexpr double kNoticeable = 0.1, kMostLeft = 0.1;  // of a shape's square
+constexpr double kNoticeable = 0.1, kMostLeft = 0.1;  // shares of a shape's square
 
 std::vector<double> smoothed(const std::vector<double>& values) {
   const auto n = static_cast<int>(values.size());
@@ -61,7 +61,8 @@ void CameraLeakage::list(const std::vector<ChannelInfo>& channels) {
   }
 }
 
-// Of a witness (w) and the mean of the outputs that it speaks for (m), row delays undone; smoothed over bins.
+// Spectra of a witness (w) and of the mean of the outputs that it represents (m), without row delays; smoothed over
+// bins.
 CameraLeakage::Spectra CameraLeakage::spectra_of(const CpsdSums& sums, int w) const {
   const Witness& witness = witnesses_[static_cast<std::size_t>(w)];
   const auto own = static_cast<int>(witness.channel);
@@ -75,7 +76,7 @@ CameraLeakage::Spectra CameraLeakage::spectra_of(const CpsdSums& sums, int w) co
     if (outputs_[i].witness == w) alike.push_back(static_cast<int>(i));
   }
   const double share = 1.0 / static_cast<double>(std::max<std::size_t>(1, alike.size()));
-  std::vector<Complex> turns;  // of each, undone
+  std::vector<Complex> turns;  // phase factors that remove the row delays
   Spectra out;
   for (int k = 0; k < sums.n_bins(); ++k) {
     turns.clear();
@@ -98,8 +99,8 @@ CameraLeakage::Spectra CameraLeakage::spectra_of(const CpsdSums& sums, int w) co
   return out;
 }
 
-// The gain is the mean of S_mw / S_ww over bins weighted by the fourth power of their coherence: there both see the
-// camera, and hardly anything else.
+// The gain is the mean of S_mw / S_ww over bins, weighted by the fourth power of their coherence: where it is high,
+// both channels contain little but camera motion.
 void CameraLeakage::measure(const CpsdSums& sums, int w) {
   if (sums.data_sum.empty()) return;
   Witness& witness = witnesses_[static_cast<std::size_t>(w)];

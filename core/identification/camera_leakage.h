@@ -9,32 +9,32 @@
 namespace core {
 
 // Removes camera motion from mode shapes. Static reference regions (witnesses) are ordinary outputs of the
-// identification. They have no part in a structure's modes: where a shape shows them moving, camera translation has
+// identification. They do not take part in a structure's modes: where they move in a shape, camera translation has
 // leaked into it, by the same amount in all channels of that direction,
 //     phi_i -= g q(f) exp(i w (tau_i - tau_w)) phi_w.
 // g: ratio of the channels' motion to the static region's (of their distances), estimated from the bins where both are
-// coherent. q = 1 - N / S_ww(f): share of the static region's spectrum that is not tracking noise N (white, from its
-// quiet bins) [Wiener]. Needs neither depth nor focal length, and adds nothing to the spectra. A shape that would lose
-// a noticeable part and yet is not mostly camera motion is unchanged: there the region itself moves.
+// coherent. q = 1 - N / S_ww(f): share of the static region's spectrum that is not tracking noise N (white, estimated
+// from its quiet bins) [Wiener]. Needs neither depth nor focal length, and adds no noise to the spectra. If the removed
+// part is noticeable and a substantial part of the shape remains, the static region itself moves: the shape is kept.
 class CameraLeakage {
  public:
-  // channels: of the sums; witnesses, if any, last.
+  // channels: those of the sums; witnesses, if any, last.
   CameraLeakage(const CpsdSums& sums, const std::vector<ChannelInfo>& channels);
 
   struct Finding {
-    double share = 0.0;  // of the shape's square that is the camera's, 0 ... 1
+    double share = 0.0;  // camera motion's share of the shape's square, 0 ... 1
     bool is_doubtful =
-        false;  // noticeable, and yet what is left is no small part: the witness moves with the structure
+        false;  // the removed part is noticeable, yet the remainder is not small: the witness moves with the structure
   };
-  // Of a shape as observed, of all channels, at that apparent frequency.
+  // shape: as observed, of all channels, at that apparent frequency.
   [[nodiscard]] Finding examine(const std::vector<std::complex<double>>& shape, double apparent_hz) const;
-  // The outputs' part of the shape after removal. Linear in the shape but for `leave`, which skips the removal.
+  // The outputs' part of the shape after removal. Linear in the shape; `leave` skips the removal.
   [[nodiscard]] std::vector<std::complex<double>> without(const std::vector<std::complex<double>>& shape,
                                                           double apparent_hz, bool leave) const;
 
  private:
   struct Output {
-    int witness = -1;  // index into witnesses_; -1: none sees its direction
+    int witness = -1;  // index into witnesses_; -1: no witness measures its direction
     double sign = 1.0, delay_s = 0.0;
   };
   struct Witness {

@@ -12,11 +12,11 @@ namespace core {
 namespace {
 
 constexpr int kMostMultiple = 9;
-constexpr double kExact = 0.05;             // of the resolution
-constexpr double kStronger = 10.0;          // in power: what is said to be a combination of it
-constexpr double kMostHarmonicShare = 1e-3; // of its power
+constexpr double kExact = 0.05;             // tolerance, as a share of the resolution
+constexpr double kStronger = 10.0;          // power ratio of a line to its combination, at least
+constexpr double kMostHarmonicShare = 1e-3; // share of the stronger line's power
 
-// Power of all channels at a frequency, the largest of three bins.
+// Power of all channels at a frequency: the largest of three bins.
 double power_at(const CpsdSums& sums, const std::vector<ChannelInfo>& channels, double hz) {
   const int middle = static_cast<int>(std::lround(hz / sums.rate_hz * sums.n_fft));
   double most = 0.0;

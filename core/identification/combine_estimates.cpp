@@ -17,7 +17,7 @@ namespace {
 using Shape = std::vector<std::complex<double>>;
 using Places = std::vector<ModePlace>;
 
-constexpr double kFrequencyTolerance = 0.03;  // relative; as merge_setups() takes them
+constexpr double kFrequencyTolerance = 0.03;  // relative; as in merge_setups()
 constexpr double kMacTolerance = 0.5;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
@@ -48,7 +48,7 @@ class Matcher {
     return estimates_[place.i_estimate].estimate->modes[place.i_mode];
   }
 
-  // All modes by frequency, cut where neighbours are too far apart to be one: nothing across a cut can be nearer.
+  // All modes sorted by frequency and cut at gaps too wide for one mode: no pair across a cut can be joined.
   [[nodiscard]] std::vector<Places> bands() const {
     Places all;
     for (std::size_t e = 0; e < estimates_.size(); ++e) {
@@ -94,7 +94,7 @@ class Matcher {
   const std::vector<EstimateInput>& estimates_;
 };
 
-// value, std of one mode; empty: it has no part.
+// Value and std of one mode; empty: the mode is excluded.
 using Reading = std::optional<Measured> (*)(const Mode& mode);
 
 std::optional<Measured> frequency_of(const Mode& mode) {

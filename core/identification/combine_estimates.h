@@ -9,11 +9,11 @@
 
 namespace core {
 
-// An estimate of the structure's modes among several; borrowed.
+// One of several estimates of the structure's modes; borrowed.
 struct EstimateInput {
-  std::vector<std::string> channels;  // of the shapes, by name
+  std::vector<std::string> channels;  // names of the shapes' channels
   const ModalEstimate* estimate = nullptr;
-  bool is_combined = true;  // false: it only takes part in the matching, its data are in another one's already
+  bool is_combined = true;  // false: it is matched only, because its data are already contained in another one
 };
 
 struct ModePlace {
@@ -22,18 +22,18 @@ struct ModePlace {
 
 // Combined result of several estimates for one mode.
 struct ModeGroup {
-  std::vector<ModePlace> members;            // by estimate, at most one of each
-  WeightedMean frequency_hz, damping_ratio;  // of those members that are combined; n = 0: there are none
+  std::vector<ModePlace> members;            // ordered by estimate, at most one of each
+  WeightedMean frequency_hz, damping_ratio;  // of the combined members; n = 0: there are none
 };
 
 // Structural modes of different estimates are the same where |df| / (0.03 f) + (1 - MAC) / 0.5 < 1, by average linkage,
-// at most one per estimate; MAC over the channels that both have by name, ignored with fewer than two. Frequencies are
-// combined by inverse variance, damping in its logarithm, because its scatter grows with its value and a low one would
-// weigh too much. A mode without standard deviation is excluded, unless none has one: then the mean is weighted by
-// duration, without standard deviation. Groups are ordered by frequency.
+// at most one per estimate; the MAC uses the channels that both have by name and is ignored with fewer than two.
+// Frequencies are combined by inverse variance; damping in its logarithm, because its standard deviation grows with its
+// value and a low estimate would weigh too much. A mode without standard deviation is excluded, unless none has one:
+// then the mean is weighted by duration and has no standard deviation. Groups are ordered by frequency.
 [[nodiscard]] std::vector<ModeGroup> combine_estimates(const std::vector<EstimateInput>& estimates);
 
-// The mean over some of a group's members alone, e.g. over those that were not combined.
+// Mean over a subset of a group's members, e.g. over those that were not combined.
 [[nodiscard]] WeightedMean mean_frequency(const std::vector<EstimateInput>& estimates,
                                           const std::vector<ModePlace>& members);
 [[nodiscard]] WeightedMean mean_damping(const std::vector<EstimateInput>& estimates,

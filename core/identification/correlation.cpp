@@ -10,7 +10,7 @@ namespace core {
 
 namespace {
 
-// A lag seen fewer times than this share of lag 0 has no usable average.
+// A lag with less than this share of the sample pairs of lag 0 has no usable average.
 constexpr double kLeastMaskShare = 1e-3;
 
 }  // namespace

@@ -10,13 +10,13 @@ namespace core {
 
 enum class CorrelationStatus : std::uint8_t { kOk, kNoSegment, kNotFinite, kNoPower, kTooFewSamples };
 
-// A constant channel leaves the rounding of its mean (1e-13 of a metre); no camera sees a nanometre.
+// A constant channel has the rounding error of its mean (1e-13 of a metre); no camera resolves a nanometre.
 inline constexpr double kLeastPowerMm2 = 1e-18;
 
 // Correlation functions R_ij(lag) = E[x_i(t + lag) x_j(t)], lag -max_lag .. max_lag, of the d-times differenced
-// channels (NExT: James, Carne & Lauffer 1993). `divided`: unbiased, by the mask's own correlation
+// channels (NExT: James, Carne & Lauffer 1993). `divided`: unbiased, divided by the mask's own correlation
 // (core/spectrum/METHOD.md); used for the realisation. `undivided`: the positive semidefinite estimate; used for its
-// weights. Without differences equal to `divided` at lag 0.
+// weights. Without differences both are equal at lag 0.
 class Correlations {
  public:
   Correlations() = default;
@@ -47,9 +47,9 @@ class Correlations {
 
 // Prewhitening by `n_differences` differences is applied to the lags, R_d(lag) = 2 R(lag) - R(lag - 1) - R(lag + 1),
 // after the division: differences of a windowed signal are not those of the signal, and the window's slope would shift
-// the lowest mode. It removes the hover drift, 40 dB above the modes, from the ridge and the rounding; shapes and poles
-// are unchanged. With named `references`, only the pairs that contain one and each channel's own are computed; the
-// others are zero. least_power: a channel with less does not move, in its unit squared.
+// the lowest mode. Without it, the hover drift, 40 dB above the modes, would determine the ridge and the rounding
+// errors; shapes and poles are unchanged. With named `references`, only the pairs that contain one and each channel's
+// own are computed; the others are zero. least_power: a channel with less power counts as static, in its unit squared.
 [[nodiscard]] CorrelationStatus compute_correlations(const CpsdSums& sums, int max_lag, int n_differences,
                                                      Correlations& out, std::span<const int> references = {},
                                                      double least_power = kLeastPowerMm2);

@@ -13,12 +13,12 @@ enum class EraStatus : std::uint8_t { kOk, kTooFewLags, kRankDeficient };
 
 struct EraConfig {
   int block_rows = 30;  // block rows and columns
-  int first_lag = 1;    // lags before it carry the sensor noise: 1 + number of differences
+  int first_lag = 1;    // earlier lags contain the sensor noise: 1 + number of differences
   int max_order = 60;
-  int above_canonical = 0;      // > 0: no orders beyond canonical_order() + this
+  int above_canonical = 0;      // > 0: largest order is canonical_order() plus this
   std::vector<int> references;  // channel indices
   // Canonical-variate weighting of the Hankel matrix, G = Lf^-1 H Lp^-T with the Cholesky factors of future and past
-  // covariance: scatter near the bound, weak modes appear, and the singular values are canonical correlations
+  // covariance: variances are near the bound, weak modes are found, and the singular values are canonical correlations
   // (METHOD.md). false: the plain ERA of Juang & Pappa 1985.
   bool canonical_variates = true;
   bool with_maps = true;  // fill left_map and right_map
@@ -29,13 +29,13 @@ struct Realisation {
   Eigen::VectorXd singular_values;  // canonical correlations, 0..1, when weighted
   Eigen::MatrixXd a;                // max_order x max_order, in balanced coordinates
   Eigen::MatrixXd c;                // n_channels x max_order, channel units: first block row of the observability
-  Eigen::MatrixXd c_last;           // its last, n_steps block rows on
+  Eigen::MatrixXd c_last;           // n_steps block rows later: its last block row
   int n_steps = 0;
-  // a = left_map H1 right_map with the Hankel matrix H1 of unit-variance channels (shifted by one lag); with the
-  // unshifted H0 it is the identity: each pole is a generalised eigenvalue of two matrices linear in R.
+  // a = left_map H1 right_map with the Hankel matrix H1 of unit-variance channels (shifted by one lag); the same
+  // product with the unshifted H0 is the identity. Each pole is a generalised eigenvalue of two matrices linear in R.
   Eigen::MatrixXd left_map;   // max_order x (block rows * channels)
   Eigen::MatrixXd right_map;  // (block columns * references) x max_order
-  Eigen::VectorXd scale;      // per channel: its standard deviation
+  Eigen::VectorXd scale;      // standard deviation per channel
 };
 
 // A pole of the discrete system and its shape in channel units.

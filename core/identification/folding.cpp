@@ -12,7 +12,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Delays spread over less than this share of a frame leave the hypotheses' phases within 18 degrees of each other.
+// With a smaller delay span, as a share of a frame, the phases of the hypotheses differ by less than 18 degrees.
 constexpr double kLeastDelaySpanFrames = 0.05;
 
 struct Hypothesis {
@@ -30,7 +30,7 @@ Hypothesis evaluate(Complex s_apparent, int n, const std::vector<Complex>& shape
   for (std::size_t c = 0; c < h.shape.size() && c < config.n_integrations.size(); ++c) {
     for (int k = 0; k < config.n_integrations[c]; ++k) h.shape[c] /= h.s;
   }
-  if (h.s.imag() < 0.0) {  // the conjugate pair's other member: positive frequency, conjugate shape
+  if (h.s.imag() < 0.0) {  // the other member of the conjugate pair: positive frequency, conjugate shape
     h.s = std::conj(h.s);
     for (Complex& z : h.shape) z = std::conj(z);
   }
@@ -90,7 +90,7 @@ UnfoldedPole unfold(Complex lambda, const std::vector<Complex>& shape, const Fol
   UnfoldedPole out;
   out.apparent_hz = s_apparent.imag() / (2.0 * std::numbers::pi);
   Hypothesis best = evaluate(s_apparent, 0, shape, config);
-  Hypothesis rival{0, {}, {}, -1.0};  // the best of the others
+  Hypothesis rival{0, {}, {}, -1.0};  // second-best hypothesis
   if (config.max_frequency_hz > config.rate_hz / 2.0) {
     const int reach = static_cast<int>(std::ceil(config.max_frequency_hz / config.rate_hz)) + 1;
     for (int n = -reach; n <= reach; ++n) {

@@ -11,7 +11,7 @@ constexpr double kLeastGain = 3.0;
 constexpr double kLeastProminence = 2.0;
 constexpr double kLeastCoherence = 0.5;
 
-// Neighbouring bins are averaged: spectra are padded to twice the segment, so a bin is half a resolution wide.
+// Averages neighbouring bins: spectra are zero-padded to twice the segment, so that a bin is half a resolution wide.
 class Response {
  public:
   Response(const CpsdSums& sums, int input) : sums_(sums), input_(input) {}
@@ -46,7 +46,7 @@ class Response {
   int input_;
 };
 
-// Lowest gain on the way from a maximum to a higher one, in steps of `step`.
+// Lowest gain between a maximum and the next higher one, in direction `step`.
 double valley(const std::vector<ResponsePeak>& response, std::size_t peak, int step) {
   double lowest = response[peak].gain;
   for (std::size_t k = peak; k > 0 && k + 1 < response.size();) {

@@ -12,7 +12,7 @@ Eigen::MatrixXd hankel_gram(const Correlations& correlations, const std::vector<
   const auto nr = static_cast<Index>(references.size());
   const Index n = n_blocks * nr;
   const Index n_wide = n + nr;
-  // R(first_lag), R(first_lag + 1), ...: outputs x references each, side by side.
+  // R(first_lag), R(first_lag + 1), ... as adjacent blocks of outputs x references.
   const MatrixXd lags = block_hankel(correlations, references, scale, 1, 2 * n_blocks, first_lag);
   const MatrixXd stacked = lags.transpose();
 

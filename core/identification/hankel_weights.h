@@ -6,7 +6,7 @@
 
 namespace core {
 
-// For unit-variance channels. Larger values cost the weakest mode, smaller ones let Cholesky fail (METHOD.md).
+// For unit-variance channels. Larger values suppress the weakest mode; with smaller ones Cholesky fails (METHOD.md).
 inline constexpr double kLeastRidge = 1e-6;
 inline constexpr double kMostRidge = 1.0;
 
@@ -16,10 +16,10 @@ struct HankelWeights {
   Eigen::MatrixXd left, right;
 };
 
-// Root of the channels' variances.
+// Standard deviation of each channel.
 [[nodiscard]] Eigen::VectorXd channel_scale(const Correlations& correlations);
 
-// [T; B] factored (core/linear/dense.h: factor_stacked) with the smallest sufficient ridge; false if none suffices.
+// Factors [T; B] (core/linear/dense.h: factor_stacked) with the smallest sufficient ridge; false if none suffices.
 [[nodiscard]] bool factor_with_ridge(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& below,
                                      Eigen::MatrixXd& out);
 

@@ -18,7 +18,7 @@ namespace core {
 
 namespace {
 
-constexpr double kLeastPresence = 0.25;  // poles of fewer orders are the scatter of over-modelling, not worth a verdict
+constexpr double kLeastPresence = 0.25;  // poles found in fewer orders are over-modelling artefacts: no verdict
 
 void copy_stream_facts(const CpsdSums& sums, ModalEstimate& estimate) {
   estimate.n_samples = sums.n_samples;
@@ -30,7 +30,7 @@ void copy_stream_facts(const CpsdSums& sums, ModalEstimate& estimate) {
   estimate.resolution_hz = resolution_hz(sums);
 }
 
-// Every pole of every order, as observed and unfolded; the two lists run in parallel.
+// Poles of all orders, as observed and unfolded; the two lists are parallel.
 struct Poles {
   std::vector<PoleOfOrder> observed;
   std::vector<OrderPole> unfolded;
@@ -77,7 +77,7 @@ void note_poles(const std::vector<OrderPole>& poles, const std::vector<int>& ord
   }
 }
 
-// A record's realisation, with what its poles are judged by.
+// Realisation of a record and the data from which its poles are classified.
 struct Fitted {
   const CpsdSums& sums;
   const std::vector<ChannelRecord>& records;
@@ -94,7 +94,7 @@ VerdictRules verdict_rules(const IdentifierConfig& config, const ModelFit& fit, 
   rules.max_damping = config.max_damping;
   rules.max_apparent_hz = config.edge_hz;
   rules.last_first_i_order = fit.last_first_i_order;
-  // Where a decimation filter was before, its edge is the limit.
+  // After a decimation filter, the edge of the filter is the limit.
   if (!(config.edge_hz > 0.0)) rules.max_frequency_hz = config.max_frequency_hz;
   rules.record_s = sums.n_remembered() / sums.rate_hz;
   rules.resolution_hz = resolution_hz(sums);
@@ -135,7 +135,8 @@ std::vector<Mode> judge_published_lines(const std::vector<PoleCluster>& lines, c
   return modes;
 }
 
-// Degrees of freedom. modes[i] belongs to lines[i]. What scatter a numerical pole has says nothing; it is not computed.
+// Returns the degrees of freedom. modes[i] belongs to lines[i]. Numerical poles get no sigma, which would be
+// meaningless.
 double state_scatter(const Fitted& fitted, const std::vector<PoleCluster>& lines, std::vector<Mode>& modes) {
   std::vector<PoleOfOrder> chosen;
   std::vector<std::size_t> line_of;
@@ -164,7 +165,7 @@ double state_scatter(const Fitted& fitted, const std::vector<PoleCluster>& lines
   return deviations.degrees_of_freedom;
 }
 
-// modes[i] belongs to clusters[i]. The poles, which stand in the order of the clusters' members, learn their line.
+// modes[i] belongs to clusters[i]. Poles are in the order of the clusters' members and receive the index of their line.
 void list_modes(std::vector<Mode> modes, const std::vector<PoleCluster>& clusters, ModalEstimate& estimate) {
   std::vector<std::size_t> by_frequency(modes.size());
   std::iota(by_frequency.begin(), by_frequency.end(), std::size_t{0});
@@ -224,7 +225,7 @@ ModalEstimate Identifier::identify_all(const CpsdSums& sums, const std::vector<C
   copy_stream_facts(sums, estimate);
   estimate.peaks = spectral_peaks(sums, channels_);
   estimate.channels = records;
-  estimate.channels.resize(n_outputs());  // witnesses come last
+  estimate.channels.resize(n_outputs());  // without witnesses, which come last
   for (SpectralPeak& peak : estimate.peaks) peak.share.resize(n_outputs());
   ModelFit fit;
   estimate.status = fit_model(sums, config_, channels_, fit);

@@ -12,41 +12,41 @@
 
 namespace core {
 
-inline constexpr int kMostOrders = 15;  // of the stabilisation diagram, two apart
+inline constexpr int kMostOrders = 15;  // of the stabilisation diagram, in steps of two
 inline constexpr int kPublishedOrder = 36;
 
 struct IdentifierConfig {
   std::vector<int> references;    // channel indices; empty = automatic
   int block_rows = 0;             // 0 = automatic
   int max_order = 0;              // 0 = automatic
-  double max_frequency_hz = 0.0;  // true frequencies looked for; 0 = half the rate: nothing is unfolded
+  double max_frequency_hz = 0.0;  // highest true frequency to be found; 0 = half the rate: nothing is unfolded
   double min_mpc = 0.8;
   double max_damping = 0.15;
-  int n_differences = -1;  // prewhitening: 0, 1, -1 = as choose_differences() finds
-  double edge_hz = 0.0;    // apparent frequencies above it lie in a filter's edge and are no modes; 0 = no filter
-  double least_power = kLeastPowerMm2;  // a channel with less is taken to stand still; in the channels' unit squared
-  bool undo_row_delays = true;          // false: the samples were compensated before (paper mode)
-  // As Yoon et al. 2017 do it: plain ERA [Juang & Pappa 1985] of one order (max_order, 0 = kPublishedOrder), nothing
-  // differenced, and a pole is a mode unless it is none of a vibration or the base moves with it.
+  int n_differences = -1;  // prewhitening: 0, 1, -1 = result of choose_differences()
+  double edge_hz = 0.0;    // upper limit of apparent frequencies: above is a filter's transition band; 0 = none
+  double least_power = kLeastPowerMm2;  // a channel with less power counts as static; in the channels' unit squared
+  bool undo_row_delays = true;          // false: the samples are already compensated (paper mode)
+  // Method of Yoon et al. 2017: plain ERA [Juang & Pappa 1985] of one order (max_order, 0 = kPublishedOrder) without
+  // differences. A pole is a mode unless it is not a vibration or the base moves with it.
   bool as_published = false;
 };
 
-// From the sums of a spectrum to modes with a verdict each: NExT, canonical-variate ERA, a stabilisation over orders
-// (METHOD.md). A pure function of its arguments: same sums, same bits.
+// Identifies modes, each with a verdict, from spectral sums: NExT, canonical-variate ERA, stabilisation over orders
+// (METHOD.md). A pure function of its arguments: equal sums give bit-identical results.
 class Identifier {
  public:
-  // channels: of the sums that will come; witnesses, if any, last: shapes are without them (camera_leakage.h).
-  // Throws std::invalid_argument: a reference that is no channel, no channel at all.
+  // channels: of the sums that will be identified; witnesses, if any, last: shapes do not contain them
+  // (camera_leakage.h). Throws std::invalid_argument: a reference that is not a channel, or no channels.
   Identifier(IdentifierConfig config, std::vector<ChannelInfo> channels);
 
-  // Fills modes, rejected, peaks, channels, model_order, status and what the sums know. Never throws on data; NaN never
-  // leaves it. Channels with too little record take no part (participation.h): their components are 0 and stated as
-  // unknown in ModalEstimate::channels.
+  // Fills modes, rejected, peaks, channels, model_order, status and the fields taken from the sums. Never throws on
+  // data; never returns NaN. Channels with too little record are excluded (participation.h): their components are 0 and
+  // marked as unknown in ModalEstimate::channels.
   [[nodiscard]] ModalEstimate identify(const CpsdSums& sums) const;
 
   [[nodiscard]] const std::vector<ChannelInfo>& channels() const noexcept { return channels_; }
-  [[nodiscard]] std::size_t n_outputs() const noexcept { return outputs_.size(); }  // of them no witnesses
-  // Per channel, as it is undone at every mode; 0 where the samples were compensated before.
+  [[nodiscard]] std::size_t n_outputs() const noexcept { return outputs_.size(); }  // witnesses excluded
+  // Row delay per channel that is removed from every mode; 0 if the samples were compensated before.
   [[nodiscard]] std::vector<double> undone_delay_s() const;
 
  private:

@@ -1,4 +1,4 @@
-// Channels with too little record: identified without them.
+// Identification without the channels that have too little record.
 #include <algorithm>
 #include <complex>
 

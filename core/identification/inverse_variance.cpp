@@ -9,8 +9,8 @@ namespace {
 
 double weight(const Measured& m) { return 1.0 / (m.std * m.std); }
 
-// Of (x - mean)^2 / std^2 for an estimated std: the variance of Student's t, which exists above two degrees of freedom;
-// below four it says nothing that could be used.
+// Expectation of (x - mean)^2 / std^2 for an estimated std: the variance of Student's t, which exists above two degrees
+// of freedom and is too uncertain below four.
 double expected_square(const Measured& m) {
   if (m.degrees_of_freedom <= 0.0) return 1.0;
   const double nu = std::max(m.degrees_of_freedom, 4.0);
@@ -25,7 +25,7 @@ WeightedMean inverse_variance_mean(std::span<const Measured> measured) {
   if (measured.empty()) return mean;
   double total = 0.0;
   for (const Measured& m : measured) total += weight(m);
-  // Around the first value, so that a single one comes out as it is.
+  // Relative to the first value, so that the mean of a single value is exact.
   const double origin = measured.front().value;
   double offset = 0.0, price = 1.0, per_degree = 0.0;
   for (const Measured& m : measured) {

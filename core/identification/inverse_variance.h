@@ -6,27 +6,27 @@
 
 namespace core {
 
-// One of several measurements of the same quantity.
+// One of several measurements of one quantity.
 struct Measured {
   double value = 0.0;
   double std = 0.0;                 // > 0
-  double degrees_of_freedom = 0.0;  // behind std; 0 = it is exact
+  double degrees_of_freedom = 0.0;  // of std; 0 = std is exact
 };
 
 struct WeightedMean {
   double value = 0.0;
-  double std = 0.0;                 // 0 = not known
-  double degrees_of_freedom = 0.0;  // behind std; 0 = it is exact, or not known
-  // Scatter of the measurements about their mean over the one expected from their standard deviations, rms: about 1 if
-  // these are right and the quantity did not change. Empty: fewer than two.
+  double std = 0.0;                 // 0 = unknown
+  double degrees_of_freedom = 0.0;  // of std; 0 = exact or unknown
+  // Observed scatter of the measurements about their mean over the scatter expected from their standard deviations,
+  // rms: about 1 if these are right and the quantity did not change. Empty: fewer than two.
   std::optional<double> scatter;
   std::size_t n = 0;
 };
 
-// Mean weighted by 1 / std^2, and its standard deviation. Uncertain weights cost precision: a factor 1 + 4 sum p (1 -
-// p) / nu in variance, p a measurement's share of the weights, nu its degrees of freedom (Meier 1953, Variance of a
-// weighted mean). Where the measurements scatter more than stated, the standard deviation is that of their scatter
-// (Birge 1932). Summed in the order given.
+// Mean weighted by 1 / std^2, and its standard deviation. Uncertain weights increase the variance by 1 + 4 sum p (1 -
+// p) / nu, with p a measurement's share of the weights and nu its degrees of freedom (Meier 1953, Variance of a
+// weighted mean). If the measurements scatter more than their standard deviations imply, the standard deviation of the
+// mean is computed from their scatter (Birge 1932). Summed in the order given.
 [[nodiscard]] WeightedMean inverse_variance_mean(std::span<const Measured> measured);
 
 }  // namespace core

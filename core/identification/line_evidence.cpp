@@ -13,21 +13,21 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-// Rotors and their blades; exposures average faster vibration away.
+// Range of rotor and blade frequencies; the exposure averages out faster vibration.
 constexpr double kFastestCamera_hz = 250.0;
-// Undoing two frequencies gives nearly the same shape when their delays' phasors are closer than this.
+// Above this similarity of the delays' phasors, removing the delays of two frequencies gives nearly the same shape.
 constexpr double kMostAlike = 0.8;
 
-// Of a segment: two windows of lags, whose middles are two windows apart.
+// Shares of a segment: length of the two windows of lags, and start of the second.
 constexpr double kWindow = 0.2, kLateStart = 0.4;
-// Poles with more damping than this are no lines, whatever else they are. Between the two only modes that would have
-// forgotten themselves often enough over the record are examined: the decay of the others scatters too much to tell.
+// Poles with more damping than kMostLineDamping are not lines. Between these limits only modes that decay many times
+// over within the record are examined; the damping estimates of the others scatter too much.
 constexpr double kMostLineDamping = 0.005, kSurelySmallDamping = 0.001;
 constexpr double kLeastForgotten = 60.0;  // 2 pi zeta f T
-// Shorter lags than it takes the least damped of structures to lose a fifth cannot tell one from a steady line.
-// Nor can a record over which it would hardly have been excited anew: a free decay looks steady, too.
+// Within shorter lags the least damped structure loses less than a fifth and cannot be distinguished from a steady
+// line. The record must also span many decay times: otherwise a free decay looks steady, too.
 constexpr double kLeastModeDamping = 0.001, kLeastLoss = 0.2, kLeastRenewals = 10.0;
-constexpr int kDifferences = 1;  // against the hover's drift
+constexpr int kDifferences = 1;  // suppresses the hover drift
 
 std::vector<Complex> delays_undone(const std::vector<Complex>& observed, double frequency_hz,
                                    const std::vector<double>& delay_s) {
@@ -38,15 +38,15 @@ std::vector<Complex> delays_undone(const std::vector<Complex>& observed, double 
   return shape;
 }
 
-// How alike the phases are by which two frequencies this far apart move the channels, 0..1.
+// Similarity of the phases that two frequencies this far apart cause in the channels, 0..1.
 double likeness(double apart_hz, const std::vector<double>& delay_s) {
   Complex sum = 0.0;
   for (const double delay : delay_s) sum += std::polar(1.0, kTwoPi * apart_hz * delay);
   return std::abs(sum) / static_cast<double>(delay_s.size());
 }
 
-// Share of a shape that a constant and a slope over the delays explain (complex least squares, orthogonal by
-// centring).
+// Share of a shape's square explained by a constant and a slope over the delays (complex least squares, made orthogonal
+// by centring).
 double explained_by_slope(const std::vector<Complex>& shape, const std::vector<double>& delay_s) {
   const double n = static_cast<double>(shape.size());
   double mean_delay = 0.0;
@@ -68,7 +68,7 @@ double explained_by_slope(const std::vector<Complex>& shape, const std::vector<d
 
 void SpectralLineTest::find_camera(const std::vector<Complex>& observed, double apparent_hz, SpectralLineEvidence& out) const {
   const double rate_hz = folding_.rate_hz, limit_hz = std::max(folding_.max_frequency_hz, 0.5 * rate_hz);
-  if (observed.size() < 5 || folding_.delay_s.size() != observed.size()) return;  // a constant, a slope and a check
+  if (observed.size() < 5 || folding_.delay_s.size() != observed.size()) return;  // two unknowns plus redundancy
   const int reach = static_cast<int>(std::ceil(kFastestCamera_hz / rate_hz)) + 1;
   const auto near_a_mode = [&](double f) {
     for (int n = -reach; n <= reach; ++n) {
@@ -85,11 +85,11 @@ void SpectralLineTest::find_camera(const std::vector<Complex>& observed, double 
   }
 }
 
-// |sum over lags of phi' R(lag) phi exp(-i w lag)|, Hann weighted: what the correlation of the shape still has at that
-// frequency.
+// |sum over lags of phi' R(lag) phi exp(-i w lag)|, Hann weighted: magnitude of the shape's correlation at that
+// frequency and lag.
 double SpectralLineTest::envelope(const std::vector<Complex>& observed, double apparent_hz, int first_lag,
                               int n_lags) const {
-  const auto n = static_cast<int>(observed.size());  // witnesses come after
+  const auto n = static_cast<int>(observed.size());  // witnesses follow after these
   const double turn = kTwoPi * apparent_hz / sums_.rate_hz;
   Complex sum = 0.0;
   for (int k = 0; k < n_lags; ++k) {
@@ -113,7 +113,7 @@ void SpectralLineTest::find_decay(const std::vector<Complex>& observed, const Un
   if (!status_) status_ = compute_correlations(sums_, late + n_lags, kDifferences, correlations_);
   if (*status_ != CorrelationStatus::kOk || correlations_.max_lag() < late + n_lags - 1 || n_lags < 2) return;
   const double apart_s = late / sums_.rate_hz;
-  // What a mode of the least damping that structures have would lose by then.
+  // Loss of a mode with the least damping of structures within these lags.
   if (kTwoPi * frequency_hz(pole.s) * apart_s * kLeastModeDamping < kLeastLoss) return;
   const double first = envelope(observed, pole.apparent_hz, 0, n_lags);
   const double last = envelope(observed, pole.apparent_hz, late, n_lags);

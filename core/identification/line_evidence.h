@@ -13,21 +13,22 @@ namespace core {
 
 // Evidence for a spectral line that is not a mode of the structure: a vibration of the camera, or a steady force.
 struct SpectralLineEvidence {
-  // Largest MAC of the observed shape with that of a shaking camera: at frequencies beyond the search range, where no
-  // mode is expected, a translation and a rotation about the view (a constant and a slope along the rows) with
-  // independent phases, its delays undone. 0: these delays do not distinguish such frequencies from the others.
+  // Largest MAC of the observed shape, its delays removed, with the shape of a vibrating camera: a translation and a
+  // rotation about the optical axis (a constant and a slope along the rows) with independent phases, at frequencies
+  // beyond the search range, where no mode is expected. 0: the delays do not distinguish such frequencies from the
+  // others.
   double camera_mac = 0.0;
-  double camera_hz = 0.0;  // the frequency at which it is that large
-  // Damping ratio by which the correlation decays from a tenth to half of a segment, where modes have decayed and a
-  // steady force continues. Empty: damped too much, too slow for this record, or no correlation at those lags.
+  double camera_hz = 0.0;  // the frequency of that largest MAC
+  // Damping ratio by which the correlation decays from a tenth to half of a segment; by then modes have decayed, while
+  // a steady force continues. Empty: damped too much, too slow for this record, or no correlation at those lags.
   std::optional<double> late_damping_ratio;
-  // Share of the correlation left by then, 0..1, and scatter: for a decayed mode, that of its estimate.
+  // Share of the correlation that remains there, 0..1; for a decayed mode it is estimation noise.
   double late_share = 0.0;
-  double witness_share = 0.0;  // of the shape's square that goes with what rests (camera_leakage.h)
-  bool witness_moves = false;  // ... which does not rest at this frequency
+  double witness_share = 0.0;  // share of the shape's square that follows the static region (camera_leakage.h)
+  bool witness_moves = false;  // ... which is not static at this frequency
 };
 
-// Of one spectrum; keeps references to its arguments. One thread.
+// Tests poles of one spectrum; keeps references to its arguments. One thread.
 class SpectralLineTest {
  public:
   SpectralLineTest(const CpsdSums& sums, const FoldingConfig& folding) : sums_(sums), folding_(folding) {}
@@ -42,7 +43,7 @@ class SpectralLineTest {
 
   const CpsdSums& sums_;
   const FoldingConfig& folding_;
-  std::optional<CorrelationStatus> status_;  // empty: the long correlations are not made yet
+  std::optional<CorrelationStatus> status_;  // empty: the long correlations are not computed yet
   Correlations correlations_;
 };
 

@@ -5,7 +5,7 @@
 
 namespace core {
 
-// Modal assurance criterion of two complex shapes, 0..1 (Allemang & Brown 1982); 0 when one of them is zero.
+// Modal assurance criterion of two complex shapes, 0..1 (Allemang & Brown 1982); 0 if one of them is zero.
 [[nodiscard]] inline double mac(std::span<const std::complex<double>> a,
                                 std::span<const std::complex<double>> b) noexcept {
   std::complex<double> inner = 0.0;

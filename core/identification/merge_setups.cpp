@@ -16,14 +16,14 @@ namespace {
 using Shape = std::vector<std::complex<double>>;
 
 constexpr double kFrequencyTolerance = 0.03;  // relative
-constexpr double kMacTolerance = 0.5;         // over few channels it says little
+constexpr double kMacTolerance = 0.5;         // wide: over few channels the MAC is little evidence
 
 struct Member {
   std::size_t setup = 0;
   const Mode* mode = nullptr;
   Shape reference_part;
 };
-using Group = std::vector<Member>;  // one mode, at most once per set-up
+using Group = std::vector<Member>;  // one mode, at most one member per set-up
 
 double distance(const Member& a, const Member& b) {
   const double mean_hz = 0.5 * (a.mode->frequency_hz + b.mode->frequency_hz);
@@ -106,7 +106,7 @@ class Merger {
         ChannelInfo info = setups_[j].channels[c];
         if (place >= n_references) info.name = setups_[j].name + "." + info.name;
         info.region = static_cast<std::uint16_t>(place);
-        info.row_delay_s = 0.0;  // undone in the shapes
+        info.row_delay_s = 0.0;  // already removed from the shapes
         out_.channels[place] = info;
       }
     }
@@ -126,7 +126,7 @@ class Merger {
     return groups;
   }
 
-  // Mean distance of the members, beyond 1 when both hold a mode of one set-up.
+  // Mean distance of the members; above 1 if both groups contain a mode of the same set-up.
   static double group_distance(const Group& a, const Group& b) {
     double sum = 0.0;
     for (const Member& m : a) {
@@ -187,7 +187,7 @@ class Merger {
     mode.damping_std = std::sqrt(variance_z) / total;
   }
 
-  // The factor that brings `part` nearest to `target`.
+  // Complex factor that fits `part` to `target` by least squares.
   static std::complex<double> scale_to(const Shape& target, const Shape& part) {
     std::complex<double> inner = 0.0;
     double power = 0.0;
@@ -243,7 +243,7 @@ class Merger {
 
   const std::vector<SetupModes>& setups_;
   std::vector<std::vector<std::size_t>> index_of_references_;  // per set-up
-  std::vector<std::vector<std::size_t>> place_of_channel_;     // per set-up and channel, in the joined shape
+  std::vector<std::vector<std::size_t>> place_of_channel_;     // per set-up and channel: index in the joined shape
   std::size_t n_roving_ = 0;
   double total_s_ = 0.0;
   MergedSetups out_;

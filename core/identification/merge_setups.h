@@ -8,7 +8,7 @@
 
 namespace core {
 
-// One record of a structure whose sensors were moved between records, except the references.
+// One of several records of a structure; all sensors except the references were moved between the records.
 struct SetupModes {
   std::string name;
   ModalEstimate estimate;
@@ -17,19 +17,19 @@ struct SetupModes {
 };
 
 struct MergedSetups {
-  ModalEstimate estimate;             // durations and segments are sums
+  ModalEstimate estimate;             // durations and segments are summed
   std::vector<ChannelInfo> channels;  // references as in the first set-up, then "<set-up>.<channel>"
   std::vector<std::string> remarks;
 };
 
-// Set-ups identified separately and joined (PoSER: Reynders, Magalhaes, De Roeck & Cunha 2009). Structural modes of
-// different set-ups are the same where |df| / (0.03 f) + (1 - MAC over the references) / 0.5 < 1, the nearest pair
+// Joins set-ups that were identified separately (PoSER: Reynders, Magalhaes, De Roeck & Cunha 2009). Structural modes
+// of different set-ups are the same where |df| / (0.03 f) + (1 - MAC over the references) / 0.5 < 1, nearest pairs
 // first, at most one per set-up. Frequency and damping are means weighted by duration: standard deviations of single
 // records are too uncertain. Shapes are scaled to the first set-up's reference part by least squares and joined; rows
 // of references are averaged, weighted by duration. Modes missing in a set-up are rejected, with the reason.
 //
-// Rates may differ. Throws std::invalid_argument: fewer than two set-ups, no reference, a reference that a set-up
-// lacks.
+// Rates may differ. Throws std::invalid_argument: fewer than two set-ups, no reference, or a reference that is missing
+// in a set-up.
 [[nodiscard]] MergedSetups merge_setups(const std::vector<SetupModes>& setups);
 
 }  // namespace core

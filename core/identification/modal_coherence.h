@@ -8,10 +8,10 @@
 
 namespace core {
 
-// Extended modal amplitude coherence of the outputs (Pappa, Elliott & Schenk 1993): does a mode's shape at the end of
-// the Hankel matrix's window follow from the one at its beginning by the mode's own decay? Per channel the ratio of the
-// two magnitudes, the lesser over the greater, times 1 - |phase between them| / (pi / 4), at least 0; the mean over the
-// channels, weighted by the square of the shape. first, last: the shape in the first and the last block row; decay:
+// Extended modal amplitude coherence of the outputs (Pappa, Elliott & Schenk 1993): tests whether a mode's shape at the
+// end of the Hankel matrix's window equals the one at its beginning times the mode's own decay. Per channel: the ratio
+// of the two magnitudes, smaller over larger, times 1 - |phase between them| / (pi / 4), at least 0; then the mean over
+// the channels, weighted by the square of the shape. first, last: the shape in the first and the last block row; decay:
 // lambda to the power of the block rows between. CMI, the consistent-mode indicator, is EMAC times MPC.
 [[nodiscard]] inline double output_emac(const std::vector<std::complex<double>>& first,
                                         const std::vector<std::complex<double>>& last, std::complex<double> decay) {

@@ -15,7 +15,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Estimated damping scatters down to 0 and below; no structure is that lightly damped.
+// Damping estimates may scatter to 0 and below; no structure has so little damping.
 double sane_damping(double damping_ratio) noexcept { return std::clamp(damping_ratio, 1e-3, 0.2); }
 
 // c^2 of FrequencyTrend: variance of the frequency times the record's length.
@@ -36,7 +36,7 @@ bool is_usable(const Mode& mode, std::size_t n_channels) noexcept {
 
 bool is_structural(const Mode& mode) noexcept { return mode.verdict == Verdict::kStructural; }
 
-// What a camera with row delays sees of a shape: the inverse of core/identification/folding.cpp.
+// Applies the row delays to a shape, as the camera sees it: the inverse of core/identification/folding.cpp.
 void put_delays_back(const Mode& mode, double rate_hz, const std::vector<double>& delay_s,
                      std::vector<Complex>& seen) noexcept {
   const double w = 2.0 * std::numbers::pi * mode.frequency_hz;
@@ -49,9 +49,9 @@ void put_delays_back(const Mode& mode, double rate_hz, const std::vector<double>
   }
 }
 
-constexpr double kAll = 0.99;  // a record of which more is remembered forgets nothing
+constexpr double kAll = 0.99;  // share of remembered samples above which a record counts as without forgetting
 
-// Samples without a picture add nothing to what the record tells.
+// Missing samples do not count as observed time.
 double observed_s(const ModalEstimate& estimate, std::size_t n_channels) noexcept {
   const double cells = static_cast<double>(estimate.n_samples) * static_cast<double>(n_channels);
   const double missing = cells > 0.0 ? std::min(1.0, static_cast<double>(estimate.n_missing) / cells) : 0.0;
@@ -88,7 +88,7 @@ bool ModeTracker::restore(StateReader& in) noexcept {
            std::isfinite(track.apparent_hz) && std::isfinite(track.frequency_hz) &&
            std::isfinite(track.damping_ratio) && std::isfinite(track.last_record_s) && is_finite(track.seen);
     track.found = false;
-    // The rest is made anew before it is told, and flags out of a file may be any byte.
+    // All other fields are recomputed before they are reported; flags read from a file may be any byte.
     ModeHistory kept;
     kept.id = track.history.id, kept.n_estimates = track.history.n_estimates;
     kept.first_number = track.history.first_number, kept.first_seen_s = track.history.first_seen_s;
@@ -115,13 +115,13 @@ void ModeTracker::update(ModalEstimate& estimate) noexcept {
   if (estimate.status != "ok") return;
   const double record_s = observed_s(estimate, config_.row_delay_s.size());
   if (!(record_s > 0.0)) return;
-  if (estimate.n_samples < n_samples_) {  // another record: what was shared is not any more
+  if (estimate.n_samples < n_samples_) {  // another record: estimates no longer share data
     for (Track& track : tracks_) track.trend.restart(), track.last_record_s = record_s;
   }
   n_samples_ = estimate.n_samples;
   record_s_ = record_s;
   const double share = estimate.duration_s > 0.0 ? estimate.remembered_s / estimate.duration_s : 1.0;
-  remembered_s_ = share > 0.0 && share < kAll ? share * record_s : record_s;  // 0: nothing is said about it
+  remembered_s_ = share > 0.0 && share < kAll ? share * record_s : record_s;  // 0: not stated
   gather(estimate);
   for (const State state : {State::kConfirmed, State::kLost, State::kNew}) match(state);
   age();
@@ -176,7 +176,7 @@ void ModeTracker::match(State state) noexcept {
     }
   }
   const auto column_of = assignment_.solve(cost_, n_rows, n_columns);
-  // In the order of the modes, so that numbers ascend with frequency among those confirmed together.
+  // In the order of the modes, so that modes confirmed together are numbered by ascending frequency.
   for (std::size_t c = 0; c < n_columns; ++c) {
     const auto row = std::find(column_of.begin(), column_of.end(), c);
     if (row == column_of.end()) continue;
@@ -202,7 +202,7 @@ void ModeTracker::follow(Track& track, Candidate& candidate) noexcept {
   mode.history = track.history;
 }
 
-// Where the true frequency is open, another fold is a guess and no news.
+// While the alias order is undetermined, a changed order is not a finding.
 void ModeTracker::note_frequency(Track& track, const Mode& mode) const noexcept {
   const int fold_n = mode.fold_n.value_or(0);
   if (fold_n != track.fold_n) {
@@ -216,13 +216,13 @@ void ModeTracker::note_frequency(Track& track, const Mode& mode) const noexcept 
 }
 
 void ModeTracker::note_trend(Track& track, const Mode& mode) const noexcept {
-  constexpr std::size_t kLeastPieces = 4;  // three leave one degree of freedom for the residuals
+  constexpr std::size_t kLeastPieces = 4;  // three would leave one degree of freedom for the residuals
   ModeHistory& out = track.history;
   out.drift_hz_per_s.reset();
   out.drift_std_hz_per_s.reset();
   out.drifts = false;
   out.more_s.reset();
-  if (remembered_s_ < record_s_) return;  // both are about a record that grows
+  if (remembered_s_ < record_s_) return;  // both assume a record that grows
   if (const auto slope = track.trend.slope(variance_time(mode, record_s_))) {
     out.drift_hz_per_s = slope->hz_per_s;
     out.drift_std_hz_per_s = slope->std_hz_per_s;
@@ -248,7 +248,7 @@ void ModeTracker::age() noexcept {
   }
 }
 
-// Without a free one the mode that has been lost longest gives way.
+// If no track is free, the mode that has been lost longest is replaced.
 ModeTracker::Track* ModeTracker::free_track() noexcept {
   Track* oldest = nullptr;
   for (Track& track : tracks_) {

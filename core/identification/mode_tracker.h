@@ -14,25 +14,25 @@
 namespace core {
 
 struct ModeTrackerConfig {
-  std::vector<double> row_delay_s;  // per channel, as the identification undid them; all 0 where it did not
-  std::uint32_t n_absent = 3;       // not found in so many successive estimates: lost ...
-  double keep_lost_s = 1800.0;      // ... but found again within this much of record: the same mode
-  double gate_sigmas = 5.0;         // two estimates of one mode differ less than this
-  double min_mac = 0.5;             // ... and their shapes less than that
-  double drift_sigmas = 4.0;        // every estimate of every mode is a test: far out, so that false alarms stay rare
-  double damping_target = 0.1;      // relative standard deviation that ModeHistory::more_s is about
+  std::vector<double> row_delay_s;  // per channel, as removed by the identification; 0 where it removed none
+  std::uint32_t n_absent = 3;       // a mode is lost if so many successive estimates do not find it ...
+  double keep_lost_s = 1800.0;      // ... but keeps its number if found again within so much record
+  double gate_sigmas = 5.0;         // frequencies of one mode differ by less than this in two estimates
+  double min_mac = 0.5;             // ... and their shapes have at least this MAC
+  double drift_sigmas = 4.0;        // every estimate of every mode is a test: a high limit keeps false alarms rare
+  double damping_target = 0.1;      // relative standard deviation to which ModeHistory::more_s refers
 };
 
 // Follows modes from one estimate of a growing record to the next and assigns each a number.
 //
-// Compared is what the camera observed: the apparent frequency, and the shape with its row delays. Both are independent
-// of the alias order that the identification chooses, so a mode keeps its number when it changes. Cost of a pair, cut
-// at 1:
+// Modes are compared as the camera observed them: by apparent frequency, and by shape with its row delays. Both are
+// independent of the alias order that the identification chooses, so a mode keeps its number when it changes. Cost of a
+// pair, cut at 1:
 //     (df / max(5 sigma, zeta f))^2 + (1 - MAC) / 0.5         sigma^2 = sigma_track^2 + sigma_mode^2
-// with the stated standard deviations, else the scatter 1.2 sqrt(zeta f / (2 pi T)) (core/planning/hover_time.h). The
+// with the stated standard deviations, else with 1.2 sqrt(zeta f / (2 pi T)) (core/planning/hover_time.h). The
 // sum of variances is an upper bound for estimates that share data; zeta f is half the half-power bandwidth, within
-// which two peaks of one shape are one. Pairs are made by optimal assignment: confirmed modes first, then lost ones,
-// then new.
+// which two peaks of one shape are one. Pairs are made by optimal assignment, first of confirmed modes, then of lost
+// ones, then of new ones.
 //
 // A structural mode is new until the next estimate finds it too; then it has a number. Ambiguous poles continue a mode,
 // but start none. An estimate whose status is not "ok" has no effect.
@@ -48,21 +48,21 @@ class ModeTracker {
 
   explicit ModeTracker(ModeTrackerConfig config);
 
-  // From the next estimate on; as many as before.
+  // Sets the row delays from the next estimate on; as many as before.
   void set_row_delays(const std::vector<double>& row_delay_s) noexcept;
-  // Discards the followed modes; new ones get new numbers. For estimates from another kind of record.
+  // Discards the followed modes; later ones get new numbers. For estimates from another kind of record.
   void restart() noexcept;
   // Fills `history` of the estimate's modes. Modes with a NaN frequency, damping or shape are excluded.
   void update(ModalEstimate& estimate) noexcept;
 
-  // To resume in another process. restore(): false, and nothing followed, if the bytes are not of a tracker of as many
-  // channels.
+  // Saves the state, to resume in another process. restore(): false, and no mode followed, if the bytes are not those
+  // of a tracker of as many channels.
   void save(StateWriter& out) const noexcept { describe(out, *this); }
   [[nodiscard]] bool restore(StateReader& in) noexcept;
   [[nodiscard]] std::size_t state_bytes() const noexcept;  // at most
 
   [[nodiscard]] std::size_t n_followed() const noexcept;  // confirmed, not lost
-  // Modes beyond capacity: kMaxTracks at once, or kMaxModes in one estimate.
+  // Number of modes beyond capacity: more than kMaxTracks at once, or kMaxModes in one estimate.
   [[nodiscard]] std::uint64_t n_left_out() const noexcept { return n_left_out_; }
 
  private:
@@ -86,14 +86,14 @@ class ModeTracker {
 
   struct Track {
     State state = State::kFree;
-    // Of the last estimate that found it.
+    // From the last estimate that found the mode.
     double apparent_hz = 0.0, frequency_hz = 0.0, damping_ratio = 0.0;
     double variance = 0.0;  // of its frequency, Hz^2
-    Shape seen;             // with the row delays put back
+    Shape seen;             // including the row delays
     double last_record_s = 0.0;
     std::uint32_t n_absent = 0;
     int fold_n = 0;
-    bool found = false;  // in the estimate at hand
+    bool found = false;  // in the current estimate
     ModeHistory history;
     FrequencyTrend trend;
   };

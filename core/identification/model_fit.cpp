@@ -12,23 +12,23 @@ namespace {
 
 constexpr int kMaxReferences = 6;
 constexpr int kLeastBlockRows = 6;
-// Rows of the Hankel matrix, all channels together: 40 block rows of 6 channels. Few channels take more block rows,
-// which is what separates close lines.
+// Limit of the Hankel matrix's rows over all channels: 40 block rows of 6 channels. With few channels there are more
+// block rows, which separates close modes.
 constexpr int kMostRows = 240;
-// The weights are covariance matrices of block_rows * channels: with fewer samples per row than this they fit the noise
-// and every singular value comes out near 1.
+// The weights are covariance matrices of block_rows * channels rows: with fewer samples per row they fit the noise, and
+// every singular value is close to 1.
 constexpr double kSamplesPerRow = 16.0;
-// A coloured input that is not stationary (an earthquake) fills whatever memory the model has with canonical
-// correlations above one half, and they fall off nowhere by as much as this (a system in noise: 2.5-3).
+// A coloured, non-stationary input (an earthquake) gives canonical correlations above one half at any model order,
+// without a drop by this ratio (a system in noise: 2.5-3).
 constexpr double kLeastOrderGap = 1.3;
 constexpr int kUnclearBlockRows = 20;
 constexpr double kUnclearThreshold = 0.7;
-// With fewer channels any pole is collinear, and only the strict rule of the first order keeps noise out.
+// With fewer channels the shape of any pole is collinear, and only the strict rule for the first order rejects noise.
 constexpr std::size_t kLeastChannelsForMpc = 3;
 
 bool order_is_clear(const Realisation& realisation, int order, int block_rows) {
   if (2 * order <= block_rows) return true;
-  // One or two correlations beside the gap may fall on the wrong side of one half.
+  // One or two correlations next to the gap may fall on the wrong side of one half.
   const Eigen::VectorXd& s = realisation.singular_values;
   for (Eigen::Index k = std::max(1, order - 2); k <= order + 1 && k < s.size(); ++k) {
     if (s[k - 1] > kLeastOrderGap * s[k]) return true;
@@ -55,7 +55,7 @@ std::vector<int> choose_references(const IdentifierConfig& config, const std::ve
 int choose_block_rows(const CpsdSums& sums, const IdentifierConfig& config, std::size_t n_channels) {
   if (config.block_rows > 0) return config.block_rows;
   const double rows = std::min<double>(kMostRows, sums.n_remembered() / kSamplesPerRow);
-  // The weights keep the window's taper, the Hankel matrix does not: up to an eighth of a segment they agree.
+  // The weights contain the window's taper, the Hankel matrix does not: up to an eighth of a segment they agree.
   const int longest = sums.n_fft / 16;
   return std::clamp(static_cast<int>(rows) / static_cast<int>(n_channels), kLeastBlockRows,
                     std::max(kLeastBlockRows, longest));
@@ -79,7 +79,7 @@ EraStatus realise_up_to(int max_order, ModelFit& fit) {
   return realise(fit.correlations, fit.era, fit.realisation);
 }
 
-// A short memory keeps the colour of the input out of the model.
+// A short memory keeps the model from fitting the spectrum of the input.
 EraStatus realise_with_short_memory(int max_order, ModelFit& fit) {
   fit.era.block_rows = kUnclearBlockRows;
   const EraStatus status = realise_up_to(max_order, fit);
@@ -87,7 +87,7 @@ EraStatus realise_with_short_memory(int max_order, ModelFit& fit) {
   return status;
 }
 
-// One order is fitted, and nothing asked of its singular values: that of the published chain.
+// Fits one order without evaluating its singular values, as the published method does.
 EraStatus realise_as_published(int max_order, ModelFit& fit) {
   fit.era.canonical_variates = false;
   fit.era.above_canonical = 0;
@@ -110,7 +110,7 @@ EraStatus realise_from_canonical_order(const IdentifierConfig& config, ModelFit&
 
 namespace {
 
-// Which channel is meant: the one with the least power.
+// Finds the channel with the least power, for the message.
 std::string still_channel(const CpsdSums& sums, const std::vector<ChannelInfo>& channels) {
   std::size_t still = 0;
   double least = HUGE_VAL;

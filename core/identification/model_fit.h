@@ -11,19 +11,19 @@
 
 namespace core {
 
-// The realisation of a record, and how it was made.
+// The realisation of a record and the choices that led to it.
 struct ModelFit {
   int n_differences = 0;
   EraConfig era;
   Correlations correlations;
   Realisation realisation;
-  int order = 0;  // the lowest of the stabilisation diagram
-  // Do the canonical correlations drop there? If not, the input is coloured or not stationary.
+  int order = 0;  // lowest order of the stabilisation diagram
+  // True if the canonical correlations drop at that order. If not, the input is coloured or not stationary.
   bool order_is_clear = false;
-  int last_first_i_order = 1;  // VerdictRules; -1 = no canonical correlation reaches one half: nothing is a mode
+  int last_first_i_order = 1;  // see VerdictRules; -1: no canonical correlation reaches one half, no pole is a mode
 };
 
-// Chooses references, block rows and order where the configuration does not fix them. "ok", or why there is no model.
+// Chooses references, block rows and order unless the configuration fixes them. "ok", or the reason for no model.
 [[nodiscard]] std::string fit_model(const CpsdSums& sums, const IdentifierConfig& config,
                                     const std::vector<ChannelInfo>& channels, ModelFit& out);
 

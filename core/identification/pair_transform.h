@@ -10,7 +10,7 @@
 
 namespace core {
 
-// Sums of cross-spectra to circular lags, pair by pair. Borrows the sums.
+// Transforms sums of cross-spectra to circular lags, pair by pair. Borrows the sums.
 class PairTransform {
  public:
   explicit PairTransform(const CpsdSums& sums)
@@ -48,7 +48,7 @@ class PairTransform {
   std::vector<std::complex<double>> spectrum_;
 };
 
-// R_d(lag) = 2 R(lag) - R(lag - 1) - R(lag + 1), n times; the ends are used up.
+// R_d(lag) = 2 R(lag) - R(lag - 1) - R(lag + 1), n times; each time a value is lost at either end.
 inline void difference_lags(std::vector<double>& values, int n_differences) {
   for (int d = 0; d < n_differences; ++d) {
     for (std::size_t k = 0; k + 2 < values.size(); ++k) values[k] = 2.0 * values[k + 1] - values[k] - values[k + 2];
@@ -56,7 +56,7 @@ inline void difference_lags(std::vector<double>& values, int n_differences) {
   }
 }
 
-// Do all channels lack the same samples, or none? Then one mask serves all pairs.
+// True if all channels lack the same samples, or none. Then one mask serves all pairs.
 inline bool one_mask(const CpsdSums& sums) {
   const auto pairs = static_cast<std::size_t>(sums.n_pairs());
   for (std::size_t k = 0; k < sums.mask_sum.size(); k += pairs) {

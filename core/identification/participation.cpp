@@ -10,12 +10,12 @@ namespace core {
 
 namespace {
 
-// Of the record of the channel that was seen most.
+// Smallest share of the record of the most observed channel.
 constexpr double kLeastShare = 0.3;
-// From here on a channel may have lost one contiguous stretch: what its spectra miss of the modes' energy is small.
+// Above this share a channel may lack one contiguous stretch: its spectra miss little of the modes' energy.
 constexpr double kLeastUnevenShare = 0.9;
-// Standard deviation of the share seen over the blocks of the record, relative to its mean: random losses leave a few
-// per cent.
+// Standard deviation of the observed share over the blocks of the record, relative to its mean; random losses give a
+// few per cent.
 constexpr double kMostUnevenness = 0.2;
 
 template <class... Args>
@@ -25,7 +25,7 @@ std::string text(const char* format, Args... args) {
   return buffer;
 }
 
-// Window power of the samples seen: the masks' own correlation at lag 0 (Parseval).
+// Window power of the observed samples: the mask's own correlation at lag 0 (Parseval).
 double seen_power(const std::vector<std::complex<double>>& mask_sum, const CpsdSums& sums, int channel) {
   const auto pairs = static_cast<std::size_t>(sums.n_pairs());
   const auto pair = static_cast<std::size_t>(CpsdSums::pair_index(channel, channel, sums.n_channels));
@@ -39,7 +39,7 @@ struct Share {
   double mean = 0.0, unevenness = 0.0;
 };
 
-// Share of a channel in the record of `best`, and how it varies over the record. Without blocks only the mean is known.
+// Share of a channel in the record of `best`, and its variation over the record. Without blocks only the mean is known.
 Share share_of(const CpsdSums& sums, int channel, int best, double least_power) {
   Share out;
   const double whole = seen_power(sums.mask_sum, sums, best);
@@ -53,7 +53,7 @@ Share share_of(const CpsdSums& sums, int channel, int best, double least_power) 
   }
   if (!(weight > 0.0)) return out;
   const double mean = sum / weight;
-  out.mean = std::min(out.mean, mean);  // what was seen while `best` was not does not count
+  out.mean = std::min(out.mean, mean);  // samples observed while `best` was missing do not count
   if (mean > 0.0) out.unevenness = std::sqrt(std::max(0.0, squares / weight - mean * mean)) / mean;
   return out;
 }

@@ -7,7 +7,7 @@ namespace core {
 
 namespace {
 
-constexpr int kDriftBins = 20;  // ten cycles per segment, which is half the transform
+constexpr int kDriftBins = 20;  // ten cycles per segment: the transform is twice as long as a segment
 constexpr double kMostDrift = 0.5;
 
 double drift_share(const CpsdSums& sums, int channel) noexcept {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kAgree_sigmas = 4.0;
 
-// A candidate with the name it goes by.
+// A candidate value and its name in messages.
 struct Named {
   ReadoutValue value;
   std::string name;
@@ -19,7 +19,7 @@ bool agree(const ReadoutValue& a, const ReadoutValue& b) noexcept {
   return std::abs(a.readout_s - b.readout_s) <= kAgree_sigmas * std::hypot(a.std_s, b.std_s);
 }
 
-// An exact one stands.
+// Inverse-variance mean; an exact value is used alone.
 Named combined(const Named& a, const Named& b) {
   if (!(a.value.std_s > 0.0)) return a;
   if (!(b.value.std_s > 0.0)) return b;
@@ -33,7 +33,7 @@ std::optional<ReadoutValue> sane(const std::optional<ReadoutValue>& value) {
   return known ? value : std::nullopt;
 }
 
-// b joins a, or the better known of the two stands.
+// Combines a and b if they agree; otherwise keeps the more precise one.
 void join(Named& a, const Named& b, ReadoutFinding& finding) {
   if (agree(a.value, b.value)) {
     a = combined(a, b);

@@ -12,9 +12,9 @@ namespace {
 
 using Complex = std::complex<double>;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
-constexpr double kStep_frames = 0.005;  // of the search; the maximum is as wide as 0.1
+constexpr double kStep_frames = 0.005;  // step of the search; the maximum is about 0.1 wide
 constexpr double kLeastRowShare = 0.05;
-constexpr double kLeastShapeStd = 0.003;  // of the largest component, 1
+constexpr double kLeastShapeStd = 0.003;  // relative to the largest component, 1
 
 struct Fold {
   double mpc = 0.0, frequency_hz = 0.0;
@@ -38,7 +38,7 @@ Fold best_fold(const ObservedPole& pole, std::span<const double> row_share, doub
   return best;
 }
 
-// MPC of every pole at every readout of the search; rows: poles.
+// MPC of every pole (rows) at every readout time of the search (columns).
 class MpcTable {
  public:
   MpcTable(std::span<const ObservedPole> poles, std::span<const double> row_share, const ReadoutSearch& search)
@@ -53,13 +53,13 @@ class MpcTable {
   }
 
   [[nodiscard]] double readout_frames(double step) const noexcept { return (step - half_) * kStep_frames; }
-  // Mean over the poles but one (n_poles(): all).
+  // Mean over all poles except `without` (n_poles(): over all).
   [[nodiscard]] double mean(std::size_t step, std::size_t without) const noexcept {
     double sum = 0.0;
     for (std::size_t p = 0; p < n_poles_; ++p) sum += p == without ? 0.0 : mpc_[p * n_steps_ + step];
     return sum / static_cast<double>(without < n_poles_ ? n_poles_ - 1 : n_poles_);
   }
-  // The largest mean, in frames, by a parabola through the three best steps.
+  // Readout of the largest mean, in frames, by a parabola through the three best steps.
   [[nodiscard]] double maximum_frames(std::size_t without) const noexcept {
     const std::size_t k = best_step(without);
     if (k == 0 || k + 1 == n_steps_) return readout_frames(static_cast<double>(k));
@@ -83,14 +83,14 @@ class MpcTable {
   std::vector<double> mpc_;
 };
 
-// Of the readout, per frame^2, from one pole: the slope of its components' phases over the row share, phase scatter
-// s_c / |phi_c|, intercept free. None where a component's scatter is unknown.
+// Information of one pole about the readout, per frame^2: regression of its components' phases on the row share with
+// free intercept, phase sigma s_c / |phi_c|. Empty if the sigma of a component is unknown.
 std::optional<double> information_of(const ObservedPole& pole, std::span<const double> row_share, double frequency_hz,
                                      double rate_hz) {
   if (pole.shape_std.size() != pole.shape.size()) return {};
   double weight = 0.0, share = 0.0, squares = 0.0;
   for (std::size_t c = 0; c < pole.shape.size(); ++c) {
-    // The component that the shape is scaled by has no scatter of its own.
+    // The component to which the shape is scaled has no sigma of its own.
     const double scatter = std::max(pole.shape_std[c], kLeastShapeStd);
     if (!std::isfinite(scatter)) return {};
     const double w = std::norm(pole.shape[c]) / (scatter * scatter);

@@ -17,10 +17,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Of the largest singular value; its square is a hundredth of a million roundings.
+// Relative to the largest singular value; its square is 1e-8, far above the rounding error.
 constexpr double kLeastSingularValue = 1e-4;
 
-// G^T G = V S^2 V^T, the leading part.
+// G^T G = V S^2 V^T: the leading part.
 struct RightVectors {
   VectorXd s;    // all, descending
   MatrixXd v_t;  // order x n
@@ -50,7 +50,7 @@ MatrixXd product_transposed(const MatrixXd& a, const Eigen::Ref<const MatrixXd>&
   return c;
 }
 
-// One block row of the observability matrix from that of U, transposed.
+// One block row of the observability matrix, from the transposed block row of U.
 MatrixXd seen(const MatrixXd& u_t, const VectorXd& scale, const VectorXd& root) {
   return scale.asDiagonal() * u_t.transpose() * root.asDiagonal();
 }

@@ -13,15 +13,15 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kLeastHeight = 4.0;  // over the median beside it
-// Bins of the zero-padded spectrum: a segment's main lobe is eight wide.
+constexpr double kLeastHeight = 4.0;  // over the median of the bins on either side
+// In bins of the zero-padded spectrum: the main lobe of a segment is eight bins wide.
 constexpr int kHalfLobe = 4, kBeside = 40;
 constexpr int kPowerSteps = 30;
 
 struct Spectra {
   const CpsdSums& sums;
-  std::vector<std::size_t> used;  // channels that are no witnesses
-  std::vector<double> weight;     // of each channel's power: 1, or one over its own where quantities differ
+  std::vector<std::size_t> used;  // channels that are not witnesses
+  std::vector<double> weight;     // of each channel's power: 1; if quantities differ, one over the channel's own power
 
   [[nodiscard]] Complex at(std::size_t i, std::size_t j, std::size_t bin) const {
     const bool mirrored = i > j;
@@ -75,14 +75,14 @@ bool is_highest_of_its_lobe(const std::vector<double>& power, int k) {
   return true;
 }
 
-// Of the parabola through the logarithms of three bins, in bins from the middle one.
+// Vertex of the parabola through the logarithms of three bins, in bins from the middle one.
 double vertex(double before, double middle, double after) {
   if (!(before > 0.0 && middle > 0.0 && after > 0.0)) return 0.0;
   const double a = std::log(before), b = std::log(middle), c = std::log(after), bend = a - 2.0 * b + c;
   return bend < 0.0 ? std::clamp(0.5 * (a - c) / bend, -0.5, 0.5) : 0.0;
 }
 
-// Amplitudes of the first principal component, as displacements; per channel of the sums.
+// Amplitudes of the first principal component, as displacements, per channel of the sums.
 std::vector<double> shares_at(const Spectra& spectra, std::size_t bin, const std::vector<ChannelInfo>& channels,
                               double frequency_hz) {
   const std::size_t n = spectra.used.size();

@@ -28,7 +28,7 @@ double frequency_distance(const UnfoldedPole& a, const UnfoldedPole& b) noexcept
   return std::abs(a.apparent_hz - b.apparent_hz) / (kFrequencyTolerance * mean_hz);
 }
 
-// Distances of poles, `members` of them, in that order.
+// Distance matrix of the poles with indices `members`, in that order.
 std::vector<double> distances(const std::vector<OrderPole>& poles, const std::vector<std::size_t>& members) {
   const std::size_t n = members.size();
   std::vector<double> norm(n), all(n * n);
@@ -39,7 +39,7 @@ std::vector<double> distances(const std::vector<OrderPole>& poles, const std::ve
     const UnfoldedPole &a = poles[members[i]].pole, &b = poles[members[j]].pole;
     const double df = frequency_distance(a, b);
     if (df >= 1.0) return kFarApart;
-    double re = 0.0, im = 0.0;  // of the inner product
+    double re = 0.0, im = 0.0;  // inner product of two shapes
     for (std::size_t c = 0; c < a.shape.size() && c < b.shape.size(); ++c) {
       re += a.shape[c].real() * b.shape[c].real() + a.shape[c].imag() * b.shape[c].imag();
       im += a.shape[c].real() * b.shape[c].imag() - a.shape[c].imag() * b.shape[c].real();
@@ -53,8 +53,8 @@ std::vector<double> distances(const std::vector<OrderPole>& poles, const std::ve
   return all;
 }
 
-// Poles between two gaps in frequency that are too wide to be bridged: all distances across a gap are the same, beyond
-// the cut, so that clusters never reach over it. Members ascending.
+// Groups of poles between frequency gaps too wide for a cluster: all distances across a gap exceed the cut, so that no
+// cluster spans it. Members ascend.
 std::vector<std::vector<std::size_t>> bands(const std::vector<OrderPole>& poles) {
   std::vector<std::size_t> by_frequency(poles.size());
   std::iota(by_frequency.begin(), by_frequency.end(), std::size_t{0});
@@ -71,7 +71,8 @@ std::vector<std::vector<std::size_t>> bands(const std::vector<OrderPole>& poles)
   return all;
 }
 
-// Orders may disagree about the fold. Frequency, damping and shape must belong to one answer: that of the most.
+// Orders may disagree on the alias order. Frequency, damping and shape must belong to one alias order: the most
+// frequent.
 std::vector<std::size_t> of_commonest_fold(const std::vector<OrderPole>& poles,
                                            const std::vector<std::size_t>& members) {
   std::map<std::optional<int>, std::vector<std::size_t>> by_fold;

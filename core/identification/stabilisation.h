@@ -13,7 +13,7 @@ struct OrderPole {
   UnfoldedPole pole;
 };
 
-// Poles of different orders that are one mode: a vertical line of the stabilisation diagram.
+// Poles of different orders that represent one mode: a vertical line of the stabilisation diagram.
 struct PoleCluster {
   double frequency_hz = 0.0;  // medians over the members
   double apparent_hz = 0.0;
@@ -29,11 +29,12 @@ struct PoleCluster {
 // Average-linkage clustering on |df| / (0.015 f) + (1 - MAC) / 0.3, cut at 1 (METHOD.md).
 [[nodiscard]] std::vector<PoleCluster> cluster_poles(const std::vector<OrderPole>& poles, int n_orders);
 
-// Poles of a single order, each a line of its own.
+// Clusters of a single order: every pole is a line of its own.
 [[nodiscard]] std::vector<PoleCluster> lines_of_one_order(const std::vector<OrderPole>& poles);
 
-// A model with more states than the record supports splits one mode into two lines of one shape. The line found in more
-// orders takes the other's orders (MAC > 0.95 within 3 %), so that the split does not cost the mode its presence.
+// A model with more states than the record supports splits one mode into two lines of one shape (MAC > 0.95 within 3
+// %). The line found in more orders receives the orders of the other one, so that the split does not reduce its
+// presence.
 void join_split_lines(std::vector<PoleCluster>& clusters, int n_orders);
 
 [[nodiscard]] double damping_ratio(std::complex<double> s) noexcept;  // -Re s / |s|

@@ -15,12 +15,12 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Index;
 
-// One pole of one order's realisation A: its eigenvector psi, and how pole and psi answer to a change of A. With any b
-// and c that are not orthogonal to the left and the right eigenvector,
-//   [A - lambda I, b; c^H, 0]
-// is regular, and one factorisation of it serves all: c^H psi = 1; z, nu of a right side r solve
-// (A - lambda I) z + b nu = r, c^H z = 0. So (A - lambda I) dpsi = psi dlambda - dA psi has a solution where
-// dlambda = -nu(-dA psi) / nu(psi).
+// Eigenvector psi of one pole of a realisation A, and the sensitivity of pole and psi to a
+// change of A. With any b and c that are not orthogonal to the left and the right
+// eigenvector, [A - lambda I, b; c^H, 0] is regular, and one factorisation of it serves all:
+// c^H psi = 1; z, nu of a right-hand side r solve (A - lambda I) z + b nu = r, c^H z = 0. So
+// (A - lambda I) dpsi = psi dlambda - dA psi has a solution where dlambda = -nu(-dA psi) /
+// nu(psi).
 class PoleResponse {
  public:
   PoleResponse(const Realisation& realisation, const PoleOfOrder& given) {
@@ -46,7 +46,7 @@ class PoleResponse {
     if (found) factor = shape[m] / own[m];
   }
 
-  // [dpsi; dlambda] of dA psi.
+  // Solution [dpsi; dlambda] for a change dA psi.
   [[nodiscard]] Eigen::VectorXcd to(const Eigen::VectorXcd& change) const {
     const Index n = psi.size();
     const Eigen::VectorXcd z = solve(-change);
@@ -58,7 +58,7 @@ class PoleResponse {
 
   bool found = false;
   Eigen::VectorXcd psi;
-  Complex factor;  // shape as given = factor * C psi
+  Complex factor;  // stated shape = factor * C psi
 
  private:
   [[nodiscard]] Eigen::VectorXcd solve(const Eigen::VectorXcd& right) const {
@@ -86,7 +86,7 @@ class PoleChanges {
     }
   }
 
-  // [pole][block]: what each block does to each of the poles.
+  // [pole][block]: changes of each pole caused by each block.
   [[nodiscard]] std::vector<std::vector<PoleChange>> of(const BlockDeviations& deviations) const {
     const Index ny = realisation_.scale.size(), rows = realisation_.left_map.cols();
     const Eigen::MatrixXd moved = hankel_times_directions(deviations);
@@ -110,8 +110,8 @@ class PoleChanges {
   }
 
  private:
-  // dH right_map psi, rows of one block row more than H0 has, for H1 is the same matrix without its first; columns
-  // (block of the record, pole, real or imaginary part). A block row of the Hankel matrix is a run of lags.
+  // dH right_map psi. Rows: one block row more than H0 has, because H1 is the same matrix without its first. Columns:
+  // (block of the record, pole, real or imaginary part). A block row of the Hankel matrix is a sequence of lags.
   [[nodiscard]] Eigen::MatrixXd hankel_times_directions(const BlockDeviations& deviations) const {
     const Index ny = realisation_.scale.size(), nr = static_cast<Index>(config_.references.size());
     const Index height = deviations.value.rows(), width = config_.block_rows * nr, n_columns = directions_.cols();
@@ -137,7 +137,7 @@ class PoleChanges {
     return out;
   }
 
-  // What one block does along one pole's direction: left_map dH0, left_map dH1, and the first block row of dH0.
+  // Changes caused by one block along one pole's direction: left_map dH0, left_map dH1, and the first block row of dH0.
   struct Moved {
     Eigen::VectorXcd by_h0, by_h1, top;
   };
@@ -155,10 +155,10 @@ class PoleChanges {
   const EraConfig& config_;
   std::vector<PoleResponse> poles_;
   std::vector<Complex> lambda_;
-  Eigen::MatrixXd directions_;  // right_map psi of every pole: real and imaginary part
+  Eigen::MatrixXd directions_;  // right_map psi of every pole: real and imaginary parts
 };
 
-// One block's change of the continuous pole and of the shape as it is stated.
+// Change of the continuous pole and of the stated shape caused by one block.
 struct StatedChange {
   Complex s;
   std::vector<double> shape;
@@ -182,7 +182,7 @@ StatedChange stated_change(const PoleOfOrder& pole, const FoldingConfig& folding
     if (std::norm(x[c]) > std::norm(x[m])) m = c;
   }
   for (std::size_t c = 0; c < n; ++c) out.shape.push_back(((dx[c] - x[c] / x[m] * dx[m]) / x[m]).real());
-  if (s.imag() < 0.0) out.s = std::conj(out.s);  // the real parts of a shape are those of its conjugate
+  if (s.imag() < 0.0) out.s = std::conj(out.s);  // the real parts of a shape equal those of its conjugate
   return out;
 }
 

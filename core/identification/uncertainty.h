@@ -14,10 +14,10 @@ namespace core {
 // Standard deviations by the delta method, without a second fit. With the weights and the subspace of a realisation
 // held fixed, a pole is a generalised eigenvalue of two matrices linear in the correlations R,
 //   left_map (dH1 - lambda dH0) right_map,
-// and so a linear functional of R, as is its shape H0 right_map psi. Blocks of the record (CpsdBlock) give independent
-// changes of R that sum to zero: var = K / (K - 1) sum of the squared changes, with K - 1 degrees of freedom (Student).
-// With fewer than ten blocks a variance is too uncertain and is not stated; more would be too short, because a block
-// should span a few decays of the slowest mode.
+// and its first-order change is therefore linear in R, as is that of its shape H0 right_map psi. Blocks of the record
+// (CpsdBlock) give independent changes of R that sum to zero: var = K / (K - 1) sum of the squared changes, with K - 1
+// degrees of freedom (Student). With fewer than ten blocks a variance is too uncertain and is not stated; more blocks
+// would be too short, because a block should span a few decay times of the slowest mode.
 inline constexpr std::size_t kScatterBlocks = 10;
 
 // Change of a pole and its observed shape caused by one block.
@@ -28,32 +28,32 @@ struct PoleChange {
 
 struct PoleOfOrder {
   int order = 0;
-  DiscretePole pole;  // as poles_of_order gives it
+  DiscretePole pole;  // from poles_of_order()
 };
 
-// [pole][block]. `deviations` hold 2 block_rows lags from the realisation's first on. Empty for a pole that is not
-// found again.
+// Indexed [pole][block]. `deviations` contain 2 block_rows lags from the realisation's first lag on. Empty for a pole
+// that is not found again.
 [[nodiscard]] std::vector<std::vector<PoleChange>> pole_changes(const Realisation& realisation, const EraConfig& config,
                                                                 const BlockDeviations& deviations,
                                                                 const std::vector<PoleOfOrder>& poles);
 
 struct ModeScatter {
   double frequency_hz = 0.0, damping_ratio = 0.0;
-  std::vector<double> shape;  // of the components' real parts, the largest component being 1
+  std::vector<double> shape;  // of the components' real parts; the largest component is 1
 };
-// Propagates the changes through the logarithm, the alias order and the row delays. Empty without enough blocks, or
-// when the result is not finite.
+// Propagates the changes through the logarithm, the alias order and the row delays. Empty with too few blocks, or if
+// the result is not finite.
 [[nodiscard]] std::optional<ModeScatter> mode_scatter(const PoleOfOrder& pole, const UnfoldedPole& unfolded,
                                                       const FoldingConfig& folding,
                                                       const std::vector<PoleChange>& changes);
 
-// Half width of the two-sided 95 % interval in standard deviations (Student's t; between whole degrees of freedom,
+// Half width of the two-sided 95 % interval in standard deviations (Student's t; between integer degrees of freedom,
 // linear in their reciprocal).
 [[nodiscard]] double student_95(double degrees_of_freedom) noexcept;
 
-// For a damping ratio, symmetric in its logarithm: its scatter grows with its value, so a low estimate states too small
-// a standard deviation. (600 simulated records, 30 cycles of memory: 93.0 % contained the truth, 91.2 % of plain
-// intervals.)
+// Interval of a damping ratio, symmetric in its logarithm: its sigma grows with its value, so a low estimate has a
+// standard deviation that is too small. (In 600 simulated records with 30 cycles of memory, 93.0 % contained the truth,
+// against 91.2 % of plain intervals.)
 struct Interval {
   double low = 0.0, high = 0.0;
 };

@@ -10,12 +10,12 @@ namespace core {
 
 namespace {
 
-// Slightly negative damping is the scatter of a nearly undamped mode, not an unstable structure.
+// Slightly negative damping is estimation noise of a nearly undamped mode, not an unstable structure.
 constexpr double kLeastDamping = -0.002;
 constexpr double kTwinMac = 0.9;
 constexpr double kTwinFrequency = 0.06;  // relative
-// A steady force beside a mode moves the structure in that mode's shape, with next to no damping.
-constexpr double kMostLineDamping = 0.001, kMostLineShare = 0.3;  // of the mode's
+// A steady force close to a mode moves the structure in the shape of that mode, with almost no damping.
+constexpr double kMostLineDamping = 0.001, kMostLineShare = 0.3;  // share of the mode's damping
 
 template <class... Args>
 std::string text(const char* format, Args... args) {
@@ -32,12 +32,12 @@ double base_share(const Mode& mode, const std::vector<ChannelInfo>& channels) {
   return share;
 }
 
-// Velocities and accelerations were not seen by a camera.
+// False if a channel is a velocity or an acceleration, which a camera does not measure.
 bool all_displacements(const std::vector<ChannelInfo>& channels) {
   return std::all_of(channels.begin(), channels.end(), [](const ChannelInfo& c) { return c.n_integrations == 0; });
 }
 
-// Camera translation moves all channels of one axis alike; a lone channel tells nothing.
+// Camera translation moves all channels of one axis alike; a single channel is no evidence.
 double uniform_mac(const Mode& mode, const std::vector<ChannelInfo>& channels) {
   if (channels.size() < 2 || !all_displacements(channels)) return 0.0;
   std::vector<std::complex<double>> uniform(channels.size());
@@ -53,8 +53,8 @@ void set(Mode& mode, Verdict verdict, std::string reason) {
   mode.reason = std::move(reason);
 }
 
-// The base moves with an input peak; with a mode it hardly does. In a short record the forced motion blurs that, and
-// the response function tells.
+// The base moves with an input peak and hardly with a mode. In a short record forced motion blurs this difference, and
+// the response function decides.
 bool moves_with_base(double base_share, const BaseResponse& response, const VerdictRules& rules) noexcept {
   if (base_share <= rules.max_base_share) return false;
   const bool answers = response.gain >= rules.least_base_gain && response.gain > response.gain_beside;
@@ -210,7 +210,7 @@ void reject_twins(std::vector<Mode>& modes) {
                  100.0 * a.damping_ratio));
         continue;
       }
-      if (is_line_beside(b, a)) continue;  // its turn will come
+      if (is_line_beside(b, a)) continue;  // handled in a later iteration
       Mode& weaker = a.presence < b.presence || (a.presence == b.presence && a.mpc < b.mpc) ? a : b;
       const Mode& stronger = &weaker == &a ? b : a;
       set(weaker, Verdict::kNumerical,

@@ -5,19 +5,20 @@
 
 namespace core {
 
-// Damping of Levenberg-Marquardt: 0 is Gauss-Newton, large a short step down the scaled gradient.
+// Damping of Levenberg-Marquardt: 0 is Gauss-Newton; large values give short steps along the scaled gradient.
 struct Damping {
   double value = 1e-3;
   double least = 1e-9;
-  double most = 1e6;  // no step is tried at or above it
+  double most = 1e6;  // steps are tried only below this damping
 };
 
 // One step of Levenberg-Marquardt with Marquardt's scaling (Marquardt 1963; Nocedal & Wright, 10.3):
-//   (H + damping diag H) step = -gradient,   H: n x n, positive semidefinite (J' J), gradient: of half the squares, J'
+//   (H + damping diag H) step = -gradient,  H = J' J: n x n, positive semidefinite, gradient: of half the squares, J'
 //   r.
-// `lowers(step)` evaluates the cost there and, where it is lower, moves there and returns true; else the damping grows
-// tenfold and a shorter step is tried. An accepted step divides the damping by ten. Returns whether one was accepted. A
-// step that is not finite (H singular) is never offered. Fixed-size matrices: nothing allocates.
+// `lowers(step)` evaluates the cost at the step; if it is lower, it applies the step and returns true. Otherwise the
+// damping increases tenfold and a shorter step is tried. An accepted step divides the damping by ten. Returns true if a
+// step was accepted. A step that is not finite (H singular) is not evaluated. With fixed-size matrices it does not
+// allocate.
 template <class Matrix, class Vector, class Lowers>
 [[nodiscard]] bool damped_step(const Matrix& hessian, const Vector& gradient, Damping& damping, Lowers&& lowers) {
   for (; damping.value < damping.most; damping.value *= 10.0) {

@@ -14,11 +14,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Ref;
 
-// A tile of `a` (rows x inner) stays in the first-level cache while every column of c passes.
+// A tile of `a` (rows x inner) stays in the first-level cache while all columns of c are processed.
 constexpr Index kTileRows = 96;
 constexpr Index kTileInner = 32;
 constexpr Index kStripColumns = 24;
-constexpr Index kLeastColumns = 8;  // below it, column by column
+constexpr Index kLeastColumns = 8;  // with fewer columns: column by column
 
 [[gnu::always_inline]] inline void add_columns(double* __restrict c0, double* __restrict c1, const double* __restrict a,
                                                Index lda, const double* b0, const double* b1, Index rows, Index inner) {
@@ -48,7 +48,7 @@ constexpr Index kLeastColumns = 8;  // below it, column by column
 
 namespace linear_kernels {
 
-// b: factor included, column j at b + j * inner.
+// b: scaled by the factor; column j at b + j * inner.
 HOVERMODAL_VECTOR_CLONES
 void add_product(double* c, Index ldc, const double* a, Index lda, const double* b, Index rows, Index columns,
                  Index inner) {
@@ -78,7 +78,7 @@ void add_packed(Ref<MatrixXd> c, const Ref<const MatrixXd>& a, const MatrixXd& p
                               a.cols());
 }
 
-// Column by column: [T; B] of few columns.
+// Column by column, for [T; B] with few columns.
 bool factor_narrow(Ref<MatrixXd> m) {
   const Index n = m.cols();
   for (Index k = 0; k < n; ++k) {

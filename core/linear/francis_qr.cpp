@@ -11,9 +11,9 @@ namespace core {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr int kMostSweeps = 60;  // for one pair of values
+constexpr int kMostSweeps = 60;  // per pair of eigenvalues
 
-// x: the last diagonal element, y: the one before, w: the product of the two beside them.
+// x: last diagonal element, y: the one before, w: product of the two off-diagonal elements.
 struct Shift {
   double x, y, w;
 };
@@ -49,7 +49,7 @@ class Francis {
   }
 
  private:
-  // The block at the end that no negligible subdiagonal element divides.
+  // First row of the unreduced block at the end: no subdiagonal element in it is negligible.
   int first_of_block(int last) {
     for (int l = last; l > 0; --l) {
       double size = std::abs(h_.row(l - 1)[l - 1]) + std::abs(h_.row(l)[l]);
@@ -95,7 +95,7 @@ class Francis {
     return {0.75 * size, 0.75 * size, -0.4375 * size * size};
   }
 
-  // Where the sweep may start: two consecutive small subdiagonal elements.
+  // First row at which the sweep may start: two consecutive subdiagonal elements are small.
   int start_of_sweep(int first, int last, const Shift& s, Bulge& b) const {
     int m = last - 2;
     for (;; --m) {
@@ -125,7 +125,7 @@ class Francis {
 
 namespace linear_kernels {
 
-// I - (1, q, r)^T (x, y, z) on three rows, from their column `begin` on.
+// Applies I - (1, q, r)^T (x, y, z) to three rows, from their column `begin` on.
 HOVERMODAL_VECTOR_CLONES
 void reflect_three_rows(double* __restrict h0, double* __restrict h1, double* __restrict h2, int begin, int end,
                         double q, double r, double x, double y, double z) {
@@ -179,7 +179,7 @@ void Francis::sweep(int first, int last, const Shift& s) {
         h1[j] -= p * y;
       }
     }
-    // From below: the next reflection needs the lowest rows.
+    // From the bottom row upwards, because the next reflection needs the lowest rows.
     if (three) {
       for (int i = std::min(last, k + 3); i >= first; --i) {
         double* h = h_.row(i) + k;

@@ -5,7 +5,7 @@
 
 namespace core {
 
-// Square, row-major.
+// Square matrix, row-major.
 struct RowMatrix {
   int n = 0;
   std::vector<double> values;
@@ -15,7 +15,7 @@ struct RowMatrix {
 };
 
 // Eigenvalues of an upper Hessenberg matrix by Francis' double-shift QR (EISPACK's hqr: Martin, Peters & Wilkinson
-// 1970). h is destroyed. False where it does not converge.
+// 1970). h is destroyed. False if the iteration does not converge.
 [[nodiscard]] bool hessenberg_values(RowMatrix& h, std::vector<std::complex<double>>& values);
 
 }  // namespace core

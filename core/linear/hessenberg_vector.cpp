@@ -41,7 +41,7 @@ using Complex = std::complex<double>;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-// Inner products of a row a + i b, b = 0 where there is none, with x + i y.
+// Inner products of a row a + i b (b = 0 if absent) with x + i y.
 struct RowProduct {
   int n;
   const double *a, *b, *x, *y;
@@ -104,7 +104,7 @@ void HessenbergVector::compute(Complex lambda) {
   substitute();
 }
 
-// Row k of U stands in row k of re_, im_; where rows were exchanged it is row k + 1 of H - lambda I itself.
+// Row k of U is stored in row k of re_, im_; if rows were exchanged it is row k + 1 of H - lambda I itself.
 void HessenbergVector::factor(Complex lambda) {
   const int n = h_.n;
   lambda_ = lambda;

@@ -8,8 +8,8 @@
 
 namespace core {
 
-// Eigenvectors of an upper Hessenberg matrix by one step of inverse iteration: with H - lambda I = P L U, solves
-// U x = L^-1 P^T b for a b chosen so that the right side is a vector of ones (EISPACK's invit). The matrix is borrowed.
+// Eigenvectors of an upper Hessenberg matrix by one step of inverse iteration: with H - lambda I = P L U, solves U x =
+// L^-1 P^T b, with b chosen so that the right-hand side is a vector of ones (EISPACK's invit). Borrows the matrix.
 class HessenbergVector {
  public:
   explicit HessenbergVector(const RowMatrix& h);
@@ -23,9 +23,8 @@ class HessenbergVector {
   double* im(int i) noexcept { return im_.data() + static_cast<std::ptrdiff_t>(i) * h_.n; }
   void factor(std::complex<double> lambda);
   void substitute();
-  [[nodiscard]] std::complex<double> product(int k);  // sum over j > k of U(k, j) x(j)
-  [[nodiscard]] std::complex<double> exchanged_product(
-      int k);  // the same where row k of U is row k + 1 of H - lambda I
+  [[nodiscard]] std::complex<double> product(int k);            // sum over j > k of U(k, j) x(j)
+  [[nodiscard]] std::complex<double> exchanged_product(int k);  // the same if row k of U is row k + 1 of H - lambda I
 
   const RowMatrix& h_;
   double norm_ = 0.0;

@@ -2,7 +2,7 @@
 
 namespace core {
 
-// Inner products as kLanes partial sums, whatever the machine's vector width: the same bits everywhere.
+// Inner products as kLanes partial sums, whatever the machine's vector width: bit-identical everywhere.
 inline constexpr int kLanes = 8;
 
 template <int kWidth>
@@ -10,7 +10,7 @@ struct Lanes {
   using Vector [[gnu::vector_size(kWidth * sizeof(double)), gnu::aligned(8), gnu::may_alias]] = double;
 };
 
-// The version for this machine's vectors: of two, four or eight doubles.
+// The implementation for this machine's vectors of two, four or eight doubles.
 template <class Function>
 [[nodiscard]] Function by_vector_width(Function two, [[maybe_unused]] Function four, [[maybe_unused]] Function eight) {
 #ifdef __x86_64__

@@ -8,7 +8,7 @@
 
 namespace core {
 
-// The upper one of an even number; NaN of none. Changes the order of the values; allocates nothing.
+// Of an even number of values the upper one; NaN without values. Reorders the values; does not allocate.
 [[nodiscard]] inline double median_in_place(std::span<double> values) noexcept {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

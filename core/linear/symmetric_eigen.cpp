@@ -18,18 +18,18 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kMostOblique = 1e-8;
-constexpr Index kGroup = 4;  // columns of a sweep
+constexpr Index kGroup = 4;  // columns per sweep
 
 // Pointers to the trailing part of size m.
 struct Sweep {
   double* a;
   Index lda, m;
-  const double *last_v, *last_w;  // the rank-two update that the trailing part still waits for
+  const double *last_v, *last_w;  // pending rank-two update of the trailing part
   const double* v;
   double* y;  // a v
 };
 
-// One column alone, rows first .. end.
+// One column, rows first .. end.
 [[gnu::always_inline]] inline void sweep_column(const Sweep& s, Index j, Index end) {
   double* column = s.a + j * s.lda;
   const double v = s.last_v[j], w = s.last_w[j];
@@ -42,7 +42,7 @@ struct Sweep {
   }
 }
 
-// Four columns, from the row below their triangle on. An inner product is kLanes partial sums and a rest, whatever
+// Four columns, from the row below their triangle on. An inner product is kLanes partial sums and a remainder, whatever
 // the machine's vector width.
 template <int kWidth>
 [[gnu::always_inline]] inline void sweep_group(const Sweep& s, Index j) {
@@ -108,7 +108,7 @@ constexpr auto sweep_widest = sweep_narrow;
 #endif
 const auto sweep_trailing = by_vector_width(sweep_narrow, sweep_wide, sweep_widest);
 
-// x becomes v with v[0] = 1; returns tau of I - tau v v^T, and in `beta` what it makes of x[0].
+// Replaces x by v with v[0] = 1; returns tau of I - tau v v^T, and in `beta` the transformed x[0].
 double make_reflector(Eigen::Ref<VectorXd> x, double& beta) {
   double rest = 0.0;
   for (Index i = 1; i < x.size(); ++i) rest += x[i] * x[i];

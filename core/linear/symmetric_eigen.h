@@ -4,8 +4,8 @@
 
 namespace core {
 
-// All eigenvalues, and the requested number of leading eigenvectors, of a symmetric matrix: Householder's tridiagonal
-// form, Pal-Walker-Kahan QL, inverse iteration (Parlett, The Symmetric Eigenvalue Problem, 1998). The same bits on
+// All eigenvalues, and the requested number of leading eigenvectors, of a symmetric matrix: Householder tridiagonal
+// form, Pal-Walker-Kahan QL, inverse iteration (Parlett, The Symmetric Eigenvalue Problem, 1998). Bit-identical on
 // every machine.
 class SymmetricEigen {
  public:

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr int kSweepsPerValue = 30;
-constexpr double kClose = 1e-6;  // of the largest eigenvalue
+constexpr double kClose = 1e-6;  // relative to the largest eigenvalue
 constexpr int kSolves = 3;
 
 // One implicit QL sweep over d[l..m], e2 the squared subdiagonal.
@@ -94,7 +94,7 @@ class ShiftedTridiagonal {
   Eigen::Array<bool, Eigen::Dynamic, 1> swapped_;
 };
 
-// Components of either sign and all sizes, the same in every run, another set for every vector.
+// Components of both signs and all sizes; identical in every run, different for every vector.
 VectorXd start_vector(Index n, Index i_vector) {
   VectorXd x(n);
   std::uint64_t state = 0x9E3779B97F4A7C15ULL * static_cast<std::uint64_t>(i_vector + 1);
@@ -112,7 +112,7 @@ VectorXd tridiagonal_values(const VectorXd& diagonal, const VectorXd& subdiagona
   const Index n = d.size();
   VectorXd e2 = VectorXd::Zero(std::max<Index>(n, 1));
   if (n > 1) e2.head(n - 1) = subdiagonal.array().square();
-  if (n > 1 && std::abs(d[0]) > std::abs(d[n - 1])) {  // QL wants the small end first
+  if (n > 1 && std::abs(d[0]) > std::abs(d[n - 1])) {  // QL converges better with the small end first
     d.reverseInPlace();
     e2.head(n - 1).reverseInPlace();
   }

@@ -58,7 +58,7 @@ double highest_frequency_hz(const PlanInput& input) noexcept {
 }
 
 bool fits(const PlanInput& input, const PlannedCamera& camera) noexcept {
-  constexpr double kShareOfPicture = 0.9;  // the rest is for drift
+  constexpr double kShareOfPicture = 0.9;  // share of the image for the structure; the rest is for drift
   return input.length_mm / mm_per_px(camera, input.distance_mm) <= kShareOfPicture * room_px(camera, input.axis);
 }
 

@@ -6,7 +6,7 @@
 
 namespace core::planning {
 
-// Everything about folding that depends on the camera alone.
+// Properties of aliasing that depend on the camera alone.
 struct FoldSurvey {
   std::vector<FoldPlace> places;  // per mode
   std::vector<Overlap> overlaps;
@@ -17,7 +17,7 @@ struct FoldSurvey {
 [[nodiscard]] bool fits(const PlanInput& input, const PlannedCamera& camera) noexcept;
 [[nodiscard]] double highest_frequency_hz(const PlanInput& input) noexcept;
 
-// As HoverPlan::options.
+// Result as in HoverPlan::options.
 [[nodiscard]] std::vector<CameraOption> camera_options(const PlanInput& input);
 [[nodiscard]] std::size_t best_option(const std::vector<CameraOption>& options) noexcept;
 

@@ -14,7 +14,7 @@ using Complex = std::complex<double>;
 
 std::vector<double> rivals_hz(double apparent_hz, int n, const FoldingConfig& folding) {
   std::vector<double> out;
-  if (folding.max_frequency_hz <= folding.rate_hz / 2.0) return out;  // the identification unfolds nothing then
+  if (folding.max_frequency_hz <= folding.rate_hz / 2.0) return out;  // the identification does not unfold in this case
   const int reach = static_cast<int>(std::ceil(folding.max_frequency_hz / folding.rate_hz)) + 1;
   for (int other = -reach; other <= reach; ++other) {
     const double frequency_hz = std::abs(apparent_hz + other * folding.rate_hz);

@@ -80,7 +80,7 @@ ModePlan plan_mode(const PlanInput& input, const HoverPlan& plan, const PlannedM
   return out;
 }
 
-// Of the mode with the longest memory: the smallest zeta f.
+// The mode with the smallest zeta f, i.e. the slowest decay.
 const PlannedMode& slowest(const PlanInput& input) {
   return *std::min_element(input.modes.begin(), input.modes.end(), [](const PlannedMode& a, const PlannedMode& b) {
     return a.damping_ratio * a.frequency_hz < b.damping_ratio * b.frequency_hz;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Root of cos b + 1 / cosh b = 0 beside (r - 1/2) pi; Newton meets it to rounding in a few steps.
+// Root of cos b + 1 / cosh b = 0 near (r - 1/2) pi; Newton's method converges to rounding in a few steps.
 double cantilever_root(int number) noexcept {
   double b = number == 1 ? 1.875 : (number - 0.5) * kPi;
   for (int i = 0; i < 8; ++i) {
@@ -22,7 +22,7 @@ double cantilever_root(int number) noexcept {
   return b;
 }
 
-// The growing and the decaying exponential apart: cosh - k sinh would cancel to nothing from the fifth mode on.
+// The growing and the decaying exponential are separate: cosh - k sinh loses all digits from the fifth mode on.
 double cantilever(double b, double x) noexcept {
   const double divisor = std::sinh(b) + std::sin(b);
   const double k = (std::cosh(b) + std::cos(b)) / divisor;

@@ -47,7 +47,7 @@ double peak_density(double rms_mm, double damping_ratio, double frequency_hz, do
 
 double least_rms_mm(double ratio, double density_mm_per_sqrt_hz, double damping_ratio, double frequency_hz,
                     double bandwidth_hz, double gain) noexcept {
-  constexpr double kNothingLeft = 1e-6;  // exposure over whole periods
+  constexpr double kNothingLeft = 1e-6;  // gain of an exposure over whole periods
   if (gain < kNothingLeft) return std::numeric_limits<double>::infinity();
   const double width_hz = kPi * damping_ratio * frequency_hz + bandwidth_hz;
   return density_mm_per_sqrt_hz * std::sqrt(ratio * width_hz) / gain;

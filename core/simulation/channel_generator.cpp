@@ -8,7 +8,7 @@
 namespace core::simulation {
 namespace {
 
-// Whether the world's axis of motion shows along the region's axis (+1) or against it (-1).
+// +1 if the world's axis of motion appears along the region's axis, -1 if against it.
 double sign_of(const SceneMotion& motion, int body, const core::ChannelInfo& channel) {
   const bool along_x = motion.scene().structure.axis == StructureModel::Axis::kX;
   const ImagePoint a = motion.see(body, {0.0, 0.0}, 0.0);
@@ -65,7 +65,7 @@ void ChannelGenerator::generate(const DeliveredFrame& frame, core::DisplacementS
   out.t_start_ns = std::llround(frame.stamp_s * 1e9);
   out.gap_before = frame.gap_before;
   out.scale_mm_per_px = scale_mm_per_px_;
-  // One stream each: a change of the loss leaves the noise of what remains. A picture shown twice has the same twice.
+  // Separate streams: a change of the loss leaves the remaining noise unchanged. A repeated picture has the same noise.
   RandomStream noise(scene.seed, "channel_noise", frame.number), loss(scene.seed, "channel_loss", frame.number);
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const bool seen = loss.uniform() >= scene.channels.loss_probability;

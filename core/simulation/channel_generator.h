@@ -8,14 +8,14 @@
 
 namespace core::simulation {
 
-// Displacements as a service without any error of camera and tracker would have them, plus the noise and losses of
+// Displacements as measured by a service without errors of camera and tracker, plus the noise and losses of
 // ChannelParameters: each body's motion along its region's axis at the time at which the region's middle row is
-// exposed, averaged over the exposure, relative to the first frame. The camera's own motion is not in them.
-// A sample is a function of (scene, frame) alone.
+// exposed, averaged over the exposure, relative to the first frame. Camera motion is not contained. A sample is a
+// function of (scene, frame) alone.
 class ChannelGenerator {
  public:
-  // stated_readout_s: what the service is told; the row delays of channels() follow from it. Copies the motion, which
-  // takes long to compute where the record is long.
+  // stated_readout_s: readout time known to the service, which determines the row delays of channels(). Copies the
+  // motion, whose computation is slow for long records.
   ChannelGenerator(const SceneMotion& motion, double stated_readout_s);
 
   [[nodiscard]] const std::vector<core::ChannelInfo>& channels() const noexcept { return channels_; }
@@ -28,7 +28,7 @@ class ChannelGenerator {
  private:
   struct Place {
     int body;
-    double sign;      // of the world's axis along the image's
+    double sign;      // of the world's axis relative to the image's
     double middle_s;  // from the start of the frame to the middle of the exposure of the region's middle row
     double keyframe_mm;
   };

@@ -6,14 +6,14 @@
 namespace core::simulation {
 namespace {
 
-// The effect is there while one of these is not zero.
+// A field that is zero without the effect.
 using Field = double& (*)(Scene&);
 template <auto section, auto member>
 double& at(Scene& scene) {
   return scene.*section.*member;
 }
 
-// What is not a number that can be zero.
+// Effects that are not switched by a numeric field.
 struct Switch {
   bool (*is_on)(const Scene&) = nullptr;
   void (*turn_off)(Scene&) = nullptr;
@@ -52,7 +52,7 @@ using Ti = TimingParameters;
 using L = LightParameters;
 using T = TrackParameters;
 
-// The exposure blurs, and moves the middle of every row by half its length.
+// The exposure blurs, and delays the centre of every row by half its length.
 const std::vector<Effect> kEffects{
     {"readout", {"camera.readout_ms"}, {at<&S::camera, &C::readout_s>}},
     {"exposure", {"camera.exposure_ms"}, {at<&S::camera, &C::exposure_s>}},
@@ -105,7 +105,7 @@ const std::vector<Effect> kEffects{
 
 bool is_active(const Effect& effect, const Scene& scene) {
   if (effect.other.is_on != nullptr) return effect.other.is_on(scene);
-  Scene copy = scene;  // the fields are reached for writing
+  Scene copy = scene;  // copied, because access to the fields is mutable
   return std::any_of(effect.fields.begin(), effect.fields.end(), [&](Field field) { return field(copy) != 0.0; });
 }
 

@@ -14,25 +14,25 @@ namespace core::simulation {
 // The experiment of the paper: six storeys at 1.657 ... 14.34 Hz, 1 % damping, a 1080p camera at 25 fps 2 m away.
 [[nodiscard]] Scene make_paper_scene(std::uint64_t seed, double duration_s);
 
-// A slender steel chimney of 30 m in the wind, eight marked sections, from 40 m at 30 fps: sways at 0.77, 4.9 and
-// 13.6 Hz, and its sections tilt. 1 px = 31 mm.
+// A slender steel chimney of 30 m in the wind, eight marked sections, from 40 m at 30 fps: sways at 0.77, 4.9 and 13.6
+// Hz, and its sections tilt. 1 px = 31 mm.
 [[nodiscard]] Scene make_cantilever_scene(std::uint64_t seed, double duration_s);
 
 // A frame of four unequal storeys on a shaking table, with forces on its floors, from 2.5 m at 25 fps: 2.3 ... 10.9 Hz.
 [[nodiscard]] Scene make_shear_frame_scene(std::uint64_t seed, double duration_s);
 
-// A footbridge of 40 m under walkers, seven marked places and an abutment at rest, from 45 m at 50 fps: moves up and
-// down at 1.9, 7.6 and 17.1 Hz. 1 px = 25 mm. All bodies lie in the same rows, so a readout downwards tells them
-// nothing.
+// A footbridge of 40 m under walkers, seven marked places and a static abutment, from 45 m at 50 fps: vertical
+// modes at 1.9, 7.6 and 17.1 Hz. 1 px = 25 mm. All bodies lie in the same rows, so a downward readout is not
+// informative.
 [[nodiscard]] Scene make_deck_scene(std::uint64_t seed, double duration_s);
 
-// What the structure of a preset is built from.
+// Parameters of the structure of a preset.
 struct UniformChain {
   std::vector<double> frequency_hz;
 };
 struct StructureDescription {
   std::variant<UniformChain, ShearBuilding, Cantilever, BridgeDeck> kind;
-  ModalDamping damping;  // the last ratio holds for all modes above
+  ModalDamping damping;  // the last ratio applies to all modes above
 };
 [[nodiscard]] StructureModel build(const StructureDescription& description);
 
@@ -43,15 +43,15 @@ struct PresetInfo {
   Scene (*make)(std::uint64_t seed, double duration_s);
 };
 [[nodiscard]] const std::vector<PresetInfo>& presets();
-// Throws std::invalid_argument with the names there are.
+// Throws std::invalid_argument with the list of names.
 [[nodiscard]] Scene make_preset(const std::string& name, std::uint64_t seed, double duration_s);
 
-// Textures that have no pitch (0 or less) get the one that suits their distance: plates 2.75 px a cell, which holds up
-// to 0.2 cycles/px, the background 7 px.
+// Sets the pitch of textures without one (0 or less) according to their distance: plates 2.75 px per cell, with content
+// up to 0.2 cycles/px, the background 7 px.
 void settle_textures(Scene& scene);
 
 // The same view with another sensor: focal length and principal point scale with the image so that the scene fits it
-// alike, and textures keep their pitch in pixels.
+// equally, and textures keep their pitch in pixels.
 void set_image_size(Scene& scene, int width_px, int height_px);
 
 // Ground and floors one above the other, the ground lowest, the middle of the stack on the optical axis: plates of

@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15ULL;
 
-// ln(x) for 0 < x < 1. The library's log may differ in the last bit between platforms; this one cannot.
-// atanh series of the mantissa in [sqrt(1/2), sqrt(2)): the first term left out is below 1e-18.
+// ln(x) for 0 < x < 1. The library's log may differ in the last bit between platforms; this one does not. Atanh series
+// of the mantissa in [sqrt(1/2), sqrt(2)): the first omitted term is below 1e-18.
 double portable_log(double x) noexcept {
   int exponent = 0;
   double mantissa = std::frexp(x, &exponent);
@@ -61,7 +61,7 @@ std::uint64_t RandomStream::next() noexcept {
 
 double RandomStream::uniform() noexcept { return static_cast<double>(next() >> 11) * 0x1.0p-53; }
 
-// Marsaglia's polar method: no sine, no cosine.
+// Marsaglia's polar method, which needs no sine or cosine.
 double RandomStream::gaussian() noexcept {
   if (has_spare_) {
     has_spare_ = false;

@@ -5,9 +5,10 @@
 
 namespace core::simulation {
 
-// Random numbers that depend on (seed, name, index) only: xoshiro256++ seeded through splitmix64. One stream per
-// effect, so that switching an effect off, or drawing more from it, leaves every other effect as it was. The arithmetic
-// uses nothing but IEEE add, multiply, divide and square root: the same bits on every platform and standard library.
+// Random numbers that depend on (seed, name, index) only: xoshiro256++ seeded through splitmix64. Each effect has its
+// own stream, so that switching an effect off, or drawing more numbers for it, leaves all others unchanged. The
+// arithmetic uses only IEEE add, multiply, divide and square root: bit-identical on every platform and standard
+// library.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::string_view name, std::uint64_t index = 0) noexcept;
@@ -22,7 +23,7 @@ class RandomStream {
   bool has_spare_ = false;
 };
 
-// Scrambles one word; a good hash for indices.
+// Mixes the bits of one word; a good hash for indices.
 [[nodiscard]] std::uint64_t mix64(std::uint64_t word) noexcept;
 [[nodiscard]] std::uint64_t hash_name(std::string_view name) noexcept;
 

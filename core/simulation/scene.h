@@ -15,7 +15,7 @@ namespace core::simulation {
 // World: X right, Y down, Z away from the camera, mm; the camera hovers about its mean position (the origin, unless
 // given) and looks along +Z. Plates and background are planes of constant Z. Pixel centres lie at integers.
 
-// How the lens bends rays: x, y = X/Z, Y/Z -> distorted x, y.
+// Distortion of rays by the lens: x, y = X/Z, Y/Z -> distorted x, y.
 struct LensParameters {
   enum class Model : std::uint8_t { kNone, kRadialTangential, kEquidistant };
   Model model = Model::kNone;
@@ -28,7 +28,7 @@ struct CameraParameters {
   double cx_px = 959.5, cy_px = 539.5;
   LensParameters lens;
   double rate_hz = 25.0;
-  double readout_s = 0.026;  // first to last line, as the direction runs
+  double readout_s = 0.026;  // first to last line in readout direction
   core::ReadoutDirection readout_direction = core::ReadoutDirection::kDown;
   double exposure_s = 0.004;
   double noise_sigma = 2.0;                               // grey levels, white, before rounding to 8 bits
@@ -36,7 +36,7 @@ struct CameraParameters {
   double pitch_rad = 0.0, yaw_rad = 0.0, roll_rad = 0.0;  // mean attitude: about X, then Y, then Z
 };
 
-// What shakes the structure: white noise in a band (a Gaussian per frequency), lines, or both.
+// Excitation of the structure: white noise in a band (one Gaussian per frequency), lines, or both.
 struct ExcitationParameters {
   // Weights: the ground's motion alone moves the last body by base * rms_mm, relative to the ground and over the clip,
   // the independent forces on every body alone by forces * rms_mm. 0 = none.
@@ -44,7 +44,8 @@ struct ExcitationParameters {
   double band_low_hz = 0.5, band_high_hz = 20.0;
   double rms_mm = 4.0;
 
-  // Colour of the ground's motion, on top of `base`: its amplitude times 1 + gain at the frequency (a resonance curve).
+  // Colour of the ground's motion, in addition to `base`: its amplitude times 1 + gain at the frequency (a resonance
+  // curve).
   struct Peak {
     double frequency_hz = 0.0, damping_ratio = 0.05, gain = 0.0;
   };
@@ -57,7 +58,7 @@ struct ExcitationParameters {
   std::vector<Harmonic> harmonics;
 };
 
-// A structure that does not stay what it is (changing_stiffness.h).
+// A structure whose stiffness changes (changing_stiffness.h).
 struct ChangeParameters {
   double frequency_drift = 0.0;  // of all frequencies over the clip, relative, about their mean
   double softening = 0.0;        // share of stiffness lost at an amplitude of sqrt(2) times the last body's rms
@@ -69,7 +70,7 @@ struct TextureParameters {
   double mean = 128.0, contrast_rms = 25.0;  // grey levels
 };
 
-// The visible face of one body: flat, parallel to the plane Z = 0. Centre at rest in the world.
+// Visible face of one body: flat, parallel to the plane Z = 0. Centre: equilibrium position in the world.
 struct Plate {
   std::string name;
   double x_mm = 0.0, y_mm = 0.0, z_mm = 2000.0;
@@ -91,7 +92,7 @@ struct HoverParameters {
   double corner_hz = 0.318, order = 6.0, limit_hz = 5.0;
 };
 
-// A flight that somebody recorded, in camera axes (X right, Y down, Z forward), about its mean. Equal lengths.
+// A recorded flight in camera axes (X right, Y down, Z forward), about its mean. Equal lengths.
 struct RecordedMotion {
   double rate_hz = 0.0;
   std::vector<double> x_mm, y_mm, z_mm, pitch_rad, yaw_rad, roll_rad;
@@ -108,8 +109,8 @@ struct RotorParameters {
 struct TimingParameters {
   double jitter_rms_s = 0.0;
   double drop_probability = 0.0;
-  double duplicate_probability = 0.0;  // the picture before once more, under a stamp of its own
-  bool stamps_tell = true;             // false: stamps are frame / rate, and nothing says that a frame is missing
+  double duplicate_probability = 0.0;  // repeats the previous picture with a stamp of its own
+  bool stamps_tell = true;             // false: stamps are frame / rate, and missing frames are not indicated
 };
 
 struct LightParameters {
@@ -119,19 +120,19 @@ struct LightParameters {
   double flicker_hz = 100.0;
 };
 
-// What a tracker adds to the truth, in tracks.
+// Errors that a tracker adds to the true tracks.
 struct TrackParameters {
   int points_per_region = 30;
   double noise_px = 0.03;           // Gaussian, per axis, independent between points and frames
-  double noise_spread = 0.0;        // its points differ: sd of the noise's logarithm, rms over many points as above
-  double sigma_error = 0.0;         // of the sigma that is stated per point: sd of the logarithm of stated / true
+  double noise_spread = 0.0;        // noise differs between points: sd of its logarithm, rms over many points as above
+  double sigma_error = 0.0;         // of the sigma stated per point: sd of the logarithm of stated / true
   double loss_probability = 0.0;    // of a point in a frame
   double pixel_locking_px = 0.0;    // amplitude of an error periodic in the sub-pixel phase
   double template_zoom_px = 0.0;    // error per unit of magnification since the first frame, in that direction
   double brightness_bias_px = 0.0;  // error per unit of relative brightness change, in each point's own direction
 };
 
-// What is left of camera and tracker where only channels are made.
+// Errors of camera and tracker that remain if only channels are generated.
 struct ChannelParameters {
   double noise_mm = 0.01;  // Gaussian, independent
   double loss_probability = 0.0;
@@ -157,7 +158,7 @@ struct Scene {
   ShimmerParameters shimmer;
   StabiliserParameters stabiliser;
   BreathingParameters breathing;
-  std::shared_ptr<const RecordedMotion> flight;  // beside the hover model; null = none
+  std::shared_ptr<const RecordedMotion> flight;  // in addition to the hover model; null = none
   RotorParameters rotor;
   TimingParameters timing;
   LightParameters light;
@@ -169,8 +170,8 @@ struct Scene {
   [[nodiscard]] core::CameraInfo camera_info() const;
 };
 
-// Throws std::invalid_argument: what is NaN or out of range, a structure that is unstable or does not fit the plates, a
-// camera in or behind the structure, and a view that plates leave within 3 sigma of the drift.
+// Throws std::invalid_argument: NaN or values out of range, a structure that is unstable or does not fit the plates, a
+// camera in or behind the structure, or a view that plates leave within 3 sigma of the drift.
 void validate(const Scene& scene);
 
 }  // namespace core::simulation

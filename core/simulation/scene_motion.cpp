@@ -64,9 +64,10 @@ ImagePoint SceneMotion::see_at(int body, PlanePoint point, double t_s) const noe
 }
 
 ImagePoint SceneMotion::see(int body, PlanePoint point, double t_frame_s) const noexcept {
-  // Newton's method on the time of the point's own line, its velocity taken from before to after the middle.
+  // Newton's method on the time of the point's own line, with its velocity from the instants before and after the
+  // middle.
   constexpr int kRounds = 8;
-  constexpr double kEnough_px = 1e-6;  // of the last step; what it leaves is a thousandth of it
+  constexpr double kEnough_px = 1e-6;  // size of the last step; the remaining error is a thousandth of it
   constexpr double kLeastStep_s = 1e-4;
   constexpr double kOuterWeight = 5.0 / 18.0;
   const CameraParameters& camera = scene_.camera;

@@ -14,16 +14,16 @@
 
 namespace core::simulation {
 
-// Marks the background wherever a body is asked for.
+// Denotes the background in place of a body.
 inline constexpr int kBackgroundBody = -1;
 
-// Where a body is: its shift from rest and its turn about its centre, from X towards Y. Rocking of the whole structure
-// and sway of the background are in it; a flapping part and torsion are not.
+// Pose of a body: its shift from equilibrium and its rotation about its centre, from X towards Y. Contains rocking of
+// the whole structure and sway of the background, but not a flapping part or torsion.
 struct BodyPose {
   double x_mm = 0.0, y_mm = 0.0, tilt_rad = 0.0;
 };
 
-// Everything that moves in a scene, at any time: what renderer, track generator and truth share.
+// Everything that moves in a scene, at any time: shared by renderer, track generator and truth.
 class SceneMotion {
  public:
   explicit SceneMotion(const Scene& scene);  // validates the scene
@@ -36,22 +36,22 @@ class SceneMotion {
 
   // Middle of the exposure of the line that holds the pixel, in the frame whose row 0 starts at t_frame_s.
   [[nodiscard]] double line_time_s(double t_frame_s, ImagePoint image) const noexcept;
-  // The two instants whose mean stands for the exposure in pictures (Gauss-Legendre: exact to third order in the
-  // motion) lie this far before and after its middle.
+  // Distance of the two instants whose mean represents the exposure in images (Gauss-Legendre: exact to third order in
+  // the motion) from its centre.
   [[nodiscard]] double exposure_offset_s() const noexcept;
   [[nodiscard]] double depth_mm(int body) const noexcept;
   [[nodiscard]] BodyPose body_at(int body, double t_s) const noexcept;
 
-  // Where a point fixed to a body is in the image, averaged over the exposure (three Gauss-Legendre instants: a sine of
-  // f T = 0.5 is met to 0.1 %) and solved for the time at which its own line is exposed. Points are relative to the
+  // Image position of a point fixed to a body, averaged over the exposure (three Gauss-Legendre instants: a sine of f T
+  // = 0.5 is reproduced to 0.1 %) and solved for the time at which its own line is exposed. Points are relative to the
   // plate's centre (background: absolute), in the body's own axes.
   [[nodiscard]] ImagePoint see(int body, PlanePoint point, double t_frame_s) const noexcept;
-  // The point of a body that stands at this pixel of the frame, in the middle of its exposure; without flap, torsion and
-  // what happens to the image behind its projection.
+  // The point of a body seen at this pixel of the frame, at the centre of its exposure; without flap, torsion and image
+  // effects after projection.
   [[nodiscard]] PlanePoint material_point(int body, ImagePoint image, double t_frame_s) const noexcept;
 
  private:
-  // Where a point of a body is in the world.
+  // Position of a point of a body in the world.
   struct Place {
     double x_mm, y_mm, z_mm;
   };
@@ -65,16 +65,16 @@ class SceneMotion {
   ImageWarp warp_;
 };
 
-// What is to be tracked: a rectangle on each body, in its own axes (background: absolute), clear of the plate's rim.
-// The bodies first, then the ground, then the background where there is room beside the structure. It depends on
-// structure and mean view alone, so that a scene with an effect and one without it show the same points.
+// A rectangle to be tracked on each body, in its own axes (background: absolute), clear of the plate's rim. Bodies
+// first, then the ground, then the background if there is room beside the structure. Depends on structure and mean view
+// alone, so that a scene shows the same points with and without an effect.
 struct Mark {
   int body;  // kBackgroundBody, or as in SceneMotion
   PlanePoint low, high;
 };
 [[nodiscard]] std::vector<Mark> marks_of(const Scene& scene);
 
-// What a user would draw around the marks in the first frame, in their order: rectangles that lie inside them.
+// Regions that a user would draw about the marks in the first frame, in their order: rectangles inside the marks.
 struct SceneRegion {
   int body;
   core::Region region;

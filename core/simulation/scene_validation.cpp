@@ -63,7 +63,7 @@ void validate_texture(const std::string& of, const TextureParameters& texture) {
           "give more than 0, or nothing can be tracked there, to 128");
 }
 
-// Plates at one depth would show through each other.
+// Plates at one depth would intersect in the image.
 void require_apart(const Plate& a, const Plate& b) {
   if (std::abs(a.z_mm - b.z_mm) >= 1.0) return;
   const double gap_mm = std::max(std::abs(a.x_mm - b.x_mm) - 0.5 * (a.width_mm + b.width_mm),
@@ -134,7 +134,7 @@ void validate_effects(const Scene& s) {
   require_range("loss probability of a channel", s.channels.loss_probability, 0.0, 1.0);
 }
 
-// How far the camera strays from its mean pose: three standard deviations of the drift, all of a recorded flight.
+// Largest deviation of the camera from its mean pose: three standard deviations of the drift, all of a recorded flight.
 std::array<double, 6> reach_of(const Scene& s) {
   const HoverParameters& hover = s.hover;
   const TailedHoverParameters& tails = s.tailed_hover;
@@ -153,7 +153,7 @@ std::array<double, 6> reach_of(const Scene& s) {
   return reach;
 }
 
-// Every motion at its reach and its worst sign at once.
+// All motions at their largest deviation and worst sign at once.
 void validate_view(const Scene& s) {
   const std::array<double, 6> reach = reach_of(s);
   double low_u = 1e18, high_u = -1e18, low_v = 1e18, high_v = -1e18;

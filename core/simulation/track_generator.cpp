@@ -40,7 +40,7 @@ TrackGenerator::TrackGenerator(const Scene& scene)
   }
 }
 
-// Magnification of a body since the first frame, less 1.
+// Magnification of a body since the first frame, minus 1.
 double TrackGenerator::grown(int body, double t_s) const noexcept {
   const auto scale = [&](double at_s) {
     const auto moved = motion_.camera().deviation(at_s);
@@ -64,8 +64,8 @@ void TrackGenerator::generate_true(const DeliveredFrame& frame, core::TrackFrame
 void TrackGenerator::generate(const DeliveredFrame& frame, core::TrackFrame& out) const {
   generate_true(frame, out);
   const TrackParameters& tracks = motion_.scene().tracks;
-  // One stream each: a change of the loss leaves the noise of the points that remain. A picture shown twice has the
-  // same noise twice.
+  // Separate streams: a change of the loss leaves the noise of the remaining points unchanged. A repeated picture has
+  // the same noise.
   RandomStream noise(motion_.scene().seed, "track_noise", frame.number);
   RandomStream loss(motion_.scene().seed, "track_loss", frame.number);
   for (std::size_t i = 0; i < out.points.size(); ++i) {

@@ -10,8 +10,8 @@
 
 namespace core::simulation {
 
-// What a tracker with the errors of TrackParameters would report: points fixed to the plates (and the background), each
-// seen at the time at which its own line is exposed. A frame is a function of (scene, frame) alone.
+// Tracks as reported by a tracker with the errors of TrackParameters: points fixed to the plates (and the background),
+// each seen at the time at which its own line is exposed. A frame is a function of (scene, frame) alone.
 class TrackGenerator {
  public:
   explicit TrackGenerator(const Scene& scene);  // throws std::invalid_argument
@@ -22,14 +22,14 @@ class TrackGenerator {
 
   [[nodiscard]] const SceneMotion& motion() const noexcept { return motion_; }
   [[nodiscard]] const std::vector<SceneRegion>& regions() const noexcept { return regions_; }  // TrackPoint::region
-  // What the points are: TrackPoint::id is an index into these.
+  // Properties of the points: TrackPoint::id is an index into these.
   struct MaterialPoint {
     int body;
     std::uint16_t region;
     PlanePoint point;       // as SceneMotion::see takes it
     double bias_u, bias_v;  // direction of the error by brightness or zoom, unit length
     double noise_px;        // rms per axis
-    double stated_px;       // what TrackPoint::sigma_px says of it
+    double stated_px;       // standard deviation stated in TrackPoint::sigma_px
   };
   [[nodiscard]] const std::vector<MaterialPoint>& points() const noexcept { return points_; }
   [[nodiscard]] FrameTiming timing() const { return FrameTiming(motion_.scene()); }  // from frame 0

@@ -15,7 +15,7 @@ struct Extent {
   double low, high;
 };
 
-// Of the four corners of a mark as frame 0 shows them, ascending.
+// Coordinates of the four corners of a mark in frame 0, ascending.
 struct Corners {
   std::array<double, 4> u, v;
   // Between the inner two: a rectangle that lies in the mark.
@@ -45,8 +45,8 @@ core::Region rectangle(Extent u, Extent v) {
   return region;
 }
 
-// The structure's axis of motion as the first frame shows it, from +u towards +v, in (-45, 135]: an
-// upright axis points down, however little the camera rolls.
+// The structure's axis of motion in the first frame, from +u towards +v, in (-45, 135]: a vertical axis points down for
+// any small roll of the camera.
 double axis_deg(const SceneMotion& motion, int body) {
   const bool along_x = motion.scene().structure.axis == StructureModel::Axis::kX;
   const ImagePoint a = motion.see(body, {0.0, 0.0}, 0.0);
@@ -57,7 +57,7 @@ double axis_deg(const SceneMotion& motion, int body) {
   return std::abs(deg) < 1e-9 ? 0.0 : deg;
 }
 
-// A plate without its rim, as wide as 12 px or a fifth of it.
+// A plate without its rim of 12 px, or of 0.22 of its shorter side if that is less.
 Mark plate_mark(const Scene& scene, int body) {
   const Plate& plate = scene.plates[static_cast<std::size_t>(body)];
   const double px_mm = (plate.z_mm - scene.camera.z_mm) / scene.camera.alpha_px;
@@ -66,7 +66,7 @@ Mark plate_mark(const Scene& scene, int body) {
   return {body, {-x, -y}, {x, y}};
 }
 
-// The camera at its mean pose without lens: what is marked does not depend on what disturbs the view.
+// Projection with the camera at its mean pose and without lens: marks do not depend on disturbances of the view.
 ImagePoint see_undisturbed(const Scene& scene, double x_mm, double y_mm, double z_mm) {
   CameraParameters camera = scene.camera;
   camera.lens = {};
@@ -75,8 +75,8 @@ ImagePoint see_undisturbed(const Scene& scene, double x_mm, double y_mm, double 
   return project(camera, pose, x_mm, y_mm, z_mm);
 }
 
-// Beside the structure, clear of it and of the image's edge: left of it where there is room, else the largest of the
-// other three sides. Width 0: no room.
+// Rectangle beside the structure, clear of it and of the image's edge: left of it if there is room, else the largest of
+// the other three sides. Width 0: no room.
 core::Region free_rectangle(const Scene& scene) {
   double low_u = 1e18, high_u = -1e18, low_v = 1e18, high_v = -1e18;
   for (const Plate& plate : scene.plates) {

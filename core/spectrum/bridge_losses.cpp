@@ -10,13 +10,13 @@ namespace core {
 namespace {
 
 constexpr std::size_t kReach =
-    16;                     // samples on either side that a prediction rests on: fewer do not tell modes from noise
-constexpr int kRounds = 4;  // of autocorrelation and prediction
-constexpr double kRidge = 1e-7;  // of the variance: keeps the equations of a pure sine solvable
+    16;                          // samples on either side used for a prediction: fewer do not separate modes from noise
+constexpr int kRounds = 4;       // iterations of autocorrelation and prediction
+constexpr double kRidge = 1e-7;  // share of the variance on the diagonal: a pure sine stays solvable
 
 using Autocorrelation = std::array<double, 2 * kReach + 1>;
 
-// The nearest seen samples on both sides of `at`, itself left out; false where they are too far apart.
+// The nearest observed samples on both sides of `at`, excluding `at` itself; false if they are too far apart.
 struct Neighbours {
   std::size_t before = 0, after = 0;
 
@@ -26,7 +26,7 @@ struct Neighbours {
                       highest = std::min(seen.size() - 1, at + kFarthest);
     for (before = at; before > lowest && (before == at || seen[before] == 0);) --before;
     for (after = at; after < highest && (after == at || seen[after] == 0);) ++after;
-    // Without the sample itself a gap is one longer.
+    // Excluding the sample itself makes a gap one sample longer.
     return before < at && after > at && seen[before] != 0 && seen[after] != 0 && after - before <= kFarthest;
   }
   [[nodiscard]] double line(std::span<const double> x, std::size_t at) const noexcept {
@@ -35,8 +35,8 @@ struct Neighbours {
   }
 };
 
-// Under a Hann window, whose own autocorrelation falls off with the square of the lag: slow motion then looks slow. Of
-// a record that exists, hence positive semidefinite.
+// Autocorrelation under a Hann window, whose own autocorrelation decreases with the square of the lag, so that slow
+// motion stays highly correlated. Computed from an actual record, hence positive semidefinite.
 Autocorrelation autocorrelation(std::span<const double> x, double mean) noexcept {
   Autocorrelation out{};
   std::array<double, 2 * kReach + 1> last{};  // of the windowed record, newest first
@@ -49,13 +49,13 @@ Autocorrelation autocorrelation(std::span<const double> x, double mean) noexcept
   return out;
 }
 
-// A sample's best linear prediction from those seen around it.
+// Best linear prediction of a sample from the observed samples around it.
 class Predictor {
  public:
   Predictor(std::span<const double> x, std::span<const std::uint8_t> seen, const Autocorrelation& r) noexcept
       : x_(x), seen_(seen), r_(r) {}
 
-  // There is a seen sample on both sides. Falls back on `line` where the equations have no solution.
+  // Requires an observed sample on both sides. Returns `line` if the equations have no solution.
   [[nodiscard]] double at(std::size_t t, double line) noexcept {
     gather(t);
     if (!factorise()) return line;
@@ -78,7 +78,7 @@ class Predictor {
       position_[n_++] = j;
     }
   }
-  // Cholesky of the covariance of the seen samples.
+  // Cholesky factor of the covariance of the observed samples.
   [[nodiscard]] bool factorise() noexcept {
     for (std::size_t i = 0; i < n_; ++i) {
       for (std::size_t k = 0; k <= i; ++k) {
@@ -90,7 +90,7 @@ class Predictor {
     }
     return n_ > 0;
   }
-  // Halfway: L^-1 b; scalar products of two such are b^T R^-1 c.
+  // Forward substitution: L^-1 b; the scalar product of two results is b^T R^-1 c.
   void solve_all() noexcept {
     for (std::array<double, kMost>& b : side_) forward(b);
     forward(value_);
@@ -106,7 +106,8 @@ class Predictor {
     for (std::size_t i = 0; i < n_; ++i) sum += a[i] * b[i];
     return sum;
   }
-  // The trend a + b (j - t) by generalised least squares, whose value at t is a, and the rest by its covariance.
+  // Estimates the trend a + b (j - t) by generalised least squares, with value a at t, and the rest from its
+  // covariance.
   [[nodiscard]] double predict(double line) const noexcept {
     const double oo = product(side_[1], side_[1]), od = product(side_[1], side_[2]), dd = product(side_[2], side_[2]);
     const double ov = product(side_[1], value_), dv = product(side_[2], value_);
@@ -134,7 +135,7 @@ double mean_of(std::span<const double> y, std::span<const std::uint8_t> held) no
   return n > 0.0 ? sum / n : 0.0;
 }
 
-// With the lost samples in y already filled in.
+// Lost samples in y are already filled in.
 Autocorrelation autocorrelation_of(std::span<double> y, std::span<const std::uint8_t> held) noexcept {
   const double mean = mean_of(y, held);
   for (std::size_t t = 0; t < y.size(); ++t) y[t] = held[t] != 0 ? y[t] : mean;

@@ -14,7 +14,7 @@ namespace core {
 namespace {
 
 constexpr double kStopbandDb = 80.0;
-constexpr double kMostMissing = 0.01;  // of the taps' absolute sum
+constexpr double kMostMissing = 0.01;  // largest share of missing taps, of the sum of all taps' absolute values
 constexpr int kMaxFactor = 1 << 16;
 
 // Kaiser's formulas (Oppenheim & Schafer, Discrete-Time Signal Processing, section 7.5).

@@ -9,12 +9,12 @@
 
 namespace core {
 
-// Same sizes; nothing allocates.
+// Both must have the same size; does not allocate.
 inline void add_sums(std::vector<std::complex<double>>& into, const std::vector<std::complex<double>>& from) noexcept {
   std::transform(into.begin(), into.end(), from.begin(), into.begin(), std::plus<>());
 }
 
-// `into` becomes the block of both. Same sizes; nothing allocates.
+// Adds `from` to `into`. Both must have the same sizes; does not allocate.
 inline void join_blocks(CpsdBlock& into, const CpsdBlock& from) noexcept {
   into.n_segments += from.n_segments;
   into.weight.join(from.weight);

@@ -8,7 +8,7 @@ namespace core {
 namespace {
 
 // Modified Bessel function of the first kind, order 0: sum over k of ((x / 2)^k / k!)^2 (Abramowitz & Stegun 9.6.12).
-// All terms are positive: nothing cancels.
+// All terms are positive, so there is no cancellation.
 double bessel_i0(double x) noexcept {
   const double quarter = 0.25 * x * x;
   double term = 1.0, sum = 1.0;

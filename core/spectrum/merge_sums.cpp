@@ -26,15 +26,15 @@ bool same_delays(const std::vector<ChannelInfo>& a, const std::vector<ChannelInf
                     [](const ChannelInfo& p, const ChannelInfo& q) { return p.row_delay_s == q.row_delay_s; });
 }
 
-// One bin of all pairs, as channels seen later_s later than wanted show it. turns[c] = exp(-i w later_s[c]).
+// Converts one bin of all pairs to earlier instants, by later_s per channel. turns[c] = exp(-i w later_s[c]).
 void turn_bin(std::complex<double>* pairs, const std::vector<std::complex<double>>& turns) {
   for (std::size_t i = 0; i < turns.size(); ++i) {
     for (std::size_t j = i; j < turns.size(); ++j) *pairs++ *= turns[i] * std::conj(turns[j]);
   }
 }
 
-// The sums as if every channel had been seen at the instants of `wanted`. Masks stay: what moves by a tenth of a sample
-// was seen or missing all the same.
+// Returns the sums as if every channel had been seen at the instants of `wanted`. Masks are unchanged: a shift of up to
+// a tenth of a sample does not change which samples are missing.
 CpsdSums with_delays_of(const RecordSums& record, const std::vector<ChannelInfo>& wanted) {
   CpsdSums sums = record.sums;
   std::vector<std::complex<double>> turns(wanted.size());
@@ -120,7 +120,7 @@ void SumOfRecords::join(const CpsdSums& record) {
   take_blocks(record);
 }
 
-// Where one record has none, the parts would not be the whole: then there are none.
+// If one record has no blocks, the blocks would not add up to the sums, and all are dropped.
 void SumOfRecords::take_blocks(const CpsdSums& record) {
   whole_ = whole_ && (record.n_blocks > 0 || record.n_segments == 0);
   if (whole_) {
@@ -131,7 +131,7 @@ void SumOfRecords::take_blocks(const CpsdSums& record) {
   total_.sums.n_blocks = total_.sums.blocks.size();
 }
 
-// A block goes where its middle lies in the whole.
+// A block is added at the position of its middle in the whole record.
 void SumOfRecords::add_blocks(const CpsdSums& sums) {
   for (std::size_t b = 0; b < sums.n_blocks; ++b) {
     const CpsdBlock& block = sums.blocks[b];

@@ -9,27 +9,27 @@ namespace {
 
 using Channel = OutlierGate::Channel;
 
-// Seven eighths of the departures in memory are smaller than the scale: a vibration's own peaks are 1.4 of it, and a
-// few outliers in memory do not move it.
+// The scale exceeds seven eighths of the departures in memory: the peaks of a vibration are 1.4 times the scale, and a
+// few outliers in memory hardly change it.
 constexpr std::uint32_t kScaleShare = 8;
 constexpr double kFar = 16.0;
 constexpr std::uint32_t kLeastDepartures = 16;
-// Of the outlier's own departure: a sample this near to where the earlier ones lead has returned.
+// Share of the outlier's departure within which the next sample must return to the extrapolation of the earlier ones.
 constexpr double kReturned = 0.25;
-// The line through two samples, two steps further on, errs by three second differences: six departures, and more where
-// a vibration is just then larger than most of the time.
+// The line through two samples, extrapolated by two steps, errs by three second differences, i.e. six departures, and
+// by more where the vibration is momentarily larger than usual.
 constexpr double kExtrapolation = 9.0;
-// Neighbours farther apart than this share of the departure, and than this many times what nearly all in memory were,
-// do not lie beside an outlier.
+// The neighbours of an outlier differ by less than this share of the departure, or by less than this multiple of the
+// usual difference in memory.
 constexpr double kApart = 0.55, kUsualStep = 2.0;
-// Samples: what departs again so soon after motion that departed far is motion.
+// In samples. A departure so soon after another large departure (not an outlier) is taken as motion.
 constexpr std::uint32_t kMotion = 16;
-// ... and so soon after an outlier: it vibrates.
+// ... and so is one so soon after an outlier: the channel vibrates.
 constexpr std::uint32_t kSuccession = 4;
 
 bool can_judge(const Channel& channel) noexcept { return channel.n_departures >= kLeastDepartures; }
 
-// Does at least an eighth of the memory reach `size`?
+// True if at least an eighth of the memory reaches `size`.
 bool reaches(const std::array<double, OutlierGate::kMemory>& memory, std::uint32_t n_known, double size) noexcept {
   const std::uint32_t wanted = n_known / kScaleShare;
   std::uint32_t n = 0;
@@ -43,7 +43,7 @@ bool is_usual_step(const Channel& channel, double step) noexcept {
   return reaches(channel.step, channel.n_departures, step / kUsualStep);
 }
 
-// A channel that hardly ever moves (quantised, at rest) has no scale: nothing of it is called an outlier.
+// A channel that hardly moves (quantised, static) has no scale: none of its samples is an outlier.
 bool has_scale(const Channel& channel) noexcept { return is_usual(channel, 1e-300); }
 
 bool is_far(const Channel& channel, double departure) noexcept {
@@ -73,7 +73,7 @@ void append(Channel& channel, double value) noexcept {
 
 bool is_motion(const Channel& c) noexcept { return c.n_since_far <= kMotion || c.n_since_outlier <= kSuccession; }
 
-// Is `value`, the sample after one that departs far, where the two before lead to?
+// True if `value`, the sample after a large departure, lies where the two samples before it lead to.
 bool is_back(const Channel& c, double value, double departure) noexcept {
   const double step = std::abs(value - c.last[1]), size = std::abs(departure);
   if (step > kApart * size && !is_usual_step(c, step)) return false;
@@ -81,7 +81,7 @@ bool is_back(const Channel& c, double value, double departure) noexcept {
   return away <= kReturned * size || is_usual(c, away / kExtrapolation);
 }
 
-// The sample before an outlier departs far only because of it: it counts as motion once the next is judged.
+// The sample before an outlier departs far only because of it: it counts as motion only after the next was classified.
 void note_motion(Channel& c, bool departs_far, bool is_outlier) noexcept {
   c.n_since_far = std::min<std::uint32_t>(c.n_since_far + 1, OutlierGate::kMemory);
   if (c.is_last_far != 0 && !is_outlier) c.n_since_far = 0;
@@ -89,7 +89,7 @@ void note_motion(Channel& c, bool departs_far, bool is_outlier) noexcept {
   c.n_since_outlier = is_outlier ? 0 : std::min<std::uint32_t>(c.n_since_outlier + 1, OutlierGate::kMemory);
 }
 
-// Of the newest sample from the line through the two before it, in departures from the line between neighbours.
+// Departure of the newest sample from the line through the two before it, in units of departures between neighbours.
 double departure_from_past(const Channel& channel) noexcept {
   return 0.5 * (channel.last[2] - 2.0 * channel.last[1] + channel.last[0]);
 }
@@ -104,7 +104,7 @@ bool OutlierGate::is_doubtful(std::size_t channel) const noexcept {
 bool OutlierGate::push(std::size_t channel, double value, bool seen) noexcept {
   Channel& c = channels_[channel];
   if (!seen || !std::isfinite(value)) {
-    // Nothing will confirm a sample before a gap.
+    // No later sample can confirm a sample before a gap.
     const bool is_outlier = is_doubtful(channel) && !is_motion(c);
     c.n_last = 0;
     return is_outlier;
@@ -119,7 +119,7 @@ bool OutlierGate::push(std::size_t channel, double value, bool seen) noexcept {
     note_motion(c, departs_far, is_outlier);
     if (is_outlier) {
       middle = line;
-      replace_newest(c, c.last[1] - 0.5 * (c.last[0] + line));  // measured from the outlier before
+      replace_newest(c, c.last[1] - 0.5 * (c.last[0] + line));  // relative to the replaced outlier before
     }
     note(c, departure, step);
   }

@@ -17,7 +17,7 @@ using Complex = std::complex<double>;
 
 Complex unit_root(int k, int n) { return std::polar(1.0, -2.0 * std::numbers::pi * k / n); }
 
-// Real and imaginary parts apart.
+// Real and imaginary parts in separate arrays.
 struct Points {
   const double *re, *im;
 };
@@ -29,7 +29,7 @@ struct Twiddles {
   Twiddles(const double* w, int n) : w1r(w[0]), w1i(w[n]), w2r(w[2 * n]), w2i(w[3 * n]), w3r(w[4 * n]), w3i(w[5 * n]) {}
 };
 
-// In at +0, +quarter, +2 quarter, +3 quarter; out at +0, +step, +2 step, +3 step.
+// Reads at +0, +quarter, +2 quarter, +3 quarter; writes at +0, +step, +2 step, +3 step.
 [[gnu::always_inline]] inline void butterfly(const double* __restrict fr, const double* __restrict fi,
                                              double* __restrict tr, double* __restrict ti, int quarter, int step,
                                              const Twiddles& w) {
@@ -50,7 +50,7 @@ struct Twiddles {
   ti[3 * step] = w.w3r * ci + w.w3i * cr;
 }
 
-// `count` neighbours with one set of twiddles.
+// `count` adjacent butterflies with one set of twiddles.
 [[gnu::always_inline]] inline void butterflies(const double* __restrict fr, const double* __restrict fi,
                                                double* __restrict tr, double* __restrict ti, int quarter, int count,
                                                const Twiddles& w) {
@@ -61,7 +61,7 @@ struct Twiddles {
 
 namespace fft_kernels {
 
-// Of stride 1: every butterfly with its own twiddles.
+// Stride 1: every butterfly has its own twiddles.
 HOVERMODAL_VECTOR_CLONES
 void first_pass(const double* __restrict fr, const double* __restrict fi, double* __restrict tr, double* __restrict ti,
                 int quarter, const double* __restrict w) {
@@ -96,7 +96,7 @@ void pass_of_two(const double* __restrict fr, const double* __restrict fi, doubl
   }
 }
 
-// Of the transform z of x[2 k] + i x[2 k + 1], k = 1 .. half - 1.
+// Spectrum of x from the transform z of x[2 k] + i x[2 k + 1], k = 1 .. half - 1.
 HOVERMODAL_VECTOR_CLONES
 void untangle(const double* __restrict re, const double* __restrict im, Points unit, int half,
               double* __restrict spectrum) {
@@ -108,7 +108,7 @@ void untangle(const double* __restrict re, const double* __restrict im, Points u
   }
 }
 
-// Its inverse, conjugated: the inverse transform is the forward one between two conjugations. k = 0 .. half - 1.
+// Its inverse, conjugated: the inverse is the forward transform between two conjugations. k = 0 .. half - 1.
 HOVERMODAL_VECTOR_CLONES
 void tangle(const double* __restrict spectrum, Points unit, int half, double* __restrict re, double* __restrict im) {
   for (int k = 0; k < half; ++k) {
@@ -184,7 +184,7 @@ void RealFft::forward(std::span<const double> x, std::span<Complex> spectrum) no
   transform_half();
   spectrum[0] = re_[0] + im_[0];
   spectrum[half] = re_[0] - im_[0];
-  // std::complex<double> is an array of two doubles ([complex.numbers.general]).
+  // std::complex<double> has the layout of two doubles ([complex.numbers.general]).
   fft_kernels::untangle(re_.data(), im_.data(), {unit_re_.data(), unit_im_.data()}, half_,
                         reinterpret_cast<double*>(spectrum.data()));
 }

@@ -8,7 +8,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Indices of the pairs kept, in the order in which the smaller sums have them.
+// Indices of the pairs kept, in the order of the smaller sums.
 std::vector<std::size_t> kept_pairs(int n_channels, const std::vector<std::size_t>& keep) {
   std::vector<std::size_t> pairs;
   for (std::size_t i = 0; i < keep.size(); ++i) {

@@ -6,9 +6,9 @@
 
 namespace core {
 
-// Puts time-stamped samples onto the uniform grid that spectra need: cell = round((t - t0) * rate). A sample that is
-// not one cell after its predecessor indicates lost samples (cells to be masked) or a surplus one. Stamps that jitter
-// by less than half a cell keep their order; the jitter is measured and reported, not corrected.
+// Maps time-stamped samples to the uniform grid that spectra need: cell = round((t - t0) * rate). A sample that is not
+// one cell after its predecessor indicates lost samples (cells to be masked) or a surplus one. Stamps that jitter by
+// less than half a cell keep their order; the jitter is measured and reported, but not corrected.
 class TimeGrid {
  public:
   struct Placement {
@@ -20,9 +20,9 @@ class TimeGrid {
   explicit TimeGrid(double rate_hz) noexcept : rate_hz_(rate_hz) {}
 
   [[nodiscard]] Placement place(std::int64_t t_ns) noexcept;
-  // Resumes from the last cell; the clock behind the stamps has continued, too.
+  // restore() resumes at the last cell; the clock of the stamps has continued meanwhile.
   void save(StateWriter& out) const noexcept;
-  void restore(StateReader& in) noexcept;  // a place that cannot be makes `in` not ok
+  void restore(StateReader& in) noexcept;  // sets `in` to not ok if the state is invalid
 
   [[nodiscard]] std::int64_t last_cell() const noexcept { return last_cell_; }
   [[nodiscard]] std::uint64_t n_refused() const noexcept { return n_refused_; }

@@ -1,4 +1,4 @@
-// The parts of the record that are summed apart, and what is forgotten.
+// WelchCpsd: blocks for variance estimates, and forgetting.
 #include <algorithm>
 #include <utility>
 
@@ -40,7 +40,7 @@ void WelchCpsd::make_room() noexcept {
   segments_per_block_ *= 2;
 }
 
-// The block that takes the next segment is the last in use.
+// The last block in use receives the next segment.
 CpsdBlock& WelchCpsd::current_block() noexcept {
   std::vector<CpsdBlock>& blocks = sums_.blocks;
   if (sums_.n_blocks > 0 && blocks[sums_.n_blocks - 1].n_segments < segments_per_block_)

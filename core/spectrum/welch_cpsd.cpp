@@ -36,7 +36,7 @@ int padded_length(const WelchConfig& config) {
 
 namespace welch_kernels {
 
-// x_i conj(x_j) of all channels i <= j onto `sum`. by_real: re x, -im x; by_imaginary: im x, re x, channel by channel.
+// Adds x_i conj(x_j), i <= j, to `sum`. by_real: re x, -im x; by_imaginary: im x, re x; channel by channel.
 HOVERMODAL_VECTOR_CLONES
 void add_outer_product(const double* __restrict by_real, const double* __restrict by_imaginary, int n_channels,
                        double* __restrict sum) {
@@ -78,7 +78,7 @@ WelchCpsd::WelchCpsd(const WelchConfig& config)
   hop_ = std::max(1, config.segment - static_cast<int>(std::floor(config.segment * config.overlap)));
   window_ = make_window(config.window, config.segment);
   if (config.forget_s > 0.0) {
-    const double hops = config.forget_s * config.rate_hz / hop_;  // that it remembers
+    const double hops = config.forget_s * config.rate_hz / hop_;  // within the time constant of forgetting
     kept_per_hop_ = std::exp(-1.0 / hops);
     const double per_block = std::clamp(2.0 * hops / std::max(1, config.n_blocks), 1.0, 1e15);
     most_segments_per_block_ = static_cast<std::uint64_t>(std::ceil(per_block));
@@ -126,7 +126,7 @@ void WelchCpsd::put(std::size_t first, std::span<const double> value, std::span<
   }
 }
 
-// Before the newest sample is counted as filled: the one before it is the last that is.
+// Called before the newest sample is counted: n_filled_ - 1 is the sample before it.
 void WelchCpsd::gate(std::size_t channel, double value, bool valid) noexcept {
   if (!config_.gate_outliers || !gate_.push(channel, value, valid)) return;
   ++sums_.n_outlying[channel];
@@ -198,7 +198,7 @@ void WelchCpsd::restore_doubtful() noexcept {
   }
 }
 
-// Nothing will confirm the last sample.
+// No later sample can confirm the last one.
 void WelchCpsd::flush() noexcept {
   for (std::size_t c = 0; c < is_aside_.size(); ++c) gate(c, 0.0, false);
   if (n_new_ == 0) return;
@@ -281,7 +281,7 @@ void WelchCpsd::add_products(bool one_mask, std::vector<Complex>& data_sum, std:
       by_imaginary_[2 * c] = x.imag();
       by_imaginary_[2 * c + 1] = x.real();
     }
-    // std::complex<double> is an array of two doubles ([complex.numbers.general]).
+    // std::complex<double> has the layout of two doubles ([complex.numbers.general]).
     welch_kernels::add_outer_product(by_real_.data(), by_imaginary_.data(), config_.n_channels,
                                      reinterpret_cast<double*>(sums.data() + k * pairs));
   };

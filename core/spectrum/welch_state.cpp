@@ -20,7 +20,7 @@ bool is_finite(const CpsdBlock& block) noexcept {
 }
 }  // namespace
 
-// What fixes the sizes comes first, so that another configuration is found out before anything is taken.
+// Fields that determine sizes come first, so that another configuration is detected before anything is restored.
 template <class Archive, class Self>
 void WelchCpsd::describe(Archive& archive, Self& self) noexcept {
   auto& sums = self.sums_;
@@ -79,7 +79,7 @@ bool WelchCpsd::restore(StateReader& in) noexcept {
   return false;
 }
 
-// Indices and numbers that later steps trust.
+// Checks indices and numbers on which later steps rely.
 bool WelchCpsd::is_consistent() const noexcept {
   const bool has_numbers =
       is_finite(sums_.data_sum) && is_finite(sums_.mask_sum) &&

@@ -18,7 +18,7 @@ enum class WindowKind : std::uint8_t { kHann, kHamming, kBoxcar };
   return std::nullopt;
 }
 
-// Periodic ("DFT-even") windows, as scipy.signal.get_window gives them.
+// Periodic ("DFT-even") windows, as in scipy.signal.get_window.
 [[nodiscard]] inline std::vector<double> make_window(WindowKind kind, int n) {
   std::vector<double> window(static_cast<std::size_t>(n), 1.0);
   if (kind == WindowKind::kBoxcar) return window;

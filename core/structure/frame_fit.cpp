@@ -20,7 +20,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kIterations = 60;
 
 struct Bounds {
-  VectorXd low, high, step;  // step of differences
+  VectorXd low, high, step;  // step: of numerical derivatives
 };
 
 Bounds bounds_of(const FrameModel& model) {
@@ -93,7 +93,7 @@ class Problem {
     return true;
   }
 
-  // From p on; false where p itself is no frame.
+  // Minimises from p on; false if p does not give a frame.
   [[nodiscard]] bool minimise(FrameFit& fit, VectorXd p) const {
     p = p.cwiseMax(bounds_.low).cwiseMin(bounds_.high);
     VectorXd r;
@@ -113,11 +113,11 @@ class Problem {
   }
 
  private:
-  // One step that lowers the squares; false where there is none worth taking.
+  // One step that reduces the squares; false if there is no significant one.
   bool improve(const MatrixXd& j, VectorXd& p, VectorXd& r, Damping& damping) const {
     const VectorXd gradient = j.transpose() * r;
     MatrixXd normal = j.transpose() * j;
-    for (Index k = 0; k < p.size(); ++k) {  // what stands at a bound and would leave it stays
+    for (Index k = 0; k < p.size(); ++k) {  // a parameter at its bound that would leave it stays
       const bool held = (p(k) <= bounds_.low(k) && gradient(k) > 0.0) || (p(k) >= bounds_.high(k) && gradient(k) < 0.0);
       if (!held && normal(k, k) > 0.0) continue;
       normal.row(k).setZero();
@@ -149,7 +149,7 @@ class Problem {
   bool with_shapes_;
 };
 
-// Where a fit of the whole begins: ln(stiffness over mass) from the lowest reference mode of the plain frame.
+// Initial ln(stiffness over mass), from the lowest reference mode and the plain frame.
 double first_scale(const FrameModel& model, const std::vector<ReferenceMode>& reference) {
   const auto modes = frame_modes(uniform_frame(*model.declared, 1.0), false);
   if (!modes) return 0.0;
@@ -158,7 +158,7 @@ double first_scale(const FrameModel& model, const std::vector<ReferenceMode>& re
   return 2.0 * sum / static_cast<double>(reference.size());
 }
 
-// All combinations of the last effect's starts, behind what is known of the others.
+// All combinations of initial values of the last effect, appended to the known values of the others.
 std::vector<VectorXd> starts_of(const FrameModel& model, const std::vector<ReferenceMode>& reference,
                                 const VectorXd& before) {
   const Index n = model.n_parameters();
@@ -274,7 +274,7 @@ VectorXd parameter_sigmas(const FrameFit& fit) {
   const Index n = fit.parameters.size();
   VectorXd out = VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
   if (!fit.ok || n == 0) return out;
-  VectorXd size(n);  // unit columns: parameters differ by orders of magnitude
+  VectorXd size(n);  // columns scaled to unit norm: parameters differ by orders of magnitude
   for (Index k = 0; k < n; ++k) size(k) = fit.jacobian.col(k).norm();
   if (!(size.minCoeff() > 0.0)) return out;
   const MatrixXd scaled = fit.jacobian * size.cwiseInverse().asDiagonal();
@@ -286,7 +286,7 @@ VectorXd parameter_sigmas(const FrameFit& fit) {
 }
 
 double chi2_limit(double degrees_of_freedom) {
-  constexpr double kNormal = 2.748;  // exceeded with probability 0.003
+  constexpr double kNormal = 2.748;  // normal quantile exceeded with probability 0.003
   const double part = 2.0 / (9.0 * degrees_of_freedom);
   return degrees_of_freedom * std::pow(1.0 - part + kNormal * std::sqrt(part), 3);
 }

@@ -9,18 +9,18 @@
 namespace core::structure {
 
 // A shear frame with effects, to be fitted to reference modes. Parameters: ln(stiffness over mass) unless declared,
-// then those of the effects in their order. Borrows all of them.
+// then those of the effects in their order. Borrows all members.
 struct FrameModel {
   const DeclaredFrame* declared = nullptr;
   std::vector<const StructuralEffect*> effects;
 
   [[nodiscard]] Eigen::Index n_scale() const noexcept { return declared->stiffness_over_mass_per_s2 ? 0 : 1; }
   [[nodiscard]] Eigen::Index n_parameters() const;
-  // The parameters of one effect within all.
+  // Parameters of one effect, from the vector of all parameters.
   [[nodiscard]] std::vector<double> of_effect(std::size_t i_effect, const Eigen::VectorXd& parameters) const;
 };
 
-// The frame as declared; ratio 1 means `stiffness_over_mass_per_s2`.
+// The frame as declared, with `stiffness_over_mass_per_s2` for ratio 1.
 [[nodiscard]] ShearFrame uniform_frame(const DeclaredFrame& declared, double stiffness_over_mass_per_s2);
 [[nodiscard]] ShearFrame frame_of(const FrameModel& model, const Eigen::VectorXd& parameters);
 // Modes as observed; empty if the frame has none.
@@ -28,24 +28,24 @@ struct FrameModel {
                                                    bool with_shapes);
 
 struct FrameFit {
-  bool ok = false;             // false: no parameters give a frame, or none start within bounds
+  bool ok = false;             // false: no parameters give a frame, or no initial value lies within bounds
   Eigen::VectorXd parameters;  // within the effects' bounds
   double chi2 = 0.0;           // sum of squared residuals in units of the reference's sigmas
   Eigen::Index n_data = 0;
   Eigen::MatrixXd jacobian;  // of those residuals; n_data x parameters
 };
 
-enum class Starts { kAll, kBest };  // start at each effect's every start, or at the one that fits best
+enum class Starts { kAll, kBest };  // initial values: all of each effect, or the best-fitting one
 
-// Least squares by Levenberg-Marquardt with bounds (Nocedal & Wright 10.3, 16.7), residuals: relative error of every
-// reference frequency over its sigma, and each shape's components, at its best scale, over theirs. Initial values: the
-// starts of the last effect, `before` for all others (from the model without the last effect), or `before` alone if it
-// has all parameters. `without`: index in `reference` that is held out; -1 none.
+// Least squares by Levenberg-Marquardt with bounds (Nocedal & Wright 10.3, 16.7). Residuals: relative error of every
+// reference frequency over its sigma, and each shape's components, at the best scale, over their sigmas. Initial
+// values: those of the last effect, and `before` for all others (from the model without the last effect), or `before`
+// alone if it has all parameters. `without`: index in `reference` that is held out; -1 none.
 [[nodiscard]] FrameFit fit_frame(const FrameModel& model, const std::vector<ReferenceMode>& reference,
                                  const Eigen::VectorXd& before, Starts starts, int without = -1);
 
-// Cross-validation: each reference mode predicted by a fit to all others, whose frequencies alone must determine its
-// parameters: shapes help, but their sigmas are often assumed.
+// Cross-validation: each reference mode is predicted by a fit to all others. The frequencies of these alone must
+// determine the parameters: shapes help, but their sigmas are often assumed.
 struct LeaveOneOut {
   std::vector<double> relative_error;  // of the frequency, per reference mode; empty: too few modes
   double chi2 = 0.0;                   // of frequencies and shapes
@@ -57,7 +57,7 @@ struct LeaveOneOut {
 // Standard deviations of the parameters; NaN at a bound or if the data do not determine one.
 [[nodiscard]] Eigen::VectorXd parameter_sigmas(const FrameFit& fit);
 
-// The 99.7 % level of chi-square with that many degrees of freedom (Wilson & Hilferty 1931).
+// The 99.7 % level of chi-square with these degrees of freedom (Wilson & Hilferty 1931).
 [[nodiscard]] double chi2_limit(double degrees_of_freedom);
 
 }  // namespace core::structure

@@ -27,8 +27,8 @@ void add_storeys(MatrixXd& k, const VectorXd& storey) {
   }
 }
 
-// Columns clamped into turning floors: the beam element's coupling of displacement and rotation, shear stiffness 12 E I
-// / h^3, rotations in units of displacement / h; with rotations condensed, K_uu - f K_ut (f K_tt + C)^-1 K_tu.
+// Columns clamped into rotating floors: the beam element's coupling of displacement and rotation, shear stiffness 12 E
+// I / h^3, rotations in units of displacement / h; with rotations condensed, K_uu - f K_ut (f K_tt + C)^-1 K_tu.
 void soften_joints(MatrixXd& k, const VectorXd& storey, double mean, double flexibility) {
   const Index n = k.rows();
   MatrixXd coupling = MatrixXd::Zero(n, n), turning = MatrixXd::Zero(n, n);
@@ -48,7 +48,7 @@ void soften_joints(MatrixXd& k, const VectorXd& storey, double mean, double flex
   k -= flexibility * coupling * joints.llt().solve(coupling.transpose());
 }
 
-// In series with k: flexibilities add.
+// In series with k: flexibilities are added.
 void add_flexibility(MatrixXd& k, double rocking, double bending, double mean) {
   const Index n = k.rows();
   MatrixXd flexibility = k.llt().solve(MatrixXd::Identity(n, n));

@@ -7,9 +7,9 @@
 namespace core::structure {
 
 // Rigid floors of equal height on columns in shear, fixed at the ground (Chopra, Dynamics of Structures, 9.1), and
-// departures from it. Frequencies determine only ratios of stiffness and mass: masses are relative, stiffness is in
+// departures from it. Frequencies determine only ratios of stiffness and mass: masses are relative; stiffness is in
 // units of 1/s^2 times a relative mass. Lowest storey first. Flexibilities are relative to the mean storey stiffness k,
-// heights h are the storey's: 0 is the ideal shear frame.
+// heights h are storey heights: 0 is the ideal shear frame.
 struct ShearFrame {
   std::vector<double> mass;
   std::vector<double> stiffness_per_s2;  // of the columns below that floor
@@ -33,11 +33,11 @@ struct FrameModes {
 // positive, flexibilities >= 0.
 [[nodiscard]] Eigen::MatrixXd stiffness_per_s2(const ShearFrame& frame);
 
-// Empty if the frame has no stiffness left: gravity buckles it, or its numbers are not finite.
+// Empty if the frame has no stiffness left (gravity buckles it), or if values are not finite.
 [[nodiscard]] std::optional<FrameModes> frame_modes(const ShearFrame& frame, bool with_shapes);
 
-// P-delta coefficient of the ground storey: the weight above over its height, relative to the stiffness of its
-// columns. Eurocode 8 (4.4.2.2) allows no structure above 0.3; at 1 it buckles.
+// P-delta coefficient of the ground storey: the weight above over its height, relative to the stiffness of its columns.
+// Eurocode 8 (4.4.2.2) limits it to 0.3; at 1 the structure buckles.
 [[nodiscard]] double stability_coefficient(const ShearFrame& frame);
 
 }  // namespace core::structure

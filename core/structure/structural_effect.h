@@ -13,17 +13,17 @@ namespace core::structure {
 
 struct EffectParameter {
   std::string name, unit;
-  double neutral = 0.0;          // without the effect
-  std::vector<double> starts;    // initial values of the fit; the best result counts
-  double low = 0.0, high = 0.0;  // the fit stays within
+  double neutral = 0.0;          // value without the effect
+  std::vector<double> starts;    // initial values of the fit; the best result is used
+  double low = 0.0, high = 0.0;  // bounds of the fit
 };
 
 struct Obstacle {
-  std::string reason;   // why it is not observable
+  std::string reason;   // why the effect is not observable
   std::string instead;  // what would make it observable
 };
 
-// One physical cause that a shear frame lacks: one file and one line in effects/catalogue.h. Stateless.
+// One physical cause that may be missing in a shear frame: one file and one line in effects/catalogue.h. Stateless.
 class StructuralEffect {
  public:
   StructuralEffect() = default;
@@ -32,7 +32,7 @@ class StructuralEffect {
   virtual ~StructuralEffect() = default;
 
   [[nodiscard]] virtual std::string_view name() const = 0;
-  // May be none, if the declaration gives them.
+  // May be empty, if the declaration gives all values.
   [[nodiscard]] virtual std::vector<EffectParameter> parameters(const DeclaredFrame& declared) const = 0;
   // Empty: observable in frequencies and shapes of such a frame.
   [[nodiscard]] virtual std::optional<Obstacle> obstacle(const DeclaredFrame& declared) const = 0;
@@ -43,10 +43,10 @@ class StructuralEffect {
                                        const DeclaredFrame&) const {
     return frequency_hz;
   }
-  // Empty if the fitted values are plausible; else why not. `frame` is the fitted one with all effects.
+  // Empty if the fitted values are plausible; else the reason why not. `frame` is the fitted one with all effects.
   [[nodiscard]] virtual std::string implausible(std::span<const double> parameters, const DeclaredFrame& declared,
                                                 const ShearFrame& frame) const = 0;
-  // What the parameters imply, for a reader: "a storey height of 118 mm". May be empty.
+  // Implication of the parameters for a reader: "a storey height of 118 mm". May be empty.
   [[nodiscard]] virtual std::string meaning(std::span<const double> /*parameters*/, const DeclaredFrame&) const {
     return {};
   }

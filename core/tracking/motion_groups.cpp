@@ -12,13 +12,13 @@
 namespace core {
 namespace {
 
-// What covers more of the picture than this is no structure's part.
+// The static group covers at least this share of the picture; no part of a structure is taken to cover so much.
 constexpr double kLeastRestShare = 0.12;
-constexpr int kCells = 24;  // across the picture's longer side, for the share that a group covers
+constexpr int kCells = 24;  // cells along the picture's longer side, to measure the share that a group covers
 
 using Series = std::vector<Vector2>;
 
-// Minus the mean over the frames within half a window.
+// Removes the moving mean over half a window on either side.
 Series without_slow(const Series& motion, std::size_t half) {
   const std::size_t n = motion.size();
   Series sums(n + 1);
@@ -42,7 +42,7 @@ double mean_square_difference(const Series& a, const Series& b) {
   return a.empty() ? 0.0 : sum / static_cast<double>(a.size());
 }
 
-// Points by place, for neighbours.
+// Points sorted by position, to find neighbours.
 class Neighbours {
  public:
   Neighbours(const std::vector<SurveyedPoint>& points, double reach_px) : points_(points), reach_px_(reach_px) {
@@ -72,7 +72,7 @@ class Neighbours {
   std::map<std::pair<int, int>, std::vector<std::size_t>> cells_;
 };
 
-// Of a position, both axes together.
+// Variance of a position, both axes together.
 double variance_px2(const SurveyedPoint& point, const MotionGroupConfig& config) {
   const double sigma = std::max(point.sigma_px, config.least_sigma_px);
   return 2.0 * sigma * sigma;
@@ -91,7 +91,8 @@ class Sets {
   std::vector<std::size_t> parent_;
 };
 
-// Neighbours that may be joined and move together. share: of what both move by, 0 where nothing is known to rest.
+// Groups neighbouring points that move together. share: tolerance relative to their motion; 0 if no static group is
+// known.
 std::vector<MotionGroup> joined(const std::vector<SurveyedPoint>& points, const std::vector<Series>& fast,
                                 const std::vector<bool>& may, double share, const MotionGroupConfig& config) {
   Sets sets(points.size());
@@ -129,7 +130,7 @@ double covered_share(const MotionGroup& group, const std::vector<SurveyedPoint>&
   return static_cast<double>(cells.size()) / all;
 }
 
-// Takes the similarity that the group's motion shows, frame by frame, out of all points' motion.
+// Removes the similarity given by the group's motion from the motion of all points, frame by frame.
 void take_out_camera(const MotionGroup& rest, const std::vector<SurveyedPoint>& points, std::vector<Series>& fast) {
   const std::size_t n_frames = fast.front().size();
   const auto all = [](std::size_t) { return true; };
@@ -149,9 +150,9 @@ void take_out_camera(const MotionGroup& rest, const std::vector<SurveyedPoint>& 
   }
 }
 
-// Frees all motion from the camera's, as the group shows it. A structure stands on something: where its motion fades
-// out towards what rests, neighbours join it to the group, so members that move are left out, twice. Returns what a
-// member moves by then, the median.
+// Removes the camera's motion, as shown by the group, from all motion. Where a structure's motion decreases towards its
+// static support, points of the structure join the group as neighbours; members that move are therefore excluded, in
+// three rounds. Returns the median motion of a member that remains.
 double free_from_camera(MotionGroup rest, const std::vector<SurveyedPoint>& points, std::vector<Series>& fast) {
   constexpr int kRounds = 3;
   double still = 0.0;
@@ -184,7 +185,7 @@ MotionGroups group_by_motion(const std::vector<SurveyedPoint>& points, double ra
   const auto half = static_cast<std::size_t>(std::max(2.0, std::round(0.5 * config.slow_s * rate_hz)));
   for (const SurveyedPoint& point : points) out.fast_motion.push_back(without_slow(point.motion, half));
   std::vector<bool> may(points.size(), true);
-  // By noise alone what moves together comes out in pieces; what rests does not move, whatever it is compared with.
+  // With noise as the only tolerance, moving parts split into pieces; static points stay together.
   out.groups = joined(points, out.fast_motion, may, 0.0, config);
   const auto covers_more = [&](const MotionGroup& a, const MotionGroup& b) {
     return covered_share(a, points, width_px, height_px) < covered_share(b, points, width_px, height_px);

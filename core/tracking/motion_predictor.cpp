@@ -6,9 +6,9 @@ namespace core {
 
 namespace {
 
-constexpr double kErrorsKept = 0.9, kEquationsKept = 0.97;  // of the past, a frame
-constexpr double kRidge_px2 = 0.01;                         // steps below a tenth of a px teach nothing
-constexpr double kClearlyBetter = 0.5;  // than staying: after a jump nothing is known, and all rules erred alike
+constexpr double kErrorsKept = 0.9, kEquationsKept = 0.97;  // share of the past that is kept per frame
+constexpr double kRidge_px2 = 0.01;                         // steps below a tenth of a px have little weight
+constexpr double kClearlyBetter = 0.5;  // error relative to hold: after a jump all rules fail alike, and hold is used
 constexpr double kMostStep_px = 100.0;
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace core {
 namespace {
 
-// Along the axis of the part.
+// Motion along the axis of the part.
 Eigen::VectorXd along_axis(const MovingPart& part) {
   const double angle = part.proposed.region.axis_deg * std::numbers::pi / 180.0;
   Eigen::VectorXd out(static_cast<Eigen::Index>(part.motion.size()));
@@ -22,7 +22,7 @@ Eigen::VectorXd along_axis(const MovingPart& part) {
 
 void rate_parts(std::vector<MovingPart>& parts) {
   constexpr Eigen::Index kModes = 3;
-  constexpr double kHalf = 10.0;  // motion over noise at which a part counts half
+  constexpr double kHalf = 10.0;  // ratio of motion to noise at which a part has half weight
   const auto n = static_cast<Eigen::Index>(parts.size());
   if (n == 0) return;
   Eigen::MatrixXd motion(static_cast<Eigen::Index>(parts.front().motion.size()), n);
@@ -44,7 +44,7 @@ void rate_parts(std::vector<MovingPart>& parts) {
 }
 
 double unlike(const MovingPart& a, const MovingPart& b) {
-  constexpr double kLeast = 0.05;  // a second region on the same part is still worth something
+  constexpr double kLeast = 0.05;  // a second region on the same part keeps some value
   const Eigen::VectorXd x = along_axis(a), y = along_axis(b);
   const double all = x.norm() + y.norm();
   return all > 0.0 ? std::clamp((x - y).norm() / all, kLeast, 1.0) : kLeast;

@@ -7,19 +7,19 @@
 
 namespace core {
 
-// A part that was found, with its motion.
+// A moving part of the picture, with its motion.
 struct MovingPart {
   ProposedRegion proposed;
   std::vector<Vector2> motion;  // px, one per frame
-  double merit = 0.0;           // how much it moves like a structure: see rate_parts
+  double merit = 0.0;           // similarity of its motion to that of a structure: see rate_parts
 };
 
-// A structure moves in a few ways, its modes: the motion of its parts along their axes, each of unit rms, has a few large
-// principal components. Sets proposed.shared, the share of a part's motion that the three largest explain, and merit:
-// that share, less where the motion hardly exceeds the part's noise. The parts have equally many frames.
+// A structure moves in a few modes: the motion of its parts along their axes, each normalised to unit rms, has a few
+// large principal components. Sets proposed.shared, the share of a part's motion that the three largest explain, and
+// merit: that share, reduced if the motion hardly exceeds the part's noise. All parts have equally many frames.
 void rate_parts(std::vector<MovingPart>& parts);
 
-// 0.05 (they move alike) ... 1: how much of the motion of either is not the other's.
+// Dissimilarity of two motions: 0.05 (they move alike) ... 1.
 [[nodiscard]] double unlike(const MovingPart& a, const MovingPart& b);
 
 }  // namespace core

@@ -14,13 +14,13 @@ double squared_distance(const Vector2& a, const Vector2& b) noexcept {
   return (a.u - b.u) * (a.u - b.u) + (a.v - b.v) * (a.v - b.v);
 }
 
-// Log-likelihood of all valid points under one hypothesis, with the inlier share that explains them best.
+// Log-likelihood of all valid points under one hypothesis, with the inlier share that maximises it.
 double log_likelihood(std::span<const Vector2> motion, std::span<const std::uint8_t> valid, const Vector2& centre,
                       const MlesacConfig& config) noexcept {
   const double inverse_2s2 = 0.5 / (config.sigma_px * config.sigma_px);
   const double peak = inverse_2s2 / std::numbers::pi;
   const double outlier = 1.0 / (config.spread_px * config.spread_px);
-  // The exponentials are most of the work and do not change with the share.
+  // The exponentials take most of the time and do not depend on the share, so they are kept.
   constexpr std::size_t kKept = 128;
   std::array<double, kKept> kept;
   const auto closeness = [&](std::size_t i) { return std::exp(-squared_distance(motion[i], centre) * inverse_2s2); };
@@ -44,7 +44,7 @@ double log_likelihood(std::span<const Vector2> motion, std::span<const std::uint
   return sum;
 }
 
-// The hypothesis of the highest likelihood: one of the points.
+// The hypothesis of highest likelihood: the motion of one of the points.
 Vector2 likeliest(std::span<const Vector2> motion, std::span<const std::uint8_t> valid,
                   const MlesacConfig& config) noexcept {
   double best = -std::numeric_limits<double>::infinity();
@@ -60,7 +60,7 @@ Vector2 likeliest(std::span<const Vector2> motion, std::span<const std::uint8_t>
   return centre;
 }
 
-// Where all are nearer to one another than the gate, they are inliers of any of them, and of their mean.
+// If all points lie within the gate of each other, they are inliers of any of them and of their mean.
 bool all_agree(std::span<const Vector2> motion, std::span<const std::uint8_t> valid, double gate,
                Vector2& any) noexcept {
   Vector2 low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
@@ -78,7 +78,7 @@ bool all_agree(std::span<const Vector2> motion, std::span<const std::uint8_t> va
 MlesacResult mlesac_translation(std::span<const Vector2> motion, std::span<const std::uint8_t> valid,
                                 const MlesacConfig& config, std::span<std::uint8_t> inlier) noexcept {
   MlesacResult result;
-  // The winner is itself a noisy point: judge the others about the mean of its followers, twice.
+  // The winner is itself a noisy point: the others are compared with the mean of its inliers, twice.
   constexpr double kGateSigmas = 3.5;
   const double gate = kGateSigmas * kGateSigmas * config.sigma_px * config.sigma_px * 2.0;
   Vector2 centre;

@@ -9,15 +9,15 @@ namespace core {
 
 namespace {
 
-constexpr double kNoticeable_px = 1.0;  // a shorter way brings nothing that the prediction did not
-constexpr double kAgreeing_px = 3.0;    // points of one region, about their median
-constexpr double kUnusual = 5.0;        // times the usual strangeness: another edge that looks alike
-constexpr double kDisturbed = 1.5;      // times the usual strangeness, while the region's other points have theirs
-constexpr double kUnmodelled = 0.5;     // of what a deformation adds to the strangeness, by its second order
-constexpr double kLearning = 0.05;      // of the usual strangeness, a frame
-constexpr int kSearchesPerFrame = 3;    // whole regions: about a millisecond each
+constexpr double kNoticeable_px = 1.0;  // a search with a smaller shift would repeat the predicted one
+constexpr double kAgreeing_px = 3.0;    // distance from the median of the region's points
+constexpr double kUnusual = 5.0;        // limit in multiples of the usual residual: beyond, a similar edge was found
+constexpr double kDisturbed = 1.5;      // the same, relative to the region's other points in this frame
+constexpr double kUnmodelled = 0.5;     // share of the deformation's effect that is second order, not modelled
+constexpr double kLearning = 0.05;      // learning rate of the usual residual, per frame
+constexpr int kSearchesPerFrame = 3;    // searches of whole regions: about a millisecond each
 
-// What the template does not explain, in px: the sigma without the weakness of the light.
+// Residual not explained by the template, in px: sigma_px without the effect of a lower brightness gain.
 double strangeness(const KltPoint& point) noexcept { return point.sigma_px * point.gain; }
 
 KltTracker tracker_at(const KltConfig& config, const GrayView& image, const std::vector<Vector2>& keyframe) {
@@ -57,7 +57,7 @@ PointFinder::PointFinder(const PointFinderConfig& config, const GrayView& image,
 
 void PointFinder::find(const GrayView& gray, const RegionFollower& expected) noexcept {
   const std::size_t n = regions_.size(), begin = next_search_;
-  Vector2 surprise;  // the greatest of a region that is found
+  Vector2 surprise;  // largest prediction error of the regions found
   for (std::size_t r = 0; r < n; ++r) {
     look(gray, regions_[r], expected, {});
     const Look first = judge(regions_[r]);
@@ -102,8 +102,9 @@ void PointFinder::correct_for_deformation() noexcept {
       klt_.set_deformation(i, deformation_.of(r), found_[i]);
 }
 
-// The edge of a shadow, a rope or a bird moves over a few points of a region and takes them along for a while: they
-// look less like themselves than the others do. What all share (blur, noise of a darker image) is no such edge.
+// The edge of a shadow, a rope or a bird passes over a few points of a region and displaces them for a while; their
+// residuals are then larger than those of the others. An effect common to all points (blur, noise of a darker image)
+// does not exclude any.
 void PointFinder::leave_out_disturbed(const Region& region) noexcept {
   const auto is_known = [&](std::size_t i) { return found_[i].seen && usual_[i] > 0.0; };
   scratch_u_.clear();
@@ -125,7 +126,7 @@ void PointFinder::look(const GrayView& gray, const Region& region, const RegionF
   }
 }
 
-// Looks at the shifted place and keeps the better look of a region. True: good.
+// Searches at the shifted place and keeps the better result of a region. True: the result is good.
 bool PointFinder::improves(const GrayView& gray, const Region& region, const RegionFollower& expected,
                            const Vector2& shift, Look& best) noexcept {
   if (length(shift) < kNoticeable_px) return false;
@@ -167,13 +168,13 @@ PointFinder::Look PointFinder::judge(const Region& region) noexcept {
   return look;
 }
 
-// A third of the points is enough where the rest is hidden.
+// A third of the points suffices, because the others may be hidden.
 bool PointFinder::is_good(const Region& region, const Look& look) const noexcept {
   return look.n_agreeing >= config_.min_points && 3 * look.n_agreeing >= static_cast<int>(region.n) &&
          2 * look.n_convincing > look.n_agreeing;
 }
 
-// Points that are elsewhere than the others, once more where these went; what is found elsewhere again is not it.
+// Searches points that disagree with the others once more, at the position given by the others' motion.
 void PointFinder::look_for_rest(const GrayView& gray, const Region& region, const Look& look) noexcept {
   for (std::size_t i = region.first; i < region.first + region.n; ++i) {
     const Vector2 place{keyframe_[i].u + look.motion.u, keyframe_[i].v + look.motion.v};

@@ -14,16 +14,16 @@ namespace core {
 
 struct PointFinderConfig {
   KltConfig klt;
-  int min_points = 3;        // a region with fewer is not measured
-  double search_px = 200.0;  // how far a region that is not where it was expected is searched for
-  int reseed_after = 250;    // frames until a point gets a new template (point_reseeder.h); 0: never
+  int min_points = 3;        // a region with fewer points is not measured
+  double search_px = 200.0;  // search radius for a region that is not at its predicted place
+  int reseed_after = 250;    // frames until a lost point gets a new template (point_reseeder.h); 0: never
 };
 
 // Finds all points of all regions in one image, each first at its predicted position. If the points of a region then
-// disagree, or match worse than usual, the region was predicted wrongly: it is searched for at its last position, at
-// that suggested by the other regions' prediction errors, and, for a few regions per frame, as a whole
-// (region_search.h). The place that convinces most points is used. Positions are corrected for the deformation of each
-// region in the same image (region_deformation.h). Nothing allocates after construction. One thread.
+// disagree, or match worse than usual, the prediction of the region was wrong: it is searched for at its last position,
+// at the position suggested by the other regions' prediction errors, and, for a few regions per frame, as a whole
+// (region_search.h). The place where most points match well is used. Positions are corrected for the deformation of
+// each region in the same image (region_deformation.h). Does not allocate after construction. One thread.
 class PointFinder {
  public:
   // keyframe: positions of the points in that image; the points of a region are consecutive.
@@ -31,7 +31,7 @@ class PointFinder {
               const std::vector<std::uint16_t>& region_of_point, std::size_t n_regions);
 
   void find(const GrayView& gray, const RegionFollower& expected) noexcept;
-  // The same frame after outlier rejection: updates the usual match quality of the inliers.
+  // Takes the same frame after outlier rejection and updates the usual residual of the inliers.
   void learn(const TrackFrame& judged) noexcept;
 
   [[nodiscard]] std::uint32_t n_reseeded() const noexcept { return reseeder_.n_reseeded(); }
@@ -39,13 +39,13 @@ class PointFinder {
 
  private:
   struct Region {
-    std::size_t first = 0, n = 0;  // of the points
+    std::size_t first = 0, n = 0;  // range of the region's points
     RegionSearch search;
   };
-  // Match quality of a region's points: more of either is better, the first has priority.
+  // Match quality of a region's points: larger is better; the first field has priority.
   struct Look {
     int n_convincing = 0, n_agreeing = 0;
-    Vector2 motion;  // the median
+    Vector2 motion;  // median over the points
     [[nodiscard]] bool is_better_than(const Look& other) const noexcept {
       return n_convincing != other.n_convincing ? n_convincing > other.n_convincing : n_agreeing > other.n_agreeing;
     }
@@ -69,9 +69,9 @@ class PointFinder {
   std::vector<Vector2> keyframe_;
   std::vector<Region> regions_;
   std::vector<KltPoint> found_, best_;
-  std::vector<double> usual_;  // strangeness of each point; 0: not known yet
+  std::vector<double> usual_;  // typical residual of each point, px; 0: unknown
   std::vector<double> scratch_u_, scratch_v_;
-  std::size_t next_search_ = 0;  // regions take turns
+  std::size_t next_search_ = 0;  // regions are searched in turn
 };
 
 }  // namespace core

@@ -12,14 +12,14 @@ namespace core {
 namespace {
 
 constexpr int kMostMissed = PointReseeder::kTrialFrames / 5;
-constexpr double kMostScatter = 2.0;     // times that of the region's points and what its own sigma lets one expect
-constexpr double kMostVariance = 4.0;    // of a new template's place, times that of the first one
-constexpr int kPointsOfSimilarity = 4;   // fewer tell a shift only
-constexpr double kLeastSpread_px = 5.0;  // rms distance of the region's points from their middle
+constexpr double kMostScatter = 2.0;     // relative to that of the region's points plus the point's own sigma
+constexpr double kMostVariance = 4.0;    // position variance of a new template, in multiples of that of the first one
+constexpr int kPointsOfSimilarity = 4;   // with fewer points only a translation is estimated
+constexpr double kLeastSpread_px = 5.0;  // rms distance of the region's points from their centre
 constexpr int kEighths = 8;
-constexpr std::array<double, 3> kRings{0.0, 0.5, 1.0};  // of kFarthest_px
+constexpr std::array<double, 3> kRings{0.0, 0.5, 1.0};  // radii in multiples of kFarthest_px
 
-// Places of a new template about its point, the nearest first.
+// Number of places for a new template about its point, tried in order of distance.
 constexpr int kPlaces = 1 + 2 * kEighths;
 constexpr std::array<Vector2, kEighths> kDirections{
     {{1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}, {0.7, 0.7}, {-0.7, 0.7}, {-0.7, -0.7}, {0.7, -0.7}}};
@@ -73,7 +73,7 @@ void PointReseeder::learn(const TrackFrame& judged) noexcept {
   }
 }
 
-// From those of its region that were inliers and are seen. False: too few.
+// Predicts the place from the region's points that were inliers and are seen. False: too few.
 bool PointReseeder::place_of(const Point& point, const std::vector<KltPoint>& found, Place& place) const noexcept {
   const auto counts = [&](std::size_t i) { return points_[i].is_inlier && found[i].seen; };
   const auto k = [&](std::size_t i) { return points_[i].keyframe; };
@@ -89,7 +89,7 @@ bool PointReseeder::place_of(const Point& point, const std::vector<KltPoint>& fo
   return true;
 }
 
-// One frame of a trial.
+// Processes one frame of a trial.
 void PointReseeder::go_on(Point& point, std::size_t i, const std::vector<KltPoint>& found,
                           KltTracker& tracker) noexcept {
   Place place;
@@ -105,14 +105,14 @@ void PointReseeder::go_on(Point& point, std::size_t i, const std::vector<KltPoin
   if (++point.n_found < kTrialFrames) return;
   point.is_on_trial = false;
   const Vector2 mean{point.sum.u / kTrialFrames, point.sum.v / kTrialFrames};
-  const double scatter = 0.5 * (point.squares / kTrialFrames - mean.u * mean.u - mean.v * mean.v);  // px^2, an axis
+  const double scatter = 0.5 * (point.squares / kTrialFrames - mean.u * mean.u - mean.v * mean.v);  // px^2 per axis
   if (!(scatter < kMostScatter * kMostScatter * point.variances / kTrialFrames)) return;
   tracker.shift_datum(i, mean);
   point.n_lost = 0;
   ++n_reseeded_;
 }
 
-// A new template for the next point in turn that needs one.
+// Cuts a template for the next point, in turn, that needs one.
 int PointReseeder::begin_one(const GrayView& gray, const std::vector<KltPoint>& found, KltTracker& tracker,
                              TemplateAverage& templates) noexcept {
   for (std::size_t k = 0; k < points_.size(); ++k) {

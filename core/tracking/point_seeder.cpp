@@ -8,7 +8,7 @@ namespace core {
 namespace {
 constexpr double kHarrisK = 0.04;
 constexpr int kHarrisBlockPx = 5;
-// A flat patch has Harris responses of rounding noise, and quality relative to the strongest would accept them.
+// A flat patch has Harris responses of rounding noise; a quality relative to the strongest would accept them.
 constexpr double kLeastContrast = 2.0;  // grey levels, standard deviation
 }  // namespace
 

@@ -14,8 +14,8 @@ struct SeedConfig {
   int window_px = 21;            // tracking window: a point keeps half of it clear of the image border
 };
 
-// Harris corners (Harris & Stephens 1988) inside the region's rectangle, strongest first.
-// gray: 8-bit. Empty when the rectangle has no texture.
+// Harris corners (Harris & Stephens 1988) inside the region's rectangle, strongest first. gray: 8-bit. Empty if the
+// rectangle has no texture.
 [[nodiscard]] std::vector<cv::Point2f> seed_points(const cv::Mat& gray, const Region& region, const SeedConfig& config);
 
 }  // namespace core

@@ -5,7 +5,7 @@
 namespace core {
 namespace {
 
-constexpr int kLargestReduction = 256;  // so many rows of 255 fit a column's 16 bits
+constexpr int kLargestReduction = 256;  // a 16-bit column sum holds so many rows of value 255
 
 int reduction_for(int width_px, int height_px, int long_side_px) {
   const int longest = std::max(width_px, height_px);
@@ -20,7 +20,7 @@ PreviewMaker::PreviewMaker(const Config& config, int width_px, int height_px, co
   const int reduction = reduction_for(width_px, height_px, std::max(1, config.long_side_px));
   prototype_.reduction = reduction;
   prototype_.image_width_px = width_px, prototype_.image_height_px = height_px;
-  // What is left of a box at the right and at the bottom is not shown; an image smaller than a box has one pixel.
+  // Incomplete boxes at the right and bottom are omitted; an image smaller than a box gives one pixel.
   prototype_.width_px = std::max(1, width_px / reduction), prototype_.height_px = std::max(1, height_px / reduction);
   prototype_.pixels.resize(static_cast<std::size_t>(prototype_.width_px) *
                            static_cast<std::size_t>(prototype_.height_px));
@@ -48,7 +48,7 @@ void PreviewMaker::make(const Frame& frame, const TrackFrame& tracks, Preview& o
   measure_shifts(tracks, out);
 }
 
-// First down the columns, then along the sums: the first loop is the long one, and the compiler makes it wide.
+// Sums down the columns first, then along the sums: the first loop is the long one and can be vectorised.
 void PreviewMaker::reduce(const Frame& frame, Preview& out) noexcept {
   const auto n = static_cast<std::size_t>(out.reduction), stride = static_cast<std::size_t>(frame.width_px);
   const auto area = static_cast<std::uint32_t>(out.reduction * out.reduction);

@@ -9,8 +9,8 @@
 
 namespace core {
 
-// Makes a preview of a frame now and then, at most once a period of stream time, by averaging boxes of pixels. Changes
-// nothing that is measured. Allocates at construction only.
+// Makes previews of frames, at most one per period of stream time, by averaging boxes of pixels. Does not affect
+// measurements. Allocates at construction only.
 class PreviewMaker {
  public:
   struct Config {
@@ -21,9 +21,9 @@ class PreviewMaker {
   PreviewMaker(const Config& config, int width_px, int height_px, const TrackFrame& keyframe, std::size_t n_regions);
 
   [[nodiscard]] const Preview& prototype() const noexcept { return prototype_; }
-  // True once a period; a stream that begins again at an earlier time is due at once.
+  // True once per period; a stream that restarts at an earlier time is due at once.
   [[nodiscard]] bool is_due(std::int64_t t_start_ns) noexcept;
-  // `out` is a copy of prototype(); `tracks` those of this frame. A frame of another size leaves it as it is.
+  // `out` is a copy of prototype(); `tracks` are those of this frame. A frame of another size leaves `out` unchanged.
   void make(const Frame& frame, const TrackFrame& tracks, Preview& out) noexcept;
 
  private:
@@ -35,7 +35,7 @@ class PreviewMaker {
   bool has_made_one_ = false;
   Preview prototype_;
   std::vector<TrackPoint> keyframe_;
-  std::vector<std::uint16_t> column_sums_;  // of the rows of one box
+  std::vector<std::uint16_t> column_sums_;  // over the rows of one box
 };
 
 }  // namespace core

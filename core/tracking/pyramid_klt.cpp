@@ -11,13 +11,13 @@ namespace core {
 
 namespace {
 
-// Below this the normal matrix of a patch has no second direction (OpenCV's minEigThreshold, per pixel and grey^2).
+// Smallest eigenvalue of a patch's normal matrix (OpenCV's minEigThreshold, per pixel and grey^2).
 constexpr double kLeastEigenvalue = 1e-4;
 
-// Above the full image, for points that are where they were expected to within some 6 px.
+// Pyramid levels above the full image, for points within some 6 px of their prediction.
 constexpr int kNearLevels = 1;
 
-// Rounding to 8 bits alone leaves this mean absolute difference between two images of one texture.
+// Mean absolute difference of two images of one texture caused by rounding to 8 bits alone.
 constexpr double kLeastResidual = 0.25;
 
 // sqrt(trace(G^-1) / 2): px of standard deviation per axis for one grey level of noise in the difference of the images;
@@ -65,7 +65,7 @@ bool PyramidKlt::track(const cv::Mat& gray, const std::vector<cv::Point2f>& pred
   try {
     out.resize(keyframe_points_.size());
     if (keyframe_points_.empty()) return true;
-    // OpenCV never returns from the pyramid of an empty image.
+    // OpenCV does not return when it builds the pyramid of an empty image.
     if (gray.size() != keyframe_size_ || gray.type() != CV_8UC1) return false;
     cv::buildOpticalFlowPyramid(gray, pyramid_, cv::Size(config_.window_px, config_.window_px), config_.pyramid_levels,
                                 true, cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
@@ -94,8 +94,8 @@ void PyramidKlt::gather_lost(const std::vector<cv::Point2f>& predicted, const st
   }
 }
 
-// The way back starts as far from the keyframe point as the way there ended from its prediction: a point that slipped
-// onto a neighbour does not find home by being put there.
+// Backward tracking starts as far from the keyframe point as forward tracking ended from its prediction: otherwise a
+// point that slipped onto a neighbour would start at its correct position.
 void PyramidKlt::run(Pass& pass, int levels) {
   if (pass.origin.empty()) return;
   const cv::Size window(config_.window_px, config_.window_px);

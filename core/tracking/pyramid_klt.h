@@ -7,10 +7,10 @@ namespace core {
 
 struct PyramidKltConfig {
   int window_px = 21;
-  int pyramid_levels = 4;  // above the full image
+  int pyramid_levels = 4;  // levels above the full image
   int max_iterations = 30;
-  double epsilon_px = 0.003;         // stop when a step is shorter
-  double forward_backward_px = 0.5;  // a point tracked there and back must return this near
+  double epsilon_px = 0.003;         // stop below this step length
+  double forward_backward_px = 0.5;  // a point tracked forward and backward must return within this distance
 };
 
 struct TrackedPoint {
@@ -20,26 +20,26 @@ struct TrackedPoint {
 };
 
 // Pyramidal Lucas-Kanade tracking (Bouguet 2001, OpenCV's implementation) of points of a keyframe in later images:
-// always against the keyframe, never frame to frame, so errors do not add up to drift. Points are searched first near
-// their prediction, on the full image and the level above; only those not found there through the whole pyramid,
-// because its coarse windows also contain background that moves differently.
-// One thread. After the first image nothing of ours allocates; OpenCV's own routine does.
+// always against the keyframe, never frame to frame, so errors do not accumulate to drift. Points are first searched
+// near their prediction, on the full image and the level above; only points not found there are searched through the
+// whole pyramid, because its coarse windows also contain background that moves differently. One thread. After the first
+// image this code does not allocate; OpenCV's routine does.
 class PyramidKlt {
  public:
   explicit PyramidKlt(const PyramidKltConfig& config);
 
-  // The template image; `points` are tracked from now on.
+  // Sets the template image; `points` are tracked from now on.
   void set_keyframe(const cv::Mat& gray, const std::vector<cv::Point2f>& points);
 
-  // predicted: where each point is expected (same order as in set_keyframe). Returns false when
-  // OpenCV failed or the image is not 8-bit of the keyframe's size; `out` then holds nothing.
+  // predicted: expected position of each point (order of set_keyframe). Returns false if OpenCV failed or the image is
+  // not 8-bit of the keyframe's size; `out` is then undefined.
   [[nodiscard]] bool track(const cv::Mat& gray, const std::vector<cv::Point2f>& predicted,
                            std::vector<TrackedPoint>& out) noexcept;
 
   [[nodiscard]] const std::vector<cv::Point2f>& keyframe_points() const noexcept { return keyframe_points_; }
 
  private:
-  // Points under way: there, and back again.
+  // Points being tracked, forward and backward.
   struct Pass {
     std::vector<cv::Point2f> origin, start, forward, backward;
     std::vector<unsigned char> forward_found, backward_found;

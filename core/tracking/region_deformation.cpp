@@ -9,11 +9,11 @@ namespace core {
 
 namespace {
 
-constexpr double kOwnSpread = 0.003;  // of a region's deformation about what all share: depth, perspective, own motion
-constexpr double kCommonSpread = 0.05;   // of the common one about none
-constexpr double kLeastSigma_px = 0.01;  // of a point: no sigma covers all of its error
-constexpr double kFar = 4.5;             // times the median distance from the fit; some five sigma of an axis
-constexpr int kGates = 2;                // the first fit leans towards what is far off
+constexpr double kOwnSpread = 0.003;     // of a region's deformation about the common one: depth, own motion
+constexpr double kCommonSpread = 0.05;   // standard deviation of the common deformation
+constexpr double kLeastSigma_px = 0.01;  // of a point: the stated sigma does not cover all of its error
+constexpr double kFar = 4.5;             // multiple of the median distance from the fit; about five sigma of an axis
+constexpr int kGates = 2;                // the first fit is biased by far points
 constexpr std::size_t kLeastForGate = 5;
 
 double precision(double spread) noexcept { return 1.0 / (spread * spread); }

@@ -10,7 +10,7 @@ namespace core {
 
 namespace {
 
-// A camera that hovers comes no nearer and goes no farther than this.
+// Limits of the magnification for a hovering camera.
 constexpr double kLeastMagnification = 0.2, kMostMagnification = 5.0;
 
 }  // namespace
@@ -74,7 +74,7 @@ void RegionFollower::measure_regions(const TrackFrame& judged) noexcept {
   }
 }
 
-// Least squares of p = turn k + shift over the inliers of all measured regions. Stays as it was where none is.
+// Least squares of p = turn k + shift over the inliers of all measured regions. Unchanged if no region is measured.
 void RegionFollower::fit_common(const TrackFrame& judged) noexcept {
   const std::size_t n = std::min(keyframe_.size(), judged.points.size());
   const auto counts = [&](std::size_t i) { return is_used(judged.points[i]) && is_measured(region_of_point_[i]); };

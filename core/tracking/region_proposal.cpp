@@ -41,7 +41,7 @@ std::vector<Vector2> mean_motion(const Survey& survey, const Members& members) {
   return mean;
 }
 
-// Standard deviation per axis of the mean of so many points.
+// Standard deviation per axis of the mean of the members.
 double mean_noise_px(const Survey& survey, const Members& members) {
   double sum = 0.0;
   for (const std::size_t i : members) {
@@ -51,7 +51,7 @@ double mean_noise_px(const Survey& survey, const Members& members) {
   return std::sqrt(sum) / static_cast<double>(members.size());
 }
 
-// A part that bends or reaches far is divided across its longer side until each piece moves as one.
+// Divides a part that bends or is long across its longer side, until each piece moves as one.
 void divide(const Survey& survey, const Members& members, std::vector<Members>& out) {
   const Box box = box_of(survey, members);
   const bool is_wide = box.width() >= box.height();
@@ -77,7 +77,7 @@ void divide(const Survey& survey, const Members& members, std::vector<Members>& 
   out.push_back(members);
 }
 
-// Degrees from +u towards +v of the line along which it moves most, -90 .. 90; one of the image's axes when near it.
+// Angle in degrees from +u towards +v of the line of largest motion, -90 .. 90; snapped to a nearby image axis.
 double axis_of(const std::vector<Vector2>& motion) {
   constexpr double kNear_deg = 20.0;
   double uu = 0.0, uv = 0.0, vv = 0.0;
@@ -101,7 +101,8 @@ Region region_of(const Box& box) {
   return region;
 }
 
-// Smaller until at most a twentieth of the points in it move otherwise: the side goes that costs fewest of its own.
+// Shrinks the box until at most a twentieth of its points are not members: each time at the side that costs fewest
+// members.
 Box without_strangers(const Survey& survey, const Members& members, const std::vector<bool>& is_own) {
   Box box = box_of(survey, members);
   constexpr double kStep_px = 2.0;
@@ -163,8 +164,8 @@ void name_regions(std::vector<ProposedRegion>& regions) {
   for (std::size_t i = 0; i < order.size(); ++i) order[i]->region.name = "part" + std::to_string(i + 1);
 }
 
-// One after the other, none over another: the most shared motion, the farthest above its noise, the least like what is
-// already there.
+// Selects regions one by one without overlap, by shared motion, ratio of motion to noise, and dissimilarity to those
+// already selected.
 std::vector<ProposedRegion> chosen(std::vector<MovingPart> all, std::size_t max_regions) {
   rate_parts(all);
   std::stable_sort(all.begin(), all.end(), [](const MovingPart& a, const MovingPart& b) {

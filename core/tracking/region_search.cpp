@@ -7,16 +7,16 @@ namespace core {
 
 namespace {
 
-constexpr int kMargin_px = 12;    // about the points: their windows
-constexpr int kLeastCells = 100;  // of the coarsest picture: fewer differ too little, and by fractions of a cell
-constexpr std::size_t kMostCells = 4000;  // of a finer one: it is near enough for the points without
-constexpr int kRefine = 3;                // cells on either side of the coarser place
+constexpr int kMargin_px = 12;            // margin about the points, for their windows
+constexpr int kLeastCells = 100;          // of the coarsest image: with fewer cells places are hard to distinguish
+constexpr std::size_t kMostCells = 4000;  // of a finer image: with more it is skipped, as the coarser result suffices
+constexpr int kRefine = 3;                // search radius in cells about the result of the coarser image
 constexpr double kLeastCorrelation = 0.6;
-constexpr double kLeastVariance = 1.0;  // grey^2: a level correlates with nothing
-constexpr double kNearlyAsGood = 0.3;   // below the highest correlation: looked at in finer pictures
-constexpr double kAsGood = 0.03;        // in the finest: cannot be told from it
-constexpr double kClearlyNearer = 0.7;  // of the next one's distance
-constexpr int kNeighbourhood = 2;       // cells about a peak that are its own
+constexpr double kLeastVariance = 1.0;  // grey^2: a constant image has no correlation
+constexpr double kNearlyAsGood = 0.3;   // below the highest correlation: still searched in finer images
+constexpr double kAsGood = 0.03;        // in the finest image: treated as equally good
+constexpr double kClearlyNearer = 0.7;  // of the distance of the next-nearest place
+constexpr int kNeighbourhood = 2;       // cells about a peak that belong to it
 
 }  // namespace
 
@@ -47,7 +47,7 @@ RegionSearch::RegionSearch(const GrayView& keyframe, const std::vector<Vector2>&
   }
 }
 
-// Beyond the border the image goes on as its last pixel: a level, which correlates with nothing.
+// Beyond the border the last pixel is repeated: a constant, which correlates with nothing.
 void RegionSearch::reduce(const GrayView& gray, int left, int top, Picture& out) noexcept {
   const int s = out.scale;
   for (int y = 0; y < out.height; ++y) {
@@ -96,7 +96,7 @@ void RegionSearch::correlate(const Picture& pattern, const Picture& area) noexce
   }
 }
 
-// Offsets that correlate better than all about them and nearly as well as the best: the best ones.
+// Lists local maxima of the correlation that are nearly as high as the highest, the highest first.
 void RegionSearch::list_peaks(const Place& about) noexcept {
   const auto is_peak = [&](int u, int v) {
     for (int y = std::max(0, v - kNeighbourhood); y <= std::min(n_v_ - 1, v + kNeighbourhood); ++y)

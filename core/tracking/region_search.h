@@ -11,19 +11,19 @@ namespace core {
 
 // Finds a whole region when its points are no longer near their predictions: its keyframe image, reduced eight
 // times (four, if it is small), is compared with the image about the predicted place by normalised correlation,
-// then at finer scales about the best place. The whole region counts, so one of a row of equal dots is not
-// confused with another; of similar places the one nearest to the prediction is used if it is clearly the
-// nearest. A translation, to a px or two. Buffers are made in the constructor; find() allocates nothing. One
-// thread.
+// then at finer scales about the best place. The whole region is compared, so that one of a row of equal dots is
+// not confused with another; of similar places the one nearest to the prediction is used if it is clearly the
+// nearest. Estimates a translation, within a px or two. Buffers are allocated in the constructor, not in find().
+// One thread.
 class RegionSearch {
  public:
-  // points: of the region, in the keyframe (8-bit grey). reach_px: search radius around the predicted place.
+  // points: of the region, in the keyframe (8-bit grey). reach_px: search radius about the predicted place.
   RegionSearch(const GrayView& keyframe, const std::vector<Vector2>& points, double reach_px);
 
   struct Found {
     Vector2 motion;            // since the keyframe
-    double correlation = 0.0;  // of the finest pictures, -1 ... 1
-    bool is_clear = false;     // high, and no other place is as good and about as near
+    double correlation = 0.0;  // in the finest images, -1 ... 1
+    bool is_clear = false;     // high, and no other place is equally good and about as near
   };
   [[nodiscard]] Found find(const GrayView& gray, const Vector2& expected_motion) noexcept;
 
@@ -36,7 +36,7 @@ class RegionSearch {
     std::vector<float> cells;
   };
   static void reduce(const GrayView& gray, int left, int top, Picture& out) noexcept;
-  // A candidate place: px since the keyframe.
+  // A candidate place, as motion in px since the keyframe.
   struct Place {
     int du = 0, dv = 0;
     double correlation = -1.0;
@@ -47,9 +47,9 @@ class RegionSearch {
   [[nodiscard]] Found choose(const Vector2& expected_motion) const noexcept;
   [[nodiscard]] double at(int u, int v) const noexcept { return correlations_[static_cast<std::size_t>(v * n_u_ + u)]; }
 
-  int left_ = 0, top_ = 0;  // of the pattern in the keyframe
+  int left_ = 0, top_ = 0;  // corner of the pattern in the keyframe
   std::array<Picture, kScales.size()> patterns_, areas_;
-  std::size_t first_ = 0;  // of the scales that is used
+  std::size_t first_ = 0;  // first of the scales in use
   int n_u_ = 0, n_v_ = 0;
   std::vector<double> correlations_;  // at all offsets of the last correlate()
   static constexpr std::size_t kMostPlaces = 8;

@@ -27,7 +27,7 @@ std::vector<Vector2> corners_of(const cv::Mat& image, const RegionSurveyConfig& 
   return out;
 }
 
-// Between two frames in which the point was found, a straight line.
+// Interpolates linearly between two frames in which the point was found.
 void interpolate(std::vector<Vector2>& motion, const std::vector<std::size_t>& seen) {
   for (std::size_t k = 1; k < seen.size(); ++k) {
     const std::size_t from = seen[k - 1], to = seen[k];
@@ -45,7 +45,7 @@ RegionSurvey::RegionSurvey(const GrayView& first, const RegionSurveyConfig& conf
     : config_(config), tracker_(config.klt) {
   std::vector<Vector2> corners;
   if (!first.empty()) {
-    // OpenCV takes the pixels of others as not const; nothing here writes them.
+    // OpenCV takes external pixels as non-const; they are not written here.
     const cv::Mat image(first.height, first.width, CV_8UC1, const_cast<std::uint8_t*>(first.pixels), first.stride);
     corners = corners_of(image, config);
   }
@@ -95,7 +95,7 @@ void RegionSurvey::add(const GrayView& frame) {
 }
 
 void RegionSurvey::search_patches(const GrayView& frame) {
-  constexpr std::size_t kFewest = 4;  // points: fewer are no pattern
+  constexpr std::size_t kFewest = 4;  // points per pattern
   for (Patch& patch : patches_) {
     std::vector<std::size_t> lost;
     for (const std::size_t i : patch.members) {
@@ -118,7 +118,7 @@ void RegionSurvey::search_patches(const GrayView& frame) {
   }
 }
 
-// The nearest points that were found say where a lost one may be.
+// Predicts lost points from the nearest points that were found.
 void RegionSurvey::follow_neighbours(const GrayView& frame) {
   constexpr std::size_t kAsked = 3;
   std::vector<std::size_t> found;

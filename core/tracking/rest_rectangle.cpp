@@ -6,9 +6,9 @@
 namespace core {
 namespace {
 
-constexpr int kCells = 40;  // across the picture's longer side
+constexpr int kCells = 40;  // along the picture's longer side
 
-// Resting points per cell; below 0: not to be used.
+// Number of static points per cell; below 0: forbidden.
 class Cells {
  public:
   Cells(int width_px, int height_px)
@@ -44,12 +44,12 @@ class Cells {
   std::vector<int> counts_;
 };
 
-// Of all rectangles of allowed cells the one with the most points: 40 x 40 cells make some 200 000 steps.
+// Rectangle of allowed cells with the most points; 40 x 40 cells need some 200 000 steps.
 std::optional<Box> fullest(Cells& cells) {
   int best = 0;
   Box box;
   for (int top = 0; top < cells.rows(); ++top) {
-    std::vector<int> below(static_cast<std::size_t>(cells.columns()), 0);  // points of the column so far; below 0: shut
+    std::vector<int> below(static_cast<std::size_t>(cells.columns()), 0);  // points in the column; < 0: forbidden
     for (int bottom = top; bottom < std::min(cells.rows(), top + cells.rows() / 2); ++bottom) {
       int begin = 0, sum = 0;
       for (int column = 0; column < cells.columns(); ++column) {

@@ -17,8 +17,8 @@ struct Box {
   }
 };
 
-// The rectangle with the most static points that contains neither a moving point nor a part of the forbidden areas,
-// with a margin; at most half the image's width and height. Empty if there is none.
+// The rectangle with the most static points that contains no moving point and no part of the forbidden areas, with a
+// margin; at most half the image's width and height. Empty if there is none.
 [[nodiscard]] std::optional<Box> rest_rectangle(const std::vector<SurveyedPoint>& points,
                                                 const std::vector<bool>& rests, const std::vector<Region>& forbidden,
                                                 int width_px, int height_px);

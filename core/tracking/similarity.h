@@ -12,10 +12,10 @@ struct SimilarityMoments {
   double count = 0.0;
   Vector2 mean_k, mean_p;
   double along = 0.0, across = 0.0, spread = 0.0;  // sums of k . p, k x p, k . k
-  double squares = 0.0;                            // of p . p
+  double squares = 0.0;                            // sum of p . p
 };
 
-// Over the points of [begin, end) that counts(i); k(i), p(i): Vector2.
+// Sums over the points i of [begin, end) for which counts(i) is true; k(i), p(i): Vector2.
 template <class Counts, class K, class P>
 [[nodiscard]] SimilarityMoments similarity_moments(std::size_t begin, std::size_t end, const Counts& counts, const K& k,
                                                    const P& p) noexcept {

@@ -18,32 +18,32 @@ struct StructureTrackerConfig {
   SeedConfig seed;
   KltConfig klt;
   std::vector<Region> regions;
-  int min_points = 3;             // a region that seeds fewer is an error; with fewer inliers it is not measured
+  int min_points = 3;             // a region that seeds fewer points is an error; with fewer inliers it is not measured
   std::uint32_t lost_after = 50;  // frames of search until a region counts as lost
-  double search_px = 200.0;       // how far a region that is not where it was expected is searched for
-  int reseed_after = 250;         // frames until a lost point gets a new template, its datum kept; 0: never
+  double search_px = 200.0;       // search radius for a region that is not at its predicted place
+  int reseed_after = 250;         // frames until a lost point gets a new template (same reference position); 0: never
 };
 
-// Tracks all points of all regions: seeds them in the first frame (the keyframe), tracks them against it, and predicts
-// their positions from the previous frame after outlier rejection (region_follower.h). Nothing allocates in track() and
+// Tracks all points of all regions: seeds them in the first frame (the keyframe), tracks them against it, and
+// predicts their positions from the previous frame after outlier rejection (region_follower.h). Does not
+// allocate in track() and learn(). One thread: seed() or set_keyframe() once, then track() per frame followed by
 // learn().
-// One thread: seed() or set_keyframe() once, then track() per frame followed by learn().
 class StructureTracker {
  public:
   explicit StructureTracker(StructureTrackerConfig config) : config_(std::move(config)) {}
 
-  // Returns an empty text, or which region has too little texture, and what to try.
+  // Returns an empty text, or the region with too little texture and a remedy.
   [[nodiscard]] std::string seed(const Frame& frame);
-  // Instead of seed(): the keyframe of an earlier run, and its points, grouped by region.
+  // Instead of seed(): takes the keyframe of an earlier run and its points, grouped by region.
   void set_keyframe(const Frame& image, const TrackFrame& keyframe);
   [[nodiscard]] std::size_t n_points() const noexcept { return region_of_point_.size(); }
 
   // Fills `out.points` (sized n_points() beforehand). False: the tracker itself failed; no point is seen.
   [[nodiscard]] bool track(const Frame& frame, TrackFrame& out) noexcept;
-  // The same frame after outlier rejection set `inlier`: next time an outlier is searched for with its region, a region
-  // with the others.
+  // Takes the same frame after outlier rejection has set `inlier`: in the next frame, an outlier is searched for at the
+  // place given by its region, and a region that is not measured at the place given by the others.
   void learn(const TrackFrame& judged) noexcept;
-  // After seed(). Number of lost points that were re-seeded.
+  // Number of lost points that were re-seeded, after seed().
   [[nodiscard]] std::uint32_t n_reseeded() const noexcept { return finder_->n_reseeded(); }
   [[nodiscard]] const RegionFollower& regions() const noexcept { return *follower_; }
 
@@ -51,7 +51,7 @@ class StructureTracker {
   void begin(const Frame& frame, const std::vector<cv::Point2f>& points);
 
   StructureTrackerConfig config_;
-  std::vector<std::uint16_t> region_of_point_;  // points of a region follow one another
+  std::vector<std::uint16_t> region_of_point_;  // the points of a region are consecutive
   std::unique_ptr<PointFinder> finder_;
   std::unique_ptr<RegionFollower> follower_;
 };

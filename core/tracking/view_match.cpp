@@ -42,7 +42,7 @@ struct Similarity {
   }
 };
 
-// Of the region's points [begin, end): those that stand off the similarity alike, as the structure moves.
+// Counts the region's points [begin, end) with the same deviation from the similarity, as the structure moves.
 std::size_t count_agreeing(const TrackFrame& keyframe, TrackFrame& now, const Similarity& common, std::size_t begin,
                            std::size_t end) {
   const auto off = [&](std::size_t i) {

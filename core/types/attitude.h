@@ -5,14 +5,14 @@
 
 namespace core {
 
-// Orientation of a body (X ahead, Y right, Z down) at one time: Hamilton quaternion w x y z that maps its axes to fixed
-// axes. Any norm but zero.
+// Orientation of a body (X forward, Y right, Z down) at one time: Hamilton quaternion w x y z that maps its axes to
+// fixed axes. Any norm except zero.
 struct AttitudeSample {
   double t_s = 0.0;  // on the frames' clock
   std::array<double, 4> wxyz{1.0, 0.0, 0.0, 0.0};
 };
 
-// Of roll, pitch, yaw (aerospace): R_z(yaw) R_y(pitch) R_x(roll).
+// Attitude from roll, pitch, yaw (aerospace): R_z(yaw) R_y(pitch) R_x(roll).
 [[nodiscard]] inline std::array<double, 4> attitude_of(double roll_rad, double pitch_rad, double yaw_rad) noexcept {
   const double cr = std::cos(0.5 * roll_rad), sr = std::sin(0.5 * roll_rad);
   const double cp = std::cos(0.5 * pitch_rad), sp = std::sin(0.5 * pitch_rad);

@@ -12,13 +12,13 @@ namespace core::closure {
 struct ClosureReport {
   std::uint64_t number = 0;                             // 0, 1, 2, ... over the run
   std::uint64_t first_sequence = 0, last_sequence = 0;  // frames
-  std::int64_t t_stream_ns = 0;                         // of the last one
+  std::int64_t t_stream_ns = 0;                         // of the last frame
   double duration_s = 0.0;
   bool final = false;   // the run has ended
-  double took_s = 0.0;  // of processor's time, not part of the result
-  std::string refused;  // why nothing can be concluded; `result` is then empty
+  double took_s = 0.0;  // processor time; not part of the result
+  std::string refused;  // reason why no conclusion is possible; `result` is then empty
   ClosureResult result;
-  // closure.adopt: auto. Corrections started or withdrawn by this report, with the reason; and all that are in
+  // With closure.adopt: auto. Corrections started or withdrawn by this report, with the reason; and all that are in
   // force.
   std::vector<std::string> changes, in_force;
 };

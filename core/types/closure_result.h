@@ -12,7 +12,7 @@ namespace core::closure {
 
 enum class EffectKind : std::uint8_t { kNamed, kLatent };
 
-// Key of an effect in the catalogue of its level: for programs. Readers are shown its name.
+// Key of an effect in the catalogue of its level, for programs. Reports show its name.
 struct EffectId {
   std::string key;
   friend bool operator==(const EffectId&, const EffectId&) = default;
@@ -21,7 +21,7 @@ struct EffectId {
 struct ParameterValue {
   std::string name, unit;
   double value = 0.0;
-  std::optional<double> sigma;  // empty: unknown, as for a parameter that was given and not fitted
+  std::optional<double> sigma;  // empty: unknown, or the parameter was given and not fitted
 };
 
 // Result of one candidate on top of the effects adopted so far.
@@ -29,9 +29,9 @@ struct CandidateScore {
   std::string effect;
   EffectKind kind = EffectKind::kNamed;
   std::size_t n_parameters = 0;
-  double heldout = 0.0;  // error on data that its fit did not see
-  double score = 0.0;    // drop of the held-out squares in units of the noise variance; more is better
-  std::string refusal;   // why it may not be adopted however large its score: immaterial, implausible; empty = it may
+  double heldout = 0.0;  // error on data excluded from its fit
+  double score = 0.0;    // decrease of the held-out squares in units of the noise variance; more is better
+  std::string refusal;   // reason why it may not be adopted whatever its score: immaterial, implausible; empty = it may
   EffectId id{};
 };
 
@@ -39,21 +39,21 @@ struct ClosureStep {
   std::string effect;
   EffectKind kind = EffectKind::kNamed;
   std::vector<ParameterValue> parameters;  // of the last joint fit
-  std::string meaning;                     // what these imply; for a latent effect its description; may be empty
+  std::string meaning;                     // implications of the parameters; of a latent effect, its description
   double heldout_before = 0.0, heldout_after = 0.0;
   double score = 0.0, threshold = 0.0;
-  std::vector<std::string> rivals;     // in its place they would do as well: none of these is shown to be the cause
+  std::vector<std::string> rivals;     // effects that explain the data as well: the cause is not determined
   std::vector<CandidateScore> others;  // the other candidates of that step, best first
   EffectId id{};
 };
 
 struct NotObservable {
   std::string effect;
-  std::string reason;   // which free quantity absorbs it
-  std::string instead;  // what to measure or film to observe it
+  std::string reason;   // free quantity that absorbs it
+  std::string instead;  // measurement or footage that would make it observable
 };
 
-// A mode of the model, or an identified one, beside its reference. Empty = unknown. Errors in percent of the reference.
+// A mode of the model, or an identified one, with its reference. Empty = unknown. Errors in percent of the reference.
 struct ClosureMode {
   int number = 0;  // from 1
   double frequency_hz = 0.0;
@@ -77,7 +77,7 @@ struct ClosureResult {
   std::size_t n_surrogates = 0;         // in all
 };
 
-// "readout = 28.9 +- 0.54 ms, ..."; "nothing fitted" of none.
+// "readout = 28.9 +- 0.54 ms, ..."; "nothing fitted" without parameters.
 [[nodiscard]] std::string parameters_text(const ClosureStep& step);
 
 }  // namespace core::closure

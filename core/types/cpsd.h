@@ -6,14 +6,14 @@
 
 namespace core {
 
-// Segments count less the older they are where a Welch estimate forgets; else each counts one.
+// Weight of the segments in a sum: with forgetting, older segments weigh less; otherwise each weighs one.
 struct SegmentWeight {
   double sum = 0.0, squares = 0.0;
 
   void add_one() noexcept { sum += 1.0, squares += 1.0; }
   void fade(double factor) noexcept { sum *= factor, squares *= factor * factor; }
   void join(const SegmentWeight& other) noexcept { sum += other.sum, squares += other.squares; }
-  // How many equal segments would scatter as much.
+  // Number of equal segments with the same variance.
   [[nodiscard]] double effective() const noexcept { return squares > 0.0 ? sum * sum / squares : 0.0; }
 };
 
@@ -32,24 +32,24 @@ struct CpsdSums {
   int n_fft = 0;
   double rate_hz = 0.0;
   std::uint64_t n_segments = 0;
-  SegmentWeight weight;                        // of those segments: densities divide by its sum
-  std::uint64_t n_samples = 0;                 // stream position: grid cells consumed, seen or missing
+  SegmentWeight weight;                        // of those segments: densities are divided by its sum
+  std::uint64_t n_samples = 0;                 // stream position: grid cells pushed, seen or missing
   std::uint64_t n_missing = 0;                 // channel samples masked out
-  std::vector<std::uint64_t> n_outlying;       // per channel: of them, rejected by the gate in time; may be empty
+  std::vector<std::uint64_t> n_outlying;       // per channel: masked samples rejected by the outlier gate; may be empty
   double window_power = 0.0;                   // sum of squared window values of one full segment
   std::vector<std::complex<double>> data_sum;  // mm^2
   std::vector<std::complex<double>> mask_sum;  // dimensionless
-  std::vector<CpsdBlock> blocks;               // in order; together they are the sums above; may be none
-  std::size_t n_blocks = 0;                    // of them in use
+  std::vector<CpsdBlock> blocks;               // in order; their sum is the sums above; may be empty
+  std::size_t n_blocks = 0;                    // number of blocks in use
 
   [[nodiscard]] int n_bins() const noexcept { return n_fft / 2 + 1; }
   [[nodiscard]] int n_pairs() const noexcept { return n_channels * (n_channels + 1) / 2; }
-  // Samples that the estimate remembers: all of them, unless it forgets.
+  // Number of samples within the estimate's memory: all of them, unless it forgets.
   [[nodiscard]] double n_remembered() const noexcept {
     const double share = n_segments > 0 ? weight.effective() / static_cast<double>(n_segments) : 1.0;
     return share * static_cast<double>(n_samples);
   }
-  // Everything but the blocks, of the first channels.
+  // Copies everything except the blocks, for the first channels.
   void copy_totals(const CpsdSums& other, int n_first) {
     n_channels = n_first, n_fft = other.n_fft, rate_hz = other.rate_hz;
     n_segments = other.n_segments, n_samples = other.n_samples, n_missing = other.n_missing;

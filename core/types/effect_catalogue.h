@@ -6,13 +6,13 @@
 
 namespace core {
 
-// The shape of a catalogue of effects, the same at every level of residual diagnosis: an effect is a stateless subclass
-// of its level's interface in a file of its own, NAME.cpp, which defines make_NAME(); effects/catalogue.h of the level
-// lists the names, one line each, and from that list declares the makers and fills the list.
+// Common form of the catalogues of effects of all levels: an effect is a stateless subclass of its level's interface in
+// a file of its own, NAME.cpp, which defines make_NAME(). effects/catalogue.h of the level lists the names, one line
+// each; from this list it declares the makers and builds the catalogue.
 template <class Effect>
 using EffectList = std::vector<std::unique_ptr<Effect>>;
 
-// nullptr: none of that id. id_of: what an effect answers.
+// nullptr: no effect has that id. id_of: function that returns the id of an effect.
 template <class Effect, class IdOf>
 [[nodiscard]] const Effect* find_effect(const EffectList<Effect>& effects, std::string_view id, const IdOf& id_of) {
   for (const auto& effect : effects) {

@@ -21,7 +21,7 @@ struct CameraInfo {
   ReadoutDirection readout_direction = ReadoutDirection::kDown;
   std::int64_t exposure_ns = 0;   // 0 = unknown
   std::uint64_t frame_count = 0;  // 0 = unknown (a live source)
-  bool lossless = false;          // the source waits for us (a file): a full ring is waited for, not dropped into
+  bool lossless = false;          // the source can wait (a file): a full ring delays it and no frame is dropped
   std::string description;        // for logs: device or file, codec, size
 };
 
@@ -30,7 +30,7 @@ struct Frame {
   std::uint64_t sequence = 0;    // frame number at the source; jumps where frames were lost
   std::int64_t t_start_ns = 0;   // start of exposure of row 0 (stream time for files, CLOCK_MONOTONIC for devices)
   std::int64_t exposure_ns = 0;  // 0 = unknown
-  std::int64_t t_taken_ns = 0;   // CLOCK_MONOTONIC when the service had it; for latencies, never for results
+  std::int64_t t_taken_ns = 0;   // CLOCK_MONOTONIC when the service received it; for latencies only, not for results
   bool gap_before = false;       // at least one frame is missing between this and the previous one
   int width_px = 0;
   int height_px = 0;

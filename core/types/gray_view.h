@@ -7,7 +7,7 @@
 
 namespace core {
 
-// 8-bit grey pixels that belong to someone else. Without any: width and height are 0.
+// View of 8-bit grey pixels owned by another object. Empty: width and height are 0.
 struct GrayView {
   const std::uint8_t* pixels = nullptr;
   int width = 0, height = 0;
@@ -17,7 +17,7 @@ struct GrayView {
   [[nodiscard]] bool empty() const noexcept { return width <= 0 || height <= 0; }
 };
 
-// Empty where the frame holds fewer pixels than its size says.
+// Empty if the frame has fewer pixels than its size requires.
 [[nodiscard]] inline GrayView gray_view(const Frame& frame) noexcept {
   if (frame.width_px <= 0 || frame.height_px <= 0) return {};
   const auto width = static_cast<std::size_t>(frame.width_px), height = static_cast<std::size_t>(frame.height_px);

@@ -8,21 +8,22 @@
 
 namespace core::closure {
 
-// Plain results of residual diagnosis over all levels of one run, each on what the one before repaired.
+// Plain results of residual diagnosis over all levels of one run; each level uses the record repaired by the previous
+// one.
 
-// One level: clock and frames, observation, response, structure.
+// One level: clock and frames, observation, response or structure.
 struct LoopLevel {
   std::string level;
-  std::string skipped;  // why there is no result: what is missing; empty: there is one
+  std::string skipped;  // reason why there is no result; empty: there is one
   std::optional<double> residual_before, residual_after;
   std::string unit;  // of these
   struct Finding {
-    std::string effect;  // with its numbers
-    std::string repair;  // what was done to the record; empty: nothing can be done to it at this level
+    std::string effect;  // with its parameters
+    std::string repair;  // repair of the record; empty: not possible at this level
   };
   std::vector<Finding> findings;
-  std::string left;                     // what stays unexplained, in words
-  std::optional<ClosureResult> result;  // of levels that run the common loop
+  std::string left;                     // description of what remains unexplained
+  std::optional<ClosureResult> result;  // of levels that use the common loop
 };
 
 // A mode as identified before any repair and after the last.
@@ -31,7 +32,7 @@ struct LoopMode {
     double frequency_hz = 0.0, damping_ratio = 0.0;
     std::optional<double> frequency_std_hz, damping_std;
     std::optional<double> error_percent;  // of the frequency, against the reference
-    std::optional<double> halves_percent;  // frequency of the second half of the record less that of the first
+    std::optional<double> halves_percent;  // frequency of the second half of the record minus that of the first
   };
   std::optional<Estimate> before, after;
   std::optional<double> reference_hz;

@@ -7,13 +7,13 @@
 
 namespace core {
 
-// Where a region is, from where it was declared: mean shift of its inlier points since the keyframe.
+// Present position of a region relative to its declared one: mean shift of its inlier points since the keyframe.
 struct RegionShift {
   double u_px = 0.0, v_px = 0.0;
-  std::uint32_t n_points = 0;  // behind it; 0: not known, both are 0
+  std::uint32_t n_points = 0;  // points in the mean; 0: unknown, both shifts are 0
 };
 
-// One frame for the eye: small, gray, with what was tracked in it. Sized once.
+// One reduced gray frame for display, with its tracks. Sized once.
 struct Preview {
   std::uint64_t sequence = 0;
   std::int64_t t_start_ns = 0;

@@ -7,7 +7,8 @@
 
 namespace core {
 
-// kBase moves with the structure's ground; kGround is static, in its plane; kBackground is static, elsewhere.
+// kBase moves with the structure's ground; kGround is static, in the structure's plane; kBackground is static,
+// elsewhere.
 enum class RegionRole : std::uint8_t { kStructure, kBase, kBackground, kGround };
 
 // Static regions have no displacement.
@@ -16,7 +17,7 @@ enum class RegionRole : std::uint8_t { kStructure, kBase, kBackground, kGround }
 }
 
 // State of a region in the newest frame. Searching: not measured, but expected in the image. Lost: outside the image,
-// or searched for too long; it is measured again as soon as it is seen.
+// or searched for too long; it is measured again as soon as it is found.
 enum class RegionState : std::uint8_t { kMeasuring, kSearching, kLost };
 
 [[nodiscard]] constexpr const char* to_string(RegionState state) noexcept {
@@ -39,7 +40,7 @@ struct Region {
   // Axis of the displacement in the image: angle from +u towards +v (down). `both` gives two channels, u and v.
   double axis_deg = 0.0;
   bool both_axes = false;
-  // A length known here, between two points of the first image: the region's own scale. 0 = none.
+  // A known length between two points of the first image: the region's own scale. 0 = none.
   double length_mm = 0.0;
   Vector2 length_from_px{}, length_to_px{};
   double depth_m = 0.0;  // background: distance along the optical axis in the first image; 0 = unknown

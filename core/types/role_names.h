@@ -8,7 +8,7 @@
 
 namespace core {
 
-// As a configuration writes them, and as pictures and tables show them.
+// Names in configurations, and in pictures and tables.
 inline constexpr std::array<std::pair<RegionRole, std::string_view>, 4> kRoleNames{
     {{RegionRole::kStructure, "structure"},
      {RegionRole::kBase, "base"},

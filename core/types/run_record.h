@@ -12,7 +12,7 @@
 
 namespace core {
 
-// Attitude samples received since the previous frame. Samples that do not fit are counted.
+// Attitude samples received since the previous frame. Samples beyond its capacity are counted.
 struct AttitudeBatch {
   static constexpr std::size_t kMost = 64;
   std::array<AttitudeSample, kMost> samples{};
@@ -28,7 +28,7 @@ struct AttitudeBatch {
   }
 };
 
-// A file that the configuration names, as it was, or one beside them.
+// A file named by the configuration, with its content, or a related one.
 struct NamedFile {
   static constexpr std::size_t kMostBytes = std::size_t{256} << 20;
   std::string key;  // of the configuration, "keyframe" for the first image
@@ -36,7 +36,7 @@ struct NamedFile {
   std::string bytes;
 };
 
-// Head of a run record: everything that a replay needs beside the frames' points.
+// Head of a run record: everything that a replay needs in addition to the frames' points.
 struct RunHead {
   std::string config_yaml;
   CameraInfo camera;
@@ -52,7 +52,7 @@ struct RecordedFrame {
   std::uint32_t stride = 1;  // as DisplacementSample::stride
 };
 
-// What the run itself counted, of its last word.
+// Counters of the run itself, from its last status message.
 struct RunCounts {
   std::uint64_t frames_in = 0, frames_processed = 0, frames_dropped = 0, frames_missing = 0, snapshots_skipped = 0;
 };

@@ -9,10 +9,10 @@
 
 namespace core {
 
-// An object's state as bytes of the machine's own order (little-endian on x86-64 and arm64), so that it can be
-// continued bit by bit. The same function describes it to both: `archive.value(x)`, `archive.array(v)`.
+// State of an object as bytes in the machine's order (little-endian on x86-64 and arm64), to continue bit-identically.
+// One function describes the state to writer and reader: `archive.value(x)`, `archive.array(v)`.
 
-// Into memory of a fixed size; nothing allocates. What does not fit makes it not ok.
+// Writes into memory of a fixed size; does not allocate. If the memory is too small, ok() is false.
 class StateWriter {
  public:
   explicit StateWriter(std::span<std::uint8_t> room) noexcept : room_(room) {}
@@ -45,8 +45,8 @@ class StateWriter {
   bool ok_ = true;
 };
 
-// From bytes that may be anything: an array of another length than the object's own, or bytes that end too early, make
-// it not ok; nothing is read from then on.
+// Reads from untrusted bytes: if an array has another length than the object's, or the bytes end too early, ok()
+// becomes false and nothing more is read.
 class StateReader {
  public:
   explicit StateReader(std::span<const std::uint8_t> bytes) noexcept : bytes_(bytes) {}
@@ -56,7 +56,7 @@ class StateReader {
     static_assert(std::is_trivially_copyable_v<T>);
     raw(&x, sizeof x);
   }
-  // A byte that is neither 0 nor 1 must not become a bool: reading it is undefined.
+  // A byte that is neither 0 nor 1 must not be copied to a bool: reading it would be undefined behaviour.
   void value(bool& x) noexcept {
     std::uint8_t byte = x ? 1 : 0;
     raw(&byte, sizeof byte);

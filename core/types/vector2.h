@@ -10,7 +10,7 @@ struct Vector2 {
   double v = 0.0;
 };
 
-// By operations that IEEE 754 rounds exactly: the same bits on every machine, which std::hypot does not promise.
+// Uses only operations that IEEE 754 rounds exactly: bit-identical on every machine, unlike std::hypot.
 [[nodiscard]] inline double length(double u, double v) noexcept { return std::sqrt(u * u + v * v); }
 [[nodiscard]] inline double length(const Vector2& a) noexcept { return length(a.u, a.v); }
 

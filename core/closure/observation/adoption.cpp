@@ -22,7 +22,7 @@ const InFlightCorrection* in_flight(const EffectId& id) {
   return effect != nullptr ? effect->in_flight() : nullptr;
 }
 
-// Of the strongest parameter: the others may be next to nothing.
+// Compares the strongest parameter only: the others may be close to zero.
 bool same(const std::vector<ParameterValue>& a, const std::vector<ParameterValue>& b) {
   if (a.size() != b.size() || a.empty()) return false;
   const auto strongest = static_cast<std::size_t>(

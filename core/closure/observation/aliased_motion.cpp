@@ -16,16 +16,16 @@ using Complex = std::complex<double>;
 using Index = Eigen::Index;
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
-constexpr double kLeastReadout_frames = 0.15;  // less does not tell the orders apart
+constexpr double kLeastReadout_frames = 0.15;  // with a shorter readout the alias orders cannot be distinguished
 constexpr int kMostOrders = 2;
 constexpr double kStrip_hz = 0.25;
-constexpr double kEvidence = 20.0;   // drop of the squares that an order other than 0 needs, in noise variances
-constexpr double kOrderError = 0.3;  // most that the shear may differ from that of its order, in orders
+constexpr double kEvidence = 20.0;   // smallest decrease of the squares for an order other than 0, in noise variances
+constexpr double kOrderError = 0.3;  // largest deviation of the shear from that of its order, in orders
 constexpr std::ptrdiff_t kNeighbours = 4;
-constexpr double kTopOfBand = 0.8;    // of half the rate: from there on the tail's level is read
-constexpr double kTailOrder = 3.0;    // the least steep spectrum of a hover, f^-3
-constexpr double kOverNoise = 1.15;   // a level that noise reaches as well
-constexpr double kLeastPower = 0.05;  // of a direction that counts, in noise variances
+constexpr double kTopOfBand = 0.8;    // share of half the rate above which the level of the tail is estimated
+constexpr double kTailOrder = 3.0;    // slowest decay of the spectrum of hover motion, f^-3
+constexpr double kOverNoise = 1.15;   // factor over the noise that noise alone can reach
+constexpr double kLeastPower = 0.05;  // smallest power of a direction that is used, in noise variances
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -43,8 +43,9 @@ Eigen::VectorXd AliasedMotion::beside(Eigen::VectorXd field) const {
   return field - columns_.q * in;
 }
 
-// Of the strips: with a shear field G of a region, beside the model's columns, and its displacement a, the shear of
-// order n is i theta a G, theta = 2 pi n rho: the squares drop by 2 theta b - theta^2 c.
+// Decrease of the squares per strip. G is the shear field of a region outside the model's columns, a the region's
+// displacement. The shear of order n is i theta a G with theta = 2 pi n rho; the squares decrease by 2 theta b -
+// theta^2 c.
 std::vector<AliasedMotion::Strip> AliasedMotion::strips(const Eigen::MatrixXd& amplitudes,
                                                         const Eigen::MatrixXd& residual) const {
   Eigen::MatrixXd shear(columns_.n_regions, residual.cols()), moved = amplitudes.topRows(columns_.n_regions);
@@ -56,13 +57,13 @@ std::vector<AliasedMotion::Strip> AliasedMotion::strips(const Eigen::MatrixXd& a
     squares(r) = field.squaredNorm();
     shear.row(r) = field.transpose() * residual;
   }
-  // Hann's window: what leaks from a peak has not the peak's phase.
+  // Hann window: leakage from a peak does not have the phase of the peak.
   for (Index k = 0; k < shear.cols(); ++k) {
     const double w = 1.0 - std::cos(kTwoPi * (static_cast<double>(k) + 0.5) / static_cast<double>(shear.cols()));
     shear.col(k) *= w, moved.col(k) *= w;
   }
   const Eigen::MatrixXcd seen = shift_.spectra(shear), spectra = shift_.spectra(moved);
-  const double scale = 2.0 / shift_.n_fft() / 1.5;  // the window's mean square is 1.5
+  const double scale = 2.0 / shift_.n_fft() / 1.5;  // mean square of the window: 1.5
   const auto width = std::max<Index>(1, static_cast<Index>(std::llround(kStrip_hz * shift_.n_fft() / rate_hz_)));
   std::vector<Strip> out;
   for (Index from = 0; from < seen.cols(); from += width) {
@@ -78,7 +79,8 @@ std::vector<AliasedMotion::Strip> AliasedMotion::strips(const Eigen::MatrixXd& a
   return out;
 }
 
-// An order needs evidence, or a neighbour of that order and no evidence against it: a peak leaks into its neighbours.
+// A strip needs evidence of its own, or a neighbour of that order and no evidence against it: peaks leak into
+// neighbours.
 void AliasedMotion::decide(std::vector<Strip>& strips) const {
   const double order = kTwoPi * readout_frames_;
   const auto drop = [&](const Strip& s, int n) { return 2.0 * n * order * s.b - n * n * order * order * s.c; };
@@ -136,7 +138,7 @@ void AliasedMotion::learn_tail(const Eigen::MatrixXd& amplitudes, const Eigen::V
   const double freedom =
       static_cast<double>(residual.rows() - columns_.q.cols()) / static_cast<double>(residual.rows());
   const double squares =
-      residual.squaredNorm() / static_cast<double>(residual.size()) / freedom;  // with the tail's own
+      residual.squaredNorm() / static_cast<double>(residual.size()) / freedom;  // includes the tail's own squares
   std::vector<Eigen::VectorXd> fields;
   for (Index c = 0; c < columns_.n_own; ++c) {
     std::vector<double> power;
@@ -145,7 +147,7 @@ void AliasedMotion::learn_tail(const Eigen::MatrixXd& amplitudes, const Eigen::V
     if (!(level > 0.0)) continue;
     const bool region = c < columns_.n_regions;
     for (int order = 1; order <= (region ? 1 : 2); ++order) {
-      // At order 2 the least steep spectrum is down to this share of what it is at half the rate.
+      // At order 2 the spectrum with the slowest decay has this share of its power at half the rate.
       const double share = order == 1 ? 1.0 : std::pow(3.0, -kTailOrder) + std::pow(5.0, -kTailOrder);
       Eigen::VectorXd sine = std::sqrt(level * share) * columns_.x.col(c), cosine = sine;
       for (Index i = 0; i < sine.size(); ++i) {
@@ -164,7 +166,7 @@ void AliasedMotion::learn_tail(const Eigen::MatrixXd& amplitudes, const Eigen::V
   if (count == 0) return;
   power_ = eigen.values().head(count);
   directions_ = tail * eigen.leading_vectors(count) * power_.cwiseSqrt().cwiseInverse().asDiagonal();
-  // The noise is what the tail's directions do not hold.
+  // Noise: the part of the residual outside the tail's directions.
   const auto n_free = static_cast<double>(residual.rows() - columns_.q.cols() - count);
   if (!(n_free > 0.0)) return;
   const double inside = (directions_.transpose() * residual).squaredNorm();
@@ -177,7 +179,7 @@ void AliasedMotion::weigh(Eigen::MatrixXd& series) const {
   const auto half = static_cast<double>(bins.cols() - 1);
   for (Index k = 0; k < bins.cols(); ++k) {
     const double place =
-        static_cast<double>(k) / half;  // of half the rate; order -1 comes from 2 - place, +1 from 2 + place
+        static_cast<double>(k) / half;  // of half the rate; alias order -1 comes from 2 - place, +1 from 2 + place
     const double shape = std::pow(2.0 - place, -kTailOrder) + std::pow(2.0 + place, -kTailOrder);
     for (Index i = 0; i < bins.rows(); ++i) bins(i, k) *= 1.0 / std::sqrt(1.0 + shape * power_(i)) - 1.0;
   }

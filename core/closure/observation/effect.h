@@ -13,9 +13,10 @@
 
 namespace core::closure {
 
-// One physical cause that the observation level may lack: one file in effects/ and one line in effects/catalogue.h. A
-// subclass of one of the kinds (kinds/): a pattern over the image with an amplitude per frame, constants of the record,
-// a spectral line. Stateless: what is found in a record is in its candidate, what is fitted in its EffectInModel.
+// One physical cause that may be missing in the observation level: one file in effects/ and one line in
+// effects/catalogue.h. A subclass of one of the kinds (kinds/): a pattern over the image with an amplitude per frame,
+// constants of the record, or a spectral line. Stateless: the candidate holds what is found in a record, the
+// EffectInModel what is fitted.
 class ObservationEffect {
  public:
   ObservationEffect() = default;
@@ -27,12 +28,12 @@ class ObservationEffect {
   [[nodiscard]] virtual std::string name() const = 0;  // for readers
   [[nodiscard]] virtual std::size_t n_parameters() const = 0;
 
-  // Empty: observable in this record, or already adopted.
+  // Reason why the effect cannot be observed. Empty: observable in this record, or already adopted.
   [[nodiscard]] virtual std::optional<NotObservable> obstacle(const FitView& fit, bool is_adopted) const = 0;
   // Valid until the next fit. The effect must outlive it.
   [[nodiscard]] virtual std::unique_ptr<EffectCandidate> candidate(const FitView& fit) const = 0;
 
-  // Whether a run corrects this effect in its own points, once reports agree on it, and how. By default it does not.
+  // How a run corrects this effect in its own points once reports agree on it; nullptr (default): it does not.
   [[nodiscard]] virtual const InFlightCorrection* in_flight() const { return nullptr; }
 };
 

@@ -9,16 +9,16 @@
 
 namespace core::closure {
 
-// A residual under test: 2 points x frames, in sigmas, as the model leaves it.
+// A residual under test: 2 points x frames, in sigmas, after the fit of the model.
 struct TestedResidual {
   const Eigen::MatrixXd& values;
   const ResidualMoments& moments;
 };
 
-// Why an effect is not behind a gain, though it explains it.
+// Reason why an effect is refused although it explains the residual.
 struct Objection {
   std::string words;            // empty: none
-  bool is_other_cause = false;  // it repeats a motion of the model: not even a rival
+  bool is_other_cause = false;  // it repeats a motion of the model, so it is not even a rival
 };
 
 // An effect under test on top of one fit.
@@ -29,10 +29,10 @@ class EffectCandidate {
   EffectCandidate& operator=(const EffectCandidate&) = delete;
   virtual ~EffectCandidate() = default;
 
-  // Drop of the held-out squares in noise variances, on any residual.
+  // Decrease of the held-out squares in noise variances, for any residual.
   [[nodiscard]] virtual double gain(const TestedResidual& residual) const = 0;
 
-  // The same on the fit's own residual; the functions below refer to what it found.
+  // The same for the residual of the fit itself; the functions below refer to this result.
   virtual double find(const TestedResidual& residual) = 0;
   [[nodiscard]] virtual double material_share() const = 0;  // smallest gain per residual value
   [[nodiscard]] virtual Objection objection() const { return {}; }

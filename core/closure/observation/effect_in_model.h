@@ -14,13 +14,13 @@ namespace core::closure {
 
 // Order in which adopted effects are removed from the measured positions.
 enum class CorrectionStage : std::uint8_t {
-  kVibration,  // motion of the camera
-  kTracker,    // a tracking error: the points are elsewhere than measured
-  kLens,       // the image is bent
+  kVibration,  // vibration of the camera
+  kTracker,    // tracking error: points differ from their measured positions
+  kLens,       // lens distortion of the image
 };
 
-// An adopted effect: its state, and what it does to the model. An effect overrides what it has: a pattern, constants,
-// or a motion that it estimates itself.
+// An adopted effect: its state and its contribution to the model. A subclass overrides the functions of its kind: a
+// pattern, constants, or a motion that it estimates itself.
 class EffectInModel {
  public:
   EffectInModel(EffectId id, std::string name) : id_(std::move(id)), name_(std::move(name)) {}
@@ -31,19 +31,19 @@ class EffectInModel {
   [[nodiscard]] const EffectId& id() const noexcept { return id_; }
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] virtual EffectKind kind() const { return EffectKind::kNamed; }
-  // After a fit. amplitude: of its pattern over the frames; empty for effects without one.
+  // After a fit. amplitude: of its pattern in each frame; empty for effects without a pattern.
   [[nodiscard]] virtual std::vector<ParameterValue> parameters(const FitView& fit,
                                                                const Eigen::RowVectorXd& amplitude) const = 0;
 
   // A pattern over the points with an amplitude per frame: px per unit, 2 points long; nullptr: none.
   [[nodiscard]] virtual const Eigen::VectorXd* pattern() const { return nullptr; }
-  [[nodiscard]] virtual bool is_low_band() const { return false; }  // its amplitude exists up to kLowBand_hz only
-  virtual void set_places(const PointGeometry& /*geometry*/) {}     // of the points, as the fit changes them
-  // Of the camera per unit of the amplitude, where the pattern is the first order of a rotation; else zero.
+  [[nodiscard]] virtual bool is_low_band() const { return false; }  // its amplitude is limited to kLowBand_hz
+  virtual void set_places(const PointGeometry& /*geometry*/) {}     // places: of the points; the fit may change them
+  // Rotation of the camera per unit of amplitude, if the pattern is the first order of a rotation; else zero.
   [[nodiscard]] virtual Eigen::Vector3d rotation() const { return Eigen::Vector3d::Zero(); }
 
-  // Constants of the record, refined by Gauss-Newton steps of all effects together. derivatives(): of the prediction,
-  // as the model leaves them, 2 points x frames in sigmas.
+  // Constants of the record, refined by joint Gauss-Newton steps of all effects. derivatives(): of the prediction,
+  // after removal of the model's columns, 2 points x frames in sigmas.
   [[nodiscard]] virtual Eigen::Index n_constants() const { return 0; }
   [[nodiscard]] virtual std::vector<Eigen::MatrixXd> derivatives(const FitView& /*fit*/) const { return {}; }
   virtual void change_constants(const Eigen::VectorXd& /*change*/, const Eigen::MatrixXd& /*covariance*/) {}
@@ -53,10 +53,10 @@ class EffectInModel {
   virtual void correct(CorrectionStage /*stage*/, const CorrectionView& /*view*/,
                        Eigen::MatrixXd& /*positions*/) const {}
 
-  // A motion that the effect estimates itself: refined between two solutions of the model.
+  // True if the effect estimates a motion or constants itself, refined between two solutions of the model.
   [[nodiscard]] virtual bool is_refined() const { return n_constants() > 0; }
   virtual void refine(const FitView& /*fit*/) {}
-  [[nodiscard]] virtual double freedom() const { return 0.0; }  // that it takes from the noise beside the model's own
+  [[nodiscard]] virtual double freedom() const { return 0.0; }  // taken in addition to the model's columns
 
  protected:
   EffectInModel(const EffectInModel&) = default;

@@ -14,14 +14,14 @@ struct CorrectionView {
   const Eigen::MatrixXd& predicted_px;  // 2 points x frames: positions in the raw image predicted by the model
 };
 
-// The state of a fit as effects see it. Valid until the fit changes.
+// Read access for effects to the state of a fit. Valid until the fit changes.
 struct FitView {
   const ObservationRecord& record;
   const PointMotionModel& model;
   const HeldOut& held_out;
   const Eigen::MatrixXd& predicted_px;  // as in CorrectionView
-  double readout_frames = 0.0;          // declared and added
-  double sigma_px = 0.0;                // of the points, rms
+  double readout_frames = 0.0;          // declared plus added
+  double sigma_px = 0.0;                // rms over the points
 
   [[nodiscard]] CorrectionView correction() const noexcept { return {record, predicted_px}; }
 };

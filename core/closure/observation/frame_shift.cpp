@@ -13,11 +13,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr int kLeastBridge = 64;     // frames between the record's end and its beginning
-constexpr int kSmooth = 12;          // bins on either side that a spectrum is averaged over
-constexpr double kLeastPower = 1.5;  // of the noise: less is no signal
+constexpr int kLeastBridge = 64;     // smallest number of frames that blend the record's end into its beginning
+constexpr int kSmooth = 12;          // a spectrum is averaged over so many bins on either side
+constexpr double kLeastPower = 1.5;  // smallest power of a signal, in noise variances
 
-// One series with its bridge, and its spectrum.
+// One series made periodic, and its spectrum.
 class Periodic {
  public:
   Periodic(Eigen::Index n, int n_fft)
@@ -50,7 +50,7 @@ class Periodic {
   std::vector<Complex> bins_;
 };
 
-// Wiener's gain per bin: 1 - noise / power, of the averaged periodogram.
+// Wiener gain per bin: 1 - noise / power of the averaged periodogram.
 std::vector<double> wiener_gain(const std::vector<Complex>& bins, double noise_power) {
   const auto n = static_cast<int>(bins.size());
   std::vector<double> sum(bins.size() + 1, 0.0), gain(bins.size(), 0.0);
@@ -77,7 +77,7 @@ void FrameShift::advance(Eigen::MatrixXd& series, const Eigen::VectorXd& frames)
     const Complex step = std::polar(1.0, 2.0 * std::numbers::pi * frames(row) / n_fft_);
     Complex turn = 1.0;
     for (std::size_t k = 0; k + 1 < bins.size(); ++k, turn *= step) bins[k] *= turn;
-    bins.back() *= turn.real();  // half the rate has no phase
+    bins.back() *= turn.real();  // the bin at half the rate has no phase
     periodic.inverse(series, row);
   }
 }

@@ -73,8 +73,8 @@ std::vector<std::string> GyroRotationLevel::candidates() const {
   return names;
 }
 
-// Without rotation only shifts and the points' scatter are fitted. With it, the most likely of three readouts wins
-// where the readout is free.
+// Without rotation only translations and the points' sigma are fitted. With rotation and a free readout, the fit starts
+// from three readouts and keeps the most likely result.
 GyroRotationLevel::Fitted GyroRotationLevel::fit_with(const std::vector<Effect>& effects,
                                                       const std::vector<FramePair>& pairs,
                                                       const std::vector<GyroSample>& gyro, bool brief) const {
@@ -140,7 +140,7 @@ LevelFit GyroRotationLevel::fit() {
   LevelFit out;
   out.heldout = out.residual_rms = std::sqrt(squares_ / n_heldout_);
   out.noise_floor = sigma_px_;
-  out.structured = true;  // what chance can do is told by the surrogates
+  out.structured = true;  // surrogates determine what chance can reach
   out.words = "held-out residual is " + std::to_string(out.heldout / sigma_px_) + " of the points' scatter";
   return out;
 }

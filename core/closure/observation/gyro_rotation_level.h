@@ -12,20 +12,20 @@
 
 namespace core::closure {
 
-// Observation level of a camera that is rotated beside a gyro: the model predicts the points of one frame in the next.
-// Without effects it is a global shutter that does not rotate: all motion is a camera translation, free in every frame
-// pair, and the residual is the distance of points from their epipolar lines. Effects, fitted by
-// core/geometry/gyro_problem.h: the camera rotates as the gyro measures (axes, clock offset and bias are fitted); lines
+// Observation level of a camera that rotates and carries a gyro: the model predicts the points of one frame in the
+// next. Without effects the model is a global shutter that does not rotate: all motion is a camera translation, free in
+// each frame pair, and the residual is the distance of points from their epipolar lines. Effects, fitted by
+// core/geometry/gyro_problem.h: the camera rotates as the gyro measures (axes, clock offset and bias are fitted); rows
 // are read one after the other. Whole frame pairs are held out: they are excluded from the fit; only their own camera
 // translation is estimated.
-// Score: drop of the held-out squares over the variance of a point, over the points within five standard deviations in
-// the model with all effects; the others move by themselves.
+// Score: decrease of the held-out squares over the variance of a point, summed over the points within five standard
+// deviations in the model with all effects; other points are taken to move by themselves.
 // Surrogates: the gyro record, rotated circularly in time; readout fractions permuted among the points of a pair.
 class GyroRotationLevel final : public ClosureLevel {
  public:
   static constexpr double kBar = 0.003;  // smallest score per held-out point, as for constants of the record
 
-  // Throws what core::fit_gyro_readout() does.
+  // Throws the exceptions of core::fit_gyro_readout().
   GyroRotationLevel(std::vector<core::FramePair> pairs, std::vector<core::GyroSample> gyro,
                     const core::GyroReadoutConfig& config);
 
@@ -41,8 +41,8 @@ class GyroRotationLevel final : public ClosureLevel {
   [[nodiscard]] std::vector<ParameterValue> parameters(std::size_t adopted) const override;
   [[nodiscard]] std::vector<std::string> rivals(std::size_t, std::uint64_t) override { return {}; }
   [[nodiscard]] std::vector<ClosureMode> modes() const override { return {}; }
-  // Degrees rms per frame pair and axis: rotation of the image beyond the model over the held-out pairs, from the image
-  // alone, weighted by information; without the mean, which a steady translation biases.
+  // Degrees rms per frame pair and axis: image rotation that the model leaves in the held-out pairs, estimated from the
+  // image alone and weighted by information; the mean is removed, because a steady translation biases it.
   [[nodiscard]] std::optional<double> reference_error() const override { return residual_rotation_deg_; }
   [[nodiscard]] std::string reference_unit() const override { return "deg a frame"; }
   [[nodiscard]] std::string describe_residual() const override;
@@ -57,10 +57,10 @@ class GyroRotationLevel final : public ClosureLevel {
   [[nodiscard]] std::vector<Effect> open() const;
   [[nodiscard]] static const char* name_of(Effect effect);
   [[nodiscard]] static bool holds(const std::vector<Effect>& effects, Effect effect);
-  // brief: from one start, few iterations.
+  // brief: one start and few iterations.
   [[nodiscard]] Fitted fit_with(const std::vector<Effect>& effects, const std::vector<core::FramePair>& pairs,
                                 const std::vector<core::GyroSample>& gyro, bool brief) const;
-  [[nodiscard]] const Fitted& fit_of(const std::vector<Effect>& effects);  // of the record itself, fitted once
+  [[nodiscard]] const Fitted& fit_of(const std::vector<Effect>& effects);  // on the record, fitted once per set
   [[nodiscard]] double heldout_squares(const Fitted& fitted, const std::vector<Effect>& effects,
                                        const std::vector<core::FramePair>& pairs,
                                        const std::vector<core::GyroSample>& gyro) const;
@@ -68,13 +68,13 @@ class GyroRotationLevel final : public ClosureLevel {
   [[nodiscard]] double residual_rotation_deg() const;
 
   std::vector<core::FramePair> pairs_;
-  std::vector<core::GyroSample> gyro_, still_;  // still_: a gyro that never rotates
+  std::vector<core::GyroSample> gyro_, still_;  // still_: gyro samples without rotation
   core::GyroReadoutConfig config_;
-  double sigma_px_ = 0.0;                   // of a point, with all effects
+  double sigma_px_ = 0.0;                   // of a point, in the model with all effects
   std::vector<std::vector<char>> at_rest_;  // per pair and point
-  double n_heldout_ = 0.0;                  // of these in held-out pairs
+  double n_heldout_ = 0.0;                  // number of static points in held-out pairs
   std::vector<Effect> adopted_;
-  std::array<std::optional<Fitted>, 3> known_;  // by the number of effects: readout only beside rotation
+  std::array<std::optional<Fitted>, 3> known_;  // by number of effects: readout is tested only after rotation
   Fitted fitted_;
   double squares_ = 0.0, residual_rotation_deg_ = 0.0;
 };

@@ -10,11 +10,11 @@
 namespace core::closure {
 namespace {
 
-constexpr double kToldSignal = 0.3;  // of the amplitude's variance: a signal worth telling
+constexpr double kToldSignal = 0.3;  // smallest share of the amplitude's variance that is reported
 
 std::string percent(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
 
-// Share of the field's squares within the span of 1, x, y (, x^2, xy, y^2), along u and v apart.
+// Share of the field's squares explained by 1, x, y (and x^2, xy, y^2 if quadratic), along u and v separately.
 double smooth_share(const Eigen::VectorXd& field, const PointGeometry& g, bool quadratic) {
   const Eigen::Index n = g.x.size();
   Eigen::MatrixXd basis(n, quadratic ? 6 : 3);
@@ -38,7 +38,7 @@ double strongest_hz(const Eigen::RowVectorXd& amplitude, double rate_hz) {
   for (Eigen::Index k = 0; k < amplitude.size(); ++k) series[static_cast<std::size_t>(k)] = amplitude(k) - mean;
   std::vector<std::complex<double>> bins(static_cast<std::size_t>(fft.n_bins()));
   fft.forward(series, bins);
-  // Summed over neighbours: one bin of a wide peak is chance.
+  // Power is summed over neighbouring bins: one bin of a wide peak fluctuates too much.
   constexpr std::ptrdiff_t kHalf = 4;
   double most = -1.0;
   std::ptrdiff_t at = 0;

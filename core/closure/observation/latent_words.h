@@ -9,7 +9,7 @@
 
 namespace core::closure {
 
-// A series with which the amplitude of a pattern may correlate.
+// A known series that may correlate with the amplitude of a pattern.
 struct KnownSignal {
   std::string name;
   Eigen::RowVectorXd series;

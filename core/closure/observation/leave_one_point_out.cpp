@@ -5,9 +5,9 @@
 namespace core::closure {
 namespace {
 
-constexpr double kLeastFreedom = 1e-4;  // smallest determinant of I - H_jj that still leaves something to predict from
+constexpr double kLeastFreedom = 1e-4;  // smallest determinant of I - H_jj: below, nothing else predicts point j
 
-// (I - H)^-1; H with the new column may reach the limit where H alone did not.
+// (I - H)^-1. With an added column, H may reach the limit although H without it did not.
 Eigen::Matrix2d gain(const Eigen::Matrix2d& hat) {
   const Eigen::Matrix2d freedom = Eigen::Matrix2d::Identity() - hat;
   if (freedom.determinant() < 1e-6) return Eigen::Matrix2d::Identity() * 1e3;

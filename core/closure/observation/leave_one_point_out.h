@@ -5,8 +5,8 @@
 
 namespace core::closure {
 
-// Leave-one-point-out cross-validation in closed form (PRESS, Allen 1974): a linear fit per frame with orthonormal
-// columns Q leaves r = (I - Q Q') z; the error of point j predicted from the others is e_j = (I - H_jj)^-1 r_j.
+// Leave-one-point-out cross-validation in closed form (PRESS, Allen 1974). A linear fit per frame with orthonormal
+// columns Q leaves r = (I - Q Q') z; the prediction error of point j from the others is e_j = (I - H_jj)^-1 r_j.
 class LeaveOnePointOut {
  public:
   explicit LeaveOnePointOut(const Eigen::MatrixXd& q);  // 2 points x columns, orthonormal
@@ -15,14 +15,14 @@ class LeaveOnePointOut {
   [[nodiscard]] double squares(const Eigen::MatrixXd& moments) const;
   // The same with one more orthonormal column g, orthogonal to Q.
   [[nodiscard]] double squares_with(const Eigen::MatrixXd& moments, const Eigen::VectorXd& g) const;
-  // Expected square per value for noise of unit variance, leverage included; and per frame.
+  // Expected square per value for noise of unit variance, leverage included.
   [[nodiscard]] double noise_variance() const noexcept { return noise_ / static_cast<double>(n_values_); }
-  [[nodiscard]] double noise_with(const Eigen::VectorXd& g) const;  // per frame
-  [[nodiscard]] double noise() const noexcept { return noise_; }    // per frame
+  [[nodiscard]] double noise_with(const Eigen::VectorXd& g) const;  // expected squares per frame with g added
+  [[nodiscard]] double noise() const noexcept { return noise_; }    // expected squares per frame
   [[nodiscard]] Eigen::Index n_values() const noexcept { return n_values_; }
   [[nodiscard]] Eigen::Index n_alone() const noexcept {
     return n_alone_;
-  }  // points that no other point predicts; not counted
+  }  // points that no other points predict; excluded
 
  private:
   std::vector<Eigen::Matrix2d> hat_;  // H_jj

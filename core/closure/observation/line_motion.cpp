@@ -1,4 +1,4 @@
-// LineSearch: the motion that a finding stands for.
+// LineSearch: motion, angles and frequency of a finding.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
@@ -63,7 +63,7 @@ Eigen::MatrixXd LineSearch::motion(const Eigen::MatrixXd& residual, const LineFi
   return out;
 }
 
-// The motion is in the span of the fields in every bin, but for the drift over the lines.
+// In every bin the motion is a combination of the fields, except for the drift of points over the rows.
 LineAngles LineSearch::angles(const Eigen::MatrixXd& motion_px, const LineFinding& finding) const {
   const Band b = band(finding.apparent_hz, finding.half_width_hz);
   LineAngles out;
@@ -78,7 +78,7 @@ LineAngles LineSearch::angles(const Eigen::MatrixXd& motion_px, const LineFindin
       (left.adjoint() * left).ldlt().solve(Eigen::MatrixXcd::Identity(fields.cols(), fields.cols()));
   const auto n = static_cast<double>(n_frames_);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const double noise = covariance(axis, axis).real();  // per frame, of the whole spectrum
+    const double noise = covariance(axis, axis).real();  // per frame, over the whole spectrum
     const double power = amplitude.row(axis).squaredNorm() / n - 2.0 * static_cast<double>(b.count) / n_fft_ * noise;
     const auto i = static_cast<std::size_t>(axis);
     out.rms[i] = std::sqrt(std::max(power, 0.0)), out.sigma[i] = std::sqrt(noise / n);
@@ -86,7 +86,7 @@ LineAngles LineSearch::angles(const Eigen::MatrixXd& motion_px, const LineFindin
   return out;
 }
 
-// Phase advance of the strongest row's analytic signal, stretch by stretch.
+// Phase advance of the analytic signal of the strongest row, in successive parts of the record.
 LineFrequency LineSearch::frequency(const Eigen::MatrixXd& motion_px, const LineFinding& finding) const {
   Eigen::Index row = 0;
   motion_px.rowwise().squaredNorm().maxCoeff(&row);

@@ -15,10 +15,10 @@ namespace core::closure {
 namespace {
 
 constexpr std::array<double, 4> kHalfWidth_hz{3.0, 2.0, 1.0, 0.3};
-constexpr double kFoldWidth_hz = 1.0;  // in which the fold is told
-constexpr double kLowest_hz = 3.5;     // below, slow rotations are effects of their own
+constexpr double kFoldWidth_hz = 1.0;  // half width of the band in which the alias order is estimated
+constexpr double kLowest_hz = 3.5;     // slower rotations are separate effects
 constexpr std::size_t kPeaks = 2;
-constexpr double kMirrorReadout_frames = 0.2;  // from which the rows tell a band from its mirror image
+constexpr double kMirrorReadout_frames = 0.2;  // smallest with which rows distinguish a band from its mirror image
 constexpr double kPeakApart_hz = 1.0, kPeakWidth_hz = 0.3;
 
 using Block = Eigen::Matrix2cd;
@@ -41,7 +41,7 @@ double squares(const Block& hat, const Block& moments) {
   return (m * moments * m.adjoint()).trace().real();
 }
 
-// Orthonormal columns with the same span; columns that add nothing fall out.
+// Orthonormal columns with the same span; dependent columns are dropped.
 Eigen::MatrixXcd orthonormal(const Eigen::MatrixXcd& columns, const Eigen::VectorXd& norms) {
   Eigen::MatrixXcd q(columns.rows(), 0);
   for (Eigen::Index c = 0; c < columns.cols(); ++c) {
@@ -70,7 +70,7 @@ Eigen::MatrixXcd LineSearch::spectrum(const Eigen::MatrixXd& residual) const {
   std::vector<double> series(static_cast<std::size_t>(n_fft_), 0.0);
   std::vector<std::complex<double>> bins(static_cast<std::size_t>(fft.n_bins()));
   Eigen::MatrixXcd out(residual.rows(), fft.n_bins());
-  const double scale = std::sqrt(2.0 / n_fft_);  // one side of the spectrum holds all squares
+  const double scale = std::sqrt(2.0 / n_fft_);  // the one-sided spectrum holds all squares
   for (Eigen::Index i = 0; i < residual.rows(); ++i) {
     for (Eigen::Index k = 0; k < residual.cols(); ++k) series[static_cast<std::size_t>(k)] = residual(i, k);
     fft.forward(series, bins);
@@ -146,7 +146,7 @@ double LineSearch::gain(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd&
   return gain_of_columns(moments, orthonormal(left_of(fields), norms));
 }
 
-// g: orthonormal, beside the model's own columns.
+// g: orthonormal, outside the model's own columns.
 double LineSearch::gain_of_columns(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& g) const {
   const Eigen::MatrixXcd sg = moments * g, gsg = g.adjoint() * sg;
   double drop = 0.0;
@@ -169,7 +169,7 @@ double LineSearch::pattern_gain(const Eigen::MatrixXd& residual, const LineFindi
   std::vector<Eigen::MatrixXcd> parts;
   Eigen::MatrixXcd sum = Eigen::MatrixXcd::Zero(bins.rows(), bins.rows());
   for (Eigen::Index p = 0; p < kParts; ++p) {
-    // Every fifth bin: a narrow peak is in all parts.
+    // Every fifth bin: each part then contains bins of a narrow peak.
     Eigen::MatrixXcd part(bins.rows(), (b.count - p + kParts - 1) / kParts);
     for (Eigen::Index c = 0; c < part.cols(); ++c) part.col(c) = bins.col(p + c * kParts);
     parts.push_back(moments_of(part));
@@ -187,7 +187,7 @@ double LineSearch::pattern_gain(const Eigen::MatrixXd& residual, const LineFindi
   return gained;
 }
 
-// Without the mirror image: a line must stand by its own side.
+// Excludes the mirror image: a line must reach the threshold without it.
 double LineSearch::band_gain(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const {
   const Band b = band(finding.apparent_hz, finding.half_width_hz);
   return b.count < 1 ? 0.0 : gain(moments_of(spectrum.middleCols(b.first, b.count)), fields_of(finding.fold));
@@ -221,7 +221,7 @@ std::array<double, 3> LineSearch::quantiles_hz(const Eigen::MatrixXcd& spectrum,
   return out;
 }
 
-// The middle of its power, in the band of most gain about it; the width of the power.
+// Centres the finding at the median of its power, selects the half width of largest gain and computes its spread.
 void LineSearch::recentre(const Eigen::MatrixXcd& spectrum, LineFinding& finding) const {
   if (!(finding.gain > 0.0)) return;
   const double margin = finding.gain - finding.next_gain;

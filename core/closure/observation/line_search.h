@@ -9,34 +9,34 @@
 
 namespace core::closure {
 
-// Spectral line: rotation of the camera in a narrow band, as caused by rotors. Its phase runs with the readout from
-// row to row, which determines the true frequency among the aliases: at the frames' common instants what is seen at nu
-// and has the alias order n, true frequency nu + n f_s, keeps the phase exp(2 pi i n rho s_j). A band that extends
-// beyond f_s / 2 appears a second time below it, mirrored, with opposite sense of rotation and alias order -(n +
-// 1).
+// Spectral line: camera rotation in a narrow band, as caused by rotors. With a rolling shutter its phase advances from
+// row to row, which determines the true frequency among the aliases: at the frames' common instants, motion at apparent
+// frequency nu of alias order n (true frequency nu + n f_s) has the row-dependent phase exp(2 pi i n rho s_j). A band
+// that extends beyond f_s / 2 appears a second time below it, mirrored, with opposite sense of rotation and alias order
+// -(n + 1).
 struct LineFinding {
   double apparent_hz = 0.0;  // middle of the band, 0 .. f_s / 2; 0 = no line
   int fold = 0;
   double half_width_hz = 0.0;
-  double spread_hz = 0.0;  // half of the distance between the 16 % and 84 % points of its power in excess of the noise
+  double spread_hz = 0.0;  // half the distance between the 16 % and 84 % quantiles of its power above the noise
   double freedom = 0.0;    // degrees of freedom that its motion takes from the noise
-  double gain = 0.0;       // drop of the held-out squares, in noise variances
-  double next_gain = 0.0;  // of the second-best alias order
+  double gain = 0.0;       // decrease of the held-out squares, in noise variances
+  double next_gain = 0.0;  // gain of the second-best alias order
 
-  // Width of a steady line: of what turns at a rate held within a hundredth. Wider is a band. Where the readout does
-  // not tell the alias order, the rate may be any, and a fixed width decides.
+  // True for the width of a rotor whose speed is constant within one percent; wider findings are bands. If the readout
+  // does not determine the alias order, the true frequency is unknown and a fixed width decides.
   [[nodiscard]] bool is_steady(double rate_hz, double readout_frames) const noexcept {
     const double true_hz = std::abs(apparent_hz + fold * rate_hz);
     return spread_hz <= (std::abs(readout_frames) < 0.1 ? 0.4 : 0.05 + 0.01 * true_hz);
   }
 };
 
-// Mean apparent frequency (0 .. f_s / 2) and its standard deviation from eight parts of the record.
+// Mean apparent frequency (0 .. f_s / 2) and its standard deviation, from eight parts of the record.
 struct LineFrequency {
   double apparent_hz = 0.0, sigma_hz = 0.0;
 };
 
-// Rotations in a finding's motion: rms about roll, pitch and yaw over the record without the noise's part, and their
+// Rotation angles of a finding's motion: rms about roll, pitch and yaw over the record, corrected for noise, and their
 // standard deviations, rad.
 struct LineAngles {
   std::array<double, 3> rms{}, sigma{};
@@ -49,16 +49,16 @@ class LineSearch {
   LineSearch(const PointMotionModel& model, double rate_hz, double readout_frames, Eigen::MatrixXd fields,
              Eigen::Index n_frames);
 
-  // residual: 2 points x frames, in sigmas, as the model leaves it.
+  // residual: 2 points x frames, in sigmas, after the fit of the model.
   [[nodiscard]] LineFinding find(const Eigen::MatrixXd& residual) const;
-  // Gain of the best pattern of any other kind in the finding's band, learned on four fifths of its bins and scored on
-  // the other fifth.
+  // Gain in the finding's band of the best pattern of any other kind, learned on four fifths of its bins and scored on
+  // the remaining fifth.
   [[nodiscard]] double pattern_gain(const Eigen::MatrixXd& residual, const LineFinding& finding) const;
-  // The finding's motion in px, fitted to this residual.
-  // later: points x frames, how much later in the readout a point is seen than on average, in readouts.
+  // The finding's motion in px, fitted to this residual. later: points x frames, difference between a point's readout
+  // fraction and its mean, in readouts.
   [[nodiscard]] Eigen::MatrixXd motion(const Eigen::MatrixXd& residual, const LineFinding& finding,
                                        const Eigen::MatrixXd& later) const;
-  // motion_px: as motion() gives it.
+  // motion_px: result of motion().
   [[nodiscard]] LineAngles angles(const Eigen::MatrixXd& motion_px, const LineFinding& finding) const;
   [[nodiscard]] LineFrequency frequency(const Eigen::MatrixXd& motion_px, const LineFinding& finding) const;
 
@@ -73,23 +73,23 @@ class LineSearch {
     Band band;
   };
   [[nodiscard]] Eigen::MatrixXcd spectrum(const Eigen::MatrixXd& residual) const;
-  // Inverse of one-sided bins, as a complex (analytic) series, so many frames later.
+  // Inverse transform of one-sided bins as a complex (analytic) series, advanced by this number of frames.
   [[nodiscard]] Eigen::RowVectorXcd analytic(const Eigen::RowVectorXcd& bins, const Band& at, Eigen::Index n,
                                              double frames = 0.0) const;
   [[nodiscard]] Band band(double centre_hz, double half_width_hz) const;
-  // The finding's band, and its mirror image if that extends below f_s / 2 and the rows distinguish the two.
+  // The finding's band, and its mirror image if it extends below f_s / 2 and the rows distinguish the two.
   [[nodiscard]] std::vector<Side> sides(const LineFinding& finding) const;
   [[nodiscard]] std::vector<double> peaks(const Eigen::MatrixXcd& spectrum) const;
   [[nodiscard]] Eigen::MatrixXcd fields_of(int fold) const;
-  // All sides that contain the bin, side by side.
+  // Fields of all sides that contain the bin, as columns.
   [[nodiscard]] Eigen::MatrixXcd fields_at(Eigen::Index bin, const std::vector<Side>& sides) const;
-  // The part of them outside the model's own columns, whitened.
+  // Part of the fields outside the model's own columns, whitened.
   [[nodiscard]] Eigen::MatrixXcd left_of(const Eigen::MatrixXcd& fields) const;
   [[nodiscard]] double gain(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& fields) const;
   [[nodiscard]] double gain_of_columns(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& g) const;
   [[nodiscard]] double band_gain(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const;
   void recentre(const Eigen::MatrixXcd& spectrum, LineFinding& finding) const;
-  // Places in the band where its power in excess of the noise reaches these shares, Hz.
+  // Frequencies in the band at which its cumulative power above the noise reaches 16, 50 and 84 %, Hz.
   [[nodiscard]] std::array<double, 3> quantiles_hz(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const;
   [[nodiscard]] double freedom_of(const LineFinding& finding) const;
   void try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz, LineFinding& best) const;

@@ -13,7 +13,7 @@ namespace core::closure {
 namespace {
 
 constexpr int kReadoutRounds = 1, kRefinedRounds = 8, kFillRounds = 3, kRotationRounds = 2;
-constexpr double kStill = 0.05;  // of its sigma: a constant that has converged
+constexpr double kStill = 0.05;  // a constant has converged if its step is below this share of its sigma
 
 }  // namespace
 
@@ -78,7 +78,7 @@ void ObservationFit::sum_readout() {
   for (const auto& effect : effects_) readout_frames_ += effect->added_readout_frames();
 }
 
-// Measured positions less what the adopted effects do to them.
+// Measured positions corrected for the adopted effects.
 Eigen::MatrixXd ObservationFit::corrected(bool solved) {
   Eigen::MatrixXd positions = measured_;
   const CorrectionView view{record_, predicted_px_};
@@ -94,7 +94,7 @@ Eigen::MatrixXd ObservationFit::corrected(bool solved) {
   return positions;
 }
 
-// How much the adopted lens stretches the image at the points when it is removed; noise is stretched alike.
+// Local magnification at the points when the adopted lens distortion is removed; it scales the noise, too.
 Eigen::VectorXd ObservationFit::magnification(const Eigen::VectorXd& places_px) const {
   constexpr double kApart_px = 1.0;
   const Eigen::Index n = places_px.size() / 2;
@@ -114,7 +114,7 @@ Eigen::VectorXd ObservationFit::magnification(const Eigen::VectorXd& places_px) 
   return out;
 }
 
-// Of the adopted rotations; their series are those of the solution before.
+// Second orders of the adopted rotations, computed from the amplitudes of the previous solution.
 void ObservationFit::remove_second_orders(Eigen::MatrixXd& positions) const {
   Eigen::MatrixXd rotations = Eigen::MatrixXd::Zero(3, positions.cols()), rates = rotations;
   double share = 0.0;

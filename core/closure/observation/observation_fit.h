@@ -11,18 +11,18 @@
 
 namespace core::closure {
 
-// The model of the points' positions with its adopted effects, fitted to one record: PointMotionModel, free in every
-// frame; patterns as further columns of it; constants by Gauss-Newton steps; lines by themselves; missing samples
-// predicted by the model.
+// The model of the points' positions with its adopted effects, fitted to one record. Motion is free in every frame
+// (PointMotionModel); patterns are added columns; constants are refined by Gauss-Newton steps; lines are estimated by
+// line search; missing samples are predicted by the model.
 class ObservationFit {
  public:
   using Effects = std::vector<std::unique_ptr<EffectInModel>>;
 
-  // record: checked, of usable points.
+  // record: checked, usable points only.
   explicit ObservationFit(ObservationRecord record);
 
-  // Everything below refers to the last solve(), or to the model without effects. Throws std::runtime_error: a fit that
-  // did not stay finite.
+  // All functions below refer to the last solve(), or to the model without effects before it. Throws std::runtime_error
+  // if the fit does not stay finite.
   void solve();
 
   [[nodiscard]] const Effects& effects() const noexcept { return effects_; }  // in the order of adoption
@@ -39,18 +39,18 @@ class ObservationFit {
   [[nodiscard]] double readout_frames() const noexcept { return readout_frames_; }
   [[nodiscard]] double sigma_px() const noexcept { return sigma_px_; }  // rms over points
   [[nodiscard]] Eigen::VectorXd mean_places_px() const { return measured_.rowwise().mean(); }
-  // Of an effect's pattern, over the frames; empty: it has none.
+  // Amplitude of an effect's pattern in each frame; empty if it has no pattern.
   [[nodiscard]] Eigen::RowVectorXd amplitude(std::size_t effect) const;
-  // Degrees of freedom that effects take from the noise beside the model's columns.
+  // Degrees of freedom that effects take from the noise in addition to the model's columns.
   [[nodiscard]] double freedom_beside() const;
 
  private:
-  [[nodiscard]] Eigen::Index amplitude_row(std::size_t effect) const;  // of an effect with a pattern
+  [[nodiscard]] Eigen::Index amplitude_row(std::size_t effect) const;  // for an effect with a pattern
   void set_columns();
   void set_places(const Eigen::VectorXd& mean_px);
   void fill_missing();
   void sum_readout();
-  [[nodiscard]] Eigen::MatrixXd corrected(bool solved);  // solved: with these effects before
+  [[nodiscard]] Eigen::MatrixXd corrected(bool solved);  // solved: a solution with these effects exists
   [[nodiscard]] Eigen::VectorXd magnification(const Eigen::VectorXd& places_px) const;
   void remove_second_orders(Eigen::MatrixXd& positions) const;
   bool refine_constants();  // false: no constant changed by more than a twentieth of its sigma

@@ -22,11 +22,11 @@ class ObservationLevel final : public ClosureLevel {
   static constexpr std::size_t kSurrogates = 12;  // evaluated by a Gumbel distribution; the thresholds are stricter
 
   // Points that do not move with their region are excluded first (point_screening.h). Throws std::invalid_argument with
-  // what check_record() says.
+  // the faults reported by check_record().
   explicit ObservationLevel(const ObservationRecord& record);
 
-  // Reference modes from another source; shapes in the order of channel_names(), or empty. modes() then lists them,
-  // with frequency 0 where none was found.
+  // Reference modes from another source; shapes in the order of channel_names(), or empty. modes() then lists these
+  // modes, with frequency 0 where no identified mode matches.
   void set_reference(std::vector<core::Mode> reference) { reference_ = std::move(reference); }
   [[nodiscard]] std::vector<std::string> channel_names() const;
 
@@ -50,18 +50,18 @@ class ObservationLevel final : public ClosureLevel {
   [[nodiscard]] std::string reference_unit() const override { return "%"; }
   [[nodiscard]] std::string describe_residual() const override;
 
-  // Of the last fit.
+  // State of the last fit.
   [[nodiscard]] const ObservationFit& state() const noexcept { return fit_; }
-  [[nodiscard]] const core::ModalEstimate& estimate() const;  // of the regions' motion
+  [[nodiscard]] const core::ModalEstimate& estimate() const;  // modes of the regions' motion
   [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
  private:
-  std::vector<std::string> warnings_;  // before fit_, whose making fills it
+  std::vector<std::string> warnings_;  // declared before fit_, whose construction fills it
   ObservationFit fit_;
   std::vector<const ObservationEffect*> catalogue_;
   ObservationScores scores_;
   std::vector<core::Mode> reference_;
-  mutable std::optional<core::ModalEstimate> modes_;  // of the last fit(), once requested
+  mutable std::optional<core::ModalEstimate> modes_;  // of the last fit(), computed on request
 };
 
 }  // namespace core::closure

@@ -9,10 +9,10 @@
 namespace core::closure {
 namespace {
 
-constexpr double kMostMissing = 0.2;    // of a point's frames
-constexpr double kLeastSeconds = 20.0;  // of record: ten blocks of two seconds
+constexpr double kMostMissing = 0.2;    // largest share of a point's frames
+constexpr double kLeastSeconds = 20.0;  // shortest record: ten blocks of two seconds
 constexpr Eigen::Index kLeastPoints = 8;
-constexpr double kLeastSpread = 0.02;  // second singular value of the points' places over the first
+constexpr double kLeastSpread = 0.02;  // smallest ratio of the singular values of the points' positions
 
 std::string number(double value) {
   std::string text = std::to_string(value);
@@ -28,7 +28,7 @@ void check_declared(const ObservationRecord& r, std::vector<std::string>& faults
   if (!positive(r.alpha_px)) faults.push_back("focal length " + number(r.alpha_px) + " px: must be positive");
   if (!std::isfinite(r.cx_px) || !std::isfinite(r.cy_px)) faults.emplace_back("principal point: not a number");
   if (r.width_px <= 0 || r.height_px <= 0) faults.emplace_back("image size: width and height must be positive");
-  constexpr double kRounding = 1e-3;  // of times in ms, and of rates with few digits
+  constexpr double kRounding = 1e-3;  // relative rounding of times in ms and of rates with few digits
   if (!std::isfinite(r.readout_frames) || std::abs(r.readout_frames) > 1.0 + kRounding)
     faults.push_back("readout of " + number(r.readout_frames) + " frames: must lie between -1 and 1");
   const auto n = static_cast<std::size_t>(r.n_points());
@@ -58,7 +58,7 @@ bool usable(const ObservationRecord& r, Eigen::Index j) {
   return static_cast<double>(n_missing) <= kMostMissing * static_cast<double>(r.n_frames());
 }
 
-// Smaller over larger standard deviation of the places along their principal axes.
+// Smaller over larger standard deviation of the positions along their principal axes.
 double spread_ratio(const ObservationRecord& r, const std::vector<Eigen::Index>& points) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   std::vector<Eigen::Vector2d> place;

@@ -34,15 +34,15 @@ struct ObservationRecord {
 
 struct RecordCheck {
   std::vector<std::string> faults;    // reasons why the record cannot be used
-  std::vector<std::string> warnings;  // conclusions it does not allow, and those it still does
+  std::vector<std::string> warnings;  // conclusions that the record does not support, and those that it still does
   std::vector<Eigen::Index> points;   // usable ones, ascending
 };
 
-// Never throws. Points with more than a fifth of the frames missing, NaN throughout or out of range are not among the
-// usable ones.
+// Never throws. Points are excluded if more than a fifth of their frames is missing, or if all values are NaN or out of
+// range.
 [[nodiscard]] RecordCheck check_record(const ObservationRecord& record);
 
-// The record with these points only.
+// Copies the record with these points only.
 [[nodiscard]] ObservationRecord select_points(const ObservationRecord& record, const std::vector<Eigen::Index>& points);
 
 }  // namespace core::closure

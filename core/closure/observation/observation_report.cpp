@@ -10,7 +10,7 @@
 namespace core::closure {
 namespace {
 
-// Motions of the fit with which a latent effect's amplitude may go, and their squares.
+// Motions of the fit, and their squares, that are correlated with a latent effect's amplitude.
 std::vector<KnownSignal> motions_of(const FitView& fit) {
   const Eigen::MatrixXd& amplitudes = fit.model.amplitudes();
   std::vector<KnownSignal> out;

@@ -9,7 +9,7 @@
 
 namespace core::closure {
 
-// What a fit of the observation level shows, for readers. Pure functions of the fit.
+// Describes a fit of the observation level to a reader. Pure functions of the fit.
 
 // Effects of the catalogue that this record cannot show, and those that no record of tracks can.
 [[nodiscard]] std::vector<NotObservable> not_observable(const ObservationFit& fit,
@@ -17,10 +17,10 @@ namespace core::closure {
 
 [[nodiscard]] std::vector<ParameterValue> effect_parameters(const ObservationFit& fit, std::size_t effect);
 
-// Describes a latent effect: place, smoothness, frequency, the signal with which it correlates. Empty for named ones.
+// Describes a latent effect: location, smoothness, frequency, best-correlated signal. Empty for named effects.
 [[nodiscard]] std::string effect_meaning(const ObservationFit& fit, std::size_t effect);
 
-// Of the residual's leading pattern: region, axis, share of the low band.
+// Describes the leading pattern of the residual: region, axis, share of the low band.
 [[nodiscard]] std::string describe_residual(const ObservationFit& fit);
 
 }  // namespace core::closure

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kSignStretch_s = 2.0;
 
-// The residual with each point's values shifted in time. A shift alone leaves a steady sine in all points coherent:
-// signs by the stretch break it.
+// Residual with the series of each point shifted in time. A steady sine would stay coherent over the points after a
+// shift alone; random signs per stretch of time remove this coherence.
 Eigen::MatrixXd shuffled(const Eigen::MatrixXd& residual, double rate_hz, std::uint64_t seed) {
   std::mt19937_64 engine(seed);
   const Eigen::Index n = residual.cols();
@@ -80,7 +80,7 @@ LevelFit ObservationScores::quality() const {
   out.heldout = view.sigma_px * std::sqrt((view.held_out.squares(moments) + 2.0 * freedom) / n_values);
   out.noise_floor = view.sigma_px * std::sqrt(view.held_out.noise_variance() + freedom / n_values);
   out.residual_rms = out.heldout;
-  out.structured = true;  // the surrogates show how much noise can do
+  out.structured = true;  // surrogates determine what noise can reach
   out.words =
       "held-out residual is " + std::to_string(out.heldout / out.noise_floor) + " of the floor of the declared noise";
   if (!std::isfinite(out.heldout)) throw std::runtime_error("observation level: the fit did not stay finite");

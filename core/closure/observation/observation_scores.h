@@ -11,38 +11,38 @@
 
 namespace core::closure {
 
-// Scores of the candidates on one fit: cross-validation leaves one point out in closed form (HeldOut); constants are
-// fitted on nine of ten time blocks and scored on the tenth, latent patterns learned on four of five parts. Score =
-// drop of held-out squares in noise variances; share = score / number of residual values, the unit of the materiality
-// thresholds.
+// Scores of the candidates on one fit. Cross-validation leaves one point out in closed form (HeldOut); constants are
+// fitted to nine of ten time blocks and scored on the tenth; latent patterns are learned on four of five parts. Score =
+// decrease of held-out squares in noise variances; share = score / number of residual values, the unit of the
+// materiality thresholds.
 class ObservationScores {
  public:
-  // A named effect must reach this share of the gain of the best pattern learned from the residual itself, and of the
-  // squares above the noise; otherwise it is a projection of another effect.
+  // Smallest share of the gain of the best pattern learned from the residual itself, and of the squares above the
+  // noise, that a named effect must reach; below, it is taken as a projection of another effect.
   static constexpr double kOfLatent = 0.7, kOfExcess = 0.1;
-  static constexpr double kRival = 0.9;  // of the score of the effect in whose place it stands
+  static constexpr double kRival = 0.9;  // smallest share of the score of the effect that it replaces
   static constexpr std::size_t kMostLatent = 8;
 
-  // Both must outlive it.
+  // Both arguments must outlive the object.
   ObservationScores(const ObservationFit& fit, const std::vector<const ObservationEffect*>& catalogue)
       : fit_(fit), catalogue_(catalogue) {}
 
-  // After each solve() of the fit: candidates are prepared again.
+  // Prepares the candidates for the current solution; call it after each solve() of the fit.
   void begin();
   [[nodiscard]] LevelFit quality() const;
 
-  [[nodiscard]] std::vector<std::string> candidates() const;  // of the effects adopted now
+  [[nodiscard]] std::vector<std::string> candidates() const;  // names for the current set of adopted effects
   [[nodiscard]] std::vector<CandidateScore> score();
-  // The largest gain on a residual without an effect: each point's shifted in time by a lag of its own, with a random
-  // sign for every two seconds.
+  // The largest gain on a residual without an effect: the series of each point is shifted in time by its own lag, with
+  // a random sign for every two seconds.
   [[nodiscard]] double surrogate_score(std::uint64_t seed);
-  // A candidate of the last score(), as part of the model. Throws std::invalid_argument.
+  // Makes a candidate of the last score() part of the model. Throws std::invalid_argument.
   [[nodiscard]] std::unique_ptr<EffectInModel> adopted(std::size_t candidate);
-  // Named candidates that explain as much as the effect of that id, which is one of them.
+  // Named candidates that explain as much as the effect `id`, which is one of them.
   [[nodiscard]] std::vector<std::string> as_good_as(const EffectId& id);
 
  private:
-  [[nodiscard]] std::vector<const ObservationEffect*> open() const;  // named, not adopted
+  [[nodiscard]] std::vector<const ObservationEffect*> open() const;  // named and not adopted
   [[nodiscard]] std::size_t n_latent() const;
   void prepare();
   [[nodiscard]] Objection refusal(const EffectCandidate& candidate, double gain, double latent_gain,
@@ -50,8 +50,8 @@ class ObservationScores {
 
   const ObservationFit& fit_;
   const std::vector<const ObservationEffect*>& catalogue_;
-  std::vector<std::unique_ptr<EffectCandidate>> prepared_;  // the open ones; the latent one last, if there may be more
-  std::vector<char> is_other_cause_;                        // of the last score()
+  std::vector<std::unique_ptr<EffectCandidate>> prepared_;  // named ones first, then the latent one, if any
+  std::vector<char> is_other_cause_;                        // per candidate of the last score()
   bool is_prepared_ = false, is_scored_ = false;
 };
 

@@ -1,4 +1,4 @@
-// PointMotionModel: where the points are, and what moves them.
+// PointMotionModel: positions of the points and columns of the model.
 #include <cmath>
 #include <numbers>
 
@@ -20,8 +20,8 @@ double mean_seen(const Eigen::MatrixXd& values, Eigen::Index j) {
   return n > 0 ? sum / static_cast<double>(n) : 0.0;
 }
 
-// Mean of the regions' axes. Axes that differ by less than they can be declared are taken to be parallel: a shift of
-// the camera would else be the tiny difference of large motions.
+// Mean of the regions' axes. Axes that differ by less than the precision of their declaration are taken as parallel;
+// otherwise a camera translation would be a tiny difference of large motions.
 double common_axis_deg(const ObservationRecord& record) {
   double sum = 0.0, n = 0.0;
   for (const Region& region : record.regions) {

@@ -9,7 +9,7 @@
 namespace core::closure {
 namespace {
 
-constexpr double kLeastNorm = 1e-3;  // of a column beside those before it, else it falls out
+constexpr double kLeastNorm = 1e-3;  // smallest norm of a column outside the previous ones; columns below are dropped
 
 Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(a.rows(), b.cols());
@@ -17,7 +17,7 @@ Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return out;
 }
 
-// Orthonormal basis of columns in their order; which of them add to those before; R of X = Q R.
+// QR factor of columns in their order: orthonormal basis, indices of the independent columns, R of X = Q R.
 struct Factor {
   std::vector<Eigen::Index> kept;
   Eigen::MatrixXd q, r;
@@ -117,7 +117,7 @@ void PointMotionModel::place_in_readout() {
   }
 }
 
-// Amplitudes of all columns; what is left goes to residual_.
+// Computes the amplitudes of all columns; the remainder is residual_.
 void PointMotionModel::fit_columns(const Eigen::MatrixXd& z) {
   common_ = Eigen::MatrixXd::Zero(x_.cols(), z.cols());
   Eigen::MatrixXd high = product(solve_high_, z);
@@ -132,7 +132,7 @@ void PointMotionModel::fit_columns(const Eigen::MatrixXd& z) {
   add_product(residual_, -1.0, x_, common_);
 }
 
-// z: at the common instants.
+// z: series at the common instants.
 void PointMotionModel::fit_common(const Eigen::MatrixXd& z) {
   fit_columns(z);
   aliased_.reset();
@@ -147,7 +147,7 @@ void PointMotionModel::fit_common(const Eigen::MatrixXd& z) {
   aliased_->learn_tail(common_, noise, residual_);
 }
 
-// Coefficients of orthonormal columns have independent noise of unit variance, amplitudes do not.
+// Coefficients of orthonormal columns have independent noise of unit variance; amplitudes do not.
 void PointMotionModel::estimate_rates() {
   const Eigen::Index n_high = q_high_.cols();
   Eigen::MatrixXd kept(x_.rows(), q_low_.cols()), amplitude(q_low_.cols(), common_.cols());
@@ -169,7 +169,7 @@ void PointMotionModel::estimate_rates() {
   for (Eigen::Index i = 0; i < rate.rows(); ++i) rate_common_.row(kept_[static_cast<std::size_t>(i)]) = rate.row(i);
 }
 
-// Of the points' rows after the common one, in frames.
+// Time of the points' rows after the common instant, in frames.
 Eigen::VectorXd PointMotionModel::row_instants() const {
   Eigen::VectorXd out(weight_.size());
   for (Eigen::Index i = 0; i < out.size(); ++i) out(i) = readout_frames_ * (geometry_.share(i / 2) - kCommonShare);
@@ -180,7 +180,7 @@ Eigen::VectorXd PointMotionModel::column_instants() const {
   return readout_frames_ * (share_.array() - kCommonShare).matrix();
 }
 
-// Of the points' predicted positions at the instants of their own rows, in sigmas per frame.
+// Velocities of the points' predicted positions at the instants of their own rows, in sigmas per frame.
 Eigen::MatrixXd PointMotionModel::velocities() const {
   Eigen::MatrixXd out = product(x_, rate_common_);
   shift_.advance(out, row_instants());

@@ -11,79 +11,79 @@
 
 namespace core::closure {
 
-// Mean positions of the points, in units of the focal length about the principal point, and in the readout.
+// Mean positions of the points: in units of the focal length about the principal point, and as readout fraction.
 struct PointGeometry {
   double alpha_px = 0.0;
   Eigen::VectorXd x, y, share;
 };
 [[nodiscard]] PointGeometry point_geometry(const ObservationRecord& record);
 
-// Points x frames, in readouts: how much later a point at these positions (2 points x frames, px) is seen than on
-// average, as it drifts over the lines.
+// Points x frames, in readouts: difference between the readout fraction of a point at these positions (2 points x
+// frames, px) and its mean, caused by drift over the rows.
 [[nodiscard]] Eigen::MatrixXd later_in_readout(const ObservationRecord& record, const Eigen::MatrixXd& positions);
 
 // Motion of the points, free in every frame, relative to their mean positions (rows 2j, 2j+1 = u, v of point j, divided
-// by its sigma). Row j is seen rho s_j later than the frame begins (rho: readout in frames, s_j: place in the readout):
+// by its sigma). Point j is seen rho s_j after the start of the frame (rho: readout in frames, s_j: readout fraction):
 //     z_kj = sum_c X_jc a_c(k + rho s_j)
-// Columns: every region of structure and base along its axis; translation and zoom of the structure's plane;
-// translation and zoom of the background; added ones. Translation spanned by the regions is dropped (rank).
+// Columns: each structure and base region along its axis; translation and zoom of the structure's plane;
+// translation and zoom of the background; added columns. A translation spanned by the regions is dropped (rank).
 //
-// The points' series are brought to one common instant of each frame, the middle of the readout, by band-limited
-// interpolation (FrameShift), and there z = X a is a linear fit in each frame. A shift in time changes neither the
-// variance nor the whiteness of the noise, so that the fit is the exact joint least squares for motion of any spectrum
-// up to half the frame rate: nothing is differentiated, and no part of the motion is left to the residual. What moves
-// above half the rate is that of AliasedMotion. What a point's place in the readout changes by as it drifts over the
-// lines (set_drift) times its velocity is removed first. Velocities are those of the motion without its noise
-// (FrameShift::signal_rates).
+// The series of the points are interpolated to one common instant of each frame, the middle of the readout
+// (band-limited, FrameShift). There z = X a is a linear fit in each frame. A shift in time changes neither the variance
+// nor the whiteness of the noise. The fit is therefore the exact joint least-squares solution for motion of any
+// spectrum up to half the frame rate: nothing is differentiated, and no part of the motion remains in the residual.
+// Motion above half the rate is modelled by AliasedMotion. The drift of a point over the rows changes its readout
+// fraction (set_drift); this change times the point's velocity is removed first. Velocities are those of the motion
+// without noise (FrameShift::signal_rates).
 //
-// Columns added for the low band exist up to kLowBand_hz only: there they are fitted with all others, above they are
-// zero. Cosines make this exact.
+// Columns added for the low band exist up to kLowBand_hz only: there they are fitted jointly with all others, above
+// they are zero. A cosine basis makes this separation exact.
 class PointMotionModel {
  public:
   static constexpr double kLowBand_hz = 3.0;
-  static constexpr double kCommonShare = 0.5;  // place in the readout of the frames' common instant
+  static constexpr double kCommonShare = 0.5;  // readout fraction of the frames' common instant
 
-  explicit PointMotionModel(const ObservationRecord& record);  // of a checked record
-  // The same with the points at these mean positions (2 points long, px): after a lens correction, zoom acts on the
-  // undistorted image. Added columns are dropped; readout instants are unchanged.
-  // magnification: per point, by which the noise is multiplied.
+  explicit PointMotionModel(const ObservationRecord& record);  // record: checked
+  // Moves the points to these mean positions (2 points long, px): after a lens correction, zoom acts on the
+  // undistorted image. Added columns are dropped; readout instants are unchanged. magnification: factor of each
+  // point's noise.
   void set_places(const ObservationRecord& record, const Eigen::VectorXd& places_px,
                   const Eigen::VectorXd& magnification);
 
-  // Fields in px per unit, vectors of 2 points.
+  // Added columns as fields in px per unit, vectors of 2 points.
   void set_added(const std::vector<Eigen::VectorXd>& full, const std::vector<Eigen::VectorXd>& low);
-  // As later_in_readout(); empty: not at all.
+  // later: as from later_in_readout(); empty: no drift.
   void set_drift(Eigen::MatrixXd later) { later_ = std::move(later); }
   // positions: 2 points x frames, px, finite. All accessors below refer to this fit.
   void solve(const Eigen::MatrixXd& positions, double readout_frames, int rounds);
 
   // At the frames' common instants, in sigmas.
   [[nodiscard]] const Eigen::MatrixXd& residual() const noexcept { return residual_; }
-  [[nodiscard]] Eigen::MatrixXd residual_px() const;  // at the instants of the points' own rows, of the raw image
-  // Series of the points' rows (2 points x frames), seen at the frames' common instants of the last solve().
+  [[nodiscard]] Eigen::MatrixXd residual_px() const;  // at the instants of the points' own rows, in the raw image
+  // Interpolates series of the points' rows (2 points x frames) to the common instants of the last solve().
   [[nodiscard]] Eigen::MatrixXd at_common_instants(Eigen::MatrixXd series) const;
-  // left_of() the rows' series at the common instants, weighted as the residual is.
+  // left_of() the series at the common instants, weighted like the residual.
   [[nodiscard]] Eigen::MatrixXd left_at_common_instants(Eigen::MatrixXd series) const;
   // Series over frames, px (added columns: their unit), one row per column, at the mean instant of the column's points;
-  // zero where a column was dropped.
+  // zero for dropped columns.
   [[nodiscard]] const Eigen::MatrixXd& amplitudes() const noexcept { return amplitude_; }
-  [[nodiscard]] const Eigen::MatrixXd& rates() const noexcept { return rate_; }  // their signal's changes per frame
+  [[nodiscard]] const Eigen::MatrixXd& rates() const noexcept { return rate_; }  // change of their signal per frame
   [[nodiscard]] Eigen::Index row_of_region(std::size_t region) const noexcept {
     return region_row_[region];
   }                                                                     // -1: none
-  [[nodiscard]] Eigen::Index n_own() const noexcept { return n_own_; }  // columns before the added ones, full, then low
-  // Rows of the structure's plane among the own columns: its translation along u and v, its zoom.
+  [[nodiscard]] Eigen::Index n_own() const noexcept { return n_own_; }  // columns before the added ones
+  // Rows of the structure's plane among the own columns: translation along u, along v, zoom.
   [[nodiscard]] Eigen::Index first_plane_row() const noexcept { return n_region_; }
-  // Series of the zoom that moves this point: of the structure's plane, or of the background; relative.
+  // Series of the zoom that moves this point (of the structure's plane or of the background), relative.
   [[nodiscard]] Eigen::RowVectorXd zoom_of_point(Eigen::Index point) const;
-  // Leading columns of q_high() and q_low() that come from own columns.
+  // Number of leading columns of q_high() and q_low() that stem from own columns.
   [[nodiscard]] Eigen::Index own_rank() const noexcept { return own_rank_; }
   [[nodiscard]] double share_of_column(Eigen::Index column) const { return share_(column); }
-  // Derivative of the prediction by the readout time in frames, in sigmas, at the instants of the points' own rows.
+  // Derivative of the prediction by the readout time (frames), in sigmas, at the instants of the points' own rows.
   [[nodiscard]] Eigen::MatrixXd readout_field() const;
 
-  // Residual of a field or record at the frames' common instants after the fit, 2 points x frames in sigmas; its mean
-  // over time is removed.
+  // Residual of a field or record at the frames' common instants after the fit, 2 points x frames in sigmas, without
+  // its mean over time.
   [[nodiscard]] Eigen::MatrixXd left_of(const Eigen::MatrixXd& values) const;
   // Orthonormal columns above and within the low band.
   [[nodiscard]] const Eigen::MatrixXd& q_high() const noexcept { return q_high_; }
@@ -115,14 +115,14 @@ class PointMotionModel {
   std::vector<Eigen::VectorXd> own_, full_, low_;  // whitened fields
   std::vector<Eigen::Index> region_row_, zoom_row_of_point_;
   Eigen::Index n_own_ = 0, n_region_ = 0, own_rank_ = 0;
-  Eigen::VectorXd share_;           // mean of s_j over the column's points
+  Eigen::VectorXd share_;           // mean readout fraction of the column's points
   Eigen::MatrixXd x_;               // fields
   Eigen::MatrixXd later_;           // see set_drift()
-  std::vector<Eigen::Index> kept_;  // those of q_high_ first, then what the low band adds
-  // q_low_ = [q_high_, extra_]. solve_high_: z -> amplitudes; solve_extra_: z in the low band -> amplitudes of what it
-  // adds; give_back_: those -> what they take from the amplitudes before.
+  std::vector<Eigen::Index> kept_;  // columns of q_high_ first, then those that the low band adds
+  // q_low_ = [q_high_, extra_]. solve_high_: z -> amplitudes; solve_extra_: z in the low band -> amplitudes of the
+  // columns in extra_; give_back_: these amplitudes -> their correction of the previous amplitudes.
   Eigen::MatrixXd q_high_, q_low_, extra_, solve_high_, solve_extra_, give_back_;
-  // common_: amplitudes at the common instants, rate_common_ their signal's changes per frame.
+  // common_: amplitudes at the common instants; rate_common_: change of their signal per frame.
   Eigen::MatrixXd common_, rate_common_, amplitude_, rate_, residual_;
 };
 

@@ -12,14 +12,14 @@ namespace core::closure {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLeastFreedom = 0.05;  // 1 - leverage
-constexpr int kSpare = 2;               // points in a fit beyond its unknowns along each axis
-constexpr double kLarge = 0.4;          // of the image's height: there turns and zoom over the readout bend the motion
+constexpr double kLeastFreedom = 0.05;  // smallest 1 - leverage
+constexpr int kSpare = 2;               // points that a fit needs beyond its unknowns along each axis
+constexpr double kLarge = 0.4;          // extent / image height: in larger regions a readout makes motion quadratic
 using Terms = Eigen::Matrix<double, 6, 1>;
 constexpr double kRidge = 1e-9;
 constexpr double kNormalMad = 1.4826;
 
-// One region's points: what each does beyond the smooth motion of the rest, in sigmas.
+// Deviations of one region's points from the smooth motion of the other points, in sigmas.
 class RegionScreen {
  public:
   RegionScreen(const ObservationRecord& record, std::vector<Eigen::Index> points)
@@ -41,7 +41,7 @@ class RegionScreen {
     settle();
   }
 
-  // Takes bad points out of the fit; their scatter over the region's median, 1 for the others.
+  // Excludes bad points from the fit; returns their scatter over the region's median, 1 for the others.
   std::vector<double> excess() {
     std::vector<double> out(points_.size(), 1.0);
     while (n_in_fit() > least_in_fit()) {
@@ -63,7 +63,7 @@ class RegionScreen {
     return out;
   }
 
-  // Frames and places in points() of positions far from where the others put them.
+  // Outlying positions, as frame and index in points(), compared with the fit to the other points.
   [[nodiscard]] std::vector<std::pair<Eigen::Index, std::size_t>> far_positions() {
     std::vector<std::pair<Eigen::Index, std::size_t>> out;
     for (Eigen::Index k = 0; k < u_.rows(); ++k) {
@@ -79,7 +79,7 @@ class RegionScreen {
   [[nodiscard]] const std::vector<Eigen::Index>& points() const noexcept { return points_; }
 
  private:
-  // A series about its mean, which is returned.
+  // Subtracts the mean of a series and returns it.
   static double take(const Eigen::VectorXd& series, Eigen::Ref<Eigen::VectorXd> out) {
     double sum = 0.0, n = 0.0;
     for (const double value : series) {
@@ -90,7 +90,7 @@ class RegionScreen {
     return mean;
   }
 
-  // A jump shifts a point's mean: what it differs by most of the time is its place, not its motion.
+  // A jump shifts the mean of a point: its median deviation is a position offset, not motion, and is removed.
   void settle() {
     for (int round = 0; round < 2; ++round) {
       compare();
@@ -132,7 +132,7 @@ class RegionScreen {
     for (Eigen::Index k = 0; k < u_.rows(); ++k) compare_frame(k, in_fit_);
     scatter_.assign(points_.size(), 0.0);
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      for (const auto* off : {&off_u_, &off_v_}) {  // the worse axis: an edge is lost along one
+      for (const auto* off : {&off_u_, &off_v_}) {  // the worse axis: a point may be lost along one axis of an edge
         std::vector<double> all;
         for (const double value : off->col(static_cast<Eigen::Index>(i))) {
           if (std::isfinite(value)) all.push_back(std::abs(value));
@@ -143,7 +143,7 @@ class RegionScreen {
     }
   }
 
-  // Studentised differences of one frame; points with fit 0 are told by the others alone.
+  // Studentised deviations in one frame; points with fit 0 are predicted by the others alone.
   void compare_frame(Eigen::Index k, const std::vector<char>& fit) {
     off_u_.row(k).setConstant(kNan), off_v_.row(k).setConstant(kNan);
     Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Identity() * kRidge;
@@ -176,7 +176,7 @@ class RegionScreen {
 
   [[nodiscard]] double sigma(Eigen::Index c) const { return sigma_px_[static_cast<std::size_t>(c)]; }
 
-  // Of a point that the others tell: without the share of their own scatter.
+  // Scatter of a point that is predicted by the others, without the contribution of their scatter.
   [[nodiscard]] double own_scatter(std::size_t i) const {
     const double others = median_scatter(), h = leverage_(static_cast<Eigen::Index>(i));
     return std::sqrt(std::max(0.0, (1.0 + h) * scatter_[i] * scatter_[i] - h * others * others));
@@ -190,7 +190,7 @@ class RegionScreen {
     return median(std::move(all));
   }
 
-  // Of the points in the fit; their number where none is far.
+  // Index of the farthest point of the fit beyond kFar; the number of points if there is none.
   [[nodiscard]] std::size_t farthest(Eigen::Index k, const std::vector<char>& fit) const {
     std::size_t worst = points_.size();
     double most = kFar;
@@ -205,7 +205,7 @@ class RegionScreen {
   std::vector<Eigen::Index> points_;
   std::vector<char> in_fit_;
   std::vector<double> sigma_px_;
-  Eigen::MatrixXd terms_;  // 1, u, v (centred, of unit norm), in large regions their products; else zero
+  Eigen::MatrixXd terms_;  // 1, u, v (centred, unit norm); in large regions also their products, else zero
   int n_terms_ = 3;
   Eigen::MatrixXd u_, v_;  // frames x points, px about each point's median
   Eigen::MatrixXd off_u_, off_v_;

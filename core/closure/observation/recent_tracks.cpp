@@ -49,7 +49,7 @@ void RecentTracks::place(std::size_t point, const TrackPoint& seen) noexcept {
   const Index k = row(last_), j = static_cast<Index>(point);
   const Vector2 at = camera_.undistort({seen.u_px, seen.v_px});
   u_px_(k, j) = at.u;
-  // One scale along both axes: what a point's place means in units of the focal length stays.
+  // One scale for both axes: positions in units of the focal length stay the same.
   v_px_(k, j) = camera_.cy + (at.v - camera_.cy) * camera_.fx / camera_.fy;
   sigma_px_(k, j) = seen.sigma_px;
   if (std::isnan(raw_share_[point])) raw_share_[point] = declared_.readout_share(seen.u_px, seen.v_px);

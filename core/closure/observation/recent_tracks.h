@@ -12,24 +12,25 @@
 namespace core::closure {
 
 // Window of the newest frames of tracks for the observation level: undistorted, on the grid of frame numbers; a missing
-// frame is a row of NaN. Memory is fixed by the constructor. One thread.
+// frame is a row of NaN. The constructor allocates all memory. One thread.
 class RecentTracks {
  public:
-  // declared: all but points and frames (regions, camera, rate, readout). n_frames: length of the window, at least 1.
+  // declared: everything except points and frames (regions, camera, rate, readout). n_frames: window length, at least
+  // 1.
   RecentTracks(ObservationRecord declared, const CameraModel& camera, std::vector<std::size_t> region_of_point,
                std::size_t n_frames);
 
-  // Starts the frame to which place() refers from now on. Nothing allocates. False: not newer than the last one,
-  // ignored. A gap longer than the window restarts the window.
+  // Starts the frame to which place() refers from now on. Does not allocate. False: the frame is not newer than the
+  // last one and is ignored. A gap longer than the window restarts the window.
   bool begin_frame(std::uint64_t sequence) noexcept;
-  // A point seen in that frame, raw pixels.
+  // Stores a point seen in that frame, raw pixels.
   void place(std::size_t point, const TrackPoint& seen) noexcept;
 
-  [[nodiscard]] std::size_t n_frames() const noexcept { return n_frames_; }  // in the window now, gaps included
+  [[nodiscard]] std::size_t n_frames() const noexcept { return n_frames_; }  // currently in the window, gaps included
   [[nodiscard]] std::uint64_t last_sequence() const noexcept { return last_; }
   [[nodiscard]] std::uint64_t first_sequence() const noexcept { return n_frames_ == 0 ? 0 : last_ - n_frames_ + 1; }
 
-  // sigma of a point: rms of the values stated in its frames.
+  // Sigma of a point: rms of the sigmas stated with its samples.
   [[nodiscard]] ObservationRecord record() const;
 
  private:

@@ -12,7 +12,7 @@
 namespace core::closure {
 namespace {
 
-constexpr double kSameMode = 0.05;  // of the reference's frequency
+constexpr double kSameMode = 0.05;  // relative difference from the reference's frequency
 
 ClosureMode plain(const core::Mode& mode) {
   ClosureMode out;

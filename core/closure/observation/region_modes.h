@@ -22,11 +22,11 @@ struct RegionChannels {
 // Modes of the regions' motion, identified from a fit.
 [[nodiscard]] core::ModalEstimate region_modes(const FitView& fit);
 
-// Identified modes for a reader; with a reference its modes, each beside the nearest one found within 5 % of its
-// frequency (frequency 0 where there is none).
+// Identified modes for a reader. With a reference: its modes, each with the nearest identified mode within 5 % of its
+// frequency (frequency 0 if there is none).
 [[nodiscard]] std::vector<ClosureMode> compared_modes(const std::vector<core::Mode>& found,
                                                       const std::vector<core::Mode>& reference);
-// rms over the modes with a reference, percent of frequency; empty: none.
+// rms error over the modes with a reference, percent of frequency; empty: none.
 [[nodiscard]] std::optional<double> rms_error_percent(const std::vector<ClosureMode>& modes);
 
 }  // namespace core::closure

@@ -25,9 +25,9 @@ Field field_at(const Vector2d& at_px, double f) {
   return out;
 }
 
-// How a change of d, where the shift takes a point of mean depth, moves it from where it was seen: along the epipolar
-// line unchanged, across by the line's rotation, times the point's own motion along it. The depth that this shows is
-// what distinguishes a rotation from a translation.
+// Change of a static point's expected flow with d, the flow of a point of mean depth: unchanged along the epipolar
+// line; across it, the rotation of the line times the point's own flow along it. The difference in depth that this flow
+// shows distinguishes rotation from translation.
 Matrix2d lever(const DerotatedFlow& flow, const Vector2d& d) {
   const double size = d.norm();
   if (size < kLeastShift_px) return Matrix2d::Identity();
@@ -36,8 +36,8 @@ Matrix2d lever(const DerotatedFlow& flow, const Vector2d& d) {
 }
 
 struct Normal {
-  Matrix3d information = Matrix3d::Zero();  // the shift eliminated
-  Vector3d slope = Vector3d::Zero();        // of the cost by the rotation that is removed
+  Matrix3d information = Matrix3d::Zero();  // after elimination of the translation
+  Vector3d slope = Vector3d::Zero();        // gradient of the cost with respect to the removed rotation
 };
 
 Normal linearise(const std::vector<DerotatedFlow>& flows, const DerotatedFlowModel& model, const Vector3d& shift_px) {
@@ -90,7 +90,7 @@ ResidualRotation residual_rotation(std::vector<DerotatedFlow> flows, const Derot
       went = true;
       before = now, shift_px = shift, flows = std::move(next);
       out.rotation += change;
-      damping = std::max(kLeastDamping, 0.01 * damping);  // a tenth, after the loop's own factor
+      damping = std::max(kLeastDamping, 0.01 * damping);  // one tenth, together with the factor in the loop
     }
     if (!went || change.norm() < kStill_rad) break;
   }

@@ -7,8 +7,8 @@
 
 namespace core::closure {
 
-// Rotation of the image that a model leaves in one frame pair, radians (camera axes), and its information; rotation
-// that a translation of the camera would explain as well is not informative.
+// Rotation of the image that a model leaves in one frame pair, radians (camera axes), and its information. A rotation
+// that a camera translation would explain as well carries no information.
 struct ResidualRotation {
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();

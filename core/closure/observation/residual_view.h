@@ -5,11 +5,11 @@
 
 namespace core::closure {
 
-// A residual of tracks, for pictures.
+// Summary of a residual of tracks, for plots.
 struct ResidualView {
-  Eigen::MatrixXd place_px;                    // points x 2 (u, v), on the average
+  Eigen::MatrixXd place_px;                    // points x 2 (u, v), mean position
   Eigen::MatrixXd pattern_px;                  // points x 2: its leading pattern, as rms over time
-  std::vector<double> singular_px;             // rms over time and values of each pattern, falling
+  std::vector<double> singular_px;             // rms over time and values of each pattern, in descending order
   std::vector<double> frequency_hz, level_px;  // rms per root Hz over all values
 };
 

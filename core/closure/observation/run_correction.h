@@ -7,13 +7,13 @@
 
 namespace core::closure {
 
-// What a run corrects in its own measurement, beyond what was declared.
+// Corrections that a run applies to its own measurement, in addition to the declared values.
 struct RunCorrection {
   PointCorrection places;
   ParameterValue added_readout;  // frames; value 0: as declared
 };
 
-// How a run corrects an effect in flight: the effect's own answer.
+// Interface of an effect that a run can correct in flight.
 class InFlightCorrection {
  public:
   InFlightCorrection() = default;
@@ -21,10 +21,11 @@ class InFlightCorrection {
   InFlightCorrection& operator=(const InFlightCorrection&) = delete;
   virtual ~InFlightCorrection() = default;
 
-  // parameters: as reported. camera: that of the record from which the reports are made.
+  // parameters: as reported. camera: the camera of the record from which the reports are computed.
   virtual void add_to(RunCorrection& correction, const std::vector<ParameterValue>& parameters,
                       const CameraModel& camera) const = 0;
-  // Channels are seen at other times than without it: spectra of before and after are not to be added.
+  // True if the correction changes the times at which channels are seen: spectra of before and after must not be
+  // summed.
   [[nodiscard]] virtual bool changes_row_delays() const { return false; }
 };
 

@@ -13,11 +13,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index kParts = ChannelPredictor::kParts;
-constexpr double kWide = 0.05, kNarrow = 0.012;  // steps to either side of the change tried
+constexpr double kWide = 0.05, kNarrow = 0.012;  // half widths of the tested changes of frequency
 constexpr double kMost = 0.25;
 
-// What is left of a course in a record on a warped time: inner products of the innovations with what they would be if
-// the frequencies of the poles below 0.36 of the rate moved along it (frequency_derivative), per part.
+// Remainder of a course in a record on a warped time: inner products of the innovations with their derivative by the
+// frequencies of the poles below 0.36 of the rate along the course (frequency_derivative), per part.
 struct Left {
   VectorXd along = VectorXd::Zero(kParts), size = VectorXd::Zero(kParts);
   bool ok = false;
@@ -50,7 +50,7 @@ Left left_at(double change, const ChannelRecord& record, Index order, const Vect
   return out;
 }
 
-// Where the line through the coefficients crosses zero; `fallback` where it does not fall.
+// Zero crossing of the line through the coefficients; `fallback` if the line does not decrease.
 double crossing(const std::vector<double>& change, const std::vector<Left>& left, Index without, double fallback) {
   double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
   const auto n = static_cast<double>(change.size());
@@ -64,7 +64,7 @@ double crossing(const std::vector<double>& change, const std::vector<Left>& left
 
 }  // namespace
 
-// The coefficient itself is biased low by noise in the regressors, but it is zero where nothing of the course is left.
+// Noise in the regressors biases the coefficient low, but not its zero: it vanishes where the course is removed.
 CourseFit fit_course(const ChannelRecord& record, Index order, const VectorXd& course) {
   CourseFit out;
   for (const double step : {kWide, kNarrow, kNarrow}) {

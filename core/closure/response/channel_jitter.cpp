@@ -14,7 +14,7 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-// Central differences of sixth order; the samples ahead are predicted.
+// Central differences of sixth order; the samples ahead of k are predicted.
 constexpr double kTap[3] = {3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0};
 constexpr Index kAhead = 3;
 constexpr int kGrid = 33;
@@ -24,7 +24,7 @@ class Velocities {
  public:
   Velocities(const ChannelRecord& scaled, const ChannelPredictor& predictor) : scaled_(scaled), predictor_(predictor) {}
 
-  // Of the innovation's error per second, whitened; empty where it cannot be told.
+  // Whitened derivative of the innovation by a time error, per second; empty if it cannot be computed.
   [[nodiscard]] VectorXd at(Index k) const {
     const Index p = predictor_.order;
     if (k < std::max(p, kAhead) || k + kAhead >= scaled_.n_samples()) return {};
@@ -65,7 +65,7 @@ struct Rows {
   std::vector<VectorXd> velocity;
 };
 
-// -2 ln likelihood of each row at one sigma; infinite where the mean covariance cannot hold so much.
+// -2 ln likelihood of each row for one sigma; infinite if the jitter's share exceeds the mean covariance.
 VectorXd squares_at(double sigma_s, const Rows& rows, const MatrixXd& whitened, const MatrixXd& mean_outer) {
   const Index n = whitened.cols();
   const double variance = sigma_s * sigma_s;
@@ -84,7 +84,7 @@ VectorXd squares_at(double sigma_s, const Rows& rows, const MatrixXd& whitened, 
   return out;
 }
 
-// The top of the parabola through the best of the grid and its neighbours, over ln sigma; 0: none is best.
+// Vertex of the parabola through the best grid value and its neighbours, over ln sigma; 0 if no value is best.
 double sigma_at_top(const std::vector<double>& grid, const VectorXd& gain, Index best) {
   if (best == 0) return 0.0;
   const auto at = static_cast<std::size_t>(best);
@@ -119,7 +119,7 @@ JitterFit fit_jitter(const ChannelRecord& scaled, const ChannelPredictor& predic
   VectorXd plain_squares(static_cast<Index>(rows.sample.size()));
   for (std::size_t i = 0; i < rows.sample.size(); ++i)
     plain_squares(static_cast<Index>(i)) = out.squares(rows.sample[i]);
-  // Drop of the sum, by sigma (first row: none): without each part, and of all.
+  // Decrease of the sum per sigma (first row: no jitter), without each part and over all parts.
   MatrixXd gain = MatrixXd::Zero(kGrid + 1, kParts + 1);
   std::vector<VectorXd> squares_of{plain_squares};
   std::vector<double> grid{kLeast_s / ratio};

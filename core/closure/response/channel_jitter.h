@@ -7,13 +7,13 @@
 
 namespace core::closure {
 
-// Sample times with jitter of standard deviation sigma: the innovation's covariance is C + sigma^2 v v^T, v = velocity
-// predicted from the previous samples (the sample itself contains the error). C is the mean covariance minus the
-// jitter's mean share. Everything in whitened coordinates.
+// Sample times with jitter of standard deviation sigma: the innovation's covariance is C + sigma^2 v v^T, with v the
+// velocity predicted from the previous samples (the sample itself contains the error). C is the mean covariance minus
+// the jitter's mean share. All quantities are whitened.
 struct JitterFit {
   double sigma_s = 0.0;
-  std::vector<double> sigma_without_s;  // without one part each, for its standard deviation
-  Eigen::VectorXd squares;  // per sample, held out: -2 ln likelihood; as |whitened|^2 where sigma = 0
+  std::vector<double> sigma_without_s;  // estimates that each leave out one part, for the standard deviation
+  Eigen::VectorXd squares;  // per sample, held out: -2 ln likelihood; equal to |whitened|^2 for sigma = 0
 };
 
 // `whitened`: samples x channels, the innovations times the whitener.

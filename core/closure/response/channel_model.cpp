@@ -121,7 +121,7 @@ const ChannelModel::Prepared& ChannelModel::prepared(const Key& key) const {
   }
   if (out->predictor.ok) {
     out->derivative = frequency_derivative(out->predictor, record_.rate_hz);
-    // Back to the channels' units: the deviations taken out differ once samples are.
+    // In the channels' units: the scale factors differ once samples are removed.
     out->log_det =
         out->predictor.whitener.diagonal().array().log().sum() - out->predictor.deviation.array().log().sum();
   }
@@ -216,7 +216,7 @@ ResponseFit ChannelModel::fit(const std::vector<std::string>& effects) const {
       out.implausible[e] = effect.immaterial(jitter.sigma_s);
     }
   }
-  // Likelihoods with different covariances: squares in units of the first fit's, by the determinants' ratio.
+  // Likelihoods with different covariances: squares in units of the first fit, by the ratio of the determinants.
   const double unit = std::exp(2.0 * (plain.log_det - here.log_det) / n_channels);
   const double expected = n_channels * static_cast<double>(record_.n_samples()) / ChannelPredictor::kParts;
   out.fold_squares.assign(ChannelPredictor::kParts, unit * expected);
@@ -235,7 +235,7 @@ ResponseFit ChannelModel::fit(const std::vector<std::string>& effects) const {
   return out;
 }
 
-// Of its variance, by its own past.
+// Share of the input's variance that is predictable from its own past.
 double ChannelModel::predictable_share_of_input() const {
   ChannelRecord own{record_.rate_hz, record_.input.leftCols(std::min<Index>(1, record_.input.cols())),
                     MatrixXd(record_.n_samples(), 0)};
@@ -254,7 +254,7 @@ double ChannelModel::predictable_share_of_input() const {
 
 std::unique_ptr<ResponseModel> ChannelModel::surrogate(const std::vector<std::string>& effects,
                                                        std::uint64_t seed) const {
-  constexpr double kWild = 1e3;  // deviations; an unstable fit is started anew from rest
+  constexpr double kWild = 1e3;  // in standard deviations; an unstable simulation is restarted at zero
   const Prepared& here = prepared(key_of(effects));
   const ChannelPredictor& predictor = here.predictor;
   NoiseStream noise(seed);
@@ -262,7 +262,7 @@ std::unique_ptr<ResponseModel> ChannelModel::surrogate(const std::vector<std::st
   const Index p = predictor.order, n = std::min(record_.n_samples(), here.scaled.n_samples());
   made.value = here.scaled.value.topRows(n);
   made.input = record_.input.topRows(n);
-  made.input_alike = false;  // its channels are relative already
+  made.input_alike = false;  // its channels are already relative
   if (!predictor.ok) return std::make_unique<ChannelModel>(record_, use_);
   for (Index k = 0; k < n; ++k) {
     if (!made.value.row(k).allFinite()) made.value.row(k).setZero();

@@ -1,4 +1,4 @@
-// What the prediction does where the poles of the predictor move.
+// Change of the prediction with the poles of the predictor.
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
@@ -16,7 +16,7 @@ using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
-constexpr double kHighShare = 0.36;  // of the rate; above, folded modes cannot be told
+constexpr double kHighShare = 0.36;  // share of the rate above which a mode may be aliased
 constexpr double kMostDamping = 0.06;
 constexpr double kStep = 1e-5;
 
@@ -35,8 +35,8 @@ MatrixXd companion_of(const MatrixXd& coefficients, Index n, Index order) {
 
 }  // namespace
 
-// Companion form: eigenvectors are (l^(p-1) v; ...; v). With the same v and other eigenvalues the top block row is
-// V_top L V^-1.
+// Companion form: eigenvectors are (l^(p-1) v; ...; v). For the same v and other eigenvalues the top block row is V_top
+// L V^-1.
 MatrixXd frequency_derivative(const ChannelPredictor& predictor, double /*rate_hz*/) {
   const Index n = predictor.n_channels, size = n * predictor.order;
   const MatrixXd companion = companion_of(predictor.whole, n, predictor.order);

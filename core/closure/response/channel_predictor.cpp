@@ -16,7 +16,7 @@ constexpr double kFarOut = 6.0, kRidge = 1e-9;
 
 bool seen(const MatrixXd& values, Index row) { return values.row(row).allFinite(); }
 
-// About the mean of what was seen, per deviation.
+// Values minus the mean of the observed samples, in units of the standard deviation.
 MatrixXd standardised(const MatrixXd& values, VectorXd& mean, VectorXd& deviation) {
   mean = VectorXd::Zero(values.cols());
   deviation = VectorXd::Ones(values.cols());
@@ -125,7 +125,7 @@ class Fitter {
     const Eigen::LLT<MatrixXd> factor(covariance);
     if (factor.info() != Eigen::Success || !covariance.allFinite()) return false;
     out_.whitener = factor.matrixL().solve(MatrixXd::Identity(out_.n_channels, out_.n_channels));
-    // Far-out rows swell the first covariance: the median row tells the size of a plain one.
+    // Outliers inflate the first covariance: the median row gives the size of a typical one.
     std::vector<double> squares;
     for (std::size_t k = 0; k < out_.usable.size(); ++k) {
       if (out_.usable[k] != 0)

@@ -1,4 +1,4 @@
-// The structure's own motion: channels relative to the measured base, each at its own instants.
+// Motion of the structure itself: channels relative to the measured base, each at its own instants.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -15,7 +15,7 @@ double delay_of(const std::vector<double>& delays, Index column) {
   return static_cast<std::size_t>(column) < delays.size() ? delays[static_cast<std::size_t>(column)] : 0.0;
 }
 
-// Cubic through the four nearest samples, a line through two beside a gap, else NaN. `at` in samples.
+// Cubic through the four nearest samples; next to a gap a line through two, else NaN. `at` in samples.
 double interpolated(const Eigen::Ref<const VectorXd>& values, double at) {
   const Index n = values.size(), below = static_cast<Index>(std::floor(at));
   const double x = at - static_cast<double>(below);

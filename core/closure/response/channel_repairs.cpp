@@ -1,4 +1,4 @@
-// The record as the adopted effects repair it.
+// ChannelModel: the record as repaired by the adopted effects.
 #include <utility>
 
 #include "core/closure/response/channel_model.h"
@@ -9,8 +9,8 @@ namespace core::closure {
 
 using Eigen::VectorXd;
 
-// The frequencies that the structure would have shown all along: where they change with a course, they are those at the
-// course's own zero point, and the record is put on a time along which they stay.
+// The record with constant frequencies: if they change along a course, they become those at the zero of the course, by
+// retiming the record.
 ChannelRecord ChannelModel::corrected(const std::vector<std::string>& effects) const {
   const Prepared& here = prepared(key_of(effects));
   VectorXd factor = VectorXd::Ones(here.record.n_samples());

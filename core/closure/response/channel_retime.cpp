@@ -13,10 +13,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kWidestStep = 1.75;  // steps of the grid: more is a gap
+constexpr double kWidestStep = 1.75;  // in steps of the grid: larger distances are gaps
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// Lagrange's polynomial through the four uneven nodes around `at`; a line through two beside a gap or an end.
+// Lagrange polynomial through the four uneven nodes around `at`; next to a gap or end a line through two.
 double through(const VectorXd& time_s, const Eigen::Ref<const VectorXd>& value, Index below, double at) {
   const auto lagrange = [&](Index first, Index last) {
     double sum = 0.0;
@@ -62,7 +62,7 @@ ChannelRecord on_even_grid(const ChannelRecord& record, const VectorXd& time_s, 
   return out;
 }
 
-// Kaiser's window of beta 6 over shares of its half-width, 0 .. 1, from a table.
+// Kaiser window of beta 6 over shares of its half-width, 0 .. 1, from a table.
 double kaiser(double share) {
   constexpr std::size_t kSteps = 2048;
   static const std::array<double, kSteps + 2> kTable = [] {
@@ -79,7 +79,7 @@ double kaiser(double share) {
   return kTable[below] + (at - static_cast<double>(below)) * (kTable[below + 1] - kTable[below]);
 }
 
-// Even samples: a sinc under that window.
+// For evenly spaced samples: a sinc under that window.
 double by_sinc(const VectorXd& time_s, const Eigen::Ref<const VectorXd>& value, Index below, double at) {
   constexpr Index kHalf = 16;
   const double x = (at - time_s(below)) / (time_s(below + 1) - time_s(below));

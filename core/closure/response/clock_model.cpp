@@ -20,12 +20,12 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index kParts = 30;
-constexpr Index kNeighbours = 5;      // to both sides, for the median
-constexpr double kPerSigma = 1.4826;  // median absolute deviation of a Gaussian
+constexpr Index kNeighbours = 5;      // on either side, for the median
+constexpr double kPerSigma = 1.4826;  // standard deviation of a Gaussian over its median absolute deviation
 constexpr double kMostMisread = 0.25;
-constexpr double kColoured = 0.25;  // correlation of successive residuals beyond that of chance
+constexpr double kColoured = 0.25;  // correlation of successive residuals that exceeds chance
 
-// The median slope between readings half the record apart: misread ones do not bend it.
+// Median slope between readings half the record apart, which is robust against misread ones.
 double robust_slope(const VectorXd& x, const VectorXd& y) {
   std::vector<double> slopes;
   const Index half = x.size() / 2;
@@ -33,7 +33,7 @@ double robust_slope(const VectorXd& x, const VectorXd& y) {
   return median(std::move(slopes));
 }
 
-// Of each residual from the median of its neighbours.
+// Deviation of each residual from the median of its neighbours.
 VectorXd from_neighbours(const VectorXd& residual) {
   VectorXd out(residual.size());
   for (Index i = 0; i < residual.size(); ++i) {
@@ -114,7 +114,7 @@ std::vector<NotObservable> ClockModel::not_observable() const {
            "a clock that is read more finely, or time stamps of the camera"}};
 }
 
-// The readings of [from, to) are not seen.
+// Fit without the readings of [from, to).
 ClockModel::Solution ClockModel::solve(const std::vector<std::string>& effects, Index from, Index to) const {
   std::vector<char> seen(static_cast<std::size_t>(frame_.size()), 1);
   for (Index i = from; i < to; ++i) seen[static_cast<std::size_t>(i)] = 0;
@@ -183,7 +183,7 @@ ResponseFit ClockModel::fit(const std::vector<std::string>& effects) const {
   return out;
 }
 
-// The stretch of readings that lies farthest off on one side.
+// Describes the part of the record whose readings deviate most to one side.
 std::string ClockModel::describe(const VectorXd& residual_s) const {
   constexpr Index kStretch = 20;
   double worst = 0.0;
@@ -203,8 +203,8 @@ std::unique_ptr<ResponseModel> ClockModel::surrogate(const std::vector<std::stri
   const Solution whole = solve(effects, 0, 0);
   const VectorXd residual = reading_s_ - whole.predicted_s;
   const Index n = residual.size();
-  // A first-order process of the residual's own scatter and correlation. Without the effect that is sought the scatter
-  // is that of the readings, not what the effect makes of it.
+  // First-order autoregressive noise with the variance and correlation of the residual. The variance is that of the
+  // readings about their neighbours, which does not contain the effect under test.
   const VectorXd local = from_neighbours(residual);
   const double scatter = std::max(sigma_s_, robust_deviation(local));
   const double lag_one = local.head(n - 1).dot(local.tail(n - 1)) / std::max(local.squaredNorm(), 1e-300);

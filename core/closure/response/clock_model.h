@@ -11,8 +11,8 @@ namespace core::closure {
 // A filmed clock, read in some of the frames.
 struct ClockReadings {
   std::vector<double> frame;      // ascending frame numbers
-  std::vector<double> reading_s;  // NaN = not read there
-  double sigma_s = 0.0;           // scatter of a reading; 0 = unknown, estimated from its steps
+  std::vector<double> reading_s;  // NaN = not readable in that frame
+  double sigma_s = 0.0;           // standard deviation of a reading; 0 = unknown, estimated from its steps
 };
 
 // Declared time of the frames: frame number / rate.
@@ -21,9 +21,9 @@ struct DeclaredTime {
 };
 
 // A reading is offset + frame / rate + the effects; the offset is always fitted, because the zero of the clock is
-// arbitrary. Held out: ten contiguous parts, each predicted from the other nine. Misread readings (more than
-// kMisread robust deviations from the median of their neighbours, whatever the rate) are excluded and counted. Unit:
-// ms.
+// arbitrary. Held out: ten contiguous parts, each predicted from the other nine. Misread values (more than
+// kMisread robust standard deviations from the median of their neighbours, at any rate) are excluded and counted.
+// Unit: ms.
 class ClockModel final : public ResponseModel {
  public:
   static constexpr double kMisread = 5.0;
@@ -50,14 +50,14 @@ class ClockModel final : public ResponseModel {
   [[nodiscard]] double scatter_s() const noexcept { return sigma_s_; }
 
  private:
-  ClockModel(const ClockModel& other, Eigen::VectorXd reading_s);  // the same frames, other readings
+  ClockModel(const ClockModel& other, Eigen::VectorXd reading_s);  // the same frames with other readings
 
   struct Solution;
   [[nodiscard]] Solution solve(const std::vector<std::string>& effects, Eigen::Index from, Eigen::Index to) const;
   [[nodiscard]] std::string describe(const Eigen::VectorXd& residual_s) const;
 
   DeclaredTime declared_;
-  Eigen::VectorXd frame_, reading_s_;  // without the misread ones
+  Eigen::VectorXd frame_, reading_s_;  // misread ones excluded
   double sigma_s_ = 0.0;
   std::size_t n_misread_ = 0;
 };

@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 using Complex = FreeDecayFit::Complex;
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
-constexpr int kSubsteps = 6;  // of a sample, midpoint rule
+constexpr int kSubsteps = 6;  // per sample, midpoint rule
 constexpr double kLeastX = -4.0, kMostX = 3.0, kStep = 1e-5, kSettled = 1e-7;
 constexpr double kReferenceShare = 0.15;  // of the largest displacement
 constexpr int kTries = 8;
@@ -38,7 +38,7 @@ FreeDecayFit::FreeDecayFit(const FreeDecays& decays, std::vector<const DecayEffe
 }
 
 Index FreeDecayFit::further_at() const {
-  Index n = 2 * n_channels_;  // rate, frequency, shape without the reference
+  Index n = 2 * n_channels_;  // rate, frequency, shape without the reference component
   for (const DecayEffect* effect : effects_) n += static_cast<Index>(effect->n_parameters());
   return n;
 }
@@ -127,7 +127,7 @@ double FreeDecayFit::squares(const State& state, int without) const {
   return std::isfinite(sum) ? sum : std::numeric_limits<double>::max();
 }
 
-// One step of Levenberg-Marquardt over common and own numbers; false when nothing lowers the squares any more.
+// One Levenberg-Marquardt step over common and own parameters; false if no step reduces the squares.
 bool FreeDecayFit::step(State& state, int without, double& damping, double& best) const {
   const Index common = n_common(), own = n_own(), all = common + own * static_cast<Index>(state.own.size());
   MatrixXd normal = MatrixXd::Zero(all, all);
@@ -180,7 +180,7 @@ void FreeDecayFit::refine(State& state, int without, int n_iterations) const {
   if (without >= 0) fit_own(state, static_cast<std::size_t>(without), n_iterations);
 }
 
-// Amplitude and phase of one release, the rest as it is.
+// Fits amplitude and phase of one release, with all other parameters fixed.
 void FreeDecayFit::fit_own(State& state, std::size_t release, int n_iterations) const {
   double best = residual(state, release).squaredNorm(), damping = 1e-3;
   for (int i = 0; i < n_iterations; ++i) {

@@ -15,7 +15,7 @@ namespace core::closure {
 // equilibrium (and its slope). Levenberg-Marquardt with difference derivatives.
 class FreeDecayFit {
  public:
-  // Borrows both.
+  // Borrows both arguments.
   FreeDecayFit(const FreeDecays& decays, std::vector<const DecayEffect*> effects);
 
   struct State {
@@ -24,14 +24,14 @@ class FreeDecayFit {
   };
   using Complex = std::complex<double>;
 
-  // Of the mode alone: the best of a grid of frequencies and decay rates.
+  // Initial state with the mode alone: the best of a grid of frequencies and decay rates.
   [[nodiscard]] State linear_start() const;
-  // From a fit with all effects but the last.
+  // Initial states from a fit with all effects but the last.
   [[nodiscard]] std::vector<State> starts_from(const State& before) const;
-  // Refines the state on all releases but `without` (-1 = none); that release's own numbers are fitted afterwards.
+  // Refines the state on all releases except `without` (-1 = none), whose own parameters are fitted afterwards.
   void refine(State& state, int without, int n_iterations) const;
   [[nodiscard]] Eigen::MatrixXd residual(const State& state, std::size_t release) const;
-  [[nodiscard]] Eigen::MatrixXd predicted(const State& state, std::size_t release) const;  // without rest
+  [[nodiscard]] Eigen::MatrixXd predicted(const State& state, std::size_t release) const;  // equilibrium excluded
   [[nodiscard]] double squares(const State& state, int without = -1) const;
 
   [[nodiscard]] DecayRates rates(const State& state, double x) const;
@@ -39,7 +39,7 @@ class FreeDecayFit {
   [[nodiscard]] const double* of_effect(const State& state, std::size_t effect) const;
   [[nodiscard]] Eigen::VectorXcd shape(const State& state, bool further) const;
   [[nodiscard]] DecayRates further_rates(const State& state) const;
-  [[nodiscard]] std::vector<double> range_of_x() const;  // smallest and largest amplitude that decide
+  [[nodiscard]] std::vector<double> range_of_x() const;  // smallest and largest amplitude that are informative
 
  private:
   [[nodiscard]] Eigen::Index n_common() const;

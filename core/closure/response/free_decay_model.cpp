@@ -58,7 +58,7 @@ std::string implausible(const FreeDecayFit& fit, const FreeDecayFit::State& stat
 std::vector<std::string> FreeDecayModel::effects() const {
   std::vector<std::string> out;
   for (const auto& effect : decay_effects()) {
-    // One channel has no shape: a second sine would fit anything.
+    // A single channel has no shape: a second sine would fit any deviation.
     if (!(effect->adds_mode() && decays_.release.front().cols() < 2)) out.push_back(effect->name());
   }
   return out;

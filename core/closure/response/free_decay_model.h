@@ -10,9 +10,9 @@
 
 namespace core::closure {
 
-// Free decays against a linear modal model, release by release. Held out: one release at a time; poles, shapes and
-// effects come from the others, only its own amplitude, phase and equilibrium (no model predicts how it was pulled) are
-// fitted to it. Unit: the record's.
+// Free decays, modelled as a linear mode, release by release. Held out: one release at a time; poles, shapes and
+// effects are fitted to the others, and only its own amplitude, phase and equilibrium (which no model predicts) are
+// fitted to it. Unit: that of the record.
 class FreeDecayModel final : public ResponseModel {
  public:
   static constexpr double kMaterial = 0.1;     // of the held-out squares
@@ -39,7 +39,7 @@ class FreeDecayModel final : public ResponseModel {
                                      const std::vector<State>& without) const;
 
   FreeDecays decays_;
-  bool made_up_ = false;  // a surrogate: starts at the state from which it was generated, with few iterations
+  bool made_up_ = false;  // surrogate: starts at the state from which it was generated, with few iterations
   mutable std::map<std::vector<std::string>, State> states_;
 };
 

@@ -37,7 +37,7 @@ bool all_seen(const std::vector<Values>& value, std::size_t k) {
   return std::all_of(value.begin(), value.end(), [&](const Values& v) { return std::isfinite(v[k]); });
 }
 
-// Where the largest channel first lies beyond rest after a sudden step out of quiet.
+// Samples at which the largest channel first exceeds its equilibrium after a sudden step out of a quiet phase.
 std::vector<std::size_t> starts_of(const Values& y, double rest, const ReleaseSearch& search) {
   Values step(y.size(), 0.0);
   for (std::size_t k = 1; k < y.size(); ++k) step[k] = std::isfinite(y[k] - y[k - 1]) ? std::abs(y[k] - y[k - 1]) : 0.0;
@@ -59,7 +59,7 @@ std::vector<std::size_t> starts_of(const Values& y, double rest, const ReleaseSe
   return out;
 }
 
-// rms about a line over the quietest window, over all channels.
+// rms about a line in the quietest window, over all channels.
 double quiet_rms(const std::vector<Values>& value) {
   double best = std::numeric_limits<double>::infinity();
   const std::size_t n = value.front().size();

@@ -1,4 +1,4 @@
-// Where the fit of free decays begins.
+// FreeDecayFit: initial values.
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
@@ -20,7 +20,7 @@ using Complex = FreeDecayFit::Complex;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr int kFrequencies = 120, kPhases = 16;
 
-// What a decaying sine of any amplitude and phase, per channel, and a constant leave of `data`.
+// Residual of `data` after a fit of a constant and a decaying sine of any amplitude and phase per channel.
 struct SineFit {
   double squares = 0.0;
   Eigen::VectorXcd amplitude;  // per channel
@@ -44,7 +44,7 @@ struct ModeStart {
   MatrixXcd amplitude;  // channels x releases
 };
 
-// The best of a grid over all releases.
+// Best initial value of a grid, over all releases.
 ModeStart search_mode(const std::vector<MatrixXd>& data, double sample_hz) {
   ModeStart best;
   for (int i = 1; i < kFrequencies; ++i) {
@@ -62,7 +62,7 @@ ModeStart search_mode(const std::vector<MatrixXd>& data, double sample_hz) {
   return best;
 }
 
-// The shape common to all releases, its reference component 1, into a parameter vector.
+// Converts the shape common to all releases (reference component 1) to a parameter vector.
 Eigen::VectorXcd common_shape(const MatrixXcd& amplitude, Index reference) {
   const Eigen::JacobiSVD<MatrixXcd> svd(amplitude, Eigen::ComputeThinU);
   Eigen::VectorXcd shape = svd.matrixU().col(0);
@@ -95,7 +95,7 @@ FreeDecayFit::State FreeDecayFit::linear_start() const {
   return out;
 }
 
-// A changed rate shifts the phase by turns: the best of a few.
+// A changed rate shifts the phase by whole cycles: the best of several is used.
 void FreeDecayFit::set_own_by_grid(State& state, std::size_t release) const {
   const VectorXd before = state.own[release];
   double best = std::numeric_limits<double>::infinity();

@@ -9,7 +9,7 @@
 namespace core::closure {
 
 // Standard deviations from estimates that each leave out one part of the record (delete-one jackknife, Quenouille
-// 1956): valid for coloured residuals and any estimator. `without[k]` as `whole`, in the same order.
+// 1956): valid for coloured residuals and any estimator. `without[k]` has the order of `whole`.
 inline void add_jackknife_sigmas(std::vector<ParameterValue>& whole,
                                  const std::vector<std::vector<ParameterValue>>& without) {
   const auto n = static_cast<double>(without.size());

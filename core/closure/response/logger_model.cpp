@@ -21,7 +21,7 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi, kDegrees = 180.0 / std::numbers::pi;
-constexpr double kReachSamples = 6.0, kStepSamples = 0.1;  // of the fine search about the coarse offset
+constexpr double kReachSamples = 6.0, kStepSamples = 0.1;  // range and step of the fine search about the coarse offset
 constexpr const char* kOffset = "clock_offset";
 constexpr const char* kRate = "clock_rate";
 constexpr const char* kPolarity = "polarity";
@@ -31,7 +31,7 @@ bool has(const std::vector<std::string>& effects, const char* name) {
   return std::find(effects.begin(), effects.end(), name) != effects.end();
 }
 
-// Phase modulo 180 degrees, into +-90.
+// Phase modulo 180 degrees, in the range +-90.
 double folded(double phase) { return 0.5 * std::remainder(2.0 * phase, kTwoPi); }
 
 }  // namespace
@@ -71,7 +71,7 @@ std::vector<NotObservable> LoggerModel::not_observable() const {
   return out;
 }
 
-// Where the doubled phases, turned back, agree best.
+// Offset for which the doubled phases, after its removal, agree best.
 double LoggerModel::offset_of(std::size_t /*logger*/, const VectorXcd& sum, double around_s) const {
   const auto agreement = [&](double tau) {
     double value = 0.0;
@@ -90,7 +90,7 @@ double LoggerModel::offset_of(std::size_t /*logger*/, const VectorXcd& sum, doub
   return bend < 0.0 ? at + 0.5 * step * (left - right) / bend : at;
 }
 
-// Where all move as one: does this logger go against the first?
+// True if this logger is opposite in sign to the first one in the band where all move as one.
 bool LoggerModel::inverted(std::size_t logger, const Line& line, int without) const {
   double along = 0.0;
   for (std::size_t part = 0; part < part_time_s_.size(); ++part) {
@@ -198,7 +198,7 @@ ResponseFit LoggerModel::fit(const std::vector<std::string>& effects) const {
   return out;
 }
 
-// The residual phases of the model, in another order: what pattern over frequency they had is gone.
+// Permutes the residual phases of the model, which removes any pattern over frequency.
 std::unique_ptr<ResponseModel> LoggerModel::surrogate(const std::vector<std::string>& effects,
                                                       std::uint64_t seed) const {
   NoiseStream noise(seed);

@@ -47,7 +47,7 @@ struct Band {
   [[nodiscard]] bool holds(double hz) const noexcept { return hz >= low_hz && hz <= high_hz; }
 };
 
-// Samples by which the record is later than the first; up to a quarter of the transform.
+// Offset in samples of a record relative to the first one, up to a quarter of the transform.
 std::ptrdiff_t coarse_offset(const std::vector<double>& own, const std::vector<double>& first, double rate_hz,
                              const Band& band) {
   RealFft fft(next_power_of_two(static_cast<int>(4 * std::max(own.size(), first.size()))));
@@ -78,7 +78,7 @@ void check(const LoggerRecords& records) {
   }
 }
 
-// The stronger half of the bins counts; those where all move as one by themselves.
+// Weights the stronger half of the bins, separately for those in which all loggers move as one.
 void weigh(const std::vector<double>& size, const VectorXd& frequency_hz, double rigid_below_hz, VectorXd& weight) {
   std::vector<double> low, high;
   for (std::size_t b = 0; b < size.size(); ++b)

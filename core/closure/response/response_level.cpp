@@ -15,7 +15,7 @@ double score_of(const ResponseFit& before, const ResponseFit& after) {
   return (before.heldout_squares() - after.heldout_squares()) / before.noise_variance;
 }
 
-// Of the difference b - a over the left-out parts: its sum in standard errors.
+// Sum of the differences b - a over the left-out parts, in standard errors.
 double difference_in_errors(const ResponseFit& a, const ResponseFit& b) {
   const std::size_t n = std::min(a.fold_squares.size(), b.fold_squares.size());
   double sum = 0.0, squares = 0.0;
@@ -26,7 +26,8 @@ double difference_in_errors(const ResponseFit& a, const ResponseFit& b) {
   return sum / std::sqrt(squares * static_cast<double>(n) / static_cast<double>(n - 1));
 }
 
-// Of an effect whose every number is within three of its standard deviations of zero; empty: one is not, or has none.
+// Names an effect all of whose parameters lie within three standard deviations of zero; empty: at least one does not,
+// or has no sigma.
 std::string not_from_zero(const std::vector<ParameterValue>& parameters) {
   std::string numbers;
   for (const ParameterValue& p : parameters) {
@@ -110,7 +111,7 @@ std::vector<std::string> ResponseLevel::rivals(std::size_t adopted, std::uint64_
     const ResponseFit fit = model_.fit(effects);
     const bool plausible =
         std::all_of(fit.implausible.begin(), fit.implausible.end(), [](const auto& words) { return words.empty(); });
-    // One that finds nothing of itself in the record explains nothing.
+    // A rival whose own parameters are not significant explains nothing.
     const bool is_there = std::all_of(fit.parameters.begin(), fit.parameters.end(),
                                       [](const auto& parameters) { return not_from_zero(parameters).empty(); });
     const bool alike = fit.heldout_rms <= kRivalRms * fit_.heldout_rms;

@@ -10,10 +10,10 @@
 namespace core::closure {
 
 // Response level: a ResponseModel (clock readings, free decays, loggers, series of channels) in the common loop. Score
-// = drop of the held-out squares in units of the noise variance. Rival: its held-out squares exceed those of the
+// = decrease of the held-out squares in units of the noise variance. Rival: its held-out squares exceed those of the
 // adopted model by at most three standard errors of their difference over the left-out parts, and its held-out rms by
-// at most a quarter. An effect none of whose numbers lies kFromZero of its standard deviations (over left-out parts of
-// the record) from zero is not adopted, and said to be indistinguishable from zero.
+// at most a quarter. If no parameter of an effect differs from zero by kFromZero of its standard deviations (over
+// left-out parts of the record), it is not adopted but reported as indistinguishable from zero.
 class ResponseLevel final : public ClosureLevel {
  public:
   static constexpr double kRivalErrors = 3.0;

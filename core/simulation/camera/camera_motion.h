@@ -13,16 +13,16 @@
 
 namespace core::simulation {
 
-// Where the camera is at any time: its mean pose, the drift of hovering (independent Gaussian processes with the
-// density of HoverParameters or TailedHoverParameters, one random stream each), a recorded flight,
-// the gimbal's and the rotors' vibration. Everything but the
-// mean pose has the mean zero over all time; at t = 0 the camera is somewhere within its drift.
+// Pose of the camera at any time: mean pose, hover drift (independent Gaussian processes with the density of
+// HoverParameters or TailedHoverParameters, one random stream each), a recorded flight, vibration of gimbal and
+// rotors. All except the mean pose have zero mean over all time; at t = 0 the camera is at a random place of its
+// drift.
 class CameraMotion {
  public:
   explicit CameraMotion(const Scene& scene);
 
   [[nodiscard]] CameraPose at(double t_s) const noexcept;
-  [[nodiscard]] bool rotates() const noexcept { return rotates_; }  // other than by the mean attitude
+  [[nodiscard]] bool rotates() const noexcept { return rotates_; }  // apart from the mean attitude
   [[nodiscard]] bool zooms() const noexcept { return zooms_; }
   // Deviations from the mean pose in camera axes over the clip: x, y, z in mm, pitch, yaw, roll in rad, zoom.
   [[nodiscard]] std::array<double, 7> rms() const;

@@ -10,8 +10,8 @@ struct DriftShape {
   double corner_hz = 0.0, order = 6.0, limit_hz = 0.0;
 };
 
-// A Gaussian process of that density and standard deviation `rms`; longer than the clip, so that it has forgotten
-// itself before it repeats. `integrated`: its integral over time instead (about a mean of zero).
+// A Gaussian process of that density and standard deviation `rms`; its period exceeds the clip, so that correlations
+// have decayed before it repeats. `integrated`: its integral over time instead (zero mean).
 [[nodiscard]] PeriodicSignal drift(const DriftShape& shape, double rms, RandomStream stream, double duration_s,
                                    bool integrated = false);
 

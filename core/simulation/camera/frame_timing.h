@@ -6,17 +6,17 @@
 
 namespace core::simulation {
 
-// One frame as the service gets it.
+// One frame as delivered to the service.
 struct DeliveredFrame {
   std::uint64_t number = 0;    // of the sensor's frame slot
-  double t_s = 0.0;            // true start of exposure of row 0 of the picture that is delivered
-  double stamp_s = 0.0;        // what is said of it
-  std::uint64_t sequence = 0;  // what is said of it
-  bool gap_before = false;     // as said
+  double t_s = 0.0;            // true start of exposure of row 0 of the delivered picture
+  double stamp_s = 0.0;        // stated time stamp
+  std::uint64_t sequence = 0;  // stated sequence number
+  bool gap_before = false;     // as stated
 };
 
-// When frames are taken, which of them arrive, and what their stamps say. Each part has its own random stream and each
-// frame its own number in it.
+// Times at which frames are taken, which of them are delivered, and their stamps. Each part has its own random stream;
+// each frame has its own number in it.
 class FrameTiming {
  public:
   explicit FrameTiming(const Scene& scene);
@@ -25,7 +25,7 @@ class FrameTiming {
   [[nodiscard]] double frame_time_s(std::uint64_t number) const noexcept;
   [[nodiscard]] bool dropped(std::uint64_t number) const noexcept;  // never frame 0: it is the keyframe
   [[nodiscard]] bool duplicated(std::uint64_t number) const noexcept;
-  // Frame after frame: false at the end. `number` of the first call: 0.
+  // Advances frame by frame; false at the end. `number` of the first call: 0.
   bool next(DeliveredFrame& frame) noexcept;
   void restart() noexcept;
 
@@ -36,7 +36,7 @@ class FrameTiming {
   double rate_hz_;
   std::uint64_t n_frames_, seed_;
   std::uint64_t next_number_ = 0, n_delivered_ = 0;
-  std::uint64_t shown_number_ = 0;  // the sensor frame whose picture was delivered last
+  std::uint64_t shown_number_ = 0;  // number of the sensor frame delivered last
 };
 
 }  // namespace core::simulation

@@ -8,10 +8,10 @@ struct Ray {
   double x = 0.0, y = 0.0;  // X / Z, Y / Z
 };
 
-// Where the lens shows an ideal ray. Exact; written apart from core/geometry, which it tests.
+// Distorts an ideal ray. Exact; independent of core/geometry, which it tests.
 [[nodiscard]] Ray distort(const LensParameters& lens, Ray ideal) noexcept;
-// The inverse, by Newton's method to 1e-13; where the lens folds over (far outside a sensible image), the nearest it
-// got.
+// The inverse, by Newton's method to 1e-13; if the lens folds (far outside a sensible image), the nearest
+// iterate.
 [[nodiscard]] Ray undistort(const LensParameters& lens, Ray seen) noexcept;
 
 }  // namespace core::simulation

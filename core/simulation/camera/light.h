@@ -5,12 +5,13 @@
 
 namespace core::simulation {
 
-// How bright the scene is over time: slow changes of exposure or clouds times the flicker of lamps.
+// Brightness of the scene over time: slow changes of exposure or clouds times the flicker of lamps.
 class Light {
  public:
   explicit Light(const Scene& scene);
 
-  // Mean over an exposure around t_s, relative to 1. Slow changes are taken in its middle; the flicker's mean is exact.
+  // Mean over an exposure about t_s, relative to 1. Slow changes are evaluated at its centre; the flicker's mean is
+  // exact.
   [[nodiscard]] double factor(double t_s) const noexcept;
   [[nodiscard]] bool constant() const noexcept { return constant_; }
 

@@ -6,7 +6,7 @@
 
 namespace core::simulation {
 
-// Where the camera is and how it is turned. `attitude` takes camera axes to world axes; identity looks along +Z.
+// Position and attitude of the camera. `attitude` maps camera axes to world axes; identity looks along +Z.
 struct CameraPose {
   double x_mm = 0.0, y_mm = 0.0, z_mm = 0.0;
   Eigen::Matrix3d attitude = Eigen::Matrix3d::Identity();
@@ -21,7 +21,7 @@ struct PlanePoint {
   double x_mm = 0.0, y_mm = 0.0;
 };
 
-// Turned first about X (pitch), then Y (yaw), then Z (roll).
+// Rotation first about X (pitch), then Y (yaw), then Z (roll).
 [[nodiscard]] Eigen::Matrix3d attitude(double pitch_rad, double yaw_rad, double roll_rad);
 
 // Full perspective projection of a world point through the lens, and its inverse on the plane Z = depth_mm.
@@ -30,7 +30,7 @@ struct PlanePoint {
 [[nodiscard]] PlanePoint back_project(const CameraParameters& camera, const CameraPose& pose, ImagePoint image,
                                       double depth_mm) noexcept;
 
-// Share of the readout that has passed when this pixel is read; row (column) 0 is at 0, directions up and left run to
+// Readout fraction of this pixel; row (column) 0 is at 0; directions up and left run to
 // -1.
 [[nodiscard]] double readout_share(const CameraParameters& camera, ImagePoint image) noexcept;
 

@@ -73,7 +73,7 @@ struct Accelerations {
   std::vector<double> forward, left, up;
 };
 
-// The sensor turned back to the level by its roll and pitch; gravity then stands upright and is taken away.
+// Rotates the sensor's axes to the level frame by roll and pitch and subtracts gravity.
 Accelerations levelled(const core::FlightAttitude& attitude) {
   Accelerations out;
   for (std::size_t i = 0; i < attitude.n_samples(); ++i) {
@@ -110,7 +110,7 @@ void set_position(const core::FlightPath& path, double facing_deg, double rate_h
   }
 }
 
-// Gain of the displacement over the acceleration, mm per m/s^2.
+// Gain from acceleration to displacement, mm per m/s^2.
 double gain(double frequency_hz, double from_hz) noexcept {
   constexpr double kEdge = 0.8;
   if (frequency_hz <= kEdge * from_hz) return 0.0;

@@ -9,22 +9,22 @@
 
 namespace core::simulation {
 
-// How a simulated camera is moved by a recorded flight.
+// Use of a recorded flight as camera motion.
 struct FlightUse {
-  double facing_deg = 0.0;         // where the camera looks, clockwise from north; horizontally
-  double gimbal_residual = 0.02;   // share of the aircraft's turning that reaches the picture
-  double vibration_from_hz = 0.0;  // accelerations become displacement from here on; 0 = none
+  double facing_deg = 0.0;         // horizontal viewing direction of the camera, clockwise from north
+  double gimbal_residual = 0.02;   // share of the aircraft's rotation that remains in the image
+  double vibration_from_hz = 0.0;  // accelerations become displacement above this frequency; 0 = none
 };
 
-// From a flight's axes to the camera's: X right, Y down, Z where it looks.
+// Converts a flight's axes to the camera's: X right, Y down, Z in viewing direction.
 //   position: x = -n sin h + e cos h, y = -up, z = n cos h + e sin h, h = facing
 //   attitude: pitch about X = -pitch, yaw about Y = -yaw, roll about Z = roll, times gimbal_residual
-//   vibration: accelerations, levelled by the angles and without gravity, divided by -(2 pi f)^2 from
-//   vibration_from_hz on (a raised-cosine edge from 0.8 of it); faded in and out over the first and last second. It
-//   stands for the camera's own: no gimbal takes translation away. The camera looks where the nose points.
-// Without attitude the motion has the path's rate and no rotation; with it the attitude's, the path interpolated. The
-// two may be of different times of the flight, but the attitude must last as long as the path.
-// Throws std::invalid_argument: values out of range or not finite, an attitude that covers too little (says which
+//   vibration: accelerations, levelled by the angles and without gravity, divided by -(2 pi f)^2 above
+//   vibration_from_hz (a raised-cosine edge from 0.8 of it); faded in and out over the first and last second. It is
+//   used as the camera's own vibration: a gimbal does not remove translation. The camera looks in the nose's direction.
+// Without attitude the motion has the path's rate and no rotation; with it the attitude's rate, the path interpolated.
+// Path and attitude may be of different times of the flight, but the attitude must last as long as the path.
+// Throws std::invalid_argument: values out of range or not finite, an attitude that is too short (names the
 // seconds), vibration without accelerations or beyond 0.4 of their rate.
 [[nodiscard]] RecordedMotion make_recorded_motion(const core::FlightPath& path, const core::FlightAttitude* attitude,
                                                   const FlightUse& use);

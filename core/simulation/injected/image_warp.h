@@ -8,7 +8,7 @@
 
 namespace core::simulation {
 
-// What happens to the image of a point behind its projection: refraction by the air, focus breathing, stabilisation.
+// Image effects after projection: refraction by the air, focus breathing, stabilisation.
 class ImageWarp {
  public:
   ImageWarp(const Scene& scene, const CameraMotion& camera);
@@ -24,7 +24,7 @@ class ImageWarp {
   PeriodicSignal breathing_;
   Stabiliser stabiliser_;
   ImagePoint principal_, breathes_about_;
-  double middle_s_;  // of a frame, after its line 0
+  double middle_s_;  // centre of a frame's readout, after its line 0
   bool none_;
 };
 

@@ -6,7 +6,7 @@
 
 namespace core::simulation {
 
-// Response of the oscillator to white noise, scaled to a standard deviation of `rms`; zero without.
+// Response of the oscillator to white noise, scaled to standard deviation `rms`; zero if rms is 0.
 [[nodiscard]] PeriodicSignal oscillation(const OscillatorParameters& oscillator, double rms, RandomStream stream,
                                          double duration_s);
 

@@ -10,7 +10,7 @@ namespace core::simulation {
 
 struct Scene;
 
-// Motion of bodies, and of parts of them, that is none of the structure's modes.
+// Motion of bodies, and of parts of them, that is not a mode of the structure.
 class OwnMotion {
  public:
   explicit OwnMotion(const Scene& scene);

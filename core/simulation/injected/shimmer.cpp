@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kWaves = 192, kSteps = 4096;
 
-// Cumulative sum of the shift's variance over the length of the wave vector, 0 .. 3 km.
+// Cumulative variance of the shift over the length of the wave vector, 0 .. 3 km.
 std::vector<double> cumulated(double k0, double km) {
   std::vector<double> sum(kSteps + 1, 0.0);
   for (std::size_t i = 1; i <= kSteps; ++i) {

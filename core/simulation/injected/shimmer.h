@@ -7,9 +7,9 @@
 
 namespace core::simulation {
 
-// ShimmerParameters over image and time: a sum of plane waves, their wave vectors drawn from the screen's spectrum,
-// k^2 (k^2 + k0^2)^(-11/6) exp(-(k / km)^2) of the shift per unit of wave vector, k0 = 2 pi / outer, km = 5.92 / inner
-// (Tatarskii 1971). Each wave moves by the drift and a velocity of its own.
+// ShimmerParameters over image and time: a sum of plane waves, their wave vectors drawn from the screen's spectrum, k^2
+// (k^2 + k0^2)^(-11/6) exp(-(k / km)^2) of the shift per unit of wave vector, k0 = 2 pi / outer, km = 5.92 / inner
+// (Tatarskii 1971). Each wave moves with the drift plus a velocity of its own.
 class Shimmer {
  public:
   Shimmer() = default;  // none

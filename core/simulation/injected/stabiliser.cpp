@@ -7,7 +7,7 @@
 namespace core::simulation {
 namespace {
 
-constexpr double kRate_hz = 500.0, kBefore_s = 30.0, kAfter_s = 1.0;  // the filter has forgotten its start
+constexpr double kRate_hz = 500.0, kBefore_s = 30.0, kAfter_s = 1.0;  // long enough for the filter's transient to decay
 
 // Bilinear transform of s / (s + w).
 std::vector<double> high_passed(const std::vector<double>& x, double corner_hz) {

@@ -6,15 +6,15 @@
 
 namespace core::simulation {
 
-// StabiliserParameters on a camera's motion: what it does to the image of a frame. It sees the image's shift at the
-// structure's mean depth and its roll, 500 times a second, through a recursive high-pass of first order.
+// Effect of StabiliserParameters on the image of a frame. It observes the image's shift at the structure's mean depth
+// and its roll, 500 times per second, through a recursive first-order high-pass.
 class Stabiliser {
  public:
   Stabiliser() = default;  // none
   Stabiliser(const StabiliserParameters& parameters, const CameraMotion& camera, double alpha_px, double depth_mm,
              double duration_s);
 
-  // About the principal point; the image turns from +u towards +v.
+  // About the principal point; the image rotates from +u towards +v.
   struct Warp {
     double u_px = 0.0, v_px = 0.0, turn_rad = 0.0;
   };
@@ -22,7 +22,7 @@ class Stabiliser {
 
  private:
   UniformSpline u_, v_, turn_;
-  double later_s_ = 0.0;  // of the splines' time zero
+  double later_s_ = 0.0;  // of the splines' zero of time
   bool works_ = false;
 };
 

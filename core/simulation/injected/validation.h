@@ -4,7 +4,7 @@
 
 namespace core::simulation {
 
-// Ranges of the effects of this folder. Throws std::invalid_argument: what, its value, what to give.
+// Checks the ranges of the effects of this folder. Throws std::invalid_argument with the value and a remedy.
 void validate_injected(const Scene& scene);
 
 }  // namespace core::simulation

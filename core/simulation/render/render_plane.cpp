@@ -15,11 +15,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int kBlock = Texture::kLook;
-constexpr double kSmallest = 1e-9;  // of the depth row: nearer to the horizon nothing is drawn
+constexpr double kSmallest = 1e-9;  // of the depth row: nothing is drawn closer to the horizon
 constexpr double kFarthest = 1e6;   // cells
 constexpr double kSharp_px = 1.499, kGone_px = 1.0;
-constexpr double kNear_px = 2.0;       // a pixel farther from an edge sees none of it, even on a bent line
-constexpr double kBoxMargin_px = 4.0;  // the same where the lens makes a pixel up to twice as wide as in its middle
+constexpr double kNear_px = 2.0;       // a pixel farther from an edge does not contain it, even on a curved line
+constexpr double kBoxMargin_px = 4.0;  // the same, if the lens makes a pixel up to twice as wide as at the centre
 
 // Where a block's rays meet the plane, in cells.
 struct Places {
@@ -37,7 +37,7 @@ struct Places {
     }
   }
 
-  // All before the horizon and near enough: what holds at both ends holds between.
+  // True if all are on the near side of the horizon and near enough: true for both ends, it holds between them.
   [[nodiscard]] bool sane() const noexcept {
     const auto sane_at = [this](int i) {
       return depth[i] > kSmallest && std::abs(x[i]) < kFarthest && std::abs(y[i]) < kFarthest;

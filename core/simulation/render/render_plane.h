@@ -9,19 +9,19 @@
 
 namespace core::simulation {
 
-// Drawing for a camera that looks anywhere, through any lens: every pixel's ray is met with the plane.
+// Drawing for arbitrary viewing directions and lenses: every pixel's ray is intersected with the plane.
 
 // A plane as the camera sees it at one instant: `cells` times (ray x, ray y, 1) is x, y (in the texture's cells) and 1,
 // up to a common factor that is positive where the ray meets the plane.
 struct PlaneView {
   Eigen::Matrix3d cells;
-  bool in_front;  // of the camera: otherwise nothing of it is seen
+  bool in_front;  // false: behind the camera and invisible
 
-  // Origin of the cells: centre of a plate that has moved and turned; of the world for the background.
+  // Origin of the cells: centre of a plate that has moved and rotated; for the background the world's origin.
   PlaneView(const CameraPose& camera, PlanePoint centre, double tilt_rad, double depth_mm, double pitch_mm) noexcept;
 };
 
-// Where the pixels of a line look.
+// Rays of the pixels of a line.
 struct LineRays {
   const double *x, *y;  // as RayMap gives them, and the last one Texture::kLook times more
   int length;
@@ -32,8 +32,8 @@ struct LineRays {
   LineRays(const double* ray_x, const double* ray_y, int n, const CameraParameters& camera, double zoom) noexcept;
 };
 
-// light[u] for u in [begin, end), whole blocks of Texture::kLook; `begin` is a multiple of it. Exact as long as the
-// texture's pitch is 1.5 px or more in the image; below that its contrast fades, to none at 1 px and beyond the
+// Computes light[u] for u in [begin, end), whole blocks of Texture::kLook; `begin` is a multiple of it. Exact if the
+// texture's pitch is at least 1.5 px in the image; below, its contrast decreases to zero at 1 px and beyond the
 // horizon.
 void draw_plane(const PlaneView& view, const Texture& texture, const LineRays& rays, int begin, int end,
                 float* light) noexcept;
@@ -42,9 +42,9 @@ void draw_plane(const PlaneView& view, const Texture& texture, const LineRays& r
 struct PixelRange {
   int begin = 0, end = 0;
 };
-// Fills cover[u] for u in the range returned. The share of a pixel is exact where it holds one edge that is straight in
-// the image, or two opposite ones. In a pixel that holds a corner the shares are multiplied: exact for a plate that
-// stands upright in the image; a right angle that is turned misses by at most 0.025 of the pixel.
+// Fills cover[u] for u in the range returned. The share of a pixel is exact if it contains one edge that is straight in
+// the image, or two opposite ones. In a pixel with a corner the shares are multiplied: exact for a plate that is
+// upright in the image; the error of a rotated right angle is at most 0.025 of the pixel.
 PixelRange cover_plate(const PlaneView& view, double half_x, double half_y, const LineRays& rays,
                        float* cover) noexcept;
 

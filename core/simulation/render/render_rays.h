@@ -6,9 +6,9 @@
 
 namespace core::simulation {
 
-// The ideal (undistorted) ray X / Z, Y / Z of every pixel, a line at a time. With a lens: by cubic interpolation
-// between exact rays every 8 px, which misses them by less than 1e-4 px wherever the lens does not fold over; at any
-// zoom, because a zoomed pixel looks where another place of the sensor looks otherwise.
+// The ideal (undistorted) ray X / Z, Y / Z of every pixel, one line at a time. With a lens: by cubic interpolation
+// between exact rays every 8 px, with an error below 1e-4 px wherever the lens does not fold. Valid at any zoom,
+// because a zoomed pixel has the ray of another place on the unzoomed sensor.
 class RayMap {
  public:
   RayMap(const CameraParameters& camera, double zoom_rms);

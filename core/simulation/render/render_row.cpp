@@ -8,9 +8,9 @@ namespace {
 
 constexpr double kLargestMerge = 0.05;  // cells
 constexpr int kCellsPerPixel = 4;       // at most
-constexpr int kBlock = 4;               // pixels computed at once
+constexpr int kBlock = 4;               // pixels computed together
 
-// The cells that pixels begin .. end - 1 look at, with one to spare on either side.
+// The cells seen by pixels begin .. end - 1, with one spare cell on either side.
 struct CellRange {
   std::int64_t first, count;
 };
@@ -73,8 +73,8 @@ void draw_background_row(const Texture& texture, const TextureRow& a, const Text
   const TextureRow mean{0.0, 0.5 * (a.x0 + b.x0), 0.5 * (a.step + b.step)};
   const double shift0 = 0.5 * (b.x0 - a.x0), shift_step = 0.5 * (b.step - a.step);
   float* light = line.background.data();
-  // The motion within an exposure is a small part of a cell: then both instants merge into one polynomial per cell.
-  // Beyond a cell's end that polynomial differs from its neighbour's by (shift^3) only. Otherwise both are drawn.
+  // If the motion within an exposure is a small part of a cell, both instants are merged into one polynomial per cell.
+  // Beyond a cell's end this polynomial differs from its neighbour's by (shift^3) only. Otherwise both are drawn.
   if (std::max(std::abs(shift0), std::abs(shift0 + shift_step * width)) < kLargestMerge) {
     const CellRange range = cells_of(mean, 0, width);
     texture.row(a.y_mm, range.first, range.count, line.cells.data());

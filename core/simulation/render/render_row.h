@@ -5,15 +5,15 @@
 
 namespace core::simulation {
 
-// Drawing for a camera that looks straight along Z: a row of pixels is then a row of the texture, cubic in each of its
-// cells.
+// Drawing for a camera that looks straight along Z: a row of pixels is then a row of the texture, cubic in each
+// cell.
 
 // Pixel u looks at x = x0 + u step, in cells, and at y_mm.
 struct TextureRow {
   double y_mm, x0, step;
 };
 
-// How many cells `width` pixels may look at, however far the drift takes the camera.
+// Largest number of cells seen by `width` pixels, for any drift of the camera.
 [[nodiscard]] std::size_t most_cells(int width) noexcept;
 
 // light[u] for u in [begin, end); up to three pixels beyond `end` are overwritten.

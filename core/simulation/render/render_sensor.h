@@ -7,7 +7,8 @@
 
 namespace core::simulation {
 
-// What the sensor makes of light: white Gaussian noise, rounding, 0 to 255. From a table of noise, in which each line
+// Sensor model: white Gaussian noise, rounding, range 0 to 255. Each line of each frame starts at a random place of a
+// table of noise.
 // of each frame starts at a random place.
 class RenderSensor {
  public:

@@ -7,8 +7,8 @@
 
 namespace core::simulation {
 
-// What the scene is covered with. Both throw std::invalid_argument for a texture that is finer than 1.5 px in the image
-// (looking at pixel centres would not draw it) or too large to hold.
+// Textures of the scene. Both throw std::invalid_argument for a texture that is finer than 1.5 px in the image
+// (sampling at pixel centres would alias) or too large for memory.
 [[nodiscard]] Texture background_texture(const Scene& scene);  // repeats beyond the view of a camera that looks along Z
 [[nodiscard]] std::vector<Texture> plate_textures(const Scene& scene);  // by body
 

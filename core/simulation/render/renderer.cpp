@@ -26,7 +26,7 @@ bool looks_straight(const SceneMotion& motion) {
          motion.scene().flap.rms_mm <= 0.0 && camera.lens.model == LensParameters::Model::kNone;
 }
 
-// What pictures do not show.
+// Refuses scenes with effects that images do not show.
 const Scene& drawable(const Scene& scene) {
   const auto refuse = [](bool there, const char* what) {
     if (there)
@@ -40,7 +40,7 @@ const Scene& drawable(const Scene& scene) {
   return scene;
 }
 
-// Nearest first; of plates at the same depth the first in the list.
+// Nearest first; of plates at the same depth, the first in the list.
 std::vector<std::size_t> front_to_back(const std::vector<Plate>& plates) {
   std::vector<std::size_t> order(plates.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -141,7 +141,7 @@ void Renderer::draw_row(const Instant& a, const Instant& b, int v, RenderLine& l
   }
 }
 
-// One of the exposure's two instants: half of what the plate covers is moved from background to plate.
+// One of the two instants of the exposure: half of the area that the plate covers is moved from background to plate.
 void Renderer::add_plate_row(std::size_t body, const Instant& instant, std::size_t i_instant, int v,
                              RenderLine& line) const noexcept {
   const CameraParameters& camera = scene().camera;
@@ -180,7 +180,7 @@ void Renderer::draw_any_line(const Instant& a, const Instant& b, int index, Rend
   };
   const auto draw = [&](const Instant& instant, const LineRays& rays, std::vector<float>& light) {
     const CameraPose& pose = instant.pose;
-    // Whole periods of the texture keep the numbers small wherever the camera is.
+    // Subtracting whole periods of the texture keeps the numbers small wherever the camera is.
     const double period_mm = background_.period_mm();
     const PlanePoint origin{period_mm * std::round(pose.x_mm / period_mm),
                             period_mm * std::round(pose.y_mm / period_mm)};

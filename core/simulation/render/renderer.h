@@ -14,17 +14,17 @@
 
 namespace core::simulation {
 
-// Draws the scene as a rolling-shutter sensor sees it, line by line (a line is a row or, where the readout runs left or
-// right, a column; SceneMotion::line_time_s says when). Textures are evaluated exactly where each pixel looks; plates
-// cover shares of pixels, the nearest in front; light by line; white noise, rounding to 8 bits.
-// Motion blur is the mean of two instants (Gauss-Legendre) of the exposure: with h half the motion within it, it misses
-// a texture's wave of k rad/px by (k h)^4 / 270 of its amplitude, and an edge's coverage by at most 0.023 of the motion
-// in px. Motion must be smooth within the exposure T: a vibration of f Hz by (pi f T)^4 / 135 of its amplitude (1.5 %
-// at f T = 0.38). Behind an edge the background is its mean over the exposure. A frame is a function of (scene, number,
-// time) alone; any number of threads may render at once.
+// Draws the scene as a rolling-shutter sensor sees it, line by line (a line is a row or, if the readout runs left or
+// right, a column; SceneMotion::line_time_s gives the time). Textures are evaluated exactly at each pixel's ray; plates
+// cover shares of pixels, the nearest in front; then light per line, white noise and rounding to 8 bits.
+// Motion blur is the mean of two instants (Gauss-Legendre) of the exposure. With h half the motion within it, the error
+// of a texture wave of k rad/px is (k h)^4 / 270 of its amplitude, that of an edge's coverage at most 0.023 of the
+// motion in px. Motion must be smooth within the exposure T: error (pi f T)^4 / 135 of the amplitude for a vibration
+// of f Hz (1.5 % at f T = 0.38). Behind an edge the background is its mean over the exposure. A frame is a function of
+// (scene, number, time) alone; any number of threads may render at once.
 class Renderer {
  public:
-  // A camera that looks straight along Z through no lens, at bodies that do not turn, is drawn by a quicker way.
+  // A camera that looks straight along Z without a lens, at bodies that do not rotate, is drawn by a faster algorithm.
   enum class Way : std::uint8_t { kQuickest, kGeneral };
   // Throws std::invalid_argument for a scene it cannot draw.
   explicit Renderer(const Scene& scene, Way way = Way::kQuickest);
@@ -32,8 +32,8 @@ class Renderer {
   using Scratch = RenderLine;  // working memory of one caller; built once, reused for every frame
   [[nodiscard]] Scratch make_scratch() const;
 
-  // pixels: height x width, row-major, no padding. The noise belongs to frame.number: a picture delivered twice has the
-  // same bits.
+  // pixels: height x width, row-major, no padding. The noise depends on frame.number: a picture delivered twice is
+  // bit-identical.
   void render(const DeliveredFrame& frame, std::uint8_t* pixels, Scratch& scratch) const;
   // Frame `number` of a sensor without jitter.
   void render(std::uint64_t number, std::uint8_t* pixels, Scratch& scratch) const;

@@ -9,7 +9,7 @@
 namespace core::simulation {
 
 // A grey-level function of the plane, defined everywhere and evaluated exactly: a cubic B-spline with independent
-// Gaussian coefficients, periodic over n x n cells. Nothing is resampled, so shifts carry no error of ours.
+// Gaussian coefficients, periodic over n x n cells. Nothing is resampled, so shifts have no interpolation error.
 class Texture {
  public:
   // One cell of a row y = const, value = p[0] + s (p[1] + s (p[2] + s p[3])), 0 <= s < 1 across the cell.

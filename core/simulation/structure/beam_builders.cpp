@@ -50,7 +50,7 @@ StructureModel assemble(const Beam& beam, const std::vector<int>& body_node, Str
   model.mass = beam.mass(free, free);
   model.stiffness = beam.stiffness(free, free);
   model.displacement = model.tilt = MatrixXd::Zero(bodies, n);
-  // The ground moves the held nodes too: what their elements' mass pulls at the free ones counts.
+  // The ground moves the held nodes, too: the inertial coupling of their elements to the free nodes is included.
   Eigen::VectorXd rigid = Eigen::VectorXd::Zero(beam.mass.rows());
   for (Index c = 0; c < rigid.size(); c += 2) rigid(c) = 1.0;
   model.influence = (beam.mass * rigid)(free);

@@ -12,7 +12,7 @@ namespace core::simulation {
 // coordinates, and the mass matrix consistent with them (Clough & Penzien, Dynamics of Structures, 10.3; Przemieniecki,
 // Theory of Matrix Structural Analysis, 11.3). Coordinates count mm and mrad, matrices SI, as in structure_builders.h.
 // At least 24 elements over the whole beam: the frequencies of its first five modes lie less than 2e-4 above the exact.
-// A section's face turns with the slope. All throw std::invalid_argument.
+// The face of a section rotates with the slope. All throw std::invalid_argument.
 
 // A tower clamped at its foot that sways along X. Body i at height i / bodies; leaning to +X it tilts by +dX/dh.
 // f_r = lambda_r^2 / (2 pi L^2) sqrt(EI / m), lambda = 1.875104, 4.694091, 7.854757, ... without tip mass.

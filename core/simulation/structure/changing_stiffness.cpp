@@ -10,7 +10,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr int kSubsteps = 4, kBeyond = 8;
-constexpr double kLeastStiffness = 0.2;  // of the unchanged: a spring does not push
+constexpr double kLeastStiffness = 0.2;  // share of the unchanged stiffness: it must stay positive
 
 class Equations {
  public:

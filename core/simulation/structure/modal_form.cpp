@@ -45,12 +45,12 @@ Poles poles_of(const ModalForm& form) {
       const double decay = 0.5 * form.damping(r, r), w = form.w(r);
       const Complex root = std::sqrt(Complex((decay - w) * (decay + w), 0.0));
       poles.s(2 * r + 1) = -decay - root;
-      poles.s(2 * r) = w > 0.0 ? w * w / poles.s(2 * r + 1) : -decay + root;  // the slow one of two without cancelling
+      poles.s(2 * r) = w > 0.0 ? w * w / poles.s(2 * r + 1) : -decay + root;  // slower real pole, no cancellation
       poles.shapes.col(2 * r) = poles.shapes.col(2 * r + 1) = form.shapes.col(r).cast<Complex>();
     }
     return poles;
   }
-  // The state (diag(w) z, z') keeps all terms of one size, w: the slow poles stay exact beside fast ones.
+  // With the state (diag(w) z, z') all terms are of size w: slow poles stay exact next to fast ones.
   MatrixXd state = MatrixXd::Zero(2 * n, 2 * n);
   state.topRightCorner(n, n) = form.w.asDiagonal();
   state.bottomLeftCorner(n, n) = -MatrixXd(form.w.asDiagonal());

@@ -25,7 +25,7 @@ std::vector<Complex> roots(std::size_t n) {
   return root;
 }
 
-// Of bit-reversed z. Halves first, so that small ones are done while they are in the cache.
+// Input: bit-reversed z. Recurses into halves first, so that small transforms are completed in the cache.
 void butterflies(Complex* z, std::size_t n, const Complex* root) {
   if (n < 2) return;
   const std::size_t half = n / 2;

@@ -6,8 +6,8 @@
 
 namespace core::simulation {
 
-// A real signal with a finite set of harmonics of 1 / period, held on a fine grid and evaluated at any time by
-// six-point Lagrange interpolation. A harmonic of n samples per cycle is met to 0.0049 (2 pi / n)^6 of its own
+// A real signal with a finite set of harmonics of 1 / period, sampled on a fine grid and evaluated at any time by
+// six-point Lagrange interpolation. A harmonic of n samples per cycle is reproduced to 0.0049 (2 pi / n)^6 of its
 // amplitude: 3e-4 at 10 samples, 5e-6 at 20.
 class PeriodicSignal {
  public:

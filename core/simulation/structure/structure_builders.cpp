@@ -39,7 +39,7 @@ void require_frame(const ShearBuilding& frame) {
                     "give more than 0, or 0 for none");
 }
 
-// With what gravity takes and the ground's spring gives.
+// Includes the softening by gravity and the ground's spring.
 std::vector<double> storey_stiffness(const ShearBuilding& frame) {
   std::vector<double> stiffness = frame.stiffness_n_per_m;
   if (frame.ground_spring_n_per_m > 0.0) stiffness[0] = 1.0 / (1.0 / stiffness[0] + 1.0 / frame.ground_spring_n_per_m);

@@ -23,8 +23,8 @@ struct ShearBuilding {
 };
 [[nodiscard]] StructureModel shear_frame(const ShearBuilding& frame, const Damping& damping);
 
-// Modes as they are: bodies x modes of displacement and (rad per mm) tilt, at any scale. Modal mass r is the sum over
-// bodies of mass * shape^2, participation the sum of mass * shape. No tilts: 0 x 0.
+// Given modes: bodies x modes of displacement and (rad per mm) tilt, at any scale. Modal mass r is the sum over bodies
+// of mass * shape^2, participation the sum of mass * shape. No tilts: 0 x 0.
 [[nodiscard]] StructureModel from_modes(const std::vector<double>& frequency_hz,
                                         const std::vector<double>& damping_ratio, const Eigen::MatrixXd& shapes,
                                         const std::vector<double>& mass_kg, const Eigen::MatrixXd& tilts = {});

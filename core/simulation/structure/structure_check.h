@@ -6,7 +6,7 @@
 
 namespace core::simulation {
 
-// Refusals of structures, worded alike: what, its value, what to give.
+// Error messages for structures: what, its value, and a remedy.
 [[noreturn]] inline void refuse_structure(const std::string& what) {
   throw std::invalid_argument("simulation: structure: " + what);
 }

@@ -7,9 +7,9 @@
 namespace core::simulation {
 
 // Linear structure on a moving ground: M q'' + C q' + K q = P^T f - L a, with q the coordinates relative to the ground,
-// f the forces on the bodies and a the ground's acceleration (mm/s^2). Any consistent units: kg, N/m, N s/m with q in
-// mm and f in mN, say. Bodies are what is seen: body i (1 .. n_bodies) moves by P.row(i - 1) q along `axis` and turns
-// by T.row(i - 1) q. Body 0 is the ground.
+// f the forces on the bodies and a the ground's acceleration (mm/s^2). Any consistent units, e.g. kg, N/m, N s/m with q
+// in mm and f in mN. Bodies are the visible parts: body i (1 .. n_bodies) moves by P.row(i - 1) q along `axis` and
+// rotates by T.row(i - 1) q. Body 0 is the ground.
 struct StructureModel {
   enum class Axis : std::uint8_t { kX, kY };  // of the motion, in the world: to the right, or downwards
 
@@ -31,14 +31,14 @@ struct TrueMode {
   Eigen::VectorXcd tilt;  // rad per mm of the largest displacement
 };
 
-// Of the state matrix [0 I; -M^-1 K, -M^-1 C], by frequency. Poles that do not oscillate, and modes that move no body,
-// are left out.
+// Modes of the state matrix [0 I; -M^-1 K, -M^-1 C], by frequency. Poles that do not oscillate, and modes that do not
+// move a body, are omitted.
 [[nodiscard]] std::vector<TrueMode> modes_of(const StructureModel& model);
 
 // q for unit forces on the coordinates at angular frequency w: (K - w^2 M + i w C)^-1 force.
 [[nodiscard]] Eigen::VectorXcd response_at(const StructureModel& model, double w, const Eigen::VectorXcd& force);
 
-// Throws std::invalid_argument: sizes that do not fit, NaN, a matrix that is not symmetric, a mass matrix that is not
+// Throws std::invalid_argument: inconsistent sizes, NaN, a matrix that is not symmetric, a mass matrix that is not
 // positive definite, a pole that does not decay (a damping ratio below 1e-10, a stiffness that is not positive
 // definite).
 void validate(const StructureModel& model);

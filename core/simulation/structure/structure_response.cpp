@@ -18,9 +18,9 @@ using Complex = std::complex<double>;
 using Spectrum = std::vector<Complex>;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kTimeConstants = 12.0;
-constexpr double kShortestScaling_s = 10.0;  // the rms of a shorter clip says more about its phase than about its level
+constexpr double kShortestScaling_s = 10.0;  // in a shorter clip the rms depends on the phase more than on the level
 
-// Poles far above the band answer it as springs do: their own decay, slow as it may be, is never seen.
+// Poles far above the band respond quasi-statically: their decay is invisible, however slow it is.
 double record_period_s(const StructureModel& model, const ExcitationParameters& excitation, double duration_s) {
   double slowest_1_s = std::numeric_limits<double>::infinity();
   for (const Complex& pole : poles_of(modal_form(model.mass, model.damping, model.stiffness)).s) {
@@ -69,7 +69,7 @@ Input draw_input(const ExcitationParameters& excitation, int n_bodies, std::uint
   return input;
 }
 
-// The structure between its input and what is seen, through its modes: as exact as response_at, and many times faster.
+// Transfer function from the input to the visible bodies, by modes: as exact as response_at, and many times faster.
 class Transfer {
  public:
   explicit Transfer(const StructureModel& model)
@@ -98,14 +98,14 @@ class Transfer {
   Eigen::VectorXd influence_;
 };
 
-// Bins of the record that the band holds.
+// Bins of the record inside the band.
 struct Bins {
   double period_s;
   std::size_t first, end;
   [[nodiscard]] double w(std::size_t k) const noexcept { return kTwoPi * static_cast<double>(k) / period_s; }
 };
 
-// Of the last body to the ground, over the clip.
+// Rms of the last body relative to the ground, over the clip.
 double roof_rms(const Transfer& transfer, const Input& input, const Bins& bins, std::size_t n_grid, double clip_s) {
   Spectrum roof(bins.end);
   const auto row = transfer.displacement().row(transfer.displacement().rows() - 1).eval();
@@ -125,8 +125,8 @@ void multiply(Spectrum& spectrum, double factor) {
   for (Complex& value : spectrum) value *= factor;
 }
 
-// Ground and forces are brought to their levels each by itself, the ground before its colour: so that none depends on
-// whether, or how much of, the others is there.
+// Ground and forces are scaled to their levels separately, the ground before its colour, so that neither depends on
+// presence or level of the others.
 void bring_to_level(Input& input, const ExcitationParameters& excitation, const Transfer& transfer, const Bins& bins,
                     std::size_t n_grid, double clip_s) {
   if (!input.acceleration.empty()) {
@@ -142,7 +142,7 @@ void bring_to_level(Input& input, const ExcitationParameters& excitation, const 
   for (Spectrum& force : input.force) multiply(force, factor);
 }
 
-// Relative displacement (or tilt) of every body where the stiffness changes, under the same input.
+// Relative displacement (or tilt) of every body with changing stiffness, under the same input.
 Eigen::MatrixXd integrated(const Transfer& transfer, const Input& input, const Bins& bins, std::size_t n_grid,
                            double roof_rms_mm, double duration_s, double rate_hz, const ChangeParameters& change) {
   const auto n_modes = static_cast<std::size_t>(transfer.form().w.size());

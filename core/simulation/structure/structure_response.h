@@ -10,16 +10,16 @@
 
 namespace core::simulation {
 
-// Motion of ground and bodies under white base acceleration and white forces, exact for the linear structure: an
-// independent complex Gaussian per bin inside the band, times the frequency response of the equations of motion (the
-// ground's displacement: divided by -w^2). No integrator, no starting transient. Harmonic forces are added as their
-// exact steady state. Ground, forces and each harmonic have streams and levels of their own: to switch one off leaves
-// the others' motion as it was.
-// The level is that of this clip, not of its expectation: over 60 s the rms of a slow mode scatters by 20 % and more,
-// and figures at a stated amplitude would not be at it. The bins make the record periodic; its correlation is the true
-// one plus copies shifted by multiples of the period. The period exceeds the duration by at least 12 time constants of
-// the slowest mode, so within the clip the modal part of those copies stays below exp(-12), and lags up to the duration
-// are never repeated. Where the stiffness changes (changing_stiffness.h) the motion is integrated, under the same
+// Motion of ground and bodies under white base acceleration and white forces, exact for the linear structure:
+// an independent complex Gaussian per bin inside the band, times the frequency response of the equations of
+// motion (the ground's displacement: divided by -w^2). There is no integrator and no starting transient.
+// Harmonic forces are added as their exact steady state. Ground, forces and each harmonic have separate streams
+// and levels: switching one off leaves the others' motion unchanged. The level is that of this clip, not its
+// expectation: over 60 s the rms of a slow mode scatters by 20 % and more, and results for a stated amplitude
+// would not refer to it. The bins make the record periodic; its correlation is the true one plus copies shifted
+// by multiples of the period. The period exceeds the duration by at least 12 time constants of the slowest
+// mode, so within the clip the modal part of those copies stays below exp(-12), and lags up to the duration are
+// never repeated. If the stiffness changes (changing_stiffness.h), the motion is integrated under the same
 // input.
 class StructureResponse {
  public:
@@ -50,7 +50,7 @@ class StructureResponse {
   bool tilts_;
   double base_acceleration_rms_ = 0.0, roof_relative_rms_ = 0.0;
   std::vector<PeriodicSignal> displacement_, tilt_;
-  std::vector<UniformSpline> changed_, changed_tilt_;  // per body to the ground, in place of those; empty = none
+  std::vector<UniformSpline> changed_, changed_tilt_;  // per body relative to the ground, replaces these; or empty
   std::vector<Line> lines_;
 };
 

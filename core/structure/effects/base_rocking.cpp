@@ -4,7 +4,7 @@
 namespace core::structure {
 namespace {
 
-// The foundation turns: on soil, on a table, on a joint that yields.
+// Rotation of the foundation, on soil, a shaking table or a flexible joint.
 class BaseRocking : public StructuralEffect {
  public:
   std::string_view name() const override { return "base_rocking"; }

@@ -5,7 +5,7 @@
 #include "core/structure/structural_effect.h"
 #include "core/types/effect_catalogue.h"
 
-// The effects of the structure level, one line each, in the order in which they are tried: the file effects/NAME.cpp
+// The effects of the structure level, one line each, in the order in which they are tested. The file effects/NAME.cpp
 // defines make_NAME().
 #define HOVERMODAL_STRUCTURAL_EFFECTS(EFFECT) \
   EFFECT(ground_storey)                       \

@@ -3,8 +3,8 @@
 namespace core::structure {
 namespace {
 
-// A clock that runs fast or slow multiplies all frequencies by one factor, as stiffness over mass does: frequencies
-// alone never show it.
+// A fast or slow clock multiplies all frequencies by one factor, as stiffness over mass does: frequencies alone cannot
+// distinguish the two.
 class ClockRate : public StructuralEffect {
  public:
   std::string_view name() const override { return "clock_rate"; }

@@ -4,7 +4,7 @@
 namespace core::structure {
 namespace {
 
-// Outer columns lengthen and shorten: the frame bends as a whole, in series with its shear (Timoshenko).
+// Axial deformation of the outer columns: the frame bends as a whole, in series with its shear (Timoshenko).
 class ColumnBending : public StructuralEffect {
  public:
   std::string_view name() const override { return "column_bending"; }

@@ -8,12 +8,12 @@ namespace {
 
 constexpr double kGravityMmPerS2 = 9806.65;
 constexpr double kMostStability = 0.3;  // Eurocode 8, 4.4.2.2
-// The deflected column carries the weight on a curve, not on a straight line: up to 6/5 of it counts (consistent
-// geometric stiffness); heights are read off drawings to a few percent.
+// The deflected column is a curve, not a straight line: up to 6/5 of the weight is effective (consistent geometric
+// stiffness). Heights from drawings are accurate to a few percent.
 constexpr double kHeightLow = 0.75, kHeightHigh = 1.10;
 
-// The weight of the floors above pushes a leaning storey over (P-delta). Its parameter is g / h where masses are known
-// relative to each other: the storey height follows without any further number.
+// The weight of the floors above increases the lean of a storey (P-delta). The parameter is g / h if relative masses
+// are known: the storey height then follows without further data.
 class GravitySoftening : public StructuralEffect {
  public:
   std::string_view name() const override { return "gravity_softening"; }

@@ -4,7 +4,7 @@
 namespace core::structure {
 namespace {
 
-// Columns of the ground storey softer or stiffer than declared: another length or fixity, a spring at their feet.
+// Columns of the ground storey softer or stiffer than declared: another length or fixity, or flexible feet.
 class GroundStorey : public StructuralEffect {
  public:
   std::string_view name() const override { return "ground_storey"; }

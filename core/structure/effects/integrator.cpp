@@ -8,7 +8,7 @@ namespace core::structure {
 namespace {
 
 // Average-acceleration Newmark integrates an oscillator w as one of w' = (2 / dt) atan(w dt / 2) (Newmark 1959; Chopra,
-// Dynamics of Structures, 5.5): simulated records show their modes too low, the higher the more.
+// Dynamics of Structures, 5.5): frequencies of simulated records are too low, the more the higher they are.
 class Integrator : public StructuralEffect {
  public:
   std::string_view name() const override { return "integrator"; }

@@ -4,7 +4,7 @@
 namespace core::structure {
 namespace {
 
-// Floors turn with the columns' ends: storeys are softer, and neighbours feel each other.
+// Floors rotate with the ends of the columns: storeys are softer, and neighbouring storeys are coupled.
 class JointRotation : public StructuralEffect {
  public:
   std::string_view name() const override { return "joint_rotation"; }

@@ -9,9 +9,9 @@
 
 namespace core::structure {
 
-// "a mass of 1.93 is outside 0.2 .. 5"; empty where it lies inside.
+// "a mass of 1.93 is outside 0.2 .. 5"; empty if it lies inside.
 [[nodiscard]] std::string outside(double value, double low, double high, std::string_view what);
-// Effects that change one storey against the others need others.
+// Obstacle of effects that change one storey relative to the others: there must be other storeys.
 [[nodiscard]] std::optional<Obstacle> needs_storeys(const DeclaredFrame& declared, std::size_t n);
 
 }  // namespace core::structure

@@ -4,7 +4,7 @@
 namespace core::structure {
 namespace {
 
-// The uppermost floor lighter or heavier than declared: no storey above it, equipment on it.
+// The uppermost floor is lighter or heavier than declared: no storey above it, or equipment on it.
 class RoofMass : public StructuralEffect {
  public:
   std::string_view name() const override { return "roof_mass"; }

@@ -4,7 +4,7 @@
 namespace core::structure {
 namespace {
 
-// Stiffness over mass is not what was declared. Where it was not declared it is fitted from the beginning.
+// Stiffness over mass differs from the declared value. If it was not declared, it is always fitted.
 class StiffnessScale : public StructuralEffect {
  public:
   std::string_view name() const override { return "stiffness_scale"; }

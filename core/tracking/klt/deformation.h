@@ -6,8 +6,8 @@
 
 namespace core {
 
-// Deformation of the image about a point since its template was cut: what was at x beside the point is now at (1 + A)
-// x. Magnification, roll, the shear of a rolling shutter and perspective, all to first order.
+// Deformation of the image about a point since its template was cut: a feature at offset x from the point is now at
+// offset (1 + A) x. To first order it contains magnification, roll, rolling-shutter shear and perspective.
 struct Deformation {
   double uu = 0.0, uv = 0.0, vu = 0.0, vv = 0.0;  // A by rows: d(du)/du, d(du)/dv; d(dv)/du, d(dv)/dv
 
@@ -25,15 +25,15 @@ struct Deformation {
   return {factor * a.uu, factor * a.uv, factor * a.vu, factor * a.vv};
 }
 
-// What a deformed image does to the match with a template that is only shifted, from the template alone.
+// Effect of an image deformation on the match with a template that is only shifted, computed from the template alone.
 struct DeformationResponse {
   static constexpr std::size_t kPairs = 10;  // k <= l of four elements
 
-  // How far beside its place the template is found, px per unit of each element: sum_x S(x) g(x) x^T (METHOD.md).
-  // Texture does not lie evenly about the point, so its window is pulled.
+  // Offset at which the template is found, px per unit of each element: sum_x S(x) g(x) x^T (METHOD.md). It is not
+  // zero, because texture is not symmetric about the point.
   std::array<Vector2, 4> pull{};
-  // Quadratic form of the residual that is the deformation's, grey^2 summed over the window: rows of its upper
-  // triangle, those off the diagonal twice.
+  // Quadratic form of the residual caused by deformation, grey^2 summed over the window: rows of its upper triangle,
+  // off-diagonal elements doubled.
   std::array<double, kPairs> energy{};
 
   [[nodiscard]] Vector2 pull_of(const Deformation& a) const noexcept {

@@ -15,7 +15,7 @@ constexpr double kLeastFreedom = 0.3;
 
 using Weights = std::array<std::int16_t, kSplineTaps>;
 
-// Rounded product with a weight of 15 bits after the point; written as compilers know the instruction for it.
+// Rounded product with a weight of 15 fractional bits, in the form that compilers recognise as one instruction.
 inline std::int16_t weighed(std::int16_t value, std::int16_t weight) {
   return static_cast<std::int16_t>((((static_cast<std::int32_t>(value) * weight) >> 14) + 1) >> 1);
 }
@@ -26,7 +26,7 @@ void widen(const std::uint8_t* __restrict pixels, std::size_t stride, std::int16
     for (int x = 0; x < kImageColumns; ++x) out[x] = static_cast<std::int16_t>(pixels[x] << kGreyBits);
 }
 
-// Six rows of the image joined, then six columns.
+// Combines six rows of the image, then six columns.
 HOVERMODAL_VECTOR_CLONES
 void interpolate(const std::int16_t* __restrict rows, const std::int16_t* __restrict across,
                  const std::int16_t* __restrict down, std::int16_t* __restrict out) {
@@ -46,7 +46,7 @@ void interpolate(const std::int16_t* __restrict rows, const std::int16_t* __rest
   }
 }
 
-// Sums over both axes' factors. 32 bits hold them: point_template.cpp sees to it.
+// Sums with the factors of both axes. They fit in 32 bits: point_template.cpp limits the factors.
 HOVERMODAL_VECTOR_CLONES
 void add_products(const std::int16_t* __restrict window, const std::int16_t* __restrict step_u,
                   const std::int16_t* __restrict step_v, std::int32_t* __restrict out) {
@@ -59,7 +59,7 @@ void add_products(const std::int16_t* __restrict window, const std::int16_t* __r
   out[1] = v;
 }
 
-// Of grey values in 8ths about `level` (in 128ths) where mask is -1: 32 bits hold the squares of a whole window.
+// Grey values in 8ths about `level` (in 128ths) where mask is -1: the squares of a whole window fit in 32 bits.
 HOVERMODAL_VECTOR_CLONES
 void add_moments(const std::int16_t* __restrict window, const std::int16_t* __restrict texture,
                  const std::int16_t* __restrict mask, std::int16_t level, int n, std::int32_t* __restrict out) {
@@ -75,7 +75,7 @@ void add_moments(const std::int16_t* __restrict window, const std::int16_t* __re
   out[2] = both;
 }
 
-// Rounded so that their sum is exact: a level stays a level.
+// Rounded so that their sum is exact: a constant image is unchanged.
 Weights integer_weights(double fraction) {
   const auto weights = spline_weights(fraction);
   Weights out{};
@@ -149,9 +149,9 @@ TemplateMatch InterpolatedWindow::match(const Vector2& rest) const noexcept {
   TemplateMatch match;
   if (!(image2 > 0.0) || !(point_->texture_variance > 0.0)) return match;
   match.gain = both / point_->texture_variance;
-  // What is fitted is coarse: it takes up noise that the interpolation passed whole.
+  // The fitted parameters are low-pass: they absorb noise that the interpolation passes unattenuated.
   const double freedom = std::max(kLeastFreedom * n, n - kParameters / passed_noise_);
-  // By the gradients of the image, as weak as the spline makes its texture.
+  // Uses the gradients of the image as attenuated by the spline.
   const double explained = (rest.u * rest.u / point_->variance_u + rest.v * rest.v / point_->variance_v) *
                            point_->texture_variance / point_->variance;
   match.residual_unit = 1.0 / (freedom * passed_noise_);

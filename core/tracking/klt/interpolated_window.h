@@ -11,22 +11,22 @@ namespace core {
 // Match of an image with a template: I = gain T + offset, by least squares.
 struct TemplateMatch {
   double gain = 0.0;
-  double residual = 0.0;       // residual variance, grey^2, of one pixel of the raw image if it is white noise
-  double residual_unit = 0.0;  // of the residual variance, for a sum of squares over the interpolated window
-  double correlation = 0.0;    // over the window, both smoothed by the spline
+  double residual = 0.0;       // variance per pixel of the raw image if the residual is white noise, grey^2
+  double residual_unit = 0.0;  // residual variance per unit of squares summed over the interpolated window
+  double correlation = 0.0;    // over the window, both images smoothed by the spline
 };
 
-// The image at a position, to be compared with a template: the raw pixels interpolated at a fraction of a pixel (spline
-// weights only: the prefilter is in the template). 16-bit integers throughout, grey values in 128ths: the same bits on
-// every machine. Reused from point to point; no allocation. One thread.
+// The image at a sub-pixel position, for comparison with a template: raw pixels are interpolated with spline weights
+// only, because the prefilter is in the template. 16-bit integers throughout, grey values in 128ths: bit-identical on
+// every machine. Reused from point to point; does not allocate. One thread.
 class InterpolatedWindow {
  public:
   void begin(const GrayView& gray, const PointTemplate& point) noexcept;
-  // With the template's middle at (cell + fraction), fraction 0 ... 1.
+  // Places the template's centre at (cell + fraction), fraction 0 ... 1.
   void move_to(int cell_u, int cell_v, double fraction_u, double fraction_v) noexcept;
-  // px, from the position towards the template, for gain 1.
+  // Step in px from this position towards the template, for gain 1.
   [[nodiscard]] Vector2 step() const noexcept;
-  // rest: the remaining step from here; the part of the image that it explains is not residual.
+  // rest: the remaining step from here; the part of the image that it explains is not counted as residual.
   [[nodiscard]] TemplateMatch match(const Vector2& rest = {}) const noexcept;
 
  private:

@@ -14,13 +14,13 @@ constexpr double kLeastGain = 0.2, kMostGain = 5.0;
 constexpr double kLeastCorrelation = 0.5;
 constexpr int kStepsOfOldGain = 3;
 constexpr double kRounding = 1.0 / 12.0;
-constexpr double kOfRounding = 0.5;  // steps within what rounding to 8 bits does anyway
+constexpr double kOfRounding = 0.5;  // smaller steps are below this share of the error of rounding to 8 bits
 
 bool window_lies_in(const GrayView& gray, int u, int v, int radius) noexcept {
   return u >= radius && v >= radius && u + radius < gray.width && v + radius < gray.height;
 }
 
-// The patch about the pixel nearest to a point. False: the point is nowhere.
+// Cuts the patch about the pixel nearest to a point. False: the point is not finite.
 bool cut_about(const GrayView& gray, const Vector2& point, Patch& patch) noexcept {
   if (gray.empty() || !(std::abs(point.u) < kFarthest_px) || !(std::abs(point.v) < kFarthest_px)) return false;
   cut_patch(gray, static_cast<int>(std::lround(point.u)), static_cast<int>(std::lround(point.v)), patch);
@@ -54,7 +54,7 @@ void KltTracker::replace_template(std::size_t i, const Patch& mean, int n_averag
                                   const Deformation& deformation) noexcept {
   Point& point = points_[i];
   PointTemplate averaged;
-  averaged.noise = point.pattern.noise;  // of one image
+  averaged.noise = point.pattern.noise;  // noise of a single image
   build_template(mean, point.pattern.radius, n_averaged, averaged);
   if (!averaged.is_trackable) return;
   point.pattern = averaged;
@@ -95,8 +95,8 @@ void KltTracker::set_deformation(std::size_t i, const Deformation& now, KltPoint
   state_sigma(point, found);
 }
 
-// The template is found where its window is pulled to; the point itself lies beside the window's middle, and that
-// distance is deformed as well.
+// The template is found at an offset caused by deformation. The point lies off the window's centre, and this offset is
+// deformed as well.
 void KltTracker::correct(Point& point) noexcept {
   const Deformation since = point.deformation - point.reference;
   const Vector2 pull = point.pattern.deformed.pull_of(since), beside = since.of(point.beside());
@@ -126,11 +126,11 @@ void KltTracker::judge_texture(Point& point) const noexcept {
   point.least_correlation = std::max(kLeastCorrelation, config_.least_correlation * expected);
 }
 
-// Steps that do not end are too long or too short because the light is another one than it was.
+// If steps do not converge, their length is wrong because the gain of the light has changed; this estimates it.
 double KltTracker::gain_here(double otherwise) const noexcept {
   const TemplateMatch match = window_.match();
   if (!(match.correlation > kLeastCorrelation)) return otherwise;
-  return std::clamp(match.gain / match.correlation, kLeastGain, kMostGain);  // of the contrast: also beside the place
+  return std::clamp(match.gain / match.correlation, kLeastGain, kMostGain);  // contrast gain, robust to offsets
 }
 
 KltPoint KltTracker::find(const GrayView& gray, std::size_t i, const Vector2& predicted) noexcept {
@@ -139,7 +139,7 @@ KltPoint KltTracker::find(const GrayView& gray, std::size_t i, const Vector2& pr
   if (!point.pattern.is_trackable) return out;
   const double start_u = predicted.u - point.datum.u + point.u0 - point.correction.u;
   const double start_v = predicted.v - point.datum.v + point.v0 - point.correction.v;
-  // Also where a prediction is not a number.
+  // Also rejects a NaN prediction.
   if (!(std::abs(start_u) < kFarthest_px) || !(std::abs(start_v) < kFarthest_px)) return out;
   double u = start_u, v = start_v;
   int cell_u = 0, cell_v = 0;

@@ -8,30 +8,30 @@
 namespace core {
 
 struct KltConfig {
-  int window_px = 21;  // side of the window that is compared, 5 ... 21
+  int window_px = 21;  // side of the compared window, 5 ... 21
   int max_iterations = 12;
-  double epsilon_px = 0.01;         // stop when a step is shorter, or shorter than half the effect of 8-bit rounding
-  double reach_px = 8.0;            // a point farther from its prediction is not found here
-  double least_correlation = 0.75;  // with the template, relative to what its noise allows
+  double epsilon_px = 0.01;         // stop below this step length, or below half the effect of 8-bit rounding
+  double reach_px = 8.0;            // largest distance from the prediction at which a point is found
+  double least_correlation = 0.75;  // with the template, relative to the value expected from its noise
 };
 
 // One point in one image.
 struct KltPoint {
   Vector2 position;            // px
-  double sigma_px = 0.0;       // standard deviation per axis over images against one template (core/tracking/METHOD.md)
-  double gain = 1.0;           // of the light, against the template
-  double deformed_px = 0.0;    // what the deformation would have added to sigma_px
-  double residual = 0.0;       // variance per pixel after gain and offset, grey^2, with what the deformation adds
-  double residual_unit = 0.0;  // of it, for one of DeformationResponse::energy
+  double sigma_px = 0.0;       // per axis, over images against one template (core/tracking/METHOD.md)
+  double gain = 1.0;           // brightness gain relative to the template
+  double deformed_px = 0.0;    // contribution to sigma_px if the deformation were not corrected
+  double residual = 0.0;       // variance per pixel after gain and offset, grey^2, including the effect of deformation
+  double residual_unit = 0.0;  // residual per unit of DeformationResponse::energy
   bool seen = false;
 };
 
-// Whether its position in other images can be determined.
+// True if the point's position in other images can be determined.
 [[nodiscard]] bool is_trackable(const GrayView& gray, const Vector2& point, int window_px);
 
-// Points of a keyframe in later images, each near its prediction: inverse-compositional Lucas-Kanade against a template
-// (point_template.h), always the keyframe's, never frame to frame, so errors do not add up to drift. The same bits on
-// every machine. After set_keyframe() nothing allocates. One thread.
+// Finds points of a keyframe in later images, each near its prediction: inverse-compositional Lucas-Kanade against a
+// template (point_template.h). The template is always that of the keyframe, never of the last frame, so errors do not
+// accumulate to drift. Bit-identical on every machine. Does not allocate after set_keyframe(). One thread.
 class KltTracker {
  public:
   explicit KltTracker(const KltConfig& config) : config_(config) {}
@@ -41,35 +41,35 @@ class KltTracker {
   [[nodiscard]] std::size_t n_points() const noexcept { return points_.size(); }
   [[nodiscard]] const PointTemplate& point_template(std::size_t i) const noexcept { return points_[i].pattern; }
 
-  // Replaces the template by the mean of `n_averaged` aligned images, with less noise; the reference position stays.
-  // deformation: mean of these images'.
+  // Replaces the template by the mean of `n_averaged` aligned images, which has less noise; the reference position
+  // stays. deformation: mean over these images.
   void replace_template(std::size_t i, const Patch& mean, int n_averaged, const Deformation& deformation = {}) noexcept;
-  // Template from another image, about the pixel nearest to place + beside; the point is at `place` there. The image is
-  // deformed as set_deformation() said last. False, without effect: the window leaves the image, or noise would move
-  // the point by more than that variance.
+  // Cuts a template from another image, about the pixel nearest to place + beside; the point is at `place` in that
+  // image, whose deformation is that of the last set_deformation(). False, without effect: the window leaves the image,
+  // or noise would displace the point by more than that variance.
   [[nodiscard]] bool renew(std::size_t i, const GrayView& gray, const Vector2& place, const Vector2& beside,
                            double most_variance_px2) noexcept;
-  // Subtracts `less` from the displacement of the point: shifts its reference position.
+  // Subtracts `less` from the displacement of the point by shifting its reference position.
   void shift_datum(std::size_t i, const Vector2& less) noexcept;
-  // How the image about the point is deformed against the keyframe, from here on: find() corrects for it. `found` in
-  // this image: corrected, too.
+  // Sets the deformation of the image about the point relative to the keyframe; find() corrects for it from now on.
+  // `found`: result in this image, which is corrected, too.
   void set_deformation(std::size_t i, const Deformation& now, KltPoint& found) noexcept;
   [[nodiscard]] const Deformation& deformation(std::size_t i) const noexcept { return points_[i].deformation; }
-  // Position of the template's middle when the point is at `position`.
+  // Position of the template's centre when the point is at `position`.
   [[nodiscard]] Vector2 middle_of(std::size_t i, const Vector2& position) const noexcept;
 
-  // gray: 8-bit, of any size. Not seen: no texture, window leaves the image, too far away, or correlation too low.
+  // gray: 8-bit, any size. Not seen: no texture, window leaves the image, too far away, or correlation too low.
   [[nodiscard]] KltPoint find(const GrayView& gray, std::size_t i, const Vector2& predicted) noexcept;
 
  private:
   struct Point {
     PointTemplate pattern;
-    Vector2 datum;              // where the point is while the pattern's middle is at (u0, v0)
-    double u0 = 0.0, v0 = 0.0;  // a pixel
-    double gain = 1.0;          // when last seen
+    Vector2 datum;              // position of the point while the pattern's centre is at (u0, v0)
+    double u0 = 0.0, v0 = 0.0;  // a whole pixel
+    double gain = 1.0;          // at the last detection
     double least_correlation = 0.0;
-    Deformation reference, deformation;  // of the template and of the image, against the keyframe
-    Vector2 correction;                  // from where the template is found to where the point is, beyond the datum
+    Deformation reference, deformation;  // of the template and of the image, relative to the keyframe
+    Vector2 correction;                  // offset from the found template to the point, in addition to the datum
 
     [[nodiscard]] Vector2 beside() const noexcept { return {datum.u - u0, datum.v - v0}; }
   };

@@ -8,9 +8,9 @@
 
 namespace core {
 
-// Sizes of the patches about a tracked point, px. Window: the compared part, at most. Folded: the window and the
-// support of the interpolation's prefilter beyond it. Patch: what the interpolation needs for every position within one
-// pixel.
+// Sizes of the patches about a tracked point, px. Window: largest compared part. Folded: the window plus the
+// support of the interpolation's prefilter. Patch: the pixels that interpolation needs for every position within
+// one pixel.
 inline constexpr int kWindowRadius = 10;
 inline constexpr int kWindow = 2 * kWindowRadius + 1;
 inline constexpr int kFoldedRadius = kWindowRadius + kPrefilterMargin;
@@ -19,12 +19,12 @@ inline constexpr int kPatchRadius = kFoldedRadius + kSplineBefore + 1;
 inline constexpr int kPatch = 2 * kPatchRadius + 1;
 inline constexpr int kImageRows = kFolded + kSplineTaps - 1;  // of the image about a cell, and as many columns: 37 are
 inline constexpr int kImageColumns = 40;                      // needed, whole vectors are read
-inline constexpr int kRow = 32;                               // of folded windows in memory: whole vectors
+inline constexpr int kRow = 32;                               // row length of folded windows in memory: whole vectors
 
-// Grey values, the point in the middle.
+// Grey values, centred on the point.
 using Patch = std::array<std::array<double, kPatch>, kPatch>;
 
-// Where the pixel at index `i` of a line of `n` is found; beyond the border as in a mirror.
+// Index of the pixel at index `i` of a line of `n`; mirrored beyond the border.
 [[nodiscard]] inline int mirrored(int i, int n) noexcept {
   if (n == 1) return 0;
   const int period = 2 * (n - 1);
@@ -33,7 +33,7 @@ using Patch = std::array<std::array<double, kPatch>, kPatch>;
   return k < n ? k : period - k;
 }
 
-// About the pixel (u, v).
+// Cuts the patch about the pixel (u, v).
 inline void cut_patch(const GrayView& gray, int u, int v, Patch& out) noexcept {
   for (int y = 0; y < kPatch; ++y) {
     const std::uint8_t* row = gray.row(mirrored(v - kPatchRadius + y, gray.height));

@@ -10,22 +10,22 @@ namespace {
 
 constexpr std::array<double, 2 * kPrefilterMargin + 1> kPrefilter = spline_prefilter<>();
 
-// exp(-k^2 / (2 0.7^2)), k = 0 ... 3: the smoothing across, and, times k, the derivative along.
+// exp(-k^2 / (2 0.7^2)), k = 0 ... 3: smoothing across the gradient; multiplied by k, the derivative along it.
 constexpr std::array<double, 4> kGauss{1.0, 0.36044778859782, 0.01687989150494, 0.00010269492446};
 constexpr double kGaussSum = kGauss[0] + 2.0 * (kGauss[1] + kGauss[2] + kGauss[3]);
 constexpr double kSlopeSum = 2.0 * (kGauss[1] + 4.0 * kGauss[2] + 9.0 * kGauss[3]);
 
-// Sums over the folded window, of grey values in 128ths, stay within 32 bits, and each factor within 16.
+// Sums over the folded window of grey values in 128ths fit in 32 bits, and each factor in 16.
 constexpr double kMostFactor = 32'000.0;
 constexpr double kMostSum = 2.1e9 / (255.0 * 128.0);
 
-// Weights of coefficients at a sample: those of spline_weights(0).
+// Weights of the coefficients at a sample: spline_weights(0).
 constexpr std::array<double, 5> kAtSample{1.0 / 120.0, 26.0 / 120.0, 66.0 / 120.0, 26.0 / 120.0, 1.0 / 120.0};
 
-// Of a patch's variance: the rest of what looks like noise is fine texture.
+// Largest share of a patch's variance that counts as noise: the rest of what resembles noise is fine texture.
 constexpr double kMostNoiseShare = 0.5;
 
-// Below this (smaller eigenvalue of the normal matrix, grey^2 a pixel) a patch has no second direction.
+// Smallest eigenvalue of the normal matrix (grey^2 per pixel): below, a patch has texture in one direction only.
 constexpr double kLeastEigenvalue = 0.05;
 
 using Window = std::array<std::array<double, kWindow>, kWindow>;
@@ -33,7 +33,7 @@ using Folded = std::array<std::array<double, kFolded>, kFolded>;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-// out(y, x) = sum over taps at -radius ... radius of two filters, of a region of the patch about its middle.
+// out(y, x): sums over taps -radius ... radius of two filters, for a region about the patch's centre.
 template <std::size_t kAcross, std::size_t kDown, class Out>
 void filter(const Patch& patch, const std::array<double, kAcross>& across, const std::array<double, kDown>& down,
             int radius, Out& out) noexcept {
@@ -68,10 +68,10 @@ constexpr std::array<double, 7> gaussian_slope() {
     taps[static_cast<std::size_t>(k + 3)] = k * kGauss[static_cast<std::size_t>(k < 0 ? -k : k)] / kSlopeSum;
   return taps;
 }
-// From samples to the spline's slope at a sample.
+// Filter from samples to the spline's slope at a sample.
 constexpr std::array<double, 15> spline_slope() { return joined(kPrefilter, kSplineSlope); }
 
-// Sum of the products of both gradients' taps: what white noise adds to H, a pixel.
+// Sum of the products of both gradients' taps: contribution of white noise to H per pixel.
 constexpr double noise_in_both() {
   constexpr auto kSmooth = gaussian_slope();
   constexpr auto kExact = spline_slope();
@@ -81,7 +81,7 @@ constexpr double noise_in_both() {
 }
 constexpr double kNoiseInBoth = noise_in_both();
 constexpr double kLeastWithoutNoise =
-    0.6;  // what is taken for noise may be fine texture: steps stay shorter than twice the way
+    0.6;  // apparent noise may be fine texture: a step overshoots by less than a factor of two
 
 template <class Function>
 void for_window(int radius, const Function& function) {
@@ -90,7 +90,7 @@ void for_window(int radius, const Function& function) {
 }
 double area(int radius) { return static_cast<double>((2 * radius + 1) * (2 * radius + 1)); }
 
-// Takes out of `step` what the template (about its mean) and a constant explain.
+// Removes from `step` the components along the template (about its mean) and a constant.
 void make_orthogonal(Window& step, int radius, const Window& texture, double texture_square) {
   double mean = 0.0, along = 0.0;
   for_window(radius, [&](std::size_t y, std::size_t x) { mean += step[y][x], along += step[y][x] * texture[y][x]; });
@@ -99,7 +99,7 @@ void make_orthogonal(Window& step, int radius, const Window& texture, double tex
              [&](std::size_t y, std::size_t x) { step[y][x] -= mean + along / texture_square * texture[y][x]; });
 }
 
-// The window's factors, joined with the prefilter.
+// Combines the window's factors with the prefilter.
 void fold(const Window& step, Folded& out) {
   std::array<std::array<double, kFolded>, kWindow> rows{};
   for (int y = 0; y < kWindow; ++y)
@@ -133,8 +133,8 @@ void round_to(const Folded& factors, double scale, PointTemplate::Factors& out) 
       out[index(y * kRow + x)] = static_cast<std::int16_t>(std::lround(scale * factors[index(y)][index(x)]));
 }
 
-// The rounded sums at the template itself, so that rounding moves nothing. samples: the patch, interpolated at its
-// pixels.
+// The rounded sums at the template itself; subtracting them avoids an offset by rounding. samples: the patch
+// interpolated at its pixels.
 double sum_at_origin(const Folded& samples, const PointTemplate::Factors& step) {
   double sum = 0.0;
   for (int y = 0; y < kFolded; ++y)
@@ -142,7 +142,7 @@ double sum_at_origin(const Folded& samples, const PointTemplate::Factors& step) 
   return sum;
 }
 
-// The template as an interpolated window shows it.
+// Stores the template as an interpolated window would contain it.
 void keep_texture(const Folded& samples, PointTemplate& out) {
   out.texture.fill(0);
   out.mask.fill(0);
@@ -160,14 +160,14 @@ void keep_texture(const Folded& samples, PointTemplate& out) {
   out.texture_variance = square / area(out.radius) - out.texture_mean * out.texture_mean;
 }
 
-// g x^T: the fall of a window's grey values per unit of each element of A.
+// g x^T: decrease of a window's grey values per unit of each element of A.
 std::array<double, 4> change_by_deformation(const Window& slope_u, const Window& slope_v, std::size_t y,
                                             std::size_t x) noexcept {
   const double u = static_cast<double>(x) - kWindowRadius, v = static_cast<double>(y) - kWindowRadius;
   return {slope_u[y][x] * u, slope_u[y][x] * v, slope_v[y][x] * u, slope_v[y][x] * v};
 }
 
-// Of that what neither offset, gain nor shift explains, as interpolated windows show it: smoothed by the spline.
+// Energy of this change not explained by offset, gain or shift, in interpolated windows (smoothed by the spline).
 void keep_deformation_energy(const Patch& patch, PointTemplate& out) noexcept {
   Window texture{}, slope_u{}, slope_v{};
   filter(patch, kAtSample, kAtSample, kWindowRadius, texture);
@@ -190,7 +190,7 @@ void keep_deformation_energy(const Patch& patch, PointTemplate& out) noexcept {
     for (std::size_t l = k; l < 4; ++l) out.deformed.energy[at++] = (k == l ? 1.0 : 2.0) * gram[4 + k][4 + l];
 }
 
-// From differences that a plane, and most of a smooth texture, does not have (Immerkaer 1996).
+// From differences that cancel for a plane and nearly cancel for smooth texture (Immerkaer 1996).
 double noise_variance(const Patch& patch, int radius) {
   double sum = 0.0;
   for (int y = kPatchRadius - radius; y <= kPatchRadius + radius; ++y) {
@@ -204,8 +204,8 @@ double noise_variance(const Patch& patch, int radius) {
   return sum / (36.0 * area(radius));
 }
 
-// The factors that take an image's difference from the template to a step, pixel by pixel, and what `out` says of grey
-// values and variances. False: no texture in two directions.
+// Computes the factors that convert an image's difference from the template to a step, pixel by pixel, and the grey
+// values and variances of `out`. False: no texture in two directions.
 bool linearise(const Patch& patch, int radius, PointTemplate& out, Window& step_u, Window& step_v) noexcept {
   constexpr std::array<double, 1> kSame{1.0};
   Window texture{}, smooth_u{}, smooth_v{}, slope_u{}, slope_v{};
@@ -232,7 +232,7 @@ bool linearise(const Patch& patch, int radius, PointTemplate& out, Window& step_
     uu += smooth_u[y][x] * slope_u[y][x], uv += smooth_u[y][x] * slope_v[y][x];
     vu += smooth_v[y][x] * slope_u[y][x], vv += smooth_v[y][x] * slope_v[y][x];
   });
-  // The template's own noise is in both gradients: without it, steps would be too short by as much.
+  // The template's noise increases both gradients; without this correction steps would be too short.
   const double own = area(radius) * kNoiseInBoth * out.noise / out.n_averaged;
   uu = std::max(kLeastWithoutNoise * uu, uu - own), vv = std::max(kLeastWithoutNoise * vv, vv - own);
   const double determinant = uu * vv - uv * vu;

@@ -8,10 +8,10 @@ namespace core {
 // Interpolation by quintic B-splines (Unser, Aldroubi & Eden 1993): f(x) = sum_k beta5(x - k) c(k), where the
 // coefficients c are the samples passed through a symmetric prefilter.
 inline constexpr int kSplineTaps = 6;       // coefficients at -2 ... 3 about the sample below x
-inline constexpr int kSplineBefore = 2;     // of them before it
-inline constexpr int kPrefilterMargin = 5;  // taps on either side of the middle one; later ones are below 0.7 %
+inline constexpr int kSplineBefore = 2;     // of which so many before that sample
+inline constexpr int kPrefilterMargin = 5;  // taps on either side of the centre; omitted taps are below 0.7 %
 
-// One filter after the other, as one.
+// Two filters combined into one.
 template <std::size_t kA, std::size_t kB>
 [[nodiscard]] constexpr std::array<double, kA + kB - 1> joined(const std::array<double, kA>& a,
                                                                const std::array<double, kB>& b) noexcept {
@@ -39,11 +39,12 @@ template <std::size_t kA, std::size_t kB>
   return weights;
 }
 
-// The derivative at a sample, of coefficients at -2 ... 2.
+// Derivative at a sample, from the coefficients at -2 ... 2.
 inline constexpr std::array<double, 5> kSplineSlope{-1.0 / 24.0, -10.0 / 24.0, 0.0, 10.0 / 24.0, 1.0 / 24.0};
 
-// Samples to coefficients: the inverse of (1, 26, 66, 26, 1) / 120, cut off and with sum 1. Cut off it is still
-// symmetric: after five taps it strengthens texture by up to 5 %, after twelve by 1e-5, and shifts nothing.
+// Converts samples to coefficients: the inverse of (1, 26, 66, 26, 1) / 120, truncated and normalised to sum 1.
+// Truncated it remains symmetric: with five taps it amplifies texture by up to 5 %, with twelve by 1e-5, without a
+// shift.
 template <std::size_t kMargin = kPrefilterMargin>
 [[nodiscard]] constexpr std::array<double, 2 * kMargin + 1> spline_prefilter() noexcept {
   constexpr std::array<double, 2> kPoles{-0.43057534709997430, -0.043096288203264652};

@@ -8,13 +8,13 @@ namespace core {
 
 namespace {
 
-constexpr double kFaint = 2.0;  // gradient over noise, below which an average helps
-constexpr int kImages = 16;     // in an average
-constexpr int kMargin = 12;     // of the prefilter: these values are kept
+constexpr double kFaint = 2.0;  // gradient over noise below which averaging helps
+constexpr int kImages = 16;     // images per average
+constexpr int kMargin = 12;     // of the prefilter: the averaged values become the template
 constexpr int kTaps = kSplineTaps + 2 * kMargin;
 constexpr int kTapsBefore = kSplineBefore + kMargin;
 
-// From samples to the spline's value at a fraction: prefilter and weights in one.
+// Filter from samples to the spline's value at a fraction: prefilter and weights combined.
 std::array<double, kTaps> taps_at(double fraction) noexcept {
   constexpr auto kPrefilter = spline_prefilter<kMargin>();
   return joined(kPrefilter, spline_weights(fraction));

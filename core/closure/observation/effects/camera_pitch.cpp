@@ -4,7 +4,7 @@
 namespace core::closure {
 namespace {
 
-// Rotation about the horizontal axis of the image: its quadratic part.
+// Camera rotation about the horizontal image axis: its quadratic part.
 class CameraPitch final : public RotationEffect {
  public:
   [[nodiscard]] EffectId id() const override { return {"camera_pitch"}; }

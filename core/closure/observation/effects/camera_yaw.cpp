@@ -4,7 +4,7 @@
 namespace core::closure {
 namespace {
 
-// Rotation about the vertical axis of the image: its quadratic part.
+// Camera rotation about the vertical image axis: its quadratic part.
 class CameraYaw final : public RotationEffect {
  public:
   [[nodiscard]] EffectId id() const override { return {"camera_yaw"}; }

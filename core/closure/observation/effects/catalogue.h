@@ -6,7 +6,7 @@
 #include "core/closure/observation/effect.h"
 #include "core/types/effect_catalogue.h"
 
-// The named effects of the observation level, one line each, in the order in which they are tried: the file
+// The named effects of the observation level, one line each, in the order in which they are tested. The file
 // effects/NAME.cpp defines make_NAME().
 #define HOVERMODAL_OBSERVATION_EFFECTS(EFFECT) \
   EFFECT(camera_roll)                          \
@@ -26,10 +26,10 @@ HOVERMODAL_OBSERVATION_EFFECTS(HOVERMODAL_DECLARE)
 #undef HOVERMODAL_DECLARE
 
 [[nodiscard]] const EffectList<ObservationEffect>& observation_effects();
-// nullptr: not in the catalogue.
+// nullptr: the catalogue has no such effect.
 [[nodiscard]] const ObservationEffect* observation_effect(const EffectId& id);
 
-// Effects that no record of tracks can show at this level, whatever their size.
+// Effects that no record of tracks can show at this level, however large they are.
 [[nodiscard]] std::vector<NotObservable> never_observable();
 
 }  // namespace core::closure

@@ -11,10 +11,10 @@ struct LensCoefficients {
   double k1 = 0.0, p1 = 0.0, p2 = 0.0;
 };
 
-// Undoes it on all positions, by fixed-point steps.
+// Removes the distortion from all positions, by fixed-point iteration.
 void undo_lens(const LensCoefficients& lens, const CorrectionView& view, Eigen::MatrixXd& positions);
 
-// Some of these coefficients; corrected in flight with those of other such effects.
+// A subset of these coefficients; corrected in flight together with those of the other lens effects.
 class LensEffect : public PositionEffect, private InFlightCorrection {
  public:
   [[nodiscard]] CorrectionStage stage() const final { return CorrectionStage::kLens; }

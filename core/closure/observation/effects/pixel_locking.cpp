@@ -8,8 +8,8 @@
 namespace core::closure {
 namespace {
 
-// Tracking error periodic in the sub-pixel phase, two harmonics, the same along both axes. The phase is that of the
-// predicted place: the measured one holds the error itself.
+// Tracking error periodic in the sub-pixel phase, two harmonics, equal along both axes. The phase is computed from the
+// predicted position, because the measured one contains the error.
 class PixelLocking final : public PositionEffect, private InFlightCorrection {
  public:
   [[nodiscard]] EffectId id() const override { return {"pixel_locking"}; }

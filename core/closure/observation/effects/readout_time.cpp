@@ -6,9 +6,9 @@
 namespace core::closure {
 namespace {
 
-constexpr double kLeastMotion = 1e-9;  // of motion along the rows, rms in sigmas
+constexpr double kLeastMotion = 1e-9;  // smallest rms motion along the rows, in sigmas
 
-// Added to the declared readout time; the model itself uses it (PointMotionModel::solve).
+// Correction of the declared readout time; the model itself uses it (PointMotionModel::solve).
 class ReadoutTime final : public ConstantEffect, private InFlightCorrection {
  public:
   [[nodiscard]] EffectId id() const override { return {"readout_time"}; }

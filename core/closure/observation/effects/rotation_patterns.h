@@ -8,13 +8,13 @@
 
 namespace core::closure {
 
-// First order of a rotation of the camera: px per rad, 2 points long. Of pitch and yaw the constant part, a
-// translation, is left out: it is free in every frame.
+// First order of a camera rotation: px per rad, 2 points long. The constant parts of pitch and yaw are translations,
+// which are free in every frame, and are left out.
 [[nodiscard]] Eigen::VectorXd roll_pattern(const PointGeometry& g);
 [[nodiscard]] Eigen::VectorXd pitch_pattern(const PointGeometry& g);
 [[nodiscard]] Eigen::VectorXd yaw_pattern(const PointGeometry& g);
 
-// Roll, pitch and yaw side by side, 2 points x 3; complete: with the constant parts.
+// Roll, pitch and yaw as columns, 2 points x 3; complete: with the constant parts.
 [[nodiscard]] Eigen::MatrixXd rotation_patterns(const PointGeometry& g, bool complete);
 
 // Rotation about one axis of the camera, in degrees.

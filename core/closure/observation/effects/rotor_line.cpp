@@ -9,14 +9,14 @@ namespace {
 
 constexpr double kLeastReadout_frames = 0.2;
 
-// Rotation of the camera by its rotors.
+// Camera rotation caused by the rotors.
 class RotorLine final : public LineEffect {
  public:
   [[nodiscard]] EffectId id() const override { return {"rotor_line"}; }
   [[nodiscard]] std::string name() const override { return "rotor line"; }
   [[nodiscard]] bool is_steady() const override { return true; }
-  // Complete if the readout gives rows different phases; otherwise without their constant parts, which a translation
-  // absorbs.
+  // The patterns are complete if the readout gives rows different phases; otherwise their constant parts are left out,
+  // because a translation absorbs them.
   [[nodiscard]] Eigen::MatrixXd patterns(const PointGeometry& geometry, double readout_frames) const override {
     return rotation_patterns(geometry, std::abs(readout_frames) >= kLeastReadout_frames);
   }

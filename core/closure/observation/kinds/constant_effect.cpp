@@ -13,7 +13,7 @@ namespace {
 
 constexpr Eigen::Index kBlocks = 10;
 
-// What is left of a wave over the image where places have the model's own uncertainty: exp(-(2 pi waves sigma)^2 / 2).
+// Attenuation of a wave over the image by the model's position uncertainty: exp(-(2 pi waves sigma)^2 / 2).
 double blur(const FitView& fit, double waves_per_px) {
   const Eigen::MatrixXd& q = fit.model.q_high();
   const double share = static_cast<double>(q.cols()) / static_cast<double>(q.rows());
@@ -86,7 +86,7 @@ class ConstantCandidate final : public EffectCandidate {
 
  private:
   [[nodiscard]] const Eigen::MatrixXd& field(Eigen::Index p) const { return fields_[static_cast<std::size_t>(p)]; }
-  // Of a derivative and another field over one block of time.
+  // Inner product of a derivative and another field over one block of time.
   [[nodiscard]] double product(Eigen::Index p, const Eigen::MatrixXd& other, Eigen::Index block) const {
     const Eigen::Index frames = other.cols();
     const Eigen::Index from = block * frames / kBlocks, count = (block + 1) * frames / kBlocks - from;
@@ -126,13 +126,13 @@ std::vector<Eigen::MatrixXd> PositionEffect::derivatives(const Eigen::VectorXd& 
   std::vector<Eigen::MatrixXd> out;
   const CorrectionView view = fit.correction();
   for (Eigen::Index p = 0; p < values.size(); ++p) {
-    Eigen::MatrixXd more = fit.predicted_px, less = more;  // noise in them would be mistaken for the effect
+    Eigen::MatrixXd more = fit.predicted_px, less = more;  // measured positions would add noise to the derivative
     Eigen::VectorXd up = values, down = values;
     up(p) += step(), down(p) -= step();
     remove(up, view, more);
     remove(down, view, less);
     Eigen::MatrixXd field = (less - more) / (2.0 * step());
-    // The mean places move as well, and the zoom with them.
+    // The effect also shifts the mean positions, and the zoom scales this shift.
     for (Eigen::Index j = 0; j < fit.record.n_points(); ++j)
       field.middleRows(2 * j, 2) -= field.middleRows(2 * j, 2).rowwise().mean().eval() * fit.model.zoom_of_point(j);
     field.array().colwise() *= fit.model.weight().array();

@@ -4,17 +4,18 @@
 
 namespace core::closure {
 
-// A few constants of the whole record. Scored on one of ten blocks of time, fitted on the other nine.
+// A few constants of the whole record. Scored on one of ten blocks of time, fitted to the other nine.
 class ConstantEffect : public ObservationEffect {
  public:
   struct Parameter {
     std::string name;
-    double waves_per_px = 0.0;  // where it multiplies a wave over the image: an uncertain place blurs it
+    double waves_per_px = 0.0;  // of the image wave that it multiplies: position uncertainty attenuates it
   };
   [[nodiscard]] virtual std::vector<Parameter> constants() const = 0;
   [[nodiscard]] virtual std::string unit() const { return {}; }
   [[nodiscard]] virtual double most() const = 0;  // largest plausible magnitude of a value
-  // Of the prediction by each constant, at these values, as the model leaves them (2 points x frames, in sigmas).
+  // Derivative of the prediction by each constant at these values, outside the model's columns (2 points x frames,
+  // sigmas).
   [[nodiscard]] virtual std::vector<Eigen::MatrixXd> derivatives(const Eigen::VectorXd& values,
                                                                  const FitView& fit) const = 0;
   [[nodiscard]] virtual double added_readout_frames(const Eigen::VectorXd& /*values*/) const { return 0.0; }
@@ -28,11 +29,11 @@ class ConstantEffect : public ObservationEffect {
   [[nodiscard]] std::unique_ptr<EffectCandidate> candidate(const FitView& fit) const final;
 };
 
-// Constants that move the points: everything follows from how they are removed from positions.
+// Constants that displace the points: derivatives follow from the removal of the effect from positions.
 class PositionEffect : public ConstantEffect {
  public:
   [[nodiscard]] virtual CorrectionStage stage() const = 0;
-  [[nodiscard]] virtual double step() const = 0;  // for derivatives: small relative to what is observable
+  [[nodiscard]] virtual double step() const = 0;  // of the derivatives: small relative to what is observable
   virtual void remove(const Eigen::VectorXd& values, const CorrectionView& view, Eigen::MatrixXd& positions) const = 0;
 
   [[nodiscard]] std::vector<Eigen::MatrixXd> derivatives(const Eigen::VectorXd& values, const FitView& fit) const final;

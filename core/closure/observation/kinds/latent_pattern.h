@@ -7,7 +7,7 @@
 
 namespace core::closure {
 
-// A pattern learned from the residual, without a name: the candidate beside those of the catalogue. number: from 1.
+// Unnamed pattern learned from the residual: the candidate in addition to the catalogue. number: counts from 1.
 [[nodiscard]] std::unique_ptr<EffectCandidate> latent_candidate(std::size_t number, const FitView& fit);
 [[nodiscard]] EffectId latent_id(std::size_t number);
 [[nodiscard]] std::string latent_name(std::size_t number);

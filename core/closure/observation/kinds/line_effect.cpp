@@ -10,8 +10,8 @@
 namespace core::closure {
 namespace {
 
-constexpr double kWidest_hz = 1.2;  // half width: wider is a rotation of any spectrum
-constexpr double kOfPattern = 0.7;  // of the gain of the best pattern learned in its band
+constexpr double kWidest_hz = 1.2;  // half width; a wider band is a broad-band rotation
+constexpr double kOfPattern = 0.7;  // smallest share of the gain of the best pattern learned in its band
 
 LineSearch search_in(const LineEffect& effect, const FitView& fit) {
   return {fit.model, fit.record.rate_hz, fit.readout_frames, effect.patterns(fit.model.geometry(), fit.readout_frames),
@@ -68,7 +68,7 @@ class LineCandidate final : public EffectCandidate {
   LineCandidate(const LineEffect& effect, const FitView& fit)
       : effect_(effect), fit_(fit), search_(search_in(effect, fit)) {}
   [[nodiscard]] double gain(const TestedResidual& residual) const override {
-    return effect_.is_steady() ? search_.find(residual.values).gain : 0.0;  // one search stands for both
+    return effect_.is_steady() ? search_.find(residual.values).gain : 0.0;  // one search serves both kinds of line
   }
   double find(const TestedResidual& residual) override {
     found_ = search_.find(residual.values);

@@ -4,13 +4,13 @@
 
 namespace core::closure {
 
-// Rotation of the camera in a band of frequencies; the search is that of line_search.h.
+// Camera rotation in a band of frequencies, found by line_search.h.
 class LineEffect : public ObservationEffect {
  public:
   // Patterns over the image, px per rad, 2 points x 3.
   [[nodiscard]] virtual Eigen::MatrixXd patterns(const PointGeometry& geometry, double readout_frames) const = 0;
 
-  // A line of what turns steadily; otherwise a band. One search finds both, its width decides.
+  // True: line of a steady rotor; false: a band. One search finds both; the width of the finding decides.
   [[nodiscard]] virtual bool is_steady() const = 0;
 
   [[nodiscard]] std::size_t n_parameters() const final { return 1; }

@@ -10,8 +10,8 @@
 namespace core::closure {
 namespace {
 
-constexpr double kLeastBeside = 1e-3;  // of a pattern's norm that must lie outside the model's columns
-constexpr double kFollows = 0.9;       // of the amplitude's variance explained by motions of the model
+constexpr double kLeastBeside = 1e-3;  // smallest share of a pattern's norm outside the model's columns
+constexpr double kFollows = 0.9;       // smallest share of the amplitude's variance explained by motions of the model
 
 double rms(const Eigen::RowVectorXd& a) {
   return a.size() > 0 ? std::sqrt((a.array() - a.mean()).square().mean()) : 0.0;
@@ -83,17 +83,17 @@ class PatternCandidate final : public EffectCandidate {
   PatternGain found_;
 };
 
-// Does the amplitude only repeat the model's own motions? Then a lens or readout error is behind it, not a rotation.
+// True if the amplitude only repeats motions of the model. Its cause is then a lens or readout error, not a rotation.
 bool PatternCandidate::follows_motion() const {
   const PointMotionModel& model = fit_.model;
   const Eigen::VectorXd w = effect_.pattern(model.geometry()).cwiseProduct(model.weight());
   const Eigen::VectorXd g = w - model.q_low() * (model.q_low().transpose() * w);
   if (!(g.norm() > 0.0)) return false;
   Eigen::RowVectorXd a = g.normalized().transpose() * model.residual();
-  // Single regions are no motion of the camera: a rotation moves each of them by its own height.
+  // Single regions are excluded: a rotation moves each of them in proportion to its own height.
   const Eigen::Index plane = model.first_plane_row(), rows = std::min<Eigen::Index>(3, model.n_own() - plane);
   Eigen::MatrixXd motions(2 * (rows + (plane > 0 ? 1 : 0)), fit_.record.n_frames());
-  // Their rates too: with a readout a wrong time shows as a motion's velocity.
+  // Rates are included: with a readout, a time error appears as the velocity of a motion.
   motions.topRows(rows) = model.amplitudes().middleRows(plane, rows);
   motions.middleRows(rows, rows) = model.rates().middleRows(plane, rows);
   if (plane > 0) {

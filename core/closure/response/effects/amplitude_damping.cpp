@@ -3,8 +3,8 @@
 namespace core::closure {
 namespace {
 
-// The decay rate changes with the amplitude: its logarithm is a parabola in the amplitude's (friction: slower decay of
-// large motion; drag: faster).
+// The decay rate depends on the amplitude: its logarithm is a parabola in the logarithm of the amplitude (friction:
+// slower decay of large motion; drag: faster decay).
 class AmplitudeDamping final : public DecayEffect {
  public:
   [[nodiscard]] std::string name() const override { return "amplitude_dependent_damping"; }

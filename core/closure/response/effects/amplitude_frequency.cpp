@@ -3,8 +3,8 @@
 namespace core::closure {
 namespace {
 
-// The frequency changes with the amplitude: a parabola in the amplitude's logarithm, which holds over decades of a
-// decay (friction in joints, softening, hardening).
+// The frequency depends on the amplitude: a parabola in the logarithm of the amplitude, valid over decades of a decay
+// (friction in joints, softening, hardening).
 class AmplitudeFrequency final : public DecayEffect {
  public:
   [[nodiscard]] std::string name() const override { return "amplitude_dependent_frequency"; }

@@ -8,7 +8,7 @@
 #include "core/closure/response/effects/decay_effect.h"
 #include "core/types/effect_catalogue.h"
 
-// The effects of the response level by kind of record, one line each, in the order in which they are tried: the file
+// The effects of the response level by kind of record, one line each, in the order in which they are tested. The file
 // effects/NAME.cpp defines make_NAME().
 #define HOVERMODAL_CLOCK_EFFECTS(EFFECT) \
   EFFECT(clock_rate)                     \

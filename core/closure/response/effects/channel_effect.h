@@ -9,7 +9,7 @@
 
 namespace core::closure {
 
-// Inputs of an effect: the record, its channels relative to the base, and the result of a linear predictor of these.
+// Inputs of an effect: the record, its channels relative to the base, and a linear predictor of these.
 struct ChannelContext {
   const ChannelRecord& record;
   const ChannelRecord& relative;
@@ -24,8 +24,8 @@ class ChannelEffect {
  public:
   struct Corrected {
     ChannelRecord record;
-    double count = 0.0, sigma = 0.0;  // samples that were put in, taken out or blanked, and its standard deviation
-    std::string words = {};            // what was done; may be empty
+    double count = 0.0, sigma = 0.0;  // samples inserted, removed or masked; sigma of that number
+    std::string words = {};            // description of the correction; may be empty
   };
 
   ChannelEffect() = default;
@@ -38,22 +38,22 @@ class ChannelEffect {
   [[nodiscard]] virtual bool corrects() const { return false; }
   [[nodiscard]] virtual Corrected corrected(const ChannelContext& context) const { return {context.record}; }
 
-  // Its evidence are frames at other times than stated: not sought where time stamps tell them.
+  // True if its evidence is frames at other times than stated: not tested if time stamps give the times.
   [[nodiscard]] virtual bool is_of_the_clock() const { return false; }
 
   [[nodiscard]] virtual bool has_course() const { return false; }
   [[nodiscard]] virtual Eigen::VectorXd course(const ChannelContext& /*context*/) const { return {}; }
 
-  // The course where the structure is as it is looked for: in the mean (0), at rest, ...
+  // Value of the course at which the structure is reported: at the mean (0), at zero amplitude, ...
   [[nodiscard]] virtual double course_at_rest() const { return 0.0; }
 
-  // How the record is repaired, in words; "" = it is not.
+  // Description of the repair of the record; "" = it is not repaired.
   [[nodiscard]] virtual std::string repair() const { return {}; }
 
   [[nodiscard]] virtual bool jitters() const { return false; }
   [[nodiscard]] virtual bool adds_input() const { return false; }
 
-  // Of its number: places per record, relative change of frequency per unit of the course, s of jitter.
+  // Parameter from its value: samples per record, relative change of frequency per unit of the course, s of jitter.
   [[nodiscard]] virtual ParameterValue describe(double value) const = 0;
   [[nodiscard]] virtual std::string immaterial(double /*value*/) const { return {}; }
 };

@@ -8,7 +8,7 @@
 
 namespace core::closure {
 
-// Departures of a filmed clock from a constant offset: columns added to the predicted readings, in s.
+// Departure of a filmed clock from a constant offset: columns added to the predicted readings, in s.
 class ClockEffect {
  public:
   ClockEffect() = default;
@@ -17,8 +17,8 @@ class ClockEffect {
   virtual ~ClockEffect() = default;
 
   [[nodiscard]] virtual std::string name() const = 0;
-  // Nonlinear parameters, found from the residuals (s) of the model so far at the readings in the training data; may be
-  // empty.
+  // Nonlinear parameters, estimated from the residuals (s) of the present model at the readings in the training data;
+  // may be empty.
   [[nodiscard]] virtual Eigen::VectorXd place(const Eigen::VectorXd& /*frame*/, const Eigen::VectorXd& /*residual_s*/,
                                               const std::vector<char>& /*seen*/) const {
     return {};
@@ -26,7 +26,7 @@ class ClockEffect {
   // One column per linear parameter at any frames; `last` = the record's last frame.
   [[nodiscard]] virtual Eigen::MatrixXd columns(const Eigen::VectorXd& frame, double last,
                                                 const Eigen::VectorXd& place) const = 0;
-  // Names, units, values: of these coefficients, at this declared rate.
+  // Names, units and values for these coefficients at this declared rate.
   [[nodiscard]] virtual std::vector<ParameterValue> parameters(const Eigen::VectorXd& coefficients,
                                                                const Eigen::VectorXd& place, double rate_hz,
                                                                double last) const = 0;

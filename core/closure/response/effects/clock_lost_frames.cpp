@@ -5,15 +5,15 @@
 namespace core::closure {
 namespace {
 
-constexpr double kWhole = 0.25;    // of a frame: so near to a whole number of them
-constexpr Eigen::Index kEdge = 8;  // readings to both sides
+constexpr double kWhole = 0.25;    // of a frame: tolerance of a whole number of frames
+constexpr Eigen::Index kEdge = 8;  // readings on either side
 
-// At one frame the clock jumps ahead of the frame numbers: frames were lost there and nobody counted them.
+// At one frame the clock jumps ahead of the frame numbers: frames were lost there without being counted.
 class ClockLostFrames final : public ClockEffect {
  public:
   [[nodiscard]] std::string name() const override { return "lost_frames"; }
 
-  // The step that takes most away from the residual's squares, by sums over the seen readings.
+  // The step that reduces the residual's squares most, by sums over the available readings.
   [[nodiscard]] Eigen::VectorXd place(const Eigen::VectorXd& frame, const Eigen::VectorXd& residual_s,
                                       const std::vector<char>& seen) const override {
     double n = 0.0, sum = 0.0;
@@ -29,7 +29,7 @@ class ClockLostFrames final : public ClockEffect {
       const double after_n = n - before_n, after_sum = sum - before_sum;
       if (before_n >= kEdge && after_n >= kEdge) {
         const double gain = before_sum * before_sum / before_n + after_sum * after_sum / after_n;
-        // A step among readings that are not seen may be anywhere there: the middle.
+        // A step between two available readings is placed in the middle.
         if (gain > best) best = gain, first = i;
         if (gain == best) out(0) = frame((first + i) / 2);
       }

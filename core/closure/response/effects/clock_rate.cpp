@@ -3,7 +3,7 @@
 namespace core::closure {
 namespace {
 
-// The frames come at another steady rate than was declared.
+// The frames have another constant rate than declared.
 class ClockRate final : public ClockEffect {
  public:
   [[nodiscard]] std::string name() const override { return "clock_rate"; }

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kMost = 0.2;  // change of the interval over the record, relative
 
-// The interval between frames changes steadily over the record: a parabola without offset and slope.
+// The interval between frames changes linearly over the record: a parabola without offset and slope.
 class ClockRateDrift final : public ClockEffect {
  public:
   [[nodiscard]] std::string name() const override { return "clock_rate_drift"; }

@@ -11,16 +11,16 @@ namespace {
 
 using Eigen::Index;
 
-// ln of the likelihood with drops over that without, their share chosen: by chance a ratio above c has a probability
-// below 1 / c, so that a record without drops shows some with a probability below exp(-6).
+// ln of the likelihood with drops over that without, for a given share of drops: by chance a ratio exceeds c with a
+// probability below 1 / c, so that drops are reported in a record without any with a probability below exp(-6).
 constexpr double kLogLikelihood = 6.0;
-constexpr double kNever = -20.0;  // ln of the ratio where a drop does not explain the samples
-constexpr double kLikely = 3.0;   // ln of a ratio that casts doubt on the places beside it
-constexpr Index kCluster = 6;     // samples that one drop disturbs
-constexpr double kUnsure = 0.75;  // of the correction for such drops: one standard deviation
+constexpr double kNever = -20.0;  // ln of the ratio if a drop does not explain the samples
+constexpr double kLikely = 3.0;   // ln of a ratio above which neighbouring samples are doubtful, too
+constexpr Index kCluster = 6;     // samples affected by one drop
+constexpr double kUnsure = 0.75;  // of the correction for undetected drops: one standard deviation
 
-// Frames that nobody counted are missing: the structure has gone on for two steps between two samples, and the samples
-// after it confirm it.
+// Frames are missing without being counted: the structure advanced by two steps between two samples, and the following
+// samples confirm it.
 class DroppedFrames final : public ChannelEffect {
  public:
   [[nodiscard]] std::string name() const override { return "dropped_frames"; }
@@ -31,7 +31,7 @@ class DroppedFrames final : public ChannelEffect {
     if (!(drops.evidence > kLogLikelihood)) return {context.record};
     std::vector<Index> before;
     for (const std::size_t k : drops.likely) before.push_back(static_cast<Index>(k));
-    // Of drops that follow each other within a cluster one is counted, as by a detector with a dead time.
+    // Of drops within one cluster only one is detected, as by a counter with a dead time.
     const double blind =
         drops.count * static_cast<double>(kCluster - 1) / static_cast<double>(context.record.n_samples());
     const double count = drops.count / (1.0 - std::min(blind, 0.6));
@@ -51,7 +51,7 @@ class DroppedFrames final : public ChannelEffect {
     }
     return best_of_neighbours(std::move(out));
   }
-  // One drop makes its neighbours look like drops: of each cluster the likeliest place alone.
+  // One drop makes its neighbours look like drops: keeps only the likeliest sample of each cluster.
   static std::vector<double> best_of_neighbours(std::vector<double> ratios) {
     const auto n = static_cast<Index>(ratios.size());
     for (Index k = 0; k < n; ++k) {
@@ -65,7 +65,7 @@ class DroppedFrames final : public ChannelEffect {
     return ratios;
   }
 
-  // Where the rate is that of samples over duration, the duration stays: there are more samples in it.
+  // If the rate is samples over duration, the duration is unchanged and contains more samples.
   static ChannelRecord with_gaps(const ChannelRecord& record, const std::vector<Index>& before) {
     ChannelRecord out = record;
     const Index n = record.n_samples() + static_cast<Index>(before.size());

@@ -11,13 +11,13 @@ namespace {
 
 using Eigen::Index;
 
-// Of the innovations' standard deviation, in every channel: two pictures differ by their noise, a picture that comes
-// again only by what a tracker that starts elsewhere finds in it.
+// In units of the innovations' standard deviation, in every channel: two different pictures differ by their noise; a
+// repeated picture only by the tracker's different starting point.
 constexpr double kSame = 0.02;
-constexpr double kInserted = 3.0;  // ln of the likelihood, over all of them
+constexpr double kInserted = 3.0;  // ln of the likelihood ratio, over all repeated frames
 
-// A picture shown twice: all channels are what they were a sample before. The second is no sample. It stands in the
-// place of a frame that is lost, or it was put in between two frames: then all that follows is a step earlier.
+// A picture delivered twice: all channels equal their previous sample. The second is not a sample. It either replaces a
+// lost frame, or it was inserted between two frames: then all later samples are one step earlier.
 class DuplicatedFrames final : public ChannelEffect {
  public:
   [[nodiscard]] std::string name() const override { return "duplicated_frames"; }
@@ -70,7 +70,7 @@ class DuplicatedFrames final : public ChannelEffect {
     }
     return out;
   }
-  // Root of the expected number of pairs of different pictures that are so alike, were nothing to move but the noise.
+  // Square root of the expected number of pairs of different pictures that are equally similar by chance.
   static double by_chance(const ChannelContext& context) {
     const double one = kSame / std::sqrt(std::numbers::pi);
     const auto n = static_cast<double>(context.record.value.cols());

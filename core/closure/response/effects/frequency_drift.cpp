@@ -6,9 +6,9 @@
 namespace core::closure {
 namespace {
 
-constexpr double kMaterial = 0.01;  // records without drift show up to so much
+constexpr double kMaterial = 0.01;  // records without drift show values up to this
 
-// All frequencies change steadily by the same share over the record.
+// All frequencies change linearly by the same share over the record.
 class FrequencyDrift final : public ChannelEffect {
  public:
   [[nodiscard]] std::string name() const override { return "frequency_drift"; }

@@ -3,8 +3,8 @@
 namespace core::closure {
 namespace {
 
-// A second linear mode with a shape of its own. With the first one's shape it is none: so an amplitude-dependent mode
-// looks to a linear model.
+// A second linear mode with a shape of its own. With the shape of the first mode it is refused: to a linear model an
+// amplitude-dependent mode looks like two modes of one shape.
 class FurtherMode final : public DecayEffect {
  public:
   [[nodiscard]] std::string name() const override { return "further_mode"; }

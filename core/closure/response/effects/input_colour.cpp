@@ -4,9 +4,9 @@
 namespace core::closure {
 namespace {
 
-constexpr double kMostWhite = 0.3;  // so much of its own variance may be told from its past
+constexpr double kMostWhite = 0.3;  // largest share of its variance that is predictable from its past
 
-// What shakes the structure is not white: its peaks pass for modes unless it is measured and used.
+// The excitation is not white: its peaks are mistaken for modes unless the input is measured and used.
 class InputColour final : public ChannelEffect {
  public:
   [[nodiscard]] std::string name() const override { return "input_colour"; }

@@ -3,7 +3,7 @@
 namespace core::closure {
 namespace {
 
-// The place of rest drifts through each decay: a slope per release and channel, which the left-out release fits alike.
+// The equilibrium drifts during each decay: a slope per release and channel, also fitted to the left-out release.
 class RestDrift final : public DecayEffect {
  public:
   [[nodiscard]] std::string name() const override { return "drift_of_rest"; }

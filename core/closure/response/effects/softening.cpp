@@ -10,16 +10,16 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kMaterial = 0.004;  // records of linear structures show up to so much
+constexpr double kMaterial = 0.004;  // records of linear structures show values up to this
 
 // All frequencies follow the squared amplitude of the channel that moves most, as with a cubic spring. The amplitude is
-// that of the samples before: the sample itself must not explain itself.
+// computed from earlier samples, so that a sample does not explain itself.
 class Softening final : public ChannelEffect {
  public:
   [[nodiscard]] std::string name() const override { return "softening"; }
   [[nodiscard]] bool has_course() const override { return true; }
 
-  // Squared envelope over its mean, minus 1.
+  // Squared envelope divided by its mean, minus 1.
   [[nodiscard]] VectorXd course(const ChannelContext& context) const override {
     const VectorXd moved = motion(context.relative);
     const Index n = moved.size(), period = period_of(moved);
@@ -48,7 +48,7 @@ class Softening final : public ChannelEffect {
   }
 
  private:
-  // Of the channel that moves most; a gap holds the value before it.
+  // Motion of the channel that moves most; gaps hold the previous value.
   static VectorXd motion(const ChannelRecord& record) {
     VectorXd best = VectorXd::Zero(record.n_samples());
     double most = -1.0;

@@ -12,8 +12,8 @@ using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
 constexpr double kTails = 10.0;    // degrees of freedom of the errors' t distribution
-constexpr double kExplained = 6.0;  // deviations of chi-square
-constexpr double kHopeless = -6.0;  // ln of a sample's own ratio: those after it cannot outweigh it
+constexpr double kExplained = 6.0;  // limit in standard deviations of chi-square
+constexpr double kHopeless = -6.0;  // ln of a sample's own ratio which later samples cannot outweigh
 constexpr int kRounds = 60;
 
 }  // namespace
@@ -31,7 +31,7 @@ StepLikelihood::StepLikelihood(const ChannelRecord& scaled, const ChannelPredict
   for (Index k = predictor_.order; k + 1 < scaled_.n_samples(); ++k) {
     if (predictor_.plain[static_cast<std::size_t>(k)] == 0 || predictor_.plain[static_cast<std::size_t>(k + 1)] == 0)
       continue;
-    // Over sample k, as if it had not been seen; its input halfway between its neighbours', as of a lost one.
+    // Predicts over sample k as if it were missing; its input is the mean of its neighbours', as for a lost sample.
     Window window = until(k);
     append_unseen(window, k - 1, k + 1);
     window.add(scaled_, k + 1);
@@ -106,7 +106,7 @@ StepLikelihood::Ratio StepLikelihood::frame_missing(Index k) const {
   const VectorXd x = scaled_.value.row(k).transpose();
   const VectorXd e_two = x - ahead(two);
   const auto n = static_cast<double>(x.size());
-  // Two steps must explain the sample: where it is merely wild, neither does.
+  // Two steps must explain the sample: an outlier is explained by neither.
   out.possible = two_.matrixL().solve(e_two).squaredNorm() <= n + kExplained * std::sqrt(2.0 * n);
   out.own = log_two(e_two) - log_one(x - ahead(one));
   if (!out.possible || out.own < kHopeless) return out;
@@ -121,7 +121,7 @@ StepLikelihood::Ratio StepLikelihood::frame_missing(Index k) const {
 double StepLikelihood::inserted(Index k) const {
   const Index p = predictor_.order;
   if (!ok_ || k + 1 >= scaled_.n_samples() || !seen(k - p, k + 1)) return 0.0;
-  // The samples up to k - 1, then k + 1: one step on, or two.
+  // Samples up to k - 1, followed by k + 1: after one step, or after two.
   Window one = until(k), two = one;
   append_unseen(two, k - 1, k + 1);
   one.add(scaled_, k + 1), two.add(scaled_, k + 1);

@@ -4,9 +4,9 @@
 namespace core::closure {
 namespace {
 
-constexpr double kMaterial_s = 6e-4;  // records without jitter show up to so much
+constexpr double kMaterial_s = 6e-4;  // records without jitter show values up to this
 
-// Samples are taken earlier or later than said, at random: the innovation of each grows along the velocity.
+// Samples are taken randomly earlier or later than stated: innovations increase along the velocity.
 class TimeStampJitter final : public ChannelEffect {
  public:
   [[nodiscard]] std::string name() const override { return "time_stamp_jitter"; }
