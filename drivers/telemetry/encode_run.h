@@ -13,7 +13,7 @@
 
 namespace drivers {
 
-// A recorded run to messages and back: every number to the last bit.
+// A recorded run to messages and back: every number is exact to the last bit.
 
 inline constexpr const char* kRunSuffix = "_RUN";
 inline constexpr const char* kRunFileSuffix = "_RUN_FILE";
@@ -25,11 +25,11 @@ inline constexpr std::size_t kFilePieceBytes = std::size_t{256} << 10;
 [[nodiscard]] std::vector<hovermodal::run_file_t> to_messages(const core::NamedFile& file);
 [[nodiscard]] hovermodal::run_frame_t to_message(const core::TrackFrame& tracks, const core::AttitudeBatch& attitude);
 
-// Empty: what it says cannot be (sizes that differ, a rate that is none).
+// Empty: its values are inconsistent (sizes that differ, an invalid rate).
 [[nodiscard]] std::optional<core::RunHead> from_message(const hovermodal::run_t& message);
-// `out` is sized as the keyframe. False: it has other points.
+// `out` is sized as the keyframe. False: the points differ from the keyframe's.
 [[nodiscard]] bool take_frame(const hovermodal::run_frame_t& message, core::RecordedFrame& out);
-// The same, also where the stride is none.
+// The same; also false for an invalid stride.
 [[nodiscard]] bool take_frame(const hovermodal::run_thinned_frame_t& message, core::RecordedFrame& out);
 
 }  // namespace drivers
