@@ -44,7 +44,7 @@ class StageRunner {
   Stage& stage_;
   ThreadConfig config_;
   std::int64_t stall_limit_ns_ = INT64_MAX;
-  std::atomic<std::int64_t> step_began_ns_{0};   // written by run() only; relaxed: independent of other data; 0 = not started
+  std::atomic<std::int64_t> step_began_ns_{0};   // written by run() only; relaxed: independent; 0 = not started
   std::atomic<std::int64_t> steps_ended_ns_{0};  // written by run() only; relaxed: independent of other data
   std::atomic<bool> aborted_{false};
   std::atomic<bool> faulted_{false};
