@@ -20,7 +20,7 @@ struct GeometryOptions {
 
 void print_geometry(const GeometryOptions& options);         // the paper's experiment, one correction after the other
 void print_geometry_pixels(const GeometryOptions& options);  // the same from rendered clips, stored in `report`
-void print_paper(const GeometryOptions& options);            // the paper's figures: how well the published chain reaches them
+void print_paper(const GeometryOptions& options);            // the paper's figures: how well its chain reaches them
 void print_table1(const GeometryOptions& options);           // the paper's Table 1, sensor by sensor
 void print_wind(const GeometryOptions& options);             // gusts of 5 degrees
 void print_low_frequency(const GeometryOptions& options);    // a mode of 0.32 Hz in the hover's drift
