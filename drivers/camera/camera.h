@@ -15,8 +15,8 @@ enum class CaptureStatus : std::uint8_t { kFrame, kTimeout, kEndOfStream, kFault
 struct DeviceTrouble {
   bool is_lost = false;               // no frames now: unplugged, interrupted or silent; being searched for
   std::uint64_t n_interruptions = 0;  // how often it was lost
-  std::uint64_t n_damaged = 0;  // frames received but not used: marked as bad by the device, short or undecodable
-  bool has_no_clock = false;    // its stamps are on no known clock: arrival times are used
+  std::uint64_t n_damaged = 0;        // frames received but not used: marked as bad by the device, short or undecodable
+  bool has_no_clock = false;          // its stamps are on no known clock: arrival times are used
 };
 
 // Source of frames. Set-up (construction, start) may throw; `capture` never does, and is called by one thread.

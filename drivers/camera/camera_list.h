@@ -7,9 +7,9 @@ namespace drivers {
 
 // A camera that the service could use now.
 struct AttachedCamera {
-  std::string driver;  // camera.driver
-  std::string source;  // camera.source: a name that remains the same after reconnection, if there is one
-  std::string name;    // the camera's own name, and the bus it is connected to
+  std::string driver;               // camera.driver
+  std::string source;               // camera.source: a name that remains the same after reconnection, if there is one
+  std::string name;                 // the camera's own name, and the bus it is connected to
   std::vector<std::string> modes;   // formats, sizes, rates
   std::string stamps;               // the instant that its time stamps refer to
   std::string locks;                // properties that can be locked; empty = not known before it runs

@@ -16,8 +16,7 @@ namespace tools {
 // Limits of what strangers can consume. Memory: at most max_connections times (head_bytes + body_bytes + the
 // largest answer).
 struct WebLimits {
-  std::size_t max_connections =
-      128;  // beyond: the peer with most connections loses its oldest without a request
+  std::size_t max_connections = 128;   // beyond: the peer with most connections loses its oldest without a request
   std::size_t max_event_streams = 16;  // beyond: 503
   std::size_t head_bytes = 8192;       // request line and headers; beyond: 431
   std::size_t body_bytes = 65536;      // of a POST; beyond: 413
