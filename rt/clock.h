@@ -13,7 +13,7 @@ namespace rt {
   return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
 
-// CLOCK_REALTIME in nanoseconds, as good as the computer's clock: for the ground to read, never for results.
+// CLOCK_REALTIME in nanoseconds, as accurate as the computer's clock: for receivers on the ground, never for results.
 [[nodiscard]] inline std::int64_t utc_ns() noexcept {
   timespec now{};
   clock_gettime(CLOCK_REALTIME, &now);

@@ -9,19 +9,19 @@
 
 namespace rt {
 
-// What a real-time thread has to say: fixed size, so that saying it allocates, locks and waits nowhere.
+// An event of a real-time thread: fixed size, so that recording it neither allocates, locks nor waits.
 struct Event {
   std::int64_t t_ns = 0;     // CLOCK_MONOTONIC
   const char* what = "";     // a string literal; "{}" stands for the values, in order
   std::int64_t values[2]{};  // unused ones 0
 };
 
-// One thread writes, one other reads and prints. A full log drops the newest event and counts it.
+// One thread writes, another one reads and prints. A full log drops the newest event and counts it.
 class EventLog {
  public:
   explicit EventLog(std::size_t n_events = 256) : ring_(n_events, Event{}) {}
 
-  // Writer. `what` must live for ever: a literal.
+  // Writer. `what` must have static lifetime: a literal.
   void write(const char* what, std::int64_t first = 0, std::int64_t second = 0) noexcept {
     if (Event* slot = writer_.try_claim()) {
       *slot = {monotonic_ns(), what, {first, second}};
@@ -31,7 +31,7 @@ class EventLog {
     }
   }
 
-  // Reader: hands every event that waits to `print`, oldest first. Returns how many.
+  // Reader: passes every waiting event to `print`, oldest first. Returns their number.
   template <class Print>
   std::size_t drain(Print print) {
     std::size_t n = 0;
@@ -43,7 +43,7 @@ class EventLog {
     return n;
   }
 
-  // Any thread; relaxed: a count on its own.
+  // Any thread; relaxed: independent of other data.
   [[nodiscard]] std::uint64_t n_dropped() const noexcept { return n_dropped_.load(std::memory_order_relaxed); }
 
  private:

@@ -12,8 +12,8 @@ namespace rt {
 
 // Distribution of durations in fixed memory: 16 linear buckets per octave, 1 ns to 2^40 ns (18 minutes), so that a
 // percentile is at most 1/16 too long and never too short; longer ones share the last bucket, the largest is exact.
-// One thread adds, any reads: relaxed, because nothing else is ordered by the counts. A reader may miss what is being
-// added while it looks. No allocation, no lock.
+// One thread adds, any reads: relaxed, because the counts order no other data. A reader may miss a value that is being
+// added at the same time. No allocation, no lock.
 class LatencyHistogram {
  public:
   struct Percentiles {
@@ -25,7 +25,7 @@ class LatencyHistogram {
   void add(std::int64_t duration_ns) noexcept {
     const auto ns = static_cast<std::uint64_t>(std::max<std::int64_t>(duration_ns, 0));
     std::atomic<std::uint64_t>& count = counts_[bucket(ns)];
-    count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);  // only we write
+    count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);  // only the adding thread writes
     if (ns > max_ns_.load(std::memory_order_relaxed)) max_ns_.store(ns, std::memory_order_relaxed);
   }
 
@@ -45,20 +45,20 @@ class LatencyHistogram {
   static constexpr std::uint64_t kSub = 1U << kSubBits;
   static constexpr std::size_t kBuckets = (kOctaves - kSubBits + 1) * kSub;
 
-  // Below 16 ns a bucket is one nanosecond; above, the four bits behind the leading one choose within the octave.
+  // Below 16 ns a bucket is one nanosecond; above, the four bits after the leading one select it within the octave.
   [[nodiscard]] static std::size_t bucket(std::uint64_t ns) noexcept {
     if (ns < kSub) return static_cast<std::size_t>(ns);
     const auto shift = static_cast<unsigned>(std::bit_width(ns)) - 1 - kSubBits;
     const std::size_t b = (shift + 1) * kSub + static_cast<std::size_t>((ns >> shift) - kSub);
     return std::min(b, kBuckets - 1);
   }
-  // The longest duration of a bucket.
+  // The longest duration that falls into a bucket.
   [[nodiscard]] static std::uint64_t upper_ns(std::size_t b) noexcept {
     if (b < kSub) return b;
     const auto shift = static_cast<unsigned>(b / kSub - 1);
     return ((kSub + b % kSub + 1) << shift) - 1;
   }
-  // The smallest duration that at least `share` of all do not exceed.
+  // The smallest duration that is not exceeded by at least `share` of all durations.
   [[nodiscard]] static std::uint64_t percentile(const std::array<std::uint64_t, kBuckets>& counts,
                                                 const Percentiles& all, double share) noexcept {
     const auto wanted = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(all.n)));

@@ -14,7 +14,7 @@ namespace rt {
 
 namespace {
 
-// Below the calling frame. Less than the thread was given: its thread-local data lie there as well.
+// Stack below the calling frame. Less than the thread's stack size, which includes its thread-local data.
 std::size_t stack_left() noexcept {
   pthread_attr_t attributes;
   if (pthread_getattr_np(pthread_self(), &attributes) != 0) return 0;
@@ -40,7 +40,7 @@ void keep_freed_memory() noexcept {
   mallopt(M_MMAP_MAX, 0);
 }
 
-// A frame of its own, so that the room is given back on return.
+// A separate function, so that its stack frame is released on return.
 [[gnu::noinline]] void prefault_stack(std::size_t n_bytes) noexcept {
   constexpr std::size_t kLeastPage = 4096, kSpare = 32 * 1024;
   const std::size_t left = stack_left();

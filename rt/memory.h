@@ -9,12 +9,12 @@ namespace rt {
 // text, or why it was refused and how to allow it.
 [[nodiscard]] std::string lock_memory();
 
-// What malloc was given back stays with the process, and large blocks come from the heap instead of fresh pages: after
-// set-up has used the memory once, the run path finds it mapped. Process-wide; call it before set-up.
+// Freed memory stays with the process, and large blocks come from the heap instead of new pages: after set-up has used
+// the memory once, it is mapped for the run path. Process-wide; call it before set-up.
 void keep_freed_memory() noexcept;
 
-// Touches `n_bytes` of the calling thread's stack, so that its first deep call does not wait for a page; less where
-// there is less. May allocate: set-up of a thread.
+// Touches `n_bytes` of the calling thread's stack, so that its first deep call causes no page fault; fewer if the stack
+// is smaller. May allocate: for a thread's set-up only.
 void prefault_stack(std::size_t n_bytes) noexcept;
 
 }  // namespace rt

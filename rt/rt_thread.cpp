@@ -22,7 +22,7 @@ struct Start {
 
 void* run(void* argument) {
   const std::unique_ptr<Start> start(static_cast<Start*>(argument));
-  prefault_stack(start->prefault_bytes);  // allocates; what comes under the thread's name does not
+  prefault_stack(start->prefault_bytes);  // may allocate, therefore before the thread gets its name
   pthread_setname_np(pthread_self(), start->name.substr(0, 15).c_str());
   start->body();
   return nullptr;
@@ -40,7 +40,7 @@ class Attributes {
   pthread_attr_t value_{};
 };
 
-// Half of the stack is left to the body; without a known size no more than any system's default has room for.
+// Half of the stack is left to the body; for an unknown size, no more than fits into the default of any system.
 std::size_t prefault_bytes(const ThreadConfig& config) noexcept {
   constexpr std::size_t kOfUnknownStack = 1 << 20;
   return std::min(config.prefault_bytes, config.stack_bytes > 0 ? config.stack_bytes / 2 : kOfUnknownStack);
@@ -78,7 +78,7 @@ void RtThread::start(const ThreadConfig& config, std::function<void()> body) {
   set_attributes(attributes, config);
   auto start = std::make_unique<Start>(Start{config.name, prefault_bytes(config), std::move(body)});
   check(pthread_create(&handle_, attributes.get(), run, start.get()), config, "start");
-  start.release();  // the new thread owns it now
+  start.release();  // now owned by the new thread
   running_ = true;
 }
 

@@ -18,8 +18,8 @@ struct ThreadConfig {
   [[nodiscard]] bool is_special() const noexcept { return fifo_priority > 0 || cpu >= 0; }
 };
 
-// A thread whose policy, affinity and stack go into its attributes, so that a refusal is an error in the starting
-// thread.
+// A thread whose policy, affinity and stack are set through its attributes, so that a refusal is an error in the
+// starting thread.
 class RtThread {
  public:
   RtThread() = default;
@@ -28,7 +28,7 @@ class RtThread {
   RtThread& operator=(const RtThread&) = delete;
 
   // Throws std::system_error: EPERM when the priority is refused (raise RLIMIT_RTPRIO or grant CAP_SYS_NICE), EINVAL
-  // for a CPU that is not there or a stack that is too small.
+  // for a CPU that does not exist or a stack that is too small.
   void start(const ThreadConfig& config, std::function<void()> body);
   void join() noexcept;
 

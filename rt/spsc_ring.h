@@ -16,11 +16,11 @@ class RingWriter;
 template <class T>
 class RingReader;
 
-// One writer thread, one reader thread, N slots built once. Lock-free: both ends only ever load the other's index.
-// Slots are borrowed in place at both ends, so an item is written and read where it lies and nothing is copied.
-// What an end needs for a step it keeps in its handle, which its thread alone touches: its index, the slot that goes
-// with it (a pointer that goes round: neither division nor mask, and any N), and how far it may go by what it last saw
-// of the opposite index (as in rigtorp's SPSCQueue). The shared lines are stored to once an item, and loaded only when
+// One writer thread, one reader thread, N slots built once. Lock-free: each end only loads the other's index.
+// Slots are borrowed in place at both ends, so items are written and read in place and never copied.
+// Each end keeps what it needs for a step in its handle, which only its thread uses: its index, the corresponding slot
+// (a pointer that wraps around: neither division nor mask, for any N), and its limit by the last loaded value of the
+// opposite index (as in rigtorp's SPSCQueue). The shared lines are stored to once per item, and loaded only when
 // the ring looks full or empty. Indices grow without wrapping (64 bit).
 template <class T>
 class SpscRing {
@@ -30,11 +30,11 @@ class SpscRing {
   SpscRing(const SpscRing&) = delete;
   SpscRing& operator=(const SpscRing&) = delete;
 
-  // Set-up only: who is nudged when an item is published / a slot is given back. May stay null.
+  // Set-up only: which wakeup is notified when an item is published / a slot is given back. May stay null.
   void set_reader_wakeup(Wakeup* wakeup) noexcept { reader_wakeup_ = wakeup; }
   void set_writer_wakeup(Wakeup* wakeup) noexcept { writer_wakeup_ = wakeup; }
 
-  // One of each at a time. A later one goes on where the one before ended.
+  // One of each at a time. A later one continues where the previous one ended.
   [[nodiscard]] RingWriter<T> writer() noexcept { return RingWriter<T>(*this); }
   [[nodiscard]] RingReader<T> reader() noexcept { return RingReader<T>(*this); }
 
@@ -53,14 +53,14 @@ class SpscRing {
   std::vector<T> slots_;
   Wakeup* reader_wakeup_ = nullptr;
   Wakeup* writer_wakeup_ = nullptr;
-  // Release by the writer in publish(), acquire by the reader in front(): the slot's contents travel with it.
+  // Release by the writer in publish(), acquire by the reader in front(): makes the slot's contents visible.
   alignas(kCacheLineBytes) std::atomic<std::uint64_t> write_index_{0};
   std::atomic<bool> closed_{false};  // release in close(), acquire in finished(): after the last publish
-  // Release by the reader in pop(), acquire by the writer in try_claim(): the reader's last look at the slot is over.
+  // Release by the reader in pop(), acquire by the writer in try_claim(): the reader no longer uses the slot.
   alignas(kCacheLineBytes) std::atomic<std::uint64_t> read_index_{0};
 };
 
-// Where one end stands.
+// Position of one end.
 template <class T>
 class RingEnd {
  public:
@@ -80,7 +80,7 @@ class RingEnd {
   }
 
  private:
-  std::uint64_t index_, limit_;  // of the next item; the opposite end has seen to all before it, and maybe to more
+  std::uint64_t index_, limit_;  // of the next item; the opposite end has released at least all items below limit_
   T *first_, *end_, *slot_;
 };
 
@@ -104,14 +104,14 @@ class RingWriter {
     return end_.slot();
   }
 
-  // Hands the claimed slot over and nudges the reader.
+  // Publishes the claimed slot and wakes the reader.
   void publish() noexcept {
     assert(!end_.at_limit());
     ring_->write_index_.store(end_.advance(), std::memory_order_release);
     if (ring_->reader_wakeup_ != nullptr) ring_->reader_wakeup_->nudge();
   }
 
-  // No further item will come. What is in the ring is still read.
+  // No further item will come. Items in the ring can still be read.
   void close() noexcept {
     ring_->closed_.store(true, std::memory_order_release);
     if (ring_->reader_wakeup_ != nullptr) ring_->reader_wakeup_->nudge();
@@ -142,14 +142,14 @@ class RingReader {
     return end_.slot();
   }
 
-  // Gives the slot back and nudges the writer. Only after front() returned an item.
+  // Gives the slot back and wakes the writer. Only after front() returned an item.
   void pop() noexcept {
     assert(!end_.at_limit());
     ring_->read_index_.store(end_.advance(), std::memory_order_release);
     if (ring_->writer_wakeup_ != nullptr) ring_->writer_wakeup_->nudge();
   }
 
-  // True when the writer has closed and every item was read. The order of the two looks matters: closed first, so that
+  // True when the writer has closed and every item was read. The order of the two loads matters: closed first, so that
   // an item published just before close() is seen.
   [[nodiscard]] bool finished() noexcept {
     return ring_->closed_.load(std::memory_order_acquire) && front() == nullptr;

@@ -11,7 +11,7 @@ namespace rt {
 
 enum class StepStatus : std::uint8_t { kWorked, kIdle, kFinished, kFault };
 
-// One step of the data flow, on a thread of its own. A stage takes from a ring, calls one object, puts into a ring.
+// One step of the data flow, on its own thread. A stage takes from a ring, calls one object, puts into a ring.
 class Stage {
  public:
   virtual ~Stage() = default;
@@ -20,11 +20,11 @@ class Stage {
   [[nodiscard]] virtual StepStatus step() noexcept = 0;  // at most one item, bounded time
   virtual void finish() noexcept {}                      // after the last step, same thread: flush, close the outputs
 
-  // Nudged by the rings around this stage; the runner waits on it after kIdle.
+  // Notified by the rings around this stage; the runner waits on it after kIdle.
   [[nodiscard]] Wakeup& wakeup() noexcept { return wakeup_; }
   [[nodiscard]] StageStats& stats() noexcept { return stats_; }
   [[nodiscard]] const StageStats& stats() const noexcept { return stats_; }
-  // Written by the stage's thread; drained by the one thread that prints.
+  // Written by the stage's thread; read by the one thread that prints.
   [[nodiscard]] EventLog& events() noexcept { return events_; }
 
  private:

@@ -8,7 +8,7 @@
 namespace rt {
 
 namespace {
-// A nudge ends the wait; this only bounds what a lost nudge (our own bug) could cost, and paces the status report.
+// A wake-up ends the wait; this limits the effect of a lost wake-up (a fault of this program), and paces the status.
 constexpr std::chrono::milliseconds kIdleTimeout{100};
 }  // namespace
 

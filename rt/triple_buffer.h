@@ -25,9 +25,10 @@ class TripleBuffer {
   // Writer: fill back(), then publish().
   [[nodiscard]] T& back() noexcept { return buffers_[back_]; }
 
-  // acq_rel: release hands over the buffer just written; acquire makes the reader's last look at the buffer we get back
-  // happen before we overwrite it. Release alone is a race (tests/stress/triple_buffer_stress_test.cpp under TSAN).
-  // False: the value before it was never taken, and is lost.
+  // acq_rel: release publishes the buffer just written; acquire makes the reader's last access to the buffer that is
+  // returned happen before it is overwritten. Release alone is a race (tests/stress/triple_buffer_stress_test.cpp under
+  // TSAN).
+  // False: the previous value was never read, and is lost.
   bool publish() noexcept {
     const std::uint32_t old = middle_.exchange(back_ | kFresh, std::memory_order_acq_rel);
     back_ = old & kIndexMask;
@@ -35,7 +36,7 @@ class TripleBuffer {
     return (old & kFresh) == 0;
   }
 
-  // Writer: has the last published value been taken? A lossless source waits for this before it publishes the next.
+  // Writer: whether the last published value has been read. A lossless source waits for this before the next publish.
   [[nodiscard]] bool taken() const noexcept { return (middle_.load(std::memory_order_acquire) & kFresh) == 0; }
 
   // Writer: no further value will come.
@@ -44,7 +45,7 @@ class TripleBuffer {
     if (reader_wakeup_ != nullptr) reader_wakeup_->nudge();
   }
 
-  // Reader: takes the newest value, if there is one it has not seen. acq_rel as in publish().
+  // Reader: takes the newest value, if there is one that it has not read. acq_rel as in publish().
   [[nodiscard]] bool refresh() noexcept {
     if ((middle_.load(std::memory_order_relaxed) & kFresh) == 0) return false;
     const std::uint32_t old = middle_.exchange(front_, std::memory_order_acq_rel);
@@ -54,7 +55,7 @@ class TripleBuffer {
   }
   [[nodiscard]] const T& front() const noexcept { return buffers_[front_]; }
 
-  // Reader: closed and nothing fresh left. Closed is looked at first, as in RingReader::finished().
+  // Reader: closed and no unread value. closed_ is loaded first, as in RingReader::finished().
   [[nodiscard]] bool finished() const noexcept { return closed_.load(std::memory_order_acquire) && taken(); }
 
  private:
@@ -64,10 +65,10 @@ class TripleBuffer {
   std::array<T, 3> buffers_;
   Wakeup* reader_wakeup_ = nullptr;
   Wakeup* writer_wakeup_ = nullptr;
-  alignas(kCacheLineBytes) std::uint32_t back_ = 0;                // writer's own
+  alignas(kCacheLineBytes) std::uint32_t back_ = 0;                // used by the writer only
   alignas(kCacheLineBytes) std::atomic<std::uint32_t> middle_{1};  // partners: publish() and refresh()
   std::atomic<bool> closed_{false};
-  alignas(kCacheLineBytes) std::uint32_t front_ = 2;  // reader's own
+  alignas(kCacheLineBytes) std::uint32_t front_ = 2;  // used by the reader only
 };
 
 }  // namespace rt

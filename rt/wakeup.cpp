@@ -26,8 +26,8 @@ void futex_wake(std::atomic<std::uint32_t>& word) noexcept {
 
 Wakeup::Ticket Wakeup::ticket() const noexcept { return count_.load(std::memory_order_seq_cst); }
 
-// seq_cst on both words: the waiter announces itself and then compares the count (in the kernel), the nudger counts and
-// then looks for a sleeper. With anything weaker both may miss each other (store-load reordering) until the timeout.
+// seq_cst on both words: the waiter announces itself and then compares the count (in the kernel); the notifier counts
+// and then checks for a sleeper. With weaker orders both may miss each other (store-load reordering) until the timeout.
 void Wakeup::wait(Ticket seen, std::chrono::milliseconds timeout) noexcept {
   sleeping_.store(1, std::memory_order_seq_cst);
   if (count_.load(std::memory_order_seq_cst) == seen) futex_wait(count_, seen, timeout);

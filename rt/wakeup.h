@@ -8,8 +8,9 @@
 
 namespace rt {
 
-// The one place where a stage sleeps. Any thread nudges, one thread waits. A nudge between `ticket` and `wait` is never
-// lost: the wait then returns at once. No system call while nobody sleeps, no allocation, no lock (a futex on Linux).
+// The one place where a stage sleeps. Any thread notifies, one thread waits. A notification between `ticket` and `wait`
+// is never lost: the wait then returns at once. No system call while nobody sleeps, no allocation, no lock (a futex on
+// Linux).
 //
 //   const auto ticket = wakeup.ticket();
 //   if (nothing_to_do()) wakeup.wait(ticket, 100ms);
@@ -22,7 +23,7 @@ class Wakeup {
   void nudge() noexcept;
 
  private:
-  alignas(kCacheLineBytes) std::atomic<std::uint32_t> count_{0};  // nudges so far; partner: count_ in wait()
+  alignas(kCacheLineBytes) std::atomic<std::uint32_t> count_{0};  // notifications so far; partner: count_ in wait()
   std::atomic<std::uint32_t> sleeping_{0};                        // 1 while the waiter may be in the kernel
 };
 

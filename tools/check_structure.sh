@@ -25,7 +25,7 @@ mapfile -t texts < <(
 report=$(mktemp)
 trap 'rm -f "$report"' EXIT
 
-# The include table. A rule answers with the reason for a refusal, or with nothing.
+# The include table. A rule prints the reason for a refusal, or nothing.
 check_includes() {
   awk '
     function drivers_rule(file, name) {
@@ -64,7 +64,7 @@ check_includes() {
       if (room == "tools") return tools_rule(name)
       return ""
     }
-    # What the rooms must not know of the outside world.
+    # System headers that the rooms must not include.
     function system_rule(room, name) {
       if (room == "core" && name ~ /^(thread|mutex|shared_mutex|condition_variable|atomic|future|chrono|fstream|filesystem|iostream|pthread\.h|time\.h|unistd\.h|sys\/.*|lcm\/.*|spdlog\/.*|yaml-cpp\/.*|opencv2\/(highgui|videoio|imgcodecs).*)$/)
         return "core knows no threads, clocks, files or devices"
@@ -101,7 +101,7 @@ check_length() {
   awk 'FNR == 301 { printf "%s:301: over 300 lines: two subjects, split\n", FILENAME }' "${sources[@]}" "${scripts[@]}"
 }
 
-# The brackets keep these patterns from finding themselves.
+# The brackets prevent these patterns from matching this file.
 check_texts() {
   grep -nHE '\b(TO[D]O|FIX[M]E|X[X]X)\b' "${texts[@]}" | sed -E 's/^([^:]*:[0-9]+):.*/\1: an open end: do it, or write down what is missing where users read it/' || true
   grep -nHE '(^|[^A-Za-z0-9_.}/])/(hom[e]|wor[k]|roo[t]|tm[p]|Use[r]s|mn[t])/' "${texts[@]}" | sed -E 's/^([^:]*:[0-9]+):.*/\1: an absolute path of one machine/' || true

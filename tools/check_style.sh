@@ -10,7 +10,7 @@ what=${1:-} && shift || true
 most=${HOVERMODAL_TIDY_FILES:-1}
 
 skip() { echo "SKIP: $*" && exit 77; }
-tool() { # the version that the configuration is written for, else the plain name
+tool() { # prefers the version for which the configuration is written
   command -v "$1-14" || command -v "$1" || skip "no $1 (tools/setup.sh --style)"
 }
 changed() { # PATTERN
@@ -41,13 +41,13 @@ case $what in
     [ -f $build/compile_commands.json ] || skip "no $build/compile_commands.json (tools/build.sh)"
     files=("$@") left_out=0
     if [ $# -eq 0 ]; then
-      # Only what the build knows. Few files: one takes up to a minute.
+      # Only files that the build contains. Few files, because one takes up to a minute.
       mapfile -t files < <(changed '\.cpp$' | while read -r file; do ! grep -qF "/$file\"" $build/compile_commands.json || echo "$file"; done)
       [ ${#files[@]} -le "$most" ] || left_out=$((${#files[@]} - most))
       files=("${files[@]:0:most}")
     fi
-    # A header is examined as a changed file's own, not through others. GCC's own options and precompiled headers mean
-    # nothing to clang.
+    # A header is checked as a changed file itself, not through others. GCC's own options and precompiled headers are unknown
+    # to clang.
     commands=$(mktemp -d)
     trap 'rm -rf "$commands"' EXIT
     sed -E 's/ -fpch-preprocess| -Winvalid-pch| -Wno-restrict| -fno-predictive-commoning| -include [^ ]*cmake_pch\.hxx//g' \

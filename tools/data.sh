@@ -4,7 +4,7 @@
 # What it brings stands in tools/data/table.toml; the work is done by tools/data/kit.py.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-# Debian's own Python is the one that has Debian's numpy and scipy.
+# Debian's own Python finds Debian's numpy and scipy.
 python=/usr/bin/python3
 [ -x "$python" ] || python=python3
 command -v "$python" >/dev/null || { echo "data: needs python3 3.11 or newer (tools/setup.sh --data installs it)" >&2; exit 1; }

@@ -23,13 +23,13 @@ bin=build/release/bin
 echo "== simulating $seconds s of video (seed $seed)"
 "$bin/hovermodal" simulate --preset paper --duration "$seconds" --seed "$seed" --out "$out"
 
-# A record of 30 s holds one segment of 512 samples and a bit; half of it gives five.
+# A record of 30 s contains little more than one segment of 512 samples; half that segment gives five.
 segment=512
 [ "${seconds%.*}" -ge 45 ] || segment=256
 echo "== watching the clip"
 "$bin/hovermodald" --config "$out/config.yaml" --set telemetry.lcm_url= --set spectrum.segment=$segment --report "$out"
 
-# The same identification on the true floor motion: what a perfect camera would have given.
+# The same identification on the true floor motion: the result of a perfect camera.
 "$bin/hovermodal" identify --series "$out/truth_displacements.csv" --base base --segment $segment --report "$out/true_motion" >/dev/null
 echo "== modes"
 "$bin/hovermodal" compare --result "$out/modal.json" --reference "$out/true_motion/modal.json" --truth "$out/truth.json" --paper

@@ -34,10 +34,10 @@ cmake --build build/fuzz --target "${targets[@]/#/fuzz_}" >build/fuzz/build.log 
 export ASAN_OPTIONS=allocator_may_return_null=1:detect_stack_use_after_return=0 UBSAN_OPTIONS=print_stacktrace=1
 export LLVM_PROFILE_FILE=/dev/null
 export ASAN_SYMBOLIZER_PATH=${ASAN_SYMBOLIZER_PATH:-$(command -v llvm-symbolizer-14 llvm-symbolizer | head -n 1)}
-# The checkpoint target writes files and brings them to the disk: in memory that is a thousand times faster.
+# The checkpoint target synchronises files to disk: in memory this is a thousand times faster.
 [ ! -w /dev/shm ] || export TMPDIR=/dev/shm
 
-# Whose lines count for a target: what reads its input, not what it is built on.
+# Sources whose lines count for a target: those that read its input, not those below them.
 concerned() {
   case $1 in
     config) echo firmware_app/config/config{,_check,_key,_sections_input,_sections_output,_sections_scale,_table,_yaml}.cpp drivers/storage/{yaml,key_suggestion,text_file}.cpp ;;
@@ -53,14 +53,14 @@ concerned() {
     replay) echo firmware_app/{replay/track_replay,replay/record_replay,replay/track_analysis,chain/state/run_view}.cpp core/geometry/channel_displacement.cpp ;;
   esac
 }
-# Of these sources, the lines that the inputs reach: "reached total". Some are there for other callers: what writes a
-# checkpoint or a record, what listens on a socket.
+# Of these sources, the lines that the inputs reach: "reached total". Some lines serve other callers: writers of a
+# checkpoint or a record, listeners on a socket.
 lines() { # TARGET FOLDER...
   local target=$1 raw=build/fuzz/profiles/$1.raw
   shift
   LLVM_PROFILE_FILE=$raw "build/fuzz/bin/fuzz_$target" -runs=0 "$@" >/dev/null 2>&1
   llvm-profdata-14 merge -o "$raw.data" "$raw"
-  # The report leaves out the beginning that all names share.
+  # The report omits the beginning common to all names.
   llvm-cov-14 report "build/fuzz/bin/fuzz_$target" -instr-profile="$raw.data" 2>/dev/null | awk -v files="$(concerned "$target")" '
     function ends(text, with) { return text == with || substr(text, length(text) - length(with)) == "/" with }
     BEGIN { n = split(files, file, " ") }

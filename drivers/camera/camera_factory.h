@@ -14,7 +14,7 @@ enum class CameraKind : std::uint8_t { kFile, kSynthetic, kV4l2, kLibcamera };
 struct CameraOptions {
   CameraKind kind = CameraKind::kFile;
   std::string source{};             // file: video or folder of images; v4l2: a node; empty = the only one
-  double rate_hz = 0.0;             // 0 = from the source; a device: its highest
+  double rate_hz = 0.0;             // 0 = from the source; for a device its highest
   int width_px = 0, height_px = 0;  // devices: 0 = chosen
   std::string format{};             // v4l2: four characters; empty = chosen
   bool realtime = false;
@@ -25,9 +25,9 @@ struct CameraOptions {
   std::uint64_t synthetic_seed = 1;
 };
 
-// Throws DeviceMissing when there is no such source or no such driver in this build, std::invalid_argument for a value
+// Throws DeviceMissing if there is no such source or no such driver in this build, std::invalid_argument for a value
 // out of range, std::runtime_error for a source that cannot be used.
-// Synthetic: rate, readout and exposure, where not 0, replace those of the paper's scene.
+// Synthetic: rate, readout and exposure, if not 0, replace those of the paper's scene.
 [[nodiscard]] std::unique_ptr<Camera> make_camera(const CameraOptions& options);
 
 }  // namespace drivers

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The link that udev keeps to this node, by the device's name and serial number, else by where it is plugged in.
+// The udev link to this node: by the device's name and serial number, otherwise by the port it is connected to.
 std::string lasting_name(const std::string& node) {
   for (const char* folder : {"/dev/v4l/by-id", "/dev/v4l/by-path"}) {
     std::error_code error;

@@ -4,8 +4,8 @@
 
 namespace drivers {
 
-// The source named in the configuration is not there: no such file, or this build has no driver of that kind.
-// A class of its own because the service answers it with its own exit code.
+// The source named in the configuration does not exist: no such file, or no driver of that kind in this build.
+// A separate class, because the service has a separate exit code for it.
 class DeviceMissing : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

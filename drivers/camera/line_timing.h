@@ -10,7 +10,7 @@ struct LineTiming {
 };
 
 // Declared readout (signed) and exposure, ms. Throws std::invalid_argument for NaN, |readout| > 1 s, exposure < 0 or
-// > 10 s: no camera is that slow, the value was meant in another unit.
+// > 10 s: no camera is that slow, so the value was meant in another unit.
 [[nodiscard]] LineTiming checked_line_timing(double readout_ms, double exposure_ms);
 
 }  // namespace drivers

@@ -13,7 +13,7 @@ void StreamPacer::start() {
 bool StreamPacer::wait(std::int64_t since_first_ns, std::chrono::steady_clock::time_point deadline) noexcept {
   if (!realtime_) return true;
   std::unique_lock lock(mutex_);
-  const auto left = std::chrono::nanoseconds(since_first_ns) - (deadline - started_at_);  // no sum that could wrap
+  const auto left = std::chrono::nanoseconds(since_first_ns) - (deadline - started_at_);  // no sum that could overflow
   const bool is_due_in_time = left <= std::chrono::nanoseconds(0);
   const auto until = is_due_in_time ? started_at_ + std::chrono::nanoseconds(since_first_ns) : deadline;
   cancelled_changed_.wait_until(lock, until, [this] { return cancelled_; });

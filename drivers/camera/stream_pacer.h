@@ -7,8 +7,8 @@
 
 namespace drivers {
 
-// Holds recorded or simulated frames back until their stream time has passed since `start`, on CLOCK_MONOTONIC
-// (steady_clock). As fast as possible: `wait` never waits.
+// Delays recorded or simulated frames until their stream time has passed since `start`, on CLOCK_MONOTONIC
+// (steady_clock). At full speed `wait` returns at once.
 class StreamPacer {
  public:
   explicit StreamPacer(bool realtime) noexcept : realtime_(realtime) {}
@@ -26,7 +26,7 @@ class StreamPacer {
   std::chrono::steady_clock::time_point started_at_;
 };
 
-// `timeout` from now; negative counts as none, and more than an hour as an hour (the clock's arithmetic must not wrap).
+// `timeout` from now; negative counts as zero, more than an hour as an hour (so that the sum cannot overflow).
 [[nodiscard]] std::chrono::steady_clock::time_point deadline_after(std::chrono::milliseconds timeout) noexcept;
 
 }  // namespace drivers

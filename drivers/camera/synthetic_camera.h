@@ -17,9 +17,9 @@ struct SyntheticCameraConfig {
   bool realtime = false;
 };
 
-// A simulated camera in front of a simulated structure. Frames are rendered inside `capture`, from the scene alone:
-// the same scene gives the same pixels. Delivers what the scene's timing delivers, under its stamps: a dropped frame is
-// a jump of the sequence, unless the scene's stamps do not tell.
+// A simulated camera that views a simulated structure. Frames are rendered inside `capture`, from the scene alone:
+// the same scene gives the same pixels. Frames are delivered as in the scene's timing, with its stamps: a dropped frame
+// is a jump of the sequence, unless the scene's stamps do not show it.
 class SyntheticCamera final : public Camera {
  public:
   explicit SyntheticCamera(const SyntheticCameraConfig& config);
@@ -42,7 +42,7 @@ class SyntheticCamera final : public Camera {
   core::CameraInfo info_;
   StreamPacer pacer_;
   std::string fault_;
-  std::atomic<bool> stopped_{true};  // written by start and stop, read by capture; a flag alone, nothing rides on it
+  std::atomic<bool> stopped_{true};  // written by start and stop, read by capture; no other data depends on it
 };
 
 }  // namespace drivers

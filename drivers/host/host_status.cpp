@@ -33,7 +33,7 @@ std::optional<double> number_in(const fs::path& path) {
   return value;
 }
 
-// Entries of a folder whose name begins with `prefix`; none where it cannot be read.
+// Entries of a folder whose name begins with `prefix`; empty if it cannot be read.
 std::vector<fs::path> entries(const fs::path& folder, const std::string& prefix) {
   std::vector<fs::path> out;
   std::error_code error;
@@ -47,7 +47,7 @@ double hottest_c(const fs::path& root) {
   double hottest = std::numeric_limits<double>::quiet_NaN();
   for (const fs::path& zone : entries(root / "sys/class/thermal", "thermal_zone")) {
     const auto milli = number_in(zone / "temp");
-    if (milli) hottest = std::fmax(hottest, *milli * 1e-3);  // fmax: a number beats NaN
+    if (milli) hottest = std::fmax(hottest, *milli * 1e-3);  // fmax prefers a number to NaN
   }
   return hottest;
 }

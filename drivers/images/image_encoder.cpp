@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-// After <cstdio>: it uses FILE without including it.
+// After <cstdio>: jpeglib.h uses FILE without including it.
 #include <jpeglib.h>
 
 namespace drivers {
@@ -20,8 +20,8 @@ void require_type(const cv::Mat& image, int type, const char* what) {
   if (image.empty() || image.type() != type) throw std::invalid_argument(std::string(what) + ": wrong type of pixels");
 }
 
-// libjpeg and libpng report errors by calls that must not return: longjmp, over their C frames only. Nothing with a
-// destructor is constructed between setjmp and the jump.
+// libjpeg and libpng report errors by callbacks that must not return: longjmp, across their C frames only. No object
+// with a destructor is constructed between setjmp and the jump.
 struct JpegWriter {
   jpeg_compress_struct encoder{};
   jpeg_error_mgr errors{};
@@ -38,7 +38,7 @@ struct JpegWriter {
       self->errors.format_message(common, self->message.data());
       std::longjmp(self->failed, 1);
     };
-    errors.emit_message = [](j_common_ptr, int) {};  // warnings go to stderr otherwise
+    errors.emit_message = [](j_common_ptr, int) {};  // otherwise warnings go to stderr
     errors.output_message = [](j_common_ptr) {};
     jpeg_create_compress(&encoder);
   }

@@ -6,7 +6,7 @@
 
 namespace drivers {
 
-// Images as files in memory, by libjpeg and libpng themselves: OpenCV's imgcodecs would link GDAL and a hundred other
+// Images as files in memory, by libjpeg and libpng directly: OpenCV's imgcodecs would link GDAL and a hundred other
 // libraries. The bytes are those of cv::imencode with the same settings. Both throw std::runtime_error with the
 // library's message: a side above its limit (65500 px for JPEG), out of memory.
 

@@ -15,7 +15,7 @@
 namespace drivers {
 namespace {
 
-// Calibration programs also write the corner points they used: larger than a configuration.
+// Calibration programs also write the corner points used: such files are larger than a configuration.
 constexpr YamlLimits kLimits{.max_bytes = 16U << 20U, .max_depth = 8, .max_nodes = 2000000};
 
 class CalibrationReader {
@@ -179,8 +179,8 @@ class CalibrationReader {
                        printable(model.text)));
   }
 
-  // OpenCV itself names no model: it follows from the number of coefficients, and from a flag in its fisheye sample's
-  // files.
+  // OpenCV itself names no model: it follows from the number of coefficients, and from a flag in the files of its
+  // fisheye sample.
   [[nodiscard]] Form matrix_form_distortion(const YamlNode& root) const {
     const YamlNode* model = root.find("distortion_model");
     if (model != nullptr && !model->text.empty()) return form_of(*model);
@@ -199,7 +199,7 @@ class CalibrationReader {
     if (form == Form::kEquidistant && n != 4) refuse_count(node, n, "4 (k1 k2 k3 k4)");
     if (form == Form::kNone && std::any_of(values.begin(), values.end(), [](double k) { return k != 0.0; }))
       refuse(node.line, "distortion: coefficients with distortion_model `none`; name the model, or remove them");
-    // Coefficients beyond those of the model may stand there as zeros.
+    // Coefficients beyond those of the model may be present as zeros.
     const std::size_t n_model = form == Form::kRational || form == Form::kAnyOfOpencv ? 8 : 5;
     while (n > n_model && values[n - 1] == 0.0) --n;
     if (n > 8)
@@ -230,7 +230,7 @@ class CalibrationReader {
 }  // namespace
 
 Calibration parse_calibration(const std::string& text, const std::string& name) {
-  // OpenCV's "%YAML:1.0" is no YAML directive: blank it, the lines keep their numbers.
+  // OpenCV's "%YAML:1.0" is no valid YAML directive: it is blanked, so that line numbers stay the same.
   std::string body = text;
   if (body.starts_with("%YAML:")) std::fill_n(body.begin(), std::min(body.find('\n'), body.size()), ' ');
   return CalibrationReader(name).read(parse_yaml(body, name, kLimits));

@@ -7,28 +7,28 @@
 
 namespace drivers {
 
-// A camera and its lens, as calibration programs write them. Pixels of the raw image.
+// A camera and its lens, as written by calibration programs. In pixels of the raw image.
 struct Calibration {
   core::CameraModel camera;
   int width_px = 0, height_px = 0;  // of the calibrated image; 0 = unknown
   double rms_px = 0.0;              // reprojection error; 0 = not stated
 };
 
-// Reads a Kalibr camchain (one camera), an OpenCV FileStorage YAML or a ROS camera_info YAML; which one it is shows in
+// Reads a Kalibr camchain (one camera), an OpenCV FileStorage YAML or a ROS camera_info YAML, recognised by their
 // the content. Distortion: radial-tangential with 4 or 5 coefficients, rational with 8, equidistant with 4, none.
-// Throws FileError (drivers/storage/text_file.h) with file, line, key, value and what to do; other models (omni, double
-// sphere, fov, thin prism, tilt, equirectangular) and what calibration_fault() finds are refused.
+// Throws FileError (drivers/storage/text_file.h) with file, line, key, value and remedy; other models (omni, double
+// sphere, fov, thin prism, tilt, equirectangular) and faults found by calibration_fault() are refused.
 [[nodiscard]] Calibration read_calibration(const std::string& path);
 [[nodiscard]] Calibration parse_calibration(const std::string& text, const std::string& name);
 
-// Why a camera cannot be that of an image of this size: focal length, principal point outside, distortion that folds
-// it. In words with the remedy; empty = it can.
+// Why a camera does not fit an image of this size: focal length, principal point outside, distortion that folds it.
+// Includes the remedy; empty: it fits.
 [[nodiscard]] std::string calibration_fault(const core::CameraModel& camera, int width_px, int height_px);
 
-// What `calibration` would be if its whole image were scaled to this width.
+// The camera of `calibration` if its whole image were scaled to this width.
 [[nodiscard]] core::CameraModel scaled_camera(const Calibration& calibration, int width_px);
 
-// What a calibration of ours tells beside the camera.
+// Further results of a calibration by this program.
 struct CalibrationNotes {
   int board_columns = 0, board_rows = 0;  // inner corners
   double square_mm = 0.0;

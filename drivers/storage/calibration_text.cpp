@@ -17,7 +17,7 @@ std::string matrix_text(const char* key, std::size_t rows, std::size_t cols, std
                      fmt::join(values, ", "));
 }
 
-// As many as OpenCV would write: 4, 5 or 8.
+// The number that OpenCV would write: 4, 5 or 8.
 std::size_t n_coefficients(const core::CameraModel& camera) {
   if (camera.lens == core::LensModel::kEquidistant) return 4;
   const auto& k = camera.distortion;

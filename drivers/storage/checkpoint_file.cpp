@@ -26,7 +26,7 @@ struct Head {
   std::uint64_t checksum = 0;
 };
 
-// FNV-1a over 64-bit words, the rest by bytes: a large file is checked in passing.
+// FNV-1a over 64-bit words, the remainder by bytes: fast enough for a large file.
 std::uint64_t checksum(std::span<const std::uint8_t> bytes) noexcept {
   std::uint64_t hash = 0xcbf29ce484222325U;
   constexpr std::uint64_t kPrime = 0x100000001b3U;
@@ -35,7 +35,7 @@ std::uint64_t checksum(std::span<const std::uint8_t> bytes) noexcept {
     std::uint64_t word = 0;
     std::memcpy(&word, bytes.data() + at, 8);
     hash = (hash ^ word) * kPrime;
-    hash ^= hash >> 29;  // so that high bits of a word reach low bits of the sum
+    hash ^= hash >> 29;  // mixes high bits of a word into low bits of the sum
   }
   for (; at < bytes.size(); ++at) hash = (hash ^ bytes[at]) * kPrime;
   return hash;
@@ -62,7 +62,7 @@ class File {
     }
     return true;
   }
-  // File systems that cannot (EINVAL) are as safe as they get.
+  // File systems without fsync (EINVAL) are accepted.
   [[nodiscard]] bool sync() const noexcept { return ::fsync(descriptor_) == 0 || errno == EINVAL; }
 
  private:
@@ -93,7 +93,7 @@ std::string write_checkpoint(const std::string& path, std::span<const std::uint8
   try {
     const std::string partial = path + ".partial";
     std::string refused = write_or_why(path, partial, bytes);
-    if (!refused.empty()) (void)::unlink(partial.c_str());  // a full disk gets its room back
+    if (!refused.empty()) (void)::unlink(partial.c_str());  // frees the space on a full disk
     return refused;
   } catch (const std::exception&) {
     return "out of memory";

@@ -7,22 +7,22 @@
 
 namespace drivers {
 
-// A file of bytes that is whole or refused: magic, version, length, FNV-1a checksum, then the bytes. It is written
-// beside its place, brought to the disk, renamed, and its folder brought to the disk too: after a loss of power the old
-// file or the new one stands there, never a part of one.
+// A file of bytes that is read as a whole or refused: magic, version, length, FNV-1a checksum, then the bytes. It is
+// written as a partial file, synchronised to disk and renamed, and its folder is synchronised, too: after a loss of
+// power either the old or the new file exists, never a part of one.
 inline constexpr std::uint32_t kCheckpointVersion = 2;
 
-// Empty: done. Else why not (disk full, read-only, no such folder); the file that stood there stays.
+// Empty: written. Otherwise the reason (disk full, read-only, no such folder); the existing file is then kept.
 [[nodiscard]] std::string write_checkpoint(const std::string& path, std::span<const std::uint8_t> bytes) noexcept;
 
 struct CheckpointRead {
   bool exists = false;
   std::vector<std::uint8_t> bytes;
-  std::string refused;  // why the file is not taken; empty: bytes are whole, or there is no file
+  std::string refused;  // why the file is not used; empty: bytes are complete, or there is no file
 };
 [[nodiscard]] CheckpointRead read_checkpoint(const std::string& path);
 
-// Identity of the kernel's run: the same until the next boot, CLOCK_MONOTONIC goes on within it. Empty: not known.
+// Identity of the current boot of the kernel, within which CLOCK_MONOTONIC continues. Empty: unknown.
 [[nodiscard]] std::string boot_id();
 
 }  // namespace drivers

@@ -23,7 +23,7 @@ extern char** environ;
 namespace drivers {
 namespace {
 
-constexpr int kMaxKilobitsPerSecond = 24000;  // 180 MB a minute, whatever the scene holds
+constexpr int kMaxKilobitsPerSecond = 24000;  // 180 MB a minute at most, whatever the scene
 
 std::size_t checked_frame_bytes(int width_px, int height_px, double rate_hz, int crf) {
   if (width_px < 2 || height_px < 2 || width_px > 16384 || height_px > 16384 || width_px % 2 != 0 ||
@@ -43,10 +43,10 @@ void close_fd(int& fd) noexcept {
   fd = -1;
 }
 
-// argv of ffmpeg. A gray source and a full-range target make the conversion a copy of the luma plane.
-// The encoder's settings were chosen for the error of tracked displacements at a given file size, not for looks:
-// without bidirectional frames and with a narrow dead zone a block is less often predicted with a slightly wrong motion
-// whose small residual is then dropped. Half the displacement error of the bare preset at the same size.
+// Arguments of ffmpeg. A gray source and a full-range target make the conversion a copy of the luma plane.
+// The encoder's settings were chosen for the error of tracked displacements at a given file size, not for appearance:
+// without bidirectional frames and with a narrow dead zone, fewer blocks are predicted with a slightly wrong motion
+// whose small residual is then dropped. This halves the displacement error of the plain preset at the same size.
 std::vector<std::string> encoder_arguments(const std::string& part_path, const std::string& frame_size, double rate_hz,
                                            int crf) {
   const std::string limit = fmt::format("{}k", kMaxKilobitsPerSecond);
@@ -110,7 +110,7 @@ ClipWriter::ClipWriter(std::string path, int width_px, int height_px, double rat
 }
 
 void ClipWriter::start(const std::string& frame_size, double rate_hz, int crf) {
-  // A socket instead of a pipe: send() can be told not to raise SIGPIPE, whatever the program does with that signal.
+  // A socket instead of a pipe, because send() can suppress SIGPIPE, whatever the program does with that signal.
   std::array<int, 2> ends{-1, -1};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
     throw std::runtime_error(fmt::format("{}: cannot make a channel to ffmpeg: {}", path_, std::strerror(errno)));

@@ -140,7 +140,7 @@ class TracksReader {
     point.v_px = cell_number(5, "v_px", -kMaxPixel, kMaxPixel);
     point.sigma_px = cell_number(6, "sigma_px", 0.0, kMaxPixel);
     point.seen = point.inlier = true;
-    // Where each point was last seen: a second line for it in the same frame is found without searching the frame.
+    // The frame in which each point was last seen: detects a second line in the same frame without searching the frame.
     const auto [last, is_new] = last_frame_of_.try_emplace(point.id, *sequence);
     if (!is_new && std::exchange(last->second, *sequence) == *sequence) {
       lines_.fail(fmt::format("point {} appears twice in frame {}", point.id, *sequence));

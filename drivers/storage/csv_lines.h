@@ -40,7 +40,7 @@ void split_cells(std::string_view line, std::vector<std::string_view>& cells);
 // "# key: value" -> true. Other comments give false.
 [[nodiscard]] bool split_comment(std::string_view line, std::string& key, std::string& value);
 
-// Decimal seconds to whole nanoseconds without passing through a double: 9 decimals come back exactly. False = no such
+// Decimal seconds to whole nanoseconds without an intermediate double: 9 decimals are exact. False = not such a
 // number.
 [[nodiscard]] bool parse_seconds_ns(std::string_view cell, std::int64_t& out_ns) noexcept;
 

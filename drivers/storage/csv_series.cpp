@@ -61,7 +61,7 @@ class SeriesReader {
       out_.names.emplace_back(cell);
     }
     out_.columns.resize(out_.names.size());
-    // Columns that must not go back.
+    // Columns that must not decrease.
     i_frame_ = out_.column("frame");
     i_time_ = out_.column("t_s");
   }

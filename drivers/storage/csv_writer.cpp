@@ -56,7 +56,7 @@ CsvWriter::~CsvWriter() {
 }
 
 void CsvWriter::close_file() noexcept {
-  // Network file systems report a full disk as late as here.
+  // Network file systems may report a full disk only here.
   if (descriptor_ >= 0 && ::close(std::exchange(descriptor_, -1)) != 0 && error_ == 0) error_ = errno;
 }
 

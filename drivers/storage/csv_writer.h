@@ -8,12 +8,12 @@
 
 namespace drivers {
 
-// What becomes of an older file of the name at the start. kRemove: after a crash nothing stands there that looks like
-// this run's result. kKeepUntilCommit: a reader finds the old file or the whole new one at any moment.
+// Handling of an older file of the same name at the start. kRemove: after a crash no file looks like this run's result.
+// kKeepUntilCommit: at any moment a reader finds either the old file or the complete new one.
 enum class OldFile : std::uint8_t { kRemove, kKeepUntilCommit };
 
 // A text file written in large blocks under the name "<path>.partial" and renamed to `path` by commit(). After the
-// first failed write (disk full) it takes no more and keeps the reason; what reached the disk stays as *.partial.
+// first failed write (disk full) it accepts no more data and keeps the reason; the written part stays as *.partial.
 class CsvWriter {
  public:
   // Throws FileError.
@@ -24,13 +24,13 @@ class CsvWriter {
 
   // Append here, then call end_line().
   [[nodiscard]] fmt::memory_buffer& buffer() noexcept { return buffer_; }
-  // Hands the block to the system when it is large enough. False = the file has failed, now or earlier.
+  // Passes the block to the system when it is large enough. False = the file has failed, now or earlier.
   bool end_line() noexcept { return buffer_.size() < kBlockBytes ? error_ == 0 : flush(); }
 
   [[nodiscard]] int error() const noexcept { return error_; }  // errno of the first failure, 0 = none
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
 
-  // Writes the rest, brings it to the disk, renames. Throws FileError with the reason.
+  // Writes the rest, synchronises it to disk, renames. Throws FileError with the reason.
   void commit();
 
  private:
@@ -45,7 +45,7 @@ class CsvWriter {
 };
 
 // Appends `value` with a fixed number of decimals, 0..9, rounded half away from zero. Ten times as fast as printf.
-// False and nothing appended: not finite, or 9e8 and beyond.
+// Returns false and appends nothing if the value is not finite or its magnitude is 9e8 or more.
 bool append_fixed(fmt::memory_buffer& out, double value, int n_decimals);
 // Nanoseconds as seconds with 9 decimals, exactly.
 void append_seconds(fmt::memory_buffer& out, std::int64_t t_ns);

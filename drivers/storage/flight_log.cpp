@@ -58,7 +58,7 @@ bool in_feet(const std::string& name) {
   return bracket != std::string::npos && name.find("feet", bracket) != std::string::npos;
 }
 
-// All axes exactly zero: the sensor had no value yet. The neighbour stands in.
+// All axes exactly zero: the sensor had no value yet. The neighbouring value is used.
 std::size_t replace_unmeasured(std::vector<double>& x, std::vector<double>& y, std::vector<double>& z) {
   const auto missing = [&](std::size_t i) { return x[i] == 0.0 && y[i] == 0.0 && z[i] == 0.0; };
   std::size_t n = 0, good = 0;

@@ -44,7 +44,7 @@ class ForeignReader {
     return true;
   }
 
-  // Everything up to and with the first line of numbers. The line above it holds the names.
+  // Everything up to and including the first line of numbers. The line above it contains the names.
   void read_head() {
     std::string names;
     std::string_view line;
@@ -86,8 +86,8 @@ class ForeignReader {
     if (split_comment(text, key, value)) out_.comments[key] = value;
   }
 
-  // Up to the second end mark; the line after it is returned: names, with a column X_Value and one for comments. Cells
-  // of the head are separated as those of the table: by tabs or, where a line has none, by commas.
+  // Up to the second end mark; returns the line after it: names, with a column X_Value and one for comments. Cells
+  // of the head are separated like those of the table: by tabs or, in a line without tabs, by commas.
   std::string read_labview_head() {
     std::string_view line;
     int n_ends = 0;
@@ -139,7 +139,7 @@ class ForeignReader {
   void name_columns(const std::string& names, std::size_t n_cells) {
     std::vector<std::string_view> cells;
     split_series_cells(names, cell_format_.separator, cells);
-    // A separator at the end, or LabVIEW's column of comments, which rows leave out.
+    // A separator at the end, or LabVIEW's column of comments, which rows omit.
     if (cells.size() == n_cells + 1 && (is_labview_ || cells.back().empty())) cells.pop_back();
     if (cells.size() != n_cells) {
       lines_.fail(fmt::format("{} cells under {} names (`{}`)", n_cells, cells.size(), printable(names)));
@@ -166,7 +166,7 @@ class ForeignReader {
 
   void read_row(std::string_view line) {
     split_series_cells(line, cell_format_.separator, cells_);
-    // An empty cell behind the last separator is none.
+    // An empty cell after the last separator does not count.
     if (cells_.size() == out_.names.size() + 1 && cells_.back().empty()) cells_.pop_back();
     if (cells_.size() != out_.names.size() && !(out_.names.size() == 1 && cells_.empty())) {
       lines_.fail(fmt::format("{} cells instead of {}; is the file cut off?", cells_.size(), out_.names.size()));

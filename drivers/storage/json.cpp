@@ -28,13 +28,13 @@ class JsonPrinter {
     if (value.is_object()) return append_object(value, level);
     if (value.is_array()) return append_array(value, level);
     if (!value.is_number_float()) {
-      // Texts from outside may hold broken UTF-8, which strict writing would throw at.
+      // Texts from outside may contain invalid UTF-8, at which strict writing would throw.
       out_.text += value.dump(-1, ' ', false, Json::error_handler_t::replace);
       return;
     }
     const double number = value.get<double>();
     if (std::isfinite(number)) {
-      fmt::format_to(std::back_inserter(out_.text), "{}", number == 0.0 ? 0.0 : number);  // no "-0"
+      fmt::format_to(std::back_inserter(out_.text), "{}", number == 0.0 ? 0.0 : number);  // avoids "-0"
     } else {
       out_.text += "null";
       ++out_.n_not_finite;

@@ -27,7 +27,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string_view leaf(std::string_view path) { return path.substr(path.rfind('.') + 1); }
 
-// Every key and every section on the way to it.
+// All keys, and all sections that contain them.
 std::set<std::string> all_paths(const std::vector<std::string>& keys) {
   std::set<std::string> paths;
   for (const std::string& key : keys) {
@@ -43,17 +43,17 @@ std::set<std::string> all_paths(const std::vector<std::string>& keys) {
 }  // namespace
 
 std::string suggest_key(const std::string& path, const std::vector<std::string>& keys, std::string_view help_option) {
-  constexpr std::size_t kMaxLength = 80;  // nothing longer is like any key
+  constexpr std::size_t kMaxLength = 80;  // longer texts are similar to no key
   if (path.size() > kMaxLength) return fmt::format("see {}", help_option);
   const std::set<std::string> candidates = all_paths(keys);
   std::string best;
   std::size_t best_score = kMaxLength * 4;
   for (const std::string& candidate : candidates) {
-    // A right name in a wrong section counts almost like a typing error in the right one.
+    // A correct name in a wrong section counts almost like a typing error in the correct section.
     const std::size_t whole = edit_distance(path, candidate) * 2;
     const std::size_t by_leaf = edit_distance(leaf(path), leaf(candidate)) * 2 + 1;
     std::size_t score = std::min(whole, by_leaf);
-    // "rate" for rate_hz: forgotten endings are the commonest mistake.
+    // "rate" for rate_hz: a forgotten ending is the most frequent mistake.
     if (path.size() > 2 && candidate.starts_with(path)) score = 0;
     if (score < best_score) best_score = score, best = candidate;
   }

@@ -41,7 +41,7 @@ bool all_numbers(const std::vector<std::string_view>& cells, bool decimal_comma)
   return n_numbers > 0;
 }
 
-// Where the bracket of a known unit at the end of a trimmed name opens; npos = there is none.
+// Position of the opening bracket of a known unit at the end of a trimmed name; npos = none.
 std::size_t unit_bracket(std::string_view name) {
   for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
     const std::size_t begin = name.rfind(open);
@@ -118,7 +118,7 @@ std::optional<CellFormat> detect_cell_format(std::string_view line) {
 std::string unit_of_name(std::string_view name) {
   if (const auto bracket = unit_bracket(name); bracket != std::string_view::npos)
     return std::string(trimmed(name.substr(bracket + 1, name.size() - bracket - 2)));
-  // The longest ending of up to three parts: ax_m_s2 is m/s2, not s2.
+  // The longest ending of up to three parts: for ax_m_s2 it is m/s2, not s2.
   std::size_t at = name.size();
   std::string found;
   for (int k = 0; k < 3 && at != std::string_view::npos && at > 0; ++k) {

@@ -6,8 +6,8 @@
 
 namespace drivers {
 
-// A structure as far as it is known, in YAML: `structure: {kind: shear_frame, storeys: 6}`. structure_keys_help() lists
-// the keys. Throws FileError "FILE:LINE: key: what; remedy" on anything else.
+// The known properties of a structure, in YAML: `structure: {kind: shear_frame, storeys: 6}`. structure_keys_help()
+// lists the keys. Throws FileError "FILE:LINE: key: what; remedy" on anything else.
 [[nodiscard]] core::structure::DeclaredFrame read_structure(const std::string& path);
 [[nodiscard]] core::structure::DeclaredFrame parse_structure(const std::string& text, const std::string& name);
 

@@ -29,8 +29,8 @@ void require_regular_file(const std::string& path) {
   if (!S_ISREG(status.st_mode)) throw FileError(fmt::format("{}: is a device or pipe; name a regular file", path));
 }
 
-// Length of the UTF-8 sequence at `at`, 0 where there is none. Overlong forms and surrogates are refused by the ranges
-// of the second byte (Unicode 15, table 3-7).
+// Length of the UTF-8 sequence at `at`, 0 if there is none. The ranges of the second byte exclude overlong forms and
+// surrogates (Unicode 15, table 3-7).
 std::size_t utf8_length(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
   const auto between = [](unsigned value, unsigned low, unsigned high) { return value >= low && value <= high; };

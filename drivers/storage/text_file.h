@@ -9,25 +9,25 @@
 
 namespace drivers {
 
-// What is wrong with a file's content: "FILE:LINE: what; remedy".
+// A fault in a file's content: "FILE:LINE: what; remedy".
 class FileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 // The whole of a regular file; refuses a missing or unreadable one, a directory, a device or pipe (which could block
-// for ever) and anything over `max_bytes`.
+// forever) and anything over `max_bytes`.
 [[nodiscard]] std::string read_text_file(const std::string& path, std::size_t max_bytes);
 
 // Throws FileError naming the line, unless `text` is UTF-8 without control characters other than tab and line ends.
 void require_text(std::string_view text, const std::string& name);
 
-// The whole cell is one finite decimal number (no spaces, no hex), else empty. Locale-independent.
+// Empty unless the whole cell is one finite decimal number (no spaces, no hex). Locale-independent.
 [[nodiscard]] std::optional<double> parse_number(std::string_view cell) noexcept;
 [[nodiscard]] std::optional<std::int64_t> parse_whole(std::string_view cell) noexcept;
 [[nodiscard]] std::optional<std::uint64_t> parse_unsigned(std::string_view cell) noexcept;
 
-// Any text made fit for one line of a message: control characters become '?', long text is cut.
+// Converts any text for one line of a message: control characters become '?', long text is cut.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t max_length = 60);
 
 }  // namespace drivers

@@ -108,7 +108,7 @@ class TimedReader {
     }
   }
 
-  // The median of the steps so far: one long step at the beginning must not pass for the rule.
+  // The median of the steps so far, so that one long step at the beginning is not taken as normal.
   [[nodiscard]] double median_step() const {
     std::vector<double> steps;
     for (std::size_t i = 1; i < t_s_.size(); ++i) steps.push_back(t_s_[i] - t_s_[i - 1]);
@@ -148,7 +148,7 @@ class TimedReader {
   [[nodiscard]] TimedColumns resample() const {
     TimedColumns out;
     const double step_s = median_step();
-    for (std::size_t i = 1; i < t_s_.size(); ++i) {  // again: the first rows were judged by few steps
+    for (std::size_t i = 1; i < t_s_.size(); ++i) {  // again, because the first rows were compared with few steps
       if (t_s_[i] - t_s_[i - 1] > kMostSteps * step_s) {
         throw FileError(fmt::format(
             "{}: no row for {:.6g} s, from {:.6g} to {:.6g} s of the flight; choose a stretch before or after it",

@@ -98,7 +98,7 @@ class TreeBuilder : public YAML::EventHandler {
       return;
     }
     YamlNode& parent = open_.back();
-    // The parser places a missing value at the next token, which may stand lines below its key.
+    // The parser places a missing value at the next token, which may be lines below its key.
     if (node.kind == YamlNode::Kind::kNull && !parent.key_lines.empty()) node.line = parent.key_lines.back();
     parent.items.push_back(std::move(node));
   }

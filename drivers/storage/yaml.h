@@ -9,8 +9,8 @@
 
 namespace drivers {
 
-// A YAML document as a plain tree that knows its lines. Built from parser events, so that what yaml-cpp's own tree
-// hides (duplicate keys, quotes) or expands (aliases) is seen and refused.
+// A YAML document as a plain tree with line numbers. Built from parser events, so that features which yaml-cpp's own
+// tree hides (duplicate keys, quotes) or expands (aliases) are detected and refused.
 struct YamlNode {
   enum class Kind : std::uint8_t { kNull, kScalar, kList, kMap };
   Kind kind = Kind::kNull;
@@ -31,7 +31,7 @@ struct YamlLimits {
 };
 
 // One document. Throws FileError "NAME:LINE: ..." on anything else: invalid YAML, binary or empty text, tabs for
-// indentation, duplicate keys, anchors and aliases, more than one document, the limits.
+// indentation, duplicate keys, anchors and aliases, more than one document, exceeded limits.
 [[nodiscard]] YamlNode parse_yaml(const std::string& text, const std::string& name, const YamlLimits& limits = {});
 [[nodiscard]] YamlNode read_yaml_file(const std::string& path, const YamlLimits& limits = {});
 

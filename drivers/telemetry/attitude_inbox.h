@@ -10,7 +10,7 @@
 
 namespace drivers {
 
-// From bytes to the ring. Takes any bytes. One thread receives; counts() from any.
+// Decodes received bytes into the ring. Accepts any bytes. One thread receives; counts() from any thread.
 class AttitudeInbox {
  public:
   static constexpr std::size_t kSlots = 1024;  // five seconds at 200 Hz
@@ -42,7 +42,7 @@ class AttitudeInbox {
   }
 
  private:
-  // Written by one thread; relaxed: a count on its own.
+  // Written by one thread; relaxed: independent of other data.
   static void add(std::atomic<std::uint64_t>& count) noexcept {
     count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }

@@ -39,7 +39,7 @@ class LcmAttitudeListener : public AttitudeListener {
  private:
   AttitudeInbox inbox_;
   LcmSource source_;
-  std::jthread thread_;  // ends first
+  std::jthread thread_;  // destroyed first, which ends the thread
 };
 
 }  // namespace

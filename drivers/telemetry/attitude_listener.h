@@ -10,14 +10,14 @@
 
 namespace drivers {
 
-// Attitudes that another program sends over LCM (attitude_t): data, never a command. A thread of the listener's own
-// takes them off the network and puts them into a ring; whoever holds the reader takes them out. Where nobody does, or
-// too slowly, the newest are dropped and counted.
+// Attitudes sent by another program over LCM (attitude_t): data, never a command. A thread of the listener receives
+// them and puts them into a ring, from which the holder of the reader takes them. If nobody does, or too slowly, the
+// newest are dropped and counted.
 class AttitudeListener {
  public:
   struct Counts {
     std::uint64_t received = 0;     // in the ring
-    std::uint64_t undecodable = 0;  // no such message, or no attitude (no number, no length)
+    std::uint64_t undecodable = 0;  // no such message, or no valid attitude (not finite, zero length)
     std::uint64_t dropped = 0;      // ring full
   };
 

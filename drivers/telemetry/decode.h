@@ -7,10 +7,11 @@
 
 namespace drivers {
 
-// Far above any message of ours (a spectrum of 65536 points is 131 kB): bounds what a hostile datagram can allocate.
+// Far above any message of this project (a spectrum of 65536 points is 131 kB): bounds what a hostile datagram
+// allocates.
 inline constexpr std::size_t kMaxMessageBytes = std::size_t{1} << 20;
 
-// The first eight bytes of a message, which tell its layout; empty when there are not so many.
+// The first eight bytes of a message, which identify its layout; empty if there are fewer bytes.
 [[nodiscard]] inline std::optional<std::int64_t> fingerprint_of(const void* data, std::size_t n_bytes) noexcept {
   constexpr std::size_t kFingerprintBytes = 8;
   if (n_bytes < kFingerprintBytes) return std::nullopt;
@@ -20,8 +21,8 @@ inline constexpr std::size_t kMaxMessageBytes = std::size_t{1} << 20;
   return static_cast<std::int64_t>(value);
 }
 
-// Bytes from the network into a generated type; empty when they are not exactly one such message. Always decodes into
-// a fresh object: lcm-gen leaves an old array standing where the new one is empty.
+// Bytes from the network into a generated type; empty unless they are exactly one such message. Always decodes into
+// a new object, because lcm-gen keeps an old array if the new one is empty.
 template <class Message>
 [[nodiscard]] std::optional<Message> decode_message(const void* data, std::size_t n_bytes) noexcept {
   if (n_bytes > kMaxMessageBytes) return std::nullopt;

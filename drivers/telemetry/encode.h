@@ -24,10 +24,10 @@
 
 namespace drivers {
 
-// From the plain types of `core` to what travels. Pure: `sequence` and `utc_ns` are left 0 for the sender to fill.
-// The meaning of every field, its unit and its "not known" stand in messages/*.lcm.
+// From the plain types of `core` to messages. Pure: `sequence` and `utc_ns` are left 0 for the sender to fill.
+// Meaning, unit and "unknown" value of every field are documented in messages/*.lcm.
 
-// A part of an estimate never exceeds this when encoded (unless one mode alone does): with LCM's head and channel name
+// A part of an estimate never exceeds this when encoded (unless a single mode does): with LCM's header and channel name
 // it stays under 1400 bytes, and so in one Ethernet frame.
 inline constexpr int kMaxModalPartBytes = 1300;
 inline constexpr std::size_t kMaxNameBytes = 64;
@@ -39,18 +39,18 @@ inline constexpr std::size_t kMaxWarnings = 16;
                                                                     const std::vector<core::ChannelInfo>& channels,
                                                                     const StreamIdentity& identity);
 
-// One message per channel. Empty when the sums do not hold n_bins x n_pairs values.
+// One message per channel. Empty unless the sums contain n_bins x n_pairs values.
 [[nodiscard]] std::vector<hovermodal::spectrum_t> to_messages(const core::CpsdSums& sums,
                                                               const std::vector<core::ChannelInfo>& channels,
                                                               const StreamIdentity& identity);
 
 [[nodiscard]] hovermodal::displacement_t to_message(const core::DisplacementSample& sample,
                                                     const StreamIdentity& identity);
-// One datagram: words are clipped, and of more steps than fit the last ones are left out.
+// One datagram: texts are clipped, and steps that do not fit are left out, the last first.
 [[nodiscard]] hovermodal::closure_report_t to_message(const core::closure::ClosureReport& report,
                                                       const StreamIdentity& identity);
 [[nodiscard]] hovermodal::tracks_t to_message(const core::TrackFrame& tracks, const StreamIdentity& identity);
-// Throws std::runtime_error where no picture can be made. More than a thousand points are thinned evenly.
+// Throws std::runtime_error if the image cannot be encoded. More than a thousand points are thinned evenly.
 [[nodiscard]] hovermodal::preview_t to_message(const core::Preview& preview, const std::vector<core::Region>& regions,
                                                const StreamIdentity& identity);
 [[nodiscard]] hovermodal::health_t to_message(const core::Health& health,

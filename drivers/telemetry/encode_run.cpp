@@ -7,7 +7,7 @@
 namespace drivers {
 namespace {
 
-// Far beyond any camera: grids, delays and sizes computed from them stay within their types.
+// Far above any camera: grids, delays and sizes computed from these stay within their types.
 constexpr std::int32_t kMostSide_px = 100'000;
 constexpr double kLeastRate_hz = 1e-3, kMostRate_hz = 1e6;
 constexpr std::int32_t kMostStride = 1000;

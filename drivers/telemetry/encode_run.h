@@ -14,7 +14,7 @@
 
 namespace drivers {
 
-// A recorded run to messages and back: every number to the last bit.
+// A recorded run to messages and back: every number is exact to the last bit.
 
 inline constexpr const char* kRunSuffix = "_RUN";
 inline constexpr const char* kRunFileSuffix = "_RUN_FILE";
@@ -28,12 +28,12 @@ inline constexpr std::size_t kFilePieceBytes = std::size_t{256} << 10;
 [[nodiscard]] hovermodal::run_frame_t to_message(const core::TrackFrame& tracks, const core::AttitudeBatch& attitude);
 [[nodiscard]] hovermodal::run_recording_t to_message(const core::RecordingTimes& times);
 
-// Empty: what it says cannot be (sizes that differ, a rate that is none).
+// Empty: its values are inconsistent (sizes that differ, an invalid rate).
 [[nodiscard]] std::optional<core::RunHead> from_message(const hovermodal::run_t& message);
 [[nodiscard]] std::optional<core::RecordingTimes> from_message(const hovermodal::run_recording_t& message);
-// `out` is sized as the keyframe. False: it has other points.
+// `out` is sized as the keyframe. False: the points differ from the keyframe's.
 [[nodiscard]] bool take_frame(const hovermodal::run_frame_t& message, core::RecordedFrame& out);
-// The same, also where the stride is none.
+// The same; also false for an invalid stride.
 [[nodiscard]] bool take_frame(const hovermodal::run_thinned_frame_t& message, core::RecordedFrame& out);
 
 }  // namespace drivers

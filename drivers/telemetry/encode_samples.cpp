@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-// One-sided density of channel i: every bin but DC and Nyquist stands for its negative twin too.
+// One-sided density of channel i: every bin except DC and Nyquist includes its negative counterpart.
 std::vector<float> density(const core::CpsdSums& sums, int i_channel) {
   const double norm = sums.rate_hz * sums.window_power * sums.weight.sum;
   const auto n_bins = static_cast<std::size_t>(sums.n_bins());

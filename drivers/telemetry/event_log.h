@@ -9,7 +9,7 @@
 
 namespace drivers {
 
-// An LCM event log that is being written: what lcm-logplayer, lcm-spy and `hovermodal spy` read. One thread.
+// Writer of an LCM event log, which lcm-logplayer, lcm-spy and `hovermodal spy` read. One thread.
 class EventLog {
  public:
   virtual ~EventLog() = default;

@@ -77,7 +77,7 @@ EventLogReader::Taken EventLogReader::take(Event& out) {
     if (!read(out.data.data() + at, n)) return Taken::kEnd;
     n_left -= n;
   }
-  // What follows must be an event, or the length was wrong.
+  // The following bytes must be an event; otherwise the length was wrong.
   std::array<std::uint8_t, kSyncBytes> behind{};
   const std::size_t n_behind = std::fread(behind.data(), 1, behind.size(), file_.get());
   if (n_behind < behind.size()) return Taken::kEvent;

@@ -8,22 +8,22 @@
 
 namespace drivers {
 
-// The events of an LCM event log, in order. In place of liblcm 1.3.1, which believes the lengths in a file: one of
-// 2147483647 ends the program. Takes any bytes: an event that cannot be is left out and counted, and the next one
-// looked for; memory grows with what the file holds, not with what it says. One thread.
+// Reads the events of an LCM event log, in order. Replaces liblcm 1.3.1, which trusts the lengths in a file: one of
+// 2147483647 terminates the program. Accepts any bytes: an invalid event is left out and counted, and the next one is
+// searched for; memory is bounded by the size of the file, not by the lengths stated in it. One thread.
 class EventLogReader {
  public:
-  static constexpr std::int32_t kLongestChannel = 999;  // LCM's own
+  static constexpr std::int32_t kLongestChannel = 999;  // LCM's own limit
 
   struct Event {
     std::string channel;
-    std::int64_t utc_us = 0;  // as it was written: may stand still or go back
+    std::int64_t utc_us = 0;  // as written: may stay constant or decrease
     std::vector<std::uint8_t> data;
   };
 
-  explicit EventLogReader(const std::string& path);  // throws FileError: cannot be read, is no regular file
+  explicit EventLogReader(const std::string& path);  // throws FileError: cannot be read, not a regular file
 
-  // False: the end; an event that the file's end cuts off is none.
+  // False: the end; an event truncated by the end of the file is ignored.
   [[nodiscard]] bool next(Event& out);
   [[nodiscard]] std::uint64_t n_damaged() const noexcept { return n_damaged_; }
 

@@ -1,7 +1,7 @@
 # cmake -DHEADER=FILE -P harden_decode.cmake: makes the decoder that lcm-gen 1.3.1 wrote safe against hostile bytes.
-# As generated, a string length below 1 wraps to a huge one and an array length is believed before it is checked: a
+# As generated, a string length below 1 wraps to a huge one, and an array length is trusted without a check: a
 # datagram of some twenty bytes can ask for gigabytes or read far outside the buffer. Every string holds at least its
-# terminating zero, and every array element at least one byte, so both are bounded by the bytes that are left.
+# terminating zero, and every array element at least one byte, so both are bounded by the remaining bytes.
 file(READ ${HEADER} text)
 
 string(REGEX MATCHALL "\\.assign\\(" assigns "${text}")

@@ -10,18 +10,18 @@
 
 namespace drivers {
 
-// Tells a sender of another version from damaged bytes. Such a sender repeats itself: its messages come on a channel of
-// another layout, or bear one wrong fingerprint again and again; noise does neither. One thread.
+// Distinguishes a sender of another version from damaged bytes. Such a sender is consistent: its messages come on a
+// channel of another layout, or have the same wrong fingerprint repeatedly; noise does neither. One thread.
 class LayoutWatch {
  public:
   static constexpr std::uint64_t kConvincing = 3;  // messages in a row with the same wrong fingerprint
 
-  // A message on the channel of a layout that is not ours.
+  // A message on the channel of another layout.
   void note_layout(Topic topic, int layout) noexcept;
-  // A message on our channel whose first eight bytes are no fingerprint of ours.
+  // A message on a known channel whose first eight bytes are an unknown fingerprint.
   void note_fingerprint(Topic topic, std::int64_t heard, std::int64_t expected) noexcept;
 
-  // One line for each topic that another version speaks: what, and what to do. Empty: none.
+  // One line per topic for which another version was heard: what, and what to do. Empty: none.
   [[nodiscard]] std::vector<std::string> words(const std::string& channel_prefix) const;
 
  private:

@@ -16,7 +16,7 @@ std::uint32_t big_endian(const std::uint8_t* bytes, std::size_t n) {
   return value;
 }
 
-// The channel's name in front of the data, without the zero that ends it; empty when there is none.
+// The channel's name before the data, without its terminating zero; empty if there is none.
 std::optional<std::string_view> channel_at(const std::uint8_t* bytes, std::size_t n) {
   const std::size_t reach = std::min(n, LcmDatagrams::kLongestChannel + 1);
   const void* zero = reach > 0 ? std::memchr(bytes, 0, reach) : nullptr;
@@ -92,7 +92,7 @@ void LcmDatagrams::take_fragment(const std::uint8_t* bytes, std::size_t n, std::
     return;
   }
   const auto message = open_message(sender, number, size, n_fragments);
-  if (message->has[index]) return;  // twice
+  if (message->has[index]) return;  // received twice
   if (channel) message->channel = *channel;
   if (n_data > 0) std::memcpy(message->data.data() + offset, data, n_data);
   message->has[index] = true;

@@ -10,17 +10,17 @@
 
 namespace drivers {
 
-// LCM messages out of the datagrams of its UDP multicast: a short message is one datagram, a long one several
-// fragments. In place of liblcm 1.3.1, which believes what stands in a datagram: a fragment with an offset or a length
-// that cannot be ends every program that listens through it. Takes any bytes; what is no message is counted. One
+// Assembles LCM messages from the datagrams of its UDP multicast: a short message is one datagram, a long one several
+// fragments. Replaces liblcm 1.3.1, which trusts the content of a datagram: a fragment with an impossible offset or
+// length terminates every program that listens through it. Accepts any bytes; invalid ones are counted. One
 // thread.
 class LcmDatagrams {
  public:
-  static constexpr std::size_t kMostOpen = 32;          // long messages whose fragments are still under way
-  static constexpr std::size_t kLongestChannel = 63;    // LCM's own
-  static constexpr std::size_t kMostBytes = 1U << 20U;  // of a message
+  static constexpr std::size_t kMostOpen = 32;          // long messages whose fragments are incomplete
+  static constexpr std::size_t kLongestChannel = 63;    // LCM's own limit
+  static constexpr std::size_t kMostBytes = 1U << 20U;  // largest message
 
-  // `data` lives during the call.
+  // `data` is valid during the call only.
   using Receive = std::function<void(std::string_view lcm_channel, const void* data, std::size_t n_bytes)>;
 
   explicit LcmDatagrams(Receive receive) : receive_(std::move(receive)) {}
@@ -29,7 +29,7 @@ class LcmDatagrams {
   void take(const void* datagram, std::size_t n_bytes, std::uint64_t sender);
 
   [[nodiscard]] std::uint64_t n_malformed() const noexcept { return n_malformed_; }
-  // Long messages of which a fragment was lost, or that gave way to newer ones.
+  // Long messages of which a fragment was lost, or that were displaced by newer ones.
   [[nodiscard]] std::uint64_t n_incomplete() const noexcept { return n_incomplete_; }
 
  private:

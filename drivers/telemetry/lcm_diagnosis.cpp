@@ -21,7 +21,7 @@ namespace {
 
 using Findings = std::vector<LcmFinding>;
 
-// What a ground station asks for (spectra and tracks of many points come in bursts).
+// Buffer recommended for a ground station (spectra and tracks of many points come in bursts).
 constexpr long kWantedBuffer_bytes = 4194304;
 constexpr long kLeastBuffer_bytes = 1048576;
 
@@ -50,7 +50,7 @@ std::vector<Interface> interfaces() {
   return out;
 }
 
-// Interfaces other than lo that multicast may go through, for advice.
+// Interfaces other than lo that can be used for multicast, for advice.
 std::string usable_names() {
   std::string names;
   for (const Interface& i : interfaces()) {
@@ -60,7 +60,7 @@ std::string usable_names() {
   return names.empty() ? "none is up and has an address" : names;
 }
 
-// The address from which the kernel would send to the group: it shows the route. Nothing is sent.
+// The address from which the kernel would send to the group: shows the route. Nothing is sent.
 std::optional<in_addr_t> source_address(const UdpmUrl& url, int& error) {
   const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in group{};
@@ -87,7 +87,7 @@ LcmFinding check_loopback() {
   return {FindingKind::kBad, "there is no loopback interface", ""};
 }
 
-// What the interface of the route is like; `kBad` where messages would not get out of it.
+// State of the interface on the route; `kBad` if messages would not leave through it.
 LcmFinding check_interface(const Interface& i, const UdpmUrl& url) {
   const bool is_loopback = (i.flags & IFF_LOOPBACK) != 0;
   const std::string way = fmt::format("messages to {} go through {}", url.group, i.name);

@@ -20,7 +20,7 @@ struct LcmPublisher::Ways {
   // Returns the self-test's warning.
   std::string open_network(const LcmOptions& options) {
     const SelfTest test = run_lcm_self_test(options.url, options.channel_prefix);
-    // With ttl=0 nobody but this computer could hear: deaf is as lost as mute.
+    // With ttl=0 only this computer could receive: if it cannot, every message is lost.
     const bool stays_here = is_udpm(options.url) && parse_udpm(options.url).ttl == 0;
     if (!test.can_send || (stays_here && !test.heard)) throw std::runtime_error(test.message);
     network.reset(lcm_create(options.url.c_str()));
@@ -46,7 +46,7 @@ LcmPublisher::LcmPublisher(const LcmOptions& options)
 
 LcmPublisher::~LcmPublisher() = default;
 
-// Leaves the bytes in buffer_; none when the message cannot be encoded.
+// Stores the bytes in buffer_; empty if the message cannot be encoded.
 template <class Message>
 void LcmPublisher::encode(Topic topic, Message& message, const WayNumbers& numbers) {
   message.sequence = numbers[topic].next_sequence;
@@ -77,7 +77,7 @@ bool LcmPublisher::write_to_log(Topic topic, Message& message) {
   bool ok = !buffer_.empty();
   for (const auto& log : ways_->logs) {
     ok = log->write(channel_names_[topic], buffer_, message.utc_ns) && ok;
-    // Health comes about once a second: a crash takes no more than that from the log, and a full disk shows.
+    // Health comes about once a second: flushing then limits what a crash loses from the log, and shows a full disk.
     if (topic == kHealth) ok = log->flush() && ok;
   }
   numbers.n_sent += ok ? 1 : 0;
@@ -133,7 +133,7 @@ bool LcmPublisher::send_all(Topic topic, Messages& messages) {
   return ok;
 }
 
-// Encoding allocates: out of memory is a failed send, not the end of the service.
+// Encoding allocates: out of memory is a failed send and does not end the service.
 template <class Body>
 bool LcmPublisher::guarded(Body&& body) noexcept {
   try {
@@ -145,7 +145,7 @@ bool LcmPublisher::guarded(Body&& body) noexcept {
 }
 
 void LcmPublisher::remember(const std::vector<core::ChannelInfo>& channels) {
-  if (channel_infos_.size() != channels.size()) channel_infos_ = channels;  // fixed over a run
+  if (channel_infos_.size() != channels.size()) channel_infos_ = channels;  // constant over a run
 }
 
 bool LcmPublisher::publish(const core::ModalEstimate& estimate,

@@ -17,15 +17,15 @@
 
 namespace drivers {
 
-// Results as LCM messages, over the network, into an LCM event log, or both. Network and log each number the messages
-// of an LCM channel for themselves, sent or failed: a receiver sees a failed send as a gap. What is held back from the
-// network (LcmOptions::max_kbit_s) has no number there and is no gap; the log has everything. Spectra, which come all
-// at once, wait for room until the next ones replace them, or the end. Every health message says how many were sent on
-// each channel of its own way, itself included, and how many were held back. Messages above some 1400 bytes are
-// fragmented by LCM.
+// Results as LCM messages, over the network, into an LCM event log, or both. Network and log number the messages of an
+// LCM channel separately, whether sent or failed: a receiver sees a failed send as a gap. A message withheld from the
+// network (LcmOptions::max_kbit_s) has no number there and is no gap; the log contains everything. Spectra, which come
+// all at once, wait for room until the next ones replace them, or the end. Every health message states how many
+// messages were sent on each channel of its own output, itself included, and how many were withheld. Messages above
+// some 1400 bytes are fragmented by LCM.
 class LcmPublisher : public Publisher {
  public:
-  // Opens and tests everything. A way that loses every message is an error here, not a count later; throws as
+  // Opens and tests all outputs. An output that would lose every message is an error here, not a count later; throws as
   // make_publisher() says. The log file is overwritten.
   explicit LcmPublisher(const LcmOptions& options);
   ~LcmPublisher() override;
@@ -39,7 +39,8 @@ class LcmPublisher : public Publisher {
   bool publish(const core::Health& health) noexcept override;
   bool publish(const core::Preview& preview, const std::vector<core::Region>& regions) noexcept override;
 
-  // A message counts as sent when every way open (network, log) took it; one held back is neither sent nor failed.
+  // A message counts as sent when every open output (network, log) accepted it; a withheld one is neither sent nor
+  // failed.
   [[nodiscard]] std::uint64_t messages_sent() const noexcept override {
     return n_sent_.load(std::memory_order_relaxed);
   }
@@ -47,11 +48,11 @@ class LcmPublisher : public Publisher {
     return n_failed_.load(std::memory_order_relaxed);
   }
 
-  // Not empty: messages leave, but could not be heard on this computer (only possible with ttl >= 1).
+  // Not empty: messages are sent, but could not be received on this computer (only possible with ttl >= 1).
   [[nodiscard]] const std::string& warning() const noexcept { return warning_; }
 
  private:
-  // One way's numbers on one LCM channel.
+  // Counters of one output on one LCM channel.
   struct Numbers {
     std::int64_t next_sequence = 0, n_sent = 0;
   };
@@ -84,7 +85,7 @@ class LcmPublisher : public Publisher {
   std::vector<core::ChannelInfo> channel_infos_;        // as last published: health carries them
   std::vector<std::uint8_t> buffer_;                    // encoded message, reused
   std::string warning_;
-  std::atomic<std::uint64_t> n_sent_{0}, n_failed_{0};  // relaxed: counts on their own
+  std::atomic<std::uint64_t> n_sent_{0}, n_failed_{0};  // relaxed: independent of other data
 };
 
 }  // namespace drivers

@@ -56,12 +56,12 @@ sockaddr_in address_of(const UdpmUrl& url) {
 }
 
 const sockaddr* generic(const sockaddr_in& address) {
-  const void* p = &address;  // the sockets interface's own kind of inheritance
+  const void* p = &address;  // the sockets interface uses this cast for its address types
   return static_cast<const sockaddr*>(p);
 }
 
-// A small LCM message: magic "LC02", message number, channel with its zero, payload. Other receivers on the group see
-// a well-formed message on a channel of its own.
+// A small LCM message: magic "LC02", message number, channel with its zero, payload. Other receivers of the group see
+// a well-formed message on a separate channel.
 std::vector<char> probe_message(const std::string& channel_prefix) {
   std::vector<char> bytes{'L', 'C', '0', '2', 0, 0, 0, 0};
   const std::string channel = channel_prefix + "_SELFTEST";
@@ -72,7 +72,8 @@ std::vector<char> probe_message(const std::string& channel_prefix) {
   return bytes;
 }
 
-// "" or why there is no ear. Bound to the group, not to any address: as with LCM, several may listen on the port.
+// "" or why no receiving socket is possible. Bound to the group, not to any address: as with LCM, several may share the
+// port.
 std::string open_ear(const UdpmUrl& url, Socket& ear) {
   const int on = 1;
   sockaddr_in address = address_of(url);

@@ -19,8 +19,8 @@
 namespace drivers {
 namespace {
 
-constexpr int kMaxBatch = 1000;                // screen and signals wait meanwhile
-constexpr int kReceiveBuffer_bytes = 1 << 22;  // the kernel cuts it to net.core.rmem_max
+constexpr int kMaxBatch = 1000;                // limits the time during which display and signals wait
+constexpr int kReceiveBuffer_bytes = 1 << 22;  // the kernel limits it to net.core.rmem_max
 constexpr int kQueuedMessages = 20000;         // LCM keeps 30 by default
 constexpr std::size_t kLongestDatagram = 65536;
 
@@ -40,7 +40,7 @@ struct LcmSource::Way {
   virtual bool poll(int timeout_ms) = 0;
 };
 
-// As LCM's own socket: several may listen on the port.
+// As LCM's own socket: several programs may listen on the port.
 struct LcmSource::Multicast : LcmSource::Way {
   Multicast(const std::string& text, LcmDatagrams::Receive receive)
       : datagrams(std::move(receive)), fd(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {

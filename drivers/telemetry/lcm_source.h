@@ -7,19 +7,19 @@
 
 namespace drivers {
 
-// Where LCM messages come from: UDP multicast through a socket of our own (lcm_datagrams.h says why), event logs
-// through a reader of our own (event_log_reader.h says why), everything else (memory, TCP) through LCM. One thread.
+// Source of LCM messages: UDP multicast through its own socket (reason: lcm_datagrams.h), event logs through its own
+// reader (reason: event_log_reader.h), all other providers (memory, TCP) through LCM. One thread.
 class LcmSource {
  public:
-  // `pattern`: a regular expression for the channels wanted, as LCM takes it. Multicast and logs bring all channels:
-  // the receiver looks at the name. Throws std::invalid_argument for a wrong URL, std::runtime_error when it cannot be
+  // `pattern`: a regular expression for the wanted channels, as in LCM. Multicast and logs deliver all channels:
+  // the receiver must check the name. Throws std::invalid_argument for a wrong URL, std::runtime_error if it cannot be
   // opened.
   LcmSource(const std::string& url, const std::string& pattern, LcmDatagrams::Receive receive);
   ~LcmSource();
   LcmSource(const LcmSource&) = delete;
   LcmSource& operator=(const LcmSource&) = delete;
 
-  // Waits so long for a message and takes all that are there, within reason. False at the end of a log.
+  // Waits at most so long for a message and takes all that have arrived, up to a limit. False at the end of a log.
   [[nodiscard]] bool poll(int timeout_ms);
 
  private:

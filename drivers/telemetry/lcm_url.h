@@ -17,8 +17,8 @@ struct UdpmUrl {
 
 [[nodiscard]] bool is_udpm(const std::string& url);
 
-// Stricter than LCM, which prints a warning for what it does not understand and goes on.
-// Throws std::invalid_argument naming the URL, what is wrong with it and the form it should have.
+// Stricter than LCM, which only prints a warning for what it does not understand.
+// Throws std::invalid_argument naming the URL, its fault and the correct form.
 [[nodiscard]] UdpmUrl parse_udpm(const std::string& url);
 
 // Throws std::invalid_argument unless the URL has a provider that LCM knows (udpm, file, memq, tcpq) and, for udpm, is
@@ -29,7 +29,7 @@ void check_lcm_url(const std::string& url);
 // expression without surprises: letters, digits, _ - . /
 void check_channel_prefix(const std::string& prefix);
 
-// LCM subscribes by a regular expression: that of exactly this name of a channel, or part of one.
+// LCM subscribes by a regular expression: the expression that matches exactly this name, or part of a name.
 [[nodiscard]] std::string exact_pattern(const std::string& name);
 
 }  // namespace drivers

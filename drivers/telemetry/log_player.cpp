@@ -16,7 +16,7 @@ namespace drivers {
 namespace {
 
 constexpr std::string_view kScheme = "file://";
-constexpr int kMaxBatch = 1000;  // screen and signals wait meanwhile
+constexpr int kMaxBatch = 1000;  // limits the time during which display and signals wait
 constexpr double kLongestWait_ns = 1e9;
 
 [[noreturn]] void refuse(const std::string& url, const std::string& what) {
@@ -69,7 +69,7 @@ LogUrl parse_log(const std::string& url) {
 LogPlayer::LogPlayer(const LogUrl& url, LcmDatagrams::Receive receive)
     : url_(url), receive_(std::move(receive)), log_(url.path) {}
 
-// In double: stamps out of a file may lie anywhere.
+// In double, because stamps from a file may have any value.
 std::int64_t LogPlayer::wait_ns() const {
   if (url_.speed <= 0.0) return 0;
   const double due_ns = (static_cast<double>(event_.utc_us) - static_cast<double>(first_utc_us_)) * 1e3 / url_.speed;

@@ -8,23 +8,23 @@
 
 namespace drivers {
 
-// file://PATH?speed=S&start_timestamp=US, as LCM writes such URLs.
+// file://PATH?speed=S&start_timestamp=US, in LCM's URL format.
 struct LogUrl {
   std::string path;
   double speed = 1.0;              // times real time; 0 = as fast as possible
-  std::int64_t start_utc_us = -1;  // events before it are left out; below 0: none
+  std::int64_t start_utc_us = -1;  // earlier events are left out; below 0: no limit
 };
 
 [[nodiscard]] bool is_log(const std::string& url);
-// Throws std::invalid_argument naming the URL, what is wrong with it and the form it should have.
+// Throws std::invalid_argument naming the URL, its fault and the correct form.
 [[nodiscard]] LogUrl parse_log(const std::string& url);
 
-// The messages of an LCM event log, at the pace at which they were written. One thread.
+// Plays the messages of an LCM event log, at the pace at which they were written. One thread.
 class LogPlayer {
  public:
   LogPlayer(const LogUrl& url, LcmDatagrams::Receive receive);  // throws FileError
 
-  // Waits so long for a message and hands over all that are due, within reason. False at the end of the log.
+  // Waits at most so long for a message and delivers all that are due, up to a limit. False at the end of the log.
   [[nodiscard]] bool poll(int timeout_ms);
 
  private:

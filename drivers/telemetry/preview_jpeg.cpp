@@ -11,7 +11,7 @@ std::vector<std::uint8_t> preview_jpeg(const core::Preview& preview) {
   if (preview.width_px < 1 || preview.height_px < 1 || preview.pixels.size() != n_pixels) {
     throw std::runtime_error("preview: the number of pixels is not width x height");
   }
-  // OpenCV wants it writable, and only reads.
+  // OpenCV requires non-const data, but only reads.
   const cv::Mat image(preview.height_px, preview.width_px, CV_8UC1, const_cast<std::uint8_t*>(preview.pixels.data()));
   std::vector<std::uint8_t> bytes;
   for (const int quality : {50, 30, 15, 5}) {

@@ -15,13 +15,13 @@
 
 namespace drivers {
 
-// What every message of a run says about its origin.
+// Origin of a run's messages, contained in every message.
 struct StreamIdentity {
   std::string stream_id;          // telemetry.stream_id
   std::uint64_t config_hash = 0;  // of the configuration in force
 };
 
-// Where results go. Called by the publish stage only. A failed send returns false and is counted by the caller.
+// Destination of results. Called by the publish stage only. A failed send returns false and is counted by the caller.
 class Publisher {
  public:
   virtual ~Publisher() = default;

@@ -16,7 +16,7 @@ struct LcmOptions {
   std::string log_file;  // the same messages into an LCM event log; empty = none
   StreamIdentity identity;
   double max_kbit_s = 0.0;                     // over the network; 0 = no limit (send_budget.h)
-  std::shared_ptr<EventLog> record = nullptr;  // one more log: that of the run's record
+  std::shared_ptr<EventLog> record = nullptr;  // a further log: that of the run record
 };
 
 // Sends nothing, counts nothing: for runs without telemetry.
@@ -37,8 +37,8 @@ class NullPublisher : public Publisher {
 
 // An LcmPublisher, or a NullPublisher when both the URL and the log file are empty. Throws std::invalid_argument for a
 // wrong URL or prefix, std::runtime_error when the network cannot be used, the log cannot be written, or this build
-// has no LCM. `warning`, where given, gets a text for the operator when telemetry leaves this computer but cannot be
-// heard on it; otherwise it is emptied.
+// has no LCM. `warning`, if given, receives a text for the operator if messages leave this computer but cannot be
+// received on it; otherwise it is emptied.
 [[nodiscard]] std::unique_ptr<Publisher> make_publisher(const LcmOptions& options, std::string* warning = nullptr);
 
 }  // namespace drivers

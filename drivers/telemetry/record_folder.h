@@ -18,14 +18,14 @@ struct RecordPart {
 
 [[nodiscard]] std::string record_name(std::string_view stream_id, int run, int file);
 
-// Oldest first. Other files in the folder are none of ours. Throws std::runtime_error when it cannot be read.
+// Oldest first. Other files in the folder are ignored. Throws std::runtime_error when it cannot be read.
 [[nodiscard]] std::vector<RecordPart> record_parts(const std::string& folder);
 
-// Removes the oldest files of runs before `run` until what is left and `wanted_bytes` more stay within the quota.
-// False: they do not; only the run's own files are left.
+// Removes the oldest files of runs before `run` until the remaining files and `wanted_bytes` fit into the quota.
+// False: they do not fit; only the run's own files are left.
 bool make_room(const std::string& folder, int run, std::uint64_t wanted_bytes, std::uint64_t quota_bytes);
 
-// The file itself and those of its run that follow it without a gap, in order.
+// The file itself and the files of its run that follow it without a gap, in order.
 [[nodiscard]] std::vector<std::string> files_from(const std::string& path);
 
 }  // namespace drivers

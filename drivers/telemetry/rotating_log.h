@@ -9,16 +9,16 @@
 
 namespace drivers {
 
-// The event logs of one run: when one is full the next begins, with the run's head.
+// The event logs of one run: when one is full the next begins, starting with the run's head.
 class RotatingLog : public EventLog {
  public:
-  // write_head puts what each file begins with into it. Nothing is opened before begin(). Throws std::runtime_error.
+  // write_head writes the beginning of each file. Nothing is opened before begin(). Throws std::runtime_error.
   explicit RotatingLog(const RecordOptions& options);
 
   using WriteHead = std::function<bool(EventLog& file, int file_number)>;
   void begin(WriteHead write_head);  // throws std::runtime_error
 
-  // False: the disk is full, or the quota is and no earlier run is left to make room.
+  // False: the disk is full, or the quota is reached and no earlier run can be deleted.
   bool write(const std::string& channel, std::span<const std::uint8_t> bytes, std::int64_t utc_ns) noexcept override;
   bool flush() noexcept override;
 

@@ -65,11 +65,11 @@ class RunRecordReader::Impl {
   [[nodiscard]] bool take(core::RecordedFrame& out) {
     const auto message = decode<Message>();
     const bool is_taken = message && take_frame(*message, out);
-    if (message && !is_taken) ++n_damaged;  // one that did not decode is counted already
+    if (message && !is_taken) ++n_damaged;  // messages that did not decode are already counted
     return is_taken;
   }
 
-  // Into event_; false: the end of the last file.
+  // Reads into event_; false: the end of the last file.
   [[nodiscard]] bool next_event() {
     for (;;) {
       if (!log_) {
@@ -101,7 +101,7 @@ class RunRecordReader::Impl {
     }
   }
 
-  // Pieces come in order, in front of the head.
+  // Pieces come in order, before the head.
   void take_piece(const hovermodal::run_file_t& piece) {
     if (pieces_.empty() || pieces_.back().key != piece.key) pieces_.push_back({piece.key, piece.name, {}});
     std::string& bytes = pieces_.back().bytes;

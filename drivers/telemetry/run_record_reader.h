@@ -11,11 +11,11 @@
 
 namespace drivers {
 
-// A run out of its LCM event logs (record.directory), frame by frame. Takes any bytes: what is damaged is left out and
-// counted. One thread.
+// Reads a run from its LCM event logs (record.directory), frame by frame. Accepts any bytes: damaged parts are left out
+// and counted. One thread.
 class RunRecordReader {
  public:
-  // A file of the run; those that follow it are read as well. Throws FileError: it cannot be read, or holds no head.
+  // A file of the run; the files that follow it are read as well. Throws FileError: it cannot be read, or has no head.
   explicit RunRecordReader(const std::string& path);
   ~RunRecordReader();
 
@@ -24,13 +24,13 @@ class RunRecordReader {
   [[nodiscard]] bool next(core::RecordedFrame& out);
 
   [[nodiscard]] const std::vector<std::string>& files() const noexcept;
-  [[nodiscard]] std::uint64_t n_damaged() const noexcept;             // messages that were not understood
-  [[nodiscard]] std::uint64_t n_attitudes_left_out() const noexcept;  // the record lacks them
-  [[nodiscard]] bool starts_late() const noexcept;                    // its first files were not given, or made room
-  // The service's last word: "finished", "fault: ...". Empty: it was cut off. After the last frame.
+  [[nodiscard]] std::uint64_t n_damaged() const noexcept;             // messages that could not be decoded
+  [[nodiscard]] std::uint64_t n_attitudes_left_out() const noexcept;  // attitudes missing in the record
+  [[nodiscard]] bool starts_late() const noexcept;                    // its first files are missing
+  // Final state reported by the service: "finished", "fault: ...". Empty: the record ends early. After the last frame.
   [[nodiscard]] const std::string& end() const noexcept;
-  [[nodiscard]] const std::optional<core::RunCounts>& counts() const noexcept;  // of that word
-  // Of the recording that the run read, known after the last frame; empty: a camera, or a record that was cut off.
+  [[nodiscard]] const std::optional<core::RunCounts>& counts() const noexcept;  // as of that state
+  // Of the recording that the run read; known after the last frame. Empty: a camera, or a record that ends early.
   [[nodiscard]] const core::RecordingTimes& times() const noexcept;
 
  private:

@@ -36,7 +36,7 @@ class LcmRunRecorder : public RunRecorder {
            std::uint32_t stride) noexcept override {
     try {
       if (write(to_message(tracks, attitude), stride)) return true;
-    } catch (...) {  // no memory: a lost frame
+    } catch (...) {  // out of memory: the frame is lost
     }
     n_lost_.fetch_add(1, std::memory_order_relaxed);
     return false;
@@ -76,7 +76,7 @@ class LcmRunRecorder : public RunRecorder {
   std::string prefix_, frame_channel_, thinned_channel_;
   StreamIdentity identity_;
   std::shared_ptr<RotatingLog> log_;
-  std::atomic<std::uint64_t> n_lost_{0};  // relaxed: a count on its own
+  std::atomic<std::uint64_t> n_lost_{0};  // relaxed: independent of other data
 };
 
 }  // namespace

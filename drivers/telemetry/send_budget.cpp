@@ -8,7 +8,7 @@ namespace {
 constexpr double kBytesPerKbit = 125.0;
 constexpr std::size_t kFragmentBytes = 1400;     // payload of a datagram of LCM 1.3
 constexpr std::size_t kHeadBytes = 20 + 8 + 20;  // IP, UDP, LCM's head of a fragment
-constexpr double kMostOwed_s = 5.0;  // of the link: a burst of estimates does not silence the rest for longer
+constexpr double kMostOwed_s = 5.0;              // of the link: limits how long a burst of estimates silences the rest
 
 }  // namespace
 

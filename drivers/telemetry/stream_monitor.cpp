@@ -25,7 +25,7 @@ void StreamMonitor::receive(std::string_view lcm_channel, const void* data, std:
   }
   try {
     dispatch(topic, data, n_bytes, now_ns);
-  } catch (...) {  // out of memory: the message is lost to us
+  } catch (...) {  // out of memory: the message is lost
     ++counts_[topic].undecodable;
   }
 }
@@ -58,7 +58,7 @@ void StreamMonitor::dispatch(Topic topic, const void* data, std::size_t n_bytes,
   }
 }
 
-// Decodes and counts. Empty when there is nothing to take: undecodable, of another stream, or older than what is known.
+// Decodes and counts. Empty if not usable: undecodable, of another stream, or older than the newest known.
 template <class Message>
 std::optional<Message> StreamMonitor::open(Topic topic, const void* data, std::size_t n_bytes, std::int64_t now_ns) {
   ChannelCount& count = counts_[topic];
@@ -79,7 +79,7 @@ std::optional<Message> StreamMonitor::open(Topic topic, const void* data, std::s
   last_received_ns_ = now_ns;
   if (!count.note(message->sequence, message->utc_ns, now_ns)) return std::nullopt;
   config_hash_ = message->config_hash;
-  // A spectrum counts its time from the first sample: not the clock of the others.
+  // A spectrum's time counts from the first sample: a clock different from the others'.
   if (topic != kSpectrum) stream_time_ns_ = message->stream_time_ns;
   return message;
 }
@@ -88,7 +88,7 @@ void StreamMonitor::take(hovermodal::modal_estimate_t message) {
   const bool is_same = estimate_ && estimate_->number == message.number && estimate_->n_parts == message.n_parts &&
                        estimate_->stream_time_ns == message.stream_time_ns &&
                        n_modal_restarts_ == counts_[kModal].restarts;
-  n_modal_restarts_ = counts_[kModal].restarts;  // the same file again gives the same numbers and times
+  n_modal_restarts_ = counts_[kModal].restarts;  // the same file played again has the same numbers and times
   if (!is_same) {
     parts_.clear();
     n_modes_ = 0;

@@ -22,9 +22,9 @@
 
 namespace drivers {
 
-// What a listener knows from LCM messages alone: the newest of everything, and what was lost on the way. It follows the
-// first stream_id it hears. Takes any bytes: what does not decode is counted and changes nothing else, but for a word
-// on a sender of another version. One thread.
+// A listener's knowledge of a run from LCM messages alone: the newest of everything, and losses on the link. It follows
+// the first stream_id it receives. Accepts any bytes: undecodable messages are counted and change nothing else, except
+// that a sender of another version is reported. One thread.
 class StreamMonitor {
  public:
   using Topic = drivers::Topic;
@@ -32,47 +32,47 @@ class StreamMonitor {
                          kSpectrum = drivers::kSpectrum, kTracks = drivers::kTracks, kClosure = drivers::kClosure,
                          kHealth = drivers::kHealth, kPreview = drivers::kPreview, kTopics = drivers::kTopics;
   static constexpr std::size_t kHistory = 1024;     // displacement samples kept per channel
-  static constexpr std::size_t kMaxChannels = 256;  // more than that in one message are ignored
+  static constexpr std::size_t kMaxChannels = 256;  // surplus channels of a message are ignored
   static constexpr std::size_t kMaxModes = 1024;    // of one estimate, all parts
   static constexpr std::size_t kMaxSpectra = 64;    // channels whose newest spectrum is kept
 
   explicit StreamMonitor(const std::string& channel_prefix);
 
-  // `now_ns` on any monotonic clock of the caller's. Channels that are none of ours are ignored.
+  // `now_ns` on any monotonic clock of the caller. Unknown channels are ignored.
   void receive(std::string_view lcm_channel, const void* data, std::size_t n_bytes, std::int64_t now_ns) noexcept;
 
   [[nodiscard]] const std::string& lcm_channel(Topic topic) const noexcept { return names_[topic]; }
   [[nodiscard]] const ChannelCount& count(Topic topic) const noexcept { return counts_[topic]; }
-  // Senders of another version, in words; empty: none heard.
+  // Descriptions of senders of another version; empty: none.
   [[nodiscard]] std::vector<std::string> other_versions() const { return layouts_.words(prefix_); }
-  [[nodiscard]] const std::string& stream_id() const noexcept { return stream_id_; }  // empty = nothing heard
+  [[nodiscard]] const std::string& stream_id() const noexcept { return stream_id_; }  // empty = nothing received
   [[nodiscard]] std::int64_t config_hash() const noexcept { return config_hash_; }
   [[nodiscard]] std::int64_t stream_time_ns() const noexcept { return stream_time_ns_; }
   [[nodiscard]] std::int64_t last_received_ns() const noexcept { return last_received_ns_; }  // caller's clock
 
   [[nodiscard]] const std::optional<hovermodal::health_t>& health() const noexcept { return health_; }
-  // The one before, of the same run: for rates.
+  // The previous one of the same run, for rates.
   [[nodiscard]] const std::optional<hovermodal::health_t>& previous_health() const noexcept { return previous_health_; }
-  [[nodiscard]] bool is_finished() const noexcept { return is_finished_; }  // a health with a final state was heard
+  [[nodiscard]] bool is_finished() const noexcept { return is_finished_; }  // a final health message was received
   [[nodiscard]] std::int64_t finished_at_ns() const noexcept { return finished_at_ns_; }
 
-  // The newest estimate: its head (of the part heard last) and all modes of the parts heard so far, in order.
+  // The newest estimate: the head of its last received part, and all modes of the parts received so far, in order.
   [[nodiscard]] const std::optional<hovermodal::modal_estimate_t>& estimate() const noexcept { return estimate_; }
   [[nodiscard]] std::vector<const hovermodal::mode_t*> modes() const;
   [[nodiscard]] int parts_heard() const noexcept { return static_cast<int>(parts_.size()); }
 
-  // The newest report of closing the loop.
+  // The newest report of residual diagnosis.
   [[nodiscard]] const std::optional<hovermodal::closure_report_t>& closure() const noexcept { return closure_; }
 
-  // The newest picture.
+  // The newest preview image.
   [[nodiscard]] const std::optional<hovermodal::preview_t>& preview() const noexcept { return preview_; }
-  // The newest spectrum of each channel; empty where none was heard.
+  // The newest spectrum of each channel; empty if none was received.
   [[nodiscard]] const std::vector<std::optional<hovermodal::spectrum_t>>& spectra() const noexcept { return spectra_; }
 
   [[nodiscard]] std::size_t n_channels() const noexcept { return history_.size(); }
   [[nodiscard]] std::string channel_name(std::size_t i_channel) const;
   [[nodiscard]] const std::deque<float>& history_mm(std::size_t i_channel) const { return history_[i_channel]; }
-  // Stream time of the same samples, and the number of all that were ever taken into a history.
+  // Stream time of the same samples, and the number of samples ever added to a history.
   [[nodiscard]] const std::deque<std::int64_t>& history_ns() const noexcept { return history_ns_; }
   [[nodiscard]] std::uint64_t n_samples() const noexcept { return n_samples_; }
 
@@ -98,7 +98,7 @@ class StreamMonitor {
   std::optional<hovermodal::modal_estimate_t> estimate_;  // its own `modes` moved into parts_
   std::map<std::int16_t, std::vector<hovermodal::mode_t>> parts_;
   std::size_t n_modes_ = 0;
-  std::uint64_t n_modal_restarts_ = 0;      // when estimate_ was heard
+  std::uint64_t n_modal_restarts_ = 0;      // when estimate_ was received
   std::vector<std::deque<float>> history_;  // NaN where not seen
   std::deque<std::int64_t> history_ns_;
   std::uint64_t n_samples_ = 0;

@@ -10,7 +10,7 @@
 namespace app {
 
 namespace {
-// Least standard deviation of a readout time estimated from a record, whatever its fit states: rows have a height.
+// Least standard deviation of a readout time estimated from a record, whatever its fit states: rows have finite height.
 constexpr double kLeastSigma_frames = 0.002;
 }  // namespace
 

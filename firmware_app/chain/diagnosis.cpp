@@ -18,14 +18,14 @@ core::closure::ClosureReport Diagnosis::report(bool final) {
   return report;
 }
 
-// A correction that cannot be made is said and left: what came before it stays in force.
+// A correction that cannot be made is reported and skipped; the previous correction stays in force.
 void Diagnosis::amend(core::closure::ClosureReport& report) {
   if (const std::optional<CorrectionSet> correction_set = loop_.correction_set()) {
     const std::string refused = begin(*correction_set);
     if (!refused.empty()) report.changes.push_back("none of this is done: " + refused);
   }
   report.in_force = book_.newest().words;
-  // At the end of the run: what was to begin later never did.
+  // At the end of the run: corrections that were due to begin later never did.
   for (std::uint32_t i = book_.newest().number; report.final && i > 0 && begins_after(i, report.last_sequence); --i)
     report.in_force = book_.at(i - 1).words;
 }

@@ -11,23 +11,23 @@
 
 namespace app {
 
-// Points of a frame -> displacement of every channel, with the readout time that the points have told so far. What is
-// measured by changes at the frames that the diagnosis names. One thread; nothing allocates.
+// Points of a frame -> displacement of every channel, with the readout time estimated from the points so far. The
+// geometry changes at the frames that the diagnosis names. One thread; nothing allocates.
 class DisplacementMeter {
  public:
-  // As declared; both outlive this.
+  // Both as declared; both outlive this.
   DisplacementMeter(core::ChannelDisplacement& channels, core::ReadoutEstimator& readout) noexcept
       : channels_(&channels), readout_(&readout) {}
 
-  // An attitude that came since the last frame.
+  // Takes an attitude received since the last frame.
   void take(const core::AttitudeSample& sample) noexcept { channels_->take(sample); }
-  // In the order of the diagnosis' reports.
+  // Takes the changes in the order of the diagnosis' reports.
   void take(const CorrectionSwitch& change) noexcept {
     if (change.geometry != nullptr) pending_ = change;
   }
-  // Before each frame. True: a correction begins with it.
+  // Call before each frame. True: a correction begins with it.
   [[nodiscard]] bool begin_frame(std::uint64_t sequence) noexcept;
-  // Marks the inliers among the points. stride: every how many frames of the source one is kept.
+  // Marks the inliers among the points. stride: one of so many frames of the source is kept.
   void measure(core::TrackFrame& tracks, std::uint32_t stride, core::DisplacementSample& out) noexcept;
 
   [[nodiscard]] std::uint32_t correction_set() const noexcept { return correction_set_; }  // in force
@@ -36,7 +36,7 @@ class DisplacementMeter {
  private:
   core::ChannelDisplacement* channels_;
   core::ReadoutEstimator* readout_;
-  CorrectionSwitch pending_;  // geometry null: none
+  CorrectionSwitch pending_;  // geometry null: none pending
   std::uint32_t correction_set_ = 0, record_ = 0;
 };
 

@@ -11,13 +11,13 @@
 
 namespace app {
 
-// What passes from one object of the chain to the next, where it is more than one core type.
+// Data passed from one object of the chain to the next, where it is more than one core type.
 
-// diagnosis -> displacement, one per report: what is measured by from a frame on, and when the next report is due.
-// Frames later than next_report_at + n_delay_frames may be changed by it.
+// diagnosis -> displacement, one per report: the geometry to use from a frame on, and when the next report is due. That
+// report may change frames later than next_report_at + n_delay_frames.
 struct CorrectionSwitch {
   std::uint64_t next_report_at = 0, n_delay_frames = 0;
-  Geometry* geometry = nullptr;  // null: nothing changes; the diagnosis' own, it lives to the run's end
+  Geometry* geometry = nullptr;  // null: nothing changes; owned by the diagnosis, lives to the run's end
   std::uint64_t from_sequence = 0;
   std::uint32_t correction_set = 0, record = 0;  // numbers in the CorrectionLog
 };
@@ -28,17 +28,17 @@ struct SpectrumSnapshot {
   std::uint64_t number = 0;                 // 0, 1, 2, ... in stream time
   std::int64_t t_last_ns = 0;               // time stamp of the newest sample in the sums
   bool final = false;                       // the record has ended
-  std::uint32_t correction_set = 0, record = 0;  // of the newest sample in the sums; the record is that of all of them
+  std::uint32_t correction_set = 0, record = 0;  // of the newest sample; all samples in the sums share `record`
   core::ReadoutEstimate readout = {};
 };
 
-// modes -> whoever reports them.
+// modes -> reports and telemetry.
 struct IdentificationResult {
   core::ModalEstimate estimate;
   core::CpsdSums sums;
 };
 
-// State of an object of the chain, for a later run. Sized once.
+// State of an object of the chain, kept for a later run. Sized once.
 struct StateBytes {
   std::vector<std::uint8_t> bytes;
   std::size_t n_used = 0;

@@ -11,7 +11,7 @@
 
 namespace app {
 
-// How the chain's objects make what a correction changes. The arguments must outlive the functions.
+// Functions by which the chain's objects rebuild what a correction changes. The arguments must outlive the functions.
 [[nodiscard]] ModeIdentification::MakeIdentifier identifier_maker(const AppConfig& config,
                                                                   const core::CameraInfo& camera,
                                                                   const core::TrackFrame& keyframe,

@@ -102,7 +102,7 @@ std::optional<CorrectionSet> MissingEffectSearch::correction_set() const {
   return out;
 }
 
-// Whichever keyframe, undistorted by it or as it is, is the more alike to where the points are now.
+// Whether the keyframe undistorted by the lens, or the one as it is, is closer to the present positions of the points.
 bool MissingEffectSearch::lens_in_keyframe(const core::CameraModel& lens) const {
   const core::closure::ObservationRecord record = config_.recent.record();
   const std::size_t n = config_.keyframe_px.size();
@@ -114,10 +114,10 @@ bool MissingEffectSearch::lens_in_keyframe(const core::CameraModel& lens) const 
       const double u = record.u_px(k, static_cast<Eigen::Index>(j)), v = record.v_px(k, static_cast<Eigen::Index>(j));
       if (std::isfinite(u) && std::isfinite(v)) sum = {sum.u + u, sum.v + v}, count += 1.0;
     }
-    now[j] = lens.undistort({sum.u / count, sum.v / count});  // NaN of none
+    now[j] = lens.undistort({sum.u / count, sum.v / count});  // NaN for a point that was not seen
     bent[j] = lens.undistort(config_.keyframe_px[j]);
   }
-  // Region by region: regions move, and lie at several depths.
+  // Region by region, because regions move and lie at several depths.
   const auto rest = [&](const std::vector<core::Vector2>& keyframe) {
     double squares = 0.0;
     for (std::size_t r = 0; r < record.regions.size(); ++r) {
@@ -143,7 +143,7 @@ void MissingEffectSearch::conclude(core::closure::ClosureReport& out) const {
     out.result = core::closure::close_loop(level, options);
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const std::exception& e) {  // the record tells nothing: its words say why
+  } catch (const std::exception& e) {  // the record cannot be analysed: the report states why
     out.refused = e.what();
   }
   out.took_s = 1e-9 * static_cast<double>(rt::monotonic_ns() - begin_ns);

@@ -17,41 +17,41 @@ namespace app {
 struct MissingEffectSearchConfig {
   core::closure::RecentTracks recent;
   core::CameraModel camera;                // of the recent tracks
-  std::vector<int> column_of_point;        // in the recent tracks; -1: not looked at
-  std::vector<core::Vector2> keyframe_px;  // of each column, as the camera undistorts it; NaN: not seen
+  std::vector<int> column_of_point;        // in the recent tracks; -1: not analysed
+  std::vector<core::Vector2> keyframe_px;  // of each column, undistorted by `camera`; NaN: not seen
   double rate_hz = 0.0;
-  double period_s = 60.0;  // of stream time between two reports
-  double delay_s = 30.0;   // from the last frame of a report to the first that it changes
+  double period_s = 60.0;  // stream time between two reports
+  double delay_s = 30.0;   // from the last frame of a report to the first frame that it changes
   bool adopts = false;
-  double least_px = 0.0;  // rms: what moves the points less is not told
-  std::uint64_t n_frames = 0;  // of a recording: nothing begins after its last frame; 0 = not known
+  double least_px = 0.0;  // smallest effect reported: rms point displacement
+  std::uint64_t n_frames = 0;  // of a recording: no correction begins after its last frame; 0 = unknown
 };
-// With closure.adopt: off it keeps one frame.
+// With closure.adopt: off the window is one frame.
 [[nodiscard]] MissingEffectSearchConfig missing_effect_search_config(const AppConfig& config, const core::CameraInfo& camera,
                                                   const core::TrackFrame& keyframe);
 
-// Newest tracks -> what the model of the points' places fails to explain, to which effect it is traced, and what of it
-// is to be taken out from which frame on. All in frames of the stream, none in time that passes: the same tracks give
-// the same. One report per period, and one of what came since at the end of the run. One thread.
+// Newest tracks -> what the model of the points' positions fails to explain, to which effect it is attributed, and
+// which correction applies from which frame on. Counts in frames of the stream, never by a clock: the same tracks give
+// the same results. One report per period, and one at the end of the run on the frames since the last. One thread.
 class MissingEffectSearch {
  public:
   explicit MissingEffectSearch(MissingEffectSearchConfig config) : config_(std::move(config)) {}
 
   void take(const core::TrackFrame& frame) noexcept;  // allocates nothing
   [[nodiscard]] bool is_due() const noexcept { return reaches(1.0); }
-  // At the end of the run: something came since the last report that deserves one.
+  // At the end of the run: whether enough frames have come since the last report for another one.
   [[nodiscard]] bool is_left() const noexcept { return has_frames_ && (!is_reported_ || reaches(kLeastOfLast)); }
   // Takes seconds. Throws std::bad_alloc.
   [[nodiscard]] core::closure::ClosureReport report(bool final);
-  // What the last report changed; empty: nothing. Its number is not given yet.
+  // Corrections decided by the last report; empty: no change. Their number is not assigned yet.
   [[nodiscard]] std::optional<CorrectionSet> correction_set() const;
 
-  // The next report is due once a frame of this number, or a later one, has come; and the first it may change.
+  // The next report is due once a frame with this number or a later one has come; and the first frame it may change.
   [[nodiscard]] std::uint64_t next_report_at() const noexcept;
   [[nodiscard]] std::uint64_t n_delay_frames() const noexcept;
 
  private:
-  static constexpr double kLeastOfLast = 0.5;  // periods: a shorter rest of the run has no report of its own
+  static constexpr double kLeastOfLast = 0.5;  // periods: a shorter remainder of the run has no report of its own
   [[nodiscard]] bool reaches(double periods) const noexcept;
   void conclude(core::closure::ClosureReport& out) const;
   [[nodiscard]] bool lens_in_keyframe(const core::CameraModel& lens) const;

@@ -23,7 +23,7 @@ void ModeIdentification::identify(const SpectrumSnapshot& snapshot, Identificati
   tracker_.update(out.estimate);
 }
 
-// Other rate, other folds: what was an apparent frequency is another one now. A new record shares nothing with the old.
+// At another rate a mode has another apparent frequency. A new epoch shares no data with the old one.
 void ModeIdentification::follow(const SpectrumSnapshot& snapshot) {
   const bool begins = snapshot.sums.rate_hz != rate_hz_ || snapshot.record != record_;
   if (!begins && snapshot.correction_set == correction_set_) return;

@@ -13,11 +13,11 @@
 
 namespace app {
 
-// Snapshots of the sums, in order -> modes, each followed from one estimate to the next. Takes its time, and allocates.
-// One thread.
+// Snapshots of the sums, in order -> modes, each followed from one estimate to the next. Run time is not bounded; it
+// allocates. One thread.
 class ModeIdentification {
  public:
-  // For samples of another rate than the camera's, or under a correction; may throw.
+  // Makes an identifier for another sample rate than the camera's, or for a correction; may throw.
   using MakeIdentifier = std::function<std::unique_ptr<const ReadoutAwareIdentifier>(double rate_hz, const CorrectionSet& correction_set)>;
 
   ModeIdentification(double rate_hz, MakeIdentifier make_identifier, const CorrectionLog& book);
@@ -25,12 +25,12 @@ class ModeIdentification {
   // Throws std::bad_alloc: this estimate is lost, the next may succeed.
   void identify(const SpectrumSnapshot& snapshot, IdentificationResult& out);
 
-  // The modes followed, for a later run's resume(). False: they do not fit.
+  // Saves the modes being followed, for a later run's resume(). False: they do not fit.
   [[nodiscard]] bool save(StateBytes& out) const noexcept;
   [[nodiscard]] std::size_t state_bytes() const noexcept { return tracker_.state_bytes(); }
-  // Before the first snapshot. False: the bytes do not fit, and no mode is followed.
+  // Call before the first snapshot. False: the bytes do not fit, and no mode is followed.
   [[nodiscard]] bool resume(std::span<const std::uint8_t> bytes) noexcept;
-  // The same with the modes, and the count of estimates, of another object, which loses them.
+  // Takes over the modes and the count of estimates from another object, which loses them.
   void go_on_from(ModeIdentification& earlier) noexcept;
 
   [[nodiscard]] const ReadoutAwareIdentifier& identifier() const noexcept { return *identifier_; }  // of the newest snapshot

@@ -12,14 +12,14 @@
 
 namespace app {
 
-// Declarations of a run for residual diagnosis on tracks: all but its points and frames.
+// Declarations of a run for residual diagnosis on tracks: everything except points and frames.
 struct DeclaredObservation {
   core::closure::ObservationRecord record;
   core::CameraModel camera;
   std::vector<std::string> warnings;  // assumptions made
 };
 
-// Points of a run that are analysed: a number per region, evenly over its points.
+// Points of a run that are analysed: an equal number per region, spread evenly over its points.
 struct ObservedPoints {
   std::vector<int> column_of_point;  // -1: not analysed
   std::vector<std::size_t> region_of_column;
@@ -27,7 +27,7 @@ struct ObservedPoints {
 [[nodiscard]] ObservedPoints observed_points(const core::TrackFrame& keyframe, std::size_t n_regions,
                                              int points_per_region);
 
-// The configuration takes precedence over the camera. Throws drivers::FileError of a calibration file.
+// The configuration takes precedence over the camera. Throws drivers::FileError if a calibration file is refused.
 [[nodiscard]] DeclaredObservation declared_observation(const AppConfig& config, const core::CameraInfo& camera);
 
 }  // namespace app

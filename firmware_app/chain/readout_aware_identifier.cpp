@@ -14,8 +14,8 @@ namespace app {
 namespace {
 
 constexpr double kChosenSigma_s = 1e-3, kUndeclaredSigma_frames = 0.5;
-constexpr double kNoticeable_frames = 0.005;  // of the readout: less changes no shape beyond its scatter
-// What a pole must be to be read off.
+constexpr double kNoticeable_frames = 0.005;  // of the readout; less changes shapes by less than their scatter
+// Poles that may be used to estimate the readout time.
 constexpr double kLeastPresence = 0.85, kMostDamping = 0.05, kLeastMpc = 0.9;
 constexpr int kLeastPoles = 3;
 
@@ -27,7 +27,7 @@ core::ReadoutValue declared_readout(const AppConfig& config, const core::CameraI
   return declared;
 }
 
-// The row delays of a readout of one second.
+// Row delays for a readout time of one second.
 std::vector<double> row_shares(const AppConfig& config, const core::CameraInfo& camera,
                                const core::TrackFrame& keyframe) {
   core::ChannelDisplacementConfig unit = displacement_config(config, camera);

@@ -15,20 +15,21 @@ namespace app {
 
 [[nodiscard]] core::ReadoutEstimator::Config readout_config(const AppConfig& config, const core::CameraInfo& camera);
 
-// What an identification with the readout time is made of, beside the channels: plain values, to be kept with sums.
+// Inputs of an identification with the readout time, besides the channels: plain values, kept together with the sums.
 struct ReadoutBasis {
   core::IdentifierConfig identifier;
   std::vector<double>
-      row_share;  // part of the readout that has passed when each channel is seen; empty: see ReadoutAwareIdentifier
+      row_share;  // share of the readout that has passed when each channel is seen; empty: see ReadoutAwareIdentifier
   double rate_hz = 0.0;
   core::ReadoutValue declared;
 };
 
-// The identification with the readout time that is known best: the declared one, with camera.readout_sigma_ms (where
-// that is chosen: 1 ms, or half a frame where nothing is declared), that of the tracks, and that of the modes' own
-// shapes. Where the shapes change it noticeably, the modes are identified once more with it. In paper mode nothing is
-// undone or found. Channels that come without an image (basis.row_share empty) have their row delays undone as they
-// state them, and nothing is found. A pure function of its arguments, so that a replay gives the same bits. Any thread.
+// Identification with the best known readout time. It combines the declared one with camera.readout_sigma_ms (default:
+// 1 ms, or half a frame where nothing is declared), the one estimated from the tracks, and the one estimated from the
+// mode shapes. Where the last changes it noticeably, the modes are identified once more with the new value. In paper
+// mode row delays are neither corrected nor estimated. For channels without an image (basis.row_share empty), the row
+// delays that they state are corrected, none estimated. A pure function of its arguments: a replay gives the same bits.
+// Any thread.
 class ReadoutAwareIdentifier {
  public:
   // Throws as identifier_config() does.
@@ -41,7 +42,7 @@ class ReadoutAwareIdentifier {
   [[nodiscard]] core::ModalEstimate identify(const core::CpsdSums& sums,
                                              const core::ReadoutEstimate& from_tracks) const;
 
-  // Row delay of every channel as it was undone in the estimate's shapes, or would be as declared; 0 in paper mode.
+  // Row delay of every channel as corrected in the estimate's shapes, or as it would be if declared; 0 in paper mode.
   [[nodiscard]] std::vector<double> delay_s(const core::ModalEstimate& estimate) const;
   [[nodiscard]] int n_outputs() const noexcept { return static_cast<int>(n_outputs_); }
   [[nodiscard]] std::vector<double> declared_delay_s() const { return delay_s({}); }
@@ -55,7 +56,7 @@ class ReadoutAwareIdentifier {
 
   ReadoutBasis basis_;
   std::vector<core::ChannelInfo> channels_;
-  std::size_t n_outputs_;  // channels that are no witnesses
+  std::size_t n_outputs_;  // channels without the witnesses
 };
 
 }  // namespace app

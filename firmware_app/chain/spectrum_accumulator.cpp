@@ -42,13 +42,13 @@ void SpectrumAccumulator::place(const core::DisplacementSample& sample) noexcept
   is_placed_ = true;
   is_refused_ = !placement.accepted;
   n_missing_ += placement.n_missing_before;
-  // After a gap of more than two segments nothing of the old samples is left in the segment being gathered: more
-  // masked cells would only add empty segments. A record's stamps may lie years apart.
+  // After a gap of more than two segments, the segment being gathered contains no old samples: further masked cells
+  // would only add empty segments. The stamps of a record may lie years apart.
   n_to_mask_ = std::min<std::uint64_t>(placement.n_missing_before, 4 * segment());
   if (placement.accepted) n_to_mask_ += std::exchange(n_masked_on_resume_, 0);
 }
 
-// False: the old sums are due first.
+// False: a snapshot of the old sums is due first.
 bool SpectrumAccumulator::begin_other_sums(const core::DisplacementSample& sample) noexcept {
   if (welch_.sums().n_segments > 0 && !old_sums_ended_) {
     old_sums_ended_ = is_due_ = true;
@@ -74,20 +74,20 @@ void SpectrumAccumulator::take_snapshot(SpectrumSnapshot& out) noexcept {
   out.final = is_finished_;
   out.correction_set = correction_set_, out.record = record_;
   out.readout = readout_;
-  out.readout.frames /= stride_;  // frames are longer now
+  out.readout.frames /= stride_;  // the kept frames are longer
   out.readout.std_frames /= stride_;
   is_due_ = false;
 }
 
 void SpectrumAccumulator::keep_state(double period_s) noexcept {
-  constexpr double kShareUntilWritten = 0.5;  // the rest is the disk's
+  constexpr double kShareUntilWritten = 0.5;  // the remaining time is left for writing to disk
   state_period_cells_ =
       static_cast<std::uint64_t>(std::max(1.0, std::floor(kShareUntilWritten * period_s * camera_rate_hz_)));
   next_state_cell_ = welch_.sums().n_samples + state_period_cells_;
 }
 
 bool SpectrumAccumulator::state_is_due() const noexcept {
-  // A sample that has its cell but is not in the sums yet would be lost to the next run.
+  // A sample that has its cell but is not yet in the sums would be lost to the next run.
   const bool is_between_samples = n_to_mask_ == 0 && !is_placed_;
   const bool is_plain = stride_ == 1 && correction_set_ == 0;
   return state_period_cells_ > 0 && is_plain && is_between_samples && welch_.sums().n_samples >= next_state_cell_;

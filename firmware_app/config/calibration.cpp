@@ -20,7 +20,7 @@ namespace {
       name, file.width_px, file.height_px, camera.width_px, camera.height_px);
   const double wide = static_cast<double>(file.width_px) * camera.height_px;
   const double high = static_cast<double>(file.height_px) * camera.width_px;
-  // Rounding to whole pixels may cost half a pixel of either side.
+  // Rounding to whole pixels may change either side by half a pixel.
   if (std::abs(wide - high) <= 0.5 * (file.width_px + file.height_px)) {
     const core::CameraModel scaled = drivers::scaled_camera(file, camera.width_px);
     text += fmt::format(
@@ -33,7 +33,7 @@ namespace {
   throw ConfigError(text);
 }
 
-// A region that the lens cannot show has no undistorted points.
+// Points of a region outside the lens's field have no undistorted positions.
 void require_regions_undistort(const AppConfig& config, const core::CameraModel& camera, const std::string& source) {
   for (std::size_t i = 0; i < config.regions.size(); ++i) {
     const core::Region& r = config.regions[i];

@@ -34,7 +34,7 @@ std::string shown(const YamlNode& node) {
   return node.quoted || node.text.empty() ? fmt::format("\"{}\"", printable(node.text)) : printable(node.text);
 }
 
-// A place in the document: as written ("regions.0.name") and as the table has it ("regions[].name").
+// Path of a key: as written ("regions.0.name") and as in the table ("regions[].name").
 struct Place {
   std::string written;
   std::string table;
@@ -80,7 +80,7 @@ class Loader {
       refuse(node, place, "a section with `key: value` lines", "see --help-config for an example");
     for (std::size_t i = 0; i < node.keys.size(); ++i) {
       const Place child = place.child(node.keys[i]);
-      // Dots and brackets belong to our own notation of paths, not to keys of a file.
+      // Dots and brackets belong to the notation of paths, not to keys of a file.
       if (node.keys[i].find_first_of(".[") != std::string::npos) refuse_unknown(node.key_lines[i], child);
       if (find_key(child.table) == nullptr && !is_section(child.table) && child.table != "regions") {
         refuse_unknown(node.key_lines[i], child);
@@ -121,7 +121,7 @@ class Loader {
                                   override_.empty() ? file_name_ : override_, n, kMaxRegions));
   }
 
-  // "section.key=value" of the command line.
+  // Applies "section.key=value" of the command line.
   void take_override(const std::string& text) {
     const std::size_t equals = text.find('=');
     override_ = "--set " + printable(text, 200);
@@ -154,7 +154,7 @@ class Loader {
     return {fmt::format("regions.{}{}", *index, rest), "regions[]" + rest, static_cast<std::size_t>(*index)};
   }
 
-  // A text is taken as it stands (paths may hold any character); lists and sections are YAML.
+  // A text is taken literally (paths may contain any character); lists and sections are parsed as YAML.
   [[nodiscard]] YamlNode override_value(const std::string& value, const ConfigKey* key) const {
     const bool is_text = key != nullptr && key->type == "text";
     if (!is_text && (value.starts_with('[') || value.starts_with('{'))) return drivers::parse_yaml(value, override_);
@@ -166,7 +166,7 @@ class Loader {
   }
 
   std::string file_name_;
-  std::string override_;  // the override being taken, for messages; empty while the file is
+  std::string override_;  // the override being applied, for messages; empty while the file is read
   AppConfig config_;
   KeyOrigins origins_;
 };

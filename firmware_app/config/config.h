@@ -35,7 +35,7 @@ struct CameraConfig {
   std::string attitude_file;              // CSV on the frames' clock; empty = none
   std::string attitude_channel;           // LCM channel of attitude_t; empty = none
   double attitude_sigma_deg = 0.1;        // white noise of a sample, per axis
-  std::array<double, 3> mount_rpy_deg{};  // of the camera against the body of the attitude
+  std::array<double, 3> mount_rpy_deg{};  // of the camera relative to the body whose attitude is given
   double synthetic_duration_s = 30.0;     // synthetic driver only
   std::uint64_t synthetic_seed = 1;
 };
@@ -51,7 +51,7 @@ struct ScaleConfig {
   double known_length_mm = 0.0;  // 0 = unknown: displacements are in px (scale 1, unit px)
   std::array<double, 2> from_px{}, to_px{};
   std::vector<std::array<double, 5>> lengths;  // more known lengths: u1 v1 u2 v2 (px), mm; one scale by least squares
-  std::vector<std::array<double, 4>> points;   // points of the structure's plane: u v (px), x y (mm); its pose
+  std::vector<std::array<double, 4>> points;   // points of the structure's plane, for its pose: u v (px), x y (mm)
   double point_sigma_px = 0.5;                 // standard deviation of these pixels, per axis
   double max_obliqueness_deg = 10.0;           // largest angle to the image plane not excluded
   bool adaptive = true;                        // false: the camera is fixed (a tripod)
@@ -95,7 +95,7 @@ enum class ClosureAdopt : std::uint8_t { kOff, kReport, kAuto };
 
 struct ClosureConfig {
   ClosureAdopt adopt = ClosureAdopt::kReport;
-  double window_s = 120.0;  // window of newest tracks that are analysed
+  double window_s = 120.0;  // stretch of newest tracks that is analysed
   int points_per_region = 12;
   double period_s = 60.0;   // stream time between two reports
   double least_px = 0.005;  // smallest effect reported: rms point displacement
@@ -122,7 +122,7 @@ struct ReportConfig {
 struct RecordConfig {
   std::string directory;  // LCM event logs of the run, to be replayed; empty = none
   int file_mb = 512;      // size at which the next file begins
-  int quota_mb = 8192;    // of all records there; the oldest runs are deleted
+  int quota_mb = 8192;    // of all records in the directory; the oldest runs are deleted
 };
 
 struct StateConfig {
@@ -133,10 +133,10 @@ struct StateConfig {
 struct RtConfig {
   bool required = false;  // refuse to run without the priorities below
   int priority = 0;       // SCHED_FIFO priority of capture, tracking, spectrum; 0 = ordinary
-  int capture_cpu = -1, tracking_cpu = -1, spectrum_cpu = -1;  // pinned there; -1 = any
+  int capture_cpu = -1, tracking_cpu = -1, spectrum_cpu = -1;  // processor to pin the thread to; -1 = any
   bool lock_memory = false;
   double stall_s = 10.0;      // a longer step is reported and the watchdog not fed
-  bool thin_overload = true;  // under overload keep every n-th frame, not those that find room
+  bool thin_overload = true;  // under overload keep every n-th frame, rather than those that happen to find room
   int frame_slots = 8;
   int sample_slots = 256;
 };

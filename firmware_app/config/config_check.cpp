@@ -168,7 +168,7 @@ class Checker {
            "give the length two different ends");
   }
 
-  // A depth in metres says something only beside the structure's, which is focal length times scale.
+  // A depth in metres is usable only together with the structure's depth: focal length times scale.
   void check_depths() const {
     for (std::size_t i = 0; i < config_.regions.size(); ++i) {
       const std::string key = fmt::format("regions.{}.depth_m", i);

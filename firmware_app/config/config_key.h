@@ -22,10 +22,10 @@ struct ConfigKey {
   std::string allowed;       // "1 .. 100", "paper | hovermodal"
   std::string default_text;  // empty = the value of a default AppConfig
   std::string meaning;       // one line
-  // Stores the value in the configuration; `i_region` is used by regions[] keys only. A returned text is a refusal: the
-  // remedy.
+  // Stores the value in the configuration; `i_region` is used by regions[] keys only. A returned text means refusal and
+  // states the remedy.
   std::function<std::optional<std::string>(AppConfig&, std::size_t i_region, const drivers::YamlNode&)> set;
-  std::function<std::string(AppConfig&, std::size_t i_region)> canonical;  // the value as it would be written
+  std::function<std::string(AppConfig&, std::size_t i_region)> canonical;  // the value as written in canonical text
 };
 
 // Member of the configuration that holds a key's value.
@@ -79,20 +79,20 @@ struct NumberList {
 };
 [[nodiscard]] ConfigKey numbers_key(std::string path, std::string unit, NumberList list, std::string allowed,
                                     std::string meaning);
-// A list of rows of numbers, one range per column; [] where `n_min` rows need not be.
+// A list of rows of numbers, one range per column; `n_min` 0: [] is allowed.
 struct NumberRows {
   std::vector<NumberRange> ranges;
-  std::size_t n_min, n_max;  // rows, where there are any
+  std::size_t n_min, n_max;  // limits of the number of rows, unless empty
   std::function<void(AppConfig&, const std::vector<std::vector<double>>&)> put;
   std::function<std::vector<std::vector<double>>(AppConfig&)> get;
 };
 [[nodiscard]] ConfigKey rows_key(std::string path, std::string unit, NumberRows rows, std::string allowed,
                                  std::string meaning);
-// A fixed number of values in one range, straight into an array.
+// A fixed number of values in one range, stored in an array.
 [[nodiscard]] ConfigKey pair_key(std::string path, std::string unit, Field<std::array<double, 2>> field,
                                  NumberRange range, std::string meaning);
 
-// Helpers of keys with rules of their own.
+// Helpers of keys with their own rules.
 [[nodiscard]] std::optional<std::string> refuse_unless_scalar(const drivers::YamlNode& node);
 [[nodiscard]] std::optional<std::string> refuse_text(const std::string& text, const TextRule& rule);
 

@@ -18,7 +18,7 @@ ConfigKey with_default(ConfigKey key, std::string text) {
   return key;
 }
 
-// Rows of a fixed number of columns, as the configuration keeps them.
+// Rows with a fixed number of columns, as stored in the configuration.
 template <std::size_t N>
 ConfigKey table_key(std::string path, std::string unit, std::vector<std::array<double, N>> ScaleConfig::*member,
                     std::array<NumberRange, N> ranges, std::size_t n_min, std::string allowed, std::string meaning) {

@@ -8,9 +8,9 @@ namespace app {
 namespace {
 
 constexpr double kRounding = 1e-3;     // of times in ms, and of rates with few digits
-constexpr double kFastest_ms = 0.2;    // readout of a fast rolling shutter
-constexpr double kShortest_ms = 5e-3;  // exposure
-constexpr double kFinest = 0.01, kCoarsest = 300.0;  // mm per px of anything filmed from the air or a tripod
+constexpr double kFastest_ms = 0.2;    // shortest plausible readout of a rolling shutter
+constexpr double kShortest_ms = 5e-3;  // shortest plausible exposure
+constexpr double kFinest = 0.01, kCoarsest = 300.0;  // plausible mm per px of anything filmed from the air or a tripod
 
 void doubt_readout(const CameraConfig& camera, double frame_ms, std::vector<std::string>& out) {
   const double readout_ms = std::abs(camera.readout_ms);

@@ -12,15 +12,15 @@
 namespace app {
 namespace {
 
-// A JSON string is a YAML string in double quotes.
+// A JSON string is also a YAML string in double quotes.
 std::string value_text(const ConfigKey& key, AppConfig& config, std::size_t i_region) {
   std::string text = key.canonical(config, i_region);
   return key.type == "text" ? nlohmann::json(text == "\"\"" ? "" : text).dump() : text;
 }
 
-// Sections within sections, in the order of their first keys.
+// Nested sections, in the order of their first keys.
 struct Section {
-  std::string name, value;  // a key has a value
+  std::string name, value;  // value: of a key only
   std::vector<Section> members = {};
 
   void put(std::string_view path, std::string text) {

@@ -6,7 +6,7 @@
 
 namespace app {
 
-// The configuration as a file that parse_config reads back to the same values; keys at their defaults are left out.
+// The configuration as a file from which parse_config reads the same values; keys with default values are left out.
 [[nodiscard]] std::string config_yaml(const AppConfig& config);
 
 }  // namespace app

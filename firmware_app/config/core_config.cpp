@@ -16,7 +16,7 @@ namespace app {
 
 namespace {
 
-// An inline camera matrix alone says where the axis is; a file is taken to know the lens.
+// An inline camera matrix alone states only the optical axis; a calibration file is assumed to describe the lens.
 bool undistorts(const CalibrationConfig& calibration) {
   const auto& k = calibration.distortion;
   return !calibration.file.empty() ||
@@ -36,7 +36,7 @@ std::optional<core::AttitudeConfig> attitude_config(const AppConfig& config, con
   return out;
 }
 
-// What is removed of the camera's motion, and what cannot be.
+// Describes which part of the camera's motion is removed, and which part cannot be.
 std::string camera_correction(const AppConfig& config, const core::CameraModel& camera) {
   if (config.method == Method::kPaper) return "scale per frame, two points (Eq. 6)";
   const std::string scale = "scale per frame, least squares over all points";

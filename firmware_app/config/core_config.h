@@ -12,7 +12,7 @@
 namespace app {
 
 // Configuration of each core object, from the one AppConfig. Used by the service and the offline tools, so that a
-// replay of tracks is the same chain.
+// replay of tracks uses the same chain.
 [[nodiscard]] core::StructureTrackerConfig tracker_config(const AppConfig& config);
 // Reads calibration.file when given; throws ConfigError / FileError, also when it does not fit the image.
 [[nodiscard]] core::ChannelDisplacementConfig displacement_config(const AppConfig& config,

@@ -39,7 +39,7 @@ class ScaleReader {
   [[nodiscard]] KnownLength of_region(const core::Region& r) const {
     return {seen(r.length_from_px), seen(r.length_to_px), r.length_mm};
   }
-  // A place of the picture that the lens shows.
+  // An image position that lies within the lens's field.
   [[nodiscard]] Vector2 seen(const Vector2& raw_px) const {
     const Vector2 ideal = camera_.undistort(raw_px);
     if (std::isfinite(ideal.u) && std::isfinite(ideal.v)) return ideal;
@@ -76,7 +76,7 @@ class ScaleReader {
     if (lengths.size() < 2) return;
     out_.notes.push_back(
         fmt::format("scale {:.5g} +- {:.2g} mm/px from {} lengths", fit.mm_per_px, fit.sigma, lengths.size()));
-    // Three standard deviations per degree of freedom: beyond, reading errors do not explain it.
+    // Three standard deviations per degree of freedom: a larger misfit cannot be explained by reading errors.
     if (fit.chi_square > 9.0 * static_cast<double>(lengths.size() - 1)) {
       out_.notes.push_back(
           fmt::format("the lengths disagree: number {} gives a scale {:+.1f} % different from the others; is it in "
@@ -194,7 +194,7 @@ class ScaleReader {
   const AppConfig& config_;
   const ScaleConfig& scale_;
   const core::CameraModel& camera_;
-  std::vector<KnownLength> common_, all_;  // without and with those of regions
+  std::vector<KnownLength> common_, all_;  // without and with the lengths at regions
   StructureScale out_;
 };
 

@@ -21,7 +21,7 @@ struct StructureScale {
   std::vector<std::string> notes;        // for the report: obliqueness found or not excluded, lengths that disagree
 };
 
-// Throws ConfigError when scale.points determine no plane, or contradict each other, or a region misses the plane.
+// Throws ConfigError when scale.points determine no plane, contradict each other, or a region lies outside the plane.
 [[nodiscard]] StructureScale structure_scale(const AppConfig& config, const core::CameraModel& camera);
 
 }  // namespace app

@@ -15,25 +15,25 @@
 
 namespace app {
 
-// The service's chain from a later stage on, in one thread, for the desktop tools.
+// The service's chain in one thread, starting from a later stage, for the desktop tools.
 
 // Samples of all channels on a uniform grid. NaN = missing.
 struct ChannelSeries {
   double rate_hz = 0.0;
   std::vector<core::ChannelInfo> channels;
   std::vector<std::vector<double>> value;  // per channel, equally long
-  std::string unit = "units";              // of the values, for people
+  std::string unit = "units";              // of the values, as shown to readers
 };
 
 struct SeriesOptions {
-  SpectrumConfig spectrum{.segment = 0};  // segment 0 = chosen from the record's length; of the decimated rate
+  SpectrumConfig spectrum{.segment = 0};  // segment 0 = chosen from the record's length, at the decimated rate
   core::IdentifierConfig identifier;      // references are indices into ChannelSeries::channels
   // Slower rate: the record is decimated as far as identifier.max_frequency_hz stays in the filter's passband.
   bool decimate = true;
   bool mask_faults = true;                          // series_faults.h; false: every number counts
   std::string report_directory;                     // must exist; empty = no report
   std::string source;                               // input named in the report
-  std::function<void(double share)> progress = {};  // called now and then with the share done, 0..1
+  std::function<void(double share)> progress = {};  // called at intervals with the share done, 0..1
 };
 
 struct SeriesResult {
@@ -42,7 +42,7 @@ struct SeriesResult {
   std::vector<core::ResponsePeak> response;  // to the first base channel; empty without one
   int decimation = 1;
   int segment = 0;                   // samples of the decimated record
-  std::vector<std::string> remarks;  // choices, exclusions and doubts, for a reader
+  std::vector<std::string> remarks;  // choices, exclusions and doubts, for the reader
 };
 
 // Spectra and modes of a record, computed as by the service at the end of a run; writes pictures and report.html into
@@ -50,7 +50,7 @@ struct SeriesResult {
 // Throws std::invalid_argument when no channel is left, or the record is shorter than one segment.
 [[nodiscard]] SeriesResult identify_series(const ChannelSeries& series, const SeriesOptions& options);
 
-// Recorded tracks -> geometry -> spectra -> modes; leaves the service's report in `report_directory` when not empty.
+// Recorded tracks -> geometry -> spectra -> modes; writes the service's report to `report_directory` if not empty.
 struct TracksResult {
   core::ModalEstimate estimate;
   core::Health losses;

@@ -33,7 +33,7 @@ std::string numbers_of(const ClosureStep& step) {
   return step.parameters.empty() ? step.effect : step.effect + ": " + parameters_text(step);
 }
 
-// What the common loop found, without a repair yet.
+// Converts a result of the common loop; its correction is added later.
 LoopLevel level_of(const std::string& name, ClosureResult result) {
   LoopLevel out;
   out.level = name, out.unit = result.unit;
@@ -54,7 +54,7 @@ LoopLevel skipped(const std::string& name, const std::string& why) {
   return out;
 }
 
-// The record of a run on its way through the levels.
+// The record of a run as it passes through the levels.
 class LevelLoop {
  public:
   explicit LevelLoop(const LevelLoopInputs& inputs) : inputs_(inputs) {
@@ -86,13 +86,13 @@ class LevelLoop {
   }
 
  private:
-  // The record before any repair: frames by their numbers.
+  // The record before any correction, frames placed by their numbers.
   static ChannelSeries by_numbers(MeasuredRows rows) {
     rows.times.jitter_rms_s = 0.0;
     return on_grid(rows);
   }
 
-  // Frames whose times were measured are put there; frames that these times show to be missing are gaps.
+  // Where times were measured, frames are placed by them; frames missing by these times become gaps.
   LoopLevel clock() {
     LoopLevel out;
     out.level = "clock and frames", out.unit = "ms off the grid";
@@ -166,7 +166,7 @@ class LevelLoop {
     }
   }
 
-  // The declared structure against the modes as they are now.
+  // Compares the declared structure with the present modes.
   LoopLevel structure(const LoopModes& modes, const LoopResult& so_far) {
     const std::string name = "structure";
     if (!inputs_.structure) return skipped(name, "no structure is declared (--structure)");

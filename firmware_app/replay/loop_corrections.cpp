@@ -12,7 +12,7 @@ using core::closure::Adoption;
 using core::closure::ClosureReport;
 using core::closure::ClosureResult;
 
-// A flight adopts what two reports agree on; a whole record agrees with itself.
+// In flight, an effect is adopted after two agreeing reports; a whole record needs no second report.
 Adoption adoption_of(const ClosureResult& result) {
   ClosureReport report;
   report.result = result;

@@ -6,14 +6,15 @@
 
 namespace app {
 
-// An effect of the observation level that is taken out of the points of a whole record: a constant of camera or tracker,
-// with a name and without a rival. The rules are those of core::closure::Adoption; the record is its own confirmation.
+// An effect of the observation level that is removed from the points of a whole record: a constant of camera or
+// tracker, in the catalogue and without a rival. Rules as in core::closure::Adoption, except that no second report is
+// needed.
 [[nodiscard]] bool is_corrected(const core::closure::ClosureStep& step);
 
-// What a result takes out of every frame of its record, the keyframe included. No words: nothing.
+// Corrections that a result makes in every frame of its record, the keyframe included. No words: no correction.
 [[nodiscard]] CorrectionSet corrections_of(const core::closure::ClosureResult& result, const core::CameraModel& camera);
 
-// At most so many points per region, evenly over them, as the service analyses.
+// Keeps at most so many points per region, spread evenly over them, as the service does.
 [[nodiscard]] TracksRecord thinned(TracksRecord record, int points_per_region);
 
 }  // namespace app

@@ -11,7 +11,7 @@ namespace {
 using core::closure::LoopMode;
 using core::closure::LoopResult;
 
-constexpr double kNearReference = 0.1, kNearMode = 0.06, kNearHalf = 0.04;  // of a frequency: may be the same mode
+constexpr double kNearReference = 0.1, kNearMode = 0.06, kNearHalf = 0.04;  // relative: may be the same mode
 
 // The nearest of a list within `share` of the frequency; empty: none.
 template <class List, class Frequency>
@@ -51,7 +51,7 @@ std::vector<core::Mode> LoopModes::modes_of(const ChannelSeries& series) const {
   try {
     return identify_series(series, options).estimate.modes;
   } catch (const std::invalid_argument&) {
-    return {};  // too short to identify: nothing is said of modes
+    return {};  // too short to identify: no modes are stated
   }
 }
 

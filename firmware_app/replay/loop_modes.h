@@ -8,15 +8,15 @@
 
 namespace app {
 
-// The modes of a record before any repair and after the last: identified from the whole and from its halves, each
-// beside the reference mode that lies within a tenth of its frequency.
+// The modes of a record before any correction and after the last, identified from the whole and from its halves, each
+// paired with the reference mode that lies within a tenth of its frequency.
 class LoopModes {
  public:
   LoopModes(std::vector<double> reference_hz, double max_frequency_hz);
 
-  // Fills modes, errors and has_reference. Records too short for a half have no `halves_percent`.
+  // Fills modes, errors and has_reference. Records whose halves are too short have no `halves_percent`.
   void compare(const ChannelSeries& before, const ChannelSeries& after, core::closure::LoopResult& out) const;
-  // The modes after the last repair, numbered from the lowest, for a structural model.
+  // The modes after the last correction, numbered from the lowest, for a structural model.
   [[nodiscard]] static std::vector<core::structure::ReferenceMode> for_structure(
       const core::closure::LoopResult& result, const core::structure::DeclaredFrame& declared);
 

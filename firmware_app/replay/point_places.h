@@ -10,7 +10,7 @@
 
 namespace app {
 
-// The points of a file by their place in its first frame, in the order of the configuration's regions.
+// The points of a file by their position in its first frame, in the order of the configuration's regions.
 class PointPlaces {
  public:
   PointPlaces(const drivers::TracksFile& file, const AppConfig& config) {
@@ -28,7 +28,7 @@ class PointPlaces {
 
   [[nodiscard]] const core::TrackFrame& first() const noexcept { return first_; }
 
-  // All places of one frame; those without a line are not seen.
+  // All positions of one frame; a point without a line is marked as not seen.
   void spread(const core::TrackFrame& frame, core::TrackFrame& out) const {
     out = first_;
     out.sequence = frame.sequence;

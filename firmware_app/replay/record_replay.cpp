@@ -39,7 +39,7 @@ class Record {
             }};
   }
 
-  // is_first: of the records that are replayed together.
+  // is_first: first of the records that are replayed together.
   void remark(std::vector<std::string>& remarks, bool is_first) const {
     const auto say = [&](const std::string& what) { remarks.push_back(path_ + ": " + what); };
     if (reader_.starts_late()) say("its first files are missing: the estimate is based on the remaining files");
@@ -60,7 +60,7 @@ class Record {
   }
 
  private:
-  // A later file of the record alone lacks what came after that state.
+  // A later file of the record alone lacks the samples after that state.
   [[nodiscard]] const RunState* resumed() const noexcept {
     return reader_.starts_late() ? nullptr : recorded_.resumed(config_);
   }
@@ -68,7 +68,7 @@ class Record {
   std::string path_;
   drivers::RunRecordReader reader_;
   RecordedConfig recorded_;
-  AppConfig config_;  // of the replay
+  AppConfig config_;  // used for the replay
 };
 
 }  // namespace

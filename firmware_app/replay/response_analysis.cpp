@@ -74,7 +74,7 @@ ResponseAnalysis analyse_response(const ChannelSeries& series, const ResponseOpt
   out.repairs = model.repairs(out.adopted);
   const bool coloured = std::find(out.adopted.begin(), out.adopted.end(), "input_colour") != out.adopted.end();
   out.before = record_series(record, series, options.input_unknown);
-  // Where the input is an effect that was adopted, the record without it is the model before, with it the one after.
+  // Where the input is an adopted effect: the record without it is the model before, the record with it the one after.
   ChannelRecord after = model.corrected(out.adopted);
   if (after.input.cols() == 0 && record.input.cols() > 0 && after.n_samples() == record.n_samples())
     after.input = record.input;

@@ -28,7 +28,7 @@ FrameTimes timed(std::vector<std::uint64_t> number, std::vector<double> t_s, dou
   if (out.number.size() < 2 || !(rate_hz > 0.0)) return out;
   const auto n_numbers = static_cast<std::size_t>(out.number.back() - out.number.front()) + 1;
   out.n_missing = n_numbers > out.number.size() ? n_numbers - out.number.size() : 0;
-  // About a grid of that rate: its offset is the mean.
+  // Deviations from a grid of that rate, whose offset is their mean.
   double sum = 0.0, squares = 0.0;
   const auto n = static_cast<double>(out.number.size());
   const auto off = [&](std::size_t k) {
@@ -51,7 +51,7 @@ std::size_t n_cells(std::uint64_t first, std::uint64_t last, const std::string& 
 core::CameraInfo camera_of_tracks(const drivers::TracksFile& file, const AppConfig& config) {
   core::CameraInfo camera = file.camera;
   if (config.camera.rate_hz > 0.0) camera.rate_hz = config.camera.rate_hz;
-  // What the operator declares now overrides what the file was written with.
+  // Present declarations of the operator override those in the file.
   if (config.camera.readout_ms != 0.0) {
     camera.readout_ns = static_cast<std::int64_t>(std::llround(config.camera.readout_ms * 1e6));
     camera.readout_direction = config.camera.readout_direction;
@@ -155,7 +155,7 @@ bool use_measured_times(const std::string& path, ChannelSeries& series) {
   try {
     rows = rows_of_displacements(path, {});
   } catch (const drivers::FileError&) {
-    return false;  // a table from elsewhere
+    return false;  // a table from another program
   }
   if (!rows.times.are_measured() || rows.series.rate_hz != series.rate_hz) return false;
   const ChannelSeries even = on_grid(rows);

@@ -20,7 +20,7 @@ namespace app {
 namespace {
 
 constexpr std::size_t kSamplesPerReport = 1 << 17;
-// Of the free decay's time constant 1 / (zeta w): a shorter segment biases the damping (core/spectrum/METHOD.md).
+// In time constants 1 / (zeta w) of the free decay: a shorter segment biases the damping (core/spectrum/METHOD.md).
 constexpr double kLeastSegmentDecays = 1.5;
 
 struct SeriesSpectra {
@@ -33,7 +33,7 @@ SeriesSpectra spectra_of(const ChannelSeries& series, const SpectrumConfig& spec
   const std::size_t n_channels = series.channels.size();
   const std::size_t n_samples = series.value.front().size();
   core::WelchConfig config = welch_config(spectrum, n_channels, series.rate_hz);
-  config.gate_outliers = false;  // before the decimation, by mask_faults()
+  config.gate_outliers = false;  // already done by mask_faults(), before the decimation
   core::WelchCpsd cpsd(config);
   std::vector<double> value(n_channels);
   std::vector<std::uint8_t> seen(n_channels);
@@ -82,7 +82,7 @@ double wanted_segment_s(const core::Mode& mode) {
   return kLeastSegmentDecays / (std::max(mode.damping_ratio, 1e-9) * 2.0 * std::numbers::pi * mode.frequency_hz);
 }
 
-// Where nobody chose the segment: is it far too short for the lowest mode, and would twice as long still fit?
+// For an automatic segment: is it far too short for the lowest mode, and would twice its length still fit?
 bool should_double(const SeriesResult& result, std::size_t n_samples) {
   constexpr double kMostOfTheRecord = 0.7;
   if (result.estimate.modes.empty()) return false;
@@ -118,7 +118,7 @@ void require_even_columns(const ChannelSeries& series) {
     throw std::invalid_argument(fmt::format("a rate of {} Hz", series.rate_hz));
 }
 
-// By name: some channels are left out.
+// Matched by name, because some channels are excluded.
 void count_outliers(const ChannelSeries& given, const std::vector<std::uint64_t>& n_outlying, SeriesResult& result) {
   for (std::size_t c = 0; c < result.channels.size() && c < result.estimate.channels.size(); ++c) {
     for (std::size_t g = 0; g < n_outlying.size(); ++g) {
@@ -139,7 +139,7 @@ SeriesResult identify_series(const ChannelSeries& given, const SeriesOptions& op
   leave_out_unusable(series, identifier.references, result.remarks);
   if (options.decimate) result.decimation = decimate_to(series, identifier.max_frequency_hz, result.remarks);
   if (result.decimation > 1) identifier.edge_hz = core::Decimator::kPassband * series.rate_hz;
-  identifier.least_power = 0.0;  // channels that stand still are out, whatever the unit
+  identifier.least_power = 0.0;  // channels without motion are already excluded, whatever the unit
 
   SpectrumConfig spectrum = options.spectrum;
   const std::size_t n_samples = series.value.front().size();

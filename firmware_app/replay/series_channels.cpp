@@ -12,10 +12,10 @@ namespace app {
 
 namespace {
 
-// Relative to the largest value: what rounding leaves of a constant.
+// Relative to the largest value: variation of a constant by rounding.
 constexpr double kLeastMotion = 1e-12;
-constexpr double kLargestMotion = 1e50;  // its fourth power still is a number
-// 1 - |correlation| of a channel and its copy in other digits.
+constexpr double kLargestMotion = 1e50;  // its fourth power is still finite
+// Of 1 - |correlation|: a smaller value means a copy of a channel with other rounding.
 constexpr double kLeastDifference = 1e-9;
 
 struct Moments {
@@ -50,7 +50,7 @@ bool is_copy(const std::vector<double>& a, const Moments& of_a, const std::vecto
   return std::abs(cross) >= (1.0 - kLeastDifference) * power;
 }
 
-// Why a channel cannot be used beside those kept so far; empty when it can.
+// Why a channel cannot be used together with those kept so far; empty: it can.
 std::string reason_to_leave_out(const ChannelSeries& series, const std::vector<Moments>& moments,
                                 const std::vector<std::size_t>& kept, std::size_t c) {
   if (moments[c].count == 0.0) return "it has no sample";
@@ -116,7 +116,7 @@ int decimate_to(ChannelSeries& series, double max_frequency_hz, std::vector<std:
 }
 
 int automatic_segment(std::size_t n_samples) noexcept {
-  // In short records a segment must still resolve the modes: 512 samples while one and a half of them fit.
+  // In short records a segment must still resolve the modes: 512 samples if one and a half such segments fit.
   const int least = n_samples >= 768 ? 9 : 6;
   const double eighth = std::max(1.0, static_cast<double>(n_samples) / 8.0);
   return 1 << std::clamp(static_cast<int>(std::lround(std::log2(eighth))), least, 12);

@@ -7,14 +7,14 @@
 
 namespace app {
 
-// Preparation of a record for spectra. Each function adds what it did to `remarks`.
+// Preparation of a record for spectra. Each function adds a description of its changes to `remarks`.
 
-// Excludes channels that have no sample, do not move (all values equal but for rounding), or equal another channel or a
-// multiple of one; `references` are adapted. Throws std::invalid_argument when no channel is left, or none of the
+// Excludes channels that have no sample, no motion (all values equal except for rounding), or equal another channel or
+// a multiple of one; `references` are adapted. Throws std::invalid_argument when no channel is left, or none of the
 // requested references.
 void leave_out_unusable(ChannelSeries& series, std::vector<int>& references, std::vector<std::string>& remarks);
 
-// Decimates so that max_frequency_hz (0: nothing is done) stays in the passband; returns the factor.
+// Decimates so that max_frequency_hz stays in the passband (0: no decimation); returns the factor.
 int decimate_to(ChannelSeries& series, double max_frequency_hz, std::vector<std::string>& remarks);
 
 // A power of two of samples, about an eighth of the record: 512 .. 4096, from 64 on where 768 do not fit.

@@ -14,14 +14,14 @@ namespace app {
 namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
-// Beyond the range of all other values, in ranges from their 1 % to their 99 % quantile.
+// Distance from all other values, in units of the range from their 1 % to their 99 % quantile.
 constexpr double kFillDistance = 20.0;
 constexpr std::size_t kLeastSamples = 32;
-// A stretch of one value: at least so long, ten times as long as nine tenths of this channel's, and longer than a
+// A stuck stretch has at least this length, ten times the 90 % quantile of the channel's stretches, and more than a
 // hundredth of the record.
 constexpr std::size_t kLeastStuck = 16;
 constexpr double kStuckOverUsual = 10.0, kStuckShare = 0.01;
-// Values in the next fiftieth of the range below an extreme that is cut off: a peak passes through it.
+// Number of values in the next fiftieth of the range below a clipped extreme: an unclipped peak passes through it.
 constexpr double kSaturationBand = 0.02, kSaturationRatio = 3.0, kLeastSaturated = 0.001;
 constexpr std::size_t kLeastSaturatedSamples = 8, kLeastLevels = 200;
 
@@ -43,7 +43,7 @@ class ChannelFaults {
   ChannelFaults(ChannelSeries& series, std::size_t c, std::vector<std::string>& remarks)
       : series_(series), name_(series.channels[c].name), values_(series.value[c]), c_(c), remarks_(remarks) {}
 
-  // Returns how many outliers there were.
+  // Returns the number of outliers.
   std::uint64_t mask() {
     if (sorted_values(values_).size() < kLeastSamples) return 0;
     mask_fill_values();
@@ -57,7 +57,7 @@ class ChannelFaults {
     return fmt::format("{:.4g} s", static_cast<double>(t) / series_.rate_hz);
   }
 
-  // The middle of the values, without what may be fill values: at most a third of them on either side.
+  // The middle of the values, without possible fill values: at most a third of the values on either side.
   void mask_fill_values() {
     for (;;) {
       const std::vector<double> sorted = sorted_values(values_);
@@ -106,7 +106,7 @@ class ChannelFaults {
   }
   void mask_stuck() {
     const std::vector<Run> all = runs();
-    if (all.size() < 4) return;  // hardly ever moves: left to others to say
+    if (all.size() < 4) return;  // hardly ever moves: the other tests decide
     std::vector<std::size_t> lengths;
     for (const Run& run : all) lengths.push_back(run.n);
     std::sort(lengths.begin(), lengths.end());

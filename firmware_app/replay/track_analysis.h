@@ -24,40 +24,40 @@ namespace app {
 
 class RunReport;
 
-// The service's chain behind the tracker (firmware_app/chain), frame by frame in one loop: what `replay` and the tools'
-// own simulations run. Set-up throws ConfigError, std::invalid_argument.
+// The service's chain behind the tracker (firmware_app/chain), frame by frame in one loop: used by `replay` and by the
+// simulations of the tools. Set-up throws ConfigError, std::invalid_argument.
 
-// Samples of all channels -> SpectrumAccumulator -> ModeIdentification, with the estimates on the way that the service
-// makes, so that modes get the same history.
+// Samples of all channels -> SpectrumAccumulator -> ModeIdentification, with the same intermediate estimates as in the
+// service, so that modes get the same history.
 class ChannelAnalysis {
  public:
-  // Channels without an image, their witnesses, if any, last: row delays are undone as these state them.
+  // Channels without an image, witnesses (if any) last: the row delays that they state are corrected.
   ChannelAnalysis(const AppConfig& config, const std::vector<core::ChannelInfo>& channels, double rate_hz);
-  // As a run's channels are identified, with what is taken out of them. The book outlives this.
+  // As a run's channels are identified, with their corrections. The log outlives this.
   ChannelAnalysis(const AppConfig& config, const std::vector<core::ChannelInfo>& channels, double rate_hz,
                   ModeIdentification::MakeIdentifier make_identifier, const CorrectionLog& book);
 
-  // Before the first sample: the sums, modes and counts of an earlier record. One segment lies between.
+  // Before the first sample: takes over sums, modes and counts of an earlier record. One segment between is masked.
   void go_on_from(ChannelAnalysis& earlier);
-  // The same with the state that a run went on with (its boot_id not empty: stamps go on, too), whose counts begin
-  // anew. False: its spectra do not fit.
+  // The same with the state from which a run resumed (boot_id not empty: the stamps continue, too); counts begin at
+  // zero. False: its spectra do not fit.
   [[nodiscard]] bool resume(const RunState& state) noexcept;
-  void report_to(RunReport* report) noexcept { report_ = report; }  // every estimate; null = none
+  void report_to(RunReport* report) noexcept { report_ = report; }  // called with every estimate; null = none
 
-  // False: a frame that lies in no cell of its own of the grid, and is left out.
+  // False: the frame has no cell of its own on the grid, and is left out.
   bool push(const core::DisplacementSample& sample);
-  // Once, after the last sample.
+  // Call once, after the last sample.
   [[nodiscard]] core::ModalEstimate finish();
 
-  // The prewhitening that the spectra ask for, and that finish() used.
+  // The number of differences that the spectra require, as used by finish().
   [[nodiscard]] int n_differences() const {
     return config_.as_published ? 0 : core::choose_differences(spectra_.sums(), config_.max_frequency_hz);
   }
-  // Those samples again with another prewhitening (as core::IdentifierConfig takes it); no estimate of the run.
+  // Identifies the same samples with another prewhitening (as in core::IdentifierConfig); no estimate of the run.
   [[nodiscard]] core::ModalEstimate identified(int n_differences) const;
 
   [[nodiscard]] const core::Health& losses() const noexcept { return losses_; }
-  // All that finish() used of the record; `view` is the caller's. Of a run's channels only.
+  // Everything of the record that finish() used; the caller supplies `view`. Only for channels of a run.
   [[nodiscard]] SetupSums setup_sums() const;
   // Totals of the channels without witnesses, after finish().
   [[nodiscard]] const core::CpsdSums& sums() const noexcept { return result_.sums; }
@@ -75,25 +75,25 @@ class ChannelAnalysis {
   RunReport* report_ = nullptr;
 };
 
-// The same from tracked points on.
+// The same, starting from tracked points.
 class TrackAnalysis {
  public:
-  // keyframe: the first frame's tracks; every point that will come, seen.
+  // keyframe: the first frame's tracks; contains every later point, all seen.
   TrackAnalysis(const AppConfig& config, const core::CameraInfo& camera, const core::TrackFrame& keyframe);
   TrackAnalysis(const TrackAnalysis&) = delete;
   TrackAnalysis& operator=(const TrackAnalysis&) = delete;
 
-  // An attitude that came since (camera.attitude_channel), before the frames it tells of.
+  // Takes an attitude received since the last (camera.attitude_channel); call before the frames to which it applies.
   void take(const core::AttitudeSample& sample) noexcept { meter_.take(sample); }
-  // Before the first frame: the spectra and modes of an earlier run of the same view are gone on with.
+  // Before the first frame: continues the spectra and modes of an earlier run of the same view.
   void go_on_from(TrackAnalysis& earlier) { analysis_.go_on_from(earlier.analysis_); }
   [[nodiscard]] bool resume(const RunState& state) noexcept { return analysis_.resume(state); }
-  // Told each report of closing the loop; with closure.adopt: off there is none.
+  // `hear` receives each report of residual diagnosis; with closure.adopt: off there are none.
   void hear_closure(std::function<void(const core::closure::ClosureReport&)> hear) { hear_closure_ = std::move(hear); }
-  // The end of the record: a last report, and the estimate.
+  // Ends the record: a last report, and the estimate.
   [[nodiscard]] core::ModalEstimate finish();
-  // Points as in the keyframe, in its order; their inliers are marked. stride: as DisplacementSample::stride. False as
-  // ChannelAnalysis::push.
+  // Points as in the keyframe and in its order; their inliers are marked. stride: as DisplacementSample::stride.
+  // Returns false as ChannelAnalysis::push does.
   bool push(core::TrackFrame& tracks, std::uint32_t stride = 1);
 
   [[nodiscard]] const std::vector<core::ChannelInfo>& channels() const noexcept { return meter_.channels().channels(); }
@@ -109,7 +109,7 @@ class TrackAnalysis {
   std::unique_ptr<Geometry> declared_;
   CorrectionLog book_;
   DisplacementMeter meter_;
-  std::optional<Diagnosis> diagnosis_;  // empty: nobody wants it
+  std::optional<Diagnosis> diagnosis_;  // empty: not requested
   std::function<void(const core::closure::ClosureReport&)> hear_closure_;
   core::DisplacementSample sample_;
   ChannelAnalysis analysis_;

@@ -18,7 +18,7 @@ namespace app {
 
 namespace {
 
-// Geometry finds a point's region by its number, and the points of a region side by side.
+// The geometry refers to a region by its number, and expects the points of a region to be adjacent.
 void require_regions(const TrackSource& source) {
   const std::size_t n_regions = source.config.regions.size();
   std::uint16_t last = 0;
@@ -87,7 +87,7 @@ class Replay {
     });
   }
 
-  // What was lost on the way to the record, where all that was processed is in it.
+  // Losses before the record was written, where the record contains everything that was processed.
   void take_account(const RunAccount& account) {
     result_.losses.times = account.times;
     const std::optional<core::RunCounts>& counts = account.counts;
@@ -115,9 +115,9 @@ class Replay {
   }
 
   std::string report_directory_;
-  std::unique_ptr<TrackAnalysis> analysis_;  // of the run under way
+  std::unique_ptr<TrackAnalysis> analysis_;  // of the current run
   RunState view_;
-  std::unique_ptr<RunReport> report_;  // null: none wanted
+  std::unique_ptr<RunReport> report_;  // null: not requested
   std::optional<core::closure::ClosureReport> closure_;
   TracksResult result_;
 };

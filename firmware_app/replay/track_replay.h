@@ -24,11 +24,11 @@ struct TrackSource {
   const AppConfig& config;
   core::CameraInfo camera;
   core::TrackFrame keyframe;                           // contains every later point, all seen
-  std::string name;                                    // of which only the last part is reported
+  std::string name;                                    // only its last path component is reported
   std::function<bool(core::RecordedFrame& out)> next;  // points as in the keyframe; false: the end
   const core::Frame* image = nullptr;                  // of the keyframe, for pictures; null: none
-  const RunState* resumed = nullptr;  // what the run went on with, where nothing comes before it here; null: nothing
-  // After the last frame: what the run itself found; empty: not known.
+  const RunState* resumed = nullptr;  // state from which the run resumed; null: none, or an earlier run precedes it
+  // After the last frame: the run's own account; empty: unknown.
   std::function<RunAccount()> account = {};
 };
 

@@ -11,10 +11,10 @@ namespace app {
 
 struct TracksRecord {
   core::closure::ObservationRecord record;
-  std::vector<std::string> warnings;  // what was assumed
+  std::vector<std::string> warnings;  // assumptions made
 };
 
-// tracks.csv, or the folder of a run that holds one, with the regions, the camera and its calibration as `config`
+// Reads tracks.csv, or the folder of a run that contains one, with regions, camera and calibration as `config`
 // declares them. Frames lie on the grid of their numbers. Throws drivers::FileError, ConfigError.
 [[nodiscard]] TracksRecord tracks_record(const drivers::TracksFile& file, const std::string& path,
                                          const AppConfig& config);

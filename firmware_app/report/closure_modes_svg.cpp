@@ -14,7 +14,7 @@ using core::closure::ClosureResult;
 
 constexpr double kWidthPx = 760.0, kHeightPx = 400.0;
 constexpr Box kBox{74.0, 46.0, 500.0, 290.0};
-constexpr double kApart = 0.12;  // of a mode's width, before to the left, after to the right
+constexpr double kApart = 0.12;  // of a mode's width: "before" is drawn to the left, "after" to the right
 
 struct Series {
   const std::vector<ClosureMode>* modes;

@@ -41,7 +41,7 @@ std::vector<PlotPoint> spectrum_of(const ResidualView& view) {
   return out;
 }
 
-// Patterns that the model itself has taken out are nothing.
+// Patterns that the model itself has removed are left out.
 std::vector<PlotPoint> patterns_of(const ResidualView& view) {
   std::vector<PlotPoint> out;
   for (std::size_t i = 0; i < view.singular_px.size(); ++i) {

@@ -12,9 +12,9 @@ struct ResidualPair {
   double noise_px = 0.0;            // stated, per axis
 };
 
-// Leading pattern of the residual over the image, before and after; arrows in one scale, which is stated.
+// Leading pattern of the residual over the image, before and after; all arrows on one stated scale.
 [[nodiscard]] std::string closure_field_svg(const ResidualPair& residual);
-// Its spectrum and the rms of its patterns, before and after, beside the stated noise.
+// Spectrum of the residual and rms of its patterns, before and after, with the stated noise.
 [[nodiscard]] std::string closure_residual_svg(const ResidualPair& residual);
 
 }  // namespace app

@@ -71,7 +71,7 @@ std::string modes_html(const LoopResult& result) {
   return result.modes.empty() ? absent_html("No mode was identified.") : table.html();
 }
 
-// The same numbers as a picture; empty without any.
+// The same numbers as a picture; empty if there are none.
 std::string picture_html(const LoopResult& result) {
   core::closure::ClosureResult drawn;
   for (std::size_t i = 0; i < result.modes.size(); ++i) {

@@ -21,14 +21,14 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-// 0 stands for "not known" in these fields.
+// 0 means "unknown" in these fields.
 Json positive_or_null(double value) { return value == 0.0 ? Json(nullptr) : Json(value); }
 
 std::string channel_name(const std::vector<std::string>& names, std::size_t i) {
   return i < names.size() ? names[i] : fmt::format("channel_{}", i);
 }
 
-// Components of channels that took no part are unknown.
+// Components of excluded channels are unknown.
 template <class Value>
 Json components_json(const ModalReport& report, std::size_t n, Value value) {
   if (n == 0) return nullptr;
@@ -74,7 +74,7 @@ Json interval_json(const std::optional<core::Interval>& interval) {
   return {interval->low, interval->high};
 }
 
-// The paper's shapes are real ones: its chain gives both.
+// The published method gives real shapes: in paper mode both the real and the complex shape are written.
 Json mode_json(const core::Mode& mode, const ModalReport& report) {
   const core::ModalEstimate& estimate = report.estimate;
   Json out = Json::object();

@@ -18,17 +18,17 @@ struct ModalReport {
   core::ModalEstimate estimate;
   std::vector<std::string> corrections;  // effects that were removed before the identification
   core::Health losses;
-  std::vector<std::string> caveats = {};  // what the result leaves open, for a reader
+  std::vector<std::string> caveats = {};  // open questions of the result, for the reader
 };
 
 [[nodiscard]] std::string_view to_text(Method method) noexcept;
 
 // Text of modal.json: no wall clock, no paths, no busy times, so that the same input gives the same bytes. Unknown
 // values are null. `n_not_finite`, if given, receives the number of NaNs and infinities written as null: a fault of
-// ours.
+// this program.
 [[nodiscard]] std::string modal_json(const ModalReport& report, std::size_t* n_not_finite = nullptr);
 
-// Reads what modal_json wrote (also by other programs: missing optional keys are unknown values). Throws
+// Reads the output of modal_json (also from other programs: missing optional keys are unknown values). Throws
 // drivers::FileError naming the file and the key.
 [[nodiscard]] ModalReport read_modal_json(const std::string& path);
 

@@ -169,7 +169,7 @@ class ModalReader {
 
   [[nodiscard]] core::Verdict verdict(const std::string& name_of_verdict, const std::string& name) const {
     using core::Verdict;
-    if (name_of_verdict.empty()) return Verdict::kStructural;  // a truth.json, where nothing was judged
+    if (name_of_verdict.empty()) return Verdict::kStructural;  // a truth.json, which has no verdicts
     for (const Verdict verdict : {Verdict::kStructural, Verdict::kCameraMotion, Verdict::kInputPeak, Verdict::kHarmonic,
                                   Verdict::kAmbiguous, Verdict::kNumerical, Verdict::kCandidate}) {
       if (name_of_verdict == core::to_string(verdict)) return verdict;
@@ -177,7 +177,7 @@ class ModalReader {
     refuse(name + ".verdict", fmt::format("`{}` is unknown", drivers::printable(name_of_verdict)));
   }
 
-  // The first shape fixes the channels; every other must have the same.
+  // The first shape defines the channels; every other shape must have the same.
   void read_shape(const Json& item, const std::string& name, core::Mode& out) {
     const Json* shape = find(item, "shape");
     if (shape == nullptr) return;
@@ -219,7 +219,7 @@ class ModalReader {
     return value->get<bool>();
   }
 
-  // They name the channels of all shapes.
+  // The channels listed in the file name those of all shapes.
   void read_channels(const Json& root) {
     const Json* list = find(root, "channels");
     if (list == nullptr) return;

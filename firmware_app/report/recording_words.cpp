@@ -11,7 +11,7 @@ std::string are(std::uint64_t n) { return fmt::format("{} {}", n, n == 1 ? "fram
 
 std::string spacing(const core::RecordingTimes& times) {
   std::string out = fmt::format("Frames lie 1/{:.6g} s apart by {}", times.rate_hz, times.from);
-  constexpr double kEven = 0.01;  // of a period: less is the rounding of the times
+  constexpr double kEven = 0.01;  // of a period: less is attributed to rounding of the times
   if (times.worst_s * times.rate_hz < kEven) return out + ", evenly.";
   return out +
          fmt::format(", unevenly: {} rms, {} at worst.", milliseconds(times.jitter_s), milliseconds(times.worst_s));

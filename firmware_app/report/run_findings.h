@@ -12,7 +12,7 @@ namespace app {
 // Configuration data for the pictures of a run: for the service and the offline replay.
 [[nodiscard]] PictureInputs picture_inputs(const AppConfig& config, const core::CameraInfo& camera,
                                            const std::vector<core::ChannelInfo>& channels);
-// `source`: a path, of which only the last part is reported.
+// `source`: a path, of which only the last component is reported.
 [[nodiscard]] RunFacts run_facts(const AppConfig& config, const core::CameraInfo& camera, const std::string& source,
                                  const core::Health& health, const core::ModalEstimate& estimate);
 

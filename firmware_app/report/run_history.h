@@ -66,7 +66,7 @@ class RunHistory {
     std::size_t n_points = 0, n_seen = 0;
     double sum_variance = 0.0;
   };
-  std::vector<Count> counts_;  // of the frame at hand, per region
+  std::vector<Count> counts_;  // of the current frame, per region
 };
 
 }  // namespace app

@@ -25,7 +25,7 @@ using drivers::append_fixed;
 using drivers::append_seconds;
 using drivers::append_text;
 
-// 1e-4 px and 1e-6 mm lie far below what any track resolves.
+// 1e-4 px and 1e-6 mm lie far below the resolution of any track.
 constexpr int kPixelDecimals = 5;
 constexpr int kSigmaDecimals = 6;
 constexpr int kDisplacementDecimals = 6;
@@ -64,7 +64,7 @@ RunReport::RunReport(const std::string& directory, const AppConfig& config, cons
   make_directory(directory);
   for (const core::ChannelInfo& channel : channels) channel_names_.push_back(channel.name);
   for (const char* old : {"modal.json", "modal.json.partial", "tracks.csv", "report.html", "closure.json"}) {
-    std::error_code ignored;  // opening the new file reports the error that matters
+    std::error_code ignored;  // an error that matters shows when the new file is opened
     std::filesystem::remove(in_directory(directory, old), ignored);
   }
   displacements_.emplace(in_directory(directory, "displacements.csv"));

@@ -22,18 +22,18 @@ namespace app {
 // thread. A file being written is called *.partial; only a complete one has its name.
 class RunReport {
  public:
-  // Makes the folder, opens the CSV files, removes the results of an earlier run there. Throws drivers::FileError.
+  // Creates the folder, opens the CSV files, removes the results of an earlier run there. Throws drivers::FileError.
   RunReport(const std::string& directory, const AppConfig& config, const core::CameraInfo& camera,
             const std::vector<core::ChannelInfo>& channels, const std::vector<std::string>& region_names);
 
   // One frame, one sample. False: a file failed (disk full); its remainder is lost, counted, and reported by finish().
   bool add(const core::TrackFrame& frame) noexcept;
   bool add(const core::DisplacementSample& sample) noexcept;
-  // One estimate, for the pictures of how the modes settled.
+  // One estimate, for the pictures of convergence.
   void add(const core::ModalEstimate& estimate) noexcept { history_.add(estimate); }
 
-  // corrections: the declared ones; those that the run found come with the estimate.
-  // Completes the files and writes modal.json, and closure.json of the last report that concluded something. Throws one
+  // corrections: the declared ones; those found during the run are part of the estimate.
+  // Completes the files and writes modal.json, and closure.json from the last report that has a conclusion. Throws one
   // drivers::FileError that names every file that failed; the others are complete.
   void finish(const core::ModalEstimate& last, const core::Health& losses, const std::vector<std::string>& corrections,
               const std::vector<std::string>& caveats = {}, const core::closure::ClosureReport* closure = nullptr);
@@ -41,9 +41,10 @@ class RunReport {
   // Data so far, for the pictures.
   [[nodiscard]] const RunHistory& history() const noexcept { return history_; }
 
-  // Frames and samples that came after a file had failed.
+  // Frames and samples that arrived after a file had failed.
   [[nodiscard]] std::uint64_t n_items_lost() const noexcept { return n_items_lost_; }
-  // Values that were NaN or infinite: empty in the CSV files, null in modal.json. A fault of ours, to be logged.
+  // Values that were NaN or infinite: empty in the CSV files, null in modal.json. A fault of this program, to be
+  // logged.
   [[nodiscard]] std::uint64_t n_not_finite() const noexcept { return n_not_finite_; }
 
  private:
@@ -57,7 +58,7 @@ class RunReport {
   std::vector<std::string> channel_names_;
   std::vector<std::string> region_names_;
   RunHistory history_;
-  std::optional<drivers::CsvWriter> tracks_;  // empty where the configuration wants no tracks
+  std::optional<drivers::CsvWriter> tracks_;  // empty if the configuration requests no tracks
   std::optional<drivers::CsvWriter> displacements_;
   std::uint64_t n_items_lost_ = 0;
   std::uint64_t n_not_finite_ = 0;

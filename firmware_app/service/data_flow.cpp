@@ -7,15 +7,15 @@
 namespace app {
 namespace {
 
-// Before anything is allocated and before the camera runs: locking takes as long as several frames.
+// Before anything is allocated and before the camera runs: locking memory takes as long as several frames.
 std::string keep_memory(const AppConfig& config) {
   if (!config.rt.lock_memory) return {};
   rt::keep_freed_memory();
   return rt::lock_memory();
 }
 
-// The reader is nudged when an item arrives, the writer when a slot becomes free. A newest value's writer waits for
-// its reader only where a lossless source does.
+// The reader is woken when an item arrives, the writer when a slot becomes free. The writer of a triple buffer waits
+// for its reader only for a lossless source.
 template <class Ring>
 void nudge(Ring& ring, rt::Stage& writer, rt::Stage& reader) {
   ring.set_writer_wakeup(&writer.wakeup());

@@ -29,15 +29,15 @@ struct DataFlow {
            std::unique_ptr<drivers::Publisher> publisher);
 
   AppConfig config;
-  std::string lock_refused;  // why memory is not locked; empty: it is, or need not be
+  std::string lock_refused;  // why memory is not locked; empty: it is, or was not requested
   Source source;             // camera, its first frame, the points seeded in it, the channels
-  std::unique_ptr<drivers::AttitudeListener> attitude = open_attitude(config);  // null: none comes live
+  std::unique_ptr<drivers::AttitudeListener> attitude = open_attitude(config);  // null: no live attitude
   std::unique_ptr<drivers::RunRecorder> recorder;                               // null: the run is not recorded
   std::unique_ptr<drivers::Publisher> out;
   std::unique_ptr<RunReport> report = open_report(config, source);
 
   // What the stages call: the chain, which a replay runs in one loop (TrackAnalysis).
-  CorrectionLog book;  // what the diagnosis takes out beyond what was declared
+  CorrectionLog book;  // corrections by the diagnosis beyond what was declared
   DisplacementMeter meter{source.displacement, source.readout};
   core::WelchConfig welch = welch_config(config.spectrum, source.displacement.spectra().size(), source.info.rate_hz,
                                          source.displacement.n_witnesses());
@@ -96,8 +96,8 @@ struct DataFlow {
   [[nodiscard]] bool closes_loop() const noexcept { return config.closure.adopt != ClosureAdopt::kOff; }
   [[nodiscard]] bool takes_out() const noexcept { return config.closure.adopt == ClosureAdopt::kAuto; }
   [[nodiscard]] bool keeps_state() const noexcept { return !config.state.directory.empty(); }
-  [[nodiscard]] std::string fault();         // what ended the flow; empty: nothing
-  [[nodiscard]] core::Health status();       // counters of now
+  [[nodiscard]] std::string fault();         // what ended the flow; empty: no fault
+  [[nodiscard]] core::Health status();       // present counters
   [[nodiscard]] core::Health host_status();  // and those of the computer; reads files
 
  private:
@@ -112,8 +112,8 @@ struct DataFlow {
   }
   [[nodiscard]] std::vector<rt::StageRunner*> list_runners();
   [[nodiscard]] PublishStage::Outlets outlets();
-  void connect();  // who is nudged by which ring
-  void watch();    // what a status record counts
+  void connect();  // which ring wakes which stage
+  void watch();    // registers what a status record counts
   [[nodiscard]] std::optional<RunState> keep_state();
 };
 

@@ -8,7 +8,7 @@ namespace app {
 
 namespace {
 
-// Below a twentieth of a frame the error is smaller than that of the tracks.
+// Below a twentieth of a frame the error is smaller than that of the tracks, and no warning is given.
 constexpr double kJitterWorthAWord = 0.05;
 
 std::uint64_t read(const std::atomic<std::uint64_t>& counter) noexcept {
@@ -37,7 +37,7 @@ core::StageHealth stage_health(const HealthCollector::Queue& queue, std::int64_t
   return health;
 }
 
-// Regions that were not measured all the time.
+// Regions that were not measured throughout.
 void warn_of_regions(core::Health& health) {
   for (const core::RegionHealth& region : health.regions) {
     if (region.frames_searching + region.frames_lost == 0) continue;

@@ -23,14 +23,14 @@ void describe(Archive& archive, Hash& config_hash, Image& image, Points& tracks)
   archive.list(tracks.points);
 }
 
-// What was written is a bool; what is read may be any byte, and as a bool undefined.
+// A bool was written, but the byte read may have any value, and reading that as a bool is undefined.
 void make_bool(bool& flag) {
   std::uint8_t byte = 0;
   std::memcpy(&byte, &flag, 1);
   flag = byte != 0;
 }
 
-// In the image, grouped by region, none of a region that is not there.
+// All points in the image, grouped by region, no undeclared region.
 bool makes_sense(const core::TrackFrame& tracks, const core::CameraInfo& camera, std::size_t n_regions) {
   std::uint16_t region = 0;
   return !tracks.points.empty() && std::all_of(tracks.points.begin(), tracks.points.end(), [&](const auto& p) {

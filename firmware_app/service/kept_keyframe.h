@@ -10,8 +10,8 @@
 
 namespace app {
 
-// The keyframe (reference of all displacements), kept beside the run's checkpoint: constant over a run, written once. A
-// checkpoint file (drivers/storage/checkpoint_file.h): whole or refused.
+// The keyframe (reference of all displacements), kept beside the run's checkpoint: constant over a run, written once,
+// in the format of a checkpoint file (drivers/storage/checkpoint_file.h): read as a whole or refused.
 struct KeptKeyframe {
   core::Frame image;
   core::TrackFrame points;
@@ -22,7 +22,7 @@ struct KeyframeRead {
   std::string refused;  // why the file is not used; empty: it is, or there is none
 };
 
-// Empty: done; else why not.
+// Empty: written; otherwise the reason why not.
 [[nodiscard]] std::string write_keyframe(const std::string& path, std::uint64_t config_hash, const core::Frame& image,
                                          const core::TrackFrame& points);
 // Refused: damaged, of another configuration or image size, or inconsistent.

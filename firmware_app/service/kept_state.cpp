@@ -29,8 +29,8 @@ std::string keyframe_path(const AppConfig& config) {
 
 void keep_keyframe(const AppConfig& config, const Source& source, HealthCollector& health) {
   if (!source.datum.empty()) health.warn(source.datum);
-  if (source.kept) return;  // it stands there
-  std::error_code unmade;   // then the writing says why
+  if (source.kept) return;  // the file exists already
+  std::error_code unmade;   // ignored: a failure shows in the write that follows
   std::filesystem::create_directories(config.state.directory, unmade);
   const std::string failure = write_keyframe(keyframe_path(config), config.hash, source.first_frame, source.keyframe);
   if (!failure.empty()) health.warn("the keyframe could not be kept: " + failure);

@@ -12,14 +12,14 @@
 
 namespace app {
 
-// What a kept state must agree with.
+// Properties with which a kept state must agree.
 [[nodiscard]] RunState view_of(const AppConfig& config, const Source& source);
 [[nodiscard]] std::string state_path(const AppConfig& config);     // empty: none is kept
 [[nodiscard]] std::string keyframe_path(const AppConfig& config);  // beside it
-// Keeps the keyframe for a later run; tells in health what became of the last one's, and a failure.
+// Keeps the keyframe for a later run; health reports whether the earlier one was used, and a failure.
 void keep_keyframe(const AppConfig& config, const Source& source, HealthCollector& health);
-// Goes on with the state found at `path`; says so, or why not, in health. That state, its boot_id empty where the clock
-// behind the stamps is another one; empty: the record begins anew.
+// Resumes from the state found at `path`; health reports success or why not. Returns that state, its boot_id empty
+// where the stamps are on another clock; empty: the record begins without one.
 [[nodiscard]] std::optional<RunState> resume_state(const std::string& path, const RunState& view,
                                                    SpectrumAccumulator& spectra, ModeIdentification& modes,
                                                    HealthCollector& health);

@@ -19,7 +19,7 @@ namespace {
 enum ExitCode : int { kDone = 0, kFault = 1, kUsage = 2, kDeviceMissing = 3, kRealTimeRefused = 4 };
 
 int run(const app::AppConfig& config) {
-  const app::SignalWatch signals;  // before any thread starts: they inherit the mask
+  const app::SignalWatch signals;  // before any thread starts: threads inherit the signal mask
   app::Pipeline pipeline(config);
   app::Progress progress(pipeline);
   app::ServiceNotify service;
@@ -39,7 +39,7 @@ int run(const app::AppConfig& config) {
   }
   const app::Pipeline::Outcome outcome = pipeline.join();
   const bool is_done = progress.finish(outcome);
-  // A flight that was stopped ends at once; a recording that came to its end is gone through once more.
+  // A flight that was stopped ends at once; a recording that reached its end is analysed once more as a whole.
   const auto goes_on = [&] { return service.tick({}), !signals.stop_requested(); };
   if (is_done && !was_stopped) app::diagnose_run(config, outcome, goes_on);
   return is_done ? kDone : kFault;

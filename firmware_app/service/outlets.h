@@ -22,10 +22,10 @@ namespace app {
                                                                  drivers::RunRecorder* recorder, std::string& warning);
 [[nodiscard]] std::unique_ptr<RunReport> open_report(const AppConfig& config,
                                                      const Source& source);  // null: none wanted
-// What to say of a record shorter than one segment, which a source of unknown length may turn out to be; else empty.
+// Warning for a record shorter than one segment, which is possible for a source of unknown length; otherwise empty.
 [[nodiscard]] std::string short_record(const AppConfig& config, const core::CameraInfo& info,
                                        const core::ModalEstimate& estimate);
-// What PublishStage::Outlets::draw calls; empty: no report wanted. All arguments must outlive it.
+// The function for PublishStage::Outlets::draw; empty: no report requested. All arguments must outlive it.
 [[nodiscard]] std::function<void(const PublishStage::Findings&, const core::Health&)> picture_drawer(
     const AppConfig& config, const Source& source, const RunReport* report);
 [[nodiscard]] core::PreviewMaker preview_maker_for(const AppConfig& config, const Source& source);

@@ -63,7 +63,7 @@ Pipeline::Outcome Pipeline::join() {
   outcome.fault = flow_->fault();
   if (outcome.fault.empty()) {
     outcome.health.state = "finished";
-    if (flow_->keeps_state()) {  // the next run is another one
+    if (flow_->keeps_state()) {  // the run is complete: the next one must not resume it
       std::remove(state_path(flow_->config).c_str());
       std::remove(keyframe_path(flow_->config).c_str());
     }

@@ -17,7 +17,7 @@ namespace app {
 
 struct DataFlow;
 
-// The whole way from frames to modes. Construction is set-up: it opens the camera, takes the first frame, seeds the
+// The whole chain from frames to modes. Construction is set-up: it opens the camera, takes the first frame, seeds the
 // points, opens telemetry and report, and builds rings and stages; it may throw. Afterwards memory is fixed.
 //
 //   Pipeline pipeline(config);
@@ -31,13 +31,13 @@ class Pipeline {
     core::Health health;               // final counters
     std::string fault;                 // empty: done; else what went wrong (exit code 1)
     std::vector<std::string> notes;    // e.g. a truncated clip
-    std::int64_t stages_ended_ns = 0;  // CLOCK_MONOTONIC when the last stage took its last step; the report came after
-    std::string page;                  // path of report.html; empty: no report was wanted
+    std::int64_t stages_ended_ns = 0;  // CLOCK_MONOTONIC at the last stage's last step, before the report is written
+    std::string page;                  // path of report.html; empty: no report was requested
   };
 
   // Throws ConfigError (configuration does not fit the source), drivers::DeviceMissing, std::runtime_error.
   explicit Pipeline(const AppConfig& config);
-  // The same with a camera and a publisher of the caller's: for tests.
+  // The same with camera and publisher supplied by the caller, for tests.
   Pipeline(const AppConfig& config, std::unique_ptr<drivers::Camera> camera,
            std::unique_ptr<drivers::Publisher> publisher);
   ~Pipeline();
@@ -46,16 +46,16 @@ class Pipeline {
 
   // Starts the threads back to front. Throws std::system_error when a real-time priority is refused and rt.required.
   void start();
-  // No further frame is taken; everything on its way is finished. Any thread.
+  // Takes no further frame; frames already captured are processed. Any thread.
   void request_stop() noexcept;
-  // False when every stage has ended. Call it now and then: it is also what ends the others when one fails.
+  // False when every stage has ended. Call it regularly: it also ends the other stages when one fails.
   [[nodiscard]] bool running() noexcept;
   [[nodiscard]] Outcome join();
 
   [[nodiscard]] core::Health health() const;
-  // The stage that has been in one step for too long, in words; empty: all go on. Any thread.
+  // Describes the stage that has been in one step for too long; empty: none. Any thread.
   [[nodiscard]] std::string stall() const;
-  // What the stages had to say since the last call, one line each. One thread.
+  // Events of the stages since the last call, one line each. One thread.
   [[nodiscard]] std::vector<std::string> take_events();
   [[nodiscard]] const core::CameraInfo& camera_info() const noexcept;
   [[nodiscard]] const std::vector<core::ChannelInfo>& channels() const noexcept;
@@ -65,8 +65,8 @@ class Pipeline {
   std::unique_ptr<DataFlow> flow_;
 };
 
-// Checks all that can be checked without running: opens the source, compares regions, seeds. For --check. Returns how
-// even a recording's times are, in words; empty: not a recording.
+// Checks everything that can be checked without running: opens the source, compares regions, seeds points. For --check.
+// Returns a description of how even a recording's times are; empty: not a recording.
 std::string check_source(const AppConfig& config);
 
 }  // namespace app

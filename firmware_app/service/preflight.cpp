@@ -17,8 +17,8 @@ namespace app {
 namespace {
 
 constexpr std::size_t kMostFrames = 25;
-constexpr double kSeen = 0.9;               // of the frames tried
-constexpr double kFaint_px = 0.15;          // a point less certain than this has little texture
+constexpr double kSeen = 0.9;               // share of the tried frames
+constexpr double kFaint_px = 0.15;          // a point with a larger sigma has little texture
 constexpr std::size_t kFewPoints = 6;
 constexpr std::chrono::milliseconds kFrameTimeout{2000};
 
@@ -27,7 +27,7 @@ struct PointCheck {
   double sigma_px = 0.0;  // sum
 };
 
-// The frames behind the first one.
+// Tracks the frames after the first one.
 std::size_t track_frames(Source& source, std::vector<PointCheck>& points) {
   core::Frame frame = source.first_frame;
   core::TrackFrame tracks = source.keyframe;
@@ -53,7 +53,7 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-// Overlapping windows share their noise: a region has no more independent points than fit into it.
+// Overlapping windows share their noise: a region has at most as many independent points as windows fit into it.
 double expected_noise_px(const core::Region& region, const std::vector<double>& sigmas_px, int window_px) {
   double information = 0.0;
   for (const double sigma_px : sigmas_px) information += 1.0 / (sigma_px * sigma_px);

@@ -19,10 +19,10 @@ struct RegionCheck {
 struct Preflight {
   std::vector<RegionCheck> regions;
   std::vector<std::string> facts;     // scale, times, readout, exposure: one line each
-  std::vector<std::string> warnings;  // doubtful values, with the likely slip
+  std::vector<std::string> warnings;  // doubtful values, with the likely mistake
 };
 
-// Tracks the first second of the source, at most; the source is used up to there.
+// Tracks at most the first second of the source, which is consumed up to there.
 [[nodiscard]] Preflight preflight(const AppConfig& config, Source& source);
 [[nodiscard]] std::string preflight_text(const Preflight& found);  // the table of --check
 

@@ -50,7 +50,7 @@ SignalWatch::SignalWatch() {
   sigaddset(&signals_, SIGINT);
   sigaddset(&signals_, SIGTERM);
   pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
-  std::signal(SIGXFSZ, SIG_IGN);  // a full quota is a failed write, not a death
+  std::signal(SIGXFSZ, SIG_IGN);  // a full quota is then a failed write and does not terminate the process
   std::signal(SIGPIPE, SIG_IGN);
 }
 

@@ -13,19 +13,19 @@ namespace app {
 class SignalWatch {
  public:
   SignalWatch();
-  // Waits up to 50 ms for a signal: sets the main thread's pace.
+  // Waits up to 50 ms for a signal; this sets the main thread's pace.
   [[nodiscard]] bool stop_requested() const noexcept;
 
  private:
   sigset_t signals_{};
 };
 
-// Terminal output: source and channels, a line now and then, the modes at the end. Main thread.
+// Terminal output: source and channels, a line at intervals, the modes at the end. Main thread.
 class Progress {
  public:
   explicit Progress(Pipeline& pipeline);
-  void started();   // reports what was not available to start()
-  void stopping();  // the stop was requested now
+  void started();   // reports facts that were not available to start()
+  void stopping();  // a stop has just been requested
   void tick();
   // Prints the result; true when the run ended without fault.
   [[nodiscard]] bool finish(const Pipeline::Outcome& outcome);

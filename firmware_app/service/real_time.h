@@ -9,9 +9,10 @@
 
 namespace app {
 
-// A real-time setting that the system refuses: an error when rt.required, else a warning in every status record.
+// Handles a real-time setting that the system refuses: an error when rt.required, else a warning in every status
+// record.
 void refuse_or_warn(const RtConfig& config, const std::string& refused, HealthCollector& health);
-// Threads that frames pass through get rt.priority, their CPU, and a stack that is mapped beforehand.
+// For threads on the frames' path: rt.priority, their CPU, and a stack that is mapped beforehand.
 [[nodiscard]] rt::ThreadConfig frame_thread(std::string name, const RtConfig& config, int cpu);
 void start_runner(rt::StageRunner& runner, const RtConfig& config, HealthCollector& health);
 

@@ -7,10 +7,10 @@
 
 namespace app {
 
-// Residual diagnosis over all levels of a run that has ended, from its report folder (firmware_app/replay/level_loop.h):
-// loop.json and loop.html in it, and the table in the log. Nothing without a report, without tracks in it, or with
-// closure.adopt: off. Never throws: why there is no result is logged. Takes up to a minute; `goes_on` is asked every few
-// seconds, and false ends it without a result.
+// Residual diagnosis over all levels of a run that has ended, from its report folder
+// (firmware_app/replay/level_loop.h): writes loop.json and loop.html to it, and the table to the log. Does nothing
+// without a report, without tracks in it, or with closure.adopt: off. Never throws: a failure is logged. Takes up to a
+// minute; `goes_on` is called every few seconds; when it returns false, the diagnosis ends without a result.
 void diagnose_run(const AppConfig& config, const Pipeline::Outcome& outcome, const std::function<bool()>& goes_on);
 
 }  // namespace app

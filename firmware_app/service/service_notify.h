@@ -5,7 +5,7 @@
 
 namespace app {
 
-// Notifies the service manager (systemd, Type=notify): ready, a line of status, still alive, stopping. The watchdog is
+// Notifies the service manager (systemd, Type=notify): ready, a status line, still alive, stopping. The watchdog is
 // fed only while all stages run, so that a hung stage causes a restart. Without a service manager (NOTIFY_SOCKET
 // unset), or built without libsystemd, nothing is sent. Main thread.
 class ServiceNotify {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::chrono::seconds kFirstFrameTimeout{10};
 
-// Starts the camera once its source fits the configuration; what it is, is complete only then (exposure, readout,
+// Starts the camera once its source fits the configuration; only then are its properties complete (exposure, readout,
 // rate).
 core::CameraInfo started(drivers::Camera& camera, const AppConfig& config) {
   const core::CameraInfo info = camera.info();
@@ -49,7 +49,7 @@ core::Frame take_first_frame(drivers::Camera& camera, const core::CameraInfo& in
   return frame;
 }
 
-// The kept points as they are found in the first frame; `kept` is emptied, and `datum` says why, where they are not.
+// Finds the kept points in the first frame; where they are not found, `kept` is emptied and `datum` states why.
 core::StructureTracker tracker_of_kept(const AppConfig& config, const core::Frame& first,
                                        std::optional<KeptKeyframe>& kept, std::string& datum) {
   core::StructureTracker tracker(tracker_config(config));
@@ -63,7 +63,7 @@ core::StructureTracker tracker_of_kept(const AppConfig& config, const core::Fram
     kept.reset();
     return tracker;
   }
-  tracker.learn(found);  // the next frame's points are looked for where these are
+  tracker.learn(found);  // the next frame's search starts from these positions
   kept->points.sequence = first.sequence;
   kept->points.t_start_ns = first.t_start_ns;
   return tracker;
@@ -87,7 +87,7 @@ core::StructureTracker started_tracker(const AppConfig& config, const core::Fram
   return tracker;
 }
 
-// The seeds as the first frame's tracks: the tracker finds each point where it was put.
+// The seeds as the first frame's tracks: the tracker finds each point at its seed.
 core::TrackFrame track_keyframe(core::StructureTracker& tracker, const core::Frame& first) {
   core::TrackFrame keyframe;
   keyframe.points.resize(tracker.n_points());

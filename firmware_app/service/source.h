@@ -16,21 +16,21 @@
 
 namespace app {
 
-// The beginning of the data flow, once the first frame is there: everything behind it can then be sized.
+// The beginning of the data flow, once the first frame is available: all later parts can then be sized.
 struct Source {
   // Starts the camera, takes one frame, seeds the points, or finds those of an earlier run's keyframe. Throws
   // ConfigError when configuration and source do not fit, std::runtime_error when no frame comes.
   Source(std::unique_ptr<drivers::Camera> opened, const AppConfig& config);
 
   [[nodiscard]] const std::vector<core::ChannelInfo>& channels() const noexcept { return displacement.channels(); }
-  // What displacements are measured from.
+  // The reference image of all displacements.
   [[nodiscard]] const core::Frame& keyframe_image() const noexcept { return kept ? kept->image : first_frame; }
 
   std::unique_ptr<drivers::Camera> camera;
   core::CameraInfo info;
   core::Frame first_frame;
-  std::string datum;                 // what became of an earlier run's keyframe; empty: there was none
-  std::optional<KeptKeyframe> kept;  // that keyframe, where the view is still the same
+  std::string datum;                 // whether an earlier run's keyframe is used, and why not; empty: there was none
+  std::optional<KeptKeyframe> kept;  // that keyframe, where the view is unchanged
   core::StructureTracker tracker;
   core::TrackFrame keyframe;
   core::ChannelDisplacement displacement;
@@ -39,6 +39,6 @@ struct Source {
 
 // Throws drivers::DeviceMissing, ConfigError, std::runtime_error.
 [[nodiscard]] std::unique_ptr<drivers::Camera> open_camera(const AppConfig& config);
-[[nodiscard]] std::unique_ptr<drivers::AttitudeListener> open_attitude(const AppConfig& config);  // null: none wanted
+[[nodiscard]] std::unique_ptr<drivers::AttitudeListener> open_attitude(const AppConfig& config);  // null: not requested
 
 }  // namespace app

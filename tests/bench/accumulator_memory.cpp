@@ -30,7 +30,7 @@ void push_noise(core::WelchCpsd& welch, core::simulation::RandomStream& noise, l
   std::array<double, kChannels> value{};
   std::array<std::uint8_t, kChannels> seen{};
   for (long t = 0; t < n_samples; ++t) {
-    const std::uint64_t lost = noise.next();  // a channel in 64 is masked
+    const std::uint64_t lost = noise.next();  // one channel sample in 64 is masked
     for (std::size_t c = 0; c < kChannels; ++c) {
       value[c] = noise.uniform();
       seen[c] = ((lost >> (4 * c)) & 63U) == 0 ? 0 : 1;
@@ -46,8 +46,8 @@ int main(int argc, char** argv) {
   core::simulation::RandomStream noise(argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1, "accumulator");
   const std::size_t bytes_without = heap_bytes();
   core::WelchCpsd welch({.n_channels = kChannels, .segment = 1024, .rate_hz = 30.0});
-  push_noise(welch, noise, 2048);                   // every page of it touched once
-  const long resident_before_kib = resident_kib();  // first: reading it allocates for good
+  push_noise(welch, noise, 2048);                   // touches every page once
+  const long resident_before_kib = resident_kib();  // called first, because reading it allocates once
   const std::size_t bytes_before = heap_bytes();
   std::size_t n_calls = 0;
   {

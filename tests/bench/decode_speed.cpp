@@ -1,7 +1,7 @@
-// Frames decoded to gray per second by this project's reader of video and by OpenCV's (VideoCapture, then cvtColor),
-// same clip, in turns, and by how much the gray values of the two differ.
+// Compares this project's reader of video with OpenCV's (VideoCapture, then cvtColor): frames decoded to gray per
+// second, on the same clip, alternately, and the differences of their gray values.
 //   decode_speed CLIP [ROUNDS]
-// Prints: frames/s of ours and of OpenCV's (medians over the rounds), their ratio, the share of pixels that differ, the
+// Prints: frames/s of both (medians over the rounds), their ratio, the share of pixels that differ, the
 // largest difference.
 #include <fmt/core.h>
 

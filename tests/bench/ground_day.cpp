@@ -1,6 +1,6 @@
 // Messages of many hours for the ground page, without a network.
-//   ground_day log FILE      a short LCM event log, for a page that is fed otherwise
-//   ground_day feed HOURS    through LiveStream as they would come at 30 frames/s; prints resident bytes after the
+//   ground_day log FILE      a short LCM event log, for a page fed from a log
+//   ground_day feed HOURS    through LiveStream at the rate of 30 frames/s; prints resident bytes after the
 //   first
 //                            hour and at the end, and how many times faster than real time that was
 #include <unistd.h>
@@ -24,7 +24,7 @@ constexpr int kChannels = 12;
 
 class Day {
  public:
-  // One frame's messages, as the service sends them.
+  // One frame's messages, as sent by the service.
   void frame(std::int64_t n) {
     now_ns_ = n * kFrame_ns;
     const auto number = static_cast<std::uint64_t>(n);

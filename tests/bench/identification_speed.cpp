@@ -116,7 +116,7 @@ int run(const std::string& path, bool weighted, int block_rows, int repeats, con
   config.max_order = kMaxOrder;
   config.references = kReferences;
   config.canonical_variates = weighted;
-  config.with_maps = false;  // the comparator has no standard deviations either
+  config.with_maps = false;  // the comparator computes no standard deviations either
   double least_ms = 1e300;
   Update update;
   for (int k = 0; k < repeats; ++k) {

@@ -1,10 +1,10 @@
-// The states that killed runs of hovermodald left (tools/figures/runtime_kill.py), against sums that were never written
-// or read again: one accumulator takes the samples of runs that came to their end, and lacks the frames that the states
-// lack.
+// Compares the states left by killed runs of hovermodald (tools/figures/runtime_kill.py) with sums that were never
+// saved and restored: one accumulator takes the samples of complete runs, without the frames that are missing in the
+// states.
 //   kill_account FOLDER
-// FOLDER: first.lcm and again.lcm, records of runs to their end, without and with a kept keyframe; kills.tsv, a line
-// for each killed run: its number, seconds from when it opened its clip to the kill, 1 where a keyframe was kept before
-// it, its record or "-"; NUMBER.state, the state file after it, where there is one. Prints "name<TAB>value".
+// FOLDER: first.lcm and again.lcm, records of complete runs, without and with a kept keyframe; kills.tsv, a line
+// per killed run: its number, seconds from opening the clip to the kill, 1 if a keyframe had been kept before
+// it, its record or "-"; NUMBER.state, the state file after it, if there is one. Prints "name<TAB>value".
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
@@ -27,7 +27,7 @@
 
 namespace {
 
-// A run to its end: the points of each frame, and the samples they make.
+// A complete run: the points of each frame, and the samples computed from them.
 struct WholeRun {
   std::vector<core::TrackFrame> tracks;
   std::vector<core::DisplacementSample> samples;
@@ -104,7 +104,8 @@ class Uninterrupted {
  private:
   const WholeRun& run_of(const Kill& kill) const { return kill.kept ? again_ : first_; }
 
-  // Goes on to the state's last cell, and compares. Seconds of the killed run in it; 0: the state is an earlier run's.
+  // Continues to the state's last cell, and compares. Returns the killed run's seconds in it; 0: an earlier run's
+  // state.
   double take(const Kill& kill, const std::vector<std::uint8_t>& state, Account& out) {
     if (state == last_) return 0.0;
     core::WelchCpsd saved(first_.welch);
@@ -115,7 +116,7 @@ class Uninterrupted {
     const bool readable = saved.restore(in);
     const std::uint64_t n_cells = readable ? saved.sums().n_samples : 0;
     const std::uint64_t before = welch_.sums().n_samples;
-    // A file's time stamps start again with each run: one masked segment lies between two.
+    // A file's time stamps start again with each run: one masked segment lies between two runs.
     if (!last_.empty()) {
       for (int k = 0; k < welch_.sums().n_fft / 2; ++k) (void)welch_.push_missing();
     }
@@ -142,7 +143,7 @@ class Uninterrupted {
     (void)welch_.push(sample);
   }
 
-  // What the killed run itself recorded, as far as it had reached the disk, must be the whole run's frames.
+  // The killed run's own record, as far as it had reached the disk, must equal the frames of the complete run.
   void compare_record(const Kill& kill, Account& out) const {
     std::optional<drivers::RunRecordReader> reader;
     try {

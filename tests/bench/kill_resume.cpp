@@ -1,7 +1,7 @@
-// Kills a run of the spectrum and checkpoint stages at random moments (SIGKILL), lets it go on from its state file each
-// time, and compares the sums in the end with those of a run that was never interrupted and lacks the same samples.
+// Kills a run of the spectrum and checkpoint stages at random moments (SIGKILL), resumes it from its state file each
+// time, and compares the final sums with those of a run that was never interrupted and lacks the same samples.
 //   kill_resume FOLDER [KILLS [SEED]]
-// Prints: kills, states refused, largest loss in share of the period, resumes, and whether the sums are equal bit by
+// Prints: kills, states refused, largest loss as a share of the period, resumes, and whether the sums are equal bit by
 // bit. Exit code 1 unless half of the runs were resumed, no state was refused, no loss exceeds the period, and the sums
 // are equal.
 #include <sys/mman.h>
@@ -46,12 +46,12 @@ struct Gap {
   std::uint64_t first_lost = 0, next_seen = 0;
 };
 
-// Shared with the children; outlives them. The stream goes on whatever happens to the process.
+// Shared with the children; outlives them. The stream continues whatever happens to a process.
 struct Stream {
   std::atomic<std::uint64_t> next_cell{0};
   std::atomic<std::uint64_t> end_cell{UINT64_MAX};
-  std::atomic<std::uint64_t> n_down{0};      // cells that passed while nothing ran, before the child that runs now
-  std::atomic<std::uint64_t> first_cell{0};  // in the sums
+  std::atomic<std::uint64_t> n_down{0};      // cells that passed before the present child, while none was running
+  std::atomic<std::uint64_t> first_cell{0};  // of the sums
   std::atomic<std::uint64_t> worst_loss{0};  // cells that a killed run had taken
   std::atomic<std::uint32_t> n_resumed{0}, n_refused{0}, n_gaps{0};
   std::array<Gap, kMostKills + 1> gaps{};
@@ -102,7 +102,7 @@ void raise(std::atomic<std::uint64_t>& worst, std::uint64_t value) {
   if (worst.load() < value) worst = value;
 }
 
-// Goes on with what the last one left, if it left anything, and notes what is lost.
+// Resumes from the previous child's state, if there is one, and counts the loss.
 void resume(Stream& stream, const std::string& path, app::SpectrumAccumulator& spectra) {
   const drivers::CheckpointRead read = drivers::read_checkpoint(path);
   bool taken = false;
@@ -167,7 +167,7 @@ int run(Stream& stream, const std::string& folder) {
   return std::fclose(out) == 0 && written ? 0 : 3;
 }
 
-// The gaps that are in the sums: where two runs went on from one state, only the later one's.
+// The gaps in the final sums: if two runs resumed from one state, only that of the later run.
 std::vector<Gap> lasting_gaps(const Stream& stream) {
   std::vector<Gap> gaps;
   for (std::uint32_t g = 0; g < stream.n_gaps.load(); ++g) {
@@ -190,7 +190,7 @@ std::vector<double> uninterrupted(const Stream& stream) {
   };
   for (const Gap& gap : lasting_gaps(stream)) {
     push_until(gap.first_lost);
-    // As the stage does wherever frames are missing: beyond two transforms more masked cells tell nothing.
+    // As in the stage when frames are missing: beyond two transforms further masked cells have no effect.
     const std::uint64_t most = 2 * static_cast<std::uint64_t>(welch.sums().n_fft);
     for (std::uint64_t n = std::min(gap.next_seen - gap.first_lost, most); n > 0; --n) (void)welch.push_missing();
     cell = gap.next_seen;
@@ -217,7 +217,7 @@ bool run_and_kill(Stream& stream, const std::string& folder, std::uint32_t n_kil
     const pid_t child = fork();
     if (child == 0) _exit(run(stream, folder));
     if (!last) {
-      // A moment of the stream, not of the wall clock: on a busy machine too the child gets that far.
+      // In stream time, not wall-clock time, so that the child gets that far on a busy machine, too.
       const std::uint64_t until = stream.next_cell.load() + 200 + random() % 12'000;
       while (stream.next_cell.load() < until) std::this_thread::sleep_for(std::chrono::microseconds(200));
       kill(child, SIGKILL);
@@ -253,6 +253,6 @@ int main(int argc, char** argv) {
                      std::memcmp(sums.data(), expected.data(), sums.size() * sizeof(double)) == 0;
   std::printf("%u kills\t%u resumed\t%u refused\t%.2f of the period lost at most\t%s\n", n_kills,
               stream.n_resumed.load(), stream.n_refused.load(), share, equal ? "equal" : "DIFFERENT");
-  const bool went_on = 2 * stream.n_resumed.load() >= n_kills;  // else it shows nothing
+  const bool went_on = 2 * stream.n_resumed.load() >= n_kills;  // otherwise the test shows nothing
   return equal && went_on && stream.n_refused.load() == 0 && share <= 1.0 ? 0 : 1;
 }

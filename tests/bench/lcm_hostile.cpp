@@ -1,4 +1,4 @@
-// Malformed messages at every subscriber of ours, for tools/figures/ground_link.sh:
+// Malformed messages for every subscriber of this project, for tools/figures/ground_link.sh:
 //   lcm_hostile decode FIRST_SEED SEEDS N   N of each seed into a StreamMonitor, an AttitudeInbox and the decoders
 //   lcm_hostile send SEED URL N PER_SECOND messages|datagrams
 //                                           N of the seed over the socket: malformed messages in LCM's frame, or with
@@ -31,7 +31,7 @@ struct Tally {
   std::uint64_t n = 0, taken = 0, refused = 0;
 };
 
-// Every message must be counted once, as read or as not.
+// Every message must be counted exactly once, as accepted or as rejected.
 Tally decode(std::uint32_t seed, std::uint64_t n) {
   HostileMessages hostile(seed);
   drivers::StreamMonitor monitor("HOVERMODAL");
@@ -74,7 +74,7 @@ Bytes whole_datagram(const tests::HostileMessage& message, std::uint32_t number)
   return out;
 }
 
-// A fragment whose size, offset, index or count cannot be.
+// A fragment with an impossible size, offset, index or count.
 Bytes bad_fragment(HostileMessages& hostile, const tests::HostileMessage& message, std::uint32_t number) {
   constexpr std::array<std::uint32_t, 6> kSizes{0, 1, 5000, 0x10000001U, 0x7FFFFFFFU, 0xFFFFFFFFU};
   Bytes out{'L', 'C', '0', '3'};

@@ -1,7 +1,7 @@
-// The whole pipeline under pressure, over frames that lie in memory. Lines of "name<TAB>value"; exit code 1 where what
-// must hold does not.
+// The whole pipeline under load, with frames in memory. Prints lines of "name<TAB>value"; exit code 1 where a condition
+// is violated.
 //   overload_run overload SECONDS          a source four times faster than tracking can follow, in real time
-//   overload_run loss SECONDS [SEGMENT]    30 % of the frames lost at random before they reach us
+//   overload_run loss SECONDS [SEGMENT]    30 % of the frames lost at random before they reach the service
 //   overload_run soak FRAMES               as fast as possible
 //   overload_run latency SECONDS CPUS PRIORITY [KEY=VALUE]...   1920 x 1080 at 60 frames a second, CPUS kept busy,
 //                                                  SCHED_FIFO PRIORITY, and whatever else the configuration says
@@ -45,7 +45,7 @@ struct Run {
 Run run(const std::shared_ptr<const SceneClip>& clip, const Play& play, double rate_hz,
         const std::vector<std::string>& overrides, std::uint64_t settled_after) {
   const app::AppConfig config = app::parse_config(tests::scene_config(clip->motion), "scene", overrides);
-  class Silent : public tests::MemoryPublisher {  // keeps nothing
+  class Silent : public tests::MemoryPublisher {  // stores nothing
    public:
     bool publish(const core::ModalEstimate&, const std::vector<core::ChannelInfo>&) noexcept override { return true; }
     bool publish(const core::DisplacementSample&, const std::vector<core::ChannelInfo>&) noexcept override {
@@ -72,7 +72,7 @@ Run run(const std::shared_ptr<const SceneClip>& clip, const Play& play, double r
   return out;
 }
 
-// A camera that is so much faster reads out and exposes so much faster.
+// A camera that is faster by this factor also reads out and exposes faster by it.
 core::simulation::Scene at_rate(core::simulation::Scene scene, double rate_hz) {
   scene.camera.readout_s *= scene.camera.rate_hz / rate_hz;
   scene.camera.exposure_s *= scene.camera.rate_hz / rate_hz;
@@ -86,7 +86,7 @@ std::shared_ptr<const SceneClip> draw(double seconds, std::uint64_t seed,
                                            static_cast<std::uint64_t>(seconds * rate_hz));
 }
 
-// The lowest three modes, as far as the rate that was kept shows them.
+// Checks the lowest three modes, as far as the kept rate shows them.
 bool modes_right(const SceneClip& clip, const core::ModalEstimate& estimate) {
   int n_right = 0, n_visible = 0;
   double worst = 0.0;
@@ -120,7 +120,7 @@ bool right(const SceneClip& clip, const Run& result) {
   return counted && found && result.resident_end - result.resident_begin < 4'000'000;
 }
 
-// How many frames a second tracking can follow with so many points that it is slower than a camera.
+// Frames per second that tracking can process with so many points that it is slower than a camera.
 double frames_per_second(const std::vector<std::string>& many_points, std::uint64_t seed) {
   const auto clip = draw(8.0, seed);
   const Play play{clip->frames.size(), 0, true, 0};
@@ -148,8 +148,8 @@ int loss(double seconds, std::uint64_t seed, const std::string& segment) {
   return right(*clip, result) && result.outcome.health.frames_missing > 0 ? 0 : 1;
 }
 
-// An estimate every 512 frames, and freed memory is kept: what the process holds can only grow, and does so until
-// identification has met its largest problem.
+// An estimate every 512 frames, and freed memory is kept: the process's memory can only grow, and does so until
+// identification has had its largest problem.
 int soak(std::uint64_t n_frames, std::uint64_t seed) {
   const auto clip = draw(6.0, seed);
   const Run result = run(clip, {n_frames, 0, true, 0}, core::simulation::CameraParameters{}.rate_hz,

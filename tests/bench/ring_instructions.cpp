@@ -1,5 +1,5 @@
-// The four index accesses of the ring, and both exchanges of the triple buffer, each in a function of its own: for
-// looking at the instructions a compiler makes of them (tools/figures/runtime.sh, arm64).
+// The four index accesses of the ring, and both exchanges of the triple buffer, each in a separate function, so that
+// their compiled instructions can be inspected (tools/figures/runtime.sh, arm64).
 #include "rt/spsc_ring.h"
 #include "rt/triple_buffer.h"
 

@@ -1,7 +1,7 @@
-// The ring beside boost::lockfree::spsc_queue in one program: items of one word, and frames. Both ends spin, both hold
-// as many, and the two take turns. "burst": one thread fills and empties, in CPU time, which other load hardly changes:
-// the instructions alone. Each line: what, nanoseconds per item of ours and of Boost's, and the ratio of one round's
-// two times: medians over all rounds.
+// The ring compared with boost::lockfree::spsc_queue in one program: items of one word, and frames. Both ends spin,
+// both have equal capacity, and the two are run alternately. "burst": one thread fills and empties, measured in CPU
+// time, which other load hardly changes: the instructions alone. Each line: what, nanoseconds per item of the ring and
+// of Boost, and the ratio of the two times of one round: medians over all rounds.
 //   ring_speed [ROUNDS [ITEMS [FRAMES]]]
 #include <algorithm>
 #include <boost/lockfree/spsc_queue.hpp>
@@ -26,12 +26,12 @@ struct Frame {
   unsigned char pixels[kFrameBytes]{};
 };
 
-// What a camera does: writes every pixel of the slot.
+// Simulates a camera: writes every pixel of the slot.
 void expose(Frame& frame, std::uint64_t number) noexcept {
   frame.number = number;
   std::memset(frame.pixels, static_cast<int>(number & 0xFFU), sizeof frame.pixels);
 }
-// What a tracker does: looks at it where it lies.
+// Simulates a tracker: reads the frame in place.
 std::uint64_t look(const Frame& frame) noexcept { return frame.number + frame.pixels[frame.number % kFrameBytes]; }
 
 volatile std::uint64_t sink = 0;
@@ -134,7 +134,7 @@ double ours_frames(std::uint64_t n) {
       });
 }
 
-// Boost's reader can look in place too (consume_one); its writer has nowhere to put a frame but a copy.
+// Boost's reader can also read in place (consume_one); its writer must copy a frame.
 double boost_frames(std::uint64_t n) {
   const auto queue = std::make_unique<boost::lockfree::spsc_queue<Frame, boost::lockfree::capacity<kFrameSlots>>>();
   return time_ns(

@@ -110,8 +110,8 @@ void write_triple_buffer(rt::TripleBuffer<Payload>& buffer, rt::Wakeup& wakeup, 
   buffer.close();
 }
 
-// The newest wins: what arrives must be whole and newer than the last, and the last one written must arrive. Now and
-// then the writer waits for the reader: on busy CPUs the two would else hardly meet.
+// The newest wins: received values must be complete and newer than the last, and the last one written must arrive. At
+// intervals the writer waits for the reader: on busy CPUs the two would otherwise rarely overlap.
 Result run_triple_buffer(std::uint64_t n) {
   rt::TripleBuffer<Payload> buffer{Payload{}};
   rt::Wakeup reader_wakeup, writer_wakeup;

@@ -1,7 +1,7 @@
-// The whole service on one processor, as fast as possible, over 1920 x 1080 frames that lie in memory: nothing is
-// decoded. Lines of "name<TAB>value": frames a second; of each stage the processor time a frame (us) and its share; the
-// same frames and points through OpenCV's tracker, which the service had before (pyramid_klt.h), and what the frames a
-// second would be with it.
+// The whole service on one processor, as fast as possible, over 1920 x 1080 frames in memory, without
+// decoding. Lines of "name<TAB>value": frames per second; of each stage the processor time per frame (us) and its
+// share; the same frames and points with OpenCV's tracker, which the service used before (pyramid_klt.h), and the
+// resulting frames per second.
 //   service_speed [FRAMES] [SEED]
 #include <sched.h>
 
@@ -22,7 +22,7 @@ constexpr std::size_t kDrawn = 100;    // frames: 200 MB
 constexpr std::uint64_t kFewest = 60;  // for the median of OpenCV's times
 constexpr std::uint64_t kMostOfTheirs = 400;
 
-// All threads of this process, those to come included.
+// All threads of this process, including later ones.
 void stay_on_one_cpu() {
   cpu_set_t cpus;
   CPU_ZERO(&cpus);

@@ -1,5 +1,5 @@
-// Accuracy of the point tracker beside the Cramer-Rao bound and OpenCV, over texture that is evaluated where a pixel
-// looks, never interpolated. Lines of tab-separated values:
+// Accuracy of the point tracker compared with the Cramer-Rao bound and OpenCV, on texture that is evaluated at each
+// pixel's position, never interpolated. Lines of tab-separated values:
 //   bound  CYCLES_PER_PX  NOISE  CONTRAST  GRADIENT/NOISE  OURS/BOUND  OPENCV/BOUND  STATED/SCATTER  LOST  POINTS
 //   averaged: lines of `bound` for texture whose gradient is below twice the noise, with templates of 16 images
 //   drift  OURS_FIRST  OURS_LAST  OPENCV_FIRST  OPENCV_LAST  OURS_DEVIATION    rms px of the first and the last tenth;
@@ -28,7 +28,7 @@ using test_support::view;
 using Texture = test_support::WaveTexture;
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-// Mean variance of the axes that white noise allows when shift, gain and offset are unknown, noise-free template.
+// Mean variance per axis that white noise permits with unknown shift, gain and offset and a noise-free template.
 double bound_px2(const Texture& texture, const core::Vector2& point, double noise) {
   std::array<std::array<double, 4>, 4> a{};
   for (int y = -core::kWindowRadius; y <= core::kWindowRadius; ++y) {
@@ -62,7 +62,7 @@ double slope_rms(const Texture& texture, const std::vector<core::Vector2>& point
   return std::sqrt(sum / static_cast<double>(points.size()));
 }
 
-// Templates of faint texture as the service makes them over its first images.
+// Templates of faint texture, averaged over the first images as in the service.
 void average(core::KltTracker& tracker, const Texture& texture, const std::vector<core::Vector2>& points, double noise,
              unsigned seed) {
   core::TemplateAverage templates(tracker, points.size());
@@ -129,7 +129,7 @@ void print_drift(int n_images, unsigned seed) {
   std::array<std::array<Scatter, 2>, 2> tenths;
   for (int k = 0; k < n_images; ++k) {
     const bool is_first = k < n_images / 10, is_last = k >= n_images - n_images / 10;
-    if (!is_first && !is_last) continue;  // each image against the keyframe: those between change nothing
+    if (!is_first && !is_last) continue;  // each image is tracked against the keyframe: those between have no influence
     const double du = 2.1 * std::sin(kTwoPi * 1.66 * k / 30.0) + 0.7 * std::sin(kTwoPi * 5.04 * k / 30.0);
     const auto e = errors(tracker, keyframe, texture.image(du, 0.3 * du, 1.0, seed + static_cast<unsigned>(k) + 2),
                           points, du, 0.3 * du);

@@ -1,7 +1,7 @@
-// Mean error of the point tracker, and of OpenCV's, over the fractions of a pixel: without noise, in images that are
-// exact but for their rounding to 8 bits. Textures are sums of plane waves; printed dots are dark discs of radius 3 and
-// 6 px with a blurred edge, each pixel integrated over its area: `dots` lie anywhere among the pixels, `aligned` ones
-// all at the same place among theirs, where a sharp edge is an alias that no tracker can see through. Lines of
+// Mean error of the point tracker, and of OpenCV's, over the sub-pixel position: without noise, in images that are
+// exact except for their rounding to 8 bits. Textures are sums of plane waves; printed dots are dark discs of radius 3
+// and 6 px with a blurred edge, each pixel integrated over its area: `dots` have arbitrary sub-pixel positions,
+// `aligned` ones all have the same, where a sharp edge causes aliasing that no tracker can resolve. Lines of
 // tab-separated values:
 //   curve  KIND  CYCLES_PER_PX or RADIUS/BLUR  FRACTION_PX  OURS_PX  OPENCV_PX
 //   bias   KIND  CYCLES_PER_PX or RADIUS/BLUR  OURS_PX  OPENCV_PX       the largest of a curve
@@ -41,7 +41,7 @@ struct Curve {
   }
 };
 
-// One dot at every point of the grid, `phase` px beside its pixel (NaN: anywhere), each of its own greys.
+// One dot at every point of the grid, `phase` px from its pixel's centre (NaN: random), each with its own grey levels.
 class Dots {
  public:
   Dots(unsigned seed, double radius, double blur, double phase) : radius_(radius), blur_(blur) {
@@ -143,7 +143,7 @@ std::vector<Curve> measured(int n_textures, unsigned seed) {
   return curves;
 }
 
-// Ours above, OpenCV's below, on axes of their own: one scale would make a line of ours.
+// The tracker above, OpenCV's below, on separate axes: on one scale the tracker's curve would be flat.
 void draw(const std::vector<Curve>& curves, const std::string& path) {
   constexpr double kWidth = 720.0, kPanel = 220.0, kTop = 44.0, kStep = 290.0;
   app::SvgDocument svg(kWidth, kTop + 2.0 * kStep, "Bias over the fractions of a pixel");

@@ -1,7 +1,7 @@
-// The point tracker over frames that are made of integers, so that the same machine word comes out wherever this is
-// compiled: six regions that sway, drift, jump, are hidden, and change their light, with noise. Without OpenCV, so that
-// it also runs where that is not installed. Prints a line for each ten frames: frame, points seen, hash of the bits of
-// all positions, sigmas and gains up to there.
+// The point tracker on frames made of integers, so that they are identical wherever this is
+// compiled: six regions that sway, drift, jump, are hidden, and change brightness, with noise. Without OpenCV, so that
+// it also runs where that is not installed. Prints a line per ten frames: frame, points seen, hash of the bits of
+// all positions, sigmas and gains so far.
 //   tracking_bits [FRAMES] [SEED]
 #include <bit>
 #include <cstdint>
@@ -52,7 +52,7 @@ class Texture {
         int sum = 0;
         for (int y = -1; y <= 1; ++y)
           for (int x = -1; x <= 1; ++x) sum += from[static_cast<std::size_t>((v + y) * kColumns + u + x)];
-        grey_[static_cast<std::size_t>(v * kColumns + u)] = sum / 5;  // what averaging takes of the contrast
+        grey_[static_cast<std::size_t>(v * kColumns + u)] = sum / 5;  // restores the contrast lost by averaging
       }
     }
   }
@@ -62,7 +62,7 @@ class Texture {
 struct Motion {
   int u_steps = 0, v_steps = 0;
 };
-// A triangular sway of its own for each band, a common drift, and a jump of 45 px in frame 40.
+// Each band has its own triangular sway; all have a common drift, and a jump of 45 px in frame 40.
 Motion motion_of(int band, int frame) {
   const int period = 10 + 3 * band, phase = frame % (2 * period);
   const int sway = phase < period ? phase : 2 * period - phase;

@@ -1,7 +1,7 @@
-// Error of tracked points where the image is deformed: drawn frames of the paper's building before a camera that comes
-// nearer and goes away by centimetres, each point against its true track. Per point and axis the error about its own
-// mean is fitted by a constant times the true magnification less one, and one times the true roll (both of the image at
-// that point). Lines of tab-separated values, one for the plates and one for the background:
+// Error of tracked points in deformed images: rendered frames of the paper's building with a camera that
+// approaches and recedes by centimetres, each point compared with its true track. Per point and axis, the error about
+// its mean is fitted by a constant times the true magnification minus one, and one times the true roll (both of the
+// image at that point). Lines of tab-separated values, one for the plates and one for the background:
 //   WHAT  POINTS  ERROR_PX  PER_MAGNIFICATION_PX  PER_ROLL_PX  LEFT_PX  STATED/LEFT  SEEN  MAGNIFICATION_RMS
 // ERROR_PX, LEFT_PX: rms over points, axes and frames, before and after that fit. STATED: rms of the stated sigma.
 //   tracking_deformation [SECONDS] [SEED] [IMAGE_HEIGHT] [Z_RMS_MM] [NOISE]
@@ -21,8 +21,8 @@ namespace {
 
 using core::simulation::ImagePoint;
 using core::simulation::PlanePoint;
-constexpr double kInlier_px = 1.0;  // stands for the outlier rejection
-constexpr double kApart_px = 8.0;   // of the two points that tell the true magnification and roll
+constexpr double kInlier_px = 1.0;  // instead of the outlier rejection
+constexpr double kApart_px = 8.0;   // distance of the two points that determine the true magnification and roll
 
 // Least squares of one axis of one point on (1, magnification - 1, roll).
 class Fit {

@@ -1,10 +1,10 @@
-// What changing light does to tracks and modes: a drawn clip once as it is, once under lamps that flicker, once with
-// the edge of a shadow that wanders over the picture, each through the whole service. Beside it OpenCV's tracker on the
-// same frames and points, started at the true place. Tab-separated lines:
+// Influence of changing light on tracks and modes: a rendered clip without changes, under flickering lamps, and with
+// a shadow's edge that moves over the picture, each through the whole service. For comparison OpenCV's tracker on the
+// same frames and points, started at the true position. Tab-separated lines:
 //   LIGHT  OURS_PX  OPENCV_PX  REGIONS_PX  SEEN  MODES  FALSE_MODES  WORST_PERCENT
-// rms over points and axes: ours of the points that count (inliers); REGIONS_PX: of the regions' mean motion, which is
-// what displacements are made of; SEEN: share of points that count. MODES: true ones found, FALSE_MODES: structural
-// ones that are none.
+// rms over points and axes: ours of the inliers; REGIONS_PX: of the regions' mean motion, from
+// which displacements are computed; SEEN: share of inliers. MODES: true ones found, FALSE_MODES: structural
+// poles that are no modes.
 //   tracking_light [SECONDS] [SEED]
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ constexpr int kWindow_px = 13;
 
 enum class Disturbance : std::uint8_t { kNone, kFlicker, kShadow, kDimmed };
 
-// Share of the light that is left at column u: the edge goes over the picture and back.
+// Relative brightness at column u: the edge moves over the picture and back.
 double shade(Disturbance light, double t_s, double u, int width_px) {
   if (light == Disturbance::kDimmed) return std::fmod(t_s, 2.0) < 1.0 ? 1.0 : 1.0 - kShadowDepth;
   if (light != Disturbance::kShadow) return 1.0;
@@ -37,7 +37,7 @@ double shade(Disturbance light, double t_s, double u, int width_px) {
   return 1.0 - kShadowDepth / (1.0 + std::exp((u - edge) / kShadowEdgePx));
 }
 
-// The scene's light without noise, shaded, then what a sensor makes of it.
+// The scene's light without noise, shaded, then converted as by a sensor.
 std::shared_ptr<const SceneClip> draw(core::simulation::Scene scene, Disturbance light, std::uint64_t n_frames) {
   if (light == Disturbance::kFlicker) scene.light.flicker_depth = kFlickerDepth, scene.light.flicker_hz = kFlickerHz;
   auto clip = std::make_shared<SceneClip>(scene, 0);
@@ -69,7 +69,7 @@ class Rms {
   double sum_ = 0.0, n_ = 0.0;
 };
 
-// Where the points of the first frame truly are in another, and ours and OpenCV's errors there.
+// True positions of the first frame's points in another frame, and the errors of both trackers there.
 class Judge {
  public:
   Judge(const SceneClip& clip, const core::TrackFrame& keyframe) : clip_(clip), keyframe_(keyframe) {

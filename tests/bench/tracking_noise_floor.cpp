@@ -1,9 +1,9 @@
-// Noise floor of point motion in filmed video, ours beside OpenCV's: corners of the first frame, each followed by both
-// from where it was last, window 21 x 21. Of every point and axis the median of the spectral density over frequency,
-// which lines do not touch, above a tenth of the rate, where nothing slow is left; of those the median over points that
-// neither lost. A tab-separated line a clip:
+// Noise floor of point motion in filmed video, compared with OpenCV: corners of the first frame, each followed by both
+// trackers from its last position, window 21 x 21. Of every point and axis the median of the spectral density over
+// frequency, which spectral lines do not affect, above a tenth of the rate, where there is no slow motion; of those the
+// median over points that neither tracker lost. A tab-separated line per clip:
 //   FILE  FRAMES  POINTS  OURS_PX_PER_SQRT_HZ  OPENCV_PX_PER_SQRT_HZ  LOST_BY_US  LOST_BY_OPENCV
-// The rate is taken as 1 Hz: only the ratio counts.
+// The rate is taken as 1 Hz: only the ratio matters.
 //   tracking_noise_floor CLIP...
 #include <algorithm>
 #include <cmath>

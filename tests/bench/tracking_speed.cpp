@@ -27,8 +27,8 @@ using test_support::view;
 constexpr int kRegions = 6, kPerRegion = 30;
 constexpr int kJump_px = 60;
 
-// Smoothed noise at twice the resolution: every second pixel of it is an image, and the pixels between are the image
-// half a pixel further, so nothing is interpolated.
+// Smoothed noise at twice the resolution: every second pixel forms an image, and the pixels between form the same image
+// half a pixel further, so that nothing is interpolated.
 cv::Mat fine_texture(int width, int height, std::uint64_t seed) {
   cv::Mat out(2 * height, 2 * width, CV_8UC1);
   cv::RNG random(seed);
@@ -38,7 +38,7 @@ cv::Mat fine_texture(int width, int height, std::uint64_t seed) {
   return out;
 }
 
-// Moved by so many half pixels; beyond the border as in a mirror.
+// Moved by so many half pixels; mirrored at the border.
 cv::Mat moved(const cv::Mat& fine, int half_u, int half_v) {
   cv::Mat out(fine.rows / 2, fine.cols / 2, CV_8UC1);
   for (int v = 0; v < out.rows; ++v)
@@ -89,7 +89,7 @@ Time time_us(int n, const std::function<void()>& work) {
   for (int k = 0; k < n; ++k) all.push_back(once_us(work));
   return summary(all);
 }
-// In turns: a machine that is slower for a while is so for both.
+// Alternately, so that a temporarily slower machine affects both.
 std::pair<Time, Time> time_both_us(int n, const std::function<void()>& ours, const std::function<void()>& theirs) {
   std::vector<double> a, b;
   for (int k = 0; k < n; ++k) a.push_back(once_us(ours)), b.push_back(once_us(theirs));

@@ -1,4 +1,4 @@
-// The suite that all drivers pass (tests/support/camera_contract.h) on the device that HOVERMODAL_CAMERA names, as
+// The contract suite of all drivers (tests/support/camera_contract.h) on the device that HOVERMODAL_CAMERA names, as
 // "v4l2 NODE WxH" or "libcamera NAME WxH". Run inside the virtual machine.
 #include <cstdlib>
 #include <sstream>

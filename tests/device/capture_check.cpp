@@ -1,5 +1,5 @@
-// Captures through a driver and prints, one fact a line ("name<TAB>value"), what a script can judge: frames, gaps,
-// numbers, times, what became of faults, and, given the frames that were sent, whether each one came unchanged.
+// Captures through a driver and prints one fact per line ("name<TAB>value") for a script: frames, gaps,
+// numbers, times, handling of faults, and, given the frames that were sent, whether each one arrived unchanged.
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -34,18 +34,18 @@ struct Arguments {
 
 struct Tally {
   long n_frames = 0, n_gaps = 0, n_missing = 0, n_timeouts = 0;
-  long n_unchanged = 0, n_in_order = 0;  // as sent; after the frame that was sent before, as far as numbers tell
+  long n_unchanged = 0, n_in_order = 0;  // equal to a sent frame; next to the previous one, by the numbers
   std::uint64_t first = 0, last = 0;
   double first_s = 0, last_s = 0, worst_step = 0;  // frames: the largest deviation of a step from its number's
-  std::vector<double> ages_ms;                     // from a frame's stamp until we had it
-  long early_kib = 0, early_files = 0;             // held after the first frames
+  std::vector<double> ages_ms;                     // from a frame's stamp until its delivery
+  long early_kib = 0, early_files = 0;             // used after the first frames
   drivers::CaptureStatus end = drivers::CaptureStatus::kFrame;
 };
 
 volatile std::sig_atomic_t stop_asked = 0;
 
-// Memory of our own: what of a library's code has been paged in is none, and no leak. Counted page by page, unlike the
-// kernel's running counts, which are late by some hundred KiB a thread.
+// Anonymous memory of this process: pages of library code are excluded, because they are no leak. Counted page by page,
+// unlike the kernel's running counts, which lag by some hundred KiB per thread.
 long anonymous_kib() {
   std::ifstream sums("/proc/self/smaps_rollup");
   for (std::string key; sums >> key;) {
@@ -63,7 +63,7 @@ class Sent {
     bytes_.assign(std::istreambuf_iterator<char>(file), {});
   }
   [[nodiscard]] long count() const { return static_cast<long>(bytes_.size() / frame_bytes_); }
-  // Which one it is; -1: none.
+  // Index of the sent frame; -1: none.
   [[nodiscard]] long find(const std::vector<std::uint8_t>& pixels, long guess) const {
     for (long i = 0; i < count(); ++i) {
       const long at = (guess + i) % count();
@@ -108,8 +108,8 @@ void run(drivers::Camera& camera, const Arguments& arguments, const Sent& sent, 
     tally.last = frame.sequence;
     tally.last_s = t_s;
     tally.ages_ms.push_back(1e3 * (now_s - t_s));
-    if (tally.n_frames == 0) std::fprintf(stderr, "streaming\n");  // for who waits for it
-    if (++tally.n_frames == 20 && arguments.priority == 0) {       // takes longer than a frame
+    if (tally.n_frames == 0) std::fprintf(stderr, "streaming\n");  // a script waits for this line
+    if (++tally.n_frames == 20 && arguments.priority == 0) {       // counting takes longer than a frame
       tally.early_kib = anonymous_kib();
       tally.early_files = open_files();
     }
@@ -179,7 +179,7 @@ int main(int argc, char** argv) {
   app.add_option("--fifo", arguments.priority, "SCHED_FIFO priority, with memory locked; default: ordinary");
   app.add_option("--sent", arguments.sent, "the gray frames that the camera sends, to compare with");
   CLI11_PARSE(app, argc, argv);
-  prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0);  // the kernel would fill our pages up to huge ones when it finds time
+  prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0);  // the kernel would merge pages into huge ones at arbitrary times
   struct sigaction action {};
   action.sa_handler = [](int) { stop_asked = 1; };
   sigaction(SIGINT, &action, nullptr);

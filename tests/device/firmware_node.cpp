@@ -1,6 +1,6 @@
-// For LD_PRELOAD. libcamera names a USB camera after the firmware's description of the controller it hangs on, and
-// refuses one whose controller has none, as the virtual one. This gives that controller a name; nothing else is
-// touched.
+// For LD_PRELOAD. libcamera names a USB camera after the firmware's description of its controller, and refuses a camera
+// whose controller has none, as the virtual one. This library supplies a name for that controller and changes nothing
+// else.
 #include <string>
 
 namespace libcamera::sysfs {

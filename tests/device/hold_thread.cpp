@@ -1,5 +1,5 @@
-// Holds one thread of a running process, in the middle of its work, until the process ends: a stage that hangs, made
-// from outside, so that the service itself needs no way to be hung. Root; for tests in the virtual machine
+// Stops one thread of a running process in the middle of its work until the process ends: simulates a stage that hangs,
+// so that the service itself needs no test code for it. Needs root; for tests in the virtual machine
 // (cases/systemd.sh).
 //   hold_thread PID THREAD_NAME
 #include <dirent.h>
@@ -18,7 +18,7 @@
 
 namespace {
 
-// The thread's id, 0 where the process has none of that name.
+// The thread's id, 0 if the process has no thread of that name.
 pid_t thread_of(const std::string& pid, const std::string& name) {
   const std::string tasks = "/proc/" + pid + "/task";
   DIR* folder = opendir(tasks.c_str());
@@ -33,7 +33,7 @@ pid_t thread_of(const std::string& pid, const std::string& name) {
   return found;
 }
 
-// Stops the thread; true where it does not merely wait for work (a thread that waits is idle, not hung).
+// Stops the thread; true unless it was only waiting for work (a waiting thread is idle, not hung).
 bool stopped_at_work(pid_t thread) {
   if (ptrace(PTRACE_INTERRUPT, thread, nullptr, nullptr) != 0) return false;
   int status = 0;

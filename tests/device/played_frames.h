@@ -18,7 +18,7 @@ namespace usb {
 
 using Image = std::vector<std::uint8_t>;
 
-// A colour JPEG, 4:2:0 as cameras make it, of a gray image; the colours are arbitrary and smooth.
+// A colour JPEG, 4:2:0 as in cameras, of a gray image; the colours are arbitrary and smooth.
 inline Image jpeg_of(const std::uint8_t* gray, int width_px, int height_px) {
   constexpr int kQuality = 90;
   jpeg_compress_struct encoder{};
@@ -53,7 +53,7 @@ inline Image jpeg_of(const std::uint8_t* gray, int width_px, int height_px) {
   return out;
 }
 
-// Its luma, as any reader of it should see it.
+// Its luma, as every reader should decode it.
 inline Image luma_of(const Image& jpeg) {
   jpeg_decompress_struct decoder{};
   jpeg_error_mgr errors{};
@@ -73,7 +73,7 @@ inline Image luma_of(const Image& jpeg) {
   return gray;
 }
 
-// The gray frames of a file, as they go over the cable.
+// The gray frames of a file, as transmitted.
 inline std::vector<Image> played_frames(const std::string& path, const VideoMode& mode) {
   std::ifstream file(path, std::ios::binary);
   const Image gray((std::istreambuf_iterator<char>(file)), {});

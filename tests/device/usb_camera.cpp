@@ -1,6 +1,6 @@
-// A USB camera in user space: plugs itself into the virtual host controller (vhci_hcd) by its own protocol, USB/IP over
-// a socket pair, so that the kernel's real uvcvideo driver streams from it. It plays gray frames from a file, again and
-// again, and misbehaves when told. SIGTERM, or the end of --frames, is the cable being pulled.
+// A USB camera in user space: attaches itself to the virtual host controller (vhci_hcd) by USB/IP over
+// a socket pair, so that the kernel's real uvcvideo driver streams from it. It plays gray frames from a file
+// repeatedly, and simulates faults on request. SIGTERM, or the end of --frames, means that the cable is pulled.
 // Needs root, and `modprobe vhci-hcd; modprobe uvcvideo`.
 #include <fcntl.h>
 #include <poll.h>
@@ -35,7 +35,7 @@ using std::chrono::nanoseconds;
 
 struct Options {
   std::string file;
-  std::string luma_file;  // gets the luma that MJPEG left of them; empty = none
+  std::string luma_file;  // receives the luma after MJPEG; empty = none
   usb::VideoMode mode;
   std::string serial = "0001";
   int port = 0;
@@ -102,7 +102,7 @@ class Camera {
 
   [[nodiscard]] const usb::Image& image() const { return images_[static_cast<std::size_t>(n_sent_) % images_.size()]; }
 
-  // As far as the host has asked for data; a frame is a header of two bytes and the image.
+  // As much as the host has requested; a frame is a header of two bytes and the image.
   void send_frame() {
     while (is_sending_ && !requests_.empty()) {
       const Request request = requests_.front();
@@ -187,7 +187,7 @@ class Camera {
     const std::array<std::string, 3> texts = {"hovermodal", "Playback camera", options_.serial};
     return usb::string_descriptor(texts[static_cast<std::size_t>(index - 1)]).bytes();
   }
-  // Class requests: the way to stream is asked for (probe) and begun (commit).
+  // Class requests: streaming parameters are negotiated (probe) and applied (commit).
   [[nodiscard]] usb::Answer of_class(const std::array<std::uint8_t, 8>& setup,
                                      const std::vector<std::uint8_t>& from_host) {
     constexpr int kProbe = 1, kCommit = 2;
@@ -233,7 +233,7 @@ int plug_in(const Options& options) {
   if (attach < 0 || write(attach, line.data(), static_cast<std::size_t>(n)) != n)
     throw std::runtime_error("cannot attach to vhci_hcd: is the module loaded, is the port free?");
   close(attach);
-  close(pair[1]);  // the kernel's now
+  close(pair[1]);  // now used by the kernel
   return pair[0];
 }
 

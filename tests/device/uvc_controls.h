@@ -15,7 +15,7 @@ enum ClassRequest { kSet = 0x01, kGet = 0x81, kLeast, kMost, kStep, kLength, kIn
 
 using Answer = std::optional<std::vector<std::uint8_t>>;  // none: the request stalls
 
-// The camera terminal's exposure, in 0.1 ms, and whether it is automatic: it then wanders, until it is made manual.
+// The camera terminal's exposure, in 0.1 ms, and its mode: automatic exposure varies until it is set to manual.
 class ExposureControl {
  public:
   [[nodiscard]] Answer answer(int request, int selector, const std::vector<std::uint8_t>& from_host) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-// What a USB camera says about itself: USB 2.0 chapter 9, USB Video Class 1.1 chapters 3 and 4. One format, one size,
+// Descriptors of a USB camera: USB 2.0 chapter 9, USB Video Class 1.1 chapters 3 and 4. One format, one size,
 // one rate, frames over a bulk endpoint.
 namespace usb {
 
@@ -22,7 +22,7 @@ struct VideoMode {
   [[nodiscard]] std::size_t pixels() const {
     return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
   }
-  // The most that a frame may have; a JPEG is shorter.
+  // Largest size of a frame; a JPEG is shorter.
   [[nodiscard]] std::size_t frame_bytes() const { return format == VideoFormat::kGray ? pixels() : 2 * pixels(); }
   [[nodiscard]] std::uint32_t interval_100ns() const { return 10'000'000U / static_cast<std::uint32_t>(rate_hz); }
 };
@@ -111,7 +111,7 @@ inline Bytes configuration_descriptor(const VideoMode& mode) {
   return d;
 }
 
-// The answer to every question about the one way to stream (video probe and commit control, 34 bytes).
+// The answer to every request about the only streaming mode (video probe and commit control, 34 bytes).
 inline Bytes probe_control(const VideoMode& mode) {
   Bytes d;
   d.add({1, 0, 1, 1});

@@ -17,7 +17,7 @@
 
 namespace {
 
-// Damages a good file in the ways that editors, transfers and typing do, and in those of malice.
+// Damages a valid file as editors, transfers, typing errors and attackers might.
 class Mutator {
  public:
   explicit Mutator(std::uint64_t seed) : random_(seed) {}
@@ -122,7 +122,8 @@ std::string shipped(const std::string& name) {
   return drivers::read_text_file(tests::source_path("firmware_app/config/") + name, 1U << 20U);
 }
 
-// Runs `read` on mutations of `text`; any exception but Expected is a failure. Answers how many were taken and refused.
+// Runs `read` on mutations of `text`; any exception except Expected is a failure. Returns the numbers accepted and
+// refused.
 template <class Expected, class Read>
 std::pair<int, int> fuzz(const std::string& text, int n_cases, const Read& read) {
   int n_taken = 0, n_refused = 0;
@@ -152,7 +153,7 @@ class FuzzFile : public ::testing::Test {
   }
   [[nodiscard]] const std::string& write(const std::string& text) const {
     std::filesystem::remove(
-        path_);  // a truncated file is brought to the disk when it is closed: a hundred times slower
+        path_);  // a truncated file is synchronised to disk when it is closed: a hundred times slower
     std::ofstream(path_, std::ios::binary) << text;
     return path_;
   }

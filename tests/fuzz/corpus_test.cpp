@@ -38,7 +38,7 @@ void expect_to_hold(const Target& target, const std::vector<std::uint8_t>& bytes
 
 class FuzzCorpus : public ::testing::TestWithParam<Target> {};
 
-// Every input that is kept: seeds, and what a fuzzer once found.
+// Every kept input: seeds, and findings of a fuzzer.
 TEST_P(FuzzCorpus, HoldsForEveryKeptInput) {
   const auto inputs = kept_inputs(GetParam().name);
   EXPECT_GE(inputs.size(), 3U) << "tests/fuzz/corpus/" << GetParam().name;
@@ -56,7 +56,7 @@ TEST_P(FuzzCorpus, HoldsForEveryTruncationOfAShortInput) {
   }
 }
 
-// What a compiler without a fuzzer can do: bytes changed at random, the same ones in every run.
+// Substitute for a compiler without a fuzzer: bytes changed at random, the same in every run.
 TEST_P(FuzzCorpus, HoldsForDamagedInputs) {
   constexpr std::uint32_t kSeeds = 40;
   for (const fs::path& path : kept_inputs(GetParam().name)) {
@@ -64,7 +64,7 @@ TEST_P(FuzzCorpus, HoldsForDamagedInputs) {
     for (std::uint32_t seed = 1; seed <= kSeeds && whole.size() > 1; ++seed) {
       std::mt19937 random(seed);
       std::vector<std::uint8_t> bytes = whole;
-      // The first byte often selects what the rest is.
+      // The first byte often selects the kind of input.
       for (std::uint_fast32_t i = 0, n = 1 + random() % 6; i < n; ++i)
         bytes[1 + random() % (bytes.size() - 1)] = static_cast<std::uint8_t>(random());
       expect_to_hold(GetParam(), bytes, path.filename().string() + ", seed " + std::to_string(seed));

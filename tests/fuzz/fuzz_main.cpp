@@ -2,7 +2,7 @@
 
 #include "tests/fuzz/fuzz_target.h"
 
-// What libFuzzer calls with each input: the one target that is linked in.
+// Called by libFuzzer with each input: runs the one target that is linked in.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t n_bytes) {
   const auto& targets = tests::fuzz::targets();
   if (targets.size() != 1) std::abort();

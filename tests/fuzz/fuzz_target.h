@@ -15,7 +15,8 @@ namespace tests::fuzz {
 
 using Bytes = std::span<const std::uint8_t>;
 
-// What must hold of a result whatever the input was, did not. Never caught by a target: libFuzzer stops at it, the
+// A property that every result must have, whatever the input, is violated. Never caught by a target: libFuzzer stops at
+// it, and the
 // ordinary test of the corpus fails.
 class Violation : public std::logic_error {
  public:
@@ -25,7 +26,7 @@ inline void require(bool holds, const char* what) {
   if (!holds) throw Violation(what);
 }
 
-// A function that takes any bytes. Each targets/<name>_target.cpp registers one: alone in a libFuzzer program
+// A function that accepts any bytes. Each targets/<name>_target.cpp registers one: alone in a libFuzzer program
 // (fuzz_main.cpp), all together in corpus_test.cpp.
 struct Target {
   std::string name;
@@ -39,7 +40,7 @@ struct Registration {
   Registration(const char* name, void (*run)(Bytes)) { targets().push_back({name, run}); }
 };
 
-// Takes an input apart; what is not there reads as zero or empty.
+// Splits an input into parts; missing parts read as zero or empty.
 class Input {
  public:
   explicit Input(Bytes bytes) : rest_(bytes) {}
@@ -51,7 +52,7 @@ class Input {
     rest_ = rest_.subspan(out.size());
     return out;
   }
-  // A piece with its length, 16 bits, in front.
+  // A piece preceded by its length, 16 bits.
   [[nodiscard]] Bytes piece() {
     const std::size_t high = byte(), low = byte();
     return take(high << 8U | low);
@@ -64,7 +65,7 @@ class Input {
 
 [[nodiscard]] inline std::string text_of(Bytes bytes) { return {bytes.begin(), bytes.end()}; }
 
-// The bytes in a block of exactly their size: a sanitizer sees the first read beyond them.
+// The bytes in a block of exactly their size, so that a sanitizer detects the first read beyond them.
 class Exact {
  public:
   explicit Exact(Bytes bytes) : size_(bytes.size()), data_(new std::uint8_t[size_]) {

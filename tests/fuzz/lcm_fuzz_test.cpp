@@ -50,7 +50,7 @@ std::vector<Seed> seeds() {
   return out;
 }
 
-// The bytes in a block of exactly their size: a sanitizer sees the first read beyond them.
+// The bytes in a block of exactly their size, so that a sanitizer detects the first read beyond them.
 class Exact {
  public:
   explicit Exact(const Bytes& bytes) : size_(bytes.size()), data_(new std::uint8_t[size_]) {
@@ -99,7 +99,7 @@ TEST(LcmFuzz, EveryTruncationAndAnyTrailingByteIsUndecodable) {
   }
 }
 
-// Every length field, wherever it stands, as each of the values that break a naive decoder.
+// Every length field, at every position, with each of the values that break a naive decoder.
 TEST(LcmFuzz, HostileLengthsAtEveryPositionNeitherCrashNorAllocateWildly) {
   for (const auto& s : seeds()) {
     StreamMonitor monitor("FUZZ");

@@ -1,4 +1,4 @@
-// Writes the seeds of every fuzz target: small inputs that are right, or wrong in one way.
+// Writes the seeds of every fuzz target: small inputs that are valid, or invalid in one way.
 //   make_corpus tests/fuzz/corpus
 #include <filesystem>
 #include <fstream>

@@ -1,4 +1,4 @@
-// Seeds that are text.
+// Seeds in text formats.
 #include "drivers/storage/scene/scene_file.h"
 #include "drivers/storage/text_file.h"
 #include "tests/fuzz/make_corpus.h"

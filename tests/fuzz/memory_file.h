@@ -11,7 +11,7 @@
 
 namespace tests::fuzz {
 
-// A regular file that is in memory only, for readers that want a path: thousands a second, and no disk is written.
+// A regular file in memory only, for readers that need a path: thousands per second, without writing to a disk.
 class MemoryFile {
  public:
   explicit MemoryFile(Bytes bytes) : fd_(memfd_create("fuzz", MFD_CLOEXEC)) {

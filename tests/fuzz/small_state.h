@@ -8,7 +8,7 @@
 
 namespace tests::fuzz {
 
-// A run so small that its state is a few kilobytes: what the checkpoint target goes on with, and its corpus is made of.
+// A run so small that its state has a few kilobytes: used by the checkpoint target and its corpus.
 
 inline constexpr double kRate_hz = 25.0;
 inline constexpr std::size_t kChannels = 2, kRegions = 2;

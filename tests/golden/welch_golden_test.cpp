@@ -16,7 +16,7 @@ namespace core {
 namespace {
 
 constexpr double kBar = 1e-10;
-// Deviations are taken relative to at least this share of the pair's peak: detrending leaves bin 0 at rounding noise.
+// Deviations are relative to at least this share of the pair's peak, because detrending leaves rounding noise in bin 0.
 constexpr double kFloor = 1e-4;
 
 nlohmann::json golden() {
@@ -24,7 +24,7 @@ nlohmann::json golden() {
   return nlohmann::json::parse(file);
 }
 
-// One-sided density of a pair, scaled as scipy does.
+// One-sided density of a pair, scaled as in scipy.
 std::complex<double> density(const CpsdSums& sums, int bin, int pair) {
   const double sides = bin == 0 || bin == sums.n_fft / 2 ? 1.0 : 2.0;
   const auto at =

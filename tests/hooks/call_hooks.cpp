@@ -74,7 +74,7 @@ void note_site(ThreadRecord& record, Kind kind) noexcept {
 
 void note(Kind kind) noexcept {
   if (inside || !counting.load(std::memory_order_relaxed)) return;
-  inside = true;  // backtrace() may itself come by
+  inside = true;  // backtrace() may call a hook itself
   if (ThreadRecord* record = record_of_this_thread()) {
     ++record->n[kind];
     if (kind != kFree) note_site(*record, kind);
@@ -118,7 +118,7 @@ hooks::CallSite resolve(const ThreadRecord& record, const Site& site) {
     if (!is_ours || function.find("cv::") == 0) {
       out.in_opencv = true;
     } else if (function != "(internal)" || i + 1 == static_cast<std::size_t>(site.n_frames)) {
-      out.through = function;  // the nearest of ours that has a name
+      out.through = function;  // the innermost function of this project that has a name
       break;
     }
   }
@@ -191,7 +191,7 @@ namespace hooks {
 
 void start_counting() {
   std::array<void*, 4> frames{};
-  (void)backtrace(frames.data(), 4);  // loads the unwinder now, not in the middle
+  (void)backtrace(frames.data(), 4);  // loads the unwinder now, not during counting
   counting.store(true);
 }
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-// This executable's own malloc and pthread_mutex_lock (and their kin), for every library in it: they count, by thread,
-// what a thread whose name begins with "hm-" does while counting is on, and then do what libc does.
+// Replaces malloc and pthread_mutex_lock (and related functions) in this executable, for every library in it: they
+// count, per thread, the calls of threads whose name begins with "hm-" while counting is on, and then call libc's.
 namespace hooks {
 
 struct ThreadCalls {
@@ -20,8 +20,8 @@ struct CallSite {
   std::string what;     // "allocation", "lock", "wait"
   std::string library;  // of the innermost frame that is neither libc, libstdc++ nor this hook
   std::string function;
-  std::string through;     // innermost function of ours on the way there; may be empty
-  bool in_opencv = false;  // a library of OpenCV (or what it is linked to) stands between us and the call
+  std::string through;     // innermost function of this project in the call chain; may be empty
+  bool in_opencv = false;  // a library of OpenCV (or one it is linked to) lies between this project and the call
   std::uint64_t n = 0;
 };
 

@@ -1,6 +1,6 @@
-// What the run path asks of libc: allocations and locks of every stage's thread over a whole run, by hooks.
+// Counts the calls of the run path to libc: allocations and locks of every stage's thread over a whole run, by hooks.
 //   HOVERMODAL_HOOK_FRAMES   frames of the run (default 400)
-//   HOVERMODAL_HOOK_REPORT   where the counts and call sites are written, tab-separated
+//   HOVERMODAL_HOOK_REPORT   file for the counts and call sites, tab-separated
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -121,7 +121,7 @@ const std::vector<BadInput>& output_rows() {
        1,
        {"taken", "may be written"}},
       {"OutputFolderNotWritable", not_writable, 1, {"locked", "permission"}},
-      // Telemetry is a service to others: a run goes on without it, and says so.
+      // Telemetry is not essential to the run: without it the run continues and reports this.
       {"DiskFullUnderTheLcmLog",
        [](const fs::path& f) {
          return with_arguments(f, {"--set", "telemetry.log_file=/dev/full"});

@@ -38,7 +38,7 @@ cv::Mat of_type(int frame, int type) {
   return image;
 }
 
-// A PNG that claims to be this large; both numbers below 65536.
+// A PNG that states this size; both numbers below 65536.
 Input claimed_size(const fs::path& folder, int width_px, int height_px) {
   Input input = images(folder, [](int k) { return swaying_image(k); });
   for (const auto& file : fs::directory_iterator(folder / "images")) {
@@ -84,7 +84,7 @@ const std::vector<BadInput>& source_rows() {
        },
        1,
        {"clip.mp4", "cut off"}},
-      // What decodes is kept; the loss is reported.
+      // Decodable frames are kept; the loss is reported.
       {"CutInTheMiddle",
        [](const fs::path& f) {
          Input input = clip(f);
@@ -156,7 +156,7 @@ const std::vector<BadInput>& source_rows() {
   return rows;
 }
 
-// Files of ffmpeg: what stands beside a film, and what is none.
+// Files made by ffmpeg: with other streams beside a video, and without any video.
 Input made_by_ffmpeg(const fs::path& folder, const char* name, const std::string& arguments) {
   clip(folder);
   test_support::ffmpeg(fmt::format("-i {} {} {}", test_support::quoted(folder / "clip.avi"), arguments,

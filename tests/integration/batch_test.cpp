@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// Three flights of one view, one of another (a smaller picture of the same), one that is broken.
+// Three flights of one view, one of another (a smaller picture of the same), one that is damaged.
 class Batch : public tests::FolderTest {
  protected:
   void make_flights() const {
@@ -68,12 +68,12 @@ TEST_F(Batch, GivesTheSameBytesForAnyNumberOfProcesses) {
     weights += weight, sum += weight * view["frequency_hz"].get<double>();
   }
   EXPECT_NEAR(first["frequency_hz"]["value"].get<double>(), sum / weights, 1e-9);
-  EXPECT_GT(first["frequency_hz"]["std"].get<double>(), 1.0 / std::sqrt(weights));  // they are estimates themselves
+  EXPECT_GT(first["frequency_hz"]["std"].get<double>(), 1.0 / std::sqrt(weights));  // these are estimates, too
   EXPECT_TRUE(fs::exists(folder_ / "one" / "flights" / "1" / "report.html"));
   EXPECT_FALSE(fs::exists(folder_ / "one" / "flights" / "1" / "flight.sums"));
 }
 
-// A lens is declared that is not there: the clip's configuration says whether what is missing is taken out in flight.
+// The configuration declares a lens that does not exist: it also decides whether the error is corrected in flight.
 TEST_F(Batch, AClipAdoptsEffectsWhereItsConfigurationSaysSo) {
   const std::string clip = (folder_ / "in" / "a").string();
   const auto made = tests::run("hovermodal", "simulate --preset paper --size 270p --duration 60 --out " + clip);

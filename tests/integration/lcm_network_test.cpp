@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=0";
 
-// Runs `body` in a network without a multicast route; why that cannot be had, or "".
+// Runs `body` in a network without a multicast route; returns why that is impossible, or "".
 template <class Body>
 std::string without_route(Body body) {
   std::string why = tests::private_loopback();  // a user namespace, where one is needed
@@ -62,7 +62,7 @@ TEST(LcmNetwork, WithoutARouteThePublisherRefusesToStart) {
 TEST(LcmNetwork, ARouteLostWhileRunningIsCountedAndLeavesAGapInTheSequence) {
   SKIP_WITHOUT_PRIVATE_LOOPBACK();
   const std::string why = without_route([&] {
-    // LCM's socket is made in this thread's network: bring a route up, then take the device down.
+    // LCM's socket is created in this thread's network: bring a route up, then take the device down.
     ASSERT_EQ(tests::enter_private_network(true), "");
     drivers::LcmPublisher publisher({kUrl, "TEST", "", {}});
     EXPECT_TRUE(publisher.publish(tests::sample_displacement(2, 0), {}));
@@ -74,7 +74,7 @@ TEST(LcmNetwork, ARouteLostWhileRunningIsCountedAndLeavesAGapInTheSequence) {
   if (!why.empty()) GTEST_SKIP() << "needs a private network: " << why;
 }
 
-// "BAD <what> | <remedy>; " of everything that is bad.
+// "BAD <what> | <remedy>; " of every bad finding.
 std::string bad_findings(const std::string& url) {
   std::string out;
   for (const auto& finding : drivers::diagnose_lcm(url, "TEST")) {

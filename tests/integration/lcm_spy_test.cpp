@@ -37,7 +37,7 @@ nlohmann::json read_json(const std::filesystem::path& path) {
   return nlohmann::json::parse(in, nullptr, false);
 }
 
-// A short life of the service: 300 samples, tracks, spectra and split estimates, health, and the end.
+// A short run of the service: 300 samples, tracks, spectra and split estimates, health, and the end.
 void publish_run(drivers::Publisher& publisher, std::chrono::microseconds pace) {
   const auto channels = tests::sample_channels(12);
   publisher.publish(tests::sample_health("starting", 0));
@@ -200,7 +200,7 @@ TEST(LcmSpy, SurvivesHostileMessagesAndCountsThem) {
     send("HOVERMODAL_HEALTH", mutated);
     send("HOVERMODAL_MODAL", {mutated.begin(), mutated.begin() + static_cast<std::ptrdiff_t>(random() % bytes.size())});
   }
-  // More than one: a mutated message may have claimed a sequence and a time far ahead.
+  // Several, because a mutated message may have claimed a sequence and a time far ahead.
   for (int i = 1; i <= 20; ++i) send("HOVERMODAL_HEALTH", encoded(hostile_health("finished", i)));
   EXPECT_EQ(spy.wait_for_exit(), 0) << spy.output();
   EXPECT_EQ(spy.output().find('\x1b'), std::string::npos);

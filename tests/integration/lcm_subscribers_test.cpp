@@ -124,7 +124,7 @@ TEST(LcmSubscribers, SpySaysThatAServiceSpeaksAnotherVersion) {
   EXPECT_THAT(spy.output(), HasSubstr("layout 9"));
 }
 
-// What is held back is counted, is no gap to who listens, and stands in the log.
+// Withheld messages are counted, are no gap for a listener, and are in the log.
 TEST(LcmSubscribers, ACapHoldsBackSamplesNeverModesAndTheLogHasAll) {
   SKIP_WITHOUT_PRIVATE_LOOPBACK();
   const auto folder = own_folder();

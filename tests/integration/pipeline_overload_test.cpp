@@ -1,4 +1,4 @@
-// Overload that lasts, and a stage that hangs: every n-th frame at equal spacing, and a fault with a name.
+// Sustained overload, and a stage that hangs: every n-th frame at equal spacing, and a fault that names the stage.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ TEST(PipelineOverload, KeepsEveryNthFrameAtEqualSpacingAndSaysSo) {
   EXPECT_DOUBLE_EQ(outcome.health.rate_hz, 25.0 / static_cast<double>(stride));
   EXPECT_THAT(outcome.health.warnings, Contains(HasSubstr("overload: only every")));
 
-  // The end of the record stands on a grid of that stride, and the estimate is of it alone.
+  // The end of the record is on a grid of that stride, and the estimate uses only that part.
   const auto& samples = rig.heard->samples;
   ASSERT_GT(samples.size(), 5U);
   const std::uint64_t last = samples.back().sequence;
@@ -62,7 +62,7 @@ TEST(PipelineOverload, AStageThatHangsIsNamedWhileItHangsAndCostsNothingAfterwar
   script.lossless = false;
   script.frame_time = std::chrono::milliseconds(2);
   const auto hang = std::make_shared<std::atomic<bool>>(true);
-  script.is_dark = [hang](std::uint64_t k) {  // the camera does not come back from this frame
+  script.is_dark = [hang](std::uint64_t k) {  // the camera's capture hangs at this frame
     while (k == 60 && hang->load()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return false;
   };

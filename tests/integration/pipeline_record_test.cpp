@@ -1,4 +1,4 @@
-// A run that is recorded, and replayed.
+// A run that is recorded and replayed.
 #ifdef HOVERMODAL_WITH_LCM
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using tests::Rig;
 
 class PipelineRecord : public ::testing::Test {
  protected:
-  // Runs with a report and a record; the record's first file.
+  // Runs with a report and a record; returns the record's first file.
   std::string run(const CameraScript& script, const std::string& name, std::vector<std::string> more = {}) {
     more.insert(more.end(), {"spectrum.segment=64", "record.directory=" + (folder / name).string(),
                              "report.directory=" + (folder / (name + "_live")).string()});
@@ -53,7 +53,7 @@ class PipelineRecord : public ::testing::Test {
 TEST_F(PipelineRecord, IsReplayedToTheSameBits) {
   const std::string record = run(frames(400), "plain");
   const auto result = replayed({record}, "plain");
-  EXPECT_THAT(result.remarks, Contains(HasSubstr("cut off")));  // this publisher writes no last word
+  EXPECT_THAT(result.remarks, Contains(HasSubstr("cut off")));  // this publisher writes no final message
   EXPECT_FALSE(result.tracks.estimate.modes.empty());
   expect_same_report("plain");
   EXPECT_TRUE(fs::exists(folder / "plain_again" / "frame.png"));  // the record holds the first image
@@ -67,7 +67,7 @@ TEST_F(PipelineRecord, ARunWithLostFramesToo) {
   expect_same_report("gaps");
 }
 
-// Reports of closing the loop too, whether they change anything or not. A lens is declared that is not there.
+// Includes reports of residual diagnosis, with and without corrections. A lens is declared that does not exist.
 TEST_F(PipelineRecord, ARunThatClosesTheLoopToo) {
   for (const std::string adopt : {"report", "auto"}) {
     const std::string record =
@@ -81,7 +81,7 @@ TEST_F(PipelineRecord, ARunThatClosesTheLoopToo) {
   }
 }
 
-// The service masks two segments of it, no more; so does the replay, whatever time a record says has passed.
+// The service masks at most two segments of the gap; so does the replay, whatever times the record states.
 TEST_F(PipelineRecord, ARunWithAGapOfManySegmentsToo) {
   CameraScript script = frames(900);
   script.is_lost = [](std::uint64_t k) { return k >= 150 && k < 700; };
@@ -90,7 +90,7 @@ TEST_F(PipelineRecord, ARunWithAGapOfManySegmentsToo) {
   expect_same_report("long_gap");
 }
 
-// Cut off after 300 frames, the next run goes on with its state, which is in that run's record.
+// Interrupted after 300 frames; the next run resumes from its state, which is contained in that run's record.
 TEST_F(PipelineRecord, ARunThatWentOnWithAKeptStateToo) {
   const std::vector<std::string> keeps = {"state.period_s=2", "state.directory=" + (folder / "state").string()};
   CameraScript cut_off = frames(400);
@@ -109,8 +109,8 @@ TEST_F(PipelineRecord, ARunThatWentOnWithAKeptStateToo) {
   EXPECT_EQ(other.tracks.estimate.n_samples, 200U);
 }
 
-// From the frame on from which the run kept every n-th only, new spectra begin in the replay, too. What was dropped in
-// front of the tracker is reported in the run's last message, which this publisher does not write.
+// From the first thinned frame on, new spectra begin in the replay, too. Frames dropped before the
+// tracker are reported in the run's last message, which this publisher does not write.
 TEST_F(PipelineRecord, ARunUnderOverloadToo) {
 #ifdef __SANITIZE_THREAD__
   GTEST_SKIP() << "instrumented tracking follows one frame in sixty: too few are left to compare";

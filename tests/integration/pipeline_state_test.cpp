@@ -1,4 +1,4 @@
-// A run that is cut off and one that goes on with what it left.
+// An interrupted run, and one that resumes from its state.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ class PipelineState : public ::testing::Test {
   std::vector<std::string> overrides(const std::string& more = "identification.min_mpc=0.8") const {
     return {"spectrum.segment=64", "state.period_s=2", "state.directory=" + folder.string(), more};
   }
-  // Ends with a fault after 300 frames of 25 a second: its state stays.
+  // Ends with a fault after 300 frames at 25 per second: its state is kept.
   app::Pipeline::Outcome cut_off() const {
     CameraScript script = frames(400);
     script.fault_at = 300;
@@ -51,14 +51,14 @@ TEST_F(PipelineState, ARunThatWasCutOffIsGoneOnWithAndItsRecordCounts) {
   const auto after = rig.run();
   EXPECT_EQ(after.fault, "");
   EXPECT_THAT(after.health.warnings, Contains(HasSubstr("goes on with the state in")));
-  // 300 frames less one period at most, a masked segment between, 200 frames.
+  // 300 frames minus at most one period, a masked segment, 200 frames.
   EXPECT_GE(after.estimate.n_samples, 250U + 64U + 200U);
   EXPECT_LE(after.estimate.n_samples, 300U + 128U + 200U);
   EXPECT_GT(after.estimate.n_segments, before.estimate.n_segments);
   EXPECT_FALSE(fs::exists(file)) << "it ended by itself: the next run is another one";
 }
 
-// The clip is played over and over: frame 340 of the second run is frame 40 of the clip.
+// The clip is played repeatedly: frame 340 of the second run is frame 40 of the clip.
 TEST_F(PipelineState, DisplacementsAreMeasuredFromTheSameKeyframeAsBefore) {
   Rig whole(frames(400), {"spectrum.segment=64"});
   (void)whole.run();
@@ -84,7 +84,7 @@ TEST_F(PipelineState, AnotherViewIsSeededAnewAndTheReasonTold) {
   (void)cut_off();
   const std::string bytes = tests::file_text(keyframe);
   ASSERT_GT(bytes.size(), 480U * 270U);
-  // The same points, in an image of something else; hash, number, time, width and height and a count come before it.
+  // The same points, in an image of another scene; hash, number, time, width and height and a count come before it.
   drivers::CheckpointRead read = drivers::read_checkpoint(keyframe.string());
   for (std::size_t i = 0; i < 480U * 270U; ++i) read.bytes[40 + i] = static_cast<std::uint8_t>((i * i / 7) & 0xFFU);
   ASSERT_EQ(drivers::write_checkpoint(keyframe.string(), read.bytes), "");

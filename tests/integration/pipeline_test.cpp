@@ -1,4 +1,4 @@
-// The whole way from frames to modes, in this process, over a scripted camera: what it finds, how often, how exactly.
+// The whole chain from frames to modes, in this process, with a scripted camera: which modes, how often, how accurate.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,11 +45,11 @@ TEST(Pipeline, FindsTheModesOfASimulatedBuilding) {
     const double truth_hz = modes[r].frequency_hz;
     const core::Mode* mode = nearest_mode(outcome.estimate, truth_hz);
     ASSERT_NE(mode, nullptr);
-    // Least scatter of a frequency from a random record of this length.
+    // Least possible scatter of a frequency from a random record of this length.
     const double scatter = std::sqrt(modes[r].damping_ratio / (2.0 * std::numbers::pi * truth_hz * kDurationS));
     EXPECT_NEAR(mode->frequency_hz / truth_hz, 1.0, 3.0 * scatter) << "mode " << r + 1;
     std::vector<std::complex<double>> truth, found;
-    for (std::size_t i = 0; i < 6; ++i) {  // the floors stand before the base
+    for (std::size_t i = 0; i < 6; ++i) {  // the floors come before the base
       truth.push_back(modes[r].displacement(static_cast<Eigen::Index>(i)));
       found.push_back(mode->shape.at(i));
     }
@@ -57,7 +57,7 @@ TEST(Pipeline, FindsTheModesOfASimulatedBuilding) {
   }
 }
 
-// Two periods and the rest; what is published does not depend on how long the stages take.
+// Two periods and the remainder; the output does not depend on the time that the stages take.
 TEST(Pipeline, ClosesTheLoopWhileItRuns) {
   std::vector<std::shared_ptr<Heard>> heard;
   for (const int slots : {2, 8}) {
@@ -80,8 +80,8 @@ TEST(Pipeline, ClosesTheLoopWhileItRuns) {
   }
 }
 
-// A lens is declared that is not there. Two reports agree on it; from the announced frame on it is taken out, and the
-// estimates say so. The sums go on, with one segment masked. Neither the frame nor a bit depends on the stages' timing.
+// A lens is declared that does not exist. Two reports agree on it; from the announced frame on it is corrected, and the
+// estimates state it. The sums continue, with one segment masked. Neither frame nor bits depend on the stages' timing.
 TEST(Pipeline, TakesOutWhatTwoReportsFoundFromTheAnnouncedFrameOn) {
   std::vector<std::shared_ptr<Heard>> heard;
   for (const int slots : {2, 64}) {
@@ -101,7 +101,7 @@ TEST(Pipeline, TakesOutWhatTwoReportsFoundFromTheAnnouncedFrameOn) {
   ASSERT_FALSE(estimates.empty());
   EXPECT_TRUE(estimates.front().amendments.empty());
   EXPECT_EQ(estimates.back().amendments.size(), 1U);
-  EXPECT_GE(estimates.back().n_samples, 1500U);  // rows are seen when they were: the sums go on, a segment is masked
+  EXPECT_GE(estimates.back().n_samples, 1500U);  // row delays are unchanged: the sums continue, one segment is masked
   ASSERT_EQ(heard[1]->estimates.size(), estimates.size());
   for (std::size_t k = 0; k < estimates.size(); ++k) {
     EXPECT_EQ(estimates[k].amendments, heard[1]->estimates[k].amendments);
@@ -129,7 +129,7 @@ std::ostream& operator<<(std::ostream& out, const PeriodCase& c) {
 
 class PipelinePeriod : public ::testing::TestWithParam<PeriodCase> {};
 
-// One estimate every `period` hops and one at the end; each says at which sample it was made.
+// One estimate every `period` hops and one at the end; each states the sample at which it was made.
 TEST_P(PipelinePeriod, GivesAnEstimateEverySoManyHops) {
   const PeriodCase& p = GetParam();
   CameraScript script = frames(static_cast<std::uint64_t>(p.n_frames));

@@ -1,4 +1,4 @@
-// The pipeline under overload, faults, gaps, darkness and sudden ends: everything is accounted for, nothing hangs.
+// The pipeline under overload, faults, gaps, darkness and sudden ends: every loss is counted, nothing hangs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,8 +17,8 @@ using tests::kChannels;
 using tests::kShortClip;
 using tests::Rig;
 
-// Channel samples that the spectrum must have masked, from the samples that were published: all of them, where the
-// records ring lost none.
+// Channel samples that the spectrum must have masked, from the published samples: all of them if the
+// ring of records lost none.
 std::uint64_t expected_masked(const Heard& heard) {
   std::uint64_t masked = 0;
   for (std::size_t i = 0; i < heard.samples.size(); ++i) {
@@ -33,13 +33,13 @@ TEST(PipelineTrouble, OverloadDropsFramesCountsThemAndMasksTheGaps) {
   CameraScript script = frames(400);
   script.lossless = false;
   script.frame_time = std::chrono::microseconds(100);
-  // All samples find room behind tracking, however late spectrum gets its processor.
+  // All samples find room after tracking, however late spectrum gets its processor.
   Rig rig(script, {"spectrum.segment=64", "rt.frame_slots=2", "rt.sample_slots=512", "rt.thin_overload=false"});
   const auto outcome = rig.run();
   EXPECT_EQ(outcome.fault, "");
   EXPECT_EQ(outcome.health.frames_in, 400U);
   EXPECT_GT(outcome.health.frames_dropped, 0U);
-  EXPECT_EQ(outcome.health.frames_missing, 0U);  // they reached us
+  EXPECT_EQ(outcome.health.frames_missing, 0U);  // they reached the service
   ASSERT_EQ(rig.heard->samples.size(), outcome.health.frames_processed);
   const auto expected = expected_masked(*rig.heard);
   EXPECT_GT(expected, 0U);
@@ -247,7 +247,7 @@ TEST(PipelineTrouble, MayBeDestroyedAtAnyMomentWithoutJoin) {
     rig.pipeline->start();
     std::this_thread::sleep_for(std::chrono::microseconds(random() % 30'000U));
     rig.pipeline.reset();
-    EXPECT_FALSE(rig.heard->health.empty());  // the last words were spoken
+    EXPECT_FALSE(rig.heard->health.empty());  // the final status was sent
   }
 }
 

@@ -1,4 +1,4 @@
-// The service as a program: its command line, exit codes, signals, and what it leaves behind.
+// The service as a program: its command line, exit codes, signals, and output files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -108,7 +108,7 @@ TEST(Service, WatchesAClipAndLeavesItsReport) {
   expect_complete_report(folder);
   const auto modal = tests::json_of(folder / "modal.json");
   EXPECT_EQ(modal["samples"], 600);
-  EXPECT_EQ(modal["segments"], 9);  // 1 + (600 - 128) / 64, and the rest
+  EXPECT_EQ(modal["segments"], 9);  // 1 + (600 - 128) / 64, and the remainder
 }
 
 TEST(Service, TheSameClipTwiceGivesTheSameBytes) {
@@ -209,7 +209,7 @@ TEST(Service, AMissingDeviceIsExitCode3) {
   }
 }
 
-// A program that starts another without the right to real-time priorities; empty when that cannot be had here.
+// A command that starts a program without the right to real-time priorities; empty if that is impossible here.
 std::vector<std::string> without_realtime_rights() {
   std::vector<std::string> before;
   if (geteuid() == 0) before = {"/usr/bin/setpriv", "--bounding-set=-sys_nice", "--inh-caps=-sys_nice"};

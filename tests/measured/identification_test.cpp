@@ -12,8 +12,8 @@
 #include "tests/support/measured_data.h"
 #include "tests/support/places.h"
 
-// The identification on records of others, as `hovermodal identify` runs it: rate, quantity, highest frequency and
-// input are said, nothing else. tools/figures/identification_measured.sh prints the errors.
+// The identification of public records, as by `hovermodal identify`: only rate, quantity, highest frequency and
+// input are given. tools/figures/identification_measured.sh prints the errors.
 namespace {
 
 namespace fs = std::filesystem;

@@ -66,7 +66,7 @@ std::optional<core::Vector2> region_step(const core::TrackFrame& first, const co
   return core::Vector2{sum.u / count, sum.v / count};
 }
 
-// Rms distance between the steps of a region and of its dot, each dot's constant offset removed; -1: lost on the way.
+// Rms distance between the steps of a region and of its dot, each dot's constant offset removed; -1: lost.
 double rms_distance(const std::vector<core::TrackFrame>& tracks, const std::vector<Centroids>& dots,
                     std::size_t region) {
   double su = 0.0, sv = 0.0, squares = 0.0;
@@ -85,7 +85,8 @@ double rms_distance(const std::vector<core::TrackFrame>& tracks, const std::vect
   return std::sqrt(squares / n - su / n * su / n - sv / n * sv / n);
 }
 
-// A model frame pulled at its roof and released, on a tripod. The centroids were measured apart from this project.
+// A model frame displaced at its roof and released, filmed from a tripod. The centroids were measured independently of
+// this project.
 TEST(MeasuredKnexFrame, TracksFollowTheDotsOfTheBaseAndTheRowAbove) {
   SKIP_WITHOUT_MEASURED("knex_frame_video/knex_1300x2046_gray.mp4");
   const auto folder = tests::measured_data_path() / "knex_frame_video";

@@ -24,8 +24,8 @@ const std::array<const char*, 4> kSetups{"setup_01", "setup_04", "setup_07", "se
 
 std::string path_of(const std::string& setup) { return "five_storey_frame/" + setup + ".csv"; }
 
-// Mean of every eight samples. `stretch` > 0 plays the record ever faster, by that share at its end: every frequency
-// rises by it.
+// Mean of every eight samples. `stretch` > 0 plays the record at increasing speed, by that share at its end: every
+// frequency rises by it.
 std::vector<std::vector<double>> samples_of(const drivers::SeriesFile& file, double stretch) {
   const auto n = static_cast<double>(file.columns.front().size());
   std::vector<std::vector<double>> out;

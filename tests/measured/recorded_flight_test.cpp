@@ -31,7 +31,7 @@ double rms(const std::vector<double>& x) {
   return std::sqrt(sum / static_cast<double>(x.size()));
 }
 
-// Share of the variance below `limit_hz`; Hann window, so that a record's ends do not pass for high frequencies.
+// Share of the variance below `limit_hz`; with a Hann window, so that the record's ends add no high frequencies.
 double share_below(const std::vector<double>& x, double rate_hz, double limit_hz) {
   const int n_fft = core::next_power_of_two(static_cast<int>(x.size()));
   core::RealFft fft(n_fft);
@@ -74,7 +74,7 @@ TEST(RecordedFlight, CameraFacingTheMeanHeadingKeepsTheVariance) {
   const RecordedPath motion(make_recorded_motion(path, nullptr, {path.mean_heading_deg, 0.0, 0.0}));
   EXPECT_NEAR(std::hypot(motion.rms()[0], motion.rms()[2]), std::hypot(rms(path.north_mm), rms(path.east_mm)), 1e-6);
   EXPECT_NEAR(motion.duration_s(), 79.3, 1e-6);
-  // Longer than the record: no jump where it turns.
+  // Longer than the record: no jump where its direction reverses.
   for (double t = 79.0; t < 79.6; t += 0.01) {
     for (const int axis : {0, 1, 2}) EXPECT_LT(std::abs(motion.at(axis, t + 0.01) - motion.at(axis, t)), 10.0);
   }

@@ -9,7 +9,8 @@
 
 namespace {
 
-// A weighted fork of nominally 64 Hz, filmed at 250 frames/s by a rolling shutter; the container says 50. Both prongs.
+// A weighted fork of nominally 64 Hz, filmed at 250 frames/s by a rolling shutter; the container states 50. Both
+// prongs.
 TEST(MeasuredTuningFork, ItsFrequencyIsFoundWithin3Permille) {
   SKIP_WITHOUT_MEASURED("tuning_forks/fork_64hz_250fps.mp4");
   const auto clip = tests::measured_data_path() / "tuning_forks" / "fork_64hz_250fps.mp4";

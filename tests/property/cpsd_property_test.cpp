@@ -23,7 +23,7 @@ WelchConfig config_of(int n_channels, int segment, WindowKind window) {
   return config;
 }
 
-// Two resonators driven in part by the same noise; the second channel hears the first late.
+// Two resonators driven in part by the same noise; the second channel contains the first with a delay.
 struct ArProcess {
   std::mt19937 random;
   std::normal_distribution<double> gaussian;
@@ -114,8 +114,8 @@ Pair one_trial(unsigned seed, double loss) {
   return pair;
 }
 
-// Mean over trials of what losses change, in units of its own standard error. The segment's mean, estimated from fewer
-// samples, takes a share of order 1 / segment of the variance with it: that much is allowed for.
+// Mean over trials of the change by losses, in units of its standard error. The segment's mean, estimated from fewer
+// samples, removes a share of order 1 / segment of the variance: that much is allowed.
 TEST(CpsdProperty, StaysUnbiasedUnderRandomLoss) {
   constexpr int kTrials = 40;
   for (const double loss : {0.1, 0.3}) {

@@ -53,7 +53,7 @@ TEST(RealFftProperty, IsLinear) {
   }
 }
 
-// A circular shift turns every bin by its own angle and changes nothing else.
+// A circular shift rotates every bin by its own angle and changes nothing else.
 TEST(RealFftProperty, AShiftIsAPhase) {
   std::mt19937 random(3);
   RealFft fft(128);

@@ -7,7 +7,7 @@
 
 namespace {
 
-// Whatever the order of operations, the ring behaves as a std::deque that refuses to grow over its slots.
+// For any order of operations the ring behaves like a std::deque that refuses to grow beyond its slots.
 void play(std::uint32_t seed) {
   std::mt19937 random(seed);
   const std::size_t n_slots = 1 + random() % 9;
@@ -21,7 +21,7 @@ void play(std::uint32_t seed) {
     if (random() % 10 < write_share && !closed) {
       std::uint32_t* slot = writer.try_claim();
       ASSERT_EQ(slot == nullptr, model.size() == n_slots);
-      if (slot == nullptr || random() % 8 == 0) continue;  // claimed, not published: nothing happened
+      if (slot == nullptr || random() % 8 == 0) continue;  // claimed but not published: no effect
       *slot = static_cast<std::uint32_t>(random());
       model.push_back(*slot);
       writer.publish();
@@ -30,7 +30,7 @@ void play(std::uint32_t seed) {
       ASSERT_EQ(item == nullptr, model.empty());
       if (item == nullptr) continue;
       ASSERT_EQ(*item, model.front());
-      if (random() % 4 == 0) continue;  // looked at, not taken
+      if (random() % 4 == 0) continue;  // read but not popped
       reader.pop();
       model.pop_front();
     }

@@ -5,7 +5,7 @@
 
 namespace stress {
 
-// Far wider than a machine word: a reader that sees a slot half written finds a word that does not fit its number.
+// Far wider than a machine word: a reader of a half-written slot finds a word that does not match its number.
 class Payload {
  public:
   void fill(std::uint64_t number) noexcept {

@@ -32,7 +32,7 @@ TEST(TripleBufferStress, TheReaderSeesWholeValuesInRisingOrderAndTheLastOne) {
     while (monotonic_ns() < end_ns) {
       buffer.back().fill(++n_published);
       buffer.publish();
-      if (n_published % 64 == 0) std::this_thread::yield();  // on a busy machine the reader gets its turn more often
+      if (n_published % 64 == 0) std::this_thread::yield();  // lets the reader run more often on a busy machine
     }
     buffer.close();
   });

@@ -9,8 +9,8 @@
 
 namespace test_support {
 
-// A texture that is a sum of plane waves: evaluated where a pixel looks, never interpolated, so a shifted image is
-// exact but for its rounding to 8 bits.
+// A texture that is a sum of plane waves: evaluated at each pixel's position, never interpolated, so a shifted image is
+// exact except for its rounding to 8 bits.
 class AnalyticTexture {
  public:
   explicit AnalyticTexture(unsigned seed, double shortest_px = 8.0, double contrast = 30.0) {

@@ -17,8 +17,8 @@
 #include "tests/support/service_run.h"
 #include "tests/support/swaying_clip.h"
 
-// What is refused, and how: a row runs the real service on one bad input. It must end by itself with the exit code of
-// the row, name the culprit and a remedy, and leave no result that holds NaN.
+// Inputs that are refused, and how: a row runs the real service on one bad input. It must end by itself with the exit
+// code of the row, name the fault and a remedy, and leave no result that contains NaN.
 namespace tests::bad_input {
 
 namespace fs = std::filesystem;
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 inline constexpr int kFrames = 100;
 inline constexpr const char* kGoodRegions = "[{name: roof, rect: [20, 20, 80, 50]}]";
 
-// What the service is given; empty fields get something good.
+// Input of the service; empty fields get valid defaults.
 struct Input {
   std::string source;
   std::string camera = "rate_hz: 25";
@@ -58,7 +58,7 @@ inline Input clip(const fs::path& folder, int n_frames = kFrames, const char* na
 
 inline Input good(const fs::path& folder) { return clip(folder, 40); }
 
-// Root may read and write everything unless it gives that right up.
+// Root may read and write everything unless this right is dropped.
 inline std::vector<std::string> without_file_rights() {
   if (geteuid() != 0) return {};
   return {"/usr/bin/setpriv", "--bounding-set=-dac_override,-dac_read_search",

@@ -13,7 +13,7 @@
 
 namespace tests {
 
-// A camera whose lens is the simulator's, which core/geometry does not know.
+// A camera with the simulator's lens, which is independent of core/geometry.
 struct DrawnCamera {
   int width_px = 640, height_px = 480;
   double fx = 620.0, fy = 615.0, cx = 327.3, cy = 236.1;
@@ -33,7 +33,7 @@ struct DrawnPose {
   Eigen::Vector3d translation_mm;  // of the first inner corner
 };
 
-// The board's middle at `middle_mm`, tilted about x, y and then turned about the sight axis.
+// The board's middle at `middle_mm`, tilted about x, y and then rotated about the optical axis.
 inline DrawnPose board_pose(const core::ChessBoard& board, const Eigen::Vector3d& middle_mm, double tilt_x_deg,
                             double tilt_y_deg, double turn_deg) {
   const auto by = [](double deg, const Eigen::Vector3d& axis) {
@@ -83,7 +83,7 @@ class BoardPainter {
     }
   }
 
-  // 4 x 4 samples a pixel (rays between its corners by bilinear interpolation), a little blur, white noise.
+  // 4 x 4 samples per pixel (rays between its corners by bilinear interpolation), slight blur, white noise.
   [[nodiscard]] cv::Mat paint(const core::ChessBoard& board, const DrawnPose& pose, double noise_grey,
                               unsigned seed) const {
     cv::Mat light(camera_.height_px, camera_.width_px, CV_32F);

@@ -15,14 +15,14 @@
 #include "drivers/camera/camera.h"
 #include "tests/support/camera_drain.h"
 
-// What every driver must do (drivers/camera/camera.h), whatever is behind it. A test program instantiates the suite
+// Requirements on every driver (drivers/camera/camera.h), whatever its source. A test program instantiates the suite
 // with its cameras: unit tests with recordings and scenes, tests/device with kernel devices.
 namespace test_support {
 
 struct ContractCamera {
   std::string name;
   std::function<std::unique_ptr<drivers::Camera>()> make;
-  bool is_live = false;  // goes on for ever; else it ends, and begins anew when it is started again
+  bool is_live = false;  // never ends; otherwise it ends, and starts from the beginning when it is started again
 
   friend void PrintTo(const ContractCamera& camera, std::ostream* out) { *out << camera.name; }
 };
@@ -78,7 +78,7 @@ TEST_P(CameraContract, NumbersAndStampsItsFrames) {
   }
   EXPECT_FALSE(camera->trouble().is_lost);
   EXPECT_TRUE(camera->fault().empty()) << camera->fault();
-  if (GetParam().is_live) return;  // a device's own rate is its own matter
+  if (GetParam().is_live) return;  // the rate of a device is not prescribed
   EXPECT_NEAR(static_cast<double>(last_ns - first_ns) * 1e-9 * info.rate_hz, numbers, 0.25 * numbers)
       << "times and numbers tell of the same rate";
 }
@@ -132,7 +132,7 @@ TEST_P(CameraContract, StopsUnstartedTwiceAndByItsEnd) {
   camera->stop();
   camera->stop();
   camera.reset();
-  const auto left_running = GetParam().make();  // once the other has given the device back
+  const auto left_running = GetParam().make();  // started after the other camera has released the device
   left_running->start();
 }
 

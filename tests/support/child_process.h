@@ -44,12 +44,12 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  // Reads until `text` was written; false when the program ended or the patience did.
+  // Reads until `text` was written; false if the program ended or the time ran out.
   bool wait_for(const std::string& text, int patience_s = 30) {
     return read_until([&] { return output_.find(text) != output_.npos; }, patience_s);
   }
 
-  // Reads to the end; the exit code, 128 + signal, or -1 when it would not end (it is killed then).
+  // Reads to the end; returns the exit code, 128 + signal, or -1 if it did not end (it is then killed).
   int wait_for_exit(int patience_s = 60) {
     if (!read_until([&] { return at_end_; }, patience_s)) ::kill(pid_, SIGKILL);
     int status = 0;

@@ -28,7 +28,7 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return text.replace(at, from.size(), to);
 }
 
-// What the configuration is refused with; empty = it was taken.
+// The reason why the configuration is refused; empty = it is accepted.
 inline std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
   try {
     static_cast<void>(app::parse_config(text, "a.yaml", overrides));

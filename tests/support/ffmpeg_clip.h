@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-// Clips as the program ffmpeg makes them: variable times, other streams, other pixel formats.
+// Clips made by the program ffmpeg: variable times, other streams, other pixel formats.
 namespace test_support {
 
 inline void ffmpeg(const std::string& arguments) {

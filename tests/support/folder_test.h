@@ -8,7 +8,7 @@
 
 namespace tests {
 
-// A test with an empty folder of its own, named by its suite and itself, and one file in it.
+// A test with its own empty folder, named by suite and test, and one file in it.
 class FolderTest : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -29,8 +29,8 @@ struct HostileMessage {
   Bytes bytes;
 };
 
-// Messages of every type that are wrong in one of many ways. The same seed gives the same ones. A flipped bit may leave
-// a message that is still one.
+// Messages of every type that are wrong in one of many ways. The same seed gives the same messages. A flipped bit may
+// leave a valid message.
 class HostileMessages {
  public:
   static constexpr std::array<const char*, 7> kKinds{
@@ -58,7 +58,7 @@ class HostileMessages {
     }
   }
 
-  // A right message of each type with its channel.
+  // A valid message of each type with its channel.
   [[nodiscard]] const std::vector<std::pair<std::string, Bytes>>& good() const { return good_; }
 
   [[nodiscard]] HostileMessage next() {
@@ -92,7 +92,7 @@ class HostileMessages {
         break;
       case 4:
         bytes.resize(8 + below(200));
-        for (std::size_t i = 8; i < bytes.size(); ++i) bytes[i] = byte();  // behind a right fingerprint
+        for (std::size_t i = 8; i < bytes.size(); ++i) bytes[i] = byte();  // after a correct fingerprint
         break;
       case 5:
         for (std::size_t i = 0, n = 1 + below(40); i < n; ++i) bytes.push_back(byte());

@@ -47,8 +47,8 @@ inline std::string add_multicast_route() {
   return error;
 }
 
-// Gives the calling thread, and every thread and process it starts later, a network of its own that holds a loopback
-// device and nothing else: tests neither hear each other nor send a byte to the real network, and need no route set up
+// Gives the calling thread, and every thread and process it starts later, its own network with a loopback
+// device only: tests do not receive each other's messages or send to the real network, and need no route set up
 // beforehand. Works as root, and for others where unprivileged user namespaces are allowed (then only while the process
 // has one thread). Returns "" or why not.
 inline std::string enter_private_network(bool with_multicast_route) {

@@ -14,7 +14,7 @@
 
 namespace app {
 
-// A run's data, made up: channels on a vertical line, three modes of which the last is folded.
+// Synthetic data of a run: channels on a vertical line, three modes of which the last is aliased.
 struct RunData {
   core::Frame frame;
   core::TrackFrame keyframe;
@@ -42,7 +42,7 @@ inline void add_channel(RunData& run, std::size_t i, std::size_t n) {
   }
 }
 
-// Noise: the worst to compress.
+// Noise: the worst case for compression.
 inline void fill_frame(RunData& run, int width_px, int height_px) {
   run.frame.width_px = width_px, run.frame.height_px = height_px;
   run.frame.pixels.resize(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px));
@@ -82,7 +82,7 @@ inline core::Mode made_up_mode(double frequency_hz, double apparent_hz, std::siz
   return out;
 }
 
-// Every 10th sample of a channel is missing, 20 frames in a row, and the whole of the last channel of three or more; a
+// Every 10th sample of a channel is missing, 20 frames in a row, and all of the last channel of three or more; a
 // fifth of the points is lost between frames 200 and 230.
 inline void fill_history(RunData& run, std::size_t n_samples) {
   const std::size_t n = run.inputs.channels.size();
@@ -106,7 +106,7 @@ inline void fill_history(RunData& run, std::size_t n_samples) {
   run.inputs.history = run.history.get();
 }
 
-// Eight estimates that settle on the last one; the second mode drifts.
+// Eight estimates that converge to the last one; the second mode drifts.
 inline void fill_estimates(RunData& run) {
   for (std::size_t i = 0; i < run.estimate.modes.size(); ++i) {
     run.estimate.modes[i].history = core::ModeHistory{
@@ -125,7 +125,7 @@ inline void fill_estimates(RunData& run) {
   }
 }
 
-// Poles of 15 orders: three modes in all of them, and a loose one in each.
+// Poles of 15 orders: three modes in all of them, and an unassigned one in each.
 inline void fill_poles(RunData& run) {
   for (int order = 16; order <= 44; order += 2) {
     for (std::size_t i = 0; i < run.estimate.modes.size(); ++i) {
@@ -150,7 +150,7 @@ inline void fill_health(RunData& run, std::size_t n_samples) {
   health.stages.push_back(tracking);
 }
 
-// A complete run: channels on a vertical line, three modes of which the last is folded, and all that its page shows.
+// A complete run: channels on a vertical line, three modes of which the last is aliased, and all contents of its page.
 inline void make_run(RunData& run, std::size_t n_channels, std::size_t n_samples) {
   for (std::size_t i = 0; i < n_channels; ++i) add_channel(run, i, n_channels);
   fill_frame(run, 640, 360);

@@ -16,8 +16,8 @@
 
 namespace tests {
 
-// Plays frames from memory, to the last and back again, so that nothing jumps. period_ns > 0: one each period of wall
-// time, whether it is taken or not.
+// Plays frames from memory, forward and backward, so that there is no jump. period_ns > 0: one per period of wall-clock
+// time, whether it is captured or not.
 struct Play {
   std::uint64_t n_frames = 0;
   std::int64_t period_ns = 0;
@@ -25,7 +25,7 @@ struct Play {
   std::uint64_t loss_seed = 0;  // 0: nothing is lost; else 30 %
 };
 
-// To the last frame and back again.
+// Forward to the last frame and backward.
 inline const std::vector<std::uint8_t>& played_frame(const SceneClip& clip, std::uint64_t k) {
   const std::uint64_t last = clip.frames.size() - 1, turn = k % std::max<std::uint64_t>(1, 2 * last);
   return clip.frames[std::min(turn, 2 * last - turn)];

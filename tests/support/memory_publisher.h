@@ -45,7 +45,7 @@ class MemoryPublisher : public drivers::Publisher {
   [[nodiscard]] std::uint64_t messages_sent() const noexcept override { return n_sent; }
   [[nodiscard]] std::uint64_t messages_failed() const noexcept override { return n_failed; }
 
-  bool fail = false;  // every publish is refused, but still kept
+  bool fail = false;  // every publish fails, but the item is still kept
   std::atomic<std::uint64_t> n_sent{0}, n_failed{0};
   std::vector<core::ChannelInfo> channels;
   std::vector<core::ModalEstimate> estimates;

@@ -13,7 +13,7 @@
 
 namespace tests {
 
-// Stands in for systemd: what a process with this NOTIFY_SOCKET says arrives here. Sets the variable while it lives.
+// Replaces systemd: receives the messages of a process with this NOTIFY_SOCKET. Sets the variable while it exists.
 class NotifySocket {
  public:
   NotifySocket() : name_("@hovermodal_notify_" + std::to_string(getpid())) {
@@ -41,7 +41,7 @@ class NotifySocket {
 #endif
   }
 
-  // The next message; empty when none waits (or came within the time).
+  // The next message; empty if there is none within the time.
   [[nodiscard]] std::string receive(int patience_ms = 0) const {
     std::array<char, 4096> text{};
     for (int waited_ms = 0;; waited_ms += 5) {

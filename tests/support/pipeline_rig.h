@@ -25,7 +25,7 @@ inline app::AppConfig config_of(const SceneClip& clip, const std::vector<std::st
   return app::parse_config(scene_config(clip.motion), "scene", overrides);
 }
 
-// A pipeline over a scripted camera, and what its publisher was told.
+// A pipeline with a scripted camera, and everything its publisher received.
 struct Rig {
   explicit Rig(const CameraScript& script, const std::vector<std::string>& overrides = {"spectrum.segment=64"},
                std::uint64_t n_drawn = kShortClip, PublisherMood mood = {})
@@ -35,7 +35,7 @@ struct Rig {
                                         std::make_unique<TellingPublisher>(heard, mood.refuses, mood.pause));
   }
 
-  // Starts, waits for the end, and lets go of the pipeline, so that `heard` is complete.
+  // Starts, waits for the end, and destroys the pipeline, so that `heard` is complete.
   app::Pipeline::Outcome run(std::chrono::seconds patience = kPatience) {
     pipeline->start();
     return finish(patience);
@@ -62,8 +62,8 @@ inline CameraScript frames(std::uint64_t n) {
   return script;
 }
 
-// Faster than any tracker once its first hundred frames are seen at leisure; its own clock says 25 frames a second, so
-// that two seconds are 50 frames.
+// Faster than any tracker after its first hundred frames, which come slowly; its own clock states 25 frames a second,
+// so that two seconds are 50 frames.
 inline CameraScript too_fast(std::uint64_t n) {
   CameraScript script = frames(n);
   script.lossless = false;

@@ -24,7 +24,7 @@
 
 namespace tests {
 
-// What reached the publisher; outlives the pipeline that owned it.
+// Items received by the publisher; outlives the pipeline that owned it.
 struct Heard {
   std::vector<core::ModalEstimate> estimates;
   std::vector<core::DisplacementSample> samples;
@@ -33,7 +33,7 @@ struct Heard {
   std::vector<core::Health> health;
 };
 
-// Hands what it heard to `heard` when the pipeline lets go of it; may refuse every message, or take its time.
+// Passes the received items to `heard` when the pipeline destroys it; may refuse every message, or be slow.
 class TellingPublisher : public MemoryPublisher {
  public:
   explicit TellingPublisher(std::shared_ptr<Heard> heard, bool refuse = false, std::chrono::microseconds pause = {})
@@ -54,7 +54,7 @@ class TellingPublisher : public MemoryPublisher {
   std::chrono::microseconds pause_;
 };
 
-// An empty folder of the running test's own. Two builds may be tested at once.
+// An empty folder of the running test. Two builds may be tested at the same time.
 inline std::filesystem::path own_folder() {
   static const std::string build = std::to_string(std::hash<std::string>{}(tests::program("")) % 1'000'000);
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
@@ -73,7 +73,7 @@ inline std::string file_text(const std::filesystem::path& path) {
 
 inline constexpr std::chrono::seconds kPatience = std::chrono::seconds(60) * kSlowdown;
 
-// True when every stage has ended; false when the patience ended first: a hang.
+// True when every stage has ended; false when the time ran out first: a hang.
 inline bool runs_to_its_end(app::Pipeline& pipeline, std::chrono::seconds patience = kPatience) {
   const auto deadline = std::chrono::steady_clock::now() + patience;
   while (pipeline.running()) {
@@ -98,7 +98,7 @@ inline void expect_finite(const core::ModalEstimate& estimate) {
   }
 }
 
-// What holds at the end of every run, however it went.
+// Conditions at the end of every run, whatever its outcome.
 inline void expect_accounted(const core::Health& health) {
   EXPECT_EQ(health.frames_in, health.frames_processed + health.frames_dropped);
   const auto stage = [&](const char* name) {

@@ -8,7 +8,7 @@
 
 namespace test_support {
 
-// A front view of plates that slide along u, seen by a camera that drifts: exact projections, written down here
+// A front view of plates that slide along u, seen by a camera that drifts: exact projections, implemented here
 // independently of core/geometry.
 struct PlateView {
   static constexpr double kAlpha = 1000.0;  // px
@@ -46,7 +46,7 @@ struct PlateView {
         const double y_mm = plate_y_mm[r] - 40.0 + 80.0 * i / points_per_plate;
         core::TrackPoint point;
         double v = camera.cy;
-        for (int pass = 0; pass < 6; ++pass) {  // the row decides the time, and the time the row
+        for (int pass = 0; pass < 6; ++pass) {  // iterates, because the row determines the time, and the time the row
           const double t = t_s + readout_s * v / kHeight;
           const double z_mm = kDepth * zoom(t);
           const core::Vector2 raw =

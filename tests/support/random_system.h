@@ -31,7 +31,7 @@ struct RandomSystem {
     A = Eigen::MatrixXd::Zero(n, n);
     C = Eigen::MatrixXd(n_channels, n);
     for (int m = 0; m < n_modes; ++m) {
-      // Spread over the band with room between neighbours; damping 0.3 .. 5 %.
+      // Spread over the band with distance between neighbours; damping 0.3 .. 5 %.
       const double turn = 2.0 * std::numbers::pi * (0.04 + 0.42 * (m + 0.2 + 0.6 * unit(random)) / n_modes);
       const double zeta = 0.003 + 0.047 * unit(random);
       const std::complex<double> lambda = std::exp(std::complex<double>(-zeta, std::sqrt(1.0 - zeta * zeta)) * turn);
@@ -40,7 +40,7 @@ struct RandomSystem {
     }
     for (Eigen::Index i = 0; i < C.size(); ++i) C.data()[i] = gaussian(random);
     for (int m = 0; m < n_modes; ++m) {
-      // Eigenvector of the 2 x 2 block to lambda: (1, i).
+      // Eigenvector of the 2 x 2 block for lambda: (1, i).
       for (int c = 0; c < n_channels; ++c) {
         poles[static_cast<std::size_t>(m)].shape.push_back(C(c, 2 * m) +
                                                            std::complex<double>(0.0, 1.0) * C(c, 2 * m + 1));

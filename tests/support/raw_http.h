@@ -16,10 +16,10 @@
 
 namespace tests {
 
-// A TCP connection to 127.0.0.1 on which a test says what it likes. Never raises SIGPIPE.
+// A TCP connection to 127.0.0.1 on which a test sends arbitrary bytes. Never raises SIGPIPE.
 class RawConnection {
  public:
-  // `source`: 127.0.0.source is where it comes from.
+  // `source`: connects from 127.0.0.source.
   explicit RawConnection(int port, std::uint8_t source = 1)
       : fd_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)), error_(connect_to(port, source)) {}
   ~RawConnection() {
@@ -39,7 +39,7 @@ class RawConnection {
     return true;
   }
   void end() { shutdown(fd_, SHUT_WR); }  // nothing more will be sent
-  // Until the other side closes, `enough` stands in what came, or the patience ends.
+  // Reads until the other side closes, `enough` was received, or the time runs out.
   std::string receive(std::string_view enough = {}, int patience_ms = 10000) {
     std::string out;
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(patience_ms) * kSlowdown;
@@ -55,7 +55,7 @@ class RawConnection {
     return out;
   }
   [[nodiscard]] bool is_open() const { return error_ == 0; }
-  [[nodiscard]] int error() const { return error_; }  // errno of why it is not
+  [[nodiscard]] int error() const { return error_; }  // errno of the failure
 
  private:
   int connect_to(int port, std::uint8_t source) {
@@ -69,7 +69,7 @@ class RawConnection {
     if (connect(fd_, reinterpret_cast<sockaddr*>(&to), sizeof to) == 0) return 0;
     return errno == EINTR ? connected_later() : errno;
   }
-  // A signal has come (a fuzzer's clock) while the other side took its time; the kernel goes on connecting.
+  // A signal (a fuzzer's timer) came during connect(); the kernel continues to connect.
   int connected_later() {
     pollfd waiting{fd_, POLLOUT, 0};
     while (poll(&waiting, 1, -1) < 0 && errno == EINTR) {
@@ -83,7 +83,7 @@ class RawConnection {
   int error_;
 };
 
-// The whole answer to one request as it stands.
+// The complete answer to one request sent literally.
 inline std::string raw_http(int port, std::string_view request) {
   RawConnection connection(port);
   if (!connection.is_open() || !connection.send(request)) return {};
@@ -95,7 +95,7 @@ inline std::string get(const std::string& target, const std::string& headers = "
   return "GET " + target + " HTTP/1.1\r\nHost: " + host + "\r\n" + headers + "\r\n";
 }
 
-// 200 of "HTTP/1.1 200 OK"; 0 for none.
+// 200 for "HTTP/1.1 200 OK"; 0 if there is no status.
 inline int status_of(std::string_view answer) {
   return answer.substr(0, 9) == "HTTP/1.1 " ? std::stoi(std::string(answer.substr(9, 3))) : 0;
 }

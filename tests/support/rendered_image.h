@@ -26,7 +26,7 @@ struct Image {
         light[static_cast<std::size_t>(v) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(u)]);
   }
 
-  // Twelve-point Lagrange interpolation: its own error on this texture lies below 1e-3 px.
+  // Twelve-point Lagrange interpolation: its error on this texture is below 1e-3 px.
   [[nodiscard]] double at(double u, double v) const {
     const int u0 = static_cast<int>(std::floor(u)) - 5, v0 = static_cast<int>(std::floor(v)) - 5;
     double wu[12], wv[12], sum = 0.0;
@@ -52,7 +52,7 @@ inline core::simulation::Scene still_scene() {
   return scene;
 }
 
-// 480 x 270, for what needs no detail.
+// 480 x 270, for tests that need no detail.
 inline core::simulation::Scene small_scene(std::uint64_t seed = 1) {
   core::simulation::Scene scene = core::simulation::make_paper_scene(seed, 2.0);
   core::simulation::set_image_size(scene, 480, 270);

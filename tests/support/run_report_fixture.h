@@ -13,7 +13,7 @@ namespace app {
 
 namespace fs = std::filesystem;
 
-// A folder, a camera, two channels, and what a run would hand to its report.
+// A folder, a camera, two channels, and the data that a run passes to its report.
 class RunReportTest : public ::testing::Test {
  protected:
   void SetUp() override {

@@ -23,7 +23,7 @@ inline core::simulation::Scene small_scene(double duration_s, std::uint64_t seed
   return scene;
 }
 
-// The first n frames of the small scene, drawn once and shared: a camera can then be as fast as memory.
+// The first n frames of the small scene, rendered once and shared: a camera can then be as fast as memory.
 struct SceneClip {
   explicit SceneClip(std::uint64_t n_frames)
       : SceneClip(small_scene(static_cast<double>(n_frames) / core::simulation::CameraParameters{}.rate_hz), n_frames) {
@@ -47,7 +47,7 @@ inline std::shared_ptr<const SceneClip> scene_clip(std::uint64_t n_frames) {
   return last;
 }
 
-// What a user would write for the scene: regions, scale, calibration; no telemetry.
+// The configuration a user would write for the scene: regions, scale, calibration; no telemetry.
 inline std::string scene_config(const core::simulation::SceneMotion& motion) {
   const auto& scene = motion.scene();
   std::string text = fmt::format(

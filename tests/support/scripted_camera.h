@@ -16,11 +16,11 @@
 
 namespace tests {
 
-// What a camera does to its user. Frames are counted at the source, lost ones included.
+// Behaviour of the camera. Frames are counted at the source, including lost ones.
 struct CameraScript {
   std::uint64_t n_frames = 0;  // then the stream ends
-  std::uint64_t first = 0;     // frame that it begins with
-  bool lossless = true;        // false: does not wait for us
+  std::uint64_t first = 0;     // number of the first frame
+  bool lossless = true;        // false: does not wait for the service
   bool knows_length = true;
   std::optional<std::uint64_t> fault_at;       // this frame never comes
   std::optional<std::uint64_t> silent_before;  // ... comes late: n_timeouts first
@@ -31,7 +31,7 @@ struct CameraScript {
   std::function<std::int64_t(std::uint64_t)> time_ns;  // default: frame / rate
 };
 
-// Plays a drawn clip over and over as the script tells.
+// Plays a rendered clip repeatedly according to the script.
 class ScriptedCamera : public drivers::Camera {
  public:
   ScriptedCamera(std::shared_ptr<const SceneClip> clip, CameraScript script)

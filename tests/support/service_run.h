@@ -25,7 +25,7 @@ struct ServiceRun {
   std::string output;
 };
 
-// hovermodald to its end; `before` is a program with arguments that starts it in its stead, e.g. prlimit.
+// Runs hovermodald to its end; `before` is a program with arguments that starts it, e.g. prlimit.
 inline ServiceRun run_service(const std::vector<std::string>& arguments, std::vector<std::string> before = {},
                               int patience_s = 90) {
   before.emplace_back(kService);
@@ -46,8 +46,9 @@ inline nlohmann::json json_of(const std::filesystem::path& path) {
   return nlohmann::json::parse(in, nullptr, false);
 }
 
-// Drawn once and shared by all tests, processes and build folders of this user: `hovermodal simulate` leaves a finished
-// folder alone. The lock keeps two processes from drawing at once. Holds clip.mp4, config.yaml, truth.json.
+// Rendered once and shared by all tests, processes and build folders of this user: `hovermodal simulate` does not
+// repeat a complete folder. The lock keeps two processes from rendering at once. Contains clip.mp4, config.yaml,
+// truth.json.
 inline const std::filesystem::path& simulated_folder() {
   static const std::filesystem::path folder = [] {
     const auto made = std::filesystem::path(::testing::TempDir()) / ("hovermodal_clip_" + std::to_string(getuid()));

@@ -27,7 +27,7 @@ inline Eigen::Vector3d rate_at(double t_s, std::uint64_t seed) {
   return rate;
 }
 
-// A camera that shakes and is carried ahead through points at 4 ... 60 m; its gyro lies as a phone's does.
+// A shaken camera that moves forward through points at 4 ... 60 m; its gyro has the orientation of a phone's.
 class ShakenCamera {
  public:
   ShakenCamera(double readout_s, double noise_px, std::uint64_t seed, int n_pairs = 28)
@@ -81,7 +81,7 @@ class ShakenCamera {
       const Eigen::Vector3d world = camera_at(frame_s) * (depth * ray) + Eigen::Vector3d(0.2, -0.1, 3.0) * frame_s;
       core::Vector2 from = seen(world, pair.from_s), to = seen(world, pair.to_s);
       from.u += noise(random_), from.v += noise(random_), to.u += noise(random_), to.v += noise(random_);
-      if (i % 10 == 0) to.u += 20.0 * unit(random_);  // moves by itself
+      if (i % 10 == 0) to.u += 20.0 * unit(random_);  // an independently moving point
       pair.points.push_back({from, to, from.v / kHeight_px, to.v / kHeight_px});
     }
     pair.held_out = pairs.size() % 4 == 3;

@@ -65,7 +65,7 @@ struct SimulatedStructure {
   }
 
   [[nodiscard]] double frequency_hz(std::size_t mode) const { return modes[mode].frequency_hz; }
-  // What no method beats (core/identification/METHOD.md): sqrt(zeta / (2 pi f T)) of the frequency.
+  // Least possible scatter (core/identification/METHOD.md): sqrt(zeta / (2 pi f T)) of the frequency.
   [[nodiscard]] double frequency_scatter_hz(std::size_t mode) const {
     const double f = modes[mode].frequency_hz;
     return f * std::sqrt(modes[mode].damping_ratio / (2.0 * 3.14159265358979 * f * duration_s));

@@ -13,7 +13,7 @@ struct SrtFrame {
   double exposure_s = 0.001, focal_length = 240.0;
 };
 
-// Subtitles as DJI's newer cameras write them, one block a frame, with their clock in microseconds.
+// Subtitles in the format of DJI's newer cameras, one block per frame, with their clock in microseconds.
 inline std::string srt_text(const std::vector<SrtFrame>& frames) {
   std::string out;
   for (std::size_t i = 0; i < frames.size(); ++i) {

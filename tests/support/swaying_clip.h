@@ -11,7 +11,7 @@
 
 namespace tests {
 
-// A textured surface that sways at 3 Hz, 128 x 96 px at 25 fps: enough to be tracked and analysed in a second.
+// A textured surface that sways at 3 Hz, 128 x 96 px at 25 fps: tracked and analysed within a second.
 inline cv::Mat swaying_image(int frame, int width_px = 128, int height_px = 96) {
   cv::RNG random(11);
   cv::Mat texture(height_px + 40, width_px + 40, CV_32FC1), still, shifted, image;

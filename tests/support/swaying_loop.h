@@ -12,7 +12,7 @@ namespace test_support {
 
 inline constexpr double kWindow_s = 40.0, kPeriod_s = 30.0, kDelay_s = 10.0;
 
-// The loop closed over a swaying record whose readout time and lens nobody declared.
+// Residual diagnosis of a swaying record whose readout time and lens are not declared.
 inline app::MissingEffectSearchConfig loop_over(const core::closure::ObservationRecord& record, bool adopts) {
   core::closure::ObservationRecord declared = record;
   declared.readout_frames = 0.0;
@@ -26,7 +26,7 @@ inline app::MissingEffectSearchConfig loop_over(const core::closure::Observation
   return {recent, camera, columns, keyframe_px, record.rate_hz, kPeriod_s, kDelay_s, adopts, 0.0};
 }
 
-// Nothing is measured by it.
+// A null geometry: nothing is measured with it.
 inline std::unique_ptr<app::Geometry> no_geometry(const core::closure::ObservationRecord& record) {
   core::ChannelDisplacementConfig config;
   config.regions = record.regions;

@@ -34,7 +34,7 @@ inline core::closure::ObservationRecord swaying_record(Eigen::Index n_frames, co
     const std::size_t floor = j / 8, i = j % 8;
     r.region_of_point.push_back(floor);
     r.sigma_px.push_back(0.03);
-    const double x = -150.0 + 43.3 * static_cast<double>(i);  // at all places within a pixel
+    const double x = -150.0 + 43.3 * static_cast<double>(i);  // positions spread over all sub-pixel fractions
     const double y = 400.0 - 260.0 * static_cast<double>(floor) + 17.4 * static_cast<double>((i * 3) % 8) - 60.0;
     for (Eigen::Index k = 0; k < n_frames; ++k) {
       const double t = (static_cast<double>(k) + hidden.readout_frames * (r.cy_px + y) / r.height_px) / r.rate_hz;
@@ -51,7 +51,7 @@ inline core::closure::ObservationRecord swaying_record(Eigen::Index n_frames, co
   return r;
 }
 
-// One frame of it, as the tracker gives it.
+// One frame of it, in the form of the tracker.
 inline core::TrackFrame track_frame(const core::closure::ObservationRecord& record, Eigen::Index k) {
   core::TrackFrame frame;
   frame.sequence = static_cast<std::uint64_t>(k);

@@ -20,7 +20,7 @@ namespace test_support {
 
 namespace fs = std::filesystem;
 
-// An empty folder of the running test's own.
+// An empty folder of the running test.
 inline fs::path fresh_folder() {
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
   std::string name = std::string(test->test_suite_name()) + "." + test->name();
@@ -31,7 +31,7 @@ inline fs::path fresh_folder() {
   return folder;
 }
 
-// Gray picture of blocks whose brightness tells the frame number: every frame differs, lossy codecs keep it apart.
+// Gray picture of blocks whose brightness encodes the frame number: every frame differs, even after lossy coding.
 inline cv::Mat clip_image(int frame, int width_px, int height_px) {
   cv::Mat image(height_px, width_px, CV_8UC1);
   for (int v = 0; v < height_px; ++v) {
@@ -77,7 +77,7 @@ inline void write_image_folder(const fs::path& folder, const ClipShape& shape = 
   }
 }
 
-// Encoded images one behind the other: a stream that says neither how long it is nor how fast.
+// Encoded images one after the other: a stream that states neither its length nor its rate.
 inline std::string image_stream(const std::string& extension, const std::vector<cv::Mat>& images) {
   std::string stream;
   for (const cv::Mat& image : images) {

@@ -10,7 +10,7 @@
 
 namespace test_support {
 
-// Our tracker and OpenCV's on the same points of the same images.
+// This project's tracker and OpenCV's on the same points of the same images.
 
 inline constexpr int kPairWidth = 420, kPairHeight = 320, kPairBorder = 40, kPairApart = 30;
 
@@ -27,7 +27,7 @@ struct Error {
   bool seen = false;
 };
 
-// Ours and OpenCV's of all points in an image moved by (du, dv). OpenCV: as many iterations as help, one level above.
+// Errors of both, for all points, in an image moved by (du, dv). OpenCV: as many iterations as help, one level above 0.
 inline std::array<std::vector<Error>, 2> errors(core::KltTracker& tracker, const cv::Mat& keyframe,
                                                 const cv::Mat& image, const std::vector<core::Vector2>& points,
                                                 double du, double dv, std::vector<double>* stated = nullptr) {

@@ -11,8 +11,9 @@
 
 namespace test_support {
 
-// Exact but for its rounding: evaluated where a pixel looks, never interpolated. 200 plane waves, frequencies evenly
-// over a disk.
+// Exact except for its rounding: evaluated at each pixel's position, never interpolated. 200 plane waves, frequencies
+// evenly
+// distributed over a disk.
 class WaveTexture {
  public:
   WaveTexture(unsigned seed, double most_cycles_per_px, double contrast) {

@@ -7,7 +7,7 @@
 
 namespace test_support {
 
-// Why the text is no well-formed XML; empty = it is, as far as tags, quotes and entities go.
+// Why the text is not well-formed XML; empty = it is, as far as tags, quotes and entities are concerned.
 inline std::string xml_fault(const std::string& text) {
   std::vector<std::string> open;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -1,4 +1,4 @@
-# Read by CPack: what the arm64 packages depend on, from the shlibs files of the packages they were linked against.
+# Read by CPack: dependencies of the arm64 packages, from the shlibs files of the packages against which they were linked.
 get_filename_component(programs ${CPACK_OUTPUT_FILE_PREFIX}/../bin ABSOLUTE) # the folder of the packages need not exist yet
 foreach(pair SERVICE:hovermodald TOOLS:hovermodal)
   string(REPLACE ":" ";" pair ${pair})

@@ -1,4 +1,4 @@
-# hovermodal_options: what every target of ours is compiled with. Third-party headers come in as SYSTEM.
+# hovermodal_options: compile options of every target of this project. Third-party headers are included as SYSTEM.
 add_library(hovermodal_options INTERFACE)
 target_compile_options(hovermodal_options INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wold-style-cast -Wdouble-promotion
@@ -6,28 +6,28 @@ target_compile_options(hovermodal_options INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(hovermodal_options INTERFACE -Wno-restrict)  # false alarms on std::string (GCC bug 105651)
 endif()
-target_link_options(hovermodal_options INTERFACE -Wl,--as-needed)  # a program loads the libraries that it calls
+target_link_options(hovermodal_options INTERFACE -Wl,--as-needed)  # a program loads only libraries that it calls
 if(HOVERMODAL_WERROR)
   target_compile_options(hovermodal_options INTERFACE -Werror)
 endif()
 if(HOVERMODAL_SANITIZE)
-  # What is instrumented is not seen through: std::optional and Eigen then look uninitialized to GCC 12.
+  # Instrumentation confuses the analysis of GCC 12: std::optional and Eigen then seem uninitialized.
   target_compile_options(hovermodal_options INTERFACE -fsanitize=${HOVERMODAL_SANITIZE} -fno-omit-frame-pointer
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
-  # An access through a null pointer stops under AddressSanitizer itself; checking each reference in Eigen for it as well
+  # AddressSanitizer itself detects an access through a null pointer; checking each reference in Eigen for it in addition
   # takes a quarter of the compiler's time.
   target_compile_options(hovermodal_options INTERFACE -fno-sanitize=null)
   target_link_options(hovermodal_options INTERFACE -fsanitize=${HOVERMODAL_SANITIZE})
 endif()
 
 # Parsing Eigen, GoogleTest and the standard library takes more than half of the compiler's time: each target parses them
-# once. The sources still include what they use; a build with HOVERMODAL_PRECOMPILE=OFF (the packages') checks that.
+# once. The sources still include all headers that they use; a build with HOVERMODAL_PRECOMPILE=OFF (the packages') checks it.
 option(HOVERMODAL_PRECOMPILE "Precompile the headers of other libraries" ON)
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
-  # ccache's manual, "Precompiled headers": what is needed to cache objects that use one.
+  # ccache's manual, "Precompiled headers": settings needed to cache objects that use one.
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
   if(HOVERMODAL_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(hovermodal_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)
@@ -40,7 +40,7 @@ function(hovermodal_precompile target)
     target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <complex> <cstdint> <filesystem> <functional>
       <limits> <map> <memory> <numbers> <numeric> <optional> <random> <span> <sstream> <stdexcept> <string> <string_view>
       <utility> <vector> ${ARGN})
-    # GCC forgets of what it precompiled that it is a system's header, and shows its own false alarms there (bug 105329).
+    # GCC loses the information that a precompiled header is a system header, and shows false alarms there (bug 105329).
     target_compile_options(${target} PRIVATE
       $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-array-bounds>)
   endif()

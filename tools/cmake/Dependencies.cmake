@@ -12,11 +12,11 @@ find_package(JPEG REQUIRED)
 find_package(PNG REQUIRED)
 pkg_check_modules(LIBAV REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil)
 
-# OpenCV's and yaml-cpp's Debian packages give plain variables or bare targets: wrap them, headers as SYSTEM.
+# The Debian packages of OpenCV and yaml-cpp define plain variables or bare targets: they are wrapped, headers as SYSTEM.
 add_library(hovermodal_opencv INTERFACE)
 target_include_directories(hovermodal_opencv SYSTEM INTERFACE ${OpenCV_INCLUDE_DIRS})
 target_link_libraries(hovermodal_opencv INTERFACE opencv_core opencv_imgproc opencv_video opencv_calib3d)
-add_library(hovermodal_videoio INTERFACE)  # tests write images and clips with it
+add_library(hovermodal_videoio INTERFACE)  # for tests, which write images and clips
 target_link_libraries(hovermodal_videoio INTERFACE hovermodal_opencv opencv_imgcodecs opencv_videoio)
 
 option(WITH_SYSTEMD "Tell systemd when the service is ready and alive" ON)

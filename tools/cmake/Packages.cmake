@@ -1,4 +1,4 @@
-# What is installed where, and the Debian packages made of it: hovermodal (the service) and hovermodal-tools (desk and
+# Installation paths, and the Debian packages made of them: hovermodal (the service) and hovermodal-tools (desktop and
 # ground). tools/package.sh builds them.
 include(GNUInstallDirs)
 set(PACKAGE_DIR ${CMAKE_SOURCE_DIR}/tools/package)
@@ -6,7 +6,7 @@ set(MADE_DIR ${CMAKE_BINARY_DIR}/package)
 set(SERVICE_DIR ${CMAKE_SOURCE_DIR}/firmware_app/service/units)
 set(CPACK_PACKAGE_CONTACT "The hovermodal authors <authors@hovermodal.example>" CACHE STRING "Maintainer of the packages")
 
-# The time of the last change, not of the build: the same sources make the same packages.
+# The time of the last change, not of the build: the same sources give the same packages.
 find_program(GIT_PROGRAM git)
 set(SOURCE_TIME "$ENV{SOURCE_DATE_EPOCH}")
 if(SOURCE_TIME STREQUAL "" AND GIT_PROGRAM)
@@ -19,7 +19,7 @@ endif()
 string(TIMESTAMP CHANGELOG_DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)
 string(TIMESTAMP MANUAL_DATE "%Y-%m-%d" UTC)
 
-# Manual pages come from the programs' own help; where they are of another architecture, through the emulator.
+# Manual pages are made from the programs' own help; programs of another architecture run in the emulator.
 find_program(PYTHON_PROGRAM python3)
 find_program(GZIP_PROGRAM gzip)
 set(MANUALS hovermodald.8 hovermodald.yaml.5 hovermodal.1)
@@ -82,7 +82,7 @@ set(SYSTEMD_HELPERS "systemd | systemd-standalone-sysusers | systemd-sysusers, s
 set(CPACK_DEBIAN_SERVICE_PACKAGE_NAME hovermodal)
 set(CPACK_DEBIAN_SERVICE_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_SERVICE_PACKAGE_DEPENDS "${SYSTEMD_HELPERS}")
-set(CPACK_DEBIAN_SERVICE_PACKAGE_SUGGESTS "libopencv-imgcodecs406")  # folders of images
+set(CPACK_DEBIAN_SERVICE_PACKAGE_SUGGESTS "libopencv-imgcodecs406")  # for folders of images
 set(CPACK_DEBIAN_SERVICE_PACKAGE_RECOMMENDS "hovermodal-tools, libcamera-ipa, udev")
 set(CPACK_DEBIAN_SERVICE_DESCRIPTION "A service for a drone's companion computer: it watches a structure through the
 camera while the drone hovers, and reports its natural frequencies,
@@ -102,7 +102,7 @@ of any time series, close the loop on a structural model, and watch a flight
 live in a terminal or a browser.")
 if(CMAKE_CROSSCOMPILING)
   set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE arm64)
-  # dpkg-shlibdeps knows this machine's packages only.
+  # dpkg-shlibdeps only knows the packages of this machine.
   set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_SOURCE_DIR}/tools/cmake/Arm64Depends.cmake)
 else()
   set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)

@@ -1,5 +1,5 @@
-# Cross-compiles for arm64 against Debian 12's packages of that architecture, unpacked by tools/package/arm64_root.sh: beside
-# those of amd64 they cannot be installed. Programs that the build itself runs go through an emulator.
+# Cross-compiles for arm64 against Debian 12's packages of that architecture, unpacked by tools/package/arm64_root.sh: they
+# cannot be installed together with those of amd64. Programs run by the build itself use an emulator.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)

@@ -32,7 +32,7 @@ def copy(folder, paths, out):
     if not source.is_dir():
         shutil.copyfile(source, out)
         return
-    for name in files_below(source):  # contents only: folders that may not be written stay where they are
+    for name in files_below(source):  # contents only: the permissions of folders are not copied
         (out / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(source / name, out / name)
 
@@ -183,7 +183,7 @@ def compare_video(folder, paths, out):
     return max(errors) ** 0.5 if len(errors) == n_frames else None
 
 
-# Converters whose bytes depend on the version of a program: a result is as good where compare gives at most this.
+# Converters whose bytes depend on the version of a program: another result is accepted if compare gives at most this.
 COMPARED = {"frame_video": (compare_video, 2.0, "gray levels rms from the photographs, worst frame")}
 
 

@@ -12,8 +12,8 @@ ROWS_V = [1904, 1420, 931, 471]  # nominal, px; row 0 = base
 COLUMNS_U = [148, 310, 466, 625, 778, 940, 1111]
 HALF_STRIP, MARGIN = 60, 6  # px
 AREA = (80, 900)  # px^2
-LEVELS = (40, 55, 30)  # gray; the next one where a dot is not found
-BEND = 25.0  # px by which a dot may move against the first one of its row
+LEVELS = (40, 55, 30)  # gray; the next one is tried where a dot is not found
+BEND = 25.0  # px by which a dot may be displaced relative to the first one of its row
 
 
 def blobs(strip, level):

@@ -12,7 +12,7 @@ from table import KitError, read_table, sha256_of
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-MADE_HERE = ".made_here"  # sha256 of what was made here with other bytes than the table's and compared well, a line each
+MADE_HERE = ".made_here"  # sha256, one per line, of files made here whose bytes differ from the table's but compared well
 
 TEXT = """\
 Brings the public measured data that the measured tests and the figures read to this machine. tools/data/table.toml says of
@@ -193,7 +193,7 @@ def main():
     try:
         folder = options.to or default_folder()
         table = read_table(options.table)
-        if options.check in table:  # --check SET: its DIR was left out
+        if options.check in table:  # --check SET: DIR was omitted
             options.sets.insert(0, options.check)
             options.check = ""
         for name in options.sets:

@@ -16,7 +16,7 @@ class File:
     def __init__(self, entry):
         self.name = entry["name"]
         self.sha256 = entry["sha256"]
-        self.also = entry.get("also", [])  # sha256 of a result that is as good
+        self.also = entry.get("also", [])  # sha256 of equally valid results
         sources = entry.get("upstream", [])
         self.upstream = [sources] if isinstance(sources, str) else sources
         hashes = entry.get("upstream_sha256", [])

@@ -7,8 +7,8 @@ import socket
 import struct
 
 SHORT, FRAGMENT = b"LC02", b"LC03"
-MOST_BYTES = 1 << 20  # of a message; ours are far below
-MOST_OPEN = 64  # messages whose fragments are still missing, over all senders
+MOST_BYTES = 1 << 20  # of a message; those of the service are far smaller
+MOST_OPEN = 64  # messages whose fragments are incomplete, over all senders
 
 
 class MulticastReceiver:
@@ -52,7 +52,7 @@ class MulticastReceiver:
             return self.count_bad()
         key = (sender, number, size, n_fragments)
         if key not in self.open and len(self.open) >= MOST_OPEN:
-            self.open.pop(next(iter(self.open)))  # the oldest: one of its fragments was lost
+            self.open.pop(next(iter(self.open)))  # the oldest, of which a fragment was lost
         message = self.open.setdefault(key, {"channel": None, "parts": {}})
         message["parts"][index] = (offset, data)
         message["channel"] = channel if channel is not None else message["channel"]

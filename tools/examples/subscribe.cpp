@@ -1,9 +1,9 @@
 // Listens to hovermodald with nothing but LCM and the message types: prints every whole estimate and the service's
 // state.
 //   subscribe [--url URL] [--prefix PREFIX] [--seconds S]
-// For a program of your own: lcm-gen -x --cpp-std=c++11 drivers/telemetry/messages/*.lcm, and link with lcm. Types that
-// lcm-gen 1.3 writes believe the lengths in a message; on a network that others may send to, take the ones that this
-// project's build has made safe (build/release/drivers/telemetry/generated).
+// For programs of your own: lcm-gen -x --cpp-std=c++11 drivers/telemetry/messages/*.lcm, and link with lcm. Types that
+// lcm-gen 1.3 writes trust the lengths in a message; on a network to which others may send, use those that this
+// project's build has hardened (build/release/drivers/telemetry/generated).
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -23,7 +23,7 @@ struct Options {
   double seconds = 0.0;  // 0 = until the service has ended
 };
 
-// What came over the network is shown without its control characters.
+// Text from the network is shown without its control characters.
 std::string shown(std::string text) {
   for (char& c : text) c = c >= ' ' && c < 127 ? c : '?';
   return text;
@@ -64,7 +64,7 @@ class Subscriber {
   bool decode(const lcm::ReceiveBuffer* buffer, const std::string& channel, Message& message) {
     const int size = static_cast<int>(buffer->data_size);
     if (message.decode(buffer->data, 0, size) == size) return ++n_read_, true;
-    // The first eight bytes tell the layout: the same wrong ones again and again are a service of another version.
+    // The first eight bytes identify the layout: the same unknown ones repeatedly mean a service of another version.
     if (n_not_understood_++ == 0 && size >= 8 && is_other_layout(buffer->data, Message::getHash()))
       std::printf("%s: not the layout that this program was built for; is the service of the same version?\n",
                   channel.c_str());

@@ -43,8 +43,8 @@ class Subscriber:
             return
         try:
             message = message_type.decode(data)
-        except Exception:  # any bytes may come; a generated decoder raises what it stumbles over
-            # The first eight bytes tell the layout: always the same wrong ones are a service of another version.
+        except Exception:  # any bytes may arrive; a generated decoder raises any exception
+            # The first eight bytes identify the layout: the same unknown ones repeatedly mean a service of another version.
             if self.n_not_understood == 0 and data[:8] != message_type._get_packed_fingerprint():
                 print(f"{channel}: not the layout of these types; is the service of the same version?")
             self.n_not_understood += 1

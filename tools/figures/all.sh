@@ -24,13 +24,13 @@ part_field() { awk -F'\t' -v name="$1" -v column="$2" '$1 == name { print $colum
 processor() { awk -F': *' '/^model name/ { name = $2 } END { print name != "" ? name : "unknown" }' /proc/cpuinfo; }
 load() { cut -d' ' -f1 /proc/loadavg; }
 digests() { python3 tools/figures/tables.py --rooms "$1"; } # one "# room: NAME DIGEST" line a room
-data_there() { # which sets of measured data are there
+data_there() { # prints which sets of measured data exist
   local sets
   sets=$(cd "$data" 2>/dev/null && find . -mindepth 1 -maxdepth 1 -type d -printf '%f\n' | sort | tr '\n' ' ') || true
   echo "${sets:-none}"
 }
 
-# run_part NAME: its result, or a message why there is none. 0: a result without MISS, 1: with MISS, 2: none.
+# run_part NAME: its result, or a message why there is none. 0: a result without MISS, 1: with MISS, 2: no result.
 run_part() {
   local name=$1 command rooms before started log=$logs/$1.log code=0 start_load commit
   command=$(part_field "$name" 4) rooms=$(part_field "$name" 3)

@@ -55,7 +55,7 @@ figure_6() {
   [ -z "$quick" ] || { line 6 SKIP "not with --quick" "ASan build through all of 1-4" "run: tools/figures/cameras.sh 6"; return; }
   quietly cmake --preset asan
   quietly cmake --build --preset asan --target hovermodal hovermodald usb_camera capture_check camera_contract_device firmware_node
-  # What is freed is held back for a while, and a leak is LeakSanitizer's to tell: pages are no measure here.
+  # Freed memory is held back for a while, and LeakSanitizer reports leaks: pages are not measured here.
   outcomes 6 ", AddressSanitizer (40 frames at 640x480, 5 times instead of 50)" HOVERMODAL_BIN="$PWD/build/asan/bin" FRAMES=40 TIMES=5 SIZES=640x480 LIMIT_S=1800 CLIP_RATE=3 WATCH_S=440 MOST_KIB=20000 \
     ASAN_OPTIONS=verify_asan_link_order=0:quarantine_size_mb=16 UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 -- \
     formats usb faults replug libcamera contract service

@@ -13,9 +13,9 @@ import time
 MAX_BYTES = 2_000_000
 LEAST_TEXT_PX = 12.0
 SIZES = [(360, 800, True), (1280, 900, False)]
-SLICE_PX = 1600  # of a page's screenshot: taller pictures are hard to look at
+SLICE_PX = 1600  # of a page's screenshot: taller pictures are inconvenient to view
 
-# Elements that reach beyond the window without a box of their own to scroll in, and text smaller than allowed as drawn.
+# Elements that extend beyond the window without a scrollable box, and text smaller than allowed as drawn.
 MEASURE = """(() => {
   const wide = document.documentElement.clientWidth, out = {overflow: document.documentElement.scrollWidth - wide, beyond: [], small: []};
   const scale = (e) => { const m = e.ownerSVGElement && e.getScreenCTM(); return m ? Math.hypot(m.a, m.b) : 1; };
@@ -32,7 +32,7 @@ MEASURE = """(() => {
   return JSON.stringify(out);
 })()""".replace("LEAST", str(LEAST_TEXT_PX))
 
-# Everything that answers to a person: details, keys, buttons, sliders, pointers and arrow keys over the plots.
+# Everything interactive: details, keys, buttons, sliders, pointers and arrow keys over the plots.
 EXERCISE = """(() => {
   for (const e of document.querySelectorAll('details')) e.open = true;
   for (const e of document.querySelectorAll('button')) { e.click(); e.click(); }
@@ -57,7 +57,7 @@ class Browser:
         flags = ("--headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
                  "--disable-component-update --disable-sync --hide-scrollbars --remote-debugging-pipe").split()
 
-        def place_pipes():  # Chromium hears on 3 and answers on 4
+        def place_pipes():  # Chromium reads from 3 and writes to 4
             read, write = os.dup(to_read), os.dup(from_write)
             os.dup2(read, 3)
             os.dup2(write, 4)

@@ -61,7 +61,7 @@ def told():
         (", cannot be told from " + ", ".join(e["rivals"]) if e["rivals"] else "") + ")" for e in c["steps"]) or "nothing"
 try:
     print(eval(sys.argv[2]))
-except (KeyError, TypeError, ValueError, ZeroDivisionError, IndexError):  # a number that the report does not have
+except (KeyError, TypeError, ValueError, ZeroDivisionError, IndexError):  # a number that the report does not contain
     print("nan")
 PY
 }
@@ -75,6 +75,6 @@ PY
 . tools/figures/closure_foreign.sh
 . tools/figures/closure_foreign_clips.sh
 . tools/figures/closure_codec.sh
-rm -f "$out"/*/closure.json # the table is of this run
+rm -f "$out"/*/closure.json # so that the table contains only this run
 after_figures() { [ -z "$(ls "$out"/*/closure.json 2>/dev/null)" ] || tools/figures/closure_table.py "$out"; }
 run_figures "${figures[@]}"

@@ -1,4 +1,4 @@
-# Figures 8 and 9 of closing the loop: a measured camera; pixels. Sourced by closure.sh.
+# Figures 8 and 9 of residual diagnosis: a measured camera; pixels. Sourced by closure.sh.
 
 # --- 8: a phone in a car, its gyro beside it -------------------------------------------------------------------------------
 figure_8() {
@@ -16,7 +16,7 @@ figure_8() {
 }
 
 # --- 9: rendered clips, through the service ------------------------------------------------------------------------------
-clip() { # NAME SEED EFFECT: a drawn scene with it, rendered, followed, and the modes of its true motion
+clip() { # NAME SEED EFFECT: a drawn scene with the effect, rendered and processed, and the modes of its true motion
   local folder=$out/clip_$1
   "$bin/hovermodal-validate" closure-clip --first-seed "$2" --duration "$clip_s" --effect "$3" >"$folder.yaml"
   rm -rf "$folder"
@@ -25,7 +25,7 @@ clip() { # NAME SEED EFFECT: a drawn scene with it, rendered, followed, and the 
   quietly "$bin/hovermodald" --config "$folder/config.yaml" --set "$points" --set telemetry.lcm_url= --report "$folder/run"
   rm -f "$folder/clip.mp4" # some 80 MB
 }
-pixels() { # NAME EFFECT WHAT: from the reports of $out/pixels_NAME; errors and MAC over the modes that were found before and after
+pixels() { # NAME EFFECT WHAT: from the reports of $out/pixels_NAME; errors and MAC over the modes found both before and after
   local before after found_before found_after mac_before mac_after
   read -r before after found_before found_after mac_before mac_after < <(ask "pixels_$1" 'f"""{" ".join(f"{rms(v):.3f}" for v in zip(*common())) or "nan nan"} {len(errors("modes_before"))} {len(errors("modes_after"))} {" ".join(common_macs())}"""')
   judge "9.$1" "modes found $found_before -> $found_after, frequency error $before -> $after % rms, least MAC $mac_before -> $mac_after: $(ask "pixels_$1" '", ".join(f"""{n} ({e["heldout_before"]:.4f} -> {e["heldout_after"]:.4f})""" for n, e in s.items()) or "nothing"')" \

@@ -1,4 +1,4 @@
-# Figure 11b of closing the loop: compressed clips. Sourced by closure.sh after closure_foreign_clips.sh.
+# Figure 11b of residual diagnosis: compressed clips. Sourced by closure.sh after closure_foreign_clips.sh.
 
 figure_11b() {
   local codec bits i seed name clip effects=("readout time" "radial distortion" "camera roll") effect scene_px right
@@ -36,7 +36,7 @@ figure_11b() {
   judge 11b.declared "$given_way of $n" "a declared value contradicted by 4 sigma gives way with a word" "readout declared wrong by 0.4 of a frame; where the tracks contradict it by less, it may stay" \
     "$given_way == $n"
 }
-# NAME RUN: error of the readout from tracks, frames; in its sigmas. Nothing where there is none.
+# NAME RUN: error of the readout from tracks, in frames and in its sigmas. Prints nothing if there is none.
 codec_readout() {
   python3 - "$out/$1/config.yaml" "$out/$2/modal.json" <<'PY'
 import json, sys
@@ -47,7 +47,7 @@ if found:
     print(off * 1e-3 * float(text["rate_hz"]), abs(off) / found["std_ms"], sep="\t")
 PY
 }
-codec_wrong_readout() { # NAME: 0.4 of a frame from the truth, within 0 and one frame
+codec_wrong_readout() { # NAME: 0.4 of a frame off the truth, within 0 and one frame
   python3 - "$out/$1/config.yaml" <<'PY'
 import sys
 text = {k.strip(): v.strip() for k, _, v in (row.partition(":") for row in open(sys.argv[1]))}
@@ -56,7 +56,7 @@ true_ms = float(text["readout_ms"])
 print(true_ms + (0.4 if true_ms < 0.5 * frame_ms else -0.4) * frame_ms)
 PY
 }
-# NAME RUN: 1 where the used readout is not the declared one although the tracks contradict it by 4 sigma, or they do not.
+# NAME RUN: 1 if the tracks do not contradict the declared readout by 4 sigma, or another one is used.
 codec_gives_way() {
   python3 - "$out/$2/modal.json" <<'PY'
 import json, math, sys

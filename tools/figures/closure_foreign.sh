@@ -1,7 +1,7 @@
-# Figures 10 to 13 of closing the loop, tracks: records that are not made after the model (tools/validate/foreign_scene.h).
+# Figures 10 to 13 of residual diagnosis, tracks: records not simulated by the model's formulas (tools/validate/foreign_scene.h).
 # Sourced by closure.sh.
 
-foreign() { # NAME SEEDS ...: validate with the recorded hover, where it is
+foreign() { # NAME SEEDS ...: validate with the recorded hover, if it is available
   local name=$1 n=$2 use_flight=()
   shift 2
   if [ -f "$data/phantom4_hover/flight_10hz.csv" ]; then use_flight=(--flight "$data/phantom4_hover/flight_10hz.csv"); fi
@@ -50,7 +50,7 @@ figure_11_tracks() {
     "for effects that raise it by half or more: at least half of the rise undone in the median" "records whose modal error is 1.5 times that without the effect" \
     "$raised > 0 && $undone >= 0.5"
 }
-foreign_cells() { # a line per effect and strength
+foreign_cells() { # prints a line per effect and strength
   python3 - "$out/closure-tracks-foreign.txt" <<'PY'
 import collections, sys
 cells = collections.OrderedDict()

@@ -1,7 +1,7 @@
-# Figures 10 (clips, demo) and 15 of closing the loop: rendered records that are not made after the model. Sourced by
+# Figures 10 (clips, demo) and 15 of residual diagnosis: rendered records not simulated by the model's formulas. Sourced by
 # closure.sh.
 
-# foreign_clip NAME SEED [EFFECT [STRENGTH]]: a drawn scene of 640 x 360 under $out/NAME, rendered with little loss.
+# foreign_clip NAME SEED [EFFECT [STRENGTH]]: a drawn scene of 640 x 360 in $out/NAME, rendered with little loss.
 foreign_clip() {
   local folder=$out/$1 arguments=(--first-seed "$2" --duration "$clip_s")
   if [ -f "$data/phantom4_hover/flight_10hz.csv" ]; then arguments+=(--flight "$data/phantom4_hover/flight_10hz.csv"); fi
@@ -10,23 +10,23 @@ foreign_clip() {
   rm -rf "$folder"
   quietly "$bin/hovermodal" simulate --scene "$folder.yaml" --size 640x360 --crf 6 --out "$folder" --threads "$(nproc)"
 }
-# foreign_coded NAME BITS [CODEC]: its clip once more by libx264 or libx265 with so many bits a pixel, in $out/NAME_BITS.mp4.
+# foreign_coded NAME BITS [CODEC]: its clip encoded again by libx264 or libx265 with BITS per pixel, in $out/NAME_BITS.mp4.
 foreign_coded() {
   local rate
   rate=$(sed -n 's/^ *rate_hz: *//p' "$out/$1/config.yaml" | head -n 1)
   quietly ffmpeg -nostdin -y -i "$out/$1/clip.mp4" -c:v "${3:-libx264}" -preset medium -b:v "$(awk "BEGIN { printf \"%.0f\", $2 * 640 * 360 * $rate }")" \
     -pix_fmt yuvj420p "$out/$1_$2.mp4"
 }
-# foreign_run NAME FOLDER CLIP [--set KEY=VALUE]: the clip through the service; report in $out/NAME_run.
+# foreign_run NAME FOLDER CLIP [--set KEY=VALUE]: the service on the clip; report in $out/NAME_run.
 foreign_run() {
   quietly "$bin/hovermodald" --config "$out/$2/config.yaml" --set "camera.source=$3" --set tracking.points_per_region=12 --set telemetry.lcm_url= \
     "${@:4}" --report "$out/$1_run"
 }
-foreign_closed() { # the same, and through the loop; report in $out/NAME
+foreign_closed() { # the same, then residual diagnosis; report in $out/NAME
   foreign_run "$@"
   closeloop "$1" --record "$out/$1_run" --config "$out/$2/config.yaml" --set "camera.source=$3" --set tracking.points_per_region=12 "${@:4}"
 }
-# foreign_answer NAME LOOP: 1 where the loop named the scene's effect and nothing else; 1 where its numbers lie within 3 sigma; of how many.
+# foreign_answer NAME LOOP: 1 if exactly the scene's effect was named; 1 if its parameters lie within 3 sigma; number of parameters.
 foreign_answer() {
   python3 - "$out/$1.yaml" "$out/$2/closure.json" <<'PY'
 import json, sys

@@ -1,4 +1,4 @@
-# Figure 3 of closing the loop: effects that nobody thought of. Sourced by closure.sh.
+# Figure 3 of residual diagnosis: effects that the catalogue lacks. Sourced by closure.sh.
 
 # --- 3: an effect outside the catalogue ----------------------------------------------------------------------------------
 figure_3() {
@@ -14,7 +14,7 @@ figure_3_tracks() {
       "not in the catalogue, strength 1; reported: $names" "$latent == $n && $half == $n && $described == $n && $modal == $n"
   done < <(outside_cells)
 }
-outside_cells() { # a line per effect, from the records' lines
+outside_cells() { # a line per effect, from the lines of the records
   cells "$out/closure-tracks-outside.txt" closure-tracks-outside 1 <<'PY'
 latent, described = (sum(r[i] == "1" for r in rows) for i in (6, 7))
 def half(before, after, named):

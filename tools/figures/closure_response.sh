@@ -1,4 +1,4 @@
-# Figures 6 and 7 of closing the loop: measured responses. Sourced by closure.sh.
+# Figures 6 and 7 of residual diagnosis: measured responses. Sourced by closure.sh.
 # --- 6: measured video: the clock, then the free decays ------------------------------------------------------------------
 figure_6() {
   local knex=$data/knex_frame_video

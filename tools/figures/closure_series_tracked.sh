@@ -1,4 +1,4 @@
-# Figure 14 of closing the loop: displacements that were measured from tracks, with row delays. Sourced by closure.sh.
+# Figure 14 of residual diagnosis: displacements measured from tracks, with row delays. Sourced by closure.sh.
 
 figure_14() {
   figure_14_effects
@@ -27,7 +27,7 @@ figure_14_effects() {
     "rms distance of the identified poles (frequency and damping) from the true ones, after the repair against before" \
     "$near >= 0.95 * $all && $all > 0"
 }
-tracked_cells() { # a line per case and strength, from the records' lines
+tracked_cells() { # a line per case and strength, from the lines of the records
   python3 - "$out/closure-series-tracked.txt" <<'PY'
 import collections, math, statistics, sys
 CALLED = {"drift": "frequency_drift", "jitter": "time_stamp_jitter", "drops": "dropped_frames", "variable rate": "dropped_frames",

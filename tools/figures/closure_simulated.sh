@@ -1,4 +1,4 @@
-# Figures 1 and 2 of closing the loop: made-up records with an undeclared effect, and with none. Sourced by closure.sh.
+# Figures 1 and 2 of residual diagnosis: simulated records with an undeclared effect, and with none. Sourced by closure.sh.
 
 # --- 1: undeclared effects -----------------------------------------------------------------------------------------------
 figure_1() {
@@ -28,7 +28,7 @@ figure_1_tracks() {
     fi
   done < <(tracks_cells)
 }
-tracks_cells() { # a line per effect and strength, from the records' lines
+tracks_cells() { # a line per effect and strength, from the lines of the records
   cells "$out/closure-tracks.txt" closure-tracks 1,3 <<'PY'
 exact = [r for r in rows if r[9] == r[2]]
 within = [r for r in exact if float(r[13]) <= 3.0]
@@ -63,7 +63,7 @@ figure_1_series() {
       "$bar" "$effect of $strength in 120 s of channels" "$condition"
   done < <(series_cells)
 }
-series_cells() { # a line per effect and strength, from the records' lines
+series_cells() { # a line per effect and strength, from the lines of the records
   cells "$out/closure-series.txt" series 1,2 <<'PY'
 effect = key[0]
 named = [r for r in rows if effect in r[4].split(" + ")]

@@ -1,4 +1,4 @@
-# Figures 4 and 5 of closing the loop: structures. Sourced by closure.sh.
+# Figures 4 and 5 of residual diagnosis: structures. Sourced by closure.sh.
 frame() { printf 'structure: {kind: shear_frame, %s}\n' "$2" >"$out/$1.yaml"; }
 table() { printf 'frequency_hz\n' >"$out/$1.csv"; printf '%s\n' "${@:2}" >>"$out/$1.csv"; }
 

@@ -36,7 +36,7 @@ figure_2() {
 }
 
 # --- 4: fresh seeds ------------------------------------------------------------------------------------------------------
-# Each self-test with small records and two first seeds. Comment lines and seconds taken are no numbers of it.
+# Each validation with small records and two first seeds. Comment lines and run times are not compared.
 figure_4() {
   local name small where moved lines options
   while IFS=$'\t' read -r name small; do
@@ -51,14 +51,14 @@ figure_4() {
       "hovermodal-validate $name, first seed $first_seed against $((first_seed + 1)), $small" "$moved > 0 && $lines > 0"
   done < <(validations)
 }
-validations() { # the names that the program lists, each with the options that keep its records small
+validations() { # the names that the program lists, each with options that keep its records small
   local records
   records="--seeds 2 --threads $(nproc)"
   "$bin/hovermodal-validate" --help | sed -n 's/^ \{20,\}\([a-z0-9-]*\): .*/\1/p' | while read -r name; do
     case $name in
       signatures | shifts | pixels) printf '%s\t\n' "$name" ;;
       peaks) printf '%s\t%s\n' "$name" "--seeds 2" ;;
-      speed) ;; # frames per second: they differ from run to run, whatever the seed
+      speed) ;; # frames per second differ from run to run, whatever the seed
       klt) printf '%s\t%s\n' "$name" "--frames 3" ;;
       geometry-pixels*) printf '%s\t%s\n' "$name" "--seeds 1 --threads $(nproc) --duration 24 --report $out/pixels" ;;
       table1) printf '%s\t%s\n' "$name" "$records --duration 60 --report $out/table1" ;;

@@ -1,7 +1,7 @@
-# Figures 1 and 6 of real footage: damaged versions of a rendered clip, and how fast clips are read. Sourced by footage.sh.
+# Figures 1 and 6 of real footage: damaged versions of a rendered clip, and reading speed. Sourced by footage.sh.
 whole=$out/whole
 
-# The demo's clip, the run on it, and the plain facts: made once.
+# The demo's clip, its run, and its properties: made once.
 whole_clip() {
   local seconds=60
   segment=512
@@ -13,17 +13,17 @@ whole_clip() {
     touch "$whole/clip_$seconds.$first_seed"
 }
 
-encode() { # FFMPEG ARGUMENTS... OUT: 10 s of rendering a minute; what is encoded again is near the first encoding
+encode() { # FFMPEG ARGUMENTS... OUT: rendering takes 10 s a minute; the second encoding stays close to the first
   ffmpeg -nostdin -v error -y "${@:1:$#-1}" -an -c:v libx264 -preset veryfast -crf 12 "${@: -1}"
 }
 
-# places CLIP: frames, and empty places of a grid of 25 Hz between the first and the last, by ffprobe alone.
+# places CLIP: number of frames, and of empty cells of a grid of 25 Hz between the first and the last, by ffprobe alone.
 places() {
   ffprobe -v error -select_streams v:0 -show_entries packet=pts_time -of csv=p=0 "$1" | tr -d , | sort -g |
     awk 'NR == 1 { first = $1 } { last = $1 } END { print NR, int((last - first) * 25 + 1.5) - NR }'
 }
 
-# damaged NAME LOST REPEATED: the run on NAME, judged; LOST and REPEATED are what the damage makes of the clip.
+# damaged NAME LOST REPEATED: the run on NAME, evaluated; LOST and REPEATED are the true numbers of the damage.
 damaged() {
   local dir=$out/$1 counts words
   quietly "$bin/hovermodald" --config "$whole/config.yaml" --set telemetry.lcm_url= --set spectrum.segment=$segment --set "camera.source=$out/$1.$4" --report "$dir" ||
@@ -77,7 +77,7 @@ figure_1() {
   joined_parts "$clip"
 }
 
-# The two halves of the clip at 25 and at 30 fps, behind one another: refused in words that name both rates and the place.
+# The two halves of the clip at 25 and at 30 fps, joined: must be refused with both rates and the position in the message.
 joined_parts() {
   local words code=0
   encode -i "$1" -vf "settb=1/15000,setpts='if(lt(N,400),N/25,16+(N-400)/30)/TB'" -vsync vfr -enc_time_base 1:15000 "$out/joined.mp4"

@@ -1,6 +1,6 @@
 # Figure 5 of real footage: regions as proposed against regions as declared. Sourced by footage.sh.
 
-# structural MODAL_JSON: how many modes it lists.
+# structural MODAL_JSON: number of modes.
 structural() {
   python3 -c 'import json, sys; print(sum(m.get("verdict", "structural") == "structural" for m in json.load(open(sys.argv[1]))["modes"]))' "$1" 2>/dev/null || echo 0
 }
@@ -20,8 +20,8 @@ proposed_scene() { # NAME
     "$1, 60 s" "$proposed >= $declared && $declared > 0"
 }
 
-# The filmed frame: rows of dots at these heights, by the centroids of its first frame; a storey has a region where one holds
-# a row's height.
+# The filmed frame: rows of dots at these heights, by the centroids of its first frame; a storey has a region if the region
+# contains a row's height.
 storeys() {
   local clip=$data/knex_frame_video/knex_1300x2046_gray.mp4
   [ -e "$clip" ] || { line 5 SKIP "no data at $clip" "a region a storey" "filmed frame"; return; }
@@ -30,7 +30,7 @@ storeys() {
   words=$(python3 - "$out/knex.yaml" <<'P'
 import re, sys
 rects = [list(map(float, m.group(1).split(","))) for m in re.finditer(r"rect: \[([^]]*)\]", open(sys.argv[1]).read())]
-rows = {"row1": 1420, "row2": 930, "roof": 470}  # of the configuration of the other figures of this clip
+rows = {"row1": 1420, "row2": 930, "roof": 470}  # of the configuration used by the other figures of this clip
 held = [name for name, v in rows.items() if any(r[1] - 60 <= v <= r[1] + r[3] + 60 for r in rects)]
 print(len(rects), len(held), ",".join(held) or "none")
 P

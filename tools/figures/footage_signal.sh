@@ -1,7 +1,7 @@
 # Figures 2 and 4 of real footage: covered regions, glitches, short records. Sourced by footage.sh, with $out, $first_seed, $quick.
 footage_check() { # NAME SEEDS: the table of a self-test, in $out/NAME.txt
   "$bin/hovermodal-validate" "$1" --first-seed "$first_seed" --seeds "$2" --threads "$(nproc)" >"$out/$1.txt" ||
-    echo "# validate $1 failed" # and its lines miss
+    echo "# validate $1 failed" # its lines are then MISS
 }
 
 figure_2() {

@@ -1,6 +1,6 @@
 # Figure 3 of real footage: telemetry beside or in a clip. Sourced by footage.sh.
 
-# Every public sample: its words, or the words of its refusal; what ends otherwise (a crash, no word) misses.
+# Every public sample: its description, or the text of its refusal; any other end (a crash, no text) is a MISS.
 telemetry_samples() { # SET FILE...: from $data/SET
   local set=$1 file text code n=0 n_refused=0 bad=
   shift
@@ -33,8 +33,8 @@ Y
     "\"${counted%% *}\" == \"$wanted\""
 }
 
-# A rendered clip whose frames lie unevenly in time, in a container that says they are even; only the .SRT beside it knows.
-# Half-way it zooms in by 1.5 % (scaled and cut to size by ffmpeg), and its exposure is stated to double.
+# A rendered clip whose frames are unevenly spaced in time, in a container that states even times; only the .SRT is right.
+# Half-way it zooms in by 1.5 % (scaled and cropped by ffmpeg), and its stated exposure doubles.
 srt_for() { # FOLDER: writes FOLDER/zoomed/clip.mp4 and its SRT, from the simulator's clip and time stamps
   local middle
   middle=$(($(wc -l <"$1/clip.timestamps.csv") / 2))

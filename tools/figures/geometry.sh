@@ -30,9 +30,9 @@ check() { # NAME SEEDS ...: the table of a self-test
   local name=$1 n=$2
   shift 2
   "$bin/hovermodal-validate" "$name" --first-seed "$first_seed" --seeds "$n" --threads "$(nproc)" "${use_flight[@]}" "$@" >"$out/$name.txt" ||
-    echo "# validate $name failed" # and its lines miss
+    echo "# validate $name failed" # its lines are then MISS
 }
-row() { # FIGURE CASE WAY: columns 4 on of its line
+row() { # FIGURE CASE WAY: columns of its line from 4 on
   awk -F'\t' -v c="$2" -v w="$3" '$2 == c && $3 == w { for (i = 4; i <= NF; ++i) printf "%s ", $i }' "$out/$1.txt"
 }
 read_row() { # FIGURE CASE WAY: into variables
@@ -40,13 +40,13 @@ read_row() { # FIGURE CASE WAY: into variables
     n_false ambiguous wrong missing <<<"$(row "$@")"
   : "${n:=0}" "${complete:=0}" "${f_median:=nan}" "${f_worst:=nan}" "${z_worst:=nan}" "${mac_worst:=nan}" "${fewest:=nan}" "${missing:=nan}"
 }
-errors() { # of the row that was read
+errors() { # of the row read last
   echo "$complete of $n records complete, f median $f_median worst $f_worst %, MAC median $mac_median worst $mac_worst"
 }
-truth() { # of the row that was read
+truth() { # of the row read last
   echo "against the true parameters f rms $f_rms worst $f_far, damping rms $z_rms worst $z_far of the least scatter"
 }
-fixed() { [ -n "$drawn" ] || echo "$1"; }  # words that do not hold of what is drawn
+fixed() { [ -n "$drawn" ] || echo "$1"; }  # text that does not apply to drawn cases
 all_finite() { case " $* " in *nan*) return 1 ;; esac; }
 of_records() { echo "${drawn:+camera, ${of_structure:-structure} and noise drawn, }$(seeds_of "$n")"; }
 
@@ -126,8 +126,8 @@ figure_4a() {
     "0.02 of a frame, 2.5 sigma" "readout over -1 ... 1 of a frame, from tracks of 300 s under the hover, $rows readouts, $(of_records)" \
     "$rows > 0 && $missing == 0 && $worst <= 0.02 && $sigmas <= 2.5"
 }
-# A phone in a moving car. The true readout is unknown; that the program which came with the clip takes a whole frame
-# time (33.312 ms, with a focal length of 574.4 px) is printed beside it.
+# A phone in a moving car. The true readout is unknown; the program published with the clip assumes a whole frame
+# time (33.312 ms, with a focal length of 574.4 px), which is printed for comparison.
 figure_4b() {
   local clip=$data/phone_rolling_shutter_gyro
   local what="measured clip, phone in a car, gyro beside it" bar="sigma 1.5 ms, halves within 2.5 sigma, less residual with the readout than with none"
@@ -163,7 +163,7 @@ figure_5() {
     read_row "deck$drawn" $case paper
     line "5a$drawn" beside "$(errors)" "none" "the same by the paper's chain"
   done
-  # Modes at 17.2 and 19.8 Hz, where the plan says that they fold: resolved turned, ambiguous in landscape.
+  # Modes at 17.2 and 19.8 Hz, predicted as aliased by the plan: resolved with the rotated camera, ambiguous in landscape.
   read -r planned whole told ambiguous wrong < <(awk -F'\t' -v f="deck$drawn-mode" '$1 == f && $3 == "ours" && $4 > 15 && $5 != "direct" {
     whole += $6; if ($2 == "turned") { if ($5 == "resolved") p += $6; t += $7; n += $6 } else { if ($5 ~ /^ambiguous/) p += $6; a += $8; m += $6 } w += $9 }
     END { print p + 0, whole + 0, n ? t / n : "nan", m ? a / m : "nan", w + 0 }' "$out/deck$drawn.txt")

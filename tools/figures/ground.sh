@@ -17,7 +17,7 @@ for figure in "${figures[@]}"; do
     *) script=ground_link ;;
   esac
   more=("${handed_on[@]}")
-  [ "$figure" != 2 ] || more=(${quick:+--quick}) # it draws nothing
+  [ "$figure" != 2 ] || more=(${quick:+--quick}) # draws nothing at random
   run_script "tools/figures/$script.sh" "${more[@]}" "$figure"
 done
 finish_scripts

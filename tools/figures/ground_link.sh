@@ -18,12 +18,12 @@ quietly tools/build.sh hovermodal hovermodald subscribe lcm_hostile hovermodal_p
 clip=$out/clip_${seconds}_$first_seed
 
 own_network() { unshare -rn "$@"; }
-# field FILE EXPRESSION: of a JSON file, which is j
+# field FILE EXPRESSION: evaluated on a JSON file, which is j
 field() { python3 -c 'import json, sys; j = json.load(open(sys.argv[1])); print(eval(sys.argv[2]))' "$1" "$2" 2>/dev/null || echo nan; }
 need_clip() {
   [ -f "$clip/truth.json" ] || quietly "$bin/hovermodal" simulate --preset paper --seed "$first_seed" --duration $seconds --size 720p --out "$clip"
 }
-# A log and a record of one run: every kind of message. The attitude, a file the configuration names, is in the record.
+# A log and a record of one run: every kind of message. The record contains the attitude, a file that the configuration names.
 need_log() {
   need_clip
   [ "$(cat "$out/run.of" 2>/dev/null)" != "$clip" ] || return 0
@@ -36,7 +36,7 @@ need_log() {
 
 # --- 4: lcm-spy --------------------------------------------------------------------------------------------------------
 figure_4() {
-  local n_types=11  # what a service sends and records, and attitude_t, which it hears
+  local n_types=11  # types that a service sends and records, and attitude_t, which it receives
   local what="lcm-spy of Debian with hovermodal_lcm.jar, a log of one run" bar="every type decoded"
   if ! cmake -B build/release -S . >/dev/null 2>&1 || ! quietly tools/build.sh hovermodal_lcm_jar || ! command -v Xvfb >/dev/null; then
     line 4 SKIP "no JDK, no LCM for Java or no Xvfb" "$bar" "$what; installed by: tools/setup.sh --lcm"
@@ -105,7 +105,7 @@ figure_7() {
   rm -rf "$folder"
   mkdir -p "$folder"
   quietly "$bin/hovermodal" regions "$clip/clip.mp4" --lowest-is-base --out "$folder/regions.yaml" --picture "$folder/regions.png"
-  # The declared configuration with the proposed regions in place of its own, and no known length.
+  # The declared configuration with the proposed regions instead of its own, and no known length.
   awk '/^regions:/ { skip = 1; next } /^[a-z]/ { skip = /^scale:/ } !skip' "$clip/config.yaml" >"$folder/config.yaml"
   cat "$folder/regions.yaml" >>"$folder/config.yaml"
   local segment=512

@@ -19,7 +19,7 @@ quietly tools/build.sh hovermodal hovermodald ground_day
 export PYTHONDONTWRITEBYTECODE=1
 
 value() { awk -F'\t' -v name="$2" '$1 == name { v = $2 } END { print v == "" ? "nan" : v }' "$out/$1.txt"; } # FILE NAME
-# check FILE SCRIPT ARGUMENT...: its figures into FILE; its own words when it fails.
+# check FILE SCRIPT ARGUMENT...: its figures into FILE; prints its output if it fails.
 check() {
   local name=$1 script=$2
   shift 2
@@ -40,7 +40,7 @@ figure_1() {
   rm -f "$out/page.txt"
   check page page_run.py "$bin" "$out/clip" "$out" "$url" || { line 1 MISS "the check ended early: $(tail -n 1 "$out/page.err")" "modes appear, update, survive a service restart and a lost link" "$what"; return; }
   v() { value page "$1"; }
-  s() { [[ $(v "$1") =~ ^[0-9.]+$ ]] && v "$1" || echo nan; } # seconds, where it was ever seen
+  s() { [[ $(v "$1") =~ ^[0-9.]+$ ]] && v "$1" || echo nan; } # seconds, if ever measured
   judge 1 "$(v modes) modes, first after $(v modes_after_s) s, again after $(v update_after_s) s" "modes appear and update" "$what" \
     "$(v modes) > 0 && $(s modes_after_s) >= 0 && $(s update_after_s) >= 0"
   judge 1r "shown after $(v restart_shown_s) s, modes again after $(v modes_after_restart_s) s" "survives a service restart" "the service stopped and started again: shown, and followed" \
@@ -62,7 +62,7 @@ figure_1() {
 figure_2() {
   local what="JavaScript heap over $hours h of messages at 30 frames a second fed to the page"
   rm -f "$out/day.txt"
-  # A log as the source: no network is needed.
+  # A log as the source needs no network.
   "$bin/ground_day" log "$out/day.lcm"
   check day page_day.py "$bin" "$out" "file://$out/day.lcm?speed=0" "$hours" || { line 2 MISS "the check ended early: $(tail -n 1 "$out/day.err")" "page memory bounded" "$what"; return; }
   v() { value day "$1"; }

@@ -13,7 +13,7 @@ mkdir -p "$out"
 set_up
 quietly tools/build.sh hovermodal hovermodald
 
-# Every second run loses and finds effects by itself, every third lives in real time and may drop frames, every fifth is
+# Every second run loses frames and detects effects, every third runs in real time and may drop frames, every fifth is
 # recorded in many small files.
 how() { # SEED
   local more=()

@@ -32,7 +32,7 @@ files=(modal.json tracks.csv displacements.csv closure.json)
 mkdir -p "$out"
 tools/setup.sh
 
-# The inputs: a clip of a minute with a lens that nobody declares, and tracks that lack points.
+# The inputs: a clip of a minute with an undeclared lens, and tracks with missing points.
 inputs() {
   quietly tools/build.sh hovermodal hovermodald
   local in=$out/input
@@ -51,7 +51,7 @@ Y
 }
 common=(--set telemetry.lcm_url= --set tracking.points_per_region=12)
 brief=(--set closure.window_s=24 --set closure.period_s=20 --set closure.delay_s=4)
-# service BIN FOLDER OPTION...: the clip through the service.
+# service BIN FOLDER OPTION...: the service on the clip.
 service() {
   local programs=$1 folder=$2
   shift 2
@@ -66,7 +66,7 @@ again() {
 }
 
 # --- 1: the same bytes ------------------------------------------------------------------------------------------------
-# ten_runs BIN FOLDER: what both levels of the chain leave behind, corrections taken out and not.
+# ten_runs BIN FOLDER: outputs of both levels of the chain, with and without corrections.
 ten_runs() {
   local b=$1 f=$2 clip=$out/input/clip tracks=$out/input/tracks
   rm -rf "$f" && mkdir -p "$f"
@@ -82,7 +82,7 @@ ten_runs() {
   mkdir -p "$f/replay_record"
   quietly "$b/hovermodal" replay "$f"/record/*_000.lcm --report "$f/replay_record"
 }
-# hashes_of FOLDER: a line a file, sorted.
+# hashes_of FOLDER: one line per file, sorted.
 hashes_of() {
   local names=()
   for file in "${files[@]}"; do names+=(-o -name "$file"); done
@@ -107,13 +107,13 @@ figure_1() {
 }
 
 # --- 2: run = replay --------------------------------------------------------------------------------------------------
-# recorded NAME OPTION...: the clip through the service, which records it.
+# recorded NAME OPTION...: the service on the clip, with a run record.
 recorded() {
   local folder=$out/again/$1
   shift
   service "$bin" "$folder/live" "${brief[@]}" --set "record.directory=$folder/record" "$@"
 }
-# compared NAME FOUND CONDITION: the newest record of that run replayed, file by file; FOUND says that the situation was one.
+# compared NAME FOUND CONDITION: the newest record of that run replayed, file by file; FOUND checks that the case occurred.
 compared() {
   local folder=$out/again/$1 same=0 n=0 file record
   mkdir -p "$folder/again"
@@ -145,7 +145,7 @@ figure_2() {
   n_changes=$(grep -c 'from frame' "$out/again/corrections/live/modal.json" || true)
   compared corrections "$n_changes corrections in force" "$n_changes >= 1"
 
-  # Thirteen frames are lost after the 400th, forty seconds' worth after the 900th.
+  # Thirteen frames are lost after the 400th, and forty seconds after the 900th.
   awk 'BEGIN { print "frame,t_s"; for (i = 0; i < 1500; i++) printf "%d,%.9f\n", i, (i + (i > 400) * 13 + (i > 900) * 1000) / 25 }' \
     >"$out/input/clip/clip.timestamps.csv"
   recorded gaps --set closure.adopt=report
@@ -154,7 +154,7 @@ figure_2() {
   read -r n_missing samples < <(losses_of "$out/again/gaps/live/modal.json" frames_missing samples)
   compared gaps "$n_missing frames missing" "$n_missing == 1013"
 
-  # Killed on the way; the next run goes on with its state.
+  # Killed during the run; the next run resumes from its state.
   local state=(--set "state.directory=$out/again/resume/state" --set state.period_s=1)
   "$bin/hovermodald" --config "$out/input/clip/config.yaml" "${common[@]}" "${brief[@]}" "${state[@]}" --set camera.pace=realtime \
     --set closure.adopt=off >"$out/again/killed.txt" 2>&1 &
@@ -202,14 +202,14 @@ scratch() {
   quietly git -C "$out/scratch/$1" checkout --quiet "$(git rev-parse "$1")"
   export CCACHE_DISABLE=1
 }
-# build_cost COMMIT NAME TARGET...: processor minutes for these targets in its clone, configuring included where it is the first.
+# build_cost COMMIT NAME TARGET...: processor minutes for these targets in its clone, including configuration for the first.
 build_cost() {
   local commit=$1 name=$2
   shift 2
   processor_minutes "$out/cost_${name}_$commit.txt" "$out/scratch/$commit/tools/build.sh" "$@" || return 1
   cat "$out/cost_${name}_$commit.txt"
 }
-# compared_cost NUMBER BAR WHAT NOW BEFORE: the ratio of processor minutes; without a bar it is printed beside.
+# compared_cost NUMBER BAR WHAT NOW BEFORE: the ratio of processor minutes; without a bar it is printed for comparison.
 compared_cost() {
   local ratio
   ratio=$(awk "BEGIN { if ($5 > 0) printf \"%.2f\", $4 / $5; else print \"nan\" }")
@@ -254,7 +254,7 @@ figure_3() {
 }
 
 # --- 4: its shape -----------------------------------------------------------------------------------------------------
-# The file of each in which the way of an item (a frame, a scan, a message) can be read; the types named there are the concepts.
+# The file in each project that shows the path of an item (a frame, a scan, a message); the types named there are the concepts.
 declare -A way_of=([kiss-icp]=cpp/kiss_icp/pipeline/KissICP.cpp [libcamera]=src/libcamera/camera.cpp [drake]=lcm/drake_lcm.cc
   [lcm]=drake_lcm.cc [cactus-rt]=src/cactus_rt/cyclic_thread.cc)
 print_shape() { # NUMBER DIR WAY NAME

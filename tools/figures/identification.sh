@@ -16,7 +16,7 @@ mkdir -p "$out"
 tools/setup.sh
 quietly tools/build.sh hovermodal hovermodal-validate
 
-part() { # SCRIPT FIGURE: its lines; its misses are ours
+part() { # SCRIPT FIGURE: its lines; its misses count here
   local text
   text=$("tools/figures/$1" ${quick:+--quick} --first-seed "$first_seed" "$2" 2>&1) || true
   grep -E '^[0-9]' <<<"$text" || { echo "$text" >&2; line "$2" MISS "the script failed" "-" "tools/figures/$1 $2"; }
@@ -26,10 +26,10 @@ check() { # NAME SEEDS ...: the table of a self-test
   local name=$1 n=$2
   shift 2
   "$bin/hovermodal-validate" "$name" --first-seed "$first_seed" --seeds "$n" --threads "$(nproc)" "$@" >"$out/$name.txt" ||
-    echo "# validate $name failed" # and its lines miss
+    echo "# validate $name failed" # its lines are then MISS
 }
-# table NAME FILTER PROGRAM END: awk over the rows of a table that the filter takes. num(x) is a number of a row; where one is
-# none, all that is printed is nan.
+# table NAME FILTER PROGRAM END: awk over the rows of a table that pass the filter. num(x) is a number of a row; if one is not
+# a number, nan is printed for all.
 table() {
   awk -F'\t' "function size(x) { return x < 0 ? -x : x }
     function num(x) { if (x !~ /^[-+]?[0-9]/) none = 1; return x + 0 }

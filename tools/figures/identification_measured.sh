@@ -49,7 +49,7 @@ errors() {
 }
 
 below() { awk -v limit="$1" '$1 < limit' "$2" | wc -l; }           # how many modes below LIMIT
-# "nan" where there is none: a mode that is missing must not count as exact.
+# "nan" if there is none: a missing mode must not count as exact.
 largest() { awk '{ e = $1 < 0 ? -$1 : $1; if (e > w) w = e } END { if (NR) print w + 0; else print "nan" }'; }
 medium() { awk '{ print $1 < 0 ? -$1 : $1 }' | median_and_worst | cut -d' ' -f1; }
 one_line() { tr '\n' ' '; }

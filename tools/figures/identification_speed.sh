@@ -44,7 +44,7 @@ figure_9() {
 }
 
 # --- 10: one update ---------------------------------------------------------------------------------------------------
-find_openblas() { # sets openblas, empty where there is none
+find_openblas() { # sets openblas, empty if there is none
   openblas=$libraries/openblas-pthread
   if [ ! -e "$openblas/libblas.so.3" ]; then
     local unpacked=$PWD/$out/openblas
@@ -65,12 +65,12 @@ least() { # FILE: milliseconds
   awk '{ if (m == "" || $1 + 0 < m) m = $1 + 0 } END { if (m == "") print "nan"; else printf "%.2f", m }' "$1"
 }
 
-# The comparator factorises as we do, by the eigenvectors of the Gram matrix, with the same weights; the singular value
-# decomposition of the matrix itself, as most programs have it, stands beside.
+# The comparator factorises like this project, by the eigenvectors of the Gram matrix, with the same weights; the singular
+# value decomposition of the matrix itself, as in most programs, is printed for comparison.
 compare_update() { # METHOD BLOCK_ROWS REFERENCE_BAR OPENBLAS_BAR
   local name=$out/ms_$1 r factoriser
   rm -f "$name"_*.txt
-  for ((r = 0; r < rounds; ++r)); do # taken in turn, so that what else the machine does falls on all
+  for ((r = 0; r < rounds; ++r)); do # alternately, so that other load of the machine affects all
     ours "$1" "$2" >>"${name}_ours.txt"
     for factoriser in gram svd; do
       theirs "$libraries/blas:$libraries/lapack" "reference_$factoriser" "$1" "$2" $factoriser >>"${name}_reference_$factoriser.txt"
@@ -99,7 +99,7 @@ update_line() { # METHOD BLOCK_ROWS COMPARATOR BAR OUR_MS
   *) line 10 beside "$words" "none" "$what of the matrix itself" ;;
   esac
 }
-# Instructions of one update: of five runs less those of one, so that making the data does not count.
+# Instructions of one update: five runs minus one run, so that making the data does not count.
 instructions() { # CHANNELS UPDATES
   local count
   count=$(perf stat -x, -e instructions:u "$speed" service "$1" "$2" "$first_seed" 2>&1 >/dev/null | awk -F, '$3 ~ /instructions/ && $1 + 0 > 0 { print $1 }' || true)

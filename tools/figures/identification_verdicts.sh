@@ -1,4 +1,5 @@
-# Figures 7 and 8 of the identification: modes above half the frame rate, and what is no mode. Sourced by identification.sh.
+# Figures 7 and 8 of the identification: modes above half the frame rate, and motion that is no mode. Sourced by
+# identification.sh.
 
 # --- 7: above half the frame rate ---------------------------------------------------------------------------------------
 figure_7() {

@@ -6,7 +6,7 @@ cd "$(dirname "$0")/../.."
 bin=build/release/bin clip=$1 out=$2 n=$3 seed=$4 url="udpm://239.255.76.72:7672?ttl=0"
 mkdir -p "$out"
 rm -f "$out"/*
-trap 'kill $(jobs -p) 2>/dev/null || true' EXIT # who listens would else go on for an hour where this ends early
+trap 'kill $(jobs -p) 2>/dev/null || true' EXIT # otherwise listeners would run on for an hour if this script ends early
 ip link set lo up
 ip route add 224.0.0.0/4 dev lo
 
@@ -24,18 +24,18 @@ start_python() {
   eval "$1=$!"
   wait_for "$1"
 }
-# At five frames a second the clip outlasts all that is sent.
+# At five frames a second the clip lasts longer than all that is sent.
 "$bin/hovermodald" --config "$clip/config.yaml" --set camera.pace=realtime --set camera.rate_hz=5 --set camera.attitude_channel=ATTITUDE --set scale.only=false \
   --set "telemetry.lcm_url=$url" --set telemetry.channel_prefix=OTHER --set "telemetry.log_file=$out/service.lcm" >"$out/service.log" 2>&1 &
 service=$!
 for name in spy inspect subscribe; do wait_for $name; done
 start_python python
 sleep 3
-# Messages first. LCM's own library, with which the C++ example is made, would not survive what comes then.
+# Messages first. LCM's own library, used by the C++ example, would not survive the datagrams that follow.
 "$bin/lcm_hostile" send "$seed" "$url" $((n * 8 / 10)) 5000 messages >"$out/sent.txt"
 sleep 1
 note_alive spy inspect subscribe python service
-"$bin/lcm_hostile" end "$url" # well-formed: what listens until the end ends
+"$bin/lcm_hostile" end "$url" # well-formed: listeners that wait for the end then end
 start_python python2
 "$bin/lcm_hostile" send "$seed" "$url" $((n - n * 8 / 10)) 5000 datagrams >>"$out/sent.txt"
 sleep 1

@@ -58,7 +58,7 @@ ip netns exec $ground "$bin/hovermodal" spy --url "$url" --plain --seconds 600 -
 spy=$!
 started+=($logger $spy)
 for _ in $(seq 100); do grep -q "listening on" "$out/spy.log" && break; sleep 0.1; done
-# Bytes that left, once a second.
+# Bytes sent, once a second.
 ip netns exec $sky bash -c 'while sleep 1; do ip -s -j link show air; echo; done' >"$out/rate.jsonl" 2>/dev/null &
 rate=$!
 started+=($rate)

@@ -17,7 +17,7 @@ hear() {
   for _ in $(seq 100); do grep -q "listening on" "$out/$name.spy.log" && break; sleep 0.1; done
   "$@" >"$out/$name.run.log" 2>&1 || { echo "bad the run failed: $(tail -n 1 "$out/$name.run.log")" >"$out/$name.txt"; kill $spy; return 1; }
   wait $spy || { echo "bad the spy ended without a final health message" >"$out/$name.txt"; return 1; }
-  # "complete" is the spy's own word: every channel received what the final health says was sent, without a gap.
+  # "complete" is reported by the spy: every channel received what the final health states as sent, without a gap.
   awk '/"complete"/ { complete = /true/ } /"received"/ { gsub(/[^0-9]/, ""); n += $0; channels++ } /"gaps"/ { gsub(/[^0-9]/, ""); gaps += $0 }
        END { printf "%s %d messages on %d channels, %d gaps", complete && gaps == 0 ? "ok" : "bad", n, channels, gaps }' "$out/$name.json" >"$out/$name.txt"
 }

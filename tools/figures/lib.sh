@@ -1,11 +1,11 @@
-# Shared by the figure scripts: where things are, one line a figure, small statistics. Source it from the project's root.
+# Shared by the figure scripts: paths, one line per figure, small statistics. Source it from the project's root.
 bin=build/release/bin
 # Measured data: HOVERMODAL_DATA, else ../shared/data where it exists, else data in the project, where tools/data.sh puts them.
 data=${HOVERMODAL_DATA:-}
 if [ -z "$data" ]; then data=$([ -d ../shared/data ] && echo ../shared/data || echo ./data); fi
 misses=0
 
-# line NUMBER ok|MISS|SKIP "measured" "bar" "what"; a SKIP that names a place in $data says what brings it.
+# line NUMBER ok|MISS|SKIP "measured" "bar" "what"; a SKIP for missing data in $data also names the command that fetches them.
 line() {
   local remedy=
   if [ "$2" = SKIP ] && [[ "$3 $5" == *"$data"* ]]; then remedy=" (tools/data.sh brings it)"; fi
@@ -13,15 +13,15 @@ line() {
   [ "$2" != MISS ] || misses=$((misses + 1))
 }
 
-# finish_figures: the last command of every script. It says that the run came to its end, which alone makes it a result
+# finish_figures: the last command of every script. It states that the run reached its end, which is required for a result
 # (tools/figures/all.sh), and exits with 1 where a figure misses its bar.
 finish_figures() {
   echo "# whole: $misses figures miss their bar"
   [ "$misses" -eq 0 ] || exit 1
 }
 
-# judge NUMBER "measured" "bar" "what" AWK-CONDITION: ok when the condition holds, MISS when not or when it cannot be evaluated.
-# To awk a bare word such as nan or inf is an unset variable, and less than any bar.
+# judge NUMBER "measured" "bar" "what" AWK-CONDITION: ok if the condition holds, MISS if not or if it cannot be evaluated.
+# In awk a bare word such as nan or inf would be an unset variable, which is less than any bar.
 judge() {
   local bare
   bare=$(sed -E 's/"[^"]*"//g' <<<"$5")
@@ -32,10 +32,10 @@ judge() {
   fi
 }
 
-# What a figure script is asked for:
+# Arguments of a figure script:
 #   take_arguments USAGE "$@"     USAGE names the options that the script has, of [--quick] [--seeds N] [--first-seed N] [FIGURE...]
-# quick: yes or empty; n_seeds: as given, or empty; first_seed: the first seed of whatever is drawn at random (1001; 1 - 100 are
-# for development); figures: as named; handed_on: the options, for another figure script. Anything else ends the script.
+# quick: yes or empty; n_seeds: as given, or empty; first_seed: the first seed of all random draws (1001; 1 - 100 are
+# for development); figures: as named; handed_on: the options, for another figure script. Other arguments end the script.
 usage='' quick='' n_seeds='' first_seed=1001 seed_given='' figures=() handed_on=()
 
 refuse() { # TEXT...
@@ -64,7 +64,7 @@ take_arguments() {
   handed_on=(${quick:+--quick} ${seed_given:+--first-seed "$first_seed"})
 }
 
-# all_or_named ALL...: all figures where none is named; an unknown name ends the script.
+# all_or_named ALL...: all figures if none is named; an unknown name ends the script.
 all_or_named() {
   local figure
   [ ${#figures[@]} -gt 0 ] || figures=("$@")
@@ -73,7 +73,7 @@ all_or_named() {
   done
 }
 
-# draws FIGURE...: the figures that draw at random. A first seed is refused where none of them is asked for.
+# draws FIGURE...: the figures that draw at random. A first seed is refused if none of them is requested.
 draws() {
   local figure
   [ -n "$seed_given" ] || return 0
@@ -82,9 +82,9 @@ draws() {
   done
   refuse "--first-seed: nothing is drawn at random in ${figures[*]}${1:+; it is in $*}"
 }
-seeds_of() { echo "seeds $first_seed-$((first_seed + $1 - 1))"; }  # NUMBER OF SEEDS, in words
+seeds_of() { echo "seeds $first_seed-$((first_seed + $1 - 1))"; }  # NUMBER OF SEEDS, as text
 
-# set_up OPTION...: tools/setup.sh; where packages are missing and cannot be installed, a SKIP for each figure, and the end.
+# set_up OPTION...: tools/setup.sh; if packages are missing and cannot be installed, prints a SKIP for each figure and ends.
 set_up() {
   local figure
   ! quietly tools/setup.sh "$@" || return 0
@@ -95,7 +95,7 @@ set_up() {
   exit 0
 }
 
-# run_script SCRIPT ARGUMENT...: another figure script, as a part of this one; finish_scripts: in place of finish_figures.
+# run_script SCRIPT ARGUMENT...: another figure script, as a part of this one; finish_scripts: replaces finish_figures.
 scripts_cut_off=0
 run_script() {
   local status
@@ -133,12 +133,12 @@ for key, rows in groups.items():
 ' "$@"
 }
 
-# Median and worst (largest) of the numbers on standard input, "nan nan" when there are none.
+# Median and worst (largest) of the numbers on standard input, "nan nan" if there are none.
 median_and_worst() {
   sort -g | awk '{ v[NR] = $1 } END { if (NR == 0) print "nan nan"; else print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2, v[NR] }'
 }
 
-# The run's own words only when it fails.
+# Prints the run's output only when it fails.
 quietly() {
   local log
   log=$(mktemp)
@@ -165,7 +165,7 @@ telemetry: {lcm_url: ""}
 Y
 }
 
-# A figure that the script did not reach the end of is a miss, whatever stopped it. clean_up: of the script's own, if it has one.
+# A figure whose script did not reach its end is a MISS, whatever stopped it. clean_up: defined by the script, if needed.
 unfinished=()
 tell_unfinished() {
   local figure
@@ -174,7 +174,7 @@ tell_unfinished() {
 }
 
 # run_figures N...: figure_N of each, with the time it took; then after_figures, if the script has one, and finish_figures.
-# Of "N-drawn" figure_N with `drawn` set to "-drawn": camera, structure and noise from the seed as far as the figure lets them.
+# For "N-drawn", figure_N with `drawn` set to "-drawn": camera, structure and noise from the seed unless fixed by the figure.
 run_figures() {
   local figure
   unfinished=("$@")

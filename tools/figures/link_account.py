@@ -17,7 +17,7 @@ spy, ground, sky = load("spy.json"), load("ground.json"), load("sky.json")
 words, adds_up, lost_in_all = [], True, 0
 for channel, told in sky["channels"].items():
     heard = spy["channels"][channel]
-    # The log of the service has everything: what went over the network is the rest without what was held back.
+    # The log of the service contains everything; the network got all of it except what was withheld.
     sent = told["n_sent"] - told["n_held_back"]
     before, after = max(heard["first_sequence"] or 0, 0), sent - 1 - (heard["last_sequence"] if heard["received"] else -1)
     lost = heard["gaps"] + before + after if heard["received"] else sent
@@ -32,7 +32,7 @@ held = {channel.rpartition("_")[2].lower(): f"{told['n_held_back']} of {told['n_
 bytes_at = []
 with open(f"{folder}/rate.jsonl", encoding="utf-8") as file:
     for text in file:
-        if text.startswith("[") and text.rstrip().endswith("]"):  # the last one may be cut off
+        if text.startswith("[") and text.rstrip().endswith("]"):  # the last one may be truncated
             bytes_at.append(json.loads(text)[0]["stats64"]["tx"]["bytes"])
 steps = [b - a for a, b in zip(bytes_at, bytes_at[1:]) if b > a]
 steps = steps[1:-1] if len(steps) > 10 else steps
@@ -42,7 +42,7 @@ with open(f"{folder}/spy.log", encoding="utf-8") as file:
     text = file.read()
 screens = re.split(r"(?m)^MODES ", text)
 modes = max([len(re.findall(r"(?m)^ +[0-9.]+ .* structural ", screen)) for screen in screens] or [0])
-while_running = text[:text.rfind("hovermodal spy  stream")]  # estimates are shown then only when they are whole
+while_running = text[:text.rfind("hovermodal spy  stream")]  # estimates are shown then only when they are complete
 estimates = set(re.findall(r"(?m)^MODES +estimate ([0-9]+)", while_running))
 with open(f"{folder}/report/modal.json", encoding="utf-8") as file:
     report = json.load(file)

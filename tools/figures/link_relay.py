@@ -23,7 +23,7 @@ MOST_QUEUED_S = 0.5
 class Way:
     def __init__(self, options, seed):
         self.options, self.random = options, random.Random(seed)
-        self.free_at = 0.0  # when the link has sent all that it was given
+        self.free_at = 0.0  # when the link has sent everything it was given
         self.count = {"frames": 0, "lost": 0, "overflowed": 0, "bytes": 0, "offered_bytes": 0}
         self.by_second = {}
 

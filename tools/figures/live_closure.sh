@@ -30,7 +30,7 @@ figure_1() {
   done < <(tracks_cells)
   judge 1 "$right of $total" "one or two effects from mid-flight on: all taken out, nothing else, in 0.95" "track records, effects of strength 1" "$right >= 0.95 * $total"
 }
-tracks_cells() { # a line per case, from the records' lines
+tracks_cells() { # a line per case, from the lines of the records
   cells "$out/tracks.txt" closure-live 1 <<'PY'
 alone = [r for r in rows if not math.isnan(float(r[3])) and r[4] == "0"]
 found = [f"{sum(int(r[i].split('/')[0]) for r in rows)}/{sum(int(r[i].split('/')[1]) for r in rows)}" for i in (6, 9, 12)]
@@ -76,7 +76,7 @@ figure_1c() {
   local name
   for name in readout radial radial_2 tangential both; do "figure_1c_$name"; done
 }
-corrections() { # what the run found and took out, from modal.json
+corrections() { # effects found and corrected by the run, from modal.json
   python3 -c 'import json, sys; print("; ".join(c for c in json.load(open(sys.argv[1]))["corrections"] if "from frame" in c))' "$out/$1/modal.json"
 }
 errors_of() { # NAME RUN: modes found of those in the truth, rms error and sigma in percent

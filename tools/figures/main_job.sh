@@ -15,7 +15,7 @@ mkdir -p "$out"
 tools/setup.sh
 quietly tools/build.sh hovermodald hovermodal
 
-# errors_of TABLE: "|error %| MAC" of modes 1-3, "1000 0" for one that was not found.
+# errors_of TABLE: "|error %| MAC" of modes 1-3, "1000 0" for a mode that was not found.
 errors_of() {
   awk '$1 ~ /^[123]$/ { if (NF < 9) print 1000, 0; else { e = $4 < 0 ? -$4 : $4; print e, $5 / 100 } }' "$1"
 }
@@ -33,7 +33,7 @@ in_words() {  # SUMMARY WANTED
   echo "$1 $2" | awk '{ printf "%d of %d modes, error median %.3f worst %.3f %%, MAC median %.5f worst %.5f", $5, $6, $1, $2, $3, $4 }'
 }
 
-# judge_modes NUMBER WHAT TABLE...: against the paper's own result; its chain on the same tracks stands beside (PAPER).
+# judge_modes NUMBER WHAT TABLE...: against the paper's own result; its chain on the same tracks for comparison (PAPER).
 judge_modes() {
   local number=$1 what=$2 ours paper wanted
   shift 2
@@ -46,7 +46,7 @@ judge_modes() {
     "${words[4]} == $wanted && ${words[1]} <= 1.04 && ${words[3]} >= 0.9967"
 }
 
-# truth_of TABLE...: error against the true parameters in units of sqrt(zeta / (2 pi f T)); no bar, beside.
+# truth_of TABLE...: error against the true parameters in units of sqrt(zeta / (2 pi f T)); no bar, for comparison.
 truth_of() {
   for table in "$@"; do awk '$1 ~ /^[123]$/ && NF >= 9 { e = $8 < 0 ? -$8 : $8; s = $9 < 0 ? -$9 : $9; print e, s }' "$table"; done |
     awk '{ e2 += $2 * $2; if ($1 > w) w = $1; if ($2 > ws) ws = $2 } END { if (!NR) print "nothing against the true parameters"; else printf "against the true parameters: worst %.2f %%, rms %.2f and worst %.2f of the least possible scatter", w, sqrt(e2 / NR), ws }'

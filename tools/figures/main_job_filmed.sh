@@ -16,8 +16,8 @@ fork_figure() {  # CLIP LEFT RIGHT
   rate=${rate%fps} nominal=${nominal%%hz*}
   fork_config "$1" "$rate" "$2" "$3"
   quietly "$bin/hovermodald" --config "$out/$1.yaml" --report "$out/$1" || { line 2 MISS "the run failed" "-" "$1"; return; }
-  # Of the modes within 5 % the one whose prongs move most in phase or against each other is the fork's: not the nearest,
-  # which would flatter.
+  # Of the modes within 5 %, the fork's is the one whose prongs move most clearly in phase or antiphase, not the nearest one,
+  # which would bias the result.
   found=$("$bin/hovermodal" identify --series "$out/$1/displacements.csv" |
     awk -v n="$nominal" '$2 == "Hz" && $3 == "damping" && $6 == "MPC" { d = $1 / n - 1; if (d < 0) d = -d; if (d < 0.05 && $7 > mpc) { best = $1; bestd = d; mpc = $7 } } END { if (best) printf "%.4f %.3f", best, 100 * bestd; else print "none 100" }')
   judge 2 "${found% *} Hz, ${found#* } % off" "<= 0.3 %" "$1 at $rate fps" "${found#* } <= 0.3"
@@ -84,7 +84,7 @@ figure_3() {
     judge 3a "worst dot $worst px, all dots $rms px rms, $frames of 582 frames with every dot" "<= 0.3 px rms, 582 frames" \
       "K'nex frame: base row and the row above against the given centroids" "$worst <= 0.3 && $frames == 582"
 
-    # Time by the stopwatch filmed in every frame: the median slope over many pairs, because some readings are misread.
+    # Time by the stopwatch filmed in every frame: the median slope over many pairs, because some readings are wrong.
     ln -sf "$(realpath "$knex/knex_1300x2046_gray.mp4")" "$out/knex_by_stopwatch.mp4"
     awk -F, 'NR > 1 { t[$1] = $2 } END { for (i = 1; i <= 250; i += 7) for (j = 300; j <= 582; j += 7) if ((i in t) && (j in t)) printf "%.9f\n", (t[j] - t[i]) / (j - i) }' \
       "$knex/stopwatch_readings.csv" | median_and_worst | awk '{ print "frame,t_s"; for (f = 0; f < 582; ++f) printf "%d,%.6f\n", f, f * $1 }' >"$out/knex_by_stopwatch.timestamps.csv"

@@ -29,7 +29,7 @@ transfer_line() { # NUMBER FILE WHAT: of ring_transfers
   [ "$(awk -F'\t' '$6 == 0 && $3 == "written" { n++ } END { print n + 0 }' "$2")" != 2 ] || verdict=ok
   line "$1" $verdict "$(awk -F'\t' '{ printf "%s%s: %s read, %s bad, %s s", (NR > 1 ? "; " : ""), $1, $4, $6, $8 }' "$2")" "0 bad" "$3"
 }
-model_line() { # MODEL VARIANT... : the protocol passes, each weaker variant is caught
+model_line() { # MODEL VARIANT...: the protocol passes, each weaker variant is detected
   local model=$1 states caught=0 n=0
   shift
   (cd "$out" && spin -a "$OLDPWD/tests/model/$model.pml" >/dev/null && gcc -O2 -w -o pan pan.c && ./pan -m200000 >"$model.txt")
@@ -68,7 +68,7 @@ figure_1() {
     "\"$(echo "$found" | grep -oE 'ldap?r|stlr|swpal' | wc -l)\" == 6"
   model_line spsc_ring WRITE_RELAXED READ_RELAXED POP_RELAXED CLAIM_RELAXED RELEASE_ONLY
   model_line triple_buffer PUBLISH_RELAXED PUBLISH_RELEASE_ONLY REFRESH_RELAXED REFRESH_ACQUIRE_ONLY
-  # Spinning threads measure the scheduler wherever something else runs: with SCHED_FIFO where that is allowed.
+  # Spinning threads measure the scheduler if anything else runs: SCHED_FIFO is used where permitted.
   local first=()
   ! chrt -f 20 true 2>/dev/null || first=(chrt -f 20)
   "${first[@]}" "$bin/ring_speed" $rounds >"$out/speed.txt"
@@ -102,7 +102,7 @@ overload_line() {
   line 3.overload $verdict "$(in_one_line "$out/overload.txt")" "memory flat, frames in = processed + dropped exactly, modes still right from what was kept" \
     "a source four times faster than tracking can follow, $overload_s s, seed $first_seed; flat: less than 4 MB from the half on"
 }
-# Frames drawn and lost in memory, through the whole pipeline.
+# Frames rendered and lost in memory, through the whole pipeline.
 loss_line() {
   local seed n=0 wrong=0 measured=
   for seed in $(seq "$first_seed" $((first_seed + records - 1))); do
@@ -117,7 +117,7 @@ loss_line() {
     "30 % of the frames lost at random, $overload_s s of video in memory, $(seeds "$records"); right: the lowest three within 2 %" \
     "$n == $records && $wrong == 0"
 }
-# The same by the public programs, from tracks on: all modes that the record shows without losses.
+# The same by the public programs, starting from tracks: all modes that the record shows without losses.
 public_loss_line() {
   local what="30 % of the frames lost at random, tracks of 60 s, $(seeds 10), hovermodal simulate and replay; kept: what the same record shows without losses, within 2 %"
   rm -f "$out/public_loss.txt"
@@ -200,7 +200,7 @@ figure_7() {
     for priority in 0 80; do
       verdict=MISS name=latency_${load}_$priority
       ! "$bin/overload_run" --seed "$first_seed" latency $latency_s $load $priority >"$out/$name.txt" 2>"$out/$name.err" || verdict=ok
-      # Without the right to it the thread runs as any other: that is another figure.
+      # Without that right the thread runs at ordinary priority: another figure.
       ! grep -q 'priority .* refused' "$out/$name.err" || verdict=SKIP
       line 7 $verdict "$(in_one_line "$out/$name.txt")$([ $verdict != SKIP ] || echo "; SCHED_FIFO was refused: run it as root, or ulimit -r 99")" \
         "latency and jitter printed; every frame counted, none dropped where nothing else runs" \

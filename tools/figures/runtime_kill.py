@@ -24,7 +24,7 @@ class Service:
         clip = folder.parent / f"kill_clip_{seed}"
         subprocess.run([binaries / "hovermodal", "simulate", "--size", "640x360", "--duration", str(CLIP_S), "--seed", str(seed),
                         "--out", clip], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        # Regions of every seed have corners enough, close to each other. A ring as long as the clip: on a busy machine
+        # Regions of every seed have enough corners, close to each other. A ring as long as the clip: on a busy machine
         # frames wait instead of being dropped.
         keys = {"camera.pace": "realtime", "spectrum.segment": 32, "state.directory": self.state, "state.period_s": PERIOD_S,
                 "record.directory": folder / "records", "telemetry.lcm_url": "", "closure.adopt": "off", "tracking.min_distance_px": 3,
@@ -70,7 +70,7 @@ def kill_once(service, number, seed, log):
     moment_s = random.Random(seed).uniform(0.0, MOST_RUN_S)
     begin = last = time.monotonic()
     process = service.start()
-    decodes_since = None  # no frame is taken before the clip has its decoder, the process' second thread
+    decodes_since = None  # no frame is taken before the clip has its decoder, the second thread of the process
     while (now := time.monotonic()) < begin + moment_s:
         if decodes_since is None and len(os.listdir(f"/proc/{process.pid}/task")) > 1:
             decodes_since = last

@@ -48,7 +48,7 @@ def stop_once(binaries, config, out, seed):
     out.mkdir(parents=True)
     service = start(binaries, config, out)
     os.set_blocking(service.stdout.fileno(), True)
-    first = service.stdout.readline()  # the source is open: the signal mask is set
+    first = service.stdout.readline()  # the source is open, so the signal mask is set
     time.sleep(choose.uniform(0.0, 3.0))
     begin = time.monotonic()
     service.send_signal(choose.choice((signal.SIGTERM, signal.SIGINT)))

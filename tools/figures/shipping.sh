@@ -13,7 +13,7 @@ draws 1 3 4
 scripts=(_ packages service fuzz batch docs)
 for figure in "${figures[@]}"; do
   more=("${handed_on[@]}")
-  [[ $figure != [25] ]] || more=(${quick:+--quick}) # they draw nothing
+  [[ $figure != [25] ]] || more=(${quick:+--quick}) # these draw nothing at random
   run_script "tools/figures/shipping_${scripts[figure]}.sh" "${more[@]}"
 done
 finish_scripts

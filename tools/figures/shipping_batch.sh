@@ -17,7 +17,7 @@ quietly tools/build.sh hovermodal
 quietly cmake --build build/mpi --target hovermodal
 
 folder=$out/flights_of_${duration_s}s_from_$first_seed
-# One seed a flight, two views in turns: sums are added within each, their modes combined across.
+# One seed per flight, two views alternately: sums are added within each view, their modes combined across views.
 make_flights() {
   local seed size
   for seed in $(seq "$first_seed" $((first_seed + flights - 1))); do
@@ -37,7 +37,7 @@ timed() {
   awk -v a="$begin" -v b="$(date +%s.%N)" 'BEGIN { print b - a }' >"$out/$name.s"
 }
 
-gain() { # NAME: how many times faster than one process
+gain() { # NAME: speed relative to one process
   awk -v one="$(cat "$out/one.s")" -v this="$(cat "$out/$1.s")" 'BEGIN { printf "%.2f", one / this }'
 }
 

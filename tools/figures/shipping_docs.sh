@@ -19,14 +19,14 @@ mkdir -p "$out"
 cache=${HOVERMODAL_CCACHE:-}
 with=${cache:+, with a compiler cache}
 
-# On this machine's network for apt-get; the loopback device is all that the programs use.
+# Uses this machine's network for apt-get; the programs use only the loopback device.
 inside() { chroot "$root" env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 ${cache:+CCACHE_DIR=/ccache} \
   bash -c "cd /hovermodal && export PATH=\$PWD/build/release/bin:\$PATH && $1"; }
 leave() { local place; for place in ccache dev/shm dev proc sys; do ! mountpoint -q "$root/$place" || umount "$root/$place" || umount --lazy "$root/$place"; done; }
 
 make_root() {
   leave
-  # What is mounted there is this machine's own.
+  # The mounts in it belong to this machine.
   if grep -q " $root/" /proc/mounts; then echo "shipping_docs: something is still mounted below $root" >&2; exit 1; fi
   rm -rf --one-file-system "$root"
   quietly mmdebstrap --variant=minbase --include=ca-certificates,git bookworm "$root"
@@ -54,12 +54,12 @@ follow() {
   line "5.$number" $verdict "$((SECONDS - began)) s: $(grep -v '^$' "$out/docs_$number.log" | tail -n 1 | cut -c1-120)" "works as it stands$with" "$command"
 }
 
-# The commands of the section "Your own video", as documents.py sees them.
+# The commands of the section "Your own video", extracted by documents.py.
 own_video() { awk '/^## Your own video/ { on = 1; next } /^## / { on = 0 } on && /^    (hovermodal|hovermodald|ffmpeg) / { sub(/^    /, ""); sub(/  +#.*/, ""); print }' README.md; }
 flight_yaml() { awk '/<!-- file: flight.yaml -->/ { on = 1; next } on && !/^    / { exit } on { sub(/^    /, ""); print }' README.md; }
 
 own() {
-  # A reader's clip: the simulator's.
+  # The reader's clip is replaced by the simulator's.
   follow clip "hovermodal simulate --preset paper --duration 30 --out fixture && cp fixture/clip.mp4 flight.mp4"
   flight_yaml >"$root/hovermodal/flight.yaml"
   local n=0 command
@@ -69,7 +69,7 @@ own() {
   done < <(own_video)
   judge 5.own "$n commands" "6" "of \"Your own video\" in README.md" "$n == 6"
 }
-# A phone's record, in the place of a reader's. Its clip begins at the hundredth stamp.
+# A phone's record replaces a reader's. Its clip begins at the hundredth stamp.
 readout() {
   local phone=$data/phone_rolling_shutter_gyro
   local command="hovermodal readout --clip frames --stamps framestamp.txt --gyro gyro.txt"
@@ -97,7 +97,7 @@ figure_5() {
       test) follow test "tools/test.sh" " -L unit" ;;
       own) own ;;
       readout) readout ;;
-      # lcm-spy has no end of its own; without --quick, since it brings a JDK.
+      # lcm-spy does not end by itself; only without --quick, because it requires a JDK.
       spy) [ -n "$quick" ] && line 5.spy SKIP "not with --quick" "works as it stands" "lcm-spy; run: tools/figures/shipping_docs.sh spy" || follow spy "tools/setup.sh --lcm && tools/build.sh && { Xvfb :99 & DISPLAY=:99 timeout -s INT 10 tools/lcm_spy.sh 'udpm://239.255.76.67:7667?ttl=1'; code=\$?; kill %1; wait; [ \$code = 124 ]; }" ;;
     esac
   done

@@ -21,7 +21,7 @@ figure_3() {
       line "3.$target" SKIP "not with --quick" "10 minutes without a finding" "run: tools/figures/shipping_fuzz.sh $target"
       continue
     fi
-    # A clean short run is no measurement of the bar; a finding misses it at once.
+    # A short run without a finding is no measurement of the bar; a finding misses it at once.
     verdict=ok
     [ -z "$quick" ] || verdict=SKIP
     text=$(tools/fuzz.sh "$target" --seconds $seconds --seed "$first_seed" --coverage 2>"$out/fuzz_$target.err") || verdict=MISS

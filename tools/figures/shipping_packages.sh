@@ -13,7 +13,7 @@ draws demo
 [ -z "$quick" ] || seconds=20 segment=256 unit_tests=(core)
 out=$PWD/build/figures/shipping
 clone=$out/clone root=$out/root
-commit=$(git rev-parse HEAD) # of all packages, whatever is committed meanwhile
+commit=$(git rev-parse HEAD) # of all packages, whatever is committed during the run
 mkdir -p "$out"
 [ "$(id -u)" -eq 0 ] || {
   for part in "${figures[@]}"; do line "1.$part" SKIP "not root" "-" "a clean Debian is a root of its own; run: sudo tools/figures/shipping_packages.sh $part"; done
@@ -31,7 +31,7 @@ built() { # ARCHITECTURE: packages of the commit, from a clone
     git clone -q . "$clone"
     git -C "$clone" reset -q --hard "$commit"
   fi
-  # What was unpacked of arm64 for this tree serves the clone as well.
+  # The arm64 packages unpacked for this tree are used by the clone, too.
   if [ -e build/package/arm64-root/.complete ] && [ ! -e "$clone/build/package" ]; then
     mkdir -p "$clone/build/package" && cp -al build/package/arm64-root "$clone/build/package/"
   fi
@@ -92,7 +92,7 @@ ported() {
   built arm64
   [ -n "$(packages amd64)" ] || built amd64
   [ -e "$demo/tracks.csv" ] || { line 1.arm64.replay MISS "no tracks" "the demo's" "run the part demo first"; return; }
-  # What is in the packages, not in the build tree.
+  # Checks the contents of the packages, not of the build tree.
   rm -rf "$out/amd64" "$out/arm64"
   for architecture in amd64 arm64; do
     for package in $(packages $architecture); do dpkg-deb -x "$package" "$out/$architecture"; done
@@ -108,7 +108,7 @@ ported() {
 
   local group log=$out/unit.log targets=() passed failed
   for group in "${unit_tests[@]}"; do targets+=("unit_${group}_tests"); done
-  # The tests are discovered under emulation while they are built.
+  # Emulation is used to discover the tests during the build.
   if ! cmake --build "$arm" ${JOBS:+-j "$JOBS"} --target "${targets[@]}" >"$out/unit_build.log" 2>&1; then
     line 1.arm64.unit MISS "not built, see $out/unit_build.log" "runs the unit tests: all pass" "unit tests, arm64 emulated"
     return

@@ -1,4 +1,4 @@
-// hovermodal compare: one result against another, and both against the truth.
+// hovermodal compare: one result compared with another, and both with the truth.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
@@ -31,7 +31,7 @@ struct Match {
   double mac = 0.0;
 };
 
-// Components of `mode` for the channels of `names`, 0 where a channel is not there.
+// Components of `mode` for the channels of `names`, 0 for a channel that does not exist.
 Shape shape_for(const app::ModalReport& report, const core::Mode& mode, const std::vector<std::string>& names) {
   Shape shape;
   for (const std::string& name : names) {
@@ -42,7 +42,7 @@ Shape shape_for(const app::ModalReport& report, const core::Mode& mode, const st
   return shape;
 }
 
-// The mode of `report` that is meant by `wanted`: of those within 10 % in frequency the one with the best MAC.
+// The mode of `report` that corresponds to `wanted`: among those within 10 % in frequency the one with the best MAC.
 Match find(const app::ModalReport& report, const core::Mode& wanted, const std::vector<std::string>& names,
            const Shape& wanted_shape) {
   Match best;
@@ -54,7 +54,7 @@ Match find(const app::ModalReport& report, const core::Mode& wanted, const std::
   return best;
 }
 
-// Not of a channel that took no part: its component is unknown.
+// False for an excluded channel, whose component is unknown.
 bool is_known(const app::ModalReport& report, const std::string& name) {
   const auto at = std::find(report.channel_names.begin(), report.channel_names.end(), name);
   const auto c = static_cast<std::size_t>(at - report.channel_names.begin());
@@ -70,7 +70,7 @@ std::vector<std::string> common_channels(const app::ModalReport& a, const app::M
   return names;
 }
 
-// No method scatters less in a record of this length: sqrt(zeta / (2 pi f T)), relative.
+// Least possible scatter for a record of this length: sqrt(zeta / (2 pi f T)), relative.
 double scatter(const core::Mode& mode, double duration_s) {
   const double waves = 2.0 * std::numbers::pi * mode.frequency_hz * duration_s;
   return mode.damping_ratio > 0.0 && waves > 0.0 ? std::sqrt(mode.damping_ratio / waves) : 0.0;
@@ -93,7 +93,7 @@ void print_header(bool with_truth, bool with_paper) {
   fmt::print("\n");
 }
 
-// Modes are numbered by the truth where it is given, else by the reference.
+// Modes are numbered by the truth if given, else by the reference.
 void print_table(const app::ModalReport& result, const app::ModalReport& reference, const app::ModalReport* truth,
                  bool with_paper) {
   const std::vector<std::string> names = common_channels(result, reference);

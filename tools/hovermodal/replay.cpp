@@ -1,4 +1,4 @@
-// hovermodal replay, report: the service's chain on recorded tracks, from geometry on.
+// hovermodal replay, report: the service's chain on recorded tracks, starting with geometry.
 #include <fmt/core.h>
 #include <CLI/CLI.hpp>
 

@@ -4,7 +4,7 @@
 
 namespace tools {
 
-// What a command that runs until it is stopped looks at: SIGINT and SIGTERM ask it to end.
+// Checked by commands that run until stopped; set by SIGINT and SIGTERM.
 inline volatile std::sig_atomic_t stop_requested = 0;
 
 inline void watch_stop_signals() {

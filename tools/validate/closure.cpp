@@ -1,4 +1,5 @@
-// Closing the loop at the structure level: what it finds where the missing effect is known, and where there is none.
+// Residual diagnosis at the structure level: effects found in structures with one known missing effect, and without
+// any.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +21,7 @@ using core::closure::ClosureResult;
 
 constexpr double kSigma = 0.0015;  // of each frequency, relative
 
-// Unequal over the modes, and stated with an error.
+// Sigmas unequal over the modes, and stated with an error.
 ClosureResult close(const KnownStructure& structure, std::uint64_t seed) {
   constexpr double kUnequal = 0.35, kSigmaError = 0.15;  // sd of the logarithm
   core::structure::DeclaredFrame declared;
@@ -42,8 +43,8 @@ ClosureResult close(const KnownStructure& structure, std::uint64_t seed) {
   return core::closure::close_loop(level, options);
 }
 
-// How often: named alone, named with rivals, only among the rivals, another effect beside or instead, nothing; of the
-// first two, with all parameters within three sigma.
+// Counts of results: named alone, named with rivals, only among the rivals, another effect in addition or instead,
+// nothing; of the first two, those with all parameters within three sigma.
 struct Counts {
   int alone = 0, first_of_rivals = 0, among_rivals = 0, wrong = 0, nothing = 0, within = 0;
 };

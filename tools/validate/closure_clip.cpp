@@ -25,7 +25,7 @@ namespace {
 using core::simulation::Scene;
 
 constexpr double kDropProbability = 0.02;
-constexpr double kClipNoise_px = 0.09;  // of a 1080p view: 0.03 px of a tracker in pictures of a third of its size
+constexpr double kClipNoise_px = 0.09;  // of a 1080p view: 0.03 px for a tracker in pictures of a third of that size
 constexpr double kTallerPlates = 1.9;  // two thirds of a storey: small pictures have few rows
 
 drivers::SceneStructure::Rows rows_of(const Eigen::MatrixXd& matrix) {
@@ -49,7 +49,7 @@ std::vector<std::string> names_in(const std::string& text) {
   return names;
 }
 
-// Lost frames are no effect in tracks with a sequence: the recorder's stamps do not tell of them.
+// In tracks with a sequence, lost frames are no effect to find: only the recorder's stamps must not show them.
 bool lose_frames(std::vector<std::string>& names, Scene& scene) {
   if (std::erase(names, "dropped frames") == 0) return false;
   scene.timing.drop_probability = kDropProbability;
@@ -76,12 +76,12 @@ Scene with_these(std::vector<std::string> names, const Scene& declared) {
 
 namespace {
 
-// A record longer than the hover runs on back and forth.
+// A record longer than the recorded hover plays it back and forth.
 double drawn_start_s(std::uint64_t seed, double duration_s) {
   return kHoverFrom_s + std::max(0.0, kHoverTo_s - kHoverFrom_s - duration_s) * Draw(seed, "clip_flight").uniform(0.0, 1.0);
 }
 
-// Comment lines by which a figure script knows the answer.
+// Comment lines from which a figure script reads the truth.
 void print_truth(const ForeignEffect& effect, const Scene& scene, const Scene& declared) {
   for (const std::string& name : effect.names) fmt::print("# name\t{}\n", name);
   for (const KnownValue& known : effect.effect.truth(scene, declared))
@@ -93,7 +93,7 @@ void print_scene(drivers::SceneFile file, const Scene& declared) {
   file.structure.damping = rows_of(declared.structure.damping);
   file.structure.stiffness = rows_of(declared.structure.stiffness);
   file.declare.readout_ms = {drivers::Declared::Kind::kValue, 1e3 * declared.camera.readout_s};
-  file.declare.lens = false;  // the declared camera has none
+  file.declare.lens = false;  // the declared camera has no lens model
   fmt::print("{}", drivers::scene_text(file));
 }
 
@@ -113,7 +113,7 @@ void print_closure_clip_foreign(const ClosureTracksOptions& options) {
   while (!holds_the_view(foreign.scene)) {
     for (auto& plate : foreign.scene.plates) plate.height_mm *= 0.95;
   }
-  foreign.scene.tracks.noise_px = kClipNoise_px;  // what strength is counted in
+  foreign.scene.tracks.noise_px = kClipNoise_px;  // the unit of strength
   drivers::SceneFile file;
   file.scene = foreign.scene;
   if (!options.effect.empty()) {

@@ -25,7 +25,7 @@ void set_roll(Scene& s, double size) { s.hover.roll_rms_rad = size / kDegree; }
 void set_pitch(Scene& s, double size) { s.hover.pitch_rms_rad = size / kDegree; }
 void set_yaw(Scene& s, double size) { s.hover.yaw_rms_rad = size / kDegree; }
 
-// Roll of a Gaussian process between 5 and 10 Hz, as a recorded attitude: the hover's own ends at 5 Hz.
+// Roll as a Gaussian process between 5 and 10 Hz, as a recorded attitude, because the hover's own roll ends at 5 Hz.
 void set_fast_roll(Scene& s, double size) {
   constexpr double kLow_hz = 5.0, kHigh_hz = 10.0, kRate_hz = 200.0, kMargin_s = 60.0;
   Draw draw(s.seed, "fast_roll");
@@ -53,7 +53,7 @@ void set_fast_roll(Scene& s, double size) {
   s.flight = flight;
 }
 
-// The truth is more or less than what the operator declares, as the seed has it; never outside 0 ... 1 frame.
+// The true readout is larger or smaller than the declared one, by the seed; always within 0 ... 1 frame.
 void set_readout(Scene& s, double size) {
   const double declared = s.camera.readout_s * s.camera.rate_hz;
   double sign = Draw(s.seed, "readout_error").sign();
@@ -79,7 +79,7 @@ void set_rotor(Scene& s, double size) {
   s.rotor.yaw_rms_rad = draw.uniform(0.3, 0.9) * size / kDegree;
 }
 
-// What the camera really did in this record, about its mean: place in CameraMotion::deviation().
+// The camera's true motion in this record, about its mean; axis: index in CameraMotion::deviation().
 template <std::size_t kAxis>
 std::vector<KnownValue> turned_deg(const Scene& s, const Scene&) {
   const core::simulation::CameraMotion camera(s);

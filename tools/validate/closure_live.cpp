@@ -1,4 +1,4 @@
-// Closing the loop while a record runs: effects that begin in mid-flight, and records without any.
+// Residual diagnosis during a run: effects that begin in mid-flight, and records without any.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -49,7 +49,7 @@ std::uint64_t from_of(const std::string& words) {  // "from frame N on ..."
   return words.starts_with(start) ? std::stoull(words.substr(start.size())) : 0;
 }
 
-// The tracks are those of `before`, and from the onset on of `after`; the operator declares `before`.
+// The tracks are those of `before`, and from the onset on those of `after`; the operator declares `before`.
 LiveRun run_live(const Scene& before, const Scene& after, const std::string& adopt) {
   const TrackGenerator first(before), second(after);
   SimulateJob job;
@@ -76,7 +76,7 @@ LiveRun run_live(const Scene& before, const Scene& after, const std::string& ado
   return out;
 }
 
-// Of the true modes below half the rate: how many were found, rms error, and the rms of their stated sigmas.
+// Of the true modes below half the rate: number found, rms error, and the rms of their stated sigmas.
 struct ModalError {
   int n_found = 0, n_true = 0;
   double rms_percent = std::numeric_limits<double>::quiet_NaN(), sigma_percent = rms_percent;
@@ -108,7 +108,7 @@ std::string error_text(const ModalError& e) {
   return fmt::format("{}/{}\t{:.3f}\t{:.3f}", e.n_found, e.n_true, e.rms_percent, e.sigma_percent);
 }
 
-// Time from the onset until all of these effects are taken out; NaN where one never is.
+// Time from the onset until all of these effects are corrected; NaN if one never is.
 double time_to_adoption(const LiveRun& run, const std::vector<std::string>& effects, double rate_hz) {
   double latest = 0.0;
   for (const std::string& effect : effects) {
@@ -121,7 +121,7 @@ double time_to_adoption(const LiveRun& run, const std::vector<std::string>& effe
   return latest;
 }
 
-// Changes that name none of these effects, and withdrawals of one of them.
+// Number of changes that name none of these effects, and of withdrawals of one of them.
 long n_wrong(const LiveRun& run, const std::vector<std::string>& effects) {
   return std::count_if(run.changes.begin(), run.changes.end(), [&](const Change& change) {
     return change.words.find("withdrawn") != change.words.npos ||

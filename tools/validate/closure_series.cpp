@@ -1,4 +1,4 @@
-// Closing the loop on series of channels: what it finds where the undeclared effect is known, and where there is none.
+// Residual diagnosis of series of channels: results with a known undeclared effect, and without any.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -25,7 +25,7 @@ using core::simulation::Scene;
 
 constexpr std::size_t kSurrogates = 64, kWhenPlain = 12;
 
-// A model as if nobody had thought of one of its effects.
+// A model from whose catalogue one effect has been removed.
 class Lacking final : public ResponseModel {
  public:
   Lacking(const ResponseModel& whole, std::string effect) : whole_(whole), effect_(std::move(effect)) {}
@@ -66,7 +66,7 @@ std::vector<std::string> names_of(const ClosureResult& result) {
   return names;
 }
 
-// The effect's one number beside the truth.
+// The effect's stated value compared with the truth.
 struct Stated {
   double value = std::nan(""), sigmas_off = std::nan("");  // infinite: no sigma stated
 };
@@ -131,7 +131,7 @@ void print_closure_series_outside(const IdentificationOptions& options) {
       "# effect taken out of the catalogue, strength, seed, reported, all latent, held-out innovations before, after, "
       "after with the whole catalogue\n");
   for (const SeriesCase& one : series_cases()) {
-    // Those with a pattern in time; lost and repeated frames are events, jitter is noise.
+    // Effects with a pattern in time; lost and repeated frames are events, jitter is noise.
     const std::string effect = one.effect;
     if (effect != "frequency_drift" && effect != "softening") continue;
     print_lines(options, [&](std::uint64_t seed) { return outside_line(one, seed); });

@@ -13,7 +13,7 @@ using core::simulation::Scene;
 
 constexpr double kDuration_s = 120.0;
 
-// Of a frame: wider jitter would mix up neighbours, and the simulator refuses it.
+// Of a frame: larger jitter would exchange neighbours, and the simulator refuses it.
 void set_jitter(Scene& s, double rms_s) { s.timing.jitter_rms_s = std::min(rms_s, 0.2 / s.camera.rate_hz); }
 
 double jitter_ms(const Scene&, const CountedSeries& series) { return series.jitter_rms_ms; }
@@ -37,7 +37,7 @@ CountedSeries counted_series(const Scene& scene) {
     rows.push_back(sample.value_mm);
     squares += std::pow(1e3 * (frame.t_s - static_cast<double>(frame.number) / scene.camera.rate_hz), 2);
   }
-  out.n_lost -= out.n_twice;  // a picture that came again stands in the place of its own frame
+  out.n_lost -= out.n_twice;  // a repeated picture replaces its own frame
   out.jitter_rms_ms = std::sqrt(squares / static_cast<double>(rows.size()));
   out.record.rate_hz = scene.camera.rate_hz;
   const auto& channels = generator.channels();

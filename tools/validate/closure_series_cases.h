@@ -8,10 +8,10 @@
 
 namespace tools {
 
-// A series as a recorder leaves it that counts what it gets: nothing tells of a lost or late frame.
+// A series by a recorder that only counts frames: nothing shows lost or late frames.
 struct CountedSeries {
   core::closure::ChannelRecord record;
-  int n_lost = 0, n_twice = 0;  // frames that are not there, and pictures that came again
+  int n_lost = 0, n_twice = 0;  // missing frames, and repeated pictures
   double jitter_rms_ms = 0.0;   // of the frames' times about an even grid
 };
 [[nodiscard]] CountedSeries counted_series(const core::simulation::Scene& scene);
@@ -21,10 +21,10 @@ struct CountedSeries {
 
 // An effect in a series; signs are drawn from the scene's seed.
 struct SeriesCase {
-  const char* effect;  // as closing the loop calls it
+  const char* effect;  // name in residual diagnosis
   const char* strength;
   void (*apply)(core::simulation::Scene&);
-  double (*truth)(const core::simulation::Scene&, const CountedSeries&);  // of its number
+  double (*truth)(const core::simulation::Scene&, const CountedSeries&);  // of its parameter
 };
 [[nodiscard]] const std::vector<SeriesCase>& series_cases();
 

@@ -28,7 +28,7 @@ void soften(Scene& s, double size) { s.change.softening = size * Draw(s.seed, "s
 void drift(Scene& s, double size) { s.change.frequency_drift = size * Draw(s.seed, "frequency_drift").sign(); }
 double softness(const Scene& s, const TrackedSeries&) { return -100.0 * s.change.softening; }
 double drifted(const Scene& s, const TrackedSeries&) { return 100.0 * s.change.frequency_drift; }
-// Wider jitter would mix up neighbours, and the simulator refuses it.
+// Larger jitter would exchange neighbours, and the simulator refuses it.
 void jitter_by(Scene& s, double size) { s.timing.jitter_rms_s = std::min(size, 0.2 / s.camera.rate_hz); }
 void drop(Scene& s, double size) { s.timing.drop_probability = size * Draw(s.seed, "drops").log_uniform(0.5, 2.0); }
 void repeat(Scene& s, double size) {
@@ -67,7 +67,7 @@ class Recorder {
   }
 
  private:
-  // Counted: the sequence is that of delivery.
+  // Frames are counted: the sequence is that of delivery.
   void take(const core::simulation::DeliveredFrame& frame, app::ChannelSeries& out) {
     generator_.generate(frame, tracks_);
     tracks_.sequence = n_rows_;
@@ -87,7 +87,8 @@ class Recorder {
       out.value[c].push_back(sample.seen[c] != 0 ? sample.value_mm[c] : std::nan(""));
   }
 
-  // Air between camera and structure: each region wanders with its neighbours, some tenths of a second long.
+  // Air between camera and structure: neighbouring regions move together, with a correlation time of some tenths of a
+  // second.
   void shimmer() {
     const double keep = std::exp(-2.0 * std::numbers::pi * air_corner_hz_ / scene_.camera.rate_hz);
     const std::size_t n_regions = generator_.regions().size();
@@ -122,7 +123,7 @@ const core::Mode* nearest(const core::ModalEstimate& estimate, double hz) {
 Scene tracked_scene(std::uint64_t seed) {
   Scene scene = draw_scene(seed, kDuration_s).scene;
   Draw hover(seed, "tracked_hover");
-  // The view was drawn for the most that these may be.
+  // The view was drawn for the largest values of these.
   scene.hover.x_rms_mm *= hover.uniform(0.2, 1.0);
   scene.hover.y_rms_mm *= hover.uniform(0.2, 1.0);
   scene.hover.z_rms_mm *= hover.uniform(0.2, 1.0);

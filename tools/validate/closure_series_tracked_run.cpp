@@ -1,4 +1,4 @@
-// Closing the loop on displacements that were measured from tracks: what is named, its number, the modes once repaired.
+// Residual diagnosis of displacements measured from tracks: named effects, their values, the modes after correction.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -18,12 +18,12 @@ using core::simulation::StructureModel;
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kMassless = 1e-7;  // kg, of coordinates that carry none
+constexpr double kMassless = 1e-7;  // kg, for coordinates without mass
 constexpr double kGravity_mm_s2 = 9806.65;
 
 const ModalDamping kDamping{{0.01}};
 
-// Floors of 1 kg on equal columns; storeys of unit height where nothing else is said.
+// Floors of 1 kg on equal columns; storeys of unit height unless stated otherwise.
 struct Uniform {
   Index n_storeys = 6;
   double stiffness = 1900.0;  // N/m
@@ -34,8 +34,8 @@ struct Uniform {
     out.stiffness_n_per_m.assign(out.mass_kg.size(), stiffness);
     return out;
   }
-  // A foundation or columns of the same flexibility matter the more the taller the frame is: size of one that changes
-  // six storeys as `flexibility` does, relative to the columns.
+  // The effect of a flexible foundation or column grows with the height of the frame: returns the size that has the
+  // same effect as `flexibility` in six storeys, relative to the columns.
   [[nodiscard]] double scaled(double flexibility) const {
     return flexibility * std::pow(6.0 / static_cast<double>(n_storeys), 2);
   }
@@ -78,7 +78,8 @@ std::vector<double> with_turning_joints(const Uniform& u, double flexibility) {
   return frequencies(n, mass, stiffness);
 }
 
-// One more coordinate, the turn of the foundation; a floor moves by its own displacement and its height times the turn.
+// Adds a coordinate, the rotation of the foundation; a floor moves by its own displacement and its height times
+// rotation.
 std::vector<double> with_rocking(const Uniform& u, double flexibility) {
   const Index n = u.n_storeys;
   MatrixXd stiffness = MatrixXd::Zero(n + 1, n + 1);
@@ -91,7 +92,7 @@ std::vector<double> with_rocking(const Uniform& u, double flexibility) {
   return frequencies(n, mass, stiffness);
 }
 
-// Shear and bending as coordinates of their own, one after the other: a floor moves by their sum.
+// Shear and bending as separate coordinates, one after the other: a floor moves by their sum.
 std::vector<double> with_bending(const Uniform& u, double flexibility) {
   const Index n = u.n_storeys;
   MatrixXd stiffness = MatrixXd::Zero(3 * n, 3 * n);
@@ -103,7 +104,7 @@ std::vector<double> with_bending(const Uniform& u, double flexibility) {
   return frequencies(n, mass, stiffness);
 }
 
-// The turn per step of an oscillator integrated with average acceleration: the angle of its step matrix's eigenvalue.
+// Apparent frequency of an oscillator integrated with average acceleration: angle of its step matrix's eigenvalue.
 double integrated_hz(double frequency_hz, double dt_s) {
   const double w2 = std::pow(2.0 * std::numbers::pi * frequency_hz, 2);
   Eigen::Matrix2d left, right;  // of (displacement, velocity)
@@ -113,7 +114,7 @@ double integrated_hz(double frequency_hz, double dt_s) {
   return std::abs(std::arg(std::complex<double>(step.eigenvalues()(0)))) / (2.0 * std::numbers::pi * dt_s);
 }
 
-// A departure of this name and about the size that figures have always had: drawn within -30 % ... +40 % of it.
+// A departure with this name and the usual size of the figures: drawn within -30 % ... +40 % of it.
 void depart(KnownStructure& out, const Uniform& u, Draw& draw) {
   const double factor = draw.log_uniform(0.7, 1.4);
   ShearBuilding frame = u.frame();

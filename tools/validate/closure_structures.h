@@ -8,10 +8,10 @@
 
 namespace tools {
 
-// A frame of 4 to 8 storeys with one departure from the uniform shear frame, drawn from a seed and put together by
-// core/simulation and beam elements: nothing of core/structure in it.
+// A frame of 4 to 8 storeys with one departure from the uniform shear frame, drawn from a seed and built by
+// core/simulation and beam elements, without any code of core/structure.
 struct KnownStructure {
-  std::string effect;  // as closing the loop calls it; "none"
+  std::string effect;  // name in residual diagnosis; "none"
   std::vector<double> frequency_hz;
   std::vector<KnownValue> truth;  // its parameters
   bool simulated = false;

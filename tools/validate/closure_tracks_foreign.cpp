@@ -51,7 +51,7 @@ ForeignOutcome inject(const Effects& effects, const ClosureTracksOptions& option
   return out;
 }
 
-// Errors of all known parameters, in sigmas: "0.31 -1.20"; "-" of none.
+// Errors of all known parameters, in sigmas: "0.31 -1.20"; "-" if there are none.
 std::string errors_text(const Effects& effects, const ForeignOutcome& record) {
   std::string text;
   for (const ForeignEffect* effect : effects) {
@@ -89,7 +89,7 @@ void print_columns(const char* check) {
       check);
 }
 
-// Two of them where the seed is odd, else three, drawn from those that no name confuses.
+// Two of them for an odd seed, else three, drawn so that no two share a name.
 Effects drawn_set(std::uint64_t seed) {
   const auto& all = foreign_effects();
   Draw draw(seed, "foreign_set");

@@ -14,7 +14,7 @@ namespace {
 
 using core::simulation::Scene;
 
-// How many adopted something.
+// Returns the number of records in which an effect was adopted.
 int print_nulls(const ClosureTracksOptions& options, const RecordSetup& setup) {
   const auto outcomes = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t index) {
     const Scene scene = closure_scene(setup, seed_of(options, index));

@@ -22,7 +22,8 @@ namespace {
 using core::closure::ObservationRecord;
 using core::simulation::Scene;
 
-// The leading pattern of what the effect really does beyond the free motions, without noise, in the same words.
+// Describes the leading pattern of the effect's true contribution beyond the free motions, without noise, in the same
+// form.
 std::string true_words(const ObservationRecord& with, const ObservationRecord& without) {
   const core::closure::PointMotionModel model(without);
   Eigen::MatrixXd change(2 * without.n_points(), without.n_frames());
@@ -54,7 +55,7 @@ Description read_words(const std::string& words) {
   return out;
 }
 
-// The first latent effect says of the field and its course what is true within a fifth of the whole, and 0.3 Hz.
+// Whether the description of the first latent effect agrees with the truth within a fifth of the whole, and 0.3 Hz.
 bool described(const core::closure::ClosureResult& result, const std::string& truth) {
   constexpr double kShare = 20.0, kHz = 0.3;
   const auto latent = std::find_if(result.steps.begin(), result.steps.end(),
@@ -65,7 +66,7 @@ bool described(const core::closure::ClosureResult& result, const std::string& tr
          std::abs(said.quadratic - is.quadratic) <= kShare && std::abs(said.hz - is.hz) <= kHz;
 }
 
-// All latent; or, where another effect of the catalogue can absorb it, that one beside its rivals.
+// All effects latent; or, if another effect of the catalogue can absorb it, that effect named with its rivals.
 bool answered(const core::closure::ClosureResult& result, const std::string& effect) {
   const bool absorbed = effect == "radial distortion" || effect == "tangential distortion";
   return !result.steps.empty() && std::all_of(result.steps.begin(), result.steps.end(), [&](const auto& s) {

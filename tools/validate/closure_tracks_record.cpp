@@ -19,7 +19,7 @@ using core::simulation::TrackGenerator;
 
 constexpr int kPointsPerRegion = 10;
 
-// Places in TrackGenerator::points().
+// Indices in TrackGenerator::points().
 std::vector<std::size_t> points_used(const TrackGenerator& tracks, bool background) {
   std::vector<std::size_t> use;
   for (std::size_t i = 0; i < tracks.points().size(); ++i) {
@@ -29,7 +29,7 @@ std::vector<std::size_t> points_used(const TrackGenerator& tracks, bool backgrou
   return use;
 }
 
-// Every n-th frame of what both scenes show, the same noise in both: the rms of their difference about each point's
+// Over every n-th frame shown by both scenes, with the same noise in both: rms of their difference about each point's
 // mean.
 double change_px(const Scene& with, const Scene& without, bool background) {
   constexpr std::uint64_t kEvery = 7;
@@ -153,7 +153,7 @@ SizedScene with_effects(const std::vector<const HiddenEffect*>& effects, const S
   SizedScene all{declared, {}};
   for (const HiddenEffect* effect : effects) {
     SizedScene one = set_effects({effect}, declared, {effect->start});
-    // Twice: most effects grow with their size, a lens nearly so.
+    // Two rounds, because most effects grow in proportion to their size, a lens nearly so.
     for (int round = 0; round < 2; ++round)
       one = set_effects({effect}, declared, {one.size[0] * wanted_px / change_px(one.scene, declared, background)});
     all.size.push_back(one.size[0]);

@@ -12,28 +12,28 @@
 
 namespace tools {
 
-// One record through the loop.
+// Residual diagnosis of one record.
 struct TracksOutcome {
   core::closure::ClosureResult result;
-  std::string words;  // of the latent effects
+  std::string words;  // description of the latent effects
   double seconds = 0.0;
-  double values = 0.0;  // of the record: points x axes x frames
+  double values = 0.0;  // number of values in the record: points x axes x frames
 
   [[nodiscard]] double heldout_after() const;
   [[nodiscard]] std::string names() const;       // "a + b", in the order of their names; "nothing"
   [[nodiscard]] std::string parameters() const;  // of all steps
-  [[nodiscard]] std::string refused() const;     // the last round: share of the noise, why not
+  [[nodiscard]] std::string refused() const;     // the last round: shares of the noise, and why refused
 };
 
-// Of the last round.
+// The largest refused candidates of the last round.
 struct LargestRefused {
   double named = -1e9, latent = -1e9;  // shares of the noise
   std::string name;
 };
 [[nodiscard]] LargestRefused largest_refused(const TracksOutcome& outcome);
 
-// The loop on a record; modal errors are against the scene's true modes below half the rate. without: an effect that
-// the catalogue lacks.
+// Diagnosis of a record; modal errors are relative to the scene's true modes below half the rate. without: an effect
+// removed from the catalogue.
 [[nodiscard]] TracksOutcome close_tracks_record(const core::closure::ObservationRecord& record,
                                                 const core::simulation::Scene& scene, std::uint64_t seed,
                                                 const std::string& without = {});

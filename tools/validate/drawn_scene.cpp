@@ -37,7 +37,7 @@ core::simulation::StructureModel draw_structure(int n_storeys, Draw& draw) {
   return core::simulation::shear_frame(frame, damping);
 }
 
-// Plates that stay in the image at three standard deviations of the drift; the view's height decides.
+// Plates that stay in the image at three standard deviations of the drift; the view's height is the limit.
 void draw_view(Scene& scene, int n_storeys, Draw& draw) {
   const double distance_mm = draw.log_uniform(1500.0, 3000.0), alpha_px = scene.camera.alpha_px;
   const double nearest_mm = distance_mm - 3.0 * scene.hover.z_rms_mm;
@@ -80,7 +80,7 @@ DrawnScene draw_scene(std::uint64_t seed, double duration_s) {
   scene.tracks.noise_spread = kNoiseSpread;
   scene.tracks.sigma_error = kSigmaError;
   const double px_mm = scene.plates.front().z_mm / scene.camera.alpha_px;
-  scene.channels.noise_mm = scene.tracks.noise_px * px_mm / std::sqrt(10.0);  // the mean of ten points
+  scene.channels.noise_mm = scene.tracks.noise_px * px_mm / std::sqrt(10.0);  // mean of ten points
   out.words = fmt::format(
       "{} storeys of {:.3f} ... {:.2f} Hz, {:.0f} px from {:.0f} mm, {:.2f} frames/s, readout {:.1f} ms, noise {:.4f} "
       "px",

@@ -9,7 +9,8 @@
 
 namespace tools {
 
-// A camera before a structure, both drawn from a seed, and the tracker's noise: what no estimate may depend on.
+// A camera in front of a structure, both drawn from a seed, and the tracker's noise: quantities on which no estimate
+// may depend.
 //   camera     focal length 1300 ... 2800 px at 1920 x 1080, distance 1.5 ... 3 m, 24 ... 60 frames/s, readout 8 ... 30
 //   ms
 //              of at most 0.95 of a frame
@@ -24,7 +25,7 @@ struct DrawnScene {
 };
 [[nodiscard]] DrawnScene draw_scene(std::uint64_t seed, double duration_s);
 
-// Numbers of one subject of a seed; a further draw of one subject leaves every other as it was.
+// Random numbers of one subject of a seed; a further draw of one subject changes no other subject.
 class Draw {
  public:
   Draw(std::uint64_t seed, std::string_view subject);

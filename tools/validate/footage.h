@@ -2,9 +2,10 @@
 
 namespace tools {
 
-// What real footage lacks: covered regions, frames tracked wrongly, records of a few cycles. The whole chain behind the
-// tracker on simulated tracks of the paper's six storeys, and time series. Each prints tab-separated lines, with comment
-// lines (#) that name their columns. What is printed does not depend on the number of threads.
+// Disturbances of real footage: covered regions, frames tracked wrongly, records of a few cycles. The whole chain after
+// the tracker on simulated tracks of the paper's six storeys, and time series. Each prints tab-separated lines, with
+// comment
+// lines (#) that name their columns. The output does not depend on the number of threads.
 struct FootageOptions {
   int n_seeds = 10;
   int n_threads = 2;

@@ -30,7 +30,7 @@ struct Outcome {
   std::vector<core::ChannelInfo> channels;
 };
 
-// The tracks of a seed, made once and analysed with every damage.
+// The tracks of a seed, generated once and analysed with every kind of damage.
 class Flight {
  public:
   explicit Flight(std::uint64_t seed)
@@ -81,7 +81,7 @@ double mac_of_rest(const core::Mode& a, const core::Mode& b, const std::vector<c
   return core::mac(x, y);
 }
 
-// A damaged run beside the whole one.
+// A damaged run compared with the undamaged one.
 struct Comparison {
   int n_whole = 0, n_kept = 0, n_false = 0, n_named = 0, n_masked = 0;
   double worst_mac = 1.0, worst_hz = 0.0;
@@ -169,7 +169,7 @@ void print_glitches(const FootageOptions& options) {
   constexpr std::array kSizes{5.0, 20.0, 100.0};
   const auto results = all_floors(options, kSizes.size(), [&](const Flight& flight, std::uint64_t seed, std::size_t i, int floor) {
     core::simulation::RandomStream stream(seed, fmt::format("glitch_{}_{}", i, floor).c_str());
-    // Not among the first frames, over which the gate learns how the region moves.
+    // Not among the first frames, from which the gate learns the region's motion.
     constexpr double kFirst = 30.0;
     const auto at = static_cast<std::size_t>(kFirst + (static_cast<double>(flight.n_frames()) - kFirst) * stream.uniform());
     const std::uint16_t region = flight.region(floor_name(floor));

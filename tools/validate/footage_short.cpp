@@ -1,4 +1,4 @@
-// Records of a few cycles of the lowest mode, and of nothing but noise: what is called a mode that is none.
+// Records of a few cycles of the lowest mode, and of noise alone: counts false modes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,12 +25,12 @@ using core::simulation::TrueMode;
 constexpr std::array kCycles{0.5, 1.0, 2.0, 5.0, 10.0, 20.0};
 constexpr double kNear = 0.02, kLeastMac = 0.8;
 
-// Structural modes of a record, and those of them that are none: farther from every true mode than 2 % and than one over
+// Structural modes of a record, and the false ones among them: farther from every true mode than 2 % and than one over
 // the record, or of another shape.
 struct Tally {
   int n_structural = 0, n_false = 0, n_candidates = 0;
   bool refused = false;
-  double worst_hz = 0.0;  // a false one, for a reader
+  double worst_hz = 0.0;  // of a false one, for the reader
 };
 
 Tally tally_of(const core::ModalEstimate& estimate, const std::vector<TrueMode>& truth,
@@ -48,7 +48,7 @@ Tally tally_of(const core::ModalEstimate& estimate, const std::vector<TrueMode>&
   return out;
 }
 
-// By the service's chain and, of the same displacements, as a time series with the segment chosen.
+// By the service's chain and, from the same displacements, as a time series with an automatic segment.
 struct BothWays {
   Tally service, series;
 };

@@ -18,7 +18,7 @@ using core::simulation::Scene;
 using Lens = core::simulation::LensParameters;
 constexpr double kDegree = 180.0 / std::numbers::pi;
 
-// A rotation with a tail of its own. Size: degrees rms.
+// A rotation whose spectrum has a power-law tail. Size: degrees rms.
 template <std::size_t axis>
 void set_tailed_turn(Scene& s, double size) {
   Draw draw(s.seed, "tailed_turn");
@@ -27,7 +27,7 @@ void set_tailed_turn(Scene& s, double size) {
   s.tailed_hover.turn_order[axis] = draw.uniform(3.0, 5.0);
 }
 
-// A band below half the frame rate, where a vibration is no line. Size: roll, degrees rms.
+// A band below half the frame rate: a vibration that is no spectral line. Size: roll, degrees rms.
 void set_vibration(Scene& s, double size) {
   Draw draw(s.seed, "vibration");
   s.vibration.centre_hz = draw.log_uniform(3.5, 0.45 * s.camera.rate_hz);
@@ -37,7 +37,7 @@ void set_vibration(Scene& s, double size) {
   s.vibration.rms_mm = {draw.uniform(0.0, 2.0) * size, draw.uniform(0.0, 2.0) * size, 0.0};
 }
 
-// Shares of a lens as a calibration gives them; the size is |k1|.
+// Coefficients in the proportions of a real calibration; the size is |k1|.
 void set_whole_lens(Scene& s, double size) {
   Draw draw(s.seed, "whole_lens");
   const double k1 = draw.sign() * size;
@@ -56,7 +56,7 @@ void set_fisheye(Scene& s, double size) {
   s.camera.lens.k = {rest / 3.0, rest * 2.0 / 15.0, rest * 17.0 / 315.0, rest * 62.0 / 2835.0, 0.0};
 }
 
-// The camera stands aside and looks at the middle of the structure. Size: degrees.
+// The camera stands to one side and is aimed at the middle of the structure. Size: degrees.
 void set_oblique(Scene& s, double size) {
   const bool aside = Draw(s.seed, "oblique").sign() > 0.0;
   const double turn = Draw(s.seed, "oblique_way").sign() * size / kDegree;
@@ -113,7 +113,7 @@ void set_breathing(Scene& s, double size) {
   s.breathing.rms = size;
 }
 void set_template_zoom(Scene& s, double size) { s.tracks.template_zoom_px = size; }
-// Lamps at twice the mains, whose beat with the frames is slow or fast as the rate has it.
+// Lamps at twice the mains frequency, whose beat with the frame rate is slow or fast.
 void set_flicker(Scene& s, double size) {
   Draw draw(s.seed, "flicker");
   s.light.flicker_hz = (draw.sign() > 0.0 ? 100.0 : 120.0) + draw.uniform(-0.2, 0.2);

@@ -15,10 +15,10 @@ namespace {
 using core::simulation::Scene;
 
 constexpr double kShareRecorded = 0.25, kShareFolded = 0.25, kShareBackground = 0.75;
-constexpr double kFlightScale = 0.25;  // of the recorded hover, as 2 m away
+constexpr double kFlightScale = 0.25;  // of the recorded hover, as seen from 2 m
 constexpr double kStatedError = 0.3;   // sd of the logarithm
 
-// Hover that the view has room for: by how much the recorded one is less.
+// Returns the factor by which the recorded hover is reduced to fit into the view.
 double fit_hover(Scene& scene) {
   double factor = 1.0;
   while (!holds_the_view(scene)) {
@@ -42,12 +42,12 @@ void draw_tails(Scene& scene, Draw draw) {
   }
 }
 
-// The highest mode at 0.55 ... 0.95 of the frame rate.
+// Moves the highest mode to 0.55 ... 0.95 of the frame rate.
 void fold_modes(Scene& scene, Draw draw) {
   const double wanted_hz = draw.uniform(0.55, 0.95) * scene.camera.rate_hz;
   const double stiffer = std::pow(wanted_hz / modes_of(scene.structure).back().frequency_hz, 2);
   scene.structure.stiffness *= stiffer;
-  scene.structure.damping *= std::sqrt(stiffer);  // the same ratios
+  scene.structure.damping *= std::sqrt(stiffer);  // keeps the damping ratios
   scene.excitation.band_high_hz = 1.3 * wanted_hz;
 }
 

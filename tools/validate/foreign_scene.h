@@ -8,26 +8,26 @@
 
 namespace tools {
 
-// A record without any undeclared effect that is nevertheless not the one for which the model of core/closure was
-// written. On top of draw_scene():
-//   hover      tails f^-3 ... f^-5 that do not end, corner 0.05 ... 0.5 Hz, 4 ... 25 mm rms, each axis with its own;
-//              or, in one of four where the recorded flight is given, that flight
-//   structure  on a shaking table or in the wind; in one of four the upper modes lie above half the frame rate
-//   camera     readout 0 ... 1 frame; in three of four a background is seen
-//   noise      unequal over the points by a factor that is drawn, stated as one number, wrong by a factor
+// A record without any undeclared effect that nevertheless differs from the records for which the model of core/closure
+// was written. In addition to draw_scene():
+//   hover      power-law tails f^-3 ... f^-5 without end, corner 0.05 ... 0.5 Hz, 4 ... 25 mm rms, different per axis;
+//              or, in one of four records if a recorded flight is given, that flight
+//   structure  on a shaking table or in the wind; in one of four records the upper modes lie above half the frame rate
+//   camera     readout 0 ... 1 frame; in three of four records a background is visible
+//   noise      unequal over the points by a drawn factor, stated as one number that is wrong by a factor
 struct ForeignScene {
   core::simulation::Scene scene;
   bool background = true;
-  double flight_scale = 0.0;  // of the recorded flight, where it moves the camera
-  double stated_px = 0.0;     // sigma that the record states for each of its points
+  double flight_scale = 0.0;  // of the recorded flight, if it moves the camera
+  double stated_px = 0.0;     // sigma stated for each point of the record
   std::string hover, shaken;  // "recorded" or "tails"; "table" or "wind"
   int n_folded = 0;           // modes above half the rate
-  std::string words;          // one line: what was drawn
+  std::string words;          // one line: the drawn values
 };
 // flight: file of the recorded flight; empty = none.
 [[nodiscard]] ForeignScene draw_foreign_scene(std::uint64_t seed, double duration_s, const std::string& flight);
 
-// Its tracks as those of `scene`, which may have an effect more, declared as it is without.
+// The tracks of `scene`, which may contain a further effect, with the declarations of the scene without it.
 [[nodiscard]] core::closure::ObservationRecord foreign_record(const core::simulation::Scene& scene,
                                                               const ForeignScene& declared);
 

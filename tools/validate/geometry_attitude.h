@@ -8,7 +8,7 @@
 
 namespace tools {
 
-// What an autopilot in the simulated camera's place says of its attitude, 50 times a second, with white noise about
+// Attitudes as stated by an autopilot mounted on the simulated camera, 50 times a second, with white noise about
 // each axis. `motion` must outlive it.
 class ToldAttitude {
  public:

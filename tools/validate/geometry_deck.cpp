@@ -1,4 +1,4 @@
-// A bridge deck that moves up and down, filmed with the picture along it and with the camera turned by 90 degrees.
+// A bridge deck that moves vertically, filmed with the image along it and with the camera rotated by 90 degrees.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace tools {
 namespace {
 
 constexpr int kPlaces = 8;
-constexpr double kHighest_hz = 22.0;  // looked for: as the plan advises, and below the fold of 6.4 Hz
+constexpr double kHighest_hz = 22.0;  // highest frequency searched: as the plan advises, and below the alias of 6.4 Hz
 constexpr double kSpan_mm = 40.0e3, kDistance_mm = 45.0e3, kRate_hz = 30.0, kReadout_ms = 23.0;
 constexpr double kFocalUpright_px = 1800.0, kFocalTurned_px = 1000.0;
 const std::vector<double> kFrequencies_hz{2.1, 6.4, 17.2, 19.8};  // the last two above half the frame rate
@@ -101,7 +101,7 @@ core::planning::HoverPlan plan(const core::simulation::Scene& scene, bool turned
   return core::planning::make_plan(input);
 }
 
-// What became of one mode, or of all that the plan sees alike.
+// Results for one mode, or for all modes with the same outlook in the plan.
 struct ModeCount {
   int n = 0, found = 0, ambiguous = 0, wrong = 0;
   void add(const ModeScore& mode) {
@@ -124,7 +124,7 @@ Plans plans_of(const FigureCase& which, const GeometryOptions& options, bool tur
   return plans;
 }
 
-// By mode and outlook: where all records have the same camera, one line for each mode.
+// By mode and outlook: if all records have the same camera, one line per mode.
 void print_modes(const FigureCase& which, const CaseScores& scores, const Plans& plans) {
   for (std::size_t w = 0; w < scores.size(); ++w) {
     for (std::size_t m = 0; m < kFrequencies_hz.size(); ++m) {

@@ -13,10 +13,10 @@
 namespace tools {
 namespace {
 
-const std::string kOnlyTheEnd = "identification.period=10000";  // no estimate on the way
+const std::string kOnlyTheEnd = "identification.period=10000";  // no intermediate estimates
 const std::string kWholeMotion = "scale.only=false";
 
-// Beside the recorded path: the aircraft's turning of 1.1 degrees rms of which a gimbal leaves 2 %.
+// In addition to the recorded path: the aircraft's rotation of 1.1 degrees rms, of which a gimbal leaves 2 %.
 constexpr const char* kGimbal =
     "hover: {x_rms_mm: 0, y_rms_mm: 0, z_rms_mm: 0, pitch_rms_deg: 0.022, yaw_rms_deg: 0.022, roll_rms_deg: 0.022}\n";
 
@@ -36,7 +36,7 @@ void print_figure(FigureCase which, const DrawnFlight& drawn, const std::string&
 
 }  // namespace
 
-// The recorded hover a quarter as large: indoors, 2 m away, the scale then changes by some 5 % as in the paper.
+// The recorded hover reduced to a quarter: indoors, 2 m away, the scale then changes by some 5 % as in the paper.
 FlightSetup paper_flight(double readout_ms) {
   return {fmt::format("preset: paper\ncamera: {{readout_ms: {}}}\n", readout_ms) + kGimbal, identification(20.0, 1024),
           0.25};
@@ -44,7 +44,7 @@ FlightSetup paper_flight(double readout_ms) {
 
 void print_geometry(const GeometryOptions& options) {
   FigureCase which{"geometry", "paper-300s", paper_flight(), 300.0, 3, {}};
-  // Without row delays the alias order of a mode above half the rate cannot be found: no such modes are drawn.
+  // Without row delays the alias order of a mode above half the rate cannot be determined: no such modes are drawn.
   const std::string half_rate = "identification.max_frequency_hz=0";
   const std::string no_witness = "spectrum.witness=false";
   which.ways = {{"raw", {"scale.adaptive=false", half_rate, no_witness}, StatedReadout::kNone},
@@ -58,8 +58,8 @@ void print_geometry(const GeometryOptions& options) {
 }
 
 void print_wind(const GeometryOptions& options) {
-  // Gaussian turning of 5/3 degrees rms about each axis, 98 % of it below 0.5 Hz: some 5 degrees at its peaks. The lens
-  // is wider than the paper's, so that the structure stays in the view.
+  // Gaussian rotation of 5/3 degrees rms about each axis, 98 % of it below 0.5 Hz: some 5 degrees at its peaks. The
+  // lens is wider than the paper's, so that the structure stays in the view.
   FigureCase which{"wind", "gusts-5deg", {}, 300.0, 3, {}};
   which.setup = {
       "preset: paper\ncamera: {readout_ms: 28, alpha_px: 1200}\n"
@@ -90,7 +90,7 @@ void print_low_frequency(const GeometryOptions& options) {
 }
 
 void print_elevation(const GeometryOptions& options) {
-  // The camera stands 30 degrees below the middle of the tower, 2 m from it, and looks at it.
+  // The camera is 30 degrees below the middle of the tower, 2 m from it, and aimed at it.
   FigureCase which{"elevation", "30deg", {}, 300.0, 3, {}};
   which.setup = {std::string("preset: paper\ncamera: {readout_ms: 28, alpha_px: 1900, position_mm: [0, 1000, 268], "
                              "attitude_deg: [30, 0, 0]}\n") +

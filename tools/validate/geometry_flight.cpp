@@ -28,13 +28,13 @@ void hover_instead(core::simulation::HoverParameters& hover, double scale) {
   hover.y_rms_mm = 40.0 * scale;
 }
 
-// A hundredth of the tracker's noise in each channel: a static ground region without any noise would be no channel.
+// A hundredth of the tracker's noise in each channel: a static ground region without noise would count as no channel.
 double whisper_mm(const core::simulation::Scene& scene) {
   const double mm_per_px = (scene.plates.front().z_mm - scene.camera.z_mm) / scene.camera.alpha_px;
   return 0.01 * mm_per_px * scene.tracks.noise_px / std::sqrt(scene.tracks.points_per_region);
 }
 
-// The scene without the tracker's errors, but for a whisper.
+// The scene without the tracker's errors, except for this small noise.
 core::simulation::Scene quiet(core::simulation::Scene scene) {
   scene.channels = {.noise_mm = whisper_mm(scene), .loss_probability = 0.0};
   return scene;
@@ -47,7 +47,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return at == std::string::npos ? text : text.replace(at, what.size(), by);
 }
 
-// What a user says of the regions beyond what `simulate` writes.
+// Adds the user's statements about the regions to the text written by `simulate`.
 std::string with_region_facts(std::string text, const core::simulation::Scene& scene, bool ground_rests) {
   if (configuration_knows("depth_m") && text.find("depth_m") == std::string::npos) {
     const double depth_m = 1e-3 * (scene.background.depth_mm - scene.camera.z_mm);
@@ -56,7 +56,7 @@ std::string with_region_facts(std::string text, const core::simulation::Scene& s
   return ground_rests && configuration_knows("| ground") ? replaced(text, "role: base", "role: ground") : text;
 }
 
-// The points are the scale then.
+// The points then determine the scale.
 std::string without_known_length(std::string text) {
   for (const char* key : {"  known_length_mm:", "  from:", "  to:"}) {
     const std::size_t at = text.find(key);
@@ -86,7 +86,7 @@ std::string plane_points(const core::simulation::SceneMotion& motion) {
   return "scale.points=[" + out + "]";
 }
 
-// One way, fed frame by frame.
+// One way of analysis, fed frame by frame.
 class Run {
  public:
   Run(const DeclaredRun& declared, const Way& way, const core::TrackFrame& keyframe,
@@ -99,7 +99,7 @@ class Run {
   }
 
   void push(const core::TrackFrame& frame) {
-    constexpr double kAhead_s = 0.05;  // of the frame: what has come by the time that it is tracked
+    constexpr double kAhead_s = 0.05;  // attitudes received by the time the frame is tracked
     if (attitude_) {
       for (const core::AttitudeSample& sample :
            attitude_->until(1e-9 * static_cast<double>(frame.t_start_ns) + kAhead_s))
@@ -118,7 +118,7 @@ class Run {
     std::erase_if(config.regions, is_background);
     return config;
   }
-  // The background is the last region: the others keep their numbers.
+  // The background is the last region, so the numbers of the others do not change.
   core::TrackFrame& kept(const core::TrackFrame& frame) {
     tracks_ = frame;
     if (without_ >= 0) std::erase_if(tracks_.points, [&](const auto& point) { return point.region == without_; });
@@ -132,7 +132,7 @@ class Run {
   std::optional<ToldAttitude> attitude_;
 };
 
-// The true motion's spectra are made once; it is identified with each prewhitening that a way chose.
+// Spectra of the true motion are computed once, and identified with each prewhitening that a way uses.
 class Truth {
  public:
   Truth(const DeclaredRun& declared, const core::simulation::ChannelGenerator& generator)
@@ -205,7 +205,7 @@ DeclaredRun declared_run(const SimulateJob& job, const FlightSetup& setup, const
   for (const std::string& text : configuration_of(job, setup)) overrides.push_back(text);
   overrides.insert(overrides.end(), way.overrides.begin(), way.overrides.end());
   if (way.plane_points) overrides.push_back(plane_points(motion));
-  if (way.attitude_sigma_deg > 0.0) {  // comes frame by frame, from no network
+  if (way.attitude_sigma_deg > 0.0) {  // passed frame by frame, not over a network
     for (const std::string& text :
          {fmt::format("camera.attitude_sigma_deg={}", way.attitude_sigma_deg),
           std::string("camera.attitude_channel=SIM"), std::string("telemetry.lcm_url=udpm://239.255.76.67:7667?ttl=0")})

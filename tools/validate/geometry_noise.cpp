@@ -1,4 +1,4 @@
-// What is left of a structure at rest under a hovering camera, against the least that any estimator leaves.
+// Residual motion of a static structure under a hovering camera, compared with the least that any estimator can reach.
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kAboveHover_hz = 6.0;  // the recording has nothing above 5 Hz
 
-// Running sums of one channel.
+// Sums of one channel.
 struct Moments {
   double n = 0.0, sum = 0.0, squares = 0.0;
   void add(double value) { n += 1.0, sum += value, squares += value * value; }
@@ -26,7 +26,7 @@ struct Moments {
   }
 };
 
-// White noise whose density is the mean one above the hover's: the rms that it has over the whole band.
+// White noise with the mean density above the hover's band: its rms over the whole band.
 double white_rms_mm(const core::CpsdSums& sums, int channel) {
   const auto pairs = static_cast<std::size_t>(sums.n_pairs());
   const auto pair = static_cast<std::size_t>(core::CpsdSums::pair_index(channel, channel, sums.n_channels));
@@ -80,7 +80,7 @@ Bounds bounds_of(const core::simulation::TrackGenerator& generator) {
     rows[point.region] += weight * field.row(0);
     weights[point.region] += weight;
   }
-  // Conditioned by the units: translations in mm, turns in rad.
+  // Scaled by the units: translations in mm, rotations in rad.
   const Eigen::Matrix<double, 6, 1> unit = information.diagonal().cwiseSqrt().cwiseMax(1e-12).cwiseInverse();
   const Eigen::Matrix<double, 6, 6> scaled = unit.asDiagonal() * information * unit.asDiagonal();
   const Eigen::Matrix<double, 6, 6> covariance =
@@ -128,7 +128,7 @@ Floors floors_of(const FlightSetup& setup, const std::vector<Way>& ways, std::ui
   return out;
 }
 
-// Medians over records and channels: of one channel, or of all where records differ in their channels.
+// Medians over records and channels: of one channel, or of all if records differ in their channels.
 class Row {
  public:
   void add(const Floors& record, std::size_t way, std::size_t channel) {
@@ -153,7 +153,7 @@ class Row {
   }
 
  private:
-  // In the unit that it has, then in the other.
+  // In the row's own unit, then in the other.
   void print_pair(std::vector<double> values, bool is_px) const {
     const double own = statistics(values).median;
     for (std::size_t i = 0; i < values.size(); ++i) values[i] *= is_px ? scale_[i] : 1.0 / scale_[i];

@@ -1,4 +1,5 @@
-// The paper's own experiment by its chain as published, beside the other reading of Eq. 8 and ours.
+// The paper's own experiment by its published chain, compared with the other reading of Eq. 8 and with method
+// hovermodal.
 #include <fmt/format.h>
 
 #include <algorithm>

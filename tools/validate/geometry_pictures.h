@@ -19,11 +19,11 @@ struct SensorMode {
   std::vector<std::complex<double>> shape;
 };
 
-// Figures 6 to 9 of the paper from one simulated record: scale over time, displacements as flown and as they are,
+// Figures 6 to 9 of the paper from one simulated record: scale over time, measured and true displacements,
 // cross-spectrum of floors 5 and 6 by three sensors, shapes by the same three.
 class PaperPictures {
  public:
-  explicit PaperPictures(std::string folder) : folder_(std::move(folder)) {}  // made where it is missing
+  explicit PaperPictures(std::string folder) : folder_(std::move(folder)) {}  // created if missing
 
   // Samples of the aircraft's camera, and the true ones.
   void add(const core::DisplacementSample& sample, const core::DisplacementSample& truth);

@@ -1,4 +1,4 @@
-// The paper's experiment from pixels on: clips are drawn and encoded, the service follows them.
+// The paper's experiment starting from pixels: clips are rendered and encoded, and the service processes them.
 #include <fmt/format.h>
 
 #include <chrono>

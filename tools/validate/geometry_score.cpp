@@ -35,7 +35,7 @@ ModeScore score_mode(const Found& found, const Found& reference, const TrueMode&
   return out;
 }
 
-// Of one record: the worst of the judged modes that were found.
+// Of one record: the worst of the evaluated modes that were found.
 struct WorstOfRecord {
   double frequency = 0.0, damping = 0.0, mac = 1.0;
   bool any = false, all = true;
@@ -59,7 +59,7 @@ WorstOfRecord worst_of(const RecordScore& record, std::size_t n_judged) {
 struct Tally {
   int complete = 0;
   double n_false = 0.0, n_ambiguous = 0.0, n_wrong = 0.0;
-  std::vector<double> frequency, damping, mac_deficit;  // of each record with a judged mode
+  std::vector<double> frequency, damping, mac_deficit;  // of each record with an evaluated mode
   std::vector<double> n_found;                          // of each record
   std::size_t most_missing = 0;
   std::vector<double> frequency_scatters, damping_scatters;
@@ -91,7 +91,7 @@ Tally tally_of(const std::vector<RecordScore>& records, std::size_t n_judged) {
   return tally;
 }
 
-// "nan<tab>nan" for none, so that no bar is met by accident.
+// "nan<tab>nan" if empty, so that no bar is met by accident.
 std::string median_and_worst(const std::vector<double>& values, double factor, const char* format) {
   const double nan = std::nan("");
   const Statistics s = statistics(values);

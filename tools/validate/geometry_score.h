@@ -9,16 +9,16 @@
 
 namespace tools {
 
-// One true mode, as one way found it.
+// One true mode, and the result of one way for it.
 struct ModeScore {
-  bool found = false;          // called structural, within 2 % of the true frequency
-  bool ambiguous = false;      // its pole is there, but which of several frequencies it has was not told
-  bool wrong = false;          // called structural with another's or nobody's frequency
-  bool has_reference = false;  // the true motion's identification found it
-  // Against the identification of the true motion; only with a reference.
+  bool found = false;          // structural, within 2 % of the true frequency
+  bool ambiguous = false;      // its pole was found, but its alias order not determined
+  bool wrong = false;          // structural, with the frequency of another mode or of none
+  bool has_reference = false;  // found in the identification of the true motion
+  // Relative to the identification of the true motion; only with a reference.
   double frequency_error = 0.0, damping_error = 0.0;  // relative
   double mac = 0.0;
-  // Against the true parameters, in the least possible scatter: sigma_f / f = sqrt(zeta / (2 pi f T)), sigma_zeta /
+  // Relative to the true parameters, in units of the least scatter: sigma_f / f = sqrt(zeta / (2 pi f T)), sigma_zeta /
   // zeta = 1 / sqrt(2 pi zeta f T).
   double frequency_scatters = 0.0, damping_scatters = 0.0;
 };
@@ -36,11 +36,11 @@ struct RecordScore {
 // The line that names the columns of print_scores.
 void print_score_columns(const std::string& figure, const std::string& judged);
 
-// Over the records of one way: what became of the first `n_judged` modes, and how many of all were found.
+// Over the records of one way: results for the first `n_judged` modes, and how many of all were found.
 void print_scores(const std::string& figure, const std::string& what, const std::string& way,
                   const std::vector<RecordScore>& records, std::size_t n_judged);
 
-// Every way of each seed; then one line for each way. A drawn case has "-drawn" behind the figure's name.
+// Every way for each seed; then one line per way. A drawn case has "-drawn" after the figure's name.
 struct FigureCase {
   std::string figure;
   std::string name;
@@ -49,7 +49,7 @@ struct FigureCase {
   std::size_t n_judged = 3;
   std::vector<Way> ways;
 };
-// The case with what the figure does not fix drawn from the seed.
+// The same case with everything that the figure does not fix drawn from the seed.
 [[nodiscard]] FigureCase drawn_case(FigureCase which, const DrawnFlight& limits);
 
 // [way][record]

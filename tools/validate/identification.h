@@ -7,24 +7,24 @@ namespace tools {
 
 // The identification on simulated records of known truth: structure -> channel samples -> spectra -> modes, in process.
 // Each prints tab-separated lines, with a comment line (#) that names their columns. Records are those of n_seeds seeds
-// from first_seed on, made on n_threads; what is printed does not depend on the number of threads.
+// from first_seed on, made on n_threads; the output does not depend on the number of threads.
 struct IdentificationOptions {
   int n_seeds = 20;
   int n_threads = 2;
   int first_seed = 1;
-  std::string flight;  // recorded flight (CSV) that carries the camera of print_null; empty = the hover model
+  std::string flight;  // recorded flight (CSV) that moves the camera of print_null; empty = the hover model
 };
 
 void print_bias(const IdentificationOptions& options);       // bias, scatter and stated intervals, six storeys at 60 Hz
 void print_losses(const IdentificationOptions& options);     // samples and frames lost at random
 void print_folding(const IdentificationOptions& options);    // modes above half the frame rate
 void print_null(const IdentificationOptions& options);       // a rigid building under a hovering, vibrating camera
-void print_harmonics(const IdentificationOptions& options);  // rotor lines and steady forces beside modes
-void print_closure(const IdentificationOptions& options);    // closing the loop on structures that lack one effect
-void print_closure_null(const IdentificationOptions& options);  // and on one that lacks none
+void print_harmonics(const IdentificationOptions& options);  // rotor lines and steady forces near modes
+void print_closure(const IdentificationOptions& options);    // residual diagnosis of structures that lack one effect
+void print_closure_null(const IdentificationOptions& options);  // and of one that lacks none
 
-void print_closure_series(const IdentificationOptions& options);  // and on series of channels, with and without effects
-void print_closure_series_outside(const IdentificationOptions& options);  // without the effect in the catalogue
+void print_closure_series(const IdentificationOptions& options);  // and of series of channels, with and without effects
+void print_closure_series_outside(const IdentificationOptions& options);  // with the effect removed from the catalogue
 void print_closure_series_null(const IdentificationOptions& options);
 
 }  // namespace tools

@@ -1,4 +1,4 @@
-// Bias, scatter and stated intervals of the identification, and what the losses of samples do to it.
+// Bias, scatter and stated intervals of the identification, and the influence of lost samples.
 #include <fmt/format.h>
 
 #include <array>
@@ -35,12 +35,12 @@ StoreysSetup long_record(bool is_drawn, std::uint64_t seed) {
   return is_drawn ? drawn_storeys(fixed, seed) : fixed;
 }
 
-// Folds are looked for where a mode may lie near half the rate or above: 0 = nowhere.
+// Limit of the search for alias orders, if a mode may lie near half the rate or above: 0 = no search.
 double search_limit_hz(const StoreysSetup& setup) {
   return setup.frequency_hz.back() > 0.45 * setup.rate_hz ? fold_limit_hz(setup.rate_hz) : 0.0;
 }
 
-// One mode over all records that have it.
+// One mode over all records that contain it.
 struct Errors {
   std::vector<double> peaks_db;
   std::vector<double> frequency, damping;                // relative
@@ -150,7 +150,7 @@ namespace {
 constexpr std::size_t kJudgedModes = 3;
 constexpr double kLosses[] = {0.0, 0.01, 0.05, 0.3};
 
-// Each sample, or each whole frame, is lost by itself.
+// Each sample, or each whole frame, is lost independently.
 Record with_losses(Record record, double probability, bool whole_frames, std::uint64_t seed) {
   const std::size_t n = record.channels.size();
   core::simulation::RandomStream loss(seed, whole_frames ? "frame_loss" : "sample_loss");
@@ -178,7 +178,7 @@ std::vector<LossCase> loss_cases() {
   return cases;
 }
 
-// f of the first modes against the same record without losses, in percent; empty: not found.
+// Frequency of the first modes relative to the same record without losses, in percent; empty: not found.
 using Shifts = std::array<std::optional<double>, kJudgedModes>;
 
 std::vector<Shifts> shifts_of(bool is_drawn, std::uint64_t seed) {

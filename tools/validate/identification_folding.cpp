@@ -1,4 +1,4 @@
-// Modes above half the frame rate: their alias order from the instants at which the rows are seen.
+// Modes above half the frame rate: their alias order from the row delays.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ struct FoldingCase {
   std::string name;
   StoreysSetup setup;
   bool two_channels = false;  // or all floors
-  bool reads_off = false;     // the readout from the shapes, too
+  bool reads_off = false;     // estimate the readout from the shapes, too
   bool is_drawn = false;      // camera, structure and noise; the readout is the case's
 };
 
@@ -51,7 +51,7 @@ std::vector<FoldingCase> folding_cases() {
   return cases;
 }
 
-// Of the drawn ones the highest mode lies at 0.52 ... 0.75 of the frame rate.
+// In drawn cases the highest mode lies at 0.52 ... 0.75 of the frame rate.
 StoreysSetup setup_of(const FoldingCase& which, std::uint64_t seed) {
   if (!which.is_drawn) return which.setup;
   StoreysSetup setup = drawn_storeys(which.setup, seed, {.least_top = 0.52, .most_top = 0.75, .keeps_readout = true});
@@ -68,7 +68,7 @@ struct Outcome {
   std::optional<ReadoutFromShapes> stated, unknown;  // identified with the true readout, and without any
 };
 
-// Poles that stand in nearly all orders; what was called out of phase is so because its delays are not undone.
+// Poles present in nearly all orders; those rejected as out of phase are so because their delays are not corrected.
 std::optional<ReadoutFromShapes> read_off_shapes(const Record& record, const core::ModalEstimate& estimate,
                                                  bool delays_undone, double readout_frames) {
   constexpr double kLeastPresence = 0.85, kMostDamping = 0.05;
@@ -122,12 +122,12 @@ void print_readout(const FoldingCase& which, const char* delays, const std::vect
              std::abs(e.worst), s.median);
 }
 
-// What became of the modes of one kind.
+// Results for the modes of one kind.
 struct Tally {
   int n = 0, right = 0, wrong = 0, ambiguous = 0, high_mac = 0;
   std::vector<double> f, zeta;  // errors, %
   double least_mac = 1.0;
-  std::optional<double> least_margin;  // none: no other frequency below the limit
+  std::optional<double> least_margin;  // empty: no other frequency below the limit
 
   void add(const Found& found, const TrueMode& truth) {
     using As = Found::As;
@@ -152,7 +152,7 @@ void print_tally(const FoldingCase& which, const std::string& modes, const Tally
              t.least_mac, t.least_margin ? fmt::format("{:.3f}", *t.least_margin) : "-");
 }
 
-// One that shows itself below half the rate as no other frequency up to the limit does.
+// Whether no other frequency up to the limit has the same alias below half the rate.
 bool has_no_rival(const Outcome& record, std::size_t r) {
   return record.truth[r].frequency_hz < record.rate_hz - fold_limit_hz(record.rate_hz);
 }

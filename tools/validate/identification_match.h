@@ -10,7 +10,7 @@
 
 namespace tools {
 
-// A true mode beside what was found of it.
+// A true mode and the corresponding result.
 struct Found {
   enum class As : unsigned char { kAbsent, kRight, kWrongFold, kAmbiguous };
   As as = As::kAbsent;
@@ -18,8 +18,8 @@ struct Found {
   double mac = 0.0;  // with the true shape
 };
 
-// Right: called structural, within 2 % of the true frequency. Wrong fold: called structural within 3 % of where the
-// mode appears, with a frequency that is another's or nobody's. Every pole is used once.
+// Correct: structural, within 2 % of the true frequency. Wrong alias: structural within 3 % of where the mode appears,
+// with the frequency of another mode or of none. Every pole is used once.
 struct Match {
   std::vector<Found> modes;  // by true frequency
   int n_false = 0;           // structural poles that belong to no mode
@@ -28,7 +28,7 @@ struct Match {
                                 const std::vector<core::simulation::TrueMode>& truth,
                                 const std::vector<core::ChannelInfo>& channels);
 
-// Its shape in these channels, which are named after their bodies (floor3, deck12.v); the base rests.
+// Its shape in these channels, which are named after their bodies (floor3, deck12.v); the base does not move.
 [[nodiscard]] std::vector<std::complex<double>> true_shape(const core::simulation::TrueMode& mode,
                                                            const std::vector<core::ChannelInfo>& channels);
 
@@ -44,7 +44,7 @@ struct Statistics {
   double mean = 0.0, standard_deviation = 0.0, standard_error = 0.0;  // of the mean
   double median = 0.0, rms = 0.0, worst = 0.0;                        // worst: largest magnitude
 };
-// Of nothing: not a number, so that no bar is met by accident.
+// Of an empty list: NaN, so that no bar is met by accident.
 [[nodiscard]] Statistics statistics(std::vector<double> values);
 
 }  // namespace tools

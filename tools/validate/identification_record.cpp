@@ -13,7 +13,7 @@ namespace {
 using core::simulation::ChannelGenerator;
 using core::simulation::SceneMotion;
 
-// Samples of every frame slot; what no frame fills stays unseen. fill(frame, k): channel values of one frame.
+// Samples of every frame slot; slots without a frame stay unseen. fill(frame, k): channel values of one frame.
 template <class Fill>
 Record gather(const SceneMotion& motion, const std::vector<core::ChannelInfo>& channels, Fill fill) {
   Record record;
@@ -31,7 +31,7 @@ Record gather(const SceneMotion& motion, const std::vector<core::ChannelInfo>& c
   return record;
 }
 
-// The noise of each channel; unequal as that of points is. None where all have the scene's own.
+// Noise of each channel, unequal like that of points. Empty if all have the scene's own.
 std::vector<double> unequal_noise_mm(const core::simulation::Scene& scene, std::size_t n_channels) {
   std::vector<double> noise_mm;
   const double spread = scene.tracks.noise_spread;
@@ -125,8 +125,8 @@ core::CpsdSums spectra(const Record& record, bool bridge_losses) {
 core::CpsdSums without_window_correction(core::CpsdSums sums) {
   const auto pairs = static_cast<std::size_t>(sums.n_pairs());
   const auto bins = static_cast<std::size_t>(sums.n_bins());
-  // The mask's correlation at lag 0 is the mean of its spectrum over all bins, both halves. A spectrum that is nothing
-  // but its bin 0 is that value at every lag.
+  // The mask's correlation at lag 0 is the mean of its spectrum over all bins, both halves. A spectrum that is zero
+  // except for bin 0 has the same value at every lag.
   for (std::size_t pair = 0; pair < pairs; ++pair) {
     double whole = sums.mask_sum[pair].real() + sums.mask_sum[(bins - 1) * pairs + pair].real();
     for (std::size_t k = 1; k + 1 < bins; ++k) whole += 2.0 * sums.mask_sum[k * pairs + pair].real();

@@ -25,7 +25,7 @@ struct Record {
 // Displacements of the bodies alone, as ChannelGenerator gives them; dropped frames are missing samples.
 [[nodiscard]] Record structure_record(const core::simulation::Scene& scene, bool with_base);
 
-// What the middle of each region does in the image, at 1 px = 1 mm: the camera's own motion included.
+// Image motion of the middle of each region, at 1 px = 1 mm: includes the camera's own motion.
 [[nodiscard]] Record image_record(const core::simulation::Scene& scene, bool with_base);
 
 // Without the channels that are not listed.
@@ -34,10 +34,10 @@ struct Record {
 inline constexpr int kSegment = 1024;
 [[nodiscard]] core::CpsdSums spectra(const Record& record, bool bridge_losses = true);
 
-// As if the window and the losses did nothing but scale the correlations.
+// As if window and losses only scaled the correlations.
 [[nodiscard]] core::CpsdSums without_window_correction(core::CpsdSums sums);
 
-// Prewhitening chosen by the record.
+// With automatic prewhitening.
 [[nodiscard]] core::IdentifierConfig identifier_config(double max_frequency_hz = 0.0);
 [[nodiscard]] core::ModalEstimate identify_record(const Record& record, double max_frequency_hz = 0.0,
                                                   bool bridge_losses = true);

@@ -27,8 +27,8 @@ double roof_part(const Eigen::MatrixXd& shapes, Index mode, double frequency_hz)
   return std::abs(shapes(shapes.rows() - 1, mode)) / (shapes.col(mode).norm() * std::pow(w, 1.5));
 }
 
-// Forces on the bodies are independent, and so then are the modes, whose shapes are orthogonal. A mode made heavier,
-// stiffer and more viscous alike keeps frequency and damping ratio and moves less.
+// Forces on the bodies are independent, and therefore so are the modes, whose shapes are orthogonal. A mode whose mass,
+// stiffness and viscosity are increased alike keeps frequency and damping ratio and moves less.
 StructureModel with_modal_parts(const std::vector<double>& f, const std::vector<double>& damping_ratio) {
   const auto n = static_cast<Index>(f.size());
   const Eigen::MatrixXd shapes = core::simulation::shear_chain_shapes(static_cast<int>(n));
@@ -67,14 +67,14 @@ std::vector<core::simulation::Plate> stack(const StoreysSetup& setup, int height
   return plates;
 }
 
-// Of the roof against the ground, mm^2, per unit density of acceleration (or of every force).
+// Of the roof relative to the ground, mm^2, per unit density of acceleration (or of every force).
 double roof_variance(const Scene& scene, bool base) {
   const StructureModel& model = scene.structure;
   const ExcitationParameters& band = scene.excitation;
   constexpr double kStep_hz = 2e-3;
   double sum = 0.0;
   for (double f = band.band_low_hz; f < band.band_high_hz; f += kStep_hz) {
-    // Reciprocity: what forces on the bodies do to the roof is what a force on the roof does to the bodies.
+    // Reciprocity: the response of the roof to forces on the bodies equals that of the bodies to a force on the roof.
     const Eigen::VectorXcd q = response_at(
         model, kTwoPi * f, model.displacement.row(model.n_bodies() - 1).transpose().cast<std::complex<double>>());
     sum += base ? std::norm((model.influence.transpose().cast<std::complex<double>>() * q)(0))
@@ -83,7 +83,7 @@ double roof_variance(const Scene& scene, bool base) {
   return sum * kStep_hz;
 }
 
-// No two modes appear within reach of each other, of zero, or of half the rate.
+// Whether no two modes appear close to each other, to zero, or to half the rate.
 bool stand_apart(const std::vector<double>& frequency_hz, double factor, double rate_hz) {
   constexpr double kApart_hz = 0.15;
   std::vector<double> seen{0.0, 0.5 * rate_hz};
@@ -97,7 +97,7 @@ bool stand_apart(const std::vector<double>& frequency_hz, double factor, double 
   return true;
 }
 
-// By which all frequencies are multiplied.
+// Factor for all frequencies.
 double frequency_factor(const std::vector<double>& frequency_hz, double rate_hz, const DrawnStoreys& limits,
                         std::uint64_t seed) {
   constexpr int kMostTries = 1000;

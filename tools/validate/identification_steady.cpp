@@ -1,4 +1,4 @@
-// Steady forces beside modes.
+// Steady forces near modes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,10 +30,10 @@ StoreysSetup steady_setup(const SteadyCase& which, std::uint64_t seed) {
   return which.damping_ratio > 0.0 ? fixed : drawn_storeys(fixed, seed);
 }
 
-// A steady force on a floor, 2 to 6 % of the frequency beside one mode after the other.
+// A steady force on a floor, at 2 to 6 % of the frequency from one mode after the other.
 struct SteadyLine {
   std::size_t mode;
-  double frequency_hz, reach_hz;  // poles within reach are taken for the line
+  double frequency_hz, reach_hz;  // poles within reach are attributed to the line
 };
 
 SteadyLine steady_line(const StoreysSetup& setup, std::uint64_t seed) {

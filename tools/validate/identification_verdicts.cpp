@@ -1,4 +1,4 @@
-// What is no mode: the camera's own motion and vibration.
+// Motion that is no mode: the camera's own motion and vibration.
 #include "tools/validate/identification_verdicts.h"
 
 #include <fmt/format.h>
@@ -78,8 +78,8 @@ struct FlownCase {
   std::string flight;  // the recorded hover; empty = the hover model
 };
 
-// A hovering camera, and rotors between 60 and 180 Hz whose line wanders: 0.1 px of yaw, as much of roll at the ends of
-// the image.
+// A hovering camera, and rotors between 60 and 180 Hz whose spectral line wanders: 0.1 px of yaw, and the same of roll
+// at the ends of the image.
 Scene flown_scene(const FlownCase& which, std::uint64_t seed) {
   StoreysSetup setup{.shaken = which.shaken, .rate_hz = 25.0, .row_span = 0.8};
   if (which.is_drawn) setup = drawn_storeys(setup, seed);
@@ -137,7 +137,7 @@ void print_null(const IdentificationOptions& options) {
 
 namespace {
 
-// The gravest of the verdicts on what a wandering line left: a pole within 1 Hz (3 sigma) that is no true mode.
+// The most serious verdict on a pole caused by a wandering line: within 1 Hz (3 sigma) of it and no true mode.
 std::size_t worst_near(const Judged& record, double line_hz) {
   std::size_t worst = kVerdicts.size();
   for (const Mode& mode : all_poles(record.estimate)) {

@@ -11,12 +11,12 @@
 
 namespace tools {
 
-// What was said of that which is no mode, and of the modes beside it.
+// Verdicts on motion that is no mode, and on the modes near it.
 
 inline constexpr std::array kVerdicts{core::Verdict::kStructural,   core::Verdict::kAmbiguous,
                                       core::Verdict::kCameraMotion, core::Verdict::kInputPeak,
                                       core::Verdict::kHarmonic,     core::Verdict::kNumerical};
-using VerdictCounts = std::array<int, kVerdicts.size() + 1>;  // the last: nothing there
+using VerdictCounts = std::array<int, kVerdicts.size() + 1>;  // the last: no pole
 
 [[nodiscard]] std::size_t place_of(core::Verdict verdict);  // among them
 [[nodiscard]] std::string verdict_names();
@@ -33,17 +33,17 @@ struct Judged {
 [[nodiscard]] Judged judge_record(const Record& record, double max_frequency_hz,
                                   std::vector<core::simulation::TrueMode> truth);
 
-// What was said of true modes.
+// Verdicts on true modes.
 struct TrueModes {
   int n = 0, right = 0, called_harmonic = 0, called_camera = 0;
 
   void add(const Judged& record);
 };
 
-// A number between the two that depends on seed and name only.
+// A number between the two limits that depends on seed and name only.
 [[nodiscard]] double drawn_between(std::uint64_t seed, const char* name, double low, double high);
 
-// A line of the table: a wandering rotor line beside modes.
+// A line of the table: a wandering rotor line near modes.
 void print_rotor(const IdentificationOptions& options, bool is_drawn, bool with_base);
 
 }  // namespace tools

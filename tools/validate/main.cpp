@@ -1,4 +1,5 @@
-// The simulator checked against what it does not use itself: first-order theory, statistics, other people's trackers.
+// Checks of the simulator against references that it does not use itself: first-order theory, statistics, other
+// trackers.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -97,20 +98,20 @@ void identification(const Options& options) {
   print({options.n_seeds, options.n_threads, options.first_seed, options.flight});
 }
 
-// The whole chain behind the tracker on simulated flights.
+// The whole chain after the tracker on simulated flights.
 template <void (*print)(const GeometryOptions&), bool is_drawn = false>
 void geometry(const Options& options) {
   print({options.n_seeds, options.n_threads, options.first_seed, options.duration_s, options.report, options.flight,
          is_drawn});
 }
 
-// What real footage lacks.
+// Disturbances of real footage.
 template <void (*print)(const FootageOptions&)>
 void footage(const Options& options) {
   print({options.n_seeds, options.n_threads, options.first_seed});
 }
 
-// Closing the loop on tracks.
+// Residual diagnosis of tracks.
 template <void (*print)(const ClosureTracksOptions&)>
 void closure_tracks(const Options& options) {
   print({options.n_seeds, options.n_threads, options.duration_s, options.first_seed, options.effect, options.strength,

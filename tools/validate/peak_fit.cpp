@@ -8,11 +8,11 @@
 #include <numbers>
 #include <unsupported/Eigen/FFT>
 
-// Without a taper, what leaks from the peak over 600 s outweighs the oscillator's own spectrum, which falls as f^-4,
-// and the damping comes out too high. One Hann window costs 39 % of the accuracy: it wastes the ends of the record. K
+// Without a taper, leakage from the peak over 600 s exceeds the oscillator's own spectrum, which falls as f^-4,
+// and the damping is overestimated. One Hann window costs 39 % of the accuracy: it wastes the ends of the record. K
 // sine tapers cost sqrt(1 + 1 / (2 K)) and leak as little. They blur the peak by a kernel of variance mean(k^2) / (4
-// T^2), which goes into the model: S + variance / 2 S''. K is chosen so that this corrects the top of the peak by no
-// more than 4 %; the next term is then a tenth of it, 0.03 of the damping's own scatter.
+// T^2), which is included in the model: S + variance / 2 S''. K is chosen so that this changes the top of the peak by
+// no more than 4 %; the next term is then a tenth of it, 0.03 of the damping's own scatter.
 
 namespace tools {
 namespace {

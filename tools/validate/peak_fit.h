@@ -14,7 +14,7 @@ struct TaperedSpectrum {
   TaperedSpectrum(const std::vector<double>& samples, double rate_hz, int n_tapers);
 };
 
-// As many tapers as a peak of this half width (zeta f) bears without being blurred.
+// The number of tapers for which a peak of this half width (zeta f) is not noticeably blurred.
 [[nodiscard]] int taper_count(double half_width_hz, double duration_s);
 
 // The oscillator whose displacement under white force explains a band of the spectrum best.
@@ -24,7 +24,7 @@ struct PeakFit {
 };
 
 // Whittle's likelihood, maximised over frequency, damping and level by Fisher scoring, from the spectrum's own maximum:
-// knows nothing of what was declared. The band runs from 0.5 to 1.6 times the frequency, cut at the limits.
+// uses no declared value. The band runs from 0.5 to 1.6 times the frequency, cut at the limits.
 [[nodiscard]] PeakFit fit_peak(const TaperedSpectrum& spectrum, double low_hz, double high_hz);
 
 }  // namespace tools

@@ -33,7 +33,7 @@ Eigen::MatrixXd modal_coordinates(const StructureResponse& response, const Eigen
   return shapes.colPivHouseholderQr().solve(relative);
 }
 
-// A power of two less one, so that the padded transform is quick; at least 2.5 samples per period of the band's end.
+// A power of two less one, so that the padded transform is fast; at least 2.5 samples per period of the band's end.
 Eigen::Index sample_count(const Scene& scene) {
   Eigen::Index n = 16;
   while (static_cast<double>(n) < 2.5 * scene.excitation.band_high_hz * scene.duration_s) n *= 2;
@@ -69,12 +69,12 @@ void finish(PeakErrors& errors, int n) {
   errors.rms = std::sqrt(errors.rms / n);
 }
 
-// Once with few tapers, then with as many as the peak turned out to bear.
+// First with few tapers, then with the number that the width of the peak permits.
 PeakFit fit_record(const std::vector<double>& record, double rate_hz, const Scene& scene) {
   int n_tapers = 4;
   PeakFit fit;
   for (int round = 0; round < 2; ++round) {
-    // Clear of the ends of the input's band by the width of the tapers' kernel.
+    // Keeps a distance from the ends of the input's band, by the width of the tapers' kernel.
     const double margin_hz = 2.0 * n_tapers / scene.duration_s;
     fit = fit_peak(TaperedSpectrum(record, rate_hz, n_tapers), scene.excitation.band_low_hz + margin_hz,
                    scene.excitation.band_high_hz - margin_hz);

@@ -8,7 +8,7 @@
 
 namespace tools {
 
-// Errors over the seeds, in units of the scatter that no estimator beats.
+// Errors over the seeds, in units of the least possible scatter.
 struct PeakErrors {
   double mean = 0.0, rms = 0.0, worst = 0.0;  // worst: the largest in magnitude, with its sign
 };
@@ -17,7 +17,7 @@ struct ModePeak {
   double frequency_hz = 0.0, damping_ratio = 0.0;            // declared
   double frequency_scatter_hz = 0.0, damping_scatter = 0.0;  // f sqrt(zeta / (2 pi f T)), zeta / sqrt(2 pi zeta f T)
   PeakErrors frequency, damping;
-  int n_failed = 0;  // fits that did not converge; they are left out of the errors
+  int n_failed = 0;  // fits that did not converge; excluded from the errors
 };
 
 struct PeakCheck {
@@ -33,10 +33,11 @@ struct PeakCheck {
   [[nodiscard]] bool passed() const;
 };
 
-// Do the peaks of the truth lie where the structure says, as wide as it says? Modal coordinates of the displacements
+// Checks whether the peaks of the true motion have the structure's frequencies and widths. Modal coordinates of the
+// displacements
 // (least squares by the declared shapes, relative to the ground), each fitted as one oscillator under white force.
-// Structure in `scene`, declared modes in `declared`: the same unless the check itself is to be checked. Undamped
-// shapes must be real, and only the ground be shaken, without colour. n_seeds seeds from first_seed on. Throws
+// Structure in `scene`, declared modes in `declared`: equal unless the check itself is tested. Undamped
+// shapes must be real, and only the ground be shaken, with a white spectrum. n_seeds seeds from first_seed on. Throws
 // std::invalid_argument for a duration in which the lowest declared mode has fewer than 8 / zeta periods: its peak
 // would be too blurred to fit.
 [[nodiscard]] PeakCheck check_peaks(const core::simulation::Scene& scene,

@@ -1,4 +1,4 @@
-// The readout time estimated from tracks, against that of the simulated sensor.
+// The readout time estimated from tracks, compared with that of the simulated sensor.
 #include <fmt/format.h>
 
 #include <array>
@@ -25,12 +25,12 @@ core::simulation::Scene scene_of(double readout_frames, std::uint64_t seed, doub
   core::simulation::Scene scene =
       is_drawn ? draw_scene(seed, duration_s).scene : core::simulation::make_paper_scene(seed, duration_s);
   scene.camera.readout_s = std::abs(readout_frames) / scene.camera.rate_hz;
-  // Read upwards is read downwards in negative time.
+  // Upward readout is downward readout in negative time.
   if (readout_frames < 0.0) scene.camera.readout_direction = core::ReadoutDirection::kUp;
   return scene;
 }
 
-// The estimates at every duration.
+// The estimates for every duration.
 std::vector<core::ReadoutEstimate> estimate(double readout_frames, std::uint64_t seed, bool is_drawn) {
   const core::simulation::TrackGenerator generator(scene_of(readout_frames, seed, kDurations_s.back(), is_drawn));
   const core::simulation::Scene& scene = generator.motion().scene();

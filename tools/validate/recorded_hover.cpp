@@ -16,7 +16,7 @@ using core::simulation::RecordedMotion;
 
 constexpr double kSeedsPerRound = 20.0;
 
-// The record from another of its instants on, there and back, as long as is needed.
+// The record starting at another instant, played back and forth, as long as needed.
 std::vector<double> from_phase(const std::vector<double>& values, std::size_t first, std::size_t n) {
   std::vector<double> out;
   if (values.empty()) return out;

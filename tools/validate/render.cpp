@@ -39,13 +39,13 @@ class Sum {
   int n_ = 0;
 };
 
-// Small, so that brute force ends; moving fast.
+// Small, so that brute force takes acceptable time; fast motion.
 Scene moving_scene(std::uint64_t seed) {
   Scene scene = core::simulation::make_paper_scene(seed, 10.0);
   core::simulation::set_image_size(scene, 480, 270);
   scene.camera.exposure_s = 0.03;  // about a pixel of motion
   scene.excitation.rms_mm = 10.0;
-  scene.camera.alpha_px *= 0.9;  // room to turn
+  scene.camera.alpha_px *= 0.9;  // room for rotation
   scene.hover.y_rms_mm = 4.0;
   return scene;
 }
@@ -67,7 +67,7 @@ std::vector<float> light_of(const Renderer& renderer, double t_frame_s) {
   return light;
 }
 
-// The pixel's own part of the scene reaches far enough that no edge comes near within the exposure.
+// Whether an edge comes near the pixel during the exposure.
 bool near_edge(const RenderReference& reference, double t_frame_s, int u, int v) {
   constexpr double kMargin_px = 2.0;
   const Scene& scene = reference.motion().scene();

@@ -22,7 +22,7 @@ constexpr std::array<ImagePoint, 8> kShifts{
     {{0.0, 0.0}, {0.125, 0.0}, {0.5, 0.0}, {0.0, 0.25}, {0.0, -0.5}, {0.3, -0.4}, {-0.77, 0.61}, {2.41, 1.18}}};
 constexpr double kStartFrame_s = 1.0;
 
-// A pixel and the points of the unshifted plate on which it looks during its exposure: at the five nodes of the
+// A pixel and the points of the unshifted plate that it sees during its exposure: at the five nodes of the
 // Gauss-Legendre rule, exact far beyond the renderer's two.
 struct Look {
   double grey;
@@ -33,7 +33,7 @@ constexpr std::array<double, 5> kNode{-0.9061798459386640, -0.5384693101056831, 
 constexpr std::array<double, 5> kWeight{0.1184634425280945, 0.2393143352496832, 0.2844444444444444, 0.2393143352496832,
                                         0.1184634425280945};
 
-// Pixels that see nothing but this plate, whichever of the shifts it has.
+// Pixels that see only this plate, for all of the shifts.
 std::vector<Look> looks_at(const RenderReference& reference, int body, const std::vector<float>& light) {
   constexpr double kMargin_px = 6.0;
   const auto& motion = reference.motion();

@@ -26,7 +26,7 @@ struct Material {
   PlanePoint point;
 };
 
-// Points of the plates whose windows see nothing else in frame 0.
+// Points of the plates whose windows contain nothing else in frame 0.
 std::vector<Material> chosen_points(const core::simulation::SceneMotion& motion) {
   const Scene& scene = motion.scene();
   core::simulation::RandomStream random(scene.seed, "selftest_points");

@@ -10,7 +10,7 @@
 
 namespace tools {
 
-// One point of one frame, as the scene without the effect shows it.
+// One point in one frame, as in the scene without the effect.
 struct Sight {
   const core::simulation::TrackGenerator& without;
   const core::simulation::TrackGenerator& with;
@@ -38,7 +38,7 @@ struct Sight {
   [[nodiscard]] double alpha_px() const { return without.motion().scene().camera.alpha_px; }
 };
 
-// Image motion by a small motion of the camera: translation in mm, rotation in rad, zoom.
+// Image motion caused by a small motion of the camera: translation in mm, rotation in rad, zoom.
 [[nodiscard]] core::simulation::ImagePoint motion_field(const Sight& sight, const std::array<double, 7>& motion);
 // A shift of the image also shifts the line's time: field + velocity readout / height dv, to first order.
 [[nodiscard]] core::simulation::ImagePoint with_line_time(const Sight& sight, core::simulation::ImagePoint field);

@@ -44,7 +44,8 @@ namespace {
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr std::uint64_t kFrames = 250, kEvery = 7;
 
-// As camera_signature(), where the motion within the exposure is a sine: its mean is sinc(f T) of its middle.
+// As camera_signature(), for sinusoidal motion within the exposure: its mean is sinc(f T) times the value at its
+// middle.
 ImagePoint rotor_signature(const Sight& s) {
   const auto& scene = s.with.motion().scene();
   const double half_turn = std::numbers::pi * scene.rotor.frequency_hz * scene.camera.exposure_s;
@@ -67,7 +68,7 @@ ImagePoint readout_signature(const Sight& s) {
   return {s.velocity().u_px * late_s, s.velocity().v_px * late_s};
 }
 
-// A longer exposure ends later: its middle moves by half of it, and its mean takes in more of the curvature.
+// A longer exposure ends later: its middle moves by half the difference, and its mean includes more of the curvature.
 ImagePoint exposure_signature(const Sight& s) {
   const double t0 = s.without.motion().scene().camera.exposure_s, t1 = s.with.motion().scene().camera.exposure_s;
   const double late_s = 0.5 * (t1 - t0), bent_s2 = (t1 * t1 - t0 * t0) / 24.0 + 0.5 * late_s * late_s;
@@ -122,7 +123,7 @@ ImagePoint locking_signature(const Sight& s) {
   return {a * sub_pixel_wave(s.image.u_px), a * sub_pixel_wave(s.image.v_px)};
 }
 
-// Lamps: a row's light is that of its exposure, sinc(f T) of the lamps' own; a point errs along its own direction.
+// Lamps: a row's light is averaged over its exposure, sinc(f T) of the lamps'; a point's error has its own direction.
 ImagePoint flicker_signature(const Sight& s) {
   const Scene& scene = s.with.motion().scene();
   const double half_turn = std::numbers::pi * scene.light.flicker_hz * scene.camera.exposure_s;

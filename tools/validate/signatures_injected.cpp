@@ -1,4 +1,4 @@
-// First-order signatures of the effects in core/simulation/injected, written down apart from it. Where an effect's time
+// First-order signatures of the effects in core/simulation/injected, implemented independently of it. Where an effect's
 // course is drawn, that course is taken from the scene.
 #include <cmath>
 #include <complex>
@@ -28,7 +28,7 @@ ImagePoint rocking_signature(const Sight& s) {
   return with_line_time(s, {-turn * (s.alpha_px() * s.y - px_mm * base.y_mm), turn * (s.alpha_px() * s.x - px_mm * base.x_mm)});
 }
 
-// The point comes nearer or goes away by its distance from the axis.
+// The point moves along the line of sight in proportion to its distance from the axis.
 ImagePoint torsion_signature(const Sight& s) {
   if (s.point().body < 0) return {};
   const double share = static_cast<double>(s.point().body) / (scene_of(s).n_bodies() - 1);
@@ -41,7 +41,7 @@ ImagePoint sway_signature(const Sight& s) {
   return {s.point().body < 0 ? s.alpha_px() / s.depth_mm * s.with.motion().own().sway_mm(s.t_s) : 0.0, 0.0};
 }
 
-// Frozen flow: what stands here was upstream at time zero.
+// Frozen flow: the pattern at this point was upstream at time zero.
 ImagePoint shimmer_signature(const Sight& s) {
   const auto& drift = scene_of(s).shimmer.drift_px_s;
   const auto then = s.with.motion().warp().shimmer().at(s.image.u_px - drift[0] * s.t_s,
@@ -57,7 +57,8 @@ ImagePoint breathing_signature(const Sight& s) {
           grown * (s.image.v_px - scene.camera.cy_px - centre[1])};
 }
 
-// A line of yaw: the frame is moved by gain i f / (corner + i f) of it, as it was at the frame's middle less the lag.
+// A spectral line of yaw: the frame is moved by gain i f / (corner + i f) of it, as of the frame's middle minus the
+// lag.
 ImagePoint stabiliser_signature(const Sight& s) {
   const Scene& scene = scene_of(s);
   const double f = scene.rotor.frequency_hz;

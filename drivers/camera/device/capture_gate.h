@@ -4,8 +4,8 @@
 
 namespace drivers {
 
-// Lets `stop`, called by any thread, wait until `capture` has left, without a lock in `capture`. Both sides store their
-// flag before they look at the other's (sequentially consistent): at least one of them sees the other.
+// Lets `stop`, called by any thread, wait until `capture` has left, without a lock in `capture`. Each side stores its
+// flag before it loads the other's (sequentially consistent): at least one of them sees the other's flag.
 class CaptureGate {
  public:
   class Pass {
@@ -24,7 +24,7 @@ class CaptureGate {
 
   [[nodiscard]] bool is_closed() const noexcept { return is_closed_.load(); }
   void open() noexcept { is_closed_.store(false); }
-  // What wakes `capture` from its wait is the caller's business, between `shut` and `wait_until_left`.
+  // Between `shut` and `wait_until_left` the caller must wake `capture` from its wait.
   void shut() noexcept { is_closed_.store(true); }
   void wait_until_left() noexcept { inside_.wait(true); }
 

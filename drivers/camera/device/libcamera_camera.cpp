@@ -17,11 +17,11 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kSettleTime{1000};
-constexpr milliseconds kSettleLimit{4000};  // for a camera that sends nothing at first
-constexpr milliseconds kSearchPeriod{100};  // between two looks for a camera that is gone
-constexpr milliseconds kFirstLook{250};     // without a request: is it still there?
-constexpr milliseconds kSilence{3000};      // without a request: the stream is set up again
-constexpr double kUnstatedRate_hz = 30.0;   // until frames were seen
+constexpr milliseconds kSettleLimit{4000};  // for a camera that delivers no frames at first
+constexpr milliseconds kSearchPeriod{100};  // between two searches for a lost camera
+constexpr milliseconds kFirstLook{250};     // after so long without a request, check whether the camera is still there
+constexpr milliseconds kSilence{3000};      // after so long without a request, set the stream up again
+constexpr double kUnstatedRate_hz = 30.0;   // assumed until frames were received
 
 }  // namespace
 
@@ -50,7 +50,7 @@ void LibcameraCamera::start() {
   sequence_ = LiveSequence(info_.rate_hz);
 }
 
-// Frames are looked at and given back.
+// Frames are inspected and returned to the camera.
 void LibcameraCamera::settle() {
   core::Frame frame;
   frame.pixels.resize(static_cast<std::size_t>(info_.width_px) * static_cast<std::size_t>(info_.height_px));
@@ -105,7 +105,7 @@ bool LibcameraCamera::take(const LibcameraSession::Done& done, core::Frame& out)
   try {
     if (!session_.give_back(done, lock_controls_)) interrupt();
     lock_controls_ = false;
-  } catch (...) {  // no memory
+  } catch (...) {  // out of memory
     interrupt();
   }
   return is_filled;
@@ -145,7 +145,7 @@ void LibcameraCamera::find_again() noexcept {
       clock_.forget();
       return;
     }
-  } catch (...) {  // no memory: the next look may have it
+  } catch (...) {  // out of memory: the next search may succeed
   }
   session_.halt();
   session_.close();

@@ -19,7 +19,8 @@ std::shared_ptr<lc::CameraManager> libcamera_manager() {
   static std::weak_ptr<lc::CameraManager> shared;
   const std::lock_guard lock(mutex);
   if (auto running = shared.lock()) return running;
-  // Our own messages say it better. libcamera reads the variable when it is first used; one already set is left alone.
+  // This program's own messages replace libcamera's. libcamera reads the variable at first use; an existing value is
+  // kept.
   setenv("LIBCAMERA_LOG_LEVELS", "*:FATAL", /*overwrite=*/0);
   std::shared_ptr<lc::CameraManager> fresh(new lc::CameraManager, [](lc::CameraManager* ended) {
     ended->stop();

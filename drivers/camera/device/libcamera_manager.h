@@ -16,15 +16,15 @@ struct LibcameraListing {
   std::vector<std::string> modes;  // "NV12 640x480 .. 1920x1080"
 };
 
-// What libcamera sees. Empty without a running udev daemon, too: libcamera finds cameras through it.
+// The cameras that libcamera finds. Empty also without a running udev daemon, through which libcamera finds cameras.
 [[nodiscard]] std::vector<LibcameraListing> list_libcamera_cameras();
 
-// A process may have one manager; it runs while anyone holds it, and watches cameras come and go. Throws
+// A process may have one manager; it runs while anyone holds it, and detects cameras that come and go. Throws
 // std::runtime_error. Any thread.
 [[nodiscard]] std::shared_ptr<libcamera::CameraManager> libcamera_manager();
 
-// The id of the camera whose id ends so; empty = the only one. Throws DeviceMissing, or std::invalid_argument where
-// several fit; both list what there is.
+// The id of the camera whose id ends in the given text; empty text = the only camera. Throws DeviceMissing, or
+// std::invalid_argument where several match; both list the cameras.
 [[nodiscard]] std::string choose_camera(const libcamera::CameraManager& manager, const std::string& wanted);
 
 }  // namespace drivers

@@ -16,7 +16,7 @@ struct Readable {
   lc::PixelFormat format;
   PixelLayout layout;
 };
-// In the order of what they cost. libcamera names RGB formats by the register, least significant byte last.
+// In order of increasing cost. libcamera names RGB formats by the register, least significant byte last.
 const std::array kReadable = {
     Readable{lc::formats::R8, PixelLayout::kGray8},     Readable{lc::formats::NV12, PixelLayout::kGray8},
     Readable{lc::formats::NV21, PixelLayout::kGray8},   Readable{lc::formats::YUV420, PixelLayout::kGray8},

@@ -14,8 +14,8 @@ struct LibcameraMode {
   libcamera::Size size;
 };
 
-// The cheapest format to read of those that the stream offers, in that size; null size: the largest up to 1920 x 1080.
-// Empty: nothing that can be read here.
+// The format that is cheapest to read among those offered, in that size; null size: the largest up to 1920 x 1080.
+// Empty: no format that can be read here.
 [[nodiscard]] std::optional<LibcameraMode> choose_mode(const libcamera::StreamConfiguration& stream,
                                                        libcamera::Size wanted);
 

@@ -22,7 +22,7 @@ namespace lc = libcamera;
 namespace {
 
 constexpr unsigned kBuffers = 6;
-constexpr std::size_t kRingSlots = 64;  // more than requests, ever
+constexpr std::size_t kRingSlots = 64;  // always more than requests
 
 }  // namespace
 
@@ -124,12 +124,13 @@ class LibcameraSession::Impl {
   struct Mapping {
     std::uint8_t* bytes = nullptr;
     std::size_t n_bytes = 0;
-    unsigned offset = 0;  // of the image in it
+    unsigned offset = 0;  // of the image in the buffer
   };
 
-  // libcamera 0.0.3 hears of the end of a USB camera only. It ends the process when a camera of another kind is stopped
-  // that is gone, and again when such a camera comes back while its manager runs. So the manager ends here, and what
-  // belongs to the camera is neither stopped nor destroyed: some memory and descriptors are lost with each such end.
+  // libcamera 0.0.3 detects only the removal of USB cameras. If another kind of camera is gone, libcamera terminates
+  // the process when that camera is stopped, and again when it comes back while its manager runs. So the manager is
+  // ended here, and the camera's objects are neither stopped nor destroyed: some memory and descriptors are lost each
+  // time.
   void abandon(const std::vector<int>& nodes) {
     camera_->requestCompleted.disconnect(this);
     camera_->disconnected.disconnect(this);
@@ -151,7 +152,7 @@ class LibcameraSession::Impl {
     mappings_.clear();
   }
 
-  // Acquires the camera and prepares everything but the stream. Non-empty: why not.
+  // Acquires the camera and prepares everything except the stream. Returns the reason of a failure; empty: done.
   [[nodiscard]] std::string configure() {
     close();
     if (!manager_) manager_ = libcamera_manager();
@@ -169,7 +170,7 @@ class LibcameraSession::Impl {
     stream.pixelFormat = chosen->format;
     stream.size = chosen->size;
     stream.bufferCount = kBuffers;
-    // validate() adjusts what the hardware cannot do: what counts is read back.
+    // validate() adjusts settings that the hardware cannot provide: the result is read back.
     if (camera_config_->validate() == lc::CameraConfiguration::Invalid || camera_->configure(camera_config_.get()) != 0)
       return fmt::format("refuses {} {}", chosen->format.toString(), chosen->size.toString());
     if (stream.pixelFormat != chosen->format || (!size_.isNull() && stream.size != size_))
@@ -185,7 +186,7 @@ class LibcameraSession::Impl {
   }
 
   [[nodiscard]] lc::Size wanted_size() const {
-    if (wishes_.width_px == 0) return size_;  // null before the first time
+    if (wishes_.width_px == 0) return size_;  // null before the first set-up
     return {static_cast<unsigned>(wishes_.width_px), static_cast<unsigned>(wishes_.height_px)};
   }
 
@@ -207,10 +208,10 @@ class LibcameraSession::Impl {
     return {};
   }
 
-  // libcamera's thread.
+  // Called by libcamera's thread.
   void on_completed(lc::Request* request) noexcept {
     if (request->status() == lc::Request::RequestCancelled) return;
-    if (lc::Request** slot = writer_.try_claim(); slot != nullptr) {  // there are more slots than requests
+    if (lc::Request** slot = writer_.try_claim(); slot != nullptr) {  // never full: there are more slots than requests
       *slot = request;
       writer_.publish();
     }
@@ -257,7 +258,7 @@ class LibcameraSession::Impl {
   lc::PixelFormat format_;
   lc::Size size_;
   LumaReader luma_{PixelLayout::kGray8, 1, 1, 0};
-  std::vector<Mapping> mappings_;  // by a request's cookie
+  std::vector<Mapping> mappings_;  // index: a request's cookie
   std::vector<std::unique_ptr<lc::Request>> requests_;
   rt::SpscRing<lc::Request*> completed_{kRingSlots, nullptr};
   rt::RingWriter<lc::Request*> writer_ = completed_.writer();  // libcamera's thread

@@ -4,8 +4,8 @@
 
 namespace drivers {
 
-// Frame numbers of a live camera: 64 bits, without a step back, with a jump for every frame that is missing. The device
-// counts with 32 bits that wrap, begins anew when it is restarted, and may not count at all.
+// Frame numbers of a live camera: 64 bits, never decreasing, with a jump for every missing frame. The device's own
+// number has 32 bits and wraps, restarts with the device, and may not count at all.
 class LiveSequence {
  public:
   explicit LiveSequence(double rate_hz) noexcept : rate_hz_(rate_hz) {}
@@ -14,7 +14,8 @@ class LiveSequence {
     std::uint64_t sequence = 0;
     bool gap_before = false;
   };
-  // Where the device's number went back, stood still, or the stream was interrupted: by the time that has passed.
+  // Where the device's number decreased, stayed the same, or the stream was interrupted, the elapsed time is used
+  // instead.
   [[nodiscard]] Step next(std::uint32_t device_sequence, std::int64_t t_ns) noexcept;
   void interrupted() noexcept { is_interrupted_ = true; }
 

@@ -51,8 +51,7 @@ void weigh_row(const std::uint8_t* row, std::size_t width, std::size_t red, std:
 
 }  // namespace
 
-// libjpeg reports a broken image by a call that must not return: it comes back to `decode` by longjmp, over C frames
-// only.
+// libjpeg reports an error by a callback that must not return: longjmp leads back to `decode`, across C frames only.
 struct LumaReader::Jpeg {
   jpeg_decompress_struct decoder{};
   jpeg_error_mgr errors{};
@@ -62,7 +61,7 @@ struct LumaReader::Jpeg {
     decoder.err = jpeg_std_error(&errors);
     decoder.client_data = this;
     errors.error_exit = [](j_common_ptr common) { std::longjmp(static_cast<Jpeg*>(common->client_data)->broken, 1); };
-    errors.emit_message = [](j_common_ptr, int) {};  // warnings go to stderr otherwise
+    errors.emit_message = [](j_common_ptr, int) {};  // otherwise warnings go to stderr
     errors.output_message = [](j_common_ptr) {};
     jpeg_create_decompress(&decoder);
   }
@@ -83,14 +82,14 @@ struct LumaReader::Jpeg {
       jpeg_abort_decompress(&decoder);
       return false;
     }
-    decoder.out_color_space = JCS_GRAYSCALE;  // luma is a channel of its own in a JPEG: nothing is converted
+    decoder.out_color_space = JCS_GRAYSCALE;  // luma is a separate component of a JPEG: nothing is converted
     jpeg_start_decompress(&decoder);
     while (decoder.output_scanline < decoder.output_height) {
       JSAMPROW row = luma + decoder.output_scanline * width;
       jpeg_read_scanlines(&decoder, &row, 1);
     }
     jpeg_finish_decompress(&decoder);
-    return errors.num_warnings == 0;  // a truncated image is completed with gray and warned of
+    return errors.num_warnings == 0;  // libjpeg completes a truncated image with gray and warns
   }
 };
 

@@ -6,14 +6,14 @@
 
 namespace drivers {
 
-// How a device lays an image out in memory, as far as its brightness is concerned.
+// Memory layout of a device's image, as far as its luma is concerned.
 enum class PixelLayout : std::uint8_t {
-  kGray8,   // one byte a pixel, at the front of the buffer: gray, and the planar Y'CbCr formats
+  kGray8,   // one byte a pixel, at the start of the buffer: gray, and the planar Y'CbCr formats
   kGray10,  // two bytes a pixel, little endian, the value in the low 10, 12 or all bits
   kGray12,
   kGray16,
-  kYuyv,   // two bytes a pixel, the even ones luma
-  kUyvy,   // the odd ones
+  kYuyv,   // two bytes a pixel, luma in the even ones
+  kUyvy,   // luma in the odd ones
   kRgb24,  // three bytes in this order
   kBgr24,
   kMjpeg,  // one JPEG an image
@@ -21,12 +21,12 @@ enum class PixelLayout : std::uint8_t {
 
 enum class LumaStatus : std::uint8_t {
   kOk,
-  kShort,    // fewer bytes than the image needs
-  kDamaged,  // a JPEG that does not decode, or not to this size
+  kShort,    // fewer bytes than the image requires
+  kDamaged,  // a JPEG that does not decode, or has another size
 };
 
 // Bytes of a device's buffer -> 8-bit luma, width x height, row-major, no padding. Built once; `read` allocates nothing
-// except for MJPEG, where libjpeg takes and gives back its own working memory for every image. One thread.
+// except for MJPEG, where libjpeg allocates and frees its working memory for every image. One thread.
 class LumaReader {
  public:
   // stride_bytes: from one row to the next; 0 = no padding. Unused by kMjpeg.
@@ -35,7 +35,7 @@ class LumaReader {
   LumaReader(LumaReader&&) noexcept;
   LumaReader& operator=(LumaReader&&) noexcept;
 
-  // `luma` holds width x height bytes; undefined after anything but kOk.
+  // `luma` has width x height bytes; undefined unless the result is kOk.
   [[nodiscard]] LumaStatus read(const std::uint8_t* bytes, std::size_t n_bytes, std::uint8_t* luma) noexcept;
 
  private:

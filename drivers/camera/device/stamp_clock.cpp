@@ -38,7 +38,7 @@ std::int64_t StampClock::to_monotonic_ns(std::int64_t stamp_ns, const Now& now) 
       return stamp_ns;
     case Kind::kBoottime:
       return stamp_ns - (now.boottime_ns - now.monotonic_ns);
-    case Kind::kRealtime:  // may be set while we run: the difference of now, not that of the first frame
+    case Kind::kRealtime:  // may be set during the run: uses the present difference, not the first
       return stamp_ns - (now.realtime_ns - now.monotonic_ns);
     case Kind::kArrival:
       break;

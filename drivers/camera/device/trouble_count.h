@@ -8,8 +8,8 @@
 
 namespace drivers {
 
-// A device's DeviceTrouble as it happens. Written by the capturing thread, read by any: relaxed, each is a count on its
-// own.
+// Counters of a device's DeviceTrouble. Written by the capturing thread, read by any; relaxed: each is independent of
+// other data.
 class TroubleCount {
  public:
   void lost() noexcept {

@@ -23,11 +23,11 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kSettleTime{1000};
-constexpr milliseconds kSettleLimit{3000};  // for a camera that sends nothing at first
-constexpr milliseconds kSearchPeriod{100};  // between two looks for a camera that is gone
-constexpr milliseconds kSilence{2000};      // without a buffer: the stream is set up again
-constexpr double kSilentPeriods = 10.0;     // and at least so many frames
-constexpr milliseconds kLookPeriod{1000};   // between two looks at the input's status
+constexpr milliseconds kSettleLimit{3000};  // for a camera that delivers no frames at first
+constexpr milliseconds kSearchPeriod{100};  // between two searches for a lost camera
+constexpr milliseconds kSilence{2000};      // after so long without a buffer the stream is set up again
+constexpr double kSilentPeriods = 10.0;     // and after at least so many frame periods
+constexpr milliseconds kLookPeriod{1000};   // between two checks of the input's status
 constexpr double kUnstatedRate_hz = 30.0;
 
 double rate_of(const V4l2Stream& stream, const WantedMode& wanted) noexcept {
@@ -74,12 +74,12 @@ void V4l2Camera::start() {
   (void)!::read(stop_fd_, &drained, sizeof drained);
   gate_.open();
   last_buffer_ = Clock::now();
-  clock_.forget();  // the first frame decides it, and ends the wait for one
+  clock_.forget();  // the first frame determines the clock, and ends the wait for one
   settle();
   sequence_ = LiveSequence(info_.rate_hz);
 }
 
-// Frames are looked at and given back; the first one decides the clock.
+// Frames are inspected and returned to the driver; the first one determines the clock.
 void V4l2Camera::settle() {
   const milliseconds adjusting = stream_.adjusts_itself() ? kSettleTime : milliseconds(0);
   Deadline until = Clock::now() + kSettleLimit;
@@ -130,7 +130,7 @@ CaptureStatus V4l2Camera::take(core::Frame& out) noexcept {
   const bool is_picture = has_signal();
   const bool is_filled = is_picture && fill(buffer, out);
   if (is_picture && !is_filled) trouble_.damaged();
-  if (stream_.device().queue(buffer.index) != 0) interrupt();  // the frame that was had is whole
+  if (stream_.device().queue(buffer.index) != 0) interrupt();  // the frame already received is complete
   if (!fault_.empty()) return CaptureStatus::kFault;
   return is_filled ? CaptureStatus::kFrame : CaptureStatus::kTimeout;
 }
@@ -193,7 +193,7 @@ void V4l2Camera::find_again() noexcept {
     last_buffer_ = Clock::now();
     last_look_ = {};
     clock_.forget();
-  } catch (...) {  // no memory: the next look may have it
+  } catch (...) {  // out of memory: the next search may succeed
     stream_.close();
   }
 }

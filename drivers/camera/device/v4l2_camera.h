@@ -20,17 +20,17 @@ struct V4l2CameraConfig {
   WantedMode mode{};
   double readout_ms = 0.0;  // signed
   core::ReadoutDirection readout_direction = core::ReadoutDirection::kDown;
-  double exposure_ms = 0.0;  // 0 = what automatic exposure finds before it is locked
+  double exposure_ms = 0.0;  // 0 = the value of automatic exposure when it is locked
 };
 
 // A camera on Linux's video interface (USB, HDMI grabbers, SoC bridges that deliver processed images), streaming into
 // memory-mapped buffers; pixels are copied once, from there into the caller's slot.
-// Times: the driver's flags say whether its stamp is the start of exposure or the end of the frame (then readout and
-// exposure are subtracted); which clock it is on is looked at (StampClock).
-// Numbers: the device's sequence; frames it marks as damaged, short ones and those it lost are jumps.
-// Faults: a grabber's input without a signal gives kTimeout. A stream that breaks, falls silent, or whose camera is
-// unplugged is set up again from the capturing thread, with the same mode and controls, as soon as the camera is there
-// under any number; meanwhile `capture` gives kTimeout and `trouble` tells.
+// Times: the driver's flags state whether its stamp is the start of exposure or the end of the frame (then readout and
+// exposure are subtracted); StampClock determines which clock the stamps are on.
+// Numbers: the device's sequence; frames that it marks as damaged, short frames and frames that it lost are jumps.
+// Faults: a grabber's input without a signal gives kTimeout. If the stream breaks or falls silent, or the camera is
+// unplugged, the capturing thread sets it up again, with the same mode and controls, as soon as the camera is back
+// under any number; meanwhile `capture` gives kTimeout and `trouble` reports the loss.
 class V4l2Camera final : public Camera {
  public:
   explicit V4l2Camera(const V4l2CameraConfig& config);
@@ -48,7 +48,7 @@ class V4l2Camera final : public Camera {
   using Wait = V4l2Stream::Wait;
 
   void settle();
-  // kTimeout: the buffer held no frame of use, or there was none.
+  // kTimeout: there was no buffer, or it held no usable frame.
   [[nodiscard]] CaptureStatus take(core::Frame& out) noexcept;
   [[nodiscard]] bool fill(const v4l2_buffer& buffer, core::Frame& out) noexcept;
   [[nodiscard]] bool has_signal() noexcept;
@@ -65,10 +65,10 @@ class V4l2Camera final : public Camera {
   StampClock clock_;
   LiveSequence sequence_{1.0};
   std::string fault_;
-  Deadline last_buffer_{};  // when one came, or the stream was set up
-  Deadline last_look_{};    // at the input's signal
+  Deadline last_buffer_{};  // time of the last buffer, or of stream set-up
+  Deadline last_look_{};    // time of the last check of the input's signal
   bool has_signal_ = true;
-  int stop_fd_ = -1;  // an event that wakes the wait
+  int stop_fd_ = -1;  // event that ends the wait
   CaptureGate gate_;
   TroubleCount trouble_;
 };

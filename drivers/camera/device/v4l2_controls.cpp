@@ -37,7 +37,7 @@ class Controls {
     return error;
   }
   void tell(const std::string& what) { locked_.text += (locked_.text.empty() ? "" : ", ") + what; }
-  // Off, where there is such a thing; the words for it.
+  // Switches a control off if the device has it; `words` describes the result.
   void switch_off(std::uint32_t id, const char* words) {
     if (set(id, 0) == 0) tell(words);
   }
@@ -47,10 +47,10 @@ class Controls {
   LockedControls& locked_;
 };
 
-// The value that automatic control had is read before it is switched off: not every device keeps it.
+// Reads the value of automatic control before switching it off, because not every device keeps it.
 void lock_exposure(Controls& controls, const V4l2Device& device, double wanted_ms, LockedControls& locked) {
   const std::optional<std::int32_t> automatic = controls.get(V4L2_CID_EXPOSURE_ABSOLUTE);
-  (void)controls.set(V4L2_CID_EXPOSURE_AUTO_PRIORITY, 0);  // it may lower the frame rate in the dark
+  (void)controls.set(V4L2_CID_EXPOSURE_AUTO_PRIORITY, 0);  // otherwise it may lower the frame rate in the dark
   const bool is_manual = controls.set(V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL) == 0;
   if (!automatic) {
     if (wanted_ms > 0) {

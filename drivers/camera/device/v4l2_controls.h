@@ -8,27 +8,27 @@
 
 namespace drivers {
 
-// What must not change while one measures: automatic exposure and gain scale the image, focus and stabilisation move
-// it.
+// Properties that must not change during a measurement: automatic exposure and gain scale the image, focus and
+// stabilisation move it.
 struct ControlWishes {
-  double exposure_ms = 0.0;  // 0 = as automatic exposure has it when it is locked
+  double exposure_ms = 0.0;  // 0 = the value of automatic exposure when it is locked
 };
 
 struct LockedControls {
-  double exposure_ms = 0.0;  // 0 = the device does not say
+  double exposure_ms = 0.0;  // 0 = not stated by the device
   struct Value {
     std::uint32_t id = 0;
     std::int32_t value = 0;
   };
-  std::vector<Value> values;  // as set, in order: to be set again when the camera was gone
-  std::string text;           // "exposure 8.3 ms, gain 12, focus fixed": what could be locked
+  std::vector<Value> values;  // in the order in which they were set: to be set again when the camera is back
+  std::string text;           // "exposure 8.3 ms, gain 12, focus fixed": what was locked
 };
 
-// Once automatic control has settled. Controls that a device has not are passed over. Throws std::runtime_error for an
+// Call once automatic control has settled. Controls that a device lacks are skipped. Throws std::runtime_error for an
 // exposure_ms that the device refuses.
 [[nodiscard]] LockedControls lock_controls(const V4l2Device& device, const ControlWishes& wishes);
 
-// The same without doing it: "exposure, gain, focus"; empty: nothing.
+// What lock_controls() could lock: "exposure, gain, focus"; empty: nothing.
 [[nodiscard]] std::string lockable_controls(const V4l2Device& device);
 
 void set_again(const V4l2Device& device, const LockedControls& locked) noexcept;

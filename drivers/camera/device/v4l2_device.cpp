@@ -74,7 +74,7 @@ V4l2Device& V4l2Device::operator=(V4l2Device&& other) noexcept {
 
 int V4l2Device::open(const std::string& path) {
   close();
-  // Non-blocking: waiting is poll's business, which has a time limit.
+  // Non-blocking: poll does the waiting, with a time limit.
   const int fd = ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) return errno;
   fd_ = fd;
@@ -120,7 +120,7 @@ int V4l2Device::map_buffers(std::uint32_t n) {
     int error = call(VIDIOC_QUERYBUF, buffer);
     void* bytes = MAP_FAILED;
     if (error == 0) {
-      // Writable though we only read: some drivers refuse a read-only mapping.
+      // Writable, although it is only read: some drivers refuse a read-only mapping.
       bytes =
           mmap(nullptr, buffer.length, PROT_READ | PROT_WRITE, MAP_SHARED, fd_, static_cast<off_t>(buffer.m.offset));
       if (bytes == MAP_FAILED) error = errno;
@@ -139,7 +139,7 @@ void V4l2Device::unmap_buffers() noexcept {
   if (buffers_.empty()) return;
   for (const Mapping& buffer : buffers_) munmap(const_cast<std::uint8_t*>(buffer.bytes), buffer.n_bytes);
   buffers_.clear();
-  v4l2_requestbuffers none{};  // the driver keeps them otherwise, and its format cannot be changed
+  v4l2_requestbuffers none{};  // releases the buffers: as long as the driver has them, its format cannot be changed
   none.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   none.memory = V4L2_MEMORY_MMAP;
   (void)call(VIDIOC_REQBUFS, none);

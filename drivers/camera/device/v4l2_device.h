@@ -9,18 +9,18 @@
 
 namespace drivers {
 
-// What tells one camera from another, whatever number its node has at the moment.
+// Identifies a camera independently of the present number of its node.
 struct V4l2Identity {
   std::string driver;    // uvcvideo
-  std::string card;      // as the device calls itself
-  std::string bus_info;  // where it is plugged in
+  std::string card;      // the device's own name
+  std::string bus_info;  // the port it is connected to
   std::string serial;    // USB; empty where there is none
 
-  // Same kind and, where it has one, same serial number; else the same place.
+  // Same kind and same serial number; without serial numbers, the same port.
   [[nodiscard]] bool is_same_camera(const V4l2Identity& other) const noexcept;
 };
 
-// An open V4L2 capture node. Calls give 0 or the errno; none throws but `open`. One thread at a time.
+// An open V4L2 capture node. Calls return 0 or the errno and do not throw, except `open`. One thread at a time.
 class V4l2Device {
  public:
   V4l2Device() = default;
@@ -30,7 +30,7 @@ class V4l2Device {
   V4l2Device(const V4l2Device&) = delete;
   V4l2Device& operator=(const V4l2Device&) = delete;
 
-  // Opens a node that captures video by streaming. Non-zero: the errno; ENOTTY: not such a node.
+  // Opens a node that captures video by streaming. Returns 0 or the errno; ENOTTY: no such node.
   [[nodiscard]] int open(const std::string& path);
   void close() noexcept;
 
@@ -44,7 +44,7 @@ class V4l2Device {
     return call_raw(request, &argument);
   }
 
-  // Buffers of the driver, mapped here. `map` asks for `n` and takes what it is given (at least two).
+  // Buffers of the driver, mapped here. `map` requests `n` and accepts the number it is given (at least two).
   [[nodiscard]] int map_buffers(std::uint32_t n);
   void unmap_buffers() noexcept;
   struct Mapping {
@@ -52,11 +52,11 @@ class V4l2Device {
     std::size_t n_bytes = 0;
   };
   [[nodiscard]] const std::vector<Mapping>& buffers() const noexcept { return buffers_; }
-  [[nodiscard]] std::uint32_t buffer_flags() const noexcept { return buffer_flags_; }  // of the first, once mapped
+  [[nodiscard]] std::uint32_t buffer_flags() const noexcept { return buffer_flags_; }  // of the first one, once mapped
 
   [[nodiscard]] int queue(std::uint32_t index) const noexcept;
-  [[nodiscard]] int dequeue(v4l2_buffer& buffer) const noexcept;  // EAGAIN: none is full
-  [[nodiscard]] int stream_on() const noexcept;                   // all buffers queued first
+  [[nodiscard]] int dequeue(v4l2_buffer& buffer) const noexcept;  // EAGAIN: no buffer is full
+  [[nodiscard]] int stream_on() const noexcept;                   // queue all buffers first
   void stream_off() const noexcept;
 
  private:
@@ -72,7 +72,7 @@ class V4l2Device {
 // Nodes that capture video, in the order of their numbers.
 [[nodiscard]] std::vector<std::string> capture_nodes();
 
-// The node of that camera now; empty: it is not attached, or two are alike and neither is where it was.
+// The present node of that camera; empty: it is not attached, or two are alike and neither is at the former port.
 [[nodiscard]] std::string find_node(const V4l2Identity& wanted);
 
 }  // namespace drivers

@@ -18,7 +18,7 @@ struct Readable {
   std::uint32_t fourcc;
   PixelLayout layout;
 };
-// In the order of what they cost; the planar formats begin with a plane of luma.
+// In order of increasing cost; the planar formats begin with a luma plane.
 constexpr std::array kReadable = {
     Readable{V4L2_PIX_FMT_GREY, PixelLayout::kGray8},   Readable{V4L2_PIX_FMT_NV12, PixelLayout::kGray8},
     Readable{V4L2_PIX_FMT_NV21, PixelLayout::kGray8},   Readable{V4L2_PIX_FMT_YUV420, PixelLayout::kGray8},
@@ -35,9 +35,9 @@ struct Size {
   int height_px;
 };
 constexpr std::array kCommonSizes = {Size{640, 480}, Size{1280, 720}, Size{1920, 1080}};
-constexpr int kLargestWidth_px = 1920, kLargestHeight_px = 1080;  // what is not asked for larger
-constexpr double kUsableRate_hz = 25.0;                           // modes up to 10 Hz
-constexpr double kRateTolerance = 0.01;                           // 29.97 is 30
+constexpr int kLargestWidth_px = 1920, kLargestHeight_px = 1080;  // larger sizes only on request
+constexpr double kUsableRate_hz = 25.0;                           // sufficient for modes up to 10 Hz
+constexpr double kRateTolerance = 0.01;                           // 29.97 counts as 30
 
 double rate_of(const v4l2_fract& interval) noexcept {
   return interval.numerator == 0 ? 0.0 : static_cast<double>(interval.denominator) / interval.numerator;
@@ -89,7 +89,7 @@ std::vector<Size> sizes_of(const V4l2Device& device, std::uint32_t fourcc, const
     break;
   }
   if (!sizes.empty()) return sizes;
-  v4l2_format now{};  // a driver that does not list sizes (HDMI input): what it has
+  v4l2_format now{};  // for a driver that does not list sizes (HDMI input): its present one
   now.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   if (device.call(VIDIOC_G_FMT, now) == 0)
     sizes.push_back({static_cast<int>(now.fmt.pix.width), static_cast<int>(now.fmt.pix.height)});
@@ -142,7 +142,7 @@ V4l2Mode choose_mode(const std::vector<V4l2Mode>& modes, const WantedMode& wante
   const V4l2Mode* best = nullptr;
   const auto score = [&](const V4l2Mode& mode) {
     const bool is_fast_enough = mode.rate_hz == 0.0 || mode.rate_hz >= least_hz;
-    const double speed = is_fast_enough && wanted.rate_hz > 0 ? 0.0 : mode.rate_hz;  // more than wanted is no merit
+    const double speed = is_fast_enough && wanted.rate_hz > 0 ? 0.0 : mode.rate_hz;  // no benefit above the wanted rate
     return std::tuple(is_fast_enough, is_fast_enough ? mode.width_px * mode.height_px : 0, speed,
                       -static_cast<int>(cost_rank(mode.fourcc)));
   };
@@ -171,7 +171,7 @@ MadeMode make_mode(const V4l2Device& device, const V4l2Mode& mode, double rate_h
   format.fmt.pix.width = static_cast<std::uint32_t>(mode.width_px);
   format.fmt.pix.height = static_cast<std::uint32_t>(mode.height_px);
   format.fmt.pix.pixelformat = mode.fourcc;
-  format.fmt.pix.field = V4L2_FIELD_NONE;  // half images of different times are of no use
+  format.fmt.pix.field = V4L2_FIELD_NONE;  // interlaced fields of different times cannot be used
   if (const int error = device.call(VIDIOC_S_FMT, format); error != 0) refuse("VIDIOC_S_FMT", error);
   const v4l2_pix_format& got = format.fmt.pix;
   if (got.pixelformat != mode.fourcc || got.width != static_cast<std::uint32_t>(mode.width_px) ||

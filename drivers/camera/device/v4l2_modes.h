@@ -10,13 +10,13 @@
 
 namespace drivers {
 
-// One way in which a device delivers images that we can read.
+// One readable image mode of a device.
 struct V4l2Mode {
   std::uint32_t fourcc = 0;
   PixelLayout layout = PixelLayout::kGray8;
   int width_px = 0;
   int height_px = 0;
-  double rate_hz = 0.0;  // the highest at this size; 0 = the driver does not say
+  double rate_hz = 0.0;  // the highest at this size; 0 = not stated by the driver
 };
 
 struct WantedMode {
@@ -29,22 +29,22 @@ struct WantedMode {
 [[nodiscard]] std::string mode_text(const V4l2Mode& mode);  // "YUYV 640 x 480 at up to 30 Hz"
 [[nodiscard]] std::optional<PixelLayout> layout_of(std::uint32_t fourcc) noexcept;
 
-// All of them, as the device lists them. Sizes and rates that it gives as ranges are taken at `wanted` and at common
+// All readable modes that the device lists. Sizes and rates given as ranges are evaluated at `wanted` and at common
 // values within.
 [[nodiscard]] std::vector<V4l2Mode> list_modes(const V4l2Device& device, const WantedMode& wanted);
 
-// The largest image that comes at the wanted rate (none wanted: 25 Hz at least, and then as fast as possible); among
-// equals the format that costs least to read, MJPEG last: its loss moves edges by hundredths of a pixel.
-// Throws std::runtime_error that lists what there is, when nothing fits.
+// The largest image that is delivered at the wanted rate (none wanted: at least 25 Hz, then as fast as possible); among
+// equals the format that is cheapest to read, MJPEG last, because its compression moves edges by hundredths of a pixel.
+// Throws std::runtime_error with a list of the modes when none fits.
 [[nodiscard]] V4l2Mode choose_mode(const std::vector<V4l2Mode>& modes, const WantedMode& wanted,
                                    const std::string& device);
 
 struct MadeMode {
-  V4l2Mode mode;                 // the rate as the device states it now
+  V4l2Mode mode;                 // with the rate now stated by the device
   std::size_t stride_bytes = 0;  // from row to row
 };
 
-// Sets it and reads it back. Throws std::runtime_error when the device makes something else of it.
+// Sets the mode and reads it back. Throws std::runtime_error when the device changes it.
 [[nodiscard]] MadeMode make_mode(const V4l2Device& device, const V4l2Mode& mode, double rate_hz);
 
 }  // namespace drivers

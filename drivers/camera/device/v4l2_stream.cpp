@@ -88,14 +88,14 @@ bool V4l2Stream::open_again() {
   try {
     made_ = make_mode(device_, made_.mode, made_.mode.rate_hz);
     if (device_.map_buffers(kBuffers) == 0) return true;
-  } catch (const std::runtime_error&) {  // it makes another mode of it, or nothing yet
+  } catch (const std::runtime_error&) {  // the device gives another mode, or none yet
   }
   device_.close();
   return false;
 }
 
 V4l2Stream::Wait V4l2Stream::wait(Deadline deadline, int stop_fd) const noexcept {
-  // What is below zero is passed over.
+  // poll ignores negative descriptors.
   std::array<pollfd, 2> fds{{{is_open() ? device_.fd() : -1, POLLIN, 0}, {stop_fd, POLLIN, 0}}};
   for (;;) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now()).count();

@@ -9,8 +9,8 @@
 
 namespace drivers {
 
-// A camera on Linux's video interface set up to stream into memory-mapped buffers: opened once by name, and after that,
-// under whatever name it has then, with the same mode. One thread at a time.
+// A camera on Linux's video interface that streams into memory-mapped buffers: opened by name the first time, later
+// under whatever name it then has, with the same mode. One thread at a time.
 class V4l2Stream {
  public:
   using Deadline = std::chrono::steady_clock::time_point;
@@ -22,22 +22,22 @@ class V4l2Stream {
   [[nodiscard]] const MadeMode& made() const noexcept { return made_; }
   [[nodiscard]] const V4l2Device& device() const noexcept { return device_; }
   [[nodiscard]] bool is_open() const noexcept { return device_.is_open() && !is_broken_; }
-  [[nodiscard]] bool stamps_the_start() const noexcept { return stamps_the_start_; }  // of exposure; else frame's end
+  [[nodiscard]] bool stamps_the_start() const noexcept { return stamps_the_start_; }  // of exposure; false: frame's end
   [[nodiscard]] std::string description() const;  // card, driver, node, format, size
 
   [[nodiscard]] int begin() noexcept { return device_.stream_on(); }
   void close() noexcept;
-  // It broke off, perhaps because the camera is being taken away: used no more, and closed kTakingAway later. Linux 6.1
-  // crashes when a node's last user lets go of it while its driver is taking it down (media controller: the list of
+  // The stream broke, perhaps because the camera is being removed: it is no longer used, and closed after kTakingAway.
+  // Linux 6.1 crashes when the last user closes a node while its driver is removing it (media controller: the list of
   // interfaces is changed without its lock).
   void give_up() noexcept;
-  // The same camera, wherever it is now. False: it is not there, or not ready yet, or a broken one not closed yet (a
-  // node that has just appeared answers with errors for a moment).
+  // Opens the same camera again, under its present name. False: it is absent or not ready, or the broken one is not
+  // closed yet (a new node returns errors for a moment).
   [[nodiscard]] bool open_again();
 
-  // Until a buffer is full, `deadline`, a byte in `stop_fd`, or the stream breaks. Closed: does not break.
+  // Waits for a full buffer, `deadline`, a byte in `stop_fd`, or a break of the stream. A closed stream does not break.
   [[nodiscard]] Wait wait(Deadline deadline, int stop_fd) const noexcept;
-  // Of its input, by the input's status: a grabber without a signal streams noise or a blue picture.
+  // By the input's status: a grabber without a signal streams noise or a blue picture.
   [[nodiscard]] bool has_signal() const noexcept;
   // Whether it has automatic exposure, gain or focus.
   [[nodiscard]] bool adjusts_itself() const noexcept;
@@ -48,7 +48,7 @@ class V4l2Stream {
   MadeMode made_;
   bool stamps_the_start_ = false;
   bool is_broken_ = false;
-  Deadline closes_at_{};  // where it is broken
+  Deadline closes_at_{};  // for a broken stream
 };
 
 [[nodiscard]] std::int64_t stamp_ns(const v4l2_buffer& buffer) noexcept;

@@ -10,7 +10,7 @@ extern "C" {
 
 namespace drivers {
 
-// What libavformat and libavcodec allocate, given back with the pointer.
+// Owners of objects allocated by libavformat and libavcodec.
 struct AvDeleter {
   void operator()(AVFormatContext* context) const noexcept { avformat_close_input(&context); }
   void operator()(AVCodecContext* context) const noexcept { avcodec_free_context(&context); }

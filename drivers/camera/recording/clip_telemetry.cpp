@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kGpmfTag = "gpmd";
-constexpr std::size_t kMostPackets = 100'000;  // a day, one a second
+constexpr std::size_t kMostPackets = 100'000;  // a day at one packet per second
 constexpr std::size_t kMostRawBytes = std::size_t{64} << 20;
 
 ClipTelemetry troubled(std::string from, std::string trouble) {
@@ -28,7 +28,7 @@ ClipTelemetry troubled(std::string from, std::string trouble) {
   return out;
 }
 
-// A packet that cannot be read is left out; the first reason is kept.
+// Skips packets that cannot be read and keeps the first reason.
 std::vector<TimedPayload> read_payloads(const std::string& video, std::string& trouble) {
   Container container(video, kGpmfTag);
   std::vector<TimedPayload> out;
@@ -61,7 +61,7 @@ std::string read_raw(const std::string& file) {
   return bytes;
 }
 
-// The payloads of a raw file follow one another; only their own clock says when.
+// The payloads of a raw file follow one another; only their own clock states their times.
 ClipTelemetry of_raw_gpmf(const std::string& file) {
   const std::string bytes = read_raw(file);
   TimedPayload whole;

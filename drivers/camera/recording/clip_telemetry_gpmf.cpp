@@ -18,7 +18,7 @@ const GpmfStream* find(const GpmfPayload& payload, const char* key) {
   return nullptr;
 }
 
-// Values of every row of one stream, spread evenly over its payload; what is not finite and positive is left out.
+// Values of every row of one stream, spread evenly over its payload; non-finite and non-positive values are left out.
 std::vector<TimedValue> positive_values(std::span<const TimedPayload> payloads, const char* key, double unit) {
   std::vector<TimedValue> out;
   for (const TimedPayload& one : payloads) {
@@ -34,7 +34,7 @@ std::vector<TimedValue> positive_values(std::span<const TimedPayload> payloads, 
   return out;
 }
 
-// The exposure is stated once a frame: the camera's clock at the first frame of every payload gives the rate.
+// The exposure is stated once per frame: the camera's clock at the first frame of every payload gives the rate.
 void describe_frames(std::span<const TimedPayload> payloads, ClipTelemetry& out) {
   std::vector<double> frame, clock_s;
   double n_frames = 0.0;
@@ -65,11 +65,11 @@ void describe_frames(std::span<const TimedPayload> payloads, ClipTelemetry& out)
 }
 
 struct Axis {
-  std::size_t place = 0;  // in x, y, z
+  std::size_t place = 0;  // index in x, y, z
   double sign = 1.0;
 };
 
-// "XzY": the columns are +X, -Z, +Y. Cameras that state nothing write Z, X, Y.
+// "XzY" means that the columns are +X, -Z, +Y. Cameras that state nothing write Z, X, Y.
 std::optional<std::array<Axis, 3>> axes_of(const GpmfStream& stream) {
   const std::string text = stream.orientation_in.empty() ? "ZXY" : stream.orientation_in;
   if (text.size() != 3) return {};
@@ -99,7 +99,7 @@ Quaternion rotation(const std::array<double, 3>& angle_rad) noexcept {
   return {std::cos(0.5 * size), by * angle_rad[0], by * angle_rad[1], by * angle_rad[2]};
 }
 
-// The gyro's rates, constant from one sample to the next.
+// The rates of the gyro are taken as constant from one sample to the next.
 void integrate_gyro(std::span<const TimedPayload> payloads, ClipTelemetry& out) {
   Quaternion attitude{1.0, 0.0, 0.0, 0.0};
   std::array<double, 3> rate_rad_s{};
@@ -118,7 +118,7 @@ void integrate_gyro(std::span<const TimedPayload> payloads, ClipTelemetry& out) 
       for (std::size_t column = 0; column < 3; ++column) {
         const double value = gyro->values[3 * i + column];
         const Axis& axis = (*axes)[column];
-        if (std::abs(value) < kMostSpeed_rad_s) rate_rad_s[axis.place] = axis.sign * value;  // not for NaN
+        if (std::abs(value) < kMostSpeed_rad_s) rate_rad_s[axis.place] = axis.sign * value;  // false for NaN
       }
       out.attitude.push_back({t_s, attitude});
       out.attitude_from = "gyro";

@@ -9,9 +9,9 @@ namespace drivers {
 
 namespace {
 
-constexpr double kFinestTick_s = 1e-3;  // a coarser clock does not say when a frame was
+constexpr double kFinestTick_s = 1e-3;  // a coarser clock does not determine frame times
 
-// One block a frame: by the numbers of the frames, or by cues that are shorter than a quarter of a second.
+// One block per frame: by frame numbers, or by cues shorter than a quarter of a second.
 bool is_per_frame(const SrtFile& file) {
   if (file.blocks.size() < 2) return false;
   const auto n_numbered = std::count_if(file.blocks.begin(), file.blocks.end(), [](const SrtBlock& b) { return b.frame.has_value(); });
@@ -21,7 +21,7 @@ bool is_per_frame(const SrtFile& file) {
   return *last.cue_s - *first.cue_s < 0.25 * static_cast<double>(file.blocks.size() - 1);
 }
 
-// The camera's clock at every block, in nanoseconds from the first. Empty: a block has none, or it runs backward.
+// The camera's clock at every block, in nanoseconds from the first. Empty: a block has no time, or time decreases.
 std::vector<std::int64_t> clock_of(const SrtFile& file) {
   std::vector<std::int64_t> out;
   for (const SrtBlock& block : file.blocks) {
@@ -33,7 +33,8 @@ std::vector<std::int64_t> clock_of(const SrtFile& file) {
   return out;
 }
 
-// Where a block stands in the video: its cue, where cues go on, otherwise the camera's clock, otherwise a second each.
+// Position of a block in the video: its cue, if cues increase, otherwise the camera's clock, otherwise one second per
+// block.
 double place_s(const SrtFile& file, std::size_t i) {
   const SrtBlock &block = file.blocks[i], &first = file.blocks.front(), &last = file.blocks.back();
   if (block.cue_s && first.cue_s && last.cue_s && *last.cue_s > *first.cue_s) return *block.cue_s - *first.cue_s;

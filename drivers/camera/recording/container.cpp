@@ -16,8 +16,8 @@ namespace drivers {
 
 namespace {
 
-// Names of libavformat's demuxers. Not among them: play lists, descriptions of sessions and scripts (hls, concat, dash,
-// sdp, lavfi), which open what they name, and tty, which draws any text file as if on a terminal.
+// Names of libavformat's demuxers. Excluded: play lists, session descriptions and scripts (hls, concat, dash, sdp,
+// lavfi), which open other files, and tty, which renders any text file as on a terminal.
 constexpr const char* kFormats =
     "mov,matroska,avi,mpegts,mpeg,mpegvideo,h264,hevc,m4v,h263,av1,obu,ivf,vc1,vc1test,mjpeg,mjpeg_2000,flv,live_flv,"
     "asf,ogg,mxf,gxf,dv,nut,yuv4mpegpipe,rm,gif,apng,png_pipe,jpeg_pipe,dirac,cavsvideo,swf,wtv,mpjpeg,film_cpk,nsv,"
@@ -29,9 +29,9 @@ AvHandle<AVFormatContext> open_format(const std::string& path) {
   AVDictionary* options = nullptr;
   av_dict_set(&options, "format_whitelist", kFormats, 0);
   av_dict_set(&options, "protocol_whitelist", "file", 0);
-  // "file:" and absolute: a name such as "concat:a" must not be taken for a protocol.
+  // "file:" and absolute: a name such as "concat:a" must not be interpreted as a protocol.
   const std::string url = "file:" + std::filesystem::absolute(path).string();
-  const int status = avformat_open_input(&context, url.c_str(), nullptr, &options);  // frees the context where it fails
+  const int status = avformat_open_input(&context, url.c_str(), nullptr, &options);  // frees the context on failure
   av_dict_free(&options);
   AvHandle<AVFormatContext> format(status < 0 ? nullptr : context);
   if (!format || avformat_find_stream_info(format.get(), nullptr) < 0) {
@@ -94,7 +94,7 @@ void Container::discard_others() noexcept {
   }
 }
 
-// A JPEG stream of one picture is a cover, however it is marked, unless there is nothing else.
+// A JPEG stream of one picture is a cover, whatever its flags, unless there is no other stream.
 bool Container::may_be_the_film(const AVStream& stream) const noexcept {
   return stream.codecpar->codec_type == AVMEDIA_TYPE_VIDEO && !is_picture_beside(stream);
 }

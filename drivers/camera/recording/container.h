@@ -8,17 +8,17 @@
 
 namespace drivers {
 
-// An opened video file and the one stream of it that is read; all other streams (sound, GPMF, timecode, covers) are
-// passed over without a limit on how many packets of theirs lie in between. One thread. Only self-contained formats are
-// opened: a play list that names other files or addresses is no video here.
+// An open video file and the one stream of it that is read; all other streams (sound, GPMF, timecode, covers) are
+// skipped, whatever the number of their packets in between. One thread. Only self-contained formats are opened: a play
+// list that names other files or addresses is not accepted as a video.
 class Container {
  public:
   // Throws std::runtime_error: what was found in `path` and what to do.
   explicit Container(const std::string& path);
-  // The stream of data with this tag instead of the video, e.g. "gpmd". has_stream() is false where there is none.
+  // Selects the data stream with this tag instead of the video, e.g. "gpmd". has_stream() is false if there is none.
   Container(const std::string& path, const char* data_tag);
 
-  // The next packet of the stream, as stored. False at the end of the file; a read error ends it too (read_error).
+  // The next packet of the stream, as stored. False at the end of the file; a read error also ends it (read_error).
   [[nodiscard]] bool next(AVPacket& packet) noexcept;
   [[nodiscard]] int read_error() const noexcept { return read_error_; }
 
@@ -27,8 +27,8 @@ class Container {
   [[nodiscard]] const AVStream& stream() const noexcept { return *stream_; }
   [[nodiscard]] const AVCodec& decoder() const noexcept { return *decoder_; }
   [[nodiscard]] std::string codec_name() const;
-  [[nodiscard]] int clockwise_turn_deg() const noexcept;         // 0, 90, 180, 270, as a player turns the picture
-  [[nodiscard]] std::uint64_t promised_frames() const noexcept;  // 0 = it does not say
+  [[nodiscard]] int clockwise_turn_deg() const noexcept;         // 0, 90, 180, 270, as a player rotates the picture
+  [[nodiscard]] std::uint64_t promised_frames() const noexcept;  // 0 = not stated
   // Frame rates as the container states them, the most trusted first; empty: it states none.
   [[nodiscard]] std::vector<double> stated_rates_hz() const;
   [[nodiscard]] double tick_s() const noexcept { return av_q2d(stream_->time_base); }

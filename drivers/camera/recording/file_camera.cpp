@@ -17,13 +17,13 @@ namespace drivers {
 
 namespace {
 
-constexpr std::size_t kQueueSlots = 4;   // evens out key frames, which take several times as long to decode
+constexpr std::size_t kQueueSlots = 4;   // evens out the decoding time of key frames, which is several times as long
 constexpr double kExpectedShare = 0.98;  // containers round their frame count; a larger loss is reported
 
 std::uintmax_t size_of(const std::string& path) {
   std::error_code error;
   const std::uintmax_t n_bytes = std::filesystem::file_size(path, error);
-  return error ? 0 : n_bytes;  // a folder of images has none
+  return error ? 0 : n_bytes;  // not defined for a folder of images
 }
 
 std::int64_t usual_exposure_ns(const ClipTelemetry& telemetry) {
@@ -69,7 +69,7 @@ FileCamera::~FileCamera() { stop(); }
 
 void FileCamera::start() {
   if (decoder_.joinable()) throw std::runtime_error(fmt::format("{}: started twice without a stop", path_));
-  if (source_ == nullptr) {  // given back by stop(): from the beginning
+  if (source_ == nullptr) {  // closed by stop(): start from the beginning
     source_ = open_frame_source(path_);
     if (source_->info().width_px != info_.width_px || source_->info().height_px != info_.height_px)
       throw std::runtime_error(fmt::format("{}: has another image size than before", path_));
@@ -115,7 +115,7 @@ void FileCamera::decode_all() {
       if (slot == nullptr) return;
       repeats.exchange(*slot);
     }
-    if (ready.current) publish(*slot);  // else it is claimed again
+    if (ready.current) publish(*slot);  // otherwise the slot is claimed again
   }
 }
 
@@ -192,7 +192,7 @@ void FileCamera::stop() noexcept {
   const std::lock_guard lock(stop_mutex_);
   if (!decoder_.joinable()) return;
   decoder_.join();
-  source_.reset();  // gives the file back
+  source_.reset();  // closes the file
 }
 
 std::string FileCamera::fault() const { return queue_->end_text(); }

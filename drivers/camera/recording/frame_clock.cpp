@@ -18,7 +18,7 @@ namespace {
 constexpr double kContradicts = 0.02;  // of the rate
 constexpr const char* kDeclared = "camera.rate_hz";
 
-std::int64_t nanoseconds(double t_s) noexcept { return std::llround(std::min(t_s * 1e9, 9.2e18)); }  // int64's end
+std::int64_t nanoseconds(double t_s) noexcept { return std::llround(std::min(t_s * 1e9, 9.2e18)); }  // limit of int64
 
 }  // namespace
 
@@ -27,7 +27,7 @@ FrameClock::Place FrameClock::place(std::uint64_t index) const noexcept {
   if (!cells_.empty()) cell = index < cells_.size() ? cells_[index] : cells_.back() + (index - cells_.size() + 1);
   const bool repeats = cadence_ && cadence_->repeats(cell);
   if (cadence_) cell = cadence_->picture(cell);
-  // Not by adding up: a sum of rounded periods would drift.
+  // Not accumulated: a sum of rounded periods would drift.
   if (index >= t_ns_.size()) return {cell, nanoseconds(static_cast<double>(cell) / times_.rate_hz), repeats};
   return {cell, t_ns_[index], repeats};
 }
@@ -52,7 +52,8 @@ class ClockMaker {
  private:
   void take_stamps(const FrameSource& source) {
     std::vector<std::int64_t> stamps_ns = read_timestamp_file(clock_.stamp_file_);
-    // The container's count is a promise (truncated files, edit lists): before refusing, see whether frames are there.
+    // The container's count may be wrong (truncated files, edit lists): before refusing, check whether the frames
+    // exist.
     if (stamps_ns.size() < info_.frame_count && source.has_more_frames_than(stamps_ns.size())) {
       throw std::runtime_error(
           fmt::format("{}: {} time stamps for {} frames of {}: write one line per frame, or remove the file to use {}",
@@ -86,7 +87,7 @@ class ClockMaker {
     clock_.t_ns_ = std::move(stamps_ns);
   }
 
-  // False: there are none for every frame, or they cannot be those of the frames; a remark says why.
+  // False: not every frame has such a time, or the times do not fit the frames; a remark states why.
   bool take_telemetry_times() {
     if (telemetry_.times_ns.size() < 2) return false;
     const std::uint64_t n_frames = info_.frame_count, n_times = telemetry_.times_ns.size();
@@ -104,7 +105,7 @@ class ClockMaker {
       remark(fmt::format("the container states {:.6g} Hz, {} {:.6g} Hz, which is used", container_hz,
                                          telemetry_.from, fit.rate_hz));
     }
-    // A sensor is paced by a crystal: small scatter is that of writing the times down.
+    // A sensor is clocked by a crystal: small scatter is attributed to the writing of the stamps.
     constexpr double kScatter = 0.05;  // of a period
     if (fit.jitter_s <= kScatter * fit.period_s) return true;
     for (const std::int64_t t_ns : telemetry_.times_ns) {
@@ -115,7 +116,7 @@ class ClockMaker {
   }
 
   [[nodiscard]] std::string unusable(const TimeFit& fit, std::uint64_t n_frames, std::uint64_t n_times) const {
-    constexpr double kTooScattered = 0.2;  // of a period: neighbours could change places
+    constexpr double kTooScattered = 0.2;  // of a period: the order of neighbours would be uncertain
     if (n_times + 1 < n_frames || n_times > n_frames + 1)
       return fmt::format("they are {} for {} frames", n_times, n_frames);
     if (!is_usable_rate(fit.rate_hz)) return "they give no rate";
@@ -128,7 +129,7 @@ class ClockMaker {
     return {};
   }
 
-  // False: they say nothing.
+  // False: the container's times are unusable.
   bool take_container_times() {
     const PacketScan& scan = *info_.scan;
     if (scan.backward_at_s >= 0.0) {
@@ -149,8 +150,8 @@ class ClockMaker {
     clock_.times_.rate_hz = fit.rate_hz;
     if (clock_.times_.from == kDeclared) clock_.times_.rate_hz = declared_hz_;
     convert_back(fit);
-    if (fit.is_even) return true;  // cell / rate, free of the rounding of the container's ticks
-    // The first frame's own jitter would shift the whole grid against the others: it is put on its cell.
+    if (fit.is_even) return true;  // cell / rate, without the rounding of the container's ticks
+    // The jitter of the first frame would shift the whole grid relative to the others: that frame is put on its cell.
     for (const std::int64_t t_ns : scan.times_ns) {
       const double t_s = clock_.t_ns_.empty() ? 0.0 : static_cast<double>(t_ns) * 1e-9 - fit.phase_s;
       clock_.t_ns_.push_back(nanoseconds(std::max(0.0, t_s * scale)));
@@ -158,7 +159,7 @@ class ClockMaker {
     return true;
   }
 
-  // What the container's times are multiplied by.
+  // Factor for the container's times.
   [[nodiscard]] double scale_to_declared(const TimeFit& fit) {
     if (declared_hz_ == 0.0) return 1.0;
     if (!fit.is_even && !contradicts(fit.rate_hz)) {
@@ -181,8 +182,8 @@ class ClockMaker {
     return fit.rate_hz / declared_hz_;
   }
 
-  // A rate conversion undone: the frames that repeat are left out, the others are put where they were filmed. The
-  // declared rate may be that of the file or that of the recording before.
+  // Undoes a rate conversion: repeated frames are left out, the others get the times at which they were filmed. The
+  // declared rate may be that of the file or that of the original recording.
   void convert_back(const TimeFit& fit) {
     constexpr std::size_t kLookedAt = 180;
     const std::size_t n = std::min(fit.cells.size(), kLookedAt);

@@ -12,18 +12,18 @@
 
 namespace drivers {
 
-// Where in time the frames of a recording lie, and on which uniform grid. Times come from, in this order: the file of
-// time stamps beside it, the camera's telemetry where it states a time for every frame, the container's presentation
-// times, the number of the frame / rate. See make_frame_clock.
+// Times of a recording's frames and the uniform grid on which they lie. Sources of times, in this order: the file of
+// time stamps beside it, the camera's telemetry if it states a time for every frame, the container's presentation
+// times, frame number / rate. See make_frame_clock.
 class FrameClock {
  public:
   struct Place {
     std::uint64_t cell = 0;  // of the grid: jumps where frames are missing; two frames may share one
     std::int64_t t_ns = 0;   // start of exposure, stream time
-    bool repeats = false;    // the cadence of a rate conversion says: the picture before it once more
+    bool repeats = false;    // by the cadence of a rate conversion: the same picture as before
   };
 
-  [[nodiscard]] Place place(std::uint64_t index) const noexcept;  // of a frame by its place in the file
+  [[nodiscard]] Place place(std::uint64_t index) const noexcept;  // of a frame, by its position in the file
   [[nodiscard]] double rate_hz() const noexcept { return times_.rate_hz; }
   [[nodiscard]] const core::RecordingTimes& times() const noexcept { return times_; }
   [[nodiscard]] const std::string& stamp_file() const noexcept { return stamp_file_; }  // empty: none
@@ -40,13 +40,15 @@ class FrameClock {
   std::optional<Cadence> cadence_;
 };
 
-// rate_hz: as the user declares it, 0 = not. The declared rate
-// - with a file of stamps: is that of the grid, the stamps stay as they are;
-// - with evenly spaced container times: wins over them, they are scaled (slow motion, containers of high-speed
-// cameras);
-// - with uneven ones: is remarked on where it differs from theirs by more than 2 %, and wins; else they do.
-// Times of telemetry are used where no rate is declared, or one that agrees with them.
-// Throws std::runtime_error naming file, finding and remedy: no rate, an absurd one, a rate that changes in mid-stream.
+// rate_hz: as declared by the user, 0 = not declared. The declared rate
+// - with a file of stamps: is that of the grid; the stamps are not changed;
+// - with evenly spaced container times: takes precedence, and the times are scaled (slow motion, containers of
+// high-speed cameras);
+// - with uneven container times: takes precedence, with a remark, if it differs from theirs by more than 2 %; else it
+// is not used.
+// Times of telemetry are used if no rate is declared, or one that agrees with them.
+// Throws std::runtime_error naming file, finding and remedy: no rate, an implausible one, a rate that changes during
+// the recording.
 [[nodiscard]] FrameClock make_frame_clock(const std::string& path, const FrameSource& source, double rate_hz,
                                           const ClipTelemetry& telemetry = {});
 

@@ -12,8 +12,8 @@
 
 namespace drivers {
 
-// The few frames between a decoding thread and `Camera::capture`. Slots are built once. A mutex is right here: both
-// sides mean to wait for each other (a file is lossless), and neither does under the lock what costs time.
+// Buffer of a few frames between a decoding thread and `Camera::capture`. Slots are built once. It uses a mutex,
+// because both sides are meant to wait for each other (a file is lossless), and neither does long work under the lock.
 class FrameQueue {
  public:
   using Deadline = std::chrono::steady_clock::time_point;
@@ -25,20 +25,20 @@ class FrameQueue {
   void publish();
   void finish(CaptureStatus last_status, std::string text);  // no more frames; those published are still delivered
 
-  // Capturing thread. nullptr: `status` says why (timeout, or how the stream ended).
+  // Capturing thread. nullptr: `status` contains the reason (timeout, or how the stream ended).
   [[nodiscard]] const core::Frame* front(Deadline deadline, CaptureStatus& status);
   void pop();
 
-  // Any thread: waiting frames are dropped, both sides wake. An end that was already reached keeps its status.
+  // Any thread: waiting frames are dropped, both sides wake. A status of an end already reached is kept.
   void close(CaptureStatus last_status, std::string text);
 
-  // How the stream ended, for the log; empty until its end was reached by the capturing thread.
+  // How the stream ended, for the log; empty until the capturing thread has reached the end.
   [[nodiscard]] std::string end_text() const;
 
  private:
   [[nodiscard]] bool at_end() const noexcept { return closed_ || (finished_ && n_filled_ == 0); }
 
-  mutable std::mutex mutex_;  // guards all below except the contents of a slot that one side holds
+  mutable std::mutex mutex_;  // guards all members below except the contents of a slot that one side holds
   std::condition_variable changed_;
   std::vector<core::Frame> slots_;
   std::size_t oldest_ = 0;

@@ -49,7 +49,7 @@ std::size_t size_of(char type) noexcept {
     case 'd':
       return 8;
     default:
-      return 0;  // no number
+      return 0;  // not a number
   }
 }
 
@@ -165,7 +165,7 @@ class Walker {
     for (const char* key : kBeside) {
       if (item.key == key) return;
     }
-    found.key = item.key;  // the last one of a stream is its data
+    found.key = item.key;  // the last element of a stream contains its data
     found.n_columns = item.row_bytes / size_of(item.type);
     found.values = values;
     for (std::size_t i = 0; i < found.values.size(); ++i) {

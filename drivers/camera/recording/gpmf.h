@@ -16,8 +16,8 @@ struct GpmfStream {
   std::size_t n_columns = 1;
   std::vector<double> values;   // scaled; rows after one another
   std::optional<double> first_s;          // STMP: the camera's clock at the first row
-  std::optional<std::uint64_t> n_so_far;  // TSMP: rows up to the end of this payload, since the camera started to record
-  std::string orientation_in, orientation_out;  // ORIN, ORIO: axes of the columns, and those meant
+  std::optional<std::uint64_t> n_so_far;  // TSMP: rows up to the end of this payload, since recording started
+  std::string orientation_in, orientation_out;  // ORIN, ORIO: axes of the columns, and the axes to be used
   [[nodiscard]] std::size_t n_rows() const noexcept { return values.size() / n_columns; }
 };
 
@@ -26,8 +26,8 @@ struct GpmfPayload {
   std::vector<GpmfStream> streams;
 };
 
-// Any bytes. Streams whose values are text, compressed or of mixed types have no values and are left out. Throws
-// std::runtime_error "byte N: what" where lengths do not fit, or nothing is there.
+// Accepts any bytes. Streams whose values are text, compressed or of mixed types have no values and are left out.
+// Throws std::runtime_error "byte N: what" if lengths are inconsistent, or there is no content.
 [[nodiscard]] GpmfPayload parse_gpmf(std::span<const std::uint8_t> bytes);
 
 }  // namespace drivers

@@ -52,7 +52,7 @@ GrayStatus convert_to_gray(const cv::Mat& image, core::Frame& out) noexcept {
     return GrayStatus::kOk;
   }
   try {
-    // A destination of the right size and type is written in place: cvtColor allocates nothing for it.
+    // A destination of the right size and type is written in place: cvtColor does not allocate.
     cv::Mat gray(image.rows, image.cols, CV_8UC1, out.pixels.data());
     cv::cvtColor(image, gray, n_channels == 3 ? cv::COLOR_BGR2GRAY : cv::COLOR_BGRA2GRAY);
     return gray.data == out.pixels.data() ? GrayStatus::kOk : GrayStatus::kConversionFailed;

@@ -22,7 +22,7 @@ namespace {
 
 bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
 
-// The run of digits at `at`, without leading zeros; moves `at` behind it.
+// The run of digits at `at`, without leading zeros; moves `at` past it.
 std::string_view take_number(const std::string& text, std::size_t& at) noexcept {
   while (at < text.size() && text[at] == '0') ++at;
   const std::size_t begin = at;
@@ -46,7 +46,7 @@ std::vector<fs::path> list_images(const std::string& folder) {
   return files;
 }
 
-// Empty, or why the image cannot be used. IMREAD_UNCHANGED shows depth and alpha as they are stored.
+// Returns why the image cannot be used, or empty. IMREAD_UNCHANGED keeps depth and alpha as stored.
 std::string load(const fs::path& file, cv::Mat& image) {
   image = read_image(file.string(), cv::IMREAD_UNCHANGED);
   if (image.empty()) return "cannot be decoded: the file is damaged, unreadable or not an image";
@@ -156,7 +156,7 @@ bool natural_less(const std::string& a, const std::string& b) noexcept {
     }
   }
   if (a.size() - i != b.size() - j) return a.size() - i < b.size() - j;
-  return a < b;  // equal but for leading zeros: any fixed order
+  return a < b;  // equal except for leading zeros: any fixed order
 }
 
 std::unique_ptr<FrameSource> open_image_folder(const std::string& path) {

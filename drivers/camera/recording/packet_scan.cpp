@@ -11,14 +11,14 @@ namespace {
 
 constexpr std::size_t kMostPackets = std::size_t{1} << 22;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
-constexpr double kWithTimes = 0.99;  // fewer packets with a time than this share: the format carries none
+constexpr double kWithTimes = 0.99;  // if fewer packets than this share have a time, the format carries none
 constexpr double kBackward_s = 1.0;
-constexpr std::int64_t kMostTicks = std::int64_t{1} << 60;  // beyond, a difference could overflow
+constexpr std::int64_t kMostTicks = std::int64_t{1} << 60;  // larger values: a difference could overflow
 constexpr double kMostSpan_s = 1e9;
 
-// VP8 sends pictures that are never shown, for others to be predicted from.
+// VP8 contains pictures that are never shown, only used for prediction.
 bool is_shown(const Container& container, const AVPacket& packet) noexcept {
-  if ((packet.flags & AV_PKT_FLAG_DISCARD) != 0) return false;  // cut away by an edit list
+  if ((packet.flags & AV_PKT_FLAG_DISCARD) != 0) return false;  // removed by an edit list
   return container.stream().codecpar->codec_id != AV_CODEC_ID_VP8 || (packet.data[0] & 0x10) != 0;
 }
 

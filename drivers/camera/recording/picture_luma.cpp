@@ -14,7 +14,7 @@ namespace drivers {
 
 namespace {
 
-constexpr int kMostBits = 12;  // sixteen often hold twelve unscaled, and come out black
+constexpr int kMostBits = 12;  // 16-bit formats often hold 12 bits unscaled, and would come out black
 
 bool is_full_range(const AVFrame& frame) noexcept {
   const std::string_view name = av_get_pix_fmt_name(static_cast<AVPixelFormat>(frame.format));
@@ -28,7 +28,7 @@ std::uint8_t stretched(std::uint8_t value) noexcept {
   return static_cast<std::uint8_t>(std::min<int>(above + more, 255));
 }
 
-std::uint8_t gray_of(int red, int green, int blue) noexcept {  // as OpenCV rounds it
+std::uint8_t gray_of(int red, int green, int blue) noexcept {  // rounded as in OpenCV
   return static_cast<std::uint8_t>((red * 9798 + green * 19235 + blue * 3735 + (1 << 14)) >> 15);
 }
 
@@ -74,7 +74,7 @@ PictureLuma::PictureLuma(const AVFrame& first)
   }
 }
 
-// Over every value that can be stored, so that no picture can lead outside.
+// Covers every value that can be stored, so that no picture can index outside the table.
 void PictureLuma::make_table(int depth, int shift) {
   table_.resize(depth > 8 ? 65536 : 256);
   const int most = (1 << depth) - 1;

@@ -9,12 +9,12 @@
 
 namespace drivers {
 
-// Decoded picture -> 8-bit gray, width x height, row-major, no padding, in one pass. The luma plane is taken as it is:
-// full range copied, video range (16 .. 235) stretched to 0 .. 255 and cut off there, 9 to 12 bits by their upper
-// eight; RGB by 0.299 R + 0.587 G + 0.114 B. Built for one pixel format and range; one thread.
+// Decoded picture -> 8-bit gray, width x height, row-major, no padding, in one pass. The luma plane is used directly:
+// full range copied, video range (16 .. 235) stretched to 0 .. 255 and clipped, of 9 to 12 bits the upper eight;
+// RGB by 0.299 R + 0.587 G + 0.114 B. Built for one pixel format and range; one thread.
 class PictureLuma {
  public:
-  // Empty, or why pictures of this format are refused, e.g. "an alpha channel".
+  // Returns why pictures of this format are refused, e.g. "an alpha channel"; empty: they are not.
   [[nodiscard]] static std::string unwanted(AVPixelFormat format);
 
   explicit PictureLuma(const AVFrame& first);
@@ -22,7 +22,7 @@ class PictureLuma {
   void read(const AVFrame& frame, std::uint8_t* gray) noexcept;
 
  private:
-  // Where component c of pixel x stands in a row of plane `plane`: x * step + offset.
+  // Position of component c of pixel x in a row of plane `plane`: x * step + offset.
   struct Component {
     int plane = 0, step = 1, offset = 0;
   };
@@ -35,7 +35,7 @@ class PictureLuma {
   bool big_endian_ = false;
   Way way_ = Way::kCopy;
   std::array<Component, 3> components_{};  // luma, or red, green, blue
-  std::vector<std::uint8_t> table_;        // by stored value
+  std::vector<std::uint8_t> table_;        // indexed by the stored value
 };
 
 }  // namespace drivers

@@ -11,11 +11,11 @@ namespace drivers {
 namespace {
 
 constexpr std::size_t kEveryRow = 8;
-constexpr std::size_t kKept = 4;  // frames: a suspect, two before it, one after
+constexpr std::size_t kKept = 4;  // frames: a suspected repeat, two before it, one after
 constexpr std::size_t kRemembered = 63, kFewest = 8;
-constexpr double kOfLeast = 0.4;  // of the least change among the last frames
+constexpr double kOfLeast = 0.4;  // of the smallest change among the last frames
 constexpr double kNoise = 0.05;   // gray levels
-constexpr double kAround = 0.7;   // of the median change: noise alone makes any two frames differ about so much
+constexpr double kAround = 0.7;   // of the median change: noise alone makes any two frames differ by about this share
 // Around the turning point of a smooth motion the outer frames differ three times as much as the inner two.
 constexpr double kOfTurning = 4.0;
 
@@ -32,7 +32,7 @@ void take_rows(const core::Frame& frame, std::vector<std::uint8_t>& rows) {
 
 void FrameChange::push(const core::Frame& frame) {
   std::vector<std::uint8_t> rows;
-  if (rows_.size() == kKept) {  // the oldest one's memory is used again
+  if (rows_.size() == kKept) {  // memory of the oldest frame is reused
     rows = std::move(rows_.back());
     rows_.pop_back();
   }

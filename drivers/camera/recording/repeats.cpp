@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kProbeFrames = 180;
 constexpr int kLongestCadence = 30;
-constexpr double kOfOthers = 0.25;  // repeats change by less than this share of what others do
+constexpr double kOfOthers = 0.25;  // repeats change by less than this share of the change of other frames
 
 double quantile(std::vector<double>& values, double share) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -25,10 +25,10 @@ double quantile(std::vector<double>& values, double share) {
   return *at;
 }
 
-// Whether the frames that `cadence` calls repeats are those that hardly change. On measured clips converted from 25 to
-// 30 fps and encoded at quality 12 to 23 repeats change by 0.01 to 0.1 of what others do; noise keeps others above
-// 0.15.
-// around[k]: from frame k - 2 to frame k + 1. It is small, too, where a noiseless motion turns back between k - 1 and
+// Whether the frames that `cadence` marks as repeats are those that hardly change. On measured clips converted from 25
+// to 30 fps and encoded at quality 12 to 23, repeats change by 0.01 to 0.1 of the change of others; noise keeps others
+// above 0.15.
+// around[k]: from frame k - 2 to frame k + 1. It is also small where noiseless motion reverses between k - 1 and
 // k.
 bool explains(const Cadence& cadence, std::span<const double> changes, std::span<const double> around) {
   constexpr std::size_t kFewestRepeats = 4;
@@ -47,7 +47,7 @@ bool explains(const Cadence& cadence, std::span<const double> changes, std::span
   return static_cast<double>(n_below) <= kAmongOthers * static_cast<double>(others.size());
 }
 
-// A repeated picture costs few bytes where frames are predicted, and exactly as many as before where they are not.
+// A repeated picture needs few bytes where frames are predicted, and exactly as many as before where they are not.
 bool sizes_hint_at_repeats(const std::vector<std::uint32_t>& bytes) {
   constexpr std::size_t kFewest = 4;
   std::size_t n_small = 0, n_same = 0;
@@ -61,10 +61,10 @@ bool sizes_hint_at_repeats(const std::vector<std::uint32_t>& bytes) {
   return n_small >= kFewest || n_same >= kFewest;
 }
 
-// Two of the longest cadences: in so many frames each of them shows two repeats, and differs from any other.
+// Two periods of the longest cadence: in so many frames each cadence has two repeats, and differs from any other.
 constexpr std::size_t kEnoughFrames = 2 * static_cast<std::size_t>(kLongestCadence) + 1;
 
-// Whether no frame changes by so little that it could be a repeat. Up to two thirds of all may be repeats.
+// Whether no frame changes so little that it could be a repeat. Up to two thirds of all may be repeats.
 bool has_no_repeat(std::vector<double> changes) {
   const double least = *std::min_element(changes.begin() + 1, changes.end());
   return !(least < kOfOthers * quantile(changes, 0.9));
@@ -102,7 +102,7 @@ std::optional<Cadence> find_cadence(const std::string& path, const PacketScan& s
   while (changes.size() < kProbeFrames) {
     const DecodeStatus status = decoder.next();
     if (status == DecodeStatus::kEnd) break;
-    if (status == DecodeStatus::kDamaged) return {};  // places could not be told
+    if (status == DecodeStatus::kDamaged) return {};  // frame positions are then uncertain
     const AVFrame& picture = decoder.picture();
     if (!luma) luma.emplace(picture);
     if (!luma->fits(picture)) break;

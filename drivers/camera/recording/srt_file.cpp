@@ -28,7 +28,7 @@ std::string_view trimmed(std::string_view text) {
                                          : text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
 }
 
-// The number that `text` begins with; it is cut off from there.
+// The number at the beginning of `text`, which is removed from it.
 std::optional<double> take_number(std::string_view& text) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
   double value = 0.0;
@@ -42,7 +42,7 @@ void skip(std::string_view& text, std::string_view any_of) {
   text.remove_prefix(std::min(text.find_first_not_of(any_of), text.size()));
 }
 
-// What follows the word `key` and its colon; empty: the word is not there. A key stands between other characters than
+// The text after the word `key` and its colon; empty: no such word. A key is delimited by characters other than
 // letters and digits.
 std::optional<std::string_view> after_key(std::string_view text, std::string_view key) {
   for (std::size_t at = text.find(key); at != std::string_view::npos; at = text.find(key, at + 1)) {
@@ -66,7 +66,7 @@ std::optional<double> plausible_exposure(double exposure_s) {
   return exposure_s >= kLeast_s && exposure_s <= kMost_s ? std::optional(exposure_s) : std::nullopt;
 }
 
-// "1/80.0" is seconds; a camera that writes "80" or "30.15" means its inverse.
+// "1/80.0" is in seconds; "80" or "30.15" is the inverse.
 std::optional<double> exposure_in(std::string_view text) {
   for (const char* key : {"shutter", "Shutter", "TV", "SS"}) {
     std::optional<std::string_view> rest = after_key(text, key);
@@ -89,7 +89,7 @@ std::optional<std::array<double, 3>> gimbal_in(std::string_view text) {
   if (!rest) return {};
   std::array<double, 3> pry{};
   for (double& angle : pry) {
-    skip(*rest, " ,\xC2\xB0");  // and the sign of degrees
+    skip(*rest, " ,\xC2\xB0");  // and the degree sign
     const std::optional<double> value = take_number(*rest);
     if (!value) return {};
     angle = *value;
@@ -208,7 +208,7 @@ class Parser {
     knows_anything_ = true;
   }
 
-  // A block whose end was cut off in mid-line keeps what was read of it; one with nothing known in it is no telemetry.
+  // A block cut off within a line keeps the values read; a block without any known value is not telemetry.
   void close_block() {
     if (!is_open_) return;
     is_open_ = false;

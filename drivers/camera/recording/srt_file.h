@@ -9,8 +9,8 @@
 
 namespace drivers {
 
-// One block of the subtitles that DJI's cameras write beside a video: of one frame, or of one second. What a camera does
-// not state is empty.
+// One block of the subtitles that DJI's cameras write beside a video, for one frame or one second. Values that a camera
+// does not state are empty.
 struct SrtBlock {
   std::optional<double> cue_s;                       // start of the subtitle in the video
   std::optional<double> clock_s;                     // the camera's own clock, since 1970 as if in UTC
@@ -26,11 +26,11 @@ struct SrtFile {
   double clock_tick_s = 1.0;  // resolution of clock_s: 1, 1e-3 or 1e-6
 };
 
-// Any text of numbered blocks; all known layouts of DJI's (FrameCnt or SrtCnt with [key : value], HOME / GPS / ISO lines,
-// F/2.8, SS 160, ISO 100 ... lines). Throws std::runtime_error "NAME:LINE: what": no block at all, a block without any
-// value that is known, or more than a million of them.
+// Any text of numbered blocks, in all known layouts of DJI (FrameCnt or SrtCnt with [key : value], HOME / GPS / ISO
+// lines, F/2.8, SS 160, ISO 100 ... lines). Throws std::runtime_error "NAME:LINE: what": no block, a block without any
+// known value, or more than a million blocks.
 [[nodiscard]] SrtFile parse_srt(std::string_view text, const std::string& name);
-[[nodiscard]] SrtFile read_srt(const std::string& path);  // refuses over 512 MB
+[[nodiscard]] SrtFile read_srt(const std::string& path);  // refuses files over 512 MB
 
 // "FLIGHT.SRT" or "FLIGHT.srt" beside "FLIGHT.MP4"; empty: none.
 [[nodiscard]] std::string find_srt(const std::string& video);

@@ -30,7 +30,8 @@ std::vector<double> differences(std::span<const double> t_s) {
   return out;
 }
 
-// Cell after cell, the grid pulled half-way to every time: a period that is some per cent off does not add up.
+// Cell by cell; the grid is moved half-way to every time, so that a period with some per cent error does not
+// accumulate.
 std::vector<double> counted_cells(std::span<const double> t_s, double period_s) {
   constexpr double kPull = 0.5;
   std::vector<double> cells(t_s.size(), 0.0);
@@ -90,9 +91,9 @@ Grid grid_of(std::span<const double> t_s, double period_s) {
   return grid;
 }
 
-// The coarsest grid that the times lie on; where they lie on none, the one they stray least from.
+// The coarsest grid on which the times lie; if there is none, the one with the smallest deviation.
 Grid best_grid(std::span<const double> t_s, double median_s, std::span<const double> stated_hz) {
-  constexpr double kLiesOn = 0.03, kStrays = 0.12;  // rms over the period; the second: about what the median says
+  constexpr double kLiesOn = 0.03, kStrays = 0.12;  // rms over the period; the second: about that of the median
   Grid best = grid_of(t_s, median_s);
   if (best.relative_rms() < kStrays) return best;
   std::vector<double> finer{median_s / 2.0, median_s / 3.0};
@@ -108,7 +109,7 @@ Grid best_grid(std::span<const double> t_s, double median_s, std::span<const dou
   return best;
 }
 
-// Rates of blocks of frames, each fitted by itself. A block of every second frame agrees.
+// Rates of blocks of frames, each fitted separately. A block in which every second frame is missing agrees.
 std::optional<RateChange> change_of_rate(std::span<const double> t_s) {
   constexpr std::size_t kBlocks = 8, kFewest = 16, kMost = 128;
   constexpr double kDiffers = 0.005, kSigmas = 6.0;
@@ -144,7 +145,7 @@ std::optional<RateChange> change_of_rate(std::span<const double> t_s) {
   return RateChange{1.0 / blocks.front().period_s, 1.0 / blocks.back().period_s, t_s[edge * length]};
 }
 
-// The stated rate that agrees within `resolution`, else the grid's own.
+// The stated rate that agrees within `resolution`, otherwise the grid's own.
 double agreed_rate_hz(std::span<const double> stated_hz, double resolution, const Grid& grid) {
   double nearest = resolution;
   double agreed_hz = 1.0 / grid.period_s;
@@ -176,7 +177,7 @@ TimeFit fit_times(std::span<const std::int64_t> times_ns, double tick_s, std::sp
   if (!(median_s > 0.0)) return out;
   out.change = change_of_rate(t_s);
   Grid grid = best_grid(t_s, median_s, stated_hz);
-  constexpr double kClock = 20e-6;  // what a camera's crystal is off by
+  constexpr double kClock = 20e-6;  // relative error of a camera's crystal
   out.rate_hz = agreed_rate_hz(stated_hz, std::max(kClock, 1.5 * tick_s / t_s.back()), grid);
   out.period_s = 1.0 / out.rate_hz;
   out.phase_s = grid.phase_s + grid.period_s * grid.cells.front();

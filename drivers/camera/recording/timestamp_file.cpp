@@ -24,7 +24,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
 }
 
-// Part of a line as shown in a message: short, and printable whatever the file holds.
+// Part of a line for a message: short, and printable whatever the file contains.
 std::string shown(std::string_view text) {
   std::string out(text.substr(0, 60));
   for (char& c : out) {

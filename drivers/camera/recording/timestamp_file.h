@@ -14,8 +14,8 @@ namespace drivers {
 // std::runtime_error naming file, line, value and remedy.
 [[nodiscard]] std::vector<std::int64_t> read_timestamp_file(const std::string& path);
 
-// Where the times of `source` stand, if anywhere: <video without extension>.timestamps.csv, for a folder
-// <folder>/timestamps.csv or <folder>.timestamps.csv. Empty: there are none. Throws when there are both.
+// File with the times of `source`: <video without extension>.timestamps.csv, for a folder
+// <folder>/timestamps.csv or <folder>.timestamps.csv. Empty: no such file. Throws when both exist.
 [[nodiscard]] std::string find_timestamp_file(const std::string& source);
 
 // (n - 1) / (last - first), Hz. At least two stamps.

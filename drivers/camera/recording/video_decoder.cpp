@@ -9,8 +9,8 @@ namespace drivers {
 
 namespace {
 
-constexpr int kMostErrorsInARow = 100'000;                   // a decoder that only fails is not asked for ever
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;  // 8192 x 8192: more is a damaged header
+constexpr int kMostErrorsInARow = 100'000;                   // limit for a decoder that only fails
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;  // 8192 x 8192: a larger size means a damaged header
 
 AvHandle<AVCodecContext> open_codec(const std::string& path, const Container& container) {
   AvHandle<AVCodecContext> codec(avcodec_alloc_context3(&container.decoder()));
@@ -45,13 +45,13 @@ DecodeStatus VideoDecoder::next() noexcept {
       return is_partly_invented ? DecodeStatus::kDamaged : DecodeStatus::kPicture;
     }
     if (status == AVERROR_EOF) return DecodeStatus::kEnd;
-    const bool accepted = status == AVERROR(EAGAIN) && feed();  // else: a packet did not decode, here or on a thread
+    const bool accepted = status == AVERROR(EAGAIN) && feed();  // else a packet did not decode, here or in a thread
     if (accepted) continue;
     return ++n_errors_in_a_row_ > kMostErrorsInARow ? DecodeStatus::kEnd : DecodeStatus::kDamaged;
   }
 }
 
-// The decoder asks for input only when it has no picture to give, so that a packet never waits for long.
+// The decoder requests input only when it has no picture to return, so that a packet never waits for long.
 bool VideoDecoder::feed() noexcept {
   if (!packet_waits_ && !draining_) {
     packet_waits_ = container_.next(*packet_);

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Whether one of the first packets says so; the container's own name for it may be any codec's.
+// Whether one of the first packets is marked as encrypted; the container may name any codec.
 bool is_encrypted(const std::string& path) {
   constexpr int kFirstPackets = 16;
   Container container(path);
@@ -112,7 +112,7 @@ class VideoSource final : public FrameSource {
         container.other_streams().empty() ? std::string() : ", beside it " + container.other_streams());
   }
 
-  // False: the stream has ended. Damaged ones are counted and passed over.
+  // False: the stream has ended. Damaged pictures are counted and skipped.
   bool next_picture() noexcept {
     for (;;) {
       switch (decoder_.next()) {
@@ -128,7 +128,7 @@ class VideoSource final : public FrameSource {
     }
   }
 
-  // Where in the order of the file the picture stands. What lies between it and the one before did not decode.
+  // Position of the picture in the order of the file. Frames between it and the previous one did not decode.
   void note_index() noexcept {
     const AVFrame& picture = decoder_.picture();
     const std::vector<std::int64_t>& ticks = info_.scan->ticks;
@@ -157,11 +157,11 @@ class VideoSource final : public FrameSource {
       trouble_.n_damaged += std::exchange(n_bad_packets_, 0);
     } else if (n_frames > next) {
       trouble_.n_damaged += n_frames - next;
-      index_ = n_frames - 1;  // at the end again: counted once
+      index_ = n_frames - 1;  // at the end again: already counted
     }
   }
 
-  // Empty, or in which way the picture is another than those before.
+  // How the picture differs in format from those before; empty: not at all.
   [[nodiscard]] std::string change(const core::Frame& out) const {
     const AVFrame& picture = decoder_.picture();
     if (picture.width != stored_width_px_ || picture.height != stored_height_px_) {
@@ -192,16 +192,16 @@ class VideoSource final : public FrameSource {
   std::string path_;
   VideoDecoder decoder_;
   std::optional<PictureLuma> luma_;
-  cv::Mat stored_;  // as decoded, where the picture is turned
+  cv::Mat stored_;  // picture before rotation
   int stored_width_px_ = 0, stored_height_px_ = 0;
   SourceInfo info_;
   SourceTrouble trouble_;
   std::string error_;
   std::uint64_t n_read_ = 0;
   std::uint64_t index_ = 0;
-  std::uint64_t n_bad_packets_ = 0;  // since the last picture; only where the packets carry no times
-  bool since_damage_ = false;        // and no key frame came
-  bool first_is_waiting_ = false;    // the decoder holds the first picture, decoded to learn the size
+  std::uint64_t n_bad_packets_ = 0;  // since the last picture; only if the packets carry no times
+  bool since_damage_ = false;        // and no key frame has come since
+  bool first_is_waiting_ = false;    // the decoder holds the first picture, decoded to learn its size
 };
 
 }  // namespace

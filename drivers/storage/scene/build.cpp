@@ -41,7 +41,7 @@ core::simulation::Damping damping_of(const SceneStructure& s) {
   return s.modal_damping;
 }
 
-// One ratio for each frequency: the last holds for all above.
+// One ratio per frequency: the last applies to all higher ones.
 std::vector<double> ratios_of(const SceneStructure& s) {
   std::vector<double> ratio = s.modal_damping.ratio;
   if (ratio.empty()) refuse("damping.ratio is empty; give one for each mode, or one for all");
@@ -102,7 +102,7 @@ StructureModel model_of(const SceneStructure& s) {
   return from_given_matrices(s);
 }
 
-// How far body i (1 ..) is from the ground, up or along.
+// Distance of body i (1 ..) from the ground, upward or along the deck.
 double place_of(const SceneFile& file, int body) {
   const SceneStructure& s = file.structure;
   const int n = file.scene.structure.n_bodies();
@@ -125,7 +125,7 @@ void build_structure(SceneFile& file) {
   if (turned) file.scene.structure.axis = file.structure.axis;
 }
 
-// A tower stands on its ground; beside a deck's left end lies its abutment.
+// A tower stands on its ground; a deck has its abutment beside its left end.
 void make_plates(SceneFile& file) {
   const ScenePlates& like = file.plates;
   const int n = file.scene.structure.n_bodies();

@@ -11,7 +11,7 @@ namespace drivers {
 namespace {
 
 std::string beside(const std::string& folder, const std::string& path) {
-  return (std::filesystem::path(folder) / path).lexically_normal().string();  // an absolute path stays as it is
+  return (std::filesystem::path(folder) / path).lexically_normal().string();  // an absolute path is unchanged
 }
 
 }  // namespace

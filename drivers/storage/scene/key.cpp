@@ -25,7 +25,7 @@ Remedy read_number(const YamlNode& node, const SceneRange& range, double& out) {
   return std::nullopt;
 }
 
-// 15 digits where a unit was converted: what was read as 26 is written as 26.
+// 15 digits where a unit was converted, so that a value read as 26 is written as 26.
 Json written(double value, double per_unit) {
   if (per_unit == 1.0 || !std::isfinite(value)) return value;
   return parse_number(fmt::format("{:.15g}", value * per_unit)).value_or(value * per_unit);

@@ -13,18 +13,19 @@
 
 namespace drivers {
 
-// One key of scene files: reading, --print-scene, --help-scene and the `scene` of truth.json all come from it.
+// One key of scene files: the source of reading, --print-scene, --help-scene and the `scene` of truth.json.
 struct SceneKey {
   std::string path;  // "camera.rate_hz"; members of a list are "plates[].name"
   std::string type, unit, allowed;
   std::string meaning;  // one line
-  // Takes the value; `i` is the place in the list, if the key is of one. An answer is a refusal: the remedy.
+  // Stores the value; `i` is the index in the list, if the key belongs to one. A returned text means refusal: the
+  // remedy.
   std::function<std::optional<std::string>(SceneFile&, std::size_t i, const YamlNode&)> set;
   std::function<nlohmann::ordered_json(SceneFile&, std::size_t i)> get;
-  std::function<bool(const SceneFile&)> applies;  // empty = always; else it is written only where it says something
+  std::function<bool(const SceneFile&)> applies;  // empty = always; otherwise written only where it has a meaning
 };
 
-// A list of sections, and how long it is.
+// A list of sections, and its length.
 struct SceneList {
   std::string path;  // "plates"
   std::function<void(SceneFile&, std::size_t n)> resize;
@@ -34,7 +35,7 @@ struct SceneList {
 template <class T>
 using SceneField = std::function<T&(SceneFile&, std::size_t i)>;
 
-// In a file the value is `per_unit` times what the scene holds (1e3: s as ms).
+// In a file the value is `per_unit` times the value in the scene (1e3: s as ms).
 struct SceneRange {
   double low, high;
   double per_unit = 1.0;
@@ -47,7 +48,7 @@ struct SceneRange {
 [[nodiscard]] SceneKey scene_seed(std::string path, SceneField<std::uint64_t> field, std::string meaning);
 [[nodiscard]] SceneKey scene_name(std::string path, SceneField<std::string> field, std::string meaning);
 [[nodiscard]] SceneKey scene_path(std::string path, SceneField<std::string> field, std::string meaning);
-// As many numbers as there are fields; or, if fewer are allowed, from n_min on (the rest 0).
+// One number per field; or, if fewer are allowed, at least n_min (the others 0).
 [[nodiscard]] SceneKey scene_tuple(std::string path, std::string unit, std::vector<SceneField<double>> fields,
                                    std::size_t n_min, SceneRange range, std::string meaning);
 [[nodiscard]] SceneKey scene_numbers(std::string path, std::string unit, SceneField<std::vector<double>> field,
@@ -81,7 +82,7 @@ SceneKey scene_choice(std::string path, SceneField<E> field, std::vector<std::pa
 }
 [[nodiscard]] SceneKey scene_switch(std::string path, SceneField<bool> field, std::string meaning);
 
-// The table, in the order of a file.
+// The table, in the order of the file.
 [[nodiscard]] const std::vector<SceneKey>& scene_keys();
 [[nodiscard]] const std::vector<SceneList>& scene_lists();
 void add_camera_keys(std::vector<SceneKey>& keys);
@@ -95,12 +96,12 @@ void add_record_keys(std::vector<SceneKey>& keys);
 [[nodiscard]] const SceneKey* find_scene_key(const std::string& path);
 [[nodiscard]] const SceneList* find_scene_list(const std::string& path);
 [[nodiscard]] bool is_scene_section(const std::string& path);
-// "did you mean `x`?" for a key that nobody knows.
+// "did you mean `x`?" for an unknown key.
 [[nodiscard]] std::string suggest_scene_key(const std::string& path);
 
 // The preset's scene with the file's seed and duration, and its structure described.
 void start_from_preset(SceneFile& file, const std::string& name);
-// What is computed from the description: matrices, plates where the bodies are, the flight (file names relative to
+// Values computed from the description: matrices, plates at the bodies, the flight (file names relative to
 // `folder`). Throw std::invalid_argument.
 void build_structure(SceneFile& file);
 void make_plates(SceneFile& file);

@@ -1,4 +1,4 @@
-// Effects of real records that no model of core/closure was built from (core/simulation/injected).
+// Effects of real records that are not derived from a model of core/closure (core/simulation/injected).
 #include <numbers>
 
 #include "drivers/storage/scene/key.h"

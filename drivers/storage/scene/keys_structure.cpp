@@ -24,7 +24,7 @@ SceneKey only_for(SceneKey key, std::vector<Type> types) {
   return key;
 }
 
-// The member of a description that stands in the structure: frame.mass_kg.
+// A member of a description within the structure: frame.mass_kg.
 template <auto part, auto member>
 auto& in(SceneFile& file, std::size_t) {
   return file.structure.*part.*member;
@@ -96,7 +96,7 @@ void add_matrix_keys(std::vector<SceneKey>& keys) {
   add_rows("structure.tilt", &S::tilt, "rad", "bodies x coordinates: how far each body turns; [] = not");
 }
 
-// Matrices bring their own damping; a chain and given modes know only the modal kind.
+// Matrices include their damping; a chain and given modes have modal damping only.
 void add_damping_keys(std::vector<SceneKey>& keys) {
   using Kind = S::DampingKind;
   const auto built = [](const SceneFile& file) { return file.structure.type != Type::kMatrices; };

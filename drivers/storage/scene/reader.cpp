@@ -27,7 +27,7 @@ std::string shown(const YamlNode& node) {
   return node.quoted || node.text.empty() ? fmt::format("\"{}\"", printable(node.text)) : printable(node.text);
 }
 
-// A place in the document: as written ("plates.0.name") and as the table has it ("plates[].name").
+// Path of a key: as written ("plates.0.name") and as in the table ("plates[].name").
 struct Place {
   std::string written, table;
   std::size_t i = 0;
@@ -36,7 +36,7 @@ struct Place {
   }
 };
 
-// The section that a refusal of core::simulation::validate speaks of, by words of its messages; the first that fits.
+// The section to which a refusal of core::simulation::validate refers, by words of its message; the first match.
 std::string section_of(const std::string& message) {
   static const std::pair<const char*, const char*> kWords[] = {{"simulation: structure:", "structure"},
                                                                {"edge of the structure", "camera"},
@@ -78,7 +78,7 @@ class Reader {
     take_section(root, {});
     refuse_idle_keys();
     check_plate_names();
-    // What follows is computed from several keys: the message has the section, and the file's name comes before it.
+    // The following values are computed from several keys: the message names the section, preceded by the file's name.
     try {
       build();
       core::simulation::validate(file_.scene);
@@ -136,7 +136,7 @@ class Reader {
       }
       lines_[child.written] = node.key_lines[i];
       if (place.table.empty() && (child.table == "seed" || child.table == "duration_s" || child.table == "preset")) {
-        continue;  // taken first
+        continue;  // already handled
       }
       take(node.items[i], child);
     }
@@ -172,7 +172,7 @@ class Reader {
     }
   }
 
-  // Keys of another type of structure would be ignored: that is seldom meant.
+  // Keys of another type of structure would be ignored, which is rarely intended.
   void refuse_idle_keys() const {
     for (const auto& [path, line] : lines_) {
       const SceneKey* key = find_scene_key(path);

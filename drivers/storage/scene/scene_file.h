@@ -11,7 +11,7 @@
 
 namespace drivers {
 
-// What the operator tells the service of one property of the camera: the truth, nothing, or a wrong value.
+// The operator's declaration of one property of the camera: the truth, nothing, or a wrong value.
 struct Declared {
   enum class Kind : std::uint8_t { kTrue, kNothing, kValue };
   Kind kind = Kind::kTrue;
@@ -28,7 +28,7 @@ struct SceneDeclaration {
   bool lens = true, focal_length = true;  // time stamps: TimingParameters::stamps_tell
 };
 
-// A structure as people describe it. Which values count depends on the type and the kind of damping.
+// A structure as described by the user. Which values apply depends on the type and the kind of damping.
 struct SceneStructure {
   enum class Type : std::uint8_t { kUniformChain, kShearFrame, kCantilever, kBridgeDeck, kModes, kMatrices };
   enum class DampingKind : std::uint8_t { kModal, kRayleigh, kDashpots };
@@ -48,14 +48,14 @@ struct SceneStructure {
   std::vector<double> influence;
 };
 
-// Plates that are made from the structure: one for the ground and one for each body, where the bodies are.
+// Plates made from the structure: one for the ground and one for each body, at their positions.
 struct ScenePlates {
   double width_mm = 300.0, height_mm = 50.0, depth_mm = 2000.0;
-  double spacing_mm = 0.0;  // 0 = as the structure's dimensions say, or 140
+  double spacing_mm = 0.0;  // 0 = from the structure's dimensions, or 140
   core::simulation::TextureParameters texture{0.0, 128.0, 25.0};
 };
 
-// A recorded flight that carries the camera instead of, or beside, the hover model.
+// A recorded flight that moves the camera instead of, or in addition to, the hover model.
 struct SceneFlight {
   std::string file, imu;            // empty = none; relative to the scene file
   double from_s = 0.0, to_s = 0.0;  // of the log: the part that is used
@@ -65,7 +65,7 @@ struct SceneFlight {
   double facing_deg = 0.0, gimbal_residual = 0.02, vibration_from_hz = 0.0;  // core::simulation::FlightUse
 };
 
-// One experiment: the scene, how it was described, and what the operator says of it.
+// One experiment: the scene, its description, and the operator's declarations.
 struct SceneFile {
   core::simulation::Scene scene;
   std::string preset = "paper";
@@ -75,7 +75,7 @@ struct SceneFile {
   SceneDeclaration declare;
 };
 
-// Replace what the file says; from the command line.
+// Values of the command line that replace those of the file.
 struct SceneOverrides {
   std::optional<std::string> preset;
   std::optional<std::uint64_t> seed;
@@ -92,7 +92,7 @@ struct SceneOverrides {
                                     const SceneOverrides& overrides = {}, const std::string& folder = "");
 [[nodiscard]] SceneFile preset_scene(const SceneOverrides& overrides = {});
 
-// The complete scene, as a file that reads back to the same one / as an object of the same keys.
+// The complete scene: as a file that reads back to the same scene / as an object with the same keys.
 [[nodiscard]] std::string scene_text(const SceneFile& file);
 [[nodiscard]] nlohmann::ordered_json scene_json(const SceneFile& file);
 // The value at a key or section of scene_json(): "camera.readout_ms". Null when there is none.

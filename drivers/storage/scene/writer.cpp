@@ -14,7 +14,7 @@ constexpr std::size_t kCommentColumn = 40;
 
 bool applies(const SceneKey& key, const SceneFile& file) { return !key.applies || key.applies(file); }
 
-// "plates[].texture.mean" -> the list it is of ("plates") and the rest; "" = of none.
+// "plates[].texture.mean" -> its list ("plates") and the rest; "" = of no list.
 std::pair<std::string, std::string> split_list(const std::string& path) {
   const std::size_t at = path.find("[].");
   return at == std::string::npos ? std::pair<std::string, std::string>{"", path}
@@ -73,7 +73,7 @@ class TextWriter {
   }
 
  private:
-  // Headings of the sections on the way to the key.
+  // Headings of the sections that contain the key.
   std::size_t open(const std::string& path) {
     std::size_t depth = 0;
     for (std::size_t dot = path.find('.'); dot != std::string::npos; dot = path.find('.', dot + 1), ++depth) {
@@ -96,7 +96,7 @@ class TextWriter {
     write_line(std::string(2 * depth, ' ') + name + ": " + flow(key.get(file_, 0)), comment_of(key));
   }
 
-  // The members' comments first, then one line for each item.
+  // Comments on the members first, then one line per item.
   void write_list_member(const SceneKey& key, const std::string& list, const std::string& member) {
     if (list != list_) {
       finish_list();
@@ -123,7 +123,7 @@ class TextWriter {
   std::vector<Json> items_;
 };
 
-// The value of a key in the paper's scene; members of a list have that of a new item.
+// The value of a key in the paper's scene; for members of a list, that of a new item.
 std::string default_of(const SceneKey& key) {
   SceneFile file = preset_scene();
   const std::string list = split_list(key.path).first;

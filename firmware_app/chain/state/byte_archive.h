@@ -9,9 +9,9 @@
 
 namespace app {
 
-// Plain values and lists of them as bytes of the machine's own order, for files that one machine writes and reads. The
-// same function describes an object to both: `archive.value(x)`, `archive.list(v)`. (core::StateWriter is for the run
-// path: of fixed size.)
+// Plain values and lists of them as bytes in the machine's own order, for files written and read by one machine. One
+// function describes an object to reader and writer: `archive.value(x)`, `archive.list(v)`. (core::StateWriter, of
+// fixed size, is for the run path.)
 
 // Grows as needed.
 class ByteWriter {

@@ -2,7 +2,7 @@
 
 namespace app {
 
-// A channel's facts for a byte archive (byte_archive.h), but whether it is a witness.
+// Fields of a channel for a byte archive (byte_archive.h), except whether it is a witness.
 template <class Archive, class Channel>
 void describe_channel(Archive& archive, Channel& channel) {
   archive.value(channel.region);

@@ -9,14 +9,14 @@ namespace app {
 namespace {
 
 constexpr int kQuality = 85;
-constexpr std::size_t kMostPixels = std::size_t{1} << 28;  // a record says what it likes
+constexpr std::size_t kMostPixels = std::size_t{1} << 28;  // the size stated in a record is not trusted
 
 }  // namespace
 
 std::string keyframe_jpeg(const core::Frame& image) {
   const auto n_pixels = static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px);
   if (n_pixels == 0 || image.pixels.size() < n_pixels) return {};
-  // The header borrows the pixels; they are only read.
+  // cv::Mat borrows the pixels; they are only read.
   const cv::Mat gray(image.height_px, image.width_px, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data()));
   const std::vector<std::uint8_t> bytes = drivers::encode_jpeg(gray, kQuality);
   return {bytes.begin(), bytes.end()};

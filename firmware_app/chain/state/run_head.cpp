@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Beside the files that the configuration names.
+// Keys besides the files that the configuration names.
 constexpr const char *kKeyframeKey = "keyframe", *kStateKey = "state";
 
 std::string make_folder() {
@@ -65,7 +65,7 @@ RecordedConfig::RecordedConfig(const core::RunHead& head, const std::string& nam
       continue;
     }
     if (folder_.empty()) folder_ = make_folder();
-    // The name is only shown, and may hold anything.
+    // The name is only for messages; it may contain any characters.
     const std::string path = folder_ + fmt::format("/{}_{}", i, fs::path(head.files[i].name).filename().string());
     std::ofstream(path, std::ios::binary) << head.files[i].bytes;
     all.push_back(fmt::format("{}={}", head.files[i].key, path));

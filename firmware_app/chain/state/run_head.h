@@ -9,8 +9,8 @@
 
 namespace app {
 
-// Head of the run record; `image`: of the keyframe, for the report's pictures; `resumed`: the state from which the run
-// resumed, null where it starts without one. Throws drivers::FileError: a file that the configuration names cannot be
+// Head of the run record. `image`: of the keyframe, for the report's pictures. `resumed`: the state from which the run
+// resumed; null: it started without one. Throws drivers::FileError: a file that the configuration names cannot be
 // read.
 [[nodiscard]] core::RunHead run_head(const AppConfig& config, const core::CameraInfo& camera,
                                      const core::TrackFrame& keyframe, const core::Frame& image,

@@ -12,12 +12,12 @@ namespace app {
 // Checkpoint written every state.period_s, so that the next run can resume: the sums, the modes followed, and the
 // properties of the view that must agree. Parts may be empty.
 struct RunState {
-  // Must agree, otherwise the checkpoint is foreign.
+  // Must agree; otherwise the checkpoint is foreign.
   std::uint64_t config_hash = 0;
   double rate_hz = 0.0;
   double scale_mm_per_px = 0.0;
   std::vector<core::ChannelInfo> channels;
-  // For comparing stamps: the boot of their CLOCK_MONOTONIC; empty: stream time of a file.
+  // For comparing stamps: the boot to which their CLOCK_MONOTONIC belongs; empty: stream time of a file.
   std::string boot_id;
   std::vector<std::uint8_t> spectrum, modes;
 };

@@ -16,7 +16,7 @@ namespace {
 
 const auto kBlocks = static_cast<std::size_t>(core::WelchConfig{}.n_blocks);
 constexpr double kSamePower = 1e-5;            // rounding in a tracks.csv changes less; another flight more
-constexpr std::uint32_t kLayout = 0x33767368;  // first of the bytes
+constexpr std::uint32_t kLayout = 0x33767368;  // first four bytes
 
 template <class Archive, class Sums>
 void describe_totals(Archive& archive, Sums& sums) {
@@ -73,7 +73,7 @@ bool same_identification(const core::IdentifierConfig& a, const core::Identifier
   return bytes(a) == bytes(b);
 }
 
-// All that identification and comparison rely on.
+// Checks everything that identification and comparison rely on.
 bool is_consistent(const SetupSums& view) {
   const core::CpsdSums& sums = view.record.sums;
   if (sums.n_channels < 1 || sums.n_fft < 2 || !(sums.rate_hz > 0.0)) return false;
@@ -136,7 +136,7 @@ SetupSums without_sums(const SetupSums& sums) {
 }
 
 std::string why_other_view(const SetupSums& a, const SetupSums& b) {
-  RunState view = b.view;  // row delays are looked at apart: sums can be brought to other ones
+  RunState view = b.view;  // row delays are compared separately: sums can be converted to other row delays
   for (std::size_t c = 0; c < std::min(view.channels.size(), a.view.channels.size()); ++c)
     view.channels[c].row_delay_s = a.view.channels[c].row_delay_s;
   if (std::string reason = why_foreign(a.view, view); !reason.empty()) return reason;

@@ -13,8 +13,8 @@
 
 namespace app {
 
-// Everything that a run's last estimate is computed from: the sums of further runs of the view can be added, and the
-// modes of all identified. Independent of the source; plain values that can be sent between processes.
+// Everything from which a run's last estimate is computed: sums of further runs of the view can be added, and the modes
+// identified from all. Independent of the source; plain values that can be sent between processes.
 struct SetupSums {
   RunState view;            // must agree; no configuration hash, because it includes the source's name
   core::RecordSums record;  // of all channels, witnesses last; row delays as declared
@@ -29,8 +29,8 @@ struct SetupSums {
 // The same without the spectra themselves: small, and sufficient for comparison.
 [[nodiscard]] SetupSums without_sums(const SetupSums& sums);
 
-// Why the sums of `b` may not be added to those of `a`, empty if they may: another view, another method of summing or
-// of identification. Both with their sums, or both without.
+// Why the sums of `b` may not be added to those of `a` (another view, another method of summing or identification);
+// empty: they may. Both with their sums, or both without.
 [[nodiscard]] std::string why_other_view(const SetupSums& a, const SetupSums& b);
 
 // Detects equal samples by their sums: a run record beside its own tracks.csv, or a copy.
@@ -47,7 +47,7 @@ class ViewTotal {
   explicit ViewTotal(std::uint64_t n_segments_of_all);
   // Throws std::invalid_argument where why_other_view() has a reason.
   void add(const SetupSums& sums);
-  // With the readout time estimated from all runs together. After the last.
+  // Uses the readout time estimated from all runs together. Call after the last add().
   [[nodiscard]] core::ModalEstimate identify() const;
 
  private:

@@ -6,17 +6,17 @@
 
 namespace app {
 
-// Pieces of an HTML page that is also well-formed XML, bar its doctype. `text` parameters are escaped here; `html` ones
-// are markup of our own making.
+// Pieces of an HTML page that is also well-formed XML except for its doctype. `text` parameters are escaped here;
+// `html` parameters are markup of this program.
 
 [[nodiscard]] std::string base64(std::string_view bytes);
 
 [[nodiscard]] std::string section_html(std::string_view id, std::string_view title, const std::string& html);
 [[nodiscard]] std::string paragraph_html(std::string_view text, std::string_view css_class = {});
-// Why a section has nothing to show.
+// States why a section has no content.
 [[nodiscard]] std::string absent_html(std::string_view text);
 
-// A picture in its two widths, of which the page's style shows one. `above` and `below`: html, e.g. a legend.
+// A picture in two widths, of which the page's style shows one. `above` and `below`: html, e.g. a legend.
 [[nodiscard]] std::string figure_html(const std::string& wide_svg, const std::string& narrow_svg,
                                       const std::string& above, const std::string& below);
 
@@ -25,7 +25,7 @@ struct HtmlCell {
   std::string html;  // after the text
 };
 
-// A table that becomes a list of cards on a phone: every cell carries its column's name.
+// A table that becomes a list of cards on a phone: every cell carries the name of its column.
 class HtmlTable {
  public:
   explicit HtmlTable(std::vector<std::string> columns, std::string_view css_class = {});

@@ -1,10 +1,10 @@
 "use strict";
-// Without it the page is complete; it adds moving shapes, a cursor with its values, and curves that can be hidden.
+// Without this script the page is complete; it adds moving shapes, a cursor with values, and curves that can be hidden.
 (function () {
   const all = (selector, root) => Array.from((root || document).querySelectorAll(selector));
   const numbers = (text) => text.trim().split(/\s+/).map(Number);
 
-  // ---- Mode shapes: every moving part carries its complex amplitude in page pixels.
+  // ---- Mode shapes: every moving part has its complex amplitude in page pixels as an attribute.
   function animate() {
     const controls = document.querySelector(".controls");
     if (!controls) return;
@@ -52,7 +52,7 @@
     set(!still.matches);
   }
 
-  // ---- Curves: the legend's keys.
+  // ---- Curves: show and hide by the legend's keys.
   function toggles() {
     for (const key of all(".key")) {
       key.addEventListener("click", () => {
@@ -65,7 +65,7 @@
     }
   }
 
-  // ---- Cursor. Values are read back from the drawn curves: a tenth of a pixel of them.
+  // ---- Cursor. Values are read back from the drawn curves, to a tenth of a pixel.
   const superscripts = "⁰¹²³⁴⁵⁶⁷⁸⁹";
   function rounded(value) {
     if (!isFinite(value)) return "–";
@@ -75,7 +75,7 @@
     return mantissa + "·10" + (Number(exponent) < 0 ? "⁻" : "") + digits;
   }
 
-  // "M1 2l1-.5M5 5h0" to points; gaps are left out.
+  // Converts "M1 2l1-.5M5 5h0" to points; gaps are left out.
   function points_of(path) {
     const out = [];
     let x = 0, y = 0;
@@ -144,7 +144,7 @@
       return this.is_log ? this.y_low * Math.pow(this.y_high / this.y_low, share)
         : this.y_low + (this.y_high - this.y_low) * share;
     }
-    // The nearest mark within a finger's reach, in words.
+    // Text of the nearest mark within a finger's reach.
     mark() {
       const width = this.right - this.left, span = this.x_high - this.x_low;
       const place = (node) => this.left + width * (Number(node.dataset.f) - this.x_low) / span;

@@ -13,7 +13,7 @@ std::string minutes_text(double seconds) { return decimals_text(seconds / 60.0, 
 
 constexpr double kPercentPerMinute = 6000.0;
 
-// Whether the structure as a whole changed under way.
+// Whether the structure as a whole changed during the run.
 std::string drift_sentence(const core::ModalEstimate& estimate) {
   const auto drift = core::common_drift(estimate);
   if (!drift) return "Common drift of the frequencies cannot be determined yet: fewer than two modes have a trend.";
@@ -23,7 +23,7 @@ std::string drift_sentence(const core::ModalEstimate& estimate) {
                      decimals_text(kPercentPerMinute * drift->std_per_s, 3));
 }
 
-// What each mode's history says, for people.
+// The history of each mode as a table for readers.
 std::string followed_table(const PictureInputs& inputs) {
   HtmlTable table({"Mode", "Frequency", "Found in", "Since", "Trend", "Still wanted"});
   for (std::size_t i = 0; i < inputs.estimate->modes.size(); ++i) {

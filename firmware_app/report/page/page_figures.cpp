@@ -21,7 +21,7 @@ std::string figure(const PictureInputs& inputs, Picture picture, const std::stri
   return figure_html(picture(inputs, kWideFormat), picture(inputs, kNarrowFormat), above, svg_escaped(caption));
 }
 
-// A key of the legend; the page's script lets it hide and show its curve.
+// A key of the legend; the page's script uses it to hide and show its curve.
 std::string key_html(std::size_t i_curve, const std::string& label, const std::string& css_class) {
   return fmt::format(
       "<button type=\"button\" class=\"key\" aria-pressed=\"true\" data-k=\"{}\"><svg class=\"hm\" width=\"30\" "
@@ -46,7 +46,7 @@ bool has_verdict(const core::ModalEstimate& estimate, core::Verdict verdict) {
   return false;
 }
 
-// What the markers mean; only those that are there.
+// Meaning of the markers; only of those that occur.
 std::string marks_legend(const PictureInputs& inputs, const std::string& more = {}) {
   if (inputs.estimate == nullptr) return {};
   std::string out = "<ul class=\"marks\">\n";

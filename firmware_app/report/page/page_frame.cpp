@@ -14,13 +14,13 @@ namespace app {
 namespace {
 
 constexpr double kLongSidePx = 1280.0;
-constexpr std::size_t kMaxBytes = 260'000;  // a third more in base64
+constexpr std::size_t kMaxBytes = 260'000;  // base64 adds a third
 constexpr int kJpegQuality = 78;
 constexpr std::size_t kMaxNameCharacters = 22;
 constexpr double kLabelHeightPx = 17.0;
 
 std::string jpeg_at(const core::Frame& frame, double scale) {
-  // The header borrows the pixels; they are only read.
+  // cv::Mat borrows the pixels; they are only read.
   const cv::Mat gray(frame.height_px, frame.width_px, CV_8UC1, const_cast<std::uint8_t*>(frame.pixels.data()));
   const cv::Size size(std::max(1, cvRound(frame.width_px * scale)), std::max(1, cvRound(frame.height_px * scale)));
   cv::Mat sized;
@@ -29,7 +29,7 @@ std::string jpeg_at(const core::Frame& frame, double scale) {
   return {bytes.begin(), bytes.end()};
 }
 
-// Regions, points and names over the frame, as the first frame was seen.
+// Regions, points and names over the frame, as in the keyframe.
 class FrameOverlay {
  public:
   FrameOverlay(const PictureInputs& inputs, const PictureFormat& format, double image_width_px, double image_height_px)
@@ -67,7 +67,7 @@ class FrameOverlay {
     }
   }
 
-  // Beside the rectangle where there is room: right, left, above, below. A name must not hide another region.
+  // Placed beside the rectangle where there is room: right, left, above, below. A name must not cover another region.
   void draw_name(const core::Region& region, const Box& around) {
     const std::string name = shortened(region.name, kMaxNameCharacters);
     const double width = text_width_px(name, kTextPx) + 8.0, h = kLabelHeightPx;
@@ -129,7 +129,7 @@ const char* role_class(core::RegionRole role) {
 
 std::string frame_jpeg(const core::Frame& frame) {
   double scale = std::min(1.0, kLongSidePx / std::max(frame.width_px, frame.height_px));
-  // A frame full of fine detail does not compress: reduce it until it does.
+  // A frame full of fine detail compresses badly: its size is reduced until the limit is met.
   constexpr int kMaxAttempts = 12;
   for (int attempt = 1;; ++attempt) {
     std::string jpeg = jpeg_at(frame, scale);

@@ -13,21 +13,21 @@ namespace app {
 namespace {
 
 constexpr double kCardPx = 316.0;              // a phone's width: one drawing serves every page
-constexpr double kSwingPx = 17.0;              // of the largest component on the picture
-constexpr double kAirShare = 0.08;             // of the structure's length, at both its ends
-constexpr std::size_t kMaxNameCharacters = 9;  // between picture and plot
-constexpr std::size_t kMaxPatches = 40;        // of the frame moving along; more regions are outlines only
+constexpr double kSwingPx = 17.0;              // displacement of the largest component in the picture
+constexpr double kAirShare = 0.08;             // margin at both ends, as a share of the structure's length
+constexpr std::size_t kMaxNameCharacters = 9;  // room between picture and plot
+constexpr std::size_t kMaxPatches = 40;        // moving parts of the frame; further regions are outlines only
 
-// Motion of one region in the picture, pixels of the page: real and imaginary part, and the deviation of the real one.
+// Motion of one region in the picture, in pixels of the page: real and imaginary part, and the real part's sigma.
 struct Motion {
   Box at_rest;
   double re_x = 0.0, re_y = 0.0, im_x = 0.0, im_y = 0.0, std_x = 0.0, std_y = 0.0;
 };
 
-// The part of the image that a card shows, and how it lies there.
+// The part of the image shown on a card, and its position there.
 struct Crop {
   Box panel;                                   // on the card
-  double u_px = 0.0, v_px = 0.0, scale = 1.0;  // the image's place at the panel's corner; page px per image px
+  double u_px = 0.0, v_px = 0.0, scale = 1.0;  // image position at the panel's corner; page px per image px
 
   [[nodiscard]] Box placed(const core::Region& region) const {
     return {(region.u_px - u_px) * scale, (region.v_px - v_px) * scale, region.width_px * scale,
@@ -53,7 +53,7 @@ Crop crop_of(const PictureInputs& inputs, const ModeLayout& layout) {
   Crop crop;
   crop.panel = layout.upright ? Box{0.0, 0.0, 128.0, 300.0} : Box{40.0, 0.0, 266.0, 130.0};
   const Box all = structure_box(inputs);
-  const double room = 2.0 * kSwingPx;  // for the motion
+  const double room = 2.0 * kSwingPx;  // room for the motion
   const double across_x = layout.upright ? room : 8.0, across_y = layout.upright ? 8.0 : room;
   const double wide = std::max(1.0, all.width * (1.0 + 2.0 * kAirShare)),
                high = std::max(1.0, all.height * (1.0 + 2.0 * kAirShare));
@@ -63,7 +63,7 @@ Crop crop_of(const PictureInputs& inputs, const ModeLayout& layout) {
   return crop;
 }
 
-// Of the two extremes that one which the plot shows: positive to the right, or upwards.
+// The extreme of the motion that the plot shows: positive to the right, or upwards.
 double shown_extreme(const PictureInputs& inputs, bool upright) {
   const core::ChannelInfo& first = inputs.channels.front();
   return (upright ? first.direction_u : -first.direction_v) < 0.0 ? -1.0 : 1.0;
@@ -90,7 +90,8 @@ std::vector<Motion> motions_of(const PictureInputs& inputs, const core::Mode& mo
   return out;
 }
 
-// The structure on its picture, drawn at one extreme of the motion; the page's script swings what carries data-move.
+// The structure on its picture, drawn at one extreme of the motion; the page's script moves the elements with
+// data-move.
 class ModeOnFrame {
  public:
   ModeOnFrame(SvgDocument& svg, const PictureInputs& inputs, const core::Mode& mode, const Crop& crop, bool upright)
@@ -138,7 +139,7 @@ class ModeOnFrame {
     svg_.end_group();
   }
 
-  // Through the centres of the regions.
+  // A line through the centres of the regions.
   void draw_line(const char* css_class) {
     std::vector<PlotPoint> line;
     std::string facts;
@@ -186,7 +187,7 @@ std::string mode_svg(const PictureInputs& inputs, const core::Mode& mode) {
   const double height = layout.upright ? crop.panel.height : crop.panel.height + 14.0 + 120.0;
   SvgDocument svg(kCardPx, height + 22.0, "Mode shape: the regions displaced, and their components", true);
   ModeOnFrame(svg, inputs, mode, crop, layout.upright).draw();
-  // The plot lies along the picture: the same place, the same height.
+  // The plot lies beside the picture, at the same height.
   const Box& panel = crop.panel;
   ModePlotSpec spec;
   if (layout.upright) {

@@ -23,14 +23,14 @@ namespace app {
 [[nodiscard]] std::string frame_section(const PictureInputs& inputs);
 [[nodiscard]] std::string closure_section(const PictureInputs& inputs);
 [[nodiscard]] std::string losses_section(const PictureInputs& inputs);
-// The one part that differs between two runs on the same input.
+// The only part that differs between two runs with the same input.
 [[nodiscard]] std::string timing_section(const PictureInputs& inputs);
 
 // Embedded at build time from page.css and page.js.
 [[nodiscard]] std::string_view page_css() noexcept;
 [[nodiscard]] std::string_view page_js() noexcept;
 
-// The first frame stands in the page once, under this id; every picture of it refers there.
+// The first frame is contained in the page once, under this id; every picture of it refers to it.
 inline constexpr const char* kFrameId = "frame";
 struct ImageSize {
   int width_px = 0, height_px = 0;  // 0: unknown
@@ -40,7 +40,7 @@ struct ImageSize {
 [[nodiscard]] std::string frame_jpeg(const core::Frame& frame);  // bytes, at most 260 kB
 [[nodiscard]] const char* role_class(core::RegionRole role);
 
-// Whether anything of this mode is known that a picture of its shape could show.
+// Whether any component of this mode is known, so that a picture of its shape is possible.
 [[nodiscard]] bool has_shape(const PictureInputs& inputs, const core::Mode& mode);
 
 }  // namespace app

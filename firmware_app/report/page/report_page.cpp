@@ -8,7 +8,7 @@
 namespace app {
 namespace {
 
-// Nothing may be fetched, whatever a name in the data tries.
+// Forbids the page to fetch anything, whatever a name in the data contains.
 constexpr const char* kPolicy =
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 
@@ -23,7 +23,7 @@ std::string head_html(const PictureInputs& inputs) {
       kPolicy, source.empty() ? "" : ": ", svg_escaped(source), svg_style(), page_css());
 }
 
-// The frame once, for every picture of the page to refer to.
+// The frame as one element, to which every picture of the page refers.
 std::string frame_definition(const PictureInputs& inputs) {
   if (!has_frame(inputs)) return {};
   return fmt::format(

@@ -17,7 +17,7 @@ constexpr std::size_t kMaxLanes = 12;
 
 using SeriesOf = BinnedSeries RunHistory::FollowedMode::*;
 
-// One quantity of a mode in % of its last value.
+// One quantity of a mode over the record, in % of its last value.
 struct Course {
   double last = 0.0;
   double sigma = 0.0;  // of the last estimate, relative
@@ -34,7 +34,7 @@ Course damping_of(const core::Mode& mode, double record_s) {
 }
 
 // An estimate over T seconds shares its data with the last one, over T_end: it may differ from it by
-// sigma_end sqrt(T_end / T - 1) (core/identification/frequency_trend.h). Twice that, to either side.
+// sigma_end sqrt(T_end / T - 1) (core/identification/frequency_trend.h). Drawn at twice that, to either side.
 std::vector<PlotPoint> bound(const Course& course, double from_s, double end_s, double side) {
   constexpr int kSteps = 60;
   std::vector<PlotPoint> out;
@@ -53,7 +53,7 @@ Lane lane_of(const BinnedSeries& series, const Course& course, double cell_s, do
     lane.high = std::max(lane.high, std::abs(point.y));
     lane.points.push_back(point);
   }
-  lane.low = -lane.high;  // the last value in the middle
+  lane.low = -lane.high;  // centres the last value
   lane.empty = lane.points.empty();
   if (lane.empty || !std::isfinite(course.sigma)) return lane;
   for (const double side : {-1.0, 1.0}) lane.behind.push_back(bound(course, lane.points.front().x, record_s, side));

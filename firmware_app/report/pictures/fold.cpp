@@ -58,7 +58,7 @@ class FoldMap {
   }
 
  private:
-  // Solid as far as the run looked for true frequencies.
+  // Drawn solid up to the highest true frequency that was searched.
   void draw_branches(PlotPanel& panel) const {
     for (int band = 0; band < n_bands_; ++band) {
       const double half = rate_hz_ / 2.0;
@@ -97,7 +97,7 @@ class FoldMap {
     }
   }
 
-  // Beside the chosen frequency, on the free side of its branch where that is possible; left out in a crowd.
+  // Placed beside the chosen frequency, if possible on the free side of its branch; left out where there is no room.
   void draw_labels(SvgDocument& svg, const PlotPanel& panel) {
     for (const core::Mode& mode : inputs_.estimate->modes) {
       const bool inside = mode.apparent_hz >= 0.0 && mode.apparent_hz <= rate_hz_ / 2.0;
@@ -116,7 +116,8 @@ class FoldMap {
                                                {right, y - 38.0},
                                                {left, y + 23.0},
                                                {right, y + 23.0}};
-      // Further away a label could be taken for another mode's: only where the true frequency is news.
+      // Further away a label could be attributed to another mode: allowed only where the true frequency differs from
+      // the apparent.
       const std::size_t n_places = is_folded(mode) ? std::size(places) : 4;
       for (auto [place, top] : std::span(places, n_places)) {
         place.y = top;

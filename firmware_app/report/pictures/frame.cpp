@@ -13,16 +13,16 @@
 namespace app {
 namespace {
 
-constexpr double kLongSidePx = 1200.0;  // larger frames are reduced
-constexpr double kShortestPx = 640.0;   // smaller ones are enlarged, or their labels would cover them
+constexpr double kLongSidePx = 1200.0;  // larger frames are reduced to this
+constexpr double kShortestPx = 640.0;   // smaller frames are enlarged, because their labels would cover them
 constexpr std::size_t kMaxBytes = 480'000;
 constexpr int kPngLevel = 6;
-constexpr int kGrayStep = 4;  // the sensor's noise would be most of the file
+constexpr int kGrayStep = 4;  // coarser gray levels: otherwise sensor noise would fill most of the file
 constexpr std::size_t kMaxNameBytes = 32;
 constexpr double kFontScale = 0.45;
 constexpr int kDrawShift = 3;  // coordinates in 1/8 px
 
-// Blue, green, red. Okabe and Ito.
+// Blue, green, red; colours of Okabe and Ito.
 cv::Scalar color_of(core::RegionRole role) {
   switch (role) {
     case core::RegionRole::kStructure:
@@ -42,11 +42,11 @@ std::string label_of(const core::Region& region) {
   return name == role ? name : name + " (" + role + ")";
 }
 
-// The frame at the picture's size, in colour, ready to be drawn on.
+// The frame at the picture's size, in colour, as background of the drawing.
 class FramePicture {
  public:
   FramePicture(const core::Frame& frame, double scale) : scale_(scale) {
-    // The header borrows the pixels; imgproc only reads them.
+    // cv::Mat borrows the pixels; imgproc only reads them.
     const cv::Mat gray(frame.height_px, frame.width_px, CV_8UC1, const_cast<std::uint8_t*>(frame.pixels.data()));
     const cv::Size size(std::max(1, cvRound(frame.width_px * scale)), std::max(1, cvRound(frame.height_px * scale)));
     cv::Mat sized;
@@ -92,8 +92,8 @@ class FramePicture {
     }
   }
 
-  // Beside the rectangle where there is room: right, left, above, below; else inside, if it fits. Crowded regions
-  // stay without: a label must not hide another region's points.
+  // Placed beside the rectangle where there is room: right, left, above, below; else inside, if it fits. In crowded
+  // regions it is left out: a label must not cover another region's points.
   void draw_label(const core::Region& region, const std::string& label, const cv::Rect& around) {
     int below_line = 0;
     const cv::Size text = cv::getTextSize(label, cv::FONT_HERSHEY_SIMPLEX, kFontScale, 1, &below_line);
@@ -134,7 +134,7 @@ std::string frame_png(const PictureInputs& inputs) {
   if (frame->pixels.size() < n_pixels) return {};
   const double long_side = std::max(frame->width_px, frame->height_px);
   double scale = std::clamp(1.0, kShortestPx / long_side, std::max(kShortestPx, kLongSidePx) / long_side);
-  // A frame full of fine detail does not compress: reduce it until it does.
+  // A frame full of fine detail compresses badly: its size is reduced until the limit is met.
   constexpr int kMaxAttempts = 12;
   for (int attempt = 1;; ++attempt) {
     FramePicture picture(*frame, scale);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMaxModes = 28;
 constexpr std::size_t kMaxMarkers = 2'000;  // of all modes together: keeps the file below 500 kB
-constexpr double kPanelTitlePx = 58.0;      // three lines over a panel
+constexpr double kPanelTitlePx = 58.0;      // three lines above a panel
 
 class ModesPicture {
  public:

@@ -10,8 +10,8 @@
 
 namespace app {
 
-// Where a picture is shown. On the page headings, legends and remarks stand in the HTML around it, and every picture is
-// drawn twice, wide and narrow: scaling one drawing to a phone would make its text unreadable.
+// Where a picture is shown. On the page, headings, legends and remarks are in the surrounding HTML, and every picture
+// is drawn twice, wide and narrow: one drawing scaled to a phone would have unreadable text.
 struct PictureFormat {
   double width_px = 1000.0;
   bool on_page = false;
@@ -32,28 +32,28 @@ inline constexpr PictureFormat kNarrowFormat{328.0, true};  // a phone of 360 px
 [[nodiscard]] std::string point_sigma_svg(const PictureInputs& inputs, const PictureFormat& format);
 [[nodiscard]] std::string spectra_svg(const PictureInputs& inputs, const PictureFormat& format);
 [[nodiscard]] std::vector<LegendEntry> spectra_legend(const PictureInputs& inputs);  // one entry a channel
-[[nodiscard]] std::string cross_label(const PictureInputs& inputs);  // of the curve after the channels'; empty: none
+[[nodiscard]] std::string cross_label(const PictureInputs& inputs);  // label of the last curve; empty: none
 [[nodiscard]] std::string spectra_remark(const PictureInputs& inputs);
 [[nodiscard]] std::string fold_map_svg(const PictureInputs& inputs, const PictureFormat& format);
 [[nodiscard]] std::string stabilisation_svg(const PictureInputs& inputs, const PictureFormat& format);
-// Relative to the last estimate, over the record behind each; for a run of three estimates or more.
+// Relative to the last estimate, over the record of each estimate; for runs of three estimates or more.
 [[nodiscard]] std::string frequency_convergence_svg(const PictureInputs& inputs, const PictureFormat& format);
 [[nodiscard]] std::string damping_convergence_svg(const PictureInputs& inputs, const PictureFormat& format);
 [[nodiscard]] std::string modes_svg(const PictureInputs& inputs);
 // On the page only: the first frame (an element of the page) under the regions and points.
 [[nodiscard]] std::string frame_svg(const PictureInputs& inputs, const PictureFormat& format);
-// One mode: the regions displaced on the frame, beside the components with their sigma. For every width.
+// One mode: the regions displaced on the frame, and the components with their sigma. One drawing for every width.
 [[nodiscard]] std::string mode_svg(const PictureInputs& inputs, const core::Mode& mode);
 
-// Of all curves of one picture together: keeps the file below 500 kB.
+// For all curves of one picture together: keeps the file below 500 kB.
 inline constexpr std::size_t kMaxPicturePoints = 45'000;
 inline constexpr std::size_t kMaxCurvePoints = 1'500;
 [[nodiscard]] std::size_t curve_points(std::size_t n_curves, const PictureFormat& format) noexcept;
 
-// Numbers for people; a dash for what is not finite.
+// Numbers formatted for readers; a dash stands for a value that is not finite.
 [[nodiscard]] std::string decimals_text(double value, int n_decimals);
 [[nodiscard]] std::string four_digits_text(double value);
-// "1.657 ± 0.003 Hz"; for a folded mode "12.93 Hz, seen at 12.07".
+// "1.657 ± 0.003 Hz"; for an aliased mode "12.93 Hz, seen at 12.07".
 [[nodiscard]] std::string frequency_text(const core::Mode& mode, bool with_deviation);
 [[nodiscard]] bool is_folded(const core::Mode& mode) noexcept;
 

@@ -18,7 +18,7 @@
 namespace app {
 namespace {
 
-// Draws one picture after the other; a failure does not keep the rest from being drawn.
+// Draws one picture after the other; a failure does not prevent the others.
 class PictureWriter {
  public:
   explicit PictureWriter(const std::string& directory) : directory_(directory) {}
@@ -27,7 +27,7 @@ class PictureWriter {
   void write(const char* name, const Draw& draw) {
     attempt(name, [&] {
       const std::string path = (std::filesystem::path(directory_) / name).string();
-      std::error_code ignored;  // writing the new file reports the error that matters
+      std::error_code ignored;  // an error that matters shows when the new file is written
       std::filesystem::remove(path, ignored);
       const std::string content = draw();
       if (content.empty()) return;
@@ -40,7 +40,7 @@ class PictureWriter {
   void attempt(const char* name, const Work& work) {
     try {
       work();
-    } catch (const drivers::FileError& error) {  // names the file itself
+    } catch (const drivers::FileError& error) {  // its text contains the file's name
       add_failure(error.what());
     } catch (const std::exception& error) {  // a library, or out of memory
       add_failure(fmt::format("{} cannot be drawn: {}", name, error.what()));
@@ -85,7 +85,7 @@ std::vector<std::string> write_pictures(const std::string& directory, const Pict
 }
 
 std::size_t curve_points(std::size_t n_curves, const PictureFormat& format) noexcept {
-  // A page holds every picture twice, and must stay below 2 MB with all of them.
+  // The page contains every picture twice, and must stay below 2 MB with all of them.
   const double share = !format.on_page ? 1.0 : is_narrow(format) ? 0.2 : 0.4;
   const auto all = static_cast<std::size_t>(share * static_cast<double>(kMaxPicturePoints));
   const auto most = static_cast<std::size_t>(is_narrow(format) ? 0.4 * kMaxCurvePoints : 1.0 * kMaxCurvePoints);

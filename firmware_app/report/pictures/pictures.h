@@ -16,17 +16,17 @@ namespace app {
 
 class RunHistory;
 
-// For the page only: how the run was made and what it lost.
+// For the page only: how the run was made and its losses.
 struct RunFacts {
   std::string source;  // name of the source, e.g. of the clip; empty = unknown
   std::string method;  // "paper" | "hovermodal"
   std::vector<std::string> corrections, caveats;
   core::Health health;
-  bool counted = true;                          // false: of a time series, where `health` knows nothing
-  int image_width_px = 0, image_height_px = 0;  // of the tracks, where there is no frame
+  bool counted = true;                          // false: of a time series, for which `health` has no counters
+  int image_width_px = 0, image_height_px = 0;  // of the tracks, if there is no frame
 };
 
-// Contents of the pictures; everything is borrowed. A null pointer, an empty list: not available.
+// Contents of the pictures; everything is borrowed. A null pointer or an empty list means not available.
 struct PictureInputs {
   const core::Frame* first_frame = nullptr;
   const core::TrackFrame* keyframe = nullptr;  // points in the first frame
@@ -38,7 +38,7 @@ struct PictureInputs {
   const RunHistory* history = nullptr;
   std::string unit = "px";          // of the displacements
   double max_frequency_hz = 0.0;    // highest true frequency searched; 0 = half the rate
-  const RunFacts* facts = nullptr;  // with them: report.html
+  const RunFacts* facts = nullptr;  // non-null: report.html is written
 };
 
 // Draws the results of a run into an existing folder and returns the names of the files written: frame.png (regions and

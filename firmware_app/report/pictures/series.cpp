@@ -11,7 +11,7 @@
 namespace app {
 namespace {
 
-// A record of one sample has no course over time.
+// A record of one sample has no history to plot.
 bool has_course(const PictureInputs& inputs) { return inputs.history != nullptr && inputs.history->n_samples() > 1; }
 
 Lane lane_of(const std::string& name, const BinnedSeries& series, std::vector<PlotPoint> points,
@@ -34,7 +34,7 @@ std::size_t n_with_points(const RunHistory& history) {
       std::count_if(regions.begin(), regions.end(), [](const auto& region) { return region.n_points > 0; }));
 }
 
-// 1, 2 or 5 times a power of ten: a tick of its own stands at the top.
+// 1, 2 or 5 times a power of ten, so that the upper end has a tick.
 double round_above(double value) {
   if (!std::isfinite(value) || value <= 0.0) return 1.0;
   const double power = std::pow(10.0, std::floor(std::log10(value)));
@@ -105,7 +105,7 @@ std::string point_sigma_svg(const PictureInputs& inputs, const PictureFormat& fo
 }
 
 std::string scale_svg(const PictureInputs& inputs, const PictureFormat& format) {
-  // Less than this much is below what the tracks resolve.
+  // A smaller variation is below the resolution of the tracks.
   constexpr double kLeastVariation = 1e-5;
   if (!has_course(inputs)) return {};
   const BinnedSeries& scale = inputs.history->scale();

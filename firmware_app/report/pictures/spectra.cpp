@@ -23,7 +23,7 @@ struct Curve {
   std::string css_class;
 };
 
-// Every channel, then on the page the cross-spectrum of the strongest two.
+// Every channel, then (on the page) the cross-spectrum of the two strongest.
 std::vector<Curve> curves_of(const PictureInputs& inputs, const PictureFormat& format) {
   const core::CpsdSums& sums = *inputs.spectrum;
   const std::size_t max_points = curve_points(static_cast<std::size_t>(sums.n_channels) + 1, format);
@@ -80,7 +80,7 @@ class SpectraPicture {
     panel.draw_y_axis(true, 12);
     draw_rejected(svg, panel, inputs_.estimate, x_.high, format_);
     panel.draw_frame();
-    // The last first: the broad cross-spectrum lies behind the channels.
+    // Drawn from last to first: the broad cross-spectrum lies behind the channels.
     for (std::size_t i = curves_.size(); i-- > 0;)
       panel.curve(curves_[i].points, curves_[i].css_class, format_.on_page ? fmt::format("data-k=\"{}\"", i) : "");
     labels.draw(svg, panel);
@@ -92,7 +92,7 @@ class SpectraPicture {
  private:
   static constexpr double kLeftPx = 62.0;
 
-  // Causes first: a long list of channels may be cut.
+  // Verdicts come first, because a long list of channels may be cut.
   void add_legend() {
     if (inputs_.estimate != nullptr && !inputs_.estimate->modes.empty()) legend_.push_back({"mode", "v"});
     for (const VerdictMark& mark : verdict_marks()) {

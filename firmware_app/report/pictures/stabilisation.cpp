@@ -16,10 +16,10 @@ namespace app {
 namespace {
 
 constexpr double kPolePx = 3.2;
-constexpr std::size_t kMaxPoles = 1'500;  // drawn: keeps the page below 2 MB; loose ones make room first
-constexpr double kLoosePx = 1.6;          // poles of no listed line
+constexpr std::size_t kMaxPoles = 1'500;  // most drawn: keeps the page below 2 MB; unassigned ones are dropped first
+constexpr double kLoosePx = 1.6;          // radius of poles that belong to no listed mode
 
-// The verdict on the line that a pole joined; null: it joined none.
+// The mode to whose line a pole belongs; null: to none.
 const core::Mode* line_of(const core::ModalEstimate& estimate, const core::StabilisationPole& pole) {
   if (pole.i_line < 0) return nullptr;
   const auto i = static_cast<std::size_t>(pole.i_line);
@@ -28,7 +28,7 @@ const core::Mode* line_of(const core::ModalEstimate& estimate, const core::Stabi
   return k < estimate.rejected.size() ? &estimate.rejected[k] : nullptr;
 }
 
-// The spectrum of all channels over the panel's height, to compare places with.
+// The spectrum of all channels over the panel's height, for comparison of frequencies.
 void draw_spectrum(PlotPanel& panel, SvgDocument& svg, const PictureInputs& inputs, const PictureFormat& format) {
   if (!is_drawable(inputs.spectrum)) return;
   const std::vector<PlotPoint> points = decimated(total_density(*inputs.spectrum), curve_points(4, format));
@@ -42,7 +42,7 @@ void draw_spectrum(PlotPanel& panel, SvgDocument& svg, const PictureInputs& inpu
 }
 
 void draw_poles(SvgDocument& svg, const PlotPanel& panel, const core::ModalEstimate& estimate, double highest_hz) {
-  // Loose ones first, modes last: they lie on top.
+  // Unassigned poles first, modes last, so that modes lie on top.
   std::size_t n_drawn = 0;
   for (int layer = estimate.poles.size() > kMaxPoles ? 1 : 0; layer < 3; ++layer) {
     for (const core::StabilisationPole& pole : estimate.poles) {

@@ -30,7 +30,7 @@ void BinnedSeries::halve() noexcept {
 
 void BinnedSeries::add(std::uint64_t i_cell, double value) noexcept {
   if (!std::isfinite(value)) return;
-  // At most some fifty times over any run: cells_per_bin_ doubles.
+  // At most some fifty times in any run, because cells_per_bin_ doubles each time.
   while (i_cell / cells_per_bin_ >= kBins) halve();
   join(bins_[i_cell / cells_per_bin_], {value, value, value, i_cell, i_cell, 1});
   n_cells_ = i_cell + 1;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kBelowPx = 46.0;  // tick labels and the axis label
 constexpr std::size_t kMaxNameCharacters = 20;
-constexpr double kHeadingPx = 18.0;  // on the page a lane's name stands over it
+constexpr double kHeadingPx = 18.0;  // on the page a lane's name is written above it
 
 class LanePicture {
  public:

@@ -48,7 +48,7 @@ void ModeLabels::draw(SvgDocument& svg, const PlotPanel& panel) const {
     if (rows_[i] < 0) continue;
     const double y = panel.box().y - 5.0 - kRowPx * rows_[i];
     const double half = text_width_px(labels_[i], kTextPx) / 2.0;
-    svg.rect({label_x_px_[i] - half, y - 11.0, 2.0 * half, 13.0}, "b");  // lines of other modes end behind it
+    svg.rect({label_x_px_[i] - half, y - 11.0, 2.0 * half, 13.0}, "b");  // hides other modes' lines behind the label
     svg.text(label_x_px_[i], y, labels_[i], Anchor::kMiddle);
   }
 }

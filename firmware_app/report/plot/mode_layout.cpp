@@ -17,7 +17,7 @@ ModePlace place_of(const PictureInputs& inputs, std::size_t i) {
   out.is_base = channel.is_base;
   out.direction_u = channel.direction_u, out.direction_v = channel.direction_v;
   out.name = channel.name;
-  out.v_px = -static_cast<double>(i);  // the first one lowest
+  out.v_px = -static_cast<double>(i);  // the first channel is lowest
   if (channel.region < inputs.regions.size()) {
     const core::Region& region = inputs.regions[channel.region];
     out.u_px = region.u_px + region.width_px / 2.0, out.v_px = region.v_px + region.height_px / 2.0;

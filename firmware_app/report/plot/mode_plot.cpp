@@ -11,8 +11,8 @@
 namespace app {
 namespace {
 
-constexpr double kReach = 1.12;  // of the component axis: the largest component is 1
-constexpr double kCapPx = 3.0;   // at the ends of a deviation's bar
+constexpr double kReach = 1.12;  // half range of the component axis: the largest component is 1
+constexpr double kCapPx = 3.0;   // at the ends of a sigma bar
 
 // Upright: the image's v runs down, so the axis along the structure is -v.
 PlotPanel panel_of(SvgDocument& svg, const ModePlotSpec& spec, const ModeLayout& layout) {
@@ -35,7 +35,7 @@ class ModePlot {
   }
 
  private:
-  // A light line for every region, with its name where names do not touch.
+  // A light line for every region, with its name where names do not overlap.
   void draw_places() {
     const Box& box = spec_.box;
     double last = -std::numeric_limits<double>::infinity();

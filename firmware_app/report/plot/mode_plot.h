@@ -8,7 +8,7 @@ namespace app {
 
 struct ModePlotSpec {
   Box box;
-  double low_px = 0.0, high_px = 1.0;  // the stretch of the structure that it shows, in the image's pixels
+  double low_px = 0.0, high_px = 1.0;  // stretch of the structure that is shown, in image pixels
   bool with_names = true;              // of the regions, beside or below the panel
 };
 

@@ -11,7 +11,7 @@ std::complex<double> at(const core::CpsdSums& sums, int bin, int pair) {
                        static_cast<std::size_t>(pair)];
 }
 
-// value(bin): of the undivided sums.
+// value(bin) is computed from the undivided sums.
 template <class Value>
 std::vector<PlotPoint> one_sided(const core::CpsdSums& sums, const Value& value) {
   const double divisor = sums.rate_hz * sums.window_power * sums.weight.sum;

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kColors = 7;
 constexpr std::size_t kDashes = 4;
 
-// Scoped by the class of the root, so that a page which takes the drawing in is not restyled.
+// Scoped by the class of the root, so that a page which embeds the drawing is not restyled.
 constexpr std::string_view kStyle =
     ".hm text{font-family:sans-serif;font-size:12px;fill:#222}"
     ".hm .h{font-size:14px;font-weight:bold}.hm .q{fill:#666}"
@@ -37,7 +37,7 @@ constexpr std::string_view kStyle =
     ".k6{stroke:#fff}"
     ".hm .m0{fill:#56b4e9}.hm .m5{fill:#f0e442}.hm .m6{fill:#fff}}\n";
 
-// Bytes of the UTF-8 character that begins here; 0 = broken.
+// Bytes of the UTF-8 character that begins here; 0 = invalid.
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(0);
@@ -57,7 +57,7 @@ std::size_t character_length(std::string_view text) {
   return overlong || outside || no_character ? 0 : length;
 }
 
-// Tenths of a pixel. Far-off values are cut: they lie outside of every picture.
+// Tenths of a pixel. Very large values are clipped: they lie outside every picture.
 std::int64_t tenths(double value) {
   return std::isfinite(value) ? std::llround(std::clamp(value, -1e6, 1e6) * 10.0) : 0;
 }

@@ -28,7 +28,7 @@ std::vector<PlotTick> linear_ticks(const PlotAxis& axis, int n_wanted) {
   const double slack = 1e-9 * (axis.high - axis.low);
   const double first = std::ceil((axis.low - slack) / step);
   for (double i = first; i * step <= axis.high + slack && out.size() < 100; ++i) {
-    const double value = i == 0.0 ? 0.0 : i * step;  // no "-0"
+    const double value = i == 0.0 ? 0.0 : i * step;  // avoids "-0"
     out.push_back({value, tick_label(value, step), 0});
   }
   return out;

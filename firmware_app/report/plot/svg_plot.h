@@ -17,9 +17,9 @@ struct PlotAxis {
   std::string label;  // with the unit
 };
 
-// An axis that holds the finite values with a little air; something drawable also for none or for one.
+// An axis around the finite values with a small margin; also valid for no value or a single one.
 [[nodiscard]] PlotAxis axis_around(double low, double high, const std::string& label);
-// Whole decades around the positive range, `max_decades` of them at most: the lower ones are cut.
+// Whole decades around the positive range, at most `max_decades`: the lowest ones are cut.
 [[nodiscard]] PlotAxis log_axis_around(double low, double high, int max_decades, const std::string& label);
 
 struct PlotTick {
@@ -43,10 +43,10 @@ class PlotPanel {
   void draw_x_axis(bool with_labels, int n_ticks = 10);  // grid, tick labels, label below
   void draw_y_axis(bool with_label, int n_ticks = 5);    // grid, tick labels, label to the left
   void draw_frame();
-  // In the axes' units; values beyond the y axis are drawn on its edge.
+  // In the axes' units; values beyond the y axis are drawn at its edge.
   void curve(std::span<const PlotPoint> points, const std::string& css_class, std::string_view attributes = {});
   void vertical(double x, const std::string& css_class, std::string_view attributes = {});  // over the whole height
-  // What is drawn between them can be read out under the cursor by the page's script, which learns the axes here.
+  // Curves drawn between these calls can be read at the cursor by the page's script, which gets the axes from here.
   void begin_readout(std::string_view kind);
   void end_readout() { svg_->end_group(); }
 
@@ -58,7 +58,7 @@ class PlotPanel {
   PlotAxis x_, y_;
 };
 
-// Keeps the shape of a long series: per interval of its x its lowest and highest value, in their order.
+// Reduces a long series but keeps its shape: per interval of x its lowest and highest value, in order of occurrence.
 // At most about `max_points` points; intervals without a value become a gap.
 [[nodiscard]] std::vector<PlotPoint> decimated(std::span<const PlotPoint> points, std::size_t max_points);
 
@@ -66,10 +66,10 @@ struct LegendEntry {
   std::string label;
   std::string css_class;
 };
-// One entry under the other in the box; what does not fit is counted in the last line.
+// Entries one below the other in the box; the last line states how many did not fit.
 void draw_legend(SvgDocument& svg, const Box& box, std::span<const LegendEntry> entries);
 
-// Labels over vertical lines, moved into higher rows where they would touch. Row 0 is the lowest; -1 = no room in
+// Labels of vertical lines, moved into higher rows where they would overlap. Row 0 is the lowest; -1 = no room in
 // `n_rows`. `x_px` must ascend.
 [[nodiscard]] std::vector<int> label_rows(std::span<const double> x_px, std::span<const std::string> labels,
                                           int n_rows);

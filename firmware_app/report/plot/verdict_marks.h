@@ -7,7 +7,7 @@
 
 namespace app {
 
-// How a pole of each verdict looks in every picture: a shape, a colour and words, so that none stands alone.
+// Appearance of a pole of each verdict in every picture: shape, colour and words, so that none is needed alone.
 struct VerdictMark {
   core::Verdict verdict;
   const char* label;       // for legends
@@ -15,7 +15,7 @@ struct VerdictMark {
   const char* line_class;  // of a vertical line
   Marker marker;
   const char* marker_class;
-  const char* meaning;  // one sentence for people
+  const char* meaning;  // one sentence for readers
 };
 
 [[nodiscard]] const std::array<VerdictMark, 7>& verdict_marks() noexcept;

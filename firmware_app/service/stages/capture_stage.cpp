@@ -47,7 +47,7 @@ rt::StepStatus CaptureStage::deliver_next() noexcept {
   switch (camera_.capture(target, kCaptureTimeout)) {
     case drivers::CaptureStatus::kTimeout:
       watch_camera();
-      return rt::StepStatus::kWorked;  // the wait was inside: look again at once
+      return rt::StepStatus::kWorked;  // capture() has waited already: call step() again at once
     case drivers::CaptureStatus::kEndOfStream:
       return rt::StepStatus::kFinished;
     case drivers::CaptureStatus::kFault:
@@ -57,7 +57,7 @@ rt::StepStatus CaptureStage::deliver_next() noexcept {
   }
   watch_camera();
   count(target);
-  if (!thinning_.newest().keeps(target.sequence)) {  // its slot, if it had one, is free still
+  if (!thinning_.newest().keeps(target.sequence)) {  // its slot, if it had one, remains free
     rt::StageStats::add(stats().n_dropped);
     return rt::StepStatus::kWorked;
   }

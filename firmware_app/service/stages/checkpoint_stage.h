@@ -11,11 +11,11 @@
 
 namespace app {
 
-// newest sums and modes -> the state file. Runs at ordinary priority on a thread of its own, because a disk may take
-// its time; nobody waits for it. A write that fails is counted, told, and tried again with the next state.
+// newest sums and modes -> the state file. Runs at ordinary priority in a thread of its own, because a disk may be
+// slow; no other stage waits for it. A write that fails is counted, reported, and repeated with the next state.
 class CheckpointStage : public rt::Stage {
  public:
-  // view: what is fixed over the run; its spectrum and modes are filled here. path empty: nothing is written.
+  // view: the constants of the run; spectrum and modes are filled in here. path empty: nothing is written.
   CheckpointStage(rt::TripleBuffer<StateBytes>& spectrum, rt::TripleBuffer<StateBytes>& modes, RunState view,
                   std::string path)
       : spectrum_(spectrum), modes_(modes), state_(std::move(view)), path_(std::move(path)) {}
@@ -23,7 +23,7 @@ class CheckpointStage : public rt::Stage {
   [[nodiscard]] std::string_view name() const noexcept override { return "checkpoint"; }
   [[nodiscard]] rt::StepStatus step() noexcept override;
 
-  // Any thread: why the last write failed; empty: it did not.
+  // Any thread: why the last write failed; empty: it succeeded.
   [[nodiscard]] std::string failure() const;
 
  private:

@@ -37,7 +37,7 @@ bool ClosureStage::report_into(core::closure::ClosureReport& out, bool final) no
   try {
     out = diagnosis_.report(final);
     return true;
-  } catch (const std::exception&) {  // out of memory: this one is lost and counted, the next may succeed
+  } catch (const std::exception&) {  // out of memory: this report is lost and counted, the next may succeed
     return false;
   }
 }

@@ -11,18 +11,18 @@
 
 namespace app {
 
-// newest tracks -> Diagnosis -> reports; with closure.adopt: auto also what tracking shall measure by from a frame on,
-// one change per report, be it that nothing changes. Runs at ordinary priority and takes seconds over a report: frames
-// wait in the ring meanwhile, and what finds no room is a gap in the record; nothing upstream waits but a lossless
-// source.
+// newest tracks -> Diagnosis -> reports; with closure.adopt: auto also the geometry for tracking from a frame on. Sends
+// exactly one change per report, even if nothing changes. Runs at ordinary priority; a report takes seconds. Frames
+// wait in the ring meanwhile; those that find no room are gaps in the record. Only a lossless source makes upstream
+// stages wait.
 class ClosureStage : public rt::Stage {
  public:
   struct Ends {
     rt::RingReader<core::TrackFrame> tracks;
     rt::RingWriter<core::closure::ClosureReport> reports;
-    std::optional<rt::RingWriter<CorrectionSwitch>> changes = {};  // empty: nothing is taken out
+    std::optional<rt::RingWriter<CorrectionSwitch>> changes = {};  // empty: no corrections
   };
-  // diagnosis: touched by nobody else once the stage runs.
+  // diagnosis: not used by anyone else once the stage runs.
   ClosureStage(Ends ends, Diagnosis& diagnosis);
 
   [[nodiscard]] std::string_view name() const noexcept override { return "closure"; }

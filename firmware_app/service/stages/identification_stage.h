@@ -9,7 +9,7 @@
 namespace app {
 
 // newest snapshot -> ModeIdentification -> results, and the modes followed for a later run. Runs at ordinary priority
-// and may take its time: nothing upstream waits for it but a lossless source.
+// without a time limit: only a lossless source makes upstream stages wait for it.
 class IdentificationStage : public rt::Stage {
  public:
   struct Ends {
@@ -17,7 +17,7 @@ class IdentificationStage : public rt::Stage {
     rt::RingWriter<IdentificationResult> results;
     rt::TripleBuffer<StateBytes>* states = nullptr;  // null: no state is kept
   };
-  // modes: touched by nobody else once the stage runs.
+  // modes: not used by anyone else once the stage runs.
   IdentificationStage(Ends ends, ModeIdentification& modes);
 
   [[nodiscard]] std::string_view name() const noexcept override { return "identification"; }

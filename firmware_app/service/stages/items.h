@@ -7,11 +7,11 @@
 
 namespace app {
 
-// tracking -> publish: one frame as it was seen. What else travels between stages is the chain's.
+// tracking -> publish: one frame as measured. Other items between stages are those of the chain (chain/items.h).
 struct FrameRecord {
   core::TrackFrame tracks;
   core::DisplacementSample sample;
-  core::AttitudeBatch attitude = {};  // heard before it
+  core::AttitudeBatch attitude = {};  // received before it
 };
 
 }  // namespace app

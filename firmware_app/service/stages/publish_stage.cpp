@@ -46,7 +46,7 @@ void PublishStage::publish_record(const FrameRecord& record) noexcept {
   if (due(outlets_.telemetry.tracks_every)) (void)outlets_.publisher.publish(record.tracks);
   if (outlets_.recorder != nullptr) (void)outlets_.recorder->add(record.tracks, record.attitude, record.sample.stride);
   if (outlets_.report != nullptr) {
-    // A failed file is counted by the report; its finish() reports it.
+    // The report counts a file that failed, and its finish() reports it.
     (void)outlets_.report->add(record.tracks);
     (void)outlets_.report->add(record.sample);
   }
@@ -76,14 +76,14 @@ void PublishStage::publish_closure(const core::closure::ClosureReport& report) n
   }
 }
 
-// By the wall clock, because it is for a person who watches; it enters no result.
+// By the wall clock, because it serves a human observer; it enters no result.
 void PublishStage::publish_health_when_due() noexcept {
   const std::int64_t now_ns = rt::monotonic_ns();
   if (now_ns < next_health_ns_) return;
   next_health_ns_ = now_ns + kHealthPeriodNs;
   try {
     (void)outlets_.publisher.publish(outlets_.health());
-  } catch (...) {  // out of memory: the next one is a second away
+  } catch (...) {  // out of memory: the next status follows in a second
   }
 }
 

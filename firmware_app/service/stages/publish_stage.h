@@ -21,10 +21,10 @@
 
 namespace app {
 
-// records and estimates -> telemetry and the report's files. The one stage that may touch files and sockets.
+// records and estimates -> telemetry and the report's files. The only stage that may use files and sockets.
 class PublishStage : public rt::Stage {
  public:
-  // Of the run so far, what came last. Null: nothing.
+  // The latest items of the run so far. Null: none.
   struct Findings {
     const core::ModalEstimate& estimate;
     const core::CpsdSums& spectrum;
@@ -33,9 +33,9 @@ class PublishStage : public rt::Stage {
   struct Outlets {
     drivers::Publisher& publisher;
     drivers::RunRecorder* recorder = nullptr;  // null: the run is not recorded
-    RunReport* report = nullptr;               // null: no report wanted
-    std::function<core::Health()> health;      // a status record of now
-    // Draws the run's pictures and its page beside the report; throws drivers::FileError. Empty: none wanted.
+    RunReport* report = nullptr;               // null: no report requested
+    std::function<core::Health()> health;      // returns the present status record
+    // Draws the run's pictures and its page into the report; throws drivers::FileError. Empty: not requested.
     std::function<void(const Findings&, const core::Health&)> draw;
     std::vector<core::ChannelInfo> channels;
     std::vector<std::string> corrections, caveats;
@@ -55,9 +55,10 @@ class PublishStage : public rt::Stage {
   [[nodiscard]] rt::StepStatus step() noexcept override;
   void finish() noexcept override;
 
-  // Any thread: estimates published so far. release after `last_estimate_` is complete; see last_estimate().
+  // Any thread: estimates published so far. Stored with release after `last_estimate_` is complete; see
+  // last_estimate().
   [[nodiscard]] std::uint64_t n_estimates() const noexcept { return n_estimates_.load(std::memory_order_acquire); }
-  // After the thread has ended.
+  // Call after the thread has ended.
   [[nodiscard]] const core::ModalEstimate& last_estimate() const noexcept { return last_estimate_; }
   [[nodiscard]] const std::string& fault() const noexcept { return fault_; }  // empty = none
 

@@ -13,7 +13,7 @@
 namespace app {
 
 // sample ring -> SpectrumAccumulator -> snapshots, and the state for a later run. A lossless source hands over every
-// due snapshot and waits for it to be taken; a live one may overwrite one that was not, and counts it.
+// due snapshot and waits until it is read; a live one may overwrite an unread snapshot, which is counted.
 class SpectrumStage : public rt::Stage {
  public:
   struct Ends {
@@ -21,7 +21,7 @@ class SpectrumStage : public rt::Stage {
     rt::TripleBuffer<SpectrumSnapshot>& snapshots;
     rt::TripleBuffer<StateBytes>* states = nullptr;  // null: no state is kept
   };
-  // spectra: touched by nobody else once the stage runs.
+  // spectra: not used by anyone else once the stage runs.
   SpectrumStage(Ends ends, SpectrumAccumulator& spectra, bool lossless);
 
   [[nodiscard]] std::string_view name() const noexcept override { return "spectrum"; }
@@ -45,7 +45,7 @@ class SpectrumStage : public rt::Stage {
   Ends ends_;
   SpectrumAccumulator& spectra_;
   bool lossless_;
-  // Written here only; relaxed: each is a number on its own.
+  // Written here only; relaxed: each counter is independent of other data.
   std::atomic<std::uint64_t> n_masked_{0};
   std::atomic<std::uint64_t> n_skipped_{0};
   std::atomic<std::int64_t> t_stream_ns_{0};

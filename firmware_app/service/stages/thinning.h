@@ -7,14 +7,14 @@
 
 namespace app {
 
-// Which frames are kept while tracking cannot follow them all: from some frame on every n-th, at equal spacing. Capture
-// writes, any thread reads; a frame that came through a ring finds its own entry (release in change(), acquire in
-// at()).
+// Which frames are kept while tracking cannot process all of them: from some frame on every n-th, at equal spacing.
+// Capture writes, any thread reads; the reader of a frame from a ring finds that frame's entry (release in change(),
+// acquire in at()).
 class ThinningSchedule {
  public:
   static constexpr std::size_t kMaxChanges = 16;
   struct Change {
-    std::uint64_t first_sequence = 0;  // kept are this frame and every `stride`-th after it
+    std::uint64_t first_sequence = 0;  // this frame and every `stride`-th after it are kept
     std::uint32_t stride = 1;
 
     [[nodiscard]] bool keeps(std::uint64_t sequence) const noexcept {
@@ -39,17 +39,17 @@ class ThinningSchedule {
   [[nodiscard]] Change newest() const noexcept { return changes_[n_.load(std::memory_order_acquire) - 1]; }
 
  private:
-  std::array<Change, kMaxChanges> changes_{};  // the first: everything
+  std::array<Change, kMaxChanges> changes_{};  // the first: every frame
   std::atomic<std::size_t> n_{1};
 };
 
-// Tells overload that lasts from a burst: two windows of two seconds, one after the other, in which more than a tenth
-// of the frames found no room. The new stride leaves tracking a tenth of its time. Capture's own.
+// Distinguishes sustained overload from a burst: two consecutive windows of two seconds in which more than a tenth of
+// the frames found no room. The new stride leaves tracking a tenth of its time. Used by capture only.
 class OverloadWatch {
  public:
   explicit OverloadWatch(double rate_hz) noexcept : rate_hz_(rate_hz) { begin(1); }
 
-  // Every frame that was to be kept: did it find no room? Returns the stride that tracking can follow, or 0: as before.
+  // Call for every frame that was to be kept. Returns the stride that tracking can process; 0: unchanged.
   [[nodiscard]] std::uint32_t add(bool dropped) noexcept;
 
  private:

@@ -63,7 +63,7 @@ bool TrackingStage::is_decided(std::uint64_t sequence) noexcept {
     calls_.meter.take(decision_);
     ends_.changes->pop();
   }
-  const bool is_coming = n_shown_through_ > decision_.next_report_at;  // all frames of that report were shown
+  const bool is_coming = n_shown_through_ > decision_.next_report_at;  // closure has all frames of that report
   const bool is_decided = !is_coming || sequence <= decision_.next_report_at + decision_.n_delay_frames;
   return !lossless_ || is_decided || ends_.changes->finished();
 }
@@ -71,7 +71,7 @@ bool TrackingStage::is_decided(std::uint64_t sequence) noexcept {
 void TrackingStage::show(core::TrackFrame* slot) noexcept {
   if (slot == nullptr) return add(n_shown_lost_);
   *slot = scratch_.tracks;
-  if (n_shown_through_ == 0) decision_.next_report_at += scratch_.tracks.sequence;  // the stream begins here
+  if (n_shown_through_ == 0) decision_.next_report_at += scratch_.tracks.sequence;  // the stream's first number
   n_shown_through_ = scratch_.tracks.sequence + 1;
   ends_.tracks->publish();
 }
@@ -95,7 +95,7 @@ void TrackingStage::measure(const core::Frame& frame) noexcept {
   count_regions();
 }
 
-// What is in the ring now, and no more: a flood does not hold up a frame.
+// Reads only what is in the ring now: a flood of attitudes does not delay a frame.
 void TrackingStage::take_attitude() noexcept {
   if (!ends_.attitude) return;
   scratch_.attitude.clear();

@@ -17,7 +17,7 @@
 namespace tests::fuzz {
 namespace {
 
-// What the spectrum stage does with a state, and samples after it.
+// Resumes as the spectrum stage does, and adds samples.
 void go_on_with_spectrum(Bytes bytes) {
   core::StateReader in(bytes);
   core::TimeGrid grid(kRate_hz);
@@ -59,7 +59,7 @@ void look_at_state(Bytes bytes) {
   }
 }
 
-// A file whose checksum is right, whatever it holds.
+// A file with a correct checksum and arbitrary content.
 void look_at_keyframe(Bytes bytes) {
   static const std::filesystem::path kFolder =
       std::filesystem::temp_directory_path() / ("hovermodal_fuzz_" + std::to_string(getpid()));
@@ -80,7 +80,7 @@ void look_at_keyframe(Bytes bytes) {
   }
 }
 
-// The first byte says what the rest is: f a file, b the bytes of a run's state, s of its spectrum, m of its modes, k
+// The first byte selects the kind: f a file, b the bytes of a run's state, s of its spectrum, m of its modes, k
 // of a keyframe.
 void run(Bytes bytes) {
   Input input(bytes);

@@ -5,7 +5,7 @@
 namespace tests::fuzz {
 namespace {
 
-// The YAML; behind each zero byte one override as --set takes it.
+// The YAML; after each zero byte one override in the form of --set.
 void run(Bytes bytes) {
   std::string text = text_of(bytes);
   std::vector<std::string> overrides;
@@ -26,7 +26,7 @@ void run(Bytes bytes) {
     require(region.width_px >= 1.0 && region.height_px >= 1.0, "a region has an area");
   require(config.camera.rate_hz == 0.0 || (config.camera.rate_hz >= 1e-3 && config.camera.rate_hz <= 1e6),
           "the rate is in its range");
-  // What a record keeps of it must be read again to the same (no catch: a refusal would be a violation).
+  // The form kept in a record must be read back to the same (no catch: a refusal would be a violation).
   const std::string kept = app::config_yaml(config);
   const app::AppConfig again = app::parse_config(kept, "kept");
   require(app::config_yaml(again) == kept, "written and read, it is the same");

@@ -14,7 +14,7 @@ void run(Bytes bytes) {
     require(channel.find('\0') == channel.npos, "a channel's name holds no zero");
     require(n_bytes <= LcmDatagrams::kMostBytes, "a message is bounded");
     const auto* at = static_cast<const std::uint8_t*>(data);
-    std::uint8_t sum = 0;  // every byte is there to be read
+    std::uint8_t sum = 0;  // reads every byte
     for (std::size_t i = 0; i < n_bytes; ++i) sum = static_cast<std::uint8_t>(sum + at[i]);
     static_cast<void>(sum);
   });

@@ -31,7 +31,7 @@ WebResponse answer_to(const WebRequest& request) {
   return {200, "application/json", "[" + std::to_string(request.query.size() + request.body.size()) + "]"};
 }
 
-// What `hovermodal regions --serve` does with what its page saves, but for the file.
+// As `hovermodal regions --serve` handles what its page saves, except for the file.
 WebResponse save_regions(const WebRequest& request) {
   std::vector<core::Region> regions;
   try {
@@ -72,7 +72,7 @@ void check(const WebRoutes::Answer& answer, std::string_view request, bool with_
   require(with_token || head.find("Set-Cookie") == head.npos, "no cookie without a token");
 }
 
-// The same through the server's own sockets: connections, deadlines, event streams.
+// Through the server's own sockets: connections, deadlines, event streams.
 void ask_server(std::string_view request) {
   static const std::unique_ptr<tools::WebServer> server = [] {
     auto made = std::make_unique<tools::WebServer>(tools::WebOptions{});
@@ -82,7 +82,7 @@ void ask_server(std::string_view request) {
     made->start();
     return made;
   }();
-  // An address has 28 000 ports, each of which stays closed for a minute: one address is soon used up.
+  // An address has 28 000 ports, each of which stays closed for a minute: one address would soon be exhausted.
   static std::uint8_t source = 0;
   source = static_cast<std::uint8_t>(source % 250 + 1);
   RawConnection connection(server->port(), source);
@@ -96,7 +96,7 @@ void ask_server(std::string_view request) {
   require(!answer.starts_with("HTTP/1.1 500"), "no handler throws");
 }
 
-// The first byte selects how the server is set up and reached; the rest is what a client sends.
+// The first byte selects set-up and access of the server; the rest is sent by the client.
 void run(Bytes bytes) {
   static const std::array sites{site(false, false), site(true, false), site(false, true), site(true, true)};
   Input input(bytes);

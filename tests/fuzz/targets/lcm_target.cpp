@@ -14,10 +14,10 @@
 namespace tests::fuzz {
 namespace {
 
-constexpr std::int64_t kStep_ns = 100'000'000;  // between two messages, as the listener's clock has it
+constexpr std::int64_t kStep_ns = 100'000'000;  // between two messages, in the listener's clock
 constexpr std::uint8_t kRightFingerprint = 0x80;
 
-// Fed to everything that listens: the monitor behind `hovermodal spy` and `inspect`, and the page's stream.
+// All listeners: the monitor of `hovermodal spy` and `inspect`, and the page's stream.
 class Listeners {
  public:
   void hear(const std::string& channel, Bytes bytes) {
@@ -45,7 +45,7 @@ class Listeners {
   std::int64_t now_ns_ = 0;
 };
 
-// LCM's encoder ends a string at a zero within it, so that the bytes may be fewer than it announces.
+// LCM's encoder ends a string at a zero within it, so that there may be fewer bytes than announced.
 template <class Message>
 std::vector<std::uint8_t> encoded(const Message& message) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
@@ -55,7 +55,7 @@ std::vector<std::uint8_t> encoded(const Message& message) {
   return bytes;
 }
 
-// What decodes can be encoded, and then stays as it is.
+// A message that decodes can be encoded, and is then unchanged by another round.
 template <class Message>
 void check(Bytes bytes) {
   const Exact exact(bytes);
@@ -96,8 +96,8 @@ const std::vector<Kind>& kinds() {
   return all;
 }
 
-// Messages one after the other: a byte for the kind, a length, the bytes. With kRightFingerprint in the kind the eight
-// bytes that tell it are put in front.
+// Messages one after the other: a byte for the kind, a length, the bytes. With kRightFingerprint in the kind, the eight
+// bytes of the correct fingerprint are put in front.
 void run(Bytes bytes) {
   Input input(bytes);
   Listeners listeners;

@@ -9,7 +9,7 @@
 namespace tests::fuzz {
 namespace {
 
-// A spectrum's memory and time grow with these alone: what a configuration may ask for is bounded by its own limits.
+// Memory and time of a spectrum grow with these values only; the configuration's own limits bound the rest.
 bool is_small(const std::string& path) {
   drivers::RunRecordReader reader(path);
   const core::RunHead& head = reader.head();
@@ -21,7 +21,7 @@ bool is_small(const std::string& path) {
          config.config().spectrum.segment <= 64;
 }
 
-// `hovermodal replay` of a recorded run: geometry, spectra and modes of whatever it says.
+// `hovermodal replay` of a recorded run: geometry, spectra and modes of any content.
 void run(Bytes bytes) {
   const MemoryFile file(bytes);
   try {

@@ -37,8 +37,8 @@ void check_columns(const std::string& path) {
   require(std::isfinite(columns.rate_hz) && columns.rate_hz > 0.0, "the rate is one");
 }
 
-// The first byte selects the reader of the rest: s series, f what other programs write, n the same without names, t
-// tracks, a attitude, c columns beside a time.
+// The first byte selects the reader of the rest: s series, f formats of other programs, n the same without names, t
+// tracks, a attitude, c columns with a time column.
 void run(Bytes bytes) {
   Input input(bytes);
   const std::uint8_t reader = input.byte();

@@ -87,7 +87,7 @@ TEST(Adoption, AReadoutTimeThatWasThereFromTheStartChangesNoDelays) {
   Adoption there, later;
   for (int i = 0; i < 2; ++i) (void)there.update(report(0, 999, {step("readout time", 0.5)}), 1000);
   ASSERT_EQ(there.in_force().size(), 1U);
-  EXPECT_FALSE(there.changes_delays());  // only what is known of them
+  EXPECT_FALSE(there.changes_delays());  // only the constants of the channels change
   (void)later.update(report(0, 999, {}), 1000);
   for (int i = 0; i < 2; ++i) (void)later.update(report(500, 1499, {step("readout time", 0.5)}), 2000);
   ASSERT_EQ(later.in_force().size(), 1U);

@@ -23,7 +23,7 @@ constexpr int kPairs = 60;
 
 GyroRotationLevel level_of(const ShakenCamera& clip) { return GyroRotationLevel(clip.pairs, clip.gyro, clip.config); }
 
-// Adopts the only open candidate that is not refused, which no surrogate comes near.
+// Adopts the only open candidate that is not refused and whose score no surrogate approaches.
 void adopt_first(GyroRotationLevel& level, const std::string& effect) {
   const CandidateScore score = level.score().front();
   ASSERT_EQ(score.effect, effect);
@@ -48,7 +48,7 @@ TEST(GyroRotationLevel, TracesAnUndeclaredTurnAndThenTheReadout) {
   const ParameterValue readout = level.parameters(1).front();
   ASSERT_TRUE(readout.sigma.has_value());
   EXPECT_NEAR(readout.value, 700.0 * kFrame_s, 3.5 * *readout.sigma);
-  // What the picture alone says of the turn that is left falls with each.
+  // The residual rotation estimated from the image alone decreases with each.
   EXPECT_LT(turn_between, 0.5 * turn_before);
   EXPECT_LT(*level.reference_error(), 0.3 * turn_between);
 }

@@ -17,10 +17,10 @@ constexpr Eigen::Index kFrames = 1500;
 
 struct LineFit {
   LineFinding finding;
-  double share_left = 0.0;  // rms, of the rotation's own
+  double share_left = 0.0;  // rms, relative to the rotation's own
 };
 
-// Roll at frequency_hz that wanders slowly by +-wander_hz, on points that stand still but for their noise.
+// Roll at frequency_hz that wanders slowly by +-wander_hz, on points that are static except for their noise.
 LineFit fit_line(double frequency_hz, double wander_hz) {
   ObservationRecord record = test_support::swaying_record(kFrames, {});
   record.readout_frames = kReadout_frames;
@@ -47,7 +47,7 @@ LineFit fit_line(double frequency_hz, double wander_hz) {
   LineFit fit{search.find(model.residual()), 0.0};
   const Eigen::MatrixXd later = Eigen::MatrixXd::Zero(record.n_points(), kFrames);
   Eigen::MatrixXd motion = search.motion(model.residual(), fit.finding, later);
-  for (int round = 0; round < 6; ++round) {  // what the regions' own motion had taken of it comes back
+  for (int round = 0; round < 6; ++round) {  // recovers the part of the line that the regions' free motion had absorbed
     model.solve(positions - motion, kReadout_frames, 1);
     motion += search.motion(model.residual(), fit.finding, later);
   }
@@ -61,7 +61,7 @@ TEST(LineSearch, TellsTheFrequencyAmongThoseThatLookAlike) {
   EXPECT_LT(fit.share_left, 0.05);
 }
 
-// 87.7 Hz at 25 fps is seen at 12.3 Hz; what wanders below 87.5 Hz is seen below 12.5 Hz too, mirrored.
+// 87.7 Hz at 25 fps appears at 12.3 Hz; below 87.5 Hz the line appears below 12.5 Hz as well, mirrored.
 TEST(LineSearch, ALineThatWandersOverHalfTheFrameRateIsHeldOnBothSides) {
   const LineFit fit = fit_line(87.7, 0.6);
   EXPECT_NEAR(std::abs(fit.finding.apparent_hz + fit.finding.fold * 25.0), 87.7, 0.7);

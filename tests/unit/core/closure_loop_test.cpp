@@ -16,17 +16,17 @@ using ::testing::HasSubstr;
 
 struct Known {
   std::string name;
-  double heldout_alone = 0.0;  // held-out error with it on top of none
+  double heldout_alone = 0.0;  // held-out error with this effect alone
   std::size_t n_parameters = 1;
   std::string refusal = {};
 };
 
-// A level whose every answer is written down: held-out errors fall as told, the residual is structured above 1.
+// A level with prescribed results: held-out errors fall as given, the residual is structured above 1.
 class ScriptedLevel : public ClosureLevel {
  public:
   std::vector<Known> known;
   double heldout = 4.0, chance = 0.5;
-  double refit_loss = 1.0;  // what a refit makes of the held-out error
+  double refit_loss = 1.0;  // factor of the held-out error after a refit
   std::vector<std::string> adopted;
 
   std::string name() const override { return "structure"; }
@@ -153,7 +153,7 @@ TEST(ClosureLoop, TakesBackWhatTheRefitDoesNotKeep) {
 
 TEST(ClosureLoop, WhatTakesOutLessThanWasAskedForIsNotTold) {
   ClosureOptions options;
-  for (const double least : {2.6, 2.7}) {  // 4 -> 3 takes out sqrt(7) = 2.65
+  for (const double least : {2.6, 2.7}) {  // 4 -> 3 removes sqrt(7) = 2.65
     ScriptedLevel level;
     level.known = {{"small", 3.0}};
     options.least_gain = least;

@@ -18,7 +18,7 @@ using test_support::kPi;
 constexpr Eigen::Index kFrames = 800;
 constexpr double kNoise_px = 0.005, kRate_hz = 25.0;
 
-// What is seen of points whose motion is known at every instant, each at the instant of its own row.
+// Observations of points whose motion is known at every instant, each at the instant of its own row.
 struct View {
   double readout_frames = 0.9;
   double mode_hz = 1.7;                                 // of the structure, in proportion to the floor
@@ -57,7 +57,7 @@ struct View {
 };
 
 struct Solved {
-  double residual = 0.0;  // rms in sigmas, of what noise leaves
+  double residual = 0.0;  // rms in sigmas, relative to the noise
   Eigen::MatrixXd amplitudes;
 };
 
@@ -78,7 +78,7 @@ Solved solve(const ObservationRecord& record) {
   return {std::sqrt(inner.squaredNorm() / static_cast<double>(inner.size()) / freedom), model.amplitudes()};
 }
 
-// Camera motion of 8 px at 0.14 Hz, and of less and less up to 11 Hz.
+// Camera motion of 8 px at 0.14 Hz, with decreasing amplitudes up to 11 Hz.
 TEST(PointMotionModel, CameraMotionOfAnySpectrumUpToHalfTheRateLeavesNoiseOnly) {
   View view;
   view.zoom = 0.01;
@@ -86,7 +86,7 @@ TEST(PointMotionModel, CameraMotionOfAnySpectrumUpToHalfTheRateLeavesNoiseOnly) 
   view.along_v = {{5.0, 0.11, 1.0}, {0.8, 0.9, 3.0}, {0.3, 4.1, 0.0}, {0.2, 7.7, 1.0}, {0.1, 10.9, 2.5}};
   const double residual = solve(view.record()).residual;
   EXPECT_LT(residual, 1.02);
-  EXPECT_GT(residual, 0.9);  // what may be the tail of that motion weighs less
+  EXPECT_GT(residual, 0.9);  // motion that may belong to that tail has less weight
 }
 
 TEST(PointMotionModel, AmplitudesAreThoseOfTheMeanRow) {
@@ -106,7 +106,7 @@ TEST(PointMotionModel, AmplitudesAreThoseOfTheMeanRow) {
   }
 }
 
-// 16.3 Hz at 25 frames/s is seen at 8.7 Hz, with the phases of 16.3 Hz over the rows.
+// 16.3 Hz at 25 frames/s appears at 8.7 Hz, with the row-to-row phases of 16.3 Hz.
 TEST(PointMotionModel, AModeThatFoldsLeavesNoiseOnly) {
   View view;
   view.mode_hz = 16.3;  // of 100 ... 300 times the noise
@@ -115,8 +115,8 @@ TEST(PointMotionModel, AModeThatFoldsLeavesNoiseOnly) {
   EXPECT_GT(residual, 0.9);
 }
 
-// The power-law tail of a hover on both sides of half the rate, f^-4: a line in every bin of the record's spectrum from
-// 6 to 22 Hz, 0.05 px together above 12.5 Hz.
+// The power-law tail of a hover on both sides of half the rate, f^-4: a spectral line in every bin of the record's
+// spectrum from 6 to 22 Hz, 0.05 px together above 12.5 Hz.
 TEST(PointMotionModel, TheTailOfTheCamerasMotionIsNotLeftInTheResidual) {
   constexpr double kStep_hz = kRate_hz / static_cast<double>(kFrames);
   View view;

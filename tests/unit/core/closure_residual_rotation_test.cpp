@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 constexpr DerotatedFlowModel kModel{600.0, 0.1};
 
-// Points over a picture of 800 x 600 px that turns, and whose camera is shifted past points at many depths.
+// Points over an image of 800 x 600 px that rotates, with a camera translated relative to points at many depths.
 std::vector<DerotatedFlow> flows_of(const Vector3d& turn, const Vector3d& shift_px, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -44,7 +44,7 @@ TEST(ResidualRotation, IsFoundBesideAShiftPastManyDepths) {
     EXPECT_LT(off.norm(), 0.1 * turn.norm()) << seed;
     squares += off.dot(found.information * off) / 3.0;
   }
-  EXPECT_NEAR(squares / kSeeds, 1.0, 0.4);  // as far off as it says, within what sixty can tell
+  EXPECT_NEAR(squares / kSeeds, 1.0, 0.4);  // scatter as stated, within the accuracy of sixty seeds
 }
 
 TEST(ResidualRotation, OfNoneIsNearNone) {
@@ -53,7 +53,7 @@ TEST(ResidualRotation, OfNoneIsNearNone) {
   EXPECT_LT(found.rotation.dot(found.information * found.rotation), 16.0);  // chi-square of three: 99.9 %
 }
 
-// A steady turn about the picture's own axes looks like a shift where all depths are equal and the view is narrow.
+// A steady rotation about the image's own axes looks like a translation if all depths are equal and the view is narrow.
 TEST(ResidualRotation, SaysThatANarrowViewCannotTellItFromAShift) {
   std::vector<DerotatedFlow> wide = flows_of(Vector3d::Zero(), {2.0, 0.0, 0.0}, 1), narrow = wide;
   for (DerotatedFlow& flow : narrow) flow.at_px *= 0.05;

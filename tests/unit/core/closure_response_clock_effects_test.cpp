@@ -1,4 +1,4 @@
-// The response level where a record's clock, its camera or its structure does not stay what it is.
+// The response level for records whose clock, camera or structure changes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ struct Made {
 };
 
 // Two floors with modes at 1.9 and 5.2 Hz, 1 % damping, under independent white forces; the second is seen 20 ms after
-// the first, and the base at rest with the first.
+// the first, and the static base together with the first.
 ChannelRecord made(const Made& what, std::uint64_t seed) {
   constexpr double kHz[2] = {1.9, 5.2};
   constexpr double kShape[2][2] = {{0.6, 1.0}, {1.0, -0.6}};
@@ -209,14 +209,14 @@ TEST(EventCount, IsTheSumOfProbabilitiesWithItsVariance) {
   EXPECT_LT(clear.sigma, 0.1);
   EXPECT_EQ(clear.likely.size(), 30U);
   EXPECT_GT(clear.evidence, 100.0);
-  for (std::size_t i = 0; i < 10; ++i) ratios[100 * i] = std::log(99.0);  // as likely as not, at a share of 1 %
+  for (std::size_t i = 0; i < 10; ++i) ratios[100 * i] = std::log(99.0);  // equal odds, at a share of 1 %
   const EventCount doubtful = count_events(ratios);
   EXPECT_GT(doubtful.sigma, 1.0);
   EXPECT_LT(doubtful.sigma, 4.0);
   EXPECT_LE(count_events(std::vector<double>(3000, -0.5)).evidence, 0.0);
 }
 
-// A model that knows one effect, of a size and sigma that the test gives.
+// A model that contains one effect, with size and sigma given by the test.
 class OneEffect final : public ResponseModel {
  public:
   explicit OneEffect(ParameterValue size) : size_(std::move(size)) {}

@@ -20,8 +20,8 @@ using ::testing::HasSubstr;
 constexpr double kRate_hz = 25.0, kTwoPi = 2.0 * std::numbers::pi;
 constexpr int kReleases = 5, kPull = 25, kDecay = 45;
 
-// An oscillator with a cubic spring (`cubic`: share of stiffness lost at 100 units), pulled and let go; two floors, the
-// lower one at 0.5. Integrated with a thousand steps a second.
+// An oscillator with a cubic spring (`cubic`: share of stiffness lost at 100 units), displaced and released; two
+// floors, the lower one at 0.5. Integrated with a thousand steps a second.
 std::vector<std::vector<double>> pulled_and_released(double cubic, double noise_rms, std::uint64_t seed) {
   NoiseStream noise(seed);
   std::vector<double> roof;
@@ -70,8 +70,8 @@ TEST(FreeDecays, SofteningSpringIsTracedToItsAmplitudeOnReleasesThatTheFitDidNot
   ASSERT_TRUE(result.reference_error_after);
   EXPECT_LT(*result.reference_error_after, *result.reference_error_before / 3.0);
   ASSERT_EQ(result.modes_after.size(), 1U);
-  // A parabola in ln a does not hold a cubic spring's a^2 law over the whole decay: the frequency at one amplitude is
-  // off.
+  // A parabola in ln a cannot represent a cubic spring's a^2 law over the whole decay: the frequency at one amplitude
+  // is biased.
   EXPECT_NEAR(result.modes_after[0].frequency_hz, 4.0, 0.2);
 }
 

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 
 constexpr double kRate_hz = 100.0;
 
-// Three modes under white forces, seen by three loggers whose samples come `late` samples after the first one's.
+// Three modes under white forces, recorded by three loggers whose samples come `late` samples after the first one's.
 LoggerRecords recorded(const std::vector<double>& late, std::uint64_t seed, bool third_inverted = false) {
   constexpr double kHz[3] = {2.1, 6.3, 10.4};
   constexpr double kShape[3][3] = {{0.4, 0.8, 1.0}, {1.0, 0.4, -0.8}, {-0.7, 1.0, -0.5}};

@@ -19,7 +19,7 @@ namespace {
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kAttitudeRate_hz = 50.0;
 
-// The paper's frame, 20 s, seen from a camera that gusts turn by two degrees rms about each axis.
+// The paper's frame, 20 s, seen from a camera that gusts rotate by two degrees rms about each axis.
 simulation::Scene gusty_scene(std::uint64_t seed) {
   simulation::Scene scene = simulation::make_paper_scene(seed, 20.0);
   scene.hover.x_rms_mm = scene.hover.y_rms_mm = scene.hover.z_rms_mm = 0.0;
@@ -28,7 +28,7 @@ simulation::Scene gusty_scene(std::uint64_t seed) {
   return scene;
 }
 
-// What an autopilot in the camera's place says, from a tenth of a second before the first frame on.
+// Attitudes stated by an autopilot at the camera, from a tenth of a second before the first frame on.
 std::vector<AttitudeSample> told_attitude(const simulation::TrackGenerator& tracks, double sigma_rad) {
   simulation::RandomStream noise(tracks.motion().scene().seed, "attitude");
   Eigen::Matrix3d body_to_camera;
@@ -47,7 +47,7 @@ std::vector<AttitudeSample> told_attitude(const simulation::TrackGenerator& trac
 }
 
 struct Flight {
-  double error_px = 0.0;  // rms of the common motion that is left in the channels, its mean apart
+  double error_px = 0.0;  // rms of the common motion remaining in the channels, without its mean
   bool given_up = false;
   std::uint64_t n_used = 0;
 };

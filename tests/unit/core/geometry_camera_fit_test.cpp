@@ -59,14 +59,14 @@ class CameraFitOf : public testing::TestWithParam<Lens> {
 TEST_P(CameraFitOf, FindsTheTruthOfExactCorners) {
   const auto found = fit(board_, camera_, views_of(board_, camera_, tests::spread_poses(board_, camera_, 12), 1, 0.0));
   EXPECT_EQ(found.n_coefficients, camera_.lens.model == Lens::Model::kEquidistant ? 4 : 5);
-  EXPECT_LT(found.rms_px, 1e-5);  // OpenCV's start takes single precision; ours does not
+  EXPECT_LT(found.rms_px, 1e-5);  // OpenCV's initial values have single precision; this fit's do not
   EXPECT_NEAR(found.camera.fx, camera_.fx, 1e-4);
   EXPECT_NEAR(found.camera.cy, camera_.cy, 1e-4);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(found.camera.distortion[i], camera_.lens.k[i], 1e-5) << i;
 }
 
-// Sum of squares of 8 x (8 or 9) errors in their standard deviations: its mean is their number, its deviation
-// sqrt(2 x number) where parameters were independent; correlated ones scatter more, four deviations allow for that.
+// Sum of squares of 8 x (8 or 9) errors in units of their sigmas: its mean is their number, its standard deviation
+// sqrt(2 x number) for independent parameters; correlated ones scatter more, which four deviations allow for.
 TEST_P(CameraFitOf, StatesItsErrors) {
   const auto poses = tests::spread_poses(board_, camera_, 12);
   double sum = 0.0, n = 0.0, noise = 0.0;
@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(Lenses, CameraFitOf,
                                          Lens{Lens::Model::kRadialTangential, {-0.3, 0.2, 1e-3, -8e-4, -0.2}},
                                          Lens{Lens::Model::kEquidistant, {-0.03, 0.05, -0.08, 0.04, 0.0}}));
 
-// OpenCV states deviations for its own radial-tangential fit.
+// OpenCV states standard deviations for its own radial-tangential fit.
 TEST(CameraFit, AgreesWithOpencvAndItsDeviations) {
   const ChessBoard board;
   DrawnCamera camera;
@@ -111,7 +111,7 @@ TEST(CameraFit, AgreesWithOpencvAndItsDeviations) {
   ASSERT_EQ(found.n_coefficients, 5);
   EXPECT_NEAR(found.rms_px, rms, 1e-4 * rms);
   EXPECT_NEAR(found.camera.fx, k.at<double>(0, 0), 0.05 * found.sigma[0]);
-  // OpenCV takes the number of corners for that of equations, of which a corner gives two.
+  // OpenCV uses the number of corners as number of equations, although each corner gives two.
   const double n_corners = 12.0 * 54.0, n_parameters = 9.0 + 12.0 * 6.0;
   const double points_for_coordinates = std::sqrt((n_corners - n_parameters) / (2.0 * n_corners - n_parameters));
   for (std::size_t i = 0; i < found.sigma.size(); ++i)
@@ -153,7 +153,7 @@ TEST(CameraFit, RefusesTooFewOrBrokenViews) {
   EXPECT_THROW((void)fit(board, camera, broken), std::runtime_error);
 }
 
-// All corners on one line, or all in one point: an answer is not possible, and none is given.
+// All corners on one line, or all in one point: no solution is possible, and none is returned.
 TEST(CameraFit, RefusesBoardsWithoutArea) {
   const ChessBoard board;
   for (const double height : {0.0, 0.1}) {

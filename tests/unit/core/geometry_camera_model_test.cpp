@@ -80,7 +80,7 @@ TEST(CameraModel, UndoesAFisheyeUpToNinetyDegrees) {
   }
 }
 
-// The simulator's lens is written apart from this one.
+// The simulator's lens is implemented independently of this one.
 TEST(CameraModel, AgreesWithTheSimulatorsLens) {
   using Lens = simulation::LensParameters;
   const Lens lenses[] = {{Lens::Model::kRadialTangential, {-0.12, 0.03, 1e-3, -8e-4, 0.004}},
@@ -121,7 +121,7 @@ TEST(CameraModel, WhereTheLensShowsNoRayThereIsNoPoint) {
   const CameraModel barrel = camera({-1.2});  // folds at r = 0.527, seen at 0.3514: 738 px
   EXPECT_TRUE(std::isfinite(barrel.undistort({961.5 + 737.0, 542.0}).u));
   EXPECT_TRUE(std::isnan(barrel.undistort({961.5 + 739.0, 542.0}).u));
-  // Mustache: it rises again farther out, but those rays are not the ones next to the image's.
+  // Mustache distortion: it rises again farther out, but those rays do not continue the image's.
   const CameraModel mustache = camera({-2.0, 0.0, 0.0, 0.0, 2.0});
   EXPECT_TRUE(std::isnan(mustache.undistort({961.5 + 2100.0, 542.0}).u));
   EXPECT_TRUE(std::isnan(fisheye({}).undistort({961.5 + 600.0 * 1.6, 542.0}).u));

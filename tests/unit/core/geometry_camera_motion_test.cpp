@@ -90,7 +90,7 @@ Errors errors_of(const TrackGenerator& tracks, const ChannelDisplacementConfig& 
   return {rms(common), rms(between)};
 }
 
-// The base rests, and the operator says so.
+// The base is static, and declared as such.
 ChannelDisplacementConfig with_ground(ChannelDisplacementConfig config) {
   for (Region& region : config.regions) {
     if (region.role == RegionRole::kBase) region.role = RegionRole::kGround;
@@ -109,7 +109,7 @@ TEST(CameraMotionEstimate, GustsAreTakenAwayByABackgroundOfKnownDistance) {
   EXPECT_LT(ours.between_px, 0.1 * scale_only.between_px);
 }
 
-// A shift looks like a turn to a background: of one twice as far half is taken away.
+// Translation looks like rotation to a background: for one twice as far away, half of it is removed.
 TEST(CameraMotionEstimate, DriftIsHalvedByABackgroundAndTakenAwayByGroundInTheStructuresPlane) {
   Scene scene = simulation::make_paper_scene(2, 20.0);
   scene.excitation.rms_mm = 0.0;
@@ -141,8 +141,9 @@ double step_rms(const std::vector<double>& x) {
   return rms(steps);
 }
 
-// Scatter of every channel's error over its stated deviation, over seeds; the ground rests in the structure's plane.
-// From sample to sample: a keyframe read while the camera moved is bent, which shows as the distance changes, slowly.
+// Scatter of every channel's error over its stated sigma, over seeds; the ground is static in the structure's plane.
+// From sample to sample: a keyframe read while the camera moved is deformed, which shows slowly as the distance
+// changes.
 TEST(CameraMotionEstimate, StatesHowFarItMayBeOff) {
   double square = 0.0, n = 0.0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -165,8 +166,8 @@ TEST(CameraMotionEstimate, StatesHowFarItMayBeOff) {
   EXPECT_LT(std::sqrt(square / n), 1.5);
 }
 
-// Nothing is invented: yaw and the shift along the axes stay zero, and with them their noise.
-// A structure alone does not tell its own turning from the camera's.
+// No motion is invented: yaw and the shift along the axes stay zero, and so does their noise.
+// A structure alone cannot distinguish its own rotation from the camera's.
 TEST(CameraMotionEstimate, NeedsAFocalLengthAndSomethingThatRests) {
   const TrackGenerator tracks(gusty_scene(1.0));
   ChannelDisplacementConfig config = config_of(tracks, 0.0);

@@ -33,7 +33,7 @@ struct Measured {
   }
 };
 
-// Smooth motion of the camera is followed to a small part of the stated 0.02 mm of a channel, not to the last digit.
+// Smooth camera motion is followed to a small fraction of a channel's stated 0.02 mm, not exactly.
 TEST(ChannelDisplacement, MeasuresEachPlateUnderMotionAndZoom) {
   const PlateView view;
   Measured measure(view.config(), view.frame(0.0, sway, drift));
@@ -52,7 +52,7 @@ TEST(ChannelDisplacement, MeasuresEachPlateUnderMotionAndZoom) {
   }
 }
 
-// The third plate is a wall that rests: it sways as the camera shifts, and zooms as it nears.
+// The third plate is a static wall: it sways as the camera translates, and zooms as it approaches.
 TEST(ChannelDisplacement, FollowsWhatRestsAsAWitnessOfTheCamerasShift) {
   const PlateView view;
   ChannelDisplacementConfig config = view.config();
@@ -68,7 +68,7 @@ TEST(ChannelDisplacement, FollowsWhatRestsAsAWitnessOfTheCamerasShift) {
   for (int k = 1; k < 50; ++k) {
     const double t = k / view.rate_hz;
     TrackFrame tracks = view.frame(t, sway, drift);
-    tracks.points[40].seen = k % 2 == 0;             // comes and goes: the mean of the others must not jump
+    tracks.points[40].seen = k % 2 == 0;             // seen in every second frame: the mean of the others must not jump
     if (k % 3 == 0) tracks.points[45].u_px += 20.0;  // jumps
     const DisplacementSample& sample = measure(tracks);
     ASSERT_EQ(sample.witness_mm.size(), 1U);
@@ -100,12 +100,12 @@ TEST(ChannelDisplacement, StatesTheDelayOfEachRowAndLeavesTheSampleThere) {
       0.48, [](std::size_t, double t) { return 50.0 * t; }, no_zoom);
   const DisplacementSample& sample = measure(tracks);
   for (std::size_t r = 0; r < 3; ++r) {
-    // Not exact: rows of one plate are seen apart, and their shear reads as a trace of magnification.
+    // Not exact: rows of one plate are seen at different times, and their shear appears as slight magnification.
     EXPECT_NEAR(sample.value_mm[r], 50.0 * (0.48 + measure.channels.channels()[r].row_delay_s), 1e-4);
   }
 }
 
-// Rows are read as they lie on the sensor, not where an undistorted camera would see them.
+// Rows are read at their position on the sensor, not where an undistorted camera would see them.
 TEST(ChannelDisplacement, TakesTheDelayFromTheRawRow) {
   PlateView view;
   view.readout_s = 0.03;
@@ -117,7 +117,7 @@ TEST(ChannelDisplacement, TakesTheDelayFromTheRawRow) {
   EXPECT_NEAR(measure.channels.channels()[0].row_delay_s, 0.03 * v_sum / 16.0 / 480.0, 1e-12);
 }
 
-// A channel weighs its points by their texture, and its delay is the same mean of theirs.
+// A channel weights its points by their texture, and its delay is the same weighted mean of theirs.
 TEST(ChannelDisplacement, WeighsPointsByTextureInValueAndDelayAlike) {
   PlateView view;
   view.readout_s = 0.03;
@@ -247,7 +247,7 @@ TEST(ChannelDisplacementPaper, MovesSamplesToRowZeroAssumingAFullFrameOfReadout)
     const DisplacementSample& sample = paper(tracks);
     for (std::size_t r = 0; r < 3; ++r) {
       if (k == 1) begin_mm[r] = sample.value_mm[r];
-      // Steady motion: what row 0 saw, but for the keyframe's own offset, which is constant.
+      // Steady motion: as seen by row 0, except for the keyframe's own constant offset.
       if (k > 1) {
         EXPECT_NEAR(sample.value_mm[r] - begin_mm[r], 30.0 * (k - 1) / view.rate_hz, 1e-9);
       }
@@ -257,7 +257,7 @@ TEST(ChannelDisplacementPaper, MovesSamplesToRowZeroAssumingAFullFrameOfReadout)
       << "the keyframe keeps its own delay";
 }
 
-// With half the readout the paper's assumption corrects twice too much; ours states the true delay.
+// With half the readout the paper's assumption corrects twice too much; method hovermodal states the true delay.
 TEST(ChannelDisplacementPaper, OvercorrectsWhenTheReadoutIsShorterThanTheFrame) {
   PlateView view;
   view.readout_s = 0.5 / view.rate_hz;

@@ -55,7 +55,7 @@ TEST(LengthScale, ScattersAsItSays) {
     const LengthScale scale = fit_length_scale(lengths, 0.5);
     ratio += std::pow((scale.mm_per_px - 0.8) / scale.sigma, 2) / kDraws;
   }
-  EXPECT_NEAR(ratio, 0.85, 0.15);  // the larger of stated and seen scatter is taken: a little too large on average
+  EXPECT_NEAR(ratio, 0.85, 0.15);  // the larger of stated and observed scatter is used: slightly too large on average
 }
 
 TEST(LengthScale, NamesTheLengthThatDisagrees) {
@@ -76,7 +76,7 @@ TEST(Obliqueness, OneLengthExcludesNothing) {
   EXPECT_EQ(bound.least_deg, 0.0);
   EXPECT_EQ(bound.largest_deg, 30.0);
   ASSERT_EQ(bound.places.size(), 5U);
-  // Leaning by 30 degrees over the height, the floors 800 mm off the middle (0.2 focal lengths) lie at depths of
+  // Inclined by 30 degrees over the height, the floors 800 mm off the middle (0.2 focal lengths) lie at depths of
   // 1 / (1 -+ 0.2 tan 30): a ratio of 1.26.
   EXPECT_NEAR(bound.between,
               (1.0 + 0.2 * std::tan(std::numbers::pi / 6)) / (1.0 - 0.2 * std::tan(std::numbers::pi / 6)), 0.01);

@@ -54,14 +54,14 @@ TEST(PlanePose, FindsTheTruthOfExactPoints) {
   }
 }
 
-// Heights measured upwards: the coordinates' sense is the other way round than the image's.
+// Heights measured upwards: the coordinates' orientation is opposite to the image's.
 TEST(PlanePose, TakesCoordinatesOfEitherSense) {
   PlanePose pose = truth(20.0, -10.0, 0.0);
   pose.rotation = pose.rotation * Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX()).toRotationMatrix();
   const PlanePoseFit fit = fit_plane_pose(points_of(pose, kEight), kCamera, 0.5);
   ASSERT_EQ(fit.status, PlaneStatus::kOk);
   EXPECT_LT((fit.pose.rotation - pose.rotation).norm(), 1e-7);
-  EXPECT_LT(fit.pose.normal().z(), 0.0);  // towards the camera, whichever the sense
+  EXPECT_LT(fit.pose.normal().z(), 0.0);  // towards the camera, for either orientation
 }
 
 TEST(PlanePose, PointsOfThePlaneAndPixelsAreEachOthersInverse) {
@@ -128,7 +128,7 @@ TEST(PlanePose, StatesItsErrors) {
     obliqueness +=
         std::pow((fit.pose.obliqueness_deg() - pose.obliqueness_deg()) / fit.pose.obliqueness_sigma_deg(), 2) / kDraws;
   }
-  // The covariance takes the larger of stated and seen residual, which makes it about a tenth too large.
+  // The covariance uses the larger of stated and observed residual, which makes it about a tenth too large.
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(ratio(i), 0.9, 0.35) << i;
   EXPECT_NEAR(all, 0.9, 0.2);
   EXPECT_NEAR(obliqueness, 0.9, 0.35);
@@ -143,7 +143,7 @@ TEST(PlanePose, FromAfarTheOtherTiltIsReported) {
   ASSERT_TRUE(open.other);
   EXPECT_GE(open.other->chi_square, open.pose.chi_square);
   const Eigen::Vector3d a = open.pose.normal(), b = open.other->normal();
-  EXPECT_LT(a.x() * b.x() + a.y() * b.y(), 0.0);  // leans the other way
+  EXPECT_LT(a.x() * b.x() + a.y() * b.y(), 0.0);  // inclined in the other direction
   const PlanePoseFit near = fit_plane_pose(points_of(truth(25.0, -15.0, 0.0, 1500.0), kFour, 0.5), kCamera, 0.5);
   EXPECT_FALSE(near.other);
 }

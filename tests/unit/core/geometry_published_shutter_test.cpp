@@ -14,7 +14,7 @@ constexpr std::size_t kPoints = 6;  // two in each of three regions: floor, floo
 const std::array<double, kPoints> kShare{0.1, 0.2, 0.4, 0.5, 0.8, 0.9};
 const std::vector<PublishedShutter::Region> kRegions{{0, 2, false}, {2, 4, false}, {4, 6, true}};
 
-// What is seen of a camera that moves `camera(t)` and floors that move `structure(region, t)`; t in frames, readout one
+// Observations for camera motion `camera(t)` and floor motion `structure(region, t)`; t in frames, readout one
 // frame.
 template <class Camera, class Structure>
 std::vector<Vector2> seen(double t, Camera camera, Structure structure) {
@@ -32,7 +32,7 @@ double floors(std::size_t region, double t) {
 }
 const std::vector<std::uint8_t> kAll(kPoints, 1);
 
-// Eq. 8 holds exactly where the camera goes on as it went from the last frame to this.
+// Eq. 8 is exact if the camera's velocity is the same as from the last frame to this one.
 TEST(PublishedShutter, MovesTheCameraToLineZeroAndLeavesTheStructureAtItsLine) {
   PublishedShutter shutter(ShutterVelocity::kCamera, kRegions, kPoints);
   for (std::uint64_t k = 0; k < 20; ++k) {
@@ -46,7 +46,7 @@ TEST(PublishedShutter, MovesTheCameraToLineZeroAndLeavesTheStructureAtItsLine) {
   }
 }
 
-// The floor's own velocity moves it to line 0 as a whole, but only where it is steady, too.
+// The floor's own velocity shifts it to line 0 as a whole, but only if it is steady, too.
 TEST(PublishedShutter, MovesEveryRegionToLineZeroByItsOwnVelocity) {
   const auto sliding = [](std::size_t region, double t) { return static_cast<double>(region) * t; };
   PublishedShutter shutter(ShutterVelocity::kRegion, kRegions, kPoints);

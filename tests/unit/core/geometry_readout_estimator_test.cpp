@@ -32,7 +32,7 @@ ReadoutEstimator::Config config_of(const simulation::TrackGenerator& generator, 
   return config;
 }
 
-// spoil: what is done to every frame but the first.
+// spoil: applied to every frame except the first.
 ReadoutEstimate estimate(const Scene& scene, ReadoutDirection direction = ReadoutDirection::kDown,
                          const std::function<void(TrackFrame&)>& spoil = {}) {
   const simulation::TrackGenerator generator(scene);
@@ -106,7 +106,7 @@ TEST(ReadoutEstimator, PointsOnOneLineTellNothing) {
   EXPECT_EQ(found.n_bands, 0);
 }
 
-// A line above half the rate, stronger than all other motion: its velocity has the wrong sign in the samples.
+// A spectral line above half the rate, stronger than all other motion: its velocity has the wrong sign in the samples.
 TEST(ReadoutEstimator, LeavesOutFoldedMotion) {
   Scene scene = paper_scene(0.7);
   scene.excitation.harmonics.push_back({6, 16.0, 6.0});

@@ -100,7 +100,7 @@ TEST(ScaleFactor, TheMedianShrugsOffAFewWildPoints) {
   EXPECT_NEAR(scale.median_of_pairs(position, usable), 1.02, 0.005);
 }
 
-// A region that may move along both axes shows magnification only inside itself.
+// A region that may move along both axes shows magnification only within itself.
 TEST(ScaleFactor, RegionsThatMoveBothWaysAreNotComparedWithOthers) {
   std::vector<ScaleFactor::Point> points = floors_and_background();
   for (ScaleFactor::Point& p : points) p.both_axes = true;

@@ -26,7 +26,7 @@ double total(const std::vector<double>& cost, const std::vector<std::size_t>& co
   return sum;
 }
 
-// The least total of all ways to pair rows with columns, tried one by one.
+// The least total over all ways to pair rows with columns, by enumeration.
 double least_total(const std::vector<double>& cost, std::size_t n_rows, std::size_t n_columns, std::size_t row = 0,
                    unsigned taken = 0) {
   if (row == n_rows) return 0.0;

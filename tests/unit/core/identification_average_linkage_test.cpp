@@ -10,7 +10,7 @@ namespace {
 
 using Clusters = std::vector<std::vector<std::size_t>>;
 
-// By the definition: the mean over all pairs, looked up again at every step.
+// By the definition: the mean over all pairs, computed again at every step.
 Clusters by_definition(const std::vector<double>& distance, std::size_t n, double limit) {
   Clusters clusters;
   for (std::size_t i = 0; i < n; ++i) clusters.push_back({i});

@@ -19,8 +19,8 @@ using test_support::SimulatedStructure;
 constexpr double kRate_hz = 30.0, kDuration_s = 300.0;
 constexpr double kGain = 1.9;  // the witness is that much farther away than the structure
 
-// The frame's floors seen by a camera that shifts, and a wall behind it: sums of base, six floors and the wall.
-// camera(k): shift as the wall shows it, mm; wall(response, t): what the wall moves by itself.
+// The frame's floors seen by a camera that translates, and a wall behind it: sums of base, six floors and the wall.
+// camera(k): camera translation as the wall shows it, mm; wall(response, t): the wall's own motion.
 struct Filmed {
   std::function<double(int)> camera;
   std::function<double(const simulation::StructureResponse&, double)> wall;
@@ -109,7 +109,7 @@ TEST(CameraLeakage, TakesTheHoverOutOfTheShapes) {
 }
 
 TEST(CameraLeakage, NamesAShakingCamera) {
-  // A gimbal that rings at 3.3 Hz with 2 % of damping.
+  // A gimbal that resonates at 3.3 Hz with 2 % damping.
   const double pole = std::exp(-0.02 * 2.0 * 3.14159265 * 3.3 / kRate_hz);
   const auto ringing = [=, random = std::mt19937_64(3), x = 0.0, before = 0.0](int) mutable {
     const double next = 2.0 * pole * std::cos(2.0 * 3.14159265 * 3.3 / kRate_hz) * x - pole * pole * before +

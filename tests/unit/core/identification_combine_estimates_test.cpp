@@ -46,7 +46,7 @@ std::vector<EstimateInput> inputs(const std::vector<ModalEstimate>& estimates) {
 
 TEST(CombineEstimates, MatchesByFrequencyAndShape) {
   const Shape bending{1.0, 0.5, -0.2}, torsion{1.0, -0.9, 0.8};
-  // Two modes as near to one another as one is to itself in the next flight: their shapes tell them apart.
+  // Two modes as close to each other as the estimates of one mode in two flights: their shapes distinguish them.
   const std::vector<ModalEstimate> flights{
       estimate({{2.00, 0.01, 0.01, 0.001, bending}, {2.03, 0.01, 0.02, 0.001, torsion}}),
       estimate({{2.01, 0.01, 0.02, 0.001, torsion}, {2.02, 0.01, 0.01, 0.001, bending}, {7.0, 0.1}})};
@@ -120,8 +120,8 @@ TEST(CombineEstimates, WithoutDeviationsWeighsByDurationAndStatesNone) {
   EXPECT_EQ(groups[0].frequency_hz.n, 2U);
 }
 
-// A deviation that goes with the damping's root, as of a record of some length: the mean is not drawn down by values
-// that came out low and therefore claim to be precise.
+// A sigma proportional to the square root of the damping, as for a record of given length: the mean is not biased by
+// values that are low by chance and therefore state a small sigma.
 TEST(CombineEstimates, DampingIsNotDrawnDownByLowValues) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;

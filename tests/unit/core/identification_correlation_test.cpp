@@ -98,7 +98,7 @@ TEST(Correlations, DividedAndUndividedAgreeAtLagZeroOfAChannel) {
   for (int c = 0; c < 2; ++c) EXPECT_DOUBLE_EQ(correlations.divided(c, c, 0), correlations.undivided(c, c, 0));
 }
 
-// Differencing the signal is differencing its correlation twice; a window and losses change nothing of that.
+// Differencing the signal means differencing its correlation twice; window and losses do not change that.
 TEST(Correlations, DifferencesAreThoseOfTheLags) {
   const CpsdSums sums = welch(noise(2, 400, 6, 0.1), 64, WindowKind::kHann, 0.5);
   Correlations plain, differenced;
@@ -164,7 +164,7 @@ TEST(Correlations, OfNamedReferencesOnlyAreThoseOfAllPairs) {
   EXPECT_EQ(some.divided(0, 1, 3), 0.0);
 }
 
-// Channels that lose the same samples share one mask; one more lost sample in a channel parts them.
+// Channels that lose the same samples share one mask; one more lost sample in a channel gives it another mask.
 TEST(Correlations, SharedAndSeparateMasksAgree) {
   Record record = noise(3, 400, 8, 0.1);
   record.seen[1] = record.seen[2] = record.seen[0];

@@ -28,7 +28,7 @@ struct Seen {
   std::vector<Complex> shape;
 };
 
-// A mode of the given true frequency as frames of rate kRate show it: the pole of the upper half plane after folding.
+// A mode of the given true frequency as sampled at kRate: the pole of the upper half plane after aliasing.
 Seen observe(double frequency_hz, const std::vector<double>& delay_s) {
   const double w = 2.0 * std::numbers::pi * frequency_hz;
   const Complex s(-kZeta * w, w * std::sqrt(1.0 - kZeta * kZeta));
@@ -42,7 +42,7 @@ Seen observe(double frequency_hz, const std::vector<double>& delay_s) {
 }
 
 TEST(Folding, StatesTheFrequenciesThatTheSamplesDoNotExclude) {
-  // Rows read at once: no delay tells the alias order.
+  // Rows read simultaneously: no delay shows the alias order.
   FoldingConfig blind{kRate, 0.0, std::vector<double>(kShape.size(), 0.0)};
   const Seen seen = observe(3.0, blind.delay_s);
   const std::vector<double> others = other_frequencies(unfold(seen.lambda, seen.shape, blind), blind, 0.3);
@@ -52,7 +52,7 @@ TEST(Folding, StatesTheFrequenciesThatTheSamplesDoNotExclude) {
   // Declared: nothing above half the rate.
   blind.max_frequency_hz = 12.0;
   EXPECT_TRUE(other_frequencies(unfold(seen.lambda, seen.shape, blind), blind, 0.3).empty());
-  // Row delays exclude them, though nobody asked for the alias order.
+  // Row delays exclude them, although the alias order was not requested.
   const FoldingConfig rows = seven_rows(0.9 / kRate, 0.0);
   const Seen rolled = observe(3.0, rows.delay_s);
   EXPECT_TRUE(other_frequencies(unfold(rolled.lambda, rolled.shape, rows), rows, 0.3).empty());
@@ -117,7 +117,7 @@ TEST(Folding, IsOpenWhereOtherFrequenciesCannotBeTold) {
   const UnfoldedPole open = unfold(seen.lambda, {seen.shape[0], seen.shape[1]}, two);
   EXPECT_TRUE(open.fold_open);
   EXPECT_GT(open.mpc, 0.999) << "that of the best hypothesis";
-  const Seen slow = observe(2.0, two.delay_s);  // 23 and 27 Hz are not looked for
+  const Seen slow = observe(2.0, two.delay_s);  // 23 and 27 Hz are not searched
   EXPECT_FALSE(unfold(slow.lambda, {slow.shape[0], slow.shape[1]}, two).fold_open);
 }
 
@@ -148,7 +148,8 @@ TEST(NormaliseShape, MakesTheLargestComponentOne) {
   for (const Complex& z : zero) EXPECT_EQ(z, 0.0);
 }
 
-// A velocity is s times, an acceleration s^2 times the displacement: undamped, rows turned by 90 degrees each.
+// A velocity is s times, an acceleration s^2 times the displacement: undamped, the shape rotates by 90 degrees for
+// each.
 TEST(Folding, MixedQuantitiesBecomeDisplacements) {
   FoldingConfig config = seven_rows(0.0, kRate / 2.0);
   config.n_integrations = {0, 1, 2, 2, 1, 0};
@@ -163,7 +164,7 @@ TEST(Folding, MixedQuantitiesBecomeDisplacements) {
   EXPECT_LT(mac(unfold(seen.lambda, seen.shape, config).shape, kShape), 0.9);
 }
 
-// The true frequency, not the apparent one, is what a folded row is divided by.
+// An aliased shape is divided by powers of the true frequency, not of the apparent one.
 TEST(Folding, MixedQuantitiesOfAFoldedModeAreDividedByItsTrueFrequency) {
   FoldingConfig config = seven_rows(0.9 / kRate, 20.0);
   config.n_integrations = {0, 2, 0, 2, 0, 2};

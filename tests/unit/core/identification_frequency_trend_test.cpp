@@ -51,11 +51,11 @@ TEST(FrequencyTrend, StatesTheScatterOfItsSlope) {
   }
   EXPECT_NEAR(sum / kSeeds, 0.0, 3.0 / std::sqrt(kSeeds));  // no bias
   const double spread = std::sqrt(sum_of_squares / kSeeds);
-  EXPECT_LT(spread, 1.0 + 3.0 / std::sqrt(2.0 * kSeeds));  // never more sure than it may be
-  EXPECT_GT(spread, 0.8);  // larger residuals are believed, smaller ones are not: a little on the safe side
+  EXPECT_LT(spread, 1.0 + 3.0 / std::sqrt(2.0 * kSeeds));  // sigmas are never too small
+  EXPECT_GT(spread, 0.8);  // larger residuals increase sigma, smaller ones do not decrease it: slightly conservative
 }
 
-// What the shared data are for: a line through the estimates themselves takes their common noise for a drift.
+// Why shared data must be considered: a line through the estimates themselves takes their common noise for a drift.
 TEST(FrequencyTrend, DoesNotTakeSharedNoiseForADrift) {
   constexpr int kSeeds = 200;
   int n_ours = 0, n_naive = 0;

@@ -73,12 +73,12 @@ TEST(Identifier, FindsTheModesOfASixStoreyFrameNearTheTheoreticalScatter) {
     const ModalEstimate estimate = Identifier({}, structure.channels()).identify(structure.spectra());
     ASSERT_EQ(estimate.status, "ok");
     EXPECT_NEAR(estimate.duration_s, 300.0, 1e-9);
-    for (const Mode& mode : estimate.modes) {  // nothing is called structural that is none
+    for (const Mode& mode : estimate.modes) {  // no false structural mode
       const std::size_t r = nearest_true_mode(structure, mode.frequency_hz);
       EXPECT_LT(std::abs(mode.frequency_hz - structure.frequency_hz(r)), 3.0 * structure.frequency_scatter_hz(r))
           << mode.frequency_hz;
     }
-    for (std::size_t r = 0; r < 4; ++r) {  // the upper two are weak: whether they show is a matter of tuning
+    for (std::size_t r = 0; r < 4; ++r) {  // the upper two are weak: whether they are found depends on tuning
       const Mode* mode = find(estimate, structure.frequency_hz(r));
       ASSERT_NE(mode, nullptr) << "mode " << r + 1;
       EXPECT_LT(std::abs(mode->damping_ratio - 0.01), 3.0 * structure.damping_scatter(r)) << "mode " << r + 1;
@@ -88,7 +88,7 @@ TEST(Identifier, FindsTheModesOfASixStoreyFrameNearTheTheoreticalScatter) {
   }
 }
 
-// The camera of the paper: 25 frames a second. Modes 5 and 6 lie above the Nyquist frequency, and row delays tell.
+// The camera of the paper: 25 frames a second. Modes 5 and 6 lie above the Nyquist frequency; row delays resolve them.
 TEST(Identifier, UnfoldsModesAboveHalfTheRateByTheirRowDelays) {
   int n_found = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
@@ -175,7 +175,7 @@ TEST(Identifier, RefusesReferencesThatAreNoChannel) {
   EXPECT_THROW(Identifier({}, {}), std::invalid_argument);
 }
 
-// Narrow bands of the input, each weaker than the last, sink into the noise one by one: no gap.
+// Narrow bands of the input, in decreasing order, fall below the noise one by one: there is no gap.
 TEST(Identifier, SaysWhenTheOrderIsUnclear) {
   WelchConfig welch;
   welch.n_channels = 4;

@@ -14,7 +14,7 @@ TEST(InverseVarianceMean, WeighsByPrecision) {
   const std::vector<Measured> two{{10.0, 1.0, 0.0}, {13.0, 2.0, 0.0}};
   const WeightedMean mean = inverse_variance_mean(two);
   EXPECT_NEAR(mean.value, (10.0 * 4.0 + 13.0) / 5.0, 1e-14);
-  // chi^2 = 9 / 5 with one degree of freedom: they scatter 1.34 times as far as they say.
+  // chi^2 = 9 / 5 with one degree of freedom: they scatter 1.34 times as far as stated.
   ASSERT_TRUE(mean.scatter);
   EXPECT_NEAR(*mean.scatter, std::sqrt(9.0 / 5.0), 1e-14);
   EXPECT_NEAR(mean.std, std::sqrt(4.0 / 5.0) * std::sqrt(9.0 / 5.0), 1e-14);
@@ -30,8 +30,8 @@ TEST(InverseVarianceMean, OfOneIsItself) {
 
 TEST(InverseVarianceMean, OfNoneIsNothing) { EXPECT_EQ(inverse_variance_mean({}).n, 0U); }
 
-// Deviations estimated from ten parts, as a record states them: the sum of the weights alone claims a variance of two
-// thirds of the mean's own; Meier's first order comes within a tenth of it.
+// Sigmas estimated from ten parts, as stated by a record: the sum of the weights alone gives a variance of two
+// thirds of the mean's true one; Meier's first order is accurate within a tenth.
 TEST(InverseVarianceMean, PaysForWeightsThatAreEstimates) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
@@ -43,7 +43,7 @@ TEST(InverseVarianceMean, PaysForWeightsThatAreEstimates) {
     for (int f = 0; f < kFlights; ++f) flights.push_back({normal(random), std::sqrt(chi_squared(random) / 9.0), 9.0});
     const WeightedMean mean = inverse_variance_mean(flights);
     squares += mean.value * mean.value;
-    const double own = mean.std / std::max(1.0, *mean.scatter);  // without Birge's factor, which only widens
+    const double own = mean.std / std::max(1.0, *mean.scatter);  // without Birge's factor, which only increases it
     stated += own * own;
     double total = 0.0;
     for (const Measured& m : flights) total += 1.0 / (m.std * m.std);

@@ -71,7 +71,7 @@ TEST(SpectralLineEvidence, AModeDecaysAsMuchAsItIsDamped) {
   EXPECT_LT(mode.late_share, 0.4);
 }
 
-// A fifth of a lost 0.1 % takes 32 cycles: the lags of a segment hold fewer of a slow line.
+// With 0.1 % damping, a decay by a fifth takes 32 cycles: the lags of a segment contain fewer of a slow line.
 TEST(SpectralLineEvidence, LinesTooSlowForTheSegmentAreNotExamined) {
   const FoldingConfig folding = rows(0.0);
   const CpsdSums sums = record(1.0, 0.0, true);
@@ -98,7 +98,7 @@ TEST(SpectralLineEvidence, AShakingCameraIsSeenThroughTheDelaysOfItsRows) {
   const FoldingConfig folding = rows(0.66);
   const CpsdSums sums = record(4.0, 0.01, false);
   for (const double true_hz : {79.0, 96.0, 104.0, 146.0}) {
-    // The apparent pole has the conjugate shape where the signed frequency is negative.
+    // The apparent pole has the conjugate shape if the signed frequency is negative.
     const double signed_hz = std::remainder(true_hz, kRate_hz) < 0.0 ? -true_hz : true_hz;
     UnfoldedPole pole = pole_at(std::abs(std::remainder(true_hz, kRate_hz)), 0.0, shaken(signed_hz, folding));
     const FoldingConfig none = {kRate_hz, 20.0, std::vector<double>(6, 0.0)};

@@ -36,7 +36,7 @@ SetupModes setup(const std::string& name, double duration_s, std::vector<Mode> m
   return s;
 }
 
-// A bending mode in x, one in y close to it; each set-up sees another point and scales shapes in its own way.
+// A bending mode in x, one in y close to it; each set-up sees another point and scales shapes differently.
 std::vector<SetupModes> two_setups() {
   const std::complex<double> turned = std::polar(2.0, 1.0);
   return {setup("a", 100.0, {mode(2.00, 0.010, {0.5, 1.0, 0.1}), mode(2.03, 0.020, {0.3, -0.1, 1.0})}),
@@ -68,7 +68,7 @@ TEST(MergeSetups, ShapesAreJoinedAtTheReferences) {
 
 TEST(MergeSetups, CloseModesAreToldApartByTheirReferenceParts) {
   std::vector<SetupModes> setups = two_setups();
-  // The order of the frequencies is not that of the modes.
+  // The order of the frequencies differs from that of the modes.
   setups[1].estimate.modes[0].frequency_hz = 2.05;
   const MergedSetups merged = merge_setups(setups);
   ASSERT_EQ(merged.estimate.modes.size(), 2U);

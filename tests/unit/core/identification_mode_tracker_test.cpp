@@ -26,7 +26,7 @@ Mode mode_at(double frequency_hz, const Shape& shape, Verdict verdict = Verdict:
   return mode;
 }
 
-// What the camera sees of a mode that stands n times the rate away, as the identification gives it for this reading.
+// Observation of a mode at n times the rate from the apparent one, as identified with this alias order.
 Mode folded_mode(double apparent_hz, int fold_n, const Shape& shape) {
   Mode mode = mode_at(std::abs(apparent_hz + fold_n * kRateHz), shape);
   mode.apparent_hz = apparent_hz;
@@ -90,7 +90,7 @@ TEST_F(ModeTrackerTest, TellsTwoCrossingModesApartByTheirShapes) {
 }
 
 TEST_F(ModeTrackerTest, KeepsTwinsOfOneShapeInTheirOrder) {
-  // Moving together: the cheapest single pair would be the upper old with the lower new one.
+  // Both move together: the cheapest single pair would be the upper old with the lower new one.
   for (int k = 0; k < 8; ++k) {
     const double shift = 0.03 * k;
     const auto estimate = next({mode_at(5.0 + shift, kFirst), mode_at(5.06 + shift, kFirst)});
@@ -133,7 +133,7 @@ TEST_F(ModeTrackerTest, AFailedEstimateEndsNoMode) {
     tracker_.update(failed);
   }
   EXPECT_EQ(tracker_.n_followed(), 1U);
-  for (int k = 0; k < 3; ++k) next({});  // these say that it is gone
+  for (int k = 0; k < 3; ++k) next({});  // these estimates do not contain it
   EXPECT_EQ(tracker_.n_followed(), 0U);
 }
 
@@ -150,7 +150,7 @@ TEST_F(ModeTrackerTest, AnAmbiguousPoleContinuesAModeAndBeginsNone) {
 TEST_F(ModeTrackerTest, KeepsTheNumberWhenAnotherFoldIsRead) {
   const std::vector<double> delay_s{0.0, 0.012, 0.024};
   tracker_ = ModeTracker({.row_delay_s = delay_s});
-  // 12.93 Hz at 25 fps: seen at 12.07, mirrored. Read as 12.07 the same picture gives another, complex shape.
+  // 12.93 Hz at 25 fps: appears at 12.07, mirrored. Interpreted as 12.07 the same data give another, complex shape.
   Shape other(3);
   for (std::size_t c = 0; c < 3; ++c) {
     const auto turn = [&](double hz) { return std::polar(1.0, 2.0 * std::numbers::pi * hz * delay_s[c]); };

@@ -12,7 +12,7 @@
 namespace core {
 namespace {
 
-// Two channels of 1 Hz in white noise, 25 samples a second, on a slow wander.
+// Two channels of 1 Hz in white noise, 25 samples a second, with a slow drift.
 CpsdSums record(double drift) {
   WelchConfig config;
   config.n_channels = 2;

@@ -35,7 +35,7 @@ std::vector<double> frequencies(const ModalEstimate& estimate) {
   return all;
 }
 
-// The same poles by core/identification/era.h, plain, on correlations from lag 1 on of which nothing was differenced.
+// The same poles by core/identification/era.h, plain, on correlations from lag 1 on, without differencing.
 TEST(PublishedIdentification, IsPlainEraOfOneOrderOnUndifferencedCorrelations) {
   SimulatedStructure structure;
   structure.duration_s = 120.0;
@@ -82,7 +82,7 @@ PoleCluster pole(double frequency_hz, double base, double damping_ratio = 0.01) 
   PoleCluster out;
   out.frequency_hz = out.apparent_hz = frequency_hz;
   out.damping_ratio = damping_ratio;
-  // Out of phase, in one order of many: our own rules refuse both.
+  // Out of phase, and in one order of many: the rules of method hovermodal refuse both.
   out.representative.shape = {base, {0.0, 0.7}, 1.0};
   out.representative.mpc = 0.1;
   out.first_i_order = 9, out.presence = 0.1;

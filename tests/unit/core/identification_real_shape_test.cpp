@@ -20,7 +20,7 @@ TEST(RealShape, AShapeOfOnePhaseIsItselfWithTheLargestComponentPositive) {
   for (std::size_t i = 0; i < truth.size(); ++i) EXPECT_NEAR(real[i], -3.0 * truth[i], 1e-12) << i;
 }
 
-// Of a rolling shutter: phases over a span of 1.6 radians cost the complex MAC, the real one nothing.
+// With a rolling shutter: phases over a range of 1.6 radians reduce the complex MAC, but not the real one.
 TEST(RealShape, DelaysTurnComponentsAndLeaveTheirMagnitudes) {
   const std::vector<double> truth{1.0, -0.3, -1.0, -0.4, 0.7, 1.0};
   Shape delayed, real;

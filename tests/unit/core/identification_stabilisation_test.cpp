@@ -76,14 +76,14 @@ TEST(Stabilisation, TheMediansShrugOffOneStrayPole) {
   EXPECT_NEAR(damping_ratio(clusters[0].representative.s), 0.01, 1e-9);
 }
 
-// Orders that disagree about the fold must not be mixed: frequency, fold and shape belong to one answer.
+// Orders with different alias orders must not be mixed: frequency, alias order and shape belong together.
 TEST(Stabilisation, FrequencyAndFoldBelongTogether) {
   std::vector<OrderPole> poles;
   for (int i = 0; i < 15; ++i) {
     const bool folded = i % 2 == 0;  // 8 of 15
     const double scatter = 0.003 * std::sin(1.0 + 2.0 * i);
     OrderPole p = pole(i, 12.07 + scatter, 0.01, kFirst);
-    // The odd ones lie nearer to the median of all in everything but the fold.
+    // The odd ones are nearer to the median of all in everything except the alias order.
     if (folded) p.pole.s = pole(i, 12.93 - scatter, 0.0093 + 0.002 * std::sin(0.4 * i), kFirst).pole.s;
     p.pole.fold_n = folded ? -1 : 0;
     p.pole.fold_margin = 0.1;
@@ -98,7 +98,7 @@ TEST(Stabilisation, FrequencyAndFoldBelongTogether) {
   EXPECT_EQ(clusters[0].presence, 1.0) << "the pole is there in every order, whatever its fold";
 }
 
-// A line that wanders a little with the order falls into two clusters; together they are one mode.
+// A pole that wanders slightly with the order falls into two clusters; together they are one mode.
 TEST(Stabilisation, JoinsALineThatWasSplit) {
   std::vector<OrderPole> poles;
   for (int i = 0; i < 10; ++i) {

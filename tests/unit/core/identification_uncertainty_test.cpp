@@ -47,8 +47,8 @@ const DiscretePole& nearest(const std::vector<DiscretePole>& poles, Complex lamb
   });
 }
 
-// The functional is the derivative: the pole of correlations a little further on, refitted, has moved as it says. The
-// system fills the subspace exactly, so that holding it fixed costs nothing to first order.
+// The functional is the derivative: the pole refitted from slightly changed correlations has moved as predicted. The
+// system fills the subspace exactly, so that a fixed subspace is correct to first order.
 TEST(PoleChanges, AreTheDerivativeOfARefit) {
   constexpr int kModes = 3, kOrder = 2 * kModes;
   const RandomSystem system(4, kModes, 4), other(5, kModes, 4);
@@ -80,7 +80,7 @@ TEST(PoleChanges, AreTheDerivativeOfARefit) {
     const DiscretePole& after = nearest(later, before.lambda);
     const Complex slope = (after.lambda - before.lambda) / eps;
     EXPECT_NEAR(std::abs(changes[p][0].lambda - slope), 0.0, 1e-3 * std::abs(slope));
-    // Shapes have no scale: compare the ratio to the first component.
+    // Shapes have no scale: the ratio to the first component is compared.
     for (std::size_t c = 1; c < before.shape.size(); ++c) {
       const Complex ratio = before.shape[c] / before.shape[0];
       const Complex ratio_slope = (after.shape[c] / after.shape[0] - ratio) / eps;
@@ -102,7 +102,7 @@ TEST(ModeScatter, IsEmptyForARecordOfTooFewBlocks) {
   }
 }
 
-// Twelve records: the errors are as large as stated, give or take what twelve records can tell.
+// Twelve records: the errors are as large as stated, within the accuracy of twelve records.
 TEST(ModeScatter, StatesTheErrorsThatTheRecordsShow) {
   constexpr int kRecords = 12;
   double squares = 0.0, damping_squares = 0.0, shape_squares = 0.0;

@@ -20,7 +20,7 @@ std::vector<ChannelInfo> channels() {
 
 const std::vector<int> kOrders{6, 8, 10, 12};
 
-// A flawless cluster; each test spoils one thing.
+// A cluster that passes all tests; each test changes one property.
 PoleCluster flawless() {
   PoleCluster cluster;
   cluster.frequency_hz = cluster.apparent_hz = 3.0;
@@ -100,7 +100,7 @@ TEST(Verdict, AllChannelsAlikeAreTheCamera) {
 
 TEST(Verdict, CameraMotionFollowsTheAxesOfTheChannels) {
   std::vector<ChannelInfo> turned = channels();
-  turned[2].direction_u = -1.0;  // this channel counts the other way: a translation shows negative
+  turned[2].direction_u = -1.0;  // this channel has the opposite sign: a translation appears negative
   PoleCluster cluster = flawless();
   cluster.representative.shape = {1.0, 1.0, -1.0, 1.0};
   EXPECT_EQ(judge(cluster, {}, turned, kOrders, VerdictRules{}).verdict, Verdict::kCameraMotion);

@@ -46,7 +46,7 @@ TEST(FoldPlace, DirectWhereNothingElseIsPossible) {
   }
 }
 
-// One rival: the margin is 1 minus the MPC of the shape whose delays were undone with it.
+// One rival: the margin is 1 minus the MPC of the shape corrected for the rival's delays.
 TEST(FoldPlace, MarginIsTheLeadInMpc) {
   const FoldingConfig folding = rows(0.3, 16.0);
   const FoldPlace place = fold_place(14.34, 1e-5, kShape, folding);
@@ -62,7 +62,7 @@ TEST(FoldPlace, MarginIsTheLeadInMpc) {
 
 TEST(FoldPlace, OpenWithoutDelaysOrWithTooFewRegions) {
   EXPECT_EQ(fold_place(14.34, 0.01, kShape, rows(0.0, 16.0)).outlook, FoldOutlook::kNoDelays);
-  EXPECT_EQ(fold_place(10.83, 0.01, kShape, rows(0.0, 16.0)).outlook, FoldOutlook::kNoDelays);  // not folded, yet open
+  EXPECT_EQ(fold_place(10.83, 0.01, kShape, rows(0.0, 16.0)).outlook, FoldOutlook::kNoDelays);  // not aliased, yet open
   FoldingConfig two = rows(0.5, 16.0);
   two.delay_s.resize(2);
   EXPECT_EQ(fold_place(14.34, 0.01, {0.5, 1.0}, two).outlook, FoldOutlook::kNoDelays);

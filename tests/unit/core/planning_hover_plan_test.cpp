@@ -60,7 +60,7 @@ TEST(HoverPlan, RecommendsTheNearestRateWithoutTrouble) {
   EXPECT_DOUBLE_EQ(best.rate_hz, 29.97);
   EXPECT_FALSE(best.turned);
   EXPECT_EQ(best.n_folded + best.n_open + best.n_overlaps, 0);
-  EXPECT_EQ(option(plan, 50.0, false).obstacle, Obstacle::kReadoutTooLong);  // 26 ms do not fit into 20
+  EXPECT_EQ(option(plan, 50.0, false).obstacle, Obstacle::kReadoutTooLong);  // 26 ms do not fit into a frame of 20 ms
 }
 
 TEST(HoverPlan, KeepsTheGivenCameraWhereNothingIsBetter) {
@@ -101,7 +101,7 @@ TEST(HoverPlan, ExposureLossAndAmplitudeOverTheFloor) {
   const HoverPlan plan = make_plan(input);
   EXPECT_NEAR(plan.modes[5].exposure_gain, std::abs(std::sin(M_PI * 14.34 * 0.038) / (M_PI * 14.34 * 0.038)), 1e-12);
   EXPECT_LT(plan.modes[5].exposure_gain, kLeastExposureGain);
-  for (const ModePlan& mode : plan.modes) {  // 20 log10 of how many times the least amplitude, over its 10 dB
+  for (const ModePlan& mode : plan.modes) {  // 20 log10 of the ratio to the least amplitude, plus its 10 dB
     EXPECT_NEAR(*mode.over_floor_db, 10.0 + 20.0 * std::log10(0.01 / mode.least_rms_mm), 1e-9);
   }
 }
@@ -128,7 +128,7 @@ TEST(HoverPlan, GivenShapesGoBeforeIdealOnes) {
   PlanInput input = paper_frame();
   input.modes.resize(1);
   input.modes[0].frequency_hz = 14.34;
-  input.modes[0].shape = {1, 0, 0, 0, 0, 0};  // one region alone shows no phase
+  input.modes[0].shape = {1, 0, 0, 0, 0, 0};  // a single region shows no phase
   EXPECT_EQ(make_plan(input).modes[0].place.outlook, FoldOutlook::kAmbiguous);
 }
 

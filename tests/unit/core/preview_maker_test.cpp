@@ -54,7 +54,7 @@ TEST(PreviewMaker, AWhiteImageOfAnySizeIsWhite) {
     PreviewMaker maker({1.0, 64}, long_side, 3, two_points(), 1);
     Preview out = maker.prototype();
     maker.make(frame, two_points(), out);
-    const bool is_flat = 3 < out.reduction;  // less than one box: left as it was
+    const bool is_flat = 3 < out.reduction;  // less than one box: unchanged
     EXPECT_EQ(out.pixels.front(), is_flat ? 0 : 255) << long_side;
     EXPECT_EQ(out.pixels.back(), out.pixels.front());
   }

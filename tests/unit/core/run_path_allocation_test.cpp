@@ -44,7 +44,7 @@ TEST(RunPathAllocation, WelchPushAndFlushAllocateNothing) {
   EXPECT_EQ(n_calls, 0U);
 }
 
-// Points in two regions of a smooth texture that moves: found, corrected for its deformation, templates averaged.
+// Points in two regions of a smooth texture that moves: found, corrected for deformation, templates averaged.
 TEST(RunPathAllocation, FindingPointsAllocatesNothing) {
   constexpr int kWidth = 200, kHeight = 120, kImages = 20;
   std::vector<std::vector<std::uint8_t>> images(kImages);

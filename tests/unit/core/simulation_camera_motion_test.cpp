@@ -74,7 +74,7 @@ TEST(CameraMotion, DriftsAboutItsMeanPoseInItsOwnAxes) {
   EXPECT_FALSE(motion.rotates());
 }
 
-// The rotors' line stays near its rate, and its power is the declared one.
+// The rotors' spectral line stays near its frequency, and its power is the declared one.
 TEST(CameraMotion, VibratesAtTheRateOfTheRotors) {
   Scene scene = make_paper_scene(1, 60.0);
   scene.hover.x_rms_mm = scene.hover.y_rms_mm = scene.hover.z_rms_mm = 0.0;

@@ -46,7 +46,7 @@ TEST(ChannelGenerator, NamesChannelsAsRegionsAndStatesTheDeclaredDelay) {
     EXPECT_NEAR(declared.channels()[i].row_delay_s, 0.5 * truth.channels()[i].row_delay_s, 1e-15);
     EXPECT_GT(truth.channels()[i].row_delay_s, 0.0);
   }
-  core::DisplacementSample a, b;  // a wrong statement does not change what is sampled
+  core::DisplacementSample a, b;  // a wrong declaration does not change the samples
   truth.generate({3, 0.12, 0.12, 3, false}, a);
   declared.generate({3, 0.12, 0.12, 3, false}, b);
   EXPECT_EQ(a.value_mm, b.value_mm);

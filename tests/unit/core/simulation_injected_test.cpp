@@ -78,7 +78,7 @@ TEST(GimbalVibration, FillsItsBandOnAllAxesTogether) {
     const auto x = [&](double t_s) { return vibration.at(5, t_s); };
     inside += power_at(x, 6.0, 60.0), outside += power_at(x, 9.0, 60.0);
     for (double t_s = 0.0; t_s < 60.0; t_s += 0.01, ++n) roll += std::pow(x(t_s), 2), pitch += std::pow(vibration.at(3, t_s), 2);
-    // A quarter of a period apart or not, the common half shows in the complex correlation.
+    // For any phase between the axes, the common half shows in the complex correlation.
     std::complex<double> cross = 0.0;
     for (double t_s = 1.0; t_s < 60.0; t_s += 0.01)
       cross += x(t_s) * std::complex<double>(vibration.at(3, t_s), vibration.at(3, t_s - 0.25 / p.centre_hz));

@@ -49,7 +49,7 @@ TEST(PeriodicSignal, MeetsItsStatedErrorAtTenSamplesPerCycle) {
     worst = std::max(worst, std::abs(signal.at(t_s) - direct_sum(amplitude, t_s)));
   }
   EXPECT_LT(worst, 3.5e-4);
-  EXPECT_GT(worst, 1e-5);  // the formula is an estimate, not a vast overstatement
+  EXPECT_GT(worst, 1e-5);  // the formula is an estimate and does not exceed the error by much
 }
 
 TEST(PeriodicSignal, ComputesTheRmsOverASpan) {

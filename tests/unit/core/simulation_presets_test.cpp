@@ -59,7 +59,7 @@ TEST_P(Preset, MovesAsDeclared) {
   EXPECT_LT(response.roof_relative_rms_mm(), 1.5 * scene_.excitation.rms_mm);
 }
 
-// All that a picture shows scales with it: a point of each plate keeps its place relative to the image's middle.
+// All contents of an image scale with it: a point of each plate keeps its position relative to the image's middle.
 TEST_P(Preset, ScalesWithTheImage) {
   Scene half = scene_, back = scene_;
   set_image_size(half, 960, 540);

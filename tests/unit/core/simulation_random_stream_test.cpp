@@ -57,7 +57,7 @@ TEST(RandomStream, IsUniformOverTheUnitInterval) {
   for (const int n : bins) EXPECT_NEAR(n, kN / 16, 5.0 * std::sqrt(kN / 16.0));
 }
 
-// The numbers that every platform must give: they pin generator, seeding and logarithm.
+// Numbers that every platform must produce: they fix generator, seeding and logarithm.
 TEST(RandomStream, GivesTheSameNumbersOnEveryPlatform) {
   RandomStream stream(1, "golden");
   EXPECT_EQ(stream.next(), 0xBB9F6719DAE5BB63ULL);

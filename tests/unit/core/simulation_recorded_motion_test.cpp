@@ -27,7 +27,7 @@ core::FlightPath slow_circle(std::size_t n = 300) {
   return path;
 }
 
-// Tilted by constant angles and at rest but for what `acceleration` adds in level axes (forward, left, up).
+// Tilted by constant angles and without motion except for `acceleration` in level axes (forward, left, up).
 core::FlightAttitude tilted(std::size_t n, double roll, double pitch,
                             const std::function<double(int, double)>& acceleration) {
   core::FlightAttitude out;
@@ -179,7 +179,7 @@ TEST(RecordedPath, RefusesWhatIsNoMotion) {
   motion.rate_hz = 10.0;
   EXPECT_THROW(RecordedPath{motion}, std::invalid_argument);
   motion.x_mm = {1, 2, 3, 4, 5};
-  EXPECT_NO_THROW(RecordedPath{motion});  // the other axes rest
+  EXPECT_NO_THROW(RecordedPath{motion});  // the other axes do not move
   motion.y_mm = {1, 2, 3, 4};
   EXPECT_THROW(RecordedPath{motion}, std::invalid_argument);
   motion.y_mm = {1, 2, 3, 4, std::numeric_limits<double>::infinity()};

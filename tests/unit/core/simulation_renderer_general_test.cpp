@@ -21,7 +21,7 @@ using test_support::still_scene;
 
 constexpr LensParameters kLens{LensParameters::Model::kRadialTangential, {-0.15, 0.03, 1e-3, -5e-4, 0.0}};
 
-// Room in the view for plates that turn and sway.
+// Room in the view for plates that rotate and sway.
 Scene roomy_scene() {
   Scene scene = small_scene();
   scene.camera.alpha_px *= 0.85;
@@ -154,7 +154,7 @@ TEST(RendererGeneralWay, FlickersByLineInBothWays) {
   EXPECT_GT(most - least, 0.4);
 }
 
-// A quarter turn of the camera and the matching readout: the same picture, turned.
+// A quarter rotation of the camera and the matching readout: the same picture, rotated.
 TEST(RendererGeneralWay, TurnsThePictureWithTheCamera) {
   Scene upright = still_scene();
   upright.camera.width_px = upright.camera.height_px = 400;

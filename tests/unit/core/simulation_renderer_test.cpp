@@ -20,10 +20,10 @@ using test_support::Image;
 using test_support::small_scene;
 using test_support::still_scene;
 
-// Maps a pixel of one image to where it should stand in another.
+// Maps a pixel of one image to its expected position in another.
 using Warp = std::function<ImagePoint(ImagePoint)>;
 
-// By how much the pixels around `centre` of `a` miss, in `b`, the places that `warp` gives them: least squares with a
+// Distance of the pixels around `centre` of `a`, found in `b`, from the positions by `warp`: least squares with a
 // translation.
 ImagePoint misses(const Image& a, const Image& b, ImagePoint centre, const Warp& warp, int half_px) {
   const int u0 = static_cast<int>(std::lround(centre.u_px)), v0 = static_cast<int>(std::lround(centre.v_px));
@@ -65,7 +65,8 @@ TEST(Renderer, ShiftsTheImageByExactlyTheProjectedMotion) {
   }
 }
 
-// Pixels and tracks come from the same scene by different ways: drift, scale change, shaking and row times included.
+// Pixels and tracks are computed from the same scene independently: drift, scale change, shaking and row times
+// included.
 TEST(Renderer, AgreesWithTheTrackGenerator) {
   Scene scene = make_paper_scene(3, 20.0);
   const Renderer renderer(scene);
@@ -83,7 +84,7 @@ TEST(Renderer, AgreesWithTheTrackGenerator) {
     for (std::size_t i = 0; i < start.points.size(); ++i) {
       const int body = tracks.regions()[start.points[i].region].body;
       const ImagePoint moved{later.points[i].u_px - start.points[i].u_px, later.points[i].v_px - start.points[i].v_px};
-      // The scale changes within the window too; about the point itself the warp is the generator's motion.
+      // The scale also changes within the window; about the point itself the warp equals the generator's motion.
       const double growth = (tracks.motion().depth_mm(body) - tracks.motion().camera().at(0.0).z_mm) /
                             (tracks.motion().depth_mm(body) - tracks.motion().camera().at(t_s).z_mm);
       const Warp warp = [&](ImagePoint p) -> ImagePoint {
@@ -118,7 +119,7 @@ TEST(Renderer, BlursLikeTheMeanOfManyInstants) {
     const double weight = (i == 0 || i == kInstants ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) / (3.0 * kInstants);
     for (std::size_t p = 0; p < mean.size(); ++p) mean[p] += weight * static_cast<double>(instant.light[p]);
   }
-  // Inside the plates: an edge is no smooth function of time.
+  // Inside the plates, because an edge is no smooth function of time.
   double error2 = 0.0, blur2 = 0.0;
   const Image middle(sharp, kInstants / 2);
   for (const auto& [body, region] : tracking_regions(sharp.motion())) {

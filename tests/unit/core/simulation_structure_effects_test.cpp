@@ -92,7 +92,7 @@ TEST(StructureEffects, IsDrivenByEqualIndependentForcesOnTheBodies) {
   EXPECT_NEAR(response.roof_relative_rms_mm(), 4.0, 1e-9);
 }
 
-// Switching one effect leaves the others as they were: each alone, the sum of all, and all but one.
+// Switching one effect does not change the others: each alone, the sum of all, and all but one.
 TEST(StructureEffects, AddsItsEffectsAndLeavesEachAsItWas) {
   ExcitationParameters all = shaken(1.0, 0.7);
   all.harmonics = {{2, 6.1, 0.5}, {1, 11.0, 0.2}};
@@ -114,7 +114,7 @@ TEST(StructureEffects, AddsItsEffectsAndLeavesEachAsItWas) {
   EXPECT_EQ(l.roof_relative_rms_mm(), 0.0);
 }
 
-// Amplitude and phase by body as response_at gives them, and the stated rms on the body itself.
+// Amplitude and phase per body as in response_at, and the stated rms on the body itself.
 TEST(StructureEffects, StandsInTheHarmonicsSteadyState) {
   const StructureModel model = odd_frame();
   ExcitationParameters excitation = shaken(0.0, 0.0);
@@ -135,7 +135,7 @@ TEST(StructureEffects, StandsInTheHarmonicsSteadyState) {
   }
 }
 
-// A peak multiplies the ground's amplitude by 1 + gain there and leaves it as it was far below.
+// A peak multiplies the ground's amplitude by 1 + gain there and does not change it far below.
 TEST(StructureEffects, ColoursTheGroundByItsPeaks) {
   ExcitationParameters plain = shaken(1.0, 0.0), coloured = plain;
   coloured.base_peaks = {{5.0, 0.02, 3.0}};

@@ -91,7 +91,7 @@ TEST(StructureResponse, ObeysTheEquationOfMotionOfEveryMode) {
 }
 
 // Whittle's likelihood of the periodogram around each mode, damping known: its scatter is the bound
-// sqrt(zeta / (2 pi f T)), so the estimate must stand within a few of them.
+// sqrt(zeta / (2 pi f T)), so the estimate must agree within a few of them.
 TEST(StructureResponse, PeaksAtTheDeclaredFrequencies) {
   const std::vector<TrueMode> modes = modes_of(make_paper_scene(2, 60.0).structure);
   constexpr double kDuration_s = 300.0, kRate_hz = 60.0;
@@ -187,7 +187,7 @@ TEST(StructureModel, HasThePolesOfItsEquationOfMotion) {
   }
 }
 
-// Switching the forces off leaves the ground's motion as it was, to the bit.
+// Switching the forces off does not change a bit of the ground's motion.
 TEST(StructureResponse, DrawsForcesAndGroundFromStreamsOfTheirOwn) {
   Scene base = make_paper_scene(4, 20.0), both = base;
   both.excitation.forces = 0.5;

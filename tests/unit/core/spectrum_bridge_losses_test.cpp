@@ -57,7 +57,7 @@ TEST(BridgeLosses, AnythingMayBeMissing) {
   }
 }
 
-// The same signal under many draws of the losses: its mean is the signal, its scatter far below that of zeros.
+// The same signal with many draws of the losses: its mean is the signal, its scatter far below that of zeros.
 TEST(BridgeLosses, HasTheSignalAsItsExpectationAtEveryFrequency) {
   constexpr std::size_t kSamples = 64;
   constexpr int kDraws = 2000;
@@ -80,8 +80,8 @@ TEST(BridgeLosses, HasTheSignalAsItsExpectationAtEveryFrequency) {
       }
     }
     for (std::size_t t = 8; t < kSamples - 8; ++t) EXPECT_NEAR(mean[t], x[t], 0.025) << w << " at " << t;
-    const double rest = 1.0 - std::cos(w);  // what a line through both neighbours leaves of the signal
-    // Lost neighbours make the line longer: up to twice.
+    const double rest = 1.0 - std::cos(w);  // the part of the signal not represented by a line through both neighbours
+    // Lost neighbours lengthen the line up to twofold.
     EXPECT_LT(squares, 2.0 * 0.1 / 0.9 * 0.5 * rest * rest + 1e-4) << w;
   }
 }

@@ -132,7 +132,7 @@ CpsdSums sums_of(const std::vector<double>& x, const std::vector<double>& y, con
 
 TEST(OutlierGate, SpectraWithAnOutlierAreThoseOfTheRecordWithoutTheSample) {
   for (const double overlap : {0.0, 0.5}) {
-    // Also where a segment ends with it: it is masked there before anything confirms it.
+    // Also where a segment ends with the event: it is masked there before later samples confirm it.
     for (const std::size_t at : {200U, 191U, 255U, 256U}) {
       std::vector<double> x = vibration(400, 0.05), y = vibration(400, 0.05, 2), lost = x;
       x[at] += 30.0;

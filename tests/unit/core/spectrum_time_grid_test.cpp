@@ -12,7 +12,7 @@ constexpr std::int64_t kStart_ns = 1'234'567'890'123;
 
 struct Grid : TimeGrid {
   Grid() : TimeGrid(25.0) {}
-  // Stamp `frames` frames after the first one.
+  // Time stamp `frames` frames after the first one.
   Placement at(double frames) {
     return place(kStart_ns + static_cast<std::int64_t>(frames * static_cast<double>(kFrame_ns)));
   }

@@ -64,7 +64,7 @@ TEST(WelchCpsd, CountsEveryMissingChannelSample) {
   EXPECT_EQ(welch.sums().n_samples, 3U);
 }
 
-// A sample marked as seen that is no number is a gap; a value under "not seen" is never looked at.
+// A sample marked as seen that is not finite is a gap; a value marked "not seen" is never read.
 TEST(WelchCpsd, NaNAndUnseenValuesChangeNothingButTheMask) {
   WelchCpsd a(config_of(1, 16, 0.5));
   WelchCpsd b(config_of(1, 16, 0.5));
@@ -107,7 +107,7 @@ TEST(WelchCpsd, FlushTakesTheRestOnceAndOnlyIfThereIsOne) {
   EXPECT_EQ(empty.n_hops(), 0U);
 }
 
-// What flush() adds is what a stream that ends in missing samples would have added.
+// flush() adds the same as a stream that ends in missing samples.
 TEST(WelchCpsd, FlushEqualsARestThatWasMissing) {
   WelchCpsd flushed(config_of(2, 16, 0.5));
   WelchCpsd missing(config_of(2, 16, 0.5));
@@ -141,7 +141,7 @@ TEST(WelchCpsd, BlocksAreTheRecordInOrderAndAddUpToItsSums) {
     EXPECT_GE(sums.n_blocks, std::min<std::uint64_t>(2, sums.n_segments));
     for (std::size_t b = 0; b < sums.n_blocks; ++b) {
       n_segments += sums.blocks[b].n_segments;
-      // All but the last are alike.
+      // All but the last are equal.
       if (b + 1 < sums.n_blocks) {
         EXPECT_EQ(sums.blocks[b].n_segments, sums.blocks[0].n_segments);
       }

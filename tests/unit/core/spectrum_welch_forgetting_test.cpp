@@ -50,7 +50,7 @@ TEST(WelchForgetting, OlderSegmentsCountExponentiallyLess) {
   EXPECT_NEAR(forgets.sums().weight.squares, 1.0 + kept * kept, 1e-12);
 }
 
-// As long as it remembers: half of 2 forget_s / hop segments, (1 - k^2) / (1 - k)^2 of them effective.
+// As long as the memory: half of 2 forget_s / hop segments, (1 - k^2) / (1 - k)^2 of them effective.
 TEST(WelchForgetting, RemembersTwiceTheTimeConstant) {
   WelchCpsd welch(config_of(20.0));
   push_noise(welch, 20000, 3);

@@ -1,4 +1,4 @@
-// An accumulator that is saved, restored and goes on gives the same bits as one that was never interrupted.
+// An accumulator that is saved, restored and continued gives the same bits as one that was never interrupted.
 #include <gtest/gtest.h>
 
 #include <cstdint>

@@ -43,7 +43,7 @@ TEST(ShearFrame, OneStoreyOfEachEffectAgreesWithHandCalculation) {
   EXPECT_DOUBLE_EQ(stability_coefficient(frame), 0.2);
 }
 
-// A column whose top may turn freely is a cantilever: 3 E I / h^3 instead of 12.
+// A column whose top can rotate freely is a cantilever: 3 E I / h^3 instead of 12.
 TEST(ShearFrame, FreeJointsLeaveACantilever) {
   ShearFrame frame = uniform(1, 120.0);
   frame.joint_flexibility = 1e9;

@@ -76,7 +76,7 @@ TEST(KltTracker, StartsFromThePrediction) {
   EXPECT_LT(rms_error(f.find(f.texture.image(kWidth, kHeight, 14.4, 8.7), 14.0, 9.0), f.points, 14.4, 8.7), 0.003);
 }
 
-// Light that grows by a quarter and by a level moves nothing; both are told apart from motion.
+// Light that increases by a quarter and by a level causes no motion; both are distinguished from motion.
 TEST(KltTracker, GainAndOffsetOfTheLightMoveNothing) {
   Fixture f;
   cv::Mat brighter;
@@ -90,7 +90,7 @@ TEST(KltTracker, GainAndOffsetOfTheLightMoveNothing) {
   for (const KltPoint& point : found) EXPECT_NEAR(point.gain, 1.25, 0.03);
 }
 
-// From one image to the next: steps made for the old light would be too long or too short.
+// From one image to the next: steps computed for the old light would be too long or too short.
 TEST(KltTracker, ASuddenlyDarkerOrBrighterImageLosesNothing) {
   Fixture f;
   f.keyframe.convertTo(f.keyframe, -1, 0.6, 10.0);
@@ -126,7 +126,7 @@ TEST(KltTracker, NothingIsSeenInABlankImage) {
   for (const KltPoint& point : f.find(cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(128)))) EXPECT_FALSE(point.seen);
 }
 
-// A point whose window hangs over the border compares itself with pixels that nobody saw.
+// A point whose window extends beyond the border would be compared with pixels that do not exist.
 TEST(KltTracker, APointThatLeavesTheImageIsLost) {
   Fixture f;
   const double du = -60.0;
@@ -158,7 +158,7 @@ TEST(KltTracker, ImagesOfAnotherKindAndWildPredictionsLosePointsAndNothingElse) 
   EXPECT_THROW(KltTracker(KltConfig{31}).set_keyframe(view(f.keyframe), f.points), std::invalid_argument);
 }
 
-// A patch that knows only one direction says nothing about the other.
+// A patch with gradients in one direction only gives no information about the other.
 TEST(KltTracker, AnEdgeOrAFlatPatchIsNoPoint) {
   cv::Mat edge(kHeight, kWidth, CV_8UC1, cv::Scalar(40));
   edge.colRange(100, kWidth).setTo(200);

@@ -9,7 +9,7 @@
 namespace core {
 namespace {
 
-// Largest error of the last half of 200 predictions, over that of "stays".
+// Largest error of the last half of 200 predictions, divided by that of predicting no motion.
 double share_of_staying(const std::function<double(int)>& motion) {
   MotionPredictor predictor;
   double worst = 0.0, worst_stays = 0.0;
@@ -27,7 +27,7 @@ TEST(MotionPredictor, FollowsADrift) {
   EXPECT_LT(share_of_staying([](int k) { return 7.0 * k; }), 0.01);
 }
 
-// At 30 frames a second: 1.7 Hz, where going on is good, and 9 Hz, where it is worse than staying.
+// At 30 frames a second: 1.7 Hz, where extrapolation is good, and 9 Hz, where it is worse than no motion.
 TEST(MotionPredictor, FollowsVibration) {
   for (const double hz : {1.7, 5.0, 9.0, 14.0}) {
     EXPECT_LT(share_of_staying([&](int k) { return 12.0 * std::sin(2.0 * std::numbers::pi * hz * k / 30.0); }), 0.05)
@@ -36,7 +36,7 @@ TEST(MotionPredictor, FollowsVibration) {
 }
 
 TEST(MotionPredictor, NoiseIsNotFollowed) {
-  // A hash, not a sequence: every step is a surprise.
+  // A hash, not a sequence: no step can be predicted.
   const auto noise = [](int k) { return std::fmod(std::abs(std::sin(k * 12.9898) * 43758.5453), 1.0) - 0.5; };
   EXPECT_LT(share_of_staying(noise), 1.2);
 }

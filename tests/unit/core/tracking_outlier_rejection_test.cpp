@@ -16,7 +16,7 @@ struct Case {
   std::vector<std::uint8_t> valid, inlier, truth;
 };
 
-// 40 points that move by (3, -2) with noise; `outliers` of them move anyhow.
+// 40 points that move by (3, -2) with noise; `outliers` of them move arbitrarily.
 Case scattered(unsigned seed, int outliers) {
   std::mt19937 random(seed);
   std::normal_distribution<double> gaussian(0.0, 0.1);
@@ -37,7 +37,8 @@ Case scattered(unsigned seed, int outliers) {
   return c;
 }
 
-// Points that agree are judged without hypotheses, those beside an outlier with: the same answer, to the last bit.
+// Regions without outliers are classified without hypotheses, regions with outliers with them: the results agree
+// bitwise.
 TEST(Mlesac, AnOutlierChangesNothingForTheOthers) {
   for (unsigned seed = 1; seed <= 30; ++seed) {
     Case c = scattered(seed, 0);

@@ -36,7 +36,7 @@ struct Rig {
   }
   [[nodiscard]] cv::Mat image(double du, double dv) const { return texture.image(kWidth, kHeight, du, dv, 1.0, 3); }
 
-  // Of a region's points: how many are within a tenth of a px of the truth.
+  // Number of a region's points within a tenth of a px of the truth.
   [[nodiscard]] int n_right(std::size_t r, double du, double dv) const {
     int n = 0;
     for (std::size_t i = r * kPerRegion; i < (r + 1) * kPerRegion; ++i) {
@@ -77,7 +77,7 @@ TEST(PointFinder, ARegionThatIsCoveredIsNotSeenAndTheOtherIs) {
   for (std::size_t i = kPerRegion; i < 2 * kPerRegion; ++i) EXPECT_FALSE(rig.finder->points()[i].seen) << i;
 }
 
-// A grating every 12 px and something that repeats nowhere: half a period off, each point alone finds the next bar.
+// A grating of 12 px period and a unique detail: half a period off, each point alone finds the next bar.
 TEST(PointFinder, PointsThatSlippedToTheNextBarAreFoundOut) {
   Rig rig;
   const auto scene = [&](int du) {
@@ -99,7 +99,7 @@ TEST(PointFinder, PointsThatSlippedToTheNextBarAreFoundOut) {
   for (std::size_t r = 0; r < kRegions; ++r) EXPECT_EQ(rig.n_right(r, 11.0, 0.0), static_cast<int>(kPerRegion)) << r;
 }
 
-// The edge lies in the windows of two points of each region, where gain and offset of the light cannot describe it.
+// The edge lies in the windows of two points of each region, where gain and offset cannot describe the light.
 TEST(PointFinder, PointsOnTheEdgeOfAShadowAreLeftOutAndComeBack) {
   Rig rig;
   const auto look_at = [&](double du, bool is_shaded) {

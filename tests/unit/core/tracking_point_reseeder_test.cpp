@@ -17,7 +17,7 @@ namespace {
 using test_support::AnalyticTexture;
 
 constexpr int kWidth = 200, kHeight = 90, kAfter = 8, kHalf = 15;
-constexpr std::size_t kCovered = 2;  // the point that something covers
+constexpr std::size_t kCovered = 2;  // the point that is covered
 
 double sway(int k) { return 3.0 * std::sin(0.31 * k) + 1.3 * std::sin(1.7 * k); }
 
@@ -26,10 +26,10 @@ const AnalyticTexture& wall() {
   return texture;
 }
 
-// The wall that sways, and from frame 10 on something over 31 x 31 px about one of its points.
+// The swaying wall, and from frame 10 on an object over 31 x 31 px about one of its points.
 class Scene {
  public:
-  // What covers it moves by shift(k); how it looks.
+  // The object moves by shift(k); its appearance.
   Scene(std::function<double(int)> shift, const AnalyticTexture& cover, int first = 10)
       : shift_(std::move(shift)), cover_(cover), first_(first) {
     StructureTrackerConfig config;
@@ -46,14 +46,14 @@ class Scene {
   void go_on() {
     ++k;
     EXPECT_TRUE(tracker_->track(frame(k), tracks));
-    for (TrackPoint& point : tracks.points)  // stands for the outlier rejection
+    for (TrackPoint& point : tracks.points)  // instead of the outlier rejection
       point.inlier = point.seen && std::abs(error(point)) < 1.0;
     tracker_->learn(tracks);
   }
   [[nodiscard]] double error(const TrackPoint& point) const {
     return point.u_px - keyframe.points[point.id].u_px - sway(k);
   }
-  // Far enough from the one that is covered.
+  // Far enough from the covered point.
   [[nodiscard]] bool is_free(const TrackPoint& point) const {
     const TrackPoint &at = keyframe.points[point.id], &covered = keyframe.points[kCovered];
     return std::max(std::abs(at.u_px - covered.u_px), std::abs(at.v_px - covered.v_px)) > kHalf + 20.0;
@@ -108,7 +108,7 @@ TEST(PointReseeder, WhatIsThenAtItsPlaceIsTrackedWithTheDatumKept) {
 
 TEST(PointReseeder, WhatDoesNotGoWithTheRegionIsNeverReadmitted) {
   const AnalyticTexture wire(43, 8.0, 30.0);
-  for (const double share : {0.0, 0.8}) {  // stays; nearly goes with it
+  for (const double share : {0.0, 0.8}) {  // static; nearly the same motion
     Scene scene([&](int k) { return share * sway(k); }, wire);
     while (scene.k < 10) scene.go_on();
     while (scene.k < 200) {
@@ -120,7 +120,7 @@ TEST(PointReseeder, WhatDoesNotGoWithTheRegionIsNeverReadmitted) {
 
 TEST(PointReseeder, APointThatIsHiddenForAWhileComesBackAsItself) {
   const AnalyticTexture bird(44, 8.0, 30.0);
-  // Flies away before the point is given up.
+  // Moves away before the point is given up.
   Scene scene([](int k) { return sway(k) + (k < 10 + kAfter - 3 ? 0.0 : 1000.0); }, bird);
   while (scene.k < 60) scene.go_on();
   EXPECT_TRUE(scene.tracks.points[kCovered].seen);

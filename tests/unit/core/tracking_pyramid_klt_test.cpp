@@ -111,7 +111,7 @@ TEST(PyramidKlt, NothingIsSeenInABlankImage) {
   for (const TrackedPoint& point : f.out) EXPECT_FALSE(point.seen);
 }
 
-// A point whose window hangs over the border compares itself with pixels that nobody saw.
+// A point whose window extends beyond the border would be compared with pixels that do not exist.
 TEST(PyramidKlt, APointThatLeavesTheImageIsLost) {
   Fixture f;
   const double du = -60.0;

@@ -17,7 +17,7 @@ using test_support::view;
 constexpr int kWidth = 360, kHeight = 280;
 constexpr Vector2 kMiddle{180.0, 140.0};
 
-// The texture, deformed about the image's middle and moved: the true place of what was at x in the keyframe.
+// The texture, deformed about the image's middle and translated: true position of the keyframe's point x.
 struct Motion {
   Deformation a;
   Vector2 shift;
@@ -87,7 +87,8 @@ struct Rig {
   double stated_px = 0.0;
 };
 
-// Templates that are only shifted are wrong by about 1 px per unit of magnification: 0.015 px at the first two steps.
+// Templates that are only shifted have an error of about 1 px per unit of magnification: 0.015 px at the first two
+// steps.
 TEST(RegionDeformation, PointsOfADeformedImageAreWhereTheyAreAndTheirSigmaHolds) {
   Rig rig;
   const double still = rig.error({{}, {0.3, -0.2}}), stated = rig.stated_px;
@@ -142,7 +143,7 @@ TEST(RegionDeformation, PointsThatWentElsewhereTakeNoPart) {
   for (std::size_t r = 0; r < 2; ++r) expect_near(deformation.of(r), a, 1e-3);
 }
 
-// Three points in a line say nothing of what lies across it: the other region does.
+// Three points on a line give no information across it: the other region does.
 TEST(RegionDeformation, FewPointsFollowTheOthers) {
   const Points points;
   RegionDeformation deformation(points.keyframe, points.region, 2);

@@ -24,7 +24,7 @@ std::vector<std::uint16_t> region_of_point() { return {0, 0, 0, 0, 1, 1, 1, 1, 2
 
 RegionFollower follower() { return {{320, 400, 3, 5, 0.5}, keyframe(), region_of_point(), kRegions}; }
 
-// The camera has turned, come nearer and drifted; region r sways by sway_px[r].
+// The camera has rotated, approached and drifted; region r sways by sway_px[r].
 TrackFrame moved(double turn_rad, double magnification, double down_px, std::array<double, kRegions> sway_px) {
   TrackFrame frame;
   const auto points = keyframe();
@@ -57,7 +57,7 @@ TEST(RegionFollower, ARegionThatIsNotMeasuredGoesWithTheOthers) {
   EXPECT_EQ(regions.state(0), RegionState::kSearching);
   EXPECT_EQ(regions.state(1), RegionState::kMeasuring);
   EXPECT_EQ(regions.n_inliers(0), 0U);
-  // What is left is how the sway of the others bends the common motion: they sway by 2 px over 100.
+  // The remaining error is the influence of the others' sway on the common motion: they sway by 2 px over 100.
   for (std::size_t i = 0; i < kPerRegion; ++i) {
     EXPECT_NEAR(regions.expected(i).u, whole.points[i].u_px, 4.0);
     EXPECT_NEAR(regions.expected(i).v, whole.points[i].v_px, 4.0);

@@ -22,7 +22,7 @@ constexpr double kRate_hz = 25.0;
 constexpr int kWidth_px = 800, kHeight_px = 600, kFrames = 200;
 constexpr double kNoise_px = 0.02;
 
-// A hovering camera before a wall, and plates in front of it that move sideways.
+// A hovering camera in front of a wall, and plates before it that move sideways.
 class Made {
  public:
   // moves(t_s): px along u, at a place.
@@ -168,7 +168,7 @@ TEST(RegionProposal, RanksByTheNoiseToBeExpected) {
   EXPECT_LT(proposal.regions[0].noise_px, proposal.regions[1].noise_px);
 }
 
-// Drawn frames: the seeder and the tracker are in it, and the plates' own edges.
+// Rendered frames: include the seeder, the tracker, and the plates' own edges.
 TEST(RegionProposal, OnDrawnFramesEveryRegionLiesOnAPartOfTheStructure) {
   namespace sim = core::simulation;
   sim::Scene scene = sim::make_paper_scene(1, 60.0);

@@ -30,7 +30,7 @@ TEST(RegionSearch, FindsALargeJump) {
   }
 }
 
-// Equal dots in a row: the whole row, with its ends, says which is which.
+// Equal dots in a row: the whole row, with its ends, determines the assignment.
 TEST(RegionSearch, ARowOfEqualDotsIsNotMovedByOneDot) {
   const auto dots = [](int du) {
     cv::Mat image(kHeight, kWidth, CV_8UC1, cv::Scalar(220));

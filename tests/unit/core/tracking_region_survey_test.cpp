@@ -20,7 +20,7 @@ cv::Mat texture(int width, int height, std::uint64_t seed) {
   return smooth;
 }
 
-// Whole pixels: up to 60 from one frame to the next, ten times what a point is searched for about its last place.
+// Whole pixels: up to 60 from one frame to the next, ten times the search range of a point.
 int moved_px(int frame) {
   return static_cast<int>(std::lround(80.0 * std::sin(2.0 * std::numbers::pi * 3.0 * frame / 25.0)));
 }

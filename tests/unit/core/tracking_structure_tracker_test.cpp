@@ -64,7 +64,7 @@ TEST(StructureTracker, FollowsEachRegionAndCopiesTheFramesFacts) {
   keyframe.points.resize(tracker.n_points());
   tracks.points.resize(tracker.n_points());
   ASSERT_TRUE(tracker.track(frame_of(plates(0.0, 0.0), 0), keyframe));
-  // Steps well beyond the window, but never far from where the region was last seen.
+  // Steps well beyond the window, but never far from the region's last position.
   for (std::uint64_t k = 1; k <= 6; ++k) {
     const double step = static_cast<double>(k);
     ASSERT_TRUE(tracker.track(frame_of(plates(5.3 * step, -4.1 * step), k), tracks));
@@ -79,7 +79,7 @@ TEST(StructureTracker, FollowsEachRegionAndCopiesTheFramesFacts) {
   for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(tracks.points[i].region, i < 10 ? 0 : 1);
 }
 
-// A point that was called an outlier is looked for where its region is, not where it strayed to.
+// A point classified as an outlier is searched for within its region, not at its wrong position.
 TEST(StructureTracker, AnOutlierIsLookedForWithItsRegion) {
   StructureTracker tracker(config());
   ASSERT_EQ(tracker.seed(frame_of(plates(0.0, 0.0), 0)), "");

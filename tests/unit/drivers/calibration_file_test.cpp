@@ -199,7 +199,7 @@ TEST(CalibrationFile, RefusesACameraThatCannotBeThatOfTheImage) {
                     HasSubstr("28 degrees off the axis"), HasSubstr("calibrate with")));
   EXPECT_EQ(refusal(replaced(replaced(kRos, "[0.1, -0.2, 0.001, 0.002, 0]", "[-1.2, 0, 0, 0, 0]"),
                              "image_width: 1280\n", "")),
-            "");  // how far the image reaches is not known yet
+            "");  // the size of the image is not known yet
 }
 
 TEST(CalibrationFile, SaysWhatScalingWouldGive) {
@@ -258,7 +258,7 @@ TEST(CalibrationFile, RefusesBrokenNumbers) {
 }
 
 TEST(CalibrationFile, RefusesFilesThatAreCutOff) {
-  // Cut after each line: whatever is left is refused or complete, never half a camera.
+  // Cut after each line: the remainder is refused or complete, never a partial camera.
   const std::string ours = calibration_text(
       {{500.0, 501.0, 640.1, 360.2, {-0.01, 0.02, -1e-5, -2e-4}, core::LensModel::kEquidistant}, 1280, 720, 0.1},
       {9, 6, 25.0, 12, {0.1, 0.2}});

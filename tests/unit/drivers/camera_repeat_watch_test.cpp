@@ -34,7 +34,7 @@ struct Outcome {
   std::uint64_t n_repeated = 0;
 };
 
-// The frames shown[0], shown[1], ... of a film; one that is shown twice is the same picture but for 0.1 gray levels.
+// The frames shown[0], shown[1], ... of a film; a frame shown twice is the same picture except for 0.1 gray levels.
 Outcome play(const std::vector<std::size_t>& shown, const std::function<double(double)>& place_px, double noise) {
   std::mt19937 random(3);
   std::vector<core::Frame> film;
@@ -83,7 +83,7 @@ TEST(RepeatWatch, CallsASingleRepeatAndAFreezeByTheirName) {
   EXPECT_TRUE(std::is_sorted(outcome.delivered.begin(), outcome.delivered.end()));
 }
 
-// Rates at which a noiseless motion turns back half-way between two frames, so that they are equal.
+// Rates at which noiseless motion reverses half-way between two frames, so that they are equal.
 TEST(RepeatWatch, AFilmWithoutNoiseThatTurnsBackHasNoRepeats) {
   for (const double rate_hz : {1.0, 2.5, 3.0, 3.125, 4.1}) {
     const Outcome outcome = play(all_of(250), [&](double k) { return sway_px(k, rate_hz); }, 0.0);

@@ -53,7 +53,7 @@ TEST(Repeats, ScatteredRepeatsAreNoConversion) {
   }
 }
 
-// 3 Hz at 25 frames a second, without noise: once in 25 frames it turns back between two equal ones.
+// 3 Hz at 25 frames a second, without noise: once in 25 frames the motion reverses between two equal frames.
 TEST(Repeats, AMotionThatTurnsBackBetweenTwoEqualFramesIsNoConversion) {
   std::vector<double> place, changes, around;
   for (int k = 0; k < 180; ++k) place.push_back(std::cos(2.0 * std::numbers::pi * 3.0 * (k + 0.5) / 25.0));

@@ -68,7 +68,7 @@ TEST(CheckpointFile, AFullDiskKeepsTheStateBeforeIt) {
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit small{4096, before.rlim_max};  // a file size limit stands in for the full disk: write() fails half way
+  const rlimit small{4096, before.rlim_max};  // a file size limit instead of a full disk: write() fails half way
   setrlimit(RLIMIT_FSIZE, &small);
   const std::string refused = write_checkpoint(path.string(), some_bytes(100'000));
   setrlimit(RLIMIT_FSIZE, &before);

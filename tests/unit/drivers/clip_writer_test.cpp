@@ -91,7 +91,7 @@ TEST_F(ClipWriterTest, LeavesNothingWhenAbandoned) {
 TEST_F(ClipWriterTest, TellsWhichProgramIsMissing) {
   const std::string search_path = std::getenv("PATH");
   ::setenv("PATH", "/nonexistent", 1);
-  // That it is not there shows at the start or, as on emulated processors, in the child's exit code.
+  // A missing program shows at the start or, as on emulated processors, in the child's exit code.
   const std::string message = message_of([&] {
     ClipWriter writer(path("clip.mp4"), kWidth, kHeight, 25.0, 20);
     for (int i = 0; i < 100; ++i) writer.write(bars(i).data());
@@ -110,7 +110,7 @@ TEST_F(ClipWriterTest, PassesOnWhyTheFileCannotBeWritten) {
   EXPECT_NE(message.find("No such file or directory"), std::string::npos) << message;
 }
 
-// The encoder inherits a limit on file sizes and dies of it, as on a full disk; writing on must not raise SIGPIPE.
+// The encoder inherits a limit on file sizes and ends by it, as on a full disk; further writing must not raise SIGPIPE.
 TEST_F(ClipWriterTest, SurvivesTheEncodersDeath) {
   rlimit old{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &old), 0);

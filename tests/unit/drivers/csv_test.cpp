@@ -158,7 +158,7 @@ TEST_F(CsvTest, RefusesBrokenSeries) {
   EXPECT_THROW(static_cast<void>(read_tracks_csv("/dev/zero")), FileError);
 }
 
-// Lines of every length around the reader's block size come back whole.
+// Lines of every length around the reader's block size are read completely.
 TEST_F(CsvTest, KeepsLinesWholeAcrossBlocks) {
   std::string text;
   std::vector<std::string> lines;

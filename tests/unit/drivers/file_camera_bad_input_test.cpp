@@ -27,7 +27,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// What the camera says against `source`, "accepted" if nothing.
+// The camera's error for `source`, "accepted" if there is none.
 std::string refusal(const std::filesystem::path& source, double rate_hz = 0.0) {
   try {
     FileCamera camera({.source = source.string(), .rate_hz = rate_hz});

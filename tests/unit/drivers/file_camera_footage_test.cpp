@@ -1,4 +1,4 @@
-// Files as phones, action cameras and editors leave them.
+// Files as made by phones, action cameras and editors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ struct Played {
   core::CameraInfo info;
   Drained run;
   core::RecordingTimes times;
-  std::uint64_t n_skipped = 0;  // places of the sequence without a frame, between the first and the last
+  std::uint64_t n_skipped = 0;  // cells of the sequence without a frame, between the first and the last
 };
 
 Played play(const std::filesystem::path& clip, double rate_hz = 0.0) {
@@ -61,7 +61,7 @@ std::string refusal(const std::filesystem::path& clip) {
 TEST(FileCameraFootage, DroppedFramesLeaveHolesInTheGrid) {
   const auto clip = fresh_folder() / "dropped.mp4";
   ffmpeg(fmt::format("{} -vf \"select='mod(n*n,13)-1'\" -vsync vfr {} {}", noisy_film(200), kH264, quoted(clip)));
-  std::uint64_t n_dropped = 0;  // between the first frame and the last, which both stay
+  std::uint64_t n_dropped = 0;  // between the first frame and the last, which are both kept
   for (int n = 0; n < 200; ++n) n_dropped += n * n % 13 == 1 ? 1 : 0;
   const Played played = play(clip);
   EXPECT_DOUBLE_EQ(played.info.rate_hz, 25.0);

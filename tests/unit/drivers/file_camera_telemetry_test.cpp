@@ -1,4 +1,4 @@
-// What a camera writes beside its video.
+// Telemetry that a camera writes beside its video.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ using ::testing::HasSubstr;
 
 constexpr int kFrames = 100;
 
-// A film whose container says that its frames lie 40 ms apart, and the subtitles beside it.
+// A video whose container states 40 ms between frames, and the subtitles beside it.
 std::filesystem::path film_with(const std::vector<SrtFrame>& frames) {
   const auto folder = fresh_folder();
   ffmpeg(fmt::format("{} {} {}", noisy_film(kFrames), kH264, quoted(folder / "DJI_0001.MP4")));

@@ -66,7 +66,7 @@ TEST(JsonFile, RefusesWhatIsNoJson) {
   EXPECT_THROW(static_cast<void>(read_json_file((folder / "missing").string())), FileError);
 }
 
-// Two programs may meet on one file: `hovermodal simulate` writes the configuration that a service is about to read.
+// Two programs may use one file at a time: `hovermodal simulate` writes the configuration that a service is reading.
 TEST(WriteFileAtomically, LeavesAReaderTheOldFileOrTheNewOneAtEveryMoment) {
   const std::string path = testing::TempDir() + "hovermodal_atomic.txt";
   write_file_atomically(path, "old");

@@ -81,7 +81,7 @@ std::vector<Bytes> fragments(std::uint32_t number, const Bytes& data, std::size_
 
 class LcmDatagrams : public ::testing::Test {
  protected:
-  // In a block of exactly its size: a sanitizer sees the first read beyond.
+  // In a block of exactly its size, so that a sanitizer detects the first read beyond it.
   void take(const Bytes& bytes, std::uint64_t sender = 1) {
     const std::unique_ptr<std::uint8_t[]> exact(new std::uint8_t[bytes.size()]);
     std::copy(bytes.begin(), bytes.end(), exact.get());
@@ -137,7 +137,7 @@ TEST_F(LcmDatagrams, CountsWhatCannotBe) {
                                fragment({1, 10, 0xFFFFFFFFU, 1, 2}, "A", {1}),  // far over the end
                                fragment({1, 0xFFFFFFFFU, 0, 1, 2}, "A", {1}),   // four gigabytes
                                fragment({1, 3, 0, 0, 65535}, "A", {1, 2, 3}),   // more fragments than bytes
-                               fragment({1, 10, 0, 0, 1}, "A", {1, 2, 3}),      // shorter than it says
+                               fragment({1, 10, 0, 0, 1}, "A", {1, 2, 3}),      // shorter than stated
                                Bytes(19, 'L')};
   for (const Bytes& bytes : bad) take(bytes);
   EXPECT_TRUE(got_.empty());

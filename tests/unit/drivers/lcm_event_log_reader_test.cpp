@@ -18,7 +18,7 @@ std::vector<std::uint8_t> payload(std::size_t n) {
   return out;
 }
 
-// As LCM's own writer writes it.
+// In the format of LCM's own writer.
 std::string log_of(const fs::path& path, std::initializer_list<std::size_t> sizes) {
   {
     drivers::EventLogFile log(path.string());
@@ -71,7 +71,7 @@ TEST(EventLogReader, ReadsWhatLcmWrites) {
   EXPECT_EQ(reader.n_damaged(), 0U);
 }
 
-// Each ends a program that reads it through liblcm 1.3.1, or makes it take gigabytes.
+// Each terminates a program that reads it through liblcm 1.3.1, or makes it allocate gigabytes.
 TEST(EventLogReader, LengthsThatCannotBeAreCountedAndTheNextEventIsFound) {
   const fs::path path = test_support::fresh_folder() / "run.lcm";
   const std::string good = log_of(path, {3, 4});

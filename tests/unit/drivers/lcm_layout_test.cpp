@@ -18,8 +18,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// A type that has changed must not travel under its old channel name: raise its number in kTopicLayouts and put the new
-// fingerprint here. (Before a release: only the fingerprint.)
+// A type that has changed must not be sent under its old channel name: increase its number in kTopicLayouts and enter
+// the new fingerprint here. (Before a release: only the fingerprint.)
 TEST(LcmLayout, AChangedMessageGoesOutOnAChannelOfAnotherName) {
   struct Known {
     drivers::Topic topic;
@@ -81,7 +81,7 @@ TEST(LayoutWatch, SaysNothingOfNoise) {
 TEST(LayoutWatch, TellsAFingerprintThatKeepsComing) {
   drivers::LayoutWatch watch;
   for (int n = 0; n < 5; ++n) watch.note_fingerprint(drivers::kModal, 0xAB, 7);
-  watch.note_fingerprint(drivers::kModal, 0x1, 7);  // noise in between does not make it forget
+  watch.note_fingerprint(drivers::kModal, 0x1, 7);  // noise in between does not reset it
   const auto words = watch.words("P");
   ASSERT_EQ(words.size(), 1U);
   EXPECT_THAT(words[0], HasSubstr("P_MODAL"));

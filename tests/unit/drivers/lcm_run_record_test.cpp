@@ -52,7 +52,7 @@ class RunRecord : public tests::FolderTest {
     head.continues = true;
     return head;
   }
-  // Records frames 0 .. n - 1; the path of the first file.
+  // Records frames 0 .. n - 1; returns the path of the first file.
   std::string record(std::uint64_t n, const RecordOptions& options) {
     const auto recorder = make_run_recorder(options);
     recorder->begin(head());

@@ -19,7 +19,7 @@ struct Sent {
   int n_sent = 0, n_held = 0;
 };
 
-// `seconds` of a service at 25 frames a second: what passes, topic by topic.
+// `seconds` of a service at 25 frames a second: messages admitted, per topic.
 std::map<Topic, Sent> run(SendBudget& budget, double seconds, std::size_t displacement_bytes) {
   std::map<Topic, Sent> out;
   const auto offer = [&](Topic topic, std::size_t n_bytes, std::int64_t now_ns) {

@@ -41,7 +41,7 @@ TEST(LiveSequence, AnInterruptionIsAGapOfTheTimeItTook) {
   EXPECT_EQ(back.sequence, 51u);
   EXPECT_TRUE(back.gap_before);
   EXPECT_EQ(sequence.next(1, 52 * kPeriod_ns).sequence, 52u);
-  const LiveSequence::Step restarted = sequence.next(0, 53 * kPeriod_ns);  // back without a word
+  const LiveSequence::Step restarted = sequence.next(0, 53 * kPeriod_ns);  // back without an interruption reported
   EXPECT_EQ(restarted.sequence, 53u);
 }
 

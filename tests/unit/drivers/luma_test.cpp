@@ -113,7 +113,7 @@ TEST(Luma, DamagedJpegsAreRefusedAndTheNextOneIsRead) {
     for (unsigned n = random() % 8; n > 0 && !bytes.empty(); --n) {
       bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
     }
-    (void)reader.read(bytes.data(), bytes.size(), luma.data());  // may be harmless; must not write past `luma`
+    (void)reader.read(bytes.data(), bytes.size(), luma.data());  // may be valid; must not write beyond `luma`
   }
   EXPECT_EQ(reader.read(whole.data(), whole.size() / 2, luma.data()), LumaStatus::kDamaged);
   const Bytes other = jpeg(kWidth + 2, kHeight);

@@ -51,7 +51,7 @@ TEST(SceneFile, EveryPresetIsWrittenAndReadBackToTheSameScene) {
     EXPECT_EQ(scene_json(again), scene_json(file)) << preset;
     EXPECT_EQ(again.scene.structure.stiffness, file.scene.structure.stiffness) << preset;
     EXPECT_EQ(again.scene.structure.damping, file.scene.structure.damping) << preset;
-    // Described by what it was built from: matrices would not be read by anybody.
+    // Written as its description, because matrices would be unreadable.
     EXPECT_NE(file.structure.type, SceneStructure::Type::kMatrices) << preset;
   }
 }

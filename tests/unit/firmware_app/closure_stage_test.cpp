@@ -20,7 +20,7 @@ using test_support::swaying_record;
 using test_support::track_frame;
 using ::testing::HasSubstr;
 
-// The stage fed with a record, run to its end; its reports, and the corrections that it sends to tracking with
+// The stage run on a record to its end; its reports, and the corrections that it sends to tracking with
 // closure.adopt: auto.
 std::vector<ClosureReport> reports_of(const ObservationRecord& record, std::vector<CorrectionSwitch>* changes = nullptr,
                                       CorrectionLog* book = nullptr) {
@@ -82,7 +82,7 @@ TEST(ClosureStage, ReportsEveryPeriodAndTheRestAtTheEnd) {
 
 TEST(ClosureStage, NamesNothingInTracksThatLackNothing) {
   const std::vector<ClosureReport> reports = reports_of(swaying_record(25 * 32, {}));
-  ASSERT_EQ(reports.size(), 1U);  // what came after the first is less than half a period
+  ASSERT_EQ(reports.size(), 1U);  // the remainder after the first is less than half a period
   EXPECT_TRUE(reports[0].result.steps.empty());
   EXPECT_EQ(reports[0].refused, "");
 }
@@ -114,7 +114,7 @@ TEST(ClosureStage, AdoptsWhatTwoReportsAgreeOnAndTellsTrackingOncePerReport) {
   ASSERT_EQ(reports[1].changes.size(), 1U);
   EXPECT_THAT(reports[1].changes[0], HasSubstr("from frame 1750 on taken out, radial distortion: k1 = -0.0"));
   ASSERT_EQ(reports[2].in_force.size(), 1U);
-  ASSERT_EQ(changes.size(), 4U);  // before anything came, and after each report
+  ASSERT_EQ(changes.size(), 4U);  // before any frame, and after each report
   EXPECT_EQ(changes[0].next_report_at, 749U);
   EXPECT_EQ(changes[0].n_delay_frames, 250U);
   EXPECT_EQ(changes[1].next_report_at, 1499U);
@@ -125,7 +125,7 @@ TEST(ClosureStage, AdoptsWhatTwoReportsAgreeOnAndTellsTrackingOncePerReport) {
   EXPECT_EQ(changes[3].geometry, nullptr);
   const CorrectionSet& correction_set = book.at(1);
   EXPECT_NEAR(correction_set.places.lens.distortion[0], -0.05, 0.002);
-  EXPECT_TRUE(correction_set.places.in_keyframe);  // it was there from the first frame on
+  EXPECT_TRUE(correction_set.places.in_keyframe);  // the lens existed from the first frame on
   EXPECT_EQ(correction_set.words.size(), 1U);
 }
 

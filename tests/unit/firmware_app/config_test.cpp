@@ -59,7 +59,7 @@ TEST(Config, TakesEveryDefaultOfTheTableBack) {
   AppConfig defaults;
   defaults.regions.resize(1);
   for (const ConfigKey& key : config_keys()) {
-    if (!key.default_text.empty()) continue;  // keys whose absence is not a value
+    if (!key.default_text.empty()) continue;  // keys for which absence is not a value
     drivers::YamlNode node = drivers::parse_yaml("k: " + key.canonical(defaults, 0), "d").items[0];
     AppConfig other;
     other.regions.resize(1);
@@ -68,7 +68,7 @@ TEST(Config, TakesEveryDefaultOfTheTableBack) {
   }
 }
 
-// One valid value other than the default for each key: shows that no two keys share a member and none is forgotten.
+// One valid value other than the default per key: shows that no two keys share a member and none is forgotten.
 TEST(Config, EachKeySetsItsOwnMemberOnly) {
   const std::map<std::string, std::string> special{
       {"method", "paper"},

@@ -19,7 +19,7 @@ using test_support::track_frame;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// A lens that nobody declared; two reports agree on it.
+// An undeclared lens; two reports agree on it.
 const core::closure::ObservationRecord& bent_record() {
   static const core::closure::ObservationRecord record = swaying_record(25 * 62, {.k1 = -0.05});
   return record;

@@ -23,14 +23,14 @@ std::string page_of(RunData& run) {
   return report_html(run.inputs);
 }
 
-// Without what lies between the first `begin` and the `end` after it.
+// Without the part between the first `begin` and the `end` after it.
 std::string without(std::string text, const std::string& begin, const std::string& end) {
   const std::size_t from = text.find(begin), to = text.find(end, from);
   if (from != std::string::npos && to != std::string::npos) text.erase(from, to + end.size() - from);
   return text;
 }
 
-// What an XML reader cannot know of HTML: the doctype, the style's and the script's text, comments.
+// Parts of HTML unknown to an XML reader: the doctype, the text of style and script, comments.
 std::string markup_of(const std::string& page) {
   std::string out = without(without(page, "<style>", "</style>"), "<script>", "</script>");
   for (int i = 0; i < 3; ++i) out = without(out, "<!", ">");
@@ -98,7 +98,7 @@ TEST(ReportPage, ShowsAllOfACompleteRun) {
                            "prefers-reduced-motion"})
     EXPECT_THAT(page, HasSubstr(text)) << text;
   EXPECT_THAT(page, Not(HasSubstr("class=\"absent\"")));
-  EXPECT_EQ(count_of(page, "data:image/jpeg"), 1U);  // the frame is there once
+  EXPECT_EQ(count_of(page, "data:image/jpeg"), 1U);  // the frame is contained once
 }
 
 TEST(ReportPage, GivesTheSameBytesButForTheTiming) {
@@ -187,7 +187,7 @@ TEST(ReportPage, EscapesHostileNames) {
 TEST(ReportPage, StaysBelowTwoMegabytesWith64ChannelsAnHourAndManyModes) {
   RunData run;
   make_run(run, 64, 90'000);
-  fill_frame(run, 3840, 2160);  // noise: the worst to compress
+  fill_frame(run, 3840, 2160);  // noise: the worst case for compression
   for (int i = 0; i < 40; ++i)
     run.estimate.modes.push_back(made_up_mode(6.0 + 0.1 * i, 6.0 + 0.1 * i, 64, core::Verdict::kStructural));
   for (int i = 0; run.estimate.poles.size() < core::kMaxStabilisationPoles; ++i)

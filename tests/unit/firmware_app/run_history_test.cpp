@@ -59,7 +59,7 @@ TEST(RunHistory, CountsPointsAndSigmaOfEveryRegion) {
   core::TrackFrame frame;
   for (std::uint32_t i = 0; i < 8; ++i)
     frame.points.push_back({0.0, 0.0, 0.03, i, static_cast<std::uint16_t>(i / 4), i != 0, true});
-  frame.points.push_back({0.0, 0.0, 0.1, 9, 77, true, true});  // of a region that is not there
+  frame.points.push_back({0.0, 0.0, 0.1, 9, 77, true, true});  // of a region that does not exist
   history.add(frame);
   EXPECT_EQ(history.regions()[0].n_points, 4U);
   EXPECT_EQ(history.regions()[0].share_seen.mean(), 0.75);

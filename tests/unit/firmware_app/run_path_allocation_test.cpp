@@ -1,4 +1,4 @@
-// What the run path's own objects of the service allocate: nothing, once they stand.
+// The service's own objects of the run path allocate nothing after construction.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ TEST(RunPathAllocation, AHistoryTakesAnHourWithoutAllocating) {
   EXPECT_TRUE(history.displacements()[3].empty());
 }
 
-// Gaps, a correction of places, one of row delays, and overload on the way.
+// Includes gaps, a correction of positions, one of row delays, and overload.
 TEST(RunPathAllocation, SpectraAccumulateWithoutAllocating) {
   core::WelchConfig config;
   config.n_channels = 1;

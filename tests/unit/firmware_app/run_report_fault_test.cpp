@@ -68,7 +68,7 @@ TEST_F(RunReportTest, TellsOnceThatTheDiskIsFull) {
   EXPECT_TRUE(fs::exists(path("r/modal.json")));
 }
 
-// A limit on the size of files stands for a disk that fills up half way.
+// A limit on the size of files replaces a disk that becomes full half way.
 TEST_F(RunReportTest, KeepsWhatFittedAsPartial) {
   struct rlimit before {};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);

@@ -106,7 +106,7 @@ TEST(ViewTotal, OfManyFlightsIsMoreExact) {
   EXPECT_EQ(all.n_samples, 8 * one.n_samples);
 }
 
-// What every flight's tracks say of the readout time counts with its precision.
+// The readout time estimated from every flight's tracks is weighted by its precision.
 TEST(ViewTotal, KnowsTheReadoutTimeAsAllFlightsTogether) {
   app::SetupSums one = flight(1), two = flight(2);
   one.basis.declared = two.basis.declared = {0.02, 0.5};

@@ -29,7 +29,7 @@ core::DisplacementSample sample_at(std::uint64_t frame) {
   return sample;
 }
 
-// What is due meanwhile.
+// Snapshots and states that become due meanwhile.
 std::vector<SpectrumSnapshot> push(SpectrumAccumulator& spectra, const core::DisplacementSample& sample) {
   std::vector<SpectrumSnapshot> out;
   for (bool is_done = false; !is_done;) {

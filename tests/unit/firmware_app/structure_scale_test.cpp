@@ -60,7 +60,7 @@ TEST(StructureScale, OneLengthLeavesObliquenessOpenAndSaysHowMuch) {
       scale_of(std::string(kCalibration) + "scale: {known_length_mm: 200, from: [400, 500], to: [800, 500]}\n");
   EXPECT_DOUBLE_EQ(scale.mm_per_px, 0.5);
   ASSERT_EQ(scale.notes.size(), 1U);
-  // Leaning by 10 degrees over 800 px of 2000: (1 + 0.2 tan 10) / (1 - 0.2 tan 10) = 1.073 between them.
+  // Inclined by 10 degrees over 800 px of 2000: (1 + 0.2 tan 10) / (1 - 0.2 tan 10) = 1.073 between them.
   EXPECT_THAT(scale.notes[0], AllOf(HasSubstr("up to 10 degrees"), HasSubstr("up to 7."), HasSubstr("between regions"),
                                     HasSubstr("scale.points would determine it")));
   EXPECT_THAT(scale_of("scale: {known_length_mm: 200, from: [400, 500], to: [800, 500]}\n").notes[0],
@@ -85,7 +85,7 @@ TEST(StructureScale, ARegionsOwnLengthIsItsScale) {
   EXPECT_DOUBLE_EQ(scale.region_mm_per_px[1], 0.6);
 }
 
-// A plane at 4 m that leans back by 30 degrees about u: z = 4000 + y / 2.
+// A plane at 4 m, inclined backward by 30 degrees about u: z = 4000 + y / 2.
 std::string points(double wrong_mm = 0.0) {
   std::string text = "scale: {points: [";
   for (const auto& [x, y] :

@@ -5,11 +5,12 @@
 namespace app {
 namespace {
 
-// A tracker that takes every `per_frame`-th of the frames that arrive, however many are offered: its ring is full else.
+// A tracker that processes every `per_frame`-th of the arriving frames, however many are offered: otherwise its ring is
+// full.
 struct Camera {
   explicit Camera(double rate_hz, double takes_hz) : watch(rate_hz), per_frame(takes_hz / rate_hz) {}
 
-  // Returns the stride that was asked for after `n` frames of the source, 0 for none.
+  // Returns the stride requested after `n` frames of the source, 0 for none.
   std::uint32_t play(int n) {
     std::uint32_t asked = 0;
     for (int i = 0; i < n; ++i) {

@@ -44,7 +44,7 @@ core::CameraInfo info_of(const Scene& scene) {
   return info;
 }
 
-// What is declared to rest sways at 0.9 Hz by `sway_px`.
+// The region declared static sways at 0.9 Hz by `sway_px`.
 core::ModalEstimate estimate_with(double sway_px, const std::string& more) {
   const TrackGenerator tracks(core::simulation::make_paper_scene(1, 90.0));
   const AppConfig config = config_of(tracks, more);
@@ -79,7 +79,7 @@ TEST(TrackAnalysis, FindsTheModesUnderAMovingCamera) {
   EXPECT_TRUE(has_mode(estimate, 8.14));
 }
 
-// It looks like a turn of the camera, so all channels take it on: no mode moves its base as much.
+// The sway looks like camera rotation, so all channels get it: no mode moves its base as much.
 TEST(TrackAnalysis, ABackgroundThatMovesMakesNoMode) {
   const core::ModalEstimate estimate = estimate_with(3.0, kWholeMotion);
   EXPECT_FALSE(has_mode(estimate, 0.9));

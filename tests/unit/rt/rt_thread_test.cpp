@@ -89,7 +89,7 @@ TEST(RtThread, APriorityOutOfRangeIsAnErrorThatNamesTheThread) {
   }
 }
 
-// Granted or refused depends on the machine; either way it must be what was asked for, or an error here.
+// Granted or refused depends on the machine; in either case the settings must be those requested, or an error here.
 TEST(RtThread, APriorityIsGrantedOrRefusedNeverIgnored) {
   int policy = -1;
   sched_param parameter{};

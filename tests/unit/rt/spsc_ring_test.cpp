@@ -129,7 +129,7 @@ TEST(SpscRing, NudgesTheWriterOnPop) {
   EXPECT_NE(wakeup.ticket(), before);
 }
 
-// With a time-out of an hour a lost nudge would hang the test.
+// With a time-out of an hour a lost wake-up would hang the test.
 TEST(SpscRing, AWaitingReaderAndAWaitingWriterWakeEachOther) {
   Wakeup reader_wakeup;
   Wakeup writer_wakeup;

@@ -1,4 +1,4 @@
-// hovermodal batch: a folder of flights, worked on by several processes, and what they say together.
+// hovermodal batch: processes a folder of flights in several processes, and combines their results.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -34,7 +34,7 @@ std::string absolute(const std::string& path) {
   return (whole.has_filename() ? whole : whole.parent_path()).string();  // "flights/" is "flights"
 }
 
-// Not the path it names: the program may be rebuilt while a batch is running.
+// Not the path of the file, because the program may be rebuilt while a batch is running.
 std::string this_program() { return "/proc/self/exe"; }
 
 int jobs_of(const Options& options) {
@@ -66,7 +66,7 @@ void write_result(const BatchResult& result, const fs::path& out) {
   }
 }
 
-// Files of the batch as they are called within it: the result is the same wherever the folder lies.
+// Removes the folder from the names of files, so that the result does not depend on where the folder lies.
 std::string without_folder(std::string text, const std::string& folder) {
   const std::string start = folder + "/";
   for (std::size_t at = text.find(start); at != std::string::npos; at = text.find(start, at))
@@ -100,7 +100,7 @@ struct Worked {
   std::vector<std::string> failures;
 };
 
-// `workers`: those beside the ones of this machine.
+// `workers`: in addition to those of this machine.
 Worked work(const Options& options, std::vector<std::unique_ptr<Workers>> workers) {
   const Inventory found = find_flights(options.folder, options.out, options.config);
   for (const std::string& line : found.left_out) fmt::print(stderr, "left out: {}\n", line);
@@ -112,7 +112,7 @@ Worked work(const Options& options, std::vector<std::unique_ptr<Workers>> worker
   return worked;
 }
 
-// What rank 0 knows in the end; the other ranks have nothing more to do.
+// The result at rank 0; empty at the other ranks, which have nothing more to do.
 std::optional<Worked> work_with_others(const Options& options) {
   MpiSession session;
   if (session.rank() > 0) {

@@ -52,7 +52,7 @@ class Combination {
     app::SumsFingerprint print;
   };
 
-  // To the first view that it fits.
+  // Adds the flight to the first view that it fits.
   void sort_in(std::size_t f) {
     FlightResult& flight = result_.flights[f];
     flight.report = app::read_modal_json((fs::path(folders_[f]) / kModesFile).string());
@@ -95,7 +95,7 @@ class Combination {
     view.report.estimate = total.identify();
   }
 
-  // Views first, then the flights of views that have several: their data are in the view's estimate already.
+  // Views first, then the flights of single-flight views only: the data of the others are in their view's estimate.
   void list_modes() {
     std::vector<core::EstimateInput> inputs;
     std::vector<std::size_t> flight_of_input;
@@ -128,7 +128,7 @@ class Combination {
 
   const std::vector<std::string>& folders_;
   BatchResult result_;
-  std::vector<app::SetupSums> heads_;       // of each view, its first flight's, without the sums
+  std::vector<app::SetupSums> heads_;       // of each view: the sums of its first flight, without the spectra
   std::vector<std::uint64_t> n_segments_;  // of each view
   std::vector<Seen> seen_;
 };

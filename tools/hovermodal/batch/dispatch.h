@@ -8,8 +8,8 @@
 
 namespace tools {
 
-// Gives every flight to whoever has room, in order, and waits for all. Progress goes to standard error, a failure as
-// soon as it is known. Returns why each flight failed, "" for one that is done.
+// Assigns every flight, in order, to a worker with room, and waits for all. Progress goes to standard error, a failure
+// as soon as it is known. Returns why each flight failed; "" = it succeeded.
 [[nodiscard]] std::vector<std::string> work_on_all(const std::vector<FlightOrder>& orders,
                                                    const std::vector<std::unique_ptr<Workers>>& workers);
 

@@ -1,4 +1,4 @@
-// hovermodal batch-flight: the process that works on one flight of a batch. A crash here is one flight's end only.
+// hovermodal batch-flight: the process that analyses one flight of a batch. A crash here affects one flight only.
 #include <fmt/core.h>
 #include <sys/prctl.h>
 
@@ -35,12 +35,12 @@ app::TracksResult replayed_record(const FlightOrder& order, const std::string& p
   return std::move(result.tracks);
 }
 
-// Reports alone change nothing that is recorded, and take seconds each.
+// Reports without corrections change nothing that is recorded, and take seconds each.
 void skip_closure_reports(app::AppConfig& config) {
   if (config.closure.adopt == app::ClosureAdopt::kReport) config.closure.adopt = app::ClosureAdopt::kOff;
 }
 
-// The service on the clip, recorded; what it records is what a replay takes on from.
+// Runs the service on the clip and records it; the replay continues from the record.
 void track_clip(const FlightOrder& order, const fs::path& records) {
   std::vector<std::string> overrides = order.overrides;
   overrides.insert(overrides.end(),
@@ -67,7 +67,7 @@ app::TracksResult tracked_clip(const FlightOrder& order) {
   if (found.empty())
     throw std::runtime_error("the clip left no record: this build may lack LCM, which records are written with");
   app::TracksResult result = replayed_record(order, found.front().path, {});
-  fs::remove_all(records);  // large, and can be made from the clip again
+  fs::remove_all(records);  // large, and can be regenerated from the clip
   return result;
 }
 
@@ -86,8 +86,8 @@ app::TracksResult result_of(const FlightOrder& order) {
   throw std::invalid_argument("no such kind of flight");
 }
 
-// Geometry, spectra and identification as `replay` makes them, of a clip the tracking first. Leaves the report and
-// kSumsFile in the folder.
+// Geometry, spectra and identification as in `replay`; for a clip, tracking first. Writes the report and kSumsFile to
+// the folder.
 void work_on(const FlightOrder& order) {
   const app::TracksResult result = result_of(order);
   say(result.changes);
@@ -109,7 +109,7 @@ void add_batch_flight(CLI::App& app) {
   command->add_option("--config", order->flight.config);
   command->add_option("--set", order->overrides)->take_all();
   command->callback([order, kind] {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // whoever waits for this flight is gone
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // ends with the process that waits for this flight
     order->flight.kind = flight_kind(*kind);
     work_on(*order);
   });

@@ -7,18 +7,18 @@
 
 namespace tools {
 
-// One flight and where its results go.
+// One flight and the folder of its results.
 struct FlightOrder {
   Flight flight;
   std::vector<std::string> overrides;  // "section.key=value"
   std::string into;                    // folder of its results
 };
 
-// The process that works on one flight is this program with these arguments, without its name; they also travel between
+// Arguments, without the program's name, of the process of this program that analyses one flight; also sent between
 // machines.
 [[nodiscard]] std::vector<std::string> arguments_of(const FlightOrder& order);
 
-// Files in the flight's folder: what the combination takes, and what the process printed.
+// Files in the flight's folder: the input of the combination, and the output of the process.
 inline constexpr const char* kSumsFile = "flight.sums";
 inline constexpr const char* kModesFile = "modal.json";
 inline constexpr const char* kLogFile = "log.txt";

@@ -39,7 +39,7 @@ class Finder {
  public:
   Finder(const fs::path& folder, const std::string& config) : folder_(folder), config_(config) {}
 
-  // In ascending order: a record's first file comes before the others.
+  // Call in ascending order, so that a record's first file comes before the others.
   void take(const fs::path& path) {
     const std::string name = path.filename().string();
     static const std::regex record("(.+_run[0-9]{4,8})_[0-9]{3,6}[.]lcm");

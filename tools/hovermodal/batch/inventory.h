@@ -11,17 +11,17 @@ enum class FlightKind : std::uint8_t { kRecord, kTracks, kClip };
 [[nodiscard]] const char* to_string(FlightKind kind) noexcept;
 [[nodiscard]] FlightKind flight_kind(const std::string& text);  // throws std::invalid_argument
 
-// One flight of a batch: what can be worked on by itself.
+// One flight of a batch: a unit that can be analysed by itself.
 struct Flight {
-  std::string name;  // its place in the folder, without extension: unique, and where its results go
+  std::string name;  // its path in the folder, without extension: unique; also the folder of its results
   FlightKind kind = FlightKind::kRecord;
   std::string path;    // of the record's first file, the tracks.csv or the clip
-  std::string config;  // of tracks and clips; a record has its own
+  std::string config;  // of tracks and clips; a record contains its own
 };
 
 struct Inventory {
   std::vector<Flight> flights;        // by name, whatever the order of the files on the disk
-  std::vector<std::string> left_out;  // files that look like a flight and cannot be one, with the reason
+  std::vector<std::string> left_out;  // files that look like a flight but are not usable, with the reason
 };
 
 // All flights below `folder`, except below `results`: records of the service (NAME_runNNNN_000.lcm), tracks.csv with

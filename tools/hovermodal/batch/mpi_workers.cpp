@@ -27,9 +27,9 @@ namespace fs = std::filesystem;
 
 constexpr int kOrder = 1, kEnd = 2;  // tags
 constexpr std::size_t kMostBytes = INT_MAX / 2;
-constexpr auto kPause = std::chrono::milliseconds(10);  // MPI's own waiting would burn a core that flights need
+constexpr auto kPause = std::chrono::milliseconds(10);  // waiting inside MPI would occupy a processor that flights need
 
-// Texts one after the other, each behind its length.
+// Texts one after the other, each preceded by its length.
 std::string packed(const std::vector<std::string>& texts) {
   std::string bytes;
   for (const std::string& text : texts) bytes += std::to_string(text.size()) + ":" + text;
@@ -56,7 +56,7 @@ struct Letter {
   std::string bytes;
 };
 
-// A message of that kind, if one has come.
+// The next message with that tag, if one has arrived.
 std::optional<Letter> received(int rank, int tag) {
   int has_come = 0, n_bytes = 0;
   MPI_Status status;
@@ -101,7 +101,7 @@ FlightOrder order_of(const std::vector<std::string>& texts) {
 class MpiWorkers final : public Workers {
  public:
   MpiWorkers(int n_ranks, int jobs) : n_busy_(static_cast<std::size_t>(n_ranks), 0) { n_busy_[0] = jobs; }
-  // Waits for those still at work: they could not send what nobody receives.
+  // Waits for ranks still at work, whose messages otherwise would have no receiver.
   ~MpiWorkers() override {
     for (int rank = 1; rank < static_cast<int>(n_busy_.size()); ++rank) send_later(rank, "");
     while (std::any_of(n_busy_.begin() + 1, n_busy_.end(), [](int n) { return n > 0; })) {
@@ -140,7 +140,7 @@ class MpiWorkers final : public Workers {
     std::string bytes;
   };
 
-  // Never waits: the rank may be sending to us at this moment.
+  // Never waits, because the rank may be sending to this one at the same time.
   void send_later(int rank, std::string bytes) {
     std::erase_if(sending_, [](Sending& one) {
       int is_done = 0;
@@ -152,7 +152,7 @@ class MpiWorkers final : public Workers {
               &one.request);
   }
 
-  // The least busy; 0: none has room.
+  // The least busy rank; 0: none has room.
   [[nodiscard]] int free_rank() const {
     int best = 0;
     for (int rank = 1; rank < static_cast<int>(n_busy_.size()); ++rank) {
@@ -161,14 +161,14 @@ class MpiWorkers final : public Workers {
     return best;
   }
 
-  // Where machines share no disk, the results of the flight are here as well now, but for its pictures.
+  // Where machines share no disk, this stores the flight's results here, too, except its pictures.
   static void keep(const fs::path& into, const std::string& modes, const std::string& sums) {
     fs::create_directories(into);
     drivers::write_file_atomically((into / kModesFile).string(), modes);
     drivers::write_file_atomically((into / kSumsFile).string(), sums);
   }
 
-  std::vector<int> n_busy_;  // per rank; 0 is none of them and counts as full
+  std::vector<int> n_busy_;  // per rank; rank 0 counts as full
   std::list<Sending> sending_;
   std::vector<std::string> into_;
 };

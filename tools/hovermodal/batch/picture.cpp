@@ -16,7 +16,7 @@ constexpr double kWidthPx = 960.0, kPanelWidthPx = 350.0, kPanelHeightPx = 104.0
 constexpr double kLeftPx = 86.0, kRightPanelPx = 530.0;
 constexpr std::size_t kMostModes = 12;
 
-// One quantity of one mode: the flights' values with their sigma, and all together.
+// One quantity of one mode: the flights' values with their sigma, and the combined value.
 struct Lane {
   std::string label;
   core::WeightedMean combined;
@@ -24,7 +24,7 @@ struct Lane {
   struct Point {
     std::size_t i_flight = 0;
     double value = 0.0;
-    double sigma = 0.0;  // 0 = not known
+    double sigma = 0.0;  // 0 = unknown
   };
   std::vector<Point> points;
 };
@@ -57,7 +57,7 @@ app::PlotAxis value_axis(const Lane& lane) {
   return app::axis_around(low, high, lane.label);
 }
 
-// The band of all together lies behind the flights.
+// The band of the combined value is drawn behind the flights.
 void draw_lane(app::SvgDocument& svg, const Lane& lane, const Box& box, std::size_t n_flights,
                const BatchResult& result) {
   app::PlotPanel panel(svg, box, {0.5, static_cast<double>(n_flights) + 0.5, false, ""}, value_axis(lane));

@@ -11,13 +11,13 @@
 
 namespace tools {
 
-// What became of one flight; its results lie in its folder.
+// Outcome of one flight; its results are in its folder.
 struct FlightEnd {
-  std::size_t number = 0;  // as it was started
-  std::string failure;     // empty: it is done
+  std::size_t number = 0;  // as passed to start()
+  std::string failure;     // empty: success
 };
 
-// Who works on flights: processes here, or ranks elsewhere.
+// Workers for flights: processes here, or ranks elsewhere.
 class Workers {
  public:
   Workers() = default;
@@ -26,17 +26,17 @@ class Workers {
   Workers& operator=(const Workers&) = delete;
 
   [[nodiscard]] virtual bool has_room() const = 0;
-  virtual void start(std::size_t number, const FlightOrder& order) = 0;  // only with room
+  virtual void start(std::size_t number, const FlightOrder& order) = 0;  // only if there is room
   [[nodiscard]] virtual std::optional<FlightEnd> poll() = 0;             // never waits
 };
 
-// Up to n_jobs processes of this machine, one for each flight: one that crashes takes nothing else with it. What they
-// print goes to kLogFile in the flight's folder.
+// Up to n_jobs processes on this machine, one per flight: a crash affects no other flight. Their output
+// goes to kLogFile in the flight's folder.
 class LocalWorkers final : public Workers {
  public:
-  // `program`: what is run with arguments_of() a flight.
+  // `program`: run with arguments_of() of a flight.
   LocalWorkers(std::string program, int n_jobs);
-  ~LocalWorkers() override;  // those still at work are killed
+  ~LocalWorkers() override;  // processes still running are killed
 
   [[nodiscard]] bool has_room() const override { return running_.size() < n_jobs_; }
   void start(std::size_t number, const FlightOrder& order) override;

@@ -19,7 +19,7 @@
 namespace tools {
 namespace {
 
-constexpr int kSearchPx = 1000;  // longer side of the image that is searched; corners are then refined in the whole one
+constexpr int kSearchPx = 1000;  // longer side of the searched image; corners are then refined at full size
 constexpr std::uint64_t kFramesOfClip = 200;
 
 double least_spacing_px(const std::vector<cv::Point2f>& corners, const core::ChessBoard& board) {
@@ -47,7 +47,7 @@ bool search(const cv::Mat& gray, cv::Size pattern, std::vector<cv::Point2f>& cor
   return true;
 }
 
-// A user counts squares where inner corners are asked for: one less each way.
+// A user may count squares instead of inner corners, which are one fewer each way.
 std::string hint_for(const cv::Mat& gray, const core::ChessBoard& board) {
   std::vector<cv::Point2f> corners;
   if (board.columns < 4 || board.rows < 4 || !search(gray, {board.columns - 1, board.rows - 1}, corners)) return {};
@@ -74,7 +74,7 @@ class BoardSearch {
   [[nodiscard]] FoundBoards take() { return std::move(found_); }
 
  private:
-  // Another board is in the picture: the search for the one that is not there takes seconds an image.
+  // Another board is in the picture: searching each image for the declared one would take seconds.
   [[nodiscard]] bool gives_up() const {
     return !found_.hint.empty() && found_.views.empty() && found_.n_looked_at >= 3;
   }
@@ -136,7 +136,7 @@ class BoardSearch {
 std::optional<core::BoardView> find_board(const cv::Mat& gray, const core::ChessBoard& board) {
   std::vector<cv::Point2f> corners;
   if (!search(gray, {board.columns, board.rows}, corners)) return std::nullopt;
-  // The window must hold one corner only, and little of the lens's bend: a third of the way to the next one.
+  // The window must contain one corner only, and little lens distortion: a third of the way to the next one.
   const int half = std::clamp(static_cast<int>(0.33 * least_spacing_px(corners, board)), 2, 15);
   const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 60, 1e-4);
   cv::cornerSubPix(gray, corners, {half, half}, {-1, -1}, until);

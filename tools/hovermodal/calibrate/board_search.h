@@ -10,7 +10,7 @@
 
 namespace tools {
 
-// The inner corners of the board in a gray image, to a fraction of a pixel; nullopt where it is not whole or not seen.
+// The inner corners of the board in a gray image, to a fraction of a pixel; nullopt if it is incomplete or not found.
 [[nodiscard]] std::optional<core::BoardView> find_board(const cv::Mat& gray, const core::ChessBoard& board);
 
 struct FoundBoards {
@@ -18,10 +18,10 @@ struct FoundBoards {
   std::uint64_t n_looked_at = 0;
   std::vector<core::BoardView> views;
   std::vector<std::string> places;  // per view: file and frame, for messages
-  std::string hint;                 // when none was found: what was seen in its place; or empty
+  std::string hint;                 // if none was found: what was found instead; or empty
 };
 
-// Looks through clips, folders of images and images, in the order given: every image; of a clip every `every`-th frame,
+// Searches clips, folders of images and images, in the given order: every image; of a clip every `every`-th frame,
 // 0 = about 200 of them. All must be of one size. Throws std::invalid_argument (no such file, sizes differ) or
 // std::runtime_error (cannot be read). Prints its progress to standard error.
 [[nodiscard]] FoundBoards find_boards(const std::vector<std::string>& sources, const core::ChessBoard& board,

@@ -1,4 +1,4 @@
-// hovermodal calibrate: the camera and its lens, from pictures of a chessboard.
+// hovermodal calibrate: estimates the camera and its lens from pictures of a chessboard.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -84,7 +84,7 @@ void keep(CalibrationRun& run, const std::vector<std::size_t>& indices) {
   run.places = std::move(places);
 }
 
-// Blurred or sheared boards show in their residuals: one round of leaving them out.
+// Blurred or sheared boards show in their residuals: they are left out, once.
 void leave_out_bad_views(CalibrationRun& run) {
   std::vector<double> sorted = run.fit.view_rms_px;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());

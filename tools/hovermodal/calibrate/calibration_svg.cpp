@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kWidthPx = 960.0, kMarginPx = 20.0, kTopPx = 66.0;
 
-// A round number of times that residuals are drawn larger, so that a typical one is about a dot's size away.
+// A round magnification of the residuals, so that a typical one is about as long as a dot's diameter.
 double magnification(double rms_px, double share) {
   const double wanted = 14.0 / std::max(rms_px * share, 1e-6);
   const double decade = std::pow(10.0, std::floor(std::log10(wanted)));

@@ -7,7 +7,7 @@
 
 namespace tools {
 
-// A finished calibration, as far as words and the picture need it.
+// A finished calibration: the data for text and picture.
 struct CalibrationRun {
   core::ChessBoard board;
   int width_px = 0, height_px = 0;
@@ -21,7 +21,7 @@ struct CalibrationRun {
 // What was done, the parameters with their standard deviations, coverage of the image, and warnings. Ends in a newline.
 [[nodiscard]] std::string calibration_words(const CalibrationRun& run);
 
-// What makes the result doubtful, each with its remedy; empty = nothing.
+// Doubts about the result, each with its remedy; empty = none.
 [[nodiscard]] std::vector<std::string> calibration_warnings(const CalibrationRun& run);
 
 // Corners per ninth of the image, row by row from the top left.

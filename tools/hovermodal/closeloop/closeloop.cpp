@@ -1,4 +1,4 @@
-// hovermodal closeloop: what a model leaves, traced to what it lacks.
+// hovermodal closeloop: attributes the residual of a model to the effect that it lacks.
 #include <fmt/format.h>
 #include <unistd.h>
 

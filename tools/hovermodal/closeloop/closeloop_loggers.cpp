@@ -1,4 +1,4 @@
-// hovermodal closeloop --record a.csv b.csv ...: loggers on one structure, each with a clock of its own.
+// hovermodal closeloop --record a.csv b.csv ...: loggers on one structure, each with its own clock.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace {
 
 using core::closure::ClosureResult;
 
-constexpr double kRigidShare = 0.7;        // of the lowest mode: below, all move as one
-constexpr double kMaterialExchange = 0.5;  // of 1 - MAC of the modes that did not choose
+constexpr double kRigidShare = 0.7;        // of the lowest mode: below it the structure moves as a rigid body
+constexpr double kMaterialExchange = 0.5;  // of 1 - MAC of the modes not used for the choice
 
 // Records of one structure by loggers that were not synchronised: one file each.
 class LoggerCloser {
@@ -62,7 +62,7 @@ class LoggerCloser {
   }
 
  private:
-  // Are two labels exchanged? The exchange that suits the lowest reference mode best is judged by the others.
+  // Detects two exchanged labels: the exchange that fits the lowest reference mode best is tested on the other modes.
   void exchange(app::ChannelSeries& series, const std::vector<KnownMode>& reference, ClosureResult& result) const {
     if (reference.size() < 2) return;
     const auto errors = [&](const std::vector<core::closure::ClosureMode>& modes) {
@@ -109,7 +109,7 @@ class LoggerCloser {
     result.modes_after = std::move(best_modes);
   }
 
-  // One series on the first record's samples: whole samples by moving, the rest as a delay that is undone at each mode.
+  // Resamples one series to the first record's samples: whole samples by shifting, the remainder as a delay per mode.
   [[nodiscard]] app::ChannelSeries joined(const std::vector<double>& offset_s,
                                           const std::vector<bool>& inverted) const {
     app::ChannelSeries out;

@@ -8,7 +8,7 @@ namespace tools {
 
 // `closeloop --run out`: all levels of a finished run, one after the other.
 struct RunLoop {
-  std::string folder, config, structure, reference, report;  // report empty: into the run's own folder
+  std::string folder, config, structure, reference, report;  // report empty: the run's own folder
   std::vector<std::string> overrides, bases;
   double max_frequency_hz = 0.0;
   std::uint64_t seed = 1;

@@ -1,4 +1,4 @@
-// hovermodal closeloop --record series.csv: what a response leaves, traced to what its model lacks.
+// hovermodal closeloop --record series.csv: attributes the residual of a response to the effect that its model lacks.
 #include "tools/hovermodal/closeloop/closeloop_series.h"
 
 #include <fmt/format.h>
@@ -36,7 +36,7 @@ class SeriesCloser {
   }
 
  private:
-  // The clock's own loop; the record's times are then those that it tells.
+  // Diagnosis of the clock; the record's times are then those that it estimates.
   void close_clock() {
     const drivers::SeriesFile file = drivers::read_foreign_series(options_.clock);
     const int frames = file.column("frame"), sigmas = file.column("sigma_s");

@@ -19,7 +19,7 @@ struct SeriesLoop {
   double decay_s = 1.3, max_frequency_hz = 0.0;
 };
 
-// What every form of closeloop shares.
+// Options common to all forms of closeloop.
 struct LoopRequest {
   std::vector<std::string> records;
   std::string reference, report;

@@ -1,4 +1,4 @@
-// hovermodal closeloop --record tracks.csv: what the model of the points' places leaves, traced to what it lacks.
+// hovermodal closeloop --record tracks.csv: attributes the residual of the points' positions to a missing effect.
 #include "tools/hovermodal/closeloop/closeloop_tracks.h"
 
 #include <fmt/format.h>
@@ -47,7 +47,7 @@ void write_pictures_of(const TracksLoop& request, const ObservationLevel& level,
   write("closure_field.svg", app::closure_field_svg(pair));
   write("closure_residual.svg", app::closure_residual_svg(pair));
   if (!result.reference_error_before || !result.reference_error_after) return;
-  ClosureResult modes = result;  // that picture speaks of percent of frequency
+  ClosureResult modes = result;  // that picture is in percent of frequency
   modes.baseline_rms = *result.reference_error_before;
   modes.residual_rms = *result.reference_error_after;
   write("closure_modes.svg", app::closure_modes_svg(modes));

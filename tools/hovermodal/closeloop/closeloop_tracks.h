@@ -14,7 +14,7 @@ struct TracksLoop {
   std::size_t n_surrogates = 0;
 };
 
-// A folder, or a file that begins like a tracks.csv.
+// A folder, or a file that has the header of a tracks.csv.
 [[nodiscard]] bool is_tracks_record(const std::string& path);
 // Throws std::invalid_argument, drivers::FileError, app::ConfigError.
 void close_tracks(const TracksLoop& request);

@@ -16,7 +16,7 @@
 namespace tools {
 namespace {
 
-constexpr std::size_t kSurrogates = 8;  // each is a fit of its own; read by a Gumbel distribution
+constexpr std::size_t kSurrogates = 8;  // each requires a fit; evaluated by a Gumbel distribution
 
 }  // namespace
 

@@ -5,8 +5,8 @@
 
 namespace tools {
 
-// `closeloop --clip FRAMES --stamps FILE --gyro FILE`: a camera declared as a global shutter that does not turn.
-// Throws what read_gyro_clip() and core::closure::GyroRotationLevel do.
+// `closeloop --clip FRAMES --stamps FILE --gyro FILE`: a camera declared as a global shutter without rotation.
+// Throws as read_gyro_clip() and core::closure::GyroRotationLevel do.
 void close_turning(const LoopRequest& request, const GyroClipOptions& options);
 
 }  // namespace tools

@@ -23,7 +23,7 @@ using Modes = std::vector<ReferenceMode>;
   throw drivers::FileError(path + ": " + what);
 }
 
-// Largest component 1, sigmas alike.
+// Scales the largest component to 1, and the sigmas accordingly.
 void normalise(ReferenceMode& mode) {
   double largest = 0.0;
   for (const double component : mode.shape) {
@@ -64,7 +64,7 @@ Modes from_modal_json(const std::string& path, const DeclaredFrame& declared) {
     for (const std::size_t c : channels) {
       if (c >= mode.shape.size()) break;
       reference.shape.push_back(mode.shape[c].real());
-      // Never below a tenth of what is declared: the component that scales the shape has none of its own.
+      // At least a tenth of the declared sigma: the component that scales the shape has none of its own.
       const double stated = c < mode.shape_std.size() ? mode.shape_std[c] : declared.shape_sigma;
       reference.shape_sigma.push_back(std::max(stated, 0.1 * declared.shape_sigma));
     }

@@ -47,7 +47,7 @@ void show_response(const LoopRequest& request, const ClosureResult& result, cons
   fmt::print("{} written\n", path);
 }
 
-// Both sets of modes beside the reference; its error before and after where there is one.
+// Pairs both sets of modes with the reference; with the error before and after if there is one.
 void add_modes(ClosureResult& result, const app::ChannelSeries& before, const app::ChannelSeries& after,
                double max_frequency_hz, const std::string& reference_path) {
   const auto reference = read_reference_modes(reference_path);

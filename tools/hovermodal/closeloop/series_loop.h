@@ -9,21 +9,21 @@
 
 namespace tools {
 
-// The loop on a response model, at most so many surrogates a step; progress on a terminal.
+// Residual diagnosis of a response model, with a limited number of surrogates per step; progress on a terminal.
 [[nodiscard]] core::closure::ClosureResult close_response(const LoopRequest& request,
                                                           const core::closure::ResponseModel& model,
                                                           std::size_t most_surrogates,
                                                           std::vector<std::string>* adopted = nullptr);
-// On the terminal, and as a file of the report where one is wanted.
+// Prints the result, and writes it as a file of the report if requested.
 void show_response(const LoopRequest& request, const core::closure::ClosureResult& result, const std::string& file);
 
-// The modes of both series beside the reference.
+// Adds the modes of both series, paired with the reference.
 void add_modes(core::closure::ClosureResult& result, const app::ChannelSeries& before, const app::ChannelSeries& after,
                double max_frequency_hz, const std::string& reference_path);
 
-// One file a logger.
+// One file per logger.
 void close_loggers(const LoopRequest& request, const SeriesLoop& options);
-// Ambient response or a measured input.
+// For ambient response or a measured input.
 void close_channels(const LoopRequest& request, const SeriesLoop& options, app::ChannelSeries series);
 
 }  // namespace tools

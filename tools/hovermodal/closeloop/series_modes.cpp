@@ -15,14 +15,14 @@ namespace {
 
 using core::closure::ClosureMode;
 
-constexpr double kNear = 0.05;  // of a frequency: may be the same mode
+constexpr double kNear = 0.05;  // relative difference of frequency below which two may be the same mode
 
 struct Pairing {
   const KnownMode* mode = nullptr;
   std::optional<double> mac;
 };
 
-// Over the channels that both name; empty with fewer than two.
+// Over the channels named by both; empty with fewer than two.
 std::optional<double> mac(const KnownMode& known, const core::Mode& mode,
                           const std::vector<core::ChannelInfo>& channels) {
   std::complex<double> inner = 0.0;
@@ -107,7 +107,7 @@ std::vector<ClosureMode> modes_of_series(const app::ChannelSeries& series, doubl
   try {
     found = app::identify_series(series, options);
   } catch (const std::invalid_argument&) {
-    return out;  // too short to identify: nothing is said of modes
+    return out;  // too short to identify: no modes are stated
   }
   for (const core::Mode& mode : found.estimate.modes) {
     ClosureMode closed;

@@ -6,7 +6,7 @@
 
 namespace tools {
 
-// The result for a terminal: before -> effect -> after, rivals, what cannot be seen.
+// The result for a terminal: before -> effect -> after, rivals, unobservable effects.
 [[nodiscard]] std::string closure_text(const core::closure::ClosureResult& result);
 
 }  // namespace tools

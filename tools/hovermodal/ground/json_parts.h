@@ -6,17 +6,17 @@
 
 namespace tools {
 
-// So many significant digits, no more; null for what is no number.
+// At most so many significant digits; null for values that are not finite.
 [[nodiscard]] nlohmann::json rounded(double value, int digits = 5);
 
-// Parts of a snapshot; the message they are made of is there.
+// Parts of a snapshot; each requires that its message has been received.
 [[nodiscard]] nlohmann::json link_json(const LiveView& view);
 [[nodiscard]] nlohmann::json health_json(const drivers::StreamMonitor& monitor);
 [[nodiscard]] nlohmann::json modes_json(const drivers::StreamMonitor& monitor);
 [[nodiscard]] nlohmann::json spectra_json(const drivers::StreamMonitor& monitor);
 [[nodiscard]] nlohmann::json preview_json(const drivers::StreamMonitor& monitor);
 [[nodiscard]] nlohmann::json closure_json(const drivers::StreamMonitor& monitor);
-// The samples from number `first` on that are still kept.
+// The samples still kept, starting with number `first`.
 [[nodiscard]] nlohmann::json traces_json(const drivers::StreamMonitor& monitor, std::uint64_t first);
 
 }  // namespace tools

@@ -62,7 +62,7 @@ json mode_json(const hovermodal::mode_t& m) {
   return out;
 }
 
-// Bins pooled by their largest, so that a narrow peak stays; as log10, two decimals.
+// Several bins are pooled by their maximum, so that a narrow peak remains; as log10, two decimals.
 json pooled_log10(const std::vector<float>& psd, std::size_t n_pooled) {
   json out = json::array();
   for (std::size_t k = 0; k < psd.size(); k += n_pooled) {

@@ -64,11 +64,11 @@ json regions_json(const StreamMonitor& monitor) {
   return out;
 }
 
-// Frames a second between the last two statuses; null: not known yet.
+// Frames per second between the last two statuses; null: unknown.
 json measured_rate(const StreamMonitor& monitor) {
   const auto &now = monitor.health(), &before = monitor.previous_health();
   if (!before || now->utc_ns <= before->utc_ns) return nullptr;
-  // As doubles: numbers from the network may lie further apart than an integer holds.
+  // As doubles, because the difference of numbers from the network may exceed an integer.
   const double seconds = (static_cast<double>(now->utc_ns) - static_cast<double>(before->utc_ns)) * 1e-9;
   return rounded((static_cast<double>(now->frames_processed) - static_cast<double>(before->frames_processed)) / seconds,
                  4);

@@ -9,9 +9,9 @@ namespace {
 
 using drivers::StreamMonitor;
 
-// Over all topics: the first channel that receives a message of the new run counts the restart; the others follow it.
+// Applies to all topics: the first channel with a message of the new run counts the restart; the others follow it.
 constexpr double kOneRestart_ns = 5e9;
-constexpr std::size_t kMostJpegBytes = 300'000;  // far above a preview of ours
+constexpr std::size_t kMostJpegBytes = 300'000;  // far above a preview of this service
 
 std::uint64_t foreign(const StreamMonitor& monitor) {
   std::uint64_t n = 0;
@@ -20,7 +20,7 @@ std::uint64_t foreign(const StreamMonitor& monitor) {
   return n;
 }
 
-// Displacements and health come all the time, and restart first.
+// Displacements and health come continuously, and show a restart first.
 std::uint64_t restarts(const StreamMonitor& monitor) {
   return monitor.count(StreamMonitor::kHealth).restarts + monitor.count(StreamMonitor::kDisplacement).restarts;
 }
@@ -52,7 +52,7 @@ void LiveStream::receive(std::string_view lcm_channel, const void* data, std::si
       return;
     }
     n_foreign_ = n_foreign;
-  } catch (...) {  // out of memory: the old stream stays
+  } catch (...) {  // out of memory: the old stream is kept
   }
   const std::uint64_t n_restarts = restarts(*monitor_);
   if (n_restarts == n_restarts_) return;
@@ -82,7 +82,7 @@ std::string LiveStream::preview_jpeg() const {
   const std::lock_guard lock(mutex_);
   const auto& preview = monitor_->preview();
   if (!preview || preview->jpeg.size() < 2 || preview->jpeg.size() > kMostJpegBytes) return {};
-  if (preview->jpeg[0] != 0xFF || preview->jpeg[1] != 0xD8) return {};  // no JPEG
+  if (preview->jpeg[0] != 0xFF || preview->jpeg[1] != 0xD8) return {};  // not a JPEG
   return {preview->jpeg.begin(), preview->jpeg.end()};
 }
 

@@ -12,20 +12,20 @@
 
 namespace tools {
 
-// The stream that the page shows: heard in one thread, asked for in another. It follows the first stream it hears; when
-// that one has been silent for some seconds and another is heard, it follows that one. A service that starts again
+// The stream shown by the page: received in one thread, read in another. It follows the first stream that it receives;
+// when that has been silent for some seconds and another is received, it follows the other. A service that starts again
 // under the same name is a new run.
 class LiveStream {
  public:
   static constexpr std::int64_t kSilence_ns = 10'000'000'000;
-  static constexpr std::int64_t kLinkPeriod_ns = 1'000'000'000;  // news come at least so often
+  static constexpr std::int64_t kLinkPeriod_ns = 1'000'000'000;  // updates are sent at least this often
 
   explicit LiveStream(std::string prefix);
 
   void receive(std::string_view lcm_channel, const void* data, std::size_t n_bytes, std::int64_t now_ns) noexcept;
 
-  [[nodiscard]] std::string snapshot(std::int64_t now_ns) const;  // JSON, all of it
-  // JSON of what has come since the last call; empty: nothing. For one caller, who tells all listeners.
+  [[nodiscard]] std::string snapshot(std::int64_t now_ns) const;  // JSON, complete
+  // JSON of everything received since the last call; empty: nothing. For one caller, which serves all listeners.
   [[nodiscard]] std::optional<std::string> news(std::int64_t now_ns);
   [[nodiscard]] std::string preview_jpeg() const;  // empty: none
 

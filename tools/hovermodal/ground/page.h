@@ -7,7 +7,7 @@ namespace tools {
 
 class WebServer;
 
-// A file of a page, compiled in: the server reads none.
+// A file of a page, compiled in: the server reads no files.
 struct PageFile {
   std::string_view name, text;
 };

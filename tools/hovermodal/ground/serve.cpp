@@ -33,7 +33,7 @@ void add_paths(WebServer& server, LiveStream& stream) {
   server.add_event_source("/events", kEventPeriod_ms, [&] { return stream.news(drivers::LcmListener::now_ns()); });
 }
 
-// Every IPv4 address of this computer that others may reach, for an address that stands for all of them.
+// Every IPv4 address of this computer that others can reach, for a bind address that means all of them.
 std::vector<std::string> own_addresses() {
   std::vector<std::string> out;
   ifaddrs* first = nullptr;

@@ -11,12 +11,12 @@ struct GroundOptions {
   std::string bind_address = "127.0.0.1";
   int port = 8086;
   std::string token;               // empty: none on a loopback address, a random one elsewhere
-  std::vector<std::string> names;  // other names by which the page is opened
-  double seconds = 0.0;            // 0 = until told to stop
+  std::vector<std::string> names;  // other host names under which the page is opened
+  double seconds = 0.0;            // 0 = until stopped
 };
 
-// Serves the page until told to stop (SIGINT, SIGTERM, seconds). Throws std::invalid_argument for options that cannot
-// be, std::runtime_error when nothing can be heard or the address cannot be used.
+// Serves the page until stopped (SIGINT, SIGTERM, seconds). Throws std::invalid_argument for impossible options,
+// std::runtime_error if nothing can be received or the address cannot be used.
 void run_ground(const GroundOptions& options);
 
 }  // namespace tools

@@ -10,7 +10,7 @@ namespace {
 
 using drivers::StreamMonitor;
 
-// Where the newest of everything stands; what was sent before the run began stays out.
+// Positions of the newest items; messages sent before the run began are left out.
 Shown newest(const LiveView& view) {
   const StreamMonitor& m = view.monitor;
   const auto of_run = [&](std::int64_t utc_ns) { return utc_ns >= view.run_since_utc_ns; };
@@ -53,14 +53,14 @@ std::string snapshot_json(const LiveView& view, Shown& shown) {
     out["traces"] = traces_json(monitor, std::min(shown.n_samples, now.n_samples));
   }
   shown = now;
-  // Strings came over the network: what is not UTF-8 is replaced.
+  // Strings come from the network: invalid UTF-8 is replaced.
   return out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 nlohmann::json rounded(double value, int digits) {
   if (!std::isfinite(value)) return nullptr;
   if (value == 0.0) return 0;
-  // Beyond 1e300 a power of ten is none; such a number is of no use to a page.
+  // Beyond 1e300 the power of ten overflows; such a number is useless on a page.
   const double exponent = std::floor(std::log10(std::fabs(value))) - (digits - 1);
   if (std::fabs(exponent) > 300.0) return nullptr;
   // Divided by a whole power of ten where possible: the result is then the double that prints shortest.

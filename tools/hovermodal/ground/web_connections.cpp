@@ -19,7 +19,7 @@ namespace {
 constexpr int kTick_ms = 50;
 constexpr int kMostAcceptedAtOnce = 64;
 constexpr std::size_t kReadBytes = 16384;
-constexpr int kEnding_ms = 1000;  // for the client to see our answer before the socket goes
+constexpr int kEnding_ms = 1000;  // for the client to read the answer before the socket is closed
 constexpr const char* kHeartbeat = ":\n\n";
 constexpr const char* kResync = "event: resync\ndata: {}\n\n";
 
@@ -85,12 +85,12 @@ void WebConnections::accept_all(std::int64_t now_ms) {
     if (fd < 0) return;
     connections_.push_back({fd, peer, State::kReading, {}, {}, 0, now_ms + limits_.request_ms, 0, -1, false, false});
     add(n_connections_);
-    read(connections_.back(), now_ms);  // most requests came along
+    read(connections_.back(), now_ms);  // most requests arrive together with the connection
   }
 }
 
-// Of the peer that holds most connections: the oldest that has not brought a request yet, else the oldest that takes
-// its answer slowly. Streams stay. So a flood from one place does not drive others out.
+// Of the peer with most connections: closes the oldest without a request, else the oldest that reads its answer slowly.
+// Event streams stay. A flood from one address thus does not displace others.
 void WebConnections::make_room() {
   sweep();
   if (connections_.size() < limits_.max_connections) return;
@@ -101,7 +101,7 @@ void WebConnections::make_room() {
   };
   const auto chosen =
       std::max_element(connections_.begin(), connections_.end(), [&](const Connection& a, const Connection& b) {
-        return weight(a) < weight(b);  // the first, and oldest, of equal ones is chosen
+        return weight(a) < weight(b);  // among equal ones the first, and oldest, is chosen
       });
   if (chosen == connections_.end() || weight(*chosen) == 0) return;
   chosen->is_over = true;
@@ -180,13 +180,13 @@ void WebConnections::written(Connection& c, std::int64_t now_ms) {
     if (std::exchange(c.missed_event, false)) send_event(c, kResync, now_ms);
     return;
   }
-  // Closing at once would reset a connection that has unread bytes, and the answer with it.
+  // Closing at once would reset a connection with unread bytes, and lose the answer.
   shutdown(c.fd, SHUT_WR);
   c.state = State::kEnding;
   c.deadline_ms = now_ms + kEnding_ms;
 }
 
-// What comes after the request is of no use; its end is.
+// Bytes after the request are ignored; only their end matters.
 void WebConnections::drain(Connection& c) {
   std::array<char, kReadBytes> buffer;
   const ssize_t n = recv(c.fd, buffer.data(), buffer.size(), 0);
@@ -202,7 +202,7 @@ void WebConnections::send_events(std::int64_t now_ms) {
     std::optional<std::string> text;
     try {
       text = events.source();
-    } catch (...) {  // out of memory: the next event is due soon
+    } catch (...) {  // out of memory: the next event follows soon
     }
     const std::string event = text ? "data: " + *text + "\n\n" : std::string();
     for (Connection& c : connections_) {
@@ -217,7 +217,7 @@ void WebConnections::send_events(std::int64_t now_ms) {
 }
 
 void WebConnections::send_event(Connection& c, const std::string& text, std::int64_t now_ms) {
-  if (!c.out.empty()) {  // the last one is not taken yet
+  if (!c.out.empty()) {  // the last event is not fully sent yet
     c.missed_event = true;
     return;
   }

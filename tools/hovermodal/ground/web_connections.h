@@ -13,7 +13,7 @@
 
 namespace tools {
 
-// The sockets: one poll loop that never waits for a single one. A connection brings one request, gets one answer or a
+// The sockets: one poll loop that never waits for a single one. A connection carries one request, gets one answer or a
 // stream of events, and has a deadline in each of its states.
 class WebConnections {
  public:
@@ -70,8 +70,8 @@ class WebConnections {
   int listener_ = -1, wake_ = -1, port_ = 0;
   std::list<Connection> connections_;  // oldest first
   std::size_t n_streams_ = 0;
-  std::atomic<bool> stop_{false};  // partner: run()
-  // Written by run() only; relaxed: each a count on its own.
+  std::atomic<bool> stop_{false};  // set by stop(), read by run()
+  // Written by run() only; relaxed: each counter is independent of other data.
   std::atomic<std::uint64_t> n_connections_{0}, n_requests_{0}, n_refused_{0}, n_timed_out_{0}, n_displaced_{0};
   std::atomic<std::size_t> n_open_{0}, n_event_streams_{0};
 };

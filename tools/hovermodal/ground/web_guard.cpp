@@ -37,7 +37,7 @@ bool is_known(const WebGuard& guard, const std::string& name) {
                      [&](const std::string& known) { return lower(known) == name; });
 }
 
-// The value of one cookie in "a=1; b=2"; the first where it stands twice.
+// The value of one cookie in "a=1; b=2"; the first if it occurs twice.
 std::string_view cookie(std::string_view cookies, std::string_view name) {
   while (!cookies.empty()) {
     const std::size_t end = cookies.find(';');
@@ -88,7 +88,7 @@ std::string refused_origin(const WebGuard& guard, const WebOrigin& request) {
     return "the request comes from a page of another origin";
   }
   const std::string_view site = request.fetch_site;
-  // A link that was followed says "cross-site", too: the page it opens is whole and its own origin.
+  // Following a link also counts as "cross-site", but opens the page as a whole, in its own origin.
   const bool is_link = request.fetch_mode == "navigate" && request.fetch_dest == "document";
   if (!site.empty() && site != "same-origin" && site != "none" && !is_link) {
     return "the request comes from a page of another site";
@@ -115,7 +115,7 @@ TokenCheck check_token(const WebGuard& guard, std::string_view query, std::strin
 
 std::string random_token() {
   std::array<unsigned char, 16> bytes{};
-  const auto wanted = static_cast<ssize_t>(bytes.size());  // up to 256 bytes come whole
+  const auto wanted = static_cast<ssize_t>(bytes.size());  // getrandom() delivers up to 256 bytes at once
   if (getrandom(bytes.data(), bytes.size(), 0) != wanted) {
     throw std::system_error(errno, std::generic_category(), "no random numbers for an access token");
   }

@@ -7,19 +7,19 @@
 
 namespace tools {
 
-// Who may ask. Pure: judged from a request's headers alone, so that a test needs no socket.
+// Access control. Pure: decides from a request's headers alone, so that tests need no socket.
 //
-// Two attacks come through a browser that can reach the server while its owner visits another site. A page of that site
-// may ask across origins: the browser then says so in Origin or Sec-Fetch-Site. Or its name may be made to point at us
-// (DNS rebinding), and the browser believes it is the same origin: then Host carries that name. An address in figures
-// cannot be rebound.
+// Two attacks use a browser that can reach the server while its user visits another site. A page of that site may send
+// requests across origins: the browser then states this in Origin or Sec-Fetch-Site. Or its name may be resolved to
+// this server (DNS rebinding), so that the browser assumes the same origin: then Host carries that name. A numeric
+// address cannot be rebound.
 struct WebGuard {
-  std::string token;                     // empty: none is asked for
-  std::vector<std::string> known_names;  // that Host may carry beside addresses and "localhost"
-  bool loopback_only = true;             // of the addresses only the loopback's own are known
+  std::string token;                     // empty: none required
+  std::vector<std::string> known_names;  // names that Host may carry besides addresses and "localhost"
+  bool loopback_only = true;             // true: the only addresses accepted are those of the loopback
 };
 
-// What of a request the guard looks at; empty: the request has no such header.
+// Headers of a request that the guard reads; empty: the request has no such header.
 struct WebOrigin {
   std::string_view host, origin, fetch_site, fetch_mode, fetch_dest;
 };
@@ -31,17 +31,17 @@ enum class TokenCheck { kNotAsked, kFromCookie, kFromQuery, kWrong, kMissing };
 // `query` is the value of ?token=, empty where there is none; `cookies` the whole Cookie header.
 [[nodiscard]] TokenCheck check_token(const WebGuard& guard, std::string_view query, std::string_view cookies);
 
-// As long for a wrong first character as for a wrong last one.
+// Takes the same time wherever the first difference is.
 [[nodiscard]] bool equal_in_constant_time(std::string_view a, std::string_view b) noexcept;
 
 // 128 bits of the kernel's random numbers as 32 hexadecimal digits. Throws std::system_error.
 [[nodiscard]] std::string random_token();
 
-// Why the text cannot be a token; empty: it can.
+// Why the text is not allowed as a token; empty: it is.
 [[nodiscard]] std::string refused_token(std::string_view token);
 
 [[nodiscard]] bool is_loopback(std::string_view address);
-// "name:port", "[::1]:port", "name"; empty where it is none of these.
+// "name:port", "[::1]:port", "name"; empty if it is none of these.
 [[nodiscard]] std::optional<std::string> host_name(std::string_view host_header);
 
 inline constexpr const char* kTokenCookie = "hovermodal_token";

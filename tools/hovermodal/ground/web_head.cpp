@@ -22,7 +22,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// One header line into `out`; 0 or the status it is refused with.
+// Parses one header line into `out`; returns 0 or the status of a refusal.
 int take_line(std::string_view line, HeadProgress& out, bool& has_length) {
   const std::size_t colon = line.find(':');
   if (colon == std::string_view::npos || colon == 0) return kBadRequest;
@@ -53,7 +53,7 @@ HeadProgress look_at_head(std::string_view bytes, std::size_t max_head, std::siz
   HeadProgress out;
   out.n_head = end + 4;
   bool has_length = false;
-  std::size_t begin = head.find("\r\n") + 2;  // behind the request line
+  std::size_t begin = head.find("\r\n") + 2;  // after the request line
   while (begin < end) {
     const std::size_t line_end = std::min(head.find("\r\n", begin), end);
     if (const int status = take_line(head.substr(begin, line_end - begin), out, has_length); status != 0) {

@@ -11,7 +11,7 @@
 namespace tools {
 namespace {
 
-// Nothing but our own files, and no page of others around ours.
+// Allows only the page's own files, and forbids framing by other pages.
 constexpr std::array<std::pair<const char*, const char*>, 6> kSafetyHeaders{{
     {"Content-Security-Policy",
      "default-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
@@ -24,7 +24,7 @@ constexpr std::array<std::pair<const char*, const char*>, 6> kSafetyHeaders{{
 
 constexpr const char* kText = "text/plain; charset=utf-8";
 
-// A request that is all there, and an answer that is gathered.
+// A stream in memory: holds a complete request and collects the answer.
 class MemoryStream : public httplib::Stream {
  public:
   explicit MemoryStream(std::string_view request) : request_(request) {}
@@ -78,7 +78,7 @@ std::string_view query_of(std::string_view target) {
 
 }  // namespace
 
-// httplib's grammar and answers, and none of its sockets, routes or files.
+// Uses httplib's parser and formatting of answers, but not its sockets, routes or files.
 struct WebRoutes::Parser : httplib::Server {
   Parser(WebGuard who, bool can_post) : guard(std::move(who)), allow_post(can_post) {
     httplib::Headers headers;
@@ -86,7 +86,7 @@ struct WebRoutes::Parser : httplib::Server {
     set_default_headers(std::move(headers));
     set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
       route(request, response);
-      // Reading a body is left to httplib; Post("(.*)") then goes on in dispatch().
+      // httplib reads the body; Post("(.*)") then continues in dispatch().
       return is_reading_body ? HandlerResponse::Unhandled : HandlerResponse::Handled;
     });
     Post(".*",
@@ -156,7 +156,7 @@ struct WebRoutes::Parser : httplib::Server {
     found = nullptr, is_reading_body = false;
     set_logger([&status](const httplib::Request&, const httplib::Response& response) { status = response.status; });
     process_request(stream, true, is_closed, [](httplib::Request& parsed) {
-      parsed.ranges.clear();  // many ranges of one text are a way to make much of little
+      parsed.ranges.clear();  // many ranges of one text would multiply the size of the answer
       for (const char* name : {"Range", "Accept-Encoding", "Expect"}) parsed.headers.erase(name);
     });
     return std::move(stream.answer);
@@ -165,7 +165,7 @@ struct WebRoutes::Parser : httplib::Server {
   WebGuard guard;
   bool allow_post;
   std::map<std::string, Route> gets, posts;
-  const Route* found = nullptr;  // of the request under way
+  const Route* found = nullptr;  // of the current request
   bool is_reading_body = false;
 };
 

@@ -10,7 +10,7 @@
 
 namespace tools {
 
-// From the bytes of one whole request to the bytes of its answer. One thread.
+// Converts the bytes of one complete request to the bytes of its answer. One thread.
 class WebRoutes {
  public:
   struct Answer {
@@ -30,11 +30,11 @@ class WebRoutes {
   WebRoutes(WebGuard guard, bool allow_post);
   ~WebRoutes();
 
-  // Throws std::invalid_argument for a path that is none, or is there already.
+  // Throws std::invalid_argument for an invalid path, or one that exists already.
   void add(const std::string& path, Route route);
 
   [[nodiscard]] Answer answer(std::string_view request);
-  // For what never became a request.
+  // Answer where no valid request arrived.
   [[nodiscard]] static Answer refusal(int status);
 
  private:

@@ -56,7 +56,7 @@ int accept_next(int listener, PeerAddress& peer) noexcept {
   peer = {};
   if (from.ss_family == AF_INET)
     std::memcpy(peer.data(), &reinterpret_cast<sockaddr_in*>(&from)->sin_addr, sizeof(in_addr));
-  // Of IPv6 the network alone: one host may have as many addresses in it as it likes.
+  // Of IPv6 only the network part: one host may use any number of addresses in it.
   if (from.ss_family == AF_INET6) std::memcpy(peer.data(), &reinterpret_cast<sockaddr_in6*>(&from)->sin6_addr, 8);
   const int on = 1;
   setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);

@@ -11,13 +11,13 @@ struct ListeningSocket {
   int port = 0;
 };
 
-// Neither waits nor is inherited. Throws std::system_error with a remedy.
+// Non-blocking and not inherited by child processes. Throws std::system_error with a remedy.
 [[nodiscard]] ListeningSocket listen_on(const std::string& address, int port);
 
-// Who is at the other end, without the port; zeros where that cannot be told.
+// The peer's address, without the port; zeros if unknown.
 using PeerAddress = std::array<std::uint8_t, 16>;
 
-// The next connection that waits, with its peer; -1: none does.
+// The next waiting connection, with its peer; -1: none.
 [[nodiscard]] int accept_next(int listener, PeerAddress& peer) noexcept;
 
 }  // namespace tools

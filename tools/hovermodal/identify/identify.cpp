@@ -52,7 +52,7 @@ SeriesFindings identify_file(const IdentifyOptions& options, const std::string& 
   for (const std::string& reference : options.references) {
     const int channel = channel_index(loaded, reference, path);
     findings.references.push_back(loaded.series.channels[static_cast<std::size_t>(channel)].name);
-    // Of set-ups they are what joins the shapes; each alone uses all its channels.
+    // With several set-ups they join the shapes; each single set-up uses all its channels.
     if (!options.merge) series.identifier.references.push_back(channel);
   }
   series.mask_faults = !options.keep_all;

@@ -13,7 +13,7 @@ namespace tools {
 
 namespace {
 
-constexpr double kLargestDisagreement = 0.01;  // of two statements of the rate
+constexpr double kLargestDisagreement = 0.01;  // between two statements of the rate
 constexpr double kMostCellsPerRow = 20.0;
 
 using Column = std::vector<double>;
@@ -25,7 +25,7 @@ bool goes_forward(const Column& values) {
   return values.size() > 1;
 }
 
-// Steps rounded to whole multiples of the median one: gaps, and times written with few digits, do not bend the rate.
+// Steps are rounded to whole multiples of the median one, so that gaps and rounded times do not change the rate.
 double measured_rate_hz(const Column& t) {
   std::vector<double> steps(t.size() - 1);
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = t[i + 1] - t[i];
@@ -38,7 +38,7 @@ double measured_rate_hz(const Column& t) {
   return cells / (t.back() - t.front());
 }
 
-// Rows onto cells of `step`; several rows in one cell: the first is used.
+// Assigns rows to cells of `step`; of several rows in one cell the first is used.
 void place(const Column& positions, double cells_per_unit, const std::string& path, SampleGrid& grid) {
   const double span = (positions.back() - positions.front()) * cells_per_unit;
   if (span > kMostCellsPerRow * static_cast<double>(positions.size()) + 1000.0) {
@@ -77,7 +77,7 @@ std::string lower_without_blanks(const std::string& name) {
 }  // namespace
 
 int time_column(const drivers::SeriesFile& file) {
-  // x_value: LabVIEW's, with more digits than the Delta_X of its head.
+  // x_value: LabVIEW's, with more digits than Delta_X in its head.
   constexpr std::array<std::string_view, 10> kNames{"t_s",     "t",       "time", "time_s",  "t[s]",
                                                     "time[s]", "time(s)", "seconds", "t(s)", "x_value"};
   for (std::size_t c = 0; c < file.names.size(); ++c) {

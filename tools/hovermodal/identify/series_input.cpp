@@ -68,7 +68,7 @@ int integrations_of(const std::string& quantity) {
   refuse(fmt::format("--quantity {}: allowed d (displacement), v (velocity), a (acceleration)", quantity));
 }
 
-// Rows of the file onto the grid, in `unit_factor` times its unit.
+// Places the file's rows on the grid, values multiplied by `unit_factor`.
 std::vector<double> on_grid(const std::vector<double>& column, const SampleGrid& grid, double unit_factor) {
   std::vector<double> values(grid.n_cells, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t row = 0; row < column.size(); ++row) {
@@ -120,7 +120,8 @@ class SeriesLoader {
     return own.empty() && comment != file_.comments.end() ? comment->second : own;
   }
 
-  // Unlike units are brought to metres and seconds, so that shapes of mixed channels are displacements of one scale.
+  // Different units are converted to metres and seconds, so that shapes of mixed channels are displacements of one
+  // scale.
   void choose_units() {
     factors_.assign(columns_.size(), 1.0);
     out_.series.unit = unit(0).empty() ? "units" : unit(0);
@@ -163,7 +164,7 @@ class SeriesLoader {
                        [&](const std::string& base) { return column_index(file_, base, path_) == column; });
   }
 
-  // A run's displacements.csv tells when each channel is seen after the time stamp.
+  // The displacements.csv of a run states how long after the time stamp each channel is seen.
   [[nodiscard]] double delay_s(std::size_t i) const {
     if (!request_.delays_ms.empty())
       return 1e-3 * (request_.delays_ms.size() == 1 ? request_.delays_ms.front() : request_.delays_ms[i]);

@@ -7,7 +7,7 @@
 
 namespace tools {
 
-// One file identified.
+// The result for one file.
 struct SeriesFindings {
   std::string name;
   std::vector<std::string> references;  // names of the channels that all set-ups share
@@ -17,7 +17,7 @@ struct SeriesFindings {
 // Modes, rejected poles, the response's peaks and the remarks, for a terminal.
 [[nodiscard]] std::string findings_text(const app::SeriesResult& result);
 
-// modal.json beside the pictures that the analysis left; returns the page to open.
+// Writes modal.json beside the pictures of the analysis; returns the page to open.
 std::string write_findings(const app::SeriesResult& result, const std::string& directory);
 
 // The set-ups of one structure as one result; throws std::invalid_argument when they share no reference.

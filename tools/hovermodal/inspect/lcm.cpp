@@ -35,12 +35,12 @@ void print_line(drivers::FindingKind kind, const std::string& what, const std::s
   std::fflush(stdout);
 }
 
-// What a service sends there: how many messages of each kind, and whether they can be read.
+// Messages that a service sends there: number of each kind, and whether they can be decoded.
 void listen_for_a_service(const Options& options) {
   drivers::StreamMonitor monitor(options.prefix);
   drivers::LcmListener listener(options.url, options.prefix,
                                 [&monitor](std::string_view channel, const void* data, std::size_t n_bytes) {
-                                  monitor.receive(channel, data, n_bytes, 1);  // no time is looked at here
+                                  monitor.receive(channel, data, n_bytes, 1);  // the time is not used here
                                 });
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(options.seconds);
   while (std::chrono::steady_clock::now() < end && listener.poll()) {

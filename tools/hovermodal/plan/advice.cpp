@@ -88,7 +88,7 @@ Text overlap_words(const HoverPlan& plan) {
   return out;
 }
 
-// Where turning would tell the folds apart if only the structure fitted.
+// Rotating the camera would separate the alias orders if the structure stayed in view.
 Text turning_words(const PlanInput& input, const HoverPlan& plan) {
   const CameraOption& turned = plan.options[1];
   const CameraOption& best = plan.options[plan.best_option];

@@ -11,7 +11,7 @@ class App;
 
 namespace tools {
 
-// What the command line says, in its units. 0 or empty: not given.
+// Values of the command line, in its units. 0 or empty: not given.
 struct PlanOptions {
   std::string structure = "shear", axis, shapes_file;
   int storeys = 0, regions = 0;
@@ -33,7 +33,7 @@ struct PlanOptions {
 
 void add_plan_options(CLI::App& command, PlanOptions& options);
 
-// Throws std::invalid_argument naming the option: what contradicts what, what is missing, what is out of range.
+// Throws std::invalid_argument naming the option: contradictory, missing or out of range.
 [[nodiscard]] core::planning::PlanInput plan_input(const CLI::App& command, const PlanOptions& options);
 
 }  // namespace tools

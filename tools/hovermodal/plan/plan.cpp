@@ -1,4 +1,4 @@
-// hovermodal plan: what a flight will show, before it.
+// hovermodal plan: what a flight will show, computed in advance.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

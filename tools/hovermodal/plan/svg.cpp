@@ -70,14 +70,14 @@ class PlanPicture {
     for (const int row : rows_) n_rows_ = std::max(n_rows_, row + 1);
   }
 
-  // Of the mode alone, without the floor.
+  // Of the mode alone, without the noise floor.
   [[nodiscard]] double peak(std::size_t i) const {
     const double rms = input_.modes[i].rms_mm.value_or(mode(i).least_rms_mm);
     const auto& m = input_.modes[i];
     return core::planning::peak_density(rms * mode(i).exposure_gain, m.damping_ratio, m.frequency_hz,
                                         plan_.bandwidth_hz);
   }
-  // The resonances' displacement under white forces, widened by the window, folded as the samples fold it.
+  // The resonances' displacement under white forces, widened by the window, aliased by sampling.
   [[nodiscard]] double density(double hz) const {
     constexpr int kBranches = 3;
     double sum = floor_;
@@ -171,7 +171,7 @@ class PlanPicture {
     draw_map_legend(svg, box);
   }
 
-  // The place on the fold map, the way up to the spectrum, and open circles where the rivals lie.
+  // The mode's position on the alias map, a line up to the spectrum, and open circles at the rival frequencies.
   void draw_mode(app::SvgDocument& svg, app::PlotPanel& panel, std::size_t i) const {
     const core::planning::FoldPlace& place = mode(i).place;
     const double x = panel.x_px(place.apparent_hz), y = panel.y_px(input_.modes[i].frequency_hz);

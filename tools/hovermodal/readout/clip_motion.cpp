@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kAcross = 8, kDown = 6, kPerTile = 6;  // seeds
 constexpr std::size_t kLeastPoints = 30, kNeighbours = 8;
-constexpr double kMostApart_px = 3.0;  // of a point's motion from its neighbours' median
+constexpr double kMostApart_px = 3.0;  // of a point's motion from the median of its neighbours
 
 std::vector<cv::Point2f> seeds(const cv::Mat& gray) {
   core::SeedConfig config;
@@ -40,7 +40,7 @@ struct Step {
   cv::Point2f from, to;
 };
 
-// Whether a point moves as the points around it do: what turns the camera moves neighbours alike.
+// Whether a point moves like the points around it: camera rotation moves neighbours alike.
 bool goes_along(const std::vector<Step>& steps, std::size_t i) {
   std::vector<std::pair<double, std::size_t>> near;
   for (std::size_t j = 0; j < steps.size(); ++j) {

@@ -15,10 +15,10 @@ struct ClipMotion {
   std::vector<core::FramePair> pairs;
 };
 
-// Corners all over each frame, tracked into the next one and back. Pairs with too few are left out. Every
+// Corners spread over each frame, tracked into the next one and back. Pairs with too few points are left out. Every
 // `hold_out_every`-th pair is held out. stamps_s: of the clip's frames, in order. ignored: left, top, width, height of
-// parts of the picture that move with the camera.
-// Throws what drivers::open_frame_source does; std::invalid_argument: fewer stamps than frames.
+// the picture that move with the camera.
+// Throws as drivers::open_frame_source does; std::invalid_argument: fewer stamps than frames.
 [[nodiscard]] ClipMotion track_clip(const std::string& path, const std::vector<double>& stamps_s,
                                     const core::CameraModel& camera, core::ReadoutDirection direction,
                                     int hold_out_every, const std::vector<std::array<double, 4>>& ignored);

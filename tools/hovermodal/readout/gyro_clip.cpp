@@ -13,7 +13,7 @@
 namespace tools {
 namespace {
 
-// Numbers of a file, one row a line; a first line of words is skipped.
+// Numbers of a file, one row per line; a first line of text is skipped.
 std::vector<std::vector<double>> read_rows(const std::string& path, std::size_t n_columns) {
   drivers::CsvLines lines(path);
   std::vector<std::vector<double>> rows;
@@ -104,7 +104,7 @@ void add_gyro_clip_options(CLI::App& command, GyroClipOptions& options, bool req
                                                                  {"left", core::ReadoutDirection::kLeft},
                                                                  {"right", core::ReadoutDirection::kRight}};
   command.add_option("--readout-direction", options.direction, "Direction in which lines are read in the image")
-      ->transform(CLI::CheckedTransformer(directions).description(""))  // its own shows the letters' values
+      ->transform(CLI::CheckedTransformer(directions).description(""))  // its default shows character codes
       ->type_name("down|up|left|right");
   command
       .add_option("--ignore", options.ignored,

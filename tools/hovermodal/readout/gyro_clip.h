@@ -11,7 +11,7 @@
 
 namespace tools {
 
-// A clip, its frames' stamps and a gyro's record beside it, as the command line names them.
+// A clip, its frames' stamps and the record of a gyro mounted on the camera, as named on the command line.
 struct GyroClipOptions {
   std::string clip, stamps, gyro, calibration;
   std::vector<std::array<double, 4>> ignored;
@@ -26,7 +26,7 @@ struct GyroClip {
   std::vector<core::GyroSample> gyro;
   core::GyroReadoutConfig config;
 };
-// Throws drivers::FileError, std::invalid_argument, and what track_clip() does.
+// Throws drivers::FileError, std::invalid_argument, and as track_clip() does.
 [[nodiscard]] GyroClip read_gyro_clip(const GyroClipOptions& options);
 
 }  // namespace tools

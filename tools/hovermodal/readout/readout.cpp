@@ -1,4 +1,4 @@
-// hovermodal readout: a camera turned by hand beside a gyro gives its readout time.
+// hovermodal readout: estimates the readout time of a camera that is rotated by hand together with a gyro.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -31,7 +31,7 @@ WebResponse plain(int status, std::string text) {
   return {status, "text/plain; charset=utf-8", std::move(text) + "\n"};
 }
 
-// What the page sends becomes the file; what cannot be is told beside its button.
+// Writes the page's regions to the file; an error is shown beside the page's button.
 WebResponse take_regions(const WebRequest& request, const PickerOptions& options, std::string& current) {
   std::vector<core::Region> regions;
   try {
@@ -54,7 +54,7 @@ void run_picker(const std::vector<core::Region>& regions, const std::string& fra
   WebOptions web;
   web.port = options.port;
   web.allow_post = true;
-  WebServer server(web);  // the loopback address: nobody else may write files here
+  WebServer server(web);  // loopback address: no other computer may write files here
   std::string current = regions_json(regions, options.width_px, options.height_px);
   add_page(server, regions_page());
   server.add_asset("/frame.png", "image/png", frame_png);

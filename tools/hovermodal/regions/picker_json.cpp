@@ -25,7 +25,7 @@ std::string text_of(const json& item, const char* key) {
   return found->get<std::string>();
 }
 
-// What a name, a role or an axis may be, the configuration's own keys say.
+// The configuration's own keys define the allowed names, roles and axes.
 void take(const json& item, const char* key, app::AppConfig& config) {
   drivers::YamlNode node;
   node.kind = drivers::YamlNode::Kind::kScalar;

@@ -1,4 +1,4 @@
-// hovermodal regions: where the structure's parts are, from texture and motion.
+// hovermodal regions: proposes regions on the structure's parts, from texture and motion.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -74,7 +74,7 @@ class Progress {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-// Throws std::runtime_error when there is not even a second to look at.
+// Throws std::runtime_error if the source is shorter than a second.
 Watched watch(const Options& options) {
   drivers::CameraOptions source;
   source.source = options.clip;

@@ -7,20 +7,20 @@
 
 namespace tools {
 
-// By name, part1 first, the resting one last: the order of the file and of the picture.
+// By name, part1 first, the static one last: the order of the file and of the picture.
 [[nodiscard]] std::vector<core::Region> in_order(const core::RegionProposal& proposal);
 
-// Gives the lowest part the role `base` and the name "base", and returns nothing; or changes nothing and returns why that
-// would be a guess: the parts do not stand one above the other, something below it moves, another one moves less.
+// Gives the lowest part the role `base` and the name "base" and returns nothing; or changes nothing and returns why
+// that would be a guess: the parts are not one above the other, something below it moves, another part moves less.
 [[nodiscard]] std::string make_lowest_base(core::RegionProposal& proposal);
 
-// One line a region, in the order of the proposal.
+// One line per region, in the order of the proposal.
 [[nodiscard]] std::string regions_table(const core::RegionProposal& proposal);
 
 // The regions: block of a configuration.
 [[nodiscard]] std::string regions_yaml(const std::vector<core::Region>& regions);
 
-// As a configuration writes it.
+// In the configuration's notation.
 [[nodiscard]] std::string axis_text(const core::Region& region);
 
 }  // namespace tools

@@ -43,8 +43,8 @@ void write_stamps(const std::string& path, const std::vector<DeliveredFrame>& fr
   csv.commit();
 }
 
-// Delivered frames drawn by several threads, handed out in order. Frame k lives in slot k % n_slots; a worker may draw
-// it once frame k - n_slots has been given back.
+// Delivered frames are rendered by several threads and returned in order. Frame k uses slot k % n_slots; a worker may
+// render it once frame k - n_slots has been given back.
 class FrameFarm {
  public:
   FrameFarm(const Renderer& renderer, const std::vector<DeliveredFrame>& frames, int n_threads)
@@ -111,7 +111,7 @@ class FrameFarm {
   const std::vector<DeliveredFrame>& frames_;
   std::vector<Slot> slots_;
   std::vector<std::thread> workers_;
-  std::mutex mutex_;  // guards all below and Slot::ready
+  std::mutex mutex_;  // guards all members below and Slot::ready
   std::condition_variable changed_;
   std::size_t n_claimed_ = 0, n_taken_ = 0;
   bool stopping_ = false;
@@ -139,7 +139,7 @@ void write_clip(const Renderer& renderer, const std::string& path, int crf, int 
     farm.give_back();
     progress.update(i + 1);
   }
-  // Before the clip has its name: it must never stand there without the stamps it needs.
+  // Before the clip gets its name: it must never exist without the stamps that it needs.
   if (needs_stamps(renderer.scene())) write_stamps(stamps_path(path), frames);
   writer.finish();
 }

@@ -6,12 +6,12 @@
 
 namespace tools {
 
-// Draws every frame that the scene's timing delivers on `n_threads` threads and encodes them in order. Where stamps
-// tell of jitter or drops, they are written beside the clip (drivers/camera/recording/timestamp_file.h); an older such
-// file is removed in any case. Throws std::runtime_error when the encoder fails; the clip then does not exist.
+// Renders every frame that the scene's timing delivers on `n_threads` threads and encodes them in order. If the scene's
+// stamps show jitter or drops, they are written beside the clip (drivers/camera/recording/timestamp_file.h); an older
+// such file is removed in any case. Throws std::runtime_error when the encoder fails; the clip then does not exist.
 void write_clip(const core::simulation::Renderer& renderer, const std::string& path, int crf, int n_threads);
 
-// Where those stamps stand, and whether this scene's clip needs them.
+// The file of those stamps, and whether this scene's clip needs it.
 [[nodiscard]] std::string stamps_path(const std::string& clip_path);
 [[nodiscard]] bool needs_stamps(const core::simulation::Scene& scene) noexcept;
 

@@ -22,7 +22,7 @@ void append(std::string& out, fmt::format_string<Args...> format, Args&&... args
   fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
 }
 
-// 15 digits: 26, not 26.000000000000004, where a unit was converted.
+// 15 digits, so that 26 is not written as 26.000000000000004 after a unit conversion.
 void append_declared(std::string& out, const char* key, const drivers::Declared& declared, double truth) {
   if (const auto value = declared.of(truth)) append(out, "  {}: {:.15g}\n", key, *value);
 }

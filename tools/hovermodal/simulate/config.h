@@ -8,8 +8,8 @@
 
 namespace tools {
 
-// The text of config.yaml, for the service: what the operator declares of the camera, and what a user would mark in the
-// first frame. `source`: the file that the camera is.
+// The text of config.yaml for the service: the operator's declarations of the camera, and the regions a user would mark
+// in the first frame. `source`: the file used as camera.
 [[nodiscard]] std::string config_text(const SimulateJob& job, const core::simulation::SceneMotion& motion,
                                       const std::string& source);
 

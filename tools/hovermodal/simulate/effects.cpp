@@ -18,8 +18,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kLongest_s = 120.0;
 constexpr std::size_t kMostFrames = 200;
-constexpr int kMostPoints = 6;  // per region: a sum over all frames does not need more
-// Below what tracks.csv can show: rounding of the arithmetic.
+constexpr int kMostPoints = 6;  // per region: sufficient for a sum over all frames
+// Rounding of the arithmetic, below the resolution of tracks.csv.
 constexpr double kNothing_px = 1e-9;
 
 std::vector<DeliveredFrame> frames_of(const TrackGenerator& generator) {
@@ -74,7 +74,7 @@ double rms_between(const SampledTracks& with, const TrackGenerator& without) {
   return squares.n > 0 ? std::sqrt(squares.sum / static_cast<double>(squares.n)) : 0.0;
 }
 
-// The part of the effect that is declared to the service; the rest has no key in the configuration.
+// The declared part of the effect; the rest has no key in the configuration.
 Json declared(const SimulateJob& job, const std::string& effect, const Json& scene) {
   if (effect == "readout") return drivers::scene_value(scene, "declare.readout_ms");
   if (effect == "exposure") return drivers::scene_value(scene, "declare.exposure_ms");

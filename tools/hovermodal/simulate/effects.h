@@ -10,7 +10,7 @@
 
 namespace tools {
 
-// Tracks of a scene to compare others with: at most 200 frames of at most two minutes, a few points per region.
+// Tracks of a scene for comparison: at most 200 frames of at most two minutes, a few points per region.
 struct SampledTracks {
   explicit SampledTracks(const core::simulation::Scene& scene);
 
@@ -19,8 +19,8 @@ struct SampledTracks {
 };
 
 // Root mean square, per image axis, of the tracks with the effect minus those without it, over the same points of the
-// structure and frames that both deliver under the same number. Empty: the effect does not move tracks (losses, grey
-// levels, channels), or there is no scene without it.
+// structure and over frames that both deliver with the same number. Empty: the effect does not move tracks (losses,
+// grey levels, channels), or there is no scene without it.
 [[nodiscard]] std::optional<double> effect_rms_px(const SampledTracks& with, const std::string& effect);
 
 // {name, declared, rms_px, parameters} of each active effect. `scene`: as scene_json() gives it.

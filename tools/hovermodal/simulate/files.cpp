@@ -23,7 +23,7 @@ using drivers::append_fixed;
 using drivers::append_seconds;
 using drivers::append_text;
 
-// As the service writes them, but one more digit of the pixels: noise-free tracks are compared with theory.
+// As in the service's files, but with one more digit for pixels: noise-free tracks are compared with theory.
 constexpr int kPixelDecimals = 5, kDisplacementDecimals = 6, kTruthDecimals = 9;
 
 std::string path_in(const std::filesystem::path& folder, const char* name) { return (folder / name).string(); }

@@ -7,11 +7,11 @@
 
 namespace tools {
 
-// Each writes its file whole or throws std::runtime_error (drivers::FileError).
+// Each function writes its file completely or throws std::runtime_error (drivers::FileError).
 
-// truth_displacements.csv: the bodies' true absolute motion at the times at which pictures were taken.
+// truth_displacements.csv: true absolute motion of the bodies at the times of exposure.
 void write_true_displacements(const std::filesystem::path& folder, const core::simulation::SceneMotion& motion);
-// tracks.csv and displacements.csv as a run of the service leaves them.
+// tracks.csv and displacements.csv in the format of a run of the service.
 void write_tracks(const std::filesystem::path& folder, const SimulateJob& job);
 void write_channels(const std::filesystem::path& folder, const SimulateJob& job,
                     const core::simulation::SceneMotion& motion);

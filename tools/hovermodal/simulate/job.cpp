@@ -69,7 +69,7 @@ core::CameraInfo SimulateJob::declared_camera() const {
   core::CameraInfo info = scene().camera_info();
   info.readout_ns = std::llround(1e6 * file.declare.readout_ms.of(1e3 * camera.readout_s).value_or(0.0));
   info.exposure_ns = std::llround(1e6 * file.declare.exposure_ms.of(1e3 * camera.exposure_s).value_or(0.0));
-  // Left out, the rate is the source's own.
+  // Without a declaration, the rate is the source's own.
   info.rate_hz = file.declare.rate_hz.of(camera.rate_hz).value_or(camera.rate_hz);
   return info;
 }

@@ -9,10 +9,10 @@
 
 namespace tools {
 
-// How deep the simulation goes: displacements, tracks of points, or a clip.
+// What is simulated: displacements, tracks of points, or a clip.
 enum class Depth : std::uint8_t { kChannels, kTracks, kPixels };
 
-// What the command line asks for. What is not there comes from the scene file, or from the preset.
+// Options of the command line. Missing ones come from the scene file, or from the preset.
 struct SimulateOptions {
   std::string scene_path, folder, method = "hovermodal";
   std::optional<std::string> preset, size;
@@ -23,7 +23,7 @@ struct SimulateOptions {
   int crf = 20, threads = 0;
 };
 
-// What `hovermodal simulate` makes, apart from where.
+// What `hovermodal simulate` generates, without the folder.
 struct SimulateJob {
   drivers::SceneFile file;
   Depth depth = Depth::kPixels;
@@ -32,7 +32,7 @@ struct SimulateJob {
 
   [[nodiscard]] const core::simulation::Scene& scene() const noexcept { return file.scene; }
   [[nodiscard]] const char* product() const noexcept;
-  // The camera as the operator declares it: what headers of files and row delays follow.
+  // The camera as declared by the operator, used for headers of files and row delays.
   [[nodiscard]] core::CameraInfo declared_camera() const;
   [[nodiscard]] bool declares_lens() const noexcept;
 };

@@ -6,7 +6,7 @@
 
 namespace tools {
 
-// How far a long job is, on standard error: a line that rewrites itself on a terminal, a line each 10 % elsewhere.
+// Progress of a long job, on standard error: a line that rewrites itself on a terminal, a line per 10 % elsewhere.
 class Progress {
  public:
   Progress(std::string what, std::uint64_t total, std::string unit = "frames");
@@ -15,7 +15,7 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void update(std::uint64_t done);
-  void say(const std::string& text);  // a line of its own
+  void say(const std::string& text);  // prints a separate line
   [[nodiscard]] double elapsed_s() const;
 
  private:

@@ -50,13 +50,14 @@ void simulate(const SimulateOptions& options) {
   make_folder(folder);
   const std::string product = (folder / job.product()).string();
   const SceneMotion motion(job.scene());
-  // First, because it fails at once where the folder cannot be written; and cheap enough to follow --method each time.
+  // First, because it fails at once if the folder cannot be written; and cheap enough to be rewritten for each
+  // --method.
   write_config(folder, job, motion);
   if (!options.force && already_made(folder, job)) {
     fmt::print("{}: already made from the same parameters; --force makes it again\n", product);
     return;
   }
-  // truth.json comes last: a folder with it is a finished one.
+  // truth.json is written last: a folder that contains it is complete.
   fs::remove(folder / "truth.json");
   write_true_displacements(folder, motion);
   write_product(folder, job, motion, options.threads);

@@ -16,14 +16,14 @@ using core::simulation::Scene;
 using core::simulation::SceneMotion;
 using Json = nlohmann::ordered_json;
 
-constexpr int kRendererVersion = 3;  // raise when the same scene gives other pixels, tracks or channels
+constexpr int kRendererVersion = 3;  // increase when the same scene gives other pixels, tracks or channels
 
-// In free vibration the ground stands still, so absolute and relative shapes are the same and the base's component is
+// In free vibration the ground does not move, so absolute and relative shapes are equal and the base's component is
 // 0.
 Json modes_json(const Scene& scene) {
   Json modes = Json::array();
   for (const core::simulation::TrueMode& mode : core::simulation::modes_of(scene.structure)) {
-    if (mode.frequency_hz > 2.0 * scene.excitation.band_high_hz) break;  // far above all that is shaken
+    if (mode.frequency_hz > 2.0 * scene.excitation.band_high_hz) break;  // far above the excited band
     Json shape{{scene.plates[0].name, 0.0}};
     for (std::size_t i = 1; i < scene.plates.size(); ++i) {
       const std::complex<double> value = mode.displacement(static_cast<Eigen::Index>(i) - 1);
@@ -51,7 +51,7 @@ Json rms_json(const SceneMotion& motion) {
   return out;
 }
 
-// What config.yaml says, key by key; null = nothing.
+// Declarations in config.yaml, key by key; null = not declared.
 Json declared_json(const SimulateJob& job) {
   const auto& camera = job.scene().camera;
   const auto& declare = job.file.declare;
@@ -67,7 +67,7 @@ Json declared_json(const SimulateJob& job) {
           {"timestamps", job.scene().timing.stamps_tell}};
 }
 
-// FNV-1a: the scene names the flight's files only.
+// FNV-1a of the data, because the scene contains only the names of the flight's files.
 std::uint64_t hash_of(const core::simulation::RecordedMotion& flight) {
   std::uint64_t hash = 0xCBF29CE484222325ULL;
   for (const auto* axis :
@@ -95,7 +95,7 @@ bool already_made(const std::filesystem::path& folder, const SimulateJob& job) {
     return truth.value("parameters", "") == parameter_line(job) &&
            truth.value("product_bytes", std::uintmax_t{0}) == size;
   } catch (const std::exception&) {
-    return false;  // absent, or not ours: written again
+    return false;  // absent, or from another program: written again
   }
 }
 

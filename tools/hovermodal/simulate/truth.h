@@ -8,12 +8,12 @@
 
 namespace tools {
 
-// One line that is equal exactly when two jobs give the same product.
+// One line that is equal exactly if two jobs give the same product.
 [[nodiscard]] std::string parameter_line(const SimulateJob& job);
-// The folder holds the finished product of this very job.
+// Whether the folder contains the complete product of this job.
 [[nodiscard]] bool already_made(const std::filesystem::path& folder, const SimulateJob& job);
 
-// truth.json: everything that was put into the record, and how large each effect is. Throws std::runtime_error.
+// truth.json: all parameters of the simulated record, and the size of each effect. Throws std::runtime_error.
 void write_truth(const std::filesystem::path& folder, const SimulateJob& job,
                  const core::simulation::SceneMotion& motion);
 

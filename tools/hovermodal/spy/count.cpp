@@ -54,7 +54,7 @@ bool is_complete(const StreamMonitor& monitor) {
     const auto topic = static_cast<StreamMonitor::Topic>(i);
     const auto& count = monitor.count(topic);
     const auto by_sender = sent(monitor, monitor.lcm_channel(topic));
-    if (!by_sender && count.received == 0) continue;  // a sender that does not know this topic
+    if (!by_sender && count.received == 0) continue;  // a sender without this topic
     if (!by_sender || by_sender->n_sent != static_cast<std::int64_t>(count.received)) return false;
     if (count.gaps + count.out_of_order + count.restarts + count.undecodable != 0) return false;
   }
@@ -74,7 +74,7 @@ std::string count_json(const StreamMonitor& monitor) {
     const std::string& name = monitor.lcm_channel(topic);
     out["channels"][name] = channel_json(monitor.count(topic), sent(monitor, name));
   }
-  // Strings came over the network: what is not UTF-8 is replaced.
+  // Strings come from the network: invalid UTF-8 is replaced.
   return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

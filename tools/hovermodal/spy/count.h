@@ -6,11 +6,11 @@
 
 namespace tools {
 
-// True when a final health was heard and every channel brought exactly the messages it says were sent, in order. What
-// the service held back was not sent.
+// True if a final health message was received and every channel delivered exactly the messages that it states as sent,
+// in order. Messages withheld by the service do not count as sent.
 [[nodiscard]] bool is_complete(const drivers::StreamMonitor& monitor);
 
-// What was heard, as JSON: per LCM channel received, sent and held_back (by the last health; null = not known),
+// Received messages as JSON: per LCM channel received, sent and held_back (by the last health; null = unknown),
 // first_sequence, last_sequence, gaps, out_of_order, restarts, undecodable, foreign, bytes; and final_health, state,
 // complete, other_versions (in words).
 [[nodiscard]] std::string count_json(const drivers::StreamMonitor& monitor);

@@ -31,13 +31,13 @@ namespace {
 
 constexpr std::int64_t kRedraw_ns = 250'000'000;
 constexpr std::int64_t kPlainLine_ns = 1'000'000'000;
-constexpr std::int64_t kAfterEnd_ns = 500'000'000;  // for what is still under way when the final health arrives
+constexpr std::int64_t kAfterEnd_ns = 500'000'000;  // for messages still under way when the final health arrives
 
 std::vector<std::string> render(SpyView what, const drivers::StreamMonitor& monitor, const ViewOptions& view) {
   return what == SpyView::kModes ? render_screen(monitor, view) : render_stages(monitor, view);
 }
 
-// Plain lines: a status each second, the modes whenever they are new and whole.
+// Plain lines: a status each second, the modes whenever they are new and complete.
 class PlainOutput {
  public:
   explicit PlainOutput(SpyView what) : what_(what) {}
@@ -60,7 +60,7 @@ class PlainOutput {
       std::printf("%s\n", render_status(monitor, view).c_str());
     }
   }
-  // Said once for each that is heard.
+  // Printed once for each other version.
   void update_versions(const drivers::StreamMonitor& monitor, const ViewOptions& view) {
     const std::size_t n = monitor.other_versions().size();
     if (n == n_versions_) return;

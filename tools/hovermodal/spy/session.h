@@ -16,9 +16,9 @@ struct SpyOptions {
   std::string count_file;  // empty = none
 };
 
-// Listens and shows until told to stop (SIGINT, SIGTERM, --once, --seconds, end of a log). Throws
-// std::invalid_argument for a wrong URL or prefix, std::runtime_error when nothing can be heard on the URL, when the
-// count file cannot be written, or when --once saw no end within --seconds.
+// Listens and shows until stopped (SIGINT, SIGTERM, --once, --seconds, end of a log). Throws
+// std::invalid_argument for a wrong URL or prefix, std::runtime_error if nothing can be received on the URL, if the
+// count file cannot be written, or if --once saw no end within --seconds.
 void run_spy(const SpyOptions& options);
 
 }  // namespace tools

@@ -24,7 +24,7 @@ std::shared_ptr<SpyOptions> add_listener(CLI::App* spy) {
   spy->add_option("--count", options->count_file,
                   "Write the number of messages received and missed to this JSON file at the end");
   spy->callback([options, spy] {
-    if (spy->get_subcommands().empty()) run_spy(*options);  // else the subcommand has done its work
+    if (spy->get_subcommands().empty()) run_spy(*options);  // otherwise the subcommand has already run
   });
   return options;
 }

@@ -8,8 +8,8 @@
 
 namespace tools {
 
-// The service at work, from health_t alone: the computer, the way of a frame, and a line for every stage. Rates and CPU
-// are between the last two status messages. At most `rows` lines of at most `columns` characters.
+// View of the running service, from health_t alone: the computer, the path of a frame, and a line per stage. Rates and
+// CPU are averages between the last two status messages. At most `rows` lines of at most `columns` characters.
 [[nodiscard]] std::vector<std::string> render_stages(const drivers::StreamMonitor& monitor, const ViewOptions& options);
 
 }  // namespace tools

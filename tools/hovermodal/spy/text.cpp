@@ -14,7 +14,7 @@ namespace {
 constexpr std::array<const char*, 8> kBlocks{"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
 constexpr std::array<const char*, 8> kAsciiBlocks{"_", ".", "-", ":", "=", "+", "*", "#"};
 
-// Bytes of the well-formed, printable UTF-8 character at the front of `text`; 0 = none.
+// Bytes of the well-formed, printable UTF-8 character at the beginning of `text`; 0 = none.
 std::size_t character_bytes(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
   const std::uint32_t first = byte(0);
@@ -28,12 +28,12 @@ std::size_t character_bytes(std::string_view text) {
   }
   const bool is_overlong = n == 3 && code < 0x800;
   const bool is_surrogate = code >= 0xD800 && code < 0xE000;
-  // 0x2000..0x206F: among them characters that turn the direction of writing or have no width.
+  // 0x2000..0x206F: includes characters that change the writing direction or have no width.
   const bool is_invisible = code < 0xA0 || (code >= 0x2000 && code < 0x2070);
   return is_overlong || is_surrogate || is_invisible ? 0 : n;
 }
 
-// Returns the columns written, at most `columns`.
+// Returns the number of columns written, at most `columns`.
 std::size_t append_printable(std::string_view text, std::size_t columns, std::string& out) {
   std::size_t used = 0;
   for (; !text.empty() && used < columns; ++used) {
@@ -70,7 +70,7 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t columns) {
     const std::string word = clean.substr(begin, end - begin);
     if (!line.empty() && line.size() + 1 + word.size() > columns) {
       lines.push_back(line);
-      line = " ";  // and one before the word
+      line = " ";  // plus one before the word
     }
     line += (line.empty() ? "" : " ") + word;
   }

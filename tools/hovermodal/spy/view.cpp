@@ -17,7 +17,7 @@ using Lines = std::vector<std::string>;
 
 constexpr std::size_t kRmsSamples = 256;
 constexpr std::size_t kHistoryColumns = 19;
-constexpr std::size_t kHalf = 49;  // columns of one of two tables side by side
+constexpr std::size_t kHalf = 49;  // columns of each of two tables side by side
 
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 double real(float value) { return static_cast<double>(value); }
@@ -32,7 +32,7 @@ std::string fold_text(std::int16_t fold_n) {
   return fold_n == mode_t::FOLD_UNKNOWN ? "-" : fmt::format("{:+d}", fold_n);
 }
 
-// "#3   240s  -0.12*": number, record since it was first seen, trend in % a minute; * = more than chance.
+// "#3   240s  -0.12*": number, record since it was first seen, trend in % a minute; * = significant.
 std::string history_text(const mode_t& mode, double duration_s) {
   if (mode.track_id <= 0) return fit("  -", kHistoryColumns);
   const double trend = 6000.0 * real(mode.drift_hz_per_s) / mode.frequency_hz;

@@ -13,17 +13,17 @@ namespace tools {
 struct ViewOptions {
   std::size_t columns = 100, rows = 30;
   Charset charset = Charset::kUnicode;
-  std::int64_t now_ns = 0;  // the clock given to StreamMonitor::receive
+  std::int64_t now_ns = 0;  // in the clock given to StreamMonitor::receive
 };
 
 // The whole screen: at most `rows` lines of at most `columns` characters.
 [[nodiscard]] std::vector<std::string> render_screen(const drivers::StreamMonitor& monitor, const ViewOptions& options);
 
-// The modes alone: a title, a head, and at most `max_modes` lines.
+// The modes alone: a title, a header, and at most `max_modes` lines.
 [[nodiscard]] std::vector<std::string> render_modes(const drivers::StreamMonitor& monitor, const ViewOptions& options,
                                                     std::size_t max_modes);
 
-// Senders of another version, each over as many lines as it takes; empty: none heard.
+// Senders of another version, each in as many lines as needed; empty: none.
 [[nodiscard]] std::vector<std::string> render_versions(const drivers::StreamMonitor& monitor,
                                                        const ViewOptions& options);
 
