@@ -18,13 +18,13 @@ struct TemplateMatch {
 
 // The image at a position, to be compared with a template: the raw pixels interpolated at a fraction of a pixel (spline
 // weights only: the prefilter is in the template). 16-bit integers throughout, grey values in 128ths: the same bits on
-// every machine. Reused from point to point; no allocation. One thread.
+// every machine. Reused from point to point; no allocation.
 class InterpolatedWindow {
  public:
   void begin(const GrayView& gray, const PointTemplate& point) noexcept;
   // With the template's middle at (cell + fraction), fraction 0 ... 1.
   void move_to(int cell_u, int cell_v, double fraction_u, double fraction_v) noexcept;
-  // px, from the position towards the template, for gain 1.
+  // px, from the template towards the position, for gain 1: to be subtracted from the position.
   [[nodiscard]] Vector2 step() const noexcept;
   // rest: the remaining step from here; the part of the image that it explains is not residual.
   [[nodiscard]] TemplateMatch match(const Vector2& rest = {}) const noexcept;
