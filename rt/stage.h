@@ -16,7 +16,6 @@ class Stage {
  public:
   virtual ~Stage() = default;
   [[nodiscard]] virtual std::string_view name() const noexcept = 0;
-  virtual void prepare() {}                              // before threads start: allocate, may throw
   [[nodiscard]] virtual StepStatus step() noexcept = 0;  // at most one item, bounded time
   virtual void finish() noexcept {}                      // after the last step, same thread: flush, close the outputs
 

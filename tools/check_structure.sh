@@ -97,6 +97,22 @@ check_pragma_once() {
   done
 }
 
+# One namespace a room; within core planning, simulation, structure and closure have their own. Braces of *_kernels stand
+# within the room's.
+check_namespaces() {
+  awk '
+    function expected(file, part) {
+      split(file, part, "/")
+      if (part[1] == "core") return part[2] ~ /^(planning|simulation|structure|closure)$/ ? "core::" part[2] : "core"
+      return part[1] == "firmware_app" ? "app" : part[1]
+    }
+    FNR == 1 { room = expected(FILENAME) }
+    FILENAME ~ /^tests\// || !/^namespace [a-z_:]+ \{/ || $2 ~ /_kernels$/ { next }
+    FILENAME ~ /^core\/types\// && $2 ~ /^core(::closure)?$/ { next }  # what the closure reports, as plain data
+    FILENAME ~ /^drivers\/camera\/device\// && $2 == "libcamera" { next }  # declares the library'"'"'s own
+    $2 != room { printf "%s:%d: namespace %s: the namespace here is %s\n", FILENAME, FNR, $2, room }' "${sources[@]}"
+}
+
 check_length() {
   awk 'FNR == 301 { printf "%s:301: over 300 lines: two subjects, split\n", FILENAME }' "${sources[@]}" "${scripts[@]}"
 }
@@ -108,7 +124,7 @@ check_texts() {
 }
 
 if [ "${#sources[@]}" -gt 0 ]; then
-  { check_includes; check_pragma_once; check_length; } >>"$report"
+  { check_includes; check_pragma_once; check_namespaces; check_length; } >>"$report"
 fi
 if [ "${#texts[@]}" -gt 0 ]; then check_texts >>"$report"; fi
 cat "$report"

@@ -23,6 +23,13 @@ Eigen::Matrix<double, 2, 3> shift_effect(const DerotatedFlow& point, double foca
   return effect;
 }
 
+Eigen::Matrix2d depth_lever(const DerotatedFlow& point, const Eigen::Vector2d& d_px) noexcept {
+  const double size = d_px.norm();
+  if (size < kLeastShift_px) return Eigen::Matrix2d::Identity();
+  const Eigen::Vector2d e = d_px / size;
+  return e * e.transpose() + point.flow_px.dot(e) / size * (Eigen::Matrix2d::Identity() - e * e.transpose());
+}
+
 DerotatedFlowTerm judge(const DerotatedFlow& point, const Eigen::Vector3d& shift_px,
                         const DerotatedFlowModel& model) noexcept {
   const Eigen::Vector2d d = shift_effect(point, model.focal_px) * shift_px;
@@ -65,7 +72,10 @@ double fit_shift(std::span<const DerotatedFlow> points, const DerotatedFlowModel
     for (const DerotatedFlow& point : points) {
       const DerotatedFlowTerm term = judge(point, shift_px, model);
       const Eigen::Matrix<double, 2, 3> effect = shift_effect(point, model.focal_px);
-      information += effect.transpose() * term.information * effect;
+      // Without the lever, steps from a |d| far below the flow are too long across it, and most of them are refused.
+      const Eigen::Matrix2d lever = depth_lever(point, effect * shift_px);
+      const Eigen::Matrix2d of_length = term.information - term.flow_information;
+      information += effect.transpose() * (lever * term.flow_information * lever + of_length) * effect;
       slope += effect.transpose() * term.slope;
     }
     double gained = 0.0;

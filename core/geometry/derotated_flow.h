@@ -32,12 +32,18 @@ struct DerotatedFlowTerm {
   Eigen::Matrix2d flow_information = Eigen::Matrix2d::Zero();  // of the flow, for fixed d
 };
 
-[[nodiscard]] Eigen::Matrix<double, 2, 3> shift_effect(const DerotatedFlow& point, double focal_px) noexcept;  // d(d) / d(t)
+[[nodiscard]] Eigen::Matrix<double, 2, 3> shift_effect(const DerotatedFlow& point,
+                                                       double focal_px) noexcept;  // d(d) / d(t)
+// How a change of d moves the point from where it was seen: along the epipolar line unchanged, across it by the line's
+// rotation, times the point's own flow along it over |d|. The depth that this shows distinguishes a rotation from a
+// translation.
+[[nodiscard]] Eigen::Matrix2d depth_lever(const DerotatedFlow& point, const Eigen::Vector2d& d_px) noexcept;
 [[nodiscard]] DerotatedFlowTerm judge(const DerotatedFlow& point, const Eigen::Vector3d& shift_px,
-                                 const DerotatedFlowModel& model) noexcept;
+                                      const DerotatedFlowModel& model) noexcept;
 [[nodiscard]] double cost(std::span<const DerotatedFlow> points, const Eigen::Vector3d& shift_px,
                           const DerotatedFlowModel& model) noexcept;
 // Maximum-likelihood translation, started at the given one; returns its cost.
-double fit_shift(std::span<const DerotatedFlow> points, const DerotatedFlowModel& model, Eigen::Vector3d& shift_px) noexcept;
+double fit_shift(std::span<const DerotatedFlow> points, const DerotatedFlowModel& model,
+                 Eigen::Vector3d& shift_px) noexcept;
 
 }  // namespace core

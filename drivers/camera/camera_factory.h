@@ -5,11 +5,10 @@
 #include <string>
 
 #include "drivers/camera/camera.h"
+#include "drivers/camera/camera_kind.h"
 #include "drivers/camera/device_missing.h"
 
 namespace drivers {
-
-enum class CameraKind : std::uint8_t { kFile, kSynthetic, kV4l2, kLibcamera };
 
 struct CameraOptions {
   CameraKind kind = CameraKind::kFile;

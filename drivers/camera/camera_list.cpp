@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "drivers/camera/camera_kind.h"
 #include "drivers/camera/device/v4l2_controls.h"
 #include "drivers/camera/device/v4l2_stream.h"
 #ifdef HOVERMODAL_WITH_LIBCAMERA
@@ -30,7 +31,7 @@ std::string lasting_name(const std::string& node) {
 
 AttachedCamera look_at(const std::string& node) {
   AttachedCamera camera;
-  camera.driver = "v4l2";
+  camera.driver = to_string(CameraKind::kV4l2);
   camera.source = lasting_name(node);
   try {
     const V4l2Stream stream(node, {});
@@ -61,7 +62,7 @@ std::vector<AttachedCamera> list_cameras() {
 #ifdef HOVERMODAL_WITH_LIBCAMERA
   for (LibcameraListing& listed : list_libcamera_cameras()) {
     AttachedCamera camera;
-    camera.driver = "libcamera";
+    camera.driver = to_string(CameraKind::kLibcamera);
     camera.source = listed.id;
     camera.name = listed.model.empty() ? listed.id : listed.model + " (" + listed.id + ")";
     camera.modes = std::move(listed.modes);

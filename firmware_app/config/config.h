@@ -10,11 +10,11 @@
 #include "core/geometry/published_shutter.h"
 #include "core/types/frame.h"
 #include "core/types/region.h"
+#include "drivers/camera/camera_kind.h"
 
 namespace app {
 
 enum class Method : std::uint8_t { kPaper, kHovermodal };
-enum class CameraDriver : std::uint8_t { kFile, kSynthetic, kV4l2, kLibcamera };
 enum class Pace : std::uint8_t { kRealtime, kAsFastAsPossible };
 
 struct PaperConfig {
@@ -22,7 +22,7 @@ struct PaperConfig {
 };
 
 struct CameraConfig {
-  CameraDriver driver = CameraDriver::kFile;
+  drivers::CameraKind driver = drivers::CameraKind::kFile;
   std::string source;            // file: video or image folder; v4l2: a node, empty = the only camera attached
   double rate_hz = 0.0;          // 0 = the source's own
   std::array<int, 2> size_px{};  // devices: width, height; 0 = chosen

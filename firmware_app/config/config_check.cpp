@@ -53,7 +53,7 @@ class Checker {
   }
 
   void check_camera() const {
-    if (config_.camera.driver == CameraDriver::kFile && config_.camera.source.empty()) {
+    if (config_.camera.driver == drivers::CameraKind::kFile && config_.camera.source.empty()) {
       refuse("camera.source", is_written("camera.source") ? "an empty text" : "nothing", "a video or image folder",
              "set it, or use `driver: synthetic` to try without a camera");
     }

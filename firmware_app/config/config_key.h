@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -119,6 +120,15 @@ ConfigKey choice_key(std::string path, Field<E> field, std::vector<std::pair<std
     return std::string();
   };
   return key;
+}
+
+// Choices by the table of names that the enum's own header holds.
+template <class E, std::size_t kCount>
+ConfigKey named_key(std::string path, Field<E> field, const std::array<std::pair<E, std::string_view>, kCount>& names,
+                    std::string meaning) {
+  std::vector<std::pair<std::string, E>> choices;
+  for (const auto& [value, name] : names) choices.emplace_back(name, value);
+  return choice_key<E>(std::move(path), std::move(field), std::move(choices), std::move(meaning));
 }
 
 }  // namespace app

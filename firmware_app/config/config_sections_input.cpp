@@ -115,12 +115,8 @@ void add_attitude_keys(std::vector<ConfigKey>& keys) {
 
 void add_camera_keys(std::vector<ConfigKey>& keys) {
   using C = CameraConfig;
-  keys.push_back(choice_key<CameraDriver>("camera.driver", at(&A::camera, &C::driver),
-                                          {{"file", CameraDriver::kFile},
-                                           {"synthetic", CameraDriver::kSynthetic},
-                                           {"v4l2", CameraDriver::kV4l2},
-                                           {"libcamera", CameraDriver::kLibcamera}},
-                                          "source of the frames"));
+  keys.push_back(
+      named_key("camera.driver", at(&A::camera, &C::driver), drivers::kCameraKindNames, "source of the frames"));
   keys.push_back(with_default(
       text_key("camera.source", at(&A::camera, &C::source), {},
                "file: a video or an image folder; v4l2: a device, e.g. /dev/video0; libcamera: a camera's name"),
@@ -202,12 +198,10 @@ void add_region_keys(std::vector<ConfigKey>& keys) {
                             "name of the region and of its channel (with axis both: channels NAME.u and NAME.v)"),
                    "none; must be given"));
   keys.push_back(rect_key());
-  std::vector<std::pair<std::string, core::RegionRole>> roles;
-  for (const auto& [role, name] : core::kRoleNames) roles.emplace_back(name, role);
-  keys.push_back(choice_key<core::RegionRole>(
-      "regions[].role", at(&core::Region::role), std::move(roles),
-      "structure: a part whose modes are measured; base: moves with the ground under the structure "
-      "(measured input); background: static, elsewhere; ground: static, in the structure's plane"));
+  keys.push_back(
+      named_key("regions[].role", at(&core::Region::role), core::kRoleNames,
+                "structure: a part whose modes are measured; base: moves with the ground under the structure "
+                "(measured input); background: static, elsewhere; ground: static, in the structure's plane"));
   keys.push_back(axis_key());
   add_region_length_key(keys);
   keys.push_back(number_key("regions[].depth_m", "m", at(&core::Region::depth_m), {0, 1e6},

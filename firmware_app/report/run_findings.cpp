@@ -23,7 +23,8 @@ RunFacts run_facts(const AppConfig& config, const core::CameraInfo& camera, cons
                    const core::Health& health, const core::ModalEstimate& estimate) {
   RunFacts facts;
   facts.source = std::filesystem::path(source).filename().string();
-  if (facts.source.empty() && config.camera.driver == CameraDriver::kSynthetic) facts.source = "synthetic camera";
+  if (facts.source.empty() && config.camera.driver == drivers::CameraKind::kSynthetic)
+    facts.source = "synthetic camera";
   facts.method = to_text(config.method);
   facts.corrections = corrections(config, camera);
   facts.corrections.insert(facts.corrections.end(), estimate.amendments.begin(), estimate.amendments.end());

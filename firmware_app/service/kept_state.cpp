@@ -14,7 +14,8 @@ namespace app {
 
 RunState view_of(const AppConfig& config, const Source& source) {
   RunState view = run_view(config, source.info, source.channels());
-  const bool is_file = config.camera.driver == CameraDriver::kFile || config.camera.driver == CameraDriver::kSynthetic;
+  const bool is_file =
+      config.camera.driver == drivers::CameraKind::kFile || config.camera.driver == drivers::CameraKind::kSynthetic;
   if (!is_file) view.boot_id = drivers::boot_id();
   return view;
 }

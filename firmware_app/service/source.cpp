@@ -110,7 +110,7 @@ Source::Source(std::unique_ptr<drivers::Camera> opened, const AppConfig& config)
 std::unique_ptr<drivers::Camera> open_camera(const AppConfig& config) {
   const CameraConfig& c = config.camera;
   drivers::CameraOptions options;
-  options.kind = static_cast<drivers::CameraKind>(c.driver);
+  options.kind = c.driver;
   options.source = c.source;
   options.rate_hz = c.rate_hz;
   options.width_px = c.size_px[0];

@@ -1,8 +1,9 @@
 #include "core/closure/observation/residual_rotation.h"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 #include <utility>
+
+#include "core/linear/damped_least_squares.h"
 
 namespace core::closure {
 namespace {
@@ -15,24 +16,13 @@ using Eigen::Vector3d;
 using Field = Eigen::Matrix<double, 2, 3>;  // px per radian about the camera's axes
 
 constexpr int kRounds = 60;
-constexpr double kStep_px = 1e-3, kStill_rad = 1e-7, kLeastShift_px = 1e-6;
-constexpr double kLeastDamping = 1e-3, kMostDamping = 1e6;
+constexpr double kStep_px = 1e-3, kStill_rad = 1e-7;
 
 Field field_at(const Vector2d& at_px, double f) {
   const double x = at_px.x(), y = at_px.y();
   Field out;
   out << x * y / f, -(f + x * x / f), y, f + y * y / f, -x * y / f, -x;
   return out;
-}
-
-// Change of a static point's expected flow with d, the flow of a point of mean depth: unchanged along the epipolar
-// line; across it, the rotation of the line times the point's own flow along it. The difference in depth that this flow
-// shows distinguishes rotation from translation.
-Matrix2d lever(const DerotatedFlow& flow, const Vector2d& d) {
-  const double size = d.norm();
-  if (size < kLeastShift_px) return Matrix2d::Identity();
-  const Vector2d e = d / size;
-  return e * e.transpose() + flow.flow_px.dot(e) / size * (Matrix2d::Identity() - e * e.transpose());
 }
 
 struct Normal {
@@ -53,7 +43,7 @@ Normal linearise(const std::vector<DerotatedFlow>& flows, const DerotatedFlowMod
       out.slope += field.row(axis).transpose() * (judge(less, shift_px, model).cost - term.cost) / kStep_px;
     }
     rotations += field.transpose() * term.flow_information * field;
-    const Field by_shift = lever(flow, effect * shift_px) * effect;
+    const Field by_shift = depth_lever(flow, effect * shift_px) * effect;
     const Matrix2d& of_flow = term.flow_information;
     mixed += field.transpose() * of_flow * by_shift;
     shifts += by_shift.transpose() * of_flow * by_shift + effect.transpose() * (term.information - of_flow) * effect;
@@ -72,27 +62,22 @@ std::vector<DerotatedFlow> without(std::vector<DerotatedFlow> flows, const Vecto
 ResidualRotation residual_rotation(std::vector<DerotatedFlow> flows, const DerotatedFlowModel& model,
                                    Vector3d shift_px) {
   ResidualRotation out;
-  double before = fit_shift(flows, model, shift_px), damping = kLeastDamping;
+  double best = fit_shift(flows, model, shift_px), stepped_rad = 0.0;
+  Damping damping{.least = 1e-3};
+  const auto lowers = [&](const Vector3d& step) {
+    std::vector<DerotatedFlow> next = without(flows, step, model.focal_px);
+    Vector3d shift = shift_px;
+    const double now = fit_shift(next, model, shift);
+    if (!(now < best)) return false;
+    best = now, shift_px = shift, flows = std::move(next);
+    out.rotation += step;
+    stepped_rad = step.norm();
+    return true;
+  };
   for (int round = 0; round < kRounds; ++round) {
     const Normal normal = linearise(flows, model, shift_px);
     out.information = normal.information;
-    bool went = false;
-    Vector3d change = Vector3d::Zero();
-    for (; damping < kMostDamping && !went; damping *= 10.0) {
-      Matrix3d raised = normal.information;
-      raised.diagonal() *= 1.0 + damping;
-      change = -raised.ldlt().solve(normal.slope);
-      if (!change.allFinite()) return out;
-      std::vector<DerotatedFlow> next = without(flows, change, model.focal_px);
-      Vector3d shift = shift_px;
-      const double now = fit_shift(next, model, shift);
-      if (!(now < before)) continue;
-      went = true;
-      before = now, shift_px = shift, flows = std::move(next);
-      out.rotation += change;
-      damping = std::max(kLeastDamping, 0.01 * damping);  // one tenth, together with the factor in the loop
-    }
-    if (!went || change.norm() < kStill_rad) break;
+    if (!damped_step(normal.information, normal.slope, damping, lowers) || stepped_rad < kStill_rad) break;
   }
   return out;
 }

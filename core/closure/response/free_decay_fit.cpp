@@ -1,6 +1,5 @@
 #include "core/closure/response/free_decay_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,7 +17,6 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr int kSubsteps = 6;  // per sample, midpoint rule
 constexpr double kLeastX = -4.0, kMostX = 3.0, kStep = 1e-5, kSettled = 1e-7;
 constexpr double kReferenceShare = 0.15;  // of the largest displacement
-constexpr int kTries = 8;
 
 }  // namespace
 
@@ -128,7 +126,7 @@ double FreeDecayFit::squares(const State& state, int without) const {
 }
 
 // One Levenberg-Marquardt step over common and own parameters; false if no step reduces the squares.
-bool FreeDecayFit::step(State& state, int without, double& damping, double& best) const {
+bool FreeDecayFit::step(State& state, int without, Damping& damping, double& best) const {
   const Index common = n_common(), own = n_own(), all = common + own * static_cast<Index>(state.own.size());
   MatrixXd normal = MatrixXd::Zero(all, all);
   VectorXd gradient = VectorXd::Zero(all);
@@ -152,29 +150,26 @@ bool FreeDecayFit::step(State& state, int without, double& damping, double& best
     normal(at, at) += squares_of;
     for (std::size_t i = 0; i < at.size(); ++i) gradient(at[i]) += along(static_cast<Index>(i));
   }
-  for (int i = 0; i < kTries; ++i) {
-    MatrixXd damped = normal;
-    damped.diagonal() += damping * normal.diagonal() + VectorXd::Constant(all, 1e-12 * (1.0 + normal.trace()));
-    const VectorXd change = -damped.ldlt().solve(gradient);
+  normal.diagonal().array() += 1e-12 * (1.0 + normal.trace());
+  bool goes_on = false;
+  const bool went = damped_step(normal, gradient, damping, [&](const VectorXd& change) {
     moved = state;
     moved.common += change.head(common);
     for (std::size_t r = 0; r < state.own.size(); ++r)
       moved.own[r] += change.segment(common + own * static_cast<Index>(r), own);
-    const double reached = change.allFinite() ? squares(moved, without) : std::numeric_limits<double>::max();
-    if (reached < best) {
-      const bool goes_on = best - reached > kSettled * best;
-      state = std::move(moved);
-      best = reached;
-      damping = std::max(0.2 * damping, 1e-9);
-      return goes_on;
-    }
-    damping = std::min(6.0 * damping, 1e9);
-  }
-  return false;
+    const double reached = squares(moved, without);
+    if (!(reached < best)) return false;
+    goes_on = best - reached > kSettled * best;
+    state = moved;
+    best = reached;
+    return true;
+  });
+  return went && goes_on;
 }
 
 void FreeDecayFit::refine(State& state, int without, int n_iterations) const {
-  double damping = 1e-3, best = squares(state, without);
+  Damping damping;
+  double best = squares(state, without);
   for (int i = 0; i < n_iterations && step(state, without, damping, best); ++i) {
   }
   if (without >= 0) fit_own(state, static_cast<std::size_t>(without), n_iterations);
@@ -182,7 +177,8 @@ void FreeDecayFit::refine(State& state, int without, int n_iterations) const {
 
 // Fits amplitude and phase of one release, with all other parameters fixed.
 void FreeDecayFit::fit_own(State& state, std::size_t release, int n_iterations) const {
-  double best = residual(state, release).squaredNorm(), damping = 1e-3;
+  double best = residual(state, release).squaredNorm();
+  Damping damping;
   for (int i = 0; i < n_iterations; ++i) {
     const MatrixXd here = residual(state, release);
     MatrixXd jacobian(here.size(), n_own());
@@ -194,18 +190,18 @@ void FreeDecayFit::fit_own(State& state, std::size_t release, int n_iterations) 
       jacobian.col(p) = (residual(moved, release) - here).reshaped() / h;
       value = kept;
     }
-    bool lower = false;
-    for (int j = 0; j < kTries && !lower; ++j) {
-      MatrixXd normal = jacobian.transpose() * jacobian;
-      normal.diagonal() *= 1.0 + damping;
-      normal.diagonal().array() += 1e-300;
-      moved.own[release] = state.own[release] - normal.ldlt().solve(jacobian.transpose() * here.reshaped());
+    MatrixXd normal = jacobian.transpose() * jacobian;
+    normal.diagonal().array() += 1e-300;
+    const VectorXd gradient = jacobian.transpose() * here.reshaped();
+    const bool went = damped_step(normal, gradient, damping, [&](const VectorXd& change) {
+      moved.own[release] = state.own[release] + change;
       const double reached = residual(moved, release).squaredNorm();
-      lower = std::isfinite(reached) && reached < best * (1.0 - kSettled);
-      if (lower) best = reached, state = moved;
-      damping *= lower ? 0.2 : 6.0;
-    }
-    if (!lower) return;
+      if (!(reached < best * (1.0 - kSettled))) return false;
+      best = reached;
+      state = moved;
+      return true;
+    });
+    if (!went) return;
   }
 }
 

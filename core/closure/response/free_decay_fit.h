@@ -6,6 +6,7 @@
 
 #include "core/closure/response/effects/decay_effect.h"
 #include "core/closure/response/free_decay_releases.h"
+#include "core/linear/damped_least_squares.h"
 
 namespace core::closure {
 
@@ -47,7 +48,7 @@ class FreeDecayFit {
   [[nodiscard]] Eigen::Index n_own() const { return adds_mode_ ? 4 : 2; }
   void set_own_by_grid(State& state, std::size_t release) const;
   void fit_own(State& state, std::size_t release, int n_iterations) const;
-  [[nodiscard]] bool step(State& state, int without, double& damping, double& best) const;
+  [[nodiscard]] bool step(State& state, int without, Damping& damping, double& best) const;
 
   const FreeDecays& decays_;
   std::vector<const DecayEffect*> effects_;

@@ -18,13 +18,13 @@ struct TemplateMatch {
 
 // The image at a sub-pixel position, for comparison with a template: raw pixels are interpolated with spline weights
 // only, because the prefilter is in the template. 16-bit integers throughout, grey values in 128ths: bit-identical on
-// every machine. Reused from point to point; does not allocate. One thread.
+// every machine. Reused from point to point; does not allocate.
 class InterpolatedWindow {
  public:
   void begin(const GrayView& gray, const PointTemplate& point) noexcept;
   // Places the template's centre at (cell + fraction), fraction 0 ... 1.
   void move_to(int cell_u, int cell_v, double fraction_u, double fraction_v) noexcept;
-  // Step in px from this position towards the template, for gain 1.
+  // px, from the template towards the position, for gain 1: to be subtracted from the position.
   [[nodiscard]] Vector2 step() const noexcept;
   // rest: the remaining step from here; the part of the image that it explains is not counted as residual.
   [[nodiscard]] TemplateMatch match(const Vector2& rest = {}) const noexcept;

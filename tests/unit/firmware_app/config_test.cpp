@@ -29,7 +29,7 @@ using tests::replaced;
 TEST(Config, TakesEveryWrittenValueAndKeepsDefaults) {
   const AppConfig config = parse_config(kGood, "a.yaml");
   EXPECT_EQ(config.method, Method::kPaper);
-  EXPECT_EQ(config.camera.driver, CameraDriver::kFile);
+  EXPECT_EQ(config.camera.driver, drivers::CameraKind::kFile);
   EXPECT_EQ(config.camera.source, "clip.mp4");
   EXPECT_EQ(config.camera.rate_hz, 29.97);
   ASSERT_EQ(config.regions.size(), 2U);
@@ -45,6 +45,19 @@ TEST(Config, TakesEveryWrittenValueAndKeepsDefaults) {
   EXPECT_EQ(config.scale.to_px[0], 100.0);
   EXPECT_EQ(config.spectrum.segment, SpectrumConfig{}.segment);
   EXPECT_NE(config.hash, 0U);
+}
+
+TEST(Config, CameraDriverIsTheDriversOwnKindByItsName) {
+  const std::map<std::string, drivers::CameraKind> kinds{{"file", drivers::CameraKind::kFile},
+                                                         {"synthetic", drivers::CameraKind::kSynthetic},
+                                                         {"v4l2", drivers::CameraKind::kV4l2},
+                                                         {"libcamera", drivers::CameraKind::kLibcamera}};
+  ASSERT_EQ(drivers::kCameraKindNames.size(), kinds.size());
+  for (const auto& [name, kind] : kinds) {
+    EXPECT_EQ(parse_config(kGood, "a.yaml", {"camera.driver=" + name}).camera.driver, kind) << name;
+    EXPECT_EQ(drivers::to_string(kind), name);
+  }
+  EXPECT_THAT(config_help(), HasSubstr("default: file   allowed: file | synthetic | v4l2 | libcamera"));
 }
 
 TEST(Config, PaperTakesTheCamerasVelocityUnlessARegionsIsAskedFor) {
@@ -169,7 +182,8 @@ TEST(Config, RefusesBrokenRegions) {
   EXPECT_THAT(refusal("camera: {source: a}\n"), HasSubstr("a.yaml: regions: no region is refused"));
   EXPECT_THAT(refusal("camera: {source: a}\nregions: []\n"), HasSubstr("a.yaml:2: regions"));
   EXPECT_THAT(refusal("camera: {source: a}\nregions:\n"), HasSubstr("a.yaml:2: regions"));
-  EXPECT_THAT(refusal_with("name: roof", "name: base"), AllOf(HasSubstr("a.yaml:8"), HasSubstr("`base` is already used")));
+  EXPECT_THAT(refusal_with("name: roof", "name: base"),
+              AllOf(HasSubstr("a.yaml:8"), HasSubstr("`base` is already used")));
   EXPECT_THAT(refusal_with("name: base", "name: roof.u"), HasSubstr("`roof.u` is already used"));
   for (const char* name : {"\"\"", "\"a b\"", "a/b", "a,b", "ä", "\"a\\nb\"", "~", "[a]"}) {
     EXPECT_THAT(refusal_with("name: roof", std::string("name: ") + name), HasSubstr("a.yaml:8: regions.1.name"))

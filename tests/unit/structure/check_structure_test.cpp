@@ -39,8 +39,8 @@ class CheckStructure : public ::testing::Test {
     fs::remove_all(root_);
     for (const char* header :
          {"core/types/frame.h", "core/closure/model.h", "core/simulation/scene.h", "rt/spsc_ring.h", "rt/clock.h",
-          "rt/stage.h", "drivers/camera/camera.h", "firmware_app/service/pipeline.h", "firmware_app/service/stages/items.h",
-          "tools/hovermodal/commands.h"}) {
+          "rt/stage.h", "drivers/camera/camera.h", "firmware_app/service/pipeline.h",
+          "firmware_app/service/stages/items.h", "tools/hovermodal/commands.h"}) {
       write(header, "#pragma once\n");
     }
     write("drivers/camera/synthetic_camera.cpp",
@@ -121,6 +121,20 @@ TEST_F(CheckStructure, RefusesAnIncludeOfNoFile) {
 
 TEST_F(CheckStructure, RefusesAHeaderWithoutPragmaOnce) {
   expect_refused("core/types/region.h", "namespace core {}\n", 1);
+}
+
+TEST_F(CheckStructure, RefusesTheNamespaceOfAnotherRoom) {
+  expect_refused("rt/memory.cpp", "\nnamespace core {\n}\n", 2);
+  fs::remove(root_ / "rt/memory.cpp");
+  expect_refused("core/closure/model.cpp", "namespace core {\n}\n", 1);
+}
+
+TEST_F(CheckStructure, AcceptsTheRoomsOwnNamespace) {
+  write("core/geometry/scale.cpp", "namespace core {\nnamespace scale_kernels {\n}\n}\n");
+  write("core/closure/model.cpp", "namespace core::closure {\n}\n");
+  write("firmware_app/service/run.cpp", "namespace fs = std::filesystem;\nnamespace app {\nnamespace {\n}\n}\n");
+  const Outcome outcome = check(root_);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
 }
 
 TEST_F(CheckStructure, RefusesTheThreeHundredAndFirstLine) {
