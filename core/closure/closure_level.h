@@ -22,7 +22,7 @@ struct LevelFit {
 // One level of residual diagnosis ("closing the loop": model correction, not SLAM's loop closure): a model of a record,
 // its candidate effects and their scores. The state is the list of adopted effects. A level owns its record. Candidate
 // ids are valid until the next adopt() or drop(); adopted effects are numbered in order of adoption. Only
-// surrogate_score() is random; its seed determines the result. One thread.
+// surrogate_score() is random; its seed determines the result.
 class ClosureLevel {
  public:
   ClosureLevel() = default;

@@ -30,7 +30,7 @@ namespace core {
 // quadrature to velocity. Standard deviation: the larger of that from about twenty contiguous blocks (Student's t) and
 // that from s_b^2 alone.
 //
-// Fixed memory; does not allocate after construction. One thread. Deterministic.
+// Fixed memory; does not allocate after construction. Deterministic.
 class ReadoutEstimator {
  public:
   struct Config {

@@ -9,7 +9,7 @@ namespace core {
 // Assigns rows to columns so that the sum of costs is minimal, where an unassigned row costs 1: a pair that costs 1 or
 // more (or NaN) is never made. Hungarian method with potentials [Kuhn 1955; Munkres 1957], one augmenting path per row:
 // O(rows^2 (rows + columns)). Unlike a greedy choice it does not give up one good pair for two bad ones where two modes
-// move together. Memory is fixed at construction. Used by one thread.
+// move together. Memory is fixed at construction.
 class Assignment {
  public:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);

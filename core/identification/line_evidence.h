@@ -28,7 +28,7 @@ struct SpectralLineEvidence {
   bool witness_moves = false;  // ... which is not static at this frequency
 };
 
-// Tests poles of one spectrum; keeps references to its arguments. One thread.
+// Tests poles of one spectrum; keeps references to its arguments.
 class SpectralLineTest {
  public:
   SpectralLineTest(const CpsdSums& sums, const FoldingConfig& folding) : sums_(sums), folding_(folding) {}

@@ -40,7 +40,7 @@ struct ModeTrackerConfig {
 // With forgetting (ModalEstimate::remembered_s), neither a drift nor more_s is stated: both refer to a growing
 // record.
 //
-// Memory is fixed at construction. Deterministic. Used by one thread.
+// Memory is fixed at construction. Deterministic.
 class ModeTracker {
  public:
   static constexpr std::size_t kMaxTracks = 64;

@@ -23,7 +23,7 @@ struct PointFinderConfig {
 // disagree, or match worse than usual, the prediction of the region was wrong: it is searched for at its last position,
 // at the position suggested by the other regions' prediction errors, and, for a few regions per frame, as a whole
 // (region_search.h). The place where most points match well is used. Positions are corrected for the deformation of
-// each region in the same image (region_deformation.h). Does not allocate after construction. One thread.
+// each region in the same image (region_deformation.h). Does not allocate after construction.
 class PointFinder {
  public:
   // keyframe: positions of the points in that image; the points of a region are consecutive.

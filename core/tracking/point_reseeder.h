@@ -15,7 +15,7 @@ namespace core {
 // is twice that of the region's other points, the template is discarded and the next place nearby is tried.
 // The mean offset over the trial corrects the reference position, so the displacement continues from the
 // keyframe with the error of that mean. At most one template per frame. Does not allocate after
-// construction. One thread.
+// construction.
 class PointReseeder {
  public:
   static constexpr int kTrialFrames = 50;

@@ -22,7 +22,7 @@ struct TrackedPoint {
 // Pyramidal Lucas-Kanade tracking (Bouguet 2001, OpenCV's implementation) of points of a keyframe in later images:
 // always against the keyframe, never frame to frame, so errors do not accumulate to drift. Points are first searched
 // near their prediction, on the full image and the level above; only points not found there are searched through the
-// whole pyramid, because its coarse windows also contain background that moves differently. One thread. After the first
+// whole pyramid, because its coarse windows also contain background that moves differently. After the first
 // image this code does not allocate; OpenCV's routine does.
 class PyramidKlt {
  public:

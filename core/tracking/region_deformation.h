@@ -13,7 +13,7 @@ namespace core {
 // perspective and rolling-shutter shear, by weighted least squares over the region's points about their mean. The
 // deformation common to all regions (caused by the camera) is the prior mean of each, so that the estimate stays stable
 // with few or collinear points. Points that were not inliers in the previous image, or are far from the fit, are
-// excluded. Does not allocate after construction. One thread.
+// excluded. Does not allocate after construction.
 class RegionDeformation {
  public:
   // The points of a region are consecutive.

@@ -22,7 +22,7 @@ struct RegionFollowerConfig {
 // predicted from the others: by the similarity (translation, rotation, magnification) from the keyframe to the other
 // regions' points, by least squares, plus its own deviation from it when last measured. It can then be found after an
 // occlusion, or when the drifting camera sees it again; points and channel keep their reference positions. Fixed
-// memory; does not allocate after construction. One thread.
+// memory; does not allocate after construction.
 class RegionFollower {
  public:
   // keyframe: positions of the points of all regions, in any order; region_of_point: < n_regions.

@@ -14,7 +14,6 @@ namespace core {
 // then at finer scales about the best place. The whole region is compared, so that one of a row of equal dots is
 // not confused with another; of similar places the one nearest to the prediction is used if it is clearly the
 // nearest. Estimates a translation, within a px or two. Buffers are allocated in the constructor, not in find().
-// One thread.
 class RegionSearch {
  public:
   // points: of the region, in the keyframe (8-bit grey). reach_px: search radius about the predicted place.

@@ -28,7 +28,7 @@ struct RegionSurveyConfig {
   KltConfig klt{};
 };
 
-// Tracks every good corner of a clip, without declared regions. One thread.
+// Tracks every good corner of a clip, without declared regions.
 class RegionSurvey {
  public:
   // Throws std::invalid_argument for an empty image.

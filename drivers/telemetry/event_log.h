@@ -9,7 +9,7 @@
 
 namespace drivers {
 
-// Writer of an LCM event log, which lcm-logplayer, lcm-spy and `hovermodal spy` read. One thread.
+// Writer of an LCM event log, which lcm-logplayer, lcm-spy and `hovermodal spy` read.
 class EventLog {
  public:
   virtual ~EventLog() = default;

@@ -11,7 +11,7 @@
 namespace drivers {
 
 // Distinguishes a sender of another version from damaged bytes. Such a sender is consistent: its messages come on a
-// channel of another layout, or have the same wrong fingerprint repeatedly; noise does neither. One thread.
+// channel of another layout, or have the same wrong fingerprint repeatedly; noise does neither.
 class LayoutWatch {
  public:
   static constexpr std::uint64_t kConvincing = 3;  // messages in a row with the same wrong fingerprint

@@ -8,7 +8,7 @@
 
 namespace drivers {
 
-// Receives every message of a run (topics.h) from an LCM URL: the network, or an event log. One thread.
+// Receives every message of a run (topics.h) from an LCM URL: the network, or an event log.
 class LcmListener {
  public:
   // `data` is valid during the call only.

@@ -8,7 +8,7 @@
 namespace drivers {
 
 // Source of LCM messages: UDP multicast through its own socket (reason: lcm_datagrams.h), event logs through its own
-// reader (reason: event_log_reader.h), all other providers (memory, TCP) through LCM. One thread.
+// reader (reason: event_log_reader.h), all other providers (memory, TCP) through LCM.
 class LcmSource {
  public:
   // `pattern`: a regular expression for the wanted channels, as in LCM. Multicast and logs deliver all channels:

@@ -19,7 +19,7 @@ struct LogUrl {
 // Throws std::invalid_argument naming the URL, its fault and the correct form.
 [[nodiscard]] LogUrl parse_log(const std::string& url);
 
-// Plays the messages of an LCM event log, at the pace at which they were written. One thread.
+// Plays the messages of an LCM event log, at the pace at which they were written.
 class LogPlayer {
  public:
   LogPlayer(const LogUrl& url, LcmDatagrams::Receive receive);  // throws FileError

@@ -12,7 +12,7 @@
 namespace drivers {
 
 // Reads a run from its LCM event logs (record.directory), frame by frame. Accepts any bytes: damaged parts are left out
-// and counted. One thread.
+// and counted.
 class RunRecordReader {
  public:
   // A file of the run; the files that follow it are read as well. Throws FileError: it cannot be read, or has no head.

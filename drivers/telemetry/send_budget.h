@@ -15,7 +15,7 @@ namespace drivers {
 // residual diagnosis reports are always sent, and their bytes are charged afterwards. Displacements, spectra, tracks
 // and preview images share the remainder, 10 : 6 : 4 : 5, each from its own bucket, so that none displaces the others;
 // what one does not use is available to all. A message larger than a bucket is sent when its bucket is full. In the
-// sender's time: no result depends on it. One thread.
+// sender's time: no result depends on it.
 class SendBudget {
  public:
   static constexpr double kHolds_s = 0.5;

@@ -24,7 +24,7 @@ namespace drivers {
 
 // A listener's knowledge of a run from LCM messages alone: the newest of everything, and losses on the link. It follows
 // the first stream_id it receives. Accepts any bytes: undecodable messages are counted and change nothing else, except
-// that a sender of another version is reported. One thread.
+// that a sender of another version is reported.
 class StreamMonitor {
  public:
   using Topic = drivers::Topic;

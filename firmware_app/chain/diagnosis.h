@@ -14,7 +14,7 @@
 namespace app {
 
 // Newest points -> reports of what the model fails to explain and, with closure.adopt: auto, corrected geometries with
-// the frame from which each applies. These geometries live as long as this object. One thread.
+// the frame from which each applies. These geometries live as long as this object.
 class Diagnosis {
  public:
   using MakeGeometry = std::function<std::unique_ptr<Geometry>(const CorrectionSet&)>;

@@ -32,7 +32,7 @@ struct MissingEffectSearchConfig {
 
 // Newest tracks -> what the model of the points' positions fails to explain, to which effect it is attributed, and
 // which correction applies from which frame on. Counts in frames of the stream, never by a clock: the same tracks give
-// the same results. One report per period, and one at the end of the run on the frames since the last. One thread.
+// the same results. One report per period, and one at the end of the run on the frames since the last.
 class MissingEffectSearch {
  public:
   explicit MissingEffectSearch(MissingEffectSearchConfig config) : config_(std::move(config)) {}

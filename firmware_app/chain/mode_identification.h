@@ -14,7 +14,7 @@
 namespace app {
 
 // Snapshots of the sums, in order -> modes, each followed from one estimate to the next. Run time is not bounded; it
-// allocates. One thread.
+// allocates.
 class ModeIdentification {
  public:
   // Makes an identifier for another sample rate than the camera's, or for a correction; may throw.

@@ -55,7 +55,7 @@ class Pipeline {
   [[nodiscard]] core::Health health() const;
   // Describes the stage that has been in one step for too long; empty: none. Any thread.
   [[nodiscard]] std::string stall() const;
-  // Events of the stages since the last call, one line each. One thread.
+  // Events of the stages since the last call, one line each.
   [[nodiscard]] std::vector<std::string> take_events();
   [[nodiscard]] const core::CameraInfo& camera_info() const noexcept;
   [[nodiscard]] const std::vector<core::ChannelInfo>& channels() const noexcept;

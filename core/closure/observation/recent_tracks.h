@@ -12,7 +12,7 @@
 namespace core::closure {
 
 // Window of the newest frames of tracks for the observation level: undistorted, on the grid of frame numbers; a missing
-// frame is a row of NaN. The constructor allocates all memory. One thread.
+// frame is a row of NaN. The constructor allocates all memory.
 class RecentTracks {
  public:
   // declared: everything except points and frames (regions, camera, rate, readout). n_frames: window length, at least

@@ -31,7 +31,7 @@ struct KltPoint {
 
 // Finds points of a keyframe in later images, each near its prediction: inverse-compositional Lucas-Kanade against a
 // template (point_template.h). The template is always that of the keyframe, never of the last frame, so errors do not
-// accumulate to drift. Bit-identical on every machine. Does not allocate after set_keyframe(). One thread.
+// accumulate to drift. Bit-identical on every machine. Does not allocate after set_keyframe().
 class KltTracker {
  public:
   explicit KltTracker(const KltConfig& config) : config_(config) {}

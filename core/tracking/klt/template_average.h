@@ -13,7 +13,6 @@ void cut_patch_between(const GrayView& gray, double u, double v, Patch& out) noe
 // Renews templates of faint texture from the mean of several images, because the noise of a single image also affects
 // the gradients and degrades the steps. Each image is aligned at the position found and corrected for brightness, so
 // the reference position stays. A few points at a time bound the work per frame. Does not allocate after construction.
-// One thread.
 class TemplateAverage {
  public:
   // n_at_once: points being averaged at the same time, some 60 us each per frame.

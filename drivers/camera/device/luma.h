@@ -26,7 +26,7 @@ enum class LumaStatus : std::uint8_t {
 };
 
 // Bytes of a device's buffer -> 8-bit luma, width x height, row-major, no padding. Built once; `read` allocates nothing
-// except for MJPEG, where libjpeg allocates and frees its working memory for every image. One thread.
+// except for MJPEG, where libjpeg allocates and frees its working memory for every image.
 class LumaReader {
  public:
   // stride_bytes: from one row to the next; 0 = no padding. Unused by kMjpeg.

@@ -9,7 +9,7 @@
 namespace drivers {
 
 // An open video file and the one stream of it that is read; all other streams (sound, GPMF, timecode, covers) are
-// skipped, whatever the number of their packets in between. One thread. Only self-contained formats are opened: a play
+// skipped, whatever the number of their packets in between. Only self-contained formats are opened: a play
 // list that names other files or addresses is not accepted as a video.
 class Container {
  public:

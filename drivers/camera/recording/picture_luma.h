@@ -11,7 +11,7 @@ namespace drivers {
 
 // Decoded picture -> 8-bit gray, width x height, row-major, no padding, in one pass. The luma plane is used directly:
 // full range copied, video range (16 .. 235) stretched to 0 .. 255 and clipped, of 9 to 12 bits the upper eight;
-// RGB by 0.299 R + 0.587 G + 0.114 B. Built for one pixel format and range; one thread.
+// RGB by 0.299 R + 0.587 G + 0.114 B. Built for one pixel format and range.
 class PictureLuma {
  public:
   // Returns why pictures of this format are refused, e.g. "an alpha channel"; empty: they are not.

@@ -11,7 +11,7 @@ enum class DecodeStatus : std::uint8_t { kPicture, kDamaged, kEnd };
 
 // The pictures of a container's video in the order in which they are shown, decoded on as many threads as the machine
 // has processors. Each packet that does not decode, and each picture of which the decoder had to invent a part, is one
-// kDamaged. One thread.
+// kDamaged.
 class VideoDecoder {
  public:
   explicit VideoDecoder(const std::string& path);  // throws std::runtime_error

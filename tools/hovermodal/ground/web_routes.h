@@ -10,7 +10,7 @@
 
 namespace tools {
 
-// Converts the bytes of one complete request to the bytes of its answer. One thread.
+// Converts the bytes of one complete request to the bytes of its answer.
 class WebRoutes {
  public:
   struct Answer {
