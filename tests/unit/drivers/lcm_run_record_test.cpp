@@ -131,11 +131,13 @@ core::RecordingTimes uneven_times() {
 }
 
 TEST_F(RunRecord, HowTheRecordingLayInTimeComesBackBehindTheLastFrame) {
-  const auto recorder = make_run_recorder(options());
+  auto recorder = make_run_recorder(options());
   recorder->begin(head());
   (void)recorder->add(frame_of(0), attitude_of(0), 1);
   ASSERT_TRUE(recorder->end(uneven_times()));
-  RunRecordReader reader(recorder->path());
+  const std::string path = recorder->path();
+  recorder.reset();
+  RunRecordReader reader(path);
   EXPECT_FALSE(reader.times().known()) << "nothing is known before the end";
   core::RecordedFrame frame;
   while (reader.next(frame)) {
@@ -147,10 +149,12 @@ TEST_F(RunRecord, HowTheRecordingLayInTimeComesBackBehindTheLastFrame) {
 TEST_F(RunRecord, TimesThatCannotBeAreCountedAsDamaged) {
   core::RecordingTimes times = uneven_times();
   times.jitter_s = std::numeric_limits<double>::quiet_NaN();
-  const auto recorder = make_run_recorder(options());
+  auto recorder = make_run_recorder(options());
   recorder->begin(head());
   ASSERT_TRUE(recorder->end(times));
-  RunRecordReader reader(recorder->path());
+  const std::string path = recorder->path();
+  recorder.reset();
+  RunRecordReader reader(path);
   core::RecordedFrame frame;
   EXPECT_FALSE(reader.next(frame));
   EXPECT_FALSE(reader.times().known());
