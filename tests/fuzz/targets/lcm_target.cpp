@@ -91,7 +91,7 @@ const std::vector<Kind>& kinds() {
                                      kind<run_t>("_RUN"),
                                      kind<run_file_t>("_RUN_FILE"),
                                      kind<run_frame_t>("_RUN_FRAME"),
-                                     kind<run_recording_t>(drivers::kRunRecordingSuffix),
+                                     kind<run_recording_t>("_RUN_RECORDING"),
                                      {"_MODAL_V2", 0, &check<attitude_t>}};
   return all;
 }
