@@ -16,7 +16,8 @@ namespace core::closure {
 enum class CorrectionStage : std::uint8_t {
   kVibration,  // motion of the camera
   kTracker,    // a tracking error: the points are elsewhere than measured
-  kLens,       // the image is bent
+  kLens,       // the image is bent; the coefficients of all effects are undone in one
+  kPose,       // the camera does not look along the plane's normal
 };
 
 // An adopted effect: its state, and what it does to the model. An effect overrides what it has: a pattern, constants,
@@ -37,8 +38,9 @@ class EffectInModel {
 
   // A pattern over the points with an amplitude per frame: px per unit, 2 points long; nullptr: none.
   [[nodiscard]] virtual const Eigen::VectorXd* pattern() const { return nullptr; }
-  [[nodiscard]] virtual bool is_low_band() const { return false; }  // its amplitude exists up to kLowBand_hz only
-  virtual void set_places(const PointGeometry& /*geometry*/) {}     // of the points, as the fit changes them
+  [[nodiscard]] virtual RungSet band() const { return kAllRungs; }  // in which its amplitude exists
+  // Of the points, as the fit changes them.
+  virtual void set_places(const ObservationRecord& /*record*/, const PointGeometry& /*geometry*/) {}
   // Of the camera per unit of the amplitude, where the pattern is the first order of a rotation; else zero.
   [[nodiscard]] virtual Eigen::Vector3d rotation() const { return Eigen::Vector3d::Zero(); }
 
@@ -48,6 +50,7 @@ class EffectInModel {
   [[nodiscard]] virtual std::vector<Eigen::MatrixXd> derivatives(const FitView& /*fit*/) const { return {}; }
   virtual void change_constants(const Eigen::VectorXd& /*change*/, const Eigen::MatrixXd& /*covariance*/) {}
   [[nodiscard]] virtual double added_readout_frames() const { return 0.0; }
+  [[nodiscard]] virtual LensCoefficients lens() const { return {}; }
 
   // Removes the effect from positions (2 points x frames, px), if it belongs to this stage.
   virtual void correct(CorrectionStage /*stage*/, const CorrectionView& /*view*/,

@@ -8,6 +8,7 @@
 #include "core/closure/observation/aliased_motion.h"
 #include "core/closure/observation/frame_shift.h"
 #include "core/closure/observation/observation_record.h"
+#include "core/closure/observation/rungs.h"
 
 namespace core::closure {
 
@@ -36,11 +37,11 @@ struct PointGeometry {
 // lines (set_drift) times its velocity is removed first. Velocities are those of the motion without its noise
 // (FrameShift::signal_rates).
 //
-// Columns added for the low band exist up to kLowBand_hz only: there they are fitted with all others, above they are
-// zero. Cosines make this exact.
+// Columns added for a band exist in some rungs of the spectrum only (rungs.h): there they are fitted with all others,
+// elsewhere they are zero. Cosines make this exact. All such columns share one band.
 class PointMotionModel {
  public:
-  static constexpr double kLowBand_hz = 3.0;
+  static constexpr double kLowBand_hz = 3.0;   // slow: where cameras drift; the band as long as no column needs another
   static constexpr double kCommonShare = 0.5;  // place in the readout of the frames' common instant
 
   explicit PointMotionModel(const ObservationRecord& record);  // of a checked record
@@ -50,8 +51,11 @@ class PointMotionModel {
   void set_places(const ObservationRecord& record, const Eigen::VectorXd& places_px,
                   const Eigen::VectorXd& magnification);
 
+  // Other sigmas of the points; followed by set_places().
+  void set_noise(const ObservationRecord& record);
+
   // Fields in px per unit, vectors of 2 points.
-  void set_added(const std::vector<Eigen::VectorXd>& full, const std::vector<Eigen::VectorXd>& low);
+  void set_added(const std::vector<Eigen::VectorXd>& full, const std::vector<Eigen::VectorXd>& low, RungSet band);
   // As later_in_readout(); empty: not at all.
   void set_drift(Eigen::MatrixXd later) { later_ = std::move(later); }
   // positions: 2 points x frames, px, finite. All accessors below refer to this fit.
@@ -85,10 +89,11 @@ class PointMotionModel {
   // Residual of a field or record at the frames' common instants after the fit, 2 points x frames in sigmas; its mean
   // over time is removed.
   [[nodiscard]] Eigen::MatrixXd left_of(const Eigen::MatrixXd& values) const;
-  // Orthonormal columns above and within the low band.
+  // Orthonormal columns outside and within the band of the added columns.
   [[nodiscard]] const Eigen::MatrixXd& q_high() const noexcept { return q_high_; }
   [[nodiscard]] const Eigen::MatrixXd& q_low() const noexcept { return q_low_; }
-  [[nodiscard]] const Eigen::MatrixXd& cosines() const noexcept { return cosines_; }
+  [[nodiscard]] const Eigen::MatrixXd& cosines() const noexcept { return cosines_; }  // of that band
+  [[nodiscard]] RungSet band() const noexcept { return band_; }
   [[nodiscard]] const Eigen::VectorXd& weight() const noexcept { return weight_; }  // 1 / sigma, per row
   [[nodiscard]] const PointGeometry& geometry() const noexcept { return geometry_; }
 
@@ -106,6 +111,8 @@ class PointMotionModel {
   void fit_common(const Eigen::MatrixXd& z);
 
   double rate_hz_;
+  Rungs rungs_;
+  RungSet band_;
   FrameShift shift_;
   std::optional<AliasedMotion> aliased_;
   double readout_frames_ = 0.0;
