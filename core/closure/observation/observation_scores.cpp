@@ -118,7 +118,8 @@ std::vector<CandidateScore> ObservationScores::score() {
   const double n_values = view.held_out.n_values(), freedom = fit_.freedom_beside();
   const double squares = view.held_out.squares(residual) + 2.0 * freedom;
   const PatternGain learned = view.held_out.of_learned(moments);
-  const double learned_gain = learned.gain > material_of(learned.band, view) * n_values ? learned.gain : 0.0;
+  const double learned_gain =
+      learned.gain > material_of(learned.band, view, kLearnedBar) * n_values ? learned.gain : 0.0;
   is_other_cause_.clear();
   std::vector<CandidateScore> out;
   bool any = false;

@@ -57,13 +57,15 @@ class MovingPartCandidate final : public EffectCandidate {
     part_ = best(residual.moments);
     return part_.found.gain;
   }
-  [[nodiscard]] double material_share() const override { return material_of(part_.found.band, fit_); }
+  [[nodiscard]] double material_share() const override { return material_of(part_.found.band, fit_, kLearnedBar); }
   [[nodiscard]] std::optional<double> free_gain(const TestedResidual& residual) const override {
     return fit_.held_out.of_learned_in(part_.found.band, residual.moments);
   }
   [[nodiscard]] Objection objection() const override {
     if (part_.pattern.size() == 0) return {};
-    return follows_motion(fit_, part_.pattern.cwiseProduct(fit_.model.weight()), part_.found.band);
+    const Eigen::VectorXd whitened = part_.pattern.cwiseProduct(fit_.model.weight());
+    const Objection common = follows_motion(fit_, whitened, part_.found.band);
+    return common.words.empty() ? follows_regions(fit_, whitened, part_.found.band) : common;
   }
   [[nodiscard]] std::unique_ptr<EffectInModel> adopted() const override {
     return learned_pattern({id_, name_, EffectKind::kNamed}, part_.found.band, part_.pattern);

@@ -30,7 +30,7 @@ class FamilyCandidate final : public EffectCandidate {
     if (span_.cols() > 0) pattern_ = in_px(leading(found_.band, residual.moments));
     return found_.gain;
   }
-  [[nodiscard]] double material_share() const override { return material_of(found_.band, fit_); }
+  [[nodiscard]] double material_share() const override { return material_of(found_.band, fit_, kLearnedBar); }
   [[nodiscard]] std::optional<double> free_gain(const TestedResidual& residual) const override {
     return fit_.held_out.of_learned_in(found_.band, residual.moments);
   }

@@ -2,11 +2,14 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace core::closure {
 namespace {
 
-constexpr double kFollows = 0.9;  // of the amplitude's variance explained by motions of the model
+constexpr double kFollows = 0.9;         // of the amplitude's variance explained by motions of the model
+constexpr double kFollowsRegions = 0.6;  // by those of single regions, of which there are many
 
 // Of the plane and of the regions on the average, with their rates: with a readout a wrong time shows as a motion's
 // velocity. Single regions are no motion of the camera: a rotation moves each of them by its own height.
@@ -33,22 +36,48 @@ double explained_by(Eigen::MatrixXd motions, const Eigen::RowVectorXd& a) {
   return right.dot(normal.ldlt().solve(right)) - static_cast<double>(motions.rows());
 }
 
-}  // namespace
+// Of the regions in which the pattern is zero, with their rates.
+Eigen::MatrixXd motions_elsewhere(const FitView& fit, const Eigen::VectorXd& pattern) {
+  std::vector<char> moves(fit.record.regions.size(), 0);
+  for (std::size_t j = 0; j < fit.record.region_of_point.size(); ++j) {
+    if (!pattern.segment<2>(2 * static_cast<Eigen::Index>(j)).isZero(0.0)) moves[fit.record.region_of_point[j]] = 1;
+  }
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < 2 * moves.size(); ++i) {
+    if (moves[i / 2] == 0 && fit.model.row_of_region(i) >= 0) rows.push_back(fit.model.row_of_region(i));
+  }
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXd out(2 * n, fit.model.amplitudes().cols());
+  out.topRows(n) = fit.model.amplitudes()(rows, Eigen::all);
+  out.bottomRows(n) = fit.model.rates()(rows, Eigen::all);
+  return out;
+}
 
-Objection follows_motion(const FitView& fit, const Eigen::VectorXd& whitened, RungSet band) {
+// Is this share of a pattern's amplitude in a band, without its noise, explained by the motions?
+bool follows(const FitView& fit, const Eigen::VectorXd& whitened, RungSet band, Eigen::MatrixXd motions, double share) {
   const PointMotionModel& model = fit.model;
   const Eigen::VectorXd g = whitened - model.q_low() * (model.q_low().transpose() * whitened);
-  if (!(g.norm() > 0.0)) return {};
+  if (!(g.norm() > 0.0)) return false;
   Eigen::RowVectorXd a = g.normalized().transpose() * model.residual();
-  Eigen::MatrixXd motions = common_motions(model);
   if (band != kAllRungs) {
     const Eigen::MatrixXd cosines = fit.held_out.rungs().cosines(a.size(), band);
     motions = (motions * cosines).eval();
     a = (a * cosines).eval();
   }
   const double signal = a.squaredNorm() - static_cast<double>(a.size());
-  if (!(signal > 0.0) || !(explained_by(std::move(motions), a) > kFollows * signal)) return {};
+  return signal > 0.0 && explained_by(std::move(motions), a) > share * signal;
+}
+
+}  // namespace
+
+Objection follows_motion(const FitView& fit, const Eigen::VectorXd& whitened, RungSet band) {
+  if (!follows(fit, whitened, band, common_motions(fit.model), kFollows)) return {};
   return {"its amplitude only follows the motions already in the model", true};
+}
+
+Objection follows_regions(const FitView& fit, const Eigen::VectorXd& whitened, RungSet band) {
+  if (!follows(fit, whitened, band, motions_elsewhere(fit, whitened), kFollowsRegions)) return {};
+  return {"its amplitude only follows the motions of other regions", true};
 }
 
 }  // namespace core::closure

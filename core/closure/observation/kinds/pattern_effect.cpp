@@ -56,7 +56,7 @@ class PatternCandidate final : public EffectCandidate {
     found_ = tried(residual);
     return found_.gain;
   }
-  [[nodiscard]] double material_share() const override { return material_of(found_.band, fit_); }
+  [[nodiscard]] double material_share() const override { return material_of(found_.band, fit_, kFullBandBar); }
   [[nodiscard]] std::optional<double> free_gain(const TestedResidual& residual) const override {
     return fit_.held_out.of_learned_in(found_.band, residual.moments);
   }
