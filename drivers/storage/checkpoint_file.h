@@ -10,7 +10,7 @@ namespace drivers {
 // A file of bytes that is whole or refused: magic, version, length, FNV-1a checksum, then the bytes. It is written
 // beside its place, brought to the disk, renamed, and its folder brought to the disk too: after a loss of power the old
 // file or the new one stands there, never a part of one.
-inline constexpr std::uint32_t kCheckpointVersion = 2;
+inline constexpr std::uint32_t kCheckpointVersion = 3;
 
 // Empty: done. Else why not (disk full, read-only, no such folder); the file that stood there stays.
 [[nodiscard]] std::string write_checkpoint(const std::string& path, std::span<const std::uint8_t> bytes) noexcept;
