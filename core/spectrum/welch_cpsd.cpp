@@ -8,6 +8,7 @@
 
 #include "core/linear/vector_clones.h"
 #include "core/spectrum/bridge_losses.h"
+#include "core/spectrum/gap_taper.h"
 
 namespace core {
 namespace {
@@ -246,16 +247,18 @@ void WelchCpsd::transform_channel(int channel) noexcept {
     value = bridged;
     seen = held;
   }
-
-  double sum = 0.0;
-  double count = 0.0;
+  const std::span<double> weight(padded_.data() + segment, segment);  // n_fft is two segments at least
+  const bool is_tapered = gap_weights(seen, weight);
+  double sum = 0.0, count = 0.0;
   for (std::size_t t = 0; t < segment; ++t) {
-    sum += value[t];  // 0 where missing
-    count += seen[t];
+    // Beside a long gap what is left of the mean spreads as drift does: then it is that of the weighted data.
+    const double share = is_tapered ? weight[t] * window_[t] : weight[t];
+    sum += share * value[t];
+    count += share;
   }
   const double mean = count > 0.0 ? sum / count : 0.0;
+  for (std::size_t t = 0; t < segment; ++t) padded_[t] = weight[t] * (value[t] - mean) * window_[t];
   std::fill(padded_.begin() + static_cast<std::ptrdiff_t>(segment), padded_.end(), 0.0);
-  for (std::size_t t = 0; t < segment; ++t) padded_[t] = seen[t] != 0 ? (value[t] - mean) * window_[t] : 0.0;
   fft_.forward(padded_, {data_.data() + c * bins, bins});
 }
 
@@ -264,8 +267,9 @@ void WelchCpsd::transform_mask(int channel) noexcept {
   const auto bins = static_cast<std::size_t>(fft_.n_bins());
   const auto c = static_cast<std::size_t>(channel);
   const std::uint8_t* seen = (config_.bridge_losses ? held_ : seen_).data() + c * segment;  // after transform_channel()
+  (void)gap_weights({seen, segment}, {padded_.data(), segment});
   std::fill(padded_.begin() + static_cast<std::ptrdiff_t>(segment), padded_.end(), 0.0);
-  for (std::size_t t = 0; t < segment; ++t) padded_[t] = seen[t] != 0 ? window_[t] : 0.0;
+  for (std::size_t t = 0; t < segment; ++t) padded_[t] *= window_[t];
   fft_.forward(padded_, {mask_.data() + c * bins, bins});
 }
 
