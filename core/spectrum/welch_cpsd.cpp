@@ -253,8 +253,7 @@ void WelchCpsd::transform_channel(int channel) noexcept {
   for (std::size_t t = 0; t < segment; ++t) {
     // Beside a long gap what is left of the mean spreads as drift does: then it is that of the weighted data.
     const double share = is_tapered ? weight[t] * window_[t] : weight[t];
-    sum += share * value[t];
-    count += share;
+    sum += share * value[t], count += share;
   }
   const double mean = count > 0.0 ? sum / count : 0.0;
   for (std::size_t t = 0; t < segment; ++t) padded_[t] = weight[t] * (value[t] - mean) * window_[t];
