@@ -37,4 +37,17 @@ bool gap_weights(std::span<const std::uint8_t> seen, std::span<double> weight) n
   return is_tapered;
 }
 
+void window_about_mean(std::span<const double> value, std::span<const std::uint8_t> seen,
+                       std::span<const double> window, std::span<double> weight, std::span<double> out) noexcept {
+  const bool is_tapered = gap_weights(seen, weight);
+  double sum = 0.0, count = 0.0;
+  for (std::size_t t = 0; t < value.size(); ++t) {
+    const double share = is_tapered ? weight[t] * window[t] : weight[t];
+    sum += share * value[t];
+    count += share;
+  }
+  const double mean = count > 0.0 ? sum / count : 0.0;
+  for (std::size_t t = 0; t < value.size(); ++t) out[t] = weight[t] * (value[t] - mean) * window[t];
+}
+
 }  // namespace core

@@ -15,4 +15,9 @@ namespace core {
 inline constexpr int kLongestTaper = 16;
 bool gap_weights(std::span<const std::uint8_t> seen, std::span<double> weight) noexcept;
 
+// out = weight (value - mean) window, with those weights. The mean is that of the values seen; beside a long gap, where
+// what is left of the mean would spread as drift does, that of the weighted data. All as long; values not seen are 0.
+void window_about_mean(std::span<const double> value, std::span<const std::uint8_t> seen,
+                       std::span<const double> window, std::span<double> weight, std::span<double> out) noexcept;
+
 }  // namespace core

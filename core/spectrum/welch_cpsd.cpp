@@ -247,16 +247,8 @@ void WelchCpsd::transform_channel(int channel) noexcept {
     value = bridged;
     seen = held;
   }
-  const std::span<double> weight(padded_.data() + segment, segment);  // n_fft is two segments at least
-  const bool is_tapered = gap_weights(seen, weight);
-  double sum = 0.0, count = 0.0;
-  for (std::size_t t = 0; t < segment; ++t) {
-    // Beside a long gap what is left of the mean spreads as drift does: then it is that of the weighted data.
-    const double share = is_tapered ? weight[t] * window_[t] : weight[t];
-    sum += share * value[t], count += share;
-  }
-  const double mean = count > 0.0 ? sum / count : 0.0;
-  for (std::size_t t = 0; t < segment; ++t) padded_[t] = weight[t] * (value[t] - mean) * window_[t];
+  // n_fft is two segments at least: the upper one is free.
+  window_about_mean(value, seen, window_, {padded_.data() + segment, segment}, {padded_.data(), segment});
   std::fill(padded_.begin() + static_cast<std::ptrdiff_t>(segment), padded_.end(), 0.0);
   fft_.forward(padded_, {data_.data() + c * bins, bins});
 }
