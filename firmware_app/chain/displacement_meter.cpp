@@ -14,6 +14,7 @@ bool DisplacementMeter::begin_frame(std::uint64_t sequence) noexcept {
 void DisplacementMeter::measure(core::TrackFrame& tracks, std::uint32_t stride,
                                 core::DisplacementSample& out) noexcept {
   channels_->update(tracks, out);
+  axes_.add(tracks);
   // Its filters are made for the camera's own rate; the readout is the same at any.
   if (stride == 1) readout_->update(tracks);
   out.readout = readout_->estimate();

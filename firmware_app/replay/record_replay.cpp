@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "firmware_app/chain/state/run_head.h"
+#include "firmware_app/config/region_axis.h"
 #include "firmware_app/replay/analysis.h"
 #include "firmware_app/replay/track_replay.h"
 
@@ -22,6 +23,7 @@ class Record {
       : path_(path), reader_(path), recorded_(reader_.head(), path + ": its configuration", overrides.overrides) {
     config_ =
         overrides.config_path.empty() ? recorded_.config() : load_config(overrides.config_path, overrides.overrides);
+    take_axes_of(config_, recorded_.config().regions);
     if (overrides.skips_closure_reports && config_.closure.adopt == ClosureAdopt::kReport)
       config_.closure.adopt = ClosureAdopt::kOff;
   }
@@ -42,7 +44,8 @@ class Record {
     const auto say = [&](const std::string& what) { remarks.push_back(path_ + ": " + what); };
     if (reader_.starts_late()) say("its first files are missing: the estimate is based on the remaining files");
     if (reader_.head().continues && is_first && resumed() == nullptr)
-      say("the run resumed from a state that this replay cannot use: give the record of the earlier run too, before this "
+      say("the run resumed from a state that this replay cannot use: give the record of the earlier run too, before "
+          "this "
           "one");
     if (reader_.n_damaged() > 0) say(fmt::format("{} damaged messages were left out", reader_.n_damaged()));
     if (reader_.n_attitudes_left_out() > 0)

@@ -128,9 +128,10 @@ TEST(Config, EachKeySetsItsOwnMemberOnly) {
 TEST(Config, NamesFileLineKeyValueRangeAndRemedy) {
   EXPECT_EQ(refusal_with("rate_hz: 29.97", "rate_hz: 2e7"),
             "a.yaml:5: camera.rate_hz: 2e7 is refused: allowed 0.001 .. 1000000 (Hz); write a smaller number");
-  EXPECT_EQ(refusal_with("axis: both", "axis: w"),
-            "a.yaml:10: regions.1.axis: w is refused: allowed u | v | both | -360 .. 360 (degrees); write u, v, both, "
-            "or an angle");
+  EXPECT_EQ(
+      refusal_with("axis: both", "axis: w"),
+      "a.yaml:10: regions.1.axis: w is refused: allowed auto | u | v | both | -360 .. 360 (degrees); write auto, u, v, "
+      "both, or an angle");
 }
 
 TEST(Config, RefusesZeroRateWhenWritten) {
@@ -169,7 +170,8 @@ TEST(Config, RefusesBrokenRegions) {
   EXPECT_THAT(refusal("camera: {source: a}\n"), HasSubstr("a.yaml: regions: no region is refused"));
   EXPECT_THAT(refusal("camera: {source: a}\nregions: []\n"), HasSubstr("a.yaml:2: regions"));
   EXPECT_THAT(refusal("camera: {source: a}\nregions:\n"), HasSubstr("a.yaml:2: regions"));
-  EXPECT_THAT(refusal_with("name: roof", "name: base"), AllOf(HasSubstr("a.yaml:8"), HasSubstr("`base` is already used")));
+  EXPECT_THAT(refusal_with("name: roof", "name: base"),
+              AllOf(HasSubstr("a.yaml:8"), HasSubstr("`base` is already used")));
   EXPECT_THAT(refusal_with("name: base", "name: roof.u"), HasSubstr("`roof.u` is already used"));
   for (const char* name : {"\"\"", "\"a b\"", "a/b", "a,b", "ä", "\"a\\nb\"", "~", "[a]"}) {
     EXPECT_THAT(refusal_with("name: roof", std::string("name: ") + name), HasSubstr("a.yaml:8: regions.1.name"))
