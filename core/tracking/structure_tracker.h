@@ -24,6 +24,15 @@ struct StructureTrackerConfig {
   int reseed_after = 250;         // frames until a lost point gets a new template, its datum kept; 0: never
 };
 
+// Points that were no inliers of their region for kLostForGood frames in a row and more, by the cause of the last
+// frame.
+struct PointLosses {
+  std::uint32_t left_image = 0, light = 0;
+  std::uint32_t unlike = 0;     // covered, or another surface in the window
+  std::uint32_t elsewhere = 0;  // found, but moving otherwise than the region
+  [[nodiscard]] std::uint32_t total() const noexcept { return left_image + light + unlike + elsewhere; }
+};
+
 // Tracks all points of all regions: seeds them in the first frame (the keyframe), tracks them against it, and predicts
 // their positions from the previous frame after outlier rejection (region_follower.h). Nothing allocates in track() and
 // learn().
@@ -46,12 +55,15 @@ class StructureTracker {
   // After seed(). Number of lost points that were re-seeded.
   [[nodiscard]] std::uint32_t n_reseeded() const noexcept { return finder_->n_reseeded(); }
   [[nodiscard]] const RegionFollower& regions() const noexcept { return *follower_; }
+  static constexpr std::uint32_t kLostForGood = 50;  // frames
+  [[nodiscard]] PointLosses losses() const noexcept;
 
  private:
   void begin(const Frame& frame, const std::vector<cv::Point2f>& points);
 
   StructureTrackerConfig config_;
   std::vector<std::uint16_t> region_of_point_;  // points of a region follow one another
+  std::vector<std::uint32_t> n_lost_;           // frames in a row, of each point
   std::unique_ptr<PointFinder> finder_;
   std::unique_ptr<RegionFollower> follower_;
 };

@@ -6,6 +6,7 @@
 
 #include "firmware_app/config/region_axis.h"
 #include "firmware_app/report/axis_findings.h"
+#include "firmware_app/report/loss_words.h"
 #include "firmware_app/report/page/report_page.h"
 #include "firmware_app/service/data_flow.h"
 #include "firmware_app/service/found_axes.h"
@@ -77,6 +78,10 @@ Pipeline::Outcome Pipeline::join() {
     outcome.notes.push_back(flow_->source.camera->fault());
   if (std::string note = short_record(flow_->config, flow_->source.info, outcome.estimate); !note.empty()) {
     outcome.notes.push_back(std::move(note));
+  }
+  if (std::string words = point_loss_words(flow_->source.tracker.losses(), flow_->source.tracker.n_points());
+      !words.empty()) {
+    outcome.notes.push_back(std::move(words));
   }
   for (std::string& words : motion_across_words(flow_->config.regions, flow_->meter.axes()))
     outcome.notes.push_back(std::move(words));
