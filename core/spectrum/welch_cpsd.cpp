@@ -8,6 +8,7 @@
 
 #include "core/linear/vector_clones.h"
 #include "core/spectrum/bridge_losses.h"
+#include "core/spectrum/gap_taper.h"
 
 namespace core {
 namespace {
@@ -217,16 +218,9 @@ void WelchCpsd::transform_channel(int channel) noexcept {
     value = bridged;
     seen = held;
   }
-
-  double sum = 0.0;
-  double count = 0.0;
-  for (std::size_t t = 0; t < segment; ++t) {
-    sum += value[t];  // 0 where missing
-    count += seen[t];
-  }
-  const double mean = count > 0.0 ? sum / count : 0.0;
+  // n_fft is two segments at least: the upper one is free.
+  window_about_mean(value, seen, window_, {padded_.data() + segment, segment}, {padded_.data(), segment});
   std::fill(padded_.begin() + static_cast<std::ptrdiff_t>(segment), padded_.end(), 0.0);
-  for (std::size_t t = 0; t < segment; ++t) padded_[t] = seen[t] != 0 ? (value[t] - mean) * window_[t] : 0.0;
   fft_.forward(padded_, {data_.data() + c * bins, bins});
 }
 
@@ -235,8 +229,9 @@ void WelchCpsd::transform_mask(int channel) noexcept {
   const auto bins = static_cast<std::size_t>(fft_.n_bins());
   const auto c = static_cast<std::size_t>(channel);
   const std::uint8_t* seen = (config_.bridge_losses ? held_ : seen_).data() + c * segment;  // after transform_channel()
+  (void)gap_weights({seen, segment}, {padded_.data(), segment});
   std::fill(padded_.begin() + static_cast<std::ptrdiff_t>(segment), padded_.end(), 0.0);
-  for (std::size_t t = 0; t < segment; ++t) padded_[t] = seen[t] != 0 ? window_[t] : 0.0;
+  for (std::size_t t = 0; t < segment; ++t) padded_[t] *= window_[t];
   fft_.forward(padded_, {mask_.data() + c * bins, bins});
 }
 
