@@ -51,6 +51,9 @@ class ClosureLevel {
 
   virtual void adopt(std::size_t candidate) = 0;
   virtual void drop() = 0;  // reverts the last adoption
+  // Removes an effect that those adopted after it have made needless; its number, or empty: none. After a fit(); the
+  // next one is due if a number is returned.
+  virtual std::optional<std::size_t> drop_needless() { return std::nullopt; }
 
   // Parameters of an adopted effect, after the last fit().
   [[nodiscard]] virtual std::vector<ParameterValue> parameters(std::size_t adopted) const = 0;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -13,9 +14,10 @@ namespace core::closure {
 namespace {
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-constexpr double kTie = 0.01;         // relative difference of two scores that are treated as equal
-constexpr double kPlain = 3.0;        // early stop: factor over the threshold that the few surrogates imply
-constexpr double kKeptOfScore = 0.5;  // share of the predicted decrease of held-out squares that a refit must reach
+constexpr double kTie = 0.01;                 // of the score: as good as equal
+constexpr double kPlain = 3.0;                // times what few surrogates say of chance
+constexpr std::size_t kAdoptionsPerStep = 2;  // at most, where effects become needless
+constexpr double kKeptOfScore = 0.5;          // a refit must keep so much of the predicted drop in held-out squares
 
 class Loop {
  public:
@@ -44,7 +46,8 @@ class Loop {
 
   bool step() {
     if (!fit_.structured) return stop(fit_.words);
-    if (result_.steps.size() >= options_.max_steps) return stop("the largest allowed number of effects is adopted");
+    if (result_.steps.size() >= options_.max_steps || n_adoptions_ >= kAdoptionsPerStep * options_.max_steps)
+      return stop("the largest allowed number of effects is adopted");
     if (level_.candidates().empty()) return stop("no candidate is left; " + fit_.words);
     tell("scoring the candidates of step " + std::to_string(result_.steps.size() + 1));
     const std::vector<CandidateScore> scores = level_.score();
@@ -87,7 +90,17 @@ class Loop {
     step.others = ranked(scores, best);
     result_.steps.push_back(std::move(step));
     result_.refused.clear();
+    ++n_adoptions_;
+    remove_needless();
     return true;
+  }
+
+  void remove_needless() {
+    while (const std::optional<std::size_t> needless = level_.drop_needless()) {
+      tell(result_.steps.at(*needless).effect + " is removed: those after it explain what it explained");
+      result_.steps.erase(result_.steps.begin() + static_cast<std::ptrdiff_t>(*needless));
+      fit_ = level_.fit();
+    }
   }
 
   [[nodiscard]] double threshold_of_step(double best) {
@@ -171,6 +184,7 @@ class Loop {
   ClosureResult result_;
   LevelFit fit_;
   std::uint64_t n_drawn_ = 0;
+  std::size_t n_adoptions_ = 0;  // with those that became needless
 };
 
 }  // namespace

@@ -58,6 +58,8 @@ class ChannelDisplacement {
   // The channels, followed by the witnesses.
   [[nodiscard]] const std::vector<ChannelInfo>& spectra() const noexcept { return spectra_; }
 
+  [[nodiscard]] const std::vector<Region>& regions() const noexcept { return config_.regions; }
+  [[nodiscard]] std::size_t n_points() const noexcept { return keyframe_.size(); }
   [[nodiscard]] std::size_t n_witnesses() const noexcept { return spectra_.size() - channels_.size(); }
 
   // Sets `inlier` of the points and fills `out` (sized by sample_prototype()).

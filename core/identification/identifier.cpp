@@ -249,7 +249,7 @@ ModalEstimate Identifier::identify_all(const CpsdSums& sums, const std::vector<C
   std::vector<Mode> modes = config_.as_published ? judge_published_lines(lines, channels, rules)
                                                  : judge_lines(fitted, lines, channels, rules);
   if (sums.n_blocks >= kScatterBlocks) estimate.degrees_of_freedom = state_scatter(fitted, lines, modes);
-  if (!config_.as_published) reject_twins(modes);
+  if (!config_.as_published) reject_mixtures(modes), reject_twins(modes);
   note_poles(poles.unfolded, orders, estimate);
   list_modes(std::move(modes), lines, estimate);
   return estimate;

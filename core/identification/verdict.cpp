@@ -14,8 +14,11 @@ namespace {
 constexpr double kLeastDamping = -0.002;
 constexpr double kTwinMac = 0.9;
 constexpr double kTwinFrequency = 0.06;  // relative
-// A steady force close to a mode moves the structure in the shape of that mode, with almost no damping.
-constexpr double kMostLineDamping = 0.001, kMostLineShare = 0.3;  // share of the mode's damping
+// Two resonances closer than their widths are one to a short record unless their shapes differ: what a third one,
+// folded onto them, leaves beside the mode has a mixed shape.
+constexpr double kMixedMac = 0.7, kLeastMixedMpc = 0.9;
+// A steady force beside a mode moves the structure in that mode's shape, with next to no damping.
+constexpr double kMostLineDamping = 0.001, kMostLineShare = 0.3;  // of the mode's
 
 template <class... Args>
 std::string text(const char* format, Args... args) {
@@ -71,9 +74,10 @@ std::string candidate_reason(const Mode& mode, const VerdictRules& rules) {
   if (cycles < rules.least_cycles)
     return text("%.1f cycles in the record, a verdict needs %.0f: may be a mode, to %.2g Hz", cycles,
                 rules.least_cycles, rules.resolution_hz);
-  return text("the record is too short for a verdict (%.1f samples for each equation of the model, %.0f are needed): may "
-              "be a mode, to %.2g Hz",
-              rules.samples_per_row, rules.least_samples_per_row, rules.resolution_hz);
+  return text(
+      "the record is too short for a verdict (%.1f samples for each equation of the model, %.0f are needed): may "
+      "be a mode, to %.2g Hz",
+      rules.samples_per_row, rules.least_samples_per_row, rules.resolution_hz);
 }
 
 void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response,
@@ -195,7 +199,32 @@ bool is_line_beside(const Mode& line, const Mode& mode) noexcept {
   return line.damping_ratio < kMostLineDamping && line.damping_ratio < kMostLineShare * mode.damping_ratio;
 }
 
+// Apart by less than the half-power widths of both together.
+bool is_unresolved(const Mode& a, const Mode& b) noexcept {
+  return std::abs(a.frequency_hz - b.frequency_hz) <
+         std::abs(a.damping_ratio) * a.frequency_hz + std::abs(b.damping_ratio) * b.frequency_hz;
+}
+
+bool is_mixture_beside(const Mode& mixture, const Mode& mode) noexcept {
+  return mixture.mpc < kLeastMixedMpc && mixture.mpc < mode.mpc && is_unresolved(mixture, mode) &&
+         mac(mixture.shape, mode.shape) > kMixedMac;
+}
+
 }  // namespace
+
+void reject_mixtures(std::vector<Mode>& modes) {
+  for (Mode& mixture : modes) {
+    for (const Mode& mode : modes) {
+      if (mixture.verdict != Verdict::kStructural || mode.verdict != Verdict::kStructural) continue;
+      if (!is_mixture_beside(mixture, mode)) continue;
+      set(mixture, Verdict::kNumerical,
+          text(
+              "not resolved from %.4f Hz: closer than their widths, with nearly its shape (MAC %.2f) and less in phase "
+              "(MPC %.2f)",
+              mode.frequency_hz, mac(mixture.shape, mode.shape), mixture.mpc));
+    }
+  }
+}
 
 void reject_twins(std::vector<Mode>& modes) {
   for (Mode& a : modes) {

@@ -51,9 +51,13 @@ void reject_lone_motion(Mode& mode, const std::string& channel, double seen);
 // Writes mode numbers by frequency into the reasons, as in Table 1 of the paper.
 void number_by_frequency(std::vector<Mode>& modes);
 
-// Of two structural modes with MAC > 0.9 within 6 %, one with less than 0.1 % of damping and less than a third of the
-// other's is a steady force close to it (harmonic). Otherwise the one found in fewer orders is a twin (often an
-// amplitude dependence of the same mode): it becomes numerical, and its reason says so.
+// Of two structural modes closer than their half-power widths, with MAC > 0.7, the one that is less in phase is a
+// mixture with the other if its MPC is below 0.9: it becomes numerical, and its reason says so.
+void reject_mixtures(std::vector<Mode>& modes);
+
+// Of two structural modes with MAC > 0.9 within 6 % one that has less than 0.1 % of damping, and less than a third of
+// the other's, is a steady force beside it (harmonic). Else the one found in fewer orders is a twin (often an amplitude
+// dependence of the same mode): it becomes numerical, and its reason says so.
 void reject_twins(std::vector<Mode>& modes);
 
 }  // namespace core

@@ -8,6 +8,7 @@
 
 #include "core/linear/vector_clones.h"
 #include "core/spectrum/bridge_losses.h"
+#include "core/spectrum/gap_taper.h"
 
 namespace core {
 namespace {
@@ -72,6 +73,7 @@ WelchCpsd::WelchCpsd(const WelchConfig& config)
     : config_(config),
       fft_(padded_length(config)),
       gate_(static_cast<std::size_t>(config.n_channels)),
+      innovation_gate_(static_cast<std::size_t>(config.n_channels)),
       sums_(empty_sums(config)),
       aside_(static_cast<std::size_t>(config.n_channels), 0.0),
       is_aside_(static_cast<std::size_t>(config.n_channels), 0) {
@@ -108,6 +110,7 @@ void WelchCpsd::restart(double rate_hz) noexcept {
   for (CpsdBlock& block : sums_.blocks) block.n_segments = 0, block.weight = {};
   std::fill(sums_.n_outlying.begin(), sums_.n_outlying.end(), std::uint64_t{0});
   gate_.restart();
+  innovation_gate_.restart();
   n_filled_ = n_new_ = 0;
   segments_per_block_ = 1;
   std::fill(value_.begin(), value_.end(), 0.0);
@@ -124,19 +127,6 @@ void WelchCpsd::put(std::size_t first, std::span<const double> value, std::span<
     if (!valid && first + c < n_counted()) ++sums_.n_missing;
     gate(first + c, value[c], valid);
   }
-}
-
-// Called before the newest sample is counted: n_filled_ - 1 is the sample before it.
-void WelchCpsd::gate(std::size_t channel, double value, bool valid) noexcept {
-  if (!config_.gate_outliers || !gate_.push(channel, value, valid)) return;
-  ++sums_.n_outlying[channel];
-  if (channel < n_counted()) ++sums_.n_missing;
-  if (n_filled_ > 0) mask(channel, n_filled_ - 1);
-}
-
-void WelchCpsd::mask(std::size_t channel, int at) noexcept {
-  const std::size_t sample = channel * static_cast<std::size_t>(config_.segment) + static_cast<std::size_t>(at);
-  value_[sample] = 0.0, seen_[sample] = 0;
 }
 
 bool WelchCpsd::push(std::span<const double> value, std::span<const std::uint8_t> seen) noexcept {
@@ -164,6 +154,7 @@ bool WelchCpsd::push_missing() noexcept {
 }
 
 bool WelchCpsd::advance() noexcept {
+  gate_by_prediction();
   ++sums_.n_samples;
   ++n_filled_, ++n_new_;
   if (n_filled_ < config_.segment) return false;
@@ -179,26 +170,7 @@ bool WelchCpsd::advance() noexcept {
   return true;
 }
 
-void WelchCpsd::set_doubtful_aside() noexcept {
-  for (std::size_t c = 0; c < is_aside_.size(); ++c) {
-    is_aside_[c] = config_.gate_outliers && gate_.is_doubtful(c) ? 1 : 0;
-    if (is_aside_[c] == 0) continue;
-    const auto segment = static_cast<std::size_t>(config_.segment);
-    aside_[c] = value_[c * segment + static_cast<std::size_t>(n_filled_ - 1)];
-    mask(c, n_filled_ - 1);
-  }
-}
-
-void WelchCpsd::restore_doubtful() noexcept {
-  for (std::size_t c = 0; c < is_aside_.size(); ++c) {
-    if (is_aside_[c] == 0) continue;
-    const auto segment = static_cast<std::size_t>(config_.segment);
-    const std::size_t at = c * segment + static_cast<std::size_t>(config_.segment - 1);
-    value_[at] = aside_[c], seen_[at] = 1;
-  }
-}
-
-// No later sample can confirm the last one.
+// Nothing will confirm the last sample.
 void WelchCpsd::flush() noexcept {
   for (std::size_t c = 0; c < is_aside_.size(); ++c) gate(c, 0.0, false);
   if (n_new_ == 0) return;
@@ -246,16 +218,9 @@ void WelchCpsd::transform_channel(int channel) noexcept {
     value = bridged;
     seen = held;
   }
-
-  double sum = 0.0;
-  double count = 0.0;
-  for (std::size_t t = 0; t < segment; ++t) {
-    sum += value[t];  // 0 where missing
-    count += seen[t];
-  }
-  const double mean = count > 0.0 ? sum / count : 0.0;
+  // n_fft is two segments at least: the upper one is free.
+  window_about_mean(value, seen, window_, {padded_.data() + segment, segment}, {padded_.data(), segment});
   std::fill(padded_.begin() + static_cast<std::ptrdiff_t>(segment), padded_.end(), 0.0);
-  for (std::size_t t = 0; t < segment; ++t) padded_[t] = seen[t] != 0 ? (value[t] - mean) * window_[t] : 0.0;
   fft_.forward(padded_, {data_.data() + c * bins, bins});
 }
 
@@ -264,8 +229,9 @@ void WelchCpsd::transform_mask(int channel) noexcept {
   const auto bins = static_cast<std::size_t>(fft_.n_bins());
   const auto c = static_cast<std::size_t>(channel);
   const std::uint8_t* seen = (config_.bridge_losses ? held_ : seen_).data() + c * segment;  // after transform_channel()
+  (void)gap_weights({seen, segment}, {padded_.data(), segment});
   std::fill(padded_.begin() + static_cast<std::ptrdiff_t>(segment), padded_.end(), 0.0);
-  for (std::size_t t = 0; t < segment; ++t) padded_[t] = seen[t] != 0 ? window_[t] : 0.0;
+  for (std::size_t t = 0; t < segment; ++t) padded_[t] *= window_[t];
   fft_.forward(padded_, {mask_.data() + c * bins, bins});
 }
 

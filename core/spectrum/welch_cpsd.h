@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/spectrum/innovation_gate.h"
 #include "core/spectrum/outlier_gate.h"
 #include "core/spectrum/real_fft.h"
 #include "core/spectrum/window.h"
@@ -27,9 +28,10 @@ struct WelchConfig {
   int n_blocks = 20;
   // A segment is weighted by exp(-age / forget_s), for a structure that changes. 0 = all segments have equal weight.
   double forget_s = 0.0;
-  bool bridge_losses = false;  // true: short gaps are filled (bridge_losses.h); false: every lost sample is masked
-  // Samples that are inconsistent with their neighbours in time are masked and counted (outlier_gate.h). For
-  // displacements from images; not for decimated series, whose modes reach up to half the rate.
+  bool bridge_losses = false;  // short gaps: see bridge_losses.h; false: every lost sample is masked
+  // Single samples that their neighbours in time and the other channels do not allow are masked and counted
+  // (outlier_gate.h, innovation_gate.h): for displacements from pictures. Not for decimated series, whose modes reach
+  // up to half the rate.
   bool gate_outliers = false;
 };
 
@@ -76,7 +78,10 @@ class WelchCpsd {
     return static_cast<std::size_t>(config_.n_channels - config_.n_witnesses);
   }
   void gate(std::size_t channel, double value, bool valid) noexcept;
+  void gate_by_prediction() noexcept;
+  void mask_outlier(std::size_t channel) noexcept;
   void mask(std::size_t channel, int at) noexcept;
+  [[nodiscard]] bool is_doubtful(std::size_t channel) const noexcept;
   bool advance() noexcept;
   void accumulate_segment() noexcept;
   void set_doubtful_aside() noexcept;
@@ -95,6 +100,7 @@ class WelchCpsd {
   std::vector<double> window_;
   RealFft fft_;
   OutlierGate gate_;
+  InnovationGate innovation_gate_;
   CpsdSums sums_;
   int n_filled_ = 0;  // samples in the current segment
   int n_new_ = 0;     // of these, samples that are not yet part of an accumulated segment

@@ -45,6 +45,7 @@ void WelchCpsd::describe(Archive& archive, Self& self) noexcept {
   archive.array(self.value_);
   archive.array(self.seen_);
   archive.array(self.gate_.state());
+  archive.array(self.innovation_gate_.state());
 }
 
 void WelchCpsd::save(StateWriter& out) const noexcept {
@@ -61,7 +62,8 @@ void WelchCpsd::save(StateWriter& out) const noexcept {
 std::size_t WelchCpsd::state_bytes() const noexcept {
   const std::size_t sums = 2 * (sums_.data_sum.size() * sizeof(Complex) + 64);
   return 512 + (1 + sums_.blocks.size()) * sums + value_.size() * (sizeof(double) + 1) +
-         gate_.state().size() * (sizeof(OutlierGate::Channel) + sizeof(std::uint64_t));
+         gate_.state().size() *
+             (sizeof(OutlierGate::Channel) + sizeof(InnovationGate::Channel) + sizeof(std::uint64_t));
 }
 
 bool WelchCpsd::restore(StateReader& in) noexcept {
@@ -85,8 +87,9 @@ bool WelchCpsd::is_consistent() const noexcept {
       is_finite(sums_.data_sum) && is_finite(sums_.mask_sum) &&
       std::all_of(value_.begin(), value_.end(), [](double x) { return std::isfinite(x); }) &&
       std::all_of(sums_.blocks.begin(), sums_.blocks.end(), [](const CpsdBlock& block) { return is_finite(block); });
-  return has_numbers && gate_.is_consistent() && sums_.n_blocks <= sums_.blocks.size() && n_filled_ >= 0 && n_filled_ < config_.segment &&
-         n_new_ >= 0 && n_new_ <= n_filled_ && segments_per_block_ > 0;
+  return has_numbers && gate_.is_consistent() && innovation_gate_.is_consistent() &&
+         sums_.n_blocks <= sums_.blocks.size() && n_filled_ >= 0 && n_filled_ < config_.segment && n_new_ >= 0 &&
+         n_new_ <= n_filled_ && segments_per_block_ > 0;
 }
 
 }  // namespace core

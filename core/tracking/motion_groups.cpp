@@ -150,24 +150,30 @@ void take_out_camera(const MotionGroup& rest, const std::vector<SurveyedPoint>& 
   }
 }
 
-// Removes the camera's motion, as shown by the group, from all motion. Where a structure's motion decreases towards its
-// static support, points of the structure join the group as neighbours; members that move are therefore excluded, in
-// three rounds. Returns the median motion of a member that remains.
-double free_from_camera(MotionGroup rest, const std::vector<SurveyedPoint>& points, std::vector<Series>& fast) {
+// Frees all motion from the camera's, as the group shows it. A structure stands on something: where its motion fades
+// out towards what rests, neighbours join it to the group, so members that move are left out, twice. Returns what a
+// member moves by then beyond its own noise, px^2, the median: what is left of the camera's motion. Its noise says
+// nothing about points of better texture.
+double free_from_camera(MotionGroup rest, const std::vector<SurveyedPoint>& points, std::vector<Series>& fast,
+                        const MotionGroupConfig& config) {
   constexpr int kRounds = 3;
-  double still = 0.0;
+  double left_px2 = 0.0;
   for (int round = 0; round < kRounds; ++round) {
     take_out_camera(rest, points, fast);
-    std::vector<double> moved;
-    for (const std::size_t i : rest.members) moved.push_back(rms_motion(fast[i]));
-    still = median(moved);
+    std::vector<double> moved, beyond_noise;
+    for (const std::size_t i : rest.members) {
+      moved.push_back(rms_motion(fast[i]));
+      beyond_noise.push_back(moved.back() * moved.back() - variance_px2(points[i], config));
+    }
+    const double still = median(moved);
+    left_px2 = std::max(0.0, median(beyond_noise));
     std::vector<std::size_t> kept;
     for (const std::size_t i : rest.members) {
       if (rms_motion(fast[i]) <= 2.5 * still) kept.push_back(i);
     }
     rest.members = std::move(kept);
   }
-  return still;
+  return left_px2;
 }
 
 }  // namespace
@@ -193,12 +199,12 @@ MotionGroups group_by_motion(const std::vector<SurveyedPoint>& points, double ra
   const auto widest = std::max_element(out.groups.begin(), out.groups.end(), covers_more);
   out.has_rest = widest != out.groups.end() && covered_share(*widest, points, width_px, height_px) >= kLeastRestShare;
   if (!out.has_rest) return out;
-  const double still_px = free_from_camera(*widest, points, out.fast_motion);
+  const double left_px2 = free_from_camera(*widest, points, out.fast_motion, config);
   MotionGroup rest;
   rest.is_at_rest = true;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double moved = rms_motion(out.fast_motion[i]);
-    may[i] = moved > std::max(config.moves_by * still_px, config.moves_by * std::sqrt(variance_px2(points[i], config)));
+    may[i] = moved > config.moves_by * std::sqrt(left_px2 + variance_px2(points[i], config));
     if (!may[i]) rest.members.push_back(i);
   }
   out.groups = joined(points, out.fast_motion, may, config.same_share, config);

@@ -12,8 +12,8 @@ struct MotionGroupConfig {
   double neighbour_px = 30.0;    // points farther apart are not compared
   double same_noise = 2.5;       // two points move together if they differ by less than this many of their sigmas,
   double same_share = 0.15;      // or by less than this share of their motion relative to the static points
-  double moves_by = 3.0;         // a point moves above this multiple of its sigma and of the static points' motion
-  double least_sigma_px = 0.02;  // lower bound of a point's sigma, which lacks effects of the surroundings
+  double moves_by = 3.0;         // a point moves: multiple of its sigma, with what the static points move beyond theirs
+  double least_sigma_px = 0.02;  // lower bound of a point's sigma: the tracker's own excludes the surroundings
 };
 
 // Neighbouring points that move together.

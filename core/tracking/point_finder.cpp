@@ -115,7 +115,7 @@ void PointFinder::leave_out_disturbed(const Region& region) noexcept {
   for (std::size_t i = region.first; i < region.first + region.n; ++i)
     if (is_known(i) && strangeness(found_[i]) > length(kDisturbed * common * usual_[i],
                                                        kUnmodelled * found_[i].deformed_px * found_[i].gain))
-      found_[i].seen = false;
+      found_[i].seen = false, found_[i].loss = PointLoss::kUnlike;
 }
 
 void PointFinder::look(const GrayView& gray, const Region& region, const RegionFollower& expected,

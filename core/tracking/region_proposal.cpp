@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/tracking/motion_axis.h"
 #include "core/tracking/moving_parts.h"
 #include "core/tracking/rest_rectangle.h"
 
@@ -18,6 +19,7 @@ struct Survey {
   const std::vector<std::vector<Vector2>>& motion;
   const RegionProposalConfig& config;
   double longest_px;
+  std::size_t slow_frames;
 };
 
 Box box_of(const Survey& survey, const Members& members) {
@@ -77,21 +79,6 @@ void divide(const Survey& survey, const Members& members, std::vector<Members>& 
   out.push_back(members);
 }
 
-// Angle in degrees from +u towards +v of the line of largest motion, -90 .. 90; snapped to a nearby image axis.
-double axis_of(const std::vector<Vector2>& motion) {
-  constexpr double kNear_deg = 20.0;
-  double uu = 0.0, uv = 0.0, vv = 0.0;
-  for (const Vector2& m : motion) {
-    uu += m.u * m.u;
-    uv += m.u * m.v;
-    vv += m.v * m.v;
-  }
-  const double degrees = 0.5 * std::atan2(2.0 * uv, uu - vv) * 180.0 / std::numbers::pi;
-  if (std::abs(degrees) <= kNear_deg) return 0.0;
-  if (std::abs(std::abs(degrees) - 90.0) <= kNear_deg) return 90.0;
-  return std::round(degrees);
-}
-
 Region region_of(const Box& box) {
   Region region;
   region.u_px = std::floor(box.left);
@@ -141,7 +128,7 @@ std::optional<ProposedRegion> propose_one(const Survey& survey, const Members& m
   const auto motion = mean_motion(survey, inside);
   ProposedRegion out;
   out.region = region_of(box);
-  out.region.axis_deg = axis_of(motion);
+  out.region.axis_deg = vibration_axis_deg(motion, survey.slow_frames);
   out.n_points = inside.size();
   out.motion_px = rms_motion(motion);
   out.noise_px = mean_noise_px(survey, inside);
@@ -168,9 +155,8 @@ void name_regions(std::vector<ProposedRegion>& regions) {
 // already selected.
 std::vector<ProposedRegion> chosen(std::vector<MovingPart> all, std::size_t max_regions) {
   rate_parts(all);
-  std::stable_sort(all.begin(), all.end(), [](const MovingPart& a, const MovingPart& b) {
-    return a.proposed.noise_px < b.proposed.noise_px;
-  });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const MovingPart& a, const MovingPart& b) { return a.proposed.noise_px < b.proposed.noise_px; });
   std::vector<double> novelty(all.size(), 1.0);
   std::vector<bool> is_open(all.size(), true);
   std::vector<ProposedRegion> out;
@@ -248,7 +234,8 @@ RegionProposal propose_regions(const std::vector<SurveyedPoint>& points, double 
   out.n_points = points.size();
   const MotionGroups groups = group_by_motion(points, rate_hz, width_px, height_px, config.groups);
   const Survey survey{points, groups.fast_motion, config,
-                      config.longest_share * static_cast<double>(std::max(width_px, height_px))};
+                      config.longest_share * static_cast<double>(std::max(width_px, height_px)),
+                      static_cast<std::size_t>(std::max(1.0, config.groups.slow_s * rate_hz))};
   std::vector<MovingPart> all;
   for (const MotionGroup& group : groups.groups) {
     if (group.is_at_rest || group.members.size() < config.min_points) continue;

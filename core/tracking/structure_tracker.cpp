@@ -53,6 +53,7 @@ void StructureTracker::begin(const Frame& frame, const std::vector<cv::Point2f>&
   std::vector<Vector2> keyframe;
   for (const cv::Point2f& point : points)
     keyframe.push_back({static_cast<double>(point.x), static_cast<double>(point.y)});
+  n_lost_.assign(points.size(), 0);
   finder_ = std::make_unique<PointFinder>(
       PointFinderConfig{config_.klt, config_.min_points, config_.search_px, config_.reseed_after}, gray_view(frame),
       keyframe, region_of_point_, config_.regions.size());
@@ -85,6 +86,20 @@ bool StructureTracker::track(const Frame& frame, TrackFrame& out) noexcept {
 void StructureTracker::learn(const TrackFrame& judged) noexcept {
   follower_->update(judged);
   finder_->learn(judged);
+  for (std::size_t i = 0; i < n_lost_.size() && i < judged.points.size(); ++i)
+    n_lost_[i] = judged.points[i].inlier ? 0 : std::min(n_lost_[i] + 1, kLostForGood);
+}
+
+PointLosses StructureTracker::losses() const noexcept {
+  PointLosses out;
+  for (std::size_t i = 0; i < n_lost_.size(); ++i) {
+    if (n_lost_[i] < kLostForGood) continue;
+    const KltPoint& point = finder_->points()[i];
+    const bool has_left = !point.seen && point.loss == PointLoss::kLeftImage;
+    const bool is_dark = !point.seen && point.loss == PointLoss::kLight;
+    ++(has_left ? out.left_image : is_dark ? out.light : point.seen ? out.elsewhere : out.unlike);
+  }
+  return out;
 }
 
 }  // namespace core

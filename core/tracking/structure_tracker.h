@@ -24,9 +24,17 @@ struct StructureTrackerConfig {
   int reseed_after = 250;         // frames until a lost point gets a new template (same reference position); 0: never
 };
 
-// Tracks all points of all regions: seeds them in the first frame (the keyframe), tracks them against it, and
-// predicts their positions from the previous frame after outlier rejection (region_follower.h). Does not
-// allocate in track() and learn(). One thread: seed() or set_keyframe() once, then track() per frame followed by
+// Points that were no inliers of their region for kLostForGood frames in a row and more, by the cause of the last
+// frame.
+struct PointLosses {
+  std::uint32_t left_image = 0, light = 0;
+  std::uint32_t unlike = 0;     // covered, or another surface in the window
+  std::uint32_t elsewhere = 0;  // found, but moving otherwise than the region
+  [[nodiscard]] std::uint32_t total() const noexcept { return left_image + light + unlike + elsewhere; }
+};
+
+// Tracks all points of all regions: seeds them in the first frame (the keyframe), tracks them against it, and predicts
+// their positions from the previous frame after outlier rejection (region_follower.h). Nothing allocates in track() and
 // learn().
 class StructureTracker {
  public:
@@ -46,12 +54,15 @@ class StructureTracker {
   // Number of lost points that were re-seeded, after seed().
   [[nodiscard]] std::uint32_t n_reseeded() const noexcept { return finder_->n_reseeded(); }
   [[nodiscard]] const RegionFollower& regions() const noexcept { return *follower_; }
+  static constexpr std::uint32_t kLostForGood = 50;  // frames
+  [[nodiscard]] PointLosses losses() const noexcept;
 
  private:
   void begin(const Frame& frame, const std::vector<cv::Point2f>& points);
 
   StructureTrackerConfig config_;
-  std::vector<std::uint16_t> region_of_point_;  // the points of a region are consecutive
+  std::vector<std::uint16_t> region_of_point_;  // points of a region follow one another
+  std::vector<std::uint32_t> n_lost_;           // frames in a row, of each point
   std::unique_ptr<PointFinder> finder_;
   std::unique_ptr<RegionFollower> follower_;
 };

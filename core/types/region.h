@@ -32,6 +32,10 @@ enum class RegionState : std::uint8_t { kMeasuring, kSearching, kLost };
   return "";
 }
 
+// Where the axis of a region comes from: declared; to be found from the motion of the first seconds (until then u);
+// found there; or nothing moved there, and u was taken.
+enum class AxisFrom : std::uint8_t { kDeclared, kSought, kMotion, kNoMotion };
+
 // A rectangle of the first image whose points move together: a floor, a deck panel, a wall behind.
 struct Region {
   std::string name;
@@ -40,7 +44,8 @@ struct Region {
   // Axis of the displacement in the image: angle from +u towards +v (down). `both` gives two channels, u and v.
   double axis_deg = 0.0;
   bool both_axes = false;
-  // A known length between two points of the first image: the region's own scale. 0 = none.
+  AxisFrom axis_from = AxisFrom::kDeclared;
+  // A length known here, between two points of the first image: the region's own scale. 0 = none.
   double length_mm = 0.0;
   Vector2 length_from_px{}, length_to_px{};
   double depth_m = 0.0;  // background: distance along the optical axis in the first image; 0 = unknown

@@ -7,10 +7,10 @@
 
 namespace drivers {
 
-// A file of bytes that is read as a whole or refused: magic, version, length, FNV-1a checksum, then the bytes. It is
-// written as a partial file, synchronised to disk and renamed, and its folder is synchronised, too: after a loss of
-// power either the old or the new file exists, never a part of one.
-inline constexpr std::uint32_t kCheckpointVersion = 2;
+// A file of bytes that is whole or refused: magic, version, length, FNV-1a checksum, then the bytes. It is written
+// beside its place, brought to the disk, renamed, and its folder brought to the disk too: after a loss of power the old
+// file or the new one stands there, never a part of one.
+inline constexpr std::uint32_t kCheckpointVersion = 3;
 
 // Empty: written. Otherwise the reason (disk full, read-only, no such folder); the existing file is then kept.
 [[nodiscard]] std::string write_checkpoint(const std::string& path, std::span<const std::uint8_t> bytes) noexcept;

@@ -30,6 +30,7 @@ class TracksReader {
       if (line.empty()) continue;
       read_row(line);
     }
+    if (out_.region_axes.size() > out_.region_names.size()) lines_.fail("`# axes:` has more entries than `# regions:`");
     if (out_.frames.empty()) lines_.fail("no track in the file; was the run stopped before its first frame?");
     return std::move(out_);
   }
@@ -64,6 +65,7 @@ class TracksReader {
     }
     if (key == "readout_direction") set_direction(value);
     if (key == "regions") set_regions(value);
+    if (key == "axes") set_axes(value);
   }
 
   [[nodiscard]] double comment_number(const std::string& key, const std::string& value, double low, double high) const {
@@ -100,6 +102,11 @@ class TracksReader {
   void set_regions(const std::string& value) {
     split_cells(value, cells_);
     for (const std::string_view name : cells_) region_index(name);
+  }
+
+  void set_axes(const std::string& value) {
+    split_cells(value, cells_);
+    out_.region_axes.assign(cells_.begin(), cells_.end());
   }
 
   std::uint16_t region_index(std::string_view name) {

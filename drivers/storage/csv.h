@@ -17,6 +17,7 @@ namespace drivers {
 struct TracksFile {
   core::CameraInfo camera;                // from the header comments; description = the file's name
   std::vector<std::string> region_names;  // TrackPoint::region is an index into these
+  std::vector<std::string> region_axes;   // as a configuration writes them; empty: the file does not say
   std::vector<core::TrackFrame> frames;
 };
 

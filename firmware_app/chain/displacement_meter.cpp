@@ -14,7 +14,8 @@ bool DisplacementMeter::begin_frame(std::uint64_t sequence) noexcept {
 void DisplacementMeter::measure(core::TrackFrame& tracks, std::uint32_t stride,
                                 core::DisplacementSample& out) noexcept {
   channels_->update(tracks, out);
-  // The estimator's filters are made for the camera's own rate; the readout time does not depend on the rate.
+  axes_.add(tracks);
+  // Its filters are made for the camera's own rate; the readout is the same at any.
   if (stride == 1) readout_->update(tracks);
   out.readout = readout_->estimate();
   out.correction_set = correction_set_, out.record = record_;

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/geometry/channel_displacement.h"
+#include "core/geometry/motion_axes.h"
 #include "core/geometry/readout_estimator.h"
 #include "core/types/attitude.h"
 #include "core/types/displacement.h"
@@ -15,9 +16,9 @@ namespace app {
 // geometry changes at the frames that the diagnosis names. One thread; nothing allocates.
 class DisplacementMeter {
  public:
-  // Both as declared; both outlive this.
-  DisplacementMeter(core::ChannelDisplacement& channels, core::ReadoutEstimator& readout) noexcept
-      : channels_(&channels), readout_(&readout) {}
+  // As declared; both outlive this.
+  DisplacementMeter(core::ChannelDisplacement& channels, core::ReadoutEstimator& readout)
+      : channels_(&channels), readout_(&readout), axes_(channels.regions(), channels.n_points()) {}
 
   // Takes an attitude received since the last frame.
   void take(const core::AttitudeSample& sample) noexcept { channels_->take(sample); }
@@ -32,11 +33,14 @@ class DisplacementMeter {
 
   [[nodiscard]] std::uint32_t correction_set() const noexcept { return correction_set_; }  // in force
   [[nodiscard]] const core::ChannelDisplacement& channels() const noexcept { return *channels_; }
+  // In which direction the regions have moved so far, whatever their axes.
+  [[nodiscard]] const core::MotionAxes& axes() const noexcept { return axes_; }
 
  private:
   core::ChannelDisplacement* channels_;
   core::ReadoutEstimator* readout_;
-  CorrectionSwitch pending_;  // geometry null: none pending
+  core::MotionAxes axes_;
+  CorrectionSwitch pending_;  // geometry null: none
   std::uint32_t correction_set_ = 0, record_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include "drivers/storage/yaml.h"
 #include "firmware_app/config/config_check.h"
 #include "firmware_app/config/config_table.h"
+#include "firmware_app/config/region_axis.h"
 
 namespace app {
 namespace {
@@ -106,7 +107,7 @@ class Loader {
              "write e.g. `- {name: roof, rect: [100, 100, 200, 80]}` under it");
     }
     if (node.items.size() > kMaxRegions) refuse_count(node.items.size());
-    config_.regions.assign(node.items.size(), core::Region{});
+    config_.regions.assign(node.items.size(), undeclared_region());
     std::erase_if(origins_, [](const auto& origin) { return origin.first.starts_with("regions."); });
     for (std::size_t i = 0; i < node.items.size(); ++i) {
       const Place region{fmt::format("{}.{}", place.written, i), "regions[]", i};
@@ -149,7 +150,7 @@ class Loader {
                                     printable(path), config_.regions.size()));
     }
     if (*index >= kMaxRegions) refuse_count(*index + 1);
-    if (*index == config_.regions.size()) config_.regions.emplace_back();
+    if (*index == config_.regions.size()) config_.regions.push_back(undeclared_region());
     const std::string rest = dot == std::string::npos ? "" : path.substr(dot);
     return {fmt::format("regions.{}{}", *index, rest), "regions[]" + rest, static_cast<std::size_t>(*index)};
   }

@@ -5,6 +5,7 @@
 
 #include "core/types/role_names.h"
 #include "firmware_app/config/config_sections.h"
+#include "firmware_app/config/region_axis.h"
 
 namespace app {
 namespace {
@@ -40,25 +41,21 @@ ConfigKey axis_key() {
   ConfigKey key{"regions[].axis",
                 "one of, or number",
                 "degrees",
-                "u | v | both | -360 .. 360",
-                "u",
+                "auto | u | v | both | -360 .. 360",
+                "auto",
                 "image direction in which the displacement of the region is measured: u right, v down, both "
-                "(two channels, NAME.u and NAME.v), or an angle from u towards v",
+                "(two channels, NAME.u and NAME.v), an angle from u towards v, or auto: found from the structure's "
+                "motion in the first seconds, and stated",
                 {},
                 {}};
   key.set = [](AppConfig& config, std::size_t i, const YamlNode& node) -> std::optional<std::string> {
     if (auto remedy = refuse_unless_scalar(node)) return remedy;
-    const auto angle = node.text == "u" || node.text == "both" ? 0.0
-                       : node.text == "v"                      ? 90.0
-                                          : (node.quoted ? std::nullopt : drivers::parse_number(node.text));
-    if (!angle || *angle < -360.0 || *angle > 360.0) return "write u, v, both, or an angle";
-    config.regions[i].axis_deg = *angle;
-    config.regions[i].both_axes = node.text == "both";
+    const bool is_number = drivers::parse_number(node.text).has_value();
+    if ((node.quoted && is_number) || !put_axis(node.text, config.regions[i]))
+      return "write auto, u, v, both, or an angle";
     return std::nullopt;
   };
-  key.canonical = [](AppConfig& config, std::size_t i) {
-    return config.regions[i].both_axes ? std::string("both") : fmt::format("{}", config.regions[i].axis_deg);
-  };
+  key.canonical = [](AppConfig& config, std::size_t i) { return axis_key_text(config.regions[i]); };
   return key;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "firmware_app/config/config_table.h"
+#include "firmware_app/config/region_axis.h"
 
 namespace app {
 namespace {
@@ -44,7 +45,7 @@ struct Section {
 
 std::string regions_yaml(AppConfig& config) {
   AppConfig plain;
-  plain.regions.resize(1);
+  plain.regions = {undeclared_region()};
   std::string out = config.regions.empty() ? "" : "regions:\n";
   for (std::size_t i = 0; i < config.regions.size(); ++i) {
     std::string members;

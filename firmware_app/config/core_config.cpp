@@ -10,6 +10,7 @@
 #include "core/geometry/keyframe_view.h"
 #include "drivers/storage/attitude_file.h"
 #include "firmware_app/config/calibration.h"
+#include "firmware_app/config/region_axis.h"
 #include "firmware_app/config/structure_scale.h"
 
 namespace app {
@@ -156,7 +157,9 @@ std::vector<std::string> corrections(const AppConfig& config, const core::Camera
 }
 
 std::vector<std::string> caveats(const AppConfig& config, const core::CameraInfo& camera) {
-  return structure_scale(config, camera_model(config, camera)).notes;
+  std::vector<std::string> out = structure_scale(config, camera_model(config, camera)).notes;
+  for (std::string& words : axis_caveats(config)) out.push_back(std::move(words));
+  return out;
 }
 
 }  // namespace app

@@ -25,7 +25,7 @@ namespace app {
 [[nodiscard]] std::vector<std::string> region_names(const AppConfig& config);
 // The corrections in force, described for modal.json.
 [[nodiscard]] std::vector<std::string> corrections(const AppConfig& config, const core::CameraInfo& camera);
-// Open questions of scale and obliqueness, described for modal.json.
+// Open questions of scale, obliqueness and axes, described for modal.json.
 [[nodiscard]] std::vector<std::string> caveats(const AppConfig& config, const core::CameraInfo& camera);
 
 }  // namespace app

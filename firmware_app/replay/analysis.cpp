@@ -6,13 +6,15 @@
 #include "firmware_app/replay/point_places.h"
 #include "firmware_app/replay/run_folder.h"
 #include "firmware_app/replay/track_replay.h"
+#include "firmware_app/replay/tracks_axes.h"
 
 namespace app {
 
-TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_path,
+TracksResult replay_tracks(const AppConfig& declared, const std::string& tracks_path,
                            const std::string& report_directory) {
   const drivers::TracksFile file = drivers::read_tracks_csv(tracks_path);
   if (file.frames.empty()) throw std::invalid_argument(tracks_path + ": no frame");
+  const AppConfig config = with_axes_of(file, declared);
   const core::CameraInfo camera = camera_of_tracks(file, config);
   const PointPlaces places(file, config);
   std::size_t i_frame = 0;

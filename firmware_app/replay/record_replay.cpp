@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "firmware_app/chain/state/run_head.h"
+#include "firmware_app/config/region_axis.h"
 #include "firmware_app/replay/analysis.h"
 #include "firmware_app/replay/track_replay.h"
 
@@ -22,6 +23,7 @@ class Record {
       : path_(path), reader_(path), recorded_(reader_.head(), path + ": its configuration", overrides.overrides) {
     config_ =
         overrides.config_path.empty() ? recorded_.config() : load_config(overrides.config_path, overrides.overrides);
+    take_axes_of(config_, recorded_.config().regions);
     if (overrides.skips_closure_reports && config_.closure.adopt == ClosureAdopt::kReport)
       config_.closure.adopt = ClosureAdopt::kOff;
   }

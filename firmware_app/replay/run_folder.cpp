@@ -15,6 +15,7 @@
 #include "firmware_app/config/calibration.h"
 #include "firmware_app/config/structure_scale.h"
 #include "firmware_app/replay/point_places.h"
+#include "firmware_app/replay/tracks_axes.h"
 #include "firmware_app/report/modal_json.h"
 
 namespace app {
@@ -60,8 +61,9 @@ core::CameraInfo camera_of_tracks(const drivers::TracksFile& file, const AppConf
   return camera;
 }
 
-MeasuredRows rows_of_tracks(const AppConfig& config, const drivers::TracksFile& file,
+MeasuredRows rows_of_tracks(const AppConfig& declared, const drivers::TracksFile& file,
                             const CorrectionSet& corrections) {
+  const AppConfig config = with_axes_of(file, declared);
   const core::CameraInfo camera = camera_of_tracks(file, config);
   const PointPlaces places(file, config);
   const std::unique_ptr<Geometry> geometry = make_geometry(config, camera, places.first(), corrections);
@@ -99,8 +101,9 @@ MeasuredRows rows_of_displacements(const std::string& path, const std::vector<st
   out.series.rate_hz = drivers::parse_number(comment("rate_hz")).value_or(0.0);
   out.series.unit = comment("unit");
   if (frame < 0 || time < 0 || !(out.series.rate_hz > 0.0) || file.columns.front().empty())
-    throw drivers::FileError(path + ": is no displacements.csv of a run: columns frame and t_s and a comment rate_hz "
-                                    "are needed");
+    throw drivers::FileError(path +
+                             ": is no displacements.csv of a run: columns frame and t_s and a comment rate_hz "
+                             "are needed");
   std::vector<std::uint64_t> number;
   for (const double one : file.columns[static_cast<std::size_t>(frame)]) {
     if (!(one >= 0.0 && one < 1e15)) throw drivers::FileError(path + ": a frame number is negative or missing");

@@ -97,6 +97,7 @@ class TrackAnalysis {
   bool push(core::TrackFrame& tracks, std::uint32_t stride = 1);
 
   [[nodiscard]] const std::vector<core::ChannelInfo>& channels() const noexcept { return meter_.channels().channels(); }
+  [[nodiscard]] const core::MotionAxes& axes() const noexcept { return meter_.axes(); }
   [[nodiscard]] const core::DisplacementSample& sample() const noexcept { return sample_; }  // of the last frame
   [[nodiscard]] ChannelAnalysis& analysis() noexcept { return analysis_; }
 

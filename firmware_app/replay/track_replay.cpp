@@ -100,9 +100,9 @@ class Replay {
 
   void write_report(const TrackSource& last) {
     const core::closure::ClosureReport* closure = closure_ ? &*closure_ : nullptr;
-    report_->finish(result_.estimate, result_.losses, corrections(last.config, last.camera),
-                    caveats(last.config, last.camera), closure);
-    const RunFacts facts = run_facts(last.config, last.camera, last.name, result_.losses, result_.estimate);
+    const RunFacts facts =
+        run_facts(last.config, last.camera, last.name, result_.losses, result_.estimate, analysis_->axes());
+    report_->finish(result_.estimate, result_.losses, corrections(last.config, last.camera), facts.caveats, closure);
     PictureInputs inputs = picture_inputs(last.config, last.camera, result_.channels);
     inputs.first_frame = last.image;
     inputs.keyframe = &last.keyframe;

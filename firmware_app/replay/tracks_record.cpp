@@ -11,6 +11,7 @@
 #include "core/closure/observation/recent_tracks.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/chain/observation.h"
+#include "firmware_app/replay/tracks_axes.h"
 
 namespace app {
 namespace {
@@ -66,11 +67,12 @@ TracksRecord read_tracks_record(const std::string& path, const AppConfig& config
   return tracks_record(drivers::read_tracks_csv(file_path), file_path, config);
 }
 
-TracksRecord tracks_record(const drivers::TracksFile& file, const std::string& file_path, const AppConfig& config) {
+TracksRecord tracks_record(const drivers::TracksFile& file, const std::string& file_path, const AppConfig& given) {
   if (file.frames.empty()) throw drivers::FileError(file_path + ": no frame with a point");
   if (file.frames.back().sequence - file.frames.front().sequence >= kMostFrames)
     throw drivers::FileError(fmt::format("{}: frame numbers extend over {} frames, at most {} are allowed", file_path,
                                          file.frames.back().sequence - file.frames.front().sequence + 1, kMostFrames));
+  const AppConfig config = with_axes_of(file, given);
   TracksRecord out;
   const Columns columns(file, config);
   if (columns.region_of_point.empty())

@@ -10,6 +10,7 @@
 #include "core/identification/real_shape.h"
 #include "core/identification/uncertainty.h"
 #include "drivers/storage/json.h"
+#include "firmware_app/config/region_axis.h"
 
 namespace app {
 namespace {
@@ -118,13 +119,23 @@ Json channels_json(const ModalReport& report) {
   return out;
 }
 
+Json axes_json(const std::vector<core::Region>& regions) {
+  Json out = Json::array();
+  for (const core::Region& region : regions) {
+    if (!core::makes_channel(region.role)) continue;
+    out.push_back({{"region", region.name}, {"axis", axis_words(region)}, {"from", axis_origin(region)}});
+  }
+  return out;
+}
+
 Json peaks_json(const ModalReport& report) {
   Json out = Json::array();
   for (const core::SpectralPeak& peak : report.estimate.peaks) {
-    out.push_back({{"frequency_hz", peak.frequency_hz},
-                   {"resolution_hz", peak.resolution_hz},
-                   {"height", peak.height},
-                   {"share", components_json(report, peak.share.size(), [&](std::size_t i) { return peak.share[i]; })}});
+    out.push_back(
+        {{"frequency_hz", peak.frequency_hz},
+         {"resolution_hz", peak.resolution_hz},
+         {"height", peak.height},
+         {"share", components_json(report, peak.share.size(), [&](std::size_t i) { return peak.share[i]; })}});
   }
   return out;
 }
@@ -183,6 +194,7 @@ std::string modal_json(const ModalReport& report, std::size_t* n_not_finite) {
   out["degrees_of_freedom"] = positive_or_null(estimate.degrees_of_freedom);
   out["resolution_hz"] = positive_or_null(estimate.resolution_hz);
   out["channels"] = channels_json(report);
+  if (!report.regions.empty()) out["axes"] = axes_json(report.regions);
   out["modes"] = modes_json(estimate.modes, report);
   out["rejected"] = modes_json(estimate.rejected, report);
   out["peaks"] = peaks_json(report);

@@ -7,6 +7,7 @@
 
 #include "core/types/health.h"
 #include "core/types/modal_estimate.h"
+#include "core/types/region.h"
 #include "firmware_app/config/config.h"
 
 namespace app {
@@ -18,7 +19,8 @@ struct ModalReport {
   core::ModalEstimate estimate;
   std::vector<std::string> corrections;  // effects that were removed before the identification
   core::Health losses;
-  std::vector<std::string> caveats = {};  // open questions of the result, for the reader
+  std::vector<std::string> caveats = {};   // what the result leaves open, for a reader
+  std::vector<core::Region> regions = {};  // of a run from pictures: name and axis are written
 };
 
 [[nodiscard]] std::string_view to_text(Method method) noexcept;

@@ -8,6 +8,7 @@
 
 #include "drivers/storage/json.h"
 #include "drivers/storage/text_file.h"
+#include "firmware_app/config/region_axis.h"
 #include "firmware_app/report/modal_json.h"
 
 namespace app {
@@ -33,6 +34,7 @@ class ModalReader {
     estimate.final = true;
     estimate.resolution_hz = optional_number(root, "resolution_hz").value_or(0.0);
     read_channels(root);
+    read_axes(root);
     estimate.modes = modes(root, "modes");
     estimate.rejected = modes(root, "rejected");
     read_peaks(root);
@@ -88,6 +90,13 @@ class ModalReader {
     if (list == nullptr) return out;
     for (const Json& item : *list) out.push_back(item.is_string() ? item.get<std::string>() : "");
     return out;
+  }
+
+  void read_axes(const Json& root) {
+    const Json* list = find(root, "axes");
+    if (list == nullptr) return;
+    for (const Json& item : *list)
+      report_.regions.push_back(region_with_axis(text(item, "region"), text(item, "axis"), text(item, "from")));
   }
 
   [[nodiscard]] std::vector<core::Mode> modes(const Json& root, const char* key) {

@@ -1,10 +1,12 @@
 #include "firmware_app/report/run_findings.h"
 
 #include <filesystem>
+#include <utility>
 
 #include "firmware_app/config/calibration.h"
 #include "firmware_app/config/core_config.h"
 #include "firmware_app/config/structure_scale.h"
+#include "firmware_app/report/axis_findings.h"
 #include "firmware_app/report/modal_json.h"
 
 namespace app {
@@ -20,7 +22,7 @@ PictureInputs picture_inputs(const AppConfig& config, const core::CameraInfo& ca
 }
 
 RunFacts run_facts(const AppConfig& config, const core::CameraInfo& camera, const std::string& source,
-                   const core::Health& health, const core::ModalEstimate& estimate) {
+                   const core::Health& health, const core::ModalEstimate& estimate, const core::MotionAxes& axes) {
   RunFacts facts;
   facts.source = std::filesystem::path(source).filename().string();
   if (facts.source.empty() && config.camera.driver == drivers::CameraKind::kSynthetic)
@@ -29,6 +31,7 @@ RunFacts run_facts(const AppConfig& config, const core::CameraInfo& camera, cons
   facts.corrections = corrections(config, camera);
   facts.corrections.insert(facts.corrections.end(), estimate.amendments.begin(), estimate.amendments.end());
   facts.caveats = caveats(config, camera);
+  for (std::string& words : motion_across_words(config.regions, axes)) facts.caveats.push_back(std::move(words));
   facts.health = health;
   facts.image_width_px = camera.width_px, facts.image_height_px = camera.height_px;
   return facts;

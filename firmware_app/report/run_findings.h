@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/motion_axes.h"
 #include "core/types/frame.h"
 #include "firmware_app/config/config.h"
 #include "firmware_app/report/pictures/pictures.h"
@@ -14,6 +15,7 @@ namespace app {
                                            const std::vector<core::ChannelInfo>& channels);
 // `source`: a path, of which only the last component is reported.
 [[nodiscard]] RunFacts run_facts(const AppConfig& config, const core::CameraInfo& camera, const std::string& source,
-                                 const core::Health& health, const core::ModalEstimate& estimate);
+                                 const core::Health& health, const core::ModalEstimate& estimate,
+                                 const core::MotionAxes& axes);
 
 }  // namespace app

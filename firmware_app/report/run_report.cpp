@@ -1,5 +1,6 @@
 #include "firmware_app/report/run_report.h"
 #include "firmware_app/config/calibration.h"
+#include "firmware_app/config/region_axis.h"
 #include "firmware_app/config/structure_scale.h"
 
 #include <fmt/format.h>
@@ -60,6 +61,7 @@ RunReport::RunReport(const std::string& directory, const AppConfig& config, cons
     : directory_(directory),
       method_(app::to_text(config.method)),
       region_names_(region_names),
+      regions_(config.regions),
       history_(camera.rate_hz, channels.size(), region_names.size()) {
   make_directory(directory);
   for (const core::ChannelInfo& channel : channels) channel_names_.push_back(channel.name);
@@ -71,10 +73,10 @@ RunReport::RunReport(const std::string& directory, const AppConfig& config, cons
   write_displacement_header(config, camera, channels);
   if (!config.report.tracks) return;
   tracks_.emplace(in_directory(directory, "tracks.csv"));
-  write_track_header(camera);
+  write_track_header(config, camera);
 }
 
-void RunReport::write_track_header(const core::CameraInfo& camera) {
+void RunReport::write_track_header(const AppConfig& config, const core::CameraInfo& camera) {
   fmt::memory_buffer& out = tracks_->buffer();
   append_line(out, "# hovermodal tracks, version 1");
   append_line(out, "# image_size_px: {} x {}", camera.width_px, camera.height_px);
@@ -84,6 +86,9 @@ void RunReport::write_track_header(const core::CameraInfo& camera) {
   append_line(out, "# exposure_ms: {}", static_cast<double>(camera.exposure_ns) / 1e6);
   append_line(out, "# frame_count: {}", camera.frame_count == 0 ? "unknown" : std::to_string(camera.frame_count));
   append_line(out, "# regions: {}", fmt::join(region_names_, ","));
+  std::vector<std::string> axes;
+  for (const core::Region& region : config.regions) axes.push_back(axis_key_text(region));
+  append_line(out, "# axes: {}", fmt::join(axes, ","));
   append_line(out, "frame,t_s,point,region,u_px,v_px,sigma_px");
 }
 
@@ -175,7 +180,8 @@ void RunReport::finish(const core::ModalEstimate& last, const core::Health& loss
     std::size_t n_not_finite = 0;
     std::vector<std::string> in_force = corrections;
     in_force.insert(in_force.end(), last.amendments.begin(), last.amendments.end());
-    const std::string text = modal_json({method_, channel_names_, last, in_force, losses, caveats}, &n_not_finite);
+    const std::string text =
+        modal_json({method_, channel_names_, last, in_force, losses, caveats, regions_}, &n_not_finite);
     n_not_finite_ += n_not_finite;
     drivers::write_file_atomically(in_directory(directory_, "modal.json"), text);
   });

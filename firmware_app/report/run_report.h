@@ -48,7 +48,7 @@ class RunReport {
   [[nodiscard]] std::uint64_t n_not_finite() const noexcept { return n_not_finite_; }
 
  private:
-  void write_track_header(const core::CameraInfo& camera);
+  void write_track_header(const AppConfig& config, const core::CameraInfo& camera);
   void write_displacement_header(const AppConfig& config, const core::CameraInfo& camera,
                                  const std::vector<core::ChannelInfo>& channels);
   void append_point(fmt::memory_buffer& out, const std::string& prefix, const core::TrackPoint& point);
@@ -57,6 +57,7 @@ class RunReport {
   std::string method_;
   std::vector<std::string> channel_names_;
   std::vector<std::string> region_names_;
+  std::vector<core::Region> regions_;
   RunHistory history_;
   std::optional<drivers::CsvWriter> tracks_;  // empty if the configuration requests no tracks
   std::optional<drivers::CsvWriter> displacements_;

@@ -2,6 +2,7 @@
 
 #include "drivers/host/host_status.h"
 #include "firmware_app/chain/state/run_head.h"
+#include "firmware_app/report/axis_findings.h"
 #include "rt/memory.h"
 
 namespace app {
@@ -52,12 +53,13 @@ PublishStage::Outlets DataFlow::outlets() {
           recorder.get(),
           report.get(),
           [this] { return host_status(); },
-          picture_drawer(config, source, report.get()),
+          picture_drawer(config, source, report.get(), meter.axes()),
           source.channels(),
           corrections(config, source.info),
           caveats(config, source.info),
           config.telemetry,
-          config.regions};
+          config.regions,
+          [this] { return motion_across_words(config.regions, meter.axes()); }};
 }
 
 void DataFlow::connect() {

@@ -10,8 +10,8 @@
 #include "firmware_app/config/options.h"
 #include "firmware_app/service/pipeline.h"
 #include "firmware_app/service/progress.h"
-#include "firmware_app/service/run_diagnosis.h"
 #include "firmware_app/service/real_time.h"
+#include "firmware_app/service/run_diagnosis.h"
 #include "firmware_app/service/service_notify.h"
 
 namespace {
@@ -41,7 +41,7 @@ int run(const app::AppConfig& config) {
   const bool is_done = progress.finish(outcome);
   // A flight that was stopped ends at once; a recording that reached its end is analysed once more as a whole.
   const auto goes_on = [&] { return service.tick({}), !signals.stop_requested(); };
-  if (is_done && !was_stopped) app::diagnose_run(config, outcome, goes_on);
+  if (is_done && !was_stopped) app::diagnose_run(pipeline.config(), outcome, goes_on);
   return is_done ? kDone : kFault;
 }
 

@@ -52,9 +52,10 @@ std::string short_record(const AppConfig& config, const core::CameraInfo& info, 
 
 std::function<void(const PublishStage::Findings&, const core::Health&)> picture_drawer(const AppConfig& config,
                                                                                        const Source& source,
-                                                                                       const RunReport* report) {
+                                                                                       const RunReport* report,
+                                                                                       const core::MotionAxes& axes) {
   if (report == nullptr) return {};
-  return [&config, &source, report](const PublishStage::Findings& found, const core::Health& health) {
+  return [&config, &source, report, &axes](const PublishStage::Findings& found, const core::Health& health) {
     PictureInputs inputs = picture_inputs(config, source.info, source.channels());
     inputs.first_frame = &source.keyframe_image();
     inputs.keyframe = &source.keyframe;
@@ -62,7 +63,7 @@ std::function<void(const PublishStage::Findings&, const core::Health&)> picture_
     inputs.estimate = &found.estimate;
     inputs.closure = found.closure;
     inputs.history = &report->history();
-    const RunFacts facts = run_facts(config, source.info, config.camera.source, health, found.estimate);
+    const RunFacts facts = run_facts(config, source.info, config.camera.source, health, found.estimate, axes);
     inputs.facts = &facts;
     (void)write_pictures(config.report.directory, inputs);
   };

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/geometry/motion_axes.h"
 #include "core/tracking/preview_maker.h"
 #include "drivers/telemetry/publisher.h"
 #include "drivers/telemetry/run_recorder.h"
@@ -27,7 +28,7 @@ namespace app {
                                        const core::ModalEstimate& estimate);
 // The function for PublishStage::Outlets::draw; empty: no report requested. All arguments must outlive it.
 [[nodiscard]] std::function<void(const PublishStage::Findings&, const core::Health&)> picture_drawer(
-    const AppConfig& config, const Source& source, const RunReport* report);
+    const AppConfig& config, const Source& source, const RunReport* report, const core::MotionAxes& axes);
 [[nodiscard]] core::PreviewMaker preview_maker_for(const AppConfig& config, const Source& source);
 [[nodiscard]] FrameRecord record_prototype(const Source& source);
 [[nodiscard]] std::string event_line(std::string_view stage, const rt::Event& event);

@@ -4,19 +4,25 @@
 #include <cstdio>
 #include <utility>
 
+#include "firmware_app/config/region_axis.h"
+#include "firmware_app/report/axis_findings.h"
+#include "firmware_app/report/loss_words.h"
 #include "firmware_app/report/page/report_page.h"
 #include "firmware_app/service/data_flow.h"
+#include "firmware_app/service/found_axes.h"
 #include "firmware_app/service/preflight.h"
 
 namespace app {
 
-Pipeline::Pipeline(const AppConfig& config) {
+Pipeline::Pipeline(const AppConfig& declared) {
+  const AppConfig config = with_found_axes(declared);
   std::unique_ptr<drivers::Camera> camera = open_camera(config);
   std::string warning;
   std::unique_ptr<drivers::RunRecorder> recorder = open_recorder(config);
   std::unique_ptr<drivers::Publisher> publisher = open_publisher(config, recorder.get(), warning);
   flow_ = std::make_unique<DataFlow>(config, std::move(camera), std::move(recorder), std::move(publisher));
   if (!warning.empty()) flow_->health.warn(warning);
+  for (const std::string& words : axis_caveats(config)) flow_->health.warn(words);
 }
 
 Pipeline::Pipeline(const AppConfig& config, std::unique_ptr<drivers::Camera> camera,
@@ -73,6 +79,12 @@ Pipeline::Outcome Pipeline::join() {
   if (std::string note = short_record(flow_->config, flow_->source.info, outcome.estimate); !note.empty()) {
     outcome.notes.push_back(std::move(note));
   }
+  if (std::string words = point_loss_words(flow_->source.tracker.losses(), flow_->source.tracker.n_points());
+      !words.empty()) {
+    outcome.notes.push_back(std::move(words));
+  }
+  for (std::string& words : motion_across_words(flow_->config.regions, flow_->meter.axes()))
+    outcome.notes.push_back(std::move(words));
   if (outcome.fault.empty() && flow_->report) outcome.page = flow_->config.report.directory + "/" + kReportName;
   return outcome;
 }
@@ -87,11 +99,13 @@ std::vector<std::string> Pipeline::take_events() {
   return lines;
 }
 core::Health Pipeline::health() const { return flow_->status(); }
+const AppConfig& Pipeline::config() const noexcept { return flow_->config; }
 const core::CameraInfo& Pipeline::camera_info() const noexcept { return flow_->source.info; }
 const std::vector<core::ChannelInfo>& Pipeline::channels() const noexcept { return flow_->source.channels(); }
 std::vector<std::string> Pipeline::warnings() const { return flow_->status().warnings; }
 
-std::string check_source(const AppConfig& config) {
+std::string check_source(const AppConfig& declared) {
+  const AppConfig config = with_found_axes(declared);
   Source source(open_camera(config), config);
   return preflight_text(preflight(config, source));
 }

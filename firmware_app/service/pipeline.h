@@ -36,8 +36,9 @@ class Pipeline {
   };
 
   // Throws ConfigError (configuration does not fit the source), drivers::DeviceMissing, std::runtime_error.
-  explicit Pipeline(const AppConfig& config);
-  // The same with camera and publisher supplied by the caller, for tests.
+  // Where axes are not declared they are found first, which takes the source's first seconds.
+  explicit Pipeline(const AppConfig& declared);
+  // The same, axes not declared taken as u, with a camera and a publisher of the caller's: for tests.
   Pipeline(const AppConfig& config, std::unique_ptr<drivers::Camera> camera,
            std::unique_ptr<drivers::Publisher> publisher);
   ~Pipeline();
@@ -57,6 +58,7 @@ class Pipeline {
   [[nodiscard]] std::string stall() const;
   // Events of the stages since the last call, one line each.
   [[nodiscard]] std::vector<std::string> take_events();
+  [[nodiscard]] const AppConfig& config() const noexcept;  // with the axes found
   [[nodiscard]] const core::CameraInfo& camera_info() const noexcept;
   [[nodiscard]] const std::vector<core::ChannelInfo>& channels() const noexcept;
   [[nodiscard]] std::vector<std::string> warnings() const;
@@ -65,8 +67,8 @@ class Pipeline {
   std::unique_ptr<DataFlow> flow_;
 };
 
-// Checks everything that can be checked without running: opens the source, compares regions, seeds points. For --check.
-// Returns a description of how even a recording's times are; empty: not a recording.
-std::string check_source(const AppConfig& config);
+// Checks all that can be checked without running: opens the source, compares regions, seeds. For --check. Returns how
+// even a recording's times are, in words; empty: not a recording.
+std::string check_source(const AppConfig& declared);
 
 }  // namespace app

@@ -10,6 +10,7 @@
 #include "core/planning/noise_floor.h"
 #include "firmware_app/config/calibration.h"
 #include "firmware_app/config/config_timing.h"
+#include "firmware_app/config/region_axis.h"
 #include "firmware_app/config/structure_scale.h"
 #include "firmware_app/report/recording_words.h"
 
@@ -17,8 +18,8 @@ namespace app {
 namespace {
 
 constexpr std::size_t kMostFrames = 25;
-constexpr double kSeen = 0.9;               // share of the tried frames
-constexpr double kFaint_px = 0.15;          // a point with a larger sigma has little texture
+constexpr double kSeen = 0.9;       // of the frames tried
+constexpr double kFaint_px = 0.15;  // a point less certain than this has little texture
 constexpr std::size_t kFewPoints = 6;
 constexpr std::chrono::milliseconds kFrameTimeout{2000};
 
@@ -64,10 +65,16 @@ double expected_noise_px(const core::Region& region, const std::vector<double>& 
   return std::sqrt(n / (information * std::max(1.0, independent)));
 }
 
+std::string axis_cell(const core::Region& region) {
+  if (!core::makes_channel(region.role)) return "-";
+  return axis_words(region) + (region.axis_from == core::AxisFrom::kMotion ? ", found" : "");
+}
+
 RegionCheck check_region(const AppConfig& config, const core::TrackFrame& keyframe, std::size_t i_region,
                          const std::vector<PointCheck>& points, std::size_t n_frames) {
   RegionCheck out;
   out.name = config.regions[i_region].name;
+  out.axis = axis_cell(config.regions[i_region]);
   std::vector<double> sigmas_px;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (keyframe.points[i].region != i_region) continue;
@@ -97,20 +104,23 @@ void add_facts(const Source& source, const StructureScale& scale, Preflight& out
                             "above half the frame rate"
                           : fmt::format("readout: {:.4g} ms of a frame of {:.4g} ms", readout_ms, frame_ms));
   const double exposure_ms = 1e-6 * static_cast<double>(source.info.exposure_ns);
-  out.facts.push_back(exposure_ms == 0.0 ? std::string("exposure: not known")
-                                         : fmt::format("exposure: {:.4g} ms of a frame of {:.4g} ms", exposure_ms, frame_ms));
+  out.facts.push_back(exposure_ms == 0.0
+                          ? std::string("exposure: not known")
+                          : fmt::format("exposure: {:.4g} ms of a frame of {:.4g} ms", exposure_ms, frame_ms));
 }
 
 void warn_of_regions(Preflight& out) {
   for (const RegionCheck& region : out.regions) {
     if (region.n_seen < std::min(kFewPoints, region.n_seeded)) {
-      out.warnings.push_back(fmt::format("region {}: only {} of {} points are found again in the first frames: it moves "
-                                         "too fast, is covered, or its texture is faint",
-                                         region.name, region.n_seen, region.n_seeded));
+      out.warnings.push_back(
+          fmt::format("region {}: only {} of {} points are found again in the first frames: it moves "
+                      "too fast, is covered, or its texture is faint",
+                      region.name, region.n_seen, region.n_seeded));
     } else if (region.point_sigma_px > kFaint_px) {
-      out.warnings.push_back(fmt::format("region {}: faint texture: a point is known to {:.2g} px only; a larger "
-                                         "region, or one with more contrast, is better",
-                                         region.name, region.point_sigma_px));
+      out.warnings.push_back(
+          fmt::format("region {}: faint texture: a point is known to {:.2g} px only; a larger "
+                      "region, or one with more contrast, is better",
+                      region.name, region.point_sigma_px));
     }
   }
 }
@@ -130,21 +140,22 @@ Preflight preflight(const AppConfig& config, Source& source) {
   out.warnings = doubtful_values(config, source.info.rate_hz, source.camera->times().stated_hz,
                                  scale.known ? scale.mm_per_px : 0.0);
   warn_of_regions(out);
+  for (std::string& words : axis_caveats(config)) out.warnings.push_back(std::move(words));
   return out;
 }
 
 std::string preflight_text(const Preflight& found) {
-  std::string out = fmt::format("{:<16} {:>10} {:>12} {:>12} {:>14}\n", "region", "points", "a point, px", "mm per px",
-                                "noise expected");
+  std::string out = fmt::format("{:<16} {:>10} {:>10} {:>12} {:>12} {:>14}\n", "region", "axis", "points",
+                                "a point, px", "mm per px", "noise expected");
   for (const RegionCheck& region : found.regions) {
     const bool has_scale = region.mm_per_px > 0.0;
-    out += fmt::format("{:<16} {:>10} {:>12} {:>12} {:>14}\n", region.name,
+    out += fmt::format("{:<16} {:>10} {:>10} {:>12} {:>12} {:>14}\n", region.name, region.axis,
                        fmt::format("{} of {}", region.n_seen, region.n_seeded),
                        region.n_seen > 0 ? fmt::format("{:.3f}", region.point_sigma_px) : "-",
                        has_scale ? fmt::format("{:.4g}", region.mm_per_px) : "-",
                        region.n_seen == 0 ? std::string("-")
-                       : has_scale ? fmt::format("{:.2g} mm", region.noise_px * region.mm_per_px)
-                                   : fmt::format("{:.2g} px", region.noise_px));
+                       : has_scale        ? fmt::format("{:.2g} mm", region.noise_px * region.mm_per_px)
+                                          : fmt::format("{:.2g} px", region.noise_px));
   }
   for (const std::string& fact : found.facts) out += fact + "\n";
   for (const std::string& warning : found.warnings) out += "warning: " + warning + "\n";

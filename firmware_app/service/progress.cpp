@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <ctime>
 
+#include "firmware_app/config/region_axis.h"
 #include "firmware_app/report/estimate_words.h"
 #include "firmware_app/report/recording_words.h"
 #include "rt/clock.h"
@@ -25,9 +26,8 @@ void print_mode(const core::Mode& mode, const std::vector<core::ChannelInfo>& ch
     shape += known ? fmt::format(" {}={:+.2f}", channels[c].name, mode.shape[c].real())
                    : fmt::format(" {}=?", channels[c].name);
   }
-  const std::string fold =
-      (mode.fold_n.value_or(0) != 0 ? fmt::format(" (seen at {:.3f} Hz)", mode.apparent_hz) : "") +
-      other_frequencies_text(mode);
+  const std::string fold = (mode.fold_n.value_or(0) != 0 ? fmt::format(" (seen at {:.3f} Hz)", mode.apparent_hz) : "") +
+                           other_frequencies_text(mode);
   spdlog::info("  {:9.4f} Hz{}  damping {:5.2f} %  MPC {:.3f} {}", mode.frequency_hz, fold, 100.0 * mode.damping_ratio,
                mode.mpc, shape);
 }
@@ -63,6 +63,7 @@ Progress::Progress(Pipeline& pipeline)
                info.rate_hz, static_cast<double>(info.readout_ns) * 1e-6);
   const core::RecordingTimes times = pipeline.health().times;
   if (times.known()) spdlog::info("{}", recording_words(times));
+  if (const std::string words = found_axes_words(pipeline.config()); !words.empty()) spdlog::info("{}", words);
   for (const core::ChannelInfo& channel : pipeline.channels()) {
     spdlog::info("channel {}{}: seen {:.2f} ms after row 0", channel.name, channel.is_base ? " (base)" : "",
                  1e3 * channel.row_delay_s);

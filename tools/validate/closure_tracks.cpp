@@ -68,8 +68,8 @@ std::vector<double> twins_of(const ClosureTracksOptions& options, const RecordSe
 }  // namespace
 
 void print_closure_tracks(const ClosureTracksOptions& options) {
-  fmt::print("# bars on the share of the noise: full band {}, low band {}, constants and lines {}\n",
-             core::closure::kFullBandBar, core::closure::kLowBandBar, core::closure::kGlobalBar);
+  fmt::print("# bars on the share of the noise: full band {}, lines {}, constants {}\n", core::closure::kFullBandBar,
+             core::closure::kLineBar, core::closure::kGlobalBar);
   fmt::print(
       "# closure-tracks: effect, its name in the catalogue, wanted strength, strength, constant part, visible part, "
       "size, seed, named, held-out before, after, floor (px), worst error of its parameters in their sigmas, error of "

@@ -33,7 +33,13 @@ class ObservationEffect {
   // Valid until the next fit. The effect must outlive it.
   [[nodiscard]] virtual std::unique_ptr<EffectCandidate> candidate(const FitView& fit) const = 0;
 
-  // How a run corrects this effect in its own points once reports agree on it; nullptr (default): it does not.
+  // The patterns over the points of which its own is a combination: px per unit, 2 points x patterns; without columns
+  // where it has no such pattern. For comparison with patterns that have no name.
+  [[nodiscard]] virtual Eigen::MatrixXd shapes(const FitView& fit) const {
+    return Eigen::MatrixXd(fit.model.weight().size(), 0);
+  }
+
+  // Whether a run corrects this effect in its own points, once reports agree on it, and how. By default it does not.
   [[nodiscard]] virtual const InFlightCorrection* in_flight() const { return nullptr; }
 };
 

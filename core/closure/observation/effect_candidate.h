@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "core/closure/observation/effect_in_model.h"
@@ -36,6 +38,12 @@ class EffectCandidate {
   virtual double find(const TestedResidual& residual) = 0;
   [[nodiscard]] virtual double material_share() const = 0;  // smallest gain per residual value
   [[nodiscard]] virtual Objection objection() const { return {}; }
+  // Gain of the best pattern of any kind in the same place and band, learned from the residual; empty: not comparable.
+  [[nodiscard]] virtual std::optional<double> free_gain(const TestedResidual& /*residual*/) const {
+    return std::nullopt;
+  }
+  // Derivatives by its constants, 2 points x frames in sigmas; empty: it has none.
+  [[nodiscard]] virtual std::span<const Eigen::MatrixXd> constant_fields() const { return {}; }
   [[nodiscard]] virtual std::unique_ptr<EffectInModel> adopted() const = 0;
 };
 

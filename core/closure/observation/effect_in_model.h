@@ -14,9 +14,10 @@ namespace core::closure {
 
 // Order in which adopted effects are removed from the measured positions.
 enum class CorrectionStage : std::uint8_t {
-  kVibration,  // vibration of the camera
-  kTracker,    // tracking error: points differ from their measured positions
-  kLens,       // lens distortion of the image
+  kVibration,  // motion of the camera
+  kTracker,    // a tracking error: the points are elsewhere than measured
+  kLens,       // the image is bent; the coefficients of all effects are undone in one
+  kPose,       // the camera does not look along the plane's normal
 };
 
 // An adopted effect: its state and its contribution to the model. A subclass overrides the functions of its kind: a
@@ -37,9 +38,10 @@ class EffectInModel {
 
   // A pattern over the points with an amplitude per frame: px per unit, 2 points long; nullptr: none.
   [[nodiscard]] virtual const Eigen::VectorXd* pattern() const { return nullptr; }
-  [[nodiscard]] virtual bool is_low_band() const { return false; }  // its amplitude is limited to kLowBand_hz
-  virtual void set_places(const PointGeometry& /*geometry*/) {}     // places: of the points; the fit may change them
-  // Rotation of the camera per unit of amplitude, if the pattern is the first order of a rotation; else zero.
+  [[nodiscard]] virtual RungSet band() const { return kAllRungs; }  // in which its amplitude exists
+  // Of the points, as the fit changes them.
+  virtual void set_places(const ObservationRecord& /*record*/, const PointGeometry& /*geometry*/) {}
+  // Of the camera per unit of the amplitude, where the pattern is the first order of a rotation; else zero.
   [[nodiscard]] virtual Eigen::Vector3d rotation() const { return Eigen::Vector3d::Zero(); }
 
   // Constants of the record, refined by joint Gauss-Newton steps of all effects. derivatives(): of the prediction,
@@ -48,6 +50,7 @@ class EffectInModel {
   [[nodiscard]] virtual std::vector<Eigen::MatrixXd> derivatives(const FitView& /*fit*/) const { return {}; }
   virtual void change_constants(const Eigen::VectorXd& /*change*/, const Eigen::MatrixXd& /*covariance*/) {}
   [[nodiscard]] virtual double added_readout_frames() const { return 0.0; }
+  [[nodiscard]] virtual LensCoefficients lens() const { return {}; }
 
   // Removes the effect from positions (2 points x frames, px), if it belongs to this stage.
   virtual void correct(CorrectionStage /*stage*/, const CorrectionView& /*view*/,

@@ -10,45 +10,67 @@ namespace core::closure {
 
 // Second moments of a residual, from which all scores of patterns are computed.
 struct ResidualMoments {
-  std::vector<Eigen::MatrixXd> all, low;  // per part of the record: blocks of time; every fifth cosine
-  Eigen::MatrixXd all_sum, low_sum;
+  Eigen::MatrixXd all_sum;
+  std::vector<Eigen::MatrixXd> all;      // by stretches of time
+  Eigen::MatrixXcd spectrum;             // one side, 2 points x bins; holds all squares
+  std::vector<Eigen::MatrixXd> of_rung;  // sums over its bins
 };
-// cosines: basis of the low band (low_cosines()).
-[[nodiscard]] ResidualMoments residual_moments(const Eigen::MatrixXd& residual, const Eigen::MatrixXd& cosines);
+[[nodiscard]] ResidualMoments residual_moments(const Eigen::MatrixXd& residual, double rate_hz);
 
 // Unit vector that explains most of a residual's squares, by power iteration started at its largest value; zero if
 // none.
 [[nodiscard]] Eigen::VectorXd leading_pattern(const Eigen::MatrixXd& moments);
 
+// A whitened pattern beside the model's columns, of unit norm: in the rungs of the model's added columns, and in
+// others.
+struct PatternBeside {
+  Eigen::VectorXd within, above;
+};
+[[nodiscard]] PatternBeside pattern_beside(const PointMotionModel& model, const Eigen::VectorXd& whitened);
+
 struct PatternGain {
-  double gain = 0.0;  // decrease of the held-out squares in noise variances
-  bool low_band = false;
+  double gain = 0.0;  // drop of the held-out squares in noise variances
+  RungSet band = 0;   // the rungs in which it is more than noise; kAllRungs: in most of them
 };
 
-// Held-out squares of a solved model: leave-one-point-out in closed form (LeaveOnePointOut), above and within the low
-// band. Patterns with an amplitude per frame are scored by their part outside the model's own columns.
+// Held-out squares of a solved model: points one at a time in closed form (LeaveOnePointOut). Patterns with an
+// amplitude per frame are scored beside the model's own columns, rung by rung.
 class HeldOut {
  public:
-  explicit HeldOut(const PointMotionModel& model);
+  HeldOut(const PointMotionModel& model, double rate_hz);
 
   [[nodiscard]] double n_values() const noexcept { return n_values_; }
-  [[nodiscard]] double low_share() const noexcept { return low_share_; }  // share of the degrees of freedom in time
-  [[nodiscard]] double squares(const ResidualMoments& moments) const;
-  [[nodiscard]] double noise_variance() const;  // expected square per value for noise of unit variance
+  [[nodiscard]] const Rungs& rungs() const noexcept { return rungs_; }
+  [[nodiscard]] double share_of(RungSet band) const;  // of the degrees of freedom in time
+  [[nodiscard]] double squares(const Eigen::MatrixXd& residual) const;
+  [[nodiscard]] double noise_variance() const;  // expected per value, for noise of unit variance
 
-  // Gain of a whitened pattern in the band where it gains most. Both bands are used only if the upper band alone gains
-  // upper_share per value.
-  [[nodiscard]] PatternGain of_pattern(const Eigen::VectorXd& beside_low, const Eigen::VectorXd& beside_high,
-                                       const ResidualMoments& moments, double upper_share) const;
-  // Gain of the best pattern that is learned on four fifths of the residual and scored on the remaining fifth.
+  // Of a known pattern, in the rungs where it gains.
+  [[nodiscard]] PatternGain of_pattern(const PatternBeside& pattern, const ResidualMoments& moments) const;
+  // The same in a given band.
+  [[nodiscard]] double of_pattern_in(RungSet band, const PatternBeside& pattern, const ResidualMoments& moments) const;
+  // Of the best pattern learned on four fifths of the residual, on the other fifth: in all rungs, in the slow ones or
+  // in the one where most is left.
   [[nodiscard]] PatternGain of_learned(const ResidualMoments& moments) const;
+  // The same in a given band.
+  [[nodiscard]] double of_learned_in(RungSet band, const ResidualMoments& moments) const;
+  // Within the span of these orthonormal columns beside the model.
+  [[nodiscard]] double of_learned_in(RungSet band, const ResidualMoments& moments, const Eigen::MatrixXd& span) const;
+  [[nodiscard]] Eigen::MatrixXd sum_over(RungSet band, const ResidualMoments& moments) const;
 
  private:
-  [[nodiscard]] static double learned_gain(const std::vector<Eigen::MatrixXd>& parts, const Eigen::MatrixXd& sum,
-                                           const LeaveOnePointOut& with);
+  [[nodiscard]] bool is_within(std::size_t rung) const noexcept { return holds(band_, rung); }
+  [[nodiscard]] double gain_in_rung(std::size_t rung, const PatternBeside& pattern,
+                                    const ResidualMoments& moments) const;
+  [[nodiscard]] double learned_gain(const std::vector<Eigen::MatrixXd>& parts, const LeaveOnePointOut& with,
+                                    const Eigen::MatrixXd& span) const;
+  [[nodiscard]] RungSet strongest(const ResidualMoments& moments) const;
 
+  Rungs rungs_;
+  RungSet band_;  // of the model's added columns
+  const Eigen::MatrixXd& cosines_;
   LeaveOnePointOut high_, low_;
-  double low_share_, n_values_;
+  double within_share_, n_values_, n_frames_;
 };
 
 }  // namespace core::closure

@@ -3,9 +3,8 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
-#include "core/spectrum/real_fft.h"
+#include "core/closure/observation/strongest_hz.h"
 
 namespace core::closure {
 namespace {
@@ -27,27 +26,6 @@ double smooth_share(const Eigen::VectorXd& field, const PointGeometry& g, bool q
   const Eigen::MatrixXd values = Eigen::Map<const Eigen::MatrixXd>(field.data(), 2, n).transpose();
   const Eigen::MatrixXd left = values - basis * qr.solve(values);
   return 1.0 - left.squaredNorm() / std::max(values.squaredNorm(), 1e-300);
-}
-
-double strongest_hz(const Eigen::RowVectorXd& amplitude, double rate_hz) {
-  int n = 16;
-  while (n < amplitude.size()) n *= 2;
-  RealFft fft(n);
-  std::vector<double> series(static_cast<std::size_t>(n), 0.0);
-  const double mean = amplitude.mean();
-  for (Eigen::Index k = 0; k < amplitude.size(); ++k) series[static_cast<std::size_t>(k)] = amplitude(k) - mean;
-  std::vector<std::complex<double>> bins(static_cast<std::size_t>(fft.n_bins()));
-  fft.forward(series, bins);
-  // Power is summed over neighbouring bins: one bin of a wide peak fluctuates too much.
-  constexpr std::ptrdiff_t kHalf = 4;
-  double most = -1.0;
-  std::ptrdiff_t at = 0;
-  for (std::ptrdiff_t b = kHalf; b + kHalf < std::ssize(bins); ++b) {
-    double sum = 0.0;
-    for (std::ptrdiff_t d = -kHalf; d <= kHalf; ++d) sum += std::norm(bins[static_cast<std::size_t>(b + d)]);
-    if (sum > most) most = sum, at = b;
-  }
-  return rate_hz * static_cast<double>(at) / n;
 }
 
 std::string place_words(const Eigen::VectorXd& field, const ObservationRecord& record) {

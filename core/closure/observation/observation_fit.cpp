@@ -1,11 +1,12 @@
 #include "core/closure/observation/observation_fit.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "core/closure/observation/block_estimates.h"
+#include "core/closure/observation/point_noise.h"
 #include "core/closure/observation/rotation_second_order.h"
 #include "core/closure/observation/stacked_positions.h"
 
@@ -13,7 +14,16 @@ namespace core::closure {
 namespace {
 
 constexpr int kReadoutRounds = 1, kRefinedRounds = 8, kFillRounds = 3, kRotationRounds = 2;
-constexpr double kStill = 0.05;  // a constant has converged if its step is below this share of its sigma
+constexpr double kSameNoise = 0.03;
+constexpr double kStill = 0.05;  // of its sigma: a constant that has converged
+
+bool is_banded(const EffectInModel& effect) { return effect.band() != kAllRungs; }
+
+double rms(const std::vector<double>& values) {
+  double squares = 0.0;
+  for (const double value : values) squares += value * value;
+  return std::sqrt(squares / static_cast<double>(values.size()));
+}
 
 }  // namespace
 
@@ -21,11 +31,9 @@ ObservationFit::ObservationFit(ObservationRecord record)
     : record_(std::move(record)),
       measured_(stacked_positions(record_, missing_)),
       model_(record_),
-      held_out_(std::make_unique<HeldOut>(model_)),
+      held_out_(std::make_unique<HeldOut>(model_, record_.rate_hz)),
       predicted_px_(measured_) {
-  double squares = 0.0;
-  for (const double sigma : record_.sigma_px) squares += sigma * sigma;
-  sigma_px_ = std::sqrt(squares / static_cast<double>(record_.sigma_px.size()));
+  sigma_px_ = rms(record_.sigma_px);
 }
 
 ObservationFit::Effects ObservationFit::copy_effects() const {
@@ -36,11 +44,14 @@ ObservationFit::Effects ObservationFit::copy_effects() const {
 
 void ObservationFit::set_columns() {
   std::vector<Eigen::VectorXd> full, low;
+  RungSet band = 0;
   for (const auto& effect : effects_) {
-    effect->set_places(model_.geometry());
-    if (effect->pattern() != nullptr) (effect->is_low_band() ? low : full).push_back(*effect->pattern());
+    effect->set_places(record_, model_.geometry());
+    if (effect->pattern() == nullptr) continue;
+    (is_banded(*effect) ? low : full).push_back(*effect->pattern());
+    if (is_banded(*effect)) band |= effect->band();
   }
-  model_.set_added(full, low);
+  model_.set_added(full, low, band);
 }
 
 void ObservationFit::set_places(const Eigen::VectorXd& mean_px) {
@@ -50,11 +61,11 @@ void ObservationFit::set_places(const Eigen::VectorXd& mean_px) {
 
 Eigen::Index ObservationFit::amplitude_row(std::size_t effect) const {
   Eigen::Index full = model_.n_own(), low = full;
-  for (const auto& other : effects_) low += other->pattern() != nullptr && !other->is_low_band() ? 1 : 0;
+  for (const auto& other : effects_) low += other->pattern() != nullptr && !is_banded(*other) ? 1 : 0;
   for (std::size_t i = 0; i < effect; ++i) {
-    if (effects_[i]->pattern() != nullptr) ++(effects_[i]->is_low_band() ? low : full);
+    if (effects_[i]->pattern() != nullptr) ++(is_banded(*effects_[i]) ? low : full);
   }
-  return effects_[effect]->is_low_band() ? low : full;
+  return is_banded(*effects_[effect]) ? low : full;
 }
 
 Eigen::RowVectorXd ObservationFit::amplitude(std::size_t effect) const {
@@ -73,15 +84,21 @@ void ObservationFit::fill_missing() {
     measured_(row, frame) = predicted_px_(row, frame) + tracker_error_px_(row, frame);
 }
 
-void ObservationFit::sum_readout() {
+void ObservationFit::sum_constants() {
   readout_frames_ = record_.readout_frames;
-  for (const auto& effect : effects_) readout_frames_ += effect->added_readout_frames();
+  lens_ = {};
+  for (const auto& effect : effects_) readout_frames_ += effect->added_readout_frames(), lens_ += effect->lens();
+}
+
+void ObservationFit::undo_optics(const CorrectionView& view, Eigen::MatrixXd& positions) const {
+  undo_lens(lens_, record_, positions);
+  for (const auto& effect : effects_) effect->correct(CorrectionStage::kPose, view, positions);
 }
 
 // Measured positions corrected for the adopted effects.
 Eigen::MatrixXd ObservationFit::corrected(bool solved) {
   Eigen::MatrixXd positions = measured_;
-  const CorrectionView view{record_, predicted_px_};
+  const CorrectionView view{record_, predicted_px_, lens_};
   const auto correct = [&](CorrectionStage stage) {
     for (const auto& effect : effects_) effect->correct(stage, view, positions);
   };
@@ -89,12 +106,12 @@ Eigen::MatrixXd ObservationFit::corrected(bool solved) {
   tracker_error_px_ = positions;
   correct(CorrectionStage::kTracker);
   tracker_error_px_ -= positions;
-  correct(CorrectionStage::kLens);
+  undo_optics(view, positions);
   if (solved) remove_second_orders(positions);
   return positions;
 }
 
-// Local magnification at the points when the adopted lens distortion is removed; it scales the noise, too.
+// How much the adopted lens and pose stretch the image at the points when they are removed; noise is stretched alike.
 Eigen::VectorXd ObservationFit::magnification(const Eigen::VectorXd& places_px) const {
   constexpr double kApart_px = 1.0;
   const Eigen::Index n = places_px.size() / 2;
@@ -104,7 +121,7 @@ Eigen::VectorXd ObservationFit::magnification(const Eigen::VectorXd& places_px) 
     around.block<2, 2>(2 * j, 0) += kApart_px * Eigen::Matrix2d::Identity();
     around.block<2, 2>(2 * j, 2) -= kApart_px * Eigen::Matrix2d::Identity();
   }
-  for (const auto& effect : effects_) effect->correct(CorrectionStage::kLens, {record_, predicted_px_}, around);
+  undo_optics({record_, predicted_px_, lens_}, around);
   Eigen::VectorXd out(n);
   for (Eigen::Index j = 0; j < n; ++j) {
     const Eigen::Matrix2d stretch = (around.block<2, 2>(2 * j, 0) - around.block<2, 2>(2 * j, 2)) / (2.0 * kApart_px);
@@ -139,18 +156,10 @@ bool ObservationFit::refine_constants() {
     for (Eigen::MatrixXd& field : effect->derivatives(view())) fields.push_back(std::move(field));
   }
   if (fields.empty()) return false;
-  const auto n = static_cast<Eigen::Index>(fields.size());
-  Eigen::MatrixXd normal(n, n);
-  Eigen::VectorXd right(n);
-  for (Eigen::Index a = 0; a < n; ++a) {
-    const Eigen::MatrixXd& field = fields[static_cast<std::size_t>(a)];
-    right(a) = field.cwiseProduct(model_.residual()).sum();
-    for (Eigen::Index b = 0; b <= a; ++b)
-      normal(a, b) = normal(b, a) = field.cwiseProduct(fields[static_cast<std::size_t>(b)]).sum();
-  }
-  const Eigen::MatrixXd covariance = normal.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
-  const Eigen::VectorXd change = covariance * right;
+  const BlockEstimates estimates(fields, model_.residual());
+  const Eigen::VectorXd change = estimates.values();
   if (!change.allFinite()) return false;
+  const Eigen::MatrixXd covariance = estimates.covariance();
   Eigen::Index at = 0;
   for (const auto& effect : effects_) {
     const Eigen::Index count = effect->n_constants();
@@ -161,7 +170,24 @@ bool ObservationFit::refine_constants() {
   return (change.array().square() > kStill * kStill * covariance.diagonal().array()).any();
 }
 
+bool ObservationFit::measure_noise() {
+  const Eigen::VectorXd noise =
+      point_noise(model_.residual(), model_.q_high(), record_.rate_hz, PointMotionModel::kLowBand_hz);
+  const double change = std::abs(std::sqrt(noise.cwiseAbs2().mean()) - 1.0);
+  if (noise_is_measured_ && change < kSameNoise) return false;
+  for (Eigen::Index j = 0; j < noise.size(); ++j) record_.sigma_px[static_cast<std::size_t>(j)] *= noise(j);
+  sigma_px_ = rms(record_.sigma_px);
+  model_.set_noise(record_);
+  return noise_is_measured_ = true;
+}
+
 void ObservationFit::solve() {
+  solve_once();
+  if (measure_noise()) solve_once();
+  held_out_ = std::make_unique<HeldOut>(model_, record_.rate_hz);
+}
+
+void ObservationFit::solve_once() {
   set_places(measured_.rowwise().mean());
   const auto any = [&](const auto& holds) { return std::any_of(effects_.begin(), effects_.end(), holds); };
   const bool refined = any([](const auto& effect) { return effect->is_refined(); });
@@ -169,7 +195,7 @@ void ObservationFit::solve() {
   int rounds =
       std::max({refined ? kRefinedRounds : 1, rotates ? kRotationRounds : 1, missing_.empty() ? 1 : kFillRounds});
   for (int round = 0; round <= rounds; ++round) {
-    sum_readout();
+    sum_constants();
     const Eigen::MatrixXd positions = corrected(round > 0);
     if (refined || rotates) set_places(positions.rowwise().mean());
     model_.set_drift(later_in_readout(record_, predicted_px_));
@@ -180,7 +206,6 @@ void ObservationFit::solve() {
     for (const auto& effect : effects_) effect->refine(view());
     if (!refine_constants() && round >= kFillRounds) rounds = round + 1;
   }
-  held_out_ = std::make_unique<HeldOut>(model_);
   if (!model_.residual().allFinite()) throw std::runtime_error("observation level: the fit did not stay finite");
 }
 

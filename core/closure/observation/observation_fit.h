@@ -11,9 +11,10 @@
 
 namespace core::closure {
 
-// The model of the points' positions with its adopted effects, fitted to one record. Motion is free in every frame
-// (PointMotionModel); patterns are added columns; constants are refined by Gauss-Newton steps; lines are estimated by
-// line search; missing samples are predicted by the model.
+// The model of the points' positions with its adopted effects, fitted to one record: PointMotionModel, free in every
+// frame; patterns as further columns of it; constants by Gauss-Newton steps; lines by themselves; missing samples
+// predicted by the model. The points' sigmas are the stated ones for the first solution only; the residual tells the
+// noise of each point (point_noise.h), again where an effect that is adopted or reverted changes it.
 class ObservationFit {
  public:
   using Effects = std::vector<std::unique_ptr<EffectInModel>>;
@@ -32,12 +33,12 @@ class ObservationFit {
   void set_effects(Effects effects) { effects_ = std::move(effects); }
 
   [[nodiscard]] FitView view() const noexcept {
-    return {record_, model_, *held_out_, predicted_px_, readout_frames_, sigma_px_};
+    return {record_, model_, *held_out_, predicted_px_, readout_frames_, sigma_px_, lens_};
   }
   [[nodiscard]] const ObservationRecord& record() const noexcept { return record_; }
   [[nodiscard]] const PointMotionModel& model() const noexcept { return model_; }
   [[nodiscard]] double readout_frames() const noexcept { return readout_frames_; }
-  [[nodiscard]] double sigma_px() const noexcept { return sigma_px_; }  // rms over points
+  [[nodiscard]] double sigma_px() const noexcept { return sigma_px_; }  // rms over points, measured
   [[nodiscard]] Eigen::VectorXd mean_places_px() const { return measured_.rowwise().mean(); }
   // Amplitude of an effect's pattern in each frame; empty if it has no pattern.
   [[nodiscard]] Eigen::RowVectorXd amplitude(std::size_t effect) const;
@@ -45,12 +46,16 @@ class ObservationFit {
   [[nodiscard]] double freedom_beside() const;
 
  private:
-  [[nodiscard]] Eigen::Index amplitude_row(std::size_t effect) const;  // for an effect with a pattern
+  [[nodiscard]] Eigen::Index amplitude_row(std::size_t effect) const;  // of an effect with a pattern
+  void solve_once();
+  bool measure_noise();  // false: it is as it was
   void set_columns();
   void set_places(const Eigen::VectorXd& mean_px);
   void fill_missing();
-  void sum_readout();
-  [[nodiscard]] Eigen::MatrixXd corrected(bool solved);  // solved: a solution with these effects exists
+  void sum_constants();  // of all effects: readout time, lens
+  // What an adopted lens and pose do to positions in the raw image, undone.
+  void undo_optics(const CorrectionView& view, Eigen::MatrixXd& positions) const;
+  [[nodiscard]] Eigen::MatrixXd corrected(bool solved);  // solved: with these effects before
   [[nodiscard]] Eigen::VectorXd magnification(const Eigen::VectorXd& places_px) const;
   void remove_second_orders(Eigen::MatrixXd& positions) const;
   bool refine_constants();  // false: no constant changed by more than a twentieth of its sigma
@@ -62,6 +67,8 @@ class ObservationFit {
   std::unique_ptr<HeldOut> held_out_;
   Effects effects_;
   double readout_frames_ = 0.0, sigma_px_ = 0.0;
+  LensCoefficients lens_;
+  bool noise_is_measured_ = false;    // once at least
   Eigen::MatrixXd predicted_px_;      // in the raw image, without the tracker's errors
   Eigen::MatrixXd tracker_error_px_;  // of the adopted effects
 };

@@ -1,8 +1,11 @@
 #include "core/closure/observation/observation_level.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "core/closure/observation/effects/catalogue.h"
+#include "core/closure/observation/kinds/materiality.h"
 #include "core/closure/observation/observation_report.h"
 #include "core/closure/observation/point_screening.h"
 #include "core/closure/observation/region_modes.h"
@@ -57,6 +60,34 @@ void ObservationLevel::drop() {
   fit_.remove(fit_.effects().size() - 1);
 }
 
+bool ObservationLevel::is_zero(std::size_t adopted) const {
+  constexpr double kSigmas = 3.0;
+  if (fit_.effects()[adopted]->n_constants() == 0) return false;
+  const std::vector<ParameterValue> values = parameters(adopted);
+  return std::all_of(values.begin(), values.end(),
+                     [](const ParameterValue& p) { return p.sigma && std::abs(p.value) < kSigmas * *p.sigma; });
+}
+
+bool ObservationLevel::is_idle(std::size_t adopted) {
+  if (fit_.effects()[adopted]->kind() != EffectKind::kLatent) return false;
+  const double with = scores_.quality().heldout;
+  ObservationFit::Effects kept = fit_.copy_effects();
+  fit_.remove(adopted);
+  const double without = fit().heldout;
+  fit_.set_effects(std::move(kept));
+  (void)fit();
+  return without * without < (1.0 + kGlobalBar) * with * with;
+}
+
+std::optional<std::size_t> ObservationLevel::drop_needless() {
+  for (std::size_t i = 0; i + 1 < fit_.effects().size(); ++i) {
+    if (!is_zero(i) && !is_idle(i)) continue;
+    fit_.remove(i);
+    return i;
+  }
+  return std::nullopt;
+}
+
 std::vector<NotObservable> ObservationLevel::not_observable() const {
   return core::closure::not_observable(fit_, catalogue_);
 }
@@ -65,7 +96,7 @@ std::vector<ParameterValue> ObservationLevel::parameters(std::size_t adopted) co
   return effect_parameters(fit_, adopted);
 }
 
-std::string ObservationLevel::meaning(std::size_t adopted) const { return effect_meaning(fit_, adopted); }
+std::string ObservationLevel::meaning(std::size_t adopted) const { return effect_meaning(fit_, adopted, catalogue_); }
 
 std::vector<std::string> ObservationLevel::rivals(std::size_t adopted, std::uint64_t /*seed*/) {
   if (fit_.effects().at(adopted)->kind() == EffectKind::kLatent) return {};

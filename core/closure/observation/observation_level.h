@@ -42,6 +42,8 @@ class ObservationLevel final : public ClosureLevel {
   [[nodiscard]] double surrogate_score(std::uint64_t seed) override { return scores_.surrogate_score(seed); }
   void adopt(std::size_t candidate) override { fit_.add(scores_.adopted(candidate)); }
   void drop() override;
+  // A latent pattern without which the held-out error is no larger; constants of which none differs from zero.
+  std::optional<std::size_t> drop_needless() override;
   [[nodiscard]] std::vector<ParameterValue> parameters(std::size_t adopted) const override;
   [[nodiscard]] std::string meaning(std::size_t adopted) const override;
   [[nodiscard]] std::vector<std::string> rivals(std::size_t adopted, std::uint64_t seed) override;
@@ -56,7 +58,10 @@ class ObservationLevel final : public ClosureLevel {
   [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
  private:
-  std::vector<std::string> warnings_;  // declared before fit_, whose construction fills it
+  [[nodiscard]] bool is_zero(std::size_t adopted) const;  // of constants: each within three sigmas of it
+  [[nodiscard]] bool is_idle(std::size_t adopted);        // of a latent pattern; fits anew
+
+  std::vector<std::string> warnings_;  // before fit_, whose making fills it
   ObservationFit fit_;
   std::vector<const ObservationEffect*> catalogue_;
   ObservationScores scores_;

@@ -1,7 +1,9 @@
 #include "core/closure/observation/observation_report.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/closure/observation/effects/catalogue.h"
 #include "core/closure/observation/latent_words.h"
@@ -30,6 +32,38 @@ std::vector<KnownSignal> motions_of(const FitView& fit) {
   return out;
 }
 
+// The part of whitened patterns outside the model's own columns.
+Eigen::MatrixXd beside_own(const FitView& fit, const Eigen::MatrixXd& patterns_px) {
+  const Eigen::MatrixXd w = fit.model.weight().asDiagonal() * patterns_px;
+  const auto own = fit.model.q_high().leftCols(fit.model.own_rank());
+  return w - own * (own.transpose() * w);
+}
+
+// How much of a pattern's squares the effect's patterns hold.
+double share_held(const Eigen::VectorXd& left, const Eigen::MatrixXd& shapes) {
+  if (shapes.cols() == 0 || !(shapes.norm() > 0.0)) return 0.0;
+  const Eigen::VectorXd missed = left - shapes * shapes.colPivHouseholderQr().solve(left);
+  return 1.0 - missed.squaredNorm() / std::max(left.squaredNorm(), 1e-300);
+}
+
+std::string nearest_words(const Eigen::VectorXd& pattern_px, const FitView& fit,
+                          const std::vector<const ObservationEffect*>& catalogue) {
+  constexpr double kTold = 0.2;
+  constexpr std::size_t kMost = 2;
+  const Eigen::VectorXd left = beside_own(fit, pattern_px);
+  std::vector<std::pair<double, std::string>> near;
+  for (const ObservationEffect* effect : catalogue) {
+    const double share = share_held(left, beside_own(fit, effect->shapes(fit)));
+    if (share > kTold) near.emplace_back(share, effect->name());
+  }
+  std::sort(near.rbegin(), near.rend());
+  std::string words;
+  for (std::size_t i = 0; i < std::min(near.size(), kMost); ++i)
+    words += (i == 0 ? "; nearest: " : ", ") + near[i].second + " (" +
+             std::to_string(std::lround(100.0 * near[i].first)) + " % of it)";
+  return words;
+}
+
 }  // namespace
 
 std::vector<NotObservable> not_observable(const ObservationFit& fit,
@@ -48,7 +82,8 @@ std::vector<ParameterValue> effect_parameters(const ObservationFit& fit, std::si
   return fit.effects().at(effect)->parameters(fit.view(), fit.amplitude(effect));
 }
 
-std::string effect_meaning(const ObservationFit& fit, std::size_t effect) {
+std::string effect_meaning(const ObservationFit& fit, std::size_t effect,
+                           const std::vector<const ObservationEffect*>& catalogue) {
   const EffectInModel& latent = *fit.effects().at(effect);
   if (latent.kind() != EffectKind::kLatent) return {};
   std::vector<KnownSignal> known = motions_of(fit.view());
@@ -56,19 +91,22 @@ std::string effect_meaning(const ObservationFit& fit, std::size_t effect) {
     if (i != effect && fit.effects()[i]->pattern() != nullptr)
       known.push_back({fit.effects()[i]->name(), fit.amplitude(i)});
   }
-  return latent_words(*latent.pattern(), fit.amplitude(effect), fit.record(), fit.model().geometry(), known);
+  return latent_words(*latent.pattern(), fit.amplitude(effect), fit.record(), fit.model().geometry(), known) +
+         nearest_words(*latent.pattern(), fit.view(), catalogue);
 }
 
 std::string describe_residual(const ObservationFit& fit) {
   const ObservationRecord& record = fit.record();
-  const ResidualMoments moments = residual_moments(fit.model().residual(), fit.model().cosines());
+  const ResidualMoments moments = residual_moments(fit.model().residual(), record.rate_hz);
   const Eigen::VectorXd pattern = leading_pattern(moments.all_sum);
   const double along_v = Eigen::Map<const Eigen::MatrixXd>(pattern.data(), 2, pattern.size() / 2).row(1).squaredNorm();
   std::vector<double> share(record.regions.size(), 0.0);
   for (Eigen::Index j = 0; j < record.n_points(); ++j)
     share[record.region_of_point[static_cast<std::size_t>(j)]] += pattern.segment<2>(2 * j).squaredNorm();
   const auto most = static_cast<std::size_t>(std::max_element(share.begin(), share.end()) - share.begin());
-  const double slow = moments.low_sum.trace() / std::max(moments.all_sum.trace(), 1e-300);
+  const HeldOut& held_out = fit.view().held_out;
+  const RungSet below = held_out.rungs().up_to(PointMotionModel::kLowBand_hz);
+  const double slow = held_out.sum_over(below, moments).trace() / std::max(moments.all_sum.trace(), 1e-300);
   return "leading pattern: " + std::to_string(std::lround(100.0 * share[most])) + " % in region " +
          record.regions[most].name + ", " + std::to_string(std::lround(100.0 * along_v)) + " % along v; " +
          std::to_string(std::lround(100.0 * slow)) + " % of the residual below " +

@@ -17,8 +17,10 @@ namespace core::closure {
 
 [[nodiscard]] std::vector<ParameterValue> effect_parameters(const ObservationFit& fit, std::size_t effect);
 
-// Describes a latent effect: location, smoothness, frequency, best-correlated signal. Empty for named effects.
-[[nodiscard]] std::string effect_meaning(const ObservationFit& fit, std::size_t effect);
+// Describes a latent effect: place, smoothness, frequency, the signal with which it correlates, the effects whose
+// patterns are nearest and how much of it they hold. Empty for named ones.
+[[nodiscard]] std::string effect_meaning(const ObservationFit& fit, std::size_t effect,
+                                         const std::vector<const ObservationEffect*>& catalogue);
 
 // Describes the leading pattern of the residual: region, axis, share of the low band.
 [[nodiscard]] std::string describe_residual(const ObservationFit& fit);

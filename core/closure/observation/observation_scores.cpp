@@ -6,6 +6,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "core/closure/observation/block_estimates.h"
 #include "core/closure/observation/kinds/latent_pattern.h"
 #include "core/closure/observation/kinds/materiality.h"
 
@@ -74,40 +75,51 @@ void ObservationScores::prepare() {
 
 LevelFit ObservationScores::quality() const {
   const FitView view = fit_.view();
-  const ResidualMoments moments = residual_moments(view.model.residual(), view.model.cosines());
   const double n_values = view.held_out.n_values(), freedom = fit_.freedom_beside();
   LevelFit out;
-  out.heldout = view.sigma_px * std::sqrt((view.held_out.squares(moments) + 2.0 * freedom) / n_values);
+  const double squares = view.held_out.squares(view.model.residual()) + 2.0 * freedom;
+  out.heldout = view.sigma_px * std::sqrt(squares / n_values);
   out.noise_floor = view.sigma_px * std::sqrt(view.held_out.noise_variance() + freedom / n_values);
   out.residual_rms = out.heldout;
   out.structured = true;  // surrogates determine what noise can reach
   out.words =
-      "held-out residual is " + std::to_string(out.heldout / out.noise_floor) + " of the floor of the declared noise";
+      "held-out residual is " + std::to_string(out.heldout / out.noise_floor) + " of the floor of the measured noise";
   if (!std::isfinite(out.heldout)) throw std::runtime_error("observation level: the fit did not stay finite");
   return out;
 }
 
-Objection ObservationScores::refusal(const EffectCandidate& candidate, double gain, double latent_gain,
-                                     double excess) const {
-  const double n_values = fit_.view().held_out.n_values();
-  if (!(gain > candidate.material_share() * n_values)) return {"immaterial"};
-  if (gain < kOfLatent * latent_gain && latent_gain > kLowBandBar * n_values)
-    return {"a projection of another effect: the best learned pattern explains more"};
-  if (gain < kOfExcess * excess) return {"explains less than a tenth of the structured part"};
+Objection ObservationScores::refusal(const EffectCandidate& candidate, double gain, const TestedResidual& tested,
+                                     double learned_gain) const {
+  if (!(gain > candidate.material_share() * fit_.view().held_out.n_values())) return {"immaterial"};
+  const double free_gain = candidate.free_gain(tested).value_or(learned_gain);
+  const double family_gain = candidate.free_gain(tested) ? gain : std::max(gain, constants_gain(tested));
+  if (family_gain < kOfLearned * free_gain || gain < kOfFamily * free_gain)
+    return {"a projection of another effect: it explains " + std::to_string(std::lround(100.0 * gain / free_gain)) +
+            " % of what the best learned pattern explains"};
   return candidate.objection();
+}
+
+// Of all constants that are still open, together: those of a lens share what one pattern explains.
+double ObservationScores::constants_gain(const TestedResidual& tested) const {
+  std::vector<Eigen::MatrixXd> fields;
+  for (const auto& candidate : prepared_) {
+    for (const Eigen::MatrixXd& field : candidate->constant_fields()) fields.push_back(field);
+  }
+  return fields.empty() ? 0.0 : BlockEstimates(fields, tested.values).held_out_gain();
 }
 
 std::vector<CandidateScore> ObservationScores::score() {
   prepare();
   const FitView view = fit_.view();
   const Eigen::MatrixXd& residual = view.model.residual();
-  const ResidualMoments moments = residual_moments(residual, view.model.cosines());
+  const ResidualMoments moments = residual_moments(residual, view.record.rate_hz);
   const TestedResidual tested{residual, moments};
   const std::vector<const ObservationEffect*> named = open();
   const double n_values = view.held_out.n_values(), freedom = fit_.freedom_beside();
-  const double squares = view.held_out.squares(moments) + 2.0 * freedom;
-  const double floor = n_values * view.held_out.noise_variance() + freedom;
-  const double latent_gain = view.held_out.of_learned(moments).gain;
+  const double squares = view.held_out.squares(residual) + 2.0 * freedom;
+  const PatternGain learned = view.held_out.of_learned(moments);
+  const double learned_gain =
+      learned.gain > material_of(learned.band, view, kLearnedBar) * n_values ? learned.gain : 0.0;
   is_other_cause_.clear();
   std::vector<CandidateScore> out;
   bool any = false;
@@ -122,7 +134,7 @@ std::vector<CandidateScore> ObservationScores::score() {
     s.heldout = view.sigma_px * std::sqrt(std::max(squares - s.score, 0.0) / n_values);
     Objection objection;
     if (is_named)
-      objection = refusal(*prepared_[i], s.score, latent_gain, squares - floor);
+      objection = refusal(*prepared_[i], s.score, tested, learned_gain);
     else if (any)
       objection.words = "a named effect explains it";
     else if (!(s.score > prepared_[i]->material_share() * n_values))
@@ -143,7 +155,7 @@ double ObservationScores::surrogate_score(std::uint64_t seed) {
   Eigen::MatrixXd left = view.model.left_of(shuffled(residual, view.record.rate_hz, seed));
   const double norm = left.norm();
   if (norm > 0.0) left *= residual.norm() / norm;
-  const ResidualMoments moments = residual_moments(left, view.model.cosines());
+  const ResidualMoments moments = residual_moments(left, view.record.rate_hz);
   double best = view.held_out.of_learned(moments).gain;
   for (std::size_t i = 0; i < open().size(); ++i) best = std::max(best, prepared_[i]->gain({left, moments}));
   return best;

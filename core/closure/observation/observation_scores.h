@@ -17,10 +17,11 @@ namespace core::closure {
 // materiality thresholds.
 class ObservationScores {
  public:
-  // Smallest share of the gain of the best pattern learned from the residual itself, and of the squares above the
-  // noise, that a named effect must reach; below, it is taken as a projection of another effect.
-  static constexpr double kOfLatent = 0.7, kOfExcess = 0.1;
-  static constexpr double kRival = 0.9;  // smallest share of the score of the effect that it replaces
+  // A named effect must reach this share of the gain of the best pattern learned from the residual itself, in the same
+  // place and band where the effect has one; otherwise it is a projection of another effect.
+  // Of constants: they together, and each of them a part.
+  static constexpr double kOfLearned = 0.8, kOfFamily = 0.1;
+  static constexpr double kRival = 0.9;  // of the score of the effect in whose place it stands
   static constexpr std::size_t kMostLatent = 8;
 
   // Both arguments must outlive the object.
@@ -45,8 +46,9 @@ class ObservationScores {
   [[nodiscard]] std::vector<const ObservationEffect*> open() const;  // named and not adopted
   [[nodiscard]] std::size_t n_latent() const;
   void prepare();
-  [[nodiscard]] Objection refusal(const EffectCandidate& candidate, double gain, double latent_gain,
-                                  double excess) const;
+  [[nodiscard]] double constants_gain(const TestedResidual& tested) const;
+  [[nodiscard]] Objection refusal(const EffectCandidate& candidate, double gain, const TestedResidual& tested,
+                                  double learned_gain) const;
 
   const ObservationFit& fit_;
   const std::vector<const ObservationEffect*>& catalogue_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/closure/observation/time_filter.h"
 #include "core/linear/dense.h"
 
 namespace core::closure {
@@ -45,10 +44,12 @@ Factor factorise_columns(const Eigen::MatrixXd& x) {
 
 PointMotionModel::PointMotionModel(const ObservationRecord& record)
     : rate_hz_(record.rate_hz),
+      rungs_(record.rate_hz),
+      band_(rungs_.up_to(kLowBand_hz)),
       shift_(record.n_frames()),
       geometry_(point_geometry(record)),
       weight_(2 * record.n_points()),
-      cosines_(low_cosines(record.n_frames(), record.rate_hz, kLowBand_hz)),
+      cosines_(rungs_.cosines(record.n_frames(), band_)),
       region_row_(2 * record.regions.size(), -1) {
   for (Eigen::Index j = 0; j < record.n_points(); ++j)
     weight_.segment<2>(2 * j).setConstant(1.0 / record.sigma_px[static_cast<std::size_t>(j)]);
@@ -58,6 +59,11 @@ PointMotionModel::PointMotionModel(const ObservationRecord& record)
   add_plane_columns(record);
   n_own_ = static_cast<Eigen::Index>(own_.size());
   factorise();
+}
+
+void PointMotionModel::set_noise(const ObservationRecord& record) {
+  for (Eigen::Index j = 0; j < record.n_points(); ++j)
+    sigma_px_.segment<2>(2 * j).setConstant(record.sigma_px[static_cast<std::size_t>(j)]);
 }
 
 void PointMotionModel::set_places(const ObservationRecord& record, const Eigen::VectorXd& places_px,
@@ -73,7 +79,11 @@ void PointMotionModel::set_places(const ObservationRecord& record, const Eigen::
   factorise();
 }
 
-void PointMotionModel::set_added(const std::vector<Eigen::VectorXd>& full, const std::vector<Eigen::VectorXd>& low) {
+void PointMotionModel::set_added(const std::vector<Eigen::VectorXd>& full, const std::vector<Eigen::VectorXd>& low,
+                                 RungSet band) {
+  const RungSet wanted = band == 0 ? rungs_.up_to(kLowBand_hz) : band;
+  if (wanted != band_) cosines_ = rungs_.cosines(cosines_.rows(), wanted);
+  band_ = wanted;
   full_.clear();
   low_.clear();
   for (const Eigen::VectorXd& field : full) full_.emplace_back(field.cwiseProduct(weight_));

@@ -8,6 +8,7 @@
 #include "core/closure/observation/aliased_motion.h"
 #include "core/closure/observation/frame_shift.h"
 #include "core/closure/observation/observation_record.h"
+#include "core/closure/observation/rungs.h"
 
 namespace core::closure {
 
@@ -36,12 +37,12 @@ struct PointGeometry {
 // fraction (set_drift); this change times the point's velocity is removed first. Velocities are those of the motion
 // without noise (FrameShift::signal_rates).
 //
-// Columns added for the low band exist up to kLowBand_hz only: there they are fitted jointly with all others, above
-// they are zero. A cosine basis makes this separation exact.
+// Columns added for a band exist in some rungs of the spectrum only (rungs.h): there they are fitted with all others,
+// elsewhere they are zero. Cosines make this exact. All such columns share one band.
 class PointMotionModel {
  public:
-  static constexpr double kLowBand_hz = 3.0;
-  static constexpr double kCommonShare = 0.5;  // readout fraction of the frames' common instant
+  static constexpr double kLowBand_hz = 3.0;   // slow: where cameras drift; the band as long as no column needs another
+  static constexpr double kCommonShare = 0.5;  // place in the readout of the frames' common instant
 
   explicit PointMotionModel(const ObservationRecord& record);  // record: checked
   // Moves the points to these mean positions (2 points long, px): after a lens correction, zoom acts on the
@@ -50,9 +51,12 @@ class PointMotionModel {
   void set_places(const ObservationRecord& record, const Eigen::VectorXd& places_px,
                   const Eigen::VectorXd& magnification);
 
-  // Added columns as fields in px per unit, vectors of 2 points.
-  void set_added(const std::vector<Eigen::VectorXd>& full, const std::vector<Eigen::VectorXd>& low);
-  // later: as from later_in_readout(); empty: no drift.
+  // Other sigmas of the points; followed by set_places().
+  void set_noise(const ObservationRecord& record);
+
+  // Fields in px per unit, vectors of 2 points.
+  void set_added(const std::vector<Eigen::VectorXd>& full, const std::vector<Eigen::VectorXd>& low, RungSet band);
+  // As later_in_readout(); empty: not at all.
   void set_drift(Eigen::MatrixXd later) { later_ = std::move(later); }
   // positions: 2 points x frames, px, finite. All accessors below refer to this fit.
   void solve(const Eigen::MatrixXd& positions, double readout_frames, int rounds);
@@ -85,10 +89,11 @@ class PointMotionModel {
   // Residual of a field or record at the frames' common instants after the fit, 2 points x frames in sigmas, without
   // its mean over time.
   [[nodiscard]] Eigen::MatrixXd left_of(const Eigen::MatrixXd& values) const;
-  // Orthonormal columns above and within the low band.
+  // Orthonormal columns outside and within the band of the added columns.
   [[nodiscard]] const Eigen::MatrixXd& q_high() const noexcept { return q_high_; }
   [[nodiscard]] const Eigen::MatrixXd& q_low() const noexcept { return q_low_; }
-  [[nodiscard]] const Eigen::MatrixXd& cosines() const noexcept { return cosines_; }
+  [[nodiscard]] const Eigen::MatrixXd& cosines() const noexcept { return cosines_; }  // of that band
+  [[nodiscard]] RungSet band() const noexcept { return band_; }
   [[nodiscard]] const Eigen::VectorXd& weight() const noexcept { return weight_; }  // 1 / sigma, per row
   [[nodiscard]] const PointGeometry& geometry() const noexcept { return geometry_; }
 
@@ -106,6 +111,8 @@ class PointMotionModel {
   void fit_common(const Eigen::MatrixXd& z);
 
   double rate_hz_;
+  Rungs rungs_;
+  RungSet band_;
   FrameShift shift_;
   std::optional<AliasedMotion> aliased_;
   double readout_frames_ = 0.0;

@@ -136,6 +136,7 @@ double KltTracker::gain_here(double otherwise) const noexcept {
 KltPoint KltTracker::find(const GrayView& gray, std::size_t i, const Vector2& predicted) noexcept {
   Point& point = points_[i];
   KltPoint out{predicted, 0.0, point.gain};
+  out.loss = PointLoss::kUnlike;
   if (!point.pattern.is_trackable) return out;
   const double start_u = predicted.u - point.datum.u + point.u0 - point.correction.u;
   const double start_v = predicted.v - point.datum.v + point.v0 - point.correction.v;
@@ -158,7 +159,7 @@ KltPoint KltTracker::find(const GrayView& gray, std::size_t i, const Vector2& pr
   };
   for (int k = 0; k < config_.max_iterations && !is_settled; ++k) {
     cell_u = static_cast<int>(std::floor(u)), cell_v = static_cast<int>(std::floor(v));
-    if (!window_lies_in(gray, cell_u, cell_v, point.pattern.radius)) return out;
+    if (!window_lies_in(gray, cell_u, cell_v, point.pattern.radius)) return out.loss = PointLoss::kLeftImage, out;
     window_.move_to(cell_u, cell_v, u - cell_u, v - cell_v);
     step = window_.step();
     if (k == kStepsOfOldGain) gain = gain_here(gain);
@@ -168,11 +169,12 @@ KltPoint KltTracker::find(const GrayView& gray, std::size_t i, const Vector2& pr
   out.position = {u - point.u0 + point.datum.u + point.correction.u, v - point.v0 + point.datum.v + point.correction.v};
   if (!is_settled) return out;
   const TemplateMatch match = window_.match(step);
-  if (!(match.correlation >= point.least_correlation) || match.gain < kLeastGain || match.gain > kMostGain) return out;
+  if (!(match.correlation >= point.least_correlation)) return out;
+  if (match.gain < kLeastGain || match.gain > kMostGain) return out.loss = PointLoss::kLight, out;
   out.gain = point.gain = match.gain;
   out.residual = match.residual, out.residual_unit = match.residual_unit;
   state_sigma(point, out);
-  out.seen = true;
+  out.seen = true, out.loss = PointLoss::kNone;
   return out;
 }
 

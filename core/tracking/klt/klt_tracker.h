@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/tracking/klt/interpolated_window.h"
@@ -15,6 +16,10 @@ struct KltConfig {
   double least_correlation = 0.75;  // with the template, relative to the value expected from its noise
 };
 
+// Why a point is not seen in an image: its window leaves the image; the light is too different; its window shows
+// something else (covered, or another surface in part of it), so that it is not found within reach or matches badly.
+enum class PointLoss : std::uint8_t { kNone, kLeftImage, kLight, kUnlike };
+
 // One point in one image.
 struct KltPoint {
   Vector2 position;            // px
@@ -24,6 +29,7 @@ struct KltPoint {
   double residual = 0.0;       // variance per pixel after gain and offset, grey^2, including the effect of deformation
   double residual_unit = 0.0;  // residual per unit of DeformationResponse::energy
   bool seen = false;
+  PointLoss loss = PointLoss::kNone;
 };
 
 // True if the point's position in other images can be determined.

@@ -11,6 +11,7 @@
 #include "drivers/storage/text_file.h"
 #include "firmware_app/chain/state/keyframe_jpeg.h"
 #include "firmware_app/config/config_yaml.h"
+#include "firmware_app/config/region_axis.h"
 
 namespace app {
 
@@ -73,6 +74,8 @@ RecordedConfig::RecordedConfig(const core::RunHead& head, const std::string& nam
   recorded_ = parse_config(head.config_yaml, name, all);
   all.insert(all.end(), overrides.begin(), overrides.end());
   config_ = parse_config(head.config_yaml, name, all);
+  take_u_where_sought(recorded_);
+  take_axes_of(config_, recorded_.regions);
 }
 
 RecordedConfig::~RecordedConfig() {

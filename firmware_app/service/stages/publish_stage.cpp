@@ -88,8 +88,12 @@ void PublishStage::publish_health_when_due() noexcept {
 }
 
 void PublishStage::complete_report(const core::Health& health) {
+  std::vector<std::string> caveats = outlets_.caveats;
+  if (outlets_.findings) {
+    for (std::string& words : outlets_.findings()) caveats.push_back(std::move(words));
+  }
   if (outlets_.report != nullptr)
-    outlets_.report->finish(last_estimate_, health, outlets_.corrections, outlets_.caveats, closure());
+    outlets_.report->finish(last_estimate_, health, outlets_.corrections, caveats, closure());
   if (outlets_.draw) outlets_.draw({last_estimate_, last_sums_, closure()}, health);
 }
 

@@ -41,6 +41,8 @@ class PublishStage : public rt::Stage {
     std::vector<std::string> corrections, caveats;
     TelemetryConfig telemetry;
     std::vector<core::Region> regions;
+    // Caveats that the run itself found; asked once, after every other stage has ended. Empty: none.
+    std::function<std::vector<std::string>()> findings = {};
   };
 
   struct Ends {

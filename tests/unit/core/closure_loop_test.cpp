@@ -3,10 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <stdexcept>
+#include <string>
 
 namespace core::closure {
 namespace {
@@ -54,12 +57,28 @@ class ScriptedLevel : public ClosureLevel {
     return out;
   }
   double surrogate_score(std::uint64_t seed) override { return seeds[seed]++ == 0 ? chance : 1e9; }
+  struct Refusal {
+    std::string name, refusal;
+  };
+  std::map<std::string, Refusal> refusals_after;  // of another effect, once this one is adopted
+  std::string needless;                           // an effect that any later one makes needless
+  std::optional<std::size_t> drop_needless() override {
+    const auto found = std::find(adopted.begin(), adopted.end(), needless);
+    if (found == adopted.end() || found + 1 == adopted.end()) return std::nullopt;
+    const auto at = static_cast<std::size_t>(found - adopted.begin());
+    adopted.erase(found);
+    return at;
+  }
   void adopt(std::size_t i) override {
     adopted.push_back(known.at(i).name);
     before_ = heldout;
     heldout = known.at(i).heldout_alone * refit_loss;
     taken_ = known.at(i);
     known.erase(known.begin() + static_cast<std::ptrdiff_t>(i));
+    for (Known& k : known) {
+      if (refusals_after.count(taken_.name) != 0 && refusals_after[taken_.name].name == k.name)
+        k.refusal = refusals_after[taken_.name].refusal;
+    }
   }
   void drop() override {
     adopted.pop_back();
@@ -104,6 +123,19 @@ TEST(ClosureLoop, AdoptsTheBestUntilOnlyNoiseIsLeft) {
   EXPECT_EQ(*first.reference_error_after, 1.5);
   EXPECT_EQ(first.reference_unit, "mm");
   EXPECT_EQ(first.not_observable.size(), 1U);
+}
+
+TEST(ClosureLoop, WhatALaterEffectMakesNeedlessIsRemoved) {
+  ScriptedLevel level;
+  level.needless = "latent";
+  level.known = {{"latent", 2.0}, {"cause", 1.5}};
+  level.refusals_after["latent"] = {"cause", ""};
+  level.known[1].refusal = "a projection of another effect";
+  const ClosureResult result = close_loop(level);
+  EXPECT_THAT(level.adopted, ElementsAre("cause"));
+  ASSERT_EQ(result.steps.size(), 1U);
+  EXPECT_EQ(result.steps[0].effect, "cause");
+  EXPECT_DOUBLE_EQ(result.steps[0].heldout_before, 2.0);
 }
 
 TEST(ClosureLoop, StopsAtNoiseWithoutASingleSurrogate) {

@@ -35,7 +35,8 @@ TEST(ObservationCatalogue, OnlyConstantsAreCorrectedInFlight) {
     corrected.push_back(effect->id().key);
     if (effect->in_flight()->changes_row_delays()) delays.push_back(effect->id().key);
   }
-  EXPECT_THAT(corrected, ElementsAre("readout_time", "radial_distortion", "tangential_distortion", "pixel_locking"));
+  EXPECT_THAT(corrected, ElementsAre("readout_time", "radial_distortion", "tangential_distortion", "lens_distortion",
+                                     "pixel_locking"));
   EXPECT_THAT(delays, ElementsAre("readout_time"));
 }
 

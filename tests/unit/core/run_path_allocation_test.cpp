@@ -5,6 +5,7 @@
 
 #include "core/closure/observation/recent_tracks.h"
 #include "core/geometry/channel_displacement.h"
+#include "core/geometry/motion_axes.h"
 #include "core/identification/mode_tracker.h"
 #include "core/spectrum/time_grid.h"
 #include "core/spectrum/welch_cpsd.h"
@@ -99,6 +100,23 @@ TEST(RunPathAllocation, RecentTracksAllocateNothing) {
     n_calls = guard.n_new() + guard.n_delete();
   }
   EXPECT_EQ(tracks.n_frames(), 16U);
+  EXPECT_EQ(n_calls, 0U);
+}
+
+TEST(RunPathAllocation, MotionAxesAllocateNothing) {
+  const std::vector<Region> regions(3);
+  MotionAxes axes(regions, 30);
+  TrackFrame frame;
+  frame.points.resize(30);
+  for (std::size_t i = 0; i < 30; ++i)
+    frame.points[i].region = static_cast<std::uint16_t>(i / 10), frame.points[i].seen = true;
+  std::size_t n_calls = 0;
+  {
+    const AllocGuard guard;
+    for (int k = 0; k < 100; ++k) frame.t_start_ns += 40'000'000, axes.add(frame);
+    n_calls = guard.n_new() + guard.n_delete();
+  }
+  EXPECT_EQ(axes.motion(2).n_samples, 75U);
   EXPECT_EQ(n_calls, 0U);
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <random>
 
@@ -22,7 +23,9 @@ constexpr double kRate_hz = 25.0;
 constexpr int kWidth_px = 800, kHeight_px = 600, kFrames = 200;
 constexpr double kNoise_px = 0.02;
 
-// A hovering camera in front of a wall, and plates before it that move sideways.
+double wave(double t_s, double freq_hz) { return std::sin(2.0 * std::numbers::pi * freq_hz * t_s); }
+
+// A hovering camera before a wall, and plates in front of it that move sideways.
 class Made {
  public:
   // moves(t_s): px along u, at a place.
@@ -69,7 +72,33 @@ class Made {
   std::mt19937 random_{1};
 };
 
-double wave(double t_s, double freq_hz) { return std::sin(2.0 * std::numbers::pi * freq_hz * t_s); }
+using Own = std::function<Vector2(double t_s)>;
+
+// A wall of faint texture, ten times as noisy as the plates before it.
+core::RegionProposal proposed_before_faint_wall(const std::vector<Own>& plates, int n_frames) {
+  std::vector<SurveyedPoint> points;
+  std::mt19937 random(2);
+  std::normal_distribution<double> gauss;
+  const auto add = [&](double u, double v, double sigma_px, const Own& own) {
+    SurveyedPoint point{{u, v}, sigma_px, {}};
+    for (int i = 0; i < n_frames; ++i) {
+      const Vector2 moved = own(i / kRate_hz);
+      point.motion.push_back({moved.u + sigma_px * gauss(random), moved.v + sigma_px * gauss(random)});
+    }
+    points.push_back(std::move(point));
+  };
+  for (double v = 8.0; v < kHeight_px; v += 14.0) {
+    for (double u = 8.0; u < kWidth_px; u += 14.0) {
+      if (v < 250.0 || v > 350.0) add(u, v, 0.1, [](double) { return Vector2{}; });
+    }
+  }
+  for (std::size_t k = 0; k < plates.size(); ++k) {
+    for (double v = 285.0; v < 320.0; v += 9.0) {
+      for (double u = 0.0; u < 60.0; u += 9.0) add(60.0 + 180.0 * static_cast<double>(k) + u, v, 0.01, plates[k]);
+    }
+  }
+  return core::propose_regions(points, kRate_hz, kWidth_px, kHeight_px, {});
+}
 
 bool is_within(const core::Region& region, const core::Box& box, double margin_px = 2.0) {
   return region.u_px >= box.left - margin_px && region.v_px >= box.top - margin_px &&
@@ -128,6 +157,31 @@ TEST(RegionProposal, DividesADeckThatBends) {
     EXPECT_LE(one.region.width_px, 0.3 * kWidth_px + 1.0);
   }
   expect_apart(proposal);
+}
+
+TEST(RegionProposal, APlateIsMeasuredByItsOwnNoiseNotByTheWalls) {
+  const auto faint = [](double t_s) { return Vector2{0.15 * wave(t_s, 3.0), 0.0}; };
+  EXPECT_EQ(proposed_before_faint_wall({faint, faint, faint}, 300).regions.size(), 3U);
+}
+
+// The camera's drift moves a nearer plate before the wall, without a peak in its spectrum.
+TEST(RegionProposal, TheAxisIsThatOfTheVibrationNotOfTheCamerasDrift) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> gauss;
+  std::vector<double> drift(300);
+  double speed = 0.0;
+  for (std::size_t i = 1; i < drift.size(); ++i) {
+    speed = 0.8 * speed + 0.06 * gauss(random);
+    drift[i] = 0.9 * drift[i - 1] + speed;
+  }
+  const auto moves = [&](double share) {
+    return Own([&drift, share](double t_s) {
+      return Vector2{drift[static_cast<std::size_t>(std::lround(t_s * kRate_hz))], share * 0.2 * wave(t_s, 7.6)};
+    });
+  };
+  const auto proposal = proposed_before_faint_wall({moves(1.0), moves(0.7), moves(-0.8), moves(1.1)}, 300);
+  ASSERT_EQ(proposal.regions.size(), 4U) << proposal.remark;
+  for (const ProposedRegion& one : proposal.regions) EXPECT_EQ(one.region.axis_deg, 90.0) << one.region.name;
 }
 
 TEST(RegionProposal, SaysThatEverythingRests) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/support/analytic_texture.h"
@@ -79,7 +80,27 @@ TEST(StructureTracker, FollowsEachRegionAndCopiesTheFramesFacts) {
   for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(tracks.points[i].region, i < 10 ? 0 : 1);
 }
 
-// A point classified as an outlier is searched for within its region, not at its wrong position.
+// One plate is covered, the other leaves the image: each loss says why.
+TEST(StructureTracker, SaysWhyPointsAreLost) {
+  StructureTracker tracker(config());
+  ASSERT_EQ(tracker.seed(frame_of(plates(0.0, 0.0), 0)), "");
+  TrackFrame tracks;
+  tracks.points.resize(tracker.n_points());
+  for (std::uint64_t k = 1; k <= StructureTracker::kLostForGood + 40; ++k) {
+    cv::Mat gray = plates(0.0, std::min(4.0 * static_cast<double>(k), 200.0));
+    if (k > 10) gray(cv::Rect(0, 0, kWidth, kHeight / 2)).setTo(100);
+    ASSERT_TRUE(tracker.track(frame_of(gray, k), tracks));
+    call_all_seen_inliers(tracks);
+    tracker.learn(tracks);
+    if (k == 10) EXPECT_EQ(tracker.losses().total(), 0U);
+  }
+  EXPECT_EQ(tracker.losses().total(), 20U);
+  EXPECT_GE(tracker.losses().unlike, 10U);
+  EXPECT_EQ(tracker.losses().unlike + tracker.losses().left_image, 20U);
+  EXPECT_EQ(tracker.losses().elsewhere, 0U);
+}
+
+// A point that was called an outlier is looked for where its region is, not where it strayed to.
 TEST(StructureTracker, AnOutlierIsLookedForWithItsRegion) {
   StructureTracker tracker(config());
   ASSERT_EQ(tracker.seed(frame_of(plates(0.0, 0.0), 0)), "");

@@ -141,9 +141,10 @@ TEST(Config, EachKeySetsItsOwnMemberOnly) {
 TEST(Config, NamesFileLineKeyValueRangeAndRemedy) {
   EXPECT_EQ(refusal_with("rate_hz: 29.97", "rate_hz: 2e7"),
             "a.yaml:5: camera.rate_hz: 2e7 is refused: allowed 0.001 .. 1000000 (Hz); write a smaller number");
-  EXPECT_EQ(refusal_with("axis: both", "axis: w"),
-            "a.yaml:10: regions.1.axis: w is refused: allowed u | v | both | -360 .. 360 (degrees); write u, v, both, "
-            "or an angle");
+  EXPECT_EQ(
+      refusal_with("axis: both", "axis: w"),
+      "a.yaml:10: regions.1.axis: w is refused: allowed auto | u | v | both | -360 .. 360 (degrees); write auto, u, v, "
+      "both, or an angle");
 }
 
 TEST(Config, RefusesZeroRateWhenWritten) {

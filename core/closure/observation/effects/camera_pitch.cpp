@@ -9,7 +9,8 @@ class CameraPitch final : public RotationEffect {
  public:
   [[nodiscard]] EffectId id() const override { return {"camera_pitch"}; }
   [[nodiscard]] std::string name() const override { return "camera pitch"; }
-  [[nodiscard]] Eigen::VectorXd pattern(const PointGeometry& geometry) const override {
+  [[nodiscard]] Eigen::VectorXd pattern(const ObservationRecord& /*record*/,
+                                        const PointGeometry& geometry) const override {
     return pitch_pattern(geometry);
   }
   [[nodiscard]] Eigen::Vector3d rotation() const override { return {-1.0, 0.0, 0.0}; }

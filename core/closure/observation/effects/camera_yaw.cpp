@@ -9,7 +9,10 @@ class CameraYaw final : public RotationEffect {
  public:
   [[nodiscard]] EffectId id() const override { return {"camera_yaw"}; }
   [[nodiscard]] std::string name() const override { return "camera yaw"; }
-  [[nodiscard]] Eigen::VectorXd pattern(const PointGeometry& geometry) const override { return yaw_pattern(geometry); }
+  [[nodiscard]] Eigen::VectorXd pattern(const ObservationRecord& /*record*/,
+                                        const PointGeometry& geometry) const override {
+    return yaw_pattern(geometry);
+  }
   [[nodiscard]] Eigen::Vector3d rotation() const override { return {0.0, -1.0, 0.0}; }
 };
 

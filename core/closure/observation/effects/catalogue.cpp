@@ -39,8 +39,14 @@ std::vector<NotObservable> never_observable() {
        "tracks contain no brightness; the effect of bands on single points appears as a latent "
        "effect",
        "inspect the frames themselves, or expose for a whole period of the lamps"},
-      {"tilt of single floors", "the model has no rotation per region; a tilt appears as a latent effect",
+      {"tilt of single floors",
+       "the model turns the structure as a whole only; the tilt of one floor appears as a latent effect",
        "declare larger regions, or several on one floor"},
+      {"sway of the background",
+       "translation of the background is free in each frame: what is declared to rest is believed, as its sway cannot "
+       "be "
+       "told from the camera's yaw",
+       "declare a second background at another depth"},
   };
 }
 

@@ -15,7 +15,12 @@
   EFFECT(readout_time)                         \
   EFFECT(radial_distortion)                    \
   EFFECT(tangential_distortion)                \
+  EFFECT(lens_distortion)                      \
+  EFFECT(oblique_view)                         \
   EFFECT(pixel_locking)                        \
+  EFFECT(rocking)                              \
+  EFFECT(torsion)                              \
+  EFFECT(moving_part)                          \
   EFFECT(rotor_line)                           \
   EFFECT(camera_vibration)
 

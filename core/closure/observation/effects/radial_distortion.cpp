@@ -14,7 +14,7 @@ class RadialDistortion final : public LensEffect {
 
  protected:
   [[nodiscard]] LensCoefficients coefficients(const Eigen::VectorXd& values) const override {
-    return {values(0), 0.0, 0.0};
+    return {.k1 = values(0)};
   }
 };
 

@@ -1,5 +1,7 @@
 #include "core/closure/observation/effects/rotation_patterns.h"
 
+#include <algorithm>
+
 namespace core::closure {
 
 Eigen::VectorXd roll_pattern(const PointGeometry& g) {
@@ -28,6 +30,11 @@ Eigen::MatrixXd rotation_patterns(const PointGeometry& g, bool complete) {
   if (!complete) return out;
   for (Eigen::Index j = 0; j < g.x.size(); ++j) out(2 * j + 1, 1) += g.alpha_px, out(2 * j, 2) -= g.alpha_px;
   return out;
+}
+
+bool has_background(const ObservationRecord& record) {
+  return std::any_of(record.region_of_point.begin(), record.region_of_point.end(),
+                     [&](std::size_t r) { return !makes_channel(record.regions[r].role); });
 }
 
 }  // namespace core::closure

@@ -17,6 +17,9 @@ namespace core::closure {
 // Roll, pitch and yaw as columns, 2 points x 3; complete: with the constant parts.
 [[nodiscard]] Eigen::MatrixXd rotation_patterns(const PointGeometry& g, bool complete);
 
+// Is anything seen that does not belong to the structure?
+[[nodiscard]] bool has_background(const ObservationRecord& record);
+
 // Rotation about one axis of the camera, in degrees.
 class RotationEffect : public PatternEffect {
  public:

@@ -14,7 +14,7 @@ class TangentialDistortion final : public LensEffect {
 
  protected:
   [[nodiscard]] LensCoefficients coefficients(const Eigen::VectorXd& values) const override {
-    return {0.0, values(0), values(1)};
+    return {.p1 = values(0), .p2 = values(1)};
   }
 };
 

@@ -1,17 +1,17 @@
 #include "core/closure/observation/kinds/constant_effect.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "core/closure/observation/block_estimates.h"
 #include "core/closure/observation/kinds/materiality.h"
 
 namespace core::closure {
 namespace {
 
-constexpr Eigen::Index kBlocks = 10;
+constexpr double kLeastSigmas = 3.0;
 
 // Attenuation of a wave over the image by the model's position uncertainty: exp(-(2 pi waves sigma)^2 / 2).
 double blur(const FitView& fit, double waves_per_px) {
@@ -53,6 +53,7 @@ class ConstantsInModel final : public EffectInModel {
     covariance_ = covariance;
   }
   [[nodiscard]] double added_readout_frames() const override { return effect_.added_readout_frames(values_); }
+  [[nodiscard]] LensCoefficients lens() const override { return effect_.lens(values_); }
   void correct(CorrectionStage stage, const CorrectionView& view, Eigen::MatrixXd& positions) const override {
     effect_.correct(stage, values_, view, positions);
   }
@@ -67,54 +68,30 @@ class ConstantCandidate final : public EffectCandidate {
  public:
   ConstantCandidate(const ConstantEffect& effect, const FitView& fit)
       : effect_(effect),
-        fields_(effect.derivatives(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(effect.n_parameters())), fit)) {
-    const auto n = static_cast<Eigen::Index>(fields_.size());
-    for (Eigen::Index b = 0; b < kBlocks && n > 0; ++b) {
-      Eigen::MatrixXd normal(n, n);
-      for (Eigen::Index p = 0; p < n; ++p) {
-        for (Eigen::Index q = 0; q <= p; ++q) normal(p, q) = normal(q, p) = product(p, field(q), b);
-      }
-      normal_.push_back(std::move(normal));
-    }
+        fields_(effect.derivatives(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(effect.n_parameters())), fit)) {}
+  [[nodiscard]] double gain(const TestedResidual& residual) const override {
+    return BlockEstimates(fields_, residual.values).held_out_gain();
   }
-  [[nodiscard]] double gain(const TestedResidual& residual) const override;
-  double find(const TestedResidual& residual) override { return gain(residual); }
+  double find(const TestedResidual& residual) override {
+    const BlockEstimates estimates(fields_, residual.values);
+    sigmas_ = estimates.sigmas_from_zero();
+    return estimates.held_out_gain();
+  }
   [[nodiscard]] double material_share() const override { return kGlobalBar; }
+  [[nodiscard]] std::span<const Eigen::MatrixXd> constant_fields() const override { return fields_; }
+  [[nodiscard]] Objection objection() const override {
+    if (sigmas_ > kLeastSigmas) return {};
+    return {"within three of its own standard deviations of zero", true};
+  }
   [[nodiscard]] std::unique_ptr<EffectInModel> adopted() const override {
     return std::make_unique<ConstantsInModel>(effect_);
   }
 
  private:
-  [[nodiscard]] const Eigen::MatrixXd& field(Eigen::Index p) const { return fields_[static_cast<std::size_t>(p)]; }
-  // Inner product of a derivative and another field over one block of time.
-  [[nodiscard]] double product(Eigen::Index p, const Eigen::MatrixXd& other, Eigen::Index block) const {
-    const Eigen::Index frames = other.cols();
-    const Eigen::Index from = block * frames / kBlocks, count = (block + 1) * frames / kBlocks - from;
-    return field(p).middleCols(from, count).cwiseProduct(other.middleCols(from, count)).sum();
-  }
-
   const ConstantEffect& effect_;
   std::vector<Eigen::MatrixXd> fields_;
-  std::vector<Eigen::MatrixXd> normal_;  // per block
+  double sigmas_ = 0.0;
 };
-
-double ConstantCandidate::gain(const TestedResidual& residual) const {
-  const auto n = static_cast<Eigen::Index>(fields_.size());
-  std::vector<Eigen::VectorXd> right(static_cast<std::size_t>(kBlocks), Eigen::VectorXd::Zero(n));
-  for (Eigen::Index b = 0; b < kBlocks; ++b) {
-    for (Eigen::Index p = 0; p < n; ++p) right[static_cast<std::size_t>(b)](p) = product(p, residual.values, b);
-  }
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n);
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(n);
-  for (std::size_t b = 0; b < right.size(); ++b) normal += normal_[b], all += right[b];
-  double gain = 0.0;
-  for (std::size_t b = 0; b < right.size(); ++b) {
-    const Eigen::VectorXd values = (normal - normal_[b]).ldlt().solve(all - right[b]);
-    if (!values.allFinite()) return 0.0;
-    gain += 2.0 * values.dot(right[b]) - values.dot(normal_[b] * values);
-  }
-  return gain;
-}
 
 }  // namespace
 
@@ -124,7 +101,7 @@ std::unique_ptr<EffectCandidate> ConstantEffect::candidate(const FitView& fit) c
 
 std::vector<Eigen::MatrixXd> PositionEffect::derivatives(const Eigen::VectorXd& values, const FitView& fit) const {
   std::vector<Eigen::MatrixXd> out;
-  const CorrectionView view = fit.correction();
+  const CorrectionView view = beside(values, fit.correction());
   for (Eigen::Index p = 0; p < values.size(); ++p) {
     Eigen::MatrixXd more = fit.predicted_px, less = more;  // measured positions would add noise to the derivative
     Eigen::VectorXd up = values, down = values;

@@ -4,7 +4,8 @@
 
 namespace core::closure {
 
-// A few constants of the whole record. Scored on one of ten blocks of time, fitted to the other nine.
+// A few constants of the whole record. Scored on one of ten blocks of time, fitted on the other nine
+// (block_estimates.h).
 class ConstantEffect : public ObservationEffect {
  public:
   struct Parameter {
@@ -19,6 +20,7 @@ class ConstantEffect : public ObservationEffect {
   [[nodiscard]] virtual std::vector<Eigen::MatrixXd> derivatives(const Eigen::VectorXd& values,
                                                                  const FitView& fit) const = 0;
   [[nodiscard]] virtual double added_readout_frames(const Eigen::VectorXd& /*values*/) const { return 0.0; }
+  [[nodiscard]] virtual LensCoefficients lens(const Eigen::VectorXd& /*values*/) const { return {}; }
   virtual void correct(CorrectionStage /*stage*/, const Eigen::VectorXd& /*values*/, const CorrectionView& /*view*/,
                        Eigen::MatrixXd& /*positions*/) const {}
 
@@ -38,8 +40,14 @@ class PositionEffect : public ConstantEffect {
 
   [[nodiscard]] std::vector<Eigen::MatrixXd> derivatives(const Eigen::VectorXd& values, const FitView& fit) const final;
   void correct(CorrectionStage at, const Eigen::VectorXd& values, const CorrectionView& view,
-               Eigen::MatrixXd& positions) const final {
+               Eigen::MatrixXd& positions) const override {
     if (at == stage()) remove(values, view, positions);
+  }
+
+ protected:
+  // The view as it is without these values of the effect itself.
+  [[nodiscard]] virtual CorrectionView beside(const Eigen::VectorXd& /*values*/, CorrectionView view) const {
+    return view;
   }
 };
 

@@ -74,7 +74,7 @@ class LineCandidate final : public EffectCandidate {
     found_ = search_.find(residual.values);
     return found_.gain;
   }
-  [[nodiscard]] double material_share() const override { return kGlobalBar; }
+  [[nodiscard]] double material_share() const override { return kLineBar; }
   [[nodiscard]] Objection objection() const override {
     if (found_.is_steady(fit_.record.rate_hz, fit_.readout_frames) != effect_.is_steady())
       return {effect_.is_steady() ? "its width is that of a band" : "its width is that of a steady line", false};

@@ -1,11 +1,20 @@
 #pragma once
 
+#include "core/closure/observation/fit_view.h"
+
 namespace core::closure {
 
 // Materiality thresholds of the observation level: smallest gain per residual value, in noise variances. The model's
-// own errors stay below them (core/closure/METHOD.md).
-inline constexpr double kFullBandBar = 0.02;  // one amplitude per frame, and latent patterns
-inline constexpr double kLowBandBar = 0.005;  // the same, up to PointMotionModel::kLowBand_hz
-inline constexpr double kGlobalBar = 0.003;   // constants of the record, spectral lines
+// own error does not reach them (core/closure/METHOD.md).
+inline constexpr double kLearnedBar = 0.02;    // a pattern learned from the residual, in the whole spectrum
+inline constexpr double kFullBandBar = 0.005;  // a known one
+inline constexpr double kGlobalBar = 0.0001;   // constants of the record
+inline constexpr double kLineBar = 0.003;      // spectral lines
+
+// Of an amplitude in some rungs only: in proportion to its degrees of freedom, at least that of a constant.
+[[nodiscard]] inline double material_of(RungSet band, const FitView& fit, double in_all) {
+  const double share = band == kAllRungs ? 1.0 : fit.held_out.share_of(band);
+  return share * in_all > kGlobalBar ? share * in_all : kGlobalBar;
+}
 
 }  // namespace core::closure

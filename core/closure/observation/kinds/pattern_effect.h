@@ -4,24 +4,30 @@
 
 namespace core::closure {
 
-// A known pattern over the image with an amplitude in every frame, in the low band or at all frequencies.
+// A known pattern over the image with an amplitude in every frame, in some rungs of the spectrum or in all.
 class PatternEffect : public ObservationEffect {
  public:
   // px per internal unit, 2 points long.
-  [[nodiscard]] virtual Eigen::VectorXd pattern(const PointGeometry& geometry) const = 0;
+  [[nodiscard]] virtual Eigen::VectorXd pattern(const ObservationRecord& record,
+                                                const PointGeometry& geometry) const = 0;
   [[nodiscard]] virtual std::string unit() const = 0;
   [[nodiscard]] virtual double per_unit() const { return 1.0; }  // reported value = internal value * per_unit
-  // Rotation of the camera per internal unit, if the pattern is the first order of a rotation.
+  // Why an amplitude in this band is not that of the effect; empty: no reason.
+  [[nodiscard]] virtual std::string not_in(RungSet /*band*/, const FitView& /*fit*/) const { return {}; }
+  // Of the camera per internal unit, where the pattern is the first order of a rotation.
   [[nodiscard]] virtual Eigen::Vector3d rotation() const { return Eigen::Vector3d::Zero(); }
 
   [[nodiscard]] std::size_t n_parameters() const final { return 1; }
-  [[nodiscard]] std::optional<NotObservable> obstacle(const FitView& fit, bool is_adopted) const final;
+  [[nodiscard]] std::optional<NotObservable> obstacle(const FitView& fit, bool is_adopted) const override;
   [[nodiscard]] std::unique_ptr<EffectCandidate> candidate(const FitView& fit) const final;
+  [[nodiscard]] Eigen::MatrixXd shapes(const FitView& fit) const final {
+    return pattern(fit.record, fit.model.geometry());
+  }
 };
 
-// Standard deviation over time of the amplitude of a whitened pattern `w`, corrected for noise, and its sigma. The
-// noise is that of an amplitude fitted together with the model's own columns.
-[[nodiscard]] ParameterValue amplitude_rms(const FitView& fit, const Eigen::VectorXd& w, bool low_band,
+// Standard deviation of an amplitude of a whitened pattern `w` beside the model's own columns, noise removed; and its
+// sigma.
+[[nodiscard]] ParameterValue amplitude_rms(const FitView& fit, const Eigen::VectorXd& w, RungSet band,
                                            const Eigen::RowVectorXd& amplitude);
 
 }  // namespace core::closure

@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "core/closure/observation/effect.h"
+#include "core/closure/observation/effects/catalogue.h"
+#include "core/closure/observation/kinds/follows_motion.h"
+#include "core/closure/observation/kinds/learned_pattern.h"
+#include "core/closure/observation/kinds/materiality.h"
+
+namespace core::closure {
+namespace {
+
+constexpr std::size_t kLeastPoints = 2;  // on either side of the division
+constexpr int kRounds = 2;
+
+using Points = std::vector<Eigen::Index>;
+
+// Some points of a region move together beside the others: values, in the order of their size, divided where most of
+// their squares lie between the two groups. True: of the points whose value lies above.
+std::vector<char> divided(const Eigen::VectorXd& values) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return values(a) < values(b); });
+  const double mean = values.mean();
+  double below = 0.0, most = -1.0;
+  std::size_t at = kLeastPoints;
+  for (std::size_t n = 1; n < order.size(); ++n) {
+    below += values(order[n - 1]) - mean;
+    if (n < kLeastPoints || order.size() - n < kLeastPoints) continue;
+    const double between = below * below * (1.0 / static_cast<double>(n) + 1.0 / static_cast<double>(order.size() - n));
+    if (between > most) most = between, at = n;
+  }
+  std::vector<char> out(order.size(), 0);
+  for (std::size_t n = at; n < order.size(); ++n) out[static_cast<std::size_t>(order[n])] = 1;
+  return out;
+}
+
+struct Part {
+  Eigen::VectorXd pattern;  // px; empty: none
+  PatternGain found;
+};
+
+// A part of a region that moves by itself, along the region's axis or across it. Observable by the points on the other
+// part; confused with nothing but a region declared too wide.
+class MovingPartCandidate final : public EffectCandidate {
+ public:
+  MovingPartCandidate(EffectId id, std::string name, const FitView& fit)
+      : id_(std::move(id)), name_(std::move(name)), fit_(fit), points_(fit.record.regions.size()) {
+    for (std::size_t j = 0; j < fit.record.region_of_point.size(); ++j)
+      points_[fit.record.region_of_point[j]].push_back(static_cast<Eigen::Index>(j));
+  }
+  [[nodiscard]] double gain(const TestedResidual& residual) const override { return best(residual.moments).found.gain; }
+  double find(const TestedResidual& residual) override {
+    part_ = best(residual.moments);
+    return part_.found.gain;
+  }
+  [[nodiscard]] double material_share() const override { return material_of(part_.found.band, fit_, kLearnedBar); }
+  [[nodiscard]] std::optional<double> free_gain(const TestedResidual& residual) const override {
+    return fit_.held_out.of_learned_in(part_.found.band, residual.moments);
+  }
+  [[nodiscard]] Objection objection() const override {
+    if (part_.pattern.size() == 0) return {};
+    const Eigen::VectorXd whitened = part_.pattern.cwiseProduct(fit_.model.weight());
+    const Objection common = follows_motion(fit_, whitened, part_.found.band);
+    return common.words.empty() ? follows_regions(fit_, whitened, part_.found.band) : common;
+  }
+  [[nodiscard]] std::unique_ptr<EffectInModel> adopted() const override {
+    return learned_pattern({id_, name_, EffectKind::kNamed}, part_.found.band, part_.pattern);
+  }
+
+ private:
+  [[nodiscard]] Part best(const ResidualMoments& moments) const {
+    Part out;
+    for (const Points& points : points_) {
+      for (const Eigen::Index axis : {0, 1}) {
+        Part part = learned(points, axis, moments);
+        if (part.pattern.size() > 0 && part.found.gain > out.found.gain) out = std::move(part);
+      }
+    }
+    return out;
+  }
+  [[nodiscard]] Part learned(const Points& points, Eigen::Index axis, const ResidualMoments& moments) const {
+    Part out;
+    if (points.size() < 2 * kLeastPoints) return out;
+    Points rows;
+    for (const Eigen::Index j : points) rows.push_back(2 * j + axis);
+    RungSet band = kAllRungs;
+    for (int round = 0; round < kRounds; ++round) {
+      const Eigen::MatrixXd within = fit_.held_out.sum_over(band, moments)(rows, rows);
+      const Eigen::VectorXd weight = fit_.model.weight()(rows);
+      const std::vector<char> above = divided(leading_pattern(within).cwiseQuotient(weight));
+      out.pattern = Eigen::VectorXd::Zero(fit_.model.weight().size());
+      for (std::size_t i = 0; i < rows.size(); ++i) out.pattern(rows[i]) = above[i] != 0 ? 1.0 : 0.0;
+      const Eigen::VectorXd whitened = out.pattern.cwiseProduct(fit_.model.weight());
+      out.found = fit_.held_out.of_pattern(pattern_beside(fit_.model, whitened), moments);
+      band = out.found.band;
+    }
+    return out;
+  }
+
+  EffectId id_;
+  std::string name_;
+  const FitView fit_;
+  std::vector<Points> points_;  // of each region
+  Part part_;
+};
+
+class MovingPart final : public ObservationEffect {
+ public:
+  [[nodiscard]] EffectId id() const override { return {"moving_part"}; }
+  [[nodiscard]] std::string name() const override { return "moving part"; }
+  [[nodiscard]] std::size_t n_parameters() const override { return 2; }
+  [[nodiscard]] std::optional<NotObservable> obstacle(const FitView& /*fit*/, bool /*is_adopted*/) const override {
+    return std::nullopt;
+  }
+  [[nodiscard]] std::unique_ptr<EffectCandidate> candidate(const FitView& fit) const override {
+    return std::make_unique<MovingPartCandidate>(id(), name(), fit);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<ObservationEffect> make_moving_part() { return std::make_unique<MovingPart>(); }
+
+}  // namespace core::closure

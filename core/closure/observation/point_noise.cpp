@@ -1,0 +1,76 @@
+#include "core/closure/observation/point_noise.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+#include "core/spectrum/real_fft.h"
+
+namespace core::closure {
+namespace {
+
+constexpr double kLeastFreedom = 0.05;         // of a point's variance that must be left to it
+constexpr double kLeast = 0.2, kMost = 5.0;    // of the variance that the point's own residual shows
+constexpr double kMedian = std::numbers::ln2;  // of an exponential distribution of mean 1
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Variance of each row, from the level of its spectrum.
+Eigen::VectorXd levels(const Eigen::MatrixXd& residual, double rate_hz, double from_hz) {
+  RealFft fft(std::max(4, next_power_of_two(static_cast<int>(residual.cols()))));
+  std::vector<double> series(static_cast<std::size_t>(fft.size()), 0.0);
+  std::vector<std::complex<double>> bins(static_cast<std::size_t>(fft.n_bins()));
+  const auto last = fft.n_bins() - 1;
+  const int first = std::clamp(static_cast<int>(std::ceil(from_hz * fft.size() / rate_hz)), 1, last / 2);
+  Eigen::VectorXd out(residual.rows());
+  std::vector<double> power;
+  for (Eigen::Index i = 0; i < residual.rows(); ++i) {
+    for (Eigen::Index k = 0; k < residual.cols(); ++k) series[static_cast<std::size_t>(k)] = residual(i, k);
+    fft.forward(series, bins);
+    power.clear();
+    for (int b = first; b < last; ++b) power.push_back(std::norm(bins[static_cast<std::size_t>(b)]));
+    out(i) = median(power) / kMedian / static_cast<double>(residual.cols());
+  }
+  return out;
+}
+
+// Mean share of the noise variance of point k in the residual of point j.
+Eigen::MatrixXd passed_on(const Eigen::MatrixXd& q) {
+  const Eigen::Index n = q.rows() / 2;
+  const Eigen::MatrixXd squares = (Eigen::MatrixXd::Identity(q.rows(), q.rows()) - q * q.transpose()).cwiseAbs2();
+  Eigen::MatrixXd out(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    for (Eigen::Index k = 0; k < n; ++k) out(j, k) = 0.5 * squares.block<2, 2>(2 * j, 2 * k).sum();
+  }
+  return out;
+}
+
+}  // namespace
+
+Eigen::VectorXd point_noise(const Eigen::MatrixXd& residual, const Eigen::MatrixXd& q, double rate_hz, double from_hz) {
+  const Eigen::VectorXd of_rows = levels(residual, rate_hz, from_hz);
+  const Eigen::Index n = of_rows.size() / 2;
+  Eigen::VectorXd left(n);
+  for (Eigen::Index j = 0; j < n; ++j) left(j) = of_rows.segment<2>(2 * j).mean();
+  Eigen::MatrixXd shares = passed_on(q);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    if (shares(j, j) > kLeastFreedom) continue;
+    shares.row(j).setZero();
+    shares(j, j) = left(j) = 1.0;
+  }
+  Eigen::VectorXd variance = shares.partialPivLu().solve(left);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const double own = left(j) / shares(j, j);
+    variance(j) = own > 0.0 ? std::clamp(variance(j), kLeast * own, kMost * own) : 1.0;
+  }
+  return variance.cwiseSqrt();
+}
+
+}  // namespace core::closure

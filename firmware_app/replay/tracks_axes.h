@@ -1,0 +1,12 @@
+#pragma once
+
+#include "drivers/storage/csv.h"
+#include "firmware_app/config/config.h"
+
+namespace app {
+
+// The configuration with an axis for every region: those that it does not declare are as the file says that they were
+// measured, or else as its first seconds show.
+[[nodiscard]] AppConfig with_axes_of(const drivers::TracksFile& file, AppConfig config);
+
+}  // namespace app
