@@ -11,7 +11,7 @@ using Channel = InnovationGate::Channel;
 constexpr std::size_t kOrder = InnovationGate::kOrder, kNewest = InnovationGate::kHistory - 1;
 
 // Of the scale, below which seven eighths of the innovations lie: eighteen standard deviations of Gaussian ones. The
-// free vibration of a measured frame, shaken in bursts, reaches a hundred, but never in one channel alone.
+// vibration of a measured frame that is shaken in bursts reaches a hundred, in all channels together.
 constexpr double kFar = 12.0;
 constexpr double kQuiet = 2.5;  // another channel's innovation: four standard deviations
 // What of both innovations the departure must explain: all but the usual, or all but a share of it.

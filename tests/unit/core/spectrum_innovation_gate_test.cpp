@@ -68,7 +68,7 @@ TEST(InnovationGate, FindsWhatTheNeighboursInTimeAllow) {
   EXPECT_EQ(found_in(x), wanted);
   OutlierGate gate(1);
   std::size_t n = 0;
-  for (const double value : x[0]) n += gate.push(0, value, true) ? 1 : 0;
+  for (const double value : x[0]) n += gate.push(0, value, true) ? 1U : 0U;
   EXPECT_EQ(n, 0U) << "one channel's neighbours in time do not tell";
 }
 
