@@ -11,6 +11,7 @@ namespace {
 constexpr double kAboveNoise = 4.0, kFarAboveNoise = 10.0;      // rms motion over rms noise
 constexpr double kLeastMotion_px = 0.01;                        // the optics' own errors
 constexpr double kOneDirection = 2.0, kOnlyOneDirection = 3.0;  // rms along over across
+constexpr double kOfAll = 0.5;         // of the rms motion of all: a region with an axis of its own moves so much
 constexpr double kUpright_deg = 15.0;  // u and v are what a structure filmed upright moves along
 constexpr double kStep_deg = 5.0;      // coarse, so that rounding decides nothing
 
@@ -55,20 +56,23 @@ AxisChoice chosen(const PlaneMotion& motion) noexcept {
 }
 
 // Does it move across the common axis more than along it, or along one only where all together move along either?
-bool has_own_axis(const PlaneMotion& motion, const AxisChoice& common) noexcept {
+// A region that moves as the reference does has next to no motion of its own: what is left of it says nothing.
+bool has_own_axis(const PlaneMotion& motion, const AxisChoice& common, const PlaneMotion& all) noexcept {
   if (!moves(motion, kAboveNoise)) return false;
   if (common.from == AxisFrom::kMotion && common.both_axes) return is_one_direction(motion, kOnlyOneDirection);
-  return motion.across_px(common.axis_deg) > motion.along_px(common.axis_deg);
+  const double across_px = motion.across_px(common.axis_deg);
+  return across_px > motion.along_px(common.axis_deg) && across_px > kOfAll * all.along_px(common.axis_deg);
 }
 
 }  // namespace
 
 std::vector<AxisChoice> choose_axes(const MotionAxes& axes, const std::vector<Region>& regions) {
-  const AxisChoice common = chosen(of_all(axes, regions));
+  const PlaneMotion all = of_all(axes, regions);
+  const AxisChoice common = chosen(all);
   std::vector<AxisChoice> out;
   for (std::size_t r = 0; r < regions.size(); ++r) {
     const PlaneMotion motion = r < axes.n_regions() ? axes.motion(r) : PlaneMotion{};
-    out.push_back(has_own_axis(motion, common) ? chosen(motion) : common);
+    out.push_back(has_own_axis(motion, common, all) ? chosen(motion) : common);
   }
   return out;
 }

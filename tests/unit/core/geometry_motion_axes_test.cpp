@@ -84,6 +84,16 @@ TEST(MotionAxes, ACameraThatComesNearerIsNoMotionAlongTheTower) {
   EXPECT_FALSE(choices[4].both_axes);
 }
 
+// A storey that moves as the middle of all does has nothing left along the axis but what it does across.
+TEST(MotionAxes, TheStoreyAtTheMiddleKeepsTheCommonAxis) {
+  Scene scene = tower(0.0);
+  for (double& deg : scene.deg) deg = 7.0;
+  for (int copy = 0; copy < 3; ++copy) scene.add(RegionRole::kStructure, 0.9, 14.0);
+  for (double& amplitude : scene.amplitude_px) amplitude *= 10.0;
+  const auto choices = choose_axes(scene.seen_for(8.0), scene.regions);
+  for (std::size_t r = 0; r < choices.size(); ++r) EXPECT_EQ(choices[r].axis_deg, 0.0) << r;
+}
+
 TEST(MotionAxes, ARegionWithADirectionOfItsOwnKeepsIt) {
   Scene scene = tower(0.0);
   scene.add(RegionRole::kStructure, 1.5, 90.0);
