@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/closure/observation/point_motion_model.h"
+#include "core/closure/observation/rungs.h"
 #include "tests/support/swaying_record.h"
 
 namespace core::closure {
@@ -100,7 +101,7 @@ TEST(PointMotionColumns, AddedOnesOfTheLowBandEndThere) {
   }
   const RowVectorXd slow = 0.4 * cosine(16), fast = 0.2 * cosine(80);  // 1 and 5 Hz
   PointMotionModel model(record);
-  model.set_added({full}, {low});
+  model.set_added({full}, {low}, Rungs(record.rate_hz).up_to(3.0));
   model.solve(positions_of(record) + full * (slow + fast) + low * slow, 0.0, 1);
   EXPECT_LT((model.amplitudes().row(7) - slow - fast).cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_LT((model.amplitudes().row(8) - slow).cwiseAbs().maxCoeff(), 1e-9);

@@ -92,7 +92,9 @@ TEST(StructureTracker, SaysWhyPointsAreLost) {
     ASSERT_TRUE(tracker.track(frame_of(gray, k), tracks));
     call_all_seen_inliers(tracks);
     tracker.learn(tracks);
-    if (k == 10) EXPECT_EQ(tracker.losses().total(), 0U);
+    if (k == 10) {
+      EXPECT_EQ(tracker.losses().total(), 0U);
+    }
   }
   EXPECT_EQ(tracker.losses().total(), 20U);
   EXPECT_GE(tracker.losses().unlike, 10U);
