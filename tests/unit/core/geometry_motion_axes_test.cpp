@@ -38,7 +38,8 @@ struct Scene {
       for (std::size_t i = 0; i < frame.points.size(); ++i) {
         const std::size_t r = i / kPoints;
         const bool is_far = regions[r].role == RegionRole::kBackground;
-        const double own = amplitude_px[r] * std::sin(2.0 * std::numbers::pi * (deg[r] == deg[0] ? 3.1 : 4.3) * t);
+        const double own =
+            amplitude_px[r] * std::sin(2.0 * std::numbers::pi * (std::abs(deg[r] - deg[0]) < 10.0 ? 3.1 : 4.3) * t);
         const double angle = deg[r] * std::numbers::pi / 180.0;
         TrackPoint& point = frame.points[i];
         const double nearer = 1.0 + zoom * std::sin(2.0 * std::numbers::pi * 0.4 * t);
