@@ -18,7 +18,8 @@ class LatentCandidate final : public EffectCandidate {
         leading_pattern(fit_.held_out.sum_over(found_.band, residual.moments)).cwiseQuotient(fit_.model.weight());
     return found_.gain;
   }
-  [[nodiscard]] double material_share() const override { return material_of(found_.band, fit_, kLearnedBar); }
+  // In whichever rungs: what has no name must change the whole residual. Folded modes leave narrow patterns of 0.005.
+  [[nodiscard]] double material_share() const override { return kLearnedBar; }
   [[nodiscard]] std::unique_ptr<EffectInModel> adopted() const override {
     return learned_pattern({latent_id(number_), latent_name(number_), EffectKind::kLatent}, found_.band, pattern_);
   }
