@@ -218,9 +218,11 @@ void WelchCpsd::transform_channel(int channel) noexcept {
     value = bridged;
     seen = held;
   }
-  // n_fft is two segments at least: the upper one is free.
-  window_about_mean(value, seen, window_, {padded_.data() + segment, segment}, {padded_.data(), segment});
-  std::fill(padded_.begin() + static_cast<std::ptrdiff_t>(segment), padded_.end(), 0.0);
+  // n_fft is at least two segments, so the upper half is free. The end of a partial last segment is no gap.
+  const auto n = static_cast<std::size_t>(n_filled_);
+  window_about_mean(value.first(n), seen.first(n), std::span(window_).first(n), {padded_.data() + segment, n},
+                    {padded_.data(), n});
+  std::fill(padded_.begin() + n_filled_, padded_.end(), 0.0);
   fft_.forward(padded_, {data_.data() + c * bins, bins});
 }
 
@@ -229,9 +231,10 @@ void WelchCpsd::transform_mask(int channel) noexcept {
   const auto bins = static_cast<std::size_t>(fft_.n_bins());
   const auto c = static_cast<std::size_t>(channel);
   const std::uint8_t* seen = (config_.bridge_losses ? held_ : seen_).data() + c * segment;  // after transform_channel()
-  (void)gap_weights({seen, segment}, {padded_.data(), segment});
-  std::fill(padded_.begin() + static_cast<std::ptrdiff_t>(segment), padded_.end(), 0.0);
-  for (std::size_t t = 0; t < segment; ++t) padded_[t] *= window_[t];
+  const auto n = static_cast<std::size_t>(n_filled_);
+  (void)gap_weights({seen, n}, {padded_.data(), n});
+  std::fill(padded_.begin() + n_filled_, padded_.end(), 0.0);
+  for (std::size_t t = 0; t < n; ++t) padded_[t] *= window_[t];
   fft_.forward(padded_, {mask_.data() + c * bins, bins});
 }
 

@@ -25,9 +25,11 @@ Pipeline::Pipeline(const AppConfig& declared) {
   for (const std::string& words : axis_caveats(config)) flow_->health.warn(words);
 }
 
-Pipeline::Pipeline(const AppConfig& config, std::unique_ptr<drivers::Camera> camera,
-                   std::unique_ptr<drivers::Publisher> publisher)
-    : flow_(std::make_unique<DataFlow>(config, std::move(camera), open_recorder(config), std::move(publisher))) {}
+Pipeline::Pipeline(AppConfig config, std::unique_ptr<drivers::Camera> camera,
+                   std::unique_ptr<drivers::Publisher> publisher) {
+  take_u_where_sought(config);
+  flow_ = std::make_unique<DataFlow>(config, std::move(camera), open_recorder(config), std::move(publisher));
+}
 
 Pipeline::~Pipeline() {
   request_stop();

@@ -39,8 +39,7 @@ class Pipeline {
   // Where axes are not declared they are found first, which takes the source's first seconds.
   explicit Pipeline(const AppConfig& declared);
   // The same, axes not declared taken as u, with a camera and a publisher of the caller's: for tests.
-  Pipeline(const AppConfig& config, std::unique_ptr<drivers::Camera> camera,
-           std::unique_ptr<drivers::Publisher> publisher);
+  Pipeline(AppConfig config, std::unique_ptr<drivers::Camera> camera, std::unique_ptr<drivers::Publisher> publisher);
   ~Pipeline();
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
