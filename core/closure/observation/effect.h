@@ -39,6 +39,9 @@ class ObservationEffect {
     return Eigen::MatrixXd(fit.model.weight().size(), 0);
   }
 
+  // Higher terms of the same cause as `lower`: never a rival of it, because the smallest sufficient model is preferred.
+  [[nodiscard]] virtual bool refines(const EffectId& /*lower*/) const { return false; }
+
   // Whether a run corrects this effect in its own points, once reports agree on it, and how. By default it does not.
   [[nodiscard]] virtual const InFlightCorrection* in_flight() const { return nullptr; }
 };

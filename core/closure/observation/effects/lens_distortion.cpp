@@ -13,6 +13,7 @@ class LensDistortion final : public LensEffect {
   [[nodiscard]] std::vector<Parameter> constants() const override { return {{"k2"}, {"k3"}}; }
   [[nodiscard]] double most() const override { return 5.0; }
   [[nodiscard]] double step() const override { return 1e-2; }
+  [[nodiscard]] bool refines(const EffectId& lower) const override { return lower.key == "radial_distortion"; }
 
  protected:
   [[nodiscard]] LensCoefficients coefficients(const Eigen::VectorXd& values) const override {
