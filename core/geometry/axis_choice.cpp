@@ -1,4 +1,4 @@
-// Which axis the motion of regions tells (motion_axes.h).
+// Axis of the regions from their motion (motion_axes.h).
 #include <algorithm>
 #include <cmath>
 

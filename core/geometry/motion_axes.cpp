@@ -15,7 +15,7 @@ constexpr double kLeastInBlock = 8.0;  // samples: fewer tell no line
 // Hover is slower than this; where the camera's motion is known, the structure may be slow.
 constexpr double kBlock_s = 1.0, kBlockOfKnownCamera_s = 4.0;
 
-constexpr double kStray_px = 5.0;           // a point farther from its region's median tells no zoom
+constexpr double kStray_px = 5.0;           // farther from its region's median, a point is excluded from the zoom
 constexpr double kMostZoomNoise_px = 0.05;  // at the farthest region; else zoom is left in
 
 bool is_usable(const TrackPoint& point) noexcept {

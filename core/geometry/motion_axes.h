@@ -80,7 +80,7 @@ class MotionAxes {
   std::vector<PlaneMotion> sums_;       // regions, over complete blocks, not yet divided
 };
 
-// The axis that a region's motion tells. Regions whose own motion has no clear direction take that of all together;
+// The axis of each region from its motion. Regions whose own motion has no clear direction take that of all together;
 // both axes where these move along either; u where nothing moves.
 struct AxisChoice {
   AxisFrom from = AxisFrom::kNoMotion;

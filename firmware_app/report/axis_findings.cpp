@@ -15,7 +15,7 @@ namespace {
 constexpr double kMoreAcross = 1.5;  // times the motion along
 constexpr double kAboveNoise = 4.0;  // rms over rms
 constexpr double kOfLargest = 0.3;   // of the motion of the region that moves most
-constexpr double kMostTold = 100.0;  // times: more is not told apart
+constexpr double kMostTold = 100.0;  // largest reported ratio
 
 double largest_px(const core::PlaneMotion& motion) { return motion.along_px(motion.principal_deg()); }
 

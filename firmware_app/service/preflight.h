@@ -10,7 +10,7 @@ namespace app {
 
 struct RegionCheck {
   std::string name;
-  std::string axis;                      // "-": static; with "found" where the motion told it
+  std::string axis;                      // "-": static; with "found" if estimated from the motion
   std::size_t n_seeded = 0, n_seen = 0;  // n_seen: found in nearly all of the frames tried
   double point_sigma_px = 0.0;           // median over its points; 0 = none was seen
   double noise_px = 0.0;                 // expected rms of one displacement of the region

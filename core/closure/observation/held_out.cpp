@@ -138,13 +138,6 @@ PatternGain HeldOut::of_pattern(const PatternBeside& pattern, const ResidualMome
   return out;
 }
 
-double HeldOut::of_pattern_in(RungSet band, const PatternBeside& pattern, const ResidualMoments& moments) const {
-  double sum = 0.0;
-  for (std::size_t rung = 0; rung < rungs_.size(); ++rung)
-    sum += holds(band, rung) ? gain_in_rung(rung, pattern, moments) : 0.0;
-  return sum;
-}
-
 Eigen::MatrixXd HeldOut::sum_over(RungSet band, const ResidualMoments& moments) const {
   if (band == kAllRungs) return moments.all_sum;
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(moments.all_sum.rows(), moments.all_sum.cols());

@@ -47,8 +47,6 @@ class HeldOut {
 
   // Of a known pattern, in the rungs where it gains.
   [[nodiscard]] PatternGain of_pattern(const PatternBeside& pattern, const ResidualMoments& moments) const;
-  // The same in a given band.
-  [[nodiscard]] double of_pattern_in(RungSet band, const PatternBeside& pattern, const ResidualMoments& moments) const;
   // Of the best pattern learned on four fifths of the residual, on the other fifth: in all rungs, in the slow ones or
   // in the one where most is left.
   [[nodiscard]] PatternGain of_learned(const ResidualMoments& moments) const;

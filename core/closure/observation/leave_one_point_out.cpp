@@ -58,14 +58,4 @@ double LeaveOnePointOut::squares_with(const Eigen::MatrixXd& moments, const Eige
   return sum;
 }
 
-double LeaveOnePointOut::noise_with(const Eigen::VectorXd& g) const {
-  double sum = 0.0;
-  for (std::size_t j = 0; j < hat_.size(); ++j) {
-    if (counted_[j] == 0) continue;
-    const Eigen::Vector2d gj = g.segment<2>(static_cast<Eigen::Index>(2 * j));
-    sum += gain(hat_[j] + gj * gj.transpose()).trace();
-  }
-  return sum;
-}
-
 }  // namespace core::closure

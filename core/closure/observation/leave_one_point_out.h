@@ -17,8 +17,7 @@ class LeaveOnePointOut {
   [[nodiscard]] double squares_with(const Eigen::MatrixXd& moments, const Eigen::VectorXd& g) const;
   // Expected square per value for noise of unit variance, leverage included.
   [[nodiscard]] double noise_variance() const noexcept { return noise_ / static_cast<double>(n_values_); }
-  [[nodiscard]] double noise_with(const Eigen::VectorXd& g) const;  // expected squares per frame with g added
-  [[nodiscard]] double noise() const noexcept { return noise_; }    // expected squares per frame
+  [[nodiscard]] double noise() const noexcept { return noise_; }  // expected squares per frame
   [[nodiscard]] Eigen::Index n_values() const noexcept { return n_values_; }
   [[nodiscard]] Eigen::Index n_alone() const noexcept {
     return n_alone_;

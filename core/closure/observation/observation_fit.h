@@ -13,7 +13,7 @@ namespace core::closure {
 
 // The model of the points' positions with its adopted effects, fitted to one record: PointMotionModel, free in every
 // frame; patterns as further columns of it; constants by Gauss-Newton steps; lines by themselves; missing samples
-// predicted by the model. The points' sigmas are the stated ones for the first solution only; the residual tells the
+// predicted by the model. The points' sigmas are the stated ones for the first solution only; the residual gives the
 // noise of each point (point_noise.h), again where an effect that is adopted or reverted changes it.
 class ObservationFit {
  public:
