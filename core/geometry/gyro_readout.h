@@ -15,10 +15,10 @@ namespace core {
 // G the gyro's attitude (integrated rates minus a constant bias), R from gyro axes to camera axes (X right, Y down, Z
 // forward), pinhole of focal length f. Unknown: T_r, clock offset, f if not given, bias, R [Karpenko et al. 2011; Jia &
 // Evans 2014]. A carried camera also translates: every pair has its own translation, and every point its own unknown
-// depth, so the residual is the distance of points from their epipolar lines (derotated_flow.h). Start: start_from_turns;
-// then maximum likelihood by Levenberg-Marquardt, translations eliminated (Schur complement), the points' noise
-// estimated too; of three initial readouts the most likely result is used. Standard deviations: sandwich over frame
-// pairs, with correlated neighbouring scores [Newey & West 1987].
+// depth, so the residual is the distance of points from their epipolar lines (derotated_flow.h). Start:
+// start_from_turns; then maximum likelihood by Levenberg-Marquardt, translations eliminated (Schur complement), the
+// points' noise estimated too; of three initial readouts the most likely result is used. Standard deviations: sandwich
+// over frame pairs, with correlated neighbouring scores [Newey & West 1987].
 
 struct GyroSample {
   double t_s = 0.0;

@@ -12,9 +12,9 @@ namespace core {
 namespace {
 
 constexpr int kMostMultiple = 9;
-constexpr double kExact = 0.05;             // tolerance, as a share of the resolution
-constexpr double kStronger = 10.0;          // power ratio of a line to its combination, at least
-constexpr double kMostHarmonicShare = 1e-3; // share of the stronger line's power
+constexpr double kExact = 0.05;              // tolerance, as a share of the resolution
+constexpr double kStronger = 10.0;           // power ratio of a line to its combination, at least
+constexpr double kMostHarmonicShare = 1e-3;  // share of the stronger line's power
 
 // Power of all channels at a frequency: the largest of three bins.
 double power_at(const CpsdSums& sums, const std::vector<ChannelInfo>& channels, double hz) {

@@ -44,8 +44,8 @@ Identifier Identifier::with_channels(const std::vector<std::size_t>& kept) const
 }
 
 ModalEstimate Identifier::identify_kept(const CpsdSums& sums, const Participation& part) const {
-  std::vector<ChannelRecord> records, outputs(part.records.begin(),
-                                              part.records.begin() + static_cast<std::ptrdiff_t>(n_outputs()));
+  std::vector<ChannelRecord> records,
+      outputs(part.records.begin(), part.records.begin() + static_cast<std::ptrdiff_t>(n_outputs()));
   std::vector<std::size_t> kept_outputs;
   for (const std::size_t c : part.kept) {
     records.push_back(part.records[c]);
@@ -55,7 +55,8 @@ ModalEstimate Identifier::identify_kept(const CpsdSums& sums, const Participatio
   if (kept_outputs.empty()) {
     estimate = identify_all(sums, part.records);
     estimate.modes.clear(), estimate.rejected.clear(), estimate.poles.clear();
-    estimate.status = "no channel has a record to identify from: " + outputs_.front().name + ": " + outputs.front().reason;
+    estimate.status =
+        "no channel has a record to identify from: " + outputs_.front().name + ": " + outputs.front().reason;
   } else {
     estimate = with_channels(part.kept).identify_all(select_channels(sums, part.kept), records);
     spread(estimate, kept_outputs, n_outputs());

@@ -66,7 +66,8 @@ double explained_by_slope(const std::vector<Complex>& shape, const std::vector<d
 
 }  // namespace
 
-void SpectralLineTest::find_camera(const std::vector<Complex>& observed, double apparent_hz, SpectralLineEvidence& out) const {
+void SpectralLineTest::find_camera(const std::vector<Complex>& observed, double apparent_hz,
+                                   SpectralLineEvidence& out) const {
   const double rate_hz = folding_.rate_hz, limit_hz = std::max(folding_.max_frequency_hz, 0.5 * rate_hz);
   if (observed.size() < 5 || folding_.delay_s.size() != observed.size()) return;  // two unknowns plus redundancy
   const int reach = static_cast<int>(std::ceil(kFastestCamera_hz / rate_hz)) + 1;
@@ -88,7 +89,7 @@ void SpectralLineTest::find_camera(const std::vector<Complex>& observed, double 
 // |sum over lags of phi' R(lag) phi exp(-i w lag)|, Hann weighted: magnitude of the shape's correlation at that
 // frequency and lag.
 double SpectralLineTest::envelope(const std::vector<Complex>& observed, double apparent_hz, int first_lag,
-                              int n_lags) const {
+                                  int n_lags) const {
   const auto n = static_cast<int>(observed.size());  // witnesses follow after these
   const double turn = kTwoPi * apparent_hz / sums_.rate_hz;
   Complex sum = 0.0;
@@ -107,7 +108,8 @@ double SpectralLineTest::envelope(const std::vector<Complex>& observed, double a
   return std::abs(sum);
 }
 
-void SpectralLineTest::find_decay(const std::vector<Complex>& observed, const UnfoldedPole& pole, SpectralLineEvidence& out) {
+void SpectralLineTest::find_decay(const std::vector<Complex>& observed, const UnfoldedPole& pole,
+                                  SpectralLineEvidence& out) {
   const double segment = 0.5 * sums_.n_fft;
   const int n_lags = static_cast<int>(kWindow * segment), late = static_cast<int>(kLateStart * segment);
   if (!status_) status_ = compute_correlations(sums_, late + n_lags, kDifferences, correlations_);

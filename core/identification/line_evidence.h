@@ -36,8 +36,10 @@ class SpectralLineTest {
   [[nodiscard]] SpectralLineEvidence examine(const UnfoldedPole& pole);
 
  private:
-  void find_camera(const std::vector<std::complex<double>>& observed, double apparent_hz, SpectralLineEvidence& out) const;
-  void find_decay(const std::vector<std::complex<double>>& observed, const UnfoldedPole& pole, SpectralLineEvidence& out);
+  void find_camera(const std::vector<std::complex<double>>& observed, double apparent_hz,
+                   SpectralLineEvidence& out) const;
+  void find_decay(const std::vector<std::complex<double>>& observed, const UnfoldedPole& pole,
+                  SpectralLineEvidence& out);
   [[nodiscard]] double envelope(const std::vector<std::complex<double>>& observed, double apparent_hz, int first_lag,
                                 int n_lags) const;
 

@@ -115,8 +115,8 @@ std::string still_channel(const CpsdSums& sums, const std::vector<ChannelInfo>& 
   std::size_t still = 0;
   double least = HUGE_VAL;
   for (std::size_t c = 0; c < channels.size(); ++c) {
-    const auto pair = static_cast<std::size_t>(
-        CpsdSums::pair_index(static_cast<int>(c), static_cast<int>(c), sums.n_channels));
+    const auto pair =
+        static_cast<std::size_t>(CpsdSums::pair_index(static_cast<int>(c), static_cast<int>(c), sums.n_channels));
     double power = 0.0;
     for (std::size_t at = pair; at < sums.data_sum.size(); at += static_cast<std::size_t>(sums.n_pairs()))
       power += sums.data_sum[at].real();

@@ -63,8 +63,9 @@ std::string reason_to_leave_out(const Share& share) {
   if (share.mean < kLeastShare)
     return text("it was seen in %.2g %% of the record: too few joint samples with the others", 100.0 * share.mean);
   if (share.mean < kLeastUnevenShare && share.unevenness > kMostUnevenness)
-    return text("it was seen in %.0f %% of the record only, in one stretch: its spectra are not those of the others' record",
-                100.0 * share.mean);
+    return text(
+        "it was seen in %.0f %% of the record only, in one stretch: its spectra are not those of the others' record",
+        100.0 * share.mean);
   return {};
 }
 

@@ -87,7 +87,8 @@ std::vector<double> shares_at(const Spectra& spectra, std::size_t bin, const std
                               double frequency_hz) {
   const std::size_t n = spectra.used.size();
   std::vector<Complex> x(n, 1.0), y(n);
-  for (std::size_t i = 0; i < n; ++i) x[i] = std::sqrt(std::max(0.0, spectra.at(spectra.used[i], spectra.used[i], bin).real()));
+  for (std::size_t i = 0; i < n; ++i)
+    x[i] = std::sqrt(std::max(0.0, spectra.at(spectra.used[i], spectra.used[i], bin).real()));
   for (int step = 0; step < kPowerSteps; ++step) {
     double norm = 0.0;
     for (std::size_t i = 0; i < n; ++i) {

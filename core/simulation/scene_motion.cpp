@@ -13,7 +13,8 @@ const Scene& validated(const Scene& scene) {
 
 }  // namespace
 
-SceneMotion::SceneMotion(const Scene& scene) : scene_(validated(scene)), structure_(scene_), camera_(scene_), own_(scene_), warp_(scene_, camera_) {}
+SceneMotion::SceneMotion(const Scene& scene)
+    : scene_(validated(scene)), structure_(scene_), camera_(scene_), own_(scene_), warp_(scene_, camera_) {}
 
 double SceneMotion::line_time_s(double t_frame_s, ImagePoint image) const noexcept {
   const CameraParameters& camera = scene_.camera;

@@ -30,13 +30,13 @@ class OutlierGate {
 
   // Trivially copyable: part of a state that is saved.
   struct Channel {
-    std::array<double, 3> last = {};              // the newest samples in order, outliers replaced by the line
-    std::array<double, kMemory> departure = {};   // from the line between the neighbours, ring buffer
-    std::array<double, kMemory> step = {};        // difference of the neighbours, ring buffer
+    std::array<double, 3> last = {};             // the newest samples in order, outliers replaced by the line
+    std::array<double, kMemory> departure = {};  // from the line between the neighbours, ring buffer
+    std::array<double, kMemory> step = {};       // difference of the neighbours, ring buffer
     std::uint32_t n_last = 0, n_departures = 0, i_next = 0;
     std::uint32_t n_since_far = kMemory;  // samples since the last large departure that was not an outlier
     std::uint32_t n_since_outlier = kMemory;
-    std::uint32_t is_last_far = 0;        // 1: the newest classified sample departed far, perhaps because of the next
+    std::uint32_t is_last_far = 0;  // 1: the newest classified sample departed far, perhaps because of the next
   };
   [[nodiscard]] std::vector<Channel>& state() noexcept { return channels_; }
   [[nodiscard]] const std::vector<Channel>& state() const noexcept { return channels_; }

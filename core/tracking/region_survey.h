@@ -62,8 +62,8 @@ class RegionSurvey {
   void follow_neighbours(const GrayView& frame);
 
   std::vector<Patch> patches_;
-  std::vector<std::size_t> patch_of_;            // of each point
-  std::vector<std::vector<std::size_t>> seen_;   // per point: the frames in which it was found, ascending
+  std::vector<std::size_t> patch_of_;           // of each point
+  std::vector<std::vector<std::size_t>> seen_;  // per point: the frames in which it was found, ascending
   std::size_t n_frames_ = 1;
 };
 

@@ -31,7 +31,7 @@ struct LoopMode {
   struct Estimate {
     double frequency_hz = 0.0, damping_ratio = 0.0;
     std::optional<double> frequency_std_hz, damping_std;
-    std::optional<double> error_percent;  // of the frequency, against the reference
+    std::optional<double> error_percent;   // of the frequency, against the reference
     std::optional<double> halves_percent;  // frequency of the second half of the record minus that of the first
   };
   std::optional<Estimate> before, after;

@@ -107,11 +107,11 @@ struct ModalEstimate {
   std::optional<ReadoutFinding> readout;  // basis of the row delays; empty: not estimated
   // Two lines closer than this cannot be distinguished: one over the longest stretch that is analysed; 0 = unknown.
   double resolution_hz = 0.0;
-  std::vector<ChannelRecord> channels;    // in the order of the shapes' components; empty = all take part
-  std::vector<SpectralPeak> peaks;        // by frequency
-  std::vector<Mode> modes;                // structural, by frequency
-  std::vector<Mode> rejected;             // every other pole, with its reason
-  std::vector<StabilisationPole> poles;   // of all orders, ascending; at most kMaxStabilisationPoles
+  std::vector<ChannelRecord> channels;   // in the order of the shapes' components; empty = all take part
+  std::vector<SpectralPeak> peaks;       // by frequency
+  std::vector<Mode> modes;               // structural, by frequency
+  std::vector<Mode> rejected;            // every other pole, with its reason
+  std::vector<StabilisationPole> poles;  // of all orders, ascending; at most kMaxStabilisationPoles
 };
 
 }  // namespace core

@@ -38,7 +38,8 @@ struct Geometry {
 };
 // Throws as displacement_config().
 [[nodiscard]] std::unique_ptr<Geometry> make_geometry(const AppConfig& config, const core::CameraInfo& camera,
-                                                      const core::TrackFrame& keyframe, const CorrectionSet& correction_set);
+                                                      const core::TrackFrame& keyframe,
+                                                      const CorrectionSet& correction_set);
 
 // All correction sets of a run. One thread adds; any thread reads a set whose number has reached it through a ring:
 // entries of the log never change.

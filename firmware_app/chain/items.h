@@ -25,9 +25,9 @@ struct CorrectionSwitch {
 // spectrum -> modes.
 struct SpectrumSnapshot {
   core::CpsdSums sums;
-  std::uint64_t number = 0;                 // 0, 1, 2, ... in stream time
-  std::int64_t t_last_ns = 0;               // time stamp of the newest sample in the sums
-  bool final = false;                       // the record has ended
+  std::uint64_t number = 0;                      // 0, 1, 2, ... in stream time
+  std::int64_t t_last_ns = 0;                    // time stamp of the newest sample in the sums
+  bool final = false;                            // the record has ended
   std::uint32_t correction_set = 0, record = 0;  // of the newest sample; all samples in the sums share `record`
   core::ReadoutEstimate readout = {};
 };

@@ -23,12 +23,13 @@ struct MissingEffectSearchConfig {
   double period_s = 60.0;  // stream time between two reports
   double delay_s = 30.0;   // from the last frame of a report to the first frame that it changes
   bool adopts = false;
-  double least_px = 0.0;  // smallest effect reported: rms point displacement
+  double least_px = 0.0;       // smallest effect reported: rms point displacement
   std::uint64_t n_frames = 0;  // of a recording: no correction begins after its last frame; 0 = unknown
 };
 // With closure.adopt: off the window is one frame.
-[[nodiscard]] MissingEffectSearchConfig missing_effect_search_config(const AppConfig& config, const core::CameraInfo& camera,
-                                                  const core::TrackFrame& keyframe);
+[[nodiscard]] MissingEffectSearchConfig missing_effect_search_config(const AppConfig& config,
+                                                                     const core::CameraInfo& camera,
+                                                                     const core::TrackFrame& keyframe);
 
 // Newest tracks -> what the model of the points' positions fails to explain, to which effect it is attributed, and
 // which correction applies from which frame on. Counts in frames of the stream, never by a clock: the same tracks give

@@ -18,7 +18,8 @@ namespace app {
 class ModeIdentification {
  public:
   // Makes an identifier for another sample rate than the camera's, or for a correction; may throw.
-  using MakeIdentifier = std::function<std::unique_ptr<const ReadoutAwareIdentifier>(double rate_hz, const CorrectionSet& correction_set)>;
+  using MakeIdentifier =
+      std::function<std::unique_ptr<const ReadoutAwareIdentifier>(double rate_hz, const CorrectionSet& correction_set)>;
 
   ModeIdentification(double rate_hz, MakeIdentifier make_identifier, const CorrectionLog& book);
 
@@ -33,7 +34,9 @@ class ModeIdentification {
   // Takes over the modes and the count of estimates from another object, which loses them.
   void go_on_from(ModeIdentification& earlier) noexcept;
 
-  [[nodiscard]] const ReadoutAwareIdentifier& identifier() const noexcept { return *identifier_; }  // of the newest snapshot
+  [[nodiscard]] const ReadoutAwareIdentifier& identifier() const noexcept {
+    return *identifier_;
+  }  // of the newest snapshot
 
  private:
   void follow(const SpectrumSnapshot& snapshot);

@@ -51,18 +51,19 @@ core::ReadoutEstimator::Config readout_config(const AppConfig& config, const cor
   return {{config.regions.size(), displacement.camera, displacement.readout}, camera.rate_hz};
 }
 
-ReadoutAwareIdentifier::ReadoutAwareIdentifier(const AppConfig& config, const core::CameraInfo& camera, const core::TrackFrame& keyframe,
-                       std::vector<core::ChannelInfo> spectra)
+ReadoutAwareIdentifier::ReadoutAwareIdentifier(const AppConfig& config, const core::CameraInfo& camera,
+                                               const core::TrackFrame& keyframe, std::vector<core::ChannelInfo> spectra)
     : ReadoutAwareIdentifier({identifier_config(config, spectra, camera.rate_hz), row_shares(config, camera, keyframe),
-                  camera.rate_hz, declared_readout(config, camera)},
-                 spectra) {}
+                              camera.rate_hz, declared_readout(config, camera)},
+                             spectra) {}
 
 ReadoutAwareIdentifier::ReadoutAwareIdentifier(ReadoutBasis basis, std::vector<core::ChannelInfo> spectra)
     : basis_(std::move(basis)),
       channels_(std::move(spectra)),
       n_outputs_(core::Identifier(basis_.identifier, channels_).n_outputs()) {}
 
-ReadoutAwareIdentifier::ReadoutAwareIdentifier(const AppConfig& config, double rate_hz, const std::vector<core::ChannelInfo>& spectra)
+ReadoutAwareIdentifier::ReadoutAwareIdentifier(const AppConfig& config, double rate_hz,
+                                               const std::vector<core::ChannelInfo>& spectra)
     : ReadoutAwareIdentifier(ReadoutBasis{identifier_config(config, spectra, rate_hz), {}, rate_hz, {}}, spectra) {}
 
 std::vector<core::ChannelInfo> ReadoutAwareIdentifier::channels_with(double readout_s) const {
@@ -76,7 +77,8 @@ std::vector<double> ReadoutAwareIdentifier::delay_s(const core::ModalEstimate& e
   return core::Identifier(basis_.identifier, channels_with(readout_s)).undone_delay_s();
 }
 
-std::optional<core::ReadoutValue> ReadoutAwareIdentifier::read_shapes(const core::ModalEstimate& estimate, double readout_s) const {
+std::optional<core::ReadoutValue> ReadoutAwareIdentifier::read_shapes(const core::ModalEstimate& estimate,
+                                                                      double readout_s) const {
   const std::vector<core::ChannelInfo> channels = channels_with(readout_s);
   std::vector<core::ObservedPole> poles;
   for (const auto* list : {&estimate.modes, &estimate.rejected}) {
@@ -90,7 +92,8 @@ std::optional<core::ReadoutValue> ReadoutAwareIdentifier::read_shapes(const core
   return core::ReadoutValue{read->readout_frames / basis_.rate_hz, read->std_frames / basis_.rate_hz};
 }
 
-core::ModalEstimate ReadoutAwareIdentifier::identify(const core::CpsdSums& sums, const core::ReadoutEstimate& from_tracks) const {
+core::ModalEstimate ReadoutAwareIdentifier::identify(const core::CpsdSums& sums,
+                                                     const core::ReadoutEstimate& from_tracks) const {
   if (!basis_.identifier.undo_row_delays || basis_.row_share.empty())
     return core::Identifier(basis_.identifier, channels_).identify(sums);
   std::optional<core::ReadoutValue> tracks;

@@ -34,7 +34,7 @@ class ReadoutAwareIdentifier {
  public:
   // Throws as identifier_config() does.
   ReadoutAwareIdentifier(const AppConfig& config, const core::CameraInfo& camera, const core::TrackFrame& keyframe,
-             std::vector<core::ChannelInfo> spectra);
+                         std::vector<core::ChannelInfo> spectra);
   ReadoutAwareIdentifier(ReadoutBasis basis, std::vector<core::ChannelInfo> spectra);
   // Channels without an image. Throws as identifier_config() does.
   ReadoutAwareIdentifier(const AppConfig& config, double rate_hz, const std::vector<core::ChannelInfo>& spectra);

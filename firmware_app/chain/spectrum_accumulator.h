@@ -62,9 +62,9 @@ class SpectrumAccumulator {
   core::TimeGrid grid_;
   core::WelchCpsd welch_;
   std::uint64_t period_hops_;
-  std::uint32_t stride_ = 1;                  // of the samples in the sums
+  std::uint32_t stride_ = 1;                       // of the samples in the sums
   std::uint32_t record_ = 0, correction_set_ = 0;  // likewise; correction_set is that of the newest
-  std::uint64_t n_masked_before_ = 0;         // in earlier sums of this run
+  std::uint64_t n_masked_before_ = 0;              // in earlier sums of this run
   std::uint64_t n_missing_ = 0;
   std::uint64_t state_period_cells_ = 0, next_state_cell_ = 0;  // period 0: no state is kept
   std::uint64_t n_masked_on_resume_ = 0;                        // cells to be masked before the first sample

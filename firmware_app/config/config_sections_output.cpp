@@ -73,8 +73,9 @@ void add_analysis_keys(std::vector<ConfigKey>& keys) {
                             {1e-6, 1e6, true},
                             "highest true frequency of interest; if above half the frame rate (Nyquist frequency), the "
                             "alias order of each mode is determined from row delays; 0 = half the frame rate"));
-  keys.push_back(number_key("identification.min_mpc", "", at(&A::identification, &I::min_mpc), {0, 1},
-                            "smallest modal phase collinearity (MPC) of a structural mode; method paper does not use it"));
+  keys.push_back(
+      number_key("identification.min_mpc", "", at(&A::identification, &I::min_mpc), {0, 1},
+                 "smallest modal phase collinearity (MPC) of a structural mode; method paper does not use it"));
   keys.push_back(number_key("identification.max_damping", "", at(&A::identification, &I::max_damping), {1e-4, 1},
                             "largest damping ratio of a structural mode"));
 }

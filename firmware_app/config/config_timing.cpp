@@ -7,9 +7,9 @@
 namespace app {
 namespace {
 
-constexpr double kRounding = 1e-3;     // of times in ms, and of rates with few digits
-constexpr double kFastest_ms = 0.2;    // shortest plausible readout of a rolling shutter
-constexpr double kShortest_ms = 5e-3;  // shortest plausible exposure
+constexpr double kRounding = 1e-3;                   // of times in ms, and of rates with few digits
+constexpr double kFastest_ms = 0.2;                  // shortest plausible readout of a rolling shutter
+constexpr double kShortest_ms = 5e-3;                // shortest plausible exposure
 constexpr double kFinest = 0.01, kCoarsest = 300.0;  // plausible mm per px of anything filmed from the air or a tripod
 
 void doubt_readout(const CameraConfig& camera, double frame_ms, std::vector<std::string>& out) {
@@ -23,12 +23,13 @@ void doubt_readout(const CameraConfig& camera, double frame_ms, std::vector<std:
 
 void doubt_exposure(const CameraConfig& camera, double frame_ms, std::vector<std::string>& out) {
   if (camera.exposure_ms > frame_ms * (1.0 + kRounding)) {
-    out.push_back(fmt::format("camera.exposure_ms = {:g} is longer than a frame ({:.4g} ms); microseconds? Then it is "
-                              "{:g} ms",
-                              camera.exposure_ms, frame_ms, 1e-3 * camera.exposure_ms));
+    out.push_back(
+        fmt::format("camera.exposure_ms = {:g} is longer than a frame ({:.4g} ms); microseconds? Then it is "
+                    "{:g} ms",
+                    camera.exposure_ms, frame_ms, 1e-3 * camera.exposure_ms));
   } else if (camera.exposure_ms > 0.0 && camera.exposure_ms < kShortest_ms) {
-    out.push_back(fmt::format("camera.exposure_ms = {:g} is 1/{:.0f} s; seconds? Then it is {:g} ms", camera.exposure_ms,
-                              1e3 / camera.exposure_ms, 1e3 * camera.exposure_ms));
+    out.push_back(fmt::format("camera.exposure_ms = {:g} is 1/{:.0f} s; seconds? Then it is {:g} ms",
+                              camera.exposure_ms, 1e3 / camera.exposure_ms, 1e3 * camera.exposure_ms));
   }
 }
 
@@ -38,7 +39,7 @@ void doubt_length(double mm_per_px, std::vector<std::string>& out) {
   const double other = is_small ? 1e3 * mm_per_px : 1e-3 * mm_per_px;
   const bool would_fit = other >= kFinest && other <= kCoarsest;
   out.push_back(fmt::format("the known length makes a pixel {:.3g} mm{}", mm_per_px,
-                            !would_fit  ? ": are the length and its two ends right?"
+                            !would_fit ? ": are the length and its two ends right?"
                             : is_small ? fmt::format("; metres instead of mm? Then a pixel is {:.3g} mm", other)
                                        : fmt::format("; micrometres instead of mm? Then a pixel is {:.3g} mm", other)));
 }
@@ -67,9 +68,10 @@ std::vector<std::string> doubtful_values(const AppConfig& config, double camera_
   doubt_length(mm_per_px, out);
   constexpr double kOther = 0.02;
   if (config.camera.rate_hz > 0.0 && stated_hz > 0.0 && std::abs(config.camera.rate_hz / stated_hz - 1.0) > kOther) {
-    out.push_back(fmt::format("camera.rate_hz = {:g}, the container states {:.6g}: right for slow motion, of which it "
-                              "states the rate of playing; else leave camera.rate_hz out",
-                              config.camera.rate_hz, stated_hz));
+    out.push_back(
+        fmt::format("camera.rate_hz = {:g}, the container states {:.6g}: right for slow motion, of which it "
+                    "states the rate of playing; else leave camera.rate_hz out",
+                    config.camera.rate_hz, stated_hz));
   }
   return out;
 }

@@ -56,7 +56,7 @@ struct TracksResult {
   core::Health losses;
   std::vector<core::ChannelInfo> channels;
   int n_differences = 0;             // the prewhitening used
-  SetupSums sums;                     // from which the estimate was computed; those of further runs can be added
+  SetupSums sums;                    // from which the estimate was computed; those of further runs can be added
   std::vector<std::string> changes;  // with closure.adopt: auto, corrections started or withdrawn, for a reader
 };
 [[nodiscard]] TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_path,

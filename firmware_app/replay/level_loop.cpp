@@ -111,8 +111,9 @@ class LevelLoop {
     if (times_.n_repeated > 0)
       out.findings.push_back({fmt::format("{} frames show the picture before them", times_.n_repeated),
                               "they were left out when the clip was read"});
-    out.left = clock_.times_known ? "the times were measured: nothing of the clock is looked for below"
-                                  : "the frames are counted: lost, repeated and late ones are looked for in the response";
+    out.left = clock_.times_known
+                   ? "the times were measured: nothing of the clock is looked for below"
+                   : "the frames are counted: lost, repeated and late ones are looked for in the response";
     return out;
   }
 
@@ -121,8 +122,8 @@ class LevelLoop {
     if (!inputs_.config) return skipped(name, "it needs the run's configuration (--config): regions and camera");
     if (!tracks_) return skipped(name, "there is no " + tracks_path_ + " (report.tracks)");
     tell("fitting the model of the points' places");
-    TracksRecord record = thinned(tracks_record(*tracks_, tracks_path_, *inputs_.config),
-                                  inputs_.config->closure.points_per_region);
+    TracksRecord record =
+        thinned(tracks_record(*tracks_, tracks_path_, *inputs_.config), inputs_.config->closure.points_per_region);
     std::unique_ptr<core::closure::ObservationLevel> level;
     try {
       level = std::make_unique<core::closure::ObservationLevel>(std::move(record.record));

@@ -16,8 +16,8 @@ namespace app {
 // A finished run as its report folder contains it, and further known facts.
 struct LevelLoopInputs {
   std::string folder;  // displacements.csv or tracks.csv; modal.json states the source of the frames' times
-  std::optional<AppConfig> config;                           // of the run: required by the observation level
-  std::vector<std::string> bases = {};                       // base channels, where no configuration names them
+  std::optional<AppConfig> config;      // of the run: required by the observation level
+  std::vector<std::string> bases = {};  // base channels, where no configuration names them
   std::optional<core::structure::DeclaredFrame> structure = {};
   std::vector<double> reference_hz = {};  // modes known from other sources
   double max_frequency_hz = 0.0;

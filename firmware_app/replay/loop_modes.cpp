@@ -62,7 +62,8 @@ std::vector<LoopModes::Estimate> LoopModes::estimates(const ChannelSeries& serie
   std::vector<Estimate> out;
   for (const core::Mode& mode : modes_of(series)) {
     Estimate one{mode.frequency_hz, mode.damping_ratio, mode.frequency_std_hz, mode.damping_std, {}, {}};
-    const auto a = nearest(first, mode.frequency_hz, kNearHalf, hz), b = nearest(second, mode.frequency_hz, kNearHalf, hz);
+    const auto a = nearest(first, mode.frequency_hz, kNearHalf, hz),
+               b = nearest(second, mode.frequency_hz, kNearHalf, hz);
     if (a != first.end() && b != second.end())
       one.halves_percent = 100.0 * (b->frequency_hz - a->frequency_hz) / mode.frequency_hz;
     const auto known = nearest(reference_hz_, mode.frequency_hz, kNearReference, [](double f) { return f; });

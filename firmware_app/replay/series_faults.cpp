@@ -70,12 +70,13 @@ class ChannelFaults {
       if (others.size() < kLeastSamples) return;
       const double range = quantile(others, 0.99) - quantile(others, 0.01);
       const double beyond = std::max(value - others.back(), others.front() - value);
-      const bool is_isolated = beyond > kFillDistance * range && beyond > kFillDistance * (others.back() - others.front());
+      const bool is_isolated =
+          beyond > kFillDistance * range && beyond > kFillDistance * (others.back() - others.front());
       if (!(range > 0.0) || !is_isolated) return;
       const auto first = static_cast<std::size_t>(std::find(values_.begin(), values_.end(), value) - values_.begin());
       std::replace(values_.begin(), values_.end(), value, kMissing);
-      remarks_.push_back(fmt::format("{}: {} sample{} of {:g} (first at {}) {} treated as missing: a fill value", name_, n,
-                                     n == 1 ? "" : "s", value, at(first), n == 1 ? "is" : "are"));
+      remarks_.push_back(fmt::format("{}: {} sample{} of {:g} (first at {}) {} treated as missing: a fill value", name_,
+                                     n, n == 1 ? "" : "s", value, at(first), n == 1 ? "is" : "are"));
     }
   }
 
@@ -99,7 +100,8 @@ class ChannelFaults {
       const auto first = series_.value[c].begin() + static_cast<std::ptrdiff_t>(run.first);
       const double value = *first;
       const auto differs = [&](double x) { return std::isfinite(x) && std::isfinite(value) && x != value; };
-      if (std::count_if(first, first + static_cast<std::ptrdiff_t>(run.n), differs) * 2 > static_cast<std::ptrdiff_t>(run.n))
+      if (std::count_if(first, first + static_cast<std::ptrdiff_t>(run.n), differs) * 2 >
+          static_cast<std::ptrdiff_t>(run.n))
         return true;
     }
     return series_.value.size() == 1;
@@ -123,8 +125,9 @@ class ChannelFaults {
       std::fill_n(values_.begin() + static_cast<std::ptrdiff_t>(run.first), run.n, kMissing);
     }
     if (n_stuck > 0)
-      remarks_.push_back(fmt::format("{}: stuck at {:g} from {} on, {:.3g} % of the record: treated as missing", name_, value,
-                                     at(first), 100.0 * static_cast<double>(n_stuck) / static_cast<double>(values_.size())));
+      remarks_.push_back(fmt::format("{}: stuck at {:g} from {} on, {:.3g} % of the record: treated as missing", name_,
+                                     value, at(first),
+                                     100.0 * static_cast<double>(n_stuck) / static_cast<double>(values_.size())));
   }
 
   void name_saturation() {
@@ -143,9 +146,10 @@ class ChannelFaults {
       const double share = static_cast<double>(n) / static_cast<double>(sorted.size());
       if (n < kLeastSaturatedSamples || share < kLeastSaturated || static_cast<double>(n) < kSaturationRatio * n_beside)
         continue;
-      remarks_.push_back(fmt::format("{}: {} samples ({:.2g} %) are exactly its {} value, {:g}: saturated? Its part of the "
-                                     "shapes and the damping are then wrong",
-                                     name_, n, 100.0 * share, is_top ? "largest" : "smallest", extreme));
+      remarks_.push_back(
+          fmt::format("{}: {} samples ({:.2g} %) are exactly its {} value, {:g}: saturated? Its part of the "
+                      "shapes and the damping are then wrong",
+                      name_, n, 100.0 * share, is_top ? "largest" : "smallest", extreme));
     }
   }
 
@@ -163,9 +167,9 @@ class ChannelFaults {
     }
     if (gate.push(0, 0.0, false)) reject(values_.size() - 1);
     if (n > 0)
-      remarks_.push_back(fmt::format("{}: {} sample{} (first {:g} at {}) {} masked: the neighbours in time do not allow {}",
-                                     name_, n, n == 1 ? "" : "s", value, at(first), n == 1 ? "is" : "are",
-                                     n == 1 ? "it" : "them"));
+      remarks_.push_back(
+          fmt::format("{}: {} sample{} (first {:g} at {}) {} masked: the neighbours in time do not allow {}", name_, n,
+                      n == 1 ? "" : "s", value, at(first), n == 1 ? "is" : "are", n == 1 ? "it" : "them"));
     return n;
   }
 

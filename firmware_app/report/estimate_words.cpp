@@ -19,11 +19,9 @@ void add_channels(const core::ModalEstimate& estimate, const std::vector<core::C
   for (std::size_t c = 0; c < n; ++c) {
     const core::ChannelRecord& record = estimate.channels[c];
     if (record.takes_part) continue;
-    words.push_back(fmt::format("Channel {} takes no part: {}. Its component of every shape is unknown.{}",
-                                channels[c].name, record.reason,
-                                channels[c].is_base
-                                    ? " It is the base: peaks of the input cannot be distinguished from modes."
-                                    : ""));
+    words.push_back(fmt::format(
+        "Channel {} takes no part: {}. Its component of every shape is unknown.{}", channels[c].name, record.reason,
+        channels[c].is_base ? " It is the base: peaks of the input cannot be distinguished from modes." : ""));
   }
   for (std::size_t c = 0; c < n; ++c) {
     const std::uint64_t n_outlying = estimate.channels[c].n_outlying;
@@ -38,12 +36,13 @@ void add_open_poles(const core::ModalEstimate& estimate, std::vector<std::string
   const std::size_t n_open = count_of(estimate, core::Verdict::kAmbiguous);
   const std::size_t n_candidates = count_of(estimate, core::Verdict::kCandidate);
   if (n_open > 0 && estimate.modes.empty())
-    words.push_back(fmt::format("{} found whose true frequency is one of several (alias order open): see the other poles.",
-                                n_open == 1 ? "A mode was" : fmt::format("{} modes were", n_open)));
+    words.push_back(
+        fmt::format("{} found whose true frequency is one of several (alias order open): see the other poles.",
+                    n_open == 1 ? "A mode was" : fmt::format("{} modes were", n_open)));
   if (n_candidates > 0)
-    words.push_back(fmt::format("{}: the record is too short for a verdict.",
-                                n_candidates == 1 ? "One pole is a candidate"
-                                                  : fmt::format("{} poles are candidates", n_candidates)));
+    words.push_back(fmt::format(
+        "{}: the record is too short for a verdict.",
+        n_candidates == 1 ? "One pole is a candidate" : fmt::format("{} poles are candidates", n_candidates)));
 }
 
 }  // namespace

@@ -73,9 +73,9 @@ std::string loop_text(const LoopResult& result) {
       out += fmt::format("{:<18}{:>12}{:>12}  not done: {}\n", level.level, "-", "-", level.skipped);
       continue;
     }
-    out += fmt::format("{:<18}{:>12}{:>12}  {} rms{}\n", level.level, cell(level.residual_before, "{:.4g}"),
-                       cell(level.residual_after, "{:.4g}"), level.unit,
-                       level.findings.empty() ? "; nothing found" : "");
+    out +=
+        fmt::format("{:<18}{:>12}{:>12}  {} rms{}\n", level.level, cell(level.residual_before, "{:.4g}"),
+                    cell(level.residual_after, "{:.4g}"), level.unit, level.findings.empty() ? "; nothing found" : "");
     for (const LoopLevel::Finding& finding : level.findings)
       out += fmt::format("{:44}{} -> {}\n", "", finding.effect,
                          finding.repair.empty() ? "no repair applies to the record" : finding.repair);

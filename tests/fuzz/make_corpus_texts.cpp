@@ -64,8 +64,13 @@ void write_tables() {
        "2\r\nF/5.6, SS 400, G.PRY (-27.3\xC2\xB0, 0.0\xC2\xB0, -76.0\xC2\xB0)\r\n");
   using namespace std::string_literals;
   keep("clip_telemetry", "gpmf",
-       "gDEVC\0\1\0\x50" "DVNMc\1\0\4Cam1" "STRM\0\1\0\x3C" "STMPJ\x08\0\1\0\0\0\0\0\1\0\0" "ORINc\1\0\3XzY\0"
-       "SCALs\2\0\1\1\0\0\0" "GYROs\6\0\2\0\1\0\2\0\3\0\4\0\5\0\6"s);
+       "gDEVC\0\1\0\x50"
+       "DVNMc\1\0\4Cam1"
+       "STRM\0\1\0\x3C"
+       "STMPJ\x08\0\1\0\0\0\0\0\1\0\0"
+       "ORINc\1\0\3XzY\0"
+       "SCALs\2\0\1\1\0\0\0"
+       "GYROs\6\0\2\0\1\0\2\0\3\0\4\0\5\0\6"s);
   keep("series", "series", "s# unit: mm\nframe,t_s,a,\"b\"\n0,0.1,1.5,\n1,0.14,nan,2e-3\n");
   keep("series", "one_column", "sa\n1\n\n3\n");
   keep("series", "semicolons", "fZeit [s];ax [m/s^2]\n0,00;1,5\n0,01;-2,5e-3\n0,02;inf\n");

@@ -175,17 +175,20 @@ const std::vector<BadInput>& stream_rows() {
        {"sound.mp4", "no moving picture", "audio aac", "camera.source"}},
       {"SoundWithACoverOnly",
        [](const fs::path& f) {
-         test_support::ffmpeg("-f lavfi -i testsrc2=s=320x240:d=1 -frames:v 1 " + test_support::quoted(f / "cover.jpg"));
-         test_support::ffmpeg(fmt::format("-f lavfi -i sine=d=2 -i {} -map 0 -map 1 -c:a aac -c:v copy "
-                                          "-disposition:v:0 attached_pic {}",
-                                          test_support::quoted(f / "cover.jpg"), test_support::quoted(f / "song.mp4")));
+         test_support::ffmpeg("-f lavfi -i testsrc2=s=320x240:d=1 -frames:v 1 " +
+                              test_support::quoted(f / "cover.jpg"));
+         test_support::ffmpeg(
+             fmt::format("-f lavfi -i sine=d=2 -i {} -map 0 -map 1 -c:a aac -c:v copy "
+                         "-disposition:v:0 attached_pic {}",
+                         test_support::quoted(f / "cover.jpg"), test_support::quoted(f / "song.mp4")));
          return from(f / "song.mp4");
        },
        1,
        {"song.mp4", "no moving picture", "a cover picture"}},
       {"ACoverBeforeTheFilm",
        [](const fs::path& f) {
-         test_support::ffmpeg("-f lavfi -i testsrc2=s=640x480:d=1 -frames:v 1 " + test_support::quoted(f / "cover.jpg"));
+         test_support::ffmpeg("-f lavfi -i testsrc2=s=640x480:d=1 -frames:v 1 " +
+                              test_support::quoted(f / "cover.jpg"));
          return made_by_ffmpeg(f, "covered.mp4",
                                fmt::format("-i {} -map 1 -map 0:v -c:v:0 copy -c:v:1 libx264 -crf 10 "
                                            "-disposition:v:0 attached_pic",

@@ -29,7 +29,8 @@ std::string modes_text(const core::ModalEstimate& estimate, const std::vector<co
   }
   if (!estimate.peaks.empty()) text += "peaks of the spectra, without a verdict:\n";
   for (const core::SpectralPeak& peak : estimate.peaks) {
-    text += fmt::format("  {:9.4f} Hz  to {:.2g} Hz, height {:.0f} ", peak.frequency_hz, peak.resolution_hz, peak.height);
+    text +=
+        fmt::format("  {:9.4f} Hz  to {:.2g} Hz, height {:.0f} ", peak.frequency_hz, peak.resolution_hz, peak.height);
     for (std::size_t c = 0; c < channels.size() && c < peak.share.size(); ++c) {
       const bool known = c >= estimate.channels.size() || estimate.channels[c].takes_part;
       text += known ? fmt::format(" {} {:.2f}", channels[c].name, peak.share[c])

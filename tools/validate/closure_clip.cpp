@@ -26,7 +26,7 @@ using core::simulation::Scene;
 
 constexpr double kDropProbability = 0.02;
 constexpr double kClipNoise_px = 0.09;  // of a 1080p view: 0.03 px for a tracker in pictures of a third of that size
-constexpr double kTallerPlates = 1.9;  // two thirds of a storey: small pictures have few rows
+constexpr double kTallerPlates = 1.9;   // two thirds of a storey: small pictures have few rows
 
 drivers::SceneStructure::Rows rows_of(const Eigen::MatrixXd& matrix) {
   drivers::SceneStructure::Rows rows;
@@ -78,7 +78,8 @@ namespace {
 
 // A record longer than the recorded hover plays it back and forth.
 double drawn_start_s(std::uint64_t seed, double duration_s) {
-  return kHoverFrom_s + std::max(0.0, kHoverTo_s - kHoverFrom_s - duration_s) * Draw(seed, "clip_flight").uniform(0.0, 1.0);
+  return kHoverFrom_s +
+         std::max(0.0, kHoverTo_s - kHoverFrom_s - duration_s) * Draw(seed, "clip_flight").uniform(0.0, 1.0);
 }
 
 // Comment lines from which a figure script reads the truth.

@@ -145,7 +145,9 @@ TrackedNull tracked_null(std::uint64_t seed) {
   const auto add = [&] {
     scene = plain;
     switch (seed % 6) {
-      case 0: out.words = "nothing else"; break;
+      case 0:
+        out.words = "nothing else";
+        break;
       case 1:
         out.words = "rolling gusts";
         scene.hover.roll_rms_rad = much * 0.5 * kDegree;
@@ -164,7 +166,8 @@ TrackedNull tracked_null(std::uint64_t seed) {
         scene.rotor.pitch_rms_rad = scene.rotor.roll_rms_rad = 1e-4;
         scene.tracks.pixel_locking_px = 0.03;
         break;
-      default: out.words = "shimmer", out.shimmer_px = 0.3;
+      default:
+        out.words = "shimmer", out.shimmer_px = 0.3;
     }
     try {
       core::simulation::validate(scene);

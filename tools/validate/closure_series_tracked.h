@@ -32,11 +32,11 @@ struct TrackedSeries {
 
 // An undeclared effect of the simulator, or of the delivery of frames.
 struct TrackedCase {
-  const char* name;      // of the case
-  const char* effect;    // name in residual diagnosis
+  const char* name;    // of the case
+  const char* effect;  // name in residual diagnosis
   const char* strength;
   double size;
-  bool must_be_named;    // required by the bar
+  bool must_be_named;  // required by the bar
   void (*apply)(core::simulation::Scene&, double size);
   double (*truth)(const core::simulation::Scene&, const TrackedSeries&);  // of its parameter
   double inserted = 0.0;                                                  // share of frames that are delivered twice

@@ -33,7 +33,8 @@ std::string names(const app::ResponseAnalysis& found) {
 
 std::string refusals(const app::ResponseAnalysis& found) {
   std::string out;
-  for (const auto& one : found.result.refused) out += fmt::format("[{} {:.4g}: {}]", one.effect, one.score, one.refusal);
+  for (const auto& one : found.result.refused)
+    out += fmt::format("[{} {:.4g}: {}]", one.effect, one.score, one.refusal);
   return out;
 }
 
@@ -48,7 +49,8 @@ std::string case_line(const TrackedCase& one, std::uint64_t seed) {
     if (step.effect != one.effect || step.parameters.empty()) continue;
     stated = step.parameters.front().value, sigma = step.parameters.front().sigma.value_or(std::nan(""));
   }
-  const bool repaired = std::any_of(found.repairs.begin(), found.repairs.end(), [](auto& words) { return !words.empty(); });
+  const bool repaired =
+      std::any_of(found.repairs.begin(), found.repairs.end(), [](auto& words) { return !words.empty(); });
   const PoleErrors errors = repaired ? pole_errors(found.before, found.after, scene) : PoleErrors{};
   return fmt::format("series-tracked\t{}\t{}\t{}\t{}\t{:.4g}\t{:.4g}\t{:.3g}\t{}\t{:.4f}\t{:.4f}\t{:.4f}\t{:.4f}\t{}\n",
                      one.name, one.strength, seed, names(found), truth, stated, sigma, errors.n, errors.pole[0],
@@ -59,20 +61,22 @@ std::string case_line(const TrackedCase& one, std::uint64_t seed) {
 
 void print_closure_series_tracked(const ClosureTracksOptions& options) {
   fmt::print(
-      "# displacements from 120 s of tracks: case, strength, seed, named, the effect's true number, the stated one, its "
+      "# displacements from 120 s of tracks: case, strength, seed, named, the effect's true number, the stated one, "
+      "its "
       "sigma; true modes found before and after the repair (0: nothing to repair), rms error of their poles before, "
       "after, of their frequencies before, after (%); refused\n");
   for (const TrackedCase& one : tracked_cases()) {
     if (!options.effect.empty() && options.effect != one.name) continue;
-    const auto lines =
-        for_each_seed(options, [&](std::uint64_t seed) { return case_line(one, seed); });
+    const auto lines = for_each_seed(options, [&](std::uint64_t seed) { return case_line(one, seed); });
     for (const std::string& text : lines) fmt::print("{}", text);
     std::fflush(stdout);
   }
 }
 
 void print_closure_series_tracked_null(const ClosureTracksOptions& options) {
-  fmt::print("# displacements from 120 s of tracks without an effect in clock or structure: what else it has, seed, adopted, refused\n");
+  fmt::print(
+      "# displacements from 120 s of tracks without an effect in clock or structure: what else it has, seed, adopted, "
+      "refused\n");
   const auto lines = for_each_seed(options, [&](std::uint64_t seed) {
     const TrackedNull null = tracked_null(seed);
     const app::ResponseAnalysis found = close(tracked_series(null.scene, {.shimmer_px = null.shimmer_px}), seed);

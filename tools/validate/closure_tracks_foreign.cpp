@@ -68,8 +68,8 @@ std::string sizes_text(const std::vector<double>& sizes) {
   return text;
 }
 
-void print_record(const char* check, const std::string& name, const Effects& effects, double wanted,
-                  std::uint64_t seed, const ForeignOutcome& record) {
+void print_record(const char* check, const std::string& name, const Effects& effects, double wanted, std::uint64_t seed,
+                  const ForeignOutcome& record) {
   const TracksOutcome& o = record.outcome;
   const double nan = std::nan("");
   fmt::print("{}\t{}\t{}\t{:.3f}\t{:.3f}\t{:.4f}\t{}\t{}\t{}\t{}\t{:.5f}\t{:.5f}\t{:.5f}\t{}", check, name, wanted,

@@ -103,8 +103,8 @@ std::string outside_line(const char* check, const HiddenEffect& effect, const Ou
   return fmt::format(
       "{}\t{}\t{:.2f}\t{:.3f}\t{}\t{}\t{:d}\t{:d}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.5f}\t{:.4f}\t{:.4f}\t"
       "{}\t{{{}}}\t{:.1f}\n",
-      check, effect.name, is.plain, is.visible, seed, o.names(), answered(o.result, effect.name), described(o.result, truth),
-      o.result.baseline_rms, o.heldout_after(), o.result.noise_floor, named,
+      check, effect.name, is.plain, is.visible, seed, o.names(), answered(o.result, effect.name),
+      described(o.result, truth), o.result.baseline_rms, o.heldout_after(), o.result.noise_floor, named,
       o.result.reference_error_before.value_or(nan), o.result.reference_error_after.value_or(nan),
       o.words + o.refused(), truth, o.seconds);
 }

@@ -37,7 +37,8 @@ Tally tally_of(const core::ModalEstimate& estimate, const std::vector<TrueMode>&
                const std::vector<core::ChannelInfo>& channels) {
   Tally out;
   out.n_structural = static_cast<int>(estimate.modes.size());
-  for (const core::Mode& mode : estimate.rejected) out.n_candidates += mode.verdict == core::Verdict::kCandidate ? 1 : 0;
+  for (const core::Mode& mode : estimate.rejected)
+    out.n_candidates += mode.verdict == core::Verdict::kCandidate ? 1 : 0;
   for (const core::Mode& mode : estimate.modes) {
     const bool is_true = std::any_of(truth.begin(), truth.end(), [&](const TrueMode& one) {
       const double near_hz = std::max(kNear * one.frequency_hz, 1.0 / estimate.duration_s);

@@ -70,7 +70,7 @@ std::string words_of(const ForeignScene& foreign) {
 ForeignScene draw_foreign_scene(std::uint64_t seed, double duration_s, const std::string& flight) {
   Draw draw(seed, "foreign"), noise(seed, "foreign_noise");
   const bool recorded = draw.uniform(0.0, 1.0) < kShareRecorded && !flight.empty();
-  const bool folded = draw.uniform(0.0, 1.0) < kShareFolded, wind = draw.sign() > 0.0;
+  const bool folded = draw.uniform(0.0, 1.0)<kShareFolded, wind = draw.sign()> 0.0;
   ForeignScene out;
   out.background = draw.uniform(0.0, 1.0) < kShareBackground;
   out.hover = recorded ? "recorded" : "tails";

@@ -11,11 +11,11 @@
 #include "core/simulation/render/renderer.h"
 #include "firmware_app/replay/analysis.h"
 #include "firmware_app/service/pipeline.h"
+#include "tools/hovermodal/simulate/clip.h"
+#include "tools/hovermodal/simulate/config.h"
 #include "tools/validate/geometry.h"
 #include "tools/validate/geometry_score.h"
 #include "tools/validate/geometry_sensors.h"
-#include "tools/hovermodal/simulate/clip.h"
-#include "tools/hovermodal/simulate/config.h"
 
 namespace tools {
 namespace {

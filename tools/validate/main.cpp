@@ -267,7 +267,8 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--effect", options.effect, "closure-tracks, -clip, -live: this effect only")->type_name("NAME");
   app.add_option("--strength", options.strength, "closure-tracks: this strength only; 0 = all")
       ->check(CLI::Range(0.0, 100.0));
-  app.add_option("--flight", options.flight, "null, geometry, closure-tracks-foreign: the recorded flight that moves the camera")
+  app.add_option("--flight", options.flight,
+                 "null, geometry, closure-tracks-foreign: the recorded flight that moves the camera")
       ->type_name("FILE");
   app.add_option("--report", options.report, "table1: folder for the pictures; geometry-pixels: for clips and reports")
       ->type_name("DIR");
@@ -279,7 +280,8 @@ void add_options(CLI::App& app, Options& options) {
 int main(int argc, char** argv) {
   CLI::App app{
       "hovermodal-validate: the statistical validation of hovermodal\n"
-      "Checks the simulator against theory, the identification and the search for missing effects against the simulator's "
+      "Checks the simulator against theory, the identification and the search for missing effects against the "
+      "simulator's "
       "truth. The figure scripts in tools/figures call it; it is not installed."};
   tools::Options options;
   tools::add_options(app, options);

@@ -20,7 +20,9 @@ struct Sight {
   double x, y, depth_mm;  // ray and distance
   double t_s;             // middle of the exposure of its line
 
-  [[nodiscard]] const core::simulation::TrackGenerator::MaterialPoint& point() const { return without.points()[i_point]; }
+  [[nodiscard]] const core::simulation::TrackGenerator::MaterialPoint& point() const {
+    return without.points()[i_point];
+  }
   [[nodiscard]] core::simulation::ImagePoint seen_at(double t_frame_s) const {
     return without.motion().see(point().body, point().point, t_frame_s);
   }

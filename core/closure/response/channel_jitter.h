@@ -13,7 +13,7 @@ namespace core::closure {
 struct JitterFit {
   double sigma_s = 0.0;
   std::vector<double> sigma_without_s;  // estimates that each leave out one part, for the standard deviation
-  Eigen::VectorXd squares;  // per sample, held out: -2 ln likelihood; equal to |whitened|^2 for sigma = 0
+  Eigen::VectorXd squares;              // per sample, held out: -2 ln likelihood; equal to |whitened|^2 for sigma = 0
 };
 
 // `whitened`: samples x channels, the innovations times the whitener.

@@ -48,9 +48,9 @@ class ChannelModel final : public ResponseModel {
   struct Prepared {
     ChannelRecord record, relative, scaled;
     ChannelPredictor predictor;
-    std::vector<ChannelEffect::Corrected> done;  // per correcting effect, in the key's order; record omitted
-    Eigen::MatrixXd derivative;         // result of frequency_derivative()
-    double log_det = 0.0;               // of the whitener
+    std::vector<ChannelEffect::Corrected> done;           // per correcting effect, in the key's order; record omitted
+    Eigen::MatrixXd derivative;                           // result of frequency_derivative()
+    double log_det = 0.0;                                 // of the whitener
     mutable std::map<std::string, CourseFit> course_fit;  // by effect; cached, because the fit is slow
   };
   using Key = std::vector<std::string>;

@@ -10,10 +10,10 @@ namespace core::closure {
 // Channels on a uniform grid. Sample k of a channel is seen at k / rate_hz + its delay.
 struct ChannelRecord {
   double rate_hz = 0.0;
-  Eigen::MatrixXd value;  // samples x channels; a row with NaN is missing
-  Eigen::MatrixXd input;  // samples x inputs (measured base); may have no columns
+  Eigen::MatrixXd value;                                 // samples x channels; a row with NaN is missing
+  Eigen::MatrixXd input;                                 // samples x inputs (measured base); may have no columns
   std::vector<double> delay_s = {}, input_delay_s = {};  // row delays, per column; empty: 0
-  bool input_alike = false;      // the first input has the quantity and unit of the channels
+  bool input_alike = false;                              // the first input has the quantity and unit of the channels
   bool rate_is_average = false;  // rate_hz is samples / duration: a change of samples keeps the duration
   bool times_known = false;      // lost and late frames are known from time stamps: none remain to be detected
   [[nodiscard]] Eigen::Index n_samples() const noexcept { return value.rows(); }

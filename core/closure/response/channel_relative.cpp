@@ -19,9 +19,7 @@ double delay_of(const std::vector<double>& delays, Index column) {
 double interpolated(const Eigen::Ref<const VectorXd>& values, double at) {
   const Index n = values.size(), below = static_cast<Index>(std::floor(at));
   const double x = at - static_cast<double>(below);
-  const auto value = [&](Index k) {
-    return k >= 0 && k < n ? values(k) : std::numeric_limits<double>::quiet_NaN();
-  };
+  const auto value = [&](Index k) { return k >= 0 && k < n ? values(k) : std::numeric_limits<double>::quiet_NaN(); };
   if (x == 0.0) return value(below);
   const std::array<double, 4> weight{-x * (x - 1.0) * (x - 2.0) / 6.0, (x + 1.0) * (x - 1.0) * (x - 2.0) / 2.0,
                                      -(x + 1.0) * x * (x - 2.0) / 2.0, (x + 1.0) * x * (x - 1.0) / 6.0};

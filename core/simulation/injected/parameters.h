@@ -11,7 +11,7 @@ namespace core::simulation {
 // one-sided density ~ 1 / (1 + (f / corner)^order) up to 100 Hz, above which no camera resolves it. In addition to
 // HoverParameters, or in its place.
 struct TailedHoverParameters {
-  std::array<double, 3> rms_mm{}, corner_hz{0.2, 0.2, 0.2}, order{4.0, 4.0, 4.0};                   // X, Y, Z
+  std::array<double, 3> rms_mm{}, corner_hz{0.2, 0.2, 0.2}, order{4.0, 4.0, 4.0};             // X, Y, Z
   std::array<double, 3> rms_rad{}, turn_corner_hz{0.2, 0.2, 0.2}, turn_order{4.0, 4.0, 4.0};  // pitch, yaw, roll
 };
 

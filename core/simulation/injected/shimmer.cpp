@@ -39,8 +39,8 @@ Shimmer::Shimmer(const ShimmerParameters& p, std::uint64_t seed) {
     const double drift_u = p.drift_px_s[0] + p.boiling_px_s * stream.gaussian();
     const double drift_v = p.drift_px_s[1] + p.boiling_px_s * stream.gaussian();
     const double phase = 2.0 * std::numbers::pi * stream.uniform();
-    waves_.push_back({ku, kv, ku * drift_u + kv * drift_v, phase, amplitude_px * std::cos(angle),
-                      amplitude_px * std::sin(angle)});
+    waves_.push_back(
+        {ku, kv, ku * drift_u + kv * drift_v, phase, amplitude_px * std::cos(angle), amplitude_px * std::sin(angle)});
   }
 }
 

@@ -22,8 +22,8 @@ class Shimmer {
 
  private:
   struct Wave {
-    double ku, kv, w, phase;    // rad/px, rad/s, rad
-    double shift_u, shift_v;    // px, along the wave vector
+    double ku, kv, w, phase;  // rad/px, rad/s, rad
+    double shift_u, shift_v;  // px, along the wave vector
   };
   std::vector<Wave> waves_;
 };

@@ -31,7 +31,8 @@ void validate_camera(const Scene& s) {
   require_range("lag of the stabiliser (s)", s.stabiliser.lag_s, 0.0, 1.0);
   require_range("focus breathing (rms)", s.breathing.rms, 0.0, 0.05);
   require_range("corner of the focus breathing (Hz)", s.breathing.corner_hz, 0.001, 10.0);
-  for (const double px : s.breathing.centre_px) require_range("centre of the focus breathing (px)", px, -8192.0, 8192.0);
+  for (const double px : s.breathing.centre_px)
+    require_range("centre of the focus breathing (px)", px, -8192.0, 8192.0);
 }
 
 void validate_oscillator(const std::string& of, const OscillatorParameters& oscillator) {

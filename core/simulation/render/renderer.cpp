@@ -22,8 +22,8 @@ bool looks_straight(const SceneMotion& motion) {
   const CameraParameters& camera = motion.scene().camera;
   const bool turned =
       motion.camera().rotates() || camera.pitch_rad != 0.0 || camera.yaw_rad != 0.0 || camera.roll_rad != 0.0;
-  return !turned && !motion.structure().tilts() && !motion.own().rocks() &&
-         motion.scene().flap.rms_mm <= 0.0 && camera.lens.model == LensParameters::Model::kNone;
+  return !turned && !motion.structure().tilts() && !motion.own().rocks() && motion.scene().flap.rms_mm <= 0.0 &&
+         camera.lens.model == LensParameters::Model::kNone;
 }
 
 // Refuses scenes with effects that images do not show.
@@ -215,8 +215,8 @@ void Renderer::add_plate(std::size_t body, const Instant& instant, const LineRay
   const double from_mm = (flap.from_share - 0.5) * width_mm, moved_mm = motion_.own().flap_mm(instant.t_s);
   const bool along_x = scene().structure.axis == StructureModel::Axis::kX;
   add_part(body, {-0.5 * width_mm, from_mm, 0.0, 0.0}, instant, rays, i_instant, weight, line);
-  add_part(body, {from_mm, 0.5 * width_mm, along_x ? moved_mm : 0.0, along_x ? 0.0 : moved_mm}, instant, rays, i_instant,
-           weight, line);
+  add_part(body, {from_mm, 0.5 * width_mm, along_x ? moved_mm : 0.0, along_x ? 0.0 : moved_mm}, instant, rays,
+           i_instant, weight, line);
 }
 
 void Renderer::add_part(std::size_t body, const PlatePart& part, const Instant& instant, const LineRays& rays,

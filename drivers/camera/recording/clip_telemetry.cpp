@@ -179,7 +179,8 @@ std::vector<std::string> telemetry_words(const ClipTelemetry& telemetry) {
 
 void refuse_zoom(const std::string& video, const ClipTelemetry& telemetry) {
   constexpr double kFollowed = 0.05;
-  for (const auto& [what, values] : {std::pair{"focal length", &telemetry.focal_length}, {"digital zoom", &telemetry.zoom}}) {
+  for (const auto& [what, values] :
+       {std::pair{"focal length", &telemetry.focal_length}, {"digital zoom", &telemetry.zoom}}) {
     if (values->empty()) continue;
     const Range range = range_of(*values, 1e-3);
     if (range.most.value <= (1.0 + kFollowed) * range.least.value) continue;

@@ -18,13 +18,13 @@ struct TimedValue {
 
 // Telemetry that a camera wrote beside or in a video. Fields that it did not write are empty.
 struct ClipTelemetry {
-  std::string from;                     // "flight.SRT", "GPMF of GoPro Max"; empty: none found
-  std::string trouble;                  // why telemetry that was found is not readable
-  std::vector<std::int64_t> times_ns;   // of every frame by the camera's clock, from 0; empty: not for every frame
-  double tick_s = 0.0;                  // their resolution
-  std::vector<TimedValue> clock_s;      // the camera's clock at positions in the video
-  double frame_rate_hz = 0.0;           // by the camera's clock; 0 = not stated
-  double frame_jitter_s = 0.0;          // rms deviation of the clock's readings from that rate
+  std::string from;                    // "flight.SRT", "GPMF of GoPro Max"; empty: none found
+  std::string trouble;                 // why telemetry that was found is not readable
+  std::vector<std::int64_t> times_ns;  // of every frame by the camera's clock, from 0; empty: not for every frame
+  double tick_s = 0.0;                 // their resolution
+  std::vector<TimedValue> clock_s;     // the camera's clock at positions in the video
+  double frame_rate_hz = 0.0;          // by the camera's clock; 0 = not stated
+  double frame_jitter_s = 0.0;         // rms deviation of the clock's readings from that rate
   std::vector<TimedValue> exposure_s, focal_length, zoom, readout_s;
   std::vector<core::AttitudeSample> attitude;  // on the video's clock
   std::string attitude_from;                   // "gimbal", "gyro"

@@ -94,7 +94,8 @@ Quaternion product(const Quaternion& a, const Quaternion& b) noexcept {
 }
 
 Quaternion rotation(const std::array<double, 3>& angle_rad) noexcept {
-  const double size = std::sqrt(angle_rad[0] * angle_rad[0] + angle_rad[1] * angle_rad[1] + angle_rad[2] * angle_rad[2]);
+  const double size =
+      std::sqrt(angle_rad[0] * angle_rad[0] + angle_rad[1] * angle_rad[1] + angle_rad[2] * angle_rad[2]);
   const double by = size > 1e-12 ? std::sin(0.5 * size) / size : 0.5;
   return {std::cos(0.5 * size), by * angle_rad[0], by * angle_rad[1], by * angle_rad[2]};
 }

@@ -14,7 +14,8 @@ constexpr double kFinestTick_s = 1e-3;  // a coarser clock does not determine fr
 // One block per frame: by frame numbers, or by cues shorter than a quarter of a second.
 bool is_per_frame(const SrtFile& file) {
   if (file.blocks.size() < 2) return false;
-  const auto n_numbered = std::count_if(file.blocks.begin(), file.blocks.end(), [](const SrtBlock& b) { return b.frame.has_value(); });
+  const auto n_numbered =
+      std::count_if(file.blocks.begin(), file.blocks.end(), [](const SrtBlock& b) { return b.frame.has_value(); });
   if (2 * static_cast<std::size_t>(n_numbered) > file.blocks.size()) return true;
   const SrtBlock &first = file.blocks.front(), &last = file.blocks.back();
   if (!first.cue_s || !last.cue_s) return false;

@@ -55,7 +55,8 @@ FileCamera::FileCamera(const FileCameraConfig& config) : path_(config.source), p
   info_.exposure_ns = timing.exposure_ns != 0 ? timing.exposure_ns : usual_exposure_ns(telemetry);
   info_.lossless = !config.realtime;
   clock_ = make_frame_clock(path_, *source_, config.rate_hz, telemetry);
-  if (telemetry.found()) telemetry_words_ = fmt::format("from {}: {}", telemetry.from, fmt::join(telemetry_words(telemetry), ", "));
+  if (telemetry.found())
+    telemetry_words_ = fmt::format("from {}: {}", telemetry.from, fmt::join(telemetry_words(telemetry), ", "));
   info_.rate_hz = clock_.rate_hz();
   info_.frame_count = clock_.n_stamps() > 0 ? clock_.n_stamps() : source.frame_count;
   if (clock_.cadence()) info_.frame_count = clock_.place(info_.frame_count).cell;

@@ -50,7 +50,7 @@ class FileCamera final : public Camera {
   [[nodiscard]] std::string shortfall(std::uint64_t n_decoded) const;
 
   std::string path_;
-  std::uintmax_t n_bytes_ = 0;  // size of the file when it was opened
+  std::uintmax_t n_bytes_ = 0;           // size of the file when it was opened
   std::unique_ptr<FrameSource> source_;  // after start(): used by the decoding thread
   FrameClock clock_;
   std::string telemetry_words_;  // what telemetry is used; empty: none

@@ -102,8 +102,8 @@ class ClockMaker {
     clock_.cells_ = fit.cells;
     const double container_hz = clock_.times_.stated_hz;
     if (container_hz > 0.0 && std::abs(container_hz / fit.rate_hz - 1.0) > kContradicts) {
-      remark(fmt::format("the container states {:.6g} Hz, {} {:.6g} Hz, which is used", container_hz,
-                                         telemetry_.from, fit.rate_hz));
+      remark(fmt::format("the container states {:.6g} Hz, {} {:.6g} Hz, which is used", container_hz, telemetry_.from,
+                         fit.rate_hz));
     }
     // A sensor is clocked by a crystal: small scatter is attributed to the writing of the stamps.
     constexpr double kScatter = 0.05;  // of a period
@@ -194,10 +194,10 @@ class ClockMaker {
     double& rate_hz = clock_.times_.rate_hz;
     const bool is_of_recording = declared_hz_ != 0.0 && contradicts(fit.rate_hz);
     if (!is_of_recording) rate_hz *= static_cast<double>(shown) / of;
-    remark(fmt::format(
-        "{} of every {} frames repeat the one before: the recording was converted from {:.6g} to {:.6g} "
-        "frames a second, which was undone",
-        of - shown, of, rate_hz, rate_hz * of / shown));
+    remark(
+        fmt::format("{} of every {} frames repeat the one before: the recording was converted from {:.6g} to {:.6g} "
+                    "frames a second, which was undone",
+                    of - shown, of, rate_hz, rate_hz * of / shown));
   }
 
   void count_frames() {

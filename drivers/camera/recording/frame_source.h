@@ -22,8 +22,8 @@ struct SourceInfo {
   std::uint64_t promised_frames = 0;         // by the container; 0 = not stated
   std::vector<double> stated_rates_hz{};     // by the container, the most trusted first
   std::shared_ptr<const PacketScan> scan{};  // null: an image folder
-  bool holds_gpmf = false;       // a stream of GoPro's metadata is beside the video
-  int turned_clockwise_deg = 0;  // rotation of a delivered image against the sensor's: 0, 90, 180, 270
+  bool holds_gpmf = false;                   // a stream of GoPro's metadata is beside the video
+  int turned_clockwise_deg = 0;              // rotation of a delivered image against the sensor's: 0, 90, 180, 270
   std::string description;
 };
 

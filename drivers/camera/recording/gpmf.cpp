@@ -83,7 +83,8 @@ struct Item {
     const std::size_t size = size_of(type);
     std::vector<double> out;
     if (size == 0 || row_bytes % size != 0) return out;
-    for (std::size_t at = 0; at + size <= data.size(); at += size) out.push_back(number_of(type, data.subspan(at, size)));
+    for (std::size_t at = 0; at + size <= data.size(); at += size)
+      out.push_back(number_of(type, data.subspan(at, size)));
     return out;
   }
 };
@@ -123,8 +124,8 @@ class Walker {
     const std::size_t n_bytes = item.row_bytes * item.n_rows;
     const std::size_t n_padded = (n_bytes + 3) / 4 * 4;
     if (n_bytes > rest.size() - kHead) {
-      throw std::runtime_error(fmt::format("byte {}: {} announces {} bytes, {} are left: cut off", place_of(rest), item.key,
-                                           n_bytes, rest.size() - kHead));
+      throw std::runtime_error(fmt::format("byte {}: {} announces {} bytes, {} are left: cut off", place_of(rest),
+                                           item.key, n_bytes, rest.size() - kHead));
     }
     item.data = rest.subspan(kHead, n_bytes);
     rest = rest.subspan(std::min(kHead + n_padded, rest.size()));

@@ -132,7 +132,8 @@ std::optional<Clock> clock_in(std::string_view line) {
       if (text.empty() || between.find(text.front()) == std::string_view::npos) break;
       text.remove_prefix(1);
     }
-    const std::chrono::year_month_day day{std::chrono::year(part[0]), std::chrono::month(static_cast<unsigned>(part[1])),
+    const std::chrono::year_month_day day{std::chrono::year(part[0]),
+                                          std::chrono::month(static_cast<unsigned>(part[1])),
                                           std::chrono::day(static_cast<unsigned>(part[2]))};
     if (n < part.size() || !day.ok() || part[0] < 1990 || part[3] > 24 || part[4] > 59 || part[5] > 60) continue;
     const auto days = std::chrono::sys_days(day).time_since_epoch().count();
@@ -163,9 +164,10 @@ class Parser {
     }
     close_block();
     if (out_.blocks.empty()) {
-      throw std::runtime_error(fmt::format("{}:{}: no block of telemetry: empty, cut off, or not the subtitles of a "
-                                           "camera",
-                                           name_, std::max<std::size_t>(line_, 1)));
+      throw std::runtime_error(
+          fmt::format("{}:{}: no block of telemetry: empty, cut off, or not the subtitles of a "
+                      "camera",
+                      name_, std::max<std::size_t>(line_, 1)));
     }
     return std::move(out_);
   }

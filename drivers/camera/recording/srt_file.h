@@ -12,13 +12,13 @@ namespace drivers {
 // One block of the subtitles that DJI's cameras write beside a video, for one frame or one second. Values that a camera
 // does not state are empty.
 struct SrtBlock {
-  std::optional<double> cue_s;                       // start of the subtitle in the video
-  std::optional<double> clock_s;                     // the camera's own clock, since 1970 as if in UTC
-  std::optional<std::uint64_t> frame;                // number of the frame, as the camera counts
-  std::optional<double> exposure_s;                  // shutter
-  std::optional<double> focal_length;                // in the camera's own unit: mm, or tenths of mm
-  std::optional<double> zoom;                        // digital: 1 = none
-  std::optional<std::array<double, 3>> gimbal_deg;   // roll, pitch, yaw
+  std::optional<double> cue_s;                      // start of the subtitle in the video
+  std::optional<double> clock_s;                    // the camera's own clock, since 1970 as if in UTC
+  std::optional<std::uint64_t> frame;               // number of the frame, as the camera counts
+  std::optional<double> exposure_s;                 // shutter
+  std::optional<double> focal_length;               // in the camera's own unit: mm, or tenths of mm
+  std::optional<double> zoom;                       // digital: 1 = none
+  std::optional<std::array<double, 3>> gimbal_deg;  // roll, pitch, yaw
 };
 
 struct SrtFile {

@@ -79,7 +79,7 @@ class VideoSource final : public FrameSource {
       throw std::runtime_error(fmt::format(
           "{}: opens as a video ({}) but not one frame decodes: {}", path_, decoder_.container().codec_name(),
           is_encrypted(path_) ? "it is encrypted; decrypt it first"
-                       : "the file is damaged or its codec is not supported; try to play it with ffplay"));
+                              : "the file is damaged or its codec is not supported; try to play it with ffplay"));
     }
     first_is_waiting_ = true;
     const AVFrame& first = decoder_.picture();

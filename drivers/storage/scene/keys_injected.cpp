@@ -67,8 +67,8 @@ void add_camera_effect_keys(std::vector<SceneKey>& keys) {
   keys.push_back(scene_number("stabiliser.gain", "", of<s, &St::gain>, {0.0, 1.0},
                               "electronic stabilisation: every frame is moved as a whole against the camera's motion; "
                               "tracks only"));
-  keys.push_back(scene_number("stabiliser.corner_hz", "Hz", of<s, &St::corner_hz>, {0.001, 50.0},
-                              "it acts on motion above"));
+  keys.push_back(
+      scene_number("stabiliser.corner_hz", "Hz", of<s, &St::corner_hz>, {0.001, 50.0}, "it acts on motion above"));
   keys.push_back(scene_number("stabiliser.lag_ms", "ms", of<s, &St::lag_s>, {0.0, 1000.0, 1e3}, "it acts later by"));
   constexpr auto b = &Scene::breathing;
   keys.push_back(scene_number("breathing.rms", "", of<b, &Br::rms>, {0.0, 0.05},
@@ -86,8 +86,8 @@ void add_air_keys(std::vector<SceneKey>& keys) {
   keys.push_back(scene_number("shimmer.outer_px", "px", of<s, &Sh::outer_px>, {1.0, 1e5},
                               "outer scale of its von Karman spectrum in the image"));
   keys.push_back(scene_number("shimmer.inner_px", "px", of<s, &Sh::inner_px>, {1.0, 1e4}, "inner scale"));
-  keys.push_back(scene_tuple("shimmer.drift_px_s", "px/s", two<s, &Sh::drift_px_s>(), 2, {-1e4, 1e4},
-                             "velocity over the image"));
+  keys.push_back(
+      scene_tuple("shimmer.drift_px_s", "px/s", two<s, &Sh::drift_px_s>(), 2, {-1e4, 1e4}, "velocity over the image"));
   keys.push_back(scene_number("shimmer.boiling_px_s", "px/s", of<s, &Sh::boiling_px_s>, {0.0, 1e4},
                               "spread of that velocity over its waves"));
 }
@@ -97,8 +97,7 @@ void add_oscillator(std::vector<SceneKey>& keys, const std::string& name) {
   using O = core::simulation::OscillatorParameters;
   keys.push_back(scene_number(name + ".frequency_hz", "Hz", of<section, &O::frequency_hz>, {0.05, 50.0},
                               "natural frequency of its oscillator"));
-  keys.push_back(
-      scene_number(name + ".damping_ratio", "", of<section, &O::damping_ratio>, {1e-4, 1.0}, "its damping"));
+  keys.push_back(scene_number(name + ".damping_ratio", "", of<section, &O::damping_ratio>, {1e-4, 1.0}, "its damping"));
 }
 
 void add_own_motion_keys(std::vector<SceneKey>& keys) {

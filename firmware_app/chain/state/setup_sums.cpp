@@ -187,7 +187,8 @@ core::ModalEstimate ViewTotal::identify() const {
     together.observable = true;
     together.frames = mean.value, together.std_frames = mean.std;
   }
-  core::ModalEstimate estimate = ReadoutAwareIdentifier(first_.basis, sum_.total().channels).identify(sum_.total().sums, together);
+  core::ModalEstimate estimate =
+      ReadoutAwareIdentifier(first_.basis, sum_.total().channels).identify(sum_.total().sums, together);
   estimate.final = true;
   return estimate;
 }

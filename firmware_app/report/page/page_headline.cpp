@@ -146,22 +146,23 @@ std::string peaks_html(const PictureInputs& inputs, const core::ModalEstimate& e
   for (const core::ChannelInfo& channel : inputs.channels) columns.push_back(channel.name);
   HtmlTable table(std::move(columns));
   for (const core::SpectralPeak& peak : estimate.peaks) {
-    std::vector<HtmlCell> cells{{fmt::format("{} ± {} Hz", four_digits_text(peak.frequency_hz),
-                                             decimals_text(0.5 * peak.resolution_hz, 3)),
-                                 {}},
-                                {decimals_text(peak.height, 0), {}}};
+    std::vector<HtmlCell> cells{
+        {fmt::format("{} ± {} Hz", four_digits_text(peak.frequency_hz), decimals_text(0.5 * peak.resolution_hz, 3)),
+         {}},
+        {decimals_text(peak.height, 0), {}}};
     for (std::size_t c = 0; c < inputs.channels.size(); ++c) {
       const bool known = c < peak.share.size() && (c >= estimate.channels.size() || estimate.channels[c].takes_part);
       cells.push_back({known ? decimals_text(peak.share[c], 2) : "–", {}});
     }
     table.add(std::move(cells));
   }
-  return fmt::format("<details><summary>{} of the spectra, without a verdict</summary>\n{}{}</details>\n",
-                     plural(estimate.peaks.size(), "peak", "peaks"),
-                     paragraph_html("Height: power over that beside it; then each channel's amplitude, the largest is 1. "
-                                    "Motion of the camera, inputs and machines have peaks, too.",
-                                    "note"),
-                     table.html());
+  return fmt::format(
+      "<details><summary>{} of the spectra, without a verdict</summary>\n{}{}</details>\n",
+      plural(estimate.peaks.size(), "peak", "peaks"),
+      paragraph_html("Height: power over that beside it; then each channel's amplitude, the largest is 1. "
+                     "Motion of the camera, inputs and machines have peaks, too.",
+                     "note"),
+      table.html());
 }
 
 }  // namespace

@@ -26,9 +26,9 @@ constexpr double kRate_hz = 25.0, kDelay_s = 0.02;
 constexpr int kFine = 40, kSamples = 3000;
 
 struct Made {
-  double drift = 0.0;    // of the frequencies over the record
-  double hover = 0.0;    // of a camera that drifts at 0.1 Hz, times the structure's motion; seen by all channels
-  int shock_every = 0;   // samples after which something hits the structure
+  double drift = 0.0;   // of the frequencies over the record
+  double hover = 0.0;   // of a camera that drifts at 0.1 Hz, times the structure's motion; seen by all channels
+  int shock_every = 0;  // samples after which something hits the structure
   int drop_every = 0, insert_every = 0, replace_every = 0;
 };
 

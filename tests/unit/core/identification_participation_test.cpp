@@ -44,7 +44,8 @@ CpsdSums spectra(const SimulatedStructure& structure, double duration_s,
 
 TEST(Participation, AWholeRecordKeepsAllChannels) {
   SimulatedStructure structure;
-  const auto part = participation(spectra(structure, 60.0, [](std::size_t, double) { return true; }), structure.channels());
+  const auto part =
+      participation(spectra(structure, 60.0, [](std::size_t, double) { return true; }), structure.channels());
   EXPECT_TRUE(part.all());
   for (const ChannelRecord& record : part.records) EXPECT_NEAR(record.seen, 1.0, 1e-12);
 }
@@ -72,9 +73,10 @@ TEST(Participation, RandomLossesAndAShortCoverDoNotExclude) {
   SimulatedStructure structure;
   std::mt19937 random(1);
   std::bernoulli_distribution lost(0.4);
-  EXPECT_TRUE(participation(spectra(structure, 60.0, [&](std::size_t c, double) { return c != kDamaged || !lost(random); }),
-                            structure.channels())
-                  .all());
+  EXPECT_TRUE(
+      participation(spectra(structure, 60.0, [&](std::size_t c, double) { return c != kDamaged || !lost(random); }),
+                    structure.channels())
+          .all());
   EXPECT_TRUE(
       participation(spectra(structure, 60.0, [](std::size_t c, double share) { return c != kDamaged || share < 0.96; }),
                     structure.channels())

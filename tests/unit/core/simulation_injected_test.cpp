@@ -77,7 +77,8 @@ TEST(GimbalVibration, FillsItsBandOnAllAxesTogether) {
     const GimbalVibration vibration(p, seed, 60.0);
     const auto x = [&](double t_s) { return vibration.at(5, t_s); };
     inside += power_at(x, 6.0, 60.0), outside += power_at(x, 9.0, 60.0);
-    for (double t_s = 0.0; t_s < 60.0; t_s += 0.01, ++n) roll += std::pow(x(t_s), 2), pitch += std::pow(vibration.at(3, t_s), 2);
+    for (double t_s = 0.0; t_s < 60.0; t_s += 0.01, ++n)
+      roll += std::pow(x(t_s), 2), pitch += std::pow(vibration.at(3, t_s), 2);
     // For any phase between the axes, the common half shows in the complex correlation.
     std::complex<double> cross = 0.0;
     for (double t_s = 1.0; t_s < 60.0; t_s += 0.01)
@@ -184,7 +185,8 @@ TEST(Renderer, DrawsTheLoosePartWhereItIs) {
   moved.plates[3].x_mm += SceneMotion(scene).own().flap_mm(4.0);  // of frame 100
   const std::vector<float> all_moved = light_of(moved);
   ASSERT_NE(moved.plates[3].x_mm, scene.plates[3].x_mm);
-  const auto row = static_cast<std::size_t>(std::lround(scene.camera.cy_px + scene.plates[3].y_mm / 2000.0 * scene.camera.alpha_px));
+  const auto row =
+      static_cast<std::size_t>(std::lround(scene.camera.cy_px + scene.plates[3].y_mm / 2000.0 * scene.camera.alpha_px));
   const auto middle = static_cast<std::size_t>(scene.camera.cx_px);
   double left = 0.0, right = 0.0, change = 0.0;
   for (std::size_t u = 15; u < 30; ++u) {  // clear of the seam and of the rims

@@ -38,7 +38,8 @@ struct Outcome {
 Outcome play(const std::vector<std::size_t>& shown, const std::function<double(double)>& place_px, double noise) {
   std::mt19937 random(3);
   std::vector<core::Frame> film;
-  for (std::size_t k = 0; k <= shown.back(); ++k) film.push_back(picture(place_px(static_cast<double>(k)), noise, random));
+  for (std::size_t k = 0; k <= shown.back(); ++k)
+    film.push_back(picture(place_px(static_cast<double>(k)), noise, random));
   RepeatFilter filter;
   Outcome out;
   for (std::size_t k = 0; k < shown.size(); ++k) {
@@ -73,7 +74,8 @@ TEST(RepeatWatch, CallsASingleRepeatAndAFreezeByTheirName) {
   for (std::size_t k = 50; k < 100; ++k) shown.push_back(k);  // then on
   for (int i = 0; i < 25; ++i) shown.push_back(99);           // a frozen second
   for (std::size_t k = 125; k < 200; ++k) shown.push_back(k);
-  const Outcome outcome = play(shown, [](double k) { return sway_px(k, 2.7); }, 2.0);
+  const Outcome outcome = play(
+      shown, [](double k) { return sway_px(k, 2.7); }, 2.0);
   EXPECT_EQ(outcome.n_repeated, 26U);
   std::set<std::uint64_t> expected;
   for (std::size_t k = 0; k < shown.size(); ++k) {
@@ -86,7 +88,8 @@ TEST(RepeatWatch, CallsASingleRepeatAndAFreezeByTheirName) {
 // Rates at which noiseless motion reverses half-way between two frames, so that they are equal.
 TEST(RepeatWatch, AFilmWithoutNoiseThatTurnsBackHasNoRepeats) {
   for (const double rate_hz : {1.0, 2.5, 3.0, 3.125, 4.1}) {
-    const Outcome outcome = play(all_of(250), [&](double k) { return sway_px(k, rate_hz); }, 0.0);
+    const Outcome outcome = play(
+        all_of(250), [&](double k) { return sway_px(k, rate_hz); }, 0.0);
     EXPECT_EQ(outcome.n_repeated, 0U) << rate_hz;
     EXPECT_EQ(outcome.delivered.size(), 250U) << rate_hz;
   }
@@ -96,14 +99,16 @@ TEST(RepeatWatch, AFreezeOfAFilmWithoutNoiseIsFound) {
   std::vector<std::size_t> shown = all_of(102);
   for (int i = 0; i < 25; ++i) shown.push_back(101);
   for (std::size_t k = 127; k < 200; ++k) shown.push_back(k);
-  const Outcome outcome = play(shown, [](double k) { return sway_px(k, 2.9); }, 0.0);
+  const Outcome outcome = play(
+      shown, [](double k) { return sway_px(k, 2.9); }, 0.0);
   EXPECT_EQ(outcome.n_repeated, 25U);
 }
 
 TEST(RepeatWatch, ASuspectAtTheEndIsDelivered) {
   std::vector<std::size_t> shown = all_of(60);
   shown.push_back(59);
-  const Outcome outcome = play(shown, [](double k) { return sway_px(k, 2.7); }, 2.0);
+  const Outcome outcome = play(
+      shown, [](double k) { return sway_px(k, 2.7); }, 2.0);
   EXPECT_EQ(outcome.n_repeated, 0U) << "nothing after it says more";
   EXPECT_EQ(outcome.delivered.size(), 61U);
 }

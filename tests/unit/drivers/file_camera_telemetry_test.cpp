@@ -97,8 +97,8 @@ TEST(FileCameraTelemetry, ExposureAndItsChangeAreReported) {
   const auto clip = film_with(frames);
   const FileCamera camera({.source = clip.string()});
   EXPECT_EQ(camera.info().exposure_ns, 1'000'000) << "the usual one";
-  EXPECT_THAT(camera.times().remark,
-              AllOf(HasSubstr("from DJI_0001.SRT: "), HasSubstr("exposure changes: 1/1000 s to 1/250 s, first at 3.2")));
+  EXPECT_THAT(camera.times().remark, AllOf(HasSubstr("from DJI_0001.SRT: "),
+                                           HasSubstr("exposure changes: 1/1000 s to 1/250 s, first at 3.2")));
   const FileCamera declared({.source = clip.string(), .exposure_ms = 2.0});
   EXPECT_EQ(declared.info().exposure_ns, 2'000'000);
 }

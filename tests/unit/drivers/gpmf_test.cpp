@@ -28,7 +28,8 @@ std::string refusal(const std::string& bytes) {
 std::string gyro(const std::string& orientation, std::vector<std::array<double, 3>> rows_rad_s) {
   std::string values;
   for (const auto& row : rows_rad_s) {
-    for (const double value : row) values += big_endian<std::int16_t>(static_cast<std::int16_t>(std::lround(value * 1000)));
+    for (const double value : row)
+      values += big_endian<std::int16_t>(static_cast<std::int16_t>(std::lround(value * 1000)));
   }
   return gpmf_item("STRM", '\0', 1,
                    gpmf_item("TSMP", 'L', 4, big_endian<std::uint32_t>(7)) +
@@ -41,11 +42,12 @@ std::string device(const std::string& streams) {
 }
 
 TEST(Gpmf, ReadsScaledRowsOfEveryStream) {
-  const std::string bytes = device(
-      gyro("XzY", {{0.5, -0.25, 1.0}, {2.0, 0.0, -1.0}}) +
-      gpmf_item("STRM", '\0', 1,
-                gpmf_item("STMP", 'J', 8, big_endian<std::uint64_t>(2'500'000)) +
-                    gpmf_item("SHUT", 'f', 4, big_endian<float>(0.01F) + big_endian<float>(0.02F) + big_endian<float>(0.5F))));
+  const std::string bytes =
+      device(gyro("XzY", {{0.5, -0.25, 1.0}, {2.0, 0.0, -1.0}}) +
+             gpmf_item("STRM", '\0', 1,
+                       gpmf_item("STMP", 'J', 8, big_endian<std::uint64_t>(2'500'000)) +
+                           gpmf_item("SHUT", 'f', 4,
+                                     big_endian<float>(0.01F) + big_endian<float>(0.02F) + big_endian<float>(0.5F))));
   const GpmfPayload payload = parse_gpmf(test_support::span_of(bytes));
   EXPECT_EQ(payload.device, "Made Up");
   ASSERT_EQ(payload.streams.size(), 2U);

@@ -59,7 +59,8 @@ TEST(SceneFile, EveryPresetIsWrittenAndReadBackToTheSameScene) {
 TEST(SceneFile, ReadsTheEffectsOfRealRecordsInTheirUnits) {
   const std::string text =
       "tailed_hover: {rms_mm: [20, 1, 15], order: [3, 4, 5], rms_deg: [0, 0, 0.09]}\n"
-      "vibration: {rms_mdeg: [1, 2, 18]}\nstabiliser: {gain: 0.7, lag_ms: 40}\nbreathing: {rms: 0.001, centre_px: [90, -20]}\n"
+      "vibration: {rms_mdeg: [1, 2, 18]}\nstabiliser: {gain: 0.7, lag_ms: 40}\nbreathing: {rms: 0.001, centre_px: [90, "
+      "-20]}\n"
       "shimmer: {rms_px: 0.3, drift_px_s: [5, -6]}\nflap: {rms_mm: 2, body: 3}\nrocking: {rms_deg: 0.18}\n"
       "torsion: {rms_deg: 1.8, frequency_hz: 2.5}\nsway: {rms_mm: 4}\ntracks: {template_zoom_px: 1.2}\n";
   const SceneFile file = parse(text);

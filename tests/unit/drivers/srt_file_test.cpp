@@ -66,7 +66,8 @@ TEST(SrtFile, OneBlockASecondOfOlderCameras) {
 }
 
 TEST(SrtFile, ADayEndsWithoutAJumpOfTheClock) {
-  const SrtFile file = parse_srt("1\n2021-12-31 23:59:59.990\n[iso : 1]\n\n2\n2022-01-01 00:00:00.010\n[iso : 1]\n", "a.SRT");
+  const SrtFile file =
+      parse_srt("1\n2021-12-31 23:59:59.990\n[iso : 1]\n\n2\n2022-01-01 00:00:00.010\n[iso : 1]\n", "a.SRT");
   EXPECT_NEAR(file.blocks.at(1).clock_s.value() - file.blocks.at(0).clock_s.value(), 0.020, 1e-6);
 }
 

@@ -29,7 +29,8 @@ std::string refusal(double readout_ms, double rate_hz) {
 }
 
 TEST(ConfigTiming, AReadoutLongerThanAFrameIsRefused) {
-  EXPECT_THAT(refusal(1000.0, 25.0), AllOf(HasSubstr("camera.readout_ms: 1000 is refused"), HasSubstr("40 ms"), HasSubstr("25 Hz")));
+  EXPECT_THAT(refusal(1000.0, 25.0),
+              AllOf(HasSubstr("camera.readout_ms: 1000 is refused"), HasSubstr("40 ms"), HasSubstr("25 Hz")));
   EXPECT_THAT(refusal(-41.0, 25.0), HasSubstr("is refused"));
   EXPECT_THAT(refusal(26000.0, 25.0), HasSubstr("microseconds? Then it is 26 ms"));
   EXPECT_EQ(refusal(40.0, 25.0), "accepted");
@@ -41,8 +42,10 @@ TEST(ConfigTiming, ValuesThatAreSeldomTrueAreDoubtedWithTheLikelySlip) {
   EXPECT_THAT(doubtful_values(with(26.0, 4.0), 25.0, 25.0, 0.96), IsEmpty());
   EXPECT_THAT(doubtful_values(with(0.026), 25.0, 25.0, 0.0), Contains(HasSubstr("seconds? Then it is 26 ms")));
   EXPECT_THAT(doubtful_values(with(0.0, 0.002), 25.0, 25.0, 0.0), Contains(HasSubstr("seconds? Then it is 2 ms")));
-  EXPECT_THAT(doubtful_values(with(0.0, 4000.0), 25.0, 25.0, 0.0), Contains(HasSubstr("microseconds? Then it is 4 ms")));
-  EXPECT_THAT(doubtful_values(with(0.0), 25.0, 25.0, 0.00096), Contains(HasSubstr("metres instead of mm? Then a pixel is 0.96 mm")));
+  EXPECT_THAT(doubtful_values(with(0.0, 4000.0), 25.0, 25.0, 0.0),
+              Contains(HasSubstr("microseconds? Then it is 4 ms")));
+  EXPECT_THAT(doubtful_values(with(0.0), 25.0, 25.0, 0.00096),
+              Contains(HasSubstr("metres instead of mm? Then a pixel is 0.96 mm")));
   EXPECT_THAT(doubtful_values(with(0.0), 25.0, 25.0, 960.0), Contains(HasSubstr("micrometres")));
   EXPECT_THAT(doubtful_values(with(0.0, 0.0, 250.0), 250.0, 50.0, 0.0),
               Contains(AllOf(HasSubstr("250"), HasSubstr("container states 50"), HasSubstr("slow motion"))));

@@ -34,7 +34,8 @@ TEST(ConfigYaml, ReadsBackToTheSameValues) {
 }
 
 TEST(ConfigYaml, LeavesDefaultsOut) {
-  const AppConfig config = parse_config("camera: {source: a.mp4, rate_hz: 25}\nregions: [{name: roof, rect: [1, 2, 30, 40]}]\n", "a.yaml");
+  const AppConfig config =
+      parse_config("camera: {source: a.mp4, rate_hz: 25}\nregions: [{name: roof, rect: [1, 2, 30, 40]}]\n", "a.yaml");
   EXPECT_EQ(config_yaml(config),
             "camera:\n  source: \"a.mp4\"\n  rate_hz: 25\nregions:\n  - {name: \"roof\", rect: [1, 2, 30, 40]}\n");
 }

@@ -98,8 +98,8 @@ TEST(Diagnosis, WithAFullBookNothingChangesAndTheReportSaysSo) {
 
 TEST(Diagnosis, AGeometryThatCannotBeMadeChangesNothingAndTheReportSaysWhy) {
   CorrectionLog book;
-  const auto told =
-      told_by(book, [](const CorrectionSet&) -> std::unique_ptr<Geometry> { throw std::runtime_error("no such lens"); });
+  const auto told = told_by(
+      book, [](const CorrectionSet&) -> std::unique_ptr<Geometry> { throw std::runtime_error("no such lens"); });
   ASSERT_EQ(told.size(), 2U);
   ASSERT_EQ(told[1].report.changes.size(), 2U);
   EXPECT_THAT(told[1].report.changes[1], HasSubstr("none of this is done: no such lens"));

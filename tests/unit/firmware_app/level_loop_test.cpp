@@ -28,8 +28,8 @@ constexpr double kRate_hz = 25.0, kFirst_hz = 1.9, kSecond_hz = 5.2;
 constexpr int kFine = 40, kSamples = 3000;
 
 struct Made {
-  int drop_every = 0;       // lost frames that are not counted
-  double jitter_s = 0.0;    // of the frames' times, which are stated
+  int drop_every = 0;     // lost frames that are not counted
+  double jitter_s = 0.0;  // of the frames' times, which are stated
 };
 
 // displacements.csv of two floors, modes at 1.9 and 5.2 Hz, and of a static base.

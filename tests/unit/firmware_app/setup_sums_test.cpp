@@ -85,7 +85,8 @@ TEST(SetupSums, TheSameSamplesAreKnownAgain) {
 
 TEST(ViewTotal, OfOneFlightIsItsOwnEstimate) {
   const app::SetupSums one = flight(1);
-  const core::ModalEstimate own = app::ReadoutAwareIdentifier(one.basis, one.record.channels).identify(one.record.sums, {});
+  const core::ModalEstimate own =
+      app::ReadoutAwareIdentifier(one.basis, one.record.channels).identify(one.record.sums, {});
   const core::ModalEstimate total = total_of({one}).identify();
   ASSERT_FALSE(own.modes.empty());
   ASSERT_EQ(total.modes.size(), own.modes.size());

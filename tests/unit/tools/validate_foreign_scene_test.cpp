@@ -30,7 +30,8 @@ TEST(ForeignScene, StaysWithinItsRangesAndReachesAllKinds) {
     const auto& scene = foreign.scene;
     shaken.insert(foreign.shaken), folds.insert(foreign.n_folded > 0), background.insert(foreign.background);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      shallow = std::min(shallow, scene.tailed_hover.order[axis]), steep = std::max(steep, scene.tailed_hover.order[axis]);
+      shallow = std::min(shallow, scene.tailed_hover.order[axis]),
+      steep = std::max(steep, scene.tailed_hover.order[axis]);
       EXPECT_GE(scene.tailed_hover.corner_hz[axis], 0.05);
       EXPECT_LE(scene.tailed_hover.corner_hz[axis], 0.5);
     }

@@ -128,7 +128,7 @@ class Combination {
 
   const std::vector<std::string>& folders_;
   BatchResult result_;
-  std::vector<app::SetupSums> heads_;       // of each view: the sums of its first flight, without the spectra
+  std::vector<app::SetupSums> heads_;      // of each view: the sums of its first flight, without the spectra
   std::vector<std::uint64_t> n_segments_;  // of each view
   std::vector<Seen> seen_;
 };

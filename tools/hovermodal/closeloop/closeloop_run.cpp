@@ -22,7 +22,8 @@ void close_run(const RunLoop& request) {
   if (!request.config.empty()) inputs.config = app::load_config(request.config, request.overrides);
   inputs.bases = request.bases;
   if (!request.structure.empty()) inputs.structure = drivers::read_structure(request.structure);
-  for (const KnownMode& mode : read_reference_modes(request.reference)) inputs.reference_hz.push_back(mode.frequency_hz);
+  for (const KnownMode& mode : read_reference_modes(request.reference))
+    inputs.reference_hz.push_back(mode.frequency_hz);
   inputs.max_frequency_hz = request.max_frequency_hz;
   inputs.seed = request.seed;
   const bool terminal = isatty(STDERR_FILENO) != 0;

@@ -138,9 +138,10 @@ void add_series_options(CLI::App& command, SeriesLoop& options) {
       ->type_name("NAME");
   command.add_flag("--input-unknown", options.input_unknown,
                    "Begin as if the measured --input were white noise: is its colour an effect that the model lacks?");
-  command.add_flag("--average-rate", options.average_rate,
-                   "The rate is that of samples over duration (a container's average), not a sensor's: lost samples that "
-                   "are put in raise it");
+  command.add_flag(
+      "--average-rate", options.average_rate,
+      "The rate is that of samples over duration (a container's average), not a sensor's: lost samples that "
+      "are put in raise it");
   command.add_option("--decay-s", options.decay_s, "Length of a decay, at most")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

@@ -78,8 +78,8 @@ std::string lower_without_blanks(const std::string& name) {
 
 int time_column(const drivers::SeriesFile& file) {
   // x_value: LabVIEW's, with more digits than Delta_X in its head.
-  constexpr std::array<std::string_view, 10> kNames{"t_s",     "t",       "time", "time_s",  "t[s]",
-                                                    "time[s]", "time(s)", "seconds", "t(s)", "x_value"};
+  constexpr std::array<std::string_view, 10> kNames{"t_s",     "t",       "time",    "time_s", "t[s]",
+                                                    "time[s]", "time(s)", "seconds", "t(s)",   "x_value"};
   for (std::size_t c = 0; c < file.names.size(); ++c) {
     const std::string name = lower_without_blanks(file.names[c]);
     if (std::find(kNames.begin(), kNames.end(), name) != kNames.end()) return static_cast<int>(c);
@@ -101,8 +101,9 @@ SampleGrid sample_grid(const drivers::SeriesFile& file, double rate_hz, const st
       return grid;
     }
     const bool is_empty = std::all_of(t.begin(), t.end(), [](double x) { return std::isnan(x); });
-    if (!is_empty) grid.remarks.push_back(fmt::format("column {} is not used: its times do not go forward",
-                                       file.names[static_cast<std::size_t>(i_time)]));
+    if (!is_empty)
+      grid.remarks.push_back(fmt::format("column {} is not used: its times do not go forward",
+                                         file.names[static_cast<std::size_t>(i_time)]));
   }
   if (file.rate_hz) require_agreement(rate_hz, *file.rate_hz, "head", path);
   grid.rate_hz = rate_hz > 0.0 ? rate_hz : file.rate_hz.value_or(0.0);

@@ -49,7 +49,8 @@ void add_inspect_telemetry(CLI::App& inspect) {
   CLI::App* telemetry = inspect.add_subcommand(
       "telemetry", "List what the camera wrote beside or in a clip: times of frames, exposure, zoom, attitude");
   const auto options = std::make_shared<Options>();
-  telemetry->add_option("FILE", options->file, "Video (its .SRT or GPMF is found), .SRT, or GPMF bytes (.raw)")->required();
+  telemetry->add_option("FILE", options->file, "Video (its .SRT or GPMF is found), .SRT, or GPMF bytes (.raw)")
+      ->required();
   telemetry->add_option("--attitude", options->attitude, "Write the attitude to this CSV, for camera.attitude_file");
   telemetry->callback([options] { print(*options); });
 }

@@ -165,9 +165,10 @@ void run_regions(const Options& options) {
   }
   if (options.serve) serve(options, watched, proposal);
   if (!doubt.empty()) {
-    throw std::runtime_error(fmt::format("regions: --lowest-is-base: {}; the regions are {} without a base: write role: base "
-                                         "at the right one by hand, or declare none",
-                                         doubt, options.out.empty() ? "printed" : "written to " + options.out));
+    throw std::runtime_error(
+        fmt::format("regions: --lowest-is-base: {}; the regions are {} without a base: write role: base "
+                    "at the right one by hand, or declare none",
+                    doubt, options.out.empty() ? "printed" : "written to " + options.out));
   }
 }
 

@@ -16,9 +16,9 @@ constexpr double kLess = 0.8;   // motion of another part, as a share of the low
 
 std::string table_line(const std::string& rank, const ProposedRegion& one) {
   const core::Region& r = one.region;
-  return fmt::format("{:>4}  {:<8} {:>5} {:>5} {:>5} {:>5}  {:<10} {:>4} {:>7} {:>10.3f} {:>9.4f} {:>7}\n", rank, r.name,
-                     r.u_px, r.v_px, r.width_px, r.height_px, core::to_string(r.role), axis_text(r), one.n_points,
-                     one.motion_px, one.noise_px,
+  return fmt::format("{:>4}  {:<8} {:>5} {:>5} {:>5} {:>5}  {:<10} {:>4} {:>7} {:>10.3f} {:>9.4f} {:>7}\n", rank,
+                     r.name, r.u_px, r.v_px, r.width_px, r.height_px, core::to_string(r.role), axis_text(r),
+                     one.n_points, one.motion_px, one.noise_px,
                      one.shared > 0.0 ? fmt::format("{:.2f}", one.shared) : std::string("-"));
 }
 
@@ -48,8 +48,8 @@ std::string make_lowest_base(core::RegionProposal& proposal) {
                         [](const ProposedRegion& a, const ProposedRegion& b) { return a.region.v_px < b.region.v_px; });
   const double bottom_px = lowest.region.v_px + lowest.region.height_px;
   if (proposal.lowest_moving_v_px > bottom_px + kBelow * lowest.region.height_px) {
-    return fmt::format("points below {}, down to v = {:.0f}, move as well: it is not the lowest part", lowest.region.name,
-                       proposal.lowest_moving_v_px);
+    return fmt::format("points below {}, down to v = {:.0f}, move as well: it is not the lowest part",
+                       lowest.region.name, proposal.lowest_moving_v_px);
   }
   for (const ProposedRegion& other : proposal.regions) {
     if (other.motion_px >= kLess * lowest.motion_px) continue;

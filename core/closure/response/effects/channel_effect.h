@@ -25,7 +25,7 @@ class ChannelEffect {
   struct Corrected {
     ChannelRecord record;
     double count = 0.0, sigma = 0.0;  // samples inserted, removed or masked; sigma of that number
-    std::string words = {};            // description of the correction; may be empty
+    std::string words = {};           // description of the correction; may be empty
   };
 
   ChannelEffect() = default;

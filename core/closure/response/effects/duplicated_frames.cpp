@@ -31,7 +31,8 @@ class DuplicatedFrames final : public ChannelEffect {
     for (const Index k : twice) inserted += steps.inserted(k);
     const auto n = static_cast<double>(twice.size());
     const bool are_inserted = inserted > kInserted;
-    Corrected out{are_inserted ? without(context.record, twice) : blanked(context.record, twice), n, by_chance(context)};
+    Corrected out{are_inserted ? without(context.record, twice) : blanked(context.record, twice), n,
+                  by_chance(context)};
     out.words = are_inserted ? "inserted between frames: what follows them is moved up"
                              : "each in the place of a frame that is lost";
     return out;

@@ -11,7 +11,7 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 
-constexpr double kTails = 10.0;    // degrees of freedom of the errors' t distribution
+constexpr double kTails = 10.0;     // degrees of freedom of the errors' t distribution
 constexpr double kExplained = 6.0;  // limit in standard deviations of chi-square
 constexpr double kHopeless = -6.0;  // ln of a sample's own ratio which later samples cannot outweigh
 constexpr int kRounds = 60;
@@ -147,8 +147,8 @@ EventCount count_events(const std::vector<double>& log_ratios) {
     const double p = probability(log_ratios[i]);
     out.count += p, variance += p * (1.0 - p);
     if (p > 0.5) out.likely.push_back(i);
-    out.evidence += log_ratios[i] > 500.0 ? log_ratios[i] + std::log(share)
-                                          : std::log1p(share * std::expm1(log_ratios[i]));
+    out.evidence +=
+        log_ratios[i] > 500.0 ? log_ratios[i] + std::log(share) : std::log1p(share * std::expm1(log_ratios[i]));
   }
   const double known = out.count > 0.0 ? std::max(1.0 - variance / out.count, 0.05) : 1.0;
   out.sigma = std::sqrt(variance / known);

@@ -20,8 +20,8 @@ class StepLikelihood {
   [[nodiscard]] bool ok() const noexcept { return ok_; }
 
   struct Ratio {
-    double own = 0.0;    // of sample k
-    double after = 0.0;  // of the later samples whose prediction reaches back to the step
+    double own = 0.0;       // of sample k
+    double after = 0.0;     // of the later samples whose prediction reaches back to the step
     bool possible = false;  // true if the changed number of steps explains the sample
   };
   // Two steps between samples k - 1 and k: one frame is missing before k.
@@ -41,7 +41,7 @@ class StepLikelihood {
   [[nodiscard]] double log_two(const Eigen::VectorXd& error) const;
   [[nodiscard]] double log_tail(double squares) const;
   [[nodiscard]] bool seen(Eigen::Index first, Eigen::Index last) const;
-  [[nodiscard]] Window until(Eigen::Index k) const;  // the samples that predict k
+  [[nodiscard]] Window until(Eigen::Index k) const;                                   // the samples that predict k
   void append_unseen(Window& window, Eigen::Index before, Eigen::Index after) const;  // missing row
 
   const ChannelRecord& scaled_;
