@@ -34,6 +34,9 @@ if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   endif()
 endif()
 
+# Eigen for targets that link hovermodal_core: without the kernels that core holds compiled.
+set(EIGEN_KERNELS ${PROJECT_SOURCE_DIR}/core/linear/eigen_kernels.h)
+
 # hovermodal_precompile(TARGET <header>...): the standard library's headers and these.
 function(hovermodal_precompile target)
   if(HOVERMODAL_PRECOMPILE)

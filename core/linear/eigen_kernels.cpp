@@ -1,0 +1,10 @@
+#include "core/linear/eigen_kernels.h"
+
+#ifdef HOVERMODAL_EIGEN_KERNELS
+#define HOVERMODAL_STRUCT(...) template struct Eigen::internal::__VA_ARGS__;
+#define HOVERMODAL_CLASS(...) template class Eigen::__VA_ARGS__;
+#define HOVERMODAL_FUNCTION(...) template __VA_ARGS__;
+HOVERMODAL_EIGEN_STRUCTS(HOVERMODAL_STRUCT)
+HOVERMODAL_EIGEN_DECOMPOSITIONS(HOVERMODAL_CLASS)
+HOVERMODAL_EIGEN_FUNCTIONS(HOVERMODAL_FUNCTION)
+#endif
