@@ -1,14 +1,14 @@
 #include "firmware_app/config/options.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "drivers/host/command_line.h"
 #include "firmware_app/config/config.h"
 
 namespace app {
 
 Options parse_options(int argc, char** argv) {
-  CLI::App cli{
+  drivers::CommandLine cli{
       "hovermodald: natural frequencies, damping and mode shapes of a structure, from the video of a hovering camera, "
       "in flight.\n\n"
       "  hovermodald --config flight.yaml                     run until the source ends or Ctrl-C\n"
@@ -21,21 +21,17 @@ Options parse_options(int argc, char** argv) {
   Options options;
   std::string report;
   bool help_config = false;
-  cli.add_option("--config", options.config_path, "Configuration file (YAML); --help-config explains every key")
-      ->type_name("FILE");
-  cli.add_option("--set", options.overrides, "Override one key, after the file; may be repeated")
-      ->type_name("section.key=value")
-      ->take_all();
-  cli.add_option("--report", report, "Folder for modal.json, displacements.csv and tracks.csv")->type_name("DIR");
-  cli.add_flag("--check", options.check_only, "Validate the configuration and check the source, without running");
-  cli.add_flag("--help-config", help_config, "Every key of the configuration: unit, default, range, meaning");
-  cli.set_version_flag("--version", "hovermodald " HOVERMODAL_VERSION);
-  try {
-    cli.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    options.exit_code = cli.exit(e) == 0 ? 0 : 2;
-    return options;
-  }
+  cli.option("--config", options.config_path, "Configuration file (YAML); --help-config explains every key")
+      .type_name("FILE");
+  cli.option("--set", options.overrides, "Override one key, after the file; may be repeated")
+      .type_name("section.key=value")
+      .repeated();
+  cli.option("--report", report, "Folder for modal.json, displacements.csv and tracks.csv").type_name("DIR");
+  cli.flag("--check", options.check_only, "Validate the configuration and check the source, without running");
+  cli.flag("--help-config", help_config, "Every key of the configuration: unit, default, range, meaning");
+  cli.version("hovermodald " HOVERMODAL_VERSION);
+  options.exit_code = cli.parse(argc, argv);
+  if (options.exit_code) return options;
   if (help_config) {
     std::fputs(config_help().c_str(), stdout);
     options.exit_code = 0;

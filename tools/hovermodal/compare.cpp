@@ -1,6 +1,5 @@
 // hovermodal compare: one result compared with another, and both with the truth.
 #include <fmt/core.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 
 #include "core/identification/mac.h"
 #include "core/identification/real_shape.h"
+#include "drivers/host/command_line.h"
 #include "firmware_app/report/modal_json.h"
 #include "tools/hovermodal/commands.h"
 
@@ -129,25 +129,25 @@ void print_table(const app::ModalReport& result, const app::ModalReport& referen
 
 }  // namespace
 
-void add_compare(CLI::App& app) {
+void add_compare(drivers::Command& app) {
   struct Options {
     std::string result, reference, truth;
     bool paper = false;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  drivers::Command command = app.subcommand(
       "compare",
       "Frequencies and shapes of one modal.json against another, or against a simulation's truth.json: MAC of the\n"
       "complex shapes, and of them taken as real ones\n"
       "  hovermodal compare --result out/modal.json --reference out/truth.json");
-  command->add_option("--result", options->result, "modal.json to compare")->required()->type_name("FILE");
-  command->add_option("--reference", options->reference, "modal.json or truth.json to compare it with")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("--truth", options->truth, "truth.json: adds the error in units of the smallest possible scatter")
-      ->type_name("FILE");
-  command->add_flag("--paper", options->paper, "Adds Table 1 of Yoon et al. 2017 beside it");
-  command->callback([options] {
+  command.option("--result", options->result, "modal.json to compare").required().type_name("FILE");
+  command.option("--reference", options->reference, "modal.json or truth.json to compare it with")
+      .required()
+      .type_name("FILE");
+  command.option("--truth", options->truth, "truth.json: adds the error in units of the smallest possible scatter")
+      .type_name("FILE");
+  command.flag("--paper", options->paper, "Adds Table 1 of Yoon et al. 2017 beside it");
+  command.on_run([options] {
     const app::ModalReport result = app::read_modal_json(options->result);
     const app::ModalReport reference = app::read_modal_json(options->reference);
     app::ModalReport truth;

@@ -1,6 +1,5 @@
 // hovermodal replay, report: the service's chain on recorded tracks, starting with geometry.
 #include <fmt/core.h>
-#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <memory>
@@ -8,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/host/command_line.h"
 #include "firmware_app/replay/analysis.h"
 #include "firmware_app/report/page/report_page.h"
 #include "tools/hovermodal/commands.h"
@@ -52,19 +52,20 @@ std::string report_folder(const std::string& record) {
   return (path.parent_path() / (stem + "_report")).string();
 }
 
-void add_record_options(CLI::App& command, Options& options) {
-  command.add_option("record", options.records, "First file of each recorded run; the files that follow it are found")
-      ->type_name("LOG");
-  command.add_option("--config", options.config, "Configuration to use; default for a record: the recorded one")
-      ->type_name("FILE");
-  command.add_option("--set", options.overrides, "Override one key")->type_name("section.key=value")->take_all();
+void add_record_options(drivers::Command& command, Options& options, bool required) {
+  command.option("record", options.records, "First file of each recorded run; the files that follow it are found")
+      .required(required)
+      .type_name("LOG");
+  command.option("--config", options.config, "Configuration to use; default for a record: the recorded one")
+      .type_name("FILE");
+  command.option("--set", options.overrides, "Override one key").type_name("section.key=value").repeated();
 }
 
 }  // namespace
 
-void add_replay(CLI::App& app) {
+void add_replay(drivers::Command& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  drivers::Command command = app.subcommand(
       "replay",
       "Run geometry, spectra and identification again on a record of the service, or on a tracks.csv\n"
       "  hovermodal replay flights/bridge_run0007_000.lcm --report again\n"
@@ -74,23 +75,21 @@ void add_replay(CLI::App& app) {
       "  hovermodal replay flights/bridge_run000[789]_000.lcm --report together\n"
       "      several flights of one view: their spectra are added up, to one estimate\n"
       "  hovermodal replay --tracks out/tracks.csv --config flight.yaml --set method=paper --report again");
-  command->add_option("--tracks", options->tracks, "tracks.csv of a run or of `simulate --tracks-only`")
-      ->type_name("FILE");
-  add_record_options(*command, *options);
-  command->add_option("--report", options->report, "Folder for the report")->type_name("DIR");
-  command->callback([options] { replay(*options); });
+  command.option("--tracks", options->tracks, "tracks.csv of a run or of `simulate --tracks-only`").type_name("FILE");
+  add_record_options(command, *options, false);
+  command.option("--report", options->report, "Folder for the report").type_name("DIR");
+  command.on_run([options] { replay(*options); });
 }
 
-void add_report(CLI::App& app) {
+void add_report(drivers::Command& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("report",
-                                         "The report of a recorded run: pictures and page, as the service makes them\n"
-                                         "  hovermodal report flights/bridge_run0007_000.lcm");
-  add_record_options(*command, *options);
-  command->get_option("record")->required();
-  command->add_option("--out", options->report, "Folder for it; default: beside the record, ..._report")
-      ->type_name("DIR");
-  command->callback([options] {
+  drivers::Command command =
+      app.subcommand("report",
+                     "The report of a recorded run: pictures and page, as the service makes them\n"
+                     "  hovermodal report flights/bridge_run0007_000.lcm");
+  add_record_options(command, *options, true);
+  command.option("--out", options->report, "Folder for it; default: beside the record, ..._report").type_name("DIR");
+  command.on_run([options] {
     if (options->report.empty()) options->report = report_folder(options->records.front());
     replay_records(*options);
   });

@@ -2,7 +2,6 @@
 // trackers.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -13,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "drivers/host/command_line.h"
 #include "tools/validate/closure_series_tracked.h"
 #include "tools/validate/closure_tracks.h"
 #include "tools/validate/footage.h"
@@ -238,58 +238,54 @@ std::vector<std::string> names() {
   return all;
 }
 
-void run(const CLI::App& command, const Options& options) {
+void run(const drivers::Command& command, const Options& options) {
   const Check& check =
       *std::find_if(kChecks.begin(), kChecks.end(), [&](const Check& one) { return options.what == one.name; });
   for (const auto& [option, taken_by] : kOptions) {
-    if (command.count(option) == 0 || (check.takes & taken_by) != 0U) continue;
+    if (!command.given(option) || (check.takes & taken_by) != 0U) continue;
     throw std::invalid_argument(fmt::format("{} has no use for {}; leave it out", check.name, option));
   }
   check.print(options);
 }
 
-void add_options(CLI::App& app, Options& options) {
-  app.add_option("what", options.what, meanings())->required()->check(CLI::IsMember(names()));
-  app.add_option("--first-seed", options.first_seed, "Seed of the first record, or of the only scene")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  app.add_option("--seeds", options.n_seeds, "Records, one for each seed from the first on")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  app.add_option("--frames", options.n_frames, "klt: frames of a minute that are drawn")
-      ->check(CLI::Range(1, 1499))
-      ->capture_default_str();
-  app.add_option("--threads", options.n_threads, "Threads, where records are made or frames drawn")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
-  app.add_option("--duration", options.duration_s, "geometry, closure-tracks: seconds; 0 = that of the figure")
-      ->check(CLI::Range(0.0, 3600.0));
-  app.add_option("--effect", options.effect, "closure-tracks, -clip, -live: this effect only")->type_name("NAME");
-  app.add_option("--strength", options.strength, "closure-tracks: this strength only; 0 = all")
-      ->check(CLI::Range(0.0, 100.0));
-  app.add_option("--flight", options.flight,
-                 "null, geometry, closure-tracks-foreign: the recorded flight that moves the camera")
-      ->type_name("FILE");
-  app.add_option("--report", options.report, "table1: folder for the pictures; geometry-pixels: for clips and reports")
-      ->type_name("DIR");
+void add_options(drivers::Command& program, Options& options) {
+  program.option("what", options.what, meanings()).required().one_of(names());
+  program.option("--first-seed", options.first_seed, "Seed of the first record, or of the only scene")
+      .range(1, 1000000)
+      .show_default();
+  program.option("--seeds", options.n_seeds, "Records, one for each seed from the first on")
+      .range(1, 10000)
+      .show_default();
+  program.option("--frames", options.n_frames, "klt: frames of a minute that are drawn").range(1, 1499).show_default();
+  program.option("--threads", options.n_threads, "Threads, where records are made or frames drawn")
+      .range(1, 256)
+      .show_default();
+  program.option("--duration", options.duration_s, "geometry, closure-tracks: seconds; 0 = that of the figure")
+      .range(0.0, 3600.0);
+  program.option("--effect", options.effect, "closure-tracks, -clip, -live: this effect only").type_name("NAME");
+  program.option("--strength", options.strength, "closure-tracks: this strength only; 0 = all").range(0.0, 100.0);
+  program
+      .option("--flight", options.flight,
+              "null, geometry, closure-tracks-foreign: the recorded flight that moves the camera")
+      .type_name("FILE");
+  program.option("--report", options.report, "table1: folder for the pictures; geometry-pixels: for clips and reports")
+      .type_name("DIR");
 }
 
 }  // namespace
 }  // namespace tools
 
 int main(int argc, char** argv) {
-  CLI::App app{
+  drivers::CommandLine program{
       "hovermodal-validate: the statistical validation of hovermodal\n"
       "Checks the simulator against theory, the identification and the search for missing effects against the "
       "simulator's "
       "truth. The figure scripts in tools/figures call it; it is not installed."};
   tools::Options options;
-  tools::add_options(app, options);
+  tools::add_options(program, options);
   try {
-    app.parse(argc, argv);
-    tools::run(app, options);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
+    if (const auto exit_code = program.parse(argc, argv)) return *exit_code;
+    tools::run(program, options);
   } catch (const std::invalid_argument& e) {
     std::fprintf(stderr, "hovermodal-validate: %s\n", e.what());
     return 2;

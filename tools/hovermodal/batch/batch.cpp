@@ -1,7 +1,6 @@
 // hovermodal batch: processes a folder of flights in several processes, and combines their results.
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -9,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "drivers/host/command_line.h"
 #include "drivers/storage/json.h"
 #include "tools/hovermodal/batch/combine.h"
 #include "tools/hovermodal/batch/dispatch.h"
@@ -137,9 +137,9 @@ void batch(Options options) {
 
 }  // namespace
 
-void add_batch(CLI::App& app) {
+void add_batch(drivers::Command& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand(
+  drivers::Command command = app.subcommand(
       "batch",
       "Process a folder of flights, several at a time, and combine their results\n"
       "  hovermodal batch flights --out together\n"
@@ -154,19 +154,19 @@ void add_batch(CLI::App& app) {
       "together (views/N/modal.json); different views are combined by inverse variance, modes matched by frequency "
       "and\n"
       "shape. The result is the same to the last bit for any number of processes and machines.");
-  command->add_option("folder", options->folder, "Folder with the flights")->required()->type_name("FOLDER");
-  command->add_option("--out", options->out, "Folder for the results")->required()->type_name("DIR");
+  command.option("folder", options->folder, "Folder with the flights").required().type_name("FOLDER");
+  command.option("--out", options->out, "Folder for the results").required().type_name("DIR");
   command
-      ->add_option("--jobs", options->jobs,
-                   "Flights at a time; default: one for each processor, with --mpi one for each rank")
-      ->check(CLI::Range(1, 1024));
-  command->add_option("--config", options->config, "Configuration of tracks and clips that have none beside them")
-      ->type_name("FILE");
-  command->add_option("--set", options->overrides, "Override one key for all flights")
-      ->type_name("section.key=value")
-      ->take_all();
-  command->add_flag("--mpi", options->mpi, "Share the flights with all processes that mpirun or srun has started");
-  command->callback([options] { batch(*options); });
+      .option("--jobs", options->jobs,
+              "Flights at a time; default: one for each processor, with --mpi one for each rank")
+      .range(1, 1024);
+  command.option("--config", options->config, "Configuration of tracks and clips that have none beside them")
+      .type_name("FILE");
+  command.option("--set", options->overrides, "Override one key for all flights")
+      .type_name("section.key=value")
+      .repeated();
+  command.flag("--mpi", options->mpi, "Share the flights with all processes that mpirun or srun has started");
+  command.on_run([options] { batch(*options); });
 }
 
 }  // namespace tools

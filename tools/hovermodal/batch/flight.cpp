@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 #include <sys/prctl.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "drivers/host/command_line.h"
 #include "drivers/storage/checkpoint_file.h"
 #include "firmware_app/chain/state/setup_sums.h"
 #include "firmware_app/replay/analysis.h"
@@ -99,16 +99,17 @@ void work_on(const FlightOrder& order) {
 
 }  // namespace
 
-void add_batch_flight(CLI::App& app) {
+void add_batch_flight(drivers::Command& app) {
   auto order = std::make_shared<FlightOrder>();
   auto kind = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("batch-flight", "One flight of a batch")->group("");
-  command->add_option("--kind", *kind)->required();
-  command->add_option("--path", order->flight.path)->required();
-  command->add_option("--into", order->into)->required();
-  command->add_option("--config", order->flight.config);
-  command->add_option("--set", order->overrides)->take_all();
-  command->callback([order, kind] {
+  drivers::Command command = app.subcommand("batch-flight", "One flight of a batch");
+  command.hide();
+  command.option("--kind", *kind).required();
+  command.option("--path", order->flight.path).required();
+  command.option("--into", order->into).required();
+  command.option("--config", order->flight.config);
+  command.option("--set", order->overrides).repeated();
+  command.on_run([order, kind] {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // ends with the process that waits for this flight
     order->flight.kind = flight_kind(*kind);
     work_on(*order);

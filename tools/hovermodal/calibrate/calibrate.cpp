@@ -1,7 +1,6 @@
 // hovermodal calibrate: estimates the camera and its lens from pictures of a chessboard.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "drivers/host/command_line.h"
 #include "drivers/storage/calibration_file.h"
 #include "drivers/storage/json.h"
 #include "drivers/storage/text_file.h"
@@ -150,32 +150,31 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_calibrate(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_calibrate(drivers::Command& app) {
+  drivers::Command command = app.subcommand(
       "calibrate", "The camera's focal length, centre and lens distortion, from a clip or images of a chessboard");
   auto options = std::make_shared<Options>();
-  command->add_option("sources", options->sources, "Clips, images, folders of images; all of one size")
-      ->required()
-      ->type_name("CLIP_OR_IMAGES");
-  command->add_option("--board", options->board, "Inner corners of the board, COLUMNSxROWS, e.g. 9x6")
-      ->required()
-      ->type_name("COLUMNSxROWS");
-  command->add_option("--square-mm", options->square_mm, "Side of a square, mm (scales nothing but the stated poses)")
-      ->required();
-  command->add_option("--model", options->model, "Lens: radtan, or equidistant (fisheye)")
-      ->check(CLI::IsMember({"radtan", "equidistant"}))
-      ->capture_default_str();
-  command->add_option("--every", options->every, "Look at every n-th frame of a clip; 0 = about 200 frames of it")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
-  command->add_option("--views", options->views, "Use at most this many views: time grows with them")
-      ->check(CLI::Range(3, 500))
-      ->capture_default_str();
-  command->add_option("--out", options->out, "File to write, YAML")->required()->type_name("FILE");
-  command->add_option("--report", options->report, "Folder for calibration.svg: coverage and residuals")
-      ->type_name("DIR");
-  command->footer(kFooter);
-  command->callback([options] { run(*options); });
+  command.option("sources", options->sources, "Clips, images, folders of images; all of one size")
+      .required()
+      .type_name("CLIP_OR_IMAGES");
+  command.option("--board", options->board, "Inner corners of the board, COLUMNSxROWS, e.g. 9x6")
+      .required()
+      .type_name("COLUMNSxROWS");
+  command.option("--square-mm", options->square_mm, "Side of a square, mm (scales nothing but the stated poses)")
+      .required();
+  command.option("--model", options->model, "Lens: radtan, or equidistant (fisheye)")
+      .one_of({"radtan", "equidistant"})
+      .show_default();
+  command.option("--every", options->every, "Look at every n-th frame of a clip; 0 = about 200 frames of it")
+      .range(0, 1000000)
+      .show_default();
+  command.option("--views", options->views, "Use at most this many views: time grows with them")
+      .range(3, 500)
+      .show_default();
+  command.option("--out", options->out, "File to write, YAML").required().type_name("FILE");
+  command.option("--report", options->report, "Folder for calibration.svg: coverage and residuals").type_name("DIR");
+  command.footer(kFooter);
+  command.on_run([options] { run(*options); });
 }
 
 }  // namespace tools

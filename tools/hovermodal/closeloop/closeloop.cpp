@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -10,6 +9,7 @@
 
 #include "core/closure/closure_loop.h"
 #include "core/closure/structure_level.h"
+#include "drivers/host/command_line.h"
 #include "drivers/storage/json.h"
 #include "drivers/storage/structure_file.h"
 #include "drivers/storage/text_file.h"
@@ -166,37 +166,35 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_closeloop(CLI::App& app) {
+void add_closeloop(drivers::Command& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("closeloop", help());
+  drivers::Command command = app.subcommand("closeloop", help());
   command
-      ->add_option("--run", options->run,
-                   "Report folder of a run: all levels, one after the other, each on what the one before repaired")
-      ->type_name("DIR");
+      .option("--run", options->run,
+              "Report folder of a run: all levels, one after the other, each on what the one before repaired")
+      .type_name("DIR");
   command
-      ->add_option("--record", options->loop.records,
-                   "Record in place of modes: a run's folder or tracks.csv, or tables of samples")
-      ->type_name("DIR|FILE.csv...");
-  command->add_option("--config", options->tracks.config, "For tracks: configuration of that run")->type_name("FILE");
-  command->add_option("--set", options->tracks.overrides, "For tracks: override one key of that configuration")
-      ->type_name("section.key=value")
-      ->take_all();
-  command->add_option("--structure", options->structure, "Declared structural model")->type_name("FILE.yaml");
-  command->add_option("--reference", options->loop.reference, "Measured modes: modal.json or modes.csv")
-      ->type_name("FILE");
+      .option("--record", options->loop.records,
+              "Record in place of modes: a run's folder or tracks.csv, or tables of samples")
+      .type_name("DIR|FILE.csv...");
+  command.option("--config", options->tracks.config, "For tracks: configuration of that run").type_name("FILE");
+  command.option("--set", options->tracks.overrides, "For tracks: override one key of that configuration")
+      .type_name("section.key=value")
+      .repeated();
+  command.option("--structure", options->structure, "Declared structural model").type_name("FILE.yaml");
+  command.option("--reference", options->loop.reference, "Measured modes: modal.json or modes.csv").type_name("FILE");
   command
-      ->add_option("--check", options->check,
-                   "Other measured modes, excluded from the fit: prints the model's error against them")
-      ->type_name("FILE");
-  command->add_option("--report", options->loop.report, "Folder for closure.json and pictures")->type_name("DIR");
-  command
-      ->add_option("--surrogates", options->loop.n_surrogates, "Surrogate records per step, for the chance threshold")
-      ->check(CLI::Range(8, 100000))
-      ->capture_default_str();
-  command->add_option("--seed", options->loop.seed, "Seed of the surrogates")->capture_default_str();
-  add_series_options(*command, options->series);
-  add_gyro_clip_options(*command, options->clip, false);
-  command->callback([options] { run(*options); });
+      .option("--check", options->check,
+              "Other measured modes, excluded from the fit: prints the model's error against them")
+      .type_name("FILE");
+  command.option("--report", options->loop.report, "Folder for closure.json and pictures").type_name("DIR");
+  command.option("--surrogates", options->loop.n_surrogates, "Surrogate records per step, for the chance threshold")
+      .range(8, 100000)
+      .show_default();
+  command.option("--seed", options->loop.seed, "Seed of the surrogates").show_default();
+  add_series_options(command, options->series);
+  add_gyro_clip_options(command, options->clip, false);
+  command.on_run([options] { run(*options); });
 }
 
 }  // namespace tools

@@ -11,6 +11,7 @@
 #include "core/closure/closure_loop.h"
 #include "core/closure/response/clock_model.h"
 #include "core/closure/response/free_decay_model.h"
+#include "drivers/host/command_line.h"
 #include "drivers/storage/csv.h"
 #include "drivers/storage/text_file.h"
 #include "tools/hovermodal/closeloop/series_loop.h"
@@ -112,39 +113,35 @@ class SeriesCloser {
 
 }  // namespace
 
-void add_series_options(CLI::App& command, SeriesLoop& options) {
+void add_series_options(drivers::Command& command, SeriesLoop& options) {
   SeriesRequest& request = options.request;
-  command.add_option("--rate", request.rate_hz, "Of --record SERIES: samples per second as declared")->type_name("HZ");
-  command.add_option("--channels", request.channels, "Of --record SERIES: columns to use, by name or number from 1")
-      ->type_name("NAME");
-  command.add_option("--base", request.bases, "Of --record SERIES: columns that are the structure's base")
-      ->type_name("NAME");
-  command.add_option("--input", request.input, "Of --record SERIES: column of the measured input (ground, table)")
-      ->type_name("NAME");
-  command.add_option("--quantity", request.quantities, "For --record SERIES: d, v or a, as for identify")
-      ->delimiter(',')
-      ->type_name("d|v|a");
-  command.add_option("--max-frequency", options.max_frequency_hz, "Of --record SERIES: highest frequency of modes, Hz")
-      ->check(CLI::NonNegativeNumber);
+  command.option("--rate", request.rate_hz, "Of --record SERIES: samples per second as declared").type_name("HZ");
+  command.option("--channels", request.channels, "Of --record SERIES: columns to use, by name or number from 1")
+      .type_name("NAME");
+  command.option("--base", request.bases, "Of --record SERIES: columns that are the structure's base")
+      .type_name("NAME");
+  command.option("--input", request.input, "Of --record SERIES: column of the measured input (ground, table)")
+      .type_name("NAME");
+  command.option("--quantity", request.quantities, "For --record SERIES: d, v or a, as for identify")
+      .separator(',')
+      .type_name("d|v|a");
+  command.option("--max-frequency", options.max_frequency_hz, "Of --record SERIES: highest frequency of modes, Hz")
+      .not_negative();
   command
-      .add_option("--clock", options.clock,
-                  "A clock filmed in the frames of --record: columns frame, reading_s, optionally sigma_s")
-      ->type_name("FILE.csv");
-  command.add_option("--clock-sigma-ms", options.clock_sigma_ms, "Scatter of a reading, where it is known")
-      ->check(CLI::NonNegativeNumber);
-  command.add_flag("--free-decay", options.free_decay,
-                   "The record shows a structure that is pulled and released, three times or more");
-  command.add_option("--input-record", options.input_record, "Of several --record: name of the one at the base")
-      ->type_name("NAME");
-  command.add_flag("--input-unknown", options.input_unknown,
-                   "Begin as if the measured --input were white noise: is its colour an effect that the model lacks?");
-  command.add_flag(
-      "--average-rate", options.average_rate,
-      "The rate is that of samples over duration (a container's average), not a sensor's: lost samples that "
-      "are put in raise it");
-  command.add_option("--decay-s", options.decay_s, "Length of a decay, at most")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+      .option("--clock", options.clock,
+              "A clock filmed in the frames of --record: columns frame, reading_s, optionally sigma_s")
+      .type_name("FILE.csv");
+  command.option("--clock-sigma-ms", options.clock_sigma_ms, "Scatter of a reading, where it is known").not_negative();
+  command.flag("--free-decay", options.free_decay,
+               "The record shows a structure that is pulled and released, three times or more");
+  command.option("--input-record", options.input_record, "Of several --record: name of the one at the base")
+      .type_name("NAME");
+  command.flag("--input-unknown", options.input_unknown,
+               "Begin as if the measured --input were white noise: is its colour an effect that the model lacks?");
+  command.flag("--average-rate", options.average_rate,
+               "The rate is that of samples over duration (a container's average), not a sensor's: lost samples that "
+               "are put in raise it");
+  command.option("--decay-s", options.decay_s, "Length of a decay, at most").positive().show_default();
 }
 
 void close_series(const LoopRequest& request, const SeriesLoop& options) {

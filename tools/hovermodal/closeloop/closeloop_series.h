@@ -1,10 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "drivers/host/command_line.h"
 #include "tools/hovermodal/identify/series_input.h"
 
 namespace tools {
@@ -27,7 +27,7 @@ struct LoopRequest {
   std::size_t n_surrogates = 333;
 };
 
-void add_series_options(CLI::App& command, SeriesLoop& options);
+void add_series_options(drivers::Command& command, SeriesLoop& options);
 // Throws std::invalid_argument, drivers::FileError.
 void close_series(const LoopRequest& request, const SeriesLoop& options);
 

@@ -1,12 +1,12 @@
 // hovermodal identify: the service's spectra and identification on any time series.
 #include <fmt/core.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
 
+#include "drivers/host/command_line.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/replay/analysis.h"
 #include "tools/hovermodal/commands.h"
@@ -103,63 +103,61 @@ void run(const IdentifyOptions& options) {
   if (!options.report.empty()) fmt::print("open {}\n", write_merged(merged, options.report));
 }
 
-void add_data_options(CLI::App& command, IdentifyOptions& options) {
+void add_data_options(drivers::Command& command, IdentifyOptions& options) {
   SeriesRequest& request = options.request;
-  command.add_option("--series", options.files, "Tables of samples")->required()->type_name("FILE...");
-  command.add_option("--rate", request.rate_hz, "Samples per second, where the file has no times")->type_name("HZ");
+  command.option("--series", options.files, "Tables of samples").required().type_name("FILE...");
+  command.option("--rate", request.rate_hz, "Samples per second, where the file has no times").type_name("HZ");
   command
-      .add_option("--quantity", request.quantities,
-                  "d displacement, v velocity, a acceleration: one for all channels, or one for each (default: by the "
-                  "units in names and comments)")
-      ->delimiter(',')
-      ->type_name("d|v|a");
-  command.add_flag("--no-header", request.no_header,
-                   "The first line contains numbers, not names (also detected automatically)");
+      .option("--quantity", request.quantities,
+              "d displacement, v velocity, a acceleration: one for all channels, or one for each (default: by the "
+              "units in names and comments)")
+      .separator(',')
+      .type_name("d|v|a");
+  command.flag("--no-header", request.no_header,
+               "The first line contains numbers, not names (also detected automatically)");
+  command.option("--channels", request.channels, "Columns to use, by name or number from 1 (default: all but times)")
+      .type_name("NAME");
+  command.option("--base", request.bases, "Columns that are the structure's base").type_name("NAME");
   command
-      .add_option("--channels", request.channels, "Columns to use, by name or number from 1 (default: all but times)")
-      ->type_name("NAME");
-  command.add_option("--base", request.bases, "Columns that are the structure's base")->type_name("NAME");
-  command
-      .add_option("--input", request.input,
-                  "Column of the measured input (ground, shaking table): poles in which it moves are input "
-                  "peaks, and the peaks of the response to it are listed")
-      ->type_name("NAME");
-  command.add_option("--delays-ms", request.delays_ms, "Delay of each channel relative to the time of its row")
-      ->delimiter(',')
-      ->type_name("MS");
+      .option("--input", request.input,
+              "Column of the measured input (ground, shaking table): poles in which it moves are input "
+              "peaks, and the peaks of the response to it are listed")
+      .type_name("NAME");
+  command.option("--delays-ms", request.delays_ms, "Delay of each channel relative to the time of its row")
+      .separator(',')
+      .type_name("MS");
 }
 
-void add_method_options(CLI::App& command, IdentifyOptions& options) {
-  command.add_option("--reference", options.references, "Reference channels; those that all files of --merge share")
-      ->type_name("NAME");
+void add_method_options(drivers::Command& command, IdentifyOptions& options) {
+  command.option("--reference", options.references, "Reference channels; those that all files of --merge share")
+      .type_name("NAME");
   command
-      .add_option("--max-frequency", options.identifier.max_frequency_hz,
-                  "Highest true frequency, Hz: if far below half the rate the record is decimated; if above "
-                  "it, alias orders are determined from row delays (0 = half the rate)")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command.add_option("--segment", options.segment, "Samples of a Welch segment, after decimation; 0 = automatic")
-      ->capture_default_str();
-  command.add_option("--block-rows", options.identifier.block_rows, "Block rows of the Hankel matrix, 0 = automatic")
-      ->capture_default_str();
-  command.add_option("--differences", options.n_differences,
-                     "Prewhitening differences (default: 1 where there are displacements, else 0)");
-  command.add_flag("--keep-all", options.keep_all,
-                   "Use every number: fill values, stuck stretches and single outliers are not masked");
-  command.add_flag("--merge", options.merge, "The files are set-ups of one structure, joined by --reference");
-  command
-      .add_option("--report", options.report, "Folder for modal.json and report.html (several files: one folder each)")
-      ->type_name("DIR");
+      .option("--max-frequency", options.identifier.max_frequency_hz,
+              "Highest true frequency, Hz: if far below half the rate the record is decimated; if above "
+              "it, alias orders are determined from row delays (0 = half the rate)")
+      .not_negative()
+      .show_default();
+  command.option("--segment", options.segment, "Samples of a Welch segment, after decimation; 0 = automatic")
+      .show_default();
+  command.option("--block-rows", options.identifier.block_rows, "Block rows of the Hankel matrix, 0 = automatic")
+      .show_default();
+  command.option("--differences", options.n_differences,
+                 "Prewhitening differences (default: 1 where there are displacements, else 0)");
+  command.flag("--keep-all", options.keep_all,
+               "Use every number: fill values, stuck stretches and single outliers are not masked");
+  command.flag("--merge", options.merge, "The files are set-ups of one structure, joined by --reference");
+  command.option("--report", options.report, "Folder for modal.json and report.html (several files: one folder each)")
+      .type_name("DIR");
 }
 
 }  // namespace
 
-void add_identify(CLI::App& app) {
+void add_identify(drivers::Command& app) {
   auto options = std::make_shared<IdentifyOptions>();
-  CLI::App* command = app.add_subcommand("identify", kHelp);
-  add_data_options(*command, *options);
-  add_method_options(*command, *options);
-  command->callback([options] { run(*options); });
+  drivers::Command command = app.subcommand("identify", kHelp);
+  add_data_options(command, *options);
+  add_method_options(command, *options);
+  command.on_run([options] { run(*options); });
 }
 
 }  // namespace tools

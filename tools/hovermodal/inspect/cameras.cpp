@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include "drivers/camera/camera_list.h"
+#include "drivers/host/command_line.h"
 #include "tools/hovermodal/commands.h"
 
 namespace tools {
@@ -49,12 +49,12 @@ void list(bool all_modes) {
 
 }  // namespace
 
-void add_inspect_cameras(CLI::App& inspect) {
-  CLI::App* cameras = inspect.add_subcommand(
+void add_inspect_cameras(drivers::Command& inspect) {
+  drivers::Command cameras = inspect.subcommand(
       "cameras", "List the cameras attached: modes, what their time stamps mean, and the YAML to use them");
   const auto all_modes = std::make_shared<bool>(false);
-  cameras->add_flag("--all", *all_modes, "All modes of each");
-  cameras->callback([all_modes] { list(*all_modes); });
+  cameras.flag("--all", *all_modes, "All modes of each");
+  cameras.on_run([all_modes] { list(*all_modes); });
 }
 
 }  // namespace tools

@@ -1,8 +1,8 @@
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
+#include "drivers/host/command_line.h"
 #include "tools/hovermodal/commands.h"
 
 #ifdef HOVERMODAL_WITH_LCM
@@ -91,19 +91,18 @@ void inspect_lcm(const Options&) {
 
 }  // namespace
 
-void add_inspect_lcm(CLI::App& inspect) {
-  CLI::App* command =
-      inspect.add_subcommand("lcm",
-                             "Test the network that LCM needs, report faults and how to correct them, and listen for a "
-                             "service.\nRun it on both sides of a radio link, each with the URL of the service.");
+void add_inspect_lcm(drivers::Command& inspect) {
+  drivers::Command command =
+      inspect.subcommand("lcm",
+                         "Test the network that LCM needs, report faults and how to correct them, and listen for a "
+                         "service.\nRun it on both sides of a radio link, each with the URL of the service.");
   const auto options = std::make_shared<Options>();
-  command->add_option("--url", options->url, "LCM URL (telemetry.lcm_url)")->capture_default_str();
-  command->add_option("--prefix", options->prefix, "Prefix of the LCM channels (telemetry.channel_prefix)")
-      ->capture_default_str();
-  command->add_option("--seconds", options->seconds, "Listen for a service for this time, s; 0 = do not listen")
-      ->check(CLI::Range(0.0, 3600.0))
-      ->capture_default_str();
-  command->callback([options] { inspect_lcm(*options); });
+  command.option("--url", options->url, "LCM URL (telemetry.lcm_url)").show_default();
+  command.option("--prefix", options->prefix, "Prefix of the LCM channels (telemetry.channel_prefix)").show_default();
+  command.option("--seconds", options->seconds, "Listen for a service for this time, s; 0 = do not listen")
+      .range(0.0, 3600.0)
+      .show_default();
+  command.on_run([options] { inspect_lcm(*options); });
 }
 
 }  // namespace tools

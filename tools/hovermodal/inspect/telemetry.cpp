@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
@@ -10,6 +9,7 @@
 
 #include "drivers/camera/recording/clip_telemetry.h"
 #include "drivers/camera/recording/frame_source.h"
+#include "drivers/host/command_line.h"
 
 namespace tools {
 
@@ -45,14 +45,13 @@ void print(const Options& options) {
 
 }  // namespace
 
-void add_inspect_telemetry(CLI::App& inspect) {
-  CLI::App* telemetry = inspect.add_subcommand(
+void add_inspect_telemetry(drivers::Command& inspect) {
+  drivers::Command telemetry = inspect.subcommand(
       "telemetry", "List what the camera wrote beside or in a clip: times of frames, exposure, zoom, attitude");
   const auto options = std::make_shared<Options>();
-  telemetry->add_option("FILE", options->file, "Video (its .SRT or GPMF is found), .SRT, or GPMF bytes (.raw)")
-      ->required();
-  telemetry->add_option("--attitude", options->attitude, "Write the attitude to this CSV, for camera.attitude_file");
-  telemetry->callback([options] { print(*options); });
+  telemetry.option("FILE", options->file, "Video (its .SRT or GPMF is found), .SRT, or GPMF bytes (.raw)").required();
+  telemetry.option("--attitude", options->attitude, "Write the attitude to this CSV, for camera.attitude_file");
+  telemetry.on_run([options] { print(*options); });
 }
 
 }  // namespace tools

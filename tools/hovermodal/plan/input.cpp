@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
 #include <stdexcept>
 #include <utility>
 
+#include "drivers/host/command_line.h"
 #include "drivers/storage/csv.h"
 #include "drivers/storage/text_file.h"
 #include "tools/hovermodal/plan/options.h"
@@ -17,7 +17,7 @@ using core::planning::LongAxis;
 using core::planning::PlanInput;
 using core::planning::StructureKind;
 
-bool given(const CLI::App& command, const char* name) { return command.count(name) > 0; }
+bool given(const drivers::Command& command, const char* name) { return command.given(name); }
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("plan: " + what); }
 
@@ -47,7 +47,7 @@ std::pair<int, int> image_size(const std::string& text) {
   return {static_cast<int>(sides->first), static_cast<int>(sides->second)};
 }
 
-double focal_px(const CLI::App& command, const PlanOptions& o, int width_px) {
+double focal_px(const drivers::Command& command, const PlanOptions& o, int width_px) {
   const bool px = given(command, "--focal-px"), fov = given(command, "--fov-deg");
   const bool mm = given(command, "--focal-mm"), sensor = given(command, "--sensor-width-mm");
   if (mm != sensor) {
@@ -66,7 +66,7 @@ double focal_px(const CLI::App& command, const PlanOptions& o, int width_px) {
             : core::planning::focal_px_from_fov(o.fov_deg, width_px);
 }
 
-void set_camera(const CLI::App& command, const PlanOptions& o, PlanInput& input) {
+void set_camera(const drivers::Command& command, const PlanOptions& o, PlanInput& input) {
   static const std::map<std::string, core::ReadoutDirection> kDirections{{"down", core::ReadoutDirection::kDown},
                                                                          {"up", core::ReadoutDirection::kUp},
                                                                          {"left", core::ReadoutDirection::kLeft},
@@ -82,7 +82,7 @@ void set_camera(const CLI::App& command, const PlanOptions& o, PlanInput& input)
   input.rates_hz = o.rates_hz;
 }
 
-void set_structure(const CLI::App& command, const PlanOptions& o, PlanInput& input) {
+void set_structure(const drivers::Command& command, const PlanOptions& o, PlanInput& input) {
   const bool shear = o.structure == "shear";
   input.kind = shear                         ? StructureKind::kShearChain
                : o.structure == "cantilever" ? StructureKind::kCantilever
@@ -142,7 +142,7 @@ void set_shapes(const std::string& path, PlanInput& input) {
   }
 }
 
-void set_points(const CLI::App& command, const PlanOptions& o, PlanInput& input) {
+void set_points(const drivers::Command& command, const PlanOptions& o, PlanInput& input) {
   input.points_per_region = o.points;
   input.window_px = o.window_px;
   const double named = o.texture == "poor" ? 3.0 : o.texture == "good" ? 16.0 : 8.0;
@@ -160,7 +160,7 @@ void set_points(const CLI::App& command, const PlanOptions& o, PlanInput& input)
 
 }  // namespace
 
-PlanInput plan_input(const CLI::App& command, const PlanOptions& o) {
+PlanInput plan_input(const drivers::Command& command, const PlanOptions& o) {
   for (const auto& [name, value] : {std::pair{"--hover-min", o.hover_min}, {"--battery-min", o.battery_min}}) {
     if (given(command, name)) require_positive(value, name);
   }

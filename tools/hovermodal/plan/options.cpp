@@ -1,123 +1,112 @@
 #include "tools/hovermodal/plan/options.h"
 
-#include <CLI/CLI.hpp>
+#include "drivers/host/command_line.h"
 
 namespace tools {
 namespace {
 
-void add_structure(CLI::App& command, PlanOptions& o) {
+void add_structure(drivers::Command& command, PlanOptions& o) {
   const char* group = "Structure";
   command
-      .add_option("--structure", o.structure,
-                  "Ideal shapes: shear (a frame of equal storeys), cantilever (a tower), beam (a bridge deck)")
-      ->check(CLI::IsMember({"shear", "cantilever", "beam"}))
-      ->capture_default_str()
-      ->group(group);
-  command.add_option("--storeys", o.storeys, "shear: number of storeys; a region on every floor")->group(group);
-  command.add_option("--storey-mm", o.storey_mm, "shear: height of a storey, mm (or --size-m for all)")->group(group);
-  command.add_option("--size-m", o.size_m, "Height or span, m")->group(group);
-  command.add_option("--regions", o.regions, "cantilever, beam: regions spread evenly over it (6)")->group(group);
+      .option("--structure", o.structure,
+              "Ideal shapes: shear (a frame of equal storeys), cantilever (a tower), beam (a bridge deck)")
+      .one_of({"shear", "cantilever", "beam"})
+      .show_default()
+      .group(group);
+  command.option("--storeys", o.storeys, "shear: number of storeys; a region on every floor").group(group);
+  command.option("--storey-mm", o.storey_mm, "shear: height of a storey, mm (or --size-m for all)").group(group);
+  command.option("--size-m", o.size_m, "Height or span, m").group(group);
+  command.option("--regions", o.regions, "cantilever, beam: regions spread evenly over it (6)").group(group);
+  command.option("--axis", o.axis, "Orientation of the structure in the image: vertical, horizontal (beam: horizontal)")
+      .one_of({"vertical", "horizontal"})
+      .group(group);
+  command.option("--frequencies", o.frequency_hz, "Expected natural frequencies, Hz, ascending, with commas between")
+      .separator(',')
+      .required()
+      .type_name("HZ,...")
+      .group(group);
+  command.option("--damping-percent", o.damping_percent, "One for all, or one for each mode (1)")
+      .separator(',')
+      .type_name("PERCENT,...")
+      .group(group);
   command
-      .add_option("--axis", o.axis,
-                  "Orientation of the structure in the image: vertical, horizontal (beam: horizontal)")
-      ->check(CLI::IsMember({"vertical", "horizontal"}))
-      ->group(group);
+      .option("--amplitude-mm", o.amplitude_mm,
+              "Expected rms where a mode moves most, mm: one for all, or one for each")
+      .separator(',')
+      .type_name("MM,...")
+      .group(group);
   command
-      .add_option("--frequencies", o.frequency_hz, "Expected natural frequencies, Hz, ascending, with commas between")
-      ->delimiter(',')
-      ->required()
-      ->type_name("HZ,...")
-      ->group(group);
-  command.add_option("--damping-percent", o.damping_percent, "One for all, or one for each mode (1)")
-      ->delimiter(',')
-      ->type_name("PERCENT,...")
-      ->group(group);
-  command
-      .add_option("--amplitude-mm", o.amplitude_mm,
-                  "Expected rms where a mode moves most, mm: one for all, or one for each")
-      ->delimiter(',')
-      ->type_name("MM,...")
-      ->group(group);
-  command
-      .add_option("--shapes", o.shapes_file,
-                  "CSV in place of the ideal shapes: a line per region, columns position_mm and one for each mode")
-      ->type_name("FILE")
-      ->group(group);
+      .option("--shapes", o.shapes_file,
+              "CSV in place of the ideal shapes: a line per region, columns position_mm and one for each mode")
+      .type_name("FILE")
+      .group(group);
 }
 
-void add_camera(CLI::App& command, PlanOptions& o) {
+void add_camera(drivers::Command& command, PlanOptions& o) {
   const char* group = "Camera";
-  command.add_option("--distance-m", o.distance_m, "From the camera to the structure, m")->required()->group(group);
-  command.add_option("--focal-px", o.focal_px, "Focal length in px, from a calibration; or")->group(group);
-  command.add_option("--focal-mm", o.focal_mm, "... in mm (the true one, not the equivalent), with")->group(group);
-  command.add_option("--sensor-width-mm", o.sensor_width_mm, "... the width of the sensor used for video; or")
-      ->group(group);
-  command.add_option("--fov-deg", o.fov_deg, "... the field of view across the width, degrees")->group(group);
-  command.add_option("--image", o.image, "2160p, 1080p, 720p, ... or WIDTHxHEIGHT, px")
-      ->capture_default_str()
-      ->group(group);
-  command.add_option("--fps", o.fps, "Frames per second")->capture_default_str()->group(group);
-  command.add_option("--rates", o.rates_hz, "Rates the camera can be set to (24 to 120, the usual ones)")
-      ->delimiter(',')
-      ->type_name("HZ,...")
-      ->group(group);
+  command.option("--distance-m", o.distance_m, "From the camera to the structure, m").required().group(group);
+  command.option("--focal-px", o.focal_px, "Focal length in px, from a calibration; or").group(group);
+  command.option("--focal-mm", o.focal_mm, "... in mm (the true one, not the equivalent), with").group(group);
+  command.option("--sensor-width-mm", o.sensor_width_mm, "... the width of the sensor used for video; or").group(group);
+  command.option("--fov-deg", o.fov_deg, "... the field of view across the width, degrees").group(group);
+  command.option("--image", o.image, "2160p, 1080p, 720p, ... or WIDTHxHEIGHT, px").show_default().group(group);
+  command.option("--fps", o.fps, "Frames per second").show_default().group(group);
+  command.option("--rates", o.rates_hz, "Rates the camera can be set to (24 to 120, the usual ones)")
+      .separator(',')
+      .type_name("HZ,...")
+      .group(group);
   command
-      .add_option("--readout-ms", o.readout_ms,
-                  "Rolling shutter: first to last line, ms; 0 = global shutter. Half of all cameras need 15 or more")
-      ->capture_default_str()
-      ->group(group);
+      .option("--readout-ms", o.readout_ms,
+              "Rolling shutter: first to last line, ms; 0 = global shutter. Half of all cameras need 15 or more")
+      .show_default()
+      .group(group);
   command
-      .add_option("--readout-direction", o.direction,
-                  "Direction in which lines are read in the image, as the camera is held")
-      ->check(CLI::IsMember({"down", "up", "left", "right"}))
-      ->capture_default_str()
-      ->group(group);
-  command.add_option("--exposure-ms", o.exposure_ms, "Exposure time, ms; 0 = very short")
-      ->capture_default_str()
-      ->group(group);
+      .option("--readout-direction", o.direction,
+              "Direction in which lines are read in the image, as the camera is held")
+      .one_of({"down", "up", "left", "right"})
+      .show_default()
+      .group(group);
+  command.option("--exposure-ms", o.exposure_ms, "Exposure time, ms; 0 = very short").show_default().group(group);
 }
 
-void add_tracking(CLI::App& command, PlanOptions& o) {
+void add_tracking(drivers::Command& command, PlanOptions& o) {
   const char* group = "Points";
-  command.add_option("--points", o.points, "Points per region")->capture_default_str()->group(group);
+  command.option("--points", o.points, "Points per region").show_default().group(group);
   command
-      .add_option("--texture", o.texture,
-                  "poor (painted wall, haze), ordinary (concrete, brick), good (targets, lattice): 3, 8, 16 grey/px")
-      ->check(CLI::IsMember({"poor", "ordinary", "good"}))
-      ->capture_default_str()
-      ->group(group);
-  command.add_option("--gradient", o.gradient_grey, "The same measured: rms gradient, grey levels per px")
-      ->group(group);
-  command.add_option("--noise-grey", o.noise_grey, "Noise of a pixel, grey levels rms")
-      ->capture_default_str()
-      ->group(group);
-  command.add_option("--window-px", o.window_px, "Side of the tracked patch, px")->capture_default_str()->group(group);
+      .option("--texture", o.texture,
+              "poor (painted wall, haze), ordinary (concrete, brick), good (targets, lattice): 3, 8, 16 grey/px")
+      .one_of({"poor", "ordinary", "good"})
+      .show_default()
+      .group(group);
+  command.option("--gradient", o.gradient_grey, "The same measured: rms gradient, grey levels per px").group(group);
+  command.option("--noise-grey", o.noise_grey, "Noise of a pixel, grey levels rms").show_default().group(group);
+  command.option("--window-px", o.window_px, "Side of the tracked patch, px").show_default().group(group);
   command
-      .add_option("--point-sigma-px", o.point_sigma_px,
-                  "Noise of a point, px rms, in place of the four above (0.02 to 0.03 is ordinary)")
-      ->group(group);
-  command.add_option("--region-mm", o.region_mm, "WIDTHxHEIGHT of a region, mm: limits how many points count")
-      ->type_name("WxH")
-      ->group(group);
+      .option("--point-sigma-px", o.point_sigma_px,
+              "Noise of a point, px rms, in place of the four above (0.02 to 0.03 is ordinary)")
+      .group(group);
+  command.option("--region-mm", o.region_mm, "WIDTHxHEIGHT of a region, mm: limits how many points count")
+      .type_name("WxH")
+      .group(group);
 }
 
-void add_wishes(CLI::App& command, PlanOptions& o) {
+void add_wishes(drivers::Command& command, PlanOptions& o) {
   const char* group = "Wanted";
-  command.add_option("--sigma-f-percent", o.sigma_f_percent, "Standard deviation of every frequency, %")
-      ->capture_default_str()
-      ->group(group);
-  command.add_option("--sigma-zeta-percent", o.sigma_zeta_percent, "... of every damping ratio, % of it")
-      ->capture_default_str()
-      ->group(group);
-  command.add_option("--hover-min", o.hover_min, "Minutes to hover (as long as that needs)")->group(group);
-  command.add_option("--battery-min", o.battery_min, "Minutes on station that one battery gives")->group(group);
-  command.add_option("--out", o.folder, "Folder for plan.svg and plan.json")->type_name("DIR")->group(group);
-  command.add_flag("--json", o.json, "plan.json on standard output in place of the text")->group(group);
+  command.option("--sigma-f-percent", o.sigma_f_percent, "Standard deviation of every frequency, %")
+      .show_default()
+      .group(group);
+  command.option("--sigma-zeta-percent", o.sigma_zeta_percent, "... of every damping ratio, % of it")
+      .show_default()
+      .group(group);
+  command.option("--hover-min", o.hover_min, "Minutes to hover (as long as that needs)").group(group);
+  command.option("--battery-min", o.battery_min, "Minutes on station that one battery gives").group(group);
+  command.option("--out", o.folder, "Folder for plan.svg and plan.json").type_name("DIR").group(group);
+  command.flag("--json", o.json, "plan.json on standard output in place of the text").group(group);
 }
 
 }  // namespace
 
-void add_plan_options(CLI::App& command, PlanOptions& options) {
+void add_plan_options(drivers::Command& command, PlanOptions& options) {
   add_structure(command, options);
   add_camera(command, options);
   add_tracking(command, options);

@@ -4,10 +4,7 @@
 #include <vector>
 
 #include "core/planning/hover_plan.h"
-
-namespace CLI {
-class App;
-}
+#include "drivers/host/command_line.h"
 
 namespace tools {
 
@@ -31,9 +28,9 @@ struct PlanOptions {
   bool json = false;
 };
 
-void add_plan_options(CLI::App& command, PlanOptions& options);
+void add_plan_options(drivers::Command& command, PlanOptions& options);
 
 // Throws std::invalid_argument naming the option: contradictory, missing or out of range.
-[[nodiscard]] core::planning::PlanInput plan_input(const CLI::App& command, const PlanOptions& options);
+[[nodiscard]] core::planning::PlanInput plan_input(const drivers::Command& command, const PlanOptions& options);
 
 }  // namespace tools

@@ -1,12 +1,12 @@
 // hovermodal plan: what a flight will show, computed in advance.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <system_error>
 
+#include "drivers/host/command_line.h"
 #include "drivers/storage/json.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/plan/options.h"
@@ -26,7 +26,7 @@ void make_folder(const std::filesystem::path& folder) {
   }
 }
 
-void run(const CLI::App& command, const PlanOptions& options) {
+void run(const drivers::Command& command, const PlanOptions& options) {
   const core::planning::PlanInput input = plan_input(command, options);
   const core::planning::HoverPlan plan = core::planning::make_plan(input);
   if (!options.folder.empty()) {
@@ -41,14 +41,14 @@ void run(const CLI::App& command, const PlanOptions& options) {
 
 }  // namespace
 
-void add_plan(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("plan",
-                         "Before the flight: where each mode will appear, what the camera can distinguish, how long "
-                         "to hover");
+void add_plan(drivers::Command& app) {
+  drivers::Command command =
+      app.subcommand("plan",
+                     "Before the flight: where each mode will appear, what the camera can distinguish, how long "
+                     "to hover");
   auto options = std::make_shared<PlanOptions>();
-  add_plan_options(*command, *options);
-  command->callback([command, options] { run(*command, *options); });
+  add_plan_options(command, *options);
+  command.on_run([command, options] { run(command, *options); });
 }
 
 }  // namespace tools

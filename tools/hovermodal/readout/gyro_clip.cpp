@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <map>
 #include <stdexcept>
 #include <utility>
 
+#include "drivers/host/command_line.h"
 #include "drivers/storage/calibration_file.h"
 #include "drivers/storage/csv_lines.h"
 #include "drivers/storage/text_file.h"
@@ -74,44 +74,36 @@ GyroClip read_gyro_clip(const GyroClipOptions& options) {
   return out;
 }
 
-void add_gyro_clip_options(CLI::App& command, GyroClipOptions& options, bool required) {
-  command.add_option("--clip", options.clip, "Video or folder of images")->required(required)->type_name("PATH");
-  command.add_option("--stamps", options.stamps, "Start of exposure of the first line of every frame, one per line")
-      ->required(required)
-      ->type_name("FILE");
-  command.add_option("--gyro", options.gyro, "wx,wy,wz,t per line: rad/s, and time on the stamps' clock")
-      ->required(required)
-      ->type_name("FILE");
-  command.add_option("--time-unit-s", options.time_unit_s, "Time unit of both files, in seconds")
-      ->check(CLI::Range(1e-9, 1.0))
-      ->capture_default_str();
-  command.add_option("--first-stamp", options.first_stamp, "Line of the clip's first frame, counted from 0")
-      ->check(CLI::Range(0, 100000000))
-      ->capture_default_str();
-  command.add_option("--calibration", options.calibration, "Kalibr, OpenCV or ROS YAML: points are undistorted")
-      ->type_name("FILE");
-  command.add_option("--focal-px", options.focal_px, "Focal length; 0 = estimated")
-      ->check(CLI::Range(0.0, 1e6))
-      ->capture_default_str();
-  command.add_option("--most-offset-s", options.most_offset_s, "Largest offset between the two clocks")
-      ->check(CLI::Range(0.0, 10.0))
-      ->capture_default_str();
-  command.add_option("--hold-out-every", options.hold_out_every, "One of this many frame pairs is held out of the fit")
-      ->check(CLI::Range(2, 1000))
-      ->capture_default_str();
-  const std::map<std::string, core::ReadoutDirection> directions{{"down", core::ReadoutDirection::kDown},
-                                                                 {"up", core::ReadoutDirection::kUp},
-                                                                 {"left", core::ReadoutDirection::kLeft},
-                                                                 {"right", core::ReadoutDirection::kRight}};
-  command.add_option("--readout-direction", options.direction, "Direction in which lines are read in the image")
-      ->transform(CLI::CheckedTransformer(directions).description(""))  // its default shows character codes
-      ->type_name("down|up|left|right");
+void add_gyro_clip_options(drivers::Command& command, GyroClipOptions& options, bool required) {
+  command.option("--clip", options.clip, "Video or folder of images").required(required).type_name("PATH");
+  command.option("--stamps", options.stamps, "Start of exposure of the first line of every frame, one per line")
+      .required(required)
+      .type_name("FILE");
+  command.option("--gyro", options.gyro, "wx,wy,wz,t per line: rad/s, and time on the stamps' clock")
+      .required(required)
+      .type_name("FILE");
+  command.option("--time-unit-s", options.time_unit_s, "Time unit of both files, in seconds")
+      .range(1e-9, 1.0)
+      .show_default();
+  command.option("--first-stamp", options.first_stamp, "Line of the clip's first frame, counted from 0")
+      .range(0, 100000000)
+      .show_default();
+  command.option("--calibration", options.calibration, "Kalibr, OpenCV or ROS YAML: points are undistorted")
+      .type_name("FILE");
+  command.option("--focal-px", options.focal_px, "Focal length; 0 = estimated").range(0.0, 1e6).show_default();
+  command.option("--most-offset-s", options.most_offset_s, "Largest offset between the two clocks")
+      .range(0.0, 10.0)
+      .show_default();
+  command.option("--hold-out-every", options.hold_out_every, "One of this many frame pairs is held out of the fit")
+      .range(2, 1000)
+      .show_default();
+  command.option("--readout-direction", options.direction, "Direction in which lines are read in the image");
   command
-      .add_option("--ignore", options.ignored,
-                  "left,top,width,height (px) of an object that moves with the camera (a dashboard, a landing "
-                  "leg); may be repeated")
-      ->delimiter(',')
-      ->type_name("RECT");
+      .option("--ignore", options.ignored,
+              "left,top,width,height (px) of an object that moves with the camera (a dashboard, a landing "
+              "leg); may be repeated")
+      .separator(',')
+      .type_name("RECT");
 }
 
 }  // namespace tools

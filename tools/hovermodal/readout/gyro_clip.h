@@ -1,12 +1,12 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <string>
 #include <vector>
 
 #include "core/geometry/gyro_readout.h"
 #include "core/types/frame.h"
+#include "drivers/host/command_line.h"
 #include "tools/hovermodal/readout/clip_motion.h"
 
 namespace tools {
@@ -19,7 +19,7 @@ struct GyroClipOptions {
   int first_stamp = 0, hold_out_every = 4;
   core::ReadoutDirection direction = core::ReadoutDirection::kDown;
 };
-void add_gyro_clip_options(CLI::App& command, GyroClipOptions& options, bool required);
+void add_gyro_clip_options(drivers::Command& command, GyroClipOptions& options, bool required);
 
 struct GyroClip {
   ClipMotion motion;

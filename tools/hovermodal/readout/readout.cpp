@@ -1,11 +1,11 @@
 // hovermodal readout: estimates the readout time of a camera that is rotated by hand together with a gyro.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <numbers>
 
 #include "core/geometry/gyro_readout.h"
+#include "drivers/host/command_line.h"
 #include "drivers/storage/json.h"
 #include "drivers/storage/text_file.h"
 #include "tools/hovermodal/commands.h"
@@ -58,16 +58,16 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_readout(CLI::App& app) {
+void add_readout(drivers::Command& app) {
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
-      app.add_subcommand("readout",
-                         "Readout time of a camera that is shaken beside a gyro (a phone: shake it about "
-                         "all axes for ten seconds; it may be carried or driven forward)\n"
-                         "  hovermodal readout --clip frames --stamps framestamp.txt --gyro gyro.txt");
-  add_gyro_clip_options(*command, options->input, true);
-  command->add_option("--picture", options->picture, "SVG of the residual per frame")->type_name("FILE");
-  command->callback([options] { run(*options); });
+  drivers::Command command =
+      app.subcommand("readout",
+                     "Readout time of a camera that is shaken beside a gyro (a phone: shake it about "
+                     "all axes for ten seconds; it may be carried or driven forward)\n"
+                     "  hovermodal readout --clip frames --stamps framestamp.txt --gyro gyro.txt");
+  add_gyro_clip_options(command, options->input, true);
+  command.option("--picture", options->picture, "SVG of the residual per frame").type_name("FILE");
+  command.on_run([options] { run(*options); });
 }
 
 }  // namespace tools

@@ -1,7 +1,6 @@
 // hovermodal regions: proposes regions on the structure's parts, from texture and motion.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -11,6 +10,7 @@
 
 #include "core/tracking/region_proposal.h"
 #include "drivers/camera/camera_factory.h"
+#include "drivers/host/command_line.h"
 #include "drivers/storage/json.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/pictures/parts.h"
@@ -174,28 +174,23 @@ void run_regions(const Options& options) {
 
 }  // namespace
 
-void add_regions(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_regions(drivers::Command& app) {
+  drivers::Command command = app.subcommand(
       "regions", "Propose the regions of a clip: parts that have texture and move together, and a static one");
   const auto options = std::make_shared<Options>();
-  command->add_option("clip", options->clip, "Video or folder of images, as camera.source")->required();
-  command->add_option("--out", options->out, "Write the regions: block here (YAML); without: it is printed");
-  command->add_option("--picture", options->picture, "Draw the regions into the first frame (PNG)");
-  command->add_option("--seconds", options->seconds, "Look at so much of the clip")
-      ->check(CLI::Range(1.0, 600.0))
-      ->capture_default_str();
-  command->add_option("--rate-hz", options->rate_hz, "Frame rate, where the source states a wrong one")
-      ->check(CLI::Range(0.1, 100000.0));
-  command->add_option("--most", options->most, "At most so many parts")
-      ->check(CLI::Range(1, 60))
-      ->capture_default_str();
-  command->add_flag("--lowest-is-base", options->lowest_is_base, "The lowest part moves with the ground: role base");
-  command->add_flag("--serve", options->serve,
-                    "Then adjust them in a page, by mouse, finger or keyboard; its Save button writes --out. This "
-                    "computer alone can open it");
-  command->add_option("--port", options->port, "Of the page; 0 = any that is free")->check(CLI::Range(0, 65535));
-  command->footer(kFooter);
-  command->callback([options] { run_regions(*options); });
+  command.option("clip", options->clip, "Video or folder of images, as camera.source").required();
+  command.option("--out", options->out, "Write the regions: block here (YAML); without: it is printed");
+  command.option("--picture", options->picture, "Draw the regions into the first frame (PNG)");
+  command.option("--seconds", options->seconds, "Look at so much of the clip").range(1.0, 600.0).show_default();
+  command.option("--rate-hz", options->rate_hz, "Frame rate, where the source states a wrong one").range(0.1, 100000.0);
+  command.option("--most", options->most, "At most so many parts").range(1, 60).show_default();
+  command.flag("--lowest-is-base", options->lowest_is_base, "The lowest part moves with the ground: role base");
+  command.flag("--serve", options->serve,
+               "Then adjust them in a page, by mouse, finger or keyboard; its Save button writes --out. This "
+               "computer alone can open it");
+  command.option("--port", options->port, "Of the page; 0 = any that is free").range(0, 65535);
+  command.footer(kFooter);
+  command.on_run([options] { run_regions(*options); });
 }
 
 }  // namespace tools

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -9,6 +8,7 @@
 #include <thread>
 
 #include "core/simulation/render/renderer.h"
+#include "drivers/host/command_line.h"
 #include "drivers/storage/text_file.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/simulate/clip.h"
@@ -66,55 +66,50 @@ void simulate(const SimulateOptions& options) {
              static_cast<double>(fs::file_size(product)) / 1e6);
 }
 
-void add_scene_options(CLI::App& command, SimulateOptions& options) {
-  command.add_option("--scene", options.scene_path, "Scene file (YAML); --help-scene explains every key")
-      ->type_name("FILE");
-  command.add_option("--preset", options.preset, "Without a scene file: the scene to make (default: paper)")
-      ->check(CLI::IsMember(drivers::scene_presets()));
-  command.add_option("--seed", options.seed, "Seed of all random numbers (default: the scene's, or 1)")
-      ->check([](const std::string& text) {  // a negative number would wrap
+void add_scene_options(drivers::Command& command, SimulateOptions& options) {
+  command.option("--scene", options.scene_path, "Scene file (YAML); --help-scene explains every key").type_name("FILE");
+  command.option("--preset", options.preset, "Without a scene file: the scene to make (default: paper)")
+      .one_of(drivers::scene_presets());
+  command.option("--seed", options.seed, "Seed of all random numbers (default: the scene's, or 1)")
+      .check([](const std::string& text) {  // a negative number would wrap
         return drivers::parse_unsigned(text) ? "" : "give a whole number from 0";
       });
-  command.add_option("--duration", options.duration_s, "Length in seconds (default: the scene's, or 60)");
-  command.add_option("--size", options.size, "1080p, 720p, 270p, ... or WIDTHxHEIGHT; the view stays the same");
-  command.add_flag("--print-scene", options.print_scene, "Print the complete scene as a file to start from");
-  command.add_flag("--help-scene", options.help_scene, "Every key of scene files: unit, default, range, meaning");
+  command.option("--duration", options.duration_s, "Length in seconds (default: the scene's, or 60)");
+  command.option("--size", options.size, "1080p, 720p, 270p, ... or WIDTHxHEIGHT; the view stays the same");
+  command.flag("--print-scene", options.print_scene, "Print the complete scene as a file to start from");
+  command.flag("--help-scene", options.help_scene, "Every key of scene files: unit, default, range, meaning");
 }
 
-void add_product_options(CLI::App& command, SimulateOptions& options) {
-  command.add_option("--out", options.folder,
-                     "Folder for the product, truth.json, truth_displacements.csv, config.yaml");
-  command.add_flag("--tracks-only", options.tracks_only, "Write tracks.csv as a perfect tracker would, draw nothing");
-  command.add_flag("--channels-only", options.channels_only,
-                   "Write displacements.csv: motions without the camera's own");
-  command.add_option("--track-noise-px", options.track_noise_px, "With --tracks-only: noise per axis, px rms");
-  command.add_option("--track-loss", options.track_loss, "With --tracks-only: chance of a lost point");
-  command.add_option("--points", options.points, "With --tracks-only: points per region");
-  command.add_option("--method", options.method, "Method in the written config.yaml: hovermodal or paper")
-      ->check(CLI::IsMember({"hovermodal", "paper"}))
-      ->capture_default_str();
-  command.add_option("--crf", options.crf, "Quality of the clip, 0 (lossless) to 51; 20 gives some 130 MB a minute")
-      ->check(CLI::Range(0, 51))
-      ->capture_default_str();
-  command.add_option("--threads", options.threads, "Threads that draw; 0 = one per core")
-      ->check(CLI::Range(0, 256))
-      ->capture_default_str();
-  command.add_flag("--force", options.force, "Make it again even if it exists");
+void add_product_options(drivers::Command& command, SimulateOptions& options) {
+  command.option("--out", options.folder, "Folder for the product, truth.json, truth_displacements.csv, config.yaml");
+  command.flag("--tracks-only", options.tracks_only, "Write tracks.csv as a perfect tracker would, draw nothing");
+  command.flag("--channels-only", options.channels_only, "Write displacements.csv: motions without the camera's own");
+  command.option("--track-noise-px", options.track_noise_px, "With --tracks-only: noise per axis, px rms");
+  command.option("--track-loss", options.track_loss, "With --tracks-only: chance of a lost point");
+  command.option("--points", options.points, "With --tracks-only: points per region");
+  command.option("--method", options.method, "Method in the written config.yaml: hovermodal or paper")
+      .one_of({"hovermodal", "paper"})
+      .show_default();
+  command.option("--crf", options.crf, "Quality of the clip, 0 (lossless) to 51; 20 gives some 130 MB a minute")
+      .range(0, 51)
+      .show_default();
+  command.option("--threads", options.threads, "Threads that draw; 0 = one per core").range(0, 256).show_default();
+  command.flag("--force", options.force, "Make it again even if it exists");
 }
 
 }  // namespace
 
-void add_simulate(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("simulate",
-                         "Draw a shaken structure as a hovering camera sees it, with its truth\n"
-                         "  hovermodal simulate --preset paper --duration 60 --out made\n"
-                         "  hovermodal simulate --print-scene > scene.yaml\n"
-                         "  hovermodal simulate --scene scene.yaml --channels-only --duration 3600 --out hour");
+void add_simulate(drivers::Command& app) {
+  drivers::Command command =
+      app.subcommand("simulate",
+                     "Draw a shaken structure as a hovering camera sees it, with its truth\n"
+                     "  hovermodal simulate --preset paper --duration 60 --out made\n"
+                     "  hovermodal simulate --print-scene > scene.yaml\n"
+                     "  hovermodal simulate --scene scene.yaml --channels-only --duration 3600 --out hour");
   const auto options = std::make_shared<SimulateOptions>();
-  add_scene_options(*command, *options);
-  add_product_options(*command, *options);
-  command->callback([options] { simulate(*options); });
+  add_scene_options(command, *options);
+  add_product_options(command, *options);
+  command.on_run([options] { simulate(*options); });
 }
 
 }  // namespace tools
