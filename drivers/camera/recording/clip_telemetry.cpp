@@ -174,6 +174,7 @@ std::vector<std::string> telemetry_words(const ClipTelemetry& telemetry) {
                                 static_cast<double>(telemetry.attitude.size() - 1) / std::max(span_s, 1e-9)));
   }
   if (!telemetry.trouble.empty()) words.push_back("not readable: " + telemetry.trouble);
+  if (words.empty()) words.emplace_back("no time, exposure, focal length or attitude in it: nothing is taken from it");
   return words;
 }
 

@@ -109,13 +109,19 @@ class Walker {
     GpmfStream found;
   };
 
+  [[nodiscard]] std::string no_key(std::size_t place) const {
+    return fmt::format("byte {}: not a key of four letters{}", place,
+                       n_items_ > 0 ? ": damaged"
+                                    : ": no GPMF, or not from its beginning; name the video itself, or extract its "
+                                      "stream whole");
+  }
+
   Item take_item(Bytes& rest) const {
     if (rest.size() < kHead) throw std::runtime_error(fmt::format("byte {}: a head is cut off", place_of(rest)));
     Item item;
     for (std::size_t i = 0; i < 4; ++i) {
       const std::uint8_t byte = rest[i];
-      if (byte < ' ' || byte > '~')
-        throw std::runtime_error(fmt::format("byte {}: not a key of four letters", place_of(rest)));
+      if (byte < ' ' || byte > '~') throw std::runtime_error(no_key(place_of(rest)));
       item.key += static_cast<char>(byte);
     }
     item.type = static_cast<char>(rest[4]);

@@ -72,7 +72,9 @@ TEST(Gpmf, EveryCutIsAResultOrARefusalThatNamesThePlace) {
 
 TEST(Gpmf, NoKeyNestingOrZerosAreRefused) {
   EXPECT_THAT(refusal(std::string(64, '\0')), HasSubstr("no metadata"));
-  EXPECT_THAT(refusal("\x01\x02\x03\x04\x05\x06\x07\x08"), HasSubstr("key"));
+  EXPECT_THAT(refusal("\x01\x02\x03\x04\x05\x06\x07\x08"), HasSubstr("key of four letters: no GPMF"));
+  EXPECT_THAT(refusal(gpmf_text("DVNM", "four") + "\x01\x02\x03\x04\x05\x06\x07\x08"),
+              HasSubstr("byte 12: not a key of four letters: damaged"));
   std::string nested = gpmf_text("DVNM", "x");
   for (int i = 0; i < 20; ++i) nested = gpmf_item("DEVC", '\0', 1, nested);
   EXPECT_THAT(refusal(nested), HasSubstr("nested"));
@@ -117,6 +119,11 @@ TEST(GpmfTelemetry, TheCamerasClockGivesTheRateOfFrames) {
   EXPECT_LT(telemetry.frame_jitter_s, 1e-6);
   EXPECT_EQ(telemetry.exposure_s.size(), 150U);
   EXPECT_THAT(telemetry_words(telemetry), ::testing::Contains(HasSubstr("exposure changes: 1/1000 s to 1/500 s")));
+}
+
+TEST(GpmfTelemetry, AHeadWithoutMeasurementsSaysThatNothingIsTaken) {
+  const ClipTelemetry telemetry = telemetry_of(std::vector{payload_of(device(""), 0.0)});
+  EXPECT_THAT(telemetry_words(telemetry), ::testing::ElementsAre(HasSubstr("nothing is taken from it")));
 }
 
 }  // namespace
