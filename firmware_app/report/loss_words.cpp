@@ -13,7 +13,9 @@ std::string point_loss_words(const core::PointLosses& losses, std::size_t n_poin
   add(losses.elsewhere, "moving otherwise than their region");
   add(losses.left_image, "outside the image");
   add(losses.light, "in another light");
-  return causes.empty() ? std::string() : fmt::format("{} of {} points are lost: {}", losses.total(), n_points, causes);
+  if (causes.empty()) return causes;
+  const auto n = losses.total();
+  return fmt::format("{} of {} points {} lost: {}", n, n_points, n == 1 ? "is" : "are", causes);
 }
 
 }  // namespace app

@@ -5,6 +5,7 @@ namespace {
 
 using namespace tests::bad_input;
 using tests::swaying_image;
+using tests::swaying_image_of;
 using tests::write_images;
 
 Input file_of(const fs::path& folder, const char* name, const std::string& bytes) {
@@ -29,13 +30,6 @@ Input stamped(const fs::path& folder, int n_stamps, Time time_s) {
   for (int i = 0; i < n_stamps; ++i) times_s.push_back(time_s(i));
   test_support::write_timestamps(folder / "clip.timestamps.csv", times_s);
   return input;
-}
-
-cv::Mat of_type(int frame, int type) {
-  cv::Mat image;
-  swaying_image(frame).convertTo(image, CV_MAT_DEPTH(type), CV_MAT_DEPTH(type) == CV_16U ? 257.0 : 1.0);
-  if (CV_MAT_CN(type) == 4) cv::cvtColor(image, image, cv::COLOR_GRAY2BGRA);
-  return image;
 }
 
 // A PNG that states this size; both numbers below 65536.
@@ -117,24 +111,26 @@ const std::vector<BadInput>& source_rows() {
       {"Black", [](const fs::path& f) { return level(f, 0); }, 2, {"roof", "0 corners", "black"}},
       {"Saturated", [](const fs::path& f) { return level(f, 255); }, 2, {"roof", "0 corners", "saturated"}},
       {"SixteenBitImages",
-       [](const fs::path& f) { return images(f, [](int k) { return of_type(k, CV_16UC1); }); },
+       [](const fs::path& f) { return images(f, [](int k) { return swaying_image_of(CV_16UC1, k); }); },
        1,
        {"frame_000.png", "16 bits"}},
       {"AlphaImages",
-       [](const fs::path& f) { return images(f, [](int k) { return of_type(k, CV_8UC4); }); },
+       [](const fs::path& f) { return images(f, [](int k) { return swaying_image_of(CV_8UC4, k); }); },
        1,
        {"frame_000.png", "alpha"}},
       {"SixteenBitVideo",
        [](const fs::path& f) {
-         return file_of(f, "deep.video",
-                        test_support::image_stream(".png", {of_type(0, CV_16UC1), of_type(1, CV_16UC1)}));
+         return file_of(
+             f, "deep.video",
+             test_support::image_stream(".png", {swaying_image_of(CV_16UC1, 0), swaying_image_of(CV_16UC1, 1)}));
        },
        1,
        {"deep.video", "16 bit"}},
       {"AlphaVideo",
        [](const fs::path& f) {
-         return file_of(f, "glass.video",
-                        test_support::image_stream(".png", {of_type(0, CV_8UC4), of_type(1, CV_8UC4)}));
+         return file_of(
+             f, "glass.video",
+             test_support::image_stream(".png", {swaying_image_of(CV_8UC4, 0), swaying_image_of(CV_8UC4, 1)}));
        },
        1,
        {"glass.video", "alpha"}},

@@ -39,6 +39,14 @@ inline void write_swaying_clip(const std::filesystem::path& path, int n_frames, 
   }
 }
 
+// The same image in another pixel type: 16 bits a channel, or with four channels.
+inline cv::Mat swaying_image_of(int type, int frame) {
+  cv::Mat image;
+  swaying_image(frame).convertTo(image, CV_MAT_DEPTH(type), CV_MAT_DEPTH(type) == CV_16U ? 257.0 : 1.0);
+  if (CV_MAT_CN(type) == 4) cv::cvtColor(image, image, cv::COLOR_GRAY2BGRA);
+  return image;
+}
+
 // frame_000.png, ... of any image made from the frame number.
 template <class Make>
 inline void write_images(const std::filesystem::path& folder, int n_frames, Make make) {
