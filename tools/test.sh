@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Everything that must pass: builds, then unit, property, golden, measured, integration, short stress and fuzz tests.
 #   tools/test.sh [--quick] [ctest arguments]      e.g. tools/test.sh -L unit
-#     --quick   all unit, property and golden tests and a short integration (one run of the service, one replay): within three
-#               minutes of tests; only these are built
+#     --quick   property and golden tests, unit tests but for the long ones (tests/CMakeLists.txt names them), and a short
+#               integration (one run of the service, one replay): within three processor minutes; only these are built
 # Ends with "N passed, M skipped" and why; exit status 0 where none failed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
