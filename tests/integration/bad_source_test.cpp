@@ -209,7 +209,7 @@ const std::vector<BadInput>& stream_rows() {
                                "76a6c65c5ea762046bd749a2e632ccbb -encryption_kid a7e61c373e219033c21091fa607bf3b8");
        },
        1,
-       {"locked.mp4", "not one frame decodes", "encrypted"}},
+       {"locked.mp4", "encrypted", "decrypt it first"}},
       {"StillBeingRecorded",  // an MP4 has its index at the end
        [](const fs::path& f) {
          Input input = made_by_ffmpeg(f, "growing.mp4", "-map 0:v -c:v libx264 -crf 10");

@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Whether one of the first packets is marked as encrypted; the container may name any codec.
+// Whether one of the first packets is marked as encrypted; the container may name any codec. A decoder may take what is
+// encrypted for pictures.
 bool is_encrypted(const std::string& path) {
   constexpr int kFirstPackets = 16;
   Container container(path);
@@ -75,11 +76,13 @@ class VideoSource final : public FrameSource {
 
  private:
   void take_first_picture() {
+    const auto refuse = [&](const char* why) {
+      throw std::runtime_error(
+          fmt::format("{}: opens as a video ({}) but {}", path_, decoder_.container().codec_name(), why));
+    };
+    if (is_encrypted(path_)) refuse("it is encrypted: decrypt it first");
     if (!next_picture()) {
-      throw std::runtime_error(fmt::format(
-          "{}: opens as a video ({}) but not one frame decodes: {}", path_, decoder_.container().codec_name(),
-          is_encrypted(path_) ? "it is encrypted; decrypt it first"
-                              : "the file is damaged or its codec is not supported; try to play it with ffplay"));
+      refuse("not one frame decodes: the file is damaged or its codec is not supported; try to play it with ffplay");
     }
     first_is_waiting_ = true;
     const AVFrame& first = decoder_.picture();
