@@ -15,8 +15,9 @@ constexpr double kLeastDamping = -0.002;
 constexpr double kTwinMac = 0.9;
 constexpr double kTwinFrequency = 0.06;  // relative
 // Two resonances closer than their widths are one to a short record unless their shapes differ: what a third one,
-// folded onto them, leaves beside the mode has a mixed shape.
-constexpr double kMixedMac = 0.7, kLeastMixedMpc = 0.9;
+// folded onto them, leaves beside the mode has a mixed shape. The part of it that is not the mode's is then seen with
+// row delays of another frequency, and is out of phase; that of a real close mode is in phase.
+constexpr double kLeastMixedMpc = 0.9, kLeastRestMpc = 0.7;
 // A steady force beside a mode moves the structure in that mode's shape, with next to no damping.
 constexpr double kMostLineDamping = 0.001, kMostLineShare = 0.3;  // of the mode's
 
@@ -205,9 +206,24 @@ bool is_unresolved(const Mode& a, const Mode& b) noexcept {
          std::abs(a.damping_ratio) * a.frequency_hz + std::abs(b.damping_ratio) * b.frequency_hz;
 }
 
-bool is_mixture_beside(const Mode& mixture, const Mode& mode) noexcept {
-  return mixture.mpc < kLeastMixedMpc && mixture.mpc < mode.mpc && is_unresolved(mixture, mode) &&
-         mac(mixture.shape, mode.shape) > kMixedMac;
+// MPC of what remains of a shape without its projection on another one.
+double rest_mpc(const Mode& mixture, const Mode& mode) {
+  std::complex<double> inner = 0.0;
+  double norm = 0.0;
+  for (std::size_t c = 0; c < mode.shape.size(); ++c) {
+    inner += std::conj(mode.shape[c]) * mixture.shape[c];
+    norm += std::norm(mode.shape[c]);
+  }
+  std::vector<std::complex<double>> rest = mixture.shape;
+  for (std::size_t c = 0; c < rest.size(); ++c) rest[c] -= inner / norm * mode.shape[c];
+  return mpc(rest);
+}
+
+// Nothing but noise remains of twins: there the whole shape decides.
+bool is_mixture_beside(const Mode& mixture, const Mode& mode) {
+  if (!(mixture.mpc < mode.mpc) || !is_unresolved(mixture, mode)) return false;
+  const double alike = mac(mixture.shape, mode.shape);
+  return alike > kTwinMac ? mixture.mpc < kLeastMixedMpc : rest_mpc(mixture, mode) < kLeastRestMpc;
 }
 
 }  // namespace
@@ -218,10 +234,9 @@ void reject_mixtures(std::vector<Mode>& modes) {
       if (mixture.verdict != Verdict::kStructural || mode.verdict != Verdict::kStructural) continue;
       if (!is_mixture_beside(mixture, mode)) continue;
       set(mixture, Verdict::kNumerical,
-          text(
-              "not resolved from %.4f Hz: closer than their widths, with nearly its shape (MAC %.2f) and less in phase "
-              "(MPC %.2f)",
-              mode.frequency_hz, mac(mixture.shape, mode.shape), mixture.mpc));
+          text("not resolved from %.4f Hz: closer than their widths (MAC %.2f), and what its shape "
+               "has beside that mode's is not in phase (MPC %.2f)",
+               mode.frequency_hz, mac(mixture.shape, mode.shape), rest_mpc(mixture, mode)));
     }
   }
 }

@@ -51,8 +51,9 @@ void reject_lone_motion(Mode& mode, const std::string& channel, double seen);
 // Writes mode numbers by frequency into the reasons, as in Table 1 of the paper.
 void number_by_frequency(std::vector<Mode>& modes);
 
-// Of two structural modes closer than their half-power widths, with MAC > 0.7, the one that is less in phase is a
-// mixture with the other if its MPC is below 0.9: it becomes numerical, and its reason says so.
+// Of two structural modes closer than their half-power widths the one that is less in phase is a mixture with the other
+// (a third one folds onto them) if its shape, without its projection on the other's, has an MPC below 0.7; with MAC >
+// 0.9, where only noise remains, if its own MPC is below 0.9. It becomes numerical, and its reason says so.
 void reject_mixtures(std::vector<Mode>& modes);
 
 // Of two structural modes with MAC > 0.9 within 6 % one that has less than 0.1 % of damping, and less than a third of
