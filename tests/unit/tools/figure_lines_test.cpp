@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -12,7 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string script(const std::string& name, const std::string& text) {
-  const fs::path path = fs::path(testing::TempDir()) / ("figure_lines_" + name + ".sh");
+  // Tests of this file may run at the same time, each in a process of its own.
+  const fs::path path =
+      fs::path(testing::TempDir()) / ("figure_lines_" + name + "_" + std::to_string(::getpid()) + ".sh");
   std::ofstream(path) << ". '" << tests::source_path("tools/figures/lib.sh") << "'\n" << text << "\n";
   const std::string command = "bash '" + path.string() + "' 2>&1";
   std::FILE* pipe = ::popen(command.c_str(), "r");
