@@ -91,16 +91,17 @@ class Sets {
   std::vector<std::size_t> parent_;
 };
 
-// Groups neighbouring points that move together. share: tolerance relative to their motion; 0 if no static group is
-// known.
+// Groups points no farther apart than reach_px that move together. share: tolerance relative to their motion; 0 if no
+// static group is known.
 std::vector<MotionGroup> joined(const std::vector<SurveyedPoint>& points, const std::vector<Series>& fast,
-                                const std::vector<bool>& may, double share, const MotionGroupConfig& config) {
+                                const std::vector<bool>& may, double reach_px, double share,
+                                const MotionGroupConfig& config) {
   Sets sets(points.size());
-  const Neighbours neighbours(points, config.neighbour_px);
+  const Neighbours neighbours(points, reach_px);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!may[i]) continue;
     neighbours.visit(i, [&](std::size_t j) {
-      if (!may[j]) return;
+      if (!may[j] || sets.find(i) == sets.find(j)) return;
       const double noise =
           config.same_noise * config.same_noise * (variance_px2(points[i], config) + variance_px2(points[j], config));
       const double moved = share * std::min(rms_motion(fast[i]), rms_motion(fast[j]));
@@ -192,13 +193,18 @@ MotionGroups group_by_motion(const std::vector<SurveyedPoint>& points, double ra
   for (const SurveyedPoint& point : points) out.fast_motion.push_back(without_slow(point.motion, half));
   std::vector<bool> may(points.size(), true);
   // With noise as the only tolerance, moving parts split into pieces; static points stay together.
-  out.groups = joined(points, out.fast_motion, may, 0.0, config);
+  const double rest_px = std::max(config.neighbour_px, config.rest_reach * std::max(width_px, height_px));
+  out.groups = joined(points, out.fast_motion, may, rest_px, 0.0, config);
   const auto covers_more = [&](const MotionGroup& a, const MotionGroup& b) {
     return covered_share(a, points, width_px, height_px) < covered_share(b, points, width_px, height_px);
   };
   const auto widest = std::max_element(out.groups.begin(), out.groups.end(), covers_more);
   out.has_rest = widest != out.groups.end() && covered_share(*widest, points, width_px, height_px) >= kLeastRestShare;
-  if (!out.has_rest) return out;
+  if (!out.has_rest) {
+    // Parts lie closer together than static texture may.
+    out.groups = joined(points, out.fast_motion, may, config.neighbour_px, 0.0, config);
+    return out;
+  }
   const double left_px2 = free_from_camera(*widest, points, out.fast_motion, config);
   MotionGroup rest;
   rest.is_at_rest = true;
@@ -207,7 +213,7 @@ MotionGroups group_by_motion(const std::vector<SurveyedPoint>& points, double ra
     may[i] = moved > config.moves_by * std::sqrt(left_px2 + variance_px2(points[i], config));
     if (!may[i]) rest.members.push_back(i);
   }
-  out.groups = joined(points, out.fast_motion, may, config.same_share, config);
+  out.groups = joined(points, out.fast_motion, may, config.neighbour_px, config.same_share, config);
   out.groups.push_back(std::move(rest));
   return out;
 }

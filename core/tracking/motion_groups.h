@@ -9,7 +9,8 @@ namespace core {
 
 struct MotionGroupConfig {
   double slow_s = 1.0;           // slower motion is attributed to the hover
-  double neighbour_px = 30.0;    // points farther apart are not compared
+  double neighbour_px = 30.0;    // points of a part farther apart are not compared
+  double rest_reach = 0.0625;    // the same for the static group, whose texture may be sparse: share of the longer side
   double same_noise = 2.5;       // two points move together if they differ by less than this many of their sigmas,
   double same_share = 0.15;      // or by less than this share of their motion relative to the static points
   double moves_by = 3.0;         // a point moves: multiple of its sigma, with what the static points move beyond theirs

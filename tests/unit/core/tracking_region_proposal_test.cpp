@@ -38,9 +38,9 @@ class Made {
     }
     plates_.push_back({left, top, left + width, top + height});
   }
-  void add_wall() {
-    for (double v = 8.0; v < kHeight_px; v += 14.0) {
-      for (double u = 8.0; u < kWidth_px; u += 14.0) {
+  void add_wall(double spacing_px = 14.0) {
+    for (double v = 8.0; v < kHeight_px; v += spacing_px) {
+      for (double u = 8.0; u < kWidth_px; u += spacing_px) {
         const auto covers = [&](const core::Box& b) {
           return u > b.left - 12.0 && u < b.right + 12.0 && v > b.top - 12.0 && v < b.bottom + 12.0;
         };
@@ -142,6 +142,27 @@ TEST(RegionProposal, FindsEachFloorAndTheWallBehind) {
   EXPECT_EQ(proposal.rest->region.role, core::RegionRole::kBackground);
   EXPECT_LT(proposal.rest->motion_px, 0.1);
   expect_apart(proposal);
+}
+
+// The few points of a plain wall are farther apart than those of a part.
+TEST(RegionProposal, FindsAStaticWallOfSparseTexture) {
+  Made made;
+  for (int floor = 0; floor < 3; ++floor) {
+    made.add_plate(300, 100 + 180 * floor, 200, 40,
+                   [floor](double t_s, const Vector2&) { return (3.0 - floor) * 5.0 * wave(t_s, 2.1); });
+  }
+  made.add_wall(40.0);
+  const auto proposal = made.propose();
+  ASSERT_TRUE(proposal.rest) << proposal.remark;
+  ASSERT_EQ(proposal.regions.size(), 3U);
+  for (const ProposedRegion& one : proposal.regions) {
+    EXPECT_TRUE(std::any_of(made.plates().begin(), made.plates().end(),
+                            [&](const core::Box& plate) { return is_within(one.region, plate); }));
+    EXPECT_GE(one.region.width_px, 150.0);
+  }
+  core::RegionProposalConfig near;
+  near.groups.rest_reach = 0.0;
+  EXPECT_FALSE(made.propose(near).rest);
 }
 
 TEST(RegionProposal, DividesADeckThatBends) {
