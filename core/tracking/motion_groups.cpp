@@ -26,7 +26,7 @@ Series without_slow(const Series& motion, std::size_t half) {
   Series out(n);
   for (std::size_t t = 0; t < n; ++t) {
     const std::size_t reach = std::min({half, t, n - 1 - t});  // symmetric at the ends, too
-    const double count = static_cast<double>(2 * reach + 1);
+    const auto count = static_cast<double>(2 * reach + 1);
     const Vector2 &low = sums[t - reach], &high = sums[t + reach + 1];
     out[t] = {motion[t].u - (high.u - low.u) / count, motion[t].v - (high.v - low.v) / count};
   }
