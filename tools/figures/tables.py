@@ -10,7 +10,7 @@ A table stands between `<!-- figures: ... -->` and `<!-- figures end -->` in REA
   part NAME...       every line of these parts (a name may end in *)
   pick NAME:N ...    these lines only
   own NAME...        the table that the parts' scripts print themselves
-  misses             every line that misses its bar, and every part that was not run
+  misses             every line that misses its bar, and the parts that were not run
   count              the numbers of --count
 """
 import argparse
@@ -24,6 +24,8 @@ import figure_results as results
 
 DOCUMENTS = ("README.md", "tools/guide/figures.md")
 BLOCK = re.compile(r"(<!-- figures: (?P<what>[^>]*?) -->\n)(?P<table>.*?)(<!-- figures end -->)", re.DOTALL)
+NAMED_ROOMS = 2  # in a table; --list names all
+NAMED_OF_FAMILY = 2  # parts of one family, `family_...`, that are listed one by one
 HEAD = "| figure | asked | measured | verdict | commit |\n| --- | --- | --- | --- | --- |\n"
 
 
@@ -48,9 +50,14 @@ class Book:
     def valid(self, name):
         return self.results[name] is not None and not self.changed(name)
 
-    def commit(self, name):
+    def commit(self, name, most=None):
+        """Commit of the result and the rooms that changed since, at most this many of them by name."""
         changed = self.changed(name)
-        return self.results[name].commit + (f"; changed since: {' '.join(changed)}" if changed else "")
+        if not changed:
+            return self.results[name].commit
+        named = changed[:most]
+        more = f" and {len(changed) - len(named)} more" if len(named) < len(changed) else ""
+        return f"{self.results[name].commit}; changed since: {' '.join(named)}{more}"
 
     def state(self, name):
         if self.results[name] is None:
@@ -66,7 +73,7 @@ def cell(text):
 
 def row(book, name, line):
     verdict = {"MISS": "**MISS**", "beside": "-"}.get(line.verdict, line.verdict)
-    cells = (line.what or line.number, line.bar, line.measured, verdict, book.commit(name))
+    cells = (line.what or line.number, line.bar, line.measured, verdict, book.commit(name, NAMED_ROOMS))
     return "| " + " | ".join(map(cell, cells)) + " |\n"
 
 
@@ -101,6 +108,21 @@ def own_table(book, patterns):
     return "\n".join(head + rows) + "\n"
 
 
+def absent_parts(book):
+    """Parts without a result; of a family with many of them, their number."""
+    families = {}
+    for name in book.results:
+        families.setdefault(name.split("_")[0], []).append(name)
+    text = []
+    for family, names in families.items():
+        absent = [name for name in names if book.results[name] is None]
+        if len(absent) > NAMED_OF_FAMILY:
+            text.append(f"`{family}_*` ({len(absent)} of {len(names)} parts)")
+        else:
+            text += [f"`{name}`" for name in absent]
+    return text
+
+
 def misses(book, _):
     text = ""
     for name, result in book.results.items():
@@ -108,9 +130,9 @@ def misses(book, _):
             if line.verdict == "MISS":
                 what = f"{book.parts[name].title}, {line.what}"
                 text += f"- {what}: {line.measured} (asked: {line.bar}; `{name}` {line.number})\n"
-    absent = [name for name, result in book.results.items() if result is None]
+    absent = absent_parts(book)
     if absent:
-        text += f"- not run on the delivered program: {', '.join(f'`{name}`' for name in absent)}\n"
+        text += f"- not run on the delivered program: {', '.join(absent)}\n"
     return text or "- nothing\n"
 
 
