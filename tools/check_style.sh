@@ -37,8 +37,10 @@ case $what in
     ;;
   tidy)
     program=$(tool clang-tidy)
-    build=build/release
-    [ -f $build/compile_commands.json ] || skip "no $build/compile_commands.json (tools/build.sh)"
+    # Each source by itself: the build compiles several together.
+    build=build/tidy
+    [ -d build/release ] || skip "no build/release (tools/build.sh)"
+    cmake --preset release -B $build -DHOVERMODAL_UNITY=OFF >/dev/null || skip "$build cannot be configured"
     files=("$@") left_out=0
     if [ $# -eq 0 ]; then
       # Only files that the build contains. Few files, because one takes up to a minute.

@@ -13,7 +13,7 @@ namespace {
 constexpr double kDegrees = 3.0;  // of Student's t
 constexpr double kLeastShift_px = 1e-6;
 constexpr int kRounds = 40;
-constexpr double kEnough = 1e-7;  // of the cost
+constexpr double kSettledShare = 1e-7;  // of the cost
 
 }  // namespace
 
@@ -87,7 +87,7 @@ double fit_shift(std::span<const DerotatedFlow> points, const DerotatedFlowModel
       now = then;
       return true;
     });
-    if (!moved || gained <= kEnough * std::abs(now)) break;
+    if (!moved || gained <= kSettledShare * std::abs(now)) break;
   }
   return now;
 }

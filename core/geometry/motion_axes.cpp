@@ -10,7 +10,7 @@ namespace core {
 
 namespace {
 
-constexpr double kLeastPoints = 3.0;
+constexpr double kLeastAxisPoints = 3.0;
 constexpr double kLeastInBlock = 8.0;  // samples: fewer tell no line
 // Hover is slower than this; where the camera's motion is known, the structure may be slow.
 constexpr double kBlock_s = 1.0, kBlockOfKnownCamera_s = 4.0;
@@ -77,7 +77,7 @@ void MotionAxes::see(const TrackFrame& frame) noexcept {
       if (std::isfinite(point.sigma_px)) variance += point.sigma_px * point.sigma_px;
     }
     const auto n_seen = static_cast<double>(u_.size());
-    if (region >= seen_.size() || n_seen < kLeastPoints) continue;
+    if (region >= seen_.size() || n_seen < kLeastAxisPoints) continue;
     seen_[region] = {{median_in_place(u_), median_in_place(v_)},
                      {place.u / n_seen, place.v / n_seen},
                      0.5 * std::numbers::pi * variance / (n_seen * n_seen),

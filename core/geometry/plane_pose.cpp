@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "core/linear/damped_least_squares.h"
+#include "core/types/constants.h"
 
 namespace core {
 namespace {
@@ -15,7 +15,6 @@ using Eigen::Vector3d;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kThinnest = 1e-3;      // width over length of the points: below, they count as collinear
 constexpr double kNotMuchWorse = 11.8;  // difference in chi square
 constexpr double kSamePoseRad = 1e-3;
@@ -220,7 +219,7 @@ double PlanePose::mm_per_px(const PlanePlace& place, const Vector2& direction) c
 
 double PlanePose::obliqueness_deg() const noexcept {
   const Vector3d n = normal();
-  return std::atan2(std::hypot(n.x(), n.y()), std::abs(n.z())) * kDegrees;
+  return std::atan2(std::hypot(n.x(), n.y()), std::abs(n.z())) * kDegPerRad;
 }
 
 // A rotation w changes the normal by w x n; the angle changes by the component along the direction of tilt.
@@ -229,9 +228,9 @@ double PlanePose::obliqueness_sigma_deg() const noexcept {
   const double lean = std::hypot(n.x(), n.y());
   const Eigen::Matrix2d turn = covariance.topLeftCorner<2, 2>();
   const double least_certain = std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(turn).eigenvalues()(1));
-  if (!(lean > least_certain)) return least_certain * kDegrees;
+  if (!(lean > least_certain)) return least_certain * kDegPerRad;
   const Eigen::Vector2d across(n.y() / lean, -n.x() / lean);
-  return std::sqrt(across.dot(turn * across)) * kDegrees;
+  return std::sqrt(across.dot(turn * across)) * kDegPerRad;
 }
 
 PlanePoseFit fit_plane_pose(std::span<const PlaneCorrespondence> points, const CameraModel& camera, double sigma_px) {

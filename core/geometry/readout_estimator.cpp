@@ -8,12 +8,12 @@
 
 #include "core/geometry/readout_bands.h"
 #include "core/spectrum/kaiser_window.h"
+#include "core/types/constants.h"
 
 namespace core {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSegment_s = 8.0;  // slow drift is informative: a segment contains a few of its periods
 constexpr double kTop = 0.42;       // of the rate: highest bin, where the differentiator is still accurate
 constexpr double kKaiserBeta = 8.0;

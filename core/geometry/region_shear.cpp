@@ -13,7 +13,7 @@ constexpr double kLeastSigmaPx = 0.003, kMostSigmaPx = 100.0;
 constexpr double kMostMotion_px = 1e5;
 constexpr double kLeastOwnShare = 1e-4;   // smallest share of a column that the previous columns do not explain
 constexpr double kLeastPivotShare = 0.1;  // smallest pivot relative to the keyframe's: below, too few points are seen
-constexpr std::size_t kLeastPoints = 4;   // a region has six unknowns; four points give eight coordinates
+constexpr std::size_t kLeastShearPoints = 4;  // a region has six unknowns; four points give eight coordinates
 
 }  // namespace
 
@@ -139,7 +139,7 @@ void RegionShear::judge_regions() {
   for (RegionFit& region : regions_) {
     Normal reduced = region.normal;
     eliminate(reduced, kOwn);
-    region.usable = region.points.size() >= kLeastPoints;
+    region.usable = region.points.size() >= kLeastShearPoints;
     for (std::size_t p = 0; p < kOwn; ++p) {
       region.pivot[p] = reduced[p][p];
       region.usable = region.usable && reduced[p][p] > kLeastOwnShare * region.normal[p][p];
@@ -175,7 +175,7 @@ bool RegionShear::accumulate(const TrackFrame& tracks, RegionFit& region) noexce
     add_point(points_[j], motion, region.normal);
     ++n_seen;
   }
-  if (n_seen < kLeastPoints) return false;
+  if (n_seen < kLeastShearPoints) return false;
   eliminate(region.normal, kOwn);
   for (std::size_t p = 0; p < kOwn; ++p) {
     if (!(region.normal[p][p] > kLeastPivotShare * region.pivot[p])) return false;

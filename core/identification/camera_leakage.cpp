@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "core/types/constants.h"
 
 namespace core {
 
@@ -10,7 +11,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kSameDirection = 0.99;
 constexpr int kHalfWidth_bins = 8;    // of the moving average over bins
 constexpr double kQuietShare = 0.25;  // share of the bins that are taken to contain only noise

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/identification/stabilisation.h"
+#include "core/types/constants.h"
 
 namespace core {
 
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 // Range of rotor and blade frequencies; the exposure averages out faster vibration.
 constexpr double kFastestCamera_hz = 250.0;

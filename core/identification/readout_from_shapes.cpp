@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/identification/mac.h"
+#include "core/types/constants.h"
 
 namespace core {
 
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kStep_frames = 0.005;  // step of the search; the maximum is about 0.1 wide
 constexpr double kLeastRowShare = 0.05;
 constexpr double kLeastShapeStd = 0.003;  // relative to the largest component, 1

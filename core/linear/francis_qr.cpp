@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/linear/vector_clones.h"
+#include "core/types/constants.h"
 
 namespace core {
 
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr int kMostSweeps = 60;  // per pair of eigenvalues
 
 // x: last diagonal element, y: the one before, w: product of the two off-diagonal elements.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/linear/lanes.h"
 #include "core/linear/vector_clones.h"
+#include "core/types/constants.h"
 
 namespace core {
 
@@ -38,8 +38,6 @@ void eliminate_swapped(const double* __restrict current_re, const double* __rest
 namespace {
 
 using Complex = std::complex<double>;
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // Inner products of a row a + i b (b = 0 if absent) with x + i y.
 struct RowProduct {

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <utility>
 #include <vector>
+
+#include "core/types/constants.h"
 
 namespace core {
 
@@ -14,7 +15,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr int kSweepsPerValue = 30;
 constexpr double kClose = 1e-6;  // relative to the largest eigenvalue
 constexpr int kSolves = 3;

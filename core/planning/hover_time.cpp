@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "core/types/constants.h"
 
 namespace core::planning {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kMethodVariance = kMethodFactor * kMethodFactor;
 
 double relative_frequency_sigma(double frequency_hz, double damping_ratio, double duration_s) noexcept {

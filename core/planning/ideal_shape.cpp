@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/planning/check_value.h"
+#include "core/types/constants.h"
 
 namespace core::planning {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // Root of cos b + 1 / cosh b = 0 near (r - 1/2) pi; Newton's method converges to rounding in a few steps.
 double cantilever_root(int number) noexcept {

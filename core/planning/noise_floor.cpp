@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "core/planning/check_value.h"
+#include "core/types/constants.h"
 
 namespace core::planning {
-
-constexpr double kPi = std::numbers::pi;
 
 double point_sigma_px(const PointQuality& quality) {
   require_range("noise of a pixel (grey levels rms)", quality.noise_grey, 0.0, 100.0);

@@ -44,6 +44,12 @@ struct LoopResult {
   bool has_reference = false;
   std::optional<double> error_before, error_after;  // rms over the modes: of error_percent, or else of halves_percent
   std::vector<std::string> remarks;
+
+  // The error that the result reports of an estimate: against the reference, or else between the halves.
+  [[nodiscard]] std::optional<double> compared(const std::optional<LoopMode::Estimate>& one) const {
+    if (!one) return std::nullopt;
+    return has_reference ? one->error_percent : one->halves_percent;
+  }
 };
 
 }  // namespace core::closure

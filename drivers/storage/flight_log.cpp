@@ -4,17 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
+#include "core/types/constants.h"
 #include "drivers/storage/text_file.h"
 #include "drivers/storage/timed_columns.h"
 
 namespace drivers {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+using core::kRadPerDeg;
 constexpr double kMetresPerFoot = 0.3048;
 
 double mean(const std::vector<double>& x) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,7 @@ namespace drivers {
 // A part of an estimate never exceeds this when encoded (unless a single mode does): with LCM's header and channel name
 // it stays under 1400 bytes, and so in one Ethernet frame.
 inline constexpr int kMaxModalPartBytes = 1300;
+inline constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 inline constexpr std::size_t kMaxNameBytes = 64;
 inline constexpr std::size_t kMaxReasonBytes = 120;
 inline constexpr std::size_t kMaxWarningBytes = 200;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <limits>
 
 #include "drivers/telemetry/encode.h"
 
@@ -10,7 +9,6 @@ using hovermodal::modal_estimate_t;
 using hovermodal::mode_t;
 
 constexpr std::size_t kMaxCorrectionSetBytes = 100;
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 static_assert(static_cast<int>(core::Verdict::kStructural) == mode_t::STRUCTURAL);
 static_assert(static_cast<int>(core::Verdict::kCameraMotion) == mode_t::CAMERA_MOTION);

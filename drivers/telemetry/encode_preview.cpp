@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <limits>
 
 #include "drivers/telemetry/encode.h"
 #include "drivers/telemetry/preview_jpeg.h"
@@ -7,7 +6,6 @@
 namespace drivers {
 namespace {
 
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t kMostPoints = 1000;
 
 void add_regions(const core::Preview& preview, const std::vector<core::Region>& regions, hovermodal::preview_t& out) {

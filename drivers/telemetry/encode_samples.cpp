@@ -1,12 +1,9 @@
 #include <algorithm>
-#include <limits>
 
 #include "drivers/telemetry/encode.h"
 
 namespace drivers {
 namespace {
-
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 // One-sided density of channel i: every bin except DC and Nyquist includes its negative counterpart.
 std::vector<float> density(const core::CpsdSums& sums, int i_channel) {

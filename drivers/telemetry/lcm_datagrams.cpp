@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kShortHead = 8;      // "LC02", number
 constexpr std::size_t kFragmentHead = 20;  // "LC03", number, size, offset: 32 bits each; index, count: 16 bits each
 
-std::uint32_t big_endian(const std::uint8_t* bytes, std::size_t n) {
+std::uint32_t big_endian32(const std::uint8_t* bytes, std::size_t n) {
   std::uint32_t value = 0;
   for (std::size_t i = 0; i < n; ++i) value = value << 8U | bytes[i];
   return value;
@@ -73,9 +73,9 @@ std::deque<LcmDatagrams::Open>::iterator LcmDatagrams::open_message(std::uint64_
 }
 
 void LcmDatagrams::take_fragment(const std::uint8_t* bytes, std::size_t n, std::uint64_t sender) {
-  const std::uint32_t number = big_endian(bytes + 4, 4);
-  const std::size_t size = big_endian(bytes + 8, 4), offset = big_endian(bytes + 12, 4);
-  const std::size_t index = big_endian(bytes + 16, 2), n_fragments = big_endian(bytes + 18, 2);
+  const std::uint32_t number = big_endian32(bytes + 4, 4);
+  const std::size_t size = big_endian32(bytes + 8, 4), offset = big_endian32(bytes + 12, 4);
+  const std::size_t index = big_endian32(bytes + 16, 2), n_fragments = big_endian32(bytes + 18, 2);
   const std::uint8_t* data = bytes + kFragmentHead;
   std::size_t n_data = n - kFragmentHead;
   std::optional<std::string_view> channel;

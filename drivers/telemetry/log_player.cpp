@@ -19,7 +19,7 @@ constexpr std::string_view kScheme = "file://";
 constexpr int kMaxBatch = 1000;  // limits the time during which display and signals wait
 constexpr double kLongestWait_ns = 1e9;
 
-[[noreturn]] void refuse(const std::string& url, const std::string& what) {
+[[noreturn]] void refuse_log(const std::string& url, const std::string& what) {
   throw std::invalid_argument(
       fmt::format("LCM URL \"{}\": {}. Expected file://PATH?speed=S, for example file://run.lcm?speed=0 (as fast as "
                   "possible)",
@@ -37,12 +37,12 @@ void set_option(const std::string& url, std::string_view option, LogUrl& out) {
   const std::string_view key = option.substr(0, equals), value = option.substr(std::min(equals + 1, option.size()));
   if (key == "speed") {
     if (!parse(value, out.speed) || !std::isfinite(out.speed) || out.speed < 0.0)
-      refuse(url, fmt::format("speed \"{}\" is not a number from 0 on", value));
+      refuse_log(url, fmt::format("speed \"{}\" is not a number from 0 on", value));
   } else if (key == "start_timestamp") {
     if (!parse(value, out.start_utc_us))
-      refuse(url, fmt::format("start_timestamp \"{}\" is not a number of microseconds", value));
+      refuse_log(url, fmt::format("start_timestamp \"{}\" is not a number of microseconds", value));
   } else if (key != "mode" || value != "r") {
-    refuse(url, fmt::format("\"{}\" is no option of a log that is read (known: speed, start_timestamp)", option));
+    refuse_log(url, fmt::format("\"{}\" is no option of a log that is read (known: speed, start_timestamp)", option));
   }
 }
 
@@ -51,12 +51,12 @@ void set_option(const std::string& url, std::string_view option, LogUrl& out) {
 bool is_log(const std::string& url) { return std::string_view(url).substr(0, kScheme.size()) == kScheme; }
 
 LogUrl parse_log(const std::string& url) {
-  if (!is_log(url)) refuse(url, "does not begin with file://");
+  if (!is_log(url)) refuse_log(url, "does not begin with file://");
   const std::string_view rest = std::string_view(url).substr(kScheme.size());
   const std::size_t question = std::min(rest.find('?'), rest.size());
   LogUrl out;
   out.path = std::string(rest.substr(0, question));
-  if (out.path.empty()) refuse(url, "the path is missing");
+  if (out.path.empty()) refuse_log(url, "the path is missing");
   std::string_view options = rest.substr(std::min(question + 1, rest.size()));
   while (!options.empty()) {
     const std::size_t end = std::min(options.find('&'), options.size());

@@ -12,12 +12,6 @@ namespace {
 
 using A = AppConfig;
 using drivers::YamlNode;
-constexpr double kMaxImagePx = 100000.0;
-
-ConfigKey with_default(ConfigKey key, std::string text) {
-  key.default_text = std::move(text);
-  return key;
-}
 
 ConfigKey rect_key() {
   NumberList list;

@@ -8,15 +8,9 @@ namespace app {
 namespace {
 
 using A = AppConfig;
-constexpr double kMaxImagePx = 100000.0;
 constexpr double kMaxLengthMm = 1e9;
 constexpr NumberRange kPixel{0, kMaxImagePx};
 constexpr NumberRange kLength{1e-6, kMaxLengthMm};
-
-ConfigKey with_default(ConfigKey key, std::string text) {
-  key.default_text = std::move(text);
-  return key;
-}
 
 // Rows with a fixed number of columns, as stored in the configuration.
 template <std::size_t N>

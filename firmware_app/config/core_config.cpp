@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "core/geometry/keyframe_view.h"
+#include "core/types/constants.h"
 #include "drivers/storage/attitude_file.h"
 #include "firmware_app/config/calibration.h"
 #include "firmware_app/config/region_axis.h"
@@ -17,6 +17,7 @@ namespace app {
 
 namespace {
 
+using core::kRadPerDeg;
 // An inline camera matrix alone states only the optical axis; a calibration file is assumed to describe the lens.
 bool undistorts(const CalibrationConfig& calibration) {
   const auto& k = calibration.distortion;
@@ -28,7 +29,6 @@ bool undistorts(const CalibrationConfig& calibration) {
 std::optional<core::AttitudeConfig> attitude_config(const AppConfig& config, const core::CameraInfo& camera) {
   const CameraConfig& c = config.camera;
   if (c.attitude_file.empty() && c.attitude_channel.empty()) return std::nullopt;
-  constexpr double kRadPerDeg = std::numbers::pi / 180.0;
   core::AttitudeConfig out;
   out.sigma_rad = c.attitude_sigma_deg * kRadPerDeg;
   for (std::size_t i = 0; i < 3; ++i) out.mount_rpy_rad[i] = c.mount_rpy_deg[i] * kRadPerDeg;

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 
 #include "core/closure/response/channel_retime.h"
 #include "core/geometry/channel_displacement.h"
+#include "core/types/constants.h"
 #include "drivers/storage/series_format.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/chain/displacement_meter.h"
@@ -21,8 +21,8 @@
 namespace app {
 namespace {
 
+using core::kNan;
 constexpr std::uint64_t kMostFrames = 1'000'000;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 FrameTimes timed(std::vector<std::uint64_t> number, std::vector<double> t_s, double rate_hz) {
   FrameTimes out{std::move(number), std::move(t_s)};
@@ -84,7 +84,7 @@ MeasuredRows rows_of_tracks(const AppConfig& declared, const drivers::TracksFile
     number.push_back(frame.sequence);
     t_s.push_back(1e-9 * static_cast<double>(frame.t_start_ns - file.frames.front().t_start_ns));
     for (std::size_t c = 0; c < out.series.value.size(); ++c)
-      out.series.value[c].push_back(sample.seen[c] != 0 ? sample.value_mm[c] : kNaN);
+      out.series.value[c].push_back(sample.seen[c] != 0 ? sample.value_mm[c] : kNan);
   }
   out.times = timed(std::move(number), std::move(t_s), camera.rate_hz);
   return out;
@@ -144,7 +144,7 @@ ChannelSeries on_grid(const MeasuredRows& rows) {
   const std::uint64_t first = rows.times.number.front();
   const std::size_t cells = n_cells(first, rows.times.number.back(), "displacements");
   for (std::size_t c = 0; c < out.value.size(); ++c) {
-    out.value[c].assign(cells, kNaN);
+    out.value[c].assign(cells, kNan);
     for (std::size_t k = 0; k < rows.times.number.size(); ++k) {
       const std::uint64_t cell = rows.times.number[k] - first;
       if (cell < cells) out.value[c][static_cast<std::size_t>(cell)] = rows.series.value[c][k];

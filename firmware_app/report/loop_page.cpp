@@ -45,15 +45,10 @@ std::string levels_html(const LoopResult& result) {
   return table.html();
 }
 
-std::string estimate_text(const std::optional<LoopMode::Estimate>& one) {
+std::string estimate_html(const std::optional<LoopMode::Estimate>& one) {
   if (!one) return "not found";
   const std::string sigma = one->frequency_std_hz ? fmt::format(" ± {:.4f}", *one->frequency_std_hz) : "";
   return fmt::format("{:.4f}{} Hz, {:.2f} %", one->frequency_hz, sigma, 100.0 * one->damping_ratio);
-}
-
-std::optional<double> compared(const std::optional<LoopMode::Estimate>& one, bool has_reference) {
-  if (!one) return std::nullopt;
-  return has_reference ? one->error_percent : one->halves_percent;
 }
 
 std::string modes_html(const LoopResult& result) {
@@ -63,10 +58,10 @@ std::string modes_html(const LoopResult& result) {
     const LoopMode& mode = result.modes[i];
     table.add({{std::to_string(i + 1), {}},
                {number_text(mode.reference_hz, "{:.4f}"), {}},
-               {estimate_text(mode.before), {}},
-               {estimate_text(mode.after), {}},
-               {number_text(compared(mode.before, result.has_reference), "{:+.3f}"), {}},
-               {number_text(compared(mode.after, result.has_reference), "{:+.3f}"), {}}});
+               {estimate_html(mode.before), {}},
+               {estimate_html(mode.after), {}},
+               {number_text(result.compared(mode.before), "{:+.3f}"), {}},
+               {number_text(result.compared(mode.after), "{:+.3f}"), {}}});
   }
   return result.modes.empty() ? absent_html("No mode was identified.") : table.html();
 }
@@ -81,7 +76,7 @@ std::string picture_html(const LoopResult& result) {
       core::closure::ClosureMode mode;
       mode.number = static_cast<int>(i) + 1;
       mode.frequency_hz = one->frequency_hz;
-      mode.error_percent = compared(one, result.has_reference);
+      mode.error_percent = result.compared(one);
       if (one->frequency_std_hz) mode.sigma_percent = 100.0 * *one->frequency_std_hz / one->frequency_hz;
       (after ? drawn.modes_after : drawn.modes_before).push_back(mode);
     }

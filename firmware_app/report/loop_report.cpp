@@ -32,11 +32,6 @@ std::string comparison(const LoopResult& result) {
   return result.has_reference ? "error against the reference, %" : "second half of the record less the first, %";
 }
 
-std::optional<double> compared(const std::optional<LoopMode::Estimate>& one, bool has_reference) {
-  if (!one) return std::nullopt;
-  return has_reference ? one->error_percent : one->halves_percent;
-}
-
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 Json estimate_json(const std::optional<LoopMode::Estimate>& one) {
@@ -87,8 +82,7 @@ std::string loop_text(const LoopResult& result) {
     const LoopMode& mode = result.modes[i];
     out += fmt::format("{:<6}{:>12}{:>28}{:>28}   {:>8} {:>8}\n", i + 1, cell(mode.reference_hz, "{:.4f}"),
                        estimate_text(mode.before), estimate_text(mode.after),
-                       cell(compared(mode.before, result.has_reference), "{:+.3f}"),
-                       cell(compared(mode.after, result.has_reference), "{:+.3f}"));
+                       cell(result.compared(mode.before), "{:+.3f}"), cell(result.compared(mode.after), "{:+.3f}"));
   }
   if (result.modes.empty()) out += "no mode was identified\n";
   if (result.error_before && result.error_after)

@@ -24,6 +24,11 @@ endif()
 # once. The sources still include all headers that they use; a build with HOVERMODAL_PRECOMPILE=OFF (the packages') checks it.
 option(HOVERMODAL_PRECOMPILE "Precompile the headers of other libraries" ON)
 
+# A library's sources are compiled eight at a time: most of the compiler's time goes to templates of Eigen and the standard
+# library, which the eight then share. So a name in an anonymous namespace occurs once in a library. A build with
+# HOVERMODAL_UNITY=OFF (the packages', clang-tidy's) compiles each source by itself.
+option(HOVERMODAL_UNITY "Compile several sources of a library together" ON)
+
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
@@ -53,6 +58,7 @@ endfunction()
 function(hovermodal_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC_LINK;PRIVATE_LINK;PRECOMPILE" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ${HOVERMODAL_UNITY} UNITY_BUILD_BATCH_SIZE 8)
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC_LINK} PRIVATE hovermodal_options ${ARG_PRIVATE_LINK})
   if(ARG_PRECOMPILE)
     hovermodal_precompile(${name} ${ARG_PRECOMPILE})

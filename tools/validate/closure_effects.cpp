@@ -13,17 +13,19 @@
 #include "core/simulation/camera/camera_motion.h"
 #include "core/simulation/camera/recorded_motion.h"
 #include "core/simulation/structure/periodic_signal.h"
+#include "core/types/constants.h"
 #include "tools/validate/drawn_scene.h"
 
 namespace tools {
 namespace {
 
+using core::kDegPerRad;
+using core::kNan;
 using core::simulation::Scene;
-constexpr double kDegree = 180.0 / std::numbers::pi;
 
-void set_roll(Scene& s, double size) { s.hover.roll_rms_rad = size / kDegree; }
-void set_pitch(Scene& s, double size) { s.hover.pitch_rms_rad = size / kDegree; }
-void set_yaw(Scene& s, double size) { s.hover.yaw_rms_rad = size / kDegree; }
+void set_roll(Scene& s, double size) { s.hover.roll_rms_rad = size / kDegPerRad; }
+void set_pitch(Scene& s, double size) { s.hover.pitch_rms_rad = size / kDegPerRad; }
+void set_yaw(Scene& s, double size) { s.hover.yaw_rms_rad = size / kDegPerRad; }
 
 // Roll as a Gaussian process between 5 and 10 Hz, as a recorded attitude, because the hover's own roll ends at 5 Hz.
 void set_fast_roll(Scene& s, double size) {
@@ -32,7 +34,7 @@ void set_fast_roll(Scene& s, double size) {
   const double period_s = s.duration_s + kMargin_s;
   std::vector<std::complex<double>> amplitude(static_cast<std::size_t>(kHigh_hz * period_s) + 1);
   const auto first = static_cast<std::size_t>(kLow_hz * period_s);
-  const double each = size / kDegree / std::sqrt(static_cast<double>(amplitude.size() - first));
+  const double each = size / kDegPerRad / std::sqrt(static_cast<double>(amplitude.size() - first));
   for (std::size_t k = first; k < amplitude.size(); ++k) {
     const double re = draw.gaussian();
     amplitude[k] = each * std::complex<double>(re, draw.gaussian());
@@ -74,9 +76,9 @@ void set_locking(Scene& s, double size) { s.tracks.pixel_locking_px = size; }
 void set_rotor(Scene& s, double size) {
   Draw draw(s.seed, "rotor");
   s.rotor.frequency_hz = draw.log_uniform(60.0, 140.0);
-  s.rotor.roll_rms_rad = size / kDegree;
-  s.rotor.pitch_rms_rad = draw.uniform(0.3, 0.9) * size / kDegree;
-  s.rotor.yaw_rms_rad = draw.uniform(0.3, 0.9) * size / kDegree;
+  s.rotor.roll_rms_rad = size / kDegPerRad;
+  s.rotor.pitch_rms_rad = draw.uniform(0.3, 0.9) * size / kDegPerRad;
+  s.rotor.yaw_rms_rad = draw.uniform(0.3, 0.9) * size / kDegPerRad;
 }
 
 // The camera's true motion in this record, about its mean; axis: index in CameraMotion::deviation().
@@ -89,7 +91,7 @@ std::vector<KnownValue> turned_deg(const Scene& s, const Scene&) {
     const double turn = camera.deviation(static_cast<double>(k) / s.camera.rate_hz)[kAxis];
     sum += turn, squares += turn * turn;
   }
-  return {{"rms", kDegree * std::sqrt(squares / n - sum / n * sum / n)}};
+  return {{"rms", kDegPerRad * std::sqrt(squares / n - sum / n * sum / n)}};
 }
 std::vector<KnownValue> added_readout(const Scene& s, const Scene& declared) {
   return {{"added readout", (s.camera.readout_s - declared.camera.readout_s) * s.camera.rate_hz}};
@@ -134,7 +136,7 @@ const HiddenEffect& effect_named(const std::string& name) {
 
 ParameterErrors parameter_errors(const std::vector<core::closure::ClosureStep>& steps, const std::string& called,
                                  const std::vector<KnownValue>& truth) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinite = std::numeric_limits<double>::infinity();
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const auto step = std::find_if(steps.begin(), steps.end(), [&](const auto& s) { return s.effect == called; });
   if (step == steps.end()) return {kNan, kNan};
   ParameterErrors out{0.0, kNan};

@@ -11,7 +11,7 @@ namespace {
 
 using core::simulation::Scene;
 
-constexpr double kDuration_s = 120.0;
+constexpr double kCaseDuration_s = 120.0;
 
 // Of a frame: larger jitter would exchange neighbours, and the simulator refuses it.
 void set_jitter(Scene& s, double rms_s) { s.timing.jitter_rms_s = std::min(rms_s, 0.2 / s.camera.rate_hz); }
@@ -56,7 +56,7 @@ CountedSeries counted_series(const Scene& scene) {
 }
 
 Scene series_scene(std::uint64_t seed, bool wind) {
-  Scene scene = draw_scene(seed, kDuration_s).scene;
+  Scene scene = draw_scene(seed, kCaseDuration_s).scene;
   scene.timing.stamps_tell = false;
   if (wind) scene.excitation.base = 0.0, scene.excitation.forces = 1.0;
   return scene;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/simulation/track_generator.h"
+#include "core/types/constants.h"
 #include "firmware_app/replay/track_analysis.h"
 #include "tools/validate/drawn_scene.h"
 #include "tools/validate/geometry_flight.h"
@@ -15,10 +16,11 @@
 namespace tools {
 namespace {
 
+using core::kRadPerDeg;
 using core::simulation::Scene;
 using core::simulation::TrackGenerator;
 
-constexpr double kDuration_s = 120.0, kNear = 0.06;
+constexpr double kTrackedDuration_s = 120.0, kNear = 0.06;
 
 double lost(const Scene&, const TrackedSeries& s) { return s.n_lost; }
 double twice(const Scene&, const TrackedSeries& s) { return s.n_twice; }
@@ -121,7 +123,7 @@ const core::Mode* nearest(const core::ModalEstimate& estimate, double hz) {
 }  // namespace
 
 Scene tracked_scene(std::uint64_t seed) {
-  Scene scene = draw_scene(seed, kDuration_s).scene;
+  Scene scene = draw_scene(seed, kTrackedDuration_s).scene;
   Draw hover(seed, "tracked_hover");
   // The view was drawn for the largest values of these.
   scene.hover.x_rms_mm *= hover.uniform(0.2, 1.0);
@@ -136,7 +138,6 @@ Scene tracked_scene(std::uint64_t seed) {
 }
 
 TrackedNull tracked_null(std::uint64_t seed) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
   TrackedNull out{tracked_scene(seed)};
   Scene& scene = out.scene;
   Draw draw(seed, "tracked_null");
@@ -150,12 +151,12 @@ TrackedNull tracked_null(std::uint64_t seed) {
         break;
       case 1:
         out.words = "rolling gusts";
-        scene.hover.roll_rms_rad = much * 0.5 * kDegree;
+        scene.hover.roll_rms_rad = much * 0.5 * kRadPerDeg;
         scene.hover.corner_hz = 0.5, scene.hover.order = 4.0, scene.hover.limit_hz = 10.0;
         break;
       case 2:
         out.words = "oblique view";
-        scene.camera.yaw_rad = much * 24.0 * kDegree, scene.camera.pitch_rad = much * 8.0 * kDegree;
+        scene.camera.yaw_rad = much * 24.0 * kRadPerDeg, scene.camera.pitch_rad = much * 8.0 * kRadPerDeg;
         break;
       case 3:
         out.words = "fast hover";

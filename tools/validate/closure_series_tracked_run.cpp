@@ -17,12 +17,12 @@ namespace {
 
 using core::simulation::Scene;
 
-constexpr std::size_t kSurrogates = 64;
+constexpr std::size_t kTrackedSurrogates = 64;
 
 app::ResponseAnalysis close(const TrackedSeries& series, std::uint64_t seed) {
   app::ResponseOptions options;
   options.clock = series.clock;
-  options.n_surrogates = kSurrogates;
+  options.n_surrogates = kTrackedSurrogates;
   options.seed = seed;
   return app::analyse_response(series.series, options);
 }

@@ -21,7 +21,7 @@ namespace {
 
 using core::simulation::Scene;
 using Effects = std::vector<const ForeignEffect*>;
-constexpr std::array kStrengths{0.2, 1.0, 5.0};
+constexpr std::array kForeignStrengths{0.2, 1.0, 5.0};
 
 struct ForeignOutcome {
   ForeignScene declared;
@@ -109,7 +109,7 @@ void print_closure_tracks_foreign(const ClosureTracksOptions& options) {
   print_columns("closure-tracks-foreign");
   for (const ForeignEffect& effect : foreign_effects()) {
     if (!options.effect.empty() && options.effect != effect.effect.name) continue;
-    for (const double strength : kStrengths) {
+    for (const double strength : kForeignStrengths) {
       if (options.strength > 0.0 && options.strength != strength) continue;
       const auto records = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t index) {
         return inject({&effect}, options, strength, seed_of(options, index));

@@ -109,7 +109,7 @@ std::string outside_line(const char* check, const HiddenEffect& effect, const Ou
       o.words + o.refused(), truth, o.seconds);
 }
 
-void print_columns(const char* check) {
+void print_outside_columns(const char* check) {
   fmt::print(
       "# {}: effect taken out of the catalogue, strength, visible part, seed, adopted, right answer, described as it "
       "is, held-out before, after, floor (px), after with the whole catalogue, modal error before, after (% rms), "
@@ -120,7 +120,7 @@ void print_columns(const char* check) {
 // Effects that the catalogue has.
 template <class MakeCase>
 void print_lines(const char* check, const ClosureTracksOptions& options, MakeCase make_case) {
-  print_columns(check);
+  print_outside_columns(check);
   const double strength = options.strength > 0.0 ? options.strength : 1.0;
   for (const HiddenEffect& effect : hidden_effects()) {
     if (!options.effect.empty() && options.effect != effect.name) continue;

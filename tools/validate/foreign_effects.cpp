@@ -8,21 +8,22 @@
 #include <stdexcept>
 
 #include "core/simulation/camera/projection.h"
+#include "core/types/constants.h"
 #include "tools/validate/drawn_scene.h"
 
 namespace tools {
 namespace {
 
+using core::kDegPerRad;
 using core::closure::ClosureStep;
 using core::simulation::Scene;
 using Lens = core::simulation::LensParameters;
-constexpr double kDegree = 180.0 / std::numbers::pi;
 
 // A rotation whose spectrum has a power-law tail. Size: degrees rms.
 template <std::size_t axis>
 void set_tailed_turn(Scene& s, double size) {
   Draw draw(s.seed, "tailed_turn");
-  s.tailed_hover.rms_rad[axis] = size / kDegree;
+  s.tailed_hover.rms_rad[axis] = size / kDegPerRad;
   s.tailed_hover.turn_corner_hz[axis] = draw.log_uniform(0.05, 0.5);
   s.tailed_hover.turn_order[axis] = draw.uniform(3.0, 5.0);
 }
@@ -32,8 +33,8 @@ void set_vibration(Scene& s, double size) {
   Draw draw(s.seed, "vibration");
   s.vibration.centre_hz = draw.log_uniform(3.5, 0.45 * s.camera.rate_hz);
   s.vibration.width_hz = draw.uniform(0.3, 1.5);
-  s.vibration.rms_rad = {draw.uniform(0.1, 0.4) * size / kDegree, draw.uniform(0.1, 0.4) * size / kDegree,
-                         size / kDegree};
+  s.vibration.rms_rad = {draw.uniform(0.1, 0.4) * size / kDegPerRad, draw.uniform(0.1, 0.4) * size / kDegPerRad,
+                         size / kDegPerRad};
   s.vibration.rms_mm = {draw.uniform(0.0, 2.0) * size, draw.uniform(0.0, 2.0) * size, 0.0};
 }
 
@@ -59,7 +60,7 @@ void set_fisheye(Scene& s, double size) {
 // The camera stands to one side and is aimed at the middle of the structure. Size: degrees.
 void set_oblique(Scene& s, double size) {
   const bool aside = Draw(s.seed, "oblique").sign() > 0.0;
-  const double turn = Draw(s.seed, "oblique_way").sign() * size / kDegree;
+  const double turn = Draw(s.seed, "oblique_way").sign() * size / kDegPerRad;
   (aside ? s.camera.yaw_rad : s.camera.pitch_rad) = turn;
   const Eigen::Vector3d ahead = core::simulation::attitude(s.camera.pitch_rad, s.camera.yaw_rad, 0.0).col(2);
   double y_mm = 0.0;
@@ -92,7 +93,7 @@ void set_turning(Scene& s, double size) {  // degrees
   Draw draw(s.seed, "turning");
   (s.*member).frequency_hz = draw.log_uniform(1.5, 8.0);
   (s.*member).damping_ratio = draw.log_uniform(0.005, 0.05);
-  (s.*member).rms_rad = size / kDegree;
+  (s.*member).rms_rad = size / kDegPerRad;
 }
 void set_sway(Scene& s, double size) {  // mm
   Draw draw(s.seed, "sway");

@@ -16,7 +16,7 @@ namespace {
 
 using core::simulation::TrueMode;
 using Shaken = StoreysSetup::Shaken;
-constexpr double kLeastMac = 0.98, kClearPeak_db = 20.0;
+constexpr double kLeastMac = 0.98, kClearFold_db = 20.0;
 
 struct FoldingCase {
   std::string name;
@@ -130,11 +130,10 @@ struct Tally {
   std::optional<double> least_margin;  // empty: no other frequency below the limit
 
   void add(const Found& found, const TrueMode& truth) {
-    using As = Found::As;
     ++n;
-    wrong += found.as == As::kWrongFold ? 1 : 0;
-    ambiguous += found.as == As::kAmbiguous ? 1 : 0;
-    if (found.as != As::kRight) return;
+    wrong += found.as == Found::As::kWrongFold ? 1 : 0;
+    ambiguous += found.as == Found::As::kAmbiguous ? 1 : 0;
+    if (found.as != Found::As::kRight) return;
     ++right;
     f.push_back(1e2 * (found.mode.frequency_hz / truth.frequency_hz - 1.0));
     zeta.push_back(1e2 * (found.mode.damping_ratio / truth.damping_ratio - 1.0));
@@ -161,7 +160,7 @@ void print_drawn(const FoldingCase& which, const std::vector<Outcome>& records) 
   const auto kind_of = [](const Outcome& record, std::size_t r) -> std::string {
     const bool is_folded = record.truth[r].frequency_hz > 0.5 * record.rate_hz;
     const char* kind = is_folded ? "folded" : (has_no_rival(record, r) ? "alone" : "direct");
-    return fmt::format("{}{}", kind, record.peaks_db[r] >= kClearPeak_db ? "" : "-weak");
+    return fmt::format("{}{}", kind, record.peaks_db[r] >= kClearFold_db ? "" : "-weak");
   };
   for (const char* kind : {"alone", "direct", "folded", "alone-weak", "direct-weak", "folded-weak"}) {
     Tally tally;
@@ -212,7 +211,7 @@ void print_folding(const IdentificationOptions& options) {
       "#   rate; for true Hz and records: kind of mode (alone: without rival below the limit; direct, folded: below "
       "or\n"
       "#   above half the rate; weak: peak less than {} dB over the noise), modes of all records\n",
-      kLeastMac, kClearPeak_db);
+      kLeastMac, kClearFold_db);
   for (const FoldingCase& which : folding_cases()) {
     print_case(which, for_each_seed(options, [&](std::uint64_t seed) { return judge(which, seed); }));
   }

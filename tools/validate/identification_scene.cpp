@@ -3,21 +3,21 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/simulation/structure/structure_builders.h"
+#include "core/types/constants.h"
 #include "tools/validate/drawn_scene.h"
 #include "tools/validate/identification_match.h"
 
 namespace tools {
 namespace {
 
+using core::kTwoPi;
 using core::simulation::ExcitationParameters;
 using core::simulation::Scene;
 using core::simulation::StructureModel;
 using Eigen::Index;
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kDistance_mm = 2000.0;
 constexpr double kPlateHeight_mm = 40.0, kPlateWidth_mm = 300.0, kBaseAside_mm = 450.0;
 

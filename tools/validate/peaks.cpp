@@ -3,21 +3,20 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "core/simulation/presets.h"
 #include "core/simulation/structure/structure_response.h"
+#include "core/types/constants.h"
 #include "tools/validate/peak_fit.h"
 
 namespace tools {
 namespace {
 
+using core::kTwoPi;
 using core::simulation::Scene;
 using core::simulation::StructureResponse;
 using core::simulation::TrueMode;
-
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 // Rows: modes; columns: samples of the record.
 Eigen::MatrixXd modal_coordinates(const StructureResponse& response, const Eigen::MatrixXd& shapes, double rate_hz,

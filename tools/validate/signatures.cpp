@@ -10,6 +10,7 @@
 #include "core/simulation/presets.h"
 #include "core/simulation/random_stream.h"
 #include "core/simulation/track_generator.h"
+#include "core/types/constants.h"
 #include "tools/validate/signature_cases.h"
 
 namespace tools {
@@ -41,7 +42,7 @@ ImagePoint camera_signature(const Sight& s) {
 
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
+using core::kTwoPi;
 constexpr std::uint64_t kFrames = 250, kEvery = 7;
 
 // As camera_signature(), for sinusoidal motion within the exposure: its mean is sinc(f T) times the value at its

@@ -3,14 +3,15 @@
 #include <cmath>
 #include <complex>
 
+#include "core/types/constants.h"
 #include "tools/validate/signature_cases.h"
 
 namespace tools {
 namespace {
 
+using core::kTwoPi;
 using core::simulation::ImagePoint;
 using core::simulation::Scene;
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 const Scene& scene_of(const Sight& s) { return s.with.motion().scene(); }
 

@@ -8,6 +8,7 @@
 
 #include "core/linear/dense.h"
 #include "core/linear/symmetric_eigen.h"
+#include "core/types/constants.h"
 
 namespace core::closure {
 namespace {
@@ -15,8 +16,7 @@ namespace {
 using Complex = std::complex<double>;
 using Index = Eigen::Index;
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
-constexpr double kLeastReadout_frames = 0.15;  // with a shorter readout the alias orders cannot be distinguished
+constexpr double kLeastAliasReadout_frames = 0.15;  // with a shorter readout the alias orders cannot be distinguished
 constexpr int kMostOrders = 2;
 constexpr double kStrip_hz = 0.25;
 constexpr double kEvidence = 20.0;   // smallest decrease of the squares for an order other than 0, in noise variances
@@ -105,7 +105,7 @@ void AliasedMotion::decide(std::vector<Strip>& strips) const {
 }
 
 Eigen::MatrixXd AliasedMotion::folded(const Eigen::MatrixXd& amplitudes, const Eigen::MatrixXd& residual) const {
-  if (std::abs(readout_frames_) < kLeastReadout_frames || columns_.n_regions == 0) return {};
+  if (std::abs(readout_frames_) < kLeastAliasReadout_frames || columns_.n_regions == 0) return {};
   const Eigen::MatrixXcd regions = shift_.spectra(amplitudes.topRows(columns_.n_regions));
   std::vector<Strip> all = strips(amplitudes, residual);
   decide(all);

@@ -3,13 +3,13 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <stdexcept>
 #include <utility>
 
 #include "core/closure/observation/residual_rotation.h"
 #include "core/geometry/gyro_start.h"
+#include "core/types/constants.h"
 
 namespace core::closure {
 namespace {
@@ -24,7 +24,6 @@ using Eigen::Vector3d;
 
 constexpr int kStartRounds = 12, kRounds = 60;
 constexpr double kOutlier_sigmas = 5.0, kFocalPerWidth = 0.75;
-constexpr double kDegree = 180.0 / std::numbers::pi;
 
 }  // namespace
 
@@ -219,9 +218,9 @@ std::vector<ParameterValue> GyroRotationLevel::parameters(std::size_t adopted) c
     return p;
   };
   if (adopted_.at(adopted) == Effect::kReadout) return {value("readout", "ms", core::kReadout, 1e3)};
-  return {value("clock offset", "ms", core::kOffset, 1e3), value("gyro bias x", "deg/s", core::kBias, kDegree),
-          value("gyro bias y", "deg/s", core::kBias + 1, kDegree),
-          value("gyro bias z", "deg/s", core::kBias + 2, kDegree)};
+  return {value("clock offset", "ms", core::kOffset, 1e3), value("gyro bias x", "deg/s", core::kBias, kDegPerRad),
+          value("gyro bias y", "deg/s", core::kBias + 1, kDegPerRad),
+          value("gyro bias z", "deg/s", core::kBias + 2, kDegPerRad)};
 }
 
 double GyroRotationLevel::residual_rotation_deg() const {
@@ -247,7 +246,7 @@ double GyroRotationLevel::residual_rotation_deg() const {
   double squares = 0.0;
   for (const ResidualRotation& one : rotations)
     squares += (one.rotation - mean).dot(one.information * (one.rotation - mean));
-  return kDegree * std::sqrt(squares / (information.trace() / 3.0));
+  return kDegPerRad * std::sqrt(squares / (information.trace() / 3.0));
 }
 
 std::string GyroRotationLevel::describe_residual() const {

@@ -83,7 +83,6 @@ Eigen::VectorXd leading_pattern(const Eigen::MatrixXd& moments) {
 }
 
 PatternBeside pattern_beside(const PointMotionModel& model, const Eigen::VectorXd& whitened) {
-  constexpr double kLeastBeside = 1e-3;  // of a pattern's norm that must lie outside the model's columns
   const auto beside = [&](const Eigen::MatrixXd& q) -> Eigen::VectorXd {
     Eigen::VectorXd g = whitened - q * (q.transpose() * whitened);
     if (!(g.norm() > kLeastBeside * whitened.norm())) return Eigen::VectorXd::Zero(whitened.size());

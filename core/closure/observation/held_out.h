@@ -8,6 +8,8 @@
 
 namespace core::closure {
 
+inline constexpr double kLeastBeside = 1e-3;  // of a pattern's norm that must lie outside the model's columns
+
 // Second moments of a residual, from which all scores of patterns are computed.
 struct ResidualMoments {
   Eigen::MatrixXd all_sum;

@@ -5,7 +5,7 @@
 namespace core::closure {
 namespace {
 
-constexpr double kLeastFreedom = 1e-4;  // smallest determinant of I - H_jj: below, nothing else predicts point j
+constexpr double kLeastDeterminant = 1e-4;  // smallest determinant of I - H_jj: below, nothing else predicts point j
 
 // (I - H)^-1. With an added column, H may reach the limit although H without it did not.
 Eigen::Matrix2d gain(const Eigen::Matrix2d& hat) {
@@ -19,7 +19,7 @@ Eigen::Matrix2d gain(const Eigen::Matrix2d& hat) {
 LeaveOnePointOut::LeaveOnePointOut(const Eigen::MatrixXd& q) {
   for (Eigen::Index j = 0; j < q.rows() / 2; ++j) {
     const Eigen::Matrix2d hat = q.middleRows(2 * j, 2) * q.middleRows(2 * j, 2).transpose();
-    const bool counted = (Eigen::Matrix2d::Identity() - hat).determinant() > kLeastFreedom;
+    const bool counted = (Eigen::Matrix2d::Identity() - hat).determinant() > kLeastDeterminant;
     hat_.push_back(hat);
     counted_.push_back(counted ? 1 : 0);
     if (!counted) {

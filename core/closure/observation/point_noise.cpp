@@ -12,11 +12,11 @@
 namespace core::closure {
 namespace {
 
-constexpr double kLeastFreedom = 0.05;         // of a point's variance that must be left to it
+constexpr double kLeastShareLeft = 0.05;       // of a point's variance that must be left to it
 constexpr double kLeast = 0.2, kMost = 5.0;    // of the variance that the point's own residual shows
 constexpr double kMedian = std::numbers::ln2;  // of an exponential distribution of mean 1
 
-double median(std::vector<double>& values) {
+double upper_median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -36,7 +36,7 @@ Eigen::VectorXd levels(const Eigen::MatrixXd& residual, double rate_hz, double f
     fft.forward(series, bins);
     power.clear();
     for (int b = first; b < last; ++b) power.push_back(std::norm(bins[static_cast<std::size_t>(b)]));
-    out(i) = median(power) / kMedian / static_cast<double>(residual.cols());
+    out(i) = upper_median(power) / kMedian / static_cast<double>(residual.cols());
   }
   return out;
 }
@@ -61,7 +61,7 @@ Eigen::VectorXd point_noise(const Eigen::MatrixXd& residual, const Eigen::Matrix
   for (Eigen::Index j = 0; j < n; ++j) left(j) = of_rows.segment<2>(2 * j).mean();
   Eigen::MatrixXd shares = passed_on(q);
   for (Eigen::Index j = 0; j < n; ++j) {
-    if (shares(j, j) > kLeastFreedom) continue;
+    if (shares(j, j) > kLeastShareLeft) continue;
     shares.row(j).setZero();
     shares(j, j) = left(j) = 1.0;
   }

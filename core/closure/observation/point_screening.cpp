@@ -3,15 +3,14 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/linear/median.h"
+#include "core/types/constants.h"
 
 namespace core::closure {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLeastFreedom = 0.05;  // smallest 1 - leverage
 constexpr int kSpare = 2;               // points that a fit needs beyond its unknowns along each axis
 constexpr double kLarge = 0.4;          // extent / image height: in larger regions a readout makes motion quadratic

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "core/types/constants.h"
 
 namespace core::closure {
 namespace {
@@ -14,7 +15,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kWidestStep = 1.75;  // in steps of the grid: larger distances are gaps
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // Lagrange polynomial through the four uneven nodes around `at`; next to a gap or end a line through two.
 double through(const VectorXd& time_s, const Eigen::Ref<const VectorXd>& value, Index below, double at) {
@@ -49,8 +49,8 @@ ChannelRecord on_even_grid(const ChannelRecord& record, const VectorXd& time_s, 
   const Index n_old = record.n_samples();
   if (n_old < 2) return out;
   const Index n = static_cast<Index>(std::floor((time_s(n_old - 1) - time_s(0)) * record.rate_hz + 1e-9)) + 1;
-  out.value.setConstant(n, record.value.cols(), kNaN);
-  out.input.setConstant(n, record.input.cols(), kNaN);
+  out.value.setConstant(n, record.value.cols(), kNan);
+  out.input.setConstant(n, record.input.cols(), kNan);
   Index below = 0;
   for (Index k = 0; k < n; ++k) {
     const double at = time_s(0) + static_cast<double>(k) / record.rate_hz;

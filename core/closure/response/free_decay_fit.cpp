@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "core/types/constants.h"
 
 namespace core::closure {
 namespace {
@@ -13,7 +14,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Complex = FreeDecayFit::Complex;
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr int kSubsteps = 6;  // per sample, midpoint rule
 constexpr double kLeastX = -4.0, kMostX = 3.0, kStep = 1e-5, kSettled = 1e-7;
 constexpr double kReferenceShare = 0.15;  // of the largest displacement

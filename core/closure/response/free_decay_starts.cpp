@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "core/closure/response/free_decay_fit.h"
+#include "core/types/constants.h"
 
 namespace core::closure {
 namespace {
@@ -17,7 +17,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Complex = FreeDecayFit::Complex;
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr int kFrequencies = 120, kPhases = 16;
 
 // Residual of `data` after a fit of a constant and a decaying sine of any amplitude and phase per channel.

@@ -11,6 +11,7 @@
 #include "core/closure/response/jackknife.h"
 #include "core/closure/response/logger_phases.h"
 #include "core/closure/structure_words.h"
+#include "core/types/constants.h"
 
 namespace core::closure {
 namespace {
@@ -20,7 +21,6 @@ using Eigen::Index;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi, kDegrees = 180.0 / std::numbers::pi;
 constexpr double kReachSamples = 6.0, kStepSamples = 0.1;  // range and step of the fine search about the coarse offset
 constexpr const char* kOffset = "clock_offset";
 constexpr const char* kRate = "clock_rate";
@@ -162,11 +162,11 @@ ResponseFit LoggerModel::fit(const std::vector<std::string>& effects) const {
       without[part][i] = find(i, effects, static_cast<int>(part));
       squares += residual(i, part, whole[i]).squaredNorm();
       n += weight_[i][part].sum();
-      out.fold_squares[part] += std::pow(kDegrees, 2) * residual(i, part, without[part][i]).squaredNorm();
+      out.fold_squares[part] += std::pow(kDegPerRad, 2) * residual(i, part, without[part][i]).squaredNorm();
     }
   }
   n = std::max(n, 1.0);
-  out.residual_rms = kDegrees * std::sqrt(squares / n);
+  out.residual_rms = kDegPerRad * std::sqrt(squares / n);
   out.heldout_rms = std::sqrt(out.heldout_squares() / n);
   out.noise_variance = std::max(out.residual_rms * out.residual_rms, 1e-12);
   out.noise_floor = 0.0;

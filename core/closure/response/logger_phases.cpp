@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numbers>
 #include <stdexcept>
 
 #include "core/linear/median.h"
 #include "core/spectrum/real_fft.h"
+#include "core/types/constants.h"
 
 namespace core::closure {
 namespace {
@@ -17,7 +17,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using Spectrum = std::vector<Complex>;
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi, kShortest_s = 5.0, kHighShare = 0.2;
+constexpr double kShortest_s = 5.0, kHighShare = 0.2;
 constexpr std::size_t kFewest = 256;
 
 [[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("loggers: " + what); }

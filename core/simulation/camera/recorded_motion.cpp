@@ -4,16 +4,15 @@
 #include <cmath>
 #include <complex>
 #include <cstdio>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
 #include "core/spectrum/real_fft.h"
+#include "core/types/constants.h"
 
 namespace core::simulation {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kGravity_m_s2 = 9.80665;
 constexpr double kMmPerM = 1e3;
 constexpr double kFade_s = 1.0;

@@ -10,13 +10,13 @@
 #include "core/simulation/random_stream.h"
 #include "core/simulation/structure/changing_stiffness.h"
 #include "core/simulation/structure/modal_form.h"
+#include "core/types/constants.h"
 
 namespace core::simulation {
 namespace {
 
 using Complex = std::complex<double>;
 using Spectrum = std::vector<Complex>;
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
 constexpr double kTimeConstants = 12.0;
 constexpr double kShortestScaling_s = 10.0;  // in a shorter clip the rms depends on the phase more than on the level
 

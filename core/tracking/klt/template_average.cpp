@@ -16,8 +16,8 @@ constexpr int kTapsBefore = kSplineBefore + kMargin;
 
 // Filter from samples to the spline's value at a fraction: prefilter and weights combined.
 std::array<double, kTaps> taps_at(double fraction) noexcept {
-  constexpr auto kPrefilter = spline_prefilter<kMargin>();
-  return joined(kPrefilter, spline_weights(fraction));
+  constexpr auto kWidePrefilter = spline_prefilter<kMargin>();
+  return joined(kWidePrefilter, spline_weights(fraction));
 }
 
 double mean_of_window(const Patch& patch, int radius) noexcept {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/types/constants.h"
 #include "drivers/camera/recording/clip_telemetry.h"
 #include "drivers/camera/recording/time_fit.h"
 
@@ -9,6 +9,7 @@ namespace drivers {
 
 namespace {
 
+using core::kRadPerDeg;
 constexpr double kFinestTick_s = 1e-3;  // a coarser clock does not determine frame times
 
 // One block per frame: by frame numbers, or by cues shorter than a quarter of a second.
@@ -54,7 +55,6 @@ void describe_frames(const SrtFile& file, ClipTelemetry& out) {
 }  // namespace
 
 ClipTelemetry telemetry_of(const SrtFile& file, const std::string& name) {
-  constexpr double kRadPerDeg = std::numbers::pi / 180.0;
   ClipTelemetry out;
   out.from = name;
   out.tick_s = file.clock_tick_s;

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "drivers/camera/recording/ascii.h"
 #include "drivers/camera/recording/gray_convert.h"
 #include "drivers/images/image_reader.h"
 
@@ -19,8 +20,6 @@ namespace drivers {
 namespace fs = std::filesystem;
 
 namespace {
-
-bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
 
 // The run of digits at `at`, without leading zeros; moves `at` past it.
 std::string_view take_number(const std::string& text, std::size_t& at) noexcept {

@@ -49,7 +49,7 @@ bool explains(const Cadence& cadence, std::span<const double> changes, std::span
 
 // A repeated picture needs few bytes where frames are predicted, and exactly as many as before where they are not.
 bool sizes_hint_at_repeats(const std::vector<std::uint32_t>& bytes) {
-  constexpr std::size_t kFewest = 4;
+  constexpr std::size_t kFewestSigns = 4;
   std::size_t n_small = 0, n_same = 0;
   const std::size_t n = std::min(bytes.size(), kProbeFrames);
   for (std::size_t k = 2; k + 2 < n; ++k) {
@@ -58,7 +58,7 @@ bool sizes_hint_at_repeats(const std::vector<std::uint32_t>& bytes) {
     if (bytes[k] < 0.5 * quantile(around, 0.5)) ++n_small;
     if (bytes[k] == bytes[k - 1]) ++n_same;
   }
-  return n_small >= kFewest || n_same >= kFewest;
+  return n_small >= kFewestSigns || n_same >= kFewestSigns;
 }
 
 // Two periods of the longest cadence: in so many frames each cadence has two repeats, and differs from any other.

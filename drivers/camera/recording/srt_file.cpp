@@ -10,6 +10,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "drivers/camera/recording/ascii.h"
+
 namespace drivers {
 
 namespace fs = std::filesystem;
@@ -17,10 +19,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMostBlocks = 1'000'000;
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{512} << 20;
+constexpr std::uintmax_t kMostSrtBytes = std::uintmax_t{512} << 20;
 
-bool is_digit(char c) noexcept { return c >= '0' && c <= '9'; }
-bool is_letter(char c) noexcept { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool is_word(char c) noexcept { return is_letter(c) || c == '_'; }
 
 std::string_view trimmed(std::string_view text) {
   const auto begin = text.find_first_not_of(" \t\r");
@@ -47,8 +48,8 @@ void skip(std::string_view& text, std::string_view any_of) {
 std::optional<std::string_view> after_key(std::string_view text, std::string_view key) {
   for (std::size_t at = text.find(key); at != std::string_view::npos; at = text.find(key, at + 1)) {
     const std::size_t end = at + key.size();
-    if (at > 0 && (is_letter(text[at - 1]) || is_digit(text[at - 1]) || text[at - 1] == '.')) continue;
-    if (end < text.size() && is_letter(text[end])) continue;
+    if (at > 0 && (is_word(text[at - 1]) || is_digit(text[at - 1]) || text[at - 1] == '.')) continue;
+    if (end < text.size() && is_word(text[end])) continue;
     std::string_view rest = text.substr(end);
     skip(rest, " :=(");
     return rest;
@@ -244,7 +245,7 @@ SrtFile read_srt(const std::string& path) {
   const std::uintmax_t n_bytes = fs::file_size(path, error);
   std::ifstream in(path, std::ios::binary);
   if (error || !in) throw std::runtime_error(fmt::format("{}: cannot be read: check its permissions", path));
-  if (n_bytes > kMostBytes) throw std::runtime_error(fmt::format("{}: {} bytes are too many", path, n_bytes));
+  if (n_bytes > kMostSrtBytes) throw std::runtime_error(fmt::format("{}: {} bytes are too many", path, n_bytes));
   std::string text(static_cast<std::size_t>(n_bytes), '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));

@@ -107,4 +107,10 @@ void build_structure(SceneFile& file);
 void make_plates(SceneFile& file);
 void load_flight(SceneFile& file, const std::string& folder);
 
+// A member of a section of the scene.
+template <auto section, auto member>
+auto& of(SceneFile& file, std::size_t) {
+  return file.scene.*section.*member;
+}
+
 }  // namespace drivers

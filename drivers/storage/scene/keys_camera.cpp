@@ -1,14 +1,14 @@
 #include "drivers/storage/scene/key.h"
 
-#include <numbers>
+#include "core/types/constants.h"
 
 namespace drivers {
 namespace {
 
+using core::kDegPerRad;
 using core::simulation::Scene;
 using C = core::simulation::CameraParameters;
 using Lens = core::simulation::LensParameters;
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 template <auto member>
 auto& camera(SceneFile& file, std::size_t) {
@@ -76,9 +76,9 @@ void add_camera_keys(std::vector<SceneKey>& keys) {
   add_sensor_keys(keys);
   keys.push_back(scene_tuple("camera.position_mm", "mm", {camera<&C::x_mm>, camera<&C::y_mm>, camera<&C::z_mm>}, 3,
                              {-1e7, 1e7}, "mean position [right, down, ahead]"));
-  keys.push_back(
-      scene_tuple("camera.attitude_deg", "degrees", {camera<&C::pitch_rad>, camera<&C::yaw_rad>, camera<&C::roll_rad>},
-                  3, {-180.0, 180.0, kDegrees}, "mean attitude [pitch, yaw, roll], in this order; 0 = straight ahead"));
+  keys.push_back(scene_tuple(
+      "camera.attitude_deg", "degrees", {camera<&C::pitch_rad>, camera<&C::yaw_rad>, camera<&C::roll_rad>}, 3,
+      {-180.0, 180.0, kDegPerRad}, "mean attitude [pitch, yaw, roll], in this order; 0 = straight ahead"));
 }
 
 }  // namespace drivers

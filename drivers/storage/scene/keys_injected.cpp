@@ -1,14 +1,15 @@
 // Effects of real records that are not derived from a model of core/closure (core/simulation/injected).
-#include <numbers>
 
 #include "drivers/storage/scene/key.h"
+
+#include "core/types/constants.h"
 
 namespace drivers {
 namespace {
 
+using core::kDegPerRad;
 using core::simulation::Scene;
 using Tails = core::simulation::TailedHoverParameters;
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 // The three numbers of an array in a section of the scene.
 template <auto section, auto member>
@@ -27,7 +28,7 @@ void add_tailed_hover_keys(std::vector<SceneKey>& keys) {
                              "of each: density 1 / (1 + (f / corner)^order) up to 100 Hz"));
   keys.push_back(
       scene_tuple("tailed_hover.order", "", three<s, &Tails::order>(), 3, {2.0, 24.0}, "how steeply each falls off"));
-  keys.push_back(scene_tuple("tailed_hover.rms_deg", "degrees", three<s, &Tails::rms_rad>(), 3, {0.0, 5.7, kDegrees},
+  keys.push_back(scene_tuple("tailed_hover.rms_deg", "degrees", three<s, &Tails::rms_rad>(), 3, {0.0, 5.7, kDegPerRad},
                              "rotation likewise: [pitch, yaw, roll]"));
   keys.push_back(scene_tuple("tailed_hover.turn_corner_hz", "Hz", three<s, &Tails::turn_corner_hz>(), 3, {0.001, 50.0},
                              "corner of each rotation"));
@@ -39,11 +40,6 @@ using V = core::simulation::VibrationParameters;
 using St = core::simulation::StabiliserParameters;
 using Br = core::simulation::BreathingParameters;
 using Sh = core::simulation::ShimmerParameters;
-
-template <auto section, auto member>
-auto& of(SceneFile& file, std::size_t) {
-  return file.scene.*section.*member;
-}
 
 template <auto section, auto member>
 std::vector<SceneField<double>> two() {
@@ -60,7 +56,7 @@ void add_camera_effect_keys(std::vector<SceneKey>& keys) {
   keys.push_back(scene_number("vibration.width_hz", "Hz", of<v, &V::width_hz>, {0.001, 50.0},
                               "density exp(-((f - centre) / width)^2 / 2)"));
   keys.push_back(scene_tuple("vibration.rms_mdeg", "1/1000 degree", three<v, &V::rms_rad>(), 3,
-                             {0.0, 570.0, 1e3 * kDegrees}, "[pitch, yaw, roll]; half of each is common to all"));
+                             {0.0, 570.0, 1e3 * kDegPerRad}, "[pitch, yaw, roll]; half of each is common to all"));
   keys.push_back(scene_tuple("vibration.rms_mm", "mm", three<v, &V::rms_mm>(), 3, {0.0, 100.0},
                              "[right, down, ahead] in the same band"));
   constexpr auto s = &Scene::stabiliser;
@@ -110,12 +106,12 @@ void add_own_motion_keys(std::vector<SceneKey>& keys) {
                               "the part to the right of this share of its width"));
   add_oscillator<f>(keys, "flap");
   keys.push_back(scene_number("rocking.rms_deg", "degrees",
-                              of<&Scene::rocking, &core::simulation::RockingParameters::rms_rad>, {0.0, 5.7, kDegrees},
-                              "the whole structure turns about the middle of its base"));
+                              of<&Scene::rocking, &core::simulation::RockingParameters::rms_rad>,
+                              {0.0, 5.7, kDegPerRad}, "the whole structure turns about the middle of its base"));
   add_oscillator<&Scene::rocking>(keys, "rocking");
-  keys.push_back(scene_number("torsion.rms_deg", "degrees",
-                              of<&Scene::torsion, &core::simulation::TorsionParameters::rms_rad>, {0.0, 5.7, kDegrees},
-                              "the last body turns about its upright axis, those below less; tracks only"));
+  keys.push_back(scene_number(
+      "torsion.rms_deg", "degrees", of<&Scene::torsion, &core::simulation::TorsionParameters::rms_rad>,
+      {0.0, 5.7, kDegPerRad}, "the last body turns about its upright axis, those below less; tracks only"));
   add_oscillator<&Scene::torsion>(keys, "torsion");
   keys.push_back(scene_number("sway.rms_mm", "mm", of<&Scene::sway, &core::simulation::SwayParameters::rms_mm>,
                               {0.0, 1e4}, "the background moves to the side"));

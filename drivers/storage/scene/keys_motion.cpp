@@ -1,11 +1,12 @@
-#include <numbers>
 #include <utility>
 
+#include "core/types/constants.h"
 #include "drivers/storage/scene/key.h"
 
 namespace drivers {
 namespace {
 
+using core::kDegPerRad;
 using core::simulation::Scene;
 using H = core::simulation::HoverParameters;
 using R = core::simulation::RotorParameters;
@@ -16,12 +17,7 @@ using T = core::simulation::TrackParameters;
 using Ch = core::simulation::ChannelParameters;
 using F = SceneFlight;
 using D = SceneDeclaration;
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-template <auto section, auto member>
-auto& of(SceneFile& file, std::size_t) {
-  return file.scene.*section.*member;
-}
 template <auto member>
 auto& flight(SceneFile& file, std::size_t) {
   return file.flight.*member;
@@ -36,11 +32,11 @@ void add_hover_keys(std::vector<SceneKey>& keys) {
   keys.push_back(scene_number("hover.x_rms_mm", "mm", of<s, &H::x_rms_mm>, {0.0, 1e5}, "drift to the side"));
   keys.push_back(scene_number("hover.y_rms_mm", "mm", of<s, &H::y_rms_mm>, {0.0, 1e5}, "drift up and down"));
   keys.push_back(scene_number("hover.z_rms_mm", "mm", of<s, &H::z_rms_mm>, {0.0, 1e5}, "drift to and fro"));
-  keys.push_back(scene_number("hover.pitch_rms_deg", "degrees", of<s, &H::pitch_rms_rad>, {0.0, 5.7, kDegrees},
+  keys.push_back(scene_number("hover.pitch_rms_deg", "degrees", of<s, &H::pitch_rms_rad>, {0.0, 5.7, kDegPerRad},
                               "rotation about the horizontal axis"));
-  keys.push_back(scene_number("hover.yaw_rms_deg", "degrees", of<s, &H::yaw_rms_rad>, {0.0, 5.7, kDegrees},
+  keys.push_back(scene_number("hover.yaw_rms_deg", "degrees", of<s, &H::yaw_rms_rad>, {0.0, 5.7, kDegPerRad},
                               "rotation about the vertical axis"));
-  keys.push_back(scene_number("hover.roll_rms_deg", "degrees", of<s, &H::roll_rms_rad>, {0.0, 5.7, kDegrees},
+  keys.push_back(scene_number("hover.roll_rms_deg", "degrees", of<s, &H::roll_rms_rad>, {0.0, 5.7, kDegPerRad},
                               "rotation about the line of sight"));
   keys.push_back(
       scene_number("hover.zoom_rms", "", of<s, &H::zoom_rms>, {0.0, 0.05}, "breathing of the focal length, relative"));
@@ -80,7 +76,8 @@ void add_rotor_keys(std::vector<SceneKey>& keys) {
                                                                {"rotor.yaw_rms_mdeg", of<s, &R::yaw_rms_rad>},
                                                                {"rotor.roll_rms_mdeg", of<s, &R::roll_rms_rad>}};
   for (const auto& [name, field] : angles) {
-    keys.push_back(scene_number(name, "1/1000 degree", field, {0.0, 570.0, 1e3 * kDegrees}, "vibration of the camera"));
+    keys.push_back(
+        scene_number(name, "1/1000 degree", field, {0.0, 570.0, 1e3 * kDegPerRad}, "vibration of the camera"));
   }
 }
 

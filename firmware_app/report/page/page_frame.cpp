@@ -16,7 +16,7 @@ namespace {
 constexpr double kLongSidePx = 1280.0;
 constexpr std::size_t kMaxBytes = 260'000;  // base64 adds a third
 constexpr int kJpegQuality = 78;
-constexpr std::size_t kMaxNameCharacters = 22;
+constexpr std::size_t kMaxRegionCharacters = 22;
 constexpr double kLabelHeightPx = 17.0;
 
 std::string jpeg_at(const core::Frame& frame, double scale) {
@@ -69,7 +69,7 @@ class FrameOverlay {
 
   // Placed beside the rectangle where there is room: right, left, above, below. A name must not cover another region.
   void draw_name(const core::Region& region, const Box& around) {
-    const std::string name = shortened(region.name, kMaxNameCharacters);
+    const std::string name = shortened(region.name, kMaxRegionCharacters);
     const double width = text_width_px(name, kTextPx) + 8.0, h = kLabelHeightPx;
     const double middle = around.y + (around.height - h) / 2.0;
     const Box places[] = {{around.right() + 3.0, middle, width, h},

@@ -12,11 +12,11 @@
 namespace app {
 namespace {
 
-constexpr double kCardPx = 316.0;              // a phone's width: one drawing serves every page
-constexpr double kSwingPx = 17.0;              // displacement of the largest component in the picture
-constexpr double kAirShare = 0.08;             // margin at both ends, as a share of the structure's length
-constexpr std::size_t kMaxNameCharacters = 9;  // room between picture and plot
-constexpr std::size_t kMaxPatches = 40;        // moving parts of the frame; further regions are outlines only
+constexpr double kCardPx = 316.0;                 // a phone's width: one drawing serves every page
+constexpr double kSwingPx = 17.0;                 // displacement of the largest component in the picture
+constexpr double kAirShare = 0.08;                // margin at both ends, as a share of the structure's length
+constexpr std::size_t kMaxPictureCharacters = 9;  // room between picture and plot
+constexpr std::size_t kMaxPatches = 40;           // moving parts of the frame; further regions are outlines only
 
 // Motion of one region in the picture, in pixels of the page: real and imaginary part, and the real part's sigma.
 struct Motion {
@@ -181,7 +181,7 @@ std::string mode_svg(const PictureInputs& inputs, const core::Mode& mode) {
   ModeLayout layout = mode_layout(inputs);
   if (!layout.in_image) return card_without_image(mode, layout);
   for (auto& line : layout.lines) {
-    for (ModePlace& place : line) place.name = shortened_inside(place.name, kMaxNameCharacters);
+    for (ModePlace& place : line) place.name = shortened_inside(place.name, kMaxPictureCharacters);
   }
   const Crop crop = crop_of(inputs, layout);
   const double height = layout.upright ? crop.panel.height : crop.panel.height + 14.0 + 120.0;

@@ -16,7 +16,7 @@ namespace app {
 namespace {
 
 constexpr int kMaxDecades = 10;
-constexpr std::size_t kMaxNameCharacters = 18;
+constexpr std::size_t kMaxLegendCharacters = 18;
 
 struct Curve {
   std::vector<PlotPoint> points;
@@ -39,7 +39,7 @@ std::vector<Curve> curves_of(const PictureInputs& inputs, const PictureFormat& f
 std::string name_of(const PictureInputs& inputs, int channel) {
   const auto i = static_cast<std::size_t>(channel);
   const std::string name = i < inputs.channels.size() ? inputs.channels[i].name : fmt::format("channel {}", i);
-  return shortened(name, kMaxNameCharacters);
+  return shortened(name, kMaxLegendCharacters);
 }
 
 std::size_t n_rejected(const PictureInputs& inputs, core::Verdict verdict) {

@@ -9,7 +9,7 @@ namespace app {
 namespace {
 
 constexpr double kBelowPx = 46.0;  // tick labels and the axis label
-constexpr std::size_t kMaxNameCharacters = 20;
+constexpr std::size_t kMaxLaneCharacters = 20;
 constexpr double kHeadingPx = 18.0;  // on the page a lane's name is written above it
 
 class LanePicture {
@@ -48,7 +48,7 @@ class LanePicture {
 
  private:
   [[nodiscard]] bool tall() const noexcept { return step_px_ >= 40.0; }
-  [[nodiscard]] static std::string name_of(const Lane& lane) { return shortened(lane.name, kMaxNameCharacters); }
+  [[nodiscard]] static std::string name_of(const Lane& lane) { return shortened(lane.name, kMaxLaneCharacters); }
 
   [[nodiscard]] PlotAxis axis_of(const Lane& lane) const {
     if (text_.range) return *text_.range;
@@ -74,7 +74,7 @@ class LanePicture {
   void draw_heading(SvgDocument& svg, const Lane& lane, const Box& box) const {
     const double room_px = box.width - text_width_px(lane.remark, kSmallTextPx) - 8.0;
     const auto most = static_cast<std::size_t>(std::max(4.0, room_px / (0.62 * kTextPx)));
-    svg.text(box.x, box.y - 5.0, shortened(lane.name, std::min(most, 3 * kMaxNameCharacters)), Anchor::kStart, "t e");
+    svg.text(box.x, box.y - 5.0, shortened(lane.name, std::min(most, 3 * kMaxLaneCharacters)), Anchor::kStart, "t e");
     svg.text(box.right(), box.y - 5.0, lane.remark, Anchor::kEnd, "s q");
   }
 

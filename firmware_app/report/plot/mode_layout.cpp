@@ -8,7 +8,7 @@
 namespace app {
 namespace {
 
-constexpr std::size_t kMaxNameCharacters = 16;
+constexpr std::size_t kMaxCaptionCharacters = 16;
 
 ModePlace place_of(const PictureInputs& inputs, std::size_t i) {
   const core::ChannelInfo& channel = inputs.channels[i];
@@ -23,7 +23,7 @@ ModePlace place_of(const PictureInputs& inputs, std::size_t i) {
     out.u_px = region.u_px + region.width_px / 2.0, out.v_px = region.v_px + region.height_px / 2.0;
     if (region.both_axes) out.name = region.name;
   }
-  out.name = shortened(out.name, kMaxNameCharacters);
+  out.name = shortened(out.name, kMaxCaptionCharacters);
   return out;
 }
 

@@ -7,7 +7,7 @@
 namespace core::closure {
 namespace {
 
-constexpr double kLeastReadout_frames = 0.2;
+constexpr double kLeastVibrationReadout_frames = 0.2;
 
 // Camera rotation in a frequency band, e.g. gimbal resonance or airframe vibration. At alias order 0 only roll is
 // observable: the constant parts of pitch and yaw are translations, which are free in each frame.
@@ -19,7 +19,7 @@ class CameraVibration final : public LineEffect {
   // The patterns are complete if the readout gives rows different phases; otherwise their constant parts are left out,
   // because a translation absorbs them.
   [[nodiscard]] Eigen::MatrixXd patterns(const PointGeometry& geometry, double readout_frames) const override {
-    return rotation_patterns(geometry, std::abs(readout_frames) >= kLeastReadout_frames);
+    return rotation_patterns(geometry, std::abs(readout_frames) >= kLeastVibrationReadout_frames);
   }
 };
 

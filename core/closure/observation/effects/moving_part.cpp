@@ -13,7 +13,7 @@
 namespace core::closure {
 namespace {
 
-constexpr std::size_t kLeastPoints = 2;  // on either side of the division
+constexpr std::size_t kLeastOnSide = 2;  // on either side of the division
 constexpr int kRounds = 2;
 
 using Points = std::vector<Eigen::Index>;
@@ -26,10 +26,10 @@ std::vector<char> divided(const Eigen::VectorXd& values) {
   std::sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return values(a) < values(b); });
   const double mean = values.mean();
   double below = 0.0, most = -1.0;
-  std::size_t at = kLeastPoints;
+  std::size_t at = kLeastOnSide;
   for (std::size_t n = 1; n < order.size(); ++n) {
     below += values(order[n - 1]) - mean;
-    if (n < kLeastPoints || order.size() - n < kLeastPoints) continue;
+    if (n < kLeastOnSide || order.size() - n < kLeastOnSide) continue;
     const double between = below * below * (1.0 / static_cast<double>(n) + 1.0 / static_cast<double>(order.size() - n));
     if (between > most) most = between, at = n;
   }
@@ -84,7 +84,7 @@ class MovingPartCandidate final : public EffectCandidate {
   }
   [[nodiscard]] Part learned(const Points& points, Eigen::Index axis, const ResidualMoments& moments) const {
     Part out;
-    if (points.size() < 2 * kLeastPoints) return out;
+    if (points.size() < 2 * kLeastOnSide) return out;
     Points rows;
     for (const Eigen::Index j : points) rows.push_back(2 * j + axis);
     RungSet band = kAllRungs;

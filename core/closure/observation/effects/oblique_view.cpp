@@ -1,13 +1,11 @@
 #include <Eigen/Geometry>
-#include <numbers>
 
 #include "core/closure/observation/effects/catalogue.h"
 #include "core/closure/observation/kinds/constant_effect.h"
+#include "core/types/constants.h"
 
 namespace core::closure {
 namespace {
-
-constexpr double kDegree = 180.0 / std::numbers::pi;
 
 // The camera does not look along the normal of the structure's plane: turned back by these angles, its image is that of
 // a camera that does, and all motions of the model hold in it exactly. Observable where the camera or the structure
@@ -24,8 +22,8 @@ class ObliqueView final : public PositionEffect {
   [[nodiscard]] CorrectionStage stage() const override { return CorrectionStage::kPose; }
   void remove(const Eigen::VectorXd& values, const CorrectionView& view, Eigen::MatrixXd& positions) const override {
     const ObservationRecord& record = view.record;
-    const Eigen::Matrix3d back = (Eigen::AngleAxisd(values(0) / kDegree, Eigen::Vector3d::UnitX()) *
-                                  Eigen::AngleAxisd(values(1) / kDegree, Eigen::Vector3d::UnitY()))
+    const Eigen::Matrix3d back = (Eigen::AngleAxisd(values(0) / kDegPerRad, Eigen::Vector3d::UnitX()) *
+                                  Eigen::AngleAxisd(values(1) / kDegPerRad, Eigen::Vector3d::UnitY()))
                                      .toRotationMatrix();
     const Eigen::Vector2d centre(record.cx_px, record.cy_px);
     for (Eigen::Index k = 0; k < positions.cols(); ++k) {

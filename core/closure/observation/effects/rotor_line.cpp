@@ -7,7 +7,7 @@
 namespace core::closure {
 namespace {
 
-constexpr double kLeastReadout_frames = 0.2;
+constexpr double kLeastRotorReadout_frames = 0.2;
 
 // Camera rotation caused by the rotors.
 class RotorLine final : public LineEffect {
@@ -18,7 +18,7 @@ class RotorLine final : public LineEffect {
   // The patterns are complete if the readout gives rows different phases; otherwise their constant parts are left out,
   // because a translation absorbs them.
   [[nodiscard]] Eigen::MatrixXd patterns(const PointGeometry& geometry, double readout_frames) const override {
-    return rotation_patterns(geometry, std::abs(readout_frames) >= kLeastReadout_frames);
+    return rotation_patterns(geometry, std::abs(readout_frames) >= kLeastRotorReadout_frames);
   }
 };
 

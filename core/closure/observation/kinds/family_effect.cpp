@@ -11,8 +11,7 @@
 namespace core::closure {
 namespace {
 
-constexpr double kLeastBeside = 1e-3;  // of the fields that must lie outside the model's columns
-constexpr int kRounds = 2;             // pattern, band, pattern, band
+constexpr int kRounds = 2;  // pattern, band, pattern, band
 
 class FamilyCandidate final : public EffectCandidate {
  public:

@@ -2,10 +2,10 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "core/closure/observation/kinds/materiality.h"
 #include "core/closure/observation/line_search.h"
+#include "core/types/constants.h"
 
 namespace core::closure {
 namespace {
@@ -47,12 +47,11 @@ class LineInModel final : public EffectInModel {
 
  private:
   [[nodiscard]] std::vector<ParameterValue> band_parameters(double true_hz) const {
-    constexpr double kDegree = 180.0 / std::numbers::pi;
     std::vector<ParameterValue> out{{"frequency", "Hz", true_hz, hz_.sigma_hz},
                                     {"half width", "Hz", line_.spread_hz, std::nullopt}};
     constexpr std::array kNames{"roll rms", "pitch rms", "yaw rms"};
     for (std::size_t axis = 0; axis < kNames.size(); ++axis)
-      out.push_back({kNames[axis], "deg", kDegree * angles_.rms[axis], kDegree * angles_.sigma[axis]});
+      out.push_back({kNames[axis], "deg", kDegPerRad * angles_.rms[axis], kDegPerRad * angles_.sigma[axis]});
     return out;
   }
 

@@ -10,8 +10,6 @@
 namespace core::closure {
 namespace {
 
-constexpr double kLeastBeside = 1e-3;  // of a pattern's norm that must lie outside the model's columns
-
 double rms(const Eigen::RowVectorXd& a) {
   return a.size() > 0 ? std::sqrt((a.array() - a.mean()).square().mean()) : 0.0;
 }
