@@ -17,7 +17,7 @@ namespace {
 constexpr double kLeastSigmaPx = 0.003;
 
 // Consecutive frames that contradict the estimated camera motion, after which it is given up.
-constexpr int kMostContradicted = 50;
+constexpr int kMostContradictedFrames = 50;
 
 std::vector<ScaleFactor::Point> scale_points(const std::vector<Region>& regions, const CameraModel& camera,
                                              const TrackFrame& keyframe) {
@@ -213,7 +213,7 @@ double ChannelDisplacement::follow_camera(std::int64_t t_start_ns) noexcept {
   if (attitude_) attitude_->after(*camera_motion_);
   // A reference region that is not static, or a view outside the model: most points contradict the motion for long.
   n_contradicted_ = 4 * count(inlier_) < count(seen_) ? n_contradicted_ + 1 : 0;
-  if (n_contradicted_ > kMostContradicted) camera_given_up_ = true;
+  if (n_contradicted_ > kMostContradictedFrames) camera_given_up_ = true;
   return camera_motion_->magnification();
 }
 

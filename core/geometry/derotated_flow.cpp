@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kDegrees = 3.0;  // of Student's t
 constexpr double kLeastShift_px = 1e-6;
-constexpr int kRounds = 40;
+constexpr int kFlowRounds = 40;
 constexpr double kSettledShare = 1e-7;  // of the cost
 
 }  // namespace
@@ -66,7 +66,7 @@ double fit_shift(std::span<const DerotatedFlow> points, const DerotatedFlowModel
                  Eigen::Vector3d& shift_px) noexcept {
   double now = cost(points, shift_px, model);
   Damping damping;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kFlowRounds; ++round) {
     Eigen::Matrix3d information = 1e-9 * Eigen::Matrix3d::Identity();
     Eigen::Vector3d slope = Eigen::Vector3d::Zero();
     for (const DerotatedFlow& point : points) {

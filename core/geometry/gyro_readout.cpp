@@ -16,7 +16,7 @@ using Eigen::Index;
 using Eigen::Vector3d;
 
 constexpr std::size_t kLeastPairs = 8, kLeastPoints = 8;
-constexpr int kRounds = 80, kStartRounds = 12;
+constexpr int kGyroReadoutRounds = 80, kStartRounds = 12;
 constexpr double kOutlier_sigmas = 5.0;
 constexpr double kFocalPerWidth = 0.75;  // initial value
 
@@ -60,7 +60,7 @@ ReadoutValue of_half(std::vector<FramePair> pairs, bool second, const std::vecto
   const double middle_s = 0.5 * (pairs.front().from_s + pairs.back().to_s);
   for (FramePair& pair : pairs) pair.held_out = pair.held_out || (pair.from_s > middle_s) != second;
   const GyroProblem problem(pairs, gyro, config);
-  (void)problem.minimise(held, kRounds, state);
+  (void)problem.minimise(held, kGyroReadoutRounds, state);
   const GyroMatrix errors = problem.covariance(state, held);
   return {state.p[kReadout], deviation(errors, kReadout)};
 }
@@ -114,10 +114,10 @@ GyroReadout fit_gyro_readout(const std::vector<FramePair>& pairs, const std::vec
     if (reached < least) least = reached, with = state;
     if (share == 0.0) without = state;
   }
-  (void)problem.minimise(held, kRounds, with);
+  (void)problem.minimise(held, kGyroReadoutRounds, with);
   without.p[kOffset] += 0.5 * without.p[kReadout];
   without.p[kReadout] = 0.0;
-  (void)problem.minimise(held_without, kRounds, without);
+  (void)problem.minimise(held_without, kGyroReadoutRounds, without);
   const GyroMatrix errors = problem.covariance(with, held);
 
   GyroReadout out;

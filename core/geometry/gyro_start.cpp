@@ -15,7 +15,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kLeastTurn_rad = 5e-4;  // rms per frame: a smaller rotation is below the tracks' noise
+constexpr double kLeastStartTurn_rad = 5e-4;  // rms per frame: a smaller rotation is below the tracks' noise
 constexpr double kOffsetStep_s = 2e-3;
 constexpr double kHandicap = 1.5;  // penalty of arbitrary axes: camera translations bias them
 
@@ -75,7 +75,7 @@ GyroStart start_from_turns(const std::vector<FramePair>& pairs, const std::vecto
                            const GyroReadoutConfig& config, double focal_px) {
   std::vector<Vector3d> seen, felt(pairs.size());
   for (const FramePair& pair : pairs) seen.push_back(image_rotation(pair, config, focal_px));
-  if (!(take_mean(seen) > kLeastTurn_rad))
+  if (!(take_mean(seen) > kLeastStartTurn_rad))
     throw std::invalid_argument("gyro readout: the camera hardly rotates: rotate it faster, about all three axes");
   const GyroAttitude attitude(gyro, Vector3d::Zero());
   const std::vector<Matrix3d> chips = aligned_axes();

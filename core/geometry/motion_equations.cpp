@@ -12,7 +12,7 @@ namespace {
 constexpr double kLeastDepth = 0.05;  // relative to the keyframe's; nearer points, or points behind, are not imaged
 constexpr double kHuberSigmas = 3.0;
 // Lower bound of a point's sigma, set by rounding and optics.
-constexpr double kLeastSigma_px = 0.003;
+constexpr double kLeastPointSigma_px = 0.003;
 
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& w) noexcept {
   Eigen::Matrix3d m;
@@ -124,7 +124,7 @@ void MotionEquations::build(const MotionStateVector& state, std::span<const Moti
     MotionRegion& region = regions[points[i].region];
     if (!project(points[i], region, seen.share[i], pose(state, seen.share[i]), row)) continue;
     row.residual = {seen.position[i].u - row.px.u, seen.position[i].v - row.px.v};
-    const double sigma_px = std::max(kLeastSigma_px, seen.sigma_px[i]);  // a NaN becomes the lower bound
+    const double sigma_px = std::max(kLeastPointSigma_px, seen.sigma_px[i]);  // a NaN becomes the lower bound
     double weight = 1.0 / (sigma_px * sigma_px);
     const double distance = std::hypot(row.residual.u, row.residual.v);
     if (!std::isfinite(distance)) continue;

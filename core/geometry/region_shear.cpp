@@ -9,7 +9,7 @@ namespace core {
 
 namespace {
 
-constexpr double kLeastSigmaPx = 0.003, kMostSigmaPx = 100.0;
+constexpr double kLeastShearSigmaPx = 0.003, kMostSigmaPx = 100.0;
 constexpr double kMostMotion_px = 1e5;
 constexpr double kLeastOwnShare = 1e-4;   // smallest share of a column that the previous columns do not explain
 constexpr double kLeastPivotShare = 0.1;  // smallest pivot relative to the keyframe's: below, too few points are seen
@@ -39,7 +39,7 @@ void RegionShear::place_columns(const Config& config, const TrackFrame& keyframe
     Point point;
     point.keyframe = places_.corrected_keyframe(camera_.undistort({seen.u_px, seen.v_px}));
     point.region = seen.region;
-    const double sigma_px = std::min(kMostSigmaPx, std::max(kLeastSigmaPx, seen.sigma_px));  // NaN: lower bound
+    const double sigma_px = std::min(kMostSigmaPx, std::max(kLeastShearSigmaPx, seen.sigma_px));  // NaN: lower bound
     point.weight = 1.0 / (sigma_px * sigma_px);
     const double x = point.keyframe.u - centre.u, y = point.keyframe.v - centre.v;
     const double fraction = config.readout.fraction(seen.u_px, seen.v_px);

@@ -7,12 +7,12 @@ namespace core {
 
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kFarApart = std::numeric_limits<double>::infinity();
 
 class AverageLinkage {
  public:
   AverageLinkage(std::vector<double> distance, std::size_t n)
-      : n_(n), distance_(std::move(distance)), members_(n), nearest_(n, 0), nearest_distance_(n, kFar) {
+      : n_(n), distance_(std::move(distance)), members_(n), nearest_(n, 0), nearest_distance_(n, kFarApart) {
     for (std::size_t i = 0; i < n; ++i) members_[i] = {i};
     for (std::size_t i = 0; i < n; ++i) find_nearest(i);
   }
@@ -39,7 +39,7 @@ class AverageLinkage {
 
   // Finds the nearest of the clusters after i.
   void find_nearest(std::size_t i) {
-    nearest_distance_[i] = kFar;
+    nearest_distance_[i] = kFarApart;
     const double* row = distance_.data() + i * n_;
     for (std::size_t j = i + 1; j < n_; ++j) {
       if (row[j] < nearest_distance_[i] && !members_[j].empty()) {
@@ -54,7 +54,7 @@ class AverageLinkage {
     const auto nj = static_cast<double>(members_[j].size());
     members_[i].insert(members_[i].end(), members_[j].begin(), members_[j].end());
     members_[j].clear();
-    nearest_distance_[j] = kFar;
+    nearest_distance_[j] = kFarApart;
     for (std::size_t k = 0; k < n_; ++k) {
       if (k == i || members_[k].empty()) continue;
       const double joined = (ni * at(i, k) + nj * at(j, k)) / (ni + nj);
@@ -63,7 +63,7 @@ class AverageLinkage {
     }
     find_nearest(i);
     for (std::size_t k = 0; k < j; ++k) {
-      if (k == i || members_[k].empty() || nearest_distance_[k] == kFar) continue;
+      if (k == i || members_[k].empty() || nearest_distance_[k] == kFarApart) continue;
       if (nearest_[k] == i || nearest_[k] == j) {
         find_nearest(k);
       } else if (k < i && (at(k, i) < nearest_distance_[k] || (at(k, i) == nearest_distance_[k] && i < nearest_[k]))) {

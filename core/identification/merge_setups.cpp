@@ -15,8 +15,8 @@ namespace {
 
 using Shape = std::vector<std::complex<double>>;
 
-constexpr double kFrequencyTolerance = 0.03;  // relative
-constexpr double kMacTolerance = 0.5;         // wide: over few channels the MAC is little evidence
+constexpr double kSetupFrequencyTolerance = 0.03;  // relative
+constexpr double kSetupMacTolerance = 0.5;         // wide: over few channels the MAC is little evidence
 
 struct Member {
   std::size_t setup = 0;
@@ -27,8 +27,8 @@ using Group = std::vector<Member>;  // one mode, at most one member per set-up
 
 double distance(const Member& a, const Member& b) {
   const double mean_hz = 0.5 * (a.mode->frequency_hz + b.mode->frequency_hz);
-  const double df = std::abs(a.mode->frequency_hz - b.mode->frequency_hz) / (kFrequencyTolerance * mean_hz);
-  return df + (1.0 - mac(a.reference_part, b.reference_part)) / kMacTolerance;
+  const double df = std::abs(a.mode->frequency_hz - b.mode->frequency_hz) / (kSetupFrequencyTolerance * mean_hz);
+  return df + (1.0 - mac(a.reference_part, b.reference_part)) / kSetupMacTolerance;
 }
 
 class Merger {

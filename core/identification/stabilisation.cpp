@@ -17,15 +17,15 @@ namespace core {
 
 namespace {
 
-constexpr double kFrequencyTolerance = 0.015;  // relative
-constexpr double kMacTolerance = 0.3;
+constexpr double kStableFrequencyTolerance = 0.015;  // relative
+constexpr double kStableMacTolerance = 0.3;
 constexpr double kFarApart = 2.0;
 constexpr double kSplitFrequency = 0.03;  // relative
 constexpr double kSplitMac = 0.95;
 
 double frequency_distance(const UnfoldedPole& a, const UnfoldedPole& b) noexcept {
   const double mean_hz = 0.5 * (a.apparent_hz + b.apparent_hz);
-  return std::abs(a.apparent_hz - b.apparent_hz) / (kFrequencyTolerance * mean_hz);
+  return std::abs(a.apparent_hz - b.apparent_hz) / (kStableFrequencyTolerance * mean_hz);
 }
 
 // Distance matrix of the poles with indices `members`, in that order.
@@ -45,7 +45,7 @@ std::vector<double> distances(const std::vector<OrderPole>& poles, const std::ve
       im += a.shape[c].real() * b.shape[c].imag() - a.shape[c].imag() * b.shape[c].real();
     }
     const double mac = norm[i] > 0.0 && norm[j] > 0.0 ? (re * re + im * im) / (norm[i] * norm[j]) : 0.0;
-    return df + (1.0 - mac) / kMacTolerance;
+    return df + (1.0 - mac) / kStableMacTolerance;
   };
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < n; ++j) all[i * n + j] = all[j * n + i] = distance(i, j);

@@ -19,7 +19,7 @@ constexpr double kTwinFrequency = 0.06;  // relative
 // row delays of another frequency, and is out of phase; that of a real close mode is in phase.
 constexpr double kLeastMixedMpc = 0.9, kLeastRestMpc = 0.7;
 // A steady force beside a mode moves the structure in that mode's shape, with next to no damping.
-constexpr double kMostLineDamping = 0.001, kMostLineShare = 0.3;  // of the mode's
+constexpr double kMostHarmonicDamping = 0.001, kMostLineShare = 0.3;  // of the mode's
 
 template <class... Args>
 std::string text(const char* format, Args... args) {
@@ -197,7 +197,7 @@ void number_by_frequency(std::vector<Mode>& modes) {
 namespace {
 
 bool is_line_beside(const Mode& line, const Mode& mode) noexcept {
-  return line.damping_ratio < kMostLineDamping && line.damping_ratio < kMostLineShare * mode.damping_ratio;
+  return line.damping_ratio < kMostHarmonicDamping && line.damping_ratio < kMostLineShare * mode.damping_ratio;
 }
 
 // Apart by less than the half-power widths of both together.

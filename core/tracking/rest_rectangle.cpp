@@ -6,13 +6,13 @@
 namespace core {
 namespace {
 
-constexpr int kCells = 40;  // along the picture's longer side
+constexpr int kRestCells = 40;  // along the picture's longer side
 
 // Number of static points per cell; below 0: forbidden.
 class Cells {
  public:
   Cells(int width_px, int height_px)
-      : cell_px_(static_cast<double>(std::max(width_px, height_px)) / kCells),
+      : cell_px_(static_cast<double>(std::max(width_px, height_px)) / kRestCells),
         columns_(static_cast<int>(width_px / cell_px_)),
         rows_(static_cast<int>(height_px / cell_px_)),
         counts_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0) {}
@@ -77,7 +77,7 @@ std::optional<Box> fullest(Cells& cells) {
 
 std::optional<Box> rest_rectangle(const std::vector<SurveyedPoint>& points, const std::vector<bool>& rests,
                                   const std::vector<Region>& forbidden, int width_px, int height_px) {
-  if (width_px < kCells || height_px < 2) return std::nullopt;
+  if (width_px < kRestCells || height_px < 2) return std::nullopt;
   Cells cells(width_px, height_px);
   const double margin = 0.5 * cells.cell_px();
   for (const Region& r : forbidden)

@@ -13,7 +13,7 @@ namespace core {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double kMostMagnification = 0.05, kMostApart_px = 1.0, kLeastShare = 0.5;
+constexpr double kMostViewMagnification = 0.05, kMostApart_px = 1.0, kLeastShare = 0.5;
 
 Complex place(const TrackPoint& point) { return {point.u_px, point.v_px}; }
 
@@ -76,7 +76,7 @@ std::string why_other_view(const TrackFrame& keyframe, TrackFrame& now, int min_
                   n_agreeing, end - begin, static_cast<int>(now.points[begin].region));
     return text;
   }
-  if (std::abs(std::abs(common.turn) - 1.0) <= kMostMagnification) return {};
+  if (std::abs(std::abs(common.turn) - 1.0) <= kMostViewMagnification) return {};
   std::snprintf(text, sizeof text, "the view is %.3f times as large", std::abs(common.turn));
   return text;
 }

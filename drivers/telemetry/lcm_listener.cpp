@@ -12,7 +12,7 @@
 namespace drivers {
 namespace {
 
-constexpr int kPoll_ms = 50;
+constexpr int kListen_ms = 50;
 
 void require_hearing(const std::string& url, const std::string& prefix) {
   check_channel_prefix(prefix);
@@ -40,6 +40,6 @@ LcmListener::~LcmListener() = default;
 
 std::int64_t LcmListener::now_ns() noexcept { return rt::monotonic_ns(); }
 
-bool LcmListener::poll() { return handle_->source.poll(kPoll_ms); }
+bool LcmListener::poll() { return handle_->source.poll(kListen_ms); }
 
 }  // namespace drivers

@@ -16,7 +16,7 @@ namespace drivers {
 namespace {
 
 constexpr std::string_view kScheme = "file://";
-constexpr int kMaxBatch = 1000;  // limits the time during which display and signals wait
+constexpr int kMaxPlayed = 1000;  // limits the time during which display and signals wait
 constexpr double kLongestWait_ns = 1e9;
 
 [[noreturn]] void refuse_log(const std::string& url, const std::string& what) {
@@ -79,7 +79,7 @@ std::int64_t LogPlayer::wait_ns() const {
 
 bool LogPlayer::poll(int timeout_ms) {
   const std::int64_t end_ns = rt::monotonic_ns() + std::int64_t{timeout_ms} * 1'000'000;
-  for (int n = 0; n < kMaxBatch; ++n) {
+  for (int n = 0; n < kMaxPlayed; ++n) {
     while (!has_event_) {
       if (!log_.next(event_)) return false;
       has_event_ = event_.utc_us >= url_.start_utc_us;

@@ -6,15 +6,15 @@ namespace drivers {
 namespace {
 
 constexpr double kBytesPerKbit = 125.0;
-constexpr std::size_t kFragmentBytes = 1400;     // payload of a datagram of LCM 1.3
-constexpr std::size_t kHeadBytes = 20 + 8 + 20;  // IP, UDP, LCM's head of a fragment
-constexpr double kMostOwed_s = 5.0;              // of the link: limits how long a burst of estimates silences the rest
+constexpr std::size_t kFragmentBytes = 1400;         // payload of a datagram of LCM 1.3
+constexpr std::size_t kSentHeadBytes = 20 + 8 + 20;  // IP, UDP, LCM's head of a fragment
+constexpr double kMostOwed_s = 5.0;  // of the link: limits how long a burst of estimates silences the rest
 
 }  // namespace
 
 std::size_t wire_bytes(std::size_t channel_bytes, std::size_t payload_bytes) noexcept {
   const std::size_t n_fragments = std::max<std::size_t>(1, (payload_bytes + kFragmentBytes - 1) / kFragmentBytes);
-  return payload_bytes + channel_bytes + 1 + n_fragments * kHeadBytes;
+  return payload_bytes + channel_bytes + 1 + n_fragments * kSentHeadBytes;
 }
 
 SendBudget::SendBudget(double max_kbit_s) noexcept : bytes_per_s_(max_kbit_s * kBytesPerKbit) {

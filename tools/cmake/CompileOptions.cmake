@@ -26,9 +26,10 @@ if(HOVERMODAL_SANITIZE)
 endif()
 
 option(HOVERMODAL_PRECOMPILE "Precompile the headers of other libraries" ON)
-# The sources of a library or program are compiled eight at a time: most of the compiler's time goes to templates of Eigen
-# and the standard library, which the eight then share. So a name in an anonymous namespace occurs once in a target. A build
-# with HOVERMODAL_UNITY=OFF (the packages', clang-tidy's) compiles each source by itself.
+
+# The sources of a folder are compiled eight at a time: most of the compiler's time goes to templates of Eigen and the standard
+# library, which the eight then share. So a name in an anonymous namespace occurs once in a folder. A build with
+# HOVERMODAL_UNITY=OFF (the packages', clang-tidy's) compiles each source by itself.
 option(HOVERMODAL_UNITY "Compile several sources of a target together" ON)
 
 find_program(CCACHE_PROGRAM ccache)
@@ -41,16 +42,24 @@ if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   endif()
 endif()
 
-# hovermodal_unity(TARGET): its sources are compiled several at a time.
+# hovermodal_unity(TARGET SOURCE...): these sources are compiled with others of their folder, the target's other ones alone.
 function(hovermodal_unity target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${HOVERMODAL_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${HOVERMODAL_UNITY} UNITY_BUILD_MODE GROUP)
+  foreach(source ${ARGN})
+    get_filename_component(folder ${source} DIRECTORY)
+    string(MAKE_C_IDENTIFIER "${folder}" folder)
+    list(APPEND of_${folder} ${source})
+    list(LENGTH of_${folder} count)
+    math(EXPR group "(${count} - 1) / 8")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${group})
+  endforeach()
 endfunction()
 
 # hovermodal_library(NAME SOURCES ... PUBLIC_LINK ... PRIVATE_LINK ... PRECOMPILE NAME): one static library per folder, all its sources.
 function(hovermodal_library name)
   cmake_parse_arguments(ARG "" "PRECOMPILE" "SOURCES;PUBLIC_LINK;PRIVATE_LINK" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
-  hovermodal_unity(${name})
+  hovermodal_unity(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC_LINK} PRIVATE hovermodal_options ${ARG_PRIVATE_LINK})
   if(ARG_PRECOMPILE)
     hovermodal_precompile(${name} ${ARG_PRECOMPILE})

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/closure/observation/point_motion_model.h"
 #include "core/linear/dense.h"
 #include "core/linear/symmetric_eigen.h"
 #include "core/types/constants.h"
@@ -38,9 +39,14 @@ double median(std::vector<double> values) {
 AliasedMotion::AliasedMotion(const FrameShift& shift, const Columns& columns, double rate_hz, double readout_frames)
     : shift_(shift), columns_(columns), rate_hz_(rate_hz), readout_frames_(readout_frames) {}
 
-Eigen::VectorXd AliasedMotion::beside(Eigen::VectorXd field) const {
-  const Eigen::VectorXd in = columns_.q.transpose() * field;
-  return field - columns_.q * in;
+double AliasedMotion::rows_later(Index row, Index column) const {
+  return columns_.model.geometry().share(row / 2) - columns_.share(column);
+}
+
+Eigen::VectorXd AliasedMotion::beside(const Eigen::VectorXd& field_px) const {
+  const Eigen::VectorXd field = columns_.model.whitened(field_px);
+  const Eigen::MatrixXd& q = columns_.model.q_high();
+  return field - q * (q.transpose() * field);
 }
 
 // Decrease of the squares per strip. G is the shear field of a region outside the model's columns, a the region's
@@ -51,9 +57,9 @@ std::vector<AliasedMotion::Strip> AliasedMotion::strips(const Eigen::MatrixXd& a
   Eigen::MatrixXd shear(columns_.n_regions, residual.cols()), moved = amplitudes.topRows(columns_.n_regions);
   Eigen::VectorXd squares(columns_.n_regions);
   for (Index r = 0; r < columns_.n_regions; ++r) {
-    Eigen::VectorXd field = columns_.x.col(r);
-    for (Index i = 0; i < field.size(); ++i) field(i) *= columns_.share(i / 2) - columns_.column_share(r);
-    field = beside(std::move(field));
+    Eigen::VectorXd field = columns_.fields_px.col(r);
+    for (Index i = 0; i < field.size(); ++i) field(i) *= rows_later(i, r);
+    field = beside(field);
     squares(r) = field.squaredNorm();
     shear.row(r) = field.transpose() * residual;
   }
@@ -120,14 +126,15 @@ Eigen::MatrixXd AliasedMotion::folded(const Eigen::MatrixXd& amplitudes, const E
     if (out.size() == 0) out = Eigen::MatrixXd::Zero(residual.rows(), residual.cols());
     for (Index r = 0; r < columns_.n_regions; ++r) {
       for (Index i = 0; i < out.rows(); ++i) {
-        const double x = columns_.x(i, r);
+        const double x = columns_.fields_px(i, r);
         if (x == 0.0) continue;
-        const double angle = kTwoPi * n * readout_frames_ * (columns_.share(i / 2) - columns_.column_share(r));
+        const double angle = kTwoPi * n * readout_frames_ * rows_later(i, r);
         out.row(i) += x * ((std::cos(angle) - 1.0) * in_phase.row(r) + std::sin(angle) * later.row(r));
       }
     }
   }
-  return out;
+  if (out.size() == 0) return out;
+  return columns_.model.whitened(out);
 }
 
 void AliasedMotion::learn_tail(const Eigen::MatrixXd& amplitudes, const Eigen::VectorXd& noise,
@@ -136,7 +143,7 @@ void AliasedMotion::learn_tail(const Eigen::MatrixXd& amplitudes, const Eigen::V
   const Eigen::MatrixXcd spectra = shift_.spectra(amplitudes.topRows(columns_.n_own));
   const auto from = static_cast<Index>(kTopOfBand * static_cast<double>(spectra.cols()));
   const double freedom =
-      static_cast<double>(residual.rows() - columns_.q.cols()) / static_cast<double>(residual.rows());
+      static_cast<double>(residual.rows() - columns_.model.q_high().cols()) / static_cast<double>(residual.rows());
   const double squares =
       residual.squaredNorm() / static_cast<double>(residual.size()) / freedom;  // includes the tail's own squares
   std::vector<Eigen::VectorXd> fields;
@@ -149,13 +156,13 @@ void AliasedMotion::learn_tail(const Eigen::MatrixXd& amplitudes, const Eigen::V
     for (int order = 1; order <= (region ? 1 : 2); ++order) {
       // At order 2 the spectrum with the slowest decay has this share of its power at half the rate.
       const double share = order == 1 ? 1.0 : std::pow(3.0, -kTailOrder) + std::pow(5.0, -kTailOrder);
-      Eigen::VectorXd sine = std::sqrt(level * share) * columns_.x.col(c), cosine = sine;
+      Eigen::VectorXd sine = std::sqrt(level * share) * columns_.fields_px.col(c), cosine = sine;
       for (Index i = 0; i < sine.size(); ++i) {
-        const double angle = kTwoPi * order * readout_frames_ * (columns_.share(i / 2) - columns_.column_share(c));
+        const double angle = kTwoPi * order * readout_frames_ * rows_later(i, c);
         sine(i) *= std::sin(angle), cosine(i) *= std::cos(angle);
       }
-      fields.push_back(beside(std::move(sine)));
-      if (!region) fields.push_back(beside(std::move(cosine)));
+      fields.push_back(beside(sine));
+      if (!region) fields.push_back(beside(cosine));
     }
   }
   if (fields.empty()) return;
@@ -167,7 +174,7 @@ void AliasedMotion::learn_tail(const Eigen::MatrixXd& amplitudes, const Eigen::V
   power_ = eigen.values().head(count);
   directions_ = tail * eigen.leading_vectors(count) * power_.cwiseSqrt().cwiseInverse().asDiagonal();
   // Noise: the part of the residual outside the tail's directions.
-  const auto n_free = static_cast<double>(residual.rows() - columns_.q.cols() - count);
+  const auto n_free = static_cast<double>(residual.rows() - columns_.model.q_high().cols() - count);
   if (!(n_free > 0.0)) return;
   const double inside = (directions_.transpose() * residual).squaredNorm();
   power_ *= n_free * static_cast<double>(residual.cols()) / std::max(residual.squaredNorm() - inside, 1e-300);

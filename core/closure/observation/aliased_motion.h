@@ -7,6 +7,8 @@
 
 namespace core::closure {
 
+class PointMotionModel;
+
 // Motion above half the frame rate. Motion at f = nu + n f_s appears at nu, but its phase varies over the rows as
 // exp(2 pi i f rho s_j / f_s). At the frames' common instants, where motion of alias order 0 has one phase in all rows,
 // the phase exp(2 pi i n rho s_j) remains, which the columns of a model of order 0 cannot represent. Two kinds:
@@ -20,15 +22,13 @@ namespace core::closure {
 //   so that directions dominated by the tail have less weight.
 class AliasedMotion {
  public:
-  // Inputs from one frame model: whitened columns (2 points x columns), the first n_regions of which move single
-  // regions; the readout fraction of each point, and its mean over each column; orthonormal columns that the model
-  // removes.
+  // Inputs from one model: its columns (2 points x columns, px), the first n_regions of which move single regions; the
+  // mean readout fraction of each column's points.
   struct Columns {
-    const Eigen::MatrixXd& x;
+    const PointMotionModel& model;
+    const Eigen::MatrixXd& fields_px;
     Eigen::Index n_own, n_regions;
     const Eigen::VectorXd& share;
-    const Eigen::VectorXd& column_share;
-    const Eigen::MatrixXd& q;
   };
   AliasedMotion(const FrameShift& shift, const Columns& columns, double rate_hz, double readout_frames);
 
@@ -42,8 +42,11 @@ class AliasedMotion {
   void weigh(Eigen::MatrixXd& series) const;
 
  private:
-  [[nodiscard]] Eigen::VectorXd beside(Eigen::VectorXd field) const;  // part outside the model's columns
-  struct Strip {                                                      // frequency bins that share one alias order
+  // Readout fraction of a point (row 2 j or 2 j + 1) after the mean of a column's.
+  [[nodiscard]] double rows_later(Eigen::Index row, Eigen::Index column) const;
+  // A field in px, whitened: its part outside the model's columns.
+  [[nodiscard]] Eigen::VectorXd beside(const Eigen::VectorXd& field_px) const;
+  struct Strip {  // frequency bins that share one alias order
     Eigen::Index from, count;
     double b, c;
     int order;

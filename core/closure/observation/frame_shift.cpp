@@ -13,9 +13,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr int kLeastBridge = 64;     // smallest number of frames that blend the record's end into its beginning
-constexpr int kSmooth = 12;          // a spectrum is averaged over so many bins on either side
-constexpr double kLeastPower = 1.5;  // smallest power of a signal, in noise variances
+constexpr int kLeastBridge = 64;           // smallest number of frames that blend the record's end into its beginning
+constexpr int kSmooth = 12;                // a spectrum is averaged over so many bins on either side
+constexpr double kLeastSignalPower = 1.5;  // smallest power of a signal, in noise variances
 
 // One series made periodic, and its spectrum.
 class Periodic {
@@ -58,7 +58,7 @@ std::vector<double> wiener_gain(const std::vector<Complex>& bins, double noise_p
   for (int k = 0; k < n; ++k) {
     const int from = std::max(k - kSmooth, 0), to = std::min(k + kSmooth + 1, n);
     const double power = (sum[static_cast<std::size_t>(to)] - sum[static_cast<std::size_t>(from)]) / (to - from);
-    if (power > kLeastPower * noise_power) gain[static_cast<std::size_t>(k)] = 1.0 - noise_power / power;
+    if (power > kLeastSignalPower * noise_power) gain[static_cast<std::size_t>(k)] = 1.0 - noise_power / power;
   }
   return gain;
 }

@@ -22,7 +22,7 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int kStartRounds = 12, kRounds = 60;
+constexpr int kStartRounds = 12, kGyroRounds = 60;
 constexpr double kOutlier_sigmas = 5.0, kFocalPerWidth = 0.75;
 
 }  // namespace
@@ -104,7 +104,7 @@ GyroRotationLevel::Fitted GyroRotationLevel::fit_with(const std::vector<Effect>&
     const double cost = problem.minimise(best.held, kStartRounds, state);
     if (share == 0.0 || cost < best.cost) best.state = state, best.cost = cost;
   }
-  if (!brief) best.cost = problem.minimise(best.held, kRounds, best.state);
+  if (!brief) best.cost = problem.minimise(best.held, kGyroRounds, best.state);
   return best;
 }
 

@@ -12,7 +12,7 @@ namespace core::closure {
 namespace {
 
 constexpr Eigen::Index kParts = 5;
-constexpr Eigen::Index kNeighbours = 4;  // bins of the padded spectrum that share noise: in one part
+constexpr Eigen::Index kSharedBins = 4;  // bins of the padded spectrum that share noise: in one part
 constexpr double kRungSigmas = 2.0;      // of a gain by noise: less is none
 constexpr double kMostRungs = 0.6;       // of the degrees of freedom: more is a pattern of all rungs
 
@@ -46,7 +46,7 @@ std::vector<Eigen::MatrixXcd> parts_of(const Eigen::MatrixXcd& spectrum, const R
     if (!holds(band, rung)) continue;
     const Eigen::Index end = rung + 1 < rungs.size() ? first_bin(rungs, rung + 1, spectrum.cols()) : spectrum.cols();
     for (Eigen::Index b = first_bin(rungs, rung, spectrum.cols()); b < end; ++b)
-      at[static_cast<std::size_t>(n++ / kNeighbours % kParts)].push_back(b);
+      at[static_cast<std::size_t>(n++ / kSharedBins % kParts)].push_back(b);
   }
   std::vector<Eigen::MatrixXcd> out;
   for (const auto& columns : at) out.emplace_back(spectrum(Eigen::all, columns));

@@ -68,11 +68,10 @@ LineAngles LineSearch::angles(const Eigen::MatrixXd& motion_px, const LineFindin
   const Band b = band(finding.apparent_hz, finding.half_width_hz);
   LineAngles out;
   if (b.count < 1) return out;
-  const Eigen::MatrixXd whitened = (motion_px.array().colwise() * model_.weight().array()).matrix();
-  const Eigen::MatrixXcd bins = spectrum(model_.at_common_instants(whitened)).middleCols(b.first, b.count);
-  Eigen::MatrixXcd fields = fields_of(finding.fold);
-  const Eigen::MatrixXcd left = left_of(fields);
-  fields.array().colwise() *= model_.weight().array().cast<std::complex<double>>();
+  const Eigen::MatrixXcd bins =
+      spectrum(model_.whitened(model_.at_common_instants(motion_px))).middleCols(b.first, b.count);
+  const Eigen::MatrixXcd seen = fields_of(finding.fold);
+  const Eigen::MatrixXcd left = left_of(seen), fields = model_.whitened(seen);
   const Eigen::MatrixXcd amplitude = (fields.adjoint() * fields).ldlt().solve(fields.adjoint() * bins);
   const Eigen::MatrixXcd covariance =
       (left.adjoint() * left).ldlt().solve(Eigen::MatrixXcd::Identity(fields.cols(), fields.cols()));

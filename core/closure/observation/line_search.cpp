@@ -134,15 +134,13 @@ Eigen::MatrixXcd LineSearch::fields_at(Eigen::Index bin, const std::vector<Side>
 }
 
 Eigen::MatrixXcd LineSearch::left_of(const Eigen::MatrixXcd& fields) const {
-  Eigen::MatrixXcd w = fields;
-  w.array().colwise() *= model_.weight().array().cast<std::complex<double>>();
+  Eigen::MatrixXcd w = model_.whitened(fields);
   w -= (model_.q_high() * (model_.q_high().transpose() * w)).eval();
   return w;
 }
 
 double LineSearch::gain(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& fields) const {
-  const Eigen::VectorXd norms =
-      (fields.array().colwise() * model_.weight().array().cast<std::complex<double>>()).matrix().colwise().norm();
+  const Eigen::VectorXd norms = model_.whitened(fields).colwise().norm();
   return gain_of_columns(moments, orthonormal(left_of(fields), norms));
 }
 
@@ -202,8 +200,7 @@ double LineSearch::freedom_of(const LineFinding& finding) const {
 std::array<double, 3> LineSearch::quantiles_hz(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const {
   const Band b = band(finding.apparent_hz, finding.half_width_hz);
   const Eigen::MatrixXcd fields = fields_of(finding.fold);
-  const Eigen::VectorXd norms =
-      (fields.array().colwise() * model_.weight().array().cast<std::complex<double>>()).matrix().colwise().norm();
+  const Eigen::VectorXd norms = model_.whitened(fields).colwise().norm();
   const Eigen::MatrixXcd g = orthonormal(left_of(fields), norms);
   const Eigen::MatrixXcd seen = g.adjoint() * spectrum.middleCols(b.first, b.count);
   const double noise = 2.0 * static_cast<double>(g.cols() * n_frames_) / n_fft_;

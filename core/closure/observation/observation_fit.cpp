@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/closure/observation/block_estimates.h"
+#include "core/closure/observation/noise_correlation.h"
 #include "core/closure/observation/point_noise.h"
 #include "core/closure/observation/rotation_second_order.h"
 #include "core/closure/observation/stacked_positions.h"
@@ -15,7 +16,8 @@ namespace {
 
 constexpr int kReadoutRounds = 1, kRefinedRounds = 8, kFillRounds = 3, kRotationRounds = 2;
 constexpr double kSameNoise = 0.03;
-constexpr double kStill = 0.05;  // of its sigma: a constant that has converged
+constexpr int kCorrelations = 2;  // times that the correlation of noise is measured
+constexpr double kStill = 0.05;   // of its sigma: a constant that has converged
 
 bool is_banded(const EffectInModel& effect) { return effect.band() != kAllRungs; }
 
@@ -170,20 +172,41 @@ bool ObservationFit::refine_constants() {
   return (change.array().square() > kStill * kStill * covariance.diagonal().array()).any();
 }
 
+CorrelationShares ObservationFit::measured_correlation() const {
+  const PointCorrelation& known = model_.correlation();
+  const Eigen::MatrixXd& q = model_.q_high();
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(q.rows(), q.rows());
+  const Eigen::MatrixXd removal =
+      known.put_back<Eigen::MatrixXd>((identity - q * q.transpose()) * known.removed(identity));
+  return noise_correlation(known.put_back(model_.residual()), removal, record_.region_of_point, mean_places_px(),
+                           record_.rate_hz, PointMotionModel::kLowBand_hz);
+}
+
+// Scores with different correlations cannot be compared: it is measured in the first solution, as if points were
+// independent, and once more without it, and then kept. Sigmas are measured again.
 bool ObservationFit::measure_noise() {
   const Eigen::VectorXd noise =
       point_noise(model_.residual(), model_.q_high(), record_.rate_hz, PointMotionModel::kLowBand_hz);
   const double change = std::abs(std::sqrt(noise.cwiseAbs2().mean()) - 1.0);
-  if (noise_is_measured_ && change < kSameNoise) return false;
+  if (n_correlations_ == kCorrelations && change < kSameNoise) return false;
   for (Eigen::Index j = 0; j < noise.size(); ++j) record_.sigma_px[static_cast<std::size_t>(j)] *= noise(j);
   sigma_px_ = rms(record_.sigma_px);
-  model_.set_noise(record_);
-  return noise_is_measured_ = true;
+  if (n_correlations_ < kCorrelations) {
+    const CorrelationShares shares = measured_correlation();
+    model_.set_noise(record_, PointCorrelation(shares, record_.region_of_point, mean_places_px()));
+    n_correlations_ = shares.none() ? kCorrelations : n_correlations_ + 1;
+  } else {
+    model_.set_noise(record_, model_.correlation());
+  }
+  return true;
 }
 
 void ObservationFit::solve() {
   solve_once();
-  if (measure_noise()) solve_once();
+  do {
+    if (!measure_noise()) break;
+    solve_once();
+  } while (n_correlations_ < kCorrelations);
   held_out_ = std::make_unique<HeldOut>(model_, record_.rate_hz);
 }
 

@@ -49,6 +49,7 @@ class ObservationFit {
   [[nodiscard]] Eigen::Index amplitude_row(std::size_t effect) const;  // of an effect with a pattern
   void solve_once();
   bool measure_noise();  // false: it is as it was
+  [[nodiscard]] CorrelationShares measured_correlation() const;
   void set_columns();
   void set_places(const Eigen::VectorXd& mean_px);
   void fill_missing();
@@ -68,7 +69,7 @@ class ObservationFit {
   Effects effects_;
   double readout_frames_ = 0.0, sigma_px_ = 0.0;
   LensCoefficients lens_;
-  bool noise_is_measured_ = false;    // once at least
+  int n_correlations_ = 0;            // measured so far
   Eigen::MatrixXd predicted_px_;      // in the raw image, without the tracker's errors
   Eigen::MatrixXd tracker_error_px_;  // of the adopted effects
 };

@@ -34,7 +34,7 @@ std::vector<KnownSignal> motions_of(const FitView& fit) {
 
 // The part of whitened patterns outside the model's own columns.
 Eigen::MatrixXd beside_own(const FitView& fit, const Eigen::MatrixXd& patterns_px) {
-  const Eigen::MatrixXd w = fit.model.weight().asDiagonal() * patterns_px;
+  const Eigen::MatrixXd w = fit.model.whitened(patterns_px);
   const auto own = fit.model.q_high().leftCols(fit.model.own_rank());
   return w - own * (own.transpose() * w);
 }
@@ -95,6 +95,23 @@ std::string effect_meaning(const ObservationFit& fit, std::size_t effect,
          nearest_words(*latent.pattern(), fit.view(), catalogue);
 }
 
+namespace {
+
+// Empty where the points' noise is independent.
+std::string noise_words(const ObservationFit& fit) {
+  const CorrelationShares& shares = fit.model().correlation().shares();
+  if (shares.none()) return {};
+  const auto percent = [](double share) { return std::to_string(std::lround(100.0 * share)) + " %"; };
+  std::string words = "; of the noise " + percent(shares.window) + " is common to overlapping windows, " +
+                      percent(shares.neighbourhood) + " to neighbours within 40 px, " +
+                      percent(std::max(shares.region_u, shares.region_v)) + " to whole regions";
+  if (shares.neighbourhood + std::max(shares.region_u, shares.region_v) > 0.1)
+    words += ": errors of a video codec (a higher bit rate or intra frames only lower them)";
+  return words;
+}
+
+}  // namespace
+
 std::string describe_residual(const ObservationFit& fit) {
   const ObservationRecord& record = fit.record();
   const ResidualMoments moments = residual_moments(fit.model().residual(), record.rate_hz);
@@ -110,7 +127,7 @@ std::string describe_residual(const ObservationFit& fit) {
   return "leading pattern: " + std::to_string(std::lround(100.0 * share[most])) + " % in region " +
          record.regions[most].name + ", " + std::to_string(std::lround(100.0 * along_v)) + " % along v; " +
          std::to_string(std::lround(100.0 * slow)) + " % of the residual below " +
-         std::to_string(PointMotionModel::kLowBand_hz).substr(0, 3) + " Hz";
+         std::to_string(PointMotionModel::kLowBand_hz).substr(0, 3) + " Hz" + noise_words(fit);
 }
 
 }  // namespace core::closure

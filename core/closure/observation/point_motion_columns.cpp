@@ -55,8 +55,6 @@ Eigen::MatrixXd later_in_readout(const ObservationRecord& record, const Eigen::M
   return later;
 }
 
-void PointMotionModel::add_column(const Eigen::VectorXd& field) { own_.emplace_back(field.cwiseProduct(weight_)); }
-
 void PointMotionModel::add_region_columns(const ObservationRecord& record) {
   const double common_deg = common_axis_deg(record);
   for (std::size_t r = 0; r < record.regions.size(); ++r) {
@@ -73,7 +71,7 @@ void PointMotionModel::add_region_columns(const ObservationRecord& record) {
       }
       if (field.squaredNorm() == 0.0) continue;
       region_row_[2 * r + static_cast<std::size_t>(axis)] = static_cast<Eigen::Index>(own_.size());
-      add_column(field);
+      own_.push_back(field);
     }
   }
 }
@@ -89,7 +87,7 @@ void PointMotionModel::add_plane_columns(const ObservationRecord& record) {
       zoom.segment<2>(2 * j) = geometry_.alpha_px * Eigen::Vector2d(geometry_.x(j), geometry_.y(j));
     }
     for (const Eigen::VectorXd& field : {along, across, zoom}) {
-      if (field.squaredNorm() > 0.0) add_column(field);
+      if (field.squaredNorm() > 0.0) own_.push_back(field);
     }
     if (!(zoom.squaredNorm() > 0.0)) continue;
     for (Eigen::Index j = 0; j < record.n_points(); ++j) {

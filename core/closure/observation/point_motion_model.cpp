@@ -61,7 +61,8 @@ PointMotionModel::PointMotionModel(const ObservationRecord& record)
   factorise();
 }
 
-void PointMotionModel::set_noise(const ObservationRecord& record) {
+void PointMotionModel::set_noise(const ObservationRecord& record, PointCorrelation correlation) {
+  correlation_ = std::move(correlation);
   for (Eigen::Index j = 0; j < record.n_points(); ++j)
     sigma_px_.segment<2>(2 * j).setConstant(record.sigma_px[static_cast<std::size_t>(j)]);
 }
@@ -84,20 +85,19 @@ void PointMotionModel::set_added(const std::vector<Eigen::VectorXd>& full, const
   const RungSet wanted = band == 0 ? rungs_.up_to(kLowBand_hz) : band;
   if (wanted != band_) cosines_ = rungs_.cosines(cosines_.rows(), wanted);
   band_ = wanted;
-  full_.clear();
-  low_.clear();
-  for (const Eigen::VectorXd& field : full) full_.emplace_back(field.cwiseProduct(weight_));
-  for (const Eigen::VectorXd& field : low) low_.emplace_back(field.cwiseProduct(weight_));
+  full_ = full;
+  low_ = low;
   factorise();
 }
 
 void PointMotionModel::factorise() {
   const auto n_full = n_own_ + static_cast<Eigen::Index>(full_.size());
-  x_.resize(weight_.size(), n_full + static_cast<Eigen::Index>(low_.size()));
+  x_px_.resize(weight_.size(), n_full + static_cast<Eigen::Index>(low_.size()));
   Eigen::Index at = 0;
   for (const auto* list : {&own_, &full_, &low_}) {
-    for (const Eigen::VectorXd& field : *list) x_.col(at++) = field;
+    for (const Eigen::VectorXd& field : *list) x_px_.col(at++) = field;
   }
+  x_ = whitened(x_px_);
   place_in_readout();
   Factor factor = factorise_columns(x_);
   kept_ = std::move(factor.kept);
@@ -120,7 +120,7 @@ void PointMotionModel::place_in_readout() {
   for (Eigen::Index c = 0; c < x_.cols(); ++c) {
     double sum = 0.0, weights = 0.0;
     for (Eigen::Index j = 0; j < geometry_.x.size(); ++j) {
-      const double w = x_.col(c).segment<2>(2 * j).squaredNorm() > 0.0 ? weight_(2 * j) * weight_(2 * j) : 0.0;
+      const double w = x_px_.col(c).segment<2>(2 * j).squaredNorm() > 0.0 ? weight_(2 * j) * weight_(2 * j) : 0.0;
       sum += w * geometry_.share(j), weights += w;
     }
     share_(c) = weights > 0.0 ? sum / weights : 0.0;
@@ -147,8 +147,7 @@ void PointMotionModel::fit_common(const Eigen::MatrixXd& z) {
   fit_columns(z);
   aliased_.reset();
   if (readout_frames_ == 0.0) return;
-  aliased_.emplace(shift_, AliasedMotion::Columns{x_, n_own_, n_region_, geometry_.share, share_, q_high_}, rate_hz_,
-                   readout_frames_);
+  aliased_.emplace(shift_, AliasedMotion::Columns{*this, x_px_, n_own_, n_region_, share_}, rate_hz_, readout_frames_);
   const Eigen::MatrixXd folded = aliased_->folded(common_, residual_);
   if (folded.size() > 0) fit_columns(z - folded);
   const Eigen::MatrixXd inverse = solve_high_ * solve_high_.transpose();
@@ -190,9 +189,9 @@ Eigen::VectorXd PointMotionModel::column_instants() const {
   return readout_frames_ * (share_.array() - kCommonShare).matrix();
 }
 
-// Velocities of the points' predicted positions at the instants of their own rows, in sigmas per frame.
+// Velocities of the points' predicted positions at the instants of their own rows, px per frame.
 Eigen::MatrixXd PointMotionModel::velocities() const {
-  Eigen::MatrixXd out = product(x_, rate_common_);
+  Eigen::MatrixXd out = product(x_px_, rate_common_);
   shift_.advance(out, row_instants());
   return out;
 }
@@ -204,16 +203,15 @@ Eigen::MatrixXd PointMotionModel::at_common_instants(Eigen::MatrixXd series) con
 
 void PointMotionModel::solve(const Eigen::MatrixXd& positions, double readout_frames, int rounds) {
   readout_frames_ = readout_frames;
-  Eigen::MatrixXd z = positions.colwise() - positions.rowwise().mean();
-  z.array().colwise() *= weight_.array();
-  fit_common(at_common_instants(z));
+  const Eigen::MatrixXd z = positions.colwise() - positions.rowwise().mean();
+  fit_common(whitened(at_common_instants(z)));
   estimate_rates();
   for (int round = 0; round < rounds && readout_frames != 0.0 && later_.size() > 0; ++round) {
     Eigen::MatrixXd left = velocities();
     for (Eigen::Index i = 0; i < left.rows(); ++i)
       left.row(i) = z.row(i) - readout_frames * later_.row(i / 2).cwiseProduct(left.row(i));
     left.colwise() -= left.rowwise().mean().eval();
-    fit_common(at_common_instants(std::move(left)));
+    fit_common(whitened(at_common_instants(std::move(left))));
     estimate_rates();
   }
   if (aliased_) aliased_->weigh(residual_);
@@ -224,7 +222,7 @@ void PointMotionModel::solve(const Eigen::MatrixXd& positions, double readout_fr
 }
 
 Eigen::MatrixXd PointMotionModel::residual_px() const {
-  Eigen::MatrixXd out = residual_;
+  Eigen::MatrixXd out = correlation_.put_back(residual_);
   shift_.advance(out, row_instants());
   return (out.array().colwise() * sigma_px_.array()).matrix();
 }
@@ -247,7 +245,7 @@ Eigen::MatrixXd PointMotionModel::readout_field() const {
 }
 
 Eigen::MatrixXd PointMotionModel::left_at_common_instants(Eigen::MatrixXd series) const {
-  Eigen::MatrixXd left = left_of(at_common_instants(std::move(series)));
+  Eigen::MatrixXd left = left_of(whitened(at_common_instants(std::move(series))));
   if (aliased_) aliased_->weigh(left);
   return left;
 }

@@ -8,6 +8,7 @@
 #include "core/closure/observation/aliased_motion.h"
 #include "core/closure/observation/frame_shift.h"
 #include "core/closure/observation/observation_record.h"
+#include "core/closure/observation/point_correlation.h"
 #include "core/closure/observation/rungs.h"
 
 namespace core::closure {
@@ -23,8 +24,10 @@ struct PointGeometry {
 // frames, px) and its mean, caused by drift over the rows.
 [[nodiscard]] Eigen::MatrixXd later_in_readout(const ObservationRecord& record, const Eigen::MatrixXd& positions);
 
-// Motion of the points, free in every frame, relative to their mean positions (rows 2j, 2j+1 = u, v of point j, divided
-// by its sigma). Point j is seen rho s_j after the start of the frame (rho: readout in frames, s_j: readout fraction):
+// Motion of the points, free in every frame, relative to their mean positions (rows 2j, 2j+1 = u, v of point j). Noise
+// of neighbours is correlated; everything called "in sigmas" is whitened: divided by the point's sigma, correlation
+// removed (PointCorrelation). Point j is seen rho s_j after the start of the frame (rho: readout in frames, s_j:
+// readout fraction):
 //     z_kj = sum_c X_jc a_c(k + rho s_j)
 // Columns: each structure and base region along its axis; translation and zoom of the structure's plane;
 // translation and zoom of the background; added columns. A translation spanned by the regions is dropped (rank).
@@ -51,8 +54,8 @@ class PointMotionModel {
   void set_places(const ObservationRecord& record, const Eigen::VectorXd& places_px,
                   const Eigen::VectorXd& magnification);
 
-  // Other sigmas of the points; followed by set_places().
-  void set_noise(const ObservationRecord& record);
+  // Other sigmas of the points and correlation of their noise; followed by set_places().
+  void set_noise(const ObservationRecord& record, PointCorrelation correlation);
 
   // Fields in px per unit, vectors of 2 points.
   void set_added(const std::vector<Eigen::VectorXd>& full, const std::vector<Eigen::VectorXd>& low, RungSet band);
@@ -64,9 +67,9 @@ class PointMotionModel {
   // At the frames' common instants, in sigmas.
   [[nodiscard]] const Eigen::MatrixXd& residual() const noexcept { return residual_; }
   [[nodiscard]] Eigen::MatrixXd residual_px() const;  // at the instants of the points' own rows, in the raw image
-  // Interpolates series of the points' rows (2 points x frames) to the common instants of the last solve().
+  // Interpolates series of the points' rows (2 points x frames, px) to the common instants of the last solve().
   [[nodiscard]] Eigen::MatrixXd at_common_instants(Eigen::MatrixXd series) const;
-  // left_of() the series at the common instants, weighted like the residual.
+  // left_of() the series (px) at the common instants, whitened and weighted like the residual.
   [[nodiscard]] Eigen::MatrixXd left_at_common_instants(Eigen::MatrixXd series) const;
   // Series over frames, px (added columns: their unit), one row per column, at the mean instant of the column's points;
   // zero for dropped columns.
@@ -83,7 +86,7 @@ class PointMotionModel {
   // Number of leading columns of q_high() and q_low() that stem from own columns.
   [[nodiscard]] Eigen::Index own_rank() const noexcept { return own_rank_; }
   [[nodiscard]] double share_of_column(Eigen::Index column) const { return share_(column); }
-  // Derivative of the prediction by the readout time (frames), in sigmas, at the instants of the points' own rows.
+  // Derivative of the prediction by the readout time (frames), px, at the instants of the points' own rows.
   [[nodiscard]] Eigen::MatrixXd readout_field() const;
 
   // Residual of a field or record at the frames' common instants after the fit, 2 points x frames in sigmas, without
@@ -94,13 +97,22 @@ class PointMotionModel {
   [[nodiscard]] const Eigen::MatrixXd& q_low() const noexcept { return q_low_; }
   [[nodiscard]] const Eigen::MatrixXd& cosines() const noexcept { return cosines_; }  // of that band
   [[nodiscard]] RungSet band() const noexcept { return band_; }
+  // Fields or series in px (2 points x any number, real or complex), whitened; and back.
+  template <class Matrix>
+  [[nodiscard]] Matrix whitened(const Matrix& px) const {
+    return correlation_.removed<Matrix>(weight_.cast<typename Matrix::Scalar>().asDiagonal() * px);
+  }
+  template <class Matrix>
+  [[nodiscard]] Matrix in_px(const Matrix& whitened) const {
+    return weight_.cwiseInverse().cast<typename Matrix::Scalar>().asDiagonal() * correlation_.put_back(whitened);
+  }
+  [[nodiscard]] const PointCorrelation& correlation() const noexcept { return correlation_; }
   [[nodiscard]] const Eigen::VectorXd& weight() const noexcept { return weight_; }  // 1 / sigma, per row
   [[nodiscard]] const PointGeometry& geometry() const noexcept { return geometry_; }
 
  private:
   void add_region_columns(const ObservationRecord& record);
   void add_plane_columns(const ObservationRecord& record);
-  void add_column(const Eigen::VectorXd& field);
   void factorise();
   void place_in_readout();
   void fit_columns(const Eigen::MatrixXd& z);
@@ -118,12 +130,13 @@ class PointMotionModel {
   double readout_frames_ = 0.0;
   PointGeometry geometry_;
   Eigen::VectorXd weight_, sigma_px_;
+  PointCorrelation correlation_;
   Eigen::MatrixXd cosines_;
-  std::vector<Eigen::VectorXd> own_, full_, low_;  // whitened fields
+  std::vector<Eigen::VectorXd> own_, full_, low_;  // fields, px
   std::vector<Eigen::Index> region_row_, zoom_row_of_point_;
   Eigen::Index n_own_ = 0, n_region_ = 0, own_rank_ = 0;
   Eigen::VectorXd share_;           // mean readout fraction of the column's points
-  Eigen::MatrixXd x_;               // fields
+  Eigen::MatrixXd x_px_, x_;        // fields, whitened ones
   Eigen::MatrixXd later_;           // see set_drift()
   std::vector<Eigen::Index> kept_;  // columns of q_high_ first, then those that the low band adds
   // q_low_ = [q_high_, extra_]. solve_high_: z -> amplitudes; solve_extra_: z in the low band -> amplitudes of the

@@ -12,14 +12,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kParts = ChannelPredictor::kParts;
+constexpr Index kCourseParts = ChannelPredictor::kParts;
 constexpr double kWide = 0.05, kNarrow = 0.012;  // half widths of the tested changes of frequency
 constexpr double kMost = 0.25;
 
 // Remainder of a course in a record on a warped time: inner products of the innovations with their derivative by the
 // frequencies of the poles below 0.36 of the rate along the course (frequency_derivative), per part.
 struct Left {
-  VectorXd along = VectorXd::Zero(kParts), size = VectorXd::Zero(kParts);
+  VectorXd along = VectorXd::Zero(kCourseParts), size = VectorXd::Zero(kCourseParts);
   bool ok = false;
   [[nodiscard]] double coefficient(Index without) const {
     const double rest = size.sum() - (without < 0 ? 0.0 : size(without));
@@ -78,7 +78,7 @@ CourseFit fit_course(const ChannelRecord& record, Index order, const VectorXd& c
     const double before = out.change;
     out.change = crossing(tried, left, -1, before);
     out.without.clear();
-    for (Index part = 0; part < kParts; ++part) out.without.push_back(crossing(tried, left, part, out.change));
+    for (Index part = 0; part < kCourseParts; ++part) out.without.push_back(crossing(tried, left, part, out.change));
   }
   return out;
 }

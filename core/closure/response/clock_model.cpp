@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kParts = 30;
+constexpr Index kClockParts = 30;
 constexpr Index kNeighbours = 5;      // on either side, for the median
 constexpr double kPerSigma = 1.4826;  // standard deviation of a Gaussian over its median absolute deviation
 constexpr double kMostMisread = 0.25;
@@ -53,7 +53,7 @@ double robust_deviation(const VectorXd& values) {
 
 VectorXd picked(const VectorXd& values, const std::vector<Index>& rows) { return values(rows); }
 
-[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("clock: " + what); }
+[[noreturn]] void refuse_clock(const std::string& what) { throw std::invalid_argument("clock: " + what); }
 
 }  // namespace
 
@@ -64,25 +64,26 @@ struct ClockModel::Solution {
 };
 
 ClockModel::ClockModel(ClockReadings readings, DeclaredTime declared) : declared_(declared) {
-  if (!(declared_.rate_hz > 0.0)) refuse("the declared frame rate must be positive");
-  if (readings.frame.size() != readings.reading_s.size()) refuse("as many frames as readings");
+  if (!(declared_.rate_hz > 0.0)) refuse_clock("the declared frame rate must be positive");
+  if (readings.frame.size() != readings.reading_s.size()) refuse_clock("as many frames as readings");
   std::vector<double> frames, values;
   for (std::size_t i = 0; i < readings.frame.size(); ++i) {
     if (!std::isfinite(readings.reading_s[i])) continue;
     if (!std::isfinite(readings.frame[i]) || (!frames.empty() && !(readings.frame[i] > frames.back())))
-      refuse("frame numbers must ascend; reading " + std::to_string(i + 1) + " does not");
+      refuse_clock("frame numbers must ascend; reading " + std::to_string(i + 1) + " does not");
     frames.push_back(readings.frame[i]);
     values.push_back(readings.reading_s[i]);
   }
   if (frames.size() < kFewest)
-    refuse(std::to_string(frames.size()) + " readings are too few for held-out data; give " + std::to_string(kFewest) +
-           " or more");
+    refuse_clock(std::to_string(frames.size()) + " readings are too few for held-out data; give " +
+                 std::to_string(kFewest) + " or more");
   frame_ = Eigen::Map<const VectorXd>(frames.data(), static_cast<Index>(frames.size()));
   reading_s_ = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
   const double slope = robust_slope(frame_, reading_s_);
   if (!(slope > 0.0))
-    refuse("the readings go " + number(slope) +
-           " s per frame: the clock stands still or runs backward; is it a countdown, or are the columns swapped?");
+    refuse_clock(
+        "the readings go " + number(slope) +
+        " s per frame: the clock stands still or runs backward; is it a countdown, or are the columns swapped?");
   const VectorXd off = from_neighbours(reading_s_ - slope * frame_);
   const double deviation = std::max({robust_deviation(off), readings.sigma_s, 1e-6});
   std::vector<Index> good;
@@ -91,8 +92,8 @@ ClockModel::ClockModel(ClockReadings readings, DeclaredTime declared) : declared
   }
   n_misread_ = frames.size() - good.size();
   if (static_cast<double>(n_misread_) > kMostMisread * static_cast<double>(frames.size()))
-    refuse(std::to_string(n_misread_) + " of " + std::to_string(frames.size()) +
-           " readings deviate from their neighbours: not a steady clock; read it again");
+    refuse_clock(std::to_string(n_misread_) + " of " + std::to_string(frames.size()) +
+                 " readings deviate from their neighbours: not a steady clock; read it again");
   frame_ = picked(frame_, good);
   reading_s_ = picked(reading_s_, good);
   sigma_s_ = readings.sigma_s > 0.0 ? readings.sigma_s : std::max(robust_deviation(picked(off, good)), 1e-6);
@@ -150,8 +151,8 @@ ResponseFit ClockModel::fit(const std::vector<std::string>& effects) const {
   ResponseFit out;
   std::vector<Solution> without;
   double squares = 0.0;
-  for (Index part = 0; part < kParts; ++part) {
-    const Index from = part * n / kParts, to = (part + 1) * n / kParts;
+  for (Index part = 0; part < kClockParts; ++part) {
+    const Index from = part * n / kClockParts, to = (part + 1) * n / kClockParts;
     without.push_back(solve(effects, from, to));
     out.fold_squares.push_back(1e6 * (reading_s_ - without.back().predicted_s).segment(from, to - from).squaredNorm());
     squares += out.fold_squares.back();

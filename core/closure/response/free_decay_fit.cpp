@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 using Complex = FreeDecayFit::Complex;
 
 constexpr int kSubsteps = 6;  // per sample, midpoint rule
-constexpr double kLeastX = -4.0, kMostX = 3.0, kStep = 1e-5, kSettled = 1e-7;
+constexpr double kLeastX = -4.0, kMostX = 3.0, kDecayStep = 1e-5, kSettled = 1e-7;
 constexpr double kReferenceShare = 0.15;  // of the largest displacement
 
 }  // namespace
@@ -137,7 +137,7 @@ bool FreeDecayFit::step(State& state, int without, Damping& damping, double& bes
     MatrixXd jacobian(here.size(), common + own);
     for (Index p = 0; p < common + own; ++p) {
       double& value = p < common ? moved.common(p) : moved.own[r](p - common);
-      const double kept = value, h = kStep * std::max(std::abs(kept), 0.1);
+      const double kept = value, h = kDecayStep * std::max(std::abs(kept), 0.1);
       value = kept + h;
       jacobian.col(p) = (residual(moved, r) - here).reshaped() / h;
       value = kept;
@@ -185,7 +185,7 @@ void FreeDecayFit::fit_own(State& state, std::size_t release, int n_iterations) 
     State moved = state;
     for (Index p = 0; p < n_own(); ++p) {
       double& value = moved.own[release](p);
-      const double kept = value, h = kStep * std::max(std::abs(kept), 0.1);
+      const double kept = value, h = kDecayStep * std::max(std::abs(kept), 0.1);
       value = kept + h;
       jacobian.col(p) = (residual(moved, release) - here).reshaped() / h;
       value = kept;

@@ -17,10 +17,10 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using Spectrum = std::vector<Complex>;
 
-constexpr double kShortest_s = 5.0, kHighShare = 0.2;
+constexpr double kShortest_s = 5.0, kPhaseHighShare = 0.2;
 constexpr std::size_t kFewest = 256;
 
-[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument("loggers: " + what); }
+[[noreturn]] void refuse_loggers(const std::string& what) { throw std::invalid_argument("loggers: " + what); }
 
 std::vector<double> about_mean(std::vector<double> values) {
   double sum = 0.0, n = 0.0;
@@ -68,13 +68,13 @@ std::ptrdiff_t coarse_offset(const std::vector<double>& own, const std::vector<d
 }
 
 void check(const LoggerRecords& records) {
-  if (records.value.size() < 2) refuse("two records or more");
-  if (records.name.size() != records.value.size()) refuse("a name for each record");
-  if (!(records.rate_hz > 0.0)) refuse("a rate above 0");
+  if (records.value.size() < 2) refuse_loggers("two records or more");
+  if (records.name.size() != records.value.size()) refuse_loggers("a name for each record");
+  if (!(records.rate_hz > 0.0)) refuse_loggers("a rate above 0");
   for (std::size_t i = 0; i < records.value.size(); ++i) {
     const std::size_t n = records.value[i].size();
     if (n < kFewest || static_cast<double>(n) < kShortest_s * records.rate_hz)
-      refuse(records.name[i] + " has " + std::to_string(n) + " samples; 5 s and 256 samples are the least");
+      refuse_loggers(records.name[i] + " has " + std::to_string(n) + " samples; 5 s and 256 samples are the least");
   }
 }
 
@@ -95,7 +95,7 @@ void weigh(const std::vector<double>& size, const VectorXd& frequency_hz, double
 LoggerPhases logger_phases(const LoggerRecords& records, std::size_t n_parts) {
   check(records);
   const double rate_hz = records.rate_hz;
-  const Band band{records.band_low_hz, records.band_high_hz > 0.0 ? records.band_high_hz : kHighShare * rate_hz};
+  const Band band{records.band_low_hz, records.band_high_hz > 0.0 ? records.band_high_hz : kPhaseHighShare * rate_hz};
   std::vector<std::vector<double>> value;
   for (const auto& one : records.value) value.push_back(about_mean(one));
   std::vector<std::ptrdiff_t> late(value.size(), 0);
@@ -108,13 +108,13 @@ LoggerPhases logger_phases(const LoggerRecords& records, std::size_t n_parts) {
   const auto parts = static_cast<std::ptrdiff_t>(n_parts);
   const std::ptrdiff_t length = (to - from) / parts;
   if (length < static_cast<std::ptrdiff_t>(kFewest / n_parts))
-    refuse("the records hardly overlap once their offsets are undone");
+    refuse_loggers("the records hardly overlap once their offsets are undone");
   RealFft fft(next_power_of_two(static_cast<int>(length)));
   std::vector<Index> bins;
   for (Index k = 1; k + 1 < fft.n_bins(); ++k) {
     if (band.holds(rate_hz * static_cast<double>(k) / fft.size())) bins.push_back(k);
   }
-  if (bins.size() < 8) refuse("too few bins between the band's limits");
+  if (bins.size() < 8) refuse_loggers("too few bins between the band's limits");
   LoggerPhases out;
   out.frequency_hz.resize(static_cast<Index>(bins.size()));
   for (std::size_t b = 0; b < bins.size(); ++b)

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kLargestMerge = 0.05;  // cells
 constexpr int kCellsPerPixel = 4;       // at most
-constexpr int kBlock = 4;               // pixels computed together
+constexpr int kRowBlock = 4;            // pixels computed together
 
 // The cells seen by pixels begin .. end - 1, with one spare cell on either side.
 struct CellRange {
@@ -32,9 +32,9 @@ void evaluate(const TextureRow& row, std::int64_t first_cell, const Texture::Cel
     const float p2 = cells[cell - first_cell].p[2], p3 = cells[cell - first_cell].p[3];
     const double origin = row.x0 - static_cast<double>(cell);
     const int next = std::clamp(static_cast<int>(std::ceil((1.0 - origin) * pixels_per_cell)), u, end);
-    for (; u < next; u += kBlock) {
+    for (; u < next; u += kRowBlock) {
       const auto start = static_cast<float>(origin + u * row.step);
-      for (int k = 0; k < kBlock; ++k) {
+      for (int k = 0; k < kRowBlock; ++k) {
         const float s = start + static_cast<float>(k) * slope;
         light[u + k] = p0 + s * (p1 + s * (p2 + s * p3));
       }

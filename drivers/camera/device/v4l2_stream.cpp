@@ -16,7 +16,7 @@ namespace drivers {
 
 namespace {
 
-constexpr std::uint32_t kBuffers = 6;
+constexpr std::uint32_t kMappedBuffers = 6;
 constexpr std::chrono::milliseconds kTakingAway{300};
 
 std::string only_node() {
@@ -51,7 +51,7 @@ V4l2Stream::V4l2Stream(const std::string& node, const WantedMode& wanted) {
   if (const int error = device_.open(path); error != 0) refuse_open(path, error);
   identity_ = device_.identity();
   made_ = make_mode(device_, choose_mode(list_modes(device_, wanted), wanted, path), wanted.rate_hz);
-  if (const int error = device_.map_buffers(kBuffers); error != 0) {
+  if (const int error = device_.map_buffers(kMappedBuffers); error != 0) {
     throw std::runtime_error(
         fmt::format("{}: no buffers: {}: is another program using it?", path, std::strerror(error)));
   }
@@ -87,7 +87,7 @@ bool V4l2Stream::open_again() {
   if (path.empty() || device_.open(path) != 0) return false;
   try {
     made_ = make_mode(device_, made_.mode, made_.mode.rate_hz);
-    if (device_.map_buffers(kBuffers) == 0) return true;
+    if (device_.map_buffers(kMappedBuffers) == 0) return true;
   } catch (const std::runtime_error&) {  // the device gives another mode, or none yet
   }
   device_.close();

@@ -9,7 +9,7 @@ namespace drivers {
 
 namespace {
 
-constexpr std::size_t kMostPackets = std::size_t{1} << 22;
+constexpr std::size_t kMostScanned = std::size_t{1} << 22;
 constexpr std::uint64_t kMostScannedBytes = std::uint64_t{1} << 30;
 constexpr double kWithTimes = 0.99;  // if fewer packets than this share have a time, the format carries none
 constexpr double kBackward_s = 1.0;
@@ -37,7 +37,7 @@ PacketScan scan_packets(const std::string& path) {
   scan.tick_s = container.tick_s();
   std::vector<Seen> seen;
   std::int64_t last_dts = AV_NOPTS_VALUE;
-  while (scan.n_packets < kMostPackets && container.n_bytes_read() < kMostScannedBytes) {
+  while (scan.n_packets < kMostScanned && container.n_bytes_read() < kMostScannedBytes) {
     if (!container.next(*packet)) {
       scan.complete = true;
       break;

@@ -63,7 +63,7 @@ class MovingPartCandidate final : public EffectCandidate {
   }
   [[nodiscard]] Objection objection() const override {
     if (part_.pattern.size() == 0) return {};
-    const Eigen::VectorXd whitened = part_.pattern.cwiseProduct(fit_.model.weight());
+    const Eigen::VectorXd whitened = fit_.model.whitened(part_.pattern);
     const Objection common = follows_motion(fit_, whitened, part_.found.band);
     return common.words.empty() ? follows_regions(fit_, whitened, part_.found.band) : common;
   }
@@ -90,11 +90,12 @@ class MovingPartCandidate final : public EffectCandidate {
     RungSet band = kAllRungs;
     for (int round = 0; round < kRounds; ++round) {
       const Eigen::MatrixXd within = fit_.held_out.sum_over(band, moments)(rows, rows);
-      const Eigen::VectorXd weight = fit_.model.weight()(rows);
-      const std::vector<char> above = divided(leading_pattern(within).cwiseQuotient(weight));
+      Eigen::VectorXd leading = Eigen::VectorXd::Zero(fit_.model.weight().size());
+      leading(rows) = leading_pattern(within);
+      const std::vector<char> above = divided(fit_.model.in_px(leading)(rows));
       out.pattern = Eigen::VectorXd::Zero(fit_.model.weight().size());
       for (std::size_t i = 0; i < rows.size(); ++i) out.pattern(rows[i]) = above[i] != 0 ? 1.0 : 0.0;
-      const Eigen::VectorXd whitened = out.pattern.cwiseProduct(fit_.model.weight());
+      const Eigen::VectorXd whitened = fit_.model.whitened(out.pattern);
       out.found = fit_.held_out.of_pattern(pattern_beside(fit_.model, whitened), moments);
       band = out.found.band;
     }

@@ -112,7 +112,6 @@ std::vector<Eigen::MatrixXd> PositionEffect::derivatives(const Eigen::VectorXd& 
     // The effect also shifts the mean positions, and the zoom scales this shift.
     for (Eigen::Index j = 0; j < fit.record.n_points(); ++j)
       field.middleRows(2 * j, 2) -= field.middleRows(2 * j, 2).rowwise().mean().eval() * fit.model.zoom_of_point(j);
-    field.array().colwise() *= fit.model.weight().array();
     out.push_back(fit.model.left_at_common_instants(std::move(field)));
   }
   return out;

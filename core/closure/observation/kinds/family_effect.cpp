@@ -17,7 +17,7 @@ class FamilyCandidate final : public EffectCandidate {
  public:
   FamilyCandidate(const FamilyEffect& effect, const FitView& fit)
       : effect_(effect), fit_(fit), fields_(effect.fields(fit.record, fit.model.geometry())) {
-    const Eigen::MatrixXd w = fit.model.weight().asDiagonal() * fields_;
+    const Eigen::MatrixXd w = fit.model.whitened(fields_);
     const Eigen::MatrixXd& q = fit.model.q_high();
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(w - q * (q.transpose() * w));
     qr.setThreshold(kLeastBeside);
@@ -35,7 +35,7 @@ class FamilyCandidate final : public EffectCandidate {
   }
   [[nodiscard]] Objection objection() const override {
     if (pattern_.size() == 0) return {};
-    return follows_motion(fit_, pattern_.cwiseProduct(fit_.model.weight()), found_.band);
+    return follows_motion(fit_, fit_.model.whitened(pattern_), found_.band);
   }
   [[nodiscard]] std::unique_ptr<EffectInModel> adopted() const override {
     return learned_pattern({effect_.id(), effect_.name(), EffectKind::kNamed}, found_.band, pattern_);
@@ -55,7 +55,7 @@ class FamilyCandidate final : public EffectCandidate {
   }
   // The combination of the fields that leaves this pattern beside the model.
   [[nodiscard]] Eigen::VectorXd in_px(const Eigen::VectorXd& beside) const {
-    const Eigen::MatrixXd w = fit_.model.weight().asDiagonal() * fields_;
+    const Eigen::MatrixXd w = fit_.model.whitened(fields_);
     const Eigen::MatrixXd& q = fit_.model.q_high();
     const Eigen::MatrixXd left = w - q * (q.transpose() * w);
     return fields_ * left.colPivHouseholderQr().solve(beside);

@@ -14,8 +14,7 @@ class LatentCandidate final : public EffectCandidate {
   }
   double find(const TestedResidual& residual) override {
     found_ = fit_.held_out.of_learned(residual.moments);
-    pattern_ =
-        leading_pattern(fit_.held_out.sum_over(found_.band, residual.moments)).cwiseQuotient(fit_.model.weight());
+    pattern_ = fit_.model.in_px(leading_pattern(fit_.held_out.sum_over(found_.band, residual.moments)));
     return found_.gain;
   }
   // In whichever rungs: what has no name must change the whole residual. Folded modes leave narrow patterns of 0.005.

@@ -24,7 +24,7 @@ class LearnedInModel final : public EffectInModel {
   [[nodiscard]] EffectKind kind() const override { return kind_; }
   [[nodiscard]] std::vector<ParameterValue> parameters(const FitView& fit,
                                                        const Eigen::RowVectorXd& amplitude) const override {
-    const ParameterValue size = amplitude_rms(fit, pattern_.cwiseProduct(fit.model.weight()), band_, amplitude);
+    const ParameterValue size = amplitude_rms(fit, fit.model.whitened(pattern_), band_, amplitude);
     if (kind_ == EffectKind::kLatent) return {size};
     return {size, {"frequency", "Hz", strongest_hz(amplitude, fit.record.rate_hz), std::nullopt}};
   }

@@ -26,7 +26,7 @@ class PatternInModel final : public EffectInModel {
   }
   [[nodiscard]] std::vector<ParameterValue> parameters(const FitView& fit,
                                                        const Eigen::RowVectorXd& amplitude) const override {
-    ParameterValue size = amplitude_rms(fit, pattern_.cwiseProduct(fit.model.weight()), band_, amplitude);
+    ParameterValue size = amplitude_rms(fit, fit.model.whitened(pattern_), band_, amplitude);
     size.unit = effect_.unit();
     size.value *= effect_.per_unit();
     *size.sigma *= effect_.per_unit();
@@ -71,7 +71,7 @@ class PatternCandidate final : public EffectCandidate {
     return fit_.held_out.of_pattern(beside_, residual.moments);
   }
   [[nodiscard]] Eigen::VectorXd whitened() const {
-    return effect_.pattern(fit_.record, fit_.model.geometry()).cwiseProduct(fit_.model.weight());
+    return fit_.model.whitened(effect_.pattern(fit_.record, fit_.model.geometry()));
   }
 
   const PatternEffect& effect_;
@@ -96,7 +96,7 @@ ParameterValue amplitude_rms(const FitView& fit, const Eigen::VectorXd& w, RungS
 
 std::optional<NotObservable> PatternEffect::obstacle(const FitView& fit, bool is_adopted) const {
   if (is_adopted) return std::nullopt;
-  const Eigen::VectorXd w = pattern(fit.record, fit.model.geometry()).cwiseProduct(fit.model.weight());
+  const Eigen::VectorXd w = fit.model.whitened(pattern(fit.record, fit.model.geometry()));
   const double left = (w - fit.model.q_high() * (fit.model.q_high().transpose() * w)).norm();
   if (left > kLeastBeside * w.norm()) return std::nullopt;
   return NotObservable{name(), "the free motions of the regions span its pattern",

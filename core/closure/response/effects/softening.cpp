@@ -10,7 +10,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kMaterial = 0.004;  // records of linear structures show values up to this
+constexpr double kMaterialSoftening = 0.004;  // records of linear structures show values up to this
 
 // All frequencies follow the squared amplitude of the channel that moves most, as with a cubic spring. The amplitude is
 // computed from earlier samples, so that a sample does not explain itself.
@@ -42,7 +42,7 @@ class Softening final : public ChannelEffect {
     return {"stiffness_change_at_mean_square", "%", 200.0 * value, {}};
   }
   [[nodiscard]] std::string immaterial(double value) const override {
-    return std::abs(value) >= kMaterial
+    return std::abs(value) >= kMaterialSoftening
                ? ""
                : "linear structures show as much: " + number(200.0 * value) + " % of stiffness";
   }
