@@ -76,7 +76,8 @@ std::string write_or_why(const std::string& path, const std::string& partial, st
   head.n_bytes = bytes.size();
   head.checksum = checksum(bytes);
   {
-    const File file(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC);
+    (void)::unlink(partial.c_str());  // a new file, never what a link of that name points to
+    const File file(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
     if (!file.is_open()) return why(partial);
     if (!file.write(&head, sizeof head) || !file.write(bytes.data(), bytes.size()) || !file.sync()) return why(partial);
   }

@@ -34,6 +34,7 @@ DataFlow::DataFlow(const AppConfig& c, std::unique_ptr<drivers::Camera> camera,
       out(std::move(publisher)) {
   connect();
   watch();
+  if (report && !report->remark().empty()) health.warn(report->remark());
   const std::optional<RunState> resumed = keeps_state() ? keep_state() : std::nullopt;
   if (recorder)
     recorder->begin(

@@ -14,7 +14,7 @@
 
 namespace app {
 
-Pipeline::Pipeline(const AppConfig& declared) {
+Pipeline::Pipeline(const AppConfig& declared) : claims_(claim_folders(declared)) {
   const AppConfig config = with_found_axes(declared);
   std::unique_ptr<drivers::Camera> camera = open_camera(config);
   std::string warning;
@@ -26,7 +26,8 @@ Pipeline::Pipeline(const AppConfig& declared) {
 }
 
 Pipeline::Pipeline(AppConfig config, std::unique_ptr<drivers::Camera> camera,
-                   std::unique_ptr<drivers::Publisher> publisher) {
+                   std::unique_ptr<drivers::Publisher> publisher)
+    : claims_(claim_folders(config)) {
   take_u_where_sought(config);
   flow_ = std::make_unique<DataFlow>(config, std::move(camera), open_recorder(config), std::move(publisher));
 }
