@@ -23,7 +23,7 @@ constexpr const char* kSymbol = "_ZN2cv6imreadERKNSt7__cxx1112basic_stringIcSt11
 
 Imread* load_imread() {
   // The library reads its bound when it is loaded; its own default is 2^30 pixels.
-  ::setenv("OPENCV_IO_MAX_IMAGE_PIXELS", std::to_string(limits::kImagePixels).c_str(), 1);
+  ::setenv("OPENCV_IO_MAX_IMAGE_PIXELS", std::to_string(Limits::kImagePixels).c_str(), 1);
   void* library = dlopen(HOVERMODAL_IMGCODECS, RTLD_NOW | RTLD_LOCAL);
   void* symbol = library == nullptr ? nullptr : dlsym(library, kSymbol);
   if (symbol == nullptr) {
@@ -45,9 +45,9 @@ void require_usable_png(const FileHandle& file) {
     return value;
   };
   const std::uint64_t width = number(16), height = number(20);
-  if (width == 0 || height <= limits::kImagePixels / width) return;
+  if (width == 0 || height <= Limits::kImagePixels / width) return;
   throw std::runtime_error("has " + std::to_string(width) + " x " + std::to_string(height) + " pixels, more than " +
-                           std::to_string(limits::kImagePixels) + " (8192 x 8192): reduce it");
+                           std::to_string(Limits::kImagePixels) + " (8192 x 8192): reduce it");
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ cv::Mat read_image(const std::string& path, int flags) {
   } catch (const FileError&) {  // a pipe, a device, or nothing
     return {};
   } catch (const cv::Exception&) {  // only a size beyond the bound is thrown; what is damaged gives an empty image
-    throw std::runtime_error("is larger than " + std::to_string(limits::kImagePixels) +
+    throw std::runtime_error("is larger than " + std::to_string(Limits::kImagePixels) +
                              " pixels (8192 x 8192), or its size is damaged: reduce it");
   }
 }

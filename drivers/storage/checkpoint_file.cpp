@@ -130,7 +130,7 @@ CheckpointRead read_checkpoint(const std::string& path) {
     return refuse("its version is " + std::to_string(head.version) + ", ours is " + std::to_string(kCheckpointVersion));
   }
   const std::uint64_t size = bytes_of(in.get());
-  if (head.n_bytes > limits::kStateBytes || size != sizeof head + head.n_bytes) {
+  if (head.n_bytes > Limits::kStateBytes || size != sizeof head + head.n_bytes) {
     return refuse("it is " + std::to_string(size) + " bytes long and should be " +
                   std::to_string(sizeof head + head.n_bytes));
   }

@@ -114,8 +114,8 @@ class TracksReader {
     if (name.empty() || name.size() > 64) lines_.fail("the region name is empty or longer than 64 characters");
     const auto [found, is_new] = region_of_.try_emplace(std::string(name), out_.region_names.size());
     if (is_new) {
-      if (out_.region_names.size() > limits::kRegions)
-        lines_.fail(fmt::format("more than {} regions; is a column shifted?", limits::kRegions));
+      if (out_.region_names.size() > Limits::kRegions)
+        lines_.fail(fmt::format("more than {} regions; is a column shifted?", Limits::kRegions));
       out_.region_names.emplace_back(name);
     }
     return static_cast<std::uint16_t>(found->second);
@@ -155,9 +155,9 @@ class TracksReader {
       lines_.fail(fmt::format("point {} appears twice in frame {}", point.id, *sequence));
     }
     if (point.region >= n_points_.size()) n_points_.resize(point.region + std::size_t{1}, 0);
-    if (++n_points_[point.region] > limits::kPointsPerRegion)
+    if (++n_points_[point.region] > Limits::kPointsPerRegion)
       lines_.fail(fmt::format("more than {} points of region `{}` in one frame; track fewer, or divide the region",
-                              limits::kPointsPerRegion, printable(cells_[3])));
+                              Limits::kPointsPerRegion, printable(cells_[3])));
     out_.frames.back().points.push_back(point);
   }
 

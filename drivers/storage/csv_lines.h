@@ -14,7 +14,7 @@ namespace drivers {
 // The lines of a CSV file, one at a time, in bounded memory.
 class CsvLines {
  public:
-  static constexpr std::size_t kMaxLineBytes = limits::kLineBytes;
+  static constexpr std::size_t kMaxLineBytes = Limits::kLineBytes;
 
   explicit CsvLines(const std::string& path);
 

@@ -16,7 +16,7 @@ namespace drivers {
 namespace {
 
 constexpr std::uint64_t kLinesPerReport = 200'000;
-constexpr std::size_t kMaxColumns = limits::kColumns;
+constexpr std::size_t kMaxColumns = Limits::kColumns;
 constexpr std::string_view kLabviewFirst = "LabVIEW Measurement";
 constexpr std::string_view kLabviewEnd = "***End_of_Header***";
 

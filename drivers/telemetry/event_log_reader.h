@@ -12,7 +12,7 @@ namespace drivers {
 
 // Reads the events of an LCM event log, in order. Replaces liblcm 1.3.1, which trusts the lengths in a file: one of
 // 2147483647 terminates the program. Accepts any bytes: an invalid event is left out and counted, and the next one is
-// searched for. Lengths over limits::kRecordEventBytes are invalid.
+// searched for. Lengths over Limits::kRecordEventBytes are invalid.
 class EventLogReader {
  public:
   static constexpr std::int32_t kLongestChannel = 999;  // LCM's own limit

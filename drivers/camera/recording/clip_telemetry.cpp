@@ -51,7 +51,7 @@ std::vector<TimedPayload> read_payloads(const std::string& video, std::string& t
 
 // The payloads of a raw file follow one another; only their own clock states their times.
 ClipTelemetry of_raw_gpmf(const std::string& file) {
-  const std::string bytes = read_text_file(file, limits::kRawTelemetryBytes);
+  const std::string bytes = read_text_file(file, Limits::kRawTelemetryBytes);
   TimedPayload whole;
   try {
     whole.payload = parse_gpmf({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});

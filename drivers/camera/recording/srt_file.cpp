@@ -240,7 +240,7 @@ class Parser {
 
 SrtFile parse_srt(std::string_view text, const std::string& name) { return Parser(name).parse(text); }
 
-SrtFile read_srt(const std::string& path) { return parse_srt(read_text_file(path, limits::kSubtitleBytes), path); }
+SrtFile read_srt(const std::string& path) { return parse_srt(read_text_file(path, Limits::kSubtitleBytes), path); }
 
 std::string find_srt(const std::string& video) {
   const fs::path path = fs::absolute(video).lexically_normal();

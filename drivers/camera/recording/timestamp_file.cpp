@@ -95,8 +95,8 @@ class Reader {
                          t_ns == stamps_ns_.back() ? "repeats" : "runs backward from",
                          static_cast<double>(stamps_ns_.back()) * 1e-9));
     }
-    if (stamps_ns_.size() == limits::kTimestamps)
-      refuse(line, fmt::format("more than {} frames are refused: split the recording", limits::kTimestamps));
+    if (stamps_ns_.size() == Limits::kTimestamps)
+      refuse(line, fmt::format("more than {} frames are refused: split the recording", Limits::kTimestamps));
     stamps_ns_.push_back(t_ns);
   }
 

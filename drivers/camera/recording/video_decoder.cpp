@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMostErrorsInARow = 100'000;  // limit for a decoder that only fails
 // A larger size means a damaged header.
-constexpr auto kMostPixels = static_cast<std::int64_t>(limits::kImagePixels);
+constexpr auto kMostPixels = static_cast<std::int64_t>(Limits::kImagePixels);
 
 AvHandle<AVCodecContext> open_codec(const std::string& path, const Container& container) {
   AvHandle<AVCodecContext> codec(avcodec_alloc_context3(&container.decoder()));

@@ -59,7 +59,7 @@ TEST(RegularFile, TellsTheSizeOfWhatIsTooLarge) {
 
 TEST(RegularFile, ALineOfTimeStampsIsBounded) {
   const fs::path path = test_support::fresh_folder() / "clip.timestamps.csv";
-  std::ofstream(path) << "frame,t_s\n0,0\n1," << std::string(limits::kLineBytes, '1') << "\n";
+  std::ofstream(path) << "frame,t_s\n0,0\n1," << std::string(Limits::kLineBytes, '1') << "\n";
   EXPECT_THAT(refusal([&] { (void)read_timestamp_file(path.string()); }),
               HasSubstr(":3: the line is longer than 64 KiB"));
 }
@@ -69,7 +69,7 @@ TEST(RegularFile, PointsOfARegionAreBounded) {
   {
     std::ofstream out(path);
     out << "# image_size_px: 64 x 64\n# rate_hz: 25\nframe,t_s,point,region,u_px,v_px,sigma_px\n";
-    for (std::size_t i = 0; i <= limits::kPointsPerRegion; ++i) out << "0,0," << i << ",roof,1,1,0.1\n";
+    for (std::size_t i = 0; i <= Limits::kPointsPerRegion; ++i) out << "0,0," << i << ",roof,1,1,0.1\n";
   }
   EXPECT_THAT(refusal([&] { (void)read_tracks_csv(path.string()); }),
               HasSubstr("more than 4096 points of region `roof`"));
