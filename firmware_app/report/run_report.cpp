@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <iterator>
@@ -28,6 +29,7 @@ using drivers::append_text;
 constexpr int kPixelDecimals = 5;
 constexpr int kSigmaDecimals = 6;
 constexpr int kDisplacementDecimals = 6;
+constexpr double kFlush_s = 2.0;
 
 template <class... Args>
 void append_line(fmt::memory_buffer& out, fmt::format_string<Args...> format, Args&&... args) {
@@ -43,7 +45,8 @@ RunReport::RunReport(const std::string& directory, const AppConfig& config, cons
       method_(app::to_text(config.method)),
       region_names_(region_names),
       regions_(config.regions),
-      history_(camera.rate_hz, channels.size(), region_names.size()) {
+      history_(camera.rate_hz, channels.size(), region_names.size()),
+      n_per_flush_(static_cast<std::uint64_t>(std::clamp(kFlush_s * camera.rate_hz, 1.0, 1e6))) {
   for (const core::ChannelInfo& channel : channels) channel_names_.push_back(channel.name);
   displacements_.emplace(folder_.in_working("displacements.csv"));
   write_displacement_header(config, camera, channels);
@@ -135,7 +138,9 @@ bool RunReport::add(const core::DisplacementSample& sample) noexcept try {
     if (seen && !append_fixed(out, sample.value_mm[i], kDisplacementDecimals)) ++n_not_finite_;
   }
   out.push_back('\n');
-  return displacements_->end_line();
+  if (++n_samples_ % n_per_flush_ != 0) return displacements_->end_line();
+  if (tracks_) (void)tracks_->flush();  // its fault shows at the next frame
+  return displacements_->flush();
 } catch (const std::exception&) {  // out of memory
   ++n_items_lost_;
   return false;

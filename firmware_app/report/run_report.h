@@ -72,6 +72,8 @@ class RunReport {
   RunHistory history_;
   std::optional<drivers::CsvWriter> tracks_;  // empty if the configuration requests no tracks
   std::optional<drivers::CsvWriter> displacements_;
+  std::uint64_t n_per_flush_;  // samples between two flushes: what a killed run can lose
+  std::uint64_t n_samples_ = 0;
   std::uint64_t n_items_lost_ = 0;
   std::uint64_t n_not_finite_ = 0;
 };

@@ -12,17 +12,19 @@
 
 namespace app {
 
-std::vector<std::shared_ptr<drivers::FolderClaim>> claim_folders(const AppConfig& config) try {
+std::vector<std::shared_ptr<drivers::FolderClaim>> claim_folders(const AppConfig& config, std::string& warning) {
   std::vector<std::shared_ptr<drivers::FolderClaim>> claims;
   const auto claim = [&](const std::string& folder, const char* key) {
     if (!folder.empty()) claims.push_back(drivers::FolderClaim::take(folder, key));
   };
   claim(config.report.directory, "report.directory");
   claim(config.record.directory, "record.directory");
-  claim(config.state.directory, "state.directory");
+  try {
+    claim(config.state.directory, "state.directory");
+  } catch (const drivers::FileError& error) {  // a run without its state is worth more than none
+    warning = fmt::format("{}; the run goes on without state", error.what());
+  }
   return claims;
-} catch (const drivers::FileError& error) {
-  throw ConfigError(error.what());
 }
 
 std::unique_ptr<drivers::RunRecorder> open_recorder(const AppConfig& config) {

@@ -20,9 +20,10 @@
 
 namespace app {
 
-// The folders of report, record and state, for this process alone. Throws ConfigError where one cannot be written to,
-// drivers::FolderInUse where another process writes into it.
-[[nodiscard]] std::vector<std::shared_ptr<drivers::FolderClaim>> claim_folders(const AppConfig& config);
+// The folders of report, record and state, for this process alone. Throws drivers::FolderInUse where another process
+// writes into one, drivers::FileError where report or record cannot be written; the state's fault is `warning`.
+[[nodiscard]] std::vector<std::shared_ptr<drivers::FolderClaim>> claim_folders(const AppConfig& config,
+                                                                               std::string& warning);
 [[nodiscard]] std::unique_ptr<drivers::RunRecorder> open_recorder(const AppConfig& config);  // null: none wanted
 [[nodiscard]] std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config,
                                                                  drivers::RunRecorder* recorder, std::string& warning);

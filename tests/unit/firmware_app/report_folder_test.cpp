@@ -79,6 +79,13 @@ TEST_F(ReportFolderTest, AKilledRunLeavesTheLastReportAndWhatItWrote) {
   EXPECT_EQ(text_of(path("r/report.unfinished/tracks.csv.partial")), "some frames") << "the larger one stays";
 }
 
+TEST_F(ReportFolderTest, AKilledRunLosesTwoSecondsOfItsFilesAtMost) {
+  RunReport report = open();
+  for (std::uint64_t k = 0; k < 50; ++k) EXPECT_TRUE(report.add(frame(k, 5)) && report.add(sample(k)));
+  EXPECT_THAT(text_of(path("r/report.partial/displacements.csv.partial")), HasSubstr("\n49,"));
+  EXPECT_THAT(text_of(path("r/report.partial/tracks.csv.partial")), HasSubstr("\n49,"));
+}
+
 // A loss of power after each step of the hand-over: the next start completes it.
 TEST_F(ReportFolderTest, CompletesAHandOverThatWasInterruptedAtAnyStep) {
   const std::vector<std::vector<std::pair<const char*, const char*>>> states{
