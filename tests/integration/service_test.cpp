@@ -164,39 +164,6 @@ TEST(Service, LaterSettingsOverrideEarlierOnes) {
   EXPECT_FALSE(fs::exists(folder / "a b: 1" / "tracks.csv"));
 }
 
-TEST(Service, ARunThatIsRefusedTouchesNothingOfTheLastReport) {
-  const auto folder = own_folder();
-  fs::create_directories(folder);
-  std::ofstream(folder / "modal.json") << "good";
-  const ServiceRun run = run_service(
-      clip_arguments({"--set", "rt.capture_cpu=1023", "--set", "rt.required=true", "--report", folder.string()}));
-  EXPECT_EQ(run.code, 4) << run.output;
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
-}
-
-TEST(Service, ASecondOneInAFolderIsExitCode2AndARunThatIsKilledLeavesTheLastReport) {
-  const auto folder = own_folder();
-  fs::create_directories(folder);
-  std::ofstream(folder / "modal.json") << "good";
-  std::vector<std::string> arguments{tests::kService};
-  for (const std::string& a : clip_arguments({"--set", "camera.pace=realtime", "--report", folder.string()}))
-    arguments.push_back(a);
-  tests::ChildProcess first(arguments);
-  ASSERT_TRUE(first.wait_for("channel base")) << first.output();
-  tests::ChildProcess second(arguments);
-  EXPECT_EQ(second.wait_for_exit(), 2) << second.output();
-  EXPECT_THAT(second.output(), HasSubstr("report.directory: " + folder.string() + ": is in use by process"));
-  std::this_thread::sleep_for(std::chrono::milliseconds(2500));
-  first.signal(SIGKILL);
-  (void)first.wait_for_exit();
-  EXPECT_EQ(fs::file_size(folder / "modal.json"), 4U);
-  const ServiceRun next = run_service(clip_arguments({"--report", folder.string()}));
-  EXPECT_EQ(next.code, 0) << next.output;
-  expect_complete_report(folder);
-  EXPECT_EQ(fs::file_size(folder / "report.1" / "modal.json"), 4U);
-  EXPECT_TRUE(fs::exists(folder / "report.unfinished" / "displacements.csv.partial"));
-}
-
 class ServiceSignal : public ::testing::TestWithParam<int> {};
 
 TEST_P(ServiceSignal, EndsARunWellWithACompleteReport) {
