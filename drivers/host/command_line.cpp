@@ -1,6 +1,8 @@
 #include "drivers/host/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
 #include <map>
 #include <sstream>
 
@@ -19,6 +21,13 @@ const std::map<std::string, core::ReadoutDirection>& readout_directions() {
     return named;
   }();
   return kDirections;
+}
+
+// "nan" and "inf" are numbers for the parser, and no value for any option.
+std::string fault_of_number(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return end != text.c_str() && !std::isfinite(value) ? text + " is no finite number" : std::string();
 }
 
 }  // namespace
@@ -50,7 +59,7 @@ CommandOption Command::option(const char* name, std::uint64_t& value, const std:
   return app_->add_option(name, value, help);
 }
 CommandOption Command::option(const char* name, double& value, const std::string& help) {
-  return app_->add_option(name, value, help);
+  return app_->add_option(name, value, help)->check(fault_of_number);
 }
 CommandOption Command::option(const char* name, std::optional<std::string>& value, const std::string& help) {
   return app_->add_option(name, value, help);
@@ -62,16 +71,16 @@ CommandOption Command::option(const char* name, std::optional<std::uint64_t>& va
   return app_->add_option(name, value, help);
 }
 CommandOption Command::option(const char* name, std::optional<double>& value, const std::string& help) {
-  return app_->add_option(name, value, help);
+  return app_->add_option(name, value, help)->check(fault_of_number);
 }
 CommandOption Command::option(const char* name, std::vector<std::string>& value, const std::string& help) {
   return app_->add_option(name, value, help);
 }
 CommandOption Command::option(const char* name, std::vector<double>& value, const std::string& help) {
-  return app_->add_option(name, value, help);
+  return app_->add_option(name, value, help)->check(fault_of_number);
 }
 CommandOption Command::option(const char* name, std::vector<std::array<double, 4>>& value, const std::string& help) {
-  return app_->add_option(name, value, help);
+  return app_->add_option(name, value, help)->check(fault_of_number);
 }
 CommandOption Command::option(const char* name, core::ReadoutDirection& value, const std::string& help) {
   CLI::Option* added = app_->add_option(name, value, help);

@@ -2,7 +2,17 @@
 
 #include <dlfcn.h>
 
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <opencv2/core.hpp>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "drivers/storage/limits.h"
+#include "drivers/storage/regular_file.h"
+#include "drivers/storage/text_file.h"
 
 namespace drivers {
 namespace {
@@ -12,6 +22,8 @@ using Imread = cv::Mat(const std::string& path, int flags);
 constexpr const char* kSymbol = "_ZN2cv6imreadERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEEi";
 
 Imread* load_imread() {
+  // The library reads its bound when it is loaded; its own default is 2^30 pixels.
+  ::setenv("OPENCV_IO_MAX_IMAGE_PIXELS", std::to_string(Limits::kImagePixels).c_str(), 1);
   void* library = dlopen(HOVERMODAL_IMGCODECS, RTLD_NOW | RTLD_LOCAL);
   void* symbol = library == nullptr ? nullptr : dlsym(library, kSymbol);
   if (symbol == nullptr) {
@@ -21,11 +33,36 @@ Imread* load_imread() {
   return reinterpret_cast<Imread*>(symbol);
 }
 
+// States the size in words; for other formats the library's own bound holds.
+void require_usable_png(const FileHandle& file) {
+  constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
+  std::array<char, 24> head{};  // signature, length and name of the first chunk, width, height
+  if (std::fread(head.data(), 1, head.size(), file.get()) != head.size()) return;
+  if (std::string_view(head.data(), 8) != kSignature) return;
+  const auto number = [&head](std::size_t at) {
+    std::uint64_t value = 0;
+    for (std::size_t i = at; i < at + 4; ++i) value = value << 8U | static_cast<unsigned char>(head[i]);
+    return value;
+  };
+  const std::uint64_t width = number(16), height = number(20);
+  if (width == 0 || height <= Limits::kImagePixels / width) return;
+  throw std::runtime_error("has " + std::to_string(width) + " x " + std::to_string(height) + " pixels, more than " +
+                           std::to_string(Limits::kImagePixels) + " (8192 x 8192): reduce it");
+}
+
 }  // namespace
 
 cv::Mat read_image(const std::string& path, int flags) {
   static Imread* const imread = load_imread();
-  return imread(path, flags);
+  try {
+    require_usable_png(open_regular_file(path, "name an image"));
+    return imread(path, flags);
+  } catch (const FileError&) {  // a pipe, a device, or nothing
+    return {};
+  } catch (const cv::Exception&) {  // only a size beyond the bound is thrown; what is damaged gives an empty image
+    throw std::runtime_error("is larger than " + std::to_string(Limits::kImagePixels) +
+                             " pixels (8192 x 8192), or its size is damaged: reduce it");
+  }
 }
 
 }  // namespace drivers

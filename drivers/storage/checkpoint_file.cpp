@@ -10,13 +10,17 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <system_error>
+
+#include "drivers/storage/limits.h"
+#include "drivers/storage/regular_file.h"
+#include "drivers/storage/text_file.h"
 
 namespace drivers {
 
 namespace {
 
 constexpr std::array<char, 8> kMagic{'H', 'M', 'S', 'T', 'A', 'T', 'E', '\n'};
-constexpr std::uint64_t kMostBytes = 4ULL << 30;
 
 struct Head {
   std::array<char, 8> magic = kMagic;
@@ -76,7 +80,8 @@ std::string write_or_why(const std::string& path, const std::string& partial, st
   head.n_bytes = bytes.size();
   head.checksum = checksum(bytes);
   {
-    const File file(partial.c_str(), O_WRONLY | O_CREAT | O_TRUNC);
+    (void)::unlink(partial.c_str());  // a new file, never what a link of that name points to
+    const File file(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
     if (!file.is_open()) return why(partial);
     if (!file.write(&head, sizeof head) || !file.write(bytes.data(), bytes.size()) || !file.sync()) return why(partial);
   }
@@ -102,33 +107,35 @@ std::string write_checkpoint(const std::string& path, std::span<const std::uint8
 
 CheckpointRead read_checkpoint(const std::string& path) {
   CheckpointRead out;
-  std::ifstream in(path, std::ios::binary);
-  if (!in) {
-    out.exists = std::filesystem::exists(path);
-    if (out.exists) out.refused = "it cannot be read";
+  std::error_code error;
+  out.exists = std::filesystem::exists(path, error);
+  if (!out.exists) return out;
+  FileHandle in;
+  try {
+    in = open_regular_file(path, "it should be a state of hovermodal");
+  } catch (const FileError& unreadable) {
+    out.refused = unreadable.what();
     return out;
   }
-  out.exists = true;
+  const auto read = [&in](void* to, std::size_t n_bytes) { return std::fread(to, 1, n_bytes, in.get()) == n_bytes; };
   Head head;
   const auto refuse = [&out](std::string reason) {
     out.refused = std::move(reason);
     out.bytes.clear();
     return out;
   };
-  if (!in.read(reinterpret_cast<char*>(&head), sizeof head)) return refuse("it is cut off in its head");
+  if (!read(&head, sizeof head)) return refuse("it is cut off in its head");
   if (head.magic != kMagic || head.reserved != 0) return refuse("it is not a state of hovermodal");
   if (head.version != kCheckpointVersion) {
     return refuse("its version is " + std::to_string(head.version) + ", ours is " + std::to_string(kCheckpointVersion));
   }
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error || head.n_bytes > kMostBytes || size != sizeof head + head.n_bytes) {
+  const std::uint64_t size = bytes_of(in.get());
+  if (head.n_bytes > Limits::kStateBytes || size != sizeof head + head.n_bytes) {
     return refuse("it is " + std::to_string(size) + " bytes long and should be " +
                   std::to_string(sizeof head + head.n_bytes));
   }
   out.bytes.resize(static_cast<std::size_t>(head.n_bytes));
-  if (!in.read(reinterpret_cast<char*>(out.bytes.data()), static_cast<std::streamsize>(out.bytes.size())))
-    return refuse("it cannot be read to its end");
+  if (!read(out.bytes.data(), out.bytes.size())) return refuse("it cannot be read to its end");
   if (checksum(out.bytes) != head.checksum) return refuse("its checksum is wrong: it is damaged");
   return out;
 }

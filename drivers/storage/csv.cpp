@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "drivers/storage/csv_lines.h"
+#include "drivers/storage/limits.h"
 #include "drivers/storage/text_file.h"
 
 namespace drivers {
@@ -113,7 +114,8 @@ class TracksReader {
     if (name.empty() || name.size() > 64) lines_.fail("the region name is empty or longer than 64 characters");
     const auto [found, is_new] = region_of_.try_emplace(std::string(name), out_.region_names.size());
     if (is_new) {
-      if (out_.region_names.size() > 4096) lines_.fail("more than 4096 regions; is a column shifted?");
+      if (out_.region_names.size() > Limits::kRegions)
+        lines_.fail(fmt::format("more than {} regions; is a column shifted?", Limits::kRegions));
       out_.region_names.emplace_back(name);
     }
     return static_cast<std::uint16_t>(found->second);
@@ -152,6 +154,10 @@ class TracksReader {
     if (!is_new && std::exchange(last->second, *sequence) == *sequence) {
       lines_.fail(fmt::format("point {} appears twice in frame {}", point.id, *sequence));
     }
+    if (point.region >= n_points_.size()) n_points_.resize(point.region + std::size_t{1}, 0);
+    if (++n_points_[point.region] > Limits::kPointsPerRegion)
+      lines_.fail(fmt::format("more than {} points of region `{}` in one frame; track fewer, or divide the region",
+                              Limits::kPointsPerRegion, printable(cells_[3])));
     out_.frames.back().points.push_back(point);
   }
 
@@ -167,6 +173,7 @@ class TracksReader {
       if (t_ns <= last.t_start_ns) lines_.fail(fmt::format("frame {}: its time does not lie after the last", sequence));
     }
     const bool gap = !out_.frames.empty() && sequence != out_.frames.back().sequence + 1;
+    n_points_.assign(n_points_.size(), 0);
     core::TrackFrame& frame = out_.frames.emplace_back();
     frame.sequence = sequence;
     frame.t_start_ns = t_ns;
@@ -178,6 +185,7 @@ class TracksReader {
   std::vector<std::string_view> cells_;
   std::unordered_map<std::string, std::size_t> region_of_;
   std::unordered_map<std::uint32_t, std::uint64_t> last_frame_of_;
+  std::vector<std::size_t> n_points_;  // of the present frame, by region
 };
 
 }  // namespace

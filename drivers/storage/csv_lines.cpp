@@ -1,7 +1,6 @@
 #include "drivers/storage/csv_lines.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <cerrno>
 #include <charconv>
@@ -20,16 +19,8 @@ std::string_view trimmed(std::string_view text) {
 
 }  // namespace
 
-CsvLines::CsvLines(const std::string& path) : path_(path), block_(4 * kMaxLineBytes) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) {
-    throw FileError(fmt::format("{}: cannot be read: {}; check the path", path, std::strerror(errno)));
-  }
-  if (!S_ISREG(status.st_mode)) throw FileError(fmt::format("{}: is no regular file; name a CSV file", path));
-  file_.reset(std::fopen(path.c_str(), "rb"));
-  if (!file_)
-    throw FileError(fmt::format("{}: cannot be opened: {}; check its permissions", path, std::strerror(errno)));
-}
+CsvLines::CsvLines(const std::string& path)
+    : path_(path), file_(open_regular_file(path, "name a CSV file")), block_(4 * kMaxLineBytes) {}
 
 void CsvLines::fail(const std::string& what) const {
   throw FileError(fmt::format("{}:{}: {}", path_, line_number_, what));

@@ -2,18 +2,19 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "drivers/storage/limits.h"
+#include "drivers/storage/regular_file.h"
 
 namespace drivers {
 
 // The lines of a CSV file, one at a time, in bounded memory.
 class CsvLines {
  public:
-  static constexpr std::size_t kMaxLineBytes = 1U << 16U;
+  static constexpr std::size_t kMaxLineBytes = Limits::kLineBytes;
 
   explicit CsvLines(const std::string& path);
 
@@ -22,13 +23,10 @@ class CsvLines {
   [[noreturn]] void fail(const std::string& what) const;  // throws FileError "PATH:LINE: what"
 
  private:
-  struct Closer {
-    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
-  };
   bool refill();
 
   std::string path_;
-  std::unique_ptr<std::FILE, Closer> file_;
+  FileHandle file_;
   std::vector<char> block_;
   std::size_t begin_ = 0, end_ = 0;  // unread part of block_
   std::size_t line_number_ = 0;

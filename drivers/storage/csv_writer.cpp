@@ -42,7 +42,9 @@ CsvWriter::CsvWriter(std::string path, OldFile old) : path_(std::move(path)), pa
   if (old == OldFile::kRemove && ::unlink(path_.c_str()) != 0 && errno != ENOENT) {
     throw FileError(fmt::format("{}: cannot be replaced: {}; name another folder", path_, std::strerror(errno)));
   }
-  descriptor_ = ::open(partial_path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  // A new file, never what a link of that name points to.
+  (void)::unlink(partial_path_.c_str());
+  descriptor_ = ::open(partial_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
   if (descriptor_ < 0) {
     throw FileError(fmt::format("{}: cannot be written: {}; check the folder and its permissions", partial_path_,
                                 std::strerror(errno)));

@@ -27,6 +27,9 @@ class CsvWriter {
   // Passes the block to the system when it is large enough. False = the file has failed, now or earlier.
   bool end_line() noexcept { return buffer_.size() < kBlockBytes ? error_ == 0 : flush(); }
 
+  // Passes what there is to the system, which keeps it when this process is killed. False = the file has failed.
+  bool flush() noexcept;
+
   [[nodiscard]] int error() const noexcept { return error_; }  // errno of the first failure, 0 = none
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
 
@@ -35,7 +38,6 @@ class CsvWriter {
 
  private:
   static constexpr std::size_t kBlockBytes = 1U << 18U;
-  bool flush() noexcept;
   void close_file() noexcept;
 
   std::string path_, partial_path_;

@@ -8,6 +8,7 @@
 
 #include "drivers/storage/csv.h"
 #include "drivers/storage/csv_lines.h"
+#include "drivers/storage/limits.h"
 #include "drivers/storage/series_format.h"
 #include "drivers/storage/text_file.h"
 
@@ -15,7 +16,7 @@ namespace drivers {
 namespace {
 
 constexpr std::uint64_t kLinesPerReport = 200'000;
-constexpr std::size_t kMaxColumns = 4096;
+constexpr std::size_t kMaxColumns = Limits::kColumns;
 constexpr std::string_view kLabviewFirst = "LabVIEW Measurement";
 constexpr std::string_view kLabviewEnd = "***End_of_Header***";
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "drivers/storage/printable.h"
+
 namespace drivers {
 
 // A fault in a file's content: "FILE:LINE: what; remedy".
@@ -26,8 +28,5 @@ void require_text(std::string_view text, const std::string& name);
 [[nodiscard]] std::optional<double> parse_number(std::string_view cell) noexcept;
 [[nodiscard]] std::optional<std::int64_t> parse_whole(std::string_view cell) noexcept;
 [[nodiscard]] std::optional<std::uint64_t> parse_unsigned(std::string_view cell) noexcept;
-
-// Converts any text for one line of a message: control characters become '?', long text is cut.
-[[nodiscard]] std::string printable(std::string_view text, std::size_t max_length = 60);
 
 }  // namespace drivers

@@ -1,14 +1,9 @@
 #include "drivers/telemetry/event_log_reader.h"
 
-#include <fmt/format.h>
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 
-#include "drivers/storage/text_file.h"
+#include "drivers/storage/limits.h"
 
 namespace drivers {
 namespace {
@@ -25,15 +20,7 @@ std::uint64_t big_endian(const std::uint8_t* bytes, std::size_t n) {
 
 }  // namespace
 
-EventLogReader::EventLogReader(const std::string& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0)
-    throw FileError(fmt::format("{}: cannot be read: {}; check the path", path, std::strerror(errno)));
-  if (!S_ISREG(status.st_mode)) throw FileError(path + ": is no regular file; name an LCM event log");
-  file_.reset(std::fopen(path.c_str(), "rb"));
-  if (!file_)
-    throw FileError(fmt::format("{}: cannot be opened: {}; check its permissions", path, std::strerror(errno)));
-}
+EventLogReader::EventLogReader(const std::string& path) : file_(open_regular_file(path, "name an LCM event log")) {}
 
 bool EventLogReader::next(Event& out) {
   for (;;) {
@@ -54,7 +41,7 @@ bool EventLogReader::read(void* to, std::size_t n_bytes) { return std::fread(to,
 bool EventLogReader::find_event() {
   std::uint32_t seen = 0;
   while (seen != kSync) {
-    const int byte = std::fgetc(file_.get());
+    const int byte = ::getc_unlocked(file_.get());  // of one thread; a damaged record may be gigabytes of it
     if (byte == EOF) return false;
     seen = seen << 8U | static_cast<std::uint32_t>(byte);
   }
@@ -67,7 +54,9 @@ EventLogReader::Taken EventLogReader::take(Event& out) {
   out.utc_us = static_cast<std::int64_t>(big_endian(head.data() + 8, 8));
   const auto n_channel = static_cast<std::int32_t>(big_endian(head.data() + 16, 4));
   const auto n_data = static_cast<std::int32_t>(big_endian(head.data() + 20, 4));
-  if (n_channel < 1 || n_channel > kLongestChannel || n_data < 0) return Taken::kDamaged;
+  if (n_channel < 1 || n_channel > kLongestChannel || n_data < 0 ||
+      static_cast<std::uint64_t>(n_data) > Limits::kRecordEventBytes)
+    return Taken::kDamaged;
   out.channel.resize(static_cast<std::size_t>(n_channel));
   if (!read(out.channel.data(), out.channel.size())) return Taken::kEnd;
   out.data.clear();

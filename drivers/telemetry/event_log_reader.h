@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "drivers/storage/regular_file.h"
+
 namespace drivers {
 
 // Reads the events of an LCM event log, in order. Replaces liblcm 1.3.1, which trusts the lengths in a file: one of
 // 2147483647 terminates the program. Accepts any bytes: an invalid event is left out and counted, and the next one is
-// searched for; memory is bounded by the size of the file, not by the lengths stated in it.
+// searched for. Lengths over Limits::kRecordEventBytes are invalid.
 class EventLogReader {
  public:
   static constexpr std::int32_t kLongestChannel = 999;  // LCM's own limit
@@ -33,10 +35,7 @@ class EventLogReader {
   [[nodiscard]] bool find_event();
   [[nodiscard]] bool read(void* to, std::size_t n_bytes);
 
-  struct Closer {
-    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
-  };
-  std::unique_ptr<std::FILE, Closer> file_;
+  FileHandle file_;
   std::uint64_t n_damaged_ = 0;
 };
 

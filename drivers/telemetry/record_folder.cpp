@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <optional>
 #include <regex>
+#include <set>
+#include <stdexcept>
 #include <tuple>
 
 namespace drivers {
@@ -13,6 +15,8 @@ namespace drivers {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr int kLastRun = 99'999'999;  // the names have at most eight digits
 
 std::optional<RecordPart> parse_name(const fs::path& path) {
   static const std::regex form("[A-Za-z0-9_.-]+_run([0-9]{4,8})_([0-9]{3,6})[.]lcm");
@@ -26,6 +30,15 @@ std::optional<RecordPart> parse_name(const fs::path& path) {
 
 std::string record_name(std::string_view stream_id, int run, int file) {
   return fmt::format("{}_run{:04}_{:03}.lcm", stream_id, run, file);
+}
+
+int next_run(const std::vector<RecordPart>& parts) {
+  std::set<int> used{0};
+  for (const RecordPart& part : parts) used.insert(part.run);
+  for (auto run = used.rbegin(); run != used.rend(); ++run) {
+    if (*run < kLastRun && !used.contains(*run + 1)) return *run + 1;
+  }
+  throw std::runtime_error("no number is left for another run; move the records to another folder");
 }
 
 std::vector<RecordPart> record_parts(const std::string& folder) {

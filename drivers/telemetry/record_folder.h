@@ -21,6 +21,10 @@ struct RecordPart {
 // Oldest first. Other files in the folder are ignored. Throws std::runtime_error when it cannot be read.
 [[nodiscard]] std::vector<RecordPart> record_parts(const std::string& folder);
 
+// The number of the next run: one more than the largest. A file whose number is the last that a name can hold does not
+// stop the count. Throws std::runtime_error where no number is left.
+[[nodiscard]] int next_run(const std::vector<RecordPart>& parts);
+
 // Removes the oldest files of runs before `run` until the remaining files and `wanted_bytes` fit into the quota.
 // False: they do not fit; only the run's own files are left.
 bool make_room(const std::string& folder, int run, std::uint64_t wanted_bytes, std::uint64_t quota_bytes);

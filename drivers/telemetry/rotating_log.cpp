@@ -15,7 +15,7 @@ RotatingLog::RotatingLog(const RecordOptions& options) : options_(options) {
   if (refused)
     throw std::runtime_error(
         fmt::format("record.directory: \"{}\" cannot be made: {}", options.directory, refused.message()));
-  for (const RecordPart& part : record_parts(options.directory)) run_ = std::max(run_, part.run + 1);
+  run_ = next_run(record_parts(options.directory));
 }
 
 std::string RotatingLog::path_of(int file) const {

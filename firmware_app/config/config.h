@@ -117,6 +117,7 @@ struct TelemetryConfig {
 struct ReportConfig {
   std::string directory;  // --report overrides; empty = none
   bool tracks = true;     // write tracks.csv (the largest file)
+  int keep = 3;           // earlier reports that stay in the folder, as report.1, report.2, ...
 };
 
 struct RecordConfig {

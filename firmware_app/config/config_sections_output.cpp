@@ -131,6 +131,9 @@ void add_output_keys(std::vector<ConfigKey>& keys) {
                           "folder for modal.json and CSV files; \"\" = none; --report takes precedence"));
   keys.push_back(
       switch_key("report.tracks", at(&A::report, &ReportConfig::tracks), "also write tracks.csv (the largest file)"));
+  keys.push_back(whole_key("report.keep", "reports", at(&A::report, &ReportConfig::keep), {0, 100},
+                           "earlier reports that stay in report.directory, in folders report.1 (the newest), report.2, "
+                           "...; a new report replaces the last one only when it is complete"));
   using O = RecordConfig;
   keys.push_back(text_key("record.directory", at(&A::record, &O::directory), {},
                           "folder for run records (LCM event logs with messages, every point in full precision, and "

@@ -3,11 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <complex>
 #include <optional>
 
 #include "core/geometry/keyframe_view.h"
 #include "core/types/constants.h"
+#include "drivers/host/memory_left.h"
 #include "drivers/storage/attitude_file.h"
 #include "firmware_app/config/calibration.h"
 #include "firmware_app/config/region_axis.h"
@@ -111,7 +114,32 @@ core::WelchConfig welch_config(const SpectrumConfig& spectrum, std::size_t n_cha
   out.bridge_losses = true;
   out.gate_outliers = true;
   out.forget_s = spectrum.forget_s;
+  require_memory(out, spectra_bytes(out), drivers::memory_left());
   return out;
+}
+
+double spectra_bytes(const core::WelchConfig& welch) noexcept {
+  constexpr double kCopies = 2.0;  // at least: the sums, and those that the identification works on
+  const double n_bins = 1.0 + std::bit_ceil(static_cast<unsigned>(welch.segment));  // padded to twice its length
+  const double n_pairs = 0.5 * welch.n_channels * (welch.n_channels + 1.0);
+  constexpr double kBytes = 2.0 * sizeof(std::complex<double>);  // data and mask
+  return kCopies * (1.0 + welch.n_blocks) * n_bins * n_pairs * kBytes;
+}
+
+void require_memory(const core::WelchConfig& welch, double needed_bytes, std::uint64_t left_bytes) {
+  if (needed_bytes < static_cast<double>(left_bytes)) return;
+  throw ConfigError(fmt::format(
+      "spectrum.segment: {} is refused: the spectra of {} channels would take {:.1f} GB, and {:.1f} GB of memory are "
+      "left; shorten the segment, or use fewer channels",
+      welch.segment, welch.n_channels, 1e-9 * needed_bytes, 1e-9 * static_cast<double>(left_bytes)));
+}
+
+void require_searchable(double max_frequency_hz, double rate_hz) {
+  if (max_frequency_hz <= kMostFolds * rate_hz / 2.0) return;
+  throw ConfigError(fmt::format(
+      "identification.max_frequency_hz: {:g} is refused: allowed 0 .. {:g}, {} times half of {:g} frames a second, "
+      "because every estimate weighs all frequencies that fold; lower it to the highest mode that can be",
+      max_frequency_hz, kMostFolds * rate_hz / 2.0, kMostFolds, rate_hz));
 }
 
 core::IdentifierConfig identifier_config(const AppConfig& config, const std::vector<core::ChannelInfo>& channels,
@@ -130,6 +158,7 @@ core::IdentifierConfig identifier_config(const AppConfig& config, const std::vec
   out.max_damping = i.max_damping;
   out.undo_row_delays = config.method == Method::kHovermodal;
   out.as_published = config.method == Method::kPaper;
+  require_searchable(i.max_frequency_hz, rate_hz);
   out.max_frequency_hz = out.undo_row_delays ? i.max_frequency_hz : rate_hz / 2.0;
   return out;
 }

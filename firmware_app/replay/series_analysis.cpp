@@ -131,6 +131,7 @@ void count_outliers(const ChannelSeries& given, const std::vector<std::uint64_t>
 
 SeriesResult identify_series(const ChannelSeries& given, const SeriesOptions& options) {
   require_even_columns(given);
+  require_searchable(options.identifier.max_frequency_hz, given.rate_hz);
   ChannelSeries series = given;
   SeriesResult result;
   core::IdentifierConfig identifier = options.identifier;

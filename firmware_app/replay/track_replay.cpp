@@ -102,7 +102,6 @@ class Replay {
     const core::closure::ClosureReport* closure = closure_ ? &*closure_ : nullptr;
     const RunFacts facts =
         run_facts(last.config, last.camera, last.name, result_.losses, result_.estimate, analysis_->axes());
-    report_->finish(result_.estimate, result_.losses, corrections(last.config, last.camera), facts.caveats, closure);
     PictureInputs inputs = picture_inputs(last.config, last.camera, result_.channels);
     inputs.first_frame = last.image;
     inputs.keyframe = &last.keyframe;
@@ -111,7 +110,8 @@ class Replay {
     inputs.history = &report_->history();
     inputs.closure = closure;
     inputs.facts = &facts;
-    (void)write_pictures(report_directory_, inputs);
+    report_->finish(result_.estimate, result_.losses, corrections(last.config, last.camera), facts.caveats, closure,
+                    [&](const std::string& folder) { (void)write_pictures(folder, inputs); });
   }
 
   std::string report_directory_;

@@ -6,12 +6,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
-#include <filesystem>
 #include <iterator>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "drivers/storage/json.h"
@@ -30,23 +29,7 @@ using drivers::append_text;
 constexpr int kPixelDecimals = 5;
 constexpr int kSigmaDecimals = 6;
 constexpr int kDisplacementDecimals = 6;
-
-void make_directory(const std::string& directory) {
-  if (directory.empty()) throw drivers::FileError("report.directory is empty; name a folder");
-  std::error_code error;
-  if (std::filesystem::exists(directory, error) && !std::filesystem::is_directory(directory, error)) {
-    throw drivers::FileError(fmt::format("{}: is a file, not a folder; name another folder for the report", directory));
-  }
-  std::filesystem::create_directories(directory, error);
-  if (error) {
-    throw drivers::FileError(
-        fmt::format("{}: cannot be made: {}; name a folder that may be written", directory, error.message()));
-  }
-}
-
-std::string in_directory(const std::string& directory, const char* name) {
-  return (std::filesystem::path(directory) / name).string();
-}
+constexpr double kFlush_s = 2.0;
 
 template <class... Args>
 void append_line(fmt::memory_buffer& out, fmt::format_string<Args...> format, Args&&... args) {
@@ -58,21 +41,17 @@ void append_line(fmt::memory_buffer& out, fmt::format_string<Args...> format, Ar
 
 RunReport::RunReport(const std::string& directory, const AppConfig& config, const core::CameraInfo& camera,
                      const std::vector<core::ChannelInfo>& channels, const std::vector<std::string>& region_names)
-    : directory_(directory),
+    : folder_(directory, config.report.keep),
       method_(app::to_text(config.method)),
       region_names_(region_names),
       regions_(config.regions),
-      history_(camera.rate_hz, channels.size(), region_names.size()) {
-  make_directory(directory);
+      history_(camera.rate_hz, channels.size(), region_names.size()),
+      n_per_flush_(static_cast<std::uint64_t>(std::clamp(kFlush_s * camera.rate_hz, 1.0, 1e6))) {
   for (const core::ChannelInfo& channel : channels) channel_names_.push_back(channel.name);
-  for (const char* old : {"modal.json", "modal.json.partial", "tracks.csv", "report.html", "closure.json"}) {
-    std::error_code ignored;  // an error that matters shows when the new file is opened
-    std::filesystem::remove(in_directory(directory, old), ignored);
-  }
-  displacements_.emplace(in_directory(directory, "displacements.csv"));
+  displacements_.emplace(folder_.in_working("displacements.csv"));
   write_displacement_header(config, camera, channels);
   if (!config.report.tracks) return;
-  tracks_.emplace(in_directory(directory, "tracks.csv"));
+  tracks_.emplace(folder_.in_working("tracks.csv"));
   write_track_header(config, camera);
 }
 
@@ -124,6 +103,7 @@ void RunReport::append_point(fmt::memory_buffer& out, const std::string& prefix,
 
 bool RunReport::add(const core::TrackFrame& frame) noexcept try {
   history_.add(frame);
+  folder_.keep_unfinished();
   if (!tracks_) return true;
   if (tracks_->error() != 0) return ++n_items_lost_, false;
   fmt::memory_buffer& out = tracks_->buffer();
@@ -143,6 +123,7 @@ bool RunReport::add(const core::TrackFrame& frame) noexcept try {
 
 bool RunReport::add(const core::DisplacementSample& sample) noexcept try {
   history_.add(sample);
+  folder_.keep_unfinished();
   if (displacements_->error() != 0) return ++n_items_lost_, false;
   fmt::memory_buffer& out = displacements_->buffer();
   fmt::format_to(std::back_inserter(out), "{},", sample.sequence);
@@ -157,7 +138,9 @@ bool RunReport::add(const core::DisplacementSample& sample) noexcept try {
     if (seen && !append_fixed(out, sample.value_mm[i], kDisplacementDecimals)) ++n_not_finite_;
   }
   out.push_back('\n');
-  return displacements_->end_line();
+  if (++n_samples_ % n_per_flush_ != 0) return displacements_->end_line();
+  if (tracks_) (void)tracks_->flush();  // its fault shows at the next frame
+  return displacements_->flush();
 } catch (const std::exception&) {  // out of memory
   ++n_items_lost_;
   return false;
@@ -165,35 +148,39 @@ bool RunReport::add(const core::DisplacementSample& sample) noexcept try {
 
 void RunReport::finish(const core::ModalEstimate& last, const core::Health& losses,
                        const std::vector<std::string>& corrections, const std::vector<std::string>& caveats,
-                       const core::closure::ClosureReport* closure) {
+                       const core::closure::ClosureReport* closure, const Draw& draw) {
+  if (history_.n_samples() == 0 && last.n_samples == 0 && folder_.has_report()) return;  // never worse than none
   std::string failures;
   const auto attempt = [&](const auto& write) {
     try {
       write();
+      return true;
     } catch (const drivers::FileError& error) {
       failures += fmt::format("{}{}", failures.empty() ? "" : "; ", error.what());
+      return false;
     }
   };
-  if (tracks_) attempt([&] { tracks_->commit(); });
-  attempt([&] { displacements_->commit(); });
-  attempt([&] {
+  folder_.free_reserve();
+  const bool has_result = attempt([&] {
     std::size_t n_not_finite = 0;
     std::vector<std::string> in_force = corrections;
     in_force.insert(in_force.end(), last.amendments.begin(), last.amendments.end());
     const std::string text =
         modal_json({method_, channel_names_, last, in_force, losses, caveats, regions_}, &n_not_finite);
     n_not_finite_ += n_not_finite;
-    drivers::write_file_atomically(in_directory(directory_, "modal.json"), text);
+    drivers::write_file_atomically(folder_.in_working("modal.json"), text);
   });
   if (closure != nullptr && closure->refused.empty())
-    attempt([&] {
-      drivers::write_file_atomically(in_directory(directory_, "closure.json"), closure_json(closure->result));
-    });
+    attempt([&] { drivers::write_file_atomically(folder_.in_working("closure.json"), closure_json(closure->result)); });
+  if (draw) attempt([&] { draw(folder_.working()); });
+  attempt([&] { displacements_->commit(); });
+  if (tracks_) attempt([&] { tracks_->commit(); });
+  if (has_result) attempt([&] { folder_.hand_over(); });
   if (failures.empty()) return;
-  throw drivers::FileError(
-      fmt::format("the report is incomplete ({} frames and samples came after the fault): {}. Free space on the disk, "
-                  "or name another folder",
-                  n_items_lost_, failures));
+  throw drivers::FileError(fmt::format(
+      "the report is incomplete ({} frames and samples came after the fault): {}. Free space on the disk, "
+      "or name another folder{}",
+      n_items_lost_, failures, has_result ? "" : fmt::format("; what was written is in {}", folder_.working())));
 }
 
 }  // namespace app

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,15 +15,20 @@
 #include "core/types/track.h"
 #include "drivers/storage/csv_writer.h"
 #include "firmware_app/config/config.h"
+#include "firmware_app/report/report_folder.h"
 #include "firmware_app/report/run_history.h"
 
 namespace app {
 
-// The files of a run: tracks.csv and displacements.csv, written during the run, and modal.json at the end. Used by one
-// thread. A file being written is called *.partial; only a complete one has its name.
+// The files of a run: tracks.csv and displacements.csv, written during the run, and modal.json at the end. They are
+// written beside the report of an earlier run and replace it as a whole (ReportFolder). Used by one thread. A file
+// being written is called *.partial; only a complete one has its name.
 class RunReport {
  public:
-  // Creates the folder, opens the CSV files, removes the results of an earlier run there. Throws drivers::FileError.
+  // Draws the run's pictures into a folder; throws drivers::FileError.
+  using Draw = std::function<void(const std::string& folder)>;
+
+  // Claims the folder and opens the CSV files. Throws drivers::FileError, drivers::FolderInUse.
   RunReport(const std::string& directory, const AppConfig& config, const core::CameraInfo& camera,
             const std::vector<core::ChannelInfo>& channels, const std::vector<std::string>& region_names);
 
@@ -33,10 +39,15 @@ class RunReport {
   void add(const core::ModalEstimate& estimate) noexcept { history_.add(estimate); }
 
   // corrections: the declared ones; those found during the run are part of the estimate.
-  // Completes the files and writes modal.json, and closure.json from the last report that has a conclusion. Throws one
-  // drivers::FileError that names every file that failed; the others are complete.
+  // Writes modal.json, and closure.json from the last report that has a conclusion, draws, completes the CSV files, and
+  // puts all in the place of the last report. Throws one drivers::FileError that names every file that failed; the
+  // others are complete. Without modal.json the last report stays, as it does where there was no sample.
   void finish(const core::ModalEstimate& last, const core::Health& losses, const std::vector<std::string>& corrections,
-              const std::vector<std::string>& caveats = {}, const core::closure::ClosureReport* closure = nullptr);
+              const std::vector<std::string>& caveats = {}, const core::closure::ClosureReport* closure = nullptr,
+              const Draw& draw = {});
+
+  // What an earlier run left unfinished in the folder, in words; empty: nothing.
+  [[nodiscard]] const std::string& remark() const noexcept { return folder_.remark(); }
 
   // Data so far, for the pictures.
   [[nodiscard]] const RunHistory& history() const noexcept { return history_; }
@@ -53,7 +64,7 @@ class RunReport {
                                  const std::vector<core::ChannelInfo>& channels);
   void append_point(fmt::memory_buffer& out, const std::string& prefix, const core::TrackPoint& point);
 
-  std::string directory_;
+  ReportFolder folder_;
   std::string method_;
   std::vector<std::string> channel_names_;
   std::vector<std::string> region_names_;
@@ -61,6 +72,8 @@ class RunReport {
   RunHistory history_;
   std::optional<drivers::CsvWriter> tracks_;  // empty if the configuration requests no tracks
   std::optional<drivers::CsvWriter> displacements_;
+  std::uint64_t n_per_flush_;  // samples between two flushes: what a killed run can lose
+  std::uint64_t n_samples_ = 0;
   std::uint64_t n_items_lost_ = 0;
   std::uint64_t n_not_finite_ = 0;
 };

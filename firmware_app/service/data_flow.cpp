@@ -34,7 +34,9 @@ DataFlow::DataFlow(const AppConfig& c, std::unique_ptr<drivers::Camera> camera,
       out(std::move(publisher)) {
   connect();
   watch();
+  if (report && !report->remark().empty()) health.warn(report->remark());
   const std::optional<RunState> resumed = keeps_state() ? keep_state() : std::nullopt;
+  if (resumed) checkpoint.go_on_with(resumed->modes);
   if (recorder)
     recorder->begin(
         run_head(config, source.info, source.keyframe, source.keyframe_image(), resumed ? &*resumed : nullptr));

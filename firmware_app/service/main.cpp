@@ -8,6 +8,7 @@
 #include "drivers/camera/device_missing.h"
 #include "firmware_app/config/config.h"
 #include "firmware_app/config/options.h"
+#include "firmware_app/service/log_lines.h"
 #include "firmware_app/service/pipeline.h"
 #include "firmware_app/service/progress.h"
 #include "firmware_app/service/real_time.h"
@@ -48,6 +49,7 @@ int run(const app::AppConfig& config) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  app::log_printable_lines();
   try {
     const app::Options options = app::parse_options(argc, argv);
     if (options.exit_code) return *options.exit_code;

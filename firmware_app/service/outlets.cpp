@@ -4,12 +4,28 @@
 
 #include <utility>
 
+#include "drivers/storage/text_file.h"
 #include "drivers/telemetry/publisher_factory.h"
 #include "firmware_app/config/core_config.h"
 #include "firmware_app/report/pictures/pictures.h"
 #include "firmware_app/report/run_findings.h"
 
 namespace app {
+
+std::vector<std::shared_ptr<drivers::FolderClaim>> claim_folders(const AppConfig& config, std::string& warning) {
+  std::vector<std::shared_ptr<drivers::FolderClaim>> claims;
+  const auto claim = [&](const std::string& folder, const char* key) {
+    if (!folder.empty()) claims.push_back(drivers::FolderClaim::take(folder, key));
+  };
+  claim(config.report.directory, "report.directory");
+  claim(config.record.directory, "record.directory");
+  try {
+    claim(config.state.directory, "state.directory");
+  } catch (const drivers::FileError& error) {  // a run without its state is worth more than none
+    warning = fmt::format("{}; the run goes on without state", error.what());
+  }
+  return claims;
+}
 
 std::unique_ptr<drivers::RunRecorder> open_recorder(const AppConfig& config) {
   if (config.record.directory.empty()) return nullptr;
@@ -50,12 +66,11 @@ std::string short_record(const AppConfig& config, const core::CameraInfo& info, 
       estimate.n_samples, segment, static_cast<double>(segment) / info.rate_hz, info.rate_hz);
 }
 
-std::function<void(const PublishStage::Findings&, const core::Health&)> picture_drawer(const AppConfig& config,
-                                                                                       const Source& source,
-                                                                                       const RunReport* report,
-                                                                                       const core::MotionAxes& axes) {
+std::function<void(const PublishStage::Findings&, const core::Health&, const std::string&)> picture_drawer(
+    const AppConfig& config, const Source& source, const RunReport* report, const core::MotionAxes& axes) {
   if (report == nullptr) return {};
-  return [&config, &source, report, &axes](const PublishStage::Findings& found, const core::Health& health) {
+  return [&config, &source, report, &axes](const PublishStage::Findings& found, const core::Health& health,
+                                           const std::string& folder) {
     PictureInputs inputs = picture_inputs(config, source.info, source.channels());
     inputs.first_frame = &source.keyframe_image();
     inputs.keyframe = &source.keyframe;
@@ -65,7 +80,7 @@ std::function<void(const PublishStage::Findings&, const core::Health&)> picture_
     inputs.history = &report->history();
     const RunFacts facts = run_facts(config, source.info, config.camera.source, health, found.estimate, axes);
     inputs.facts = &facts;
-    (void)write_pictures(config.report.directory, inputs);
+    (void)write_pictures(folder, inputs);
   };
 }
 

@@ -4,9 +4,11 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/geometry/motion_axes.h"
 #include "core/tracking/preview_maker.h"
+#include "drivers/storage/folder_claim.h"
 #include "drivers/telemetry/publisher.h"
 #include "drivers/telemetry/run_recorder.h"
 #include "firmware_app/config/config.h"
@@ -18,6 +20,10 @@
 
 namespace app {
 
+// The folders of report, record and state, for this process alone. Throws drivers::FolderInUse where another process
+// writes into one, drivers::FileError where report or record cannot be written; the state's fault is `warning`.
+[[nodiscard]] std::vector<std::shared_ptr<drivers::FolderClaim>> claim_folders(const AppConfig& config,
+                                                                               std::string& warning);
 [[nodiscard]] std::unique_ptr<drivers::RunRecorder> open_recorder(const AppConfig& config);  // null: none wanted
 [[nodiscard]] std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config,
                                                                  drivers::RunRecorder* recorder, std::string& warning);
@@ -27,8 +33,8 @@ namespace app {
 [[nodiscard]] std::string short_record(const AppConfig& config, const core::CameraInfo& info,
                                        const core::ModalEstimate& estimate);
 // The function for PublishStage::Outlets::draw; empty: no report requested. All arguments must outlive it.
-[[nodiscard]] std::function<void(const PublishStage::Findings&, const core::Health&)> picture_drawer(
-    const AppConfig& config, const Source& source, const RunReport* report, const core::MotionAxes& axes);
+[[nodiscard]] std::function<void(const PublishStage::Findings&, const core::Health&, const std::string&)>
+picture_drawer(const AppConfig& config, const Source& source, const RunReport* report, const core::MotionAxes& axes);
 [[nodiscard]] core::PreviewMaker preview_maker_for(const AppConfig& config, const Source& source);
 [[nodiscard]] FrameRecord record_prototype(const Source& source);
 [[nodiscard]] std::string event_line(std::string_view stage, const rt::Event& event);

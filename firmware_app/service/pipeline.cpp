@@ -15,20 +15,26 @@
 namespace app {
 
 Pipeline::Pipeline(const AppConfig& declared) {
+  std::string unclaimed;
+  claims_ = claim_folders(declared, unclaimed);
   const AppConfig config = with_found_axes(declared);
   std::unique_ptr<drivers::Camera> camera = open_camera(config);
   std::string warning;
   std::unique_ptr<drivers::RunRecorder> recorder = open_recorder(config);
   std::unique_ptr<drivers::Publisher> publisher = open_publisher(config, recorder.get(), warning);
   flow_ = std::make_unique<DataFlow>(config, std::move(camera), std::move(recorder), std::move(publisher));
+  if (!unclaimed.empty()) flow_->health.warn(unclaimed);
   if (!warning.empty()) flow_->health.warn(warning);
   for (const std::string& words : axis_caveats(config)) flow_->health.warn(words);
 }
 
 Pipeline::Pipeline(AppConfig config, std::unique_ptr<drivers::Camera> camera,
                    std::unique_ptr<drivers::Publisher> publisher) {
+  std::string unclaimed;
+  claims_ = claim_folders(config, unclaimed);
   take_u_where_sought(config);
   flow_ = std::make_unique<DataFlow>(config, std::move(camera), open_recorder(config), std::move(publisher));
+  if (!unclaimed.empty()) flow_->health.warn(unclaimed);
 }
 
 Pipeline::~Pipeline() {

@@ -10,6 +10,7 @@
 #include "core/types/health.h"
 #include "core/types/modal_estimate.h"
 #include "drivers/camera/camera.h"
+#include "drivers/storage/folder_claim.h"
 #include "drivers/telemetry/publisher.h"
 #include "firmware_app/config/config.h"
 
@@ -35,7 +36,8 @@ class Pipeline {
     std::string page;                  // path of report.html; empty: no report was requested
   };
 
-  // Throws ConfigError (configuration does not fit the source), drivers::DeviceMissing, std::runtime_error.
+  // Throws ConfigError (configuration does not fit the source), drivers::FolderInUse, drivers::DeviceMissing,
+  // std::runtime_error.
   // Where axes are not declared they are found first, which takes the source's first seconds.
   explicit Pipeline(const AppConfig& declared);
   // The same, axes not declared taken as u, with a camera and a publisher of the caller's: for tests.
@@ -63,6 +65,7 @@ class Pipeline {
   [[nodiscard]] std::vector<std::string> warnings() const;
 
  private:
+  std::vector<std::shared_ptr<drivers::FolderClaim>> claims_;  // of the folders that the run writes into
   std::unique_ptr<DataFlow> flow_;
 };
 

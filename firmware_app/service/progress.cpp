@@ -49,6 +49,9 @@ SignalWatch::SignalWatch() {
   sigemptyset(&signals_);
   sigaddset(&signals_, SIGINT);
   sigaddset(&signals_, SIGTERM);
+  struct sigaction hangup {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) sigaddset(&signals_, SIGHUP);  // a dropped session; ignored under nohup
   pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
   std::signal(SIGXFSZ, SIG_IGN);  // a full quota is then a failed write and does not terminate the process
   std::signal(SIGPIPE, SIG_IGN);

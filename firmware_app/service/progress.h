@@ -9,7 +9,7 @@
 
 namespace app {
 
-// SIGINT and SIGTERM, blocked for the whole process and polled by the main thread. Construct before any thread.
+// SIGINT, SIGTERM and SIGHUP, blocked for the whole process and polled by the main thread. Construct before any thread.
 class SignalWatch {
  public:
   SignalWatch();

@@ -154,6 +154,7 @@ TEST_F(PipelineState, AFolderThatCannotBeMadeCostsTheStateAndIsTold) {
   EXPECT_EQ(outcome.fault, "");
   EXPECT_EQ(outcome.health.frames_processed, 200U);
   EXPECT_THAT(outcome.health.warnings, Contains(HasSubstr("could not be kept")));
+  EXPECT_THAT(outcome.health.warnings, Contains(HasSubstr("the run goes on without state")));
 }
 
 TEST_F(PipelineState, WithoutAFolderNothingIsKeptOrSaid) {

@@ -183,7 +183,7 @@ TEST_P(ServiceSignal, EndsARunWellWithACompleteReport) {
   EXPECT_THAT(service.output(), HasSubstr("fewer than one segment of 128"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Interrupts, ServiceSignal, ::testing::Values(SIGINT, SIGTERM));
+INSTANTIATE_TEST_SUITE_P(Interrupts, ServiceSignal, ::testing::Values(SIGINT, SIGTERM, SIGHUP));
 
 TEST(Service, AFaultInMidRunIsExitCode1AndFlushesWhatCameBefore) {
   const auto folder = own_folder();

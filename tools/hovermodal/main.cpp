@@ -4,6 +4,8 @@
 #include <stdexcept>
 
 #include "drivers/host/command_line.h"
+#include "drivers/storage/printable.h"
+#include "firmware_app/config/config.h"
 #include "tools/hovermodal/commands.h"
 
 namespace {
@@ -47,10 +49,13 @@ int main(int argc, char** argv) {
   try {
     if (const auto exit_code = program.parse(argc, argv)) return *exit_code;
   } catch (const std::invalid_argument& e) {
-    std::fprintf(stderr, "hovermodal: %s\n", e.what());
+    std::fprintf(stderr, "hovermodal: %s\n", drivers::printable_lines(e.what(), "  ").c_str());
+    return 2;
+  } catch (const app::ConfigError& e) {  // as the service
+    std::fprintf(stderr, "hovermodal: %s\n", drivers::printable_lines(e.what(), "  ").c_str());
     return 2;
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "hovermodal: %s\n", e.what());
+    std::fprintf(stderr, "hovermodal: %s\n", drivers::printable_lines(e.what(), "  ").c_str());
     return 1;
   }
   return 0;

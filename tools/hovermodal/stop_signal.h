@@ -4,7 +4,7 @@
 
 namespace tools {
 
-// Checked by commands that run until stopped; set by SIGINT and SIGTERM.
+// Checked by commands that run until stopped; set by SIGINT, SIGTERM and SIGHUP.
 inline volatile std::sig_atomic_t stop_requested = 0;
 
 inline void watch_stop_signals() {
@@ -12,6 +12,9 @@ inline void watch_stop_signals() {
   action.sa_handler = [](int) { stop_requested = 1; };
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction hangup {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // ignored under nohup
 }
 
 }  // namespace tools

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <new>
 #include <stdexcept>
 #include <utility>
 
 #include "drivers/camera/recording/container.h"
+#include "drivers/storage/limits.h"
+#include "drivers/storage/text_file.h"
 
 namespace drivers {
 
@@ -20,7 +21,6 @@ namespace {
 
 constexpr const char* kGpmfTag = "gpmd";
 constexpr std::size_t kMostPackets = 100'000;  // a day at one packet per second
-constexpr std::size_t kMostRawBytes = std::size_t{64} << 20;
 
 ClipTelemetry troubled(std::string from, std::string trouble) {
   ClipTelemetry out;
@@ -49,21 +49,9 @@ std::vector<TimedPayload> read_payloads(const std::string& video, std::string& t
   return out;
 }
 
-std::string read_raw(const std::string& file) {
-  std::error_code error;
-  const std::uintmax_t n_bytes = fs::file_size(file, error);
-  std::ifstream in(file, std::ios::binary);
-  if (error || !in) throw std::runtime_error(fmt::format("{}: no such file, or it cannot be read", file));
-  if (n_bytes > kMostRawBytes) throw std::runtime_error(fmt::format("{}: {} bytes are too many", file, n_bytes));
-  std::string bytes(static_cast<std::size_t>(n_bytes), '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
-  return bytes;
-}
-
 // The payloads of a raw file follow one another; only their own clock states their times.
 ClipTelemetry of_raw_gpmf(const std::string& file) {
-  const std::string bytes = read_raw(file);
+  const std::string bytes = read_text_file(file, Limits::kRawTelemetryBytes);
   TimedPayload whole;
   try {
     whole.payload = parse_gpmf({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});

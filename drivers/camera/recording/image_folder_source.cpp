@@ -46,7 +46,7 @@ std::vector<fs::path> list_images(const std::string& folder) {
 }
 
 // Returns why the image cannot be used, or empty. IMREAD_UNCHANGED keeps depth and alpha as stored.
-std::string load(const fs::path& file, cv::Mat& image) {
+std::string load(const fs::path& file, cv::Mat& image) try {
   image = read_image(file.string(), cv::IMREAD_UNCHANGED);
   if (image.empty()) return "cannot be decoded: the file is damaged, unreadable or not an image";
   if (image.depth() == CV_32F || image.depth() == CV_64F) {
@@ -57,6 +57,8 @@ std::string load(const fs::path& file, cv::Mat& image) {
     return "has an alpha channel: remove it (mogrify -alpha off), a transparent pixel shows nothing that could be seen";
   }
   return {};
+} catch (const std::runtime_error& error) {
+  return error.what();
 }
 
 class ImageFolderSource final : public FrameSource {

@@ -7,10 +7,11 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 #include "drivers/camera/recording/ascii.h"
+#include "drivers/storage/limits.h"
+#include "drivers/storage/text_file.h"
 
 namespace drivers {
 
@@ -19,7 +20,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMostBlocks = 1'000'000;
-constexpr std::uintmax_t kMostSrtBytes = std::uintmax_t{512} << 20;
 
 bool is_word(char c) noexcept { return is_letter(c) || c == '_'; }
 
@@ -240,17 +240,7 @@ class Parser {
 
 SrtFile parse_srt(std::string_view text, const std::string& name) { return Parser(name).parse(text); }
 
-SrtFile read_srt(const std::string& path) {
-  std::error_code error;
-  const std::uintmax_t n_bytes = fs::file_size(path, error);
-  std::ifstream in(path, std::ios::binary);
-  if (error || !in) throw std::runtime_error(fmt::format("{}: cannot be read: check its permissions", path));
-  if (n_bytes > kMostSrtBytes) throw std::runtime_error(fmt::format("{}: {} bytes are too many", path, n_bytes));
-  std::string text(static_cast<std::size_t>(n_bytes), '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
-  return parse_srt(text, path);
-}
+SrtFile read_srt(const std::string& path) { return parse_srt(read_text_file(path, Limits::kSubtitleBytes), path); }
 
 std::string find_srt(const std::string& video) {
   const fs::path path = fs::absolute(video).lexically_normal();

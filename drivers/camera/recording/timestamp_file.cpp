@@ -5,10 +5,12 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
+
+#include "drivers/storage/csv_lines.h"
+#include "drivers/storage/limits.h"
 
 namespace drivers {
 
@@ -41,22 +43,18 @@ bool parse_whole(std::string_view text, T& value) {
 
 class Reader {
  public:
-  explicit Reader(const std::string& path) : path_(path), in_(path) {
-    if (!in_) throw std::runtime_error(fmt::format("{}: cannot be opened: check its permissions", path));
-  }
+  explicit Reader(const std::string& path) : path_(path), in_(path) {}
 
   std::vector<std::int64_t> read() {
     std::string_view line;
     if (!next_line(line))
       throw std::runtime_error(fmt::format("{}: empty: write 'frame,t_s' and a line per frame", path_));
-    if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);  // byte order mark of spreadsheet programs
     const auto comma = line.find(',');
     if (comma == std::string_view::npos || trimmed(line.substr(0, comma)) != "frame" ||
         trimmed(line.substr(comma + 1)) != "t_s") {
       refuse(line, "the header must be 'frame,t_s'");
     }
     while (next_line(line)) read_stamp(line);
-    if (in_.bad()) throw std::runtime_error(fmt::format("{}: reading failed after line {}", path_, line_number_));
     if (stamps_ns_.empty()) {
       throw std::runtime_error(fmt::format("{}: no time stamp: write one line per frame, or remove the file", path_));
     }
@@ -69,9 +67,9 @@ class Reader {
   }
 
   bool next_line(std::string_view& line) {
-    while (std::getline(in_, text_)) {
+    while (in_.next(line)) {
       ++line_number_;
-      line = trimmed(text_);
+      line = trimmed(line);
       if (!line.empty() && line.front() != '#') return true;
     }
     return false;
@@ -97,12 +95,13 @@ class Reader {
                          t_ns == stamps_ns_.back() ? "repeats" : "runs backward from",
                          static_cast<double>(stamps_ns_.back()) * 1e-9));
     }
+    if (stamps_ns_.size() == Limits::kTimestamps)
+      refuse(line, fmt::format("more than {} frames are refused: split the recording", Limits::kTimestamps));
     stamps_ns_.push_back(t_ns);
   }
 
   std::string path_;
-  std::ifstream in_;
-  std::string text_;
+  CsvLines in_;
   std::uint64_t line_number_ = 0;
   std::vector<std::int64_t> stamps_ns_;
 };

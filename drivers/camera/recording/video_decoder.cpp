@@ -5,12 +5,15 @@
 #include <new>
 #include <stdexcept>
 
+#include "drivers/storage/limits.h"
+
 namespace drivers {
 
 namespace {
 
-constexpr int kMostErrorsInARow = 100'000;                   // limit for a decoder that only fails
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;  // 8192 x 8192: a larger size means a damaged header
+constexpr int kMostErrorsInARow = 100'000;  // limit for a decoder that only fails
+// A larger size means a damaged header.
+constexpr auto kMostPixels = static_cast<std::int64_t>(Limits::kImagePixels);
 
 AvHandle<AVCodecContext> open_codec(const std::string& path, const Container& container) {
   AvHandle<AVCodecContext> codec(avcodec_alloc_context3(&container.decoder()));

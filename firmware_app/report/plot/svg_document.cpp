@@ -10,6 +10,8 @@
 #include <limits>
 #include <vector>
 
+#include "drivers/storage/printable.h"
+
 namespace app {
 namespace {
 
@@ -97,7 +99,9 @@ std::string svg_escaped(std::string_view text) {
   while (!text.empty()) {
     const std::size_t length = character_length(text);
     const char c = text.front();
-    if (length > 1) {
+    if (length > 1 && drivers::printable_length(text) == 0) {
+      out += '?';  // would change the direction of writing, or hide
+    } else if (length > 1) {
       out += text.substr(0, length);
     } else if (length == 0 || static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
       out += '?';

@@ -20,6 +20,10 @@ class CheckpointStage : public rt::Stage {
                   std::string path)
       : spectrum_(spectrum), modes_(modes), state_(std::move(view)), path_(std::move(path)) {}
 
+  // Before the thread starts: the modes that a resumed run goes on with, written until its first estimate replaces
+  // them.
+  void go_on_with(const std::vector<std::uint8_t>& modes) { state_.modes = modes; }
+
   [[nodiscard]] std::string_view name() const noexcept override { return "checkpoint"; }
   [[nodiscard]] rt::StepStatus step() noexcept override;
 

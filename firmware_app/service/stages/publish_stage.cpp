@@ -92,9 +92,11 @@ void PublishStage::complete_report(const core::Health& health) {
   if (outlets_.findings) {
     for (std::string& words : outlets_.findings()) caveats.push_back(std::move(words));
   }
-  if (outlets_.report != nullptr)
-    outlets_.report->finish(last_estimate_, health, outlets_.corrections, caveats, closure());
-  if (outlets_.draw) outlets_.draw({last_estimate_, last_sums_, closure()}, health);
+  if (outlets_.report == nullptr) return;
+  outlets_.report->finish(last_estimate_, health, outlets_.corrections, caveats, closure(),
+                          [&](const std::string& folder) {
+                            if (outlets_.draw) outlets_.draw({last_estimate_, last_sums_, closure()}, health, folder);
+                          });
 }
 
 void PublishStage::finish() noexcept {

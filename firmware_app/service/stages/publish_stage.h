@@ -35,8 +35,8 @@ class PublishStage : public rt::Stage {
     drivers::RunRecorder* recorder = nullptr;  // null: the run is not recorded
     RunReport* report = nullptr;               // null: no report requested
     std::function<core::Health()> health;      // returns the present status record
-    // Draws the run's pictures and its page into the report; throws drivers::FileError. Empty: not requested.
-    std::function<void(const Findings&, const core::Health&)> draw;
+    // Draws the run's pictures and its page into a folder; throws drivers::FileError. Empty: not requested.
+    std::function<void(const Findings&, const core::Health&, const std::string& folder)> draw;
     std::vector<core::ChannelInfo> channels;
     std::vector<std::string> corrections, caveats;
     TelemetryConfig telemetry;

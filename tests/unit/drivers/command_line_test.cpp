@@ -210,4 +210,17 @@ TEST(CommandLine, PrintsItsVersion) {
   EXPECT_EQ(help_of(program, {"--version"}), "program 1.2\n");
 }
 
+TEST(CommandLine, NoOptionTakesWhatIsNoFiniteNumber) {
+  for (const char* text : {"nan", "inf", "-inf", "NAN"}) {
+    double one = 0.0;
+    std::vector<double> several;
+    const auto declare = [&](drivers::CommandLine& program) {
+      program.option("--one", one, "");
+      program.option("--several", several, "");
+    };
+    EXPECT_EQ(answer(declare, {"--one", text}).exit_code, 2) << text;
+    EXPECT_EQ(answer(declare, {"--several", "1", text}).exit_code, 2) << text;
+  }
+}
+
 }  // namespace

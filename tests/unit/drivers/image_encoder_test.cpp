@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <random>
 #include <stdexcept>
@@ -64,6 +65,12 @@ TEST(ImageReader, ReadsWhatWasWrittenAndNothingElse) {
   const cv::Mat read = drivers::read_image(file, cv::IMREAD_UNCHANGED);
   ASSERT_EQ(read.size(), image.size());
   EXPECT_EQ(cv::norm(read, image, cv::NORM_INF), 0.0);
+  // 20000 x 20000 in a header, which is all that is read of it.
+  const std::string huge = (folder / "image_reader_huge.png").string();
+  const char header[] =
+      "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x4e\x20\0\0\x4e\x20\x08\0\0\0\0\xc6\x1b\x19\xe5\0\0\0\0IEND\xae\x42\x60\x82";
+  std::ofstream(huge, std::ios::binary).write(header, sizeof header - 1);
+  EXPECT_THROW((void)drivers::read_image(huge, cv::IMREAD_UNCHANGED), std::runtime_error);
   EXPECT_TRUE(drivers::read_image((folder / "no_such_image.png").string(), cv::IMREAD_UNCHANGED).empty());
 }
 

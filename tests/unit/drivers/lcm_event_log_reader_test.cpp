@@ -55,6 +55,18 @@ Read read(const fs::path& path, const std::string& bytes) {
   return out;
 }
 
+// Two gigabytes stated in a sparse file of that size: nothing of it is taken into memory.
+TEST(EventLogReader, ALengthBeyondTheBoundIsDamage) {
+  const fs::path path = test_support::fresh_folder() / "sparse.lcm";
+  test_support::write_text(path, head(1, 0x7FFFFFF0U) + "C");
+  fs::resize_file(path, 100'000'000);
+  EventLogReader reader(path.string());
+  EventLogReader::Event event;
+  EXPECT_FALSE(reader.next(event));
+  EXPECT_EQ(reader.n_damaged(), 1U);
+  EXPECT_LT(event.data.capacity(), 1U << 20U);
+}
+
 TEST(EventLogReader, ReadsWhatLcmWrites) {
   const fs::path path = test_support::fresh_folder() / "run.lcm";
   log_of(path, {0, 1, 70'000, 5});
@@ -75,14 +87,20 @@ TEST(EventLogReader, ReadsWhatLcmWrites) {
 TEST(EventLogReader, LengthsThatCannotBeAreCountedAndTheNextEventIsFound) {
   const fs::path path = test_support::fresh_folder() / "run.lcm";
   const std::string good = log_of(path, {3, 4});
-  for (const auto& [n_channel, n_data] : std::initializer_list<std::pair<std::uint32_t, std::uint32_t>>{
-           {0, 4}, {1000, 4}, {0xFFFFFFFFU, 4}, {0x80000000U, 4}, {2, 0xFFFFFFFFU}, {2, 0x80000000U}}) {
+  for (const auto& [n_channel, n_data] :
+       std::initializer_list<std::pair<std::uint32_t, std::uint32_t>>{{0, 4},
+                                                                      {1000, 4},
+                                                                      {0xFFFFFFFFU, 4},
+                                                                      {0x80000000U, 4},
+                                                                      {2, 0xFFFFFFFFU},
+                                                                      {2, 0x80000000U},
+                                                                      {2, 0x7FFFFFFFU}}) {
     const Read out = read(path, head(n_channel, n_data) + good);
     EXPECT_EQ(out.sizes, (std::vector<std::size_t>{3, 4})) << n_channel << " " << n_data;
     EXPECT_EQ(out.n_damaged, 1U);
   }
-  EXPECT_TRUE(read(path, head(2, 0x7FFFFFFFU) + good).sizes.empty());  // longer than the file: the end
-  const Read within = read(path, head(2, 10) + good + good);           // ends in the midst of an event
+  EXPECT_TRUE(read(path, head(2, 60'000'000) + good).sizes.empty());  // longer than the file: the end
+  const Read within = read(path, head(2, 10) + good + good);          // ends in the midst of an event
   EXPECT_EQ(within.n_damaged, 1U);
   EXPECT_EQ(within.sizes, (std::vector<std::size_t>{4, 3, 4}));
 }

@@ -238,6 +238,13 @@ TEST_F(RunRecord, SaysWhatIsNoRecord) {
   EXPECT_THROW((void)make_run_recorder({"/proc/none", 1000, 10000, "HOVERMODAL", {"bridge", 1}}), std::runtime_error);
 }
 
+TEST(RecordFolder, AFileWithTheLastNumberDoesNotStopTheCount) {
+  EXPECT_EQ(next_run({}), 1);
+  EXPECT_EQ(next_run({{"", 7, 0, 0}, {"", 3, 0, 0}}), 8);
+  EXPECT_EQ(next_run({{"", 2, 0, 0}, {"", 99'999'999, 0, 0}}), 3);
+  EXPECT_EQ(next_run({{"", 99'999'999, 0, 0}}), 1);
+}
+
 TEST(RecordFolder, NamesAreReadBack) { EXPECT_EQ(record_name("a_run0001_000", 7, 2), "a_run0001_000_run0007_002.lcm"); }
 
 }  // namespace

@@ -57,6 +57,20 @@ TEST_F(BatchInventory, WhatHasNoConfigurationIsLeftOutOrTakesTheGivenOne) {
   EXPECT_EQ(given.flights[0].config, "flight.yaml");
 }
 
+TEST_F(BatchInventory, LinksToFoldersAreNamedAndNotFollowed) {
+  put("a_run0001_000.lcm");
+  fs::create_directory_symlink("..", folder_ / "up");
+  fs::create_directory_symlink(".", folder_ / "here");
+  EXPECT_THAT(names(found()), ElementsAre("a_run0001 record"));
+  EXPECT_THAT(found().left_out,
+              ElementsAre(HasSubstr("here: a link to a folder"), HasSubstr("up: a link to a folder")));
+}
+
+TEST_F(BatchInventory, EarlierReportsBesideAReportAreNoFlights) {
+  for (const char* path : {"a/tracks.csv", "a/report.1/tracks.csv", "a/report.unfinished/tracks.csv"}) put(path);
+  EXPECT_THAT(names(found("", "flight.yaml")), ElementsAre("a tracks"));
+}
+
 TEST_F(BatchInventory, ResultsAndClipsOfTracksAreNoFlights) {
   for (const char* path : {"a/tracks.csv", "a/clip.mp4", "a/config.yaml", "out/flights/a/tracks.csv"}) put(path);
   EXPECT_THAT(names(found((folder_ / "out").string(), "flight.yaml")), ElementsAre("a tracks"));

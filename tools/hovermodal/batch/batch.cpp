@@ -10,6 +10,7 @@
 
 #include "drivers/host/command_line.h"
 #include "drivers/storage/json.h"
+#include "drivers/storage/printable.h"
 #include "tools/hovermodal/batch/combine.h"
 #include "tools/hovermodal/batch/dispatch.h"
 #include "tools/hovermodal/batch/mpi_workers.h"
@@ -20,6 +21,8 @@ namespace tools {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kMostShown = 500;
 
 struct Options {
   std::string folder, out, config;
@@ -103,7 +106,8 @@ struct Worked {
 // `workers`: in addition to those of this machine.
 Worked work(const Options& options, std::vector<std::unique_ptr<Workers>> workers) {
   const Inventory found = find_flights(options.folder, options.out, options.config);
-  for (const std::string& line : found.left_out) fmt::print(stderr, "left out: {}\n", line);
+  for (const std::string& line : found.left_out)
+    fmt::print(stderr, "left out: {}\n", drivers::printable(line, kMostShown));
   if (found.flights.empty())
     throw std::invalid_argument(options.folder + ": no flight in it; hovermodal batch --help explains what one is");
   Worked worked{orders_of(found, options), {}};

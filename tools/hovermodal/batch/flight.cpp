@@ -11,6 +11,7 @@
 
 #include "drivers/host/command_line.h"
 #include "drivers/storage/checkpoint_file.h"
+#include "drivers/storage/printable.h"
 #include "firmware_app/chain/state/setup_sums.h"
 #include "firmware_app/replay/analysis.h"
 #include "firmware_app/service/pipeline.h"
@@ -24,13 +25,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kKeepsNone = "report.keep=0";  // a batch that is repeated gives the same again
+
 void say(const std::vector<std::string>& lines) {
-  for (const std::string& line : lines) fmt::print("{}\n", line);
+  for (const std::string& line : lines) fmt::print("{}\n", drivers::printable_lines(line));
 }
 
 app::TracksResult replayed_record(const FlightOrder& order, const std::string& path,
                                   const std::vector<std::string>& overrides) {
-  app::RecordsResult result = app::replay_records({path}, {"", overrides, true}, order.into);
+  std::vector<std::string> all = overrides;
+  all.emplace_back(kKeepsNone);
+  app::RecordsResult result = app::replay_records({path}, {"", all, true}, order.into);
   say(result.remarks);
   return std::move(result.tracks);
 }
@@ -76,7 +81,9 @@ app::TracksResult result_of(const FlightOrder& order) {
     case FlightKind::kRecord:
       return replayed_record(order, order.flight.path, order.overrides);
     case FlightKind::kTracks: {
-      app::AppConfig config = app::load_config(order.flight.config, order.overrides);
+      std::vector<std::string> overrides = order.overrides;
+      overrides.emplace_back(kKeepsNone);
+      app::AppConfig config = app::load_config(order.flight.config, overrides);
       skip_closure_reports(config);
       return app::replay_tracks(config, order.flight.path, order.into);
     }

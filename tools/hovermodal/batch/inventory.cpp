@@ -20,15 +20,26 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 5> kClips{".mp4", ".mkv", ".avi", ".mov", ".m4v"};
 
-std::vector<fs::path> files_below(const fs::path& folder, const fs::path& results) {
+// report.1, report.unfinished, ...: what earlier runs left beside a report, flights of another day.
+bool is_earlier_report(const std::string& name) {
+  static const std::regex form("report[.]([0-9]+|partial|unfinished|complete|placing|replaced)");
+  return std::regex_match(name, form);
+}
+
+// Links to folders are listed and not followed: they may lead anywhere, and in circles.
+std::vector<fs::path> files_below(const fs::path& folder, const fs::path& results, std::vector<fs::path>& links) {
   std::vector<fs::path> files;
   std::error_code error;
   const fs::path skipped = fs::weakly_canonical(results, error);
-  const auto options = fs::directory_options::follow_directory_symlink | fs::directory_options::skip_permission_denied;
+  const auto options = fs::directory_options::skip_permission_denied;
   for (auto at = fs::recursive_directory_iterator(folder, options); at != fs::recursive_directory_iterator(); ++at) {
-    if (at->is_directory(error) && !results.empty() && fs::weakly_canonical(at->path(), error) == skipped) {
-      at.disable_recursion_pending();
+    const bool is_folder = at->is_directory(error);
+    if (is_folder && at->is_symlink(error)) {
+      links.push_back(at->path());
+      continue;
     }
+    const bool is_result = is_folder && !results.empty() && fs::weakly_canonical(at->path(), error) == skipped;
+    if (is_result || (is_folder && is_earlier_report(at->path().filename().string()))) at.disable_recursion_pending();
     if (at->is_regular_file(error)) files.push_back(at->path());
   }
   std::sort(files.begin(), files.end());
@@ -53,6 +64,10 @@ class Finder {
     } else if (std::find(kClips.begin(), kClips.end(), path.extension().string()) != kClips.end()) {
       take_clip(path);
     }
+  }
+
+  void leave_out(const fs::path& path, const std::string& why) {
+    found_.left_out.push_back(path.lexically_relative(folder_).generic_string() + ": " + why);
   }
 
   [[nodiscard]] Inventory finish() {
@@ -92,10 +107,6 @@ class Finder {
     found_.flights.push_back({name.lexically_relative(folder_).generic_string(), kind, path.string(), config});
   }
 
-  void leave_out(const fs::path& path, const std::string& why) {
-    found_.left_out.push_back(path.lexically_relative(folder_).generic_string() + ": " + why);
-  }
-
   fs::path folder_;
   std::string config_;
   std::set<std::string> runs_;
@@ -126,7 +137,11 @@ FlightKind flight_kind(const std::string& text) {
 Inventory find_flights(const std::string& folder, const std::string& results, const std::string& config) {
   if (!fs::is_directory(folder)) throw std::invalid_argument(folder + ": is no folder; name the one with the flights");
   Finder finder(folder, config);
-  for (const fs::path& path : files_below(folder, results)) finder.take(path);
+  std::vector<fs::path> links;
+  for (const fs::path& path : files_below(folder, results, links)) finder.take(path);
+  std::sort(links.begin(), links.end());
+  for (const fs::path& link : links)
+    finder.leave_out(link, "a link to a folder is not followed: copy the flights, or name the folder that it leads to");
   return finder.finish();
 }
 

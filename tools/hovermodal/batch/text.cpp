@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "drivers/storage/printable.h"
 #include "tools/hovermodal/batch/combine.h"
 
 namespace tools {
@@ -27,6 +28,9 @@ std::string row(std::string_view number, const BatchMode& mode, std::size_t n_fl
                      scatter_text(mode.flights_damping_ratio));
 }
 
+// Names of files and messages about them, which others chose.
+std::string shown(const std::string& text) { return drivers::printable(text, 500); }
+
 }  // namespace
 
 std::string batch_text(const BatchResult& result) {
@@ -36,7 +40,7 @@ std::string batch_text(const BatchResult& result) {
                                  result.views.size() == 1 ? "" : "s");
   for (std::size_t v = 1; v < result.views.size(); ++v) {
     text += fmt::format("view {} (from {}) is another than view 1: {}\n", v + 1,
-                        result.flights[result.views[v].flights.front()].name, result.views[v].why);
+                        shown(result.flights[result.views[v].flights.front()].name), shown(result.views[v].why));
   }
   text += fmt::format("{:>4} {:^21} {:^21} {:^14} {:>6} {:>6}\n", "mode", "frequency, Hz", "damping, %", "in flights",
                       "scatter", "f, damp.");
@@ -45,7 +49,7 @@ std::string batch_text(const BatchResult& result) {
   for (const BatchMode& mode : result.unsettled) text += row("-", mode, n_done);
   text += "scatter: of the flights about their mean, over what they state; about 1 where nothing changed\n";
   for (const FlightResult& flight : result.flights) {
-    if (!flight.failure.empty()) text += fmt::format("failed: {}: {}\n", flight.name, flight.failure);
+    if (!flight.failure.empty()) text += fmt::format("failed: {}: {}\n", shown(flight.name), shown(flight.failure));
   }
   return text;
 }

@@ -79,8 +79,14 @@ class BoardSearch {
     return !found_.hint.empty() && found_.views.empty() && found_.n_looked_at >= 3;
   }
 
+  static cv::Mat read(const std::string& file) try {
+    return drivers::read_image(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(file + ": " + error.what());
+  }
+
   void look_at_image(const std::string& file) {
-    const cv::Mat image = drivers::read_image(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+    const cv::Mat image = read(file);
     if (image.empty()) throw std::runtime_error(file + ": cannot be decoded: damaged, or not an image");
     require_size(file, image.cols, image.rows);
     look(image, file);

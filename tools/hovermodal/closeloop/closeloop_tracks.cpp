@@ -12,6 +12,7 @@
 #include "core/closure/closure_loop.h"
 #include "core/closure/observation/observation_level.h"
 #include "core/closure/observation/residual_view.h"
+#include "drivers/storage/csv_lines.h"
 #include "drivers/storage/json.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/replay/tracks_record.h"
@@ -57,9 +58,9 @@ void write_pictures_of(const TracksLoop& request, const ObservationLevel& level,
 
 bool is_tracks_record(const std::string& path) {
   if (std::filesystem::is_directory(path)) return true;
-  std::ifstream file(path);
-  std::string line;
-  while (std::getline(file, line)) {
+  drivers::CsvLines file(path);
+  std::string_view line;
+  while (file.next(line)) {
     if (!line.starts_with('#')) return line.starts_with("frame,t_s,point,region,");
   }
   return false;

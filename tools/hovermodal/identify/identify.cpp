@@ -141,8 +141,10 @@ void add_method_options(drivers::Command& command, IdentifyOptions& options) {
       .show_default();
   command.option("--block-rows", options.identifier.block_rows, "Block rows of the Hankel matrix, 0 = automatic")
       .show_default();
-  command.option("--differences", options.n_differences,
-                 "Prewhitening differences (default: 1 where there are displacements, else 0)");
+  command
+      .option("--differences", options.n_differences,
+              "Prewhitening differences (default: 1 where there are displacements, else 0)")
+      .range(0, 4);
   command.flag("--keep-all", options.keep_all,
                "Use every number: fill values, stuck stretches and single outliers are not masked");
   command.flag("--merge", options.merge, "The files are set-ups of one structure, joined by --reference");

@@ -1,0 +1,45 @@
+#include "drivers/storage/regular_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "drivers/storage/text_file.h"
+
+namespace drivers {
+
+FileHandle open_regular_file(const std::string& path, std::string_view what, std::uint64_t max_bytes) {
+  const std::string name = printable(path, 300);
+  if (path.empty() || path.find('\0') != std::string::npos) throw FileError("the file name is empty or broken");
+  // Without O_NONBLOCK a pipe would be waited for here.
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  if (descriptor < 0)
+    throw FileError(
+        fmt::format("{}: cannot be read: {}; check the path and its permissions", name, std::strerror(errno)));
+  FileHandle file(::fdopen(descriptor, "rb"));
+  if (!file) {
+    ::close(descriptor);
+    throw FileError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
+  }
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0)
+    throw FileError(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
+  if (S_ISDIR(status.st_mode)) throw FileError(fmt::format("{}: is a directory; {}", name, what));
+  if (!S_ISREG(status.st_mode))
+    throw FileError(fmt::format("{}: is a device or pipe, no regular file; {}", name, what));
+  if (static_cast<std::uint64_t>(status.st_size) > max_bytes)
+    throw FileError(fmt::format("{}: has {} bytes, more than {} are refused; is this the right file?", name,
+                                status.st_size, max_bytes));
+  return file;
+}
+
+std::uint64_t bytes_of(std::FILE* file) noexcept {
+  struct stat status {};
+  return ::fstat(::fileno(file), &status) == 0 && status.st_size > 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
+}
+
+}  // namespace drivers

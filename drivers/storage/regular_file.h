@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace drivers {
+
+struct FileCloser {
+  void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+};
+using FileHandle = std::unique_ptr<std::FILE, FileCloser>;
+
+// Opens a regular file for reading. Never waits: a pipe or a device is refused, whatever its name leads to. `what` says
+// what to name instead ("name a CSV file"). Throws FileError: missing, unreadable, no regular file, or larger than
+// `max_bytes`, with its size.
+[[nodiscard]] FileHandle open_regular_file(const std::string& path, std::string_view what,
+                                           std::uint64_t max_bytes = UINT64_MAX);
+[[nodiscard]] std::uint64_t bytes_of(std::FILE* file) noexcept;  // its size; 0 where that is unknown
+
+}  // namespace drivers

@@ -1,0 +1,79 @@
+#include "drivers/storage/regular_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "drivers/camera/recording/srt_file.h"
+#include "drivers/camera/recording/timestamp_file.h"
+#include "drivers/storage/checkpoint_file.h"
+#include "drivers/storage/csv.h"
+#include "drivers/storage/limits.h"
+#include "drivers/storage/text_file.h"
+#include "tests/support/test_clip.h"
+
+namespace drivers {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+template <class Read>
+std::string refusal(const Read& read) {
+  try {
+    read();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// A pipe without a writer would be waited for, /dev/zero read for ever.
+TEST(RegularFile, NoReaderWaitsForAPipeOrReadsADevice) {
+  const fs::path folder = test_support::fresh_folder();
+  const std::string pipe = (folder / "clip.timestamps.csv").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const std::string device = (folder / "zero.csv").string();
+  fs::create_symlink("/dev/zero", device);
+  for (const std::string& path : {pipe, device}) {
+    EXPECT_THAT(refusal([&] { (void)open_regular_file(path, "name a file"); }), HasSubstr("device or pipe"));
+    EXPECT_THAT(refusal([&] { (void)read_timestamp_file(path); }), HasSubstr("device or pipe"));
+    EXPECT_THAT(refusal([&] { (void)read_srt(path); }), HasSubstr("device or pipe"));
+    EXPECT_THAT(refusal([&] { (void)read_tracks_csv(path); }), HasSubstr("device or pipe"));
+    EXPECT_THAT(refusal([&] { (void)read_text_file(path, 100); }), HasSubstr("device or pipe"));
+    EXPECT_THAT(read_checkpoint(path).refused, HasSubstr("device or pipe"));
+  }
+}
+
+TEST(RegularFile, TellsTheSizeOfWhatIsTooLarge) {
+  const fs::path path = test_support::fresh_folder() / "large";
+  std::ofstream(path) << "0123456789";
+  fs::resize_file(path, 5'000'000'000);  // sparse
+  EXPECT_THAT(refusal([&] { (void)open_regular_file(path.string(), "name a file", 1000); }),
+              AllOf(HasSubstr("5000000000 bytes"), HasSubstr("1000")));
+  EXPECT_EQ(bytes_of(open_regular_file(path.string(), "name a file").get()), 5'000'000'000U);
+}
+
+TEST(RegularFile, ALineOfTimeStampsIsBounded) {
+  const fs::path path = test_support::fresh_folder() / "clip.timestamps.csv";
+  std::ofstream(path) << "frame,t_s\n0,0\n1," << std::string(Limits::kLineBytes, '1') << "\n";
+  EXPECT_THAT(refusal([&] { (void)read_timestamp_file(path.string()); }),
+              HasSubstr(":3: the line is longer than 64 KiB"));
+}
+
+TEST(RegularFile, PointsOfARegionAreBounded) {
+  const fs::path path = test_support::fresh_folder() / "tracks.csv";
+  {
+    std::ofstream out(path);
+    out << "# image_size_px: 64 x 64\n# rate_hz: 25\nframe,t_s,point,region,u_px,v_px,sigma_px\n";
+    for (std::size_t i = 0; i <= Limits::kPointsPerRegion; ++i) out << "0,0," << i << ",roof,1,1,0.1\n";
+  }
+  EXPECT_THAT(refusal([&] { (void)read_tracks_csv(path.string()); }),
+              HasSubstr("more than 4096 points of region `roof`"));
+}
+
+}  // namespace
+}  // namespace drivers
