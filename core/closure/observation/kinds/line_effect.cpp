@@ -14,6 +14,7 @@ namespace core::closure {
 namespace {
 
 constexpr double kWidest_hz = 1.2;  // half width; a wider band is a broad-band rotation
+constexpr double kToldOrder = 0.8;  // of a line's gain: the most that another alias order may reach
 constexpr double kOfPattern = 0.7;  // smallest share of the gain of the best pattern learned in its band
 
 LineSearch search_in(const LineEffect& effect, const FitView& fit) {
@@ -92,9 +93,11 @@ class LineCandidate final : public EffectCandidate {
   }
 
  private:
-  // At its true frequency only roll is seen of a rotation, and a rocking structure leaves the same.
+  // At order 0, or where the rows do not tell the order, only roll is seen of a rotation, and a rocking structure
+  // leaves the same.
   [[nodiscard]] std::string of_structure() const {
-    if (found_.fold != 0) return {};
+    const bool order_is_told = found_.next_gain < kToldOrder * found_.gain;
+    if (found_.fold != 0 && order_is_told) return {};
     RungSet band = 0;
     const Rungs& rungs = fit_.held_out.rungs();
     for (std::size_t i = 0; i < rungs.size(); ++i) {
