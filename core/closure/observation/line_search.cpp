@@ -15,10 +15,11 @@ namespace core::closure {
 namespace {
 
 constexpr std::array<double, 4> kHalfWidth_hz{3.0, 2.0, 1.0, 0.3};
-constexpr double kFoldWidth_hz = 1.0;  // half width of the band in which the alias order is estimated
-constexpr double kLowest_hz = 3.5;     // slower rotations are separate effects
+constexpr double kFoldWidth_hz = 1.0;   // half width of the band in which the alias order is estimated
+constexpr double kLeastOverSlow = 0.2;  // of a line's gain, by which its alias order exceeds that of a slow rotation
 constexpr std::size_t kPeaks = 2;
-constexpr double kMirrorReadout_frames = 0.2;  // smallest with which rows distinguish a band from its mirror image
+constexpr double kMirrorReadout_frames = 0.2;    // smallest with which rows distinguish a band from its mirror image
+constexpr double kTellingReadout_frames = 0.05;  // smallest with which rows distinguish a line from a slow rotation
 constexpr double kPeakApart_hz = 1.0, kPeakWidth_hz = 0.3;
 
 using Block = Eigen::Matrix2cd;
@@ -96,11 +97,11 @@ std::vector<LineSearch::Side> LineSearch::sides(const LineFinding& finding) cons
   return out;
 }
 
-std::vector<double> LineSearch::peaks(const Eigen::MatrixXcd& spectrum) const {
+std::vector<double> LineSearch::peaks(const Eigen::MatrixXcd& spectrum, double from_hz, double to_hz) const {
   const Eigen::VectorXd power = spectrum.colwise().squaredNorm().transpose();
   const double bin_hz = rate_hz_ / n_fft_;
   std::vector<std::pair<double, double>> found;  // power, Hz
-  for (double f = kLowest_hz; f < 0.5 * rate_hz_ - kPeakWidth_hz; f += 0.25 * kPeakWidth_hz) {
+  for (double f = from_hz; f < to_hz; f += 0.25 * kPeakWidth_hz) {
     const Band b = band(f, 0.5 * kPeakWidth_hz);
     if (b.count > 0) found.emplace_back(power.segment(b.first, b.count).mean(), f);
   }
@@ -244,8 +245,10 @@ void LineSearch::try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz,
   LineFinding own;
   own.apparent_hz = apparent_hz;
   own.gain = own.next_gain = -1e300;
+  double at_rest = 0.0;
   for (int fold = -most; fold <= most; ++fold) {
     const double g = gain(moments, fields_of(fold));
+    if (fold == 0) at_rest = g;
     if (g > own.gain)
       own.next_gain = own.gain, own.gain = g, own.fold = fold;
     else
@@ -253,6 +256,8 @@ void LineSearch::try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz,
   }
   const double margin = own.gain - own.next_gain;
   if (best.apparent_hz > 0.0 && !(own.gain > 0.0)) return;
+  const bool is_slow = apparent_hz < kSlowest_hz;
+  if (is_slow && (own.fold == 0 || own.gain - at_rest < kLeastOverSlow * own.gain)) return;
   LineFinding trial = own;
   own.gain = -1e300;
   for (const double half_width_hz : kHalfWidth_hz) {
@@ -268,7 +273,12 @@ void LineSearch::try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz,
 LineFinding LineSearch::find(const Eigen::MatrixXd& residual) const {
   const Eigen::MatrixXcd bins = spectrum(residual);
   LineFinding best;
-  for (const double peak : peaks(bins)) try_folds(bins, peak, best);
+  const double highest_hz = 0.5 * rate_hz_ - kPeakWidth_hz;
+  for (const double peak : peaks(bins, kSlowest_hz, highest_hz)) try_folds(bins, peak, best);
+  // Below, only the rows distinguish a line from the camera's slow rotations.
+  if (std::abs(readout_frames_) >= kTellingReadout_frames) {
+    for (const double peak : peaks(bins, kSlowestFolded_hz, kSlowest_hz)) try_folds(bins, peak, best);
+  }
   recentre(bins, best);
   return best;
 }

@@ -23,11 +23,14 @@ struct LineFinding {
   double gain = 0.0;       // decrease of the held-out squares, in noise variances
   double next_gain = 0.0;  // gain of the second-best alias order
 
-  // True for the width of a rotor whose speed is constant within one percent; wider findings are bands. If the readout
-  // does not determine the alias order, the true frequency is unknown and a fixed width decides.
+  // True for a frequency and width of a rotor whose speed is constant within one percent; slower and wider findings are
+  // vibrations of the camera. If the readout does not determine the alias order, the true frequency is unknown and a
+  // fixed width decides.
   [[nodiscard]] bool is_steady(double rate_hz, double readout_frames) const noexcept {
+    constexpr double kSlowestRotor_hz = 30.0;
+    if (std::abs(readout_frames) < 0.1) return spread_hz <= 0.4;
     const double true_hz = std::abs(apparent_hz + fold * rate_hz);
-    return spread_hz <= (std::abs(readout_frames) < 0.1 ? 0.4 : 0.05 + 0.01 * true_hz);
+    return true_hz > kSlowestRotor_hz && spread_hz <= 0.05 + 0.01 * true_hz;
   }
 };
 
@@ -45,6 +48,8 @@ struct LineAngles {
 class LineSearch {
  public:
   static constexpr int kMostFolds = 8;
+  static constexpr double kSlowest_hz = 3.5;        // slower rotations are separate effects
+  static constexpr double kSlowestFolded_hz = 1.0;  // apparent frequency of lines above half the frame rate
   // fields: 2 points x 3, px per rad. The model must outlive it.
   LineSearch(const PointMotionModel& model, double rate_hz, double readout_frames, Eigen::MatrixXd fields,
              Eigen::Index n_frames);
@@ -79,7 +84,7 @@ class LineSearch {
   [[nodiscard]] Band band(double centre_hz, double half_width_hz) const;
   // The finding's band, and its mirror image if it extends below f_s / 2 and the rows distinguish the two.
   [[nodiscard]] std::vector<Side> sides(const LineFinding& finding) const;
-  [[nodiscard]] std::vector<double> peaks(const Eigen::MatrixXcd& spectrum) const;
+  [[nodiscard]] std::vector<double> peaks(const Eigen::MatrixXcd& spectrum, double from_hz, double to_hz) const;
   [[nodiscard]] Eigen::MatrixXcd fields_of(int fold) const;
   // Fields of all sides that contain the bin, as columns.
   [[nodiscard]] Eigen::MatrixXcd fields_at(Eigen::Index bin, const std::vector<Side>& sides) const;

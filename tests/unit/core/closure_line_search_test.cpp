@@ -68,5 +68,18 @@ TEST(LineSearch, ALineThatWandersOverHalfTheFrameRateIsHeldOnBothSides) {
   EXPECT_LT(fit.share_left, 0.1);
 }
 
+// 77 Hz at 25 fps appears at 2 Hz, among the camera's own slow rotations: only the rows tell the two apart.
+TEST(LineSearch, FindsALineThatAppearsAmongSlowRotations) {
+  const LineFit fit = fit_line(77.0, 0.3);
+  EXPECT_NEAR(std::abs(fit.finding.apparent_hz + fit.finding.fold * 25.0), 77.0, 0.35);
+  EXPECT_LT(fit.share_left, 0.05);
+}
+
+TEST(LineSearch, ASlowRotationIsNoLine) {
+  const LineFit fit = fit_line(2.0, 0.1);
+  EXPECT_TRUE(fit.finding.fold == 0 || fit.finding.apparent_hz >= LineSearch::kSlowest_hz);
+  EXPECT_FALSE(fit.finding.is_steady(25.0, kReadout_frames));
+}
+
 }  // namespace
 }  // namespace core::closure

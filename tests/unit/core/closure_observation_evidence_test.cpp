@@ -141,6 +141,49 @@ TEST(ObservationLevel, RockingIsNoRollWhereTheBackgroundStandsStill) {
   EXPECT_NEAR(result.steps[0].parameters.at(0).value, 5e-4 / std::sqrt(2.0) * 180.0 / kPi, 0.002);
 }
 
+// A turn at this frequency about the point (cx, about_v) in a record without a background.
+ClosureResult closed_with_turn(double frequency_hz, double about_v, double readout_frames) {
+  ObservationRecord record = swaying_record(1500, {.readout_frames = readout_frames});
+  record.readout_frames = readout_frames;
+  for (Eigen::Index j = 0; j < record.n_points(); ++j) {
+    for (Eigen::Index k = 0; k < record.n_frames(); ++k) {
+      const double t = seconds(k) + readout_frames * record.v_px(k, j) / record.height_px / record.rate_hz;
+      const double turn = 5e-4 * std::sin(2.0 * kPi * frequency_hz * t);
+      const double x = record.u_px(k, j) - record.cx_px, y = record.v_px(k, j) - about_v;
+      record.u_px(k, j) -= turn * y, record.v_px(k, j) += turn * x;
+    }
+  }
+  return closed(record);
+}
+
+TEST(ObservationLevel, WithoutABackgroundTheBaseTellsRockingFromTheCamerasRoll) {
+  const double base_v = swaying_record(100, {}).v_px.leftCols(8).mean();
+  const ClosureResult rocks = closed_with_turn(2.3, base_v, 0.0);
+  ASSERT_EQ(rocks.steps.size(), 1U) << words(rocks);
+  EXPECT_EQ(rocks.steps[0].effect, "rocking");
+  EXPECT_TRUE(rocks.steps[0].rivals.empty());
+  const ClosureResult rolls = closed_with_turn(2.3, 540.0, 0.0);
+  ASSERT_EQ(rolls.steps.size(), 1U) << words(rolls);
+  EXPECT_EQ(rolls.steps[0].effect, "camera roll");
+}
+
+TEST(ObservationLevel, ANarrowBandOfRollAboveTheDriftIsAVibration) {
+  const ClosureResult result = closed_with_turn(6.3, 540.0, 0.5);
+  ASSERT_EQ(result.steps.size(), 1U) << words(result);
+  EXPECT_EQ(result.steps[0].effect, "camera vibration");
+}
+
+// Every point of a floor moves in its own way: none of these motions is that of a part.
+TEST(ObservationLevel, ARegionThatMovesInManyWaysHasNoMovingPart) {
+  ObservationRecord record = swaying_record(1500, {});
+  for (Eigen::Index j = 16; j < 24; ++j) {
+    const double hz = 2.0 + 0.7 * static_cast<double>(j - 16);
+    for (Eigen::Index k = 0; k < record.n_frames(); ++k)
+      record.u_px(k, j) += 0.06 * std::sin(2.0 * kPi * hz * seconds(k));
+  }
+  for (const ClosureStep& step : closed(record).steps) EXPECT_NE(step.effect, "moving part");
+}
+
 TEST(ObservationLevel, TwoRadialTermsAreFittedTogether) {
   ObservationRecord record = swaying_record(1500, {});
   const double k1 = -0.2, k2 = 0.5;

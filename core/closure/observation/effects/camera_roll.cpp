@@ -13,13 +13,10 @@ class CameraRoll final : public RotationEffect {
                                         const PointGeometry& geometry) const override {
     return roll_pattern(geometry);
   }
-  // A narrow band well above the drift, and nothing that stands still: the structure may rock as well.
   [[nodiscard]] std::string not_in(RungSet band, const FitView& fit) const override {
-    const Rungs& rungs = fit.held_out.rungs();
-    constexpr double kAboveDrift_hz = 1.0, kNarrow_hz = 2.5;
-    if (has_background(fit.record) || band == kAllRungs || rungs.lowest_hz(band) < kAboveDrift_hz) return {};
-    if (rungs.width_hz(band) > kNarrow_hz) return {};
-    return "a resonance, and without a background the structure's rocking cannot be told from the camera's roll";
+    const RollCourse course = roll_course(fit, band);
+    if (std::string words = not_of_camera(course, fit); !words.empty()) return words;
+    return course.is_vibration() ? "a narrow band above the camera's slow rotation: a vibration" : "";
   }
   [[nodiscard]] Eigen::Vector3d rotation() const override { return {0.0, 0.0, -1.0}; }
 };

@@ -7,7 +7,7 @@
 namespace core::closure {
 namespace {
 
-constexpr double kLeastVibrationReadout_frames = 0.2;
+constexpr double kLeastVibrationReadout_frames = 0.05;
 
 // Camera rotation in a frequency band, e.g. gimbal resonance or airframe vibration. At alias order 0 only roll is
 // observable: the constant parts of pitch and yaw are translations, which are free in each frame.

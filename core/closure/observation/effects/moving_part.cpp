@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace {
 
 constexpr std::size_t kLeastOnSide = 2;  // on either side of the division
 constexpr int kRounds = 2;
+constexpr double kOfPlace = 0.5;  // of what is left in its region beyond the noise, explained by one part
 
 using Points = std::vector<Eigen::Index>;
 
@@ -55,6 +57,7 @@ class MovingPartCandidate final : public EffectCandidate {
   [[nodiscard]] double gain(const TestedResidual& residual) const override { return best(residual.moments).found.gain; }
   double find(const TestedResidual& residual) override {
     part_ = best(residual.moments);
+    of_place_ = share_of_place(residual.moments);
     return part_.found.gain;
   }
   [[nodiscard]] double material_share() const override { return material_of(part_.found.band, fit_, kLearnedBar); }
@@ -63,6 +66,9 @@ class MovingPartCandidate final : public EffectCandidate {
   }
   [[nodiscard]] Objection objection() const override {
     if (part_.pattern.size() == 0) return {};
+    if (of_place_ < kOfPlace)
+      return {"its region moves in many ways: this one is " + std::to_string(std::lround(100.0 * of_place_)) +
+              " % of them"};
     const Eigen::VectorXd whitened = fit_.model.whitened(part_.pattern);
     const Objection common = follows_motion(fit_, whitened, part_.found.band);
     return common.words.empty() ? follows_regions(fit_, whitened, part_.found.band) : common;
@@ -81,6 +87,26 @@ class MovingPartCandidate final : public EffectCandidate {
       }
     }
     return out;
+  }
+  // Of the squares that its region's residual holds beyond the noise, in its rungs.
+  [[nodiscard]] double share_of_place(const ResidualMoments& moments) const {
+    if (part_.pattern.size() == 0) return 0.0;
+    const RungSet band = part_.found.band;
+    const Eigen::MatrixXd all = fit_.held_out.sum_over(band, moments);
+    const double freedom =
+        static_cast<double>(fit_.record.n_frames()) * (band == kAllRungs ? 1.0 : fit_.held_out.share_of(band));
+    double place = 0.0;
+    for (const Points& points : points_) {
+      const auto moves = [&](Eigen::Index j) { return !part_.pattern.segment<2>(2 * j).isZero(0.0); };
+      if (std::none_of(points.begin(), points.end(), moves)) continue;
+      for (const Eigen::Index j : points) {
+        for (const Eigen::Index row : {2 * j, 2 * j + 1})
+          place += all(row, row) - freedom * (1.0 - fit_.model.q_high().row(row).squaredNorm());
+      }
+    }
+    const Eigen::VectorXd g = pattern_beside(fit_.model, fit_.model.whitened(part_.pattern)).above;
+    const double one = g.dot(all * g) - freedom;
+    return place > 0.0 ? one / place : 1.0;
   }
   [[nodiscard]] Part learned(const Points& points, Eigen::Index axis, const ResidualMoments& moments) const {
     Part out;
@@ -107,6 +133,7 @@ class MovingPartCandidate final : public EffectCandidate {
   const FitView fit_;
   std::vector<Points> points_;  // of each region
   Part part_;
+  double of_place_ = 0.0;
 };
 
 class MovingPart final : public ObservationEffect {

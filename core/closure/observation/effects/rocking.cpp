@@ -4,25 +4,25 @@
 namespace core::closure {
 namespace {
 
-// The whole structure turns in its own plane, as about its base. Observable where something else stands still: the same
-// turn of everything that is seen is the camera's roll.
+// The whole structure turns in its own plane about its base. Confused with the camera's roll: told from it by a
+// background that stands still, or else, where the turn is a resonance, by the base, which a roll would move.
 class Rocking final : public RotationEffect {
  public:
   [[nodiscard]] EffectId id() const override { return {"rocking"}; }
   [[nodiscard]] std::string name() const override { return "rocking"; }
   [[nodiscard]] Eigen::VectorXd pattern(const ObservationRecord& record, const PointGeometry& geometry) const override {
     Eigen::VectorXd out = roll_pattern(geometry);
-    const bool alone = !has_background(record);
     for (std::size_t j = 0; j < record.region_of_point.size(); ++j) {
-      if (alone || !makes_channel(record.regions[record.region_of_point[j]].role))
+      if (!makes_channel(record.regions[record.region_of_point[j]].role))
         out.segment<2>(2 * static_cast<Eigen::Index>(j)).setZero();
     }
     return out;
   }
-  [[nodiscard]] std::optional<NotObservable> obstacle(const FitView& fit, bool is_adopted) const override {
-    if (is_adopted || has_background(fit.record)) return std::nullopt;
-    return NotObservable{name(), "without a background the camera's roll moves all that is seen alike",
-                         "declare a background"};
+  [[nodiscard]] std::string not_in(RungSet band, const FitView& fit) const override {
+    if (has_background(fit.record)) return {};
+    const RollCourse course = roll_course(fit, band);
+    if (course.is_resonance() && course.is_about_base()) return {};
+    return "without a background it cannot be told from the camera's roll";
   }
 };
 

@@ -7,7 +7,7 @@
 namespace core::closure {
 namespace {
 
-constexpr double kLeastRotorReadout_frames = 0.2;
+constexpr double kLeastRotorReadout_frames = 0.05;
 
 // Camera rotation caused by the rotors.
 class RotorLine final : public LineEffect {

@@ -2,7 +2,10 @@
 
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
 
+#include "core/closure/observation/effects/rotation_patterns.h"
 #include "core/closure/observation/kinds/materiality.h"
 #include "core/closure/observation/line_search.h"
 #include "core/types/constants.h"
@@ -11,6 +14,7 @@ namespace core::closure {
 namespace {
 
 constexpr double kWidest_hz = 1.2;  // half width; a wider band is a broad-band rotation
+constexpr double kToldOrder = 0.8;  // of a line's gain: the most that another alias order may reach
 constexpr double kOfPattern = 0.7;  // smallest share of the gain of the best pattern learned in its band
 
 LineSearch search_in(const LineEffect& effect, const FitView& fit) {
@@ -76,8 +80,11 @@ class LineCandidate final : public EffectCandidate {
   [[nodiscard]] double material_share() const override { return kLineBar; }
   [[nodiscard]] Objection objection() const override {
     if (found_.is_steady(fit_.record.rate_hz, fit_.readout_frames) != effect_.is_steady())
-      return {effect_.is_steady() ? "its width is that of a band" : "its width is that of a steady line", false};
+      return {effect_.is_steady() ? "it is a band, or slower than a rotor" : "it is the line of a steady rotor", false};
     if (!effect_.is_steady() && found_.spread_hz > kWidest_hz) return {"too wide for a band", false};
+    if (found_.apparent_hz < LineSearch::kSlowest_hz && (found_.fold == 0 || !effect_.is_steady()))
+      return {"a slow rotation", false};
+    if (std::string words = of_structure(); !words.empty()) return {std::move(words), true};
     if (!(found_.gain < kOfPattern * search_.pattern_gain(fit_.model.residual(), found_))) return {};
     return {"a projection of another effect: in its band the best learned pattern explains more", false};
   }
@@ -86,6 +93,21 @@ class LineCandidate final : public EffectCandidate {
   }
 
  private:
+  // At order 0, or where the rows do not tell the order, only roll is seen of a rotation, and a rocking structure
+  // leaves the same.
+  [[nodiscard]] std::string of_structure() const {
+    const bool order_is_told = found_.next_gain < kToldOrder * found_.gain;
+    if (found_.fold != 0 && order_is_told) return {};
+    RungSet band = 0;
+    const Rungs& rungs = fit_.held_out.rungs();
+    for (std::size_t i = 0; i < rungs.size(); ++i) {
+      if (rungs.to_hz(i) > found_.apparent_hz - found_.half_width_hz &&
+          rungs.from_hz(i) < found_.apparent_hz + found_.half_width_hz)
+        band |= RungSet{1} << i;
+    }
+    return not_of_camera(roll_course(fit_, band), fit_);
+  }
+
   const LineEffect& effect_;
   const FitView fit_;
   LineSearch search_;
