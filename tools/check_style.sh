@@ -52,7 +52,7 @@ case $what in
     # to clang.
     commands=$(mktemp -d)
     trap 'rm -rf "$commands"' EXIT
-    sed -E 's/ -fpch-preprocess| -Winvalid-pch| -Wno-restrict| -fno-predictive-commoning| -include [^ ]*cmake_pch\.hxx//g' \
+    sed -E 's/ -fpch-preprocess| --param ggc-min-heapsize=[0-9]+| -Winvalid-pch| -Wno-restrict| -fno-predictive-commoning| -include [^ ]*cmake_pch\.hxx//g' \
       $build/compile_commands.json >"$commands/compile_commands.json"
     bad=0
     for file in "${files[@]}"; do

@@ -67,6 +67,10 @@ ReadoutFinding choose_readout(const ReadoutValue& declared, const std::optional<
   Named used{declared, "declared"};
   if (!measured) {
     used.name = "declared: neither tracks nor shapes determine the readout time";
+  } else if (declared.std_s > 0.0 && !agree(declared, measured->value)) {
+    finding.consistent = false;
+    used = *measured;
+    used.name += ", because it contradicts the declared value by more than four standard deviations";
   } else {
     join(used, *measured, finding);
   }

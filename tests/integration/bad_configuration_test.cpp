@@ -120,7 +120,7 @@ const std::vector<BadInput>& output_rows() {
        },
        1,
        {"taken", "may be written"}},
-      {"OutputFolderNotWritable", not_writable, 1, {"locked", "permission"}},
+      {"OutputFolderNotWritable", not_writable, 1, {"report.directory", "locked", "Permission denied"}},
       // Telemetry is not essential to the run: without it the run continues and reports this.
       {"DiskFullUnderTheLcmLog",
        [](const fs::path& f) {

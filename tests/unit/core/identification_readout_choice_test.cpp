@@ -39,6 +39,20 @@ TEST(ReadoutChoice, OfTwoThatContradictTheBetterKnownStands) {
   EXPECT_FALSE(finding.consistent);
 }
 
+TEST(ReadoutChoice, ADeclaredValueGivesWayToALessPreciseMeasurementThatContradictsIt) {
+  const ReadoutFinding finding = choose_readout({0.040, 0.001}, ReadoutValue{0.0173, 0.00108}, {});
+  EXPECT_EQ(finding.used.readout_s, 0.0173);
+  EXPECT_FALSE(finding.consistent);
+  EXPECT_NE(finding.why.find("contradicts the declared value"), std::string::npos);
+  EXPECT_NEAR(choose_readout({0.040, 0.001}, ReadoutValue{0.036, 0.002}, {}).used.readout_s, 0.0392, 1e-12);
+}
+
+TEST(ReadoutChoice, OfTracksAndShapesThatContradictEachOtherTheMorePreciseStands) {
+  const ReadoutFinding finding = choose_readout({0.02, 0.02}, ReadoutValue{0.026, 0.001}, ReadoutValue{0.036, 0.0005});
+  EXPECT_NEAR(finding.used.readout_s, 0.036, 2e-5);
+  EXPECT_FALSE(finding.consistent);
+}
+
 TEST(ReadoutChoice, ShapesJoinTracksOrSpeakForThem) {
   const ReadoutFinding both = choose_readout({0.02, 0.02}, ReadoutValue{0.026, 0.001}, ReadoutValue{0.027, 0.001});
   EXPECT_NEAR(both.used.readout_s, 0.0265, 2e-5);
