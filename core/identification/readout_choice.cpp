@@ -8,6 +8,7 @@ namespace core {
 namespace {
 
 constexpr double kAgree_sigmas = 4.0;
+constexpr double kGross_sigmas = 10.0;  // beyond: no bias of a measurement (a lens that is not declared) explains it
 
 // A candidate value and its name in messages.
 struct Named {
@@ -15,8 +16,8 @@ struct Named {
   std::string name;
 };
 
-bool agree(const ReadoutValue& a, const ReadoutValue& b) noexcept {
-  return std::abs(a.readout_s - b.readout_s) <= kAgree_sigmas * std::hypot(a.std_s, b.std_s);
+bool agree(const ReadoutValue& a, const ReadoutValue& b, double sigmas = kAgree_sigmas) noexcept {
+  return std::abs(a.readout_s - b.readout_s) <= sigmas * std::hypot(a.std_s, b.std_s);
 }
 
 // Inverse-variance mean; an exact value is used alone.
@@ -67,10 +68,10 @@ ReadoutFinding choose_readout(const ReadoutValue& declared, const std::optional<
   Named used{declared, "declared"};
   if (!measured) {
     used.name = "declared: neither tracks nor shapes determine the readout time";
-  } else if (declared.std_s > 0.0 && !agree(declared, measured->value)) {
+  } else if (declared.std_s > 0.0 && !agree(declared, measured->value, kGross_sigmas)) {
     finding.consistent = false;
     used = *measured;
-    used.name += ", because it contradicts the declared value by more than four standard deviations";
+    used.name += ", because it contradicts the declared value by more than ten standard deviations";
   } else {
     join(used, *measured, finding);
   }
