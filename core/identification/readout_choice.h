@@ -8,8 +8,9 @@ namespace core {
 
 // Chooses the readout time. The declared one is a Gaussian prior (exact if its standard deviation is 0); estimates from
 // tracks and shapes are measurements. Values that agree within four of their common standard deviations are combined by
-// inverse variance. If tracks and shapes disagree, the more precise one is used; a declared value gives way to
-// measurements that disagree with it, unless it is exact. The finding reports the contradiction.
+// inverse variance. If two disagree, the more precise one is used. A declared value that measurements contradict by
+// more than ten of their common standard deviations gives way even if it is declared as more precise, unless it is
+// exact. The finding reports the contradiction.
 [[nodiscard]] ReadoutFinding choose_readout(const ReadoutValue& declared,
                                             const std::optional<ReadoutValue>& from_tracks,
                                             const std::optional<ReadoutValue>& from_shapes);

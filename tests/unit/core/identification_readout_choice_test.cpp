@@ -45,6 +45,8 @@ TEST(ReadoutChoice, ADeclaredValueGivesWayToALessPreciseMeasurementThatContradic
   EXPECT_FALSE(finding.consistent);
   EXPECT_NE(finding.why.find("contradicts the declared value"), std::string::npos);
   EXPECT_NEAR(choose_readout({0.040, 0.001}, ReadoutValue{0.036, 0.002}, {}).used.readout_s, 0.0392, 1e-12);
+  // Not grossly: a lens that is not declared biases the tracks' estimate by as much.
+  EXPECT_EQ(choose_readout({0.026, 0.001}, ReadoutValue{0.0342, 0.0016}, {}).used.readout_s, 0.026);
 }
 
 TEST(ReadoutChoice, OfTracksAndShapesThatContradictEachOtherTheMorePreciseStands) {
