@@ -2,8 +2,8 @@
 # core, once for the other libraries and programs, once for the tests. The sources still include all headers that they use;
 # a build with HOVERMODAL_PRECOMPILE=OFF (the packages') checks it.
 
-# hovermodal_headers(NAME HEADERS <header>... LINK <target>...): precompiles the standard library's headers, Eigen's and these. A target that uses
-# them defines no macro that they read and these targets do not.
+# hovermodal_headers(NAME HEADERS <header>... LINK <target>...): precompiles the standard library's headers, Eigen's and these.
+# Macros that these headers read are the same in all targets that use them.
 function(hovermodal_headers name)
   cmake_parse_arguments(ARG "" "" "HEADERS;LINK" ${ARGN})
   if(NOT HOVERMODAL_PRECOMPILE)
