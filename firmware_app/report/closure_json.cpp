@@ -4,13 +4,13 @@
 #include <optional>
 
 #include "drivers/storage/json.h"
+#include "drivers/storage/json_values.h"
 
 namespace app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+using drivers::or_null;
 
 Json mode_json(const core::closure::ClosureMode& mode) {
   return {{"mode", mode.number},

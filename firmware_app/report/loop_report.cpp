@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "drivers/storage/json.h"
+#include "drivers/storage/json_values.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/closure_json.h"
 
@@ -16,6 +17,7 @@ using core::closure::LoopLevel;
 using core::closure::LoopMode;
 using core::closure::LoopResult;
 using Json = nlohmann::ordered_json;
+using drivers::or_null;
 
 std::string cell(const std::optional<double>& value, fmt::format_string<const double&> format) {
   return value ? fmt::format(format, *value) : "-";
@@ -32,16 +34,14 @@ std::string comparison(const LoopResult& result) {
   return result.has_reference ? "error against the reference, %" : "second half of the record less the first, %";
 }
 
-Json value_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
-
 Json estimate_json(const std::optional<LoopMode::Estimate>& one) {
   if (!one) return nullptr;
   return {{"frequency_hz", one->frequency_hz},
-          {"frequency_std_hz", value_or_null(one->frequency_std_hz)},
+          {"frequency_std_hz", or_null(one->frequency_std_hz)},
           {"damping_ratio", one->damping_ratio},
-          {"damping_std", value_or_null(one->damping_std)},
-          {"error_percent", value_or_null(one->error_percent)},
-          {"halves_percent", value_or_null(one->halves_percent)}};
+          {"damping_std", or_null(one->damping_std)},
+          {"error_percent", or_null(one->error_percent)},
+          {"halves_percent", or_null(one->halves_percent)}};
 }
 
 Json level_json(const LoopLevel& level) {
@@ -50,8 +50,8 @@ Json level_json(const LoopLevel& level) {
     findings.push_back({{"effect", finding.effect}, {"repair", finding.repair}});
   Json out{{"level", level.level},
            {"skipped", level.skipped},
-           {"residual_before", value_or_null(level.residual_before)},
-           {"residual_after", value_or_null(level.residual_after)},
+           {"residual_before", or_null(level.residual_before)},
+           {"residual_after", or_null(level.residual_after)},
            {"unit", level.unit},
            {"findings", findings},
            {"left", level.left}};
@@ -99,12 +99,12 @@ std::string loop_json(const LoopResult& result) {
   for (const LoopLevel& level : result.levels) out["levels"].push_back(level_json(level));
   out["modes"] = Json::array();
   for (const LoopMode& mode : result.modes)
-    out["modes"].push_back({{"reference_hz", value_or_null(mode.reference_hz)},
+    out["modes"].push_back({{"reference_hz", or_null(mode.reference_hz)},
                             {"before", estimate_json(mode.before)},
                             {"after", estimate_json(mode.after)}});
   out["compared_with"] = result.has_reference ? "reference" : "halves";
-  out["error_percent_before"] = value_or_null(result.error_before);
-  out["error_percent_after"] = value_or_null(result.error_after);
+  out["error_percent_before"] = or_null(result.error_before);
+  out["error_percent_after"] = or_null(result.error_after);
   out["remarks"] = result.remarks;
   return drivers::to_json_text(out).text;
 }

@@ -10,17 +10,14 @@
 #include "core/identification/real_shape.h"
 #include "core/identification/uncertainty.h"
 #include "drivers/storage/json.h"
+#include "drivers/storage/json_values.h"
 #include "firmware_app/config/region_axis.h"
 
 namespace app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
+using drivers::or_null;
 
 // 0 means "unknown" in these fields.
 Json positive_or_null(double value) { return value == 0.0 ? Json(nullptr) : Json(value); }

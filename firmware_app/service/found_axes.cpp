@@ -10,8 +10,6 @@
 namespace app {
 namespace {
 
-constexpr std::chrono::milliseconds kFrameTimeout{2000};
-
 // As fast as it can be read, and without the state of an earlier run.
 AppConfig to_look_at(const AppConfig& declared) {
   AppConfig config = declared;

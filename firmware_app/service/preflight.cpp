@@ -21,7 +21,6 @@ constexpr std::size_t kMostFrames = 25;
 constexpr double kSeen = 0.9;       // of the frames tried
 constexpr double kFaint_px = 0.15;  // a point less certain than this has little texture
 constexpr std::size_t kFewPoints = 6;
-constexpr std::chrono::milliseconds kPreflightTimeout{2000};
 
 struct PointCheck {
   std::size_t n_seen = 0;
@@ -34,7 +33,7 @@ std::size_t track_frames(Source& source, std::vector<PointCheck>& points) {
   core::TrackFrame tracks = source.keyframe;
   const auto n_wanted = std::min(kMostFrames, static_cast<std::size_t>(std::ceil(source.info.rate_hz)));
   std::size_t n_frames = 0;
-  while (n_frames < n_wanted && source.camera->capture(frame, kPreflightTimeout) == drivers::CaptureStatus::kFrame) {
+  while (n_frames < n_wanted && source.camera->capture(frame, kFrameTimeout) == drivers::CaptureStatus::kFrame) {
     if (!source.tracker.track(frame, tracks)) break;
     for (std::size_t i = 0; i < points.size(); ++i) {
       core::TrackPoint& point = tracks.points[i];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +16,9 @@
 #include "firmware_app/service/kept_keyframe.h"
 
 namespace app {
+
+// Of a source that has delivered its first frame.
+inline constexpr std::chrono::milliseconds kFrameTimeout{2000};
 
 // The beginning of the data flow, once the first frame is available: all later parts can then be sized.
 struct Source {

@@ -8,6 +8,7 @@
 
 #include "core/closure/observation/point_motion_model.h"
 #include "core/linear/dense.h"
+#include "core/linear/median.h"
 #include "core/linear/symmetric_eigen.h"
 #include "core/types/constants.h"
 
@@ -27,12 +28,6 @@ constexpr double kTopOfBand = 0.8;    // share of half the rate above which the 
 constexpr double kTailOrder = 3.0;    // slowest decay of the spectrum of hover motion, f^-3
 constexpr double kOverNoise = 1.15;   // factor over the noise that noise alone can reach
 constexpr double kLeastPower = 0.05;  // smallest power of a direction that is used, in noise variances
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 

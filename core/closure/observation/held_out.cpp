@@ -5,8 +5,8 @@
 #include <cmath>
 #include <complex>
 
+#include "core/closure/observation/row_spectra.h"
 #include "core/linear/dense.h"
-#include "core/spectrum/real_fft.h"
 
 namespace core::closure {
 namespace {
@@ -17,16 +17,8 @@ constexpr double kRungSigmas = 2.0;      // of a gain by noise: less is none
 constexpr double kMostRungs = 0.6;       // of the degrees of freedom: more is a pattern of all rungs
 
 Eigen::MatrixXcd one_sided(const Eigen::MatrixXd& residual) {
-  RealFft fft(std::max(4, next_power_of_two(static_cast<int>(residual.cols()))));
-  std::vector<double> series(static_cast<std::size_t>(fft.size()), 0.0);
-  std::vector<std::complex<double>> bins(static_cast<std::size_t>(fft.n_bins()));
-  Eigen::MatrixXcd out(residual.rows(), fft.n_bins());
-  const double scale = std::sqrt(2.0 / fft.size());
-  for (Eigen::Index i = 0; i < residual.rows(); ++i) {
-    for (Eigen::Index k = 0; k < residual.cols(); ++k) series[static_cast<std::size_t>(k)] = residual(i, k);
-    fft.forward(series, bins);
-    for (Eigen::Index b = 0; b < out.cols(); ++b) out(i, b) = scale * bins[static_cast<std::size_t>(b)];
-  }
+  const int n_fft = row_fft_size(residual);
+  Eigen::MatrixXcd out = row_spectra(residual, n_fft, std::sqrt(2.0 / n_fft));
   out.leftCols(1) *= std::sqrt(0.5), out.rightCols(1) *= std::sqrt(0.5);
   return out;
 }

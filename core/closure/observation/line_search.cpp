@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/closure/observation/row_spectra.h"
 #include "core/linear/dense.h"
 #include "core/spectrum/real_fft.h"
 
@@ -67,17 +68,7 @@ LineSearch::LineSearch(const PointMotionModel& model, double rate_hz, double rea
       n_fft_(next_power_of_two(static_cast<int>(n_frames))) {}
 
 Eigen::MatrixXcd LineSearch::spectrum(const Eigen::MatrixXd& residual) const {
-  RealFft fft(n_fft_);
-  std::vector<double> series(static_cast<std::size_t>(n_fft_), 0.0);
-  std::vector<std::complex<double>> bins(static_cast<std::size_t>(fft.n_bins()));
-  Eigen::MatrixXcd out(residual.rows(), fft.n_bins());
-  const double scale = std::sqrt(2.0 / n_fft_);  // the one-sided spectrum holds all squares
-  for (Eigen::Index i = 0; i < residual.rows(); ++i) {
-    for (Eigen::Index k = 0; k < residual.cols(); ++k) series[static_cast<std::size_t>(k)] = residual(i, k);
-    fft.forward(series, bins);
-    for (Eigen::Index b = 0; b < out.cols(); ++b) out(i, b) = scale * bins[static_cast<std::size_t>(b)];
-  }
-  return out;
+  return row_spectra(residual, n_fft_, std::sqrt(2.0 / n_fft_));  // the one-sided spectrum holds all squares
 }
 
 LineSearch::Band LineSearch::band(double centre_hz, double half_width_hz) const {

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <complex>
 
+#include "core/closure/observation/row_spectra.h"
 #include "core/linear/dense.h"
-#include "core/spectrum/real_fft.h"
+#include "core/linear/median.h"
 
 namespace core::closure {
 namespace {
@@ -76,25 +77,6 @@ Shares fitted(const Normal& normal, const Shares& whole, const Shares& right) {
   return out;
 }
 
-Eigen::MatrixXcd spectra(const Eigen::MatrixXd& residual) {
-  RealFft fft(std::max(4, next_power_of_two(static_cast<int>(residual.cols()))));
-  std::vector<double> series(static_cast<std::size_t>(fft.size()), 0.0);
-  std::vector<std::complex<double>> bins(static_cast<std::size_t>(fft.n_bins()));
-  Eigen::MatrixXcd out(residual.rows(), fft.n_bins());
-  for (Index i = 0; i < residual.rows(); ++i) {
-    for (Index k = 0; k < residual.cols(); ++k) series[static_cast<std::size_t>(k)] = residual(i, k);
-    fft.forward(series, bins);
-    for (Index b = 0; b < out.cols(); ++b) out(i, b) = bins[static_cast<std::size_t>(b)];
-  }
-  return out;
-}
-
-double middle_of(std::vector<double> values) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 }  // namespace
 
 CorrelationShares noise_correlation(const Eigen::MatrixXd& residual, const Eigen::MatrixXd& removal,
@@ -110,7 +92,7 @@ CorrelationShares noise_correlation(const Eigen::MatrixXd& residual, const Eigen
         normal(static_cast<Index>(i), static_cast<Index>(k)) += e.of_kind[i].cwiseProduct(e.of_kind[k]).sum();
     }
   }
-  const Eigen::MatrixXcd bins = spectra(residual);
+  const Eigen::MatrixXcd bins = row_spectra(residual, row_fft_size(residual));
   const auto first = std::clamp<Index>(
       static_cast<Index>(std::ceil(2.0 * from_hz / rate_hz * static_cast<double>(bins.cols()))), 1, bins.cols() / 2);
   const Index in_band = (bins.cols() - first) / static_cast<Index>(kBands);
@@ -134,7 +116,7 @@ CorrelationShares noise_correlation(const Eigen::MatrixXd& residual, const Eigen
   }
   if (shares[kOwn].empty()) return {};
   const auto share_of = [&](Kind kind) {
-    const double share = middle_of(shares[static_cast<std::size_t>(kind)]);
+    const double share = median(shares[static_cast<std::size_t>(kind)]);
     return share < kLeastShare ? 0.0 : share;
   };
   return {share_of(kWindow), share_of(kNeighbourhood), share_of(kRegionU), share_of(kRegionV)};

@@ -64,6 +64,19 @@ std::string nearest_words(const Eigen::VectorXd& pattern_px, const FitView& fit,
   return words;
 }
 
+// Empty where the points' noise is independent.
+std::string noise_words(const ObservationFit& fit) {
+  const CorrelationShares& shares = fit.model().correlation().shares();
+  if (shares.none()) return {};
+  const auto percent = [](double share) { return std::to_string(std::lround(100.0 * share)) + " %"; };
+  std::string words = "; of the noise " + percent(shares.window) + " is common to overlapping windows, " +
+                      percent(shares.neighbourhood) + " to neighbours within 40 px, " +
+                      percent(std::max(shares.region_u, shares.region_v)) + " to whole regions";
+  if (shares.neighbourhood + std::max(shares.region_u, shares.region_v) > 0.1)
+    words += ": errors of a video codec (a higher bit rate or intra frames only lower them)";
+  return words;
+}
+
 }  // namespace
 
 std::vector<NotObservable> not_observable(const ObservationFit& fit,
@@ -94,23 +107,6 @@ std::string effect_meaning(const ObservationFit& fit, std::size_t effect,
   return latent_words(*latent.pattern(), fit.amplitude(effect), fit.record(), fit.model().geometry(), known) +
          nearest_words(*latent.pattern(), fit.view(), catalogue);
 }
-
-namespace {
-
-// Empty where the points' noise is independent.
-std::string noise_words(const ObservationFit& fit) {
-  const CorrelationShares& shares = fit.model().correlation().shares();
-  if (shares.none()) return {};
-  const auto percent = [](double share) { return std::to_string(std::lround(100.0 * share)) + " %"; };
-  std::string words = "; of the noise " + percent(shares.window) + " is common to overlapping windows, " +
-                      percent(shares.neighbourhood) + " to neighbours within 40 px, " +
-                      percent(std::max(shares.region_u, shares.region_v)) + " to whole regions";
-  if (shares.neighbourhood + std::max(shares.region_u, shares.region_v) > 0.1)
-    words += ": errors of a video codec (a higher bit rate or intra frames only lower them)";
-  return words;
-}
-
-}  // namespace
 
 std::string describe_residual(const ObservationFit& fit) {
   const ObservationRecord& record = fit.record();

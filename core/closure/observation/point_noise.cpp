@@ -7,7 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/spectrum/real_fft.h"
+#include "core/closure/observation/row_spectra.h"
+#include "core/linear/median.h"
 
 namespace core::closure {
 namespace {
@@ -16,27 +17,18 @@ constexpr double kLeastShareLeft = 0.05;       // of a point's variance that mus
 constexpr double kLeast = 0.2, kMost = 5.0;    // of the variance that the point's own residual shows
 constexpr double kMedian = std::numbers::ln2;  // of an exponential distribution of mean 1
 
-double upper_median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // Variance of each row, from the level of its spectrum.
 Eigen::VectorXd levels(const Eigen::MatrixXd& residual, double rate_hz, double from_hz) {
-  RealFft fft(std::max(4, next_power_of_two(static_cast<int>(residual.cols()))));
-  std::vector<double> series(static_cast<std::size_t>(fft.size()), 0.0);
-  std::vector<std::complex<double>> bins(static_cast<std::size_t>(fft.n_bins()));
-  const auto last = fft.n_bins() - 1;
-  const int first = std::clamp(static_cast<int>(std::ceil(from_hz * fft.size() / rate_hz)), 1, last / 2);
+  const int n_fft = row_fft_size(residual);
+  const Eigen::MatrixXcd bins = row_spectra(residual, n_fft);
+  const auto last = static_cast<int>(bins.cols()) - 1;
+  const int first = std::clamp(static_cast<int>(std::ceil(from_hz * n_fft / rate_hz)), 1, last / 2);
   Eigen::VectorXd out(residual.rows());
   std::vector<double> power;
   for (Eigen::Index i = 0; i < residual.rows(); ++i) {
-    for (Eigen::Index k = 0; k < residual.cols(); ++k) series[static_cast<std::size_t>(k)] = residual(i, k);
-    fft.forward(series, bins);
     power.clear();
-    for (int b = first; b < last; ++b) power.push_back(std::norm(bins[static_cast<std::size_t>(b)]));
-    out(i) = upper_median(power) / kMedian / static_cast<double>(residual.cols());
+    for (int b = first; b < last; ++b) power.push_back(std::norm(bins(i, b)));
+    out(i) = median_in_place(power) / kMedian / static_cast<double>(residual.cols());
   }
   return out;
 }

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "drivers/storage/json.h"
+#include "drivers/storage/json_values.h"
 #include "tools/hovermodal/batch/combine.h"
 
 namespace tools {
@@ -8,13 +9,9 @@ namespace tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using drivers::or_null;
 
 Json positive_or_null(double value) { return value > 0.0 ? Json(value) : Json(nullptr); }
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 Json mean_json(const core::WeightedMean& mean) {
   if (mean.n == 0) return nullptr;

@@ -2,6 +2,7 @@
 
 #include "core/planning/hover_time.h"
 #include "drivers/storage/json.h"
+#include "drivers/storage/json_values.h"
 #include "tools/hovermodal/plan/words.h"
 
 namespace tools {
@@ -9,13 +10,9 @@ namespace tools {
 using core::planning::HoverPlan;
 using core::planning::PlanInput;
 using Json = nlohmann::ordered_json;
+using drivers::or_null;
 
 namespace {
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 Json mode_json(const PlanInput& input, const HoverPlan& plan, std::size_t i) {
   const core::planning::ModePlan& mode = plan.modes[i];
