@@ -21,7 +21,7 @@ class FolderClaim {
   FolderClaim& operator=(const FolderClaim&) = delete;
 
   // Makes the folder if it is missing. `key` names the setting in messages ("report.directory"). Throws FolderInUse,
-  // naming the other process where the kernel tells it, and FileError where the folder is none, cannot be made or
+  // naming the other process where the kernel reports it, and FileError where the folder is none, cannot be made or
   // cannot be written to. File systems without locks (some networks) are accepted unlocked. Any thread.
   [[nodiscard]] static std::shared_ptr<FolderClaim> take(const std::string& folder, const std::string& key);
 

@@ -68,7 +68,7 @@ TEST(LineSearch, ALineThatWandersOverHalfTheFrameRateIsHeldOnBothSides) {
   EXPECT_LT(fit.share_left, 0.1);
 }
 
-// 77 Hz at 25 fps appears at 2 Hz, among the camera's own slow rotations: only the rows tell the two apart.
+// 77 Hz at 25 fps appears at 2 Hz, among the camera's own slow rotations: only the rows distinguish the two.
 TEST(LineSearch, FindsALineThatAppearsAmongSlowRotations) {
   const LineFit fit = fit_line(77.0, 0.3);
   EXPECT_NEAR(std::abs(fit.finding.apparent_hz + fit.finding.fold * 25.0), 77.0, 0.35);

@@ -4,8 +4,8 @@
 namespace core::closure {
 namespace {
 
-// The whole structure turns in its own plane about its base. Confused with the camera's roll: told from it by a
-// background that stands still, or else, where the turn is a resonance, by the base, which a roll would move.
+// The whole structure turns in its own plane about its base. Confused with the camera's roll: distinguished from it by
+// a background that stands still, or else, where the turn is a resonance, by the base, which a roll would move.
 class Rocking final : public RotationEffect {
  public:
   [[nodiscard]] EffectId id() const override { return {"rocking"}; }

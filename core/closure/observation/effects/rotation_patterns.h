@@ -36,7 +36,7 @@ struct RollCourse {
 };
 [[nodiscard]] RollCourse roll_course(const FitView& fit, RungSet band);
 
-// Why a resonance without a background is not the camera's; empty: it is, or a background tells.
+// Why a resonance without a background is not the camera's; empty: it is, or a background decides.
 [[nodiscard]] std::string not_of_camera(const RollCourse& course, const FitView& fit);
 
 // Rotation about one axis of the camera, in degrees.

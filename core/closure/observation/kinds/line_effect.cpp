@@ -93,7 +93,7 @@ class LineCandidate final : public EffectCandidate {
   }
 
  private:
-  // At order 0, or where the rows do not tell the order, only roll is seen of a rotation, and a rocking structure
+  // At order 0, or where the rows do not determine the order, only roll is seen of a rotation, and a rocking structure
   // leaves the same.
   [[nodiscard]] std::string of_structure() const {
     const bool order_is_told = found_.next_gain < kToldOrder * found_.gain;
