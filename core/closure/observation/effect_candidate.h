@@ -36,7 +36,8 @@ class EffectCandidate {
 
   // The same for the residual of the fit itself; the functions below refer to this result.
   virtual double find(const TestedResidual& residual) = 0;
-  [[nodiscard]] virtual double material_share() const = 0;  // smallest gain per residual value
+  [[nodiscard]] virtual double material_share() const = 0;         // smallest gain per residual value
+  [[nodiscard]] virtual bool is_learned() const { return false; }  // its pattern is taken from the residual
   [[nodiscard]] virtual Objection objection() const { return {}; }
   // Gain of the best pattern of any kind in the same place and band, learned from the residual; empty: not comparable.
   [[nodiscard]] virtual std::optional<double> free_gain(const TestedResidual& /*residual*/) const {

@@ -88,9 +88,19 @@ LevelFit ObservationScores::quality() const {
   return out;
 }
 
+// Empty: the gain is material.
+std::string ObservationScores::smallness(const EffectCandidate& candidate, double gain) const {
+  const FitView view = fit_.view();
+  const double n_values = view.held_out.n_values();
+  if (!(gain > candidate.material_share() * n_values)) return "immaterial";
+  const double excess = view.held_out.squares(view.model.residual()) - view.held_out.noise_variance() * n_values;
+  const double least = candidate.is_learned() ? kLearnedOfExcess : kNamedOfExcess;
+  return gain > least * excess ? std::string() : "explains too little of what exceeds the noise";
+}
+
 Objection ObservationScores::refusal(const EffectCandidate& candidate, double gain, const TestedResidual& tested,
                                      double learned_gain) const {
-  if (!(gain > candidate.material_share() * fit_.view().held_out.n_values())) return {"immaterial"};
+  if (std::string small = smallness(candidate, gain); !small.empty()) return {std::move(small)};
   const double free_gain = candidate.free_gain(tested).value_or(learned_gain);
   const double family_gain = candidate.free_gain(tested) ? gain : std::max(gain, constants_gain(tested));
   if (family_gain < kOfLearned * free_gain || gain < kOfFamily * free_gain)
@@ -137,8 +147,8 @@ std::vector<CandidateScore> ObservationScores::score() {
       objection = refusal(*prepared_[i], s.score, tested, learned_gain);
     else if (any)
       objection.words = "a named effect explains it";
-    else if (!(s.score > prepared_[i]->material_share() * n_values))
-      objection.words = "immaterial";
+    else
+      objection.words = smallness(*prepared_[i], s.score);
     any = any || objection.words.empty();
     s.refusal = objection.words;
     is_other_cause_.push_back(objection.is_other_cause ? 1 : 0);

@@ -48,6 +48,7 @@ class ObservationScores {
   [[nodiscard]] std::size_t n_latent() const;
   void prepare();
   [[nodiscard]] double constants_gain(const TestedResidual& tested) const;
+  [[nodiscard]] std::string smallness(const EffectCandidate& candidate, double gain) const;
   [[nodiscard]] Objection refusal(const EffectCandidate& candidate, double gain, const TestedResidual& tested,
                                   double learned_gain) const;
 

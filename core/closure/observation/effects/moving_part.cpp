@@ -61,6 +61,7 @@ class MovingPartCandidate final : public EffectCandidate {
     return part_.found.gain;
   }
   [[nodiscard]] double material_share() const override { return material_of(part_.found.band, fit_, kLearnedBar); }
+  [[nodiscard]] bool is_learned() const override { return true; }
   [[nodiscard]] std::optional<double> free_gain(const TestedResidual& residual) const override {
     return fit_.held_out.of_learned_in(part_.found.band, residual.moments);
   }

@@ -19,6 +19,7 @@ class LatentCandidate final : public EffectCandidate {
   }
   // In whichever rungs: what has no name must change the whole residual. Folded modes leave narrow patterns of 0.005.
   [[nodiscard]] double material_share() const override { return kLearnedBar; }
+  [[nodiscard]] bool is_learned() const override { return true; }
   [[nodiscard]] std::unique_ptr<EffectInModel> adopted() const override {
     return learned_pattern({latent_id(number_), latent_name(number_), EffectKind::kLatent}, found_.band, pattern_);
   }
