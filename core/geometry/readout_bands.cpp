@@ -16,35 +16,38 @@ constexpr double kAgree_frames = 0.03;  // tolerance in addition to the standard
 constexpr double kObservable_frames = 0.25;
 constexpr int kRounds = 8;
 
-void add(Sums& into, const Sums& more) noexcept {
-  into.velocity += more.velocity;
-  into.cross += more.cross;
-  into.shear += more.shear;
-  into.velocity_noise += more.velocity_noise;
-  into.n_values += more.n_values;
-}
-
 struct Band {
-  double velocity = 0.0, cross = 0.0;
-  double noise = 0.0;  // s_b^2
+  double velocity = 0.0, cross = 0.0;  // A and B
+  double noise = 0.0;                  // s_b^2
+  double scale = 0.0;                  // of the instrument; 0: V itself
   double frames = 0.0, variance = 0.0;
   bool tells = false, agrees = false;
 };
 
-// Computes s_b^2 at a given readout, and the sum of the velocity without its noise.
+double velocity_of(const Band& band, const Sums& sums) noexcept {
+  return band.scale != 0.0 ? band.scale * sums.on_velocity : sums.velocity - band.noise * sums.velocity_noise;
+}
+
+double cross_of(const Band& band, const Sums& sums) noexcept {
+  return band.scale != 0.0 ? band.scale * sums.on_cross : sums.cross;
+}
+
+// Computes s_b^2 at a given readout, and A and B.
 void settle(Band& band, const Sums& sums, double frames) noexcept {
   const double residual = sums.shear - 2.0 * frames * sums.cross + frames * frames * sums.velocity;
   const double values = sums.n_values + frames * frames * sums.velocity_noise;
   band.noise = values > 0.0 ? std::max(residual / values, 1e-12) : 0.0;
-  band.velocity = sums.velocity - band.noise * sums.velocity_noise;
-  band.cross = sums.cross;
+  band.velocity = velocity_of(band, sums);
+  band.cross = cross_of(band, sums);
 }
 
 Band read_band(const Sums& sums, double window_energy) noexcept {
   Band band;
   if (!(sums.velocity > 0.0) || !(sums.n_values > 0.0) || !std::isfinite(sums.velocity + sums.cross + sums.shear))
     return band;
-  settle(band, sums, sums.cross / sums.velocity);
+  const bool instrumented = sums.on > 0.0 && sums.on_velocity != 0.0;
+  if (instrumented) band.scale = sums.on_velocity / sums.on;
+  settle(band, sums, instrumented ? sums.on_cross / sums.on_velocity : sums.cross / sums.velocity);
   band.tells = band.velocity > kLeastVelocity * band.noise * sums.velocity_noise;
   if (!band.tells) return band;
   band.frames = band.cross / band.velocity;
@@ -108,8 +111,7 @@ Deviation deviation(const BandList& bands, double frames, std::span<const Bands>
     double excess = 0.0;
     for (std::size_t b = 0; b < bands.size(); ++b) {
       if (!bands[b].agrees) continue;
-      const double velocity = block[b].velocity - bands[b].noise * block[b].velocity_noise;
-      excess += (block[b].cross - frames * velocity) / bands[b].noise;
+      excess += (cross_of(bands[b], block[b]) - frames * velocity_of(bands[b], block[b])) / bands[b].noise;
     }
     squares += excess * excess;
   }
@@ -122,10 +124,21 @@ Deviation deviation(const BandList& bands, double frames, std::span<const Bands>
 
 }  // namespace
 
+void ReadoutEstimator::Sums::add(const Sums& more) noexcept {
+  velocity += more.velocity;
+  cross += more.cross;
+  shear += more.shear;
+  on_velocity += more.on_velocity;
+  on_cross += more.on_cross;
+  on += more.on;
+  velocity_noise += more.velocity_noise;
+  n_values += more.n_values;
+}
+
 ReadoutEstimate combine_bands(std::span<const Bands> blocks, std::size_t n_bands, double window_energy) noexcept {
   Bands total{};
   for (const Bands& block : blocks) {
-    for (std::size_t b = 0; b < n_bands; ++b) add(total[b], block[b]);
+    for (std::size_t b = 0; b < n_bands; ++b) total[b].add(block[b]);
   }
   BandList bands{};
   for (std::size_t b = 0; b < n_bands; ++b) bands[b] = read_band(total[b], window_energy);

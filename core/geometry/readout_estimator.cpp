@@ -55,6 +55,7 @@ ReadoutEstimator::ReadoutEstimator(const Config& config, const TrackFrame& keyfr
   const auto n_bins = static_cast<std::size_t>(fft_.n_bins());
   velocity_bins_.assign(n_channels_ * n_bins, {});
   shear_bins_.assign(n_channels_ * n_bins, {});
+  instrument_.assign(n_channels_, {});
   for (std::size_t bin = 0; bin < n_bins; ++bin) {
     double gain = 0.0;
     for (int k = 1; k <= kHalf; ++k) {
@@ -203,20 +204,44 @@ void ReadoutEstimator::add_bins() noexcept {
     Sums& sums = block[b];
     for (std::size_t bin = first_bin_[b]; bin < first_bin_[b + 1]; ++bin) {
       const double gain = velocity_gain_[bin];
+      make_instruments(bin);
       for (std::size_t i = 0; i < n_channels_; ++i) {
-        std::complex<double> mv, ms;
+        std::complex<double> mv, ms, mz;
         for (std::size_t j = 0; j < n_channels_; ++j) {
           const double weight = m(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
           mv += gain * weight * velocity_bins_[j * n_bins + bin];
           ms += weight * shear_bins_[j * n_bins + bin];
+          mz += gain * weight * instrument_[j];
         }
         const std::complex<double> v = gain * velocity_bins_[i * n_bins + bin], s = shear_bins_[i * n_bins + bin];
+        const std::complex<double> z = gain * instrument_[i];
         sums.velocity += v.real() * mv.real() + v.imag() * mv.imag();
         sums.cross += v.real() * ms.real() + v.imag() * ms.imag();
         sums.shear += s.real() * ms.real() + s.imag() * ms.imag();
+        sums.on_velocity += z.real() * mv.real() + z.imag() * mv.imag();
+        sums.on_cross += z.real() * ms.real() + z.imag() * ms.imag();
+        sums.on += z.real() * mz.real() + z.imag() * mz.imag();
       }
       sums.velocity_noise += noise_gain_[bin] * noise;
       sums.n_values += values;
+    }
+  }
+}
+
+// Mean velocity of the other regions along the same axis; 0 without any.
+void ReadoutEstimator::make_instruments(std::size_t bin) noexcept {
+  const auto n_bins = static_cast<std::size_t>(fft_.n_bins());
+  const auto is_seen = [&](std::size_t c) { return window_sum_[c] > 0.0; };
+  for (std::size_t axis = 0; axis < RegionShear::kAxes; ++axis) {
+    std::complex<double> sum;
+    double n = 0.0;
+    for (std::size_t c = axis; c < n_channels_; c += RegionShear::kAxes) {
+      if (!is_seen(c)) continue;
+      sum += velocity_bins_[c * n_bins + bin];
+      n += 1.0;
+    }
+    for (std::size_t c = axis; c < n_channels_; c += RegionShear::kAxes) {
+      instrument_[c] = is_seen(c) && n > 1.0 ? (sum - velocity_bins_[c * n_bins + bin]) / (n - 1.0) : 0.0;
     }
   }
 }
@@ -228,9 +253,9 @@ void ReadoutEstimator::close_segment() noexcept {
   if (n_blocks_ == kMaxBlocks) {
     for (std::size_t k = 0; k < kMaxBlocks / 2; ++k) {
       for (std::size_t b = 0; b < n_bands_; ++b) {
-        const Sums &first = blocks_[2 * k][b], &second = blocks_[2 * k + 1][b];
-        blocks_[k][b] = {first.velocity + second.velocity, first.cross + second.cross, first.shear + second.shear,
-                         first.velocity_noise + second.velocity_noise, first.n_values + second.n_values};
+        Sums both = blocks_[2 * k][b];
+        both.add(blocks_[2 * k + 1][b]);
+        blocks_[k][b] = both;
       }
     }
     n_blocks_ = kMaxBlocks / 2;

@@ -21,9 +21,12 @@ namespace core {
 // the rate), in the same frame as the shear: no motion common to the image is needed. Both series are transformed by
 // segments with the same window; instantaneous proportionality is preserved by any window, mask and band. Per
 // band b and block k of the record, with M the Fisher information of the shears:
-//     A = sum V* M V - its noise    B = sum Re V* M S    rho_b = B / A    s_b^2 = mean residual of S - rho V
-// and rho = sum B_b / s_b^2 / sum A_b / s_b^2 over the bands that agree. The noise of V follows from s_b^2, because
-// the mean of a region is uncorrelated with its shear (errors in variables). Motion above half the frame rate is
+//     A = sum Re Z* M V    B = sum Re Z* M S    rho_b = B / A    s_b^2 = mean residual of S - rho V
+// and rho = sum B_b / s_b^2 / sum A_b / s_b^2 over the bands that agree. Z is the instrument (two-stage least squares):
+// the mean velocity of the other regions, scaled per band to V. Its noise is independent of that of V and S, also where
+// the noise of the points of a region is correlated (video codecs), which biases V* M V. With a single region, Z = V
+// and the noise of V, which follows from s_b^2 for independent points, is subtracted from A (errors in variables): the
+// mean of a region is uncorrelated with its shear. Motion above half the frame rate is
 // aliased and has a velocity of wrong sign and size, so its band contradicts the others: the largest set of bands that
 // agree within their standard deviations is used, the rest is excluded and counted. The mean of every segment is
 // subtracted, which removes errors of the keyframe. Errors proportional to displacement (lens, parallax) are in
@@ -47,10 +50,13 @@ class ReadoutEstimator {
 
   static constexpr std::size_t kMaxBands = 20;
   static constexpr std::size_t kMaxBlocks = 20;
-  struct Sums {  // sums of one band
-    double velocity = 0.0, cross = 0.0, shear = 0.0;
-    double velocity_noise = 0.0;  // of `velocity` per unit of s^2
-    double n_values = 0.0;        // degrees of freedom of `shear`, times 1 per unit of s^2
+  struct Sums {                                          // sums of one band
+    double velocity = 0.0, cross = 0.0, shear = 0.0;     // V* M V, V* M S, S* M S
+    double on_velocity = 0.0, on_cross = 0.0, on = 0.0;  // Z* M V, Z* M S, Z* M Z before scaling; 0: a single region
+    double velocity_noise = 0.0;                         // of `velocity` per unit of s^2
+    double n_values = 0.0;                               // degrees of freedom of `shear`, times 1 per unit of s^2
+
+    void add(const Sums& more) noexcept;
   };
 
  private:
@@ -66,6 +72,7 @@ class ReadoutEstimator {
   void take_segment() noexcept;
   void transform_channels() noexcept;
   void add_bins() noexcept;
+  void make_instruments(std::size_t bin) noexcept;
   void close_segment() noexcept;
   [[nodiscard]] ReadoutEstimate combined() const noexcept;
   [[nodiscard]] RegionShear::Sample& at(std::int64_t cell) noexcept {
@@ -92,6 +99,7 @@ class ReadoutEstimator {
   RealFft fft_;
   std::vector<double> work_;
   std::vector<std::complex<double>> velocity_bins_, shear_bins_;  // channels x bins
+  std::vector<std::complex<double>> instrument_;                  // channels, of one bin
   std::vector<double> velocity_gain_;                             // per bin: inverse gain of the differentiator
   std::vector<double> noise_gain_;                                // per bin: velocity noise for unit white noise
 

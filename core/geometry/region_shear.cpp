@@ -24,7 +24,7 @@ RegionShear::RegionShear(const Config& config, const TrackFrame& keyframe)
       regions_(config.n_regions) {
   place_columns(config, keyframe);
   for (RegionFit& region : regions_) centre_columns(region);
-  judge_regions();
+  judge_regions(config.least_extent_px / config.readout.extent_px());
   fields_.assign(kAxes * regions_.size() + 2, 0.0);
   make_information();
 }
@@ -135,7 +135,7 @@ Turn solve_turn(double pp, double py, double yy, double p, double y) noexcept {
 }  // namespace
 
 // A region is usable if its own six unknowns can be distinguished.
-void RegionShear::judge_regions() {
+void RegionShear::judge_regions(double least_fraction) {
   for (RegionFit& region : regions_) {
     Normal reduced = region.normal;
     eliminate(reduced, kOwn);
@@ -144,12 +144,18 @@ void RegionShear::judge_regions() {
       region.pivot[p] = reduced[p][p];
       region.usable = region.usable && reduced[p][p] > kLeastOwnShare * region.normal[p][p];
     }
+    double lowest = 0.0, highest = 0.0;  // relative to the mean
+    for (const std::size_t j : region.points) {
+      const double fraction = points_[j].column[0][kShear] * region.fraction_scale;
+      lowest = std::min(lowest, fraction), highest = std::max(highest, fraction);
+    }
+    region.tells = region.usable && highest - lowest >= least_fraction;
   }
 }
 
 std::size_t RegionShear::n_usable() const noexcept {
   return static_cast<std::size_t>(
-      std::count_if(regions_.begin(), regions_.end(), [](const RegionFit& region) { return region.usable; }));
+      std::count_if(regions_.begin(), regions_.end(), [](const RegionFit& region) { return region.tells; }));
 }
 
 RegionShear::Sample RegionShear::sample_prototype() const {

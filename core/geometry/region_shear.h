@@ -37,13 +37,16 @@ class RegionShear {
     CameraModel camera;           // points are undistorted; without calibration: relative to the image centre
     ReadoutModel readout;         // direction and image size; its time is not used
     PointCorrection places = {};  // corrections in addition to the camera
+    // Extent along the readout below which a region's shear carries no information: a video codec gives each of its
+    // blocks one motion, so that regions no larger than a few blocks lose their shear.
+    double least_extent_px = 0.0;
   };
   // keyframe: contains every later point; points that are lost or not finite there are excluded. Throws
   // std::invalid_argument: a point without a region.
   RegionShear(const Config& config, const TrackFrame& keyframe);
 
   [[nodiscard]] std::size_t n_regions() const noexcept { return regions_.size(); }
-  // Number of regions whose points spread enough to distinguish shear from turn and growth.
+  // Number of regions whose points spread enough to distinguish shear from turn and growth, and over the least extent.
   [[nodiscard]] std::size_t n_usable() const noexcept;
 
   struct Sample {                              // one frame, per region and axis: [2 region + axis]
@@ -55,7 +58,7 @@ class RegionShear {
   void fit(const TrackFrame& tracks, Sample& out) noexcept;
 
   // Fisher information of the shears [2 region + axis] with all points seen, for points of unit variance on average;
-  // zero for regions that are not usable.
+  // zero for regions whose shear carries no information.
   [[nodiscard]] const Eigen::MatrixXd& information() const noexcept { return information_; }
   // Covariance of the carriers in the same units.
   [[nodiscard]] const Eigen::MatrixXd& carrier_covariance() const noexcept { return carrier_covariance_; }
@@ -79,14 +82,15 @@ class RegionShear {
     double mean_fraction = 0.0;
     double fraction_scale = 1.0;       // the shear column is g / fraction_scale
     std::array<double, kOwn> pivot{};  // of the elimination with all points
-    bool usable = false;
+    bool usable = false;               // its own unknowns can be distinguished
+    bool tells = false;                // its shear carries information
     Normal normal{};
   };
 
   void place_columns(const Config& config, const TrackFrame& keyframe);
   void centre_columns(RegionFit& region);
   void add_point(const Point& point, Vector2 motion, Normal& normal) const noexcept;
-  void judge_regions();
+  void judge_regions(double least_fraction);
   void make_information();
   [[nodiscard]] Eigen::MatrixXd covariance() const;
   [[nodiscard]] Eigen::MatrixXd selection(std::size_t from) const;

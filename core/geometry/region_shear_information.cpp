@@ -73,7 +73,9 @@ void RegionShear::make_information() {
   }
   information_ = scatter.ldlt().solve(Eigen::MatrixXd::Identity(scatter.rows(), scatter.cols()));
   for (Index c = 0; c < scatter.rows(); ++c) {
-    if (!regions_[static_cast<std::size_t>(c) / kAxes].usable) information_(c, c) = 0.0;
+    if (regions_[static_cast<std::size_t>(c) / kAxes].tells) continue;
+    information_.row(c).setZero();
+    information_.col(c).setZero();
   }
 }
 

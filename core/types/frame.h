@@ -23,6 +23,9 @@ struct CameraInfo {
   std::uint64_t frame_count = 0;  // 0 = unknown (a live source)
   bool lossless = false;          // the source can wait (a file): a full ring delays it and no frame is dropped
   std::string description;        // for logs: device or file, codec, size
+  // Largest block of the image that has one motion vector in a compressed recording; 0: not compressed between frames,
+  // or at so many bits per pixel that the blocks do not show.
+  int coding_block_px = 0;
 };
 
 // One gray image and its time. A ring slot: `pixels` is sized once, at set-up, and reused.

@@ -64,6 +64,7 @@ class TracksReader {
     if (key == "frame_count" && value != "unknown") {
       camera.frame_count = static_cast<std::uint64_t>(comment_number(key, value, 0.0, 1e15));
     }
+    if (key == "coding_block_px") camera.coding_block_px = static_cast<int>(comment_number(key, value, 0.0, 1e5));
     if (key == "readout_direction") set_direction(value);
     if (key == "regions") set_regions(value);
     if (key == "axes") set_axes(value);

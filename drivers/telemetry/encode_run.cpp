@@ -46,6 +46,7 @@ hovermodal::run_t to_message(const core::RunHead& head, const StreamIdentity& id
   out.frame_count = static_cast<std::int64_t>(head.camera.frame_count);
   out.lossless = head.camera.lossless ? 1 : 0;
   out.camera = head.camera.description;
+  out.coding_block_px = head.camera.coding_block_px;
   out.frame_sequence = static_cast<std::int64_t>(head.keyframe.sequence);
   out.stream_time_ns = head.keyframe.t_start_ns;
   put_points(head.keyframe.points, out);
@@ -145,7 +146,8 @@ std::optional<core::RunHead> from_message(const hovermodal::run_t& message) {
                  message.exposure_ns,
                  static_cast<std::uint64_t>(std::max<std::int64_t>(0, message.frame_count)),
                  message.lossless != 0,
-                 message.camera};
+                 message.camera,
+                 std::clamp(message.coding_block_px, 0, kMostSide_px)};
   head.keyframe.sequence = static_cast<std::uint64_t>(message.frame_sequence);
   head.keyframe.t_start_ns = message.stream_time_ns;
   for (std::size_t i = 0; i < message.u_px.size(); ++i) {

@@ -18,6 +18,7 @@ constexpr double kNoticeable_frames = 0.005;  // of the readout; less changes sh
 // Poles that may be used to estimate the readout time.
 constexpr double kLeastPresence = 0.85, kMostDamping = 0.05, kLeastMpc = 0.9;
 constexpr int kLeastPoles = 3;
+constexpr double kLeastBlocks = 2.0;  // of a codec along the readout, within a region whose shear is used
 
 core::ReadoutValue declared_readout(const AppConfig& config, const core::CameraInfo& camera) {
   const double sigma_ms = config.camera.readout_sigma_ms;
@@ -48,7 +49,8 @@ bool can_be_read(const core::Mode& mode) {
 
 core::ReadoutEstimator::Config readout_config(const AppConfig& config, const core::CameraInfo& camera) {
   const core::ChannelDisplacementConfig displacement = displacement_config(config, camera);
-  return {{config.regions.size(), displacement.camera, displacement.readout}, camera.rate_hz};
+  return {{config.regions.size(), displacement.camera, displacement.readout, {}, kLeastBlocks * camera.coding_block_px},
+          camera.rate_hz};
 }
 
 ReadoutAwareIdentifier::ReadoutAwareIdentifier(const AppConfig& config, const core::CameraInfo& camera,

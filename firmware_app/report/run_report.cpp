@@ -63,6 +63,7 @@ void RunReport::write_track_header(const AppConfig& config, const core::CameraIn
   append_line(out, "# readout_ms: {}", static_cast<double>(camera.readout_ns) / 1e6);
   append_line(out, "# readout_direction: {}", to_string(camera.readout_direction));
   append_line(out, "# exposure_ms: {}", static_cast<double>(camera.exposure_ns) / 1e6);
+  if (camera.coding_block_px > 0) append_line(out, "# coding_block_px: {}", camera.coding_block_px);
   append_line(out, "# frame_count: {}", camera.frame_count == 0 ? "unknown" : std::to_string(camera.frame_count));
   append_line(out, "# regions: {}", fmt::join(region_names_, ","));
   std::vector<std::string> axes;

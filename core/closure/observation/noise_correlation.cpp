@@ -119,7 +119,11 @@ CorrelationShares noise_correlation(const Eigen::MatrixXd& residual, const Eigen
     const double share = median(shares[static_cast<std::size_t>(kind)]);
     return share < kLeastShare ? 0.0 : share;
   };
-  return {share_of(kWindow), share_of(kNeighbourhood), share_of(kRegionU), share_of(kRegionV)};
+  // Medians need not add up to the variance: the shares are those of their sum, of the axis with the larger one.
+  CorrelationShares out{share_of(kWindow), share_of(kNeighbourhood), share_of(kRegionU), share_of(kRegionV)};
+  const double sum = share_of(kOwn) + std::max(out.along(0), out.along(1));
+  if (!(sum > 1.0)) return out;
+  return {out.window / sum, out.neighbourhood / sum, out.region_u / sum, out.region_v / sum};
 }
 
 }  // namespace core::closure

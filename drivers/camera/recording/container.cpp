@@ -148,6 +148,21 @@ std::string Container::read_fault() const {
 
 std::string Container::codec_name() const { return avcodec_get_name(stream_->codecpar->codec_id); }
 
+int Container::coding_block_px() const noexcept {
+  const AVCodecDescriptor* codec = avcodec_descriptor_get(stream_->codecpar->codec_id);
+  if (codec == nullptr || (codec->props & AV_CODEC_PROP_INTRA_ONLY) != 0) return 0;
+  switch (codec->id) {
+    case AV_CODEC_ID_HEVC:
+    case AV_CODEC_ID_VP9:
+      return 64;
+    case AV_CODEC_ID_AV1:
+    case AV_CODEC_ID_VVC:
+      return 128;
+    default:  // H.264, MPEG-4 and their forerunners
+      return 16;
+  }
+}
+
 int Container::clockwise_turn_deg() const noexcept {
   const std::uint8_t* matrix = av_stream_get_side_data(stream_, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
   if (matrix == nullptr) return 0;

@@ -55,6 +55,7 @@ FileCamera::FileCamera(const FileCameraConfig& config) : path_(config.source), p
   refuse_zoom(path_, telemetry);
   info_.exposure_ns = timing.exposure_ns != 0 ? timing.exposure_ns : usual_exposure_ns(telemetry);
   info_.lossless = !config.realtime;
+  info_.coding_block_px = source.coding_block_px;
   clock_ = make_frame_clock(path_, *source_, config.rate_hz, telemetry);
   if (telemetry.found())
     telemetry_words_ = fmt::format("from {}: {}", telemetry.from, fmt::join(telemetry_words(telemetry), ", "));

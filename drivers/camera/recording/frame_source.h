@@ -24,6 +24,7 @@ struct SourceInfo {
   std::shared_ptr<const PacketScan> scan{};  // null: an image folder
   bool holds_gpmf = false;                   // a stream of GoPro's metadata is beside the video
   int turned_clockwise_deg = 0;              // rotation of a delivered image against the sensor's: 0, 90, 180, 270
+  int coding_block_px = 0;                   // as in core::CameraInfo
   std::string description;
 };
 

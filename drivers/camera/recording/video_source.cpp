@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <stdexcept>
@@ -18,6 +19,8 @@ namespace drivers {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr double kManyBits = 2.0;  // per pixel: more code the image itself rather than blocks that move
 
 // Whether one of the first packets is marked as encrypted; the container may name any codec. A decoder may take what is
 // encrypted for pictures.
@@ -108,11 +111,20 @@ class VideoSource final : public FrameSource {
     info_.rate_hz = info_.stated_rates_hz.empty() ? 0.0 : info_.stated_rates_hz.front();
     info_.holds_gpmf = container.has_data("gpmd");
     info_.promised_frames = container.promised_frames();
+    info_.coding_block_px = bits_per_pixel() < kManyBits ? container.coding_block_px() : 0;
     info_.frame_count = info_.scan->complete ? info_.scan->n_packets : info_.promised_frames;
     info_.description = fmt::format(
         "video {} ({}, {} x {} px{}{})", path_, container.codec_name(), info_.width_px, info_.height_px,
         info_.turned_clockwise_deg == 0 ? std::string() : fmt::format(", turned by {} deg", info_.turned_clockwise_deg),
         container.other_streams().empty() ? std::string() : ", beside it " + container.other_streams());
+  }
+
+  // Mean over the packets scanned; 0: none.
+  [[nodiscard]] double bits_per_pixel() const {
+    const std::vector<std::uint32_t>& bytes = info_.scan->bytes;
+    if (bytes.empty()) return 0.0;
+    const double bits = 8.0 * std::accumulate(bytes.begin(), bytes.end(), 0.0) / static_cast<double>(bytes.size());
+    return bits / (static_cast<double>(stored_width_px_) * stored_height_px_);
   }
 
   // False: the stream has ended. Damaged pictures are counted and skipped.
