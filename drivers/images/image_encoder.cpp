@@ -40,6 +40,7 @@ struct JpegWriter {
     };
     errors.emit_message = [](j_common_ptr, int) {};  // otherwise warnings go to stderr
     errors.output_message = [](j_common_ptr) {};
+    if (setjmp(failed) != 0) throw std::bad_alloc();  // nothing else fails in it
     jpeg_create_compress(&encoder);
   }
   ~JpegWriter() {

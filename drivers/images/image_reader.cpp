@@ -34,10 +34,11 @@ Imread* load_imread() {
 }
 
 // States the size in words; for other formats the library's own bound holds.
-void require_usable_png(const FileHandle& file) {
+void require_usable_png(const std::string& path) {
   constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
+  const FileHandle file = open_regular_file(path, "name an image");
   std::array<char, 24> head{};  // signature, length and name of the first chunk, width, height
-  if (std::fread(head.data(), 1, head.size(), file.get()) != head.size()) return;
+  if (read_bytes(file.get(), head.data(), head.size(), path) != head.size()) return;
   if (std::string_view(head.data(), 8) != kSignature) return;
   const auto number = [&head](std::size_t at) {
     std::uint64_t value = 0;
@@ -55,7 +56,7 @@ void require_usable_png(const FileHandle& file) {
 cv::Mat read_image(const std::string& path, int flags) {
   static Imread* const imread = load_imread();
   try {
-    require_usable_png(open_regular_file(path, "name an image"));
+    require_usable_png(path);
     return imread(path, flags);
   } catch (const FileError&) {  // a pipe, a device, or nothing
     return {};

@@ -117,12 +117,18 @@ CheckpointRead read_checkpoint(const std::string& path) {
     out.refused = unreadable.what();
     return out;
   }
-  const auto read = [&in](void* to, std::size_t n_bytes) { return std::fread(to, 1, n_bytes, in.get()) == n_bytes; };
   Head head;
   const auto refuse = [&out](std::string reason) {
     out.refused = std::move(reason);
     out.bytes.clear();
     return out;
+  };
+  const auto read = [&](void* to, std::size_t n_bytes) {
+    try {
+      return read_bytes(in.get(), to, n_bytes, path) == n_bytes;
+    } catch (const FileError&) {
+      return false;
+    }
   };
   if (!read(&head, sizeof head)) return refuse("it is cut off in its head");
   if (head.magic != kMagic || head.reserved != 0) return refuse("it is not a state of hovermodal");

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <charconv>
 #include <cstring>
 
@@ -30,8 +29,7 @@ bool CsvLines::refill() {
   std::memmove(block_.data(), block_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
-  const std::size_t n = std::fread(block_.data() + end_, 1, block_.size() - end_, file_.get());
-  if (n == 0 && std::ferror(file_.get()) != 0) fail(fmt::format("reading failed: {}", std::strerror(errno)));
+  const std::size_t n = read_bytes(file_.get(), block_.data() + end_, block_.size() - end_, path_);
   end_ += n;
   return n > 0;
 }

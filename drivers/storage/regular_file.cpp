@@ -37,6 +37,20 @@ FileHandle open_regular_file(const std::string& path, std::string_view what, std
   return file;
 }
 
+std::size_t read_bytes(std::FILE* file, void* to, std::size_t n_bytes, const std::string& path) {
+  auto* const begin = static_cast<std::uint8_t*>(to);
+  std::size_t n = 0;
+  for (;;) {
+    errno = 0;
+    n += std::fread(begin + n, 1, n_bytes - n, file);
+    if (n == n_bytes || std::ferror(file) == 0) return n;
+    if (errno != EINTR)
+      throw FileError(fmt::format("{}: reading failed: {}; check the disk, or copy the file again",
+                                  printable(path, 300), std::strerror(errno)));
+    std::clearerr(file);
+  }
+}
+
 std::uint64_t bytes_of(std::FILE* file) noexcept {
   struct stat status {};
   return ::fstat(::fileno(file), &status) == 0 && status.st_size > 0 ? static_cast<std::uint64_t>(status.st_size) : 0;

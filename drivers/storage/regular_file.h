@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -18,6 +19,9 @@ using FileHandle = std::unique_ptr<std::FILE, FileCloser>;
 // `max_bytes`, with its size.
 [[nodiscard]] FileHandle open_regular_file(const std::string& path, std::string_view what,
                                            std::uint64_t max_bytes = UINT64_MAX);
+// Reads up to n_bytes; fewer: the end of the file. An interrupted read is repeated. Throws FileError with `path` where
+// the disk fails: half a file is never taken for a whole one.
+[[nodiscard]] std::size_t read_bytes(std::FILE* file, void* to, std::size_t n_bytes, const std::string& path);
 [[nodiscard]] std::uint64_t bytes_of(std::FILE* file) noexcept;  // its size; 0 where that is unknown
 
 }  // namespace drivers

@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <system_error>
 
 #include "drivers/storage/regular_file.h"
@@ -30,13 +27,12 @@ std::string read_text_file(const std::string& path, std::size_t max_bytes) {
   const FileHandle file = open_regular_file(path, "name a regular file");
   std::string text;
   std::array<char, 65536> block{};
-  while (const std::size_t n = std::fread(block.data(), 1, block.size(), file.get())) {
+  while (const std::size_t n = read_bytes(file.get(), block.data(), block.size(), path)) {
     text.append(block.data(), n);
     if (text.size() > max_bytes) {
       throw FileError(fmt::format("{}: is larger than {} KiB; is this the right file?", path, max_bytes / 1024));
     }
   }
-  if (std::ferror(file.get()) != 0) throw FileError(fmt::format("{}: reading failed: {}", path, std::strerror(errno)));
   return text;
 }
 

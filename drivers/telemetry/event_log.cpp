@@ -1,36 +1,107 @@
 #include "drivers/telemetry/event_log.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 namespace drivers {
+namespace {
 
-EventLogFile::EventLogFile(const std::string& path)
-    : log_(lcm_eventlog_create(path.c_str(), "w"), &lcm_eventlog_destroy) {
-  if (!log_)
+constexpr std::uint32_t kSyncWord = 0xEDA1DA01U;  // each event begins with it
+constexpr std::size_t kEventBlockBytes = 1U << 16U;
+
+void append_big_endian(std::vector<std::uint8_t>& out, std::uint64_t value, int n_bytes) {
+  for (int shift = 8 * (n_bytes - 1); shift >= 0; shift -= 8) out.push_back(static_cast<std::uint8_t>(value >> shift));
+}
+
+}  // namespace
+
+EventLogFile::EventLogFile(const std::string& path, Link link)
+    : descriptor_(::open(path.c_str(),
+                         O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | (link == Link::kRefuse ? O_NOFOLLOW : 0), 0644)) {
+  if (descriptor_ < 0)
     throw std::runtime_error(fmt::format(
         "LCM event log \"{}\": cannot be written: {}. Check telemetry.log_file or record.directory, the folder and its "
         "permissions.",
         path, std::strerror(errno)));
 }
 
-bool EventLogFile::write(const std::string& channel, std::span<const std::uint8_t> bytes,
-                         std::int64_t utc_ns) noexcept {
-  constexpr std::uint64_t kHeadBytes = 28;  // sync word, number, time, two lengths
-  lcm_eventlog_event_t event{};
-  event.timestamp = utc_ns / 1000;
-  event.channellen = static_cast<std::int32_t>(channel.size());
-  event.datalen = static_cast<std::int32_t>(bytes.size());
-  event.channel = const_cast<char*>(channel.data());  // read only
-  event.data = const_cast<std::uint8_t*>(bytes.data());
-  n_bytes_ += kHeadBytes + channel.size() + bytes.size();
-  return lcm_eventlog_write_event(log_.get(), &event) == 0 && std::ferror(log_->f) == 0;
+EventLogFile::~EventLogFile() { (void)close(); }
+
+// Sync word, number, time in us, two lengths, channel, data: big endian.
+void EventLogFile::append(const std::string& channel, std::span<const std::uint8_t> bytes, std::int64_t utc_ns) {
+  append_big_endian(block_, kSyncWord, 4);
+  append_big_endian(block_, static_cast<std::uint64_t>(n_events_++), 8);
+  append_big_endian(block_, static_cast<std::uint64_t>(utc_ns / 1000), 8);
+  append_big_endian(block_, channel.size(), 4);
+  append_big_endian(block_, bytes.size(), 4);
+  block_.insert(block_.end(), channel.begin(), channel.end());
+  block_.insert(block_.end(), bytes.begin(), bytes.end());
+  ends_.push_back(block_.size());
 }
 
-bool EventLogFile::flush() noexcept { return std::fflush(log_->f) == 0; }
+bool EventLogFile::write(const std::string& channel, std::span<const std::uint8_t> bytes,
+                         std::int64_t utc_ns) noexcept {
+  const std::size_t n_before = block_.size();
+  try {
+    append(channel, bytes, utc_ns);
+  } catch (const std::exception&) {  // out of memory
+    block_.resize(n_before);
+    error_ = ENOMEM;
+    ++n_lost_;
+    return false;
+  }
+  n_bytes_ = n_kept_ + block_.size();
+  return block_.size() < kEventBlockBytes || flush();
+}
+
+bool EventLogFile::flush() noexcept {
+  std::size_t n_written = 0;
+  bool is_whole = descriptor_ >= 0;
+  while (is_whole && n_written < block_.size()) {
+    const ssize_t n = ::write(descriptor_, block_.data() + n_written, block_.size() - n_written);
+    if (n > 0) {
+      n_written += static_cast<std::size_t>(n);
+    } else if (n == 0 || errno != EINTR) {
+      error_ = n == 0 ? EIO : errno;
+      is_whole = false;
+    }
+  }
+  if (is_whole) {
+    n_kept_ += n_written;
+  } else {
+    keep_whole_events(n_written);
+  }
+  block_.clear();
+  ends_.clear();
+  n_bytes_ = n_kept_;
+  return is_whole;
+}
+
+// The written part of an event would hide the event after it.
+void EventLogFile::keep_whole_events(std::size_t n_written) noexcept {
+  const auto first_lost = std::upper_bound(ends_.begin(), ends_.end(), n_written);
+  const std::size_t n_whole = first_lost == ends_.begin() ? 0 : *(first_lost - 1);
+  n_lost_ += static_cast<std::uint64_t>(ends_.end() - first_lost);
+  const auto end = static_cast<off_t>(n_kept_ + n_whole);
+  const bool is_cut =
+      n_written == n_whole || (::ftruncate(descriptor_, end) == 0 && ::lseek(descriptor_, end, SEEK_SET) == end);
+  n_kept_ += is_cut ? n_whole : n_written;
+}
+
+bool EventLogFile::close() noexcept {
+  if (descriptor_ < 0) return error_ == 0;
+  (void)flush();
+  // EINVAL: not a file that can be synchronised (a pipe, a device).
+  if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EINTR) error_ = errno;
+  if (::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) error_ = errno;
+  return error_ == 0;
+}
 
 }  // namespace drivers

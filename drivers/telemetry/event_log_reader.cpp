@@ -20,7 +20,8 @@ std::uint64_t big_endian(const std::uint8_t* bytes, std::size_t n) {
 
 }  // namespace
 
-EventLogReader::EventLogReader(const std::string& path) : file_(open_regular_file(path, "name an LCM event log")) {}
+EventLogReader::EventLogReader(const std::string& path)
+    : path_(path), file_(open_regular_file(path, "name an LCM event log")) {}
 
 bool EventLogReader::next(Event& out) {
   for (;;) {
@@ -36,14 +37,25 @@ bool EventLogReader::next(Event& out) {
   }
 }
 
-bool EventLogReader::read(void* to, std::size_t n_bytes) { return std::fread(to, 1, n_bytes, file_.get()) == n_bytes; }
+bool EventLogReader::read(void* to, std::size_t n_bytes) {
+  return read_bytes(file_.get(), to, n_bytes, path_) == n_bytes;
+}
+
+std::optional<std::uint8_t> EventLogReader::next_byte() {
+  const int byte = ::getc_unlocked(file_.get());  // of one thread; a damaged record may be gigabytes of it
+  if (byte != EOF) return static_cast<std::uint8_t>(byte);
+  if (std::ferror(file_.get()) == 0) return std::nullopt;
+  std::clearerr(file_.get());
+  std::uint8_t again = 0;  // repeats an interrupted read, and names a fault of the disk
+  return read(&again, 1) ? std::optional(again) : std::nullopt;
+}
 
 bool EventLogReader::find_event() {
   std::uint32_t seen = 0;
   while (seen != kSync) {
-    const int byte = ::getc_unlocked(file_.get());  // of one thread; a damaged record may be gigabytes of it
-    if (byte == EOF) return false;
-    seen = seen << 8U | static_cast<std::uint32_t>(byte);
+    const std::optional<std::uint8_t> byte = next_byte();
+    if (!byte) return false;
+    seen = seen << 8U | *byte;
   }
   return true;
 }
@@ -68,7 +80,7 @@ EventLogReader::Taken EventLogReader::take(Event& out) {
   }
   // The following bytes must be an event; otherwise the length was wrong.
   std::array<std::uint8_t, kSyncBytes> behind{};
-  const std::size_t n_behind = std::fread(behind.data(), 1, behind.size(), file_.get());
+  const std::size_t n_behind = read_bytes(file_.get(), behind.data(), behind.size(), path_);
   if (n_behind < behind.size()) return Taken::kEvent;
   std::fseek(file_.get(), -static_cast<long>(kSyncBytes), SEEK_CUR);
   return big_endian(behind.data(), behind.size()) == kSync ? Taken::kEvent : Taken::kDamaged;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,16 +26,18 @@ class EventLogReader {
 
   explicit EventLogReader(const std::string& path);  // throws FileError: cannot be read, not a regular file
 
-  // False: the end; an event truncated by the end of the file is ignored.
+  // False: the end; an event truncated by the end of the file is ignored. Throws FileError where the disk fails.
   [[nodiscard]] bool next(Event& out);
   [[nodiscard]] std::uint64_t n_damaged() const noexcept { return n_damaged_; }
 
  private:
   enum class Taken { kEvent, kDamaged, kEnd };
   [[nodiscard]] Taken take(Event& out);
+  [[nodiscard]] std::optional<std::uint8_t> next_byte();
   [[nodiscard]] bool find_event();
   [[nodiscard]] bool read(void* to, std::size_t n_bytes);
 
+  std::string path_;
   FileHandle file_;
   std::uint64_t n_damaged_ = 0;
 };

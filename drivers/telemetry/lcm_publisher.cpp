@@ -15,7 +15,7 @@
 namespace drivers {
 struct LcmPublisher::Ways {
   std::unique_ptr<lcm_t, decltype(&lcm_destroy)> network{nullptr, &lcm_destroy};
-  std::vector<std::shared_ptr<EventLog>> logs;
+  std::shared_ptr<EventLog> log_file, record;  // null: not requested
 
   // Returns the self-test's warning.
   std::string open_network(const LcmOptions& options) {
@@ -40,8 +40,8 @@ LcmPublisher::LcmPublisher(const LcmOptions& options)
   for (std::size_t i = 0; i < kTopics; ++i)
     channel_names_[i] = topic_channel(options.channel_prefix, static_cast<Topic>(i));
   if (!options.url.empty()) warning_ = ways_->open_network(options);
-  if (!options.log_file.empty()) ways_->logs.push_back(std::make_shared<EventLogFile>(options.log_file));
-  if (options.record) ways_->logs.push_back(options.record);
+  if (!options.log_file.empty()) ways_->log_file = std::make_shared<EventLogFile>(options.log_file);
+  ways_->record = options.record;
 }
 
 LcmPublisher::~LcmPublisher() = default;
@@ -75,11 +75,13 @@ bool LcmPublisher::write_to_log(Topic topic, Message& message) {
   Numbers& numbers = log_numbers_[topic];
   ++numbers.next_sequence;
   bool ok = !buffer_.empty();
-  for (const auto& log : ways_->logs) {
-    ok = log->write(channel_names_[topic], buffer_, message.utc_ns) && ok;
+  const auto write_to = [&](EventLog& log) {
+    const bool is_written = log.write(channel_names_[topic], buffer_, message.utc_ns);
     // Health comes about once a second: flushing then limits what a crash loses from the log, and shows a full disk.
-    if (topic == kHealth) ok = log->flush() && ok;
-  }
+    return topic == kHealth ? log.flush() && is_written : is_written;
+  };
+  if (ways_->record) (void)write_to(*ways_->record);  // it counts its own losses
+  if (ways_->log_file) ok = write_to(*ways_->log_file) && ok;
   numbers.n_sent += ok ? 1 : 0;
   return ok;
 }
@@ -116,7 +118,7 @@ bool LcmPublisher::send(Topic topic, Message& message) {
       ++n_held_back_[topic];
     }
   }
-  if (!ways_->logs.empty()) ok = write_to_log(topic, message) && ok;
+  if (ways_->log_file || ways_->record) ok = write_to_log(topic, message) && ok;
   if (!ok) {
     n_failed_.fetch_add(1, std::memory_order_relaxed);
   } else if (!is_held_back) {

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
+#include <system_error>
+#include <utility>
 
 #include "drivers/telemetry/record_folder.h"
 
@@ -26,30 +30,69 @@ void RotatingLog::begin(WriteHead write_head) {
   write_head_ = std::move(write_head);
   if (!open_next())
     throw std::runtime_error(
-        fmt::format("record.directory: \"{}\": the first file of the record cannot be written: is the disk full, or "
-                    "record.quota_mb smaller than record.file_mb?",
-                    options_.directory));
+        fmt::format("record.directory: \"{}\": the first file of the record cannot be written: {}", options_.directory,
+                    error() != 0 ? std::strerror(error()) + std::string("; free space on that disk")
+                                 : "record.quota_mb is smaller than record.file_mb, or than what other files need"));
 }
 
 bool RotatingLog::open_next() {
+  end_file();
+  if (!make_room(options_.directory, run_, options_.file_bytes, options_.quota_bytes)) {
+    error_.store(0, std::memory_order_relaxed);
+    return false;
+  }
+  const std::string path = path_of(next_file_);
+  file_ = std::make_unique<EventLogFile>(path, EventLogFile::Link::kRefuse);
+  if (write_head_(*file_, next_file_) && file_->flush()) return ++next_file_, true;
+  error_.store(file_->error(), std::memory_order_relaxed);
   file_.reset();
-  if (!make_room(options_.directory, run_, options_.file_bytes, options_.quota_bytes)) return false;
-  file_ = std::make_unique<EventLogFile>(path_of(next_file_));
-  if (write_head_(*file_, next_file_++) && file_->flush()) return true;
-  file_.reset();
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);  // a file without its head cannot be replayed
   return false;
 }
 
+void RotatingLog::end_file() noexcept {
+  if (!file_) return;
+  (void)file_->close();
+  count();
+  n_lost_without_file_ += file_->n_lost();
+  file_.reset();
+}
+
+void RotatingLog::count() noexcept {
+  n_lost_.store(n_lost_without_file_ + (file_ ? file_->n_lost() : 0), std::memory_order_relaxed);
+  if (file_ && file_->error() != 0) error_.store(file_->error(), std::memory_order_relaxed);
+}
+
 bool RotatingLog::write(const std::string& channel, std::span<const std::uint8_t> bytes, std::int64_t utc_ns) noexcept {
-  if (!file_) return false;
+  bool is_open = false;
   try {
-    if (file_->n_bytes() >= options_.file_bytes && !open_next()) return false;
-    return file_->write(channel, bytes, utc_ns);
+    is_open = file_ && (file_->n_bytes() < options_.file_bytes || open_next());
+  } catch (const std::system_error& refused) {
+    error_.store(refused.code().value(), std::memory_order_relaxed);
   } catch (...) {
+    error_.store(errno, std::memory_order_relaxed);
+  }
+  const bool is_written = is_open && file_->write(channel, bytes, utc_ns);
+  if (!is_open) ++n_lost_without_file_;
+  count();
+  return is_written;
+}
+
+bool RotatingLog::flush() noexcept {
+  try {
+    const bool is_flushed = file_ ? file_->flush() : write_head_ && open_next();
+    return count(), is_flushed;
+  } catch (...) {  // the file cannot be opened, as before
     return false;
   }
 }
 
-bool RotatingLog::flush() noexcept { return file_ && file_->flush(); }
+bool RotatingLog::close() noexcept {
+  if (!file_) return n_lost() == 0;
+  const bool is_safe = file_->close();
+  count();
+  return is_safe;
+}
 
 }  // namespace drivers

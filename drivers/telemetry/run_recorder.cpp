@@ -1,6 +1,9 @@
 #include "drivers/telemetry/run_recorder.h"
 
+#include <fmt/format.h>
+
 #include <atomic>
+#include <cstring>
 #include <vector>
 
 #include "drivers/telemetry/encode_run.h"
@@ -35,22 +38,42 @@ class LcmRunRecorder : public RunRecorder {
   bool add(const core::TrackFrame& tracks, const core::AttitudeBatch& attitude,
            std::uint32_t stride) noexcept override {
     try {
-      if (write(to_message(tracks, attitude), stride)) return true;
+      return write(to_message(tracks, attitude), stride);
     } catch (...) {  // out of memory: the frame is lost
+      n_lost_.fetch_add(1, std::memory_order_relaxed);
+      return false;
     }
-    n_lost_.fetch_add(1, std::memory_order_relaxed);
-    return false;
   }
 
   bool end(const core::RecordingTimes& times) noexcept override {
     try {
       return log_->write(prefix_ + kRunRecordingSuffix, encoded(to_message(times)), rt::utc_ns());
     } catch (...) {  // no memory
+      n_lost_.fetch_add(1, std::memory_order_relaxed);
       return false;
     }
   }
 
-  [[nodiscard]] std::uint64_t n_lost() const noexcept override { return n_lost_.load(std::memory_order_relaxed); }
+  bool close() noexcept override {
+    if (log_->close()) return true;
+    is_unsafe_.store(true, std::memory_order_relaxed);
+    return false;
+  }
+
+  [[nodiscard]] std::uint64_t n_lost() const noexcept override {
+    return n_lost_.load(std::memory_order_relaxed) + log_->n_lost();
+  }
+  [[nodiscard]] std::string failure() const override {
+    const std::uint64_t n = n_lost();
+    if (n == 0 && !is_unsafe_.load(std::memory_order_relaxed)) return {};
+    const int error = log_->error();
+    const std::string why = error != 0 ? std::strerror(error) : "record.quota_mb is reached, or memory ran out";
+    if (n == 0) return fmt::format("the end of the run record may be lost: {}: {}; check the disk", path(), why);
+    return fmt::format(
+        "{} frames and messages are missing in the run record, and a replay lacks them: {}: {}; free space on that "
+        "disk, or lower record.quota_mb",
+        n, path(), why);
+  }
   [[nodiscard]] std::string path() const override { return log_->path(); }
   [[nodiscard]] std::shared_ptr<EventLog> log() override { return log_; }
 
@@ -76,7 +99,9 @@ class LcmRunRecorder : public RunRecorder {
   std::string prefix_, frame_channel_, thinned_channel_;
   StreamIdentity identity_;
   std::shared_ptr<RotatingLog> log_;
-  std::atomic<std::uint64_t> n_lost_{0};  // relaxed: independent of other data
+  // Relaxed: independent of other data.
+  std::atomic<std::uint64_t> n_lost_{0};  // not encoded, for lack of memory
+  std::atomic<bool> is_unsafe_{false};
 };
 
 }  // namespace

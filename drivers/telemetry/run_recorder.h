@@ -32,8 +32,12 @@ class RunRecorder {
                    std::uint32_t stride) noexcept = 0;
   // After the last frame: how the frames of a recording lay in time. False: not recorded.
   virtual bool end(const core::RecordingTimes& times) noexcept = 0;
-  [[nodiscard]] virtual std::uint64_t n_lost() const noexcept = 0;  // any thread
-  [[nodiscard]] virtual std::string path() const = 0;               // of the first file
+  // The last call: what was recorded survives a loss of power. False: it may not; failure() says why.
+  virtual bool close() noexcept = 0;
+  // Any thread: frames and messages that are not in the record; and why, in words, empty: nothing failed.
+  [[nodiscard]] virtual std::uint64_t n_lost() const noexcept = 0;
+  [[nodiscard]] virtual std::string failure() const = 0;
+  [[nodiscard]] virtual std::string path() const = 0;  // of the first file
   // The log that also receives the run's messages.
   [[nodiscard]] virtual std::shared_ptr<EventLog> log() = 0;
 };

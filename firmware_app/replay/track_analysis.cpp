@@ -38,7 +38,8 @@ ChannelAnalysis::ChannelAnalysis(const AppConfig& config, const std::vector<core
     : config_(identifier_config(config, channels, rate_hz)),
       channels_(channels),
       modes_(rate_hz, std::move(make_identifier), book),
-      spectra_(welch_of(config, channels, rate_hz, modes_), config.identification.period_hops) {}
+      spectra_(welch_of(config, channels, rate_hz, modes_), config.identification.period_hops),
+      snapshot_{spectra_.sums()} {}
 
 void ChannelAnalysis::go_on_from(ChannelAnalysis& earlier) {
   spectra_.go_on_from(earlier.spectra_);

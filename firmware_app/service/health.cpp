@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "drivers/host/memory_reserve.h"
 #include "rt/clock.h"
 
 namespace app {
@@ -64,7 +65,7 @@ void warn_of_camera(const drivers::DeviceTrouble& trouble, core::Health& health)
 
 void warn_of_recording(const core::RecordingTimes& times, core::Health& health) {
   if (!times.remark.empty()) health.warnings.push_back(times.remark);
-  if (times.n_damaged > 0) {
+  if (times.n_damaged + times.n_after_damage > 0) {
     health.warnings.push_back(
         fmt::format("{} frames of the file did not decode whole and were not used; {} more were "
                     "predicted from them and may be wrong",
@@ -73,12 +74,12 @@ void warn_of_recording(const core::RecordingTimes& times, core::Health& health) 
 }
 
 void warn_of_record(const drivers::RunRecorder* recorder, const TrackingStage& tracking, core::Health& health) {
-  const std::uint64_t n = recorder != nullptr ? recorder->n_lost() + tracking.n_records_lost() : 0;
-  if (n == 0) return;
-  health.warnings.push_back(
-      fmt::format("{} frames are missing in the run record, and a replay lacks them: is the disk slow or full, "
-                  "or record.quota_mb reached?",
-                  n));
+  if (recorder == nullptr) return;
+  if (std::string words = recorder->failure(); !words.empty()) health.warnings.push_back(std::move(words));
+  if (const std::uint64_t n = tracking.n_records_lost(); n > 0) {
+    health.warnings.push_back(
+        fmt::format("{} frames are missing in the run record, and a replay lacks them: the disk is too slow", n));
+  }
 }
 
 void warn_of_attitude(const drivers::AttitudeListener* listener, const TrackingStage& tracking, core::Health& health) {
@@ -156,6 +157,7 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
   }
   if (const std::string failure = checkpoint_ != nullptr ? checkpoint_->failure() : ""; !failure.empty())
     health.warnings.push_back("the checkpoint could not be kept: " + failure);
+  if (drivers::memory_reserve_is_used()) health.warnings.emplace_back(drivers::kMemoryReserveUsed);
   warn_of_record(recorder_, tracking_, health);
   warn_of_attitude(listener_, tracking_, health);
   if (const std::uint64_t n = tracking_.n_previews_lost(); n > 0) {
@@ -170,7 +172,14 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
   for (const Queue& queue : queues_) {
     health.stages.push_back(stage_health(queue, rt::monotonic_ns()));
     core::StageHealth& stage = health.stages.back();
-    if (stage.name == "identification") health.estimates = stage.n_out;
+    if (stage.name == "identification") {
+      health.estimates = stage.n_out;
+      if (stage.n_dropped > 0)
+        health.warnings.push_back(
+            fmt::format("{} estimates failed for lack of memory; the last one that succeeded is "
+                        "reported",
+                        stage.n_dropped));
+    }
     if (stage.name == "publish") stage.n_dropped += tracking_.n_records_lost();
     if (stage.name == "closure") stage.n_dropped += tracking_.n_shown_lost();
   }

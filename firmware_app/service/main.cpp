@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "drivers/camera/device_missing.h"
+#include "drivers/host/memory_reserve.h"
 #include "firmware_app/config/config.h"
 #include "firmware_app/config/options.h"
 #include "firmware_app/service/log_lines.h"
@@ -49,8 +50,9 @@ int run(const app::AppConfig& config) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  app::log_printable_lines();
   try {
+    drivers::keep_memory_reserve();
+    app::log_printable_lines();
     const app::Options options = app::parse_options(argc, argv);
     if (options.exit_code) return *options.exit_code;
     const app::AppConfig config = app::load_config(options.config_path, options.overrides);

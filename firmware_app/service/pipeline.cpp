@@ -1,7 +1,11 @@
 #include "firmware_app/service/pipeline.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <utility>
 
 #include "firmware_app/config/region_axis.h"
@@ -78,8 +82,11 @@ Pipeline::Outcome Pipeline::join() {
   if (outcome.fault.empty()) {
     outcome.health.state = "finished";
     if (flow_->keeps_state()) {  // the run is complete: the next one must not resume it
-      std::remove(state_path(flow_->config).c_str());
-      std::remove(keyframe_path(flow_->config).c_str());
+      for (const std::string& path : {state_path(flow_->config), keyframe_path(flow_->config)}) {
+        if (std::remove(path.c_str()) != 0 && errno != ENOENT)
+          outcome.notes.push_back(fmt::format("{}: cannot be removed: {}; remove it, or the next run resumes this one",
+                                              path, std::strerror(errno)));
+      }
     }
   }
   if (outcome.fault.empty() && !flow_->source.camera->fault().empty())

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Kills hovermodald (SIGKILL) at random moments, lets it go on with its state each time, and keeps what each killed run left.
-    runtime_kill.py BIN FOLDER KILLS FIRST_SEED
+    runtime_kill.py BIN FOLDER KILLS FIRST_SEED [--report]
 A simulated clip of six seconds is played at its own pace, from its beginning by each run. Kill number k falls at a moment
 drawn from seed FIRST_SEED + k. Before and after the kills one run comes to its end: what it recorded is what a run without
 interruption sees. FOLDER is then what kill_account reads. At the end damaged copies of the last state are offered to the
-service, and it runs where its state cannot be written. Prints "name<TAB>value"; exit code 1 where a run does not do as a run does."""
+service, and it runs where its state cannot be written. With --report it writes a report over that of the first run, which every
+kill must leave, and a further start shows after each kill that the state is resumed. Prints "name<TAB>value"; exit code 1 where a run does not do as a run does."""
 import os
 import random
 import re
@@ -19,7 +20,7 @@ DAMAGED_AT_MOST = 20
 
 
 class Service:
-    def __init__(self, binaries, folder, seed):
+    def __init__(self, binaries, folder, seed, reports):
         self.program, self.folder, self.state = binaries / "hovermodald", folder, folder / "state"
         clip = folder.parent / f"kill_clip_{seed}"
         subprocess.run([binaries / "hovermodal", "simulate", "--size", "640x360", "--duration", str(CLIP_S), "--seed", str(seed),
@@ -29,6 +30,8 @@ class Service:
         keys = {"camera.pace": "realtime", "spectrum.segment": 32, "state.directory": self.state, "state.period_s": PERIOD_S,
                 "record.directory": folder / "records", "telemetry.lcm_url": "", "closure.adopt": "off", "tracking.min_distance_px": 3,
                 "rt.thin_overload": "false", "rt.frame_slots": 160, "rt.sample_slots": 256}
+        if reports:
+            keys["report.directory"] = folder / "report"
         self.arguments = [self.program, "--config", clip / "config.yaml"]
         for key, value in keys.items():
             self.arguments += ["--set", f"{key}={value}"]
@@ -53,6 +56,20 @@ class Service:
     def records(self):
         return set(self.folder.glob("records/*_000.lcm"))
 
+    def report(self):
+        return {p.name: p.read_bytes() for p in (self.folder / "report").glob("*") if p.is_file()}
+
+    def resumes(self):
+        """Whether a start goes on with the state; it is killed as soon as it says so."""
+        kept = (self.state / "hovermodal.state").read_bytes()
+        process = self.start()
+        while (line := process.stdout.readline()) and "goes on with the state" not in line and "is not taken" not in line:
+            pass
+        process.kill()
+        process.communicate()
+        (self.state / "hovermodal.state").write_bytes(kept)
+        return "goes on with the state" in line
+
 
 def whole_run(service, name):
     seen = service.records()
@@ -66,8 +83,9 @@ def whole_run(service, name):
 
 
 def kill_once(service, number, seed, log):
+    """seed None: as late as any, so that a state is left."""
     kept, seen = (service.state / "hovermodal.keyframe").exists(), service.records()
-    moment_s = random.Random(seed).uniform(0.0, MOST_RUN_S)
+    moment_s = MOST_RUN_S if seed is None else random.Random(seed).uniform(0.0, MOST_RUN_S)
     begin = last = time.monotonic()
     process = service.start()
     decodes_since = None  # no frame is taken before the clip has its decoder, the second thread of the process
@@ -131,22 +149,32 @@ def unwritable(service, mount):
 
 
 def main():
+    reports = sys.argv[5:] == ["--report"]
     binaries, folder = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
     kills, first_seed = int(sys.argv[3]), int(sys.argv[4])
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    service = Service(binaries, folder, first_seed)
+    service = Service(binaries, folder, first_seed, reports)
     whole_run(service, "first.lcm")
+    old, n_kept, n_resumed = service.report(), 0, 0
     n_refused = 0
     with open(folder / "kills.tsv", "w", encoding="utf-8") as log:
+        if reports:
+            kill_once(service, kills, None, log)
         for k in range(kills):
             n_refused += kill_once(service, k, first_seed + k, log)
+            if reports:
+                n_kept += service.report() == old and "modal.json" in old
+                n_resumed += service.resumes()
     states = sorted(folder.glob("*.state"))
     if not states:
         sys.exit("no state was written")
     last = states[-1].read_bytes()
     whole_run(service, "again.lcm")
     n = min(DAMAGED_AT_MOST, kills)
+    if reports:
+        print(f"reports_kept\t{n_kept}\nstarts_resumed\t{n_resumed}")
+        return
     print(f"refused\t{n_refused}\ndamaged\t{n}\ndamaged_refused\t{offer_damaged(service, last, first_seed, n)}")
     print(f"full\t{unwritable(service, '-t tmpfs -o size=16k')}\nread_only\t{unwritable(service, '-t tmpfs -o ro')}")
     shutil.rmtree(service.state, ignore_errors=True)

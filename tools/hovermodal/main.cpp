@@ -1,9 +1,11 @@
 // hovermodal: the desktop and ground side of the service. One file per subcommand.
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <stdexcept>
 
 #include "drivers/host/command_line.h"
+#include "drivers/host/memory_reserve.h"
 #include "drivers/storage/printable.h"
 #include "firmware_app/config/config.h"
 #include "tools/hovermodal/commands.h"
@@ -33,9 +35,7 @@ constexpr Subcommand kSubcommands[] = {
     {tools::add_readout, "readout", "Estimate a camera's readout time beside a gyro"},
 };
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   drivers::CommandLine program{
       "hovermodal: natural frequencies, damping and mode shapes of a structure, seen from a hovering drone\n"
       "The companion of the service hovermodald, at the desk and on the ground. Help on one: hovermodal COMMAND "
@@ -46,8 +46,17 @@ int main(int argc, char** argv) {
     command.add(program);
     program.summary(command.name, command.summary);
   }
+  const std::optional<int> exit_code = program.parse(argc, argv);
+  if (drivers::memory_reserve_is_used()) std::fprintf(stderr, "hovermodal: %s\n", drivers::kMemoryReserveUsed);
+  return exit_code.value_or(0);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    if (const auto exit_code = program.parse(argc, argv)) return *exit_code;
+    drivers::keep_memory_reserve();
+    return run(argc, argv);
   } catch (const std::invalid_argument& e) {
     std::fprintf(stderr, "hovermodal: %s\n", drivers::printable_lines(e.what(), "  ").c_str());
     return 2;
@@ -58,5 +67,4 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "hovermodal: %s\n", drivers::printable_lines(e.what(), "  ").c_str());
     return 1;
   }
-  return 0;
 }

@@ -3,6 +3,7 @@
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
+#include <new>
 
 #include <jpeglib.h>
 
@@ -63,6 +64,7 @@ struct LumaReader::Jpeg {
     errors.error_exit = [](j_common_ptr common) { std::longjmp(static_cast<Jpeg*>(common->client_data)->broken, 1); };
     errors.emit_message = [](j_common_ptr, int) {};  // otherwise warnings go to stderr
     errors.output_message = [](j_common_ptr) {};
+    if (setjmp(broken) != 0) throw std::bad_alloc();  // nothing else fails in it
     jpeg_create_decompress(&decoder);
   }
   ~Jpeg() { jpeg_destroy_decompress(&decoder); }

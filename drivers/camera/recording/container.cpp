@@ -128,12 +128,22 @@ bool Container::next(AVPacket& packet) noexcept {
   for (;;) {
     av_packet_unref(&packet);
     const int status = av_read_frame(format_.get(), &packet);
-    if (status < 0) {
-      if (status != AVERROR_EOF) read_error_ = status;
+    // Some demuxers take a failed read for the end of the file.
+    const int of_disk = format_->pb != nullptr ? format_->pb->error : 0;
+    if (of_disk < 0 && of_disk != AVERROR_EOF) {
+      av_packet_unref(&packet);
+      read_error_ = of_disk;
       return false;
     }
+    if (status < 0) return false;
     if (packet.stream_index == stream_->index && packet.size > 0) return true;
   }
+}
+
+std::string Container::read_fault() const {
+  if (read_error_ == 0) return {};
+  return fmt::format("{}: reading failed: {}; check the disk, or copy the file again", path_,
+                     av_error_text(read_error_));
 }
 
 std::string Container::codec_name() const { return avcodec_get_name(stream_->codecpar->codec_id); }

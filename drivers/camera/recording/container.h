@@ -18,9 +18,10 @@ class Container {
   // Selects the data stream with this tag instead of the video, e.g. "gpmd". has_stream() is false if there is none.
   Container(const std::string& path, const char* data_tag);
 
-  // The next packet of the stream, as stored. False at the end of the file; a read error also ends it (read_error).
+  // The next packet of the stream, as stored. False at the end of the file; a failed read also ends it (read_fault).
   [[nodiscard]] bool next(AVPacket& packet) noexcept;
-  [[nodiscard]] int read_error() const noexcept { return read_error_; }
+  // Why the disk could not be read, with file and remedy; empty: it could.
+  [[nodiscard]] std::string read_fault() const;
 
   [[nodiscard]] bool has_stream() const noexcept { return stream_ != nullptr; }
   [[nodiscard]] bool has_data(const char* tag) const noexcept;  // whether another stream has this tag

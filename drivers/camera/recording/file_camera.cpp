@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <stdexcept>
 
 #include "drivers/camera/line_timing.h"
@@ -79,7 +80,13 @@ void FileCamera::start() {
   }
   n_repeated_.store(0, std::memory_order_relaxed);
   pacer_.start();
-  decoder_ = std::thread([this] { decode_all(); });
+  decoder_ = std::thread([this] {
+    try {
+      decode_all();
+    } catch (const std::bad_alloc&) {
+      queue_->finish(CaptureStatus::kFault, "out of memory");  // short enough to need none
+    }
+  });
 }
 
 void FileCamera::decode_all() {

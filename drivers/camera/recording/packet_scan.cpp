@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <new>
+#include <stdexcept>
+#include <string>
 
 #include "drivers/camera/recording/container.h"
 
@@ -39,6 +41,7 @@ PacketScan scan_packets(const std::string& path) {
   std::int64_t last_dts = AV_NOPTS_VALUE;
   while (scan.n_packets < kMostScanned && container.n_bytes_read() < kMostScannedBytes) {
     if (!container.next(*packet)) {
+      if (const std::string fault = container.read_fault(); !fault.empty()) throw std::runtime_error(fault);
       scan.complete = true;
       break;
     }

@@ -19,6 +19,7 @@ struct PacketScan {
 };
 
 // Reads the file without decoding. Bounded: of a file over a gigabyte or four million packets only a part.
+// Throws std::runtime_error where the disk fails.
 [[nodiscard]] PacketScan scan_packets(const std::string& path);
 
 }  // namespace drivers

@@ -55,7 +55,7 @@ class VideoSource final : public FrameSource {
     first_is_waiting_ = false;
     if (!is_there) {
       note_end();
-      return ReadStatus::kEnd;
+      return end_of_file();
     }
     note_index();
     try {
@@ -141,6 +141,16 @@ class VideoSource final : public FrameSource {
           return true;
       }
     }
+  }
+
+  // A disk that fails is no end.
+  ReadStatus end_of_file() noexcept {
+    try {
+      error_ = decoder_.container().read_fault();
+    } catch (const std::bad_alloc&) {
+      return ReadStatus::kFault;
+    }
+    return error_.empty() ? ReadStatus::kEnd : ReadStatus::kFault;
   }
 
   // Position of the picture in the order of the file. Frames between it and the previous one did not decode.

@@ -111,6 +111,7 @@ void PublishStage::finish() noexcept {
     }
     if (health.state.rfind("fault", 0) != 0) health.state = "finished";
     (void)outlets_.publisher.publish(health);
+    if (outlets_.recorder != nullptr) (void)outlets_.recorder->close();  // health reports a failure
   } catch (const std::exception& e) {
     fault_ = e.what();
   }
