@@ -27,9 +27,7 @@ struct ReadoutModel {
     return 0.0;
   }
   // Size of the image along the readout.
-  [[nodiscard]] int extent_px() const noexcept {
-    return direction == ReadoutDirection::kDown || direction == ReadoutDirection::kUp ? height_px : width_px;
-  }
+  [[nodiscard]] int extent_px() const noexcept { return reads_rows(direction) ? height_px : width_px; }
   [[nodiscard]] double delay_s(double u_px, double v_px) const noexcept { return readout_s * fraction(u_px, v_px); }
 };
 

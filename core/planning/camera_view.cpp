@@ -53,8 +53,7 @@ PlannedCamera turned(const PlannedCamera& camera) noexcept {
 }
 
 bool reads_along(const PlannedCamera& camera, LongAxis axis) noexcept {
-  const bool vertical = camera.direction == ReadoutDirection::kDown || camera.direction == ReadoutDirection::kUp;
-  return vertical == (axis == LongAxis::kVertical);
+  return reads_rows(camera.direction) == (axis == LongAxis::kVertical);
 }
 
 std::vector<double> row_delays_s(const PlannedCamera& camera, LongAxis axis, double distance_mm, double length_mm,

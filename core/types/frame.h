@@ -9,6 +9,10 @@ namespace core {
 // Direction in which the sensor's lines are read, in the delivered (already rotated) image.
 enum class ReadoutDirection : std::uint8_t { kDown, kUp, kLeft, kRight };
 
+// Lines are rows of the image, not columns.
+[[nodiscard]] constexpr bool reads_rows(ReadoutDirection direction) noexcept {
+  return direction == ReadoutDirection::kDown || direction == ReadoutDirection::kUp;
+}
 // "down", "up", "left", "right": as in every file and message.
 [[nodiscard]] const char* to_string(ReadoutDirection direction) noexcept;
 

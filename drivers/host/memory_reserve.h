@@ -8,8 +8,7 @@ namespace drivers {
 void keep_memory_reserve();                            // before any thread starts; throws std::bad_alloc
 [[nodiscard]] bool memory_reserve_is_used() noexcept;  // any thread: memory has run out once
 inline constexpr const char* kMemoryReserveUsed =
-    "memory ran out, and the reserve of this process was taken: nothing was lost so far, but the next shortage ends "
-    "the "
-    "run; free memory, or lower spectrum.segment or the number of points";
+    "memory ran out, and the reserve of this process was taken: nothing was lost so far, but the next shortage "
+    "ends the run; free memory, or lower spectrum.segment or the number of points";
 
 }  // namespace drivers

@@ -57,14 +57,7 @@ class File {
 
   [[nodiscard]] bool is_open() const noexcept { return descriptor_ >= 0; }
   [[nodiscard]] bool write(const void* data, std::size_t n_bytes) const noexcept {
-    const auto* at = static_cast<const char*>(data);
-    while (n_bytes > 0) {
-      const ssize_t n = ::write(descriptor_, at, n_bytes);
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) return false;
-      at += n, n_bytes -= static_cast<std::size_t>(n);
-    }
-    return true;
+    return write_bytes(descriptor_, data, n_bytes) == n_bytes;
   }
   // File systems without fsync (EINVAL) are accepted.
   [[nodiscard]] bool sync() const noexcept { return ::fsync(descriptor_) == 0 || errno == EINVAL; }

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <utility>
 
+#include "drivers/storage/regular_file.h"
 #include "drivers/storage/text_file.h"
 
 namespace drivers {
@@ -63,16 +64,8 @@ void CsvWriter::close_file() noexcept {
 }
 
 bool CsvWriter::flush() noexcept {
-  const char* at = buffer_.data();
-  const char* const end = at + buffer_.size();
-  while (at < end && error_ == 0 && descriptor_ >= 0) {
-    const ssize_t n = ::write(descriptor_, at, static_cast<std::size_t>(end - at));
-    if (n >= 0) {
-      at += n;
-    } else if (errno != EINTR) {
-      error_ = errno;
-    }
-  }
+  if (error_ == 0 && descriptor_ >= 0 && write_bytes(descriptor_, buffer_.data(), buffer_.size()) != buffer_.size())
+    error_ = errno;
   buffer_.clear();
   return error_ == 0;
 }

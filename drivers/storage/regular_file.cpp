@@ -51,6 +51,19 @@ std::size_t read_bytes(std::FILE* file, void* to, std::size_t n_bytes, const std
   }
 }
 
+std::size_t write_bytes(int descriptor, const void* from, std::size_t n_bytes) noexcept {
+  const auto* const begin = static_cast<const std::uint8_t*>(from);
+  std::size_t n_written = 0;
+  while (n_written < n_bytes) {
+    const ssize_t n = ::write(descriptor, begin + n_written, n_bytes - n_written);
+    if (n < 0 && errno == EINTR) continue;
+    if (n == 0) errno = EIO;
+    if (n <= 0) break;
+    n_written += static_cast<std::size_t>(n);
+  }
+  return n_written;
+}
+
 std::uint64_t bytes_of(std::FILE* file) noexcept {
   struct stat status {};
   return ::fstat(::fileno(file), &status) == 0 && status.st_size > 0 ? static_cast<std::uint64_t>(status.st_size) : 0;

@@ -10,10 +10,12 @@
 #include <stdexcept>
 #include <utility>
 
+#include "drivers/storage/regular_file.h"
+#include "drivers/telemetry/event_log_format.h"
+
 namespace drivers {
 namespace {
 
-constexpr std::uint32_t kSyncWord = 0xEDA1DA01U;  // each event begins with it
 constexpr std::size_t kEventBlockBytes = 1U << 16U;
 
 void append_big_endian(std::vector<std::uint8_t>& out, std::uint64_t value, int n_bytes) {
@@ -36,7 +38,7 @@ EventLogFile::~EventLogFile() { (void)close(); }
 
 // Sync word, number, time in us, two lengths, channel, data: big endian.
 void EventLogFile::append(const std::string& channel, std::span<const std::uint8_t> bytes, std::int64_t utc_ns) {
-  append_big_endian(block_, kSyncWord, 4);
+  append_big_endian(block_, kEventSync, 4);
   append_big_endian(block_, static_cast<std::uint64_t>(n_events_++), 8);
   append_big_endian(block_, static_cast<std::uint64_t>(utc_ns / 1000), 8);
   append_big_endian(block_, channel.size(), 4);
@@ -62,20 +64,13 @@ bool EventLogFile::write(const std::string& channel, std::span<const std::uint8_
 }
 
 bool EventLogFile::flush() noexcept {
-  std::size_t n_written = 0;
-  bool is_whole = descriptor_ >= 0;
-  while (is_whole && n_written < block_.size()) {
-    const ssize_t n = ::write(descriptor_, block_.data() + n_written, block_.size() - n_written);
-    if (n > 0) {
-      n_written += static_cast<std::size_t>(n);
-    } else if (n == 0 || errno != EINTR) {
-      error_ = n == 0 ? EIO : errno;
-      is_whole = false;
-    }
-  }
+  const bool is_open = descriptor_ >= 0;
+  const std::size_t n_written = is_open ? write_bytes(descriptor_, block_.data(), block_.size()) : 0;
+  const bool is_whole = is_open && n_written == block_.size();
   if (is_whole) {
     n_kept_ += n_written;
   } else {
+    if (is_open) error_ = errno;
     keep_whole_events(n_written);
   }
   block_.clear();

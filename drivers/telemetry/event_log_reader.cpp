@@ -4,11 +4,11 @@
 #include <array>
 
 #include "drivers/storage/limits.h"
+#include "drivers/telemetry/event_log_format.h"
 
 namespace drivers {
 namespace {
 
-constexpr std::uint32_t kSync = 0xEDA1DA01U;  // each event begins with it
 constexpr std::size_t kSyncBytes = 4, kHeadBytes = 24;
 constexpr std::size_t kReadAtOnce = 1U << 16U;
 
@@ -52,7 +52,7 @@ std::optional<std::uint8_t> EventLogReader::next_byte() {
 
 bool EventLogReader::find_event() {
   std::uint32_t seen = 0;
-  while (seen != kSync) {
+  while (seen != kEventSync) {
     const std::optional<std::uint8_t> byte = next_byte();
     if (!byte) return false;
     seen = seen << 8U | *byte;
@@ -83,7 +83,7 @@ EventLogReader::Taken EventLogReader::take(Event& out) {
   const std::size_t n_behind = read_bytes(file_.get(), behind.data(), behind.size(), path_);
   if (n_behind < behind.size()) return Taken::kEvent;
   std::fseek(file_.get(), -static_cast<long>(kSyncBytes), SEEK_CUR);
-  return big_endian(behind.data(), behind.size()) == kSync ? Taken::kEvent : Taken::kDamaged;
+  return big_endian(behind.data(), behind.size()) == kEventSync ? Taken::kEvent : Taken::kDamaged;
 }
 
 }  // namespace drivers

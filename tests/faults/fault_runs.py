@@ -22,8 +22,10 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools" / "figures"))
+import lcm_log  # noqa: E402
+
 KINDS = ("enospc", "enospc_once", "eio", "eio_once", "eintr", "short", "emfile", "enomem", "slow", "erofs")
-SYNC, HEAD = b"\xed\xa1\xda\x01", 28
 LONGEST_S = 120
 COUNT = struct.Struct("<QQqQ")
 
@@ -36,13 +38,12 @@ def recorded_frames(folder):
     """Payloads of the frames in a record, without times of the wall clock."""
     frames = []
     for path in sorted(folder.glob("*.lcm")):
-        data, at = path.read_bytes(), 0
-        while at + HEAD <= len(data) and data[at:at + 4] == SYNC:
-            n_channel, n_data = struct.unpack_from(">ii", data, at + 20)
-            begin = at + HEAD + n_channel
-            if data[at + HEAD:begin].endswith(b"RUN_FRAME") and begin + n_data <= len(data):
-                frames.append(hashlib.sha256(data[begin:begin + n_data]).hexdigest())
-            at = begin + n_data
+        try:
+            for _, _, channel, data in lcm_log.events(path):
+                if channel.endswith("RUN_FRAME"):
+                    frames.append(hashlib.sha256(data).hexdigest())
+        except ValueError:  # damaged from here on
+            pass
     return frames
 
 

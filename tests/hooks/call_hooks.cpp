@@ -15,13 +15,7 @@
 #include <map>
 #include <tuple>
 
-extern "C" {
-void* __libc_malloc(std::size_t);
-void* __libc_calloc(std::size_t, std::size_t);
-void* __libc_realloc(void*, std::size_t);
-void* __libc_memalign(std::size_t, std::size_t);
-void __libc_free(void*);
-}
+#include "tests/hooks/libc_allocator.h"
 
 namespace {
 

@@ -82,4 +82,5 @@ def all_types(path, record, out, types):
     return {"events": len(all_events)}
 
 
-print(json.dumps({"count": count, "final": final, "all-types": all_types}[sys.argv[1]](*sys.argv[2:]), indent=1))
+if __name__ == "__main__":
+    print(json.dumps({"count": count, "final": final, "all-types": all_types}[sys.argv[1]](*sys.argv[2:]), indent=1))

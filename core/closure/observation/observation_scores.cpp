@@ -89,23 +89,22 @@ LevelFit ObservationScores::quality() const {
 }
 
 // Empty: the gain is material.
-std::string ObservationScores::smallness(const EffectCandidate& candidate, double gain) const {
-  const FitView view = fit_.view();
-  const double n_values = view.held_out.n_values();
-  if (!(gain > candidate.material_share() * n_values)) return "immaterial";
-  const double excess = view.held_out.squares(view.model.residual()) - view.held_out.noise_variance() * n_values;
+std::string ObservationScores::smallness(const EffectCandidate& candidate, double gain, double above_noise) const {
+  if (!(gain > candidate.material_share() * fit_.view().held_out.n_values())) return "immaterial";
   const double least = candidate.is_learned() ? kLearnedOfExcess : kNamedOfExcess;
-  return gain > least * excess ? std::string() : "explains too little of what exceeds the noise";
+  return gain > least * above_noise ? std::string() : "explains too little of what exceeds the noise";
 }
 
 Objection ObservationScores::refusal(const EffectCandidate& candidate, double gain, const TestedResidual& tested,
-                                     double learned_gain) const {
-  if (std::string small = smallness(candidate, gain); !small.empty()) return {std::move(small)};
-  const double free_gain = candidate.free_gain(tested).value_or(learned_gain);
+                                     const Unexplained& unexplained) const {
+  std::string small = smallness(candidate, gain, unexplained.above_noise);
+  if (!small.empty()) return {std::move(small)};
+  const double free_gain = candidate.free_gain(tested).value_or(unexplained.by_learned);
   const double family_gain = candidate.free_gain(tested) ? gain : std::max(gain, constants_gain(tested));
-  if (family_gain < kOfLearned * free_gain || gain < kOfFamily * free_gain)
+  if (family_gain < kOfLearned * free_gain || gain < kOfFamily * free_gain) {
     return {"a projection of another effect: it explains " + std::to_string(std::lround(100.0 * gain / free_gain)) +
             " % of what the best learned pattern explains"};
+  }
   return candidate.objection();
 }
 
@@ -126,10 +125,10 @@ std::vector<CandidateScore> ObservationScores::score() {
   const TestedResidual tested{residual, moments};
   const std::vector<const ObservationEffect*> named = open();
   const double n_values = view.held_out.n_values(), freedom = fit_.freedom_beside();
-  const double squares = view.held_out.squares(residual) + 2.0 * freedom;
+  const double left = view.held_out.squares(residual), squares = left + 2.0 * freedom;
   const PatternGain learned = view.held_out.of_learned(moments);
-  const double learned_gain =
-      learned.gain > material_of(learned.band, view, kLearnedBar) * n_values ? learned.gain : 0.0;
+  const bool is_material = learned.gain > material_of(learned.band, view, kLearnedBar) * n_values;
+  const Unexplained unexplained{left - view.held_out.noise_variance() * n_values, is_material ? learned.gain : 0.0};
   is_other_cause_.clear();
   std::vector<CandidateScore> out;
   bool any = false;
@@ -143,12 +142,13 @@ std::vector<CandidateScore> ObservationScores::score() {
     s.score = prepared_[i]->find(tested);
     s.heldout = view.sigma_px * std::sqrt(std::max(squares - s.score, 0.0) / n_values);
     Objection objection;
-    if (is_named)
-      objection = refusal(*prepared_[i], s.score, tested, learned_gain);
-    else if (any)
+    if (is_named) {
+      objection = refusal(*prepared_[i], s.score, tested, unexplained);
+    } else if (any) {
       objection.words = "a named effect explains it";
-    else
-      objection.words = smallness(*prepared_[i], s.score);
+    } else {
+      objection.words = smallness(*prepared_[i], s.score, unexplained.above_noise);
+    }
     any = any || objection.words.empty();
     s.refusal = objection.words;
     is_other_cause_.push_back(objection.is_other_cause ? 1 : 0);

@@ -48,9 +48,14 @@ class ObservationScores {
   [[nodiscard]] std::size_t n_latent() const;
   void prepare();
   [[nodiscard]] double constants_gain(const TestedResidual& tested) const;
-  [[nodiscard]] std::string smallness(const EffectCandidate& candidate, double gain) const;
+  // What there is to explain, as held-out squares in noise variances.
+  struct Unexplained {
+    double above_noise = 0.0;
+    double by_learned = 0.0;  // gain of the best learned pattern; 0: immaterial
+  };
+  [[nodiscard]] std::string smallness(const EffectCandidate& candidate, double gain, double above_noise) const;
   [[nodiscard]] Objection refusal(const EffectCandidate& candidate, double gain, const TestedResidual& tested,
-                                  double learned_gain) const;
+                                  const Unexplained& unexplained) const;
 
   const ObservationFit& fit_;
   const std::vector<const ObservationEffect*>& catalogue_;

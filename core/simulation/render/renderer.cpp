@@ -13,10 +13,7 @@
 namespace core::simulation {
 namespace {
 
-bool by_rows(const Scene& scene) {
-  const core::ReadoutDirection direction = scene.camera.readout_direction;
-  return direction == core::ReadoutDirection::kDown || direction == core::ReadoutDirection::kUp;
-}
+bool by_rows(const Scene& scene) { return reads_rows(scene.camera.readout_direction); }
 
 bool looks_straight(const SceneMotion& motion) {
   const CameraParameters& camera = motion.scene().camera;

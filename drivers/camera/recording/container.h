@@ -28,8 +28,8 @@ class Container {
   [[nodiscard]] const AVStream& stream() const noexcept { return *stream_; }
   [[nodiscard]] const AVCodec& decoder() const noexcept { return *decoder_; }
   [[nodiscard]] std::string codec_name() const;
-  [[nodiscard]] int coding_block_px()
-      const noexcept;  // largest block with one motion vector; 0 = every frame by itself
+  // Largest block with one motion vector; 0: every frame is coded by itself.
+  [[nodiscard]] int coding_block_px() const noexcept;
   [[nodiscard]] int clockwise_turn_deg() const noexcept;         // 0, 90, 180, 270, as a player rotates the picture
   [[nodiscard]] std::uint64_t promised_frames() const noexcept;  // 0 = not stated
   // Frame rates as the container states them, the most trusted first; empty: it states none.

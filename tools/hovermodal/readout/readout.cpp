@@ -21,9 +21,7 @@ struct Options {
 };
 
 void print(const Options& options, const ClipMotion& clip, const core::GyroReadout& found) {
-  const bool rows = options.input.direction == core::ReadoutDirection::kDown ||
-                    options.input.direction == core::ReadoutDirection::kUp;
-  const int lines = rows ? clip.height_px : clip.width_px;
+  const int lines = core::reads_rows(options.input.direction) ? clip.height_px : clip.width_px;
   std::size_t n_points = 0, n_held = 0;
   for (const core::FramePair& pair : clip.pairs) {
     n_points += pair.points.size();
