@@ -123,9 +123,27 @@ TEST(Verdict, ABaseThatMovesAlongIsAnInputPeak) {
 TEST(Verdict, ASmallBaseShareIsDecidedByTheAnswerToTheBase) {
   PoleCluster cluster = flawless();
   cluster.representative.shape = {0.2, 0.4, 0.8, 1.0};
-  EXPECT_EQ(judged(cluster, {10.0, 4.0}).verdict, Verdict::kStructural) << "a clear local maximum";
-  EXPECT_EQ(judged(cluster, {10.0, 12.0}).verdict, Verdict::kInputPeak) << "no maximum";
-  EXPECT_EQ(judged(cluster, {1.0, 0.5}).verdict, Verdict::kInputPeak) << "hardly an answer";
+  BaseResponse peak{.base_peak = 5.0, .base_peak_sigma = 0.5};
+  const auto judged_with = [&](double gain, double gain_beside) {
+    peak.gain = gain, peak.gain_beside = gain_beside;
+    return judged(cluster, peak).verdict;
+  };
+  EXPECT_EQ(judged_with(10.0, 4.0), Verdict::kStructural) << "a clear local maximum";
+  EXPECT_EQ(judged_with(10.0, 12.0), Verdict::kInputPeak) << "no maximum";
+  EXPECT_EQ(judged_with(1.0, 0.5), Verdict::kInputPeak) << "hardly an answer";
+  peak.resonance = 2.0, peak.resonance_sigma = 0.1, peak.relative = 3.0, peak.relative_without = 1.0;
+  EXPECT_EQ(judged_with(1.0, 0.5), Verdict::kStructural) << "a resonance of the response";
+  EXPECT_EQ(judged(cluster, {1.0, 0.5}).verdict, Verdict::kStructural) << "the base's own spectrum has no peak";
+}
+
+TEST(Verdict, ALargerBaseShareNeedsABaseWithoutAPeak) {
+  PoleCluster cluster = flawless();
+  cluster.representative.shape = {0.4, 0.4, 0.8, 1.0};
+  EXPECT_EQ(judged(cluster, {.base_peak = 0.1, .base_peak_sigma = 0.2}).verdict, Verdict::kStructural);
+  EXPECT_EQ(judged(cluster, {.base_peak = 3.0, .base_peak_sigma = 0.2}).verdict, Verdict::kInputPeak);
+  EXPECT_EQ(judged(cluster, {}).verdict, Verdict::kInputPeak) << "no base spectrum was fitted";
+  cluster.representative.shape = {0.7, 0.4, 0.8, 1.0};
+  EXPECT_EQ(judged(cluster, {.base_peak = 0.1, .base_peak_sigma = 0.2}).verdict, Verdict::kInputPeak);
 }
 
 TEST(Verdict, APoleOfFewOrdersOrOfHighOrdersOnlyIsNumerical) {
