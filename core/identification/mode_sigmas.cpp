@@ -6,7 +6,6 @@
 
 #include "core/identification/block_deviations.h"
 #include "core/linear/median.h"
-#include "core/planning/hover_time.h"
 #include "core/types/constants.h"
 
 namespace core {
@@ -17,7 +16,6 @@ namespace {
 // integral of w(t)^2 w(t + 1/2)^2 over that of w^4 = (3/128) / (35/128).
 constexpr double kOverlapCorrelation = 3.0 / 35.0;
 constexpr double kDeviationPerMedian = 1.4826;
-constexpr double kPriorFreedom = 6.0;
 
 // Factor of a variance that is estimated from blocks as if they were independent. Neighbouring blocks share the overlap
 // of their segments; with r the correlation of neighbouring blocks, the variance of the sum of K is 1 + 2 r (K - 1) / K
@@ -55,30 +53,15 @@ Variances lower_bound(const Mode& mode, double duration_s) {
   return {mode.frequency_hz * mode.frequency_hz * zeta / turns, zeta / turns};
 }
 
-// Variance from few blocks, moderated by what is expected of the method [Smyth 2004]: with nu degrees of freedom from
-// the blocks and kPriorFreedom of the expectation, (nu s^2 + nu0 v0) / (nu + nu0) has nu + nu0.
-struct Moderation {
-  double factor = 1.0;  // of the blocks' variance, for their overlap
-  double freedom = 0.0;
+double raised(double sigma, double factor, double spread, double bound) {
+  return std::sqrt(std::max(factor * sigma * sigma + spread, bound));
+}
 
-  [[nodiscard]] double total() const noexcept { return freedom + kPriorFreedom; }
-  [[nodiscard]] double sigma(double of_blocks, double bound, double spread) const noexcept {
-    const double expected = planning::kMethodFactor * planning::kMethodFactor * bound;
-    return std::sqrt((freedom * factor * of_blocks * of_blocks + kPriorFreedom * expected) / total() + spread);
-  }
-  // Nothing is expected of a shape: its sigma is raised so that the interval of total() degrees of freedom is that of
-  // the blocks' own.
-  [[nodiscard]] double shape_factor() const noexcept {
-    return std::sqrt(factor) * student_95(freedom) / student_95(total());
-  }
-};
-
-void state(const ModeScatter& scatter, const Variances& spread, const Variances& bound, const Moderation& moderation,
-           Mode& mode) {
-  mode.frequency_std_hz = moderation.sigma(scatter.frequency_hz, bound.frequency_hz, spread.frequency_hz);
-  mode.damping_std = moderation.sigma(scatter.damping_ratio, bound.damping_ratio, spread.damping_ratio);
+void state(const ModeScatter& scatter, const Variances& spread, const Variances& bound, double factor, Mode& mode) {
+  mode.frequency_std_hz = raised(scatter.frequency_hz, factor, spread.frequency_hz, bound.frequency_hz);
+  mode.damping_std = raised(scatter.damping_ratio, factor, spread.damping_ratio, bound.damping_ratio);
   mode.shape_std = scatter.shape;
-  for (double& sigma : mode.shape_std) sigma *= moderation.shape_factor();
+  for (double& sigma : mode.shape_std) sigma *= std::sqrt(factor);
 }
 
 }  // namespace
@@ -96,8 +79,7 @@ double state_sigmas(const SigmaInputs& in, const std::vector<PoleCluster>& lines
   const DeviationLags lags{in.fit.era.first_lag, 2 * in.fit.era.block_rows, in.fit.n_differences};
   const auto deviations = block_deviations(in.sums, in.fit.era.references, lags, n_groups);
   auto changes = pole_changes(in.fit.realisation, in.fit.era, deviations, chosen);
-  const Moderation moderation{overlap_factor(in.sums, static_cast<double>(n_groups)),
-                              std::max(1.0, deviations.degrees_of_freedom)};
+  const double factor = overlap_factor(in.sums, static_cast<double>(n_groups));
   const double duration_s = in.sums.n_remembered() / in.sums.rate_hz;
   for (std::size_t c = 0; c < chosen.size(); ++c) {
     const PoleCluster& line = lines[line_of[c]];
@@ -108,9 +90,9 @@ double state_sigmas(const SigmaInputs& in, const std::vector<PoleCluster>& lines
     for (PoleChange& change : changes[c]) change.shape = in.camera.without(change.shape, hz, leave);
     const auto scatter = mode_scatter(chosen[c], line.representative, in.folding, changes[c]);
     Mode& mode = modes[line_of[c]];
-    if (scatter) state(*scatter, spread_over_orders(line, in.unfolded), lower_bound(mode, duration_s), moderation, mode);
+    if (scatter) state(*scatter, spread_over_orders(line, in.unfolded), lower_bound(mode, duration_s), factor, mode);
   }
-  return moderation.total();
+  return deviations.degrees_of_freedom;
 }
 
 }  // namespace core

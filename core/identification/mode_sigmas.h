@@ -23,9 +23,9 @@ struct SigmaInputs {
 };
 
 // Standard deviations of all modes but numerical ones, for which they would be meaningless: from the blocks of the
-// record (uncertainty.h), with the overlap of the segments, moderated by the scatter expected of this method (few blocks
-// estimate a variance badly), plus the spread of the line's poles over the model orders. modes[i] belongs to lines[i].
-// Returns the degrees of freedom; 0, and no sigma, for a record of one block. Sources: METHOD.md.
+// record (uncertainty.h), raised by the overlap of the segments and by the spread of the line's poles over the model
+// orders, and never below the lower bound of any method. modes[i] belongs to lines[i]. Returns the degrees of freedom;
+// 0, and no sigma, for a record of one block.
 double state_sigmas(const SigmaInputs& inputs, const std::vector<PoleCluster>& lines, std::vector<Mode>& modes);
 
 }  // namespace core
