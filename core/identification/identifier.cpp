@@ -9,9 +9,9 @@
 #include "core/identification/camera_leakage.h"
 #include "core/identification/combination_lines.h"
 #include "core/identification/line_evidence.h"
+#include "core/identification/mode_sigmas.h"
 #include "core/identification/model_fit.h"
 #include "core/identification/spectral_peaks.h"
-#include "core/identification/uncertainty.h"
 #include "core/identification/verdict.h"
 
 namespace core {
@@ -115,7 +115,7 @@ std::vector<Mode> judge_lines(const Fitted& fitted, const std::vector<PoleCluste
     const DiscretePole& observed = fitted.poles.observed[line.i_representative].pole;
     const CameraLeakage::Finding found = fitted.camera.examine(observed.shape, line.apparent_hz);
     evidence.witness_share = found.share, evidence.witness_moves = found.is_doubtful;
-    const BaseResponse response = base_response(fitted.sums, channels.all, line.apparent_hz);
+    const BaseResponse response = base_response(fitted.sums, channels.all, line.apparent_hz, line.damping_ratio);
     modes.push_back(judge(line, response, channels.outputs, fitted.orders, rules, evidence));
     modes.back().may_be_hz = other_frequencies(line.representative, fitted.folding, rules.least_fold_margin);
     const int lone = lone_masked_channel(modes.back().shape, fitted.records);
@@ -133,36 +133,6 @@ std::vector<Mode> judge_published_lines(const std::vector<PoleCluster>& lines, c
   for (const PoleCluster& line : lines) modes.push_back(judge_as_published(line, channels.outputs, rules));
   number_by_frequency(modes);
   return modes;
-}
-
-// Returns the degrees of freedom. modes[i] belongs to lines[i]. Numerical poles get no sigma, which would be
-// meaningless.
-double state_scatter(const Fitted& fitted, const std::vector<PoleCluster>& lines, std::vector<Mode>& modes) {
-  std::vector<PoleOfOrder> chosen;
-  std::vector<std::size_t> line_of;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (modes[i].verdict == Verdict::kNumerical) continue;
-    chosen.push_back(fitted.poles.observed[lines[i].i_representative]);
-    line_of.push_back(i);
-  }
-  const ModelFit& fit = fitted.fit;
-  const DeviationLags lags{fit.era.first_lag, 2 * fit.era.block_rows, fit.n_differences};
-  const auto deviations = block_deviations(fitted.sums, fit.era.references, lags, kScatterBlocks);
-  auto changes = pole_changes(fit.realisation, fit.era, deviations, chosen);
-  for (std::size_t c = 0; c < chosen.size(); ++c) {
-    const std::size_t i = line_of[c];
-    std::vector<std::complex<double>>& shape = chosen[c].pole.shape;
-    const double hz = apparent_hz(chosen[c].pole, fitted.sums.rate_hz);
-    const bool leave = fitted.camera.examine(shape, hz).is_doubtful;
-    shape = fitted.camera.without(shape, hz, leave);
-    for (PoleChange& change : changes[c]) change.shape = fitted.camera.without(change.shape, hz, leave);
-    const auto scatter = mode_scatter(chosen[c], lines[i].representative, fitted.folding, changes[c]);
-    if (!scatter) continue;
-    modes[i].frequency_std_hz = scatter->frequency_hz;
-    modes[i].damping_std = scatter->damping_ratio;
-    modes[i].shape_std = scatter->shape;
-  }
-  return deviations.degrees_of_freedom;
 }
 
 // modes[i] belongs to clusters[i]. Poles are in the order of the clusters' members and receive the index of their line.
@@ -248,7 +218,8 @@ ModalEstimate Identifier::identify_all(const CpsdSums& sums, const std::vector<C
   const VerdictRules rules = verdict_rules(config_, fit, sums);
   std::vector<Mode> modes = config_.as_published ? judge_published_lines(lines, channels, rules)
                                                  : judge_lines(fitted, lines, channels, rules);
-  if (sums.n_blocks >= kScatterBlocks) estimate.degrees_of_freedom = state_scatter(fitted, lines, modes);
+  estimate.degrees_of_freedom =
+      state_sigmas({sums, fit, folding, camera, poles.observed, poles.unfolded}, lines, modes);
   if (!config_.as_published) reject_mixtures(modes), reject_twins(modes);
   note_poles(poles.unfolded, orders, estimate);
   list_modes(std::move(modes), lines, estimate);

@@ -68,7 +68,7 @@ EraConfig era_config(const CpsdSums& sums, const IdentifierConfig& config, const
   era.first_lag = 1 + n_differences;
   era.references = choose_references(config, channels);
   era.above_canonical = 2 * (kMostOrders - 1);
-  era.with_maps = sums.n_blocks >= kScatterBlocks;
+  era.with_maps = sums.n_blocks >= kLeastScatterBlocks;
   return era;
 }
 

@@ -197,7 +197,7 @@ std::vector<std::vector<PoleChange>> pole_changes(const Realisation& realisation
 
 std::optional<ModeScatter> mode_scatter(const PoleOfOrder& pole, const UnfoldedPole& unfolded,
                                         const FoldingConfig& folding, const std::vector<PoleChange>& changes) {
-  if (changes.size() < kScatterBlocks) return std::nullopt;
+  if (changes.size() < kLeastScatterBlocks) return std::nullopt;
   const double size = std::abs(unfolded.s), zeta = -unfolded.s.real() / size;
   ModeScatter sum;
   sum.shape.assign(pole.pole.shape.size(), 0.0);

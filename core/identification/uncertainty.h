@@ -16,9 +16,9 @@ namespace core {
 //   left_map (dH1 - lambda dH0) right_map,
 // and its first-order change is therefore linear in R, as is that of its shape H0 right_map psi. Blocks of the record
 // (CpsdBlock) give independent changes of R that sum to zero: var = K / (K - 1) sum of the squared changes, with K - 1
-// degrees of freedom (Student). With fewer than ten blocks a variance is too uncertain and is not stated; more blocks
-// would be too short, because a block should span a few decay times of the slowest mode.
-inline constexpr std::size_t kScatterBlocks = 10;
+// degrees of freedom (Student): two blocks give a variance, with one degree of freedom. More than ten blocks would be
+// too short, because a block should span a few decay times of the slowest mode.
+inline constexpr std::size_t kLeastScatterBlocks = 2, kScatterBlocks = 10;
 
 // Change of a pole and its observed shape caused by one block.
 struct PoleChange {

@@ -57,12 +57,28 @@ void set(Mode& mode, Verdict verdict, std::string reason) {
   mode.reason = std::move(reason);
 }
 
-// The base moves with an input peak and hardly with a mode. In a short record forced motion blurs this difference, and
-// the response function decides.
+bool has_resonance(const BaseResponse& response, const VerdictRules& rules) noexcept {
+  const bool answers = response.gain >= rules.least_base_gain && response.gain > response.gain_beside;
+  return answers || (response.resonance > rules.least_resonance_sigmas * response.resonance_sigma &&
+                     response.relative > rules.least_relative_rise * response.relative_without);
+}
+
+// An input peak is a peak of the base's own spectrum that the structure follows. Where the base spectrum has none, the
+// base component of a weak mode's shape is estimation noise or broadband camera motion.
 bool moves_with_base(double base_share, const BaseResponse& response, const VerdictRules& rules) noexcept {
   if (base_share <= rules.max_base_share) return false;
-  const bool answers = response.gain >= rules.least_base_gain && response.gain > response.gain_beside;
-  return base_share > rules.open_base_share || !answers;
+  if (!response.base_is_known)  // the response alone decides
+    return base_share > rules.open_base_share || !has_resonance(response, rules);
+  if (base_share > rules.max_noisy_share) return true;
+  if (base_share <= rules.open_base_share)
+    return response.base_peak > rules.most_base_peak && !has_resonance(response, rules);
+  return !(response.base_peak < rules.no_base_peak &&
+           std::abs(response.base_peak) < rules.no_peak_sigmas * response.base_peak_sigma);
+}
+
+std::string base_evidence(const BaseResponse& response) {
+  if (!(response.base_peak > 0.0)) return {};
+  return text(" (its own spectrum has a peak there, %.2g times the spectrum beside it)", response.base_peak);
 }
 
 bool is_too_short(const Mode& mode, const VerdictRules& rules) noexcept {
@@ -107,7 +123,8 @@ void decide(Mode& mode, const PoleCluster& cluster, const BaseResponse& response
              line.camera_mac));
   } else if (moves_with_base(base, response, rules)) {
     set(mode, Verdict::kInputPeak,
-        text("the base moves %.2f of the largest channel: motion of the base or the camera", base));
+        text("the base moves %.2f of the largest channel: motion of the base or the camera%s", base,
+             base_evidence(response).c_str()));
   } else if (line.late_damping_ratio && *line.late_damping_ratio < rules.max_late_damping &&
              line.late_share > rules.min_late_share) {
     set(mode, Verdict::kHarmonic,

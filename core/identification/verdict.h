@@ -15,19 +15,25 @@ namespace core {
 struct VerdictRules {
   double min_mpc = 0.8;
   double max_damping = 0.15;
-  double max_apparent_hz = 0.0;     // apparent frequencies above: transition band of a preceding filter; 0 = none
-  double min_presence = 0.85;       // share of the orders
-  int last_first_i_order = 1;       // the pole is present from the canonical order on, or from the next one
-  double max_base_share = 0.1;      // |shape at the base| / largest
-  double open_base_share = 0.3;     // up to here a clear response of the structure to its base decides
-  double least_base_gain = 3.0;     // ... with at least this gain at a local maximum
-  double max_uniform_mac = 0.98;    // MAC with equal motion of all channels, i.e. camera translation
-  double max_witness_share = 0.9;   // share of the shape's square that is camera motion according to static regions
-  double min_camera_mac = 0.95;     // MAC with a vibrating camera, at a frequency where no mode is expected
-  double max_late_damping = 0.001;  // of a steady force, over the longest lags of a segment
-  double min_late_share = 0.86;     // ... and at least this share of the correlation must remain there
-  double least_certain_mpc = 0.85;  // a folded frequency is certain above this MPC ...
-  double least_fold_margin = 0.3;   // ... and with this lead over the next hypothesis
+  double max_apparent_hz = 0.0;  // apparent frequencies above: transition band of a preceding filter; 0 = none
+  double min_presence = 0.85;    // share of the orders
+  int last_first_i_order = 1;    // the pole is present from the canonical order on, or from the next one
+  double max_base_share = 0.1;   // |shape at the base| / largest
+  double open_base_share = 0.3;  // up to here a clear response of the structure to its base decides ...
+  double least_base_gain = 3.0;  // ... with at least this gain at a local maximum
+  double most_base_peak = 1.5;   // ... or a base whose own spectrum has no peak higher than this (BaseResponse) ...
+  double least_resonance_sigmas = 3.5;  // ... or a resonance of the response that is this significant ...
+  double least_relative_rise = 1.5;     // ... and raises the motion relative to the base by this factor
+  double no_base_peak = 0.7;            // up to max_noisy_share a smooth base spectrum decides: below this height ...
+  double no_peak_sigmas = 2.0;          // ... and within this many of its sigmas
+  double max_noisy_share = 0.6;         // above, the base moves as the structure does
+  double max_uniform_mac = 0.98;        // MAC with equal motion of all channels, i.e. camera translation
+  double max_witness_share = 0.9;       // share of the shape's square that is camera motion according to static regions
+  double min_camera_mac = 0.95;         // MAC with a vibrating camera, at a frequency where no mode is expected
+  double max_late_damping = 0.001;      // of a steady force, over the longest lags of a segment
+  double min_late_share = 0.86;         // ... and at least this share of the correlation must remain there
+  double least_certain_mpc = 0.85;      // a folded frequency is certain above this MPC ...
+  double least_fold_margin = 0.3;       // ... and with this lead over the next hypothesis
   double max_published_base_share = 0.3;
   double max_frequency_hz = 0.0;  // modes are not searched for above it; 0 = no limit
   // Record properties needed for a verdict. With too few cycles, or samples per Hankel row, a pole stays a candidate.

@@ -67,6 +67,18 @@ std::string words_of(const ForeignScene& foreign) {
 
 }  // namespace
 
+bool move_camera(Scene& scene, std::uint64_t seed, const std::string& flight) {
+  const bool recorded = Draw(seed, "foreign").uniform(0.0, 1.0) < kShareRecorded && !flight.empty();
+  scene.hover.x_rms_mm = scene.hover.y_rms_mm = scene.hover.z_rms_mm = 0.0;
+  if (recorded) {
+    scene.flight = recorded_hover(flight, kFlightScale, seed, scene.duration_s);
+  } else {
+    draw_tails(scene, Draw(seed, "foreign_hover"));
+  }
+  (void)fit_hover(scene);
+  return recorded;
+}
+
 ForeignScene draw_foreign_scene(std::uint64_t seed, double duration_s, const std::string& flight) {
   Draw draw(seed, "foreign"), noise(seed, "foreign_noise");
   const bool recorded = draw.uniform(0.0, 1.0) < kShareRecorded && !flight.empty();

@@ -27,6 +27,9 @@ struct ForeignScene {
 // flight: file of the recorded flight; empty = none.
 [[nodiscard]] ForeignScene draw_foreign_scene(std::uint64_t seed, double duration_s, const std::string& flight);
 
+// The hover alone: replaces that of `scene`. True if it is the recorded flight.
+bool move_camera(core::simulation::Scene& scene, std::uint64_t seed, const std::string& flight);
+
 // The tracks of `scene`, which may contain a further effect, with the declarations of the scene without it.
 [[nodiscard]] core::closure::ObservationRecord foreign_record(const core::simulation::Scene& scene,
                                                               const ForeignScene& declared);

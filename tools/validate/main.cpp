@@ -21,6 +21,7 @@
 #include "tools/validate/peaks.h"
 #include "tools/validate/render.h"
 #include "tools/validate/signatures.h"
+#include "tools/validate/trust.h"
 
 namespace tools {
 namespace {
@@ -209,6 +210,7 @@ constexpr std::array kChecks{
           geometry<print_geometry_pixels>, kFlights | kReport},
     Check{"geometry-pixels-drawn", "the same with camera, structure and noise drawn",
           geometry<print_geometry_pixels, true>, kFlights | kReport},
+    Check{"trust-modes", "every mode of a record, and the intervals stated", geometry<print_trust_modes>, kFlights},
     Check{"paper", "the paper's experiment by its own chain, as published", geometry<print_paper>, kFlights},
     Check{"table1", "the paper's Table 1 and Figures 6 to 9, sensor by sensor", geometry<print_table1>,
           kFlights | kReport},

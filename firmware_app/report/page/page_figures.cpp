@@ -101,7 +101,7 @@ std::string shapes_section(const PictureInputs& inputs) {
       std::any_of(modes.begin(), modes.end(), [](const auto& mode) { return !mode.shape_std.empty(); });
   body += "<div class=\"cards\">\n" + cards + "</div>\n";
   body += paragraph_html(any_std ? "Bars: one standard deviation to both sides."
-                                 : "No bars: standard deviations need a record of ten segments or more.",
+                                 : "No bars: standard deviations need a record of two segments or more.",
                          "note");
   const auto has_both = [](const core::Region& region) { return region.both_axes; };
   if (std::any_of(inputs.regions.begin(), inputs.regions.end(), has_both))

@@ -191,7 +191,7 @@ std::string modes_section(const PictureInputs& inputs) {
   const bool any_sigma = std::any_of(estimate.modes.begin(), estimate.modes.end(),
                                      [](const core::Mode& mode) { return mode.frequency_std_hz.has_value(); });
   if (!estimate.modes.empty() && !any_sigma)
-    body += paragraph_html("No ± is shown: standard deviations need a record of ten segments or more.", "note");
+    body += paragraph_html("No ± is shown: standard deviations need a record of two segments or more.", "note");
   if (!estimate.rejected.empty()) {
     body += fmt::format("<details><summary>{}, with reasons</summary>\n{}</details>\n",
                         plural(estimate.rejected.size(), "rejected pole", "rejected poles"),

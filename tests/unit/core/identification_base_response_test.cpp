@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/spectrum/welch_cpsd.h"
 
 namespace core {
@@ -52,6 +54,18 @@ TEST(BaseResponse, APeakOfTheInputIsNone) {
   const BaseResponse response = base_response(spectra(0, flat, peak_at_5), channels(0), 5.0);
   EXPECT_NEAR(response.gain, 1.0, 1e-12);
   EXPECT_NEAR(response.gain_beside, 1.0, 1e-12);
+}
+
+TEST(BaseResponse, ASteadyInputIsKnownAndAShortOneIsNot) {
+  CpsdSums sums = spectra(0, flat, flat);
+  sums.blocks.clear(), sums.n_blocks = 10;
+  for (std::size_t b = 0; b < sums.n_blocks; ++b)
+    sums.blocks.push_back({.n_segments = 1, .weight = {}, .data_sum = sums.data_sum, .mask_sum = {}});
+  EXPECT_TRUE(base_response(sums, channels(0), 6.0, 0.05).base_is_known);
+  for (std::size_t b = 0; b < sums.n_blocks; ++b) {  // the power lies in four blocks of ten
+    if (b % 5 > 1) std::fill(sums.blocks[b].data_sum.begin(), sums.blocks[b].data_sum.end(), 0.0);
+  }
+  EXPECT_FALSE(base_response(sums, channels(0), 6.0, 0.05).base_is_known);
 }
 
 TEST(BaseResponse, IsZeroWithoutABaseOrWithASilentOne) {

@@ -75,8 +75,10 @@ TEST(Identifier, FindsTheModesOfASixStoreyFrameNearTheTheoreticalScatter) {
     EXPECT_NEAR(estimate.duration_s, 300.0, 1e-9);
     for (const Mode& mode : estimate.modes) {  // no false structural mode
       const std::size_t r = nearest_true_mode(structure, mode.frequency_hz);
-      EXPECT_LT(std::abs(mode.frequency_hz - structure.frequency_hz(r)), 3.0 * structure.frequency_scatter_hz(r))
-          << mode.frequency_hz;
+      // The scatter of a perfect record; weak modes scatter more and state it.
+      const double sigma_hz = std::max(structure.frequency_scatter_hz(r), mode.frequency_std_hz.value_or(0.0));
+      EXPECT_LT(std::abs(mode.frequency_hz - structure.frequency_hz(r)), 3.0 * sigma_hz) << mode.frequency_hz;
+      EXPECT_LT(sigma_hz, 0.01 * mode.frequency_hz);
     }
     for (std::size_t r = 0; r < 4; ++r) {  // the upper two are weak: whether they are found depends on tuning
       const Mode* mode = find(estimate, structure.frequency_hz(r));

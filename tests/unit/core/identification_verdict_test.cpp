@@ -123,9 +123,33 @@ TEST(Verdict, ABaseThatMovesAlongIsAnInputPeak) {
 TEST(Verdict, ASmallBaseShareIsDecidedByTheAnswerToTheBase) {
   PoleCluster cluster = flawless();
   cluster.representative.shape = {0.2, 0.4, 0.8, 1.0};
-  EXPECT_EQ(judged(cluster, {10.0, 4.0}).verdict, Verdict::kStructural) << "a clear local maximum";
-  EXPECT_EQ(judged(cluster, {10.0, 12.0}).verdict, Verdict::kInputPeak) << "no maximum";
-  EXPECT_EQ(judged(cluster, {1.0, 0.5}).verdict, Verdict::kInputPeak) << "hardly an answer";
+  BaseResponse peak{.base_peak = 5.0, .base_peak_sigma = 0.5, .base_is_known = true};
+  const auto judged_with = [&](double gain, double gain_beside) {
+    peak.gain = gain, peak.gain_beside = gain_beside;
+    return judged(cluster, peak).verdict;
+  };
+  EXPECT_EQ(judged_with(10.0, 4.0), Verdict::kStructural) << "a clear local maximum";
+  EXPECT_EQ(judged_with(10.0, 12.0), Verdict::kInputPeak) << "no maximum";
+  EXPECT_EQ(judged_with(1.0, 0.5), Verdict::kInputPeak) << "hardly an answer";
+  peak.resonance = 2.0, peak.resonance_sigma = 0.1, peak.relative = 3.0, peak.relative_without = 1.0;
+  EXPECT_EQ(judged_with(1.0, 0.5), Verdict::kStructural) << "a resonance of the response";
+  BaseResponse smooth{1.0, 0.5};
+  EXPECT_EQ(judged(cluster, smooth).verdict, Verdict::kInputPeak) << "nothing is known of the base's own spectrum";
+  smooth.base_is_known = true;
+  EXPECT_EQ(judged(cluster, smooth).verdict, Verdict::kStructural) << "the base's own spectrum has no peak";
+}
+
+TEST(Verdict, ALargerBaseShareNeedsABaseWithoutAPeak) {
+  PoleCluster cluster = flawless();
+  cluster.representative.shape = {0.4, 0.4, 0.8, 1.0};
+  EXPECT_EQ(judged(cluster, {.base_peak = 0.1, .base_peak_sigma = 0.2, .base_is_known = true}).verdict,
+            Verdict::kStructural);
+  EXPECT_EQ(judged(cluster, {.base_peak = 3.0, .base_peak_sigma = 0.2, .base_is_known = true}).verdict,
+            Verdict::kInputPeak);
+  EXPECT_EQ(judged(cluster, {}).verdict, Verdict::kInputPeak) << "no base spectrum was fitted";
+  cluster.representative.shape = {0.7, 0.4, 0.8, 1.0};
+  EXPECT_EQ(judged(cluster, {.base_peak = 0.1, .base_peak_sigma = 0.2, .base_is_known = true}).verdict,
+            Verdict::kInputPeak);
 }
 
 TEST(Verdict, APoleOfFewOrdersOrOfHighOrdersOnlyIsNumerical) {
@@ -186,76 +210,6 @@ TEST(Verdict, AFoldThatNothingCanTellIsAmbiguous) {
   PoleCluster cluster = flawless();
   cluster.representative.fold_open = true;
   EXPECT_EQ(judged(cluster).verdict, Verdict::kAmbiguous);
-}
-
-Mode structural(double hz, double presence, double mpc, std::vector<std::complex<double>> shape) {
-  Mode mode;
-  mode.verdict = Verdict::kStructural;
-  mode.frequency_hz = hz;
-  mode.presence = presence;
-  mode.mpc = mpc;
-  mode.shape = std::move(shape);
-  return mode;
-}
-
-TEST(Twins, TheOneOfFewerOrdersIsRejectedAndNamesTheOther) {
-  std::vector<Mode> modes{structural(3.00, 0.90, 0.999, {0.4, 1.0}), structural(3.10, 1.00, 0.95, {0.4, 1.0})};
-  reject_twins(modes);
-  EXPECT_EQ(modes[0].verdict, Verdict::kNumerical);
-  EXPECT_NE(modes[0].reason.find("3.1000"), std::string::npos) << modes[0].reason;
-  EXPECT_EQ(modes[1].verdict, Verdict::kStructural);
-}
-
-TEST(Twins, OfEqualPresenceTheLessCollinearIsRejected) {
-  std::vector<Mode> modes{structural(3.00, 1.0, 0.999, {0.4, 1.0}), structural(3.10, 1.0, 0.95, {0.4, 1.0})};
-  reject_twins(modes);
-  EXPECT_EQ(modes[0].verdict, Verdict::kStructural);
-  EXPECT_EQ(modes[1].verdict, Verdict::kNumerical);
-}
-
-TEST(Twins, AnotherShapeOrAnotherFrequencyIsNoTwin) {
-  std::vector<Mode> modes{structural(3.0, 1.0, 0.99, {0.4, 1.0}), structural(3.1, 0.9, 0.99, {1.0, -0.4}),
-                          structural(3.4, 0.9, 0.99, {0.4, 1.0})};
-  reject_twins(modes);
-  for (const Mode& mode : modes) EXPECT_EQ(mode.verdict, Verdict::kStructural) << mode.frequency_hz;
-}
-
-TEST(Twins, OneWithNextToNoDampingIsASteadyForceBesideTheMode) {
-  for (const bool line_first : {true, false}) {
-    std::vector<Mode> modes{structural(3.0, 0.9, 0.9, {0.4, 1.0}), structural(3.1, 1.0, 0.99, {0.4, 1.0})};
-    const std::size_t line = line_first ? 0 : 1;
-    modes[line].damping_ratio = 1e-5;
-    modes[1 - line].damping_ratio = 0.01;
-    reject_twins(modes);
-    EXPECT_EQ(modes[line].verdict, Verdict::kHarmonic);
-    EXPECT_EQ(modes[1 - line].verdict, Verdict::kStructural) << "whatever the presence";
-    EXPECT_NE(modes[line].reason.find("steady force"), std::string::npos) << modes[line].reason;
-  }
-}
-
-TEST(Twins, TwoOfLittleDampingAreNoLineAndItsMode) {
-  std::vector<Mode> modes{structural(3.0, 0.9, 0.99, {0.4, 1.0}), structural(3.1, 1.0, 0.99, {0.4, 1.0})};
-  modes[0].damping_ratio = 0.0008;
-  modes[1].damping_ratio = 0.0015;
-  reject_twins(modes);
-  EXPECT_EQ(modes[0].verdict, Verdict::kNumerical);
-  EXPECT_EQ(modes[1].verdict, Verdict::kStructural);
-}
-
-TEST(Twins, ARejectedPoleHasNoTwin) {
-  std::vector<Mode> modes{structural(3.0, 0.9, 0.99, {0.4, 1.0}), structural(3.1, 1.0, 0.99, {0.4, 1.0})};
-  modes[1].verdict = Verdict::kInputPeak;
-  reject_twins(modes);
-  EXPECT_EQ(modes[0].verdict, Verdict::kStructural);
-}
-
-TEST(Twins, OfTripletsOneIsLeft) {
-  std::vector<Mode> modes{structural(3.0, 0.9, 0.99, {0.4, 1.0}), structural(3.05, 1.0, 0.99, {0.4, 1.0}),
-                          structural(3.1, 0.95, 0.99, {0.4, 1.0})};
-  reject_twins(modes);
-  EXPECT_EQ(modes[1].verdict, Verdict::kStructural);
-  EXPECT_EQ(modes[0].verdict, Verdict::kNumerical);
-  EXPECT_EQ(modes[2].verdict, Verdict::kNumerical);
 }
 
 TEST(VerdictNames, AreThoseOfTheReport) {

@@ -1,0 +1,98 @@
+#include "core/identification/mode_sigmas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/identification/block_deviations.h"
+#include "core/linear/median.h"
+#include "core/types/constants.h"
+
+namespace core {
+
+namespace {
+
+// Correlation of the power of two half-overlapping Hann-windowed segments: overlap of the squared windows,
+// integral of w(t)^2 w(t + 1/2)^2 over that of w^4 = (3/128) / (35/128).
+constexpr double kOverlapCorrelation = 3.0 / 35.0;
+constexpr double kDeviationPerMedian = 1.4826;
+
+// Factor of a variance that is estimated from blocks as if they were independent. Neighbouring blocks share the overlap
+// of their segments; with r the correlation of neighbouring blocks, the variance of the sum of K is 1 + 2 r (K - 1) / K
+// times the sum of their variances.
+double overlap_factor(const CpsdSums& sums, double n_groups) {
+  const double per_group = std::max(1.0, static_cast<double>(sums.n_segments) / n_groups);
+  const double r = kOverlapCorrelation / (per_group + 2.0 * kOverlapCorrelation * (per_group - 1.0));
+  return 1.0 + 2.0 * r * (n_groups - 1.0) / n_groups;
+}
+
+struct Variances {
+  double frequency_hz = 0.0, damping_ratio = 0.0;
+};
+
+// Median absolute deviation, for normal errors the standard deviation, squared.
+double robust_variance(std::vector<double> deviation) {
+  if (deviation.empty()) return 0.0;
+  for (double& d : deviation) d = std::abs(d);
+  return std::pow(kDeviationPerMedian * median_in_place(deviation), 2);
+}
+
+Variances spread_over_orders(const PoleCluster& line, const std::vector<OrderPole>& poles) {
+  std::vector<double> f, zeta;
+  for (const std::size_t member : line.members) {
+    f.push_back(frequency_hz(poles[member].pole.s) - line.frequency_hz);
+    zeta.push_back(damping_ratio(poles[member].pole.s) - line.damping_ratio);
+  }
+  return {robust_variance(std::move(f)), robust_variance(std::move(zeta))};
+}
+
+// sigma_f / f = sqrt(zeta / (2 pi f T)), sigma_zeta / zeta = 1 / sqrt(2 pi zeta f T).
+Variances lower_bound(const Mode& mode, double duration_s) {
+  const double turns = kTwoPi * mode.frequency_hz * duration_s, zeta = std::max(0.0, mode.damping_ratio);
+  if (!(turns > 0.0)) return {};
+  return {mode.frequency_hz * mode.frequency_hz * zeta / turns, zeta / turns};
+}
+
+double raised(double sigma, double factor, double spread, double bound) {
+  return std::sqrt(std::max(factor * sigma * sigma + spread, bound));
+}
+
+void state(const ModeScatter& scatter, const Variances& spread, const Variances& bound, double factor, Mode& mode) {
+  mode.frequency_std_hz = raised(scatter.frequency_hz, factor, spread.frequency_hz, bound.frequency_hz);
+  mode.damping_std = raised(scatter.damping_ratio, factor, spread.damping_ratio, bound.damping_ratio);
+  mode.shape_std = scatter.shape;
+  for (double& sigma : mode.shape_std) sigma *= std::sqrt(factor);
+}
+
+}  // namespace
+
+double state_sigmas(const SigmaInputs& in, const std::vector<PoleCluster>& lines, std::vector<Mode>& modes) {
+  const std::size_t n_groups = std::min(kScatterBlocks, in.sums.n_blocks);
+  if (n_groups < kLeastScatterBlocks) return 0.0;
+  std::vector<PoleOfOrder> chosen;
+  std::vector<std::size_t> line_of;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (modes[i].verdict == Verdict::kNumerical) continue;
+    chosen.push_back(in.observed[lines[i].i_representative]);
+    line_of.push_back(i);
+  }
+  const DeviationLags lags{in.fit.era.first_lag, 2 * in.fit.era.block_rows, in.fit.n_differences};
+  const auto deviations = block_deviations(in.sums, in.fit.era.references, lags, n_groups);
+  auto changes = pole_changes(in.fit.realisation, in.fit.era, deviations, chosen);
+  const double factor = overlap_factor(in.sums, static_cast<double>(n_groups));
+  const double duration_s = in.sums.n_remembered() / in.sums.rate_hz;
+  for (std::size_t c = 0; c < chosen.size(); ++c) {
+    const PoleCluster& line = lines[line_of[c]];
+    std::vector<std::complex<double>>& shape = chosen[c].pole.shape;
+    const double hz = std::abs(std::arg(chosen[c].pole.lambda)) * in.sums.rate_hz / kTwoPi;
+    const bool leave = in.camera.examine(shape, hz).is_doubtful;
+    shape = in.camera.without(shape, hz, leave);
+    for (PoleChange& change : changes[c]) change.shape = in.camera.without(change.shape, hz, leave);
+    const auto scatter = mode_scatter(chosen[c], line.representative, in.folding, changes[c]);
+    Mode& mode = modes[line_of[c]];
+    if (scatter) state(*scatter, spread_over_orders(line, in.unfolded), lower_bound(mode, duration_s), factor, mode);
+  }
+  return deviations.degrees_of_freedom;
+}
+
+}  // namespace core

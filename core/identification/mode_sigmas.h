@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "core/identification/camera_leakage.h"
+#include "core/identification/folding.h"
+#include "core/identification/model_fit.h"
+#include "core/identification/stabilisation.h"
+#include "core/identification/uncertainty.h"
+#include "core/types/cpsd.h"
+#include "core/types/modal_estimate.h"
+
+namespace core {
+
+// Poles of all orders of one realisation; observed[i] and unfolded[i] are the same pole.
+struct SigmaInputs {
+  const CpsdSums& sums;
+  const ModelFit& fit;
+  const FoldingConfig& folding;
+  const CameraLeakage& camera;
+  const std::vector<PoleOfOrder>& observed;
+  const std::vector<OrderPole>& unfolded;
+};
+
+// Standard deviations of all modes but numerical ones, for which they would be meaningless: from the blocks of the
+// record (uncertainty.h), raised by the overlap of the segments and by the spread of the line's poles over the model
+// orders, and never below the lower bound of any method. modes[i] belongs to lines[i]. Returns the degrees of freedom;
+// 0, and no sigma, for a record of one block.
+double state_sigmas(const SigmaInputs& inputs, const std::vector<PoleCluster>& lines, std::vector<Mode>& modes);
+
+}  // namespace core

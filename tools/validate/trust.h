@@ -1,0 +1,12 @@
+#pragma once
+
+#include "tools/validate/geometry.h"
+
+namespace tools {
+
+// Whether every mode of a record is found, and whether its stated intervals hold: the paper's experiment with a drawn
+// hover and readout time, on a shaken base (white, or with peaks of its own) and in the wind. Prints tab-separated
+// lines.
+void print_trust_modes(const GeometryOptions& options);
+
+}  // namespace tools
