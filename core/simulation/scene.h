@@ -118,6 +118,7 @@ struct LightParameters {
   double gain_corner_hz = 0.2;  // density as the hover's, order 6
   double flicker_depth = 0.0;   // of lamps: light times 1 + depth cos(2 pi f t + phase)
   double flicker_hz = 100.0;
+  double flicker_wander_hz = 0.0;  // rms of its change, in tens of seconds
 };
 
 // Errors that a tracker adds to the true tracks.
@@ -128,7 +129,7 @@ struct TrackParameters {
   double sigma_error = 0.0;         // of the sigma stated per point: sd of the logarithm of stated / true
   double loss_probability = 0.0;    // of a point in a frame
   double pixel_locking_px = 0.0;    // amplitude of an error periodic in the sub-pixel phase
-  double template_zoom_px = 0.0;    // error per unit of magnification since the first frame, in that direction
+  double template_zoom_px = 0.0;    // error per unit of magnification since the first frame, in a direction that turns
   double brightness_bias_px = 0.0;  // error per unit of relative brightness change, in each point's own direction
 };
 

@@ -122,6 +122,7 @@ void validate_effects(const Scene& s) {
   require_range("corner of the light's gain (Hz)", s.light.gain_corner_hz, 0.001, 10.0);
   require_range("depth of the flicker", s.light.flicker_depth, 0.0, 0.9);
   require_range("rate of the flicker (Hz)", s.light.flicker_hz, 0.1, 1e4);
+  require_range("wander of the flicker (Hz)", s.light.flicker_wander_hz, 0.0, 1.0);
   require_range("points per region", s.tracks.points_per_region, 1, 10000);
   require_range("track noise (px)", s.tracks.noise_px, 0.0, 100.0);
   require_range("spread of the track noise over the points", s.tracks.noise_spread, 0.0, 2.0);

@@ -119,6 +119,7 @@ void set_flicker(Scene& s, double size) {
   Draw draw(s.seed, "flicker");
   s.light.flicker_hz = (draw.sign() > 0.0 ? 100.0 : 120.0) + draw.uniform(-0.2, 0.2);
   s.light.flicker_depth = 0.3;
+  s.light.flicker_wander_hz = draw.log_uniform(0.002, 0.03);
   s.tracks.brightness_bias_px = size;
 }
 

@@ -45,6 +45,8 @@ class HeldOut {
   [[nodiscard]] const Rungs& rungs() const noexcept { return rungs_; }
   [[nodiscard]] double share_of(RungSet band) const;  // of the degrees of freedom in time
   [[nodiscard]] double squares(const Eigen::MatrixXd& residual) const;
+  // Prediction errors of points left out, outside the band of the model's added columns; 2 points x frames, in sigmas.
+  [[nodiscard]] Eigen::MatrixXd errors(const Eigen::MatrixXd& residual) const { return high_.errors(residual); }
   [[nodiscard]] double noise_variance() const;  // expected per value, for noise of unit variance
 
   // Of a known pattern, in the rungs where it gains.

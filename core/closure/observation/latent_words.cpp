@@ -1,9 +1,9 @@
 #include "core/closure/observation/latent_words.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "core/closure/observation/smooth_share.h"
 #include "core/closure/observation/strongest_hz.h"
 
 namespace core::closure {
@@ -12,21 +12,6 @@ namespace {
 constexpr double kToldSignal = 0.3;  // smallest share of the amplitude's variance that is reported
 
 std::string percent(double share) { return std::to_string(std::lround(100.0 * share)) + " %"; }
-
-// Share of the field's squares explained by 1, x, y (and x^2, xy, y^2 if quadratic), along u and v separately.
-double smooth_share(const Eigen::VectorXd& field, const PointGeometry& g, bool quadratic) {
-  const Eigen::Index n = g.x.size();
-  Eigen::MatrixXd basis(n, quadratic ? 6 : 3);
-  basis.col(0).setOnes();
-  basis.col(1) = g.x, basis.col(2) = g.y;
-  if (quadratic) {
-    basis.col(3) = g.x.cwiseAbs2(), basis.col(4) = g.x.cwiseProduct(g.y), basis.col(5) = g.y.cwiseAbs2();
-  }
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(basis);
-  const Eigen::MatrixXd values = Eigen::Map<const Eigen::MatrixXd>(field.data(), 2, n).transpose();
-  const Eigen::MatrixXd left = values - basis * qr.solve(values);
-  return 1.0 - left.squaredNorm() / std::max(values.squaredNorm(), 1e-300);
-}
 
 std::string place_words(const Eigen::VectorXd& field, const ObservationRecord& record) {
   std::vector<double> share(record.regions.size(), 0.0);

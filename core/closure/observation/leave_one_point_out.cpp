@@ -31,6 +31,15 @@ LeaveOnePointOut::LeaveOnePointOut(const Eigen::MatrixXd& q) {
   }
 }
 
+Eigen::MatrixXd LeaveOnePointOut::errors(const Eigen::MatrixXd& residual) const {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(residual.rows(), residual.cols());
+  for (std::size_t j = 0; j < hat_.size(); ++j) {
+    const auto at = static_cast<Eigen::Index>(2 * j);
+    if (counted_[j] != 0) out.middleRows(at, 2) = gain(hat_[j]) * residual.middleRows(at, 2);
+  }
+  return out;
+}
+
 double LeaveOnePointOut::squares(const Eigen::MatrixXd& moments) const {
   double sum = 0.0;
   for (std::size_t j = 0; j < hat_.size(); ++j) {

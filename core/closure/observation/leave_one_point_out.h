@@ -11,6 +11,8 @@ class LeaveOnePointOut {
  public:
   explicit LeaveOnePointOut(const Eigen::MatrixXd& q);  // 2 points x columns, orthonormal
 
+  // e of residuals (2 points x frames); zero for points that no others predict.
+  [[nodiscard]] Eigen::MatrixXd errors(const Eigen::MatrixXd& residual) const;
   // Summed squares of e over all frames, from the residuals' second moments (sum of r r').
   [[nodiscard]] double squares(const Eigen::MatrixXd& moments) const;
   // The same with one more orthonormal column g, orthogonal to Q.

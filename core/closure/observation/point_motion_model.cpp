@@ -201,6 +201,11 @@ Eigen::MatrixXd PointMotionModel::at_common_instants(Eigen::MatrixXd series) con
   return series;
 }
 
+Eigen::MatrixXd PointMotionModel::at_own_instants(Eigen::MatrixXd series) const {
+  shift_.advance(series, row_instants());
+  return series;
+}
+
 void PointMotionModel::solve(const Eigen::MatrixXd& positions, double readout_frames, int rounds) {
   readout_frames_ = readout_frames;
   const Eigen::MatrixXd z = positions.colwise() - positions.rowwise().mean();
@@ -222,13 +227,12 @@ void PointMotionModel::solve(const Eigen::MatrixXd& positions, double readout_fr
 }
 
 Eigen::MatrixXd PointMotionModel::residual_px() const {
-  Eigen::MatrixXd out = correlation_.put_back(residual_);
-  shift_.advance(out, row_instants());
+  const Eigen::MatrixXd out = at_own_instants(correlation_.put_back(residual_));
   return (out.array().colwise() * sigma_px_.array()).matrix();
 }
 
 Eigen::RowVectorXd PointMotionModel::zoom_of_point(Eigen::Index point) const {
-  const Eigen::Index row = zoom_row_of_point_[static_cast<std::size_t>(point)];
+  const Eigen::Index row = zoom_row_of(point);
   return row < 0 ? Eigen::RowVectorXd::Zero(amplitude_.cols()).eval() : amplitude_.row(row).eval();
 }
 

@@ -69,6 +69,8 @@ class PointMotionModel {
   [[nodiscard]] Eigen::MatrixXd residual_px() const;  // at the instants of the points' own rows, in the raw image
   // Interpolates series of the points' rows (2 points x frames, px) to the common instants of the last solve().
   [[nodiscard]] Eigen::MatrixXd at_common_instants(Eigen::MatrixXd series) const;
+  // And back.
+  [[nodiscard]] Eigen::MatrixXd at_own_instants(Eigen::MatrixXd series) const;
   // left_of() the series (px) at the common instants, whitened and weighted like the residual.
   [[nodiscard]] Eigen::MatrixXd left_at_common_instants(Eigen::MatrixXd series) const;
   // Series over frames, px (added columns: their unit), one row per column, at the mean instant of the column's points;
@@ -81,7 +83,11 @@ class PointMotionModel {
   [[nodiscard]] Eigen::Index n_own() const noexcept { return n_own_; }  // columns before the added ones
   // Rows of the structure's plane among the own columns: translation along u, along v, zoom.
   [[nodiscard]] Eigen::Index first_plane_row() const noexcept { return n_region_; }
-  // Series of the zoom that moves this point (of the structure's plane or of the background), relative.
+  // Row of the zoom that moves this point (of the structure's plane or of the background) among the own columns; -1:
+  // none. Its series is relative.
+  [[nodiscard]] Eigen::Index zoom_row_of(Eigen::Index point) const noexcept {
+    return zoom_row_of_point_[static_cast<std::size_t>(point)];
+  }
   [[nodiscard]] Eigen::RowVectorXd zoom_of_point(Eigen::Index point) const;
   // Number of leading columns of q_high() and q_low() that stem from own columns.
   [[nodiscard]] Eigen::Index own_rank() const noexcept { return own_rank_; }

@@ -18,6 +18,7 @@ class Light {
  private:
   bool constant_;
   PeriodicSignal gain_;
+  PeriodicSignal wander_rad_;
   double flicker_depth_, flicker_hz_, flicker_phase_rad_;
 };
 

@@ -106,6 +106,8 @@ void add_light_keys(std::vector<SceneKey>& keys) {
   keys.push_back(scene_number("light.gain_corner_hz", "Hz", of<s, &L::gain_corner_hz>, {0.001, 10.0}, "how slow"));
   keys.push_back(scene_number("light.flicker_depth", "", of<s, &L::flicker_depth>, {0.0, 0.9}, "of lamps, relative"));
   keys.push_back(scene_number("light.flicker_hz", "Hz", of<s, &L::flicker_hz>, {0.1, 1e4}, "of lamps"));
+  keys.push_back(scene_number("light.flicker_wander_hz", "Hz", of<s, &L::flicker_wander_hz>, {0.0, 1.0},
+                              "of lamps: rms of its change, in tens of seconds"));
 }
 
 void add_measurement_keys(std::vector<SceneKey>& keys) {

@@ -35,10 +35,6 @@ std::vector<NotObservable> never_observable() {
        "its translation and zoom are free in each frame; any remaining warp appears as a latent "
        "effect",
        "switch the camera's stabilisation off"},
-      {"flicker bands",
-       "tracks contain no brightness; the effect of bands on single points appears as a latent "
-       "effect",
-       "inspect the frames themselves, or expose for a whole period of the lamps"},
       {"tilt of single floors",
        "the model turns the structure as a whole only; the tilt of one floor appears as a latent effect",
        "declare larger regions, or several on one floor"},

@@ -18,6 +18,8 @@
   EFFECT(lens_distortion)                      \
   EFFECT(oblique_view)                         \
   EFFECT(pixel_locking)                        \
+  EFFECT(template_zoom)                        \
+  EFFECT(flicker)                              \
   EFFECT(rocking)                              \
   EFFECT(torsion)                              \
   EFFECT(moving_part)                          \
