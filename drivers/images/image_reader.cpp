@@ -24,6 +24,8 @@ constexpr const char* kSymbol = "_ZN2cv6imreadERKNSt7__cxx1112basic_stringIcSt11
 Imread* load_imread() {
   // The library reads its bound when it is loaded; its own default is 2^30 pixels.
   ::setenv("OPENCV_IO_MAX_IMAGE_PIXELS", std::to_string(Limits::kImagePixels).c_str(), 1);
+  // libjpeg keeps the whole of a progressive image beside its pixels; in thousands of bytes.
+  ::setenv("JPEGMEM", std::to_string(Limits::kJpegBytes / 1000).c_str(), 1);
   void* library = dlopen(HOVERMODAL_IMGCODECS, RTLD_NOW | RTLD_LOCAL);
   void* symbol = library == nullptr ? nullptr : dlsym(library, kSymbol);
   if (symbol == nullptr) {
@@ -37,7 +39,7 @@ Imread* load_imread() {
 void require_usable_png(const std::string& path) {
   constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
   const FileHandle file = open_regular_file(path, "name an image");
-  std::array<char, 24> head{};  // signature, length and name of the first chunk, width, height
+  std::array<char, 26> head{};  // signature, length and name of the first chunk, width, height, bits, kind of colour
   if (read_bytes(file.get(), head.data(), head.size(), path) != head.size()) return;
   if (std::string_view(head.data(), 8) != kSignature) return;
   const auto number = [&head](std::size_t at) {
@@ -46,17 +48,27 @@ void require_usable_png(const std::string& path) {
     return value;
   };
   const std::uint64_t width = number(16), height = number(20);
-  if (width == 0 || height <= Limits::kImagePixels / width) return;
-  throw std::runtime_error("has " + std::to_string(width) + " x " + std::to_string(height) + " pixels, more than " +
-                           std::to_string(Limits::kImagePixels) + " (8192 x 8192): reduce it");
+  const std::uint64_t bytes_a_pixel = (head[25] == 0                    ? 1U
+                                       : head[25] == 2 || head[25] == 3 ? 3U
+                                                                        : 4U) *
+                                      (head[24] == 16 ? 2U : 1U);
+  if (width == 0) return;
+  const std::string size = "has " + std::to_string(width) + " x " + std::to_string(height) + " pixels";
+  if (height > Limits::kImagePixels / width)
+    throw std::runtime_error(size + ", more than " + std::to_string(Limits::kImagePixels) +
+                             " (8192 x 8192): reduce it");
+  if (height > Limits::kImageBytes / bytes_a_pixel / width)
+    throw std::runtime_error(size + " of " + std::to_string(bytes_a_pixel) + " bytes, more than " +
+                             std::to_string(Limits::kImageBytes) +
+                             " bytes: convert it to 8 bits without alpha, or reduce it");
 }
 
 }  // namespace
 
 cv::Mat read_image(const std::string& path, int flags) {
-  static Imread* const imread = load_imread();
   try {
-    require_usable_png(path);
+    require_usable_png(path);  // before the library, which takes 30 MB
+    static Imread* const imread = load_imread();
     return imread(path, flags);
   } catch (const FileError&) {  // a pipe, a device, or nothing
     return {};
