@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <opencv2/core.hpp>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -35,30 +37,52 @@ Imread* load_imread() {
   return reinterpret_cast<Imread*>(symbol);
 }
 
-// States the size in words; for other formats the library's own bound holds.
-void require_usable_png(const std::string& path) {
-  constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
+struct ImageSize {
+  std::uint64_t width = 0, height = 0, bytes_a_pixel = 1;  // width 0: unknown
+};
+
+std::uint64_t big_endian(std::span<const unsigned char> bytes) {
+  std::uint64_t value = 0;
+  for (const unsigned char byte : bytes) value = value << 8U | byte;
+  return value;
+}
+
+// Signature, length and name of the first chunk, width, height, bits of a sample, kind of colour.
+ImageSize size_of_png(std::span<const unsigned char, 26> head) {
+  const unsigned samples = head[25] == 0 ? 1 : head[25] == 2 || head[25] == 3 ? 3 : 4;
+  return {big_endian(head.subspan(16, 4)), big_endian(head.subspan(20, 4)), samples * (head[24] == 16 ? 2U : 1U)};
+}
+
+// Segments of a mark and a length, up to the frame's head: bits of a sample, height, width, number of samples.
+ImageSize size_of_jpeg(std::FILE* file, const std::string& path) {
+  std::array<unsigned char, 10> head{};
+  for (long at = 2; std::fseek(file, at, SEEK_SET) == 0 && read_bytes(file, head.data(), head.size(), path) == 10;) {
+    if (head[0] != 0xFF) return {};
+    const bool is_frame = head[1] >= 0xC0 && head[1] <= 0xCF && head[1] != 0xC4 && head[1] != 0xC8 && head[1] != 0xCC;
+    const std::span<const unsigned char> all(head);
+    if (is_frame) return {big_endian(all.subspan(7, 2)), big_endian(all.subspan(5, 2)), head[9]};
+    at += head[1] == 0xFF ? 1 : 2 + static_cast<long>(big_endian(all.subspan(2, 2)));
+  }
+  return {};
+}
+
+// Before the library is loaded. For formats other than PNG and JPEG the library's own bound holds.
+void require_usable_size(const std::string& path) {
+  constexpr std::string_view kPng("\x89PNG\r\n\x1a\n", 8), kJpeg("\xFF\xD8\xFF", 3);
   const FileHandle file = open_regular_file(path, "name an image");
-  std::array<char, 26> head{};  // signature, length and name of the first chunk, width, height, bits, kind of colour
+  std::array<unsigned char, 26> head{};
   if (read_bytes(file.get(), head.data(), head.size(), path) != head.size()) return;
-  if (std::string_view(head.data(), 8) != kSignature) return;
-  const auto number = [&head](std::size_t at) {
-    std::uint64_t value = 0;
-    for (std::size_t i = at; i < at + 4; ++i) value = value << 8U | static_cast<unsigned char>(head[i]);
-    return value;
-  };
-  const std::uint64_t width = number(16), height = number(20);
-  const std::uint64_t bytes_a_pixel = (head[25] == 0                    ? 1U
-                                       : head[25] == 2 || head[25] == 3 ? 3U
-                                                                        : 4U) *
-                                      (head[24] == 16 ? 2U : 1U);
-  if (width == 0) return;
-  const std::string size = "has " + std::to_string(width) + " x " + std::to_string(height) + " pixels";
-  if (height > Limits::kImagePixels / width)
+  const std::string_view text(reinterpret_cast<const char*>(head.data()), head.size());
+  const ImageSize image = text.starts_with(kPng)    ? size_of_png(head)
+                          : text.starts_with(kJpeg) ? size_of_jpeg(file.get(), path)
+                                                    : ImageSize{};
+  if (image.width == 0) return;
+  const std::string size = "has " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels";
+  if (image.height > Limits::kImagePixels / image.width)
     throw std::runtime_error(size + ", more than " + std::to_string(Limits::kImagePixels) +
                              " (8192 x 8192): reduce it");
-  if (height > Limits::kImageBytes / bytes_a_pixel / width)
-    throw std::runtime_error(size + " of " + std::to_string(bytes_a_pixel) + " bytes, more than " +
+  if (image.bytes_a_pixel != 0 && image.height > Limits::kImageBytes / image.bytes_a_pixel / image.width)
+    throw std::runtime_error(size + " of " + std::to_string(image.bytes_a_pixel) + " bytes, more than " +
                              std::to_string(Limits::kImageBytes) +
                              " bytes: convert it to 8 bits without alpha, or reduce it");
 }
@@ -67,7 +91,7 @@ void require_usable_png(const std::string& path) {
 
 cv::Mat read_image(const std::string& path, int flags) {
   try {
-    require_usable_png(path);  // before the library, which takes 30 MB
+    require_usable_size(path);
     static Imread* const imread = load_imread();
     return imread(path, flags);
   } catch (const FileError&) {  // a pipe, a device, or nothing

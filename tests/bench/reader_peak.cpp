@@ -11,7 +11,6 @@
 #include <string>
 
 #include "drivers/camera/recording/clip_telemetry.h"
-#include "drivers/camera/recording/gray_convert.h"
 #include "drivers/camera/recording/timestamp_file.h"
 #include "drivers/camera/recording/video_decoder.h"
 #include "drivers/images/image_reader.h"
@@ -47,13 +46,10 @@ void tracks(Path path) {
   }
 }
 
+// Without the slot of the ring into which the pixels are converted.
 void image(Path path) {
   const cv::Mat stored = drivers::read_image(path, cv::IMREAD_UNCHANGED);
   if (stored.empty()) throw drivers::FileError(path + ": cannot be decoded");
-  core::Frame gray;
-  gray.width_px = stored.cols, gray.height_px = stored.rows;
-  gray.pixels.resize(stored.total());
-  if (drivers::convert_to_gray(stored, gray) != drivers::GrayStatus::kOk) throw drivers::FileError(path + ": not used");
 }
 
 void video(Path path) {

@@ -9,6 +9,7 @@ cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
 . tools/figures/endurance_faults.sh
 . tools/figures/endurance_memory.sh
+. tools/figures/endurance_running.sh
 take_arguments "tools/figures/endurance.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
 all_or_named 1 2 3 5
 draws 2 3
@@ -250,5 +251,7 @@ figure_1() {
   names
   signals
   small_things
+  senders
+  long_estimate
 }
 run_figures "${figures[@]}"

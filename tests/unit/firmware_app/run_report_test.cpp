@@ -219,6 +219,18 @@ TEST_F(RunReportTest, NeverWritesWhatIsNotFinite) {
   EXPECT_EQ(drivers::read_tracks_csv(path("r/tracks.csv")).first.points.size(), 2U);
 }
 
+TEST_F(RunReportTest, ARecoveredRunSaysSo) {
+  for (const bool is_recovered : {false, true}) {
+    RunReport report = open();
+    if (is_recovered) report.set_recovered();
+    EXPECT_TRUE(report.add(frame(0, 3)));
+    EXPECT_TRUE(report.add(sample(0)));
+    report.finish(estimate(), {}, {});
+    EXPECT_EQ(text_of(path("r/modal.json")).find("\"recovered\": true") != std::string::npos, is_recovered);
+    EXPECT_EQ(read_modal_json(path("r/modal.json")).recovered, is_recovered);
+  }
+}
+
 TEST_F(RunReportTest, IdenticalRunsGiveIdenticalBytes) {
   for (const char* name : {"a", "b/c"}) {
     RunReport report = open(name);
