@@ -24,7 +24,7 @@ def main():
     binaries, library, folder = (Path(a).resolve() for a in sys.argv[1:4])
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    run([binaries / "hovermodal", "simulate", "--size", "320x180", "--duration", "12", "--seed", "5", "--out", folder / "clip"])
+    run([binaries / "hovermodal", "simulate", "--size", "640x360", "--duration", "12", "--seed", "5", "--out", folder / "clip"])
     reports = {}
     for name, steps in (("steady", None), ("stepped", library)):
         keys = {"telemetry.lcm_url": "", "closure.adopt": "off", "spectrum.segment": 64, "identification.period": 1, "tracking.min_distance_px": 3,
