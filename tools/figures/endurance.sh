@@ -252,6 +252,7 @@ figure_1() {
   signals
   small_things
   senders
+  disks
   long_estimate
 }
 run_figures "${figures[@]}"

@@ -46,3 +46,25 @@ long_estimate() {
       "$code == 0 && $took < 5 && $(said "long_$signal" 'did not end in time') > 0 && $([ -s "$work/long_$signal/report.html" ] && [ -s "$work/long_$signal/modal.json" ] && echo 1 || echo 0)"
   done
 }
+
+# A disk that is full for the report, then for the record.
+disks() {
+  local kind modes size
+  for kind in report record; do
+    size=700k
+    [ "$kind" = record ] || size=6m # of which a report holds four for its smaller files
+    mkdir -p "$work/full_$kind"
+    code=0
+    # shellcheck disable=SC2016
+    unshare -rm sh -c 'folder=$1 && mount -t tmpfs -o size=$2 hm "$folder" && shift 2 && "$@"; code=$?; cp "$folder/modal.json" "$folder/../full_modal.json" 2>/dev/null; exit $code' sh \
+      "$work/full_$kind" $size "$bin/hovermodald" --config "$work/clip/config.yaml" "${brief[@]}" --set "$kind.directory=$work/full_$kind" >"$work/full_$kind.log" 2>&1 || code=$?
+    modes=$(number_of_modes "$work/full_modal.json")
+    if [ "$kind" = report ]; then
+      check y.report "exit code $code, tracks.csv named $(said full_report 'tracks.csv') times, modal.json with $modes modes" "exit code 1, the file named, modal.json whole" \
+        "a disk that is full for tracks.csv" "$code == 1 && $(said full_report 'tracks.csv') > 0 && $modes > 0"
+    else
+      check y.record "exit code $code, what is missing in the record told $(said full_record 'are missing in the run record.*No space left') times" "told with its number and the disk" \
+        "a disk that is full for the record" "$(said full_record 'are missing in the run record.*No space left') > 0"
+    fi
+  done
+}
