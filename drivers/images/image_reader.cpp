@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -39,6 +40,7 @@ Imread* load_imread() {
 
 struct ImageSize {
   std::uint64_t width = 0, height = 0, bytes_a_pixel = 1;  // width 0: unknown
+  std::uint64_t beside = 0;                                // bytes that the decoder keeps beside the pixels
 };
 
 std::uint64_t big_endian(std::span<const unsigned char> bytes) {
@@ -53,14 +55,31 @@ ImageSize size_of_png(std::span<const unsigned char, 26> head) {
   return {big_endian(head.subspan(16, 4)), big_endian(head.subspan(20, 4)), samples * (head[24] == 16 ? 2U : 1U)};
 }
 
-// Segments of a mark and a length, up to the frame's head: bits of a sample, height, width, number of samples.
+// Of a progressive image libjpeg keeps all coefficients, two bytes each, of parts that may be subsampled. `parts`:
+// three bytes each, the second the horizontal and vertical share.
+std::uint64_t coefficient_bytes(const ImageSize& image, std::span<const unsigned char> parts) {
+  std::uint64_t sum = 0, most = 1;
+  for (std::size_t i = 1; i < parts.size(); i += 3) {
+    const std::uint64_t share = std::uint64_t{parts[i] / 16U} * (parts[i] % 16U);
+    sum += share, most = std::max(most, share);
+  }
+  return image.width * image.height / most * sum * 2;
+}
+
+// Segments of a mark and a length, up to the frame's head: bits of a sample, height, width, number of parts, the parts.
 ImageSize size_of_jpeg(std::FILE* file, const std::string& path) {
-  std::array<unsigned char, 10> head{};
-  for (long at = 2; std::fseek(file, at, SEEK_SET) == 0 && read_bytes(file, head.data(), head.size(), path) == 10;) {
-    if (head[0] != 0xFF) return {};
+  constexpr std::size_t kFixed = 10, kMostParts = 4;
+  std::array<unsigned char, kFixed + 3 * kMostParts> head{};
+  for (long at = 2; std::fseek(file, at, SEEK_SET) == 0;) {
+    if (read_bytes(file, head.data(), head.size(), path) < kFixed || head[0] != 0xFF) return {};
     const bool is_frame = head[1] >= 0xC0 && head[1] <= 0xCF && head[1] != 0xC4 && head[1] != 0xC8 && head[1] != 0xCC;
     const std::span<const unsigned char> all(head);
-    if (is_frame) return {big_endian(all.subspan(7, 2)), big_endian(all.subspan(5, 2)), head[9]};
+    if (is_frame) {
+      ImageSize image{big_endian(all.subspan(7, 2)), big_endian(all.subspan(5, 2)), head[9]};
+      const std::size_t n_parts = std::min<std::size_t>(head[9], kMostParts);
+      if (head[1] == 0xC2) image.beside = coefficient_bytes(image, all.subspan(kFixed, 3 * n_parts));
+      return image;
+    }
     at += head[1] == 0xFF ? 1 : 2 + static_cast<long>(big_endian(all.subspan(2, 2)));
   }
   return {};
@@ -85,6 +104,10 @@ void require_usable_size(const std::string& path) {
     throw std::runtime_error(size + " of " + std::to_string(image.bytes_a_pixel) + " bytes, more than " +
                              std::to_string(Limits::kImageBytes) +
                              " bytes: convert it to 8 bits without alpha, or reduce it");
+  if (image.beside > Limits::kJpegBytes)
+    throw std::runtime_error(size + " in a progressive JPEG, which takes " + std::to_string(image.beside) +
+                             " bytes beside them, more than " + std::to_string(Limits::kJpegBytes) +
+                             ": save it as baseline, or reduce it");
 }
 
 }  // namespace

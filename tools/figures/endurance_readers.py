@@ -27,7 +27,7 @@ TRACKS_HEAD = "# image_size_px: 480 x 270\n# rate_hz: 25\nframe,t_s,point,region
 def read_limits(root):
     text = (root / "drivers/storage/limits.h").read_text(encoding="utf-8")
     LIMITS.update(kKiB=1 << 10, kMiB=1 << 20)
-    for name, value in re.findall(r"constexpr std::\w+ (k\w+) = ([^;,]+);", text):
+    for name, value in re.findall(r"constexpr std::\w+ (k\w+) =\s+([^;,]+);", text):
         value = re.sub(r"\b(\d+)U\b", r"\1", value.replace("'", ""))
         LIMITS[name] = eval(value, {}, LIMITS)  # constants of our own header
 

@@ -48,9 +48,7 @@ std::vector<fs::path> list_images(const std::string& folder) {
 // Returns why the image cannot be used, or empty. IMREAD_UNCHANGED keeps depth and alpha as stored.
 std::string load(const fs::path& file, cv::Mat& image) try {
   image = read_image(file.string(), cv::IMREAD_UNCHANGED);
-  if (image.empty())
-    return "cannot be decoded: the file is damaged, unreadable, not an image, or a large progressive JPEG (save it as "
-           "baseline)";
+  if (image.empty()) return "cannot be decoded: the file is damaged, unreadable or not an image";
   if (image.depth() == CV_32F || image.depth() == CV_64F) {
     return "has floating-point pixels: convert the images to 8 bits";
   }
