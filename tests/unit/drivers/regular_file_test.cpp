@@ -6,12 +6,14 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "drivers/camera/recording/srt_file.h"
 #include "drivers/camera/recording/timestamp_file.h"
 #include "drivers/storage/attitude_file.h"
 #include "drivers/storage/checkpoint_file.h"
 #include "drivers/storage/csv.h"
+#include "drivers/storage/json.h"
 #include "drivers/storage/limits.h"
 #include "drivers/storage/text_file.h"
 #include "drivers/storage/tracks_file.h"
@@ -106,6 +108,22 @@ TEST(RegularFile, LinesOfTimesAndAttitudesAreBounded) {
   EXPECT_THAT(refusal([&] { (void)read_timestamp_file(path.string()); }),
               AllOf(HasSubstr("5000002 lines are more than 5000000"), HasSubstr("split the recording")));
   EXPECT_THAT(refusal([&] { (void)read_attitude_csv(path.string()); }), HasSubstr("lines are more than 3000000"));
+}
+
+// A list of many objects is read in time with their number; an object of many keys would take its square.
+TEST(RegularFile, JsonIsBoundedInDepthAndKeys) {
+  const fs::path path = test_support::fresh_folder() / "modal.json";
+  const auto refused = [&](const std::string& text) {
+    std::ofstream(path) << text;
+    return refusal([&] { (void)read_json_file(path.string()); });
+  };
+  std::string many = "[", keys = "{";
+  for (std::size_t i = 0; i < 200'000; ++i) many += "{\"a:[{\\\"\":1},";
+  for (std::size_t i = 0; i <= Limits::kJsonKeys; ++i) keys += (i == 0 ? "\"" : ",\"") + std::to_string(i) + "\":1";
+  EXPECT_EQ(refused(many + "{}]"), "");
+  EXPECT_THAT(refused(keys + "}"), HasSubstr("an object has more than 4096 keys"));
+  EXPECT_THAT(refused(std::string(33, '[') + std::string(33, ']')), HasSubstr("nested deeper than 32"));
+  EXPECT_EQ(refused(std::string(32, '[') + std::string(32, ']')), "");
 }
 
 TEST(RegularFile, CommentsOfATableAreBounded) {
