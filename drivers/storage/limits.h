@@ -23,7 +23,7 @@ struct Limits {
   static constexpr std::size_t kGyroRows = 3'000'000;            // of a gyro's file: 50 minutes at 1 kHz
   static constexpr std::size_t kFlightLogRows = 2'000'000;       // of the stretch of a flight log that is asked for
   static constexpr std::uint64_t kRecordEventBytes = 64 * kMiB;  // of one event in a record or log of messages
-  static constexpr std::uint64_t kStateBytes = 256 * kMiB;       // of a checkpoint
+  static constexpr std::uint64_t kStateBytes = 240'000'000;      // of a checkpoint
   static constexpr std::size_t kYamlBytes = kMiB;                // of a configuration, scene or structure
   static constexpr std::size_t kCalibrationBytes = 4 * kMiB;     // calibration programs also write the corners used
   static constexpr std::size_t kJsonBytes = 8 * kMiB;            // of a result or a simulated truth

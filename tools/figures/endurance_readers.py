@@ -27,6 +27,8 @@ TRACKS_HEAD = "# image_size_px: 480 x 270\n# rate_hz: 25\nframe,t_s,point,region
 def read_limits(root):
     text = (root / "drivers/storage/limits.h").read_text(encoding="utf-8")
     LIMITS.update(kKiB=1 << 10, kMiB=1 << 20)
+    version = re.search(r"kCheckpointVersion = (\d+)", (root / "drivers/storage/checkpoint_file.h").read_text(encoding="utf-8"))
+    LIMITS["kCheckpointVersion"] = int(version.group(1))
     for name, value in re.findall(r"constexpr std::\w+ (k\w+) =\s+([^;,]+);", text):
         value = re.sub(r"\b(\d+)U\b", r"\1", value.replace("'", ""))
         LIMITS[name] = eval(value, {}, LIMITS)  # constants of our own header
@@ -186,7 +188,7 @@ class Readers:
         return "calibration"
 
     def configuration(self, path, over):
-        text = "regions: [" + "{name: a}," * 40000 + "{name: a}]\n"
+        text = "regions: [" + "{name: a}," * 30000 + "{name: a}]\n"
         path.write_text(text + "#" * (LIMITS["kYamlBytes"] - len(text) + over - 1) + "\n", encoding="utf-8")
         return "configuration"
 
@@ -213,7 +215,7 @@ class Readers:
     def state(self, path, over):
         n = LIMITS["kStateBytes"] + over
         with open(path, "wb") as out:
-            out.write(b"HMSTATE\n" + struct.pack("<IIQQ", 1, 0, n, 0))
+            out.write(b"HMSTATE\n" + struct.pack("<IIQQ", LIMITS["kCheckpointVersion"], 0, n, 0))
             out.truncate(32 + n)
         return "state"
 
