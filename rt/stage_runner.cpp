@@ -18,10 +18,13 @@ void StageRunner::start() {
   thread_.start(config_, [this] { run(); });
 }
 
-std::int64_t StageRunner::stalled_for_ns(std::int64_t now_ns) const noexcept {
+std::int64_t StageRunner::in_step_for_ns(std::int64_t now_ns) const noexcept {
   const std::int64_t began_ns = step_began_ns_.load(std::memory_order_relaxed);
-  if (began_ns == 0 || finished()) return 0;
-  const std::int64_t for_ns = now_ns - began_ns;
+  return began_ns == 0 || finished() ? 0 : now_ns - began_ns;
+}
+
+std::int64_t StageRunner::stalled_for_ns(std::int64_t now_ns) const noexcept {
+  const std::int64_t for_ns = in_step_for_ns(now_ns);
   return for_ns > stall_limit_ns_ ? for_ns : 0;
 }
 

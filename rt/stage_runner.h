@@ -29,6 +29,8 @@ class StageRunner {
   void be_ordinary() noexcept { config_.fifo_priority = 0, config_.cpu = -1; }
   // Set-up only: a step (or finish()) that takes longer is a stall. More than the 100 ms of an idle wait.
   void set_stall_limit_ns(std::int64_t limit_ns) noexcept { stall_limit_ns_ = limit_ns; }
+  // Any thread: how long the stage has been in one step, or waiting for its next (at most 100 ms); 0: it has ended.
+  [[nodiscard]] std::int64_t in_step_for_ns(std::int64_t now_ns) const noexcept;
   // Any thread: how long the stage has been in one step, if that exceeds its limit; else 0. An idle stage checks
   // for work ten times a second and does not stall.
   [[nodiscard]] std::int64_t stalled_for_ns(std::int64_t now_ns) const noexcept;

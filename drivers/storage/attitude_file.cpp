@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "drivers/storage/csv_lines.h"
+#include "drivers/storage/limits.h"
 #include "drivers/storage/text_file.h"
 
 namespace drivers {
@@ -97,6 +98,7 @@ core::AttitudeSample read_row(const CsvLines& lines, const Cells& cells, const L
 
 std::vector<core::AttitudeSample> read_attitude_csv(const std::string& path) {
   CsvLines lines(path);
+  lines.require_lines(Limits::kAttitudes, "give those of the flight only");
   std::string_view line;
   Cells cells;
   std::optional<Layout> layout;

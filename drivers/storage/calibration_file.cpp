@@ -10,13 +10,14 @@
 #include <map>
 #include <utility>
 
+#include "drivers/storage/limits.h"
 #include "drivers/storage/yaml.h"
 
 namespace drivers {
 namespace {
 
 // Calibration programs also write the corner points used: such files are larger than a configuration.
-constexpr YamlLimits kLimits{.max_bytes = 16U << 20U, .max_depth = 8, .max_nodes = 2000000};
+constexpr YamlLimits kLimits{.max_bytes = Limits::kCalibrationBytes, .max_depth = 8, .max_nodes = 300000};
 
 class CalibrationReader {
  public:

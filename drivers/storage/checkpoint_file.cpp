@@ -98,7 +98,7 @@ std::string write_checkpoint(const std::string& path, std::span<const std::uint8
   }
 }
 
-CheckpointRead read_checkpoint(const std::string& path) {
+CheckpointRead read_checkpoint(const std::string& path, std::uint64_t max_bytes) {
   CheckpointRead out;
   std::error_code error;
   out.exists = std::filesystem::exists(path, error);
@@ -129,7 +129,10 @@ CheckpointRead read_checkpoint(const std::string& path) {
     return refuse("its version is " + std::to_string(head.version) + ", ours is " + std::to_string(kCheckpointVersion));
   }
   const std::uint64_t size = bytes_of(in.get());
-  if (head.n_bytes > Limits::kStateBytes || size != sizeof head + head.n_bytes) {
+  if (head.n_bytes > max_bytes)
+    return refuse(std::to_string(head.n_bytes) + " bytes are more than the " + std::to_string(max_bytes) +
+                  " that this configuration needs at most");
+  if (size != sizeof head + head.n_bytes) {
     return refuse("it is " + std::to_string(size) + " bytes long and should be " +
                   std::to_string(sizeof head + head.n_bytes));
   }

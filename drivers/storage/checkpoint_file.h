@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "drivers/storage/limits.h"
+
 namespace drivers {
 
 // A file of bytes that is whole or refused: magic, version, length, FNV-1a checksum, then the bytes. It is written
@@ -20,7 +22,7 @@ struct CheckpointRead {
   std::vector<std::uint8_t> bytes;
   std::string refused;  // why the file is not used; empty: bytes are complete, or there is no file
 };
-[[nodiscard]] CheckpointRead read_checkpoint(const std::string& path);
+[[nodiscard]] CheckpointRead read_checkpoint(const std::string& path, std::uint64_t max_bytes = Limits::kStateBytes);
 
 // Identity of the current boot of the kernel, within which CLOCK_MONOTONIC continues. Empty: unknown.
 [[nodiscard]] std::string boot_id();

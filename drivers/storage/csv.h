@@ -7,19 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/types/frame.h"
-#include "core/types/track.h"
-
 namespace drivers {
-
-// Content of a tracks.csv. `frames` in order, with seen points only; a TrackFrame's sequence is the file's `frame`, and
-// gap_before is set where frame numbers jump (also where a frame had no point left).
-struct TracksFile {
-  core::CameraInfo camera;                // from the header comments; description = the file's name
-  std::vector<std::string> region_names;  // TrackPoint::region is an index into these
-  std::vector<std::string> region_axes;   // as a configuration writes them; empty: the file does not say
-  std::vector<core::TrackFrame> frames;
-};
 
 // A table of numbers under one line of column names. `#` lines before it are comments; "# key: value" is kept.
 struct SeriesFile {
@@ -44,7 +32,6 @@ struct ForeignFormat {
 
 // All throw FileError "FILE:LINE: ..." on any deviation from the format: ragged rows, text in place of a number,
 // over-long lines, NUL bytes, no header, frames or times that decrease.
-[[nodiscard]] TracksFile read_tracks_csv(const std::string& path);
 [[nodiscard]] SeriesFile read_series_csv(const std::string& path);
 [[nodiscard]] SeriesFile read_foreign_series(const std::string& path, const ForeignFormat& format = {});
 

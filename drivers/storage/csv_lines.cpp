@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstring>
 
@@ -23,6 +24,21 @@ CsvLines::CsvLines(const std::string& path)
 
 void CsvLines::fail(const std::string& what) const {
   throw FileError(fmt::format("{}:{}: {}", path_, line_number_, what));
+}
+
+std::uint64_t CsvLines::count_lines() const {
+  const FileHandle file = open_regular_file(path_, "name a CSV file");
+  std::vector<char> block(kMaxLineBytes);
+  std::uint64_t n = 1;  // the last one may have no end
+  for (std::size_t size = 0; (size = read_bytes(file.get(), block.data(), block.size(), path_)) > 0;)
+    n += static_cast<std::uint64_t>(std::count(block.data(), block.data() + size, '\n'));
+  return n;
+}
+
+void CsvLines::require_lines(std::uint64_t most, const std::string& remedy) const {
+  if (bytes_of(file_.get()) <= most) return;
+  if (const std::uint64_t n = count_lines(); n > most)
+    throw FileError(fmt::format("{}: {} lines are more than {}: {}", path_, n, most, remedy));
 }
 
 bool CsvLines::refill() {

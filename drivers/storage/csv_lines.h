@@ -20,6 +20,10 @@ class CsvLines {
 
   // The next line without its end, valid until the next call; false at the end of the file.
   [[nodiscard]] bool next(std::string_view& line);
+  // Of the whole file, read once more. Throws FileError.
+  [[nodiscard]] std::uint64_t count_lines() const;
+  // Throws FileError where the file has more lines than `most`, before memory is taken for them.
+  void require_lines(std::uint64_t most, const std::string& remedy) const;
   [[noreturn]] void fail(const std::string& what) const;  // throws FileError "PATH:LINE: what"
 
  private:

@@ -8,6 +8,7 @@
 
 #include "drivers/storage/csv.h"
 #include "drivers/storage/csv_lines.h"
+#include "drivers/storage/series_room.h"
 #include "drivers/storage/text_file.h"
 
 namespace drivers {
@@ -46,7 +47,7 @@ class SeriesReader {
     do {
       if (!lines_.next(line)) lines_.fail("no header line with the names of the columns");
       std::string key, value;
-      if (split_comment(line, key, value)) out_.comments[key] = value;
+      if (split_comment(line, key, value)) room_.keep_comment(lines_, key, value, out_);
     } while (line.starts_with('#') || line.empty());
     split_cells(line, cells_);
     if (std::all_of(cells_.begin(), cells_.end(),
@@ -61,6 +62,7 @@ class SeriesReader {
       out_.names.emplace_back(cell);
     }
     out_.columns.resize(out_.names.size());
+    room_.reserve(lines_, out_);
     // Columns that must not decrease.
     i_frame_ = out_.column("frame");
     i_time_ = out_.column("t_s");
@@ -71,6 +73,7 @@ class SeriesReader {
     if (cells_.size() != out_.names.size()) {
       lines_.fail(fmt::format("{} cells instead of {}; is the file cut off?", cells_.size(), out_.names.size()));
     }
+    room_.require(lines_, out_);
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       double value = std::numeric_limits<double>::quiet_NaN();
       if (!cells_[i].empty() && !is_nan_text(cells_[i])) {
@@ -94,6 +97,7 @@ class SeriesReader {
 
   CsvLines lines_;
   SeriesFile out_;
+  SeriesRoom room_;
   std::vector<std::string_view> cells_;
   int i_frame_ = -1, i_time_ = -1;
 };

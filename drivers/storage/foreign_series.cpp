@@ -8,8 +8,8 @@
 
 #include "drivers/storage/csv.h"
 #include "drivers/storage/csv_lines.h"
-#include "drivers/storage/limits.h"
 #include "drivers/storage/series_format.h"
+#include "drivers/storage/series_room.h"
 #include "drivers/storage/text_file.h"
 
 namespace drivers {
@@ -84,7 +84,7 @@ class ForeignReader {
     std::string text(line);
     text.front() = '#';
     std::string key, value;
-    if (split_comment(text, key, value)) out_.comments[key] = value;
+    if (split_comment(text, key, value)) room_.keep_comment(lines_, key, value, out_);
   }
 
   // Up to the second end mark; returns the line after it: names, with a column X_Value and one for comments. Cells
@@ -133,6 +133,7 @@ class ForeignReader {
     for (std::size_t i = 1; is_labview_ && i < out_.units.size() && i <= labview_units_.size(); ++i)
       out_.units[i] = labview_units_[i - 1];
     out_.columns.resize(out_.names.size());
+    room_.reserve(lines_, out_);
     i_frame_ = out_.column("frame");
     i_time_ = out_.column("t_s");
   }
@@ -173,6 +174,7 @@ class ForeignReader {
       lines_.fail(fmt::format("{} cells instead of {}; is the file cut off?", cells_.size(), out_.names.size()));
     }
     cells_.resize(out_.names.size());
+    room_.require(lines_, out_);
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       const double value = cell_value(i);
       require_forward(static_cast<int>(i), value);
@@ -203,6 +205,7 @@ class ForeignReader {
   CsvLines lines_;
   const ForeignFormat& options_;
   SeriesFile out_;
+  SeriesRoom room_;
   CellFormat cell_format_;
   bool is_labview_ = false;
   std::vector<std::string> labview_units_;

@@ -3,17 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "drivers/storage/csv_writer.h"
+#include "drivers/storage/limits.h"
 #include "drivers/storage/text_file.h"
 
 namespace drivers {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr int kMaxDepth = 32;
+constexpr std::size_t kMaxDepth = 32;
 
 class JsonPrinter {
  public:
@@ -74,18 +77,40 @@ class JsonPrinter {
   JsonText out_;
 };
 
+// Before the parser: objects keep their keys in a list that is searched for each key, and the parser's own callback
+// takes time with the square of the number of objects in a list.
+void require_bounded(std::string_view text, const std::string& path) {
+  std::array<std::size_t, kMaxDepth + 1> n_keys{};  // of the open object, by depth
+  std::size_t depth = 0;
+  bool is_text = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (is_text) {
+      if (c == '\\') ++i;
+      is_text = c != '"';
+      continue;
+    }
+    is_text = c == '"';
+    if (c == '[' || c == '{') {
+      if (++depth > kMaxDepth) throw FileError(fmt::format("{}: is nested deeper than {}", path, kMaxDepth));
+      n_keys[depth] = 0;
+    } else if (c == ']' || c == '}') {
+      depth -= depth > 0 ? 1 : 0;
+    } else if (c == ':' && ++n_keys[depth] > Limits::kJsonKeys) {
+      throw FileError(fmt::format("{}: an object has more than {} keys", path, Limits::kJsonKeys));
+    }
+  }
+}
+
 }  // namespace
 
 JsonText to_json_text(const Json& value) { return JsonPrinter().print(value); }
 
 Json read_json_file(const std::string& path, std::size_t max_bytes) {
   const std::string text = read_text_file(path, max_bytes);
-  const auto limit_depth = [&](int depth, Json::parse_event_t, Json&) {
-    if (depth > kMaxDepth) throw FileError(fmt::format("{}: is nested deeper than {}", path, kMaxDepth));
-    return true;
-  };
+  require_bounded(text, path);
   try {
-    return Json::parse(text, limit_depth);
+    return Json::parse(text);
   } catch (const nlohmann::json::exception& error) {
     throw FileError(fmt::format("{}: is no valid JSON: {}", path, printable(error.what(), 200)));
   }

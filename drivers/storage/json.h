@@ -4,6 +4,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "drivers/storage/limits.h"
+
 namespace drivers {
 
 // Text of a JSON value: keys in their order, two spaces per level, lists of plain numbers on one line, numbers as the
@@ -15,7 +17,8 @@ struct JsonText {
 [[nodiscard]] JsonText to_json_text(const nlohmann::ordered_json& value);
 
 // Throws FileError naming the file and the fault: missing, too large, invalid JSON, nested deeper than 32.
-[[nodiscard]] nlohmann::ordered_json read_json_file(const std::string& path, std::size_t max_bytes = 64U << 20U);
+[[nodiscard]] nlohmann::ordered_json read_json_file(const std::string& path,
+                                                    std::size_t max_bytes = Limits::kJsonBytes);
 
 // Writes `text` beside `path` as "<path>.partial", synchronises it to disk, then renames it: a reader finds the old
 // file or the complete new one. Throws FileError; what was written stays as *.partial.

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "drivers/storage/key_suggestion.h"
+#include "drivers/storage/limits.h"
 #include "drivers/storage/yaml.h"
 
 namespace drivers {
@@ -150,7 +151,9 @@ DeclaredFrame parse_structure(const std::string& text, const std::string& name) 
   return frame;
 }
 
-DeclaredFrame read_structure(const std::string& path) { return parse_structure(read_text_file(path, 1U << 20U), path); }
+DeclaredFrame read_structure(const std::string& path) {
+  return parse_structure(read_text_file(path, Limits::kYamlBytes), path);
+}
 
 std::string structure_keys_help() {
   std::string out;

@@ -25,13 +25,18 @@ std::optional<T> parse_all(std::string_view cell) noexcept {
 
 std::string read_text_file(const std::string& path, std::size_t max_bytes) {
   const FileHandle file = open_regular_file(path, "name a regular file");
+  const auto require_fits = [&](std::uint64_t n_bytes) {
+    if (n_bytes > max_bytes)
+      throw FileError(fmt::format("{}: is larger than {} KiB; is this the right file?", path, max_bytes / 1024));
+  };
+  const std::uint64_t stated = bytes_of(file.get());  // files of the kernel state 0
+  require_fits(stated);
   std::string text;
+  text.reserve(static_cast<std::size_t>(stated));
   std::array<char, 65536> block{};
   while (const std::size_t n = read_bytes(file.get(), block.data(), block.size(), path)) {
     text.append(block.data(), n);
-    if (text.size() > max_bytes) {
-      throw FileError(fmt::format("{}: is larger than {} KiB; is this the right file?", path, max_bytes / 1024));
-    }
+    require_fits(text.size());
   }
   return text;
 }

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "drivers/storage/csv_lines.h"
+#include "drivers/storage/limits.h"
 #include "drivers/storage/text_file.h"
 
 namespace drivers {
@@ -40,6 +42,7 @@ class TimedReader {
 
   [[nodiscard]] TimedColumns read() {
     read_header();
+    require_rows();
     std::string_view line;
     while (!at_end_ && lines_.next(line)) {
       if (!bare(line).empty()) read_row(line);
@@ -50,6 +53,27 @@ class TimedReader {
   }
 
  private:
+  // Of a long file, the rows of the stretch are counted before memory is taken for them.
+  void require_rows() const {
+    if (lines_.count_lines() <= Limits::kFlightLogRows) return;
+    CsvLines lines(path_);
+    std::string_view line;
+    std::vector<std::string_view> cells;
+    std::optional<double> first;
+    std::uint64_t n_rows = 0;
+    while (lines.next(line)) {
+      split_quoted_cells(line, cells);
+      const auto unit = i_time_ < cells.size() ? parse_number(cells[i_time_]) : std::nullopt;
+      if (!unit) continue;  // the names, or refused below
+      if (!first) first = wish_.first_row_is_zero ? *unit : 0.0;
+      const double t_s = wish_.offset_s + (*unit - *first) * wish_.seconds_per_unit;
+      if (t_s < wish_.from_s - kTimeSlack_s || t_s > wish_.to_s + kTimeSlack_s) continue;
+      if (++n_rows > Limits::kFlightLogRows)
+        lines.fail(fmt::format("more than {} rows from {:g} to {:g} s are refused; choose a shorter stretch",
+                               Limits::kFlightLogRows, wish_.from_s, wish_.to_s));
+    }
+  }
+
   void read_header() {
     std::string_view line;
     do {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/storage/limits.h"
 #include "drivers/storage/text_file.h"
 
 namespace drivers {
@@ -25,7 +26,7 @@ struct YamlNode {
 };
 
 struct YamlLimits {
-  std::size_t max_bytes = 1U << 20U;
+  std::size_t max_bytes = Limits::kYamlBytes;
   std::size_t max_depth = 8;
   std::size_t max_nodes = 100000;
 };

@@ -68,6 +68,7 @@ template <class Message>
   message.stream_id = clipped(identity.stream_id, kMaxNameBytes);
   message.stream_time_ns = stream_time_ns;
   message.config_hash = static_cast<std::int64_t>(identity.config_hash);
+  message.run_id = static_cast<std::int64_t>(identity.run_id);
   return message;
 }
 

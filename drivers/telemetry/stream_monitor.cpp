@@ -58,6 +58,20 @@ void StreamMonitor::dispatch(Topic topic, const void* data, std::size_t n_bytes,
   }
 }
 
+bool StreamMonitor::follows(std::int64_t run_id, std::int64_t now_ns) noexcept {
+  const SenderWatch::Whose whose = senders_.note(run_id, now_ns);
+  if (whose == SenderWatch::Whose::kNextRun) {
+    for (ChannelCount& count : counts_) count.begin_run();
+  }
+  return whose != SenderWatch::Whose::kOther;
+}
+
+std::vector<std::string> StreamMonitor::sender_warnings() const {
+  std::vector<std::string> out = layouts_.words(prefix_);
+  for (std::string& words : senders_.words(stream_id_)) out.push_back(std::move(words));
+  return out;
+}
+
 // Decodes and counts. Empty if not usable: undecodable, of another stream, or older than the newest known.
 template <class Message>
 std::optional<Message> StreamMonitor::open(Topic topic, const void* data, std::size_t n_bytes, std::int64_t now_ns) {
@@ -73,6 +87,10 @@ std::optional<Message> StreamMonitor::open(Topic topic, const void* data, std::s
     is_following_ = true;
     stream_id_ = message->stream_id;
   } else if (message->stream_id != stream_id_) {
+    ++count.foreign;
+    return std::nullopt;
+  }
+  if (!follows(message->run_id, now_ns)) {
     ++count.foreign;
     return std::nullopt;
   }
@@ -127,7 +145,7 @@ void StreamMonitor::take(hovermodal::spectrum_t message) {
 void StreamMonitor::take(hovermodal::health_t message, std::int64_t now_ns) {
   const std::string_view state = message.state;
   is_finished_ = state.substr(0, 8) == "finished" || state.substr(0, 5) == "fault";
-  if (is_finished_) finished_at_ns_ = now_ns;
+  if (is_finished_) finished_at_ns_ = now_ns, senders_.followed_run_ended();
   const bool same_run = health_ && message.sequence > health_->sequence;
   previous_health_ = same_run ? std::move(health_) : std::nullopt;
   health_ = std::move(message);

@@ -12,6 +12,7 @@
 
 #include "drivers/telemetry/channel_count.h"
 #include "drivers/telemetry/layout_watch.h"
+#include "drivers/telemetry/sender_watch.h"
 #include "drivers/telemetry/topics.h"
 #include "hovermodal/closure_report_t.hpp"
 #include "hovermodal/displacement_t.hpp"
@@ -23,8 +24,8 @@
 namespace drivers {
 
 // A listener's knowledge of a run from LCM messages alone: the newest of everything, and losses on the link. It follows
-// the first stream_id it receives. Accepts any bytes: undecodable messages are counted and change nothing else, except
-// that a sender of another version is reported.
+// the first stream_id it receives, and of several runs that send with it one at a time (sender_watch.h). Accepts any
+// bytes: undecodable messages are counted and change nothing else, except that a sender of another version is reported.
 class StreamMonitor {
  public:
   using Topic = drivers::Topic;
@@ -45,6 +46,9 @@ class StreamMonitor {
   [[nodiscard]] const ChannelCount& count(Topic topic) const noexcept { return counts_[topic]; }
   // Descriptions of senders of another version; empty: none.
   [[nodiscard]] std::vector<std::string> other_versions() const { return layouts_.words(prefix_); }
+  // Descriptions of what is wrong with the senders: of another version, or several with one stream_id; empty: nothing.
+  [[nodiscard]] std::vector<std::string> sender_warnings() const;
+  [[nodiscard]] const SenderWatch& senders() const noexcept { return senders_; }
   [[nodiscard]] const std::string& stream_id() const noexcept { return stream_id_; }  // empty = nothing received
   [[nodiscard]] std::int64_t config_hash() const noexcept { return config_hash_; }
   [[nodiscard]] std::int64_t stream_time_ns() const noexcept { return stream_time_ns_; }
@@ -77,6 +81,7 @@ class StreamMonitor {
   [[nodiscard]] std::uint64_t n_samples() const noexcept { return n_samples_; }
 
  private:
+  [[nodiscard]] bool follows(std::int64_t run_id, std::int64_t now_ns) noexcept;
   template <class Message>
   std::optional<Message> open(Topic topic, const void* data, std::size_t n_bytes, std::int64_t now_ns);
   void take(hovermodal::modal_estimate_t message);
@@ -87,6 +92,7 @@ class StreamMonitor {
 
   std::string prefix_;
   LayoutWatch layouts_;
+  SenderWatch senders_;
   std::array<std::string, kTopics> names_;
   std::array<ChannelCount, kTopics> counts_{};
   std::string stream_id_;

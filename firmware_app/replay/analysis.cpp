@@ -1,8 +1,6 @@
 #include "firmware_app/replay/analysis.h"
 
-#include <stdexcept>
-
-#include "drivers/storage/csv.h"
+#include "drivers/storage/tracks_file.h"
 #include "firmware_app/replay/point_places.h"
 #include "firmware_app/replay/run_folder.h"
 #include "firmware_app/replay/track_replay.h"
@@ -13,14 +11,14 @@ namespace app {
 TracksResult replay_tracks(const AppConfig& declared, const std::string& tracks_path,
                            const std::string& report_directory) {
   const drivers::TracksFile file = drivers::read_tracks_csv(tracks_path);
-  if (file.frames.empty()) throw std::invalid_argument(tracks_path + ": no frame");
   const AppConfig config = with_axes_of(file, declared);
   const core::CameraInfo camera = camera_of_tracks(file, config);
   const PointPlaces places(file, config);
-  std::size_t i_frame = 0;
+  drivers::TracksPass frames(file);
+  core::TrackFrame frame;
   const auto next = [&](core::RecordedFrame& out) {
-    if (i_frame == file.frames.size()) return false;
-    places.spread(file.frames[i_frame++], out.tracks);
+    if (!frames.next(frame)) return false;
+    places.spread(frame, out.tracks);
     return true;
   };
   return replay({{config, camera, places.first(), tracks_path, next}}, report_directory);

@@ -62,7 +62,6 @@ class LevelLoop {
     tracks_path_ = (folder / "tracks.csv").string(), series_path_ = (folder / "displacements.csv").string();
     if (inputs.config && std::filesystem::exists(tracks_path_)) {
       tracks_ = drivers::read_tracks_csv(tracks_path_);
-      if (tracks_->frames.empty()) throw drivers::FileError(tracks_path_ + ": no frame with a point");
       rows_ = rows_of_tracks(*inputs.config, *tracks_);
     } else {
       rows_ = rows_of_displacements(series_path_, inputs.bases);

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "core/types/track.h"
-#include "drivers/storage/csv.h"
+#include "drivers/storage/tracks_file.h"
 #include "firmware_app/config/config.h"
 
 namespace app {
@@ -15,7 +15,7 @@ class PointPlaces {
  public:
   PointPlaces(const drivers::TracksFile& file, const AppConfig& config) {
     for (std::size_t r = 0; r < config.regions.size(); ++r) {
-      for (const core::TrackPoint& point : file.frames.front().points) {
+      for (const core::TrackPoint& point : file.first.points) {
         if (file.region_names[point.region] != config.regions[r].name) continue;
         place_of_id_[point.id] = first_.points.size();
         first_.points.push_back(point);

@@ -9,6 +9,7 @@
 #include "core/closure/response/channel_retime.h"
 #include "core/geometry/channel_displacement.h"
 #include "core/types/constants.h"
+#include "drivers/storage/csv.h"
 #include "drivers/storage/series_format.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/chain/displacement_meter.h"
@@ -77,12 +78,13 @@ MeasuredRows rows_of_tracks(const AppConfig& declared, const drivers::TracksFile
   core::TrackFrame points;
   std::vector<std::uint64_t> number;
   std::vector<double> t_s;
-  for (const core::TrackFrame& frame : file.frames) {
+  drivers::TracksPass frames(file);
+  for (core::TrackFrame frame; frames.next(frame);) {
     places.spread(frame, points);
     (void)meter.begin_frame(points.sequence);
     meter.measure(points, 1, sample);
     number.push_back(frame.sequence);
-    t_s.push_back(1e-9 * static_cast<double>(frame.t_start_ns - file.frames.front().t_start_ns));
+    t_s.push_back(1e-9 * static_cast<double>(frame.t_start_ns - file.first.t_start_ns));
     for (std::size_t c = 0; c < out.series.value.size(); ++c)
       out.series.value[c].push_back(sample.seen[c] != 0 ? sample.value_mm[c] : kNan);
   }

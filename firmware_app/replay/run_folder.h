@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/types/recording_times.h"
-#include "drivers/storage/csv.h"
+#include "drivers/storage/tracks_file.h"
 #include "firmware_app/chain/correction_set.h"
 #include "firmware_app/config/config.h"
 #include "firmware_app/replay/analysis.h"

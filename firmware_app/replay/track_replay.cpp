@@ -77,6 +77,7 @@ class Replay {
       if (!report_directory_.empty())
         report_ = std::make_unique<RunReport>(report_directory_, source.config, source.camera, next->channels(),
                                               region_names(source.config));
+      if (report_ && source.resumed != nullptr) report_->set_recovered();
     }
     view_ = std::move(view);
     analysis_ = std::move(next);

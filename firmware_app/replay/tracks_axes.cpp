@@ -20,13 +20,14 @@ std::vector<core::Region> regions_of(const drivers::TracksFile& file) {
 }  // namespace
 
 AppConfig with_axes_of(const drivers::TracksFile& file, AppConfig config) {
-  if (!seeks_axes(config) || file.frames.empty()) return config;
+  if (!seeks_axes(config)) return config;
   take_axes_of(config, regions_of(file));
   if (!seeks_axes(config)) return config;
   const PointPlaces places(file, config);
   AxisSearch search(config, places.first().points.size());
   core::TrackFrame points = places.first();
-  for (const core::TrackFrame& frame : file.frames) {
+  drivers::TracksPass frames(file);
+  for (core::TrackFrame frame; frames.next(frame);) {
     places.spread(frame, points);
     if (search.is_settled_by(points)) break;
   }

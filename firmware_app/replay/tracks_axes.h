@@ -1,6 +1,6 @@
 #pragma once
 
-#include "drivers/storage/csv.h"
+#include "drivers/storage/tracks_file.h"
 #include "firmware_app/config/config.h"
 
 namespace app {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/closure/observation/recent_tracks.h"
+#include "drivers/host/memory_left.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/chain/observation.h"
 #include "firmware_app/replay/tracks_axes.h"
@@ -17,6 +18,10 @@ namespace app {
 namespace {
 
 constexpr std::uint64_t kMostFrames = 1'000'000;
+
+std::size_t n_frames_of(const drivers::TracksFile& file) {  // with those that are missing
+  return static_cast<std::size_t>(file.last_sequence - file.first.sequence) + 1;
+}
 
 // Columns of points in declared regions, in the order of their first appearance.
 class Columns {
@@ -27,7 +32,8 @@ class Columns {
                                       [&](const core::Region& region) { return region.name == name; });
       region_.push_back(found == config.regions.end() ? -1 : static_cast<int>(found - config.regions.begin()));
     }
-    for (const core::TrackFrame& frame : file.frames) {
+    drivers::TracksPass frames(file);
+    for (core::TrackFrame frame; frames.next(frame);) {
       for (const core::TrackPoint& p : frame.points) {
         if (region_[p.region] < 0 || !column_.emplace(p.id, region_of_point.size()).second) continue;
         region_of_point.push_back(static_cast<std::size_t>(region_[p.region]));
@@ -45,12 +51,22 @@ class Columns {
   std::map<std::uint32_t, std::size_t> column_;
 };
 
+// Positions and sigmas of all frames, and the record made of them.
+void require_memory(const drivers::TracksFile& file, std::size_t n_points) {
+  constexpr double kGB = 1e9;
+  const double needed = 5.0 * sizeof(double) * static_cast<double>(n_frames_of(file)) * static_cast<double>(n_points);
+  if (const auto left = static_cast<double>(drivers::memory_left()); needed > left)
+    throw drivers::FileError(
+        fmt::format("{}: {} points in {} frames take {:.2g} GB, and {:.2g} GB of memory are left; track fewer points "
+                    "(tracking.points_per_region), or divide the record",
+                    file.path, n_points, n_frames_of(file), needed / kGB, left / kGB));
+}
+
 core::closure::ObservationRecord record_of(const drivers::TracksFile& file, const Columns& columns,
                                            const DeclaredObservation& declared) {
-  const std::uint64_t first = file.frames.front().sequence, last = file.frames.back().sequence;
-  core::closure::RecentTracks tracks(declared.record, declared.camera, columns.region_of_point,
-                                     static_cast<std::size_t>(last - first) + 1);
-  for (const core::TrackFrame& frame : file.frames) {
+  core::closure::RecentTracks tracks(declared.record, declared.camera, columns.region_of_point, n_frames_of(file));
+  drivers::TracksPass frames(file);
+  for (core::TrackFrame frame; frames.next(frame);) {
     if (!tracks.begin_frame(frame.sequence)) continue;
     for (const core::TrackPoint& p : frame.points) {
       if (const int column = columns.column(p); column >= 0) tracks.place(static_cast<std::size_t>(column), p);
@@ -68,15 +84,15 @@ TracksRecord read_tracks_record(const std::string& path, const AppConfig& config
 }
 
 TracksRecord tracks_record(const drivers::TracksFile& file, const std::string& file_path, const AppConfig& given) {
-  if (file.frames.empty()) throw drivers::FileError(file_path + ": no frame with a point");
-  if (file.frames.back().sequence - file.frames.front().sequence >= kMostFrames)
+  if (n_frames_of(file) > kMostFrames)
     throw drivers::FileError(fmt::format("{}: frame numbers extend over {} frames, at most {} are allowed", file_path,
-                                         file.frames.back().sequence - file.frames.front().sequence + 1, kMostFrames));
+                                         n_frames_of(file), kMostFrames));
   const AppConfig config = with_axes_of(file, given);
   TracksRecord out;
   const Columns columns(file, config);
   if (columns.region_of_point.empty())
     throw drivers::FileError(file_path + ": no point lies in a region of the configuration; is it that of the run?");
+  require_memory(file, columns.region_of_point.size());
   DeclaredObservation declared = declared_observation(config, file.camera);
   out.record = record_of(file, columns, declared);
   out.warnings = std::move(declared.warnings);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/closure/observation/observation_record.h"
-#include "drivers/storage/csv.h"
+#include "drivers/storage/tracks_file.h"
 #include "firmware_app/config/config.h"
 
 namespace app {

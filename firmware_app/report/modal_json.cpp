@@ -198,6 +198,7 @@ std::string modal_json(const ModalReport& report, std::size_t* n_not_finite) {
   out["readout"] = readout_json(estimate.readout);
   out["corrections"] = report.corrections;
   out["caveats"] = report.caveats;
+  if (report.recovered) out["recovered"] = true;
   out["losses"] = losses_json(report.losses);
   if (report.losses.times.known()) out["recording"] = recording_json(report.losses.times);
   drivers::JsonText text = drivers::to_json_text(out);

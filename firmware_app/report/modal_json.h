@@ -21,6 +21,7 @@ struct ModalReport {
   core::Health losses;
   std::vector<std::string> caveats = {};   // what the result leaves open, for a reader
   std::vector<core::Region> regions = {};  // of a run from pictures: name and axis are written
+  bool recovered = false;  // the record includes that of a run that did not come to its end; written only if true
 };
 
 [[nodiscard]] std::string_view to_text(Method method) noexcept;

@@ -41,6 +41,8 @@ class ModalReader {
     if (const Json* readout = find(root, "readout")) estimate.readout = readout_of(*readout);
     report_.corrections = texts(root, "corrections");
     report_.caveats = texts(root, "caveats");
+    const Json* recovered = find(root, "recovered");
+    report_.recovered = recovered != nullptr && recovered->is_boolean() && recovered->get<bool>();
     if (const Json* losses = find(root, "losses")) read_losses(*losses);
     if (const Json* recording = find(root, "recording")) read_recording(*recording);
     return std::move(report_);

@@ -46,6 +46,8 @@ class RunReport {
               const std::vector<std::string>& caveats = {}, const core::closure::ClosureReport* closure = nullptr,
               const Draw& draw = {});
 
+  // The run went on with the state of one that did not come to its end: modal.json says `recovered`.
+  void set_recovered() noexcept { recovered_ = true; }
   // What an earlier run left unfinished in the folder, in words; empty: nothing.
   [[nodiscard]] const std::string& remark() const noexcept { return folder_.remark(); }
 
@@ -74,6 +76,7 @@ class RunReport {
   std::optional<drivers::CsvWriter> displacements_;
   std::uint64_t n_per_flush_;  // samples between two flushes: what a killed run can lose
   std::uint64_t n_samples_ = 0;
+  bool recovered_ = false;
   std::uint64_t n_items_lost_ = 0;
   std::uint64_t n_not_finite_ = 0;
 };

@@ -37,6 +37,7 @@ DataFlow::DataFlow(const AppConfig& c, std::unique_ptr<drivers::Camera> camera,
   if (report && !report->remark().empty()) health.warn(report->remark());
   const std::optional<RunState> resumed = keeps_state() ? keep_state() : std::nullopt;
   if (resumed) checkpoint.go_on_with(resumed->modes);
+  if (resumed && report) report->set_recovered();
   if (recorder)
     recorder->begin(
         run_head(config, source.info, source.keyframe, source.keyframe_image(), resumed ? &*resumed : nullptr));

@@ -53,7 +53,9 @@ std::string write_keyframe(const std::string& path, std::uint64_t config_hash, c
 
 KeyframeRead read_keyframe(const std::string& path, std::uint64_t config_hash, const core::CameraInfo& camera,
                            std::size_t n_regions) {
-  const drivers::CheckpointRead read = drivers::read_checkpoint(path);
+  const auto n_pixels = static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
+  constexpr std::uint64_t kBeside = 16U << 20U;  // points
+  const drivers::CheckpointRead read = drivers::read_checkpoint(path, n_pixels + kBeside);
   if (!read.exists) return {};
   if (!read.refused.empty()) return {{}, "the keyframe in " + path + ": " + read.refused};
   KeptKeyframe kept;
@@ -65,7 +67,6 @@ KeyframeRead read_keyframe(const std::string& path, std::uint64_t config_hash, c
   } catch (const std::runtime_error& e) {
     return {{}, "the keyframe in " + path + ": " + e.what()};
   }
-  const auto n_pixels = static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px);
   if (hash != config_hash) return {{}, "the keyframe's configuration was different"};
   if (kept.image.width_px != camera.width_px || kept.image.height_px != camera.height_px ||
       kept.image.pixels.size() != n_pixels)

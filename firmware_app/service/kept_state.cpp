@@ -41,7 +41,9 @@ std::optional<RunState> resume_state(const std::string& path, const RunState& vi
                                      ModeIdentification& modes, HealthCollector& health) {
   std::string refused;
   try {
-    const drivers::CheckpointRead read = drivers::read_checkpoint(path);
+    constexpr std::uint64_t kBeside = 1U << 20U;  // names, hashes, lengths
+    const drivers::CheckpointRead read =
+        drivers::read_checkpoint(path, spectra.state_bytes() + modes.state_bytes() + kBeside);
     if (!read.exists) return {};
     refused = read.refused;
     if (refused.empty()) {

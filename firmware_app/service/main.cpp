@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 
 #include "drivers/camera/device_missing.h"
@@ -19,6 +20,13 @@
 namespace {
 
 enum ExitCode : int { kDone = 0, kFault = 1, kUsage = 2, kDeviceMissing = 3, kRealTimeRefused = 4 };
+
+// A thread in an estimate that was not waited for uses the pipeline until the process ends.
+[[noreturn]] void end_process(ExitCode code) {
+  spdlog::shutdown();
+  std::fflush(nullptr);
+  std::_Exit(code);
+}
 
 int run(const app::AppConfig& config) {
   const app::SignalWatch signals;  // before any thread starts: threads inherit the signal mask
@@ -44,6 +52,7 @@ int run(const app::AppConfig& config) {
   // A flight that was stopped ends at once; a recording that reached its end is analysed once more as a whole.
   const auto goes_on = [&] { return service.tick({}), !signals.stop_requested(); };
   if (is_done && !was_stopped) app::diagnose_run(pipeline.config(), outcome, goes_on);
+  if (outcome.leaves_threads) end_process(is_done ? kDone : kFault);
   return is_done ? kDone : kFault;
 }
 

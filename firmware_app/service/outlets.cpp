@@ -6,6 +6,7 @@
 
 #include "drivers/storage/text_file.h"
 #include "drivers/telemetry/publisher_factory.h"
+#include "drivers/telemetry/run_identity.h"
 #include "firmware_app/config/core_config.h"
 #include "firmware_app/report/pictures/pictures.h"
 #include "firmware_app/report/run_findings.h"
@@ -44,7 +45,7 @@ std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config, driv
   return drivers::make_publisher({t.lcm_url,
                                   t.channel_prefix,
                                   t.log_file,
-                                  {t.stream_id, config.hash},
+                                  {t.stream_id, config.hash, drivers::run_identity()},
                                   t.max_kbit_s,
                                   recorder != nullptr ? recorder->log() : nullptr},
                                  &warning);

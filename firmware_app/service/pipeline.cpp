@@ -15,6 +15,7 @@
 #include "firmware_app/service/data_flow.h"
 #include "firmware_app/service/found_axes.h"
 #include "firmware_app/service/preflight.h"
+#include "rt/clock.h"
 
 namespace app {
 
@@ -56,24 +57,60 @@ void Pipeline::start() {
     start_runner(**runner, rt_config, flow_->health);
 }
 
-void Pipeline::request_stop() noexcept { flow_->capture.request_stop(); }
+void Pipeline::request_stop() noexcept {
+  std::int64_t none = 0;
+  stop_ns_.compare_exchange_strong(none, rt::monotonic_ns(), std::memory_order_relaxed);
+  flow_->capture.request_stop();
+}
+
+bool Pipeline::is_left(const rt::StageRunner& runner) const noexcept {
+  return (leaves_estimate_ && &runner == &flow_->run_identification) ||
+         (leaves_diagnosis_ && &runner == &flow_->run_closure);
+}
+
+// A step that was begun before the stop is measured from the stop on.
+void Pipeline::leave_the_late() noexcept {
+  const std::int64_t stop_ns = stop_ns_.load(std::memory_order_relaxed);
+  if (stop_ns == 0) return;
+  const std::int64_t now_ns = rt::monotonic_ns();
+  const auto is_late = [&](const rt::StageRunner& runner, std::int64_t patience_ns) {
+    return std::min(runner.in_step_for_ns(now_ns), now_ns - stop_ns) > patience_ns;
+  };
+  const bool has_estimate = flow_->publish.n_estimates() > 0;
+  if (!leaves_estimate_ && is_late(flow_->run_identification, has_estimate ? kPatience_ns : kPatienceFirst_ns)) {
+    leaves_estimate_ = true;
+    flow_->spectrum.stop_waiting();
+    flow_->publish.go_on_without(PublishStage::kEstimate);
+  }
+  if (!leaves_diagnosis_ && is_late(flow_->run_closure, kPatience_ns)) {
+    leaves_diagnosis_ = true;
+    flow_->tracking.stop_waiting();
+    flow_->publish.go_on_without(PublishStage::kDiagnosis);
+  }
+}
 
 bool Pipeline::running() noexcept {
+  leave_the_late();
   const auto& runners = flow_->runners;
   for (std::size_t i = runners.size(); i-- > 0;) {
     if (!runners[i]->faulted()) continue;
     for (std::size_t upstream = 0; upstream < i; ++upstream) runners[upstream]->abort();  // their output has no reader
   }
   for (rt::StageRunner* runner : runners) {
-    if (!runner->finished()) return true;
+    if (!runner->finished() && !is_left(*runner)) return true;
   }
   return false;
 }
 
 Pipeline::Outcome Pipeline::join() {
-  for (rt::StageRunner* runner : flow_->runners) runner->join();
-  flow_->source.camera->stop();
   Outcome outcome;
+  for (rt::StageRunner* runner : flow_->runners) {
+    if (is_left(*runner) && !runner->finished())
+      outcome.leaves_threads = true;
+    else
+      runner->join();
+  }
+  flow_->source.camera->stop();
   for (const rt::StageRunner* runner : flow_->runners)
     outcome.stages_ended_ns = std::max(outcome.stages_ended_ns, runner->steps_ended_ns());
   outcome.estimate = flow_->publish.last_estimate();

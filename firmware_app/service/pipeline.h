@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -13,6 +14,7 @@
 #include "drivers/storage/folder_claim.h"
 #include "drivers/telemetry/publisher.h"
 #include "firmware_app/config/config.h"
+#include "rt/stage_runner.h"
 
 namespace app {
 
@@ -34,6 +36,8 @@ class Pipeline {
     std::vector<std::string> notes;    // e.g. a truncated clip
     std::int64_t stages_ended_ns = 0;  // CLOCK_MONOTONIC at the last stage's last step, before the report is written
     std::string page;                  // path of report.html; empty: no report was requested
+    // A thread is still in an estimate that was not waited for: everything is written; end the process by std::_Exit.
+    bool leaves_threads = false;
   };
 
   // Throws ConfigError (configuration does not fit the source), drivers::FolderInUse, drivers::DeviceMissing,
@@ -48,11 +52,16 @@ class Pipeline {
 
   // Starts the threads back to front. Throws std::system_error when a real-time priority is refused and rt.required.
   void start();
-  // Takes no further frame; frames already captured are processed. Any thread.
+  // Takes no further frame; frames already captured are processed. An estimate or a report of residual diagnosis that
+  // does not end in time is not waited for (kPatience...). Any thread.
   void request_stop() noexcept;
   // False when every stage has ended. Call it regularly: it also ends the other stages when one fails.
   [[nodiscard]] bool running() noexcept;
   [[nodiscard]] Outcome join();
+
+  // How long one step of identification may go on after a stop, before the first estimate of the run and later; and one
+  // of residual diagnosis.
+  static constexpr std::int64_t kPatienceFirst_ns = 1'200'000'000, kPatience_ns = 3'500'000'000;
 
   [[nodiscard]] core::Health health() const;
   // Describes the stage that has been in one step for too long; empty: none. Any thread.
@@ -65,8 +74,13 @@ class Pipeline {
   [[nodiscard]] std::vector<std::string> warnings() const;
 
  private:
+  void leave_the_late() noexcept;
+  [[nodiscard]] bool is_left(const rt::StageRunner& runner) const noexcept;
+
   std::vector<std::shared_ptr<drivers::FolderClaim>> claims_;  // of the folders that the run writes into
   std::unique_ptr<DataFlow> flow_;
+  std::atomic<std::int64_t> stop_ns_{0};  // CLOCK_MONOTONIC of the first request; relaxed: independent; 0: none
+  bool leaves_estimate_ = false, leaves_diagnosis_ = false;  // main thread
 };
 
 // Checks all that can be checked without running: opens the source, compares regions, seeds. For --check. Returns how

@@ -130,6 +130,8 @@ bool Progress::finish(const Pipeline::Outcome& outcome) {
         "telemetry.log_file",
         h.messages_failed, h.messages_sent);
   }
+  if (outcome.leaves_threads)
+    spdlog::warn("an estimate or report of residual diagnosis that did not end in time is left out");
   for (const std::string& note : outcome.notes) spdlog::warn("{}", note);
   spdlog::info("{} modes from {:.1f} s ({} segments){}", outcome.estimate.modes.size(), outcome.estimate.duration_s,
                outcome.estimate.n_segments, outcome.estimate.status == "ok" ? "" : ": " + outcome.estimate.status);

@@ -11,9 +11,11 @@
 #include "drivers/storage/calibration_file.h"
 #include "drivers/storage/csv.h"
 #include "drivers/storage/text_file.h"
+#include "drivers/storage/tracks_file.h"
 #include "firmware_app/config/config.h"
 #include "firmware_app/report/modal_json.h"
 #include "tests/support/places.h"
+#include "tests/support/track_frames.h"
 
 namespace {
 
@@ -209,9 +211,9 @@ TEST_F(FuzzFile, TracksGiveFramesOrFileError) {
   for (int k = 0; k < 20; ++k) text += std::to_string(k) + ",0." + std::to_string(100 + k) + ",1,a,10.5,20.5,0.05\n";
   fuzz<drivers::FileError>(text, 3000, [&](const std::string& mutation) {
     const drivers::TracksFile tracks = drivers::read_tracks_csv(write(mutation));
-    for (std::size_t k = 1; k < tracks.frames.size(); ++k)
-      ASSERT_GT(tracks.frames[k].t_start_ns, tracks.frames[k - 1].t_start_ns);
-    for (const auto& frame : tracks.frames)
+    const std::vector<core::TrackFrame> frames = tests::frames_of(tracks);
+    for (std::size_t k = 1; k < frames.size(); ++k) ASSERT_GT(frames[k].t_start_ns, frames[k - 1].t_start_ns);
+    for (const auto& frame : frames)
       for (const auto& point : frame.points) ASSERT_LT(point.region, tracks.region_names.size());
   });
 }

@@ -147,6 +147,26 @@ TEST(GroundWeb, EventsGoToEveryListenerAndNoMoreListenersThanHaveRoom) {
   EXPECT_EQ(status_of(site.ask(get("/"))), 200);
 }
 
+TEST(GroundWeb, IdleListenersOfOneAddressDoNotKeepOthersOut) {
+  WebOptions options;
+  options.limits.max_event_streams = 3;
+  const Site site(options);
+  std::vector<RawConnection> idle;
+  for (int i = 0; i < 3; ++i) {
+    idle.emplace_back(site.server.port());
+    idle.back().send(get("/events"));
+    EXPECT_NE(idle.back().receive("data: ").find("text/event-stream"), std::string::npos);
+  }
+  for (const std::uint8_t source : {std::uint8_t{2}, std::uint8_t{3}, std::uint8_t{4}}) {
+    RawConnection other(site.server.port(), source);
+    other.send(get("/events"));
+    const std::string answer = other.receive("data: ");
+    EXPECT_EQ(status_of(answer), source < 4 ? 200 : 503) << "each address has one then: " << answer;
+    idle.push_back(std::move(other));
+  }
+  EXPECT_EQ(site.server.counts().displaced, 2U);
+}
+
 TEST(GroundWeb, TwoHundredSlowClientsDoNotKeepANormalOneWaiting) {
   WebOptions options;
   options.limits.max_connections = 64;

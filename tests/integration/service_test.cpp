@@ -185,6 +185,26 @@ TEST_P(ServiceSignal, EndsARunWellWithACompleteReport) {
 
 INSTANTIATE_TEST_SUITE_P(Interrupts, ServiceSignal, ::testing::Values(SIGINT, SIGTERM, SIGHUP));
 
+// Block rows near the lags that a segment has: one estimate takes many seconds. The report is that of the run without
+// it.
+TEST_P(ServiceSignal, EndsARunInALongEstimateWithACompleteReport) {
+  const auto folder = own_folder();
+  std::vector<std::string> arguments{tests::kService};
+  for (const std::string& a : clip_arguments({"--set", "spectrum.segment=512", "--set", "identification.block_rows=200",
+                                              "--set", "identification.period=1", "--report", folder.string()}))
+    arguments.push_back(a);
+  tests::ChildProcess service(arguments);
+  ASSERT_TRUE(service.wait_for("channel base")) << service.output();
+  std::this_thread::sleep_for(std::chrono::milliseconds(3000));
+  service.signal(GetParam());
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(service.wait_for_exit(), 0) << service.output();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
+  expect_complete_report(folder);
+  EXPECT_THAT(service.output(), HasSubstr("did not end in time is left out"));
+  EXPECT_THAT(tests::file_text(folder / "modal.json"), HasSubstr("stopped during an estimate"));
+}
+
 TEST(Service, AFaultInMidRunIsExitCode1AndFlushesWhatCameBefore) {
   const auto folder = own_folder();
   const auto images = folder / "images";

@@ -43,6 +43,7 @@ export function showNotice(state, { isOpen, silent_s, isPaused, run }) {
   const link = state.link, node = byId("notice");
   let say = run;
   if (isPaused) say = "Paused: what comes is kept and shown when you go on.";
+  if (link && link.warnings && link.warnings.length > 0) say = link.warnings.join(" ");
   if (link && link.heard && link.silent_s > 3 && !link.finished) {
     say = "The link is silent: nothing heard from the aircraft for " + Math.round(link.silent_s) + " s. What is shown is old.";
   }

@@ -35,7 +35,14 @@ std::vector<TimedPayload> read_payloads(const std::string& video, std::string& t
   if (!container.has_stream()) return out;
   const AvHandle<AVPacket> packet(av_packet_alloc());
   if (!packet) throw std::bad_alloc();
+  std::size_t n_bytes = 0;
   while (out.size() < kMostPackets && container.next(*packet)) {
+    n_bytes += static_cast<std::size_t>(packet->size);
+    if (n_bytes > Limits::kRawTelemetryBytes) {
+      if (trouble.empty())
+        trouble = fmt::format("more than {} bytes; the rest is left out", Limits::kRawTelemetryBytes);
+      break;
+    }
     const std::int64_t tick = packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts;
     if (tick == AV_NOPTS_VALUE) continue;
     try {

@@ -10,7 +10,9 @@
 #include <stdexcept>
 
 #include "drivers/camera/recording/ascii.h"
+#include "drivers/storage/csv_lines.h"
 #include "drivers/storage/limits.h"
+#include "drivers/storage/regular_file.h"
 #include "drivers/storage/text_file.h"
 
 namespace drivers {
@@ -19,7 +21,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMostBlocks = 1'000'000;
+constexpr std::size_t kMostBlocks = Limits::kSubtitleBlocks;
+
+// Before the text is read: every block has a line with an arrow.
+void require_few_blocks(const std::string& path) {
+  if (bytes_of(open_regular_file(path, "name an .SRT file", Limits::kSubtitleBytes).get()) <= kMostBlocks) return;
+  CsvLines lines(path);
+  std::string_view line;
+  for (std::size_t n = 0; lines.next(line);) {
+    if (line.find("-->") != std::string_view::npos && ++n > kMostBlocks)
+      lines.fail(fmt::format("more than {} blocks", kMostBlocks));
+  }
+}
 
 bool is_word(char c) noexcept { return is_letter(c) || c == '_'; }
 
@@ -240,7 +253,10 @@ class Parser {
 
 SrtFile parse_srt(std::string_view text, const std::string& name) { return Parser(name).parse(text); }
 
-SrtFile read_srt(const std::string& path) { return parse_srt(read_text_file(path, Limits::kSubtitleBytes), path); }
+SrtFile read_srt(const std::string& path) {
+  require_few_blocks(path);
+  return parse_srt(read_text_file(path, Limits::kSubtitleBytes), path);
+}
 
 std::string find_srt(const std::string& video) {
   const fs::path path = fs::absolute(video).lexically_normal();

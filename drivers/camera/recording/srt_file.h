@@ -28,9 +28,9 @@ struct SrtFile {
 
 // Any text of numbered blocks, in all known layouts of DJI (FrameCnt or SrtCnt with [key : value], HOME / GPS / ISO
 // lines, F/2.8, SS 160, ISO 100 ... lines). Throws std::runtime_error "NAME:LINE: what": no block, a block without any
-// known value, or more than a million blocks.
+// known value, or more blocks than Limits::kSubtitleBlocks.
 [[nodiscard]] SrtFile parse_srt(std::string_view text, const std::string& name);
-[[nodiscard]] SrtFile read_srt(const std::string& path);  // refuses files over 512 MB
+[[nodiscard]] SrtFile read_srt(const std::string& path);  // refuses more than Limits::kSubtitleBytes
 
 // "FLIGHT.SRT" or "FLIGHT.srt" beside "FLIGHT.MP4"; empty: none.
 [[nodiscard]] std::string find_srt(const std::string& video);

@@ -46,6 +46,7 @@ class Reader {
   explicit Reader(const std::string& path) : path_(path), in_(path) {}
 
   std::vector<std::int64_t> read() {
+    in_.require_lines(Limits::kTimestamps, "split the recording");
     std::string_view line;
     if (!next_line(line))
       throw std::runtime_error(fmt::format("{}: empty: write 'frame,t_s' and a line per frame", path_));
@@ -95,8 +96,6 @@ class Reader {
                          t_ns == stamps_ns_.back() ? "repeats" : "runs backward from",
                          static_cast<double>(stamps_ns_.back()) * 1e-9));
     }
-    if (stamps_ns_.size() == Limits::kTimestamps)
-      refuse(line, fmt::format("more than {} frames are refused: split the recording", Limits::kTimestamps));
     stamps_ns_.push_back(t_ns);
   }
 

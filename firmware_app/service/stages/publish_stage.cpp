@@ -9,7 +9,20 @@ namespace app {
 
 namespace {
 constexpr std::int64_t kHealthPeriodNs = 1'000'000'000;
+
+// A caveat of the report for each.
+std::vector<std::string> late_words(std::uint32_t late) {
+  std::vector<std::string> out;
+  if ((late & PublishStage::kEstimate) != 0)
+    out.emplace_back(
+        "the run was stopped during an estimate that did not end in time: the modes are those of the estimate before "
+        "it; replay the run's record or tracks for the last one");
+  if ((late & PublishStage::kDiagnosis) != 0)
+    out.emplace_back("the run was stopped during residual diagnosis, whose last report did not end in time");
+  return out;
 }
+
+}  // namespace
 
 PublishStage::PublishStage(Ends ends, Outlets outlets) : ends_(std::move(ends)), outlets_(std::move(outlets)) {}
 
@@ -35,8 +48,9 @@ rt::StepStatus PublishStage::step() noexcept {
     rt::StageStats::add(stats().n_in);
     return rt::StepStatus::kWorked;
   }
-  const bool is_over =
-      ends_.records.finished() && ends_.results.finished() && (!ends_.closures || ends_.closures->finished());
+  const std::uint32_t late = late_.load(std::memory_order_relaxed);
+  const bool is_over = ends_.records.finished() && (ends_.results.finished() || (late & kEstimate) != 0) &&
+                       (!ends_.closures || ends_.closures->finished() || (late & kDiagnosis) != 0);
   return is_over ? rt::StepStatus::kFinished : rt::StepStatus::kIdle;
 }
 
@@ -92,6 +106,7 @@ void PublishStage::complete_report(const core::Health& health) {
   if (outlets_.findings) {
     for (std::string& words : outlets_.findings()) caveats.push_back(std::move(words));
   }
+  for (std::string& words : late_words(late_.load(std::memory_order_relaxed))) caveats.push_back(std::move(words));
   if (outlets_.report == nullptr) return;
   outlets_.report->finish(last_estimate_, health, outlets_.corrections, caveats, closure(),
                           [&](const std::string& folder) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -57,6 +58,13 @@ class PublishStage : public rt::Stage {
   [[nodiscard]] rt::StepStatus step() noexcept override;
   void finish() noexcept override;
 
+  // What of a stopped run is not waited for any more, because it takes too long.
+  enum Late : std::uint32_t { kEstimate = 1, kDiagnosis = 2 };
+  // Any thread. The report is then completed without it and says so.
+  void go_on_without(Late late) noexcept {
+    late_.fetch_or(late, std::memory_order_relaxed);  // independent of other data; partner: step(), finish()
+    wakeup().nudge();
+  }
   // Any thread: estimates published so far. Stored with release after `last_estimate_` is complete; see
   // last_estimate().
   [[nodiscard]] std::uint64_t n_estimates() const noexcept { return n_estimates_.load(std::memory_order_acquire); }
@@ -83,6 +91,7 @@ class PublishStage : public rt::Stage {
   std::uint64_t n_records_ = 0;
   std::int64_t next_health_ns_ = 0;
   std::atomic<std::uint64_t> n_estimates_{0};
+  std::atomic<std::uint32_t> late_{0};
 };
 
 }  // namespace app

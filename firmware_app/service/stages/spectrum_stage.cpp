@@ -29,7 +29,8 @@ rt::StepStatus SpectrumStage::end_record() noexcept {
 
 rt::StepStatus SpectrumStage::hand_over() noexcept {
   if (!ends_.snapshots.taken()) {
-    if (lossless_ || spectra_.finished()) return rt::StepStatus::kIdle;  // the last snapshot is never skipped
+    const bool waits = waits_.load(std::memory_order_relaxed);
+    if (waits && (lossless_ || spectra_.finished())) return rt::StepStatus::kIdle;  // the last one is never skipped
     n_skipped_.store(n_skipped_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }
   spectra_.take_snapshot(ends_.snapshots.back());

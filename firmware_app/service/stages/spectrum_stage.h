@@ -28,6 +28,11 @@ class SpectrumStage : public rt::Stage {
   [[nodiscard]] rt::StepStatus step() noexcept override;
   void finish() noexcept override;
 
+  // Any thread: from now on no snapshot waits until it is read, not even the last one.
+  void stop_waiting() noexcept {
+    waits_.store(false, std::memory_order_relaxed);  // independent of other data; partner: hand_over()
+    wakeup().nudge();
+  }
   // Any thread.
   [[nodiscard]] std::uint64_t n_masked() const noexcept { return n_masked_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t n_skipped() const noexcept { return n_skipped_.load(std::memory_order_relaxed); }
@@ -45,6 +50,7 @@ class SpectrumStage : public rt::Stage {
   Ends ends_;
   SpectrumAccumulator& spectra_;
   bool lossless_;
+  std::atomic<bool> waits_{true};
   // Written here only; relaxed: each counter is independent of other data.
   std::atomic<std::uint64_t> n_masked_{0};
   std::atomic<std::uint64_t> n_skipped_{0};

@@ -26,11 +26,12 @@ TrackingStage::TrackingStage(Ends ends, Calls calls, bool lossless, const Correc
 rt::StepStatus TrackingStage::step() noexcept {
   const core::Frame* frame = ends_.frames.front();
   if (frame == nullptr) return ends_.frames.finished() ? rt::StepStatus::kFinished : rt::StepStatus::kIdle;
-  if (ends_.changes && !is_decided(frame->sequence)) return rt::StepStatus::kIdle;
+  const bool waits = waits_.load(std::memory_order_relaxed);
+  if (ends_.changes && !is_decided(frame->sequence) && waits) return rt::StepStatus::kIdle;
   core::DisplacementSample* sample = ends_.samples.try_claim();
   FrameRecord* record = ends_.records.try_claim();
   core::TrackFrame* shown = ends_.tracks ? ends_.tracks->try_claim() : nullptr;
-  const bool is_full = sample == nullptr || record == nullptr || (ends_.tracks && shown == nullptr);
+  const bool is_full = sample == nullptr || record == nullptr || (ends_.tracks && shown == nullptr && waits);
   if (lossless_ && is_full) return rt::StepStatus::kIdle;
 
   const std::int64_t t_taken_ns = frame->t_taken_ns;

@@ -48,6 +48,11 @@ class TrackingStage : public rt::Stage {
   [[nodiscard]] rt::StepStatus step() noexcept override;
   void finish() noexcept override;
 
+  // Any thread: from now on no frame waits for residual diagnosis.
+  void stop_waiting() noexcept {
+    waits_.store(false, std::memory_order_relaxed);  // independent of other data; partner: step()
+    wakeup().nudge();
+  }
   // Any thread: as of the newest frame.
   [[nodiscard]] std::uint64_t points_tracked() const noexcept {
     return points_tracked_.load(std::memory_order_relaxed);
@@ -103,6 +108,7 @@ class TrackingStage : public rt::Stage {
   CorrectionSwitch decision_;  // newest
   std::uint64_t n_shown_through_ = 0;
   bool lossless_;
+  std::atomic<bool> waits_{true};
   FrameRecord scratch_;
   bool gap_before_next_ = false;
   rt::LatencyHistogram frame_latency_;

@@ -4,6 +4,7 @@
 #include "drivers/storage/attitude_file.h"
 #include "drivers/storage/csv.h"
 #include "drivers/storage/timed_columns.h"
+#include "drivers/storage/tracks_file.h"
 #include "tests/fuzz/memory_file.h"
 
 namespace tests::fuzz {
@@ -19,12 +20,15 @@ void check(const drivers::SeriesFile& series) {
 
 void check(const drivers::TracksFile& tracks) {
   require(tracks.camera.rate_hz > 0.0 && tracks.camera.width_px > 0 && tracks.camera.height_px > 0, "of a camera");
-  for (std::size_t k = 1; k < tracks.frames.size(); ++k)
-    require(tracks.frames[k].t_start_ns > tracks.frames[k - 1].t_start_ns, "times increase");
-  for (const core::TrackFrame& frame : tracks.frames) {
+  drivers::TracksPass pass(tracks);
+  std::uint64_t n_frames = 0;
+  std::int64_t last_ns = 0;
+  for (core::TrackFrame frame; pass.next(frame); last_ns = frame.t_start_ns) {
+    require(n_frames++ == 0 || frame.t_start_ns > last_ns, "times increase");
     for (const core::TrackPoint& point : frame.points)
       require(point.region < tracks.region_names.size(), "a point's region has a name");
   }
+  require(n_frames == tracks.n_frames, "the second pass has the same frames");
 }
 
 void check_columns(const std::string& path) {

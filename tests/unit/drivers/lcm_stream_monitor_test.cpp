@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "drivers/telemetry/encode.h"
+#include "drivers/telemetry/run_identity.h"
+#include "drivers/telemetry/sender_watch.h"
 #include "tests/support/telemetry_samples.h"
 
 namespace {
@@ -27,6 +29,10 @@ class StreamMonitorTest : public ::testing::Test {
   }
   void send_sample(std::int64_t sequence, std::int64_t utc_ns, const std::string& stream = "tower") {
     send(StreamMonitor::kDisplacement, to_message(tests::sample_displacement(3, 1), {stream, 1}), sequence, utc_ns);
+  }
+  void send_sample_of(std::uint64_t run_id, std::int64_t sequence, std::int64_t utc_ns) {
+    send(StreamMonitor::kDisplacement, to_message(tests::sample_displacement(3, 1), {"tower", 1, run_id}), sequence,
+         utc_ns);
   }
   [[nodiscard]] const drivers::ChannelCount& samples() const { return monitor_.count(StreamMonitor::kDisplacement); }
 
@@ -82,6 +88,64 @@ TEST_F(StreamMonitorTest, FollowsTheFirstStreamAndOnlyCountsOthers) {
   EXPECT_EQ(samples().received, 2U);
   EXPECT_EQ(samples().foreign, 1U);
   EXPECT_EQ(samples().gaps, 0U);
+}
+
+TEST_F(StreamMonitorTest, TwoSendersWithOneStreamIdAreToldApartAndCounted) {
+  for (std::int64_t n = 0; n < 20; ++n) {
+    now_ns_ += 50'000'000;
+    send_sample_of(0xAAU, 100 + n, 10 * n);
+    send_sample_of(0xBBU, n, 10 * n + 5);
+  }
+  EXPECT_EQ(samples().received, 20U);
+  EXPECT_EQ(samples().foreign, 20U);
+  EXPECT_EQ(samples().restarts, 0U);
+  EXPECT_EQ(samples().gaps, 0U);
+  EXPECT_EQ(monitor_.senders().n_senders(), 2U);
+  ASSERT_EQ(monitor_.senders().others().size(), 1U);
+  EXPECT_EQ(monitor_.senders().others()[0].n_messages, 20U);
+  const auto words = monitor_.sender_warnings();
+  ASSERT_EQ(words.size(), 1U);
+  for (const char* part :
+       {"2 runs send as `tower`", "00000000000000aa is shown", "20 messages of run 00000000000000bb"})
+    EXPECT_NE(words[0].find(part), std::string::npos) << words[0];
+}
+
+TEST_F(StreamMonitorTest, ARestartedServiceIsNoSecondSender) {
+  for (std::int64_t n = 0; n < 5; ++n) send_sample_of(0xAAU, n, n);
+  now_ns_ += 2'000'000'000;
+  send_sample_of(0xBBU, 0, 100);  // it may still be a second sender
+  EXPECT_EQ(samples().restarts, 0U);
+  now_ns_ += 2'000'000'000;
+  send_sample_of(0xBBU, 60, 200);  // the first one is silent
+  EXPECT_EQ(samples().restarts, 1U);
+  EXPECT_EQ(samples().gaps, 0U) << "losses of a run before it is followed are unknown";
+  EXPECT_EQ(monitor_.senders().n_senders(), 1U);
+  EXPECT_TRUE(monitor_.sender_warnings().empty());
+}
+
+TEST_F(StreamMonitorTest, ARunThatBeginsAfterTheEndOfTheLastOneIsFollowedAtOnce) {
+  send_sample_of(0xAAU, 7, 1);
+  core::Health last;
+  last.state = "finished";
+  auto health = to_message(last, {}, {"tower", 1, 0xAAU});
+  send(StreamMonitor::kHealth, health, 3, 2);
+  send_sample_of(0xBBU, 9, 3);
+  EXPECT_EQ(samples().received, 2U);
+  EXPECT_EQ(samples().restarts, 1U);
+  EXPECT_EQ(monitor_.senders().run_id(), 0xBB);
+}
+
+TEST(RunIdentity, IsConstantInAProcessAndNeverZero) {
+  EXPECT_NE(drivers::run_identity(), 0U);
+  EXPECT_EQ(drivers::run_identity(), drivers::run_identity());
+}
+
+TEST(SenderWatch, KeepsABoundedNumberOfSenders) {
+  drivers::SenderWatch watch;
+  for (std::int64_t id = 1; id <= 100; ++id) (void)watch.note(id, id);
+  EXPECT_EQ(watch.others().size(), drivers::SenderWatch::kMost);
+  (void)watch.note(1, 1'000'000'000);
+  EXPECT_EQ(watch.n_senders(), 1 + drivers::SenderWatch::kMost);
 }
 
 TEST_F(StreamMonitorTest, CountsWhatDoesNotDecodeAndIgnoresOtherChannels) {

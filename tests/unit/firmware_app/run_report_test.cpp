@@ -12,8 +12,10 @@
 
 #include "drivers/storage/csv.h"
 #include "drivers/storage/text_file.h"
+#include "drivers/storage/tracks_file.h"
 #include "firmware_app/report/modal_json.h"
 #include "tests/support/run_report_fixture.h"
+#include "tests/support/track_frames.h"
 
 namespace app {
 namespace {
@@ -35,22 +37,23 @@ TEST_F(RunReportTest, TracksComeBackAsTheyWere) {
   EXPECT_EQ(back.camera.exposure_ns, camera_.exposure_ns);
   EXPECT_EQ(back.camera.readout_direction, camera_.readout_direction);
   EXPECT_THAT(back.region_names, ElementsAre("base", "roof"));
-  ASSERT_EQ(back.frames.size(), frames.size());
+  const std::vector<core::TrackFrame> read = tests::frames_of(back);
+  ASSERT_EQ(read.size(), frames.size());
   for (std::size_t k = 0; k < frames.size(); ++k) {
-    EXPECT_EQ(back.frames[k].sequence, frames[k].sequence);
-    EXPECT_EQ(back.frames[k].t_start_ns, frames[k].t_start_ns);
+    EXPECT_EQ(read[k].sequence, frames[k].sequence);
+    EXPECT_EQ(read[k].t_start_ns, frames[k].t_start_ns);
     std::size_t i_back = 0;
     for (const core::TrackPoint& point : frames[k].points) {
       if (!point.seen) continue;
-      ASSERT_LT(i_back, back.frames[k].points.size());
-      const core::TrackPoint& p = back.frames[k].points[i_back++];
+      ASSERT_LT(i_back, read[k].points.size());
+      const core::TrackPoint& p = read[k].points[i_back++];
       EXPECT_EQ(p.id, point.id);
       EXPECT_EQ(p.region, point.region);
       EXPECT_NEAR(p.u_px, point.u_px, 5.0001e-5);
       EXPECT_NEAR(p.v_px, point.v_px, 5.0001e-5);
       EXPECT_NEAR(p.sigma_px, point.sigma_px, 5.0001e-6);
     }
-    EXPECT_EQ(i_back, back.frames[k].points.size()) << "a lost point has a line";
+    EXPECT_EQ(i_back, read[k].points.size()) << "a lost point has a line";
   }
 }
 
@@ -213,7 +216,19 @@ TEST_F(RunReportTest, NeverWritesWhatIsNotFinite) {
   EXPECT_EQ(report.n_not_finite(), 3U);
   EXPECT_THAT(text_of(path("r/modal.json")), AllOf(HasSubstr("\"frequency_hz\": null"), Not(HasSubstr("nan"))));
   EXPECT_THAT(text_of(path("r/displacements.csv")), HasSubstr("\n1,0.040000000,,,-0.250000\n"));
-  EXPECT_EQ(drivers::read_tracks_csv(path("r/tracks.csv")).frames[0].points.size(), 2U);
+  EXPECT_EQ(drivers::read_tracks_csv(path("r/tracks.csv")).first.points.size(), 2U);
+}
+
+TEST_F(RunReportTest, ARecoveredRunSaysSo) {
+  for (const bool is_recovered : {false, true}) {
+    RunReport report = open();
+    if (is_recovered) report.set_recovered();
+    EXPECT_TRUE(report.add(frame(0, 3)));
+    EXPECT_TRUE(report.add(sample(0)));
+    report.finish(estimate(), {}, {});
+    EXPECT_EQ(text_of(path("r/modal.json")).find("\"recovered\": true") != std::string::npos, is_recovered);
+    EXPECT_EQ(read_modal_json(path("r/modal.json")).recovered, is_recovered);
+  }
 }
 
 TEST_F(RunReportTest, IdenticalRunsGiveIdenticalBytes) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "drivers/storage/csv.h"
+#include "drivers/storage/tracks_file.h"
 #include "firmware_app/config/config.h"
 #include "tests/support/command.h"
 #include "tests/support/places.h"

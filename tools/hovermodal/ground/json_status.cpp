@@ -96,6 +96,8 @@ json link_json(const LiveView& view) {
                                      {"restarts", c.restarts}, {"sent", sent(m, m.lcm_channel(topic))}};
   }
   out["foreign"] = foreign;
+  out["senders"] = m.senders().n_senders();
+  out["warnings"] = m.sender_warnings();
   return out;
 }
 

@@ -143,8 +143,29 @@ void WebConnections::answer(Connection& c, const HeadProgress& progress, std::in
   } else {
     answer = routes_.answer(std::string_view(c.in).substr(0, progress.n_head + progress.n_body));
   }
-  if (answer.event_source >= 0 && n_streams_ >= limits_.max_event_streams) answer = WebRoutes::refusal(503);
+  const bool is_stream = answer.event_source >= 0;
+  if (is_stream && n_streams_ >= limits_.max_event_streams && !has_stream_for(c.peer)) answer = WebRoutes::refusal(503);
   reply(c, std::move(answer), now_ms);
+}
+
+// Closes the oldest event stream of the peer with most of them, if it still has more than `peer` then. One address thus
+// does not keep others out.
+bool WebConnections::has_stream_for(const PeerAddress& peer) noexcept {
+  const auto n_of = [&](const PeerAddress& of) {
+    return std::count_if(connections_.begin(), connections_.end(), [&](const Connection& c) {
+      return c.state == State::kStreaming && !c.is_over && c.peer == of;
+    });
+  };
+  Connection* chosen = nullptr;
+  std::ptrdiff_t most = n_of(peer) + 1;
+  for (Connection& c : connections_) {
+    if (c.state != State::kStreaming || c.is_over) continue;
+    if (const std::ptrdiff_t n = n_of(c.peer); n > most) chosen = &c, most = n;
+  }
+  if (chosen == nullptr) return false;
+  chosen->is_over = true;  // counted by sweep(): until then there is one more than the limit
+  add(n_displaced_);
+  return true;
 }
 
 void WebConnections::reply(Connection& c, WebRoutes::Answer answer, std::int64_t now_ms) {

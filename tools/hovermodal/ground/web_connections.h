@@ -52,6 +52,7 @@ class WebConnections {
 
   void accept_all(std::int64_t now_ms);
   void make_room();
+  [[nodiscard]] bool has_stream_for(const PeerAddress& peer) noexcept;
   void serve(Connection& c, short events, std::int64_t now_ms);
   void read(Connection& c, std::int64_t now_ms);
   void answer(Connection& c, const HeadProgress& progress, std::int64_t now_ms);

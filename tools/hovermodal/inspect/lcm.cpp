@@ -52,12 +52,12 @@ void listen_for_a_service(const Options& options) {
     if (count.received > 0)
       heard += fmt::format("{}{} of {}", heard.empty() ? "" : ", ", count.received, monitor.lcm_channel(topic));
   }
-  for (const std::string& words : monitor.other_versions()) print_line(drivers::FindingKind::kBad, words, "");
+  for (const std::string& words : monitor.sender_warnings()) print_line(drivers::FindingKind::kBad, words, "");
   if (!heard.empty()) {
     print_line(drivers::FindingKind::kOk,
                fmt::format("received in {} s from \"{}\": {}", options.seconds, printable(monitor.stream_id()), heard),
                "");
-  } else if (monitor.other_versions().empty()) {
+  } else if (monitor.sender_warnings().empty()) {
     print_line(drivers::FindingKind::kNote, fmt::format("no {}_* message in {} s", options.prefix, options.seconds),
                "is a service running, with this telemetry.lcm_url and telemetry.channel_prefix? On another computer: "
                "ttl=1 there, its route, and this command there");

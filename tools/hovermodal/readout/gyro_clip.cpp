@@ -2,50 +2,54 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
 #include "drivers/host/command_line.h"
 #include "drivers/storage/calibration_file.h"
 #include "drivers/storage/csv_lines.h"
+#include "drivers/storage/limits.h"
 #include "drivers/storage/text_file.h"
 
 namespace tools {
 namespace {
 
-// Numbers of a file, one row per line; a first line of text is skipped.
-std::vector<std::vector<double>> read_rows(const std::string& path, std::size_t n_columns) {
+// Calls take(numbers) for each row of a file, one per line; a first line of text is skipped.
+void for_each_row(const std::string& path, std::size_t n_columns,
+                  const std::function<void(std::span<const double>)>& take) {
   drivers::CsvLines lines(path);
-  std::vector<std::vector<double>> rows;
+  lines.require_lines(drivers::Limits::kGyroRows, "give those of the clip only");
   std::vector<std::string_view> cells;
+  std::vector<double> row;
   std::string_view line;
   for (bool first = true; lines.next(line); first = false) {
     if (line.empty() || line.front() == '#') continue;
     drivers::split_cells(line, cells);
-    std::vector<double> row;
+    row.clear();
     for (const std::string_view cell : cells) {
       if (const auto number = drivers::parse_number(cell)) row.push_back(*number);
     }
-    if (row.size() == n_columns) {
-      rows.push_back(std::move(row));
-    } else if (!first) {
-      lines.fail(fmt::format("{} numbers expected, separated by commas", n_columns));
+    if (row.size() != n_columns) {
+      if (!first) lines.fail(fmt::format("{} numbers expected, separated by commas", n_columns));
+      continue;
     }
+    take(row);
   }
-  return rows;
 }
 
 std::vector<core::GyroSample> read_gyro(const GyroClipOptions& options) {
   std::vector<core::GyroSample> gyro;
-  for (const std::vector<double>& row : read_rows(options.gyro, 4)) {
+  for_each_row(options.gyro, 4, [&](std::span<const double> row) {
     gyro.push_back({row[3] * options.time_unit_s, {row[0], row[1], row[2]}});
-  }
+  });
   return gyro;
 }
 
 std::vector<double> read_stamps(const GyroClipOptions& options) {
   std::vector<double> stamps;
-  for (const std::vector<double>& row : read_rows(options.stamps, 1)) stamps.push_back(row[0] * options.time_unit_s);
+  for_each_row(options.stamps, 1, [&](std::span<const double> row) { stamps.push_back(row[0] * options.time_unit_s); });
   if (static_cast<std::size_t>(options.first_stamp) >= stamps.size())
     throw std::invalid_argument(fmt::format("readout: --first-stamp {}; {} holds {} stamps", options.first_stamp,
                                             options.stamps, stamps.size()));

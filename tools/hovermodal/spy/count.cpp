@@ -69,6 +69,11 @@ std::string count_json(const StreamMonitor& monitor) {
   out["state"] = monitor.health() ? nlohmann::json(monitor.health()->state) : nlohmann::json(nullptr);
   out["complete"] = is_complete(monitor);
   out["other_versions"] = monitor.other_versions();
+  out["senders"] = monitor.senders().n_senders();
+  for (const auto& other : monitor.senders().others()) {
+    if (other.is_beside)
+      out["other_senders"][fmt::format("{:016x}", static_cast<std::uint64_t>(other.run_id))] = other.n_messages;
+  }
   for (std::size_t i = 0; i < StreamMonitor::kTopics; ++i) {
     const auto topic = static_cast<StreamMonitor::Topic>(i);
     const std::string& name = monitor.lcm_channel(topic);

@@ -12,7 +12,8 @@ namespace tools {
 
 // Received messages as JSON: per LCM channel received, sent and held_back (by the last health; null = unknown),
 // first_sequence, last_sequence, gaps, out_of_order, restarts, undecodable, foreign, bytes; and final_health, state,
-// complete, other_versions (in words).
+// complete, other_versions (in words), senders (runs that use the stream_id at once), other_senders
+// (messages of each run that is not followed).
 [[nodiscard]] std::string count_json(const drivers::StreamMonitor& monitor);
 
 }  // namespace tools

@@ -62,7 +62,7 @@ class PlainOutput {
   }
   // Printed once for each other version.
   void update_versions(const drivers::StreamMonitor& monitor, const ViewOptions& view) {
-    const std::size_t n = monitor.other_versions().size();
+    const std::size_t n = monitor.sender_warnings().size();
     if (n == n_versions_) return;
     n_versions_ = n;
     for (const auto& line : render_versions(monitor, view)) std::printf("%s\n", line.c_str());

@@ -189,7 +189,7 @@ Lines render_modes(const StreamMonitor& monitor, const ViewOptions& options, std
 
 Lines render_versions(const StreamMonitor& monitor, const ViewOptions& options) {
   Lines out;
-  for (const std::string& words : monitor.other_versions()) append(out, wrapped("WARNING " + words, options.columns));
+  for (const std::string& words : monitor.sender_warnings()) append(out, wrapped("WARNING " + words, options.columns));
   return out;
 }
 
