@@ -9,7 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "drivers/storage/csv.h"
+#include "drivers/exchange/series_file.h"
 #include "drivers/storage/series_format.h"
 #include "drivers/storage/text_file.h"
 #include "tools/hovermodal/identify/sample_grid.h"
@@ -187,7 +187,7 @@ LoadedSeries load_series(const std::string& path, const SeriesRequest& request) 
   drivers::ForeignFormat format;
   format.no_names = request.no_header;
   format.progress = [&](std::uint64_t n_lines) { fmt::print(stderr, "{}: {} lines read\n", path, n_lines); };
-  const SeriesFile file = drivers::read_foreign_series(path, format);
+  const SeriesFile file = drivers::read_any_series(path, format);
   return SeriesLoader(file, request, path).load();
 }
 
