@@ -27,7 +27,7 @@ constexpr Subcommand kSubcommands[] = {
     {tools::add_report, "report", "Write the report of a run record"},
     {tools::add_batch, "batch", "Process a folder of flights and combine their results"},
     {tools::add_batch_flight, "batch-flight", ""},
-    {tools::add_compare, "compare", "Compare modes with another result or with simulated truth"},
+    {tools::add_compare, "compare", "Compare modes with another result, displacements with a sensor"},
     {tools::add_export, "export", "Write a run as UFF, MAT, CSV or MCAP for other programs"},
     {tools::add_spy, "spy", "Show modes, displacements and health live, over LCM"},
     {tools::add_inspect, "inspect", "Show stages live; list cameras; test the network for LCM"},

@@ -86,6 +86,11 @@ class SeriesLoader {
     const SampleGrid grid = sample_grid(file_, request_.rate_hz, path_);
     out_.remarks.insert(out_.remarks.end(), grid.remarks.begin(), grid.remarks.end());
     out_.series.rate_hz = grid.rate_hz;
+    const int times = time_column(file_);
+    if (times >= 0 && !file_.columns[static_cast<std::size_t>(times)].empty()) {
+      const double first_s = file_.columns[static_cast<std::size_t>(times)].front();
+      if (std::isfinite(first_s)) out_.first_s = first_s;
+    }
     check_counts();
     choose_units();
     for (std::size_t i = 0; i < columns_.size(); ++i) {
