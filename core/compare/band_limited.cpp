@@ -40,33 +40,36 @@ std::vector<double> bridged_and_level(std::span<const double> samples) {
   return out;
 }
 
-// 1 within the band, 0 outside, half a cosine over `edge` about each limit.
+// 1 within the band, 0 outside, a quarter of a sine over `edge` about each limit: white noise passes as through a band
+// with sharp limits.
 double pass(double f_hz, const Band& band, double edge_hz) {
   const auto step = [&](double beyond_hz) {
     const double x = std::clamp(beyond_hz / edge_hz + 0.5, 0.0, 1.0);
-    return 0.5 - 0.5 * std::cos(kPi * x);
+    return std::sin(0.5 * kPi * x);
   };
-  return step(f_hz - band.low_hz) * step(band.high_hz - f_hz);
+  return (band.low_hz > 0.0 ? step(f_hz - band.low_hz) : 1.0) * step(band.high_hz - f_hz);
 }
 
 }  // namespace
 
 double BandLimited::edge_hz(const Band& band, double duration_s) noexcept {
-  return std::min(std::max(0.02 * band.width_hz(), 2.0 / duration_s), 1.6 * band.low_hz);
+  const double edge = std::max(0.05 * band.width_hz(), 2.0 / duration_s);
+  return band.low_hz > 0.0 ? std::min(edge, 1.6 * band.low_hz) : edge;
 }
 
 BandLimited::BandLimited(std::span<const double> samples, double rate_hz, const Band& band, int n_integrations)
     : rate_hz_(rate_hz), duration_s_(static_cast<double>(samples.size()) / rate_hz) {
   const bool any = std::any_of(samples.begin(), samples.end(), [](double x) { return std::isfinite(x); });
   if (samples.size() < kLeastBandSamples || !any) throw std::invalid_argument("a record of fewer than 16 samples");
-  if (!(band.low_hz > 0.0 && band.high_hz > band.low_hz && band.high_hz < rate_hz / 2.0))
+  const bool is_low_pass = band.low_hz == 0.0 && n_integrations == 0;
+  if (!((band.low_hz > 0.0 || is_low_pass) && band.high_hz > band.low_hz && band.high_hz < rate_hz / 2.0))
     throw std::invalid_argument("a band that is not between 0 and half the rate");
   n_missing_.assign(samples.size() + 1, 0);
   for (std::size_t k = 0; k < samples.size(); ++k)
     n_missing_[k + 1] = n_missing_[k] + (std::isfinite(samples[k]) ? 0U : 1U);
   reach_s_ = 1.0 / (band.low_hz + band.high_hz);
 
-  // Both ends are continued by their mirror image, which fades out.
+  // Both ends are continued by the record turned about its last value, which keeps the slope; it fades out.
   const std::vector<double> record = bridged_and_level(samples);
   const std::size_t n = record.size(), lead = n / 2;
   const int n_fft = next_power_of_two(static_cast<int>(n + 2 * lead));
@@ -74,8 +77,8 @@ BandLimited::BandLimited(std::span<const double> samples, double rate_hz, const 
   for (std::size_t k = 0; k < n; ++k) padded[lead + k] = record[k];
   for (std::size_t k = 0; k < lead; ++k) {
     const double fade = 0.5 + 0.5 * std::cos(kPi * static_cast<double>(k + 1) / static_cast<double>(lead + 1));
-    padded[lead - 1 - k] = fade * record[std::min(k + 1, n - 1)];
-    padded[lead + n + k] = fade * record[n - 2 - std::min(k, n - 2)];
+    padded[lead - 1 - k] = fade * (2.0 * record.front() - record[std::min(k + 1, n - 1)]);
+    padded[lead + n + k] = fade * (2.0 * record.back() - record[n - 2 - std::min(k, n - 2)]);
   }
   RealFft forward(n_fft);
   std::vector<std::complex<double>> spectrum(static_cast<std::size_t>(forward.n_bins()));

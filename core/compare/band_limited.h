@@ -11,12 +11,14 @@ struct Band {
 };
 
 // A record reduced to a band and, if wanted, integrated (METHOD.md, 1), that can be evaluated at any instant within the
-// record. Cosine edges of width edge_hz() about the band's limits. Missing samples (NaN) are bridged by straight lines;
+// record. Edges of width edge_hz() about the band's limits, with half the
+// power at the limits. Missing samples (NaN) are bridged by straight lines;
 // is_seen() tells where. Does not allocate after construction. One thread.
 class BandLimited {
  public:
   // Sample k is at k / rate_hz. n_integrations: 1 from velocity, 2 from acceleration to displacement. Throws
   // std::invalid_argument: fewer than 16 samples, no sample, or a band that is not within 0 < low < high < rate / 2.
+  // Without integration low may be 0: only the upper limit counts.
   BandLimited(std::span<const double> samples, double rate_hz, const Band& band, int n_integrations);
 
   [[nodiscard]] double at(double t_s) const noexcept;        // 0 outside of the record

@@ -44,6 +44,7 @@ struct ClockAlignment {
                                           const Band& band, const ClockSearch& search = {});
 
 // Only the fit, from a known relation: where another band has told the offset already.
+// `start` states the shared stretch (from_s, to_s, middle_s) and where the fit begins.
 [[nodiscard]] ClockAlignment refine_clocks(const BandLimited& camera, double camera_rate_hz, const BandLimited& sensor,
                                            const Band& band, const ClockAlignment& start);
 
