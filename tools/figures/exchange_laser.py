@@ -66,13 +66,18 @@ def band_rms(values, rate, low, high, first, last):
     slope = 12 * sum(value * (k - middle) for k, value in enumerate(values)) / (n * (n * n - 1))
     values = [value - mean - slope * (k - middle) for k, value in enumerate(values)]
     band = [0.0] * n
-    for m in range(math.ceil(low * 2 * n / rate), math.floor(high * 2 * n / rate) + 1):
+    edge = max(0.05 * (high - low), 2 * rate / n)  # limits with half the power, as core/compare/METHOD.md says
+    for m in range(math.ceil((low - edge / 2) * 2 * n / rate), math.floor((high + edge / 2) * 2 * n / rate) + 1):
+        f = m * rate / (2 * n)
+        weight = 1.0
+        for beyond in (f - low, high - f):
+            weight *= math.sin(math.pi / 2 * min(1.0, max(0.0, beyond / edge + 0.5)))
         step = complex(math.cos(math.pi * m / n), math.sin(math.pi * m / n))
         wave, cosines = complex(math.cos(math.pi * m / n / 2), math.sin(math.pi * m / n / 2)), []
         for _ in range(n):
             cosines.append(wave.real)
             wave *= step
-        amplitude = 2 / n * sum(map(lambda a, b: a * b, values, cosines))
+        amplitude = weight * 2 / n * sum(map(lambda a, b: a * b, values, cosines))
         for k in range(n):
             band[k] += amplitude * cosines[k]
     return math.sqrt(sum(value * value for value in band[first:last + 1]) / (last + 1 - first))
