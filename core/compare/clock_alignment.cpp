@@ -73,6 +73,7 @@ class ClockFit {
   bool add_equations(const ClockAlignment& at) {
     normal_.setZero(), right_.setZero();
     scores_.assign(kScoreBlocks, Eigen::Vector3d::Zero());
+    normals_.assign(kScoreBlocks, Eigen::Matrix3d::Zero());
     error_ = power_ = 0.0;
     for (const double t_s : sample_s_) {
       const double sensor_s = at.clock.sensor_s(t_s), value = sensor_.at(sensor_s);
@@ -83,21 +84,23 @@ class ClockFit {
       normal_ += row * row.transpose();
       right_ += row * residual;
       const double place = kScoreBlocks * (t_s - from_s_) / (to_s_ - from_s_);
-      scores_[static_cast<std::size_t>(std::clamp(place, 0.0, kScoreBlocks - 1.0))] += row * residual;
+      const auto block = static_cast<std::size_t>(std::clamp(place, 0.0, kScoreBlocks - 1.0));
+      scores_[block] += row * residual;
+      normals_[block] += row * row.transpose();
     }
     return sample_s_.size() >= static_cast<std::size_t>(kScoreBlocks);
   }
 
-  // Sandwich: the scores of blocks are independent, whatever the residual's colour within them.
+  // Jackknife over blocks of the record, to first order: without block b the result changes by -(N - N_b)^-1 times the
+  // score of b. Right for a residual of any colour within a block, and where few blocks hold most of the motion.
   bool state_sigmas(ClockAlignment& out) {
     if (!add_equations(out)) return false;
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for (const Eigen::Vector3d& score : scores_) spread += score * score.transpose();
-    spread *= static_cast<double>(kScoreBlocks) / (kScoreBlocks - 3);
-    Eigen::Matrix3d half;
-    for (int c = 0; c < 3; ++c) half.col(c) = solve(normal_, spread.col(c));
-    Eigen::Matrix3d covariance;
-    for (int c = 0; c < 3; ++c) covariance.col(c) = solve(normal_, half.transpose().col(c));
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    for (std::size_t b = 0; b < scores_.size(); ++b) {
+      const Eigen::Vector3d change = solve(normal_ - normals_[b], scores_[b]);
+      covariance += change * change.transpose();
+    }
+    covariance *= (kScoreBlocks - 1.0) / kScoreBlocks;
     out.ratio_std = std::sqrt(std::max(0.0, covariance(0, 0)));
     out.clock.offset_std_s = std::sqrt(std::max(0.0, covariance(1, 1)));
     out.clock.rate_std = std::sqrt(std::max(0.0, covariance(2, 2)));
@@ -111,7 +114,8 @@ class ClockFit {
   double from_s_ = 0.0, to_s_ = 0.0;
   Eigen::Matrix3d normal_;
   Eigen::Vector3d right_;
-  std::vector<Eigen::Vector3d> scores_;
+  std::vector<Eigen::Vector3d> scores_;   // per block of the stretch
+  std::vector<Eigen::Matrix3d> normals_;  // per block
   std::vector<double> sample_s_;
   double error_ = 0.0, power_ = 0.0;
 };

@@ -60,26 +60,26 @@ def make(truth_path, channel, out, seed):
 
 
 def band_rms(values, rate, low, high, first, last):
-    """RMS of samples first .. last of what lies within the band: the record and its mirror image as sines and cosines."""
+    """RMS of samples first .. last of what lies within the band: a series of sines of the record less the line through its
+    ends, which is the record turned about its ends (core/compare/METHOD.md)."""
     n = len(values)
-    middle, mean = (n - 1) / 2, sum(values) / n
-    slope = 12 * sum(value * (k - middle) for k, value in enumerate(values)) / (n * (n * n - 1))
-    values = [value - mean - slope * (k - middle) for k, value in enumerate(values)]
+    line = (values[-1] - values[0]) / (n - 1)
+    values = [value - values[0] - line * k for k, value in enumerate(values)]
     band = [0.0] * n
-    edge = max(0.05 * (high - low), 2 * rate / n)  # limits with half the power, as core/compare/METHOD.md says
+    edge = max(0.05 * (high - low), 2 * rate / n)  # limits with half the power
     for m in range(math.ceil((low - edge / 2) * 2 * n / rate), math.floor((high + edge / 2) * 2 * n / rate) + 1):
-        f = m * rate / (2 * n)
+        f = m * rate / (2 * (n - 1))
         weight = 1.0
         for beyond in (f - low, high - f):
             weight *= math.sin(math.pi / 2 * min(1.0, max(0.0, beyond / edge + 0.5)))
-        step = complex(math.cos(math.pi * m / n), math.sin(math.pi * m / n))
-        wave, cosines = complex(math.cos(math.pi * m / n / 2), math.sin(math.pi * m / n / 2)), []
+        step = complex(math.cos(math.pi * m / (n - 1)), math.sin(math.pi * m / (n - 1)))
+        wave, sines = 1 + 0j, []
         for _ in range(n):
-            cosines.append(wave.real)
+            sines.append(wave.imag)
             wave *= step
-        amplitude = weight * 2 / n * sum(map(lambda a, b: a * b, values, cosines))
+        amplitude = weight * 2 / (n - 1) * sum(map(lambda a, b: a * b, values, sines))
         for k in range(n):
-            band[k] += amplitude * cosines[k]
+            band[k] += amplitude * sines[k]
     return math.sqrt(sum(value * value for value in band[first:last + 1]) / (last + 1 - first))
 
 

@@ -9,11 +9,11 @@
 
 #include "core/linear/median.h"
 #include "drivers/storage/csv.h"
-#include "drivers/storage/csv_lines.h"
 #include "drivers/storage/json.h"
 #include "drivers/storage/series_format.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/replay/run_folder.h"
+#include "tools/hovermodal/compare/seen_time.h"
 #include "tools/hovermodal/identify/series_input.h"
 
 namespace tools {
@@ -41,20 +41,6 @@ LoadedSeries load_channel(const std::string& path, const std::string& channel, c
   for (const core::ChannelInfo& one : loaded.series.channels) names += (names.empty() ? "" : ", ") + one.name;
   throw std::invalid_argument(
       fmt::format("{}: several channels; choose one by {}: {}", path, option, drivers::printable(names, 200)));
-}
-
-// Half of the exposure that the run's tracks.csv states: a sample is the mean over it.
-double half_exposure_s(const std::string& run) {
-  const fs::path path = fs::path(run) / "tracks.csv";
-  if (!fs::is_directory(run) || !fs::exists(path)) return 0.0;
-  drivers::CsvLines lines(path.string());
-  std::string_view line;
-  std::string key, value;
-  while (lines.next(line) && line.starts_with('#')) {
-    if (drivers::split_comment(line, key, value) && key == "exposure_ms")
-      return 0.5e-3 * drivers::parse_number(value).value_or(0.0);
-  }
-  return 0.0;
 }
 
 std::optional<double> scale_of(const std::string& path) {
@@ -93,11 +79,14 @@ class SensorRun {
     LoadedSeries loaded = load_channel(path_, options_.channel, options_.rate_hz, "--channel");
     (void)app::use_measured_times(path_, loaded.series);
     const core::ChannelInfo& channel = loaded.series.channels.front();
-    const double exposure_s = half_exposure_s(options_.run);
-    out_.camera_first_s = loaded.first_s + channel.row_delay_s + exposure_s;
-    if (channel.row_delay_s + exposure_s > 0.0)
-      out_.remarks.push_back(fmt::format("{} is seen {:.3f} ms after the time of its row in {}", channel.name,
-                                         1e3 * (channel.row_delay_s + exposure_s), path_));
+    const SeenTime seen = seen_time(options_.run, channel.name);
+    const double delay_s = channel.row_delay_s + seen.half_exposure_s + seen.mean_row_shift_s;
+    out_.camera_first_s = loaded.first_s + delay_s;
+    if (delay_s != 0.0)
+      out_.remarks.push_back(
+          fmt::format("{} is seen {:.3f} ms after the time of its row in {}, {:+.3f} ms of it because it "
+                      "stands elsewhere than in the first frame on average",
+                      channel.name, 1e3 * delay_s, path_, 1e3 * seen.mean_row_shift_s));
     out_.channel = channel.name, out_.run = path_, out_.unit = loaded.series.unit;
     camera_ = {loaded.series.rate_hz, std::move(loaded.series.value.front()), channel.n_integrations};
     if (camera_.n_integrations != 0)
