@@ -102,18 +102,29 @@ class MatSeries {
  private:
   [[noreturn]] void refuse(const std::string& what) const { throw FileError(path_ + ": " + what); }
 
+  // Sizes are checked before the values are read: a compressed variable may be a thousand times larger than the file.
   void read_variables() {
-    std::size_t n_bytes = 0;
+    double n_bytes = 0.0;
     while (true) {
-      const MatVariable variable(Mat_VarReadNext(file_.get()));
+      const MatVariable variable(Mat_VarReadNextInfo(file_.get()));
       if (!variable) break;
-      n_bytes += variable->nbytes;
-      if (n_bytes > kMostExchangeBytes) refuse("its variables are larger than 1 GiB; save only the series");
+      n_bytes += announced_bytes(*variable);
+      if (!(n_bytes <= static_cast<double>(kMostExchangeBytes)))
+        refuse("its variables are larger than 1 GiB; save only the series");
       const std::string name = variable->name != nullptr ? variable->name : "";
+      const bool is_number = variable->class_type >= MAT_C_DOUBLE && variable->class_type <= MAT_C_UINT64;
+      const bool is_wanted = is_number || name == "unit" || name == "channel_names";
+      if (!is_wanted || Mat_VarReadDataAll(file_.get(), variable.get()) != 0) continue;
       if (auto matrix = matrix_of(*variable)) matrices_.push_back(std::move(*matrix));
       if (const auto text = text_of(*variable); text && name == "unit") unit_ = *text;
       if (name == "channel_names" && variable->class_type == MAT_C_CELL) read_names(*variable);
     }
+  }
+  static double announced_bytes(const matvar_t& variable) {
+    double n_values = 1.0;
+    for (int d = 0; d < variable.rank && variable.dims != nullptr; ++d)
+      n_values *= static_cast<double>(variable.dims[d]);
+    return 8.0 * n_values * (variable.isComplex != 0 ? 2.0 : 1.0);
   }
 
   void read_names(const matvar_t& cells) {

@@ -15,7 +15,7 @@ SeriesFile read_any_series(const std::string& path, const ForeignFormat& format)
     n_bytes = read_bytes(file.get(), head.data(), head.size(), path);
   }
   const std::string_view begin(head.data(), n_bytes);
-  if (begin.starts_with("MATLAB ")) return read_mat_series(path);
+  if (begin.starts_with("MATLAB ") || path.ends_with(".mat")) return read_mat_series(path);
   const std::size_t mark = begin.find_first_not_of(" \r\n");
   const std::size_t end = begin.find_first_of("\r\n", mark);
   if (mark != std::string_view::npos && end != std::string_view::npos) {
