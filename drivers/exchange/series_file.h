@@ -9,7 +9,7 @@ namespace drivers {
 
 // Time series of other programs, whatever the format: a universal file with time responses (data set 58, text or
 // binary), a MAT file of version 4 or 5, else a table of text (read_foreign_series). The format is recognised by the
-// content. Throws FileError.
+// content; a MAT file of version 4, which has no mark, by its name (.mat). Throws FileError.
 [[nodiscard]] SeriesFile read_any_series(const std::string& path, const ForeignFormat& format = {});
 
 // The time responses of a universal file, one column each, named by ID line 1 where these differ, else ENTITY_NODE with
