@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "firmware_app/report/plot/svg_plot.h"
 #include "tools/hovermodal/compare/sensor.h"
@@ -28,11 +29,10 @@ class SensorPicture {
                           found_.band.low_hz, found_.band.high_hz),
               app::Anchor::kStart, "h");
     const double rmse = findings_.is_scaled ? found_.rmse_scaled : found_.rmse;
-    svg_.text(
-        kSensorLeft_px, 40.0,
-        fmt::format(
-            "RMSE {:.3g} {}, correlation {:.4f}, coherence {:.4f}; lines: camera (1), sensor (2), camera - sensor (3)",
-            rmse, findings_.unit, found_.correlation, found_.coherence));
+    svg_.text(kSensorLeft_px, 40.0,
+              fmt::format("RMSE {:.3g} {}, correlation {:.4f}, coherence {:.4f}", rmse, findings_.unit,
+                          found_.correlation, found_.coherence));
+    draw_key();
     scale_ = findings_.is_scaled ? std::abs(found_.alignment.ratio) : 1.0;
     draw_middle();
     draw_all();
@@ -41,6 +41,15 @@ class SensorPicture {
   }
 
  private:
+  void draw_key() {
+    double x = kSensorLeft_px + 480.0;
+    for (const auto& [label, colour] : {std::pair{"camera", 0U}, {"sensor", 1U}, {"camera - sensor", 2U}}) {
+      svg_.line(x, 36.0, x + 24.0, 36.0, app::line_class(colour));
+      svg_.text(x + 30.0, 40.0, label);
+      x += 50.0 + app::text_width_px(label, app::kTextPx);
+    }
+  }
+
   [[nodiscard]] app::Box box(int row) const {
     return {kSensorLeft_px, 60.0 + row * (kSensorPanel_px + 70.0), kSensorWidth_px - kSensorLeft_px - 20.0,
             kSensorPanel_px};
@@ -102,10 +111,11 @@ class SensorPicture {
       }
     }
     if (camera.empty() || !(high > 0.0)) return;
-    app::PlotPanel panel(svg_, box(2),
-                         {camera.front().x, std::max(camera.front().x + 1e-6, camera.back().x), false,
-                          "frequency, Hz; vertical lines: the band"},
-                         app::log_axis_around(low, high, 8, findings_.unit + "²/Hz"));
+    app::PlotPanel panel(
+        svg_, box(2),
+        {std::min(camera.front().x, found_.band.low_hz), std::max(found_.band.high_hz, camera.back().x), false,
+         "frequency, Hz; vertical lines: the band"},
+        app::log_axis_around(low, high, 8, findings_.unit + "²/Hz"));
     panel.draw_x_axis(true);
     panel.draw_y_axis(true);
     panel.draw_frame();
