@@ -86,7 +86,7 @@ BandLimited::BandLimited(std::span<const double> samples, double rate_hz, const 
 
   int n_out = n_fft;
   while (rate_hz * n_out / n_fft < kOutputPerPeriod * band.high_hz) n_out *= 2;
-  while (n_out > 8 && rate_hz * (n_out / 2) / n_fft >= kOutputPerPeriod * band.high_hz) n_out /= 2;
+  while (n_out > 8 && 0.5 * rate_hz * n_out / n_fft >= kOutputPerPeriod * band.high_hz) n_out /= 2;
   out_rate_hz_ = rate_hz * n_out / n_fft;
   lead_s_ = static_cast<double>(lead) / rate_hz;
   const double edge = edge_hz(band, duration_s_);

@@ -42,7 +42,7 @@ std::vector<ComparedBin> compared_spectrum(const BandLimited& camera, const Band
     const double f_hz = k * camera_rate_hz / sums.n_fft;
     if (f_hz < band.low_hz || f_hz > band.high_hz) continue;
     const auto at = [&](int i, int j) {
-      return sums.data_sum[static_cast<std::size_t>(3 * k + CpsdSums::pair_index(i, j, 2))];
+      return sums.data_sum[3 * static_cast<std::size_t>(k) + static_cast<std::size_t>(CpsdSums::pair_index(i, j, 2))];
     };
     const double a = at(0, 0).real(), b = at(1, 1).real();
     out.push_back(

@@ -38,8 +38,10 @@ double length_s(const ComparedRecord& record) { return static_cast<double>(recor
 Attempt widest(const ComparedRecord& camera, const ComparedRecord& sensor, const ClockSearch& search, Band& band) {
   const double high_hz = kHighestShare * std::min(camera.rate_hz, sensor.rate_hz);
   Attempt best;
-  for (double low_hz = kLeastPeriods / std::min(length_s(camera), length_s(sensor)); low_hz < 0.5 * high_hz;
-       low_hz *= 2.0) {
+  const double lowest_hz = kLeastPeriods / std::min(length_s(camera), length_s(sensor));
+  const int n_doublings = std::max(0, static_cast<int>(std::ceil(std::log2(0.5 * high_hz / lowest_hz))));
+  for (int doubling = 0; doubling < n_doublings; ++doubling) {
+    const double low_hz = std::ldexp(lowest_hz, doubling);
     Attempt one = attempt(camera, sensor, {low_hz, high_hz}, search);
     const double least = best.alignment.found ? best.alignment.evidence : 0.0;
     if (!one.alignment.found || one.alignment.evidence <= least) continue;

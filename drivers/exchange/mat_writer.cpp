@@ -17,11 +17,13 @@ namespace {
 
 std::vector<double> values_or_nan(const std::vector<ExchangeMode>& modes, std::optional<double> ExchangeMode::*member) {
   std::vector<double> out;
+  out.reserve(modes.size());
   for (const ExchangeMode& mode : modes) out.push_back((mode.*member).value_or(core::kNan));
   return out;
 }
 std::vector<double> values(const std::vector<ExchangeMode>& modes, double ExchangeMode::*member) {
   std::vector<double> out;
+  out.reserve(modes.size());
   for (const ExchangeMode& mode : modes) out.push_back(mode.*member);
   return out;
 }
@@ -72,6 +74,7 @@ class MatWriter {
   void texts(const char* name, const std::vector<std::string>& all) {
     if (all.empty()) return;
     std::vector<matvar_t*> cells;
+    cells.reserve(all.size());
     for (const std::string& one : all) cells.push_back(text_variable(nullptr, one));
     std::array<std::size_t, 2> size{cells.size(), 1};
     put(MatVariable(Mat_VarCreate(name, MAT_C_CELL, MAT_T_CELL, 2, size.data(), cells.data(), 0)));

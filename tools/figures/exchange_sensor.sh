@@ -16,12 +16,12 @@ structure:
   shapes: [[0.5, 0.866, 1, 0.866, 0.5], [0.866, 0.866, 0, -0.866, -0.866], [1, 0, -1, 0, 1], [0.866, -0.866, 0, 0.866, -0.866]]
   damping: {ratio: [0.003]}
 plates:
-  - {name: base, centre_mm: [-820, 0, 2000], size_mm: [180, 120]}
-  - {name: cable1, centre_mm: [-560, 0, 2000], size_mm: [240, 120]}
-  - {name: cable2, centre_mm: [-280, 0, 2000], size_mm: [240, 120]}
-  - {name: cable3, centre_mm: [0, 0, 2000], size_mm: [240, 120]}
-  - {name: cable4, centre_mm: [280, 0, 2000], size_mm: [240, 120]}
-  - {name: cable5, centre_mm: [560, 0, 2000], size_mm: [240, 120]}
+  - {name: base, centre_mm: [-840, 0, 2000], size_mm: [240, 180]}
+  - {name: cable1, centre_mm: [-560, 0, 2000], size_mm: [240, 180]}
+  - {name: cable2, centre_mm: [-280, 0, 2000], size_mm: [240, 180]}
+  - {name: cable3, centre_mm: [0, 0, 2000], size_mm: [240, 180]}
+  - {name: cable4, centre_mm: [280, 0, 2000], size_mm: [240, 180]}
+  - {name: cable5, centre_mm: [560, 0, 2000], size_mm: [240, 180]}
 background: {depth_mm: 6000, texture: {pitch_mm: 0}}
 excitation: {rms_mm: 0.4, base: 0, forces: 1, band_hz: [2, 16]}
 hover: {x_rms_mm: 15, y_rms_mm: 8, z_rms_mm: 15}
@@ -81,9 +81,9 @@ figure_2() {
   local n=${n_seeds:-${quick:+4}} half
   n=${n:-20}
   half=$(((n + 1) / 2))
-  sensor_lines cable_tracks cable cable3 60 480x270 tracks "$half" "cable, tracks without pixels and codec"
+  sensor_lines cable_tracks cable cable3 30 480x270 tracks "$half" "cable, tracks without pixels and codec"
   sensor_lines frame_tracks frame floor6 30 480x270 tracks "$half" "frame, tracks without pixels and codec"
-  sensor_lines cable cable cable3 60 480x270 clip "$n" "rendered cable, H.264 of quality 20"
+  sensor_lines cable cable cable3 30 480x270 clip "$n" "rendered cable, H.264 of quality 20"
   sensor_lines frame frame floor6 30 480x270 clip "$n" "rendered frame, H.264 of quality 20"
 }
 

@@ -55,7 +55,7 @@ class SensorPicture {
             kSensorPanel_px};
   }
 
-  Points points(const std::vector<double>& value, double from_s, double to_s, double scale) const {
+  [[nodiscard]] Points points(const std::vector<double>& value, double from_s, double to_s, double scale) const {
     Points out;
     for (std::size_t k = 0; k < value.size(); ++k) {
       if (found_.t_s[k] < from_s || found_.t_s[k] > to_s) continue;
