@@ -208,7 +208,7 @@ class UffReader {
   }
 
   template <class Number, class Bits>
-  Number binary_number(std::string_view bytes, bool little) const {
+  [[nodiscard]] Number binary_number(std::string_view bytes, bool little) const {
     Bits bits = 0;
     for (std::size_t i = 0; i < sizeof(Bits); ++i) {
       const auto byte = static_cast<unsigned char>(bytes[little ? sizeof(Bits) - 1 - i : i]);

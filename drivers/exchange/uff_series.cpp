@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -67,9 +68,10 @@ class UffSeries {
       const double rate_hz = own_rate_hz(one);
       if (!(rate_hz > 0.0)) refuse(fmt::format("`{}` has no time step", printable(one.title)));
       if (rate_hz_ == 0.0) rate_hz_ = rate_hz;
-      if (std::abs(rate_hz / rate_hz_ - 1.0) > 1e-3)
+      if (std::abs(rate_hz / rate_hz_ - 1.0) > 1e-3) {
         refuse(fmt::format("`{}` has {:.6g} samples a second, `{}` {:.6g}; export the rates to files of their own",
                            printable(responses_.front().title), rate_hz_, printable(one.title), rate_hz));
+      }
     }
     out_.rate_hz = rate_hz_;
   }
@@ -99,9 +101,9 @@ class UffSeries {
     }
   }
   static std::string direction(int number) {
-    constexpr const char* kAxes[] = {"", "x", "y", "z", "rx", "ry", "rz"};
+    constexpr std::array<const char*, 7> kAxes{"", "x", "y", "z", "rx", "ry", "rz"};
     const int axis = std::abs(number);
-    return axis > 6 ? std::string() : std::string(number < 0 ? "-" : "") + kAxes[axis];
+    return axis > 6 ? std::string() : std::string(number < 0 ? "-" : "") + kAxes[static_cast<std::size_t>(axis)];
   }
 
   void take_times() {

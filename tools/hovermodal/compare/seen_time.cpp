@@ -24,7 +24,7 @@ struct ReadoutHead {
     if (key == "readout_ms") readout_s = 1e-3 * number;
     if (key == "readout_direction") {
       along_u = value == "left" || value == "right";
-      sign = value == "up" || value == "left" ? -1.0 : 1.0;
+      sign_ = value == "up" || value == "left" ? -1.0 : 1.0;
     }
     const std::size_t times = value.find(" x ");
     if (key != "image_size_px" || times == std::string::npos) return;
@@ -33,11 +33,11 @@ struct ReadoutHead {
   }
   [[nodiscard]] double s_per_px() const {
     const double size_px = along_u ? width_px : height_px;
-    return size_px > 0.0 ? sign * readout_s / size_px : 0.0;
+    return size_px > 0.0 ? sign_ * readout_s / size_px : 0.0;
   }
 
  private:
-  double sign = 1.0;
+  double sign_ = 1.0;
 };
 
 }  // namespace

@@ -82,11 +82,12 @@ class SensorRun {
     const SeenTime seen = seen_time(options_.run, channel.name);
     const double delay_s = channel.row_delay_s + seen.half_exposure_s + seen.mean_row_shift_s;
     out_.camera_first_s = loaded.first_s + delay_s;
-    if (delay_s != 0.0)
+    if (delay_s != 0.0) {
       out_.remarks.push_back(
           fmt::format("{} is seen {:.3f} ms after the time of its row in {}, {:+.3f} ms of it because it "
                       "stands elsewhere than in the first frame on average",
                       channel.name, 1e3 * delay_s, path_, 1e3 * seen.mean_row_shift_s));
+    }
     out_.channel = channel.name, out_.run = path_, out_.unit = loaded.series.unit;
     camera_ = {loaded.series.rate_hz, std::move(loaded.series.value.front()), channel.n_integrations};
     if (camera_.n_integrations != 0)
@@ -105,18 +106,20 @@ class SensorRun {
     sensor_ = {loaded.series.rate_hz, std::move(loaded.series.value.front()), channel.n_integrations};
     sensor_unit_ = options_.unit.empty() ? loaded.series.unit : options_.unit;
     const auto motion = drivers::motion_unit(sensor_unit_);
-    if (!motion && !options_.unit.empty())
+    if (!motion && !options_.unit.empty()) {
       throw std::invalid_argument(
           fmt::format("--sensor-unit {}: unknown; for example mm, m/s, mm/s, m/s^2, g", options_.unit));
+    }
     if (motion) sensor_.n_integrations = motion->n_integrations;
     if (options_.quantity == "d") sensor_.n_integrations = 0;
     if (options_.quantity == "v") sensor_.n_integrations = 1;
     if (options_.quantity == "a") sensor_.n_integrations = 2;
-    if (!motion && options_.quantity.empty())
+    if (!motion && options_.quantity.empty()) {
       throw std::invalid_argument(
           fmt::format("{}: the unit of {} is not known; set --sensor-unit (mm, m/s, m/s^2, g), or --quantity alone, "
                       "which compares all but the amplitude",
                       options_.sensor, channel.name));
+    }
     out_.sensor_rate_hz = sensor_.rate_hz, out_.n_sensor = sensor_.value.size();
     out_.n_integrations = sensor_.n_integrations;
     for (const std::string& remark : loaded.remarks) {
