@@ -22,6 +22,7 @@ packages=(
   libsystemd-dev
   libavformat-dev libavcodec-dev libavutil-dev
   libcamera-dev libjpeg-dev libpng-dev
+  libmatio-dev
   libgtest-dev libgmock-dev librapidcheck-dev
 )
 

@@ -112,7 +112,12 @@ Json read_json_file(const std::string& path, std::size_t max_bytes) {
   try {
     return Json::parse(text);
   } catch (const nlohmann::json::exception& error) {
-    throw FileError(fmt::format("{}: is no valid JSON: {}", path, printable(error.what(), 200)));
+    // "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error ...": the library's number says
+    // nothing.
+    std::string_view words = error.what();
+    if (const std::size_t end = words.find("] "); words.starts_with('[') && end != std::string_view::npos)
+      words.remove_prefix(end + 2);
+    throw FileError(fmt::format("{}: is no valid JSON: {}; name a file that is", path, printable(words, 200)));
   }
 }
 

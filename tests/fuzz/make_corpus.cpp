@@ -233,6 +233,7 @@ int main(int argc, char** argv) {
   try {
     tests::fuzz::corpus = argv[1];
     tests::fuzz::write_texts();
+    tests::fuzz::write_exchange();
     write_lcm();
     write_datagrams();
     write_checkpoint();

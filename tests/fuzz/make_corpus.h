@@ -10,6 +10,7 @@ namespace tests::fuzz {
 void keep(const std::string& target, const std::string& name, const std::vector<std::uint8_t>& bytes);
 void keep(const std::string& target, const std::string& name, const std::string& text);
 
-void write_texts();  // configurations, calibrations, scenes, tables
+void write_texts();     // configurations, calibrations, scenes, tables
+void write_exchange();  // files of other programs
 
 }  // namespace tests::fuzz

@@ -11,6 +11,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(PNG REQUIRED)
 pkg_check_modules(LIBAV REQUIRED IMPORTED_TARGET libavformat libavcodec libavutil)
+pkg_check_modules(MATIO REQUIRED IMPORTED_TARGET matio)
 
 # The Debian packages of OpenCV and yaml-cpp define plain variables or bare targets: they are wrapped, headers as SYSTEM.
 add_library(hovermodal_opencv INTERFACE)

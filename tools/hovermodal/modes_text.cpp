@@ -2,17 +2,28 @@
 
 #include <fmt/core.h>
 
+#include <optional>
+
 #include "firmware_app/report/estimate_words.h"
 
 namespace tools {
+namespace {
+
+// " ± 0.0046", or nothing where the standard deviation is unknown.
+std::string sigma_text(const std::optional<double>& sigma, double factor, int n_decimals) {
+  return sigma ? fmt::format(" ± {:.{}f}", factor * *sigma, n_decimals) : std::string();
+}
+
+}  // namespace
 
 std::string modes_text(const core::ModalEstimate& estimate, const std::vector<core::ChannelInfo>& channels) {
   std::string text =
       fmt::format("{} modes from {:.1f} s, {} segments, order {}{}\n", estimate.modes.size(), estimate.duration_s,
                   estimate.n_segments, estimate.model_order, estimate.status == "ok" ? "" : ": " + estimate.status);
   for (const core::Mode& mode : estimate.modes) {
-    text += fmt::format("  {:9.4f} Hz  damping {:5.2f} %  MPC {:.3f} ", mode.frequency_hz, 100.0 * mode.damping_ratio,
-                        mode.mpc);
+    text += fmt::format("  {:9.4f}{} Hz  damping {:5.2f}{} %  MPC {:.3f} ", mode.frequency_hz,
+                        sigma_text(mode.frequency_std_hz, 1.0, 4), 100.0 * mode.damping_ratio,
+                        sigma_text(mode.damping_std, 100.0, 2), mode.mpc);
     for (std::size_t c = 0; c < channels.size() && c < mode.shape.size(); ++c) {
       const bool known = c >= estimate.channels.size() || estimate.channels[c].takes_part;
       text += known ? fmt::format(" {} {:+.3f}", channels[c].name, mode.shape[c].real())

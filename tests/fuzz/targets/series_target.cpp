@@ -1,6 +1,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "drivers/exchange/series_file.h"
 #include "drivers/storage/attitude_file.h"
 #include "drivers/storage/csv.h"
 #include "drivers/storage/timed_columns.h"
@@ -42,7 +43,8 @@ void check_columns(const std::string& path) {
 }
 
 // The first byte selects the reader of the rest: s series, f formats of other programs, n the same without names, t
-// tracks, a attitude, c columns with a time column.
+// tracks, a attitude, c columns with a time column, u universal files, m MAT files (of other bytes a refusal is
+// expected).
 void run(Bytes bytes) {
   Input input(bytes);
   const std::uint8_t reader = input.byte();
@@ -53,6 +55,8 @@ void run(Bytes bytes) {
     if (reader == 't') check(drivers::read_tracks_csv(file.path()));
     if (reader == 'a') require(drivers::read_attitude_csv(file.path()).size() >= 2, "two attitudes at least");
     if (reader == 'c') check_columns(file.path());
+    if (reader == 'u') check(drivers::read_uff_series(file.path()));
+    if (reader == 'm') check(drivers::read_mat_series(file.path()));
   } catch (const std::runtime_error& error) {
     require(*error.what() != '\0', "a refusal says why");
   }

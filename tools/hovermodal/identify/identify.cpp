@@ -38,8 +38,10 @@ constexpr const char* kHelp =
     "      a measured ground: its own peaks are distinguished from modes, and the response to it is listed\n"
     "  hovermodal identify --series a.csv b.csv c.csv --rate 256 --reference ref_x ref_y --merge --report out\n"
     "      set-ups with moved sensors, joined by the two that stayed\n"
+    "  hovermodal identify --series rig.uff --base floor    # or a MAT file: series are its longest arrays\n"
     "A file: one row per sample; names on the first line, or none; comma, semicolon, tab or blanks between cells;\n"
-    "empty cells are missing samples; a column t_s (seconds) or frame shows gaps; # lines are comments.";
+    "empty cells are missing samples; a column t_s (seconds) or frame shows gaps; # lines are comments.\n"
+    "Or a universal file with time responses (data set 58), or a MAT file of version 5 (`rate_hz` or `fs`, `unit`).";
 
 SeriesFindings identify_file(const IdentifyOptions& options, const std::string& path, const std::string& report) {
   LoadedSeries loaded = load_series(path, options.request);

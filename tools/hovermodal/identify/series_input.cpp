@@ -9,7 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "drivers/storage/csv.h"
+#include "drivers/exchange/series_file.h"
 #include "drivers/storage/series_format.h"
 #include "drivers/storage/text_file.h"
 #include "tools/hovermodal/identify/sample_grid.h"
@@ -86,6 +86,11 @@ class SeriesLoader {
     const SampleGrid grid = sample_grid(file_, request_.rate_hz, path_);
     out_.remarks.insert(out_.remarks.end(), grid.remarks.begin(), grid.remarks.end());
     out_.series.rate_hz = grid.rate_hz;
+    const int times = time_column(file_);
+    if (times >= 0 && !file_.columns[static_cast<std::size_t>(times)].empty()) {
+      const double first_s = file_.columns[static_cast<std::size_t>(times)].front();
+      if (std::isfinite(first_s)) out_.first_s = first_s;
+    }
     check_counts();
     choose_units();
     for (std::size_t i = 0; i < columns_.size(); ++i) {
@@ -187,7 +192,7 @@ LoadedSeries load_series(const std::string& path, const SeriesRequest& request) 
   drivers::ForeignFormat format;
   format.no_names = request.no_header;
   format.progress = [&](std::uint64_t n_lines) { fmt::print(stderr, "{}: {} lines read\n", path, n_lines); };
-  const SeriesFile file = drivers::read_foreign_series(path, format);
+  const SeriesFile file = drivers::read_any_series(path, format);
   return SeriesLoader(file, request, path).load();
 }
 

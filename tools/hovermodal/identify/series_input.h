@@ -23,6 +23,7 @@ struct LoadedSeries {
   app::ChannelSeries series;
   std::vector<std::size_t> columns;  // per channel, number in the file, from 1
   std::vector<std::string> remarks;
+  double first_s = 0.0;  // time of the first sample in the file; 0 without times
 };
 
 // Rows are placed by their times or frame numbers, if the file has them: cells between are missing. Progress of

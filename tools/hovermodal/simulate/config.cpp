@@ -94,6 +94,15 @@ std::string tracking_section(const Scene& scene) {
   return fmt::format("tracking:\n  window_px: {}\n  min_distance_px: {}\n", window_px, std::max(2, window_px / 3));
 }
 
+// A record shorter than the default segment would be refused: at least three segments then fit, overlapping by half.
+std::string spectrum_section(const Scene& scene) {
+  const double n_frames = std::floor(scene.duration_s * scene.camera.rate_hz);
+  if (n_frames >= app::SpectrumConfig{}.segment) return {};
+  int segment = 16;
+  while (4 * segment <= n_frames) segment *= 2;
+  return fmt::format("spectrum:\n  segment: {}\n", segment);
+}
+
 }  // namespace
 
 std::string config_text(const SimulateJob& job, const SceneMotion& motion, const std::string& source) {
@@ -111,6 +120,7 @@ std::string config_text(const SimulateJob& job, const SceneMotion& motion, const
   out += regions_section(motion);
   out += scale_section(motion);
   out += tracking_section(job.scene());
+  out += spectrum_section(job.scene());
   return out;
 }
 
