@@ -87,7 +87,7 @@ std::optional<std::string> text_of(const matvar_t& variable) {
 class MatSeries {
  public:
   explicit MatSeries(const std::string& path) : path_(path) {
-    (void)open_regular_file(path, "name a MAT file", kMostExchangeBytes);
+    (void)open_regular_file(path, "name a MAT file", Limits::kExchangeBytes);
     file_.reset(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
     if (!file_) refuse("no MAT file that can be read; save it with -v7 or -v6");
     if (Mat_GetVersion(file_.get()) == MAT_FT_MAT73) refuse("version 7.3 (HDF5) is not read; save it with -v7");
@@ -109,8 +109,8 @@ class MatSeries {
       const MatVariable variable(Mat_VarReadNextInfo(file_.get()));
       if (!variable) break;
       n_bytes += announced_bytes(*variable);
-      if (!(n_bytes <= static_cast<double>(kMostExchangeBytes)))
-        refuse("its variables are larger than 1 GiB; save only the series");
+      if (!(n_bytes <= static_cast<double>(Limits::kExchangeBytes)))
+        refuse("its variables are larger than 96 MiB; save only the series");
       const std::string name = variable->name != nullptr ? variable->name : "";
       const bool is_number = variable->class_type >= MAT_C_DOUBLE && variable->class_type <= MAT_C_UINT64;
       const bool is_wanted = is_number || name == "unit" || name == "channel_names";

@@ -23,7 +23,4 @@ namespace drivers {
 // rate_hz, fs or Fs is the rate; `unit` is the unit of what has none in its name. Version 7.3 is refused.
 [[nodiscard]] SeriesFile read_mat_series(const std::string& path);
 
-// Files that are read whole.
-inline constexpr std::size_t kMostExchangeBytes = std::size_t{1} << 30U;
-
 }  // namespace drivers

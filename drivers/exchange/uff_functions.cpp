@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "drivers/exchange/series_file.h"
+#include "drivers/storage/limits.h"
 #include "drivers/storage/text_file.h"
 
 namespace drivers {
@@ -29,7 +30,7 @@ std::string stated(std::string_view text) {
 // The data sets of a universal file, as text with the lines' numbers.
 class UffFile {
  public:
-  explicit UffFile(const std::string& path) : path_(path), bytes_(read_text_file(path, kMostExchangeBytes)) {}
+  explicit UffFile(const std::string& path) : path_(path), bytes_(read_text_file(path, Limits::kExchangeBytes)) {}
 
   bool next(std::string_view& line) {
     if (at_ >= bytes_.size()) return false;

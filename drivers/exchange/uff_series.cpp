@@ -16,7 +16,7 @@
 namespace drivers {
 namespace {
 
-constexpr std::size_t kMostCells = std::size_t{1} << 27U;  // of the table: 1 GB
+constexpr std::size_t kMostCells = Limits::kExchangeBytes / sizeof(double);  // of the table
 
 // "KEY=NUMBER;" in ID line 5 of our own files.
 std::optional<double> stated(const UffResponse& one, std::string_view key) {
