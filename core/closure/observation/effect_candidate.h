@@ -43,7 +43,7 @@ class EffectCandidate {
   [[nodiscard]] virtual std::optional<double> free_gain(const TestedResidual& /*residual*/) const {
     return std::nullopt;
   }
-  // Derivatives by its constants, 2 points x frames in sigmas; empty: it has none.
+  // Derivatives by its constants of the errors of points left out, 2 points x frames in sigmas; empty: it has none.
   [[nodiscard]] virtual std::span<const Eigen::MatrixXd> constant_fields() const { return {}; }
   [[nodiscard]] virtual std::unique_ptr<EffectInModel> adopted() const = 0;
 };

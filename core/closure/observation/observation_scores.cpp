@@ -114,7 +114,7 @@ double ObservationScores::constants_gain(const TestedResidual& tested) const {
   for (const auto& candidate : prepared_) {
     for (const Eigen::MatrixXd& field : candidate->constant_fields()) fields.push_back(field);
   }
-  return fields.empty() ? 0.0 : BlockEstimates(fields, tested.values).held_out_gain();
+  return fields.empty() ? 0.0 : BlockEstimates(fields, fit_.view().held_out.errors(tested.values)).held_out_gain();
 }
 
 std::vector<CandidateScore> ObservationScores::score() {

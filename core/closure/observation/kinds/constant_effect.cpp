@@ -68,17 +68,20 @@ class ConstantCandidate final : public EffectCandidate {
  public:
   ConstantCandidate(const ConstantEffect& effect, const FitView& fit)
       : effect_(effect),
-        fields_(effect.derivatives(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(effect.n_parameters())), fit)) {}
+        fit_(fit),
+        fields_(effect.derivatives(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(effect.n_parameters())), fit)) {
+    for (const Eigen::MatrixXd& field : fields_) error_fields_.push_back(fit.held_out.errors(field));
+  }
+  // In squares of points left out, as the scores of patterns.
   [[nodiscard]] double gain(const TestedResidual& residual) const override {
-    return BlockEstimates(fields_, residual.values).held_out_gain();
+    return BlockEstimates(error_fields_, fit_.held_out.errors(residual.values)).held_out_gain();
   }
   double find(const TestedResidual& residual) override {
-    const BlockEstimates estimates(fields_, residual.values);
-    sigmas_ = estimates.sigmas_from_zero();
-    return estimates.held_out_gain();
+    sigmas_ = BlockEstimates(fields_, residual.values).sigmas_from_zero();
+    return gain(residual);
   }
   [[nodiscard]] double material_share() const override { return kGlobalBar; }
-  [[nodiscard]] std::span<const Eigen::MatrixXd> constant_fields() const override { return fields_; }
+  [[nodiscard]] std::span<const Eigen::MatrixXd> constant_fields() const override { return error_fields_; }
   [[nodiscard]] Objection objection() const override {
     if (sigmas_ > kLeastSigmas) return {};
     return {"within three of its own standard deviations of zero", true};
@@ -89,7 +92,8 @@ class ConstantCandidate final : public EffectCandidate {
 
  private:
   const ConstantEffect& effect_;
-  std::vector<Eigen::MatrixXd> fields_;
+  const FitView fit_;
+  std::vector<Eigen::MatrixXd> fields_, error_fields_;  // error_fields_: of points left out
   double sigmas_ = 0.0;
 };
 
