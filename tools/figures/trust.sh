@@ -68,7 +68,7 @@ figure_3() {
     least=100 most=0
     for i in 1 2 3 4 5 6; do
       for one in "$(inside 15 "$s" "$i")" "$(inside 16 "$s" "$i")"; do
-        least=$(awk "BEGIN { print ${one% *} < $least ? ${one% *} : $least }") most=$(awk "BEGIN { print ${one% *} > $most ? ${one% *} : $most }")
+        least=$(awk "BEGIN { print (${one% *} < $least ? ${one% *} : $least) }") most=$(awk "BEGIN { print (${one% *} > $most ? ${one% *} : $most) }")
       done
     done
     judge "3.$s.modes" "$least to $most %" "90-98 % per mode" "frequency and damping of six modes, $s s" "$least >= 90 && $most <= 98"
