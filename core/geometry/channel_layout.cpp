@@ -9,6 +9,11 @@
 
 namespace core {
 
+std::string_view without_axis(std::string_view channel) noexcept {
+  if (channel.ends_with(".u") || channel.ends_with(".v")) channel.remove_suffix(2);
+  return channel;
+}
+
 std::vector<ChannelInfo> channel_layout(const std::vector<Region>& regions, const std::vector<RegionPoints>& points) {
   std::vector<ChannelInfo> out;
   for (std::size_t r = 0; r < regions.size(); ++r) {

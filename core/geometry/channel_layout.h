@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
 #include "core/types/displacement.h"
@@ -17,6 +18,9 @@ struct RegionPoints {
 // Channels of the structure and base regions, in their order: one along the region's axis, or two (u, v).
 [[nodiscard]] std::vector<ChannelInfo> channel_layout(const std::vector<Region>& regions,
                                                       const std::vector<RegionPoints>& points);
+
+// The region of a channel called REGION.u or REGION.v, by its name; else the name itself.
+[[nodiscard]] std::string_view without_axis(std::string_view channel) noexcept;
 
 // Witnesses of the camera's translation along each direction of the channels: the static region with the most points,
 // at least min_points (3 or more); empty without one.

@@ -15,7 +15,6 @@ namespace {
 // Correlation of the power of two half-overlapping Hann-windowed segments: overlap of the squared windows,
 // integral of w(t)^2 w(t + 1/2)^2 over that of w^4 = (3/128) / (35/128).
 constexpr double kOverlapCorrelation = 3.0 / 35.0;
-constexpr double kDeviationPerMedian = 1.4826;
 
 // Factor of a variance that is estimated from blocks as if they were independent. Neighbouring blocks share the overlap
 // of their segments; with r the correlation of neighbouring blocks, the variance of the sum of K is 1 + 2 r (K - 1) / K
@@ -34,7 +33,7 @@ struct Variances {
 double robust_variance(std::vector<double> deviation) {
   if (deviation.empty()) return 0.0;
   for (double& d : deviation) d = std::abs(d);
-  return std::pow(kDeviationPerMedian * median_in_place(deviation), 2);
+  return std::pow(kSigmaPerMad * median_in_place(deviation), 2);
 }
 
 Variances spread_over_orders(const PoleCluster& line, const std::vector<OrderPole>& poles) {

@@ -16,6 +16,9 @@ namespace core {
   return *middle;
 }
 
+// Standard deviation of a Gaussian over its median absolute deviation.
+inline constexpr double kSigmaPerMad = 1.4826;
+
 [[nodiscard]] inline double median(std::vector<double> values) { return median_in_place(values); }
 
 }  // namespace core

@@ -3,6 +3,8 @@
 #include <bit>
 #include <cmath>
 
+#include "core/types/fnv1a.h"
+
 namespace core::simulation {
 namespace {
 
@@ -33,11 +35,7 @@ std::uint64_t mix64(std::uint64_t word) noexcept {
   return word ^ (word >> 31);
 }
 
-std::uint64_t hash_name(std::string_view name) noexcept {
-  std::uint64_t hash = 0xCBF29CE484222325ULL;  // FNV-1a
-  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
-  return hash;
-}
+std::uint64_t hash_name(std::string_view name) noexcept { return fnv1a(name); }
 
 RandomStream::RandomStream(std::uint64_t seed, std::string_view name, std::uint64_t index) noexcept {
   std::uint64_t word = mix64(mix64(mix64(seed) ^ hash_name(name)) + index);

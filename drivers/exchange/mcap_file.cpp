@@ -1,7 +1,10 @@
 #include "drivers/exchange/mcap_file.h"
 
+extern "C" {
+#include <libavutil/crc.h>
+}
+
 #include <algorithm>
-#include <array>
 #include <concepts>
 
 namespace drivers {
@@ -39,21 +42,11 @@ std::string record(Opcode opcode, std::string_view content) {
   return out;
 }
 
-constexpr std::array<std::uint32_t, 256> kCrcOfByte = [] {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t byte = 0; byte < 256; ++byte) {
-    table[byte] = byte;
-    for (int bit = 0; bit < 8; ++bit) table[byte] = (table[byte] >> 1U) ^ ((table[byte] & 1U) != 0 ? 0xedb88320U : 0U);
-  }
-  return table;
-}();
-
 }  // namespace
 
 std::uint32_t crc32(std::string_view bytes, std::uint32_t before) noexcept {
-  std::uint32_t crc = ~before;
-  for (const char byte : bytes) crc = (crc >> 8U) ^ kCrcOfByte[(crc ^ static_cast<unsigned char>(byte)) & 0xffU];
-  return ~crc;
+  const AVCRC* table = av_crc_get_table(AV_CRC_32_IEEE_LE);
+  return ~av_crc(table, ~before, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
 }
 
 void McapFile::Span::add(std::uint64_t t_ns) noexcept {

@@ -19,7 +19,7 @@ namespace drivers {
 struct StreamIdentity {
   std::string stream_id;          // telemetry.stream_id
   std::uint64_t config_hash = 0;  // of the configuration in force
-  std::uint64_t run_id = 0;       // drivers/host/run_identity.h; in messages only, never in a result
+  std::uint64_t run_id = 0;       // drivers/telemetry/run_identity.h; in messages only, never in a result
 };
 
 // Destination of results. Called by the publish stage only. A failed send returns false and is counted by the caller.

@@ -17,7 +17,7 @@ SenderWatch::Whose SenderWatch::note(std::int64_t run_id, std::int64_t now_ns) n
   }
   const bool is_free = !is_following_ || has_ended_ || now_ns - last_ns_ > kSilence_ns;
   if (!is_free) {
-    if (Other* one = other(run_id, now_ns)) ++one->n_messages, one->last_ns = now_ns;
+    if (Other* one = other(run_id, now_ns)) ++one->n_messages;
     return Whose::kOther;
   }
   const bool is_next = is_following_;
@@ -34,7 +34,7 @@ SenderWatch::Other* SenderWatch::other(std::int64_t run_id, std::int64_t now_ns)
     if (others_[i].run_id == run_id) return &others_[i];
   }
   if (n_others_ == kMost) return nullptr;
-  others_[n_others_] = {run_id, now_ns, now_ns};
+  others_[n_others_] = {run_id, now_ns};
   return &others_[n_others_++];
 }
 

@@ -24,7 +24,7 @@ class SenderWatch {
   void followed_run_ended() noexcept { has_ended_ = true; }
 
   struct Other {
-    std::int64_t run_id = 0, first_ns = 0, last_ns = 0;
+    std::int64_t run_id = 0, first_ns = 0;
     std::uint64_t n_messages = 0;
     bool is_beside = false;  // a second sender
   };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/types/fnv1a.h"
 #include "drivers/storage/key_suggestion.h"
 #include "firmware_app/config/config_sections.h"
 
@@ -74,10 +75,6 @@ std::string canonical_text(const AppConfig& config) {
   return text;
 }
 
-std::uint64_t canonical_hash(const AppConfig& config) {
-  std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a, 64 bit: offset basis and prime
-  for (const char c : canonical_text(config)) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return hash;
-}
+std::uint64_t canonical_hash(const AppConfig& config) { return core::fnv1a(canonical_text(config)); }
 
 }  // namespace app

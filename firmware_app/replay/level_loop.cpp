@@ -121,8 +121,7 @@ class LevelLoop {
     if (!inputs_.config) return skipped(name, "it needs the run's configuration (--config): regions and camera");
     if (!tracks_) return skipped(name, "there is no " + tracks_path_ + " (report.tracks)");
     tell("fitting the model of the points' places");
-    TracksRecord record =
-        thinned(tracks_record(*tracks_, tracks_path_, *inputs_.config), inputs_.config->closure.points_per_region);
+    TracksRecord record = thinned(tracks_record(*tracks_, *inputs_.config), inputs_.config->closure.points_per_region);
     std::unique_ptr<core::closure::ObservationLevel> level;
     try {
       level = std::make_unique<core::closure::ObservationLevel>(std::move(record.record));

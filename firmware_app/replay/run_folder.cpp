@@ -102,10 +102,11 @@ MeasuredRows rows_of_displacements(const std::string& path, const std::vector<st
   MeasuredRows out;
   out.series.rate_hz = drivers::parse_number(comment("rate_hz")).value_or(0.0);
   out.series.unit = comment("unit");
-  if (frame < 0 || time < 0 || !(out.series.rate_hz > 0.0) || file.columns.front().empty())
+  if (frame < 0 || time < 0 || !(out.series.rate_hz > 0.0) || file.columns.front().empty()) {
     throw drivers::FileError(path +
                              ": is no displacements.csv of a run: columns frame and t_s and a comment rate_hz "
                              "are needed");
+  }
   std::vector<std::uint64_t> number;
   for (const double one : file.columns[static_cast<std::size_t>(frame)]) {
     if (!(one >= 0.0 && one < 1e15)) throw drivers::FileError(path + ": a frame number is negative or missing");
@@ -114,6 +115,7 @@ MeasuredRows rows_of_displacements(const std::string& path, const std::vector<st
   out.times = timed(std::move(number), file.columns[static_cast<std::size_t>(time)], out.series.rate_hz);
   for (std::size_t c = 0; c < file.names.size(); ++c) {
     const std::string& name = file.names[c];
+    if (name == "scale_mm_per_px") out.scale_mm_per_px = std::move(file.columns[c]);
     if (name == "frame" || name == "t_s" || name == "scale_mm_per_px") continue;
     core::ChannelInfo channel;
     channel.name = name;

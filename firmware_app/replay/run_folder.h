@@ -31,6 +31,7 @@ struct FrameTimes {
 struct MeasuredRows {
   ChannelSeries series;
   FrameTimes times;
+  std::vector<double> scale_mm_per_px;  // as displacements.csv states it, one per frame; empty: it does not
 };
 // Measured by the chain from a file of tracks, with `corrections` in force from the first frame on. Throws
 // std::invalid_argument: no point in any region, no rate.

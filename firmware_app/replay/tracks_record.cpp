@@ -80,18 +80,18 @@ core::closure::ObservationRecord record_of(const drivers::TracksFile& file, cons
 TracksRecord read_tracks_record(const std::string& path, const AppConfig& config) {
   const std::string file_path =
       std::filesystem::is_directory(path) ? (std::filesystem::path(path) / "tracks.csv").string() : path;
-  return tracks_record(drivers::read_tracks_csv(file_path), file_path, config);
+  return tracks_record(drivers::read_tracks_csv(file_path), config);
 }
 
-TracksRecord tracks_record(const drivers::TracksFile& file, const std::string& file_path, const AppConfig& given) {
+TracksRecord tracks_record(const drivers::TracksFile& file, const AppConfig& given) {
   if (n_frames_of(file) > kMostFrames)
-    throw drivers::FileError(fmt::format("{}: frame numbers extend over {} frames, at most {} are allowed", file_path,
+    throw drivers::FileError(fmt::format("{}: frame numbers extend over {} frames, at most {} are allowed", file.path,
                                          n_frames_of(file), kMostFrames));
   const AppConfig config = with_axes_of(file, given);
   TracksRecord out;
   const Columns columns(file, config);
   if (columns.region_of_point.empty())
-    throw drivers::FileError(file_path + ": no point lies in a region of the configuration; is it that of the run?");
+    throw drivers::FileError(file.path + ": no point lies in a region of the configuration; is it that of the run?");
   require_memory(file, columns.region_of_point.size());
   DeclaredObservation declared = declared_observation(config, file.camera);
   out.record = record_of(file, columns, declared);

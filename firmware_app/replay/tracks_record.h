@@ -16,8 +16,7 @@ struct TracksRecord {
 
 // Reads tracks.csv, or the folder of a run that contains one, with regions, camera and calibration as `config`
 // declares them. Frames lie on the grid of their numbers. Throws drivers::FileError, ConfigError.
-[[nodiscard]] TracksRecord tracks_record(const drivers::TracksFile& file, const std::string& path,
-                                         const AppConfig& config);
+[[nodiscard]] TracksRecord tracks_record(const drivers::TracksFile& file, const AppConfig& config);
 [[nodiscard]] TracksRecord read_tracks_record(const std::string& path, const AppConfig& config);
 
 }  // namespace app

@@ -32,7 +32,7 @@ std::string true_words(const ObservationRecord& with, const ObservationRecord& w
     change.row(2 * j + 1) = (with.v_px.col(j) - without.v_px.col(j)).transpose() * model.weight()(2 * j + 1);
   }
   const Eigen::MatrixXd left = model.left_of(change);
-  const Eigen::VectorXd pattern = core::closure::leading_pattern(left * left.transpose());
+  const Eigen::VectorXd pattern = core::closure::leading_pattern(Eigen::MatrixXd(left * left.transpose()));
   return core::closure::latent_words(pattern.cwiseQuotient(model.weight()), pattern.transpose() * left, without,
                                      model.geometry(), {});
 }

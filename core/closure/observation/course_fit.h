@@ -19,7 +19,7 @@ class CourseFit {
  public:
   CourseFit(const PointCourses& courses, const Eigen::MatrixXd& residual);
 
-  [[nodiscard]] bool is_usable() const noexcept { return is_usable_; }  // the courses are independent in every block
+  [[nodiscard]] bool is_usable() const noexcept { return is_usable_; }  // the courses of each set are independent
   // Drop of the squares of each of ten blocks, in noise variances, where the constants come from the other nine;
   // summed.
   [[nodiscard]] double held_out_gain() const;

@@ -66,14 +66,6 @@ ResidualMoments residual_moments(const Eigen::MatrixXd& residual, double rate_hz
   return m;
 }
 
-Eigen::VectorXd leading_pattern(const Eigen::MatrixXd& moments) {
-  Eigen::Index start = 0;
-  moments.diagonal().maxCoeff(&start);
-  Eigen::VectorXd v = moments.col(start);
-  for (int step = 0; step < 60 && v.norm() > 0.0; ++step) v = (moments * v.normalized()).eval();
-  return v.norm() > 0.0 ? v.normalized().eval() : v;
-}
-
 PatternBeside pattern_beside(const PointMotionModel& model, const Eigen::VectorXd& whitened) {
   const auto beside = [&](const Eigen::MatrixXd& q) -> Eigen::VectorXd {
     Eigen::VectorXd g = whitened - q * (q.transpose() * whitened);
@@ -145,8 +137,9 @@ double HeldOut::learned_gain(const std::vector<Eigen::MatrixXd>& parts, const Le
   double gain = 0.0;
   for (const Eigen::MatrixXd& part : parts) {
     const Eigen::MatrixXd others = sum - part;
-    const Eigen::VectorXd g =
-        span.cols() == 0 ? leading_pattern(others) : (span * leading_pattern(span.transpose() * others * span)).eval();
+    const Eigen::VectorXd g = span.cols() == 0
+                                  ? leading_pattern(others)
+                                  : (span * leading_pattern(Eigen::MatrixXd(span.transpose() * others * span))).eval();
     gain += with.squares(part) - with.squares_with(part, g);
   }
   return gain;

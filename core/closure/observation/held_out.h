@@ -21,7 +21,15 @@ struct ResidualMoments {
 
 // Unit vector that explains most of a residual's squares, by power iteration started at its largest value; zero if
 // none.
-[[nodiscard]] Eigen::VectorXd leading_pattern(const Eigen::MatrixXd& moments);
+template <class Scalar>  // moments: symmetric, or complex and Hermitian
+[[nodiscard]] Eigen::VectorX<Scalar> leading_pattern(const Eigen::MatrixX<Scalar>& moments) {
+  constexpr int kSteps = 60;
+  Eigen::Index start = 0;
+  moments.diagonal().real().maxCoeff(&start);
+  Eigen::VectorX<Scalar> v = moments.col(start);
+  for (int step = 0; step < kSteps && v.norm() > 0.0; ++step) v = (moments * v.normalized()).eval();
+  return v.norm() > 0.0 ? v.normalized().eval() : v;
+}
 
 // A whitened pattern beside the model's columns, of unit norm: in the rungs of the model's added columns, and in
 // others.

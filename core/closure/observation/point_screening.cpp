@@ -16,7 +16,6 @@ constexpr int kSpare = 2;               // points that a fit needs beyond its un
 constexpr double kLarge = 0.4;          // extent / image height: in larger regions a readout makes motion quadratic
 using Terms = Eigen::Matrix<double, 6, 1>;
 constexpr double kRidge = 1e-9;
-constexpr double kNormalMad = 1.4826;
 
 // Deviations of one region's points from the smooth motion of the other points, in sigmas.
 class RegionScreen {
@@ -136,7 +135,7 @@ class RegionScreen {
         for (const double value : off->col(static_cast<Eigen::Index>(i))) {
           if (std::isfinite(value)) all.push_back(std::abs(value));
         }
-        const double middle = kNormalMad * median(std::move(all));
+        const double middle = kSigmaPerMad * median(std::move(all));
         if (std::isfinite(middle)) scatter_[i] = std::max(scatter_[i], middle);
       }
     }

@@ -20,8 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index kClockParts = 30;
-constexpr Index kNeighbours = 5;      // on either side, for the median
-constexpr double kPerSigma = 1.4826;  // standard deviation of a Gaussian over its median absolute deviation
+constexpr Index kNeighbours = 5;  // on either side, for the median
 constexpr double kMostMisread = 0.25;
 constexpr double kColoured = 0.25;  // correlation of successive residuals that exceeds chance
 
@@ -48,7 +47,7 @@ VectorXd from_neighbours(const VectorXd& residual) {
 double robust_deviation(const VectorXd& values) {
   std::vector<double> sizes;
   for (const double v : values) sizes.push_back(std::abs(v));
-  return kPerSigma * median(std::move(sizes));
+  return kSigmaPerMad * median(std::move(sizes));
 }
 
 VectorXd picked(const VectorXd& values, const std::vector<Index>& rows) { return values(rows); }

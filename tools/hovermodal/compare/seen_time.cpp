@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/geometry/channel_layout.h"
 #include "drivers/storage/csv_lines.h"
 #include "drivers/storage/text_file.h"
 
@@ -63,8 +64,7 @@ SeenTime seen_time(const std::string& run, const std::string& channel) {
   out.half_exposure_s = 0.5 * head.exposure_s;
   if (std::max({point, region, place}) >= n_cells || head.s_per_px() == 0.0) return out;
 
-  const std::string stem =
-      channel.ends_with(".u") || channel.ends_with(".v") ? channel.substr(0, channel.size() - 2) : channel;
+  const std::string_view stem = core::without_axis(channel);
   std::map<std::string, double, std::less<>> first_px;
   double sum_px = 0.0, n = 0.0;
   while (lines.next(line)) {

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "core/geometry/channel_layout.h"
 #include "core/types/constants.h"
-#include "drivers/storage/csv.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/replay/run_folder.h"
 #include "firmware_app/report/modal_json.h"
@@ -46,7 +46,7 @@ class RunLoader {
 
  private:
   static fs::path folder_of(const std::string& path) {
-    const fs::path named(path);
+    fs::path named(path);
     if (fs::is_regular_file(named)) return named.parent_path().empty() ? fs::path(".") : named.parent_path();
     if (!fs::is_directory(named))
       throw std::invalid_argument(path + ": no such folder; name the folder that --report of a run wrote");
@@ -71,19 +71,15 @@ class RunLoader {
     out_.run.rate_hz = rows.series.rate_hz;
     out_.run.t_s = rows.times.t_s;
     out_.run.value = rows.series.value;
-    scale_ = first_scale(path);
+    scale_ = first_scale(rows.scale_mm_per_px);
     const double resolution_hz = report_.estimate.resolution_hz;
     const int segment = resolution_hz > 0.0 ? static_cast<int>(std::lround(rows.series.rate_hz / resolution_hz)) : 0;
     if (!names.empty()) add_spectra(app::on_grid(rows), segment, out_.run, out_.remarks);
   }
 
   // mm per px in the first frame; 1 if displacements are in px.
-  [[nodiscard]] double first_scale(const std::string& path) const {
+  [[nodiscard]] double first_scale(const std::vector<double>& scale) const {
     if (out_.run.unit == "px") return 1.0;
-    const drivers::SeriesFile file = drivers::read_series_csv(path);
-    const int column = file.column("scale_mm_per_px");
-    if (column < 0) return 1.0;
-    const auto& scale = file.columns[static_cast<std::size_t>(column)];
     const auto known = std::find_if(scale.begin(), scale.end(), [](double one) { return one > 0.0; });
     return known == scale.end() ? 1.0 : *known;
   }
@@ -105,7 +101,7 @@ class RunLoader {
         channel.direction_x = std::cos(region->axis_deg * core::kRadPerDeg);
         channel.direction_y = -std::sin(region->axis_deg * core::kRadPerDeg);
       } else if (names[c].ends_with(".u") || names[c].ends_with(".v")) {
-        const std::string stem = names[c].substr(0, names[c].size() - 2);
+        const std::string stem(core::without_axis(names[c]));
         if (region_named(stem) != nullptr) region_name = stem;
         const bool along_v = names[c].ends_with(".v");
         channel.direction_x = along_v ? 0.0 : 1.0;

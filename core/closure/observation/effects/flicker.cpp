@@ -1,23 +1,25 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <optional>
 #include <utility>
 
 #include "core/closure/observation/effects/catalogue.h"
+#include "core/closure/observation/held_out.h"
 #include "core/closure/observation/kinds/course_effect.h"
 #include "core/types/constants.h"
 
 namespace core::closure {
 namespace {
 
-constexpr double kLamps_hz[] = {100.0, 120.0};  // twice the frequency of the mains
-constexpr double kOff_hz = 0.5;                 // of the lamps or of the camera's clock, together
-constexpr double kLeastCycles = 4.0;            // of the beat in the record: slower is drift
-constexpr double kWander_hz = 0.15;             // of the mains within a record, to either side
-constexpr double kOfBeat = 0.5;                 // ... but at most this share of the beat
-constexpr double kMostFluctuation = 0.3;        // of the amplitude: lamps are steady
-constexpr double kHighest = 0.49;               // of the frame rate: both phases must be seen
+constexpr std::array kLamps_hz{100.0, 120.0};  // twice the frequency of the mains
+constexpr double kOff_hz = 0.5;                // of the lamps or of the camera's clock, together
+constexpr double kLeastCycles = 4.0;           // of the beat in the record: slower is drift
+constexpr double kWander_hz = 0.15;            // of the mains within a record, to either side
+constexpr double kOfBeat = 0.5;                // ... but at most this share of the beat
+constexpr double kMostFluctuation = 0.3;       // of the amplitude: lamps are steady
+constexpr double kHighest = 0.49;              // of the frame rate: both phases must be seen
 
 struct Lamps {
   double hz = 0.0;
@@ -63,10 +65,7 @@ class BandMotion {
  public:
   BandMotion(const Eigen::MatrixXcd& spectrum, Eigen::Index first, Eigen::Index last) : first_(first) {
     const Eigen::MatrixXcd band = spectrum.middleCols(first, last - first + 1);
-    const Eigen::MatrixXcd moments = band.adjoint() * band;  // bins x bins: fewer than rows
-    Eigen::VectorXcd course = Eigen::VectorXcd::Ones(moments.rows());
-    for (int step = 0; step < kSteps && course.norm() > 0.0; ++step) course = (moments * course.normalized()).eval();
-    bins_ = course.conjugate();
+    bins_ = leading_pattern(Eigen::MatrixXcd(band.adjoint() * band)).conjugate();  // bins x bins: fewer than rows
   }
   // n_fft: of the spectrum.
   [[nodiscard]] Eigen::VectorXcd series(Eigen::Index n_frames, double n_fft) const {
@@ -80,7 +79,6 @@ class BandMotion {
   }
 
  private:
-  static constexpr int kSteps = 40;
   Eigen::Index first_;
   Eigen::VectorXcd bins_;
 };

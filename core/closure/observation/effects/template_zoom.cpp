@@ -42,7 +42,7 @@ class TemplateZoom final : public CourseEffect {
       squares += std::pow(motion_px.row(row).dot(zoom.row(0)) / course, 2);
       noise += std::pow(fit.record.sigma_px[static_cast<std::size_t>(row / 2)], 2) / course;
     }
-    const double n = static_cast<double>(motion_px.rows());
+    const auto n = static_cast<double>(motion_px.rows());
     const double rms = std::sqrt(std::max(squares - noise, 0.0) / n);
     return {{"rms of the points, per unit of zoom", "px", rms, std::sqrt(noise) / n}};
   }
