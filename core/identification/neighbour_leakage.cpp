@@ -19,7 +19,7 @@ constexpr std::size_t kLeastComponents = 5;  // fewer components are in phase af
 constexpr double kReach = 2.0;               // distance of a neighbour, in half-power widths of both poles together
 constexpr double kLeastNeighbourMpc = 0.9;
 
-// Squares of the components along the real and the imaginary axis.
+// Squares of a shape's components along the real and the imaginary axis.
 struct Parts {
   double in_phase = 0.0, out_of_phase = 0.0;
 };
@@ -47,6 +47,8 @@ NeighbourLeakage::NeighbourLeakage(Shape neighbour, Complex s, const FoldingConf
     : neighbour_(std::move(neighbour)), turn_(neighbour_.size(), 1.0) {
   for (std::size_t c = 0; c < turn_.size() && c < config.delay_s.size(); ++c)
     turn_[c] = std::exp(-s * config.delay_s[c]);
+  for (std::size_t c = 0; c < turn_.size() && c < config.n_integrations.size(); ++c)
+    turn_[c] *= std::pow(s, -config.n_integrations[c]);
 }
 
 // Least squares of Im(turn (phi - c psi)) over the real and the imaginary part of c.
