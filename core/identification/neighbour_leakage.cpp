@@ -17,7 +17,8 @@ constexpr int kPhases = 180;                 // tried over half a turn
 constexpr double kLeastLeft = 0.2;           // share of the shape's square
 constexpr std::size_t kLeastComponents = 5;  // fewer components are in phase after any fit
 constexpr double kReach = 2.0;               // distance of a neighbour, in half-power widths of both poles together
-constexpr double kLeastNeighbourMpc = 0.9;
+constexpr int kRounds = 3;
+constexpr double kLeastFirstMpc = 0.7, kLeastNeighbourMpc = 0.9;  // of a neighbour in the first round, and later
 
 // Squares of a shape's components along the real and the imaginary axis.
 struct Parts {
@@ -92,56 +93,82 @@ std::optional<NeighbourLeakage> NeighbourLeakage::fit(const Shape& shape, const 
 
 namespace {
 
-// The nearest pole whose shape is well defined, or none.
-std::optional<std::size_t> neighbour_of(std::size_t own, const std::vector<UnfoldedPole>& poles) {
-  std::optional<std::size_t> nearest;
-  double least = HUGE_VAL;
-  for (std::size_t m = 0; m < poles.size(); ++m) {
-    if (m == own || !poles[m].fold_n || poles[m].mpc < std::max(kLeastNeighbourMpc, poles[own].mpc)) continue;
-    const double apart = std::abs(poles[m].apparent_hz - poles[own].apparent_hz);
-    if (apart < least && apart < kReach * (width_hz(poles[m]) + width_hz(poles[own]))) least = apart, nearest = m;
+// The poles of an order while they are freed from each other. Neighbours are taken as far as they are free already.
+class Unmixing {
+ public:
+  Unmixing(const std::vector<DiscretePole>& poles, const std::vector<Shape>& shape, const FoldingConfig& config)
+      : observed_(poles), shape_(shape), config_(config), free_shape_(shape), leaks_(poles.size()) {
+    for (std::size_t i = 0; i < poles.size(); ++i) alone_.push_back(unfold(poles[i].lambda, shape[i], config));
+    poles_ = alone_;
   }
-  return nearest;
-}
 
-// Replaces the pole by the best alias order without what leaks from its neighbour, if that explains more.
-void unfold_beside(const DiscretePole& pole, const Shape& shape, const UnfoldedPole& neighbour,
-                   const Shape& neighbour_shape, const FoldingConfig& config, UnfoldedPole& own,
-                   std::optional<NeighbourLeakage>& leak) {
-  const UnfoldedPole alone = own;
-  const Complex s_apparent = std::log(pole.lambda) * config.rate_hz;
-  const int reach = static_cast<int>(std::ceil(config.max_frequency_hz / config.rate_hz)) + 1;
-  for (int n = -reach; n <= reach; ++n) {
-    if (n == *neighbour.fold_n || std::abs(alone.apparent_hz + n * config.rate_hz) > config.max_frequency_hz) continue;
-    const Complex s = s_apparent + Complex(0.0, kTwoPi * n * config.rate_hz);
-    auto found = NeighbourLeakage::fit(shape, neighbour_shape, s, config);
-    if (!found) continue;
-    UnfoldedPole cleaned = unfold(pole.lambda, found->without(shape), config);
-    if (cleaned.fold_n != n) continue;
-    cleaned.mpc = without_fitted(cleaned.mpc, shape.size());
-    if (alone.fold_n != n) cleaned.fold_margin = std::min(*cleaned.fold_margin, cleaned.mpc - alone.mpc);
-    if (!(cleaned.mpc > own.mpc)) continue;
-    own = std::move(cleaned), leak = std::move(found);
+  // In the first round a pole is freed from a neighbour with the better defined shape, later from any.
+  void run() {
+    if (!folding_observable(config_) || !(config_.max_frequency_hz > config_.rate_hz / 2.0)) return;
+    for (int round = 0; round < kRounds; ++round) {
+      for (std::size_t i = 0; i < poles_.size(); ++i) {
+        if (shape_[i].size() < kLeastComponents) continue;
+        const double least = round == 0 ? std::max(kLeastFirstMpc, poles_[i].mpc) : kLeastNeighbourMpc;
+        if (const auto m = neighbour_of(i, least)) free_from(i, *m);
+      }
+    }
   }
-}
+
+  [[nodiscard]] UnfoldedOrder result() && {
+    for (std::size_t i = 0; i < poles_.size(); ++i) poles_[i].emac = observed_[i].emac;
+    return {std::move(poles_), std::move(leaks_)};
+  }
+
+ private:
+  [[nodiscard]] std::optional<std::size_t> neighbour_of(std::size_t own, double least_mpc) const {
+    std::optional<std::size_t> nearest;
+    double least = HUGE_VAL;
+    for (std::size_t m = 0; m < poles_.size(); ++m) {
+      if (m == own || !poles_[m].fold_n || poles_[m].mpc < least_mpc) continue;
+      const double apart = std::abs(poles_[m].apparent_hz - poles_[own].apparent_hz);
+      if (apart < least && apart < kReach * (width_hz(poles_[m]) + width_hz(poles_[own]))) least = apart, nearest = m;
+    }
+    return nearest;
+  }
+
+  // Takes the best alias order without what leaks from the neighbour, if that explains more than the whole shape.
+  void free_from(std::size_t i, std::size_t m) {
+    const UnfoldedPole& alone = alone_[i];
+    const Complex s_apparent = std::log(observed_[i].lambda) * config_.rate_hz;
+    const int reach = static_cast<int>(std::ceil(config_.max_frequency_hz / config_.rate_hz)) + 1;
+    const int n_neighbour = *poles_[m].fold_n;
+    double best = alone.mpc;
+    for (int n = -reach; n <= reach; ++n) {
+      if (n == n_neighbour || std::abs(alone.apparent_hz + n * config_.rate_hz) > config_.max_frequency_hz) continue;
+      const Complex s = s_apparent + Complex(0.0, kTwoPi * n * config_.rate_hz);
+      const auto found = NeighbourLeakage::fit(shape_[i], free_shape_[m], s, config_);
+      if (!found) continue;
+      const Shape left = found->without(shape_[i]);
+      UnfoldedPole pole = unfold(observed_[i].lambda, left, config_);
+      if (pole.fold_n != n) continue;
+      pole.mpc = without_fitted(pole.mpc, left.size());
+      if (alone.fold_n != n) pole.fold_margin = std::min(*pole.fold_margin, pole.mpc - alone.mpc);
+      if (!(pole.mpc > best)) continue;
+      best = pole.mpc;
+      poles_[i] = std::move(pole), leaks_[i] = found, free_shape_[i] = left;
+    }
+  }
+
+  const std::vector<DiscretePole>& observed_;
+  const std::vector<Shape>& shape_;
+  const FoldingConfig& config_;
+  std::vector<UnfoldedPole> alone_, poles_;
+  std::vector<Shape> free_shape_;
+  std::vector<std::optional<NeighbourLeakage>> leaks_;
+};
 
 }  // namespace
 
 UnfoldedOrder unfold_order(const std::vector<DiscretePole>& poles, const std::vector<Shape>& shape,
                            const FoldingConfig& config) {
-  UnfoldedOrder out;
-  out.leaks.resize(poles.size());
-  for (std::size_t i = 0; i < poles.size(); ++i) out.poles.push_back(unfold(poles[i].lambda, shape[i], config));
-  if (folding_observable(config) && config.max_frequency_hz > config.rate_hz / 2.0) {
-    const std::vector<UnfoldedPole> alone = out.poles;
-    for (std::size_t i = 0; i < poles.size(); ++i) {
-      const auto m = neighbour_of(i, alone);
-      if (m && shape[i].size() >= kLeastComponents)
-        unfold_beside(poles[i], shape[i], alone[*m], shape[*m], config, out.poles[i], out.leaks[i]);
-    }
-  }
-  for (std::size_t i = 0; i < poles.size(); ++i) out.poles[i].emac = poles[i].emac;
-  return out;
+  Unmixing unmixing(poles, shape, config);
+  unmixing.run();
+  return std::move(unmixing).result();
 }
 
 }  // namespace core

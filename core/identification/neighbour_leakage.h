@@ -34,9 +34,9 @@ class NeighbourLeakage {
   std::vector<std::complex<double>> turn_;       // per channel: undoes the delay and the common phase
 };
 
-// Unfolds the poles of one order, each as folding.h does and, where a neighbour with another alias order has the better
-// defined shape, without what leaks from it: where that explains the shape better than any alias order alone, at an MPC
-// reduced by the two parameters fitted, leaks[i] is set.
+// Unfolds the poles of one order, each as folding.h does and, beside a neighbour with another alias order, without what
+// leaks from it: where that explains the shape better than any alias order alone, at an MPC reduced by the two
+// parameters fitted, leaks[i] is set. Of two that mix, the better defined one frees the other, and then that one it.
 struct UnfoldedOrder {
   std::vector<UnfoldedPole> poles;
   std::vector<std::optional<NeighbourLeakage>> leaks;
