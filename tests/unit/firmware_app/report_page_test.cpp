@@ -1,11 +1,14 @@
 #include "firmware_app/report/page/report_page.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
 #include <string>
 
+#include "firmware_app/report/modal_json.h"
 #include "tests/support/made_up_run.h"
 #include "tests/support/telemetry_samples.h"
 #include "tests/support/xml_fault.h"
@@ -60,6 +63,22 @@ void expect_nothing_from_outside(const std::string& page) {
   EXPECT_EQ(count_of(page, "href=\""), count_of(page, "href=\"#") + count_of(page, "href=\"data:image/jpeg;base64,"));
 }
 
+// The modes of make_run, the first 2 % lower, the third absent, one more at 20 Hz.
+std::shared_ptr<const ModalReport> former_run(std::size_t n_channels) {
+  ModalReport out;
+  for (std::size_t i = 0; i < n_channels; ++i) out.channel_names.push_back(fmt::format("floor{}", i));
+  for (const double hz : {1.657, 5.04, 20.0})
+    out.estimate.modes.push_back(made_up_mode(hz, hz, n_channels, core::Verdict::kStructural));
+  out.estimate.modes[0].frequency_hz *= 0.98;
+  return std::make_shared<const ModalReport>(out);
+}
+
+// Text of one section.
+std::string section_of(const std::string& page, const char* id) {
+  const std::size_t begin = page.find(fmt::format("<section id=\"{}\"", id));
+  return begin == std::string::npos ? "" : page.substr(begin, page.find("</section>", begin) - begin);
+}
+
 TEST(ReportPage, ShowsAllOfACompleteRun) {
   RunData run;
   make_run(run, 7, 1500);
@@ -67,10 +86,19 @@ TEST(ReportPage, ShowsAllOfACompleteRun) {
   run.facts.source = "clip.mp4", run.facts.method = "hovermodal", run.facts.corrections = {"lens distortion"};
   const core::closure::ClosureReport closure = tests::sample_closure(1);
   run.inputs.closure = &closure;
+  run.inputs.former = former_run(7);
+  run.facts.title = "Old bridge", run.facts.notes = {"place: the <river>", "wind from the west"};
   const std::string page = page_of(run);
   expect_sound(page);
   expect_nothing_from_outside(page);
   for (const char* text : {"clip.mp4",
+                           "<h1>Old bridge</h1>",
+                           "<dt>place</dt><dd>the &lt;river&gt;</dd>",
+                           "<p class=\"user-note\">wind from the west</p>",
+                           "MAC of every pair of modes",
+                           "Singular values of the spectral matrix",
+                           "id=\"deflection\" data-hz=",
+                           "data-via=",
                            "3 modes of the structure were found, from 1.657 to 12.93 Hz",
                            "12.93 ± 0.003 Hz",
                            "seen at 12.07 Hz",
@@ -123,8 +151,9 @@ TEST(ReportPage, TellsWhyASectionIsMissing) {
   expect_sound(page);
   expect_nothing_from_outside(page);
   EXPECT_THAT(page, HasSubstr("No mode of the structure was found: the record is &lt;short&gt;."));
-  for (const char* id : {"modes", "shapes", "spectra", "folds", "stabilisation", "convergence", "displacements",
-                         "scale", "quality", "frame-view", "closure", "losses", "timing"}) {
+  for (const char* id :
+       {"modes", "shapes", "mac", "comparison", "singular", "operating", "spectra", "folds", "stabilisation",
+        "convergence", "displacements", "scale", "quality", "frame-view", "closure", "losses", "timing"}) {
     const std::size_t begin = page.find(std::string("<section id=\"") + id + "\"");
     ASSERT_NE(begin, std::string::npos) << id;
     EXPECT_THAT(page.substr(begin, page.find("</section>", begin) - begin), HasSubstr("class=\"absent\"")) << id;
@@ -141,15 +170,72 @@ TEST(ReportPage, TellsWhatTheModelLacks) {
   std::string page = page_of(run);
   expect_sound(page);
   for (const char* text :
-       {"What the model lacks", "Frames 0 to 1499", "readout = 22.5 +- 0.12 ms", "0.0433 → 0.0312 px",
+       {"What the model lacks", "Frames 0 to 1499", "readout = 22.5 ± 0.12 ms", "falls from 0.0433 to 0.0312 px",
         "cannot be distinguished from: a &lt;rival&gt;", "in region roof, along u"})
-    EXPECT_THAT(page, HasSubstr(text));
+    EXPECT_THAT(section_of(page, "closure"), HasSubstr(text));
+  EXPECT_THAT(section_of(page, "closure"), Not(HasSubstr("<table")));  // it was wider than the page
   report.result.steps.clear();
   EXPECT_THAT(page_of(run), HasSubstr("No effect is missing: noise."));
   report.refused = "too <short>";
   page = page_of(run);
   expect_sound(page);
   EXPECT_THAT(page, HasSubstr("The tracks allow no diagnosis: too &lt;short&gt;."));
+}
+
+TEST(ReportPage, ComparesTheModesWithAFormerRun) {
+  RunData run;
+  make_run(run, 4, 600);
+  run.inputs.former = former_run(4);
+  run.inputs.former_name = "<older>/modal.json";
+  std::string section = section_of(page_of(run), "comparison");
+  // 1.657 ± .003 against 1.624 ± .003 Hz: 2.04 %, .0331 / (.003 sqrt 2) = 7.8 sigmas.
+  for (const char* text : {"&lt;older&gt;/modal.json, by 4 channels", ">1.657 ± 0.003 Hz<", ">1.624 ± 0.003 Hz<",
+                           ">2.04 %<", ">7.8 σ<", ">1.0000<", "none within 10 %", "Only there: 20.00 Hz."})
+    EXPECT_THAT(section, HasSubstr(text));
+  run.inputs.former_fault = "<gone>";
+  EXPECT_THAT(section_of(page_of(run), "comparison"), HasSubstr("cannot be read: &lt;gone&gt;"));
+  run.inputs.former_fault.clear();
+  auto renamed = std::make_shared<ModalReport>(*former_run(4));
+  renamed->channel_names = {"a", "b", "c", "d"};
+  run.inputs.former = renamed;
+  section = section_of(page_of(run), "comparison");
+  EXPECT_THAT(section, HasSubstr("by 0 channels of the same name"));
+  EXPECT_THAT(section, HasSubstr(">0.0000<"));
+}
+
+TEST(ReportPage, GivesTheModesAsTextWithTabs) {
+  RunData run;
+  make_run(run, 2, 600);
+  run.estimate.modes[1].damping_std.reset();
+  run.estimate.modes[0].shape[1] = kNan;
+  const std::string page = page_of(run);
+  expect_sound(page);
+  EXPECT_THAT(page,
+              HasSubstr("mode\tfrequency_hz\tsigma_hz\tdamping_percent\tsigma_percent\tmpc\tapparent_hz\tfloor0 re"));
+  EXPECT_THAT(page, HasSubstr("\n1\t1.657\t0.003\t1.02\t0.1\t0.998\t1.657\t0\t0.01\t0.05\t\t"));
+  EXPECT_THAT(page, HasSubstr("\n2\t5.04\t0.003\t1.02\t\t0.998\t5.04\t"));
+}
+
+TEST(ReportPage, ShowsThePeaksWhereThereIsNoMode) {
+  RunData run;
+  make_run(run, 3, 600);
+  run.estimate.peaks = {{2.5, 0.1, 40.0, {0.2, 1.0, 0.6}}, {7.0, 0.1, 90.0, {1.0, 0.5, 0.1}}};
+  EXPECT_THAT(section_of(page_of(run), "modes"), HasSubstr("<details><summary>2 peaks"));
+  EXPECT_THAT(section_of(page_of(run), "modes"), HasSubstr("data-label=\"floor1\">1.00<"));
+  run.estimate.modes.clear();
+  const std::string page = page_of(run);
+  expect_sound(page);
+  EXPECT_THAT(section_of(page, "modes"), HasSubstr("<h3>2 peaks of the spectra, without a verdict</h3>"));
+  EXPECT_THAT(section_of(page, "modes"), HasSubstr("2.500 ± 0.050 Hz"));
+  EXPECT_THAT(section_of(page, "operating"), HasSubstr("At 6.9946 Hz"));  // begins at the highest peak
+  EXPECT_EQ(count_of(page, "id=\"play\""), 1U);
+}
+
+TEST(ReportPage, NamesTheStrongestOfManyChannelsOfAPeak) {
+  RunData run;
+  make_run(run, 9, 600);
+  run.estimate.peaks = {{2.5, 0.1, 40.0, {0.2, 1.0, 0.6, 0.1, 0.3, 0.9, 0.0, 0.5, 0.4}}};
+  EXPECT_THAT(section_of(page_of(run), "modes"), HasSubstr("floor1 1.00, floor5 0.90, floor2 0.60, floor7 0.50, …"));
 }
 
 TEST(ReportPage, ATimeSeriesHasNoPictureButItsShapes) {
@@ -172,6 +258,8 @@ TEST(ReportPage, EscapesHostileNames) {
   for (auto& region : run.inputs.regions) region.name = hostile;
   run.facts.source = run.facts.method = hostile;
   run.facts.corrections = {hostile};
+  run.facts.title = hostile, run.facts.notes = {hostile, "place: " + hostile};
+  run.inputs.former = former_run(3), run.inputs.former_name = hostile;
   run.facts.health.state = "fault: " + hostile;
   run.facts.health.warnings = {hostile};
   run.facts.health.stages[0].name = hostile;
