@@ -86,7 +86,7 @@
       rows.forEach((row, c) => {
         const re = values[2 * c] / 127, im = values[2 * c + 1] / 127;
         row.cells[1].textContent = Math.hypot(re, im).toFixed(2);
-        row.cells[2].textContent = (Math.atan2(im, re) * 180 / Math.PI).toFixed(0) + "°";
+        row.cells[2].textContent = (Math.round(Math.atan2(im, re) * 180 / Math.PI) || 0) + "°";
       });
       words.textContent = "At " + hz[k] + " Hz this shape holds " + share[k] + " % of the motion.";
       slider.setAttribute("aria-valuetext", hz[k] + " Hz");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,16 +45,25 @@ std::vector<HtmlCell> matched_row(std::size_t number, const core::Mode& mode, co
   std::vector<HtmlCell> cells{{std::to_string(number), {}},
                               {with_sigma(mode.frequency_hz, mode.frequency_std_hz, 3, " Hz"), {}}};
   if (match.mode == nullptr) {
-    for (const char* text : {"none within 10 %", "–", "–", "–", "–"}) cells.push_back({text, {}});
+    for (const char* text : {"none within 10 %", "–", "–"}) cells.push_back({text, {}});
+    cells.push_back({damping_words(mode), {}});
+    for (const char* text : {"–", "–"}) cells.push_back({text, {}});
     return cells;
   }
   const core::Mode& former = *match.mode;
   cells.push_back({with_sigma(former.frequency_hz, former.frequency_std_hz, 3, " Hz"), {}});
   cells.push_back({decimals_text(100.0 * (mode.frequency_hz / former.frequency_hz - 1.0), 2) + " %", {}});
   cells.push_back({sigmas_words(mode, former), {}});
-  cells.push_back({damping_words(mode) + " / " + damping_words(former), {}});
+  cells.push_back({damping_words(mode), {}});
+  cells.push_back({damping_words(former), {}});
   cells.push_back({decimals_text(match.mac, 4), {}});
   return cells;
+}
+
+// The file and its folder: a whole path tells about a computer, not about a run.
+std::string short_name(const std::string& path) {
+  const std::filesystem::path whole(path);
+  return (whole.parent_path().filename() / whole.filename()).string();
 }
 
 std::string only_there(const ModalReport& former, const std::vector<const core::Mode*>& matched) {
@@ -76,7 +86,7 @@ std::string comparison_section(const PictureInputs& inputs) {
                         absent_html("No former run or model was given: report.compare names a modal.json."));
   const ModalReport own = result_of(inputs);
   const std::vector<std::string> names = common_channels(own, *inputs.former);
-  HtmlTable table({"Mode", "This run", "There", "Difference", "in sigmas", "Damping, here / there", "MAC"});
+  HtmlTable table({"Mode", "This run", "There", "Difference", "in sigmas", "Damping here", "Damping there", "MAC"});
   std::vector<const core::Mode*> matched;
   for (std::size_t i = 0; i < own.estimate.modes.size(); ++i) {
     const core::Mode& mode = own.estimate.modes[i];
@@ -84,8 +94,9 @@ std::string comparison_section(const PictureInputs& inputs) {
     matched.push_back(match.mode);
     table.add(matched_row(i + 1, mode, match));
   }
-  std::string body = paragraph_html(fmt::format("{}, by {} of the same name.", drivers::printable(inputs.former_name),
-                                                plural(names.size(), "channel", "channels")));
+  std::string body =
+      paragraph_html(fmt::format("{}, by {} of the same name.", drivers::printable(short_name(inputs.former_name)),
+                                 plural(names.size(), "channel", "channels")));
   body += own.estimate.modes.empty() ? absent_html("This run found no mode to compare.") : table.html();
   if (const std::string rest = only_there(*inputs.former, matched); !rest.empty())
     body += paragraph_html("Only there: " + rest + ".");

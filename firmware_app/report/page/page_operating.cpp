@@ -76,7 +76,7 @@ std::string shape_table(const PictureInputs& inputs, const SpectralLine& line) {
     const std::complex<double> value = c < line.shape.size() ? line.shape[c] : 0.0;
     table.add({{inputs.channels[c].name, {}},
                {decimals_text(std::abs(value), 2), {}},
-               {decimals_text(std::arg(value) * 180.0 / std::numbers::pi, 0) + "°", {}}});
+               {fmt::format("{}°", std::lround(std::arg(value) * 180.0 / std::numbers::pi)), {}}});
   }
   return table.html();
 }

@@ -186,10 +186,10 @@ TEST(ReportPage, ComparesTheModesWithAFormerRun) {
   RunData run;
   make_run(run, 4, 600);
   run.inputs.former = former_run(4);
-  run.inputs.former_name = "<older>/modal.json";
+  run.inputs.former_name = "/home/me/<older>/modal.json";
   std::string section = section_of(page_of(run), "comparison");
   // 1.657 ± .003 against 1.624 ± .003 Hz: 2.04 %, .0331 / (.003 sqrt 2) = 7.8 sigmas.
-  for (const char* text : {"&lt;older&gt;/modal.json, by 4 channels", ">1.657 ± 0.003 Hz<", ">1.624 ± 0.003 Hz<",
+  for (const char* text : {"<p>&lt;older&gt;/modal.json, by 4 channels", ">1.657 ± 0.003 Hz<", ">1.624 ± 0.003 Hz<",
                            ">2.04 %<", ">7.8 σ<", ">1.0000<", "none within 10 %", "Only there: 20.00 Hz."})
     EXPECT_THAT(section, HasSubstr(text));
   run.inputs.former_fault = "<gone>";
