@@ -1,19 +1,66 @@
 #include "core/geometry/mesh_warp.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
+#include <cstdint>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
 namespace core {
 namespace {
 
-constexpr int kIterations = 12;  // kMostStrain^12 = 0.002 of the largest shift remains
+constexpr int kWarpIterations = 12;  // kMostStrain^12 = 0.002 of the largest shift remains
 
 bool is_sound(const WarpPart& part) {
   const double sum = part.left + part.top + part.right + part.bottom + std::abs(part.swing_u) + std::abs(part.swing_v);
   return std::isfinite(sum) && part.left < part.right && part.top < part.bottom;
+}
+
+// LanczosWeights of Lanczos' kernel of three lobes (Duchon 1979), at 1/1024 px: OpenCV's remap rounds to 1/32 px, which
+// a tracker sees in small motions.
+constexpr int kLanczosTaps = 6, kLanczosSteps = 1024;
+using LanczosWeights = std::array<float, kLanczosTaps>;
+
+const std::vector<LanczosWeights>& lanczos_weights() {
+  static const std::vector<LanczosWeights> table = [] {
+    const auto kernel = [](double x) {
+      const double a = std::numbers::pi * x;
+      return std::abs(x) < 1e-9 ? 1.0 : 3.0 * std::sin(a) * std::sin(a / 3.0) / (a * a);
+    };
+    std::vector<LanczosWeights> out(kLanczosSteps + 1);
+    for (int step = 0; step <= kLanczosSteps; ++step) {
+      std::array<double, kLanczosTaps> exact{};
+      double sum = 0.0;
+      for (int k = 0; k < kLanczosTaps; ++k)
+        sum += exact[static_cast<std::size_t>(k)] = kernel(k - 2.0 - 1.0 * step / kLanczosSteps);
+      for (std::size_t k = 0; k < kLanczosTaps; ++k)
+        out[static_cast<std::size_t>(step)][k] = static_cast<float>(exact[k] / sum);
+    }
+    return out;
+  }();
+  return table;
+}
+
+std::uint8_t sampled(const cv::Mat& gray, const cv::Vec2f& at) {
+  const float u = std::clamp(at[0], 0.0F, static_cast<float>(gray.cols - 1));
+  const float v = std::clamp(at[1], 0.0F, static_cast<float>(gray.rows - 1));
+  const int column = static_cast<int>(u), row = static_cast<int>(v);
+  const auto weights_at = [](float rest) -> const LanczosWeights& {
+    return lanczos_weights()[static_cast<std::size_t>(std::lround(rest * kLanczosSteps))];
+  };
+  const LanczosWeights &along = weights_at(u - static_cast<float>(column)),
+                       &down = weights_at(v - static_cast<float>(row));
+  float sum = 0.0F;
+  for (int i = 0; i < kLanczosTaps; ++i) {
+    const auto* line = gray.ptr<std::uint8_t>(std::clamp(row - 2 + i, 0, gray.rows - 1));
+    float of_line = 0.0F;
+    for (int k = 0; k < kLanczosTaps; ++k)
+      of_line += along[static_cast<std::size_t>(k)] * line[std::clamp(column - 2 + k, 0, gray.cols - 1)];
+    sum += down[static_cast<std::size_t>(i)] * of_line;
+  }
+  return static_cast<std::uint8_t>(std::clamp(std::lround(sum), 0L, 255L));
 }
 
 double distance_to(const WarpPart& part, const Vector2& at) noexcept {
@@ -70,14 +117,14 @@ cv::Mat MeshWarp::draw(const cv::Mat& gray, double phase) const {
     for (int column = 0; column < n_columns; ++column) {
       const Vector2 to{1.0 * column * kCellPx, 1.0 * row * kCellPx};
       Vector2 from = to;  // from + shift(from) = to
-      for (int i = 0; i < kIterations; ++i) {
+      for (int i = 0; i < kWarpIterations; ++i) {
         const Vector2 by = shift(from, phase);
         from = {to.u - by.u, to.v - by.v};
       }
       nodes.at<cv::Vec2f>(row, column) = {static_cast<float>(from.u), static_cast<float>(from.v)};
     }
   }
-  cv::Mat map(height_px_, width_px_, CV_32FC2), out;
+  cv::Mat map(height_px_, width_px_, CV_32FC2);
   for (int y = 0; y < height_px_; ++y) {
     const int row = y / kCellPx;
     const float down = static_cast<float>(y % kCellPx) / kCellPx;
@@ -91,7 +138,10 @@ cv::Mat MeshWarp::draw(const cv::Mat& gray, double phase) const {
       map.at<cv::Vec2f>(y, x) = upper * (1.0F - down) + lower * down;
     }
   }
-  cv::remap(gray, out, map, cv::noArray(), cv::INTER_LANCZOS4, cv::BORDER_REPLICATE);
+  cv::Mat out(height_px_, width_px_, CV_8UC1);
+  for (int y = 0; y < height_px_; ++y) {
+    for (int x = 0; x < width_px_; ++x) out.at<std::uint8_t>(y, x) = sampled(gray, map.at<cv::Vec2f>(y, x));
+  }
   return out;
 }
 

@@ -128,10 +128,11 @@ void add_sensor_options(drivers::Command& command, SensorOptions& options) {
       .one_of({"d", "v", "a"})
       .group(kGroup);
   command
-      .option("--sensor-rate", options.sensor_rate_hz, "Samples per second of the sensor, where its file has no times")
+      .option("--sensor-rate-hz,--sensor-rate", options.sensor_rate_hz,
+              "Samples per second of the sensor, where its file has no times")
       .type_name("HZ")
       .group(kGroup);
-  command.option("--rate", options.rate_hz, "Samples per second of the channel, where its file has no times")
+  command.option("--rate-hz,--rate", options.rate_hz, "Samples per second of the channel, where its file has no times")
       .type_name("HZ")
       .group(kGroup);
   command.option("--band", options.band, "Band that is compared (default: chosen by coherence)")

@@ -117,8 +117,11 @@ std::string shapes_section(const PictureInputs& inputs) {
 
 std::string spectra_section(const PictureInputs& inputs) {
   if (spectra_svg(inputs, kWideFormat).empty())
-    return section_html("spectra", "Spectra",
-                        absent_html("There is no spectrum: the record ended before its first segment was full."));
+    return section_html(
+        "spectra", "Spectra",
+        absent_html(inputs.facts->merged
+                        ? "A merged result has no spectrum of its own: identified alone, each set-up has one."
+                        : "There is no spectrum: the record ended before its first segment was full."));
   const std::string cross = cross_label(inputs);
   std::string caption = fmt::format("Power spectral density of every channel ({})", spectra_remark(inputs));
   if (!cross.empty())

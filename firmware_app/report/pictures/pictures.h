@@ -27,6 +27,7 @@ struct RunFacts {
   std::vector<std::string> notes;  // "place: ..." is a fact, anything else a paragraph
   std::vector<std::string> corrections, caveats;
   core::Health health;
+  bool merged = false;                          // of several set-ups, each of which has its own report
   bool counted = true;                          // false: of a time series, for which `health` has no counters
   int image_width_px = 0, image_height_px = 0;  // of the tracks, if there is no frame
 };

@@ -44,7 +44,7 @@ struct MagnifyOptions {
   int mode = 1;
   double factor = 0.0;  // 0 = chosen
   double period_s = 2.0, seconds = 6.0;
-  int crf = 18;
+  int crf = 8;
   bool force = false, json = false, quiet = false, plain = false;
 };
 

@@ -17,8 +17,9 @@
 namespace tools {
 namespace {
 
-constexpr double kPatchPx = 8.0;         // a tracked patch reaches this far beyond its point
-constexpr double kBandwidths = 4.0;      // half the band, in half-power bandwidths of the mode
+constexpr double kPatchPx =
+    12.0;  // what a point is measured by moves with it: half of the largest patch, and a cell of the mesh
+constexpr double kHalfBand = 4.0;        // in zeta f: holds 84 % of the power of a resonance under white noise
 constexpr double kLeastBandLines = 2.0;  // and at least as many lines of the record's own resolution
 
 using Complex = std::complex<double>;
@@ -129,7 +130,7 @@ class MotionReader {
     const std::size_t n = series.value.empty() ? 0 : series.value.front().size();
     if (n == 0 || !(series.rate_hz > 0.0)) throw std::runtime_error("displacements.csv has no samples");
     const double line_hz = series.rate_hz / static_cast<double>(n);
-    const double half_hz = std::max(kBandwidths * mode_.damping_ratio * mode_.frequency_hz, kLeastBandLines * line_hz);
+    const double half_hz = std::max(kHalfBand * mode_.damping_ratio * mode_.frequency_hz, kLeastBandLines * line_hz);
     const auto low = std::max<long>(1, std::lround((mode_.apparent_hz - half_hz) / line_hz));
     const auto high = std::min<long>(static_cast<long>(n) / 2, std::lround((mode_.apparent_hz + half_hz) / line_hz));
     double power = 0.0;
