@@ -57,7 +57,8 @@ std::uint8_t sampled(const cv::Mat& gray, const cv::Vec2f& at) {
     const auto* line = gray.ptr<std::uint8_t>(std::clamp(row - 2 + i, 0, gray.rows - 1));
     float of_line = 0.0F;
     for (int k = 0; k < kLanczosTaps; ++k)
-      of_line += along[static_cast<std::size_t>(k)] * line[std::clamp(column - 2 + k, 0, gray.cols - 1)];
+      of_line +=
+          along[static_cast<std::size_t>(k)] * static_cast<float>(line[std::clamp(column - 2 + k, 0, gray.cols - 1)]);
     sum += down[static_cast<std::size_t>(i)] * of_line;
   }
   return static_cast<std::uint8_t>(std::clamp(std::lround(sum), 0L, 255L));

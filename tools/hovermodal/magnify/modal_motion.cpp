@@ -34,11 +34,12 @@ class MotionReader {
  public:
   MotionReader(const std::string& folder, int number)
       : folder_(folder), report_(app::read_modal_json((folder_ / "modal.json").string())), mode_(mode_of(number)) {
-    if (mode_.shape_std.size() != mode_.shape.size())
+    if (mode_.shape_std.size() != mode_.shape.size()) {
       throw std::runtime_error(
           fmt::format("mode {}: its shape has no standard deviation (the record is shorter than two segments): nobody "
                       "knows whether this would magnify noise",
                       number));
+    }
   }
 
   [[nodiscard]] ModalMotion read() {
@@ -117,9 +118,10 @@ class MotionReader {
       if (is_known && !(size >= kLeastSigmas * sigma)) region.held = "this would magnify noise";
       any = any || (is_known && region.held.empty() && size > 0.0);
     }
-    if (!any)
+    if (!any) {
       throw std::runtime_error(fmt::format(
           "no region of this mode moves by {:g} standard deviations or more: this would magnify noise", kLeastSigmas));
+    }
   }
 
   // The record's part within the mode's band, along the mode's shape: sum over the band's lines of the discrete Fourier
