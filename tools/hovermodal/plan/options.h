@@ -30,7 +30,8 @@ struct PlanOptions {
 
 void add_plan_options(drivers::Command& command, PlanOptions& options);
 
-// Throws std::invalid_argument naming the option: contradictory, missing or out of range.
+// Throws std::invalid_argument naming the option: contradictory, missing or out of range; drivers::FileError for the
+// structure file.
 [[nodiscard]] core::planning::PlanInput plan_input(const drivers::Command& command, const PlanOptions& options);
 
 }  // namespace tools
