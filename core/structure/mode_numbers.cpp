@@ -16,7 +16,8 @@ using Eigen::VectorXd;
 constexpr double kNear = 0.1;  // relative distance of frequencies that may exchange their places
 constexpr double kFrequencyWidth = 0.1, kShapeWidth = 0.2;  // differences of ln f and of MAC from 1 that cost 1
 constexpr double kUnpaired = 4.0;                           // cost of a reference mode without a partner
-constexpr double kFactorCost = 0.01;                        // of equal pairings, the one with the factor next to 1
+constexpr double kMissing = 0.1;  // over kUnpaired: of a mode of the model that was not measured, below one that was
+constexpr double kFactorCost = 0.01;  // of equal pairings, the one with the factor next to 1
 
 VectorXd shape_of(const ReferenceMode& mode) {
   return Eigen::Map<const VectorXd>(mode.shape.data(), static_cast<Index>(mode.shape.size()));
@@ -45,6 +46,13 @@ Pairing pair_at(const ModelModes& model, const std::vector<ReferenceMode>& refer
   Pairing out{0.0, {columns.begin(), columns.end()}};
   for (std::size_t i = 0; i < reference.size(); ++i)
     out.cost += columns[i] == Assignment::kNone ? 1.0 : costs[i * n_modes + columns[i]];
+  std::size_t highest = 0, paired = 0;  // of the model's modes
+  for (const std::size_t column : columns) {
+    if (column == Assignment::kNone) continue;
+    highest = std::max(highest, column + 1);
+    ++paired;
+  }
+  out.cost += kMissing * static_cast<double>(highest - paired);
   return out;
 }
 

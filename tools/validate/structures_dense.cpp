@@ -70,7 +70,7 @@ KindError check_frame2d() {
                                 {6.1, 4.6, 6.0, 0, 2.4e6, 5.0e8, 110.0}};
   // Errors are a series in h^2, h^4 (linear axial shapes; bending), h^6: four meshes give the limit (Richardson).
   std::vector<VectorXd> hz;
-  for (const int n : {4, 8, 16, 32}) hz.push_back(chain_hz(lines, n));
+  for (const int n : {8, 16, 32, 64}) hz.push_back(chain_hz(lines, n));
   for (double power = 4.0; hz.size() > 1; power *= 4.0) {
     for (std::size_t i = 0; i + 1 < hz.size(); ++i) hz[i] = (power * hz[i + 1] - hz[i]) / (power - 1.0);
     hz.pop_back();

@@ -38,7 +38,8 @@ std::optional<Obstacle> RoleEffect::obstacle(const DeclaredFrame& declared) cons
   if (!declared.model) return Obstacle{kOtherKind, "declare locate: true to search a shear frame's storeys"};
   const std::size_t n = places(*declared.model).size();
   if (n == 0) return Obstacle{form_.lacking, form_.instead};
-  if (form_.role == Role::kPartStiffness && n == 1 && !declared.stiffness_over_mass_per_s2)
+  const bool whole = declared.model->kind() != "matrices" && declared.model->kind() != "modes";
+  if (form_.role == Role::kPartStiffness && n == 1 && whole && !declared.stiffness_over_mass_per_s2)
     return Obstacle{"one part is the whole: its stiffness is fitted from the beginning", "declare more parts"};
   return std::nullopt;
 }

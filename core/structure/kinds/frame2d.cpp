@@ -11,12 +11,12 @@ namespace core::structure {
 namespace {
 
 constexpr std::size_t kMostNodes = 60, kMostMembers = 60;
+constexpr int kMostBubbles = 14;  // of a member along and across
 
 class Frame2dBuilder {
  public:
   explicit Frame2dBuilder(const Frame2d& frame)
-      : frame_(frame),
-        mesh_(true, std::clamp(static_cast<int>(12 / std::max<std::size_t>(frame.members.size() / 4, 1)), 3, 8)) {}
+      : frame_(frame), mesh_(true, std::min(bubbles_for(frame.members.size()), kMostBubbles)) {}
 
   AffineMatrices build(std::vector<Sight> sights) {
     if (frame_.nodes.size() > kMostNodes || frame_.members.empty() || frame_.members.size() > kMostMembers)
