@@ -48,6 +48,13 @@ Reference paired(const std::string& path, const DeclaredFrame& declared) {
   Reference out = read_reference(path, declared);
   if (!declared.model) return out;
   const std::vector<double> left = pair_with_model(declared, out);
+  if (out.size() < 2 && !left.empty()) {
+    const Eigen::VectorXd& hz = declared.numbering->frequency_hz;
+    throw drivers::FileError(fmt::format(
+        "{}: of its modes at {:.4g} Hz fewer than two are modes of the model, which has {:.4g} .. {:.4g} Hz; check the "
+        "units of stiffness and mass, or declare stiffness: fitted",
+        path, fmt::join(left, ", "), hz(0), hz(hz.size() - 1)));
+  }
   if (!left.empty()) fmt::print("modes of {} that none of the model's is: {:.4g} Hz\n", path, fmt::join(left, ", "));
   return out;
 }
@@ -85,6 +92,16 @@ std::string places_text(const Final& last, const Reference& reference) {
     }
   }
   return out;
+}
+
+// A factor that no structure's properties are wrong by, but units are.
+std::string units_text(const Final& last) {
+  constexpr double kMostFactor = 20.0;
+  if (!last.fit.ok || !last.model.has_scale()) return {};
+  const double factor = std::exp(last.fit.parameters(0));
+  if (factor < kMostFactor && factor > 1.0 / kMostFactor) return {};
+  return fmt::format("stiffness over mass is {:.3g} times the declared one: check the units of stiffness and mass\n",
+                     factor);
 }
 
 // Posterior of the parameters that have a prior, and which the modes do not tell.
@@ -145,7 +162,7 @@ void close_structure(const LoopRequest& request, const std::string& structure, c
   fmt::print("{}{}", closure_text(result), check_text(*level));
   if (declared.model) {
     const Final last = final_of(declared, reference, result);
-    fmt::print("{}{}", places_text(last, reference), parameters_text(last));
+    fmt::print("{}{}{}", places_text(last, reference), parameters_text(last), units_text(last));
   }
   if (request.report.empty()) return;
   const std::filesystem::path folder = request.report;

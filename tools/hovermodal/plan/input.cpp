@@ -148,7 +148,14 @@ void set_shapes(const std::string& path, PlanInput& input) {
 // The structure file that --structure names, if it names one: `o` then has the ideal kind next to it.
 std::optional<core::structure::DeclaredFrame> declared_structure(PlanOptions& o) {
   if (o.structure == "shear" || o.structure == "cantilever" || o.structure == "beam") return std::nullopt;
-  auto out = drivers::read_structure(o.structure);
+  const auto read = [&] {
+    try {
+      return drivers::read_structure(o.structure);
+    } catch (const drivers::FileError& error) {
+      refuse(fmt::format("--structure: give shear, cantilever, beam, or a structure file: {}", error.what()));
+    }
+  };
+  const core::structure::DeclaredFrame out = read();
   if (!out.model || out.model->sights().empty())
     refuse(o.structure + ": declare regions (name, at_m, direction); a shear frame is planned with --structure shear");
   const auto reach = [&](int axis) {

@@ -30,8 +30,7 @@ struct PlanOptions {
 
 void add_plan_options(drivers::Command& command, PlanOptions& options);
 
-// Throws std::invalid_argument naming the option: contradictory, missing or out of range; drivers::FileError for the
-// structure file.
+// Throws std::invalid_argument naming the option: contradictory, missing or out of range.
 [[nodiscard]] core::planning::PlanInput plan_input(const drivers::Command& command, const PlanOptions& options);
 
 }  // namespace tools
