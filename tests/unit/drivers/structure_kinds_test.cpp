@@ -106,7 +106,8 @@ TEST_F(MatrixMarket, HostileFilesAreRefusedWithTheLine) {
 TEST_F(MatrixMarket, AFileOfTenGigabytesIsRefusedBeforeItIsRead) {
   const std::string path = file("%%MatrixMarket matrix array real general\n");
   std::filesystem::resize_file(path, 10'000'000'000);
-  EXPECT_THAT([&] { (void)read_matrix_market(path); }, testing::ThrowsMessage<FileError>(HasSubstr("more than 536870912 are refused")));
+  EXPECT_THAT([&] { (void)read_matrix_market(path); },
+              testing::ThrowsMessage<FileError>(HasSubstr("more than 536870912 are refused")));
   std::filesystem::resize_file(path, 0);
 }
 
