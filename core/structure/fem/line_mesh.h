@@ -50,7 +50,7 @@ class LineMesh {
   [[nodiscard]] std::size_t n_bars() const noexcept { return bars_.size(); }
 
   // The sights' places are projected onto the nearest bar. Throws std::invalid_argument if one is further from every
-  // bar than `reach_m`, or sees no motion of the structure's plane.
+  // bar than `reach_m`.
   [[nodiscard]] AffineMatrices build(const char* kind, std::vector<Sight> sights, double reach_m) const;
 
  private:
