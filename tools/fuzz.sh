@@ -49,7 +49,7 @@ concerned() {
     checkpoint) echo drivers/storage/checkpoint_file.cpp firmware_app/{service/kept_keyframe,chain/state/run_state}.cpp core/identification/mode_tracker.cpp core/spectrum/{welch_state,time_grid}.cpp ;;
     http) echo tools/hovermodal/ground/{web_connections,web_guard,web_head,web_routes}.cpp tools/hovermodal/regions/picker_json.cpp ;;
     record) echo drivers/telemetry/{event_log_reader,run_record_reader,encode_run}.cpp firmware_app/chain/state/{run_head,keyframe_jpeg}.cpp ;;
-    scene) echo drivers/storage/{structure_file,scene/{build,flight,key,keys_camera,keys_motion,keys_plates,keys_structure,presets,reader,table,writer}}.cpp core/simulation/scene_validation.cpp ;;
+    scene) echo drivers/storage/{structure_{file,kinds,value},matrix_market,scene/{build,flight,key,keys_camera,keys_motion,keys_plates,keys_structure,presets,reader,table,writer}}.cpp core/simulation/scene_validation.cpp ;;
     replay) echo firmware_app/{replay/track_replay,replay/record_replay,replay/track_analysis,chain/state/run_view}.cpp core/geometry/channel_displacement.cpp ;;
   esac
 }

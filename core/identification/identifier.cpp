@@ -11,6 +11,7 @@
 #include "core/identification/line_evidence.h"
 #include "core/identification/mode_sigmas.h"
 #include "core/identification/model_fit.h"
+#include "core/identification/neighbour_leakage.h"
 #include "core/identification/spectral_peaks.h"
 #include "core/identification/verdict.h"
 
@@ -30,10 +31,11 @@ void copy_stream_facts(const CpsdSums& sums, ModalEstimate& estimate) {
   estimate.resolution_hz = resolution_hz(sums);
 }
 
-// Poles of all orders, as observed and unfolded; the two lists are parallel.
+// Poles of all orders, as observed and unfolded, and what leaks into them from a neighbour; parallel lists.
 struct Poles {
   std::vector<PoleOfOrder> observed;
   std::vector<OrderPole> unfolded;
+  std::vector<std::optional<NeighbourLeakage>> leaks;
 };
 
 double apparent_hz(const DiscretePole& pole, double rate_hz) {
@@ -44,13 +46,17 @@ Poles poles_of_orders(const Realisation& realisation, const std::vector<int>& or
                       const CameraLeakage& camera) {
   Poles poles;
   for (std::size_t i = 0; i < orders.size(); ++i) {
-    for (DiscretePole& pole : poles_of_order(realisation, orders[i])) {
+    std::vector<DiscretePole> found = poles_of_order(realisation, orders[i]);
+    std::vector<std::vector<std::complex<double>>> shapes;
+    for (const DiscretePole& pole : found) {
       const double hz = apparent_hz(pole, folding.rate_hz);
-      const bool leave = camera.examine(pole.shape, hz).is_doubtful;
-      const auto shape = camera.without(pole.shape, hz, leave);
-      poles.unfolded.push_back({static_cast<int>(i), unfold(pole.lambda, shape, folding)});
-      poles.unfolded.back().pole.emac = pole.emac;
-      poles.observed.push_back({orders[i], std::move(pole)});
+      shapes.push_back(camera.without(pole.shape, hz, camera.examine(pole.shape, hz).is_doubtful));
+    }
+    UnfoldedOrder unfolded = unfold_order(found, shapes, folding);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      poles.unfolded.push_back({static_cast<int>(i), std::move(unfolded.poles[k])});
+      poles.observed.push_back({orders[i], std::move(found[k])});
+      poles.leaks.push_back(std::move(unfolded.leaks[k]));
     }
   }
   return poles;
@@ -219,7 +225,7 @@ ModalEstimate Identifier::identify_all(const CpsdSums& sums, const std::vector<C
   std::vector<Mode> modes = config_.as_published ? judge_published_lines(lines, channels, rules)
                                                  : judge_lines(fitted, lines, channels, rules);
   estimate.degrees_of_freedom =
-      state_sigmas({sums, fit, folding, camera, poles.observed, poles.unfolded}, lines, modes);
+      state_sigmas({sums, fit, folding, camera, poles.observed, poles.unfolded, poles.leaks}, lines, modes);
   if (!config_.as_published) reject_mixtures(modes), reject_twins(modes);
   note_poles(poles.unfolded, orders, estimate);
   list_modes(std::move(modes), lines, estimate);

@@ -85,8 +85,13 @@ double state_sigmas(const SigmaInputs& in, const std::vector<PoleCluster>& lines
     std::vector<std::complex<double>>& shape = chosen[c].pole.shape;
     const double hz = std::abs(std::arg(chosen[c].pole.lambda)) * in.sums.rate_hz / kTwoPi;
     const bool leave = in.camera.examine(shape, hz).is_doubtful;
-    shape = in.camera.without(shape, hz, leave);
-    for (PoleChange& change : changes[c]) change.shape = in.camera.without(change.shape, hz, leave);
+    const auto& leak = in.leaks[line.i_representative];
+    const auto cleaned = [&](const std::vector<std::complex<double>>& of) {
+      const auto out = in.camera.without(of, hz, leave);
+      return leak ? leak->without(out) : out;
+    };
+    shape = cleaned(shape);
+    for (PoleChange& change : changes[c]) change.shape = cleaned(change.shape);
     const auto scatter = mode_scatter(chosen[c], line.representative, in.folding, changes[c]);
     Mode& mode = modes[line_of[c]];
     if (scatter) state(*scatter, spread_over_orders(line, in.unfolded), lower_bound(mode, duration_s), factor, mode);

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/identification/camera_leakage.h"
 #include "core/identification/folding.h"
 #include "core/identification/model_fit.h"
+#include "core/identification/neighbour_leakage.h"
 #include "core/identification/stabilisation.h"
 #include "core/identification/uncertainty.h"
 #include "core/types/cpsd.h"
@@ -12,7 +14,7 @@
 
 namespace core {
 
-// Poles of all orders of one realisation; observed[i] and unfolded[i] are the same pole.
+// Poles of all orders of one realisation; observed[i], unfolded[i] and leaks[i] belong to the same pole.
 struct SigmaInputs {
   const CpsdSums& sums;
   const ModelFit& fit;
@@ -20,6 +22,7 @@ struct SigmaInputs {
   const CameraLeakage& camera;
   const std::vector<PoleOfOrder>& observed;
   const std::vector<OrderPole>& unfolded;
+  const std::vector<std::optional<NeighbourLeakage>>& leaks;
 };
 
 // Standard deviations of all modes but numerical ones, for which they would be meaningless: from the blocks of the

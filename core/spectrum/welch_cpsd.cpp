@@ -179,7 +179,11 @@ void WelchCpsd::flush() noexcept {
     std::fill(value_.begin() + c * segment + n_filled_, value_.begin() + (c + 1) * segment, 0.0);
     std::fill(seen_.begin() + c * segment + n_filled_, seen_.begin() + (c + 1) * segment, std::uint8_t{0});
   }
+  // A window of the remainder's own length: slow motion that ends at an edge of the longer one spreads over all
+  // frequencies.
+  fill_window(config_.window, std::span(window_).first(static_cast<std::size_t>(n_filled_)));
   accumulate_segment();
+  fill_window(config_.window, window_);
 }
 
 void WelchCpsd::accumulate_segment() noexcept {

@@ -51,7 +51,7 @@ class WelchCpsd {
   // Adds the sample's channels, followed by its witnesses.
   bool push(const DisplacementSample& sample) noexcept;
   bool push_missing() noexcept;
-  // End of the record: samples after the last full segment form a segment whose end is masked.
+  // End of the record: the last samples, with those that overlap, form a shorter segment with a window of its length.
   void flush() noexcept;
 
   // Restarts, as constructed, at another rate of the grid. Does not allocate. With forgetting (forget_s) its length in

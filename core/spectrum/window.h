@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -18,14 +19,18 @@ enum class WindowKind : std::uint8_t { kHann, kHamming, kBoxcar };
   return std::nullopt;
 }
 
-// Periodic ("DFT-even") windows, as in scipy.signal.get_window.
-[[nodiscard]] inline std::vector<double> make_window(WindowKind kind, int n) {
-  std::vector<double> window(static_cast<std::size_t>(n), 1.0);
-  if (kind == WindowKind::kBoxcar) return window;
-  const double a0 = kind == WindowKind::kHann ? 0.5 : 0.54;
-  for (int t = 0; t < n; ++t) {
-    window[static_cast<std::size_t>(t)] = a0 - (1.0 - a0) * std::cos(2.0 * std::numbers::pi * t / n);
+// Periodic ("DFT-even") windows, as in scipy.signal.get_window, of the length of `window`.
+inline void fill_window(WindowKind kind, std::span<double> window) noexcept {
+  const double a0 = kind == WindowKind::kBoxcar ? 1.0 : kind == WindowKind::kHann ? 0.5 : 0.54;
+  const auto n = static_cast<double>(window.size());
+  for (std::size_t t = 0; t < window.size(); ++t) {
+    window[t] = a0 - (1.0 - a0) * std::cos(2.0 * std::numbers::pi * static_cast<double>(t) / n);
   }
+}
+
+[[nodiscard]] inline std::vector<double> make_window(WindowKind kind, int n) {
+  std::vector<double> window(static_cast<std::size_t>(n));
+  fill_window(kind, window);
   return window;
 }
 

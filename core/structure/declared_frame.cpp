@@ -27,6 +27,20 @@ void require_each(const std::vector<double>& values, std::size_t n, const std::s
 
 }  // namespace
 
+DeclaredFrame declare(std::shared_ptr<const StructuralModel> model, std::size_t n_modes) {
+  DeclaredFrame out;
+  auto modes = model->modes(declared_values(*model), n_modes, {});
+  if (!modes)
+    refuse("the ", model->kind(),
+           " as declared has no modes: it buckles or a part of it is held by nothing; check "
+           "supports, axial forces and units");
+  out.n_storeys = static_cast<std::size_t>(modes->frequency_hz.size());
+  out.numbering = std::make_shared<const ModelModes>(std::move(*modes));
+  for (const Sight& sight : model->sights()) out.floors.push_back(sight.channel);
+  out.model = std::move(model);
+  return out;
+}
+
 void validate(const DeclaredFrame& frame) {
   if (frame.n_storeys < 1 || frame.n_storeys > kMaxStoreys)
     refuse("storeys: ", frame.n_storeys, " is refused: allowed 1 .. ", kMaxStoreys);
@@ -37,8 +51,9 @@ void validate(const DeclaredFrame& frame) {
   if (frame.dt_s) require(*frame.dt_s, 1e-9, 1e3, "dt_s");
   require(frame.frequency_sigma, 1e-6, 0.2, "frequency_sigma");
   require(frame.shape_sigma, 1e-4, 1.0, "shape_sigma");
-  if (!frame.floors.empty() && frame.floors.size() != frame.n_storeys)
-    refuse("floors: ", frame.floors.size(), " names for ", frame.n_storeys, " storeys; give one each, lowest first");
+  if (!frame.floors.empty() && frame.floors.size() != frame.n_components())
+    refuse("floors: ", frame.floors.size(), " names for ", frame.n_components(),
+           frame.model ? " regions; give one each" : " storeys; give one each, lowest first");
 }
 
 void validate(const DeclaredFrame& frame, const std::vector<ReferenceMode>& reference) {
@@ -50,18 +65,24 @@ void validate(const DeclaredFrame& frame, const std::vector<ReferenceMode>& refe
   int last = 0;
   for (const ReferenceMode& mode : reference) {
     if (mode.number < 1 || static_cast<std::size_t>(mode.number) > frame.n_storeys)
-      refuse("mode ", mode.number, " of the reference: a frame of ", frame.n_storeys, " storeys has modes 1 .. ",
-             frame.n_storeys, "; declare more storeys, or leave the mode out");
+      refuse("mode ", mode.number, " of the reference: ",
+             frame.model ? "the model of the " + std::string(frame.model->kind())
+                         : "a frame of " + std::to_string(frame.n_storeys) + " storeys",
+             " has modes 1 .. ", frame.n_storeys,
+             frame.model ? "; leave the mode out" : "; declare more storeys, or leave the mode out");
     if (!numbers.insert(mode.number).second) refuse("mode ", mode.number, " stands twice in the reference; keep one");
     require(mode.frequency_hz, 1e-6, 1e9, "frequency of mode " + std::to_string(mode.number));
     require(mode.sigma_hz / mode.frequency_hz, 1e-7, 0.5, "relative sigma of mode " + std::to_string(mode.number));
-    if (mode.number <= last || mode.frequency_hz <= last_hz)
+    // Of another kind, two modes of the structure may stand in another order than those of the model.
+    if (!frame.model && (mode.number <= last || mode.frequency_hz <= last_hz))
       refuse("mode ", mode.number, " at ", mode.frequency_hz, " Hz follows mode ", last, " at ", last_hz,
              " Hz; modes count upwards with their frequencies");
     last = mode.number;
     last_hz = mode.frequency_hz;
-    if (!mode.shape.empty() && (mode.shape.size() != frame.n_storeys || mode.shape_sigma.size() != frame.n_storeys))
-      refuse("shape of mode ", mode.number, ": ", mode.shape.size(), " components for ", frame.n_storeys, " storeys");
+    if (!mode.shape.empty() &&
+        (mode.shape.size() != frame.n_components() || mode.shape_sigma.size() != frame.n_components()))
+      refuse("shape of mode ", mode.number, ": ", mode.shape.size(), " components for ", frame.n_components(),
+             frame.model ? " regions" : " storeys");
     for (std::size_t i = 0; i < mode.shape.size(); ++i) {
       require(mode.shape[i], -1e3, 1e3, "shape of mode " + std::to_string(mode.number));
       require(mode.shape_sigma[i], 1e-7, 1e3, "sigma of the shape of mode " + std::to_string(mode.number));

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/linear/damped_least_squares.h"
+#include "core/structure/mode_residuals.h"
 
 namespace core::structure {
 namespace {
@@ -21,16 +22,25 @@ constexpr int kIterations = 60;
 
 struct Bounds {
   VectorXd low, high, step;  // step: of numerical derivatives
+  std::vector<bool> is_place;
 };
 
 Bounds bounds_of(const FrameModel& model) {
   const Index n = model.n_parameters();
-  Bounds out{VectorXd::Constant(n, -60.0), VectorXd::Constant(n, 60.0), VectorXd::Constant(n, 1e-6)};
-  Index at = model.n_scale();
+  Bounds out{VectorXd::Constant(n, -60.0), VectorXd::Constant(n, 60.0), VectorXd::Constant(n, 1e-6), {}};
+  out.is_place.assign(static_cast<std::size_t>(n), false);
+  Index at = model.has_scale() ? 1 : 0;
+  for (const std::size_t i : model.with_prior()) {
+    const ModelParameter& p = model.declared->model->parameters()[i];
+    out.low(at) = (p.low - p.value) / p.prior_sigma;
+    out.high(at) = (p.high - p.value) / p.prior_sigma;
+    out.step(at++) = 1e-4;
+  }
   for (const StructuralEffect* effect : model.effects) {
     for (const EffectParameter& p : effect->parameters(*model.declared)) {
       out.low(at) = p.low;
       out.high(at) = p.high;
+      out.is_place[static_cast<std::size_t>(at)] = p.is_place;
       out.step(at++) = 1e-6 * std::max(std::abs(p.starts.back()), 1e-3);
     }
   }
@@ -39,22 +49,6 @@ Bounds bounds_of(const FrameModel& model) {
 
 bool has_shapes(const std::vector<ReferenceMode>& reference) {
   return std::any_of(reference.begin(), reference.end(), [](const ReferenceMode& m) { return !m.shape.empty(); });
-}
-
-// Residuals of one reference mode in units of its sigmas.
-void append_residuals(const FrameModes& modes, const ReferenceMode& mode, std::vector<double>& out) {
-  const Index r = mode.number - 1;
-  out.push_back((modes.frequency_hz(r) / mode.frequency_hz - 1.0) * mode.frequency_hz / mode.sigma_hz);
-  if (mode.shape.empty()) return;
-  double along = 0.0, square = 0.0;
-  for (std::size_t i = 0; i < mode.shape.size(); ++i) {
-    const double weight = 1.0 / (mode.shape_sigma[i] * mode.shape_sigma[i]);
-    const double component = modes.shapes(static_cast<Index>(i), r);
-    along += weight * component * mode.shape[i];
-    square += weight * component * component;
-  }
-  for (std::size_t i = 0; i < mode.shape.size(); ++i)
-    out.push_back((modes.shapes(static_cast<Index>(i), r) * along / square - mode.shape[i]) / mode.shape_sigma[i]);
 }
 
 class Problem {
@@ -73,14 +67,21 @@ class Problem {
     for (std::size_t i = 0; i < reference_.size(); ++i) {
       if (static_cast<int>(i) != without_) append_residuals(*modes, reference_[i], values);
     }
+    const Index first = model_.has_scale() ? 1 : 0;
+    for (Index k = first; k < model_.n_scale(); ++k) values.push_back(p(k));
     out = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
     return out.allFinite();
   }
 
   [[nodiscard]] bool jacobian(const VectorXd& p, const VectorXd& r, MatrixXd& out) const {
     out.resize(r.size(), p.size());
+    if (has_analytic_jacobian(model_)) return analytic_jacobian(model_, reference_, without_, p, out);
     VectorXd moved;
     for (Index k = 0; k < p.size(); ++k) {
+      if (bounds_.is_place[static_cast<std::size_t>(k)]) {
+        out.col(k).setZero();
+        continue;
+      }
       const double step = bounds_.step(k) + 1e-6 * std::abs(p(k));
       VectorXd q = p;
       q(k) += q(k) + step > bounds_.high(k) ? -step : step;
@@ -108,6 +109,7 @@ class Problem {
     fit.ok = true;
     fit.chi2 = r.squaredNorm();
     fit.n_data = r.size();
+    fit.is_place = bounds_.is_place;
     fit.parameters = std::move(p);
     return true;
   }
@@ -149,12 +151,16 @@ class Problem {
   bool with_shapes_;
 };
 
-// Initial ln(stiffness over mass), from the lowest reference mode and the plain frame.
+// Initial ln(stiffness over mass), from all reference modes and the plain model.
 double first_scale(const FrameModel& model, const std::vector<ReferenceMode>& reference) {
-  const auto modes = frame_modes(uniform_frame(*model.declared, 1.0), false);
-  if (!modes) return 0.0;
+  const auto own = model.declared->model ? seen_modes({model.declared, {}}, VectorXd::Zero(model.n_scale()), false)
+                                         : frame_modes(uniform_frame(*model.declared, 1.0), false);
+  if (!own) return 0.0;
   double sum = 0.0;
-  for (const ReferenceMode& mode : reference) sum += std::log(mode.frequency_hz / modes->frequency_hz(mode.number - 1));
+  for (const ReferenceMode& mode : reference) {
+    if (mode.number <= own->frequency_hz.size())
+      sum += std::log(mode.frequency_hz / own->frequency_hz(mode.number - 1));
+  }
   return 2.0 * sum / static_cast<double>(reference.size());
 }
 
@@ -163,7 +169,7 @@ std::vector<VectorXd> starts_of(const FrameModel& model, const std::vector<Refer
                                 const VectorXd& before) {
   const Index n = model.n_parameters();
   VectorXd base = VectorXd::Zero(n);
-  if (model.n_scale() == 1) base(0) = first_scale(model, reference);
+  if (model.has_scale()) base(0) = first_scale(model, reference);
   base.head(std::min(before.size(), n)) = before.head(std::min(before.size(), n));
   std::vector<VectorXd> out{base};
   if (before.size() >= n || model.effects.empty()) return out;
@@ -182,47 +188,6 @@ std::vector<VectorXd> starts_of(const FrameModel& model, const std::vector<Refer
 }
 
 }  // namespace
-
-Index FrameModel::n_parameters() const {
-  Index n = n_scale();
-  for (const StructuralEffect* effect : effects) n += static_cast<Index>(effect->parameters(*declared).size());
-  return n;
-}
-
-std::vector<double> FrameModel::of_effect(std::size_t i_effect, const VectorXd& parameters) const {
-  Index at = n_scale();
-  for (std::size_t i = 0; i < i_effect; ++i) at += static_cast<Index>(effects[i]->parameters(*declared).size());
-  const auto n = effects[i_effect]->parameters(*declared).size();
-  return {parameters.data() + at, parameters.data() + at + n};
-}
-
-ShearFrame uniform_frame(const DeclaredFrame& declared, double stiffness_over_mass_per_s2) {
-  ShearFrame frame;
-  frame.mass = declared.mass.empty() ? std::vector<double>(declared.n_storeys, 1.0) : declared.mass;
-  frame.stiffness_per_s2 =
-      declared.stiffness_ratio.empty() ? std::vector<double>(declared.n_storeys, 1.0) : declared.stiffness_ratio;
-  for (double& k : frame.stiffness_per_s2) k *= stiffness_over_mass_per_s2;
-  return frame;
-}
-
-ShearFrame frame_of(const FrameModel& model, const VectorXd& parameters) {
-  const double scale =
-      model.n_scale() == 1 ? std::exp(parameters(0)) : model.declared->stiffness_over_mass_per_s2.value_or(1.0);
-  ShearFrame frame = uniform_frame(*model.declared, scale);
-  for (std::size_t i = 0; i < model.effects.size(); ++i)
-    model.effects[i]->apply(model.of_effect(i, parameters), *model.declared, frame);
-  return frame;
-}
-
-std::optional<FrameModes> seen_modes(const FrameModel& model, const VectorXd& parameters, bool with_shapes) {
-  auto modes = frame_modes(frame_of(model, parameters), with_shapes);
-  if (!modes) return modes;
-  for (std::size_t i = 0; i < model.effects.size(); ++i) {
-    const std::vector<double> own = model.of_effect(i, parameters);
-    for (double& hz : modes->frequency_hz) hz = model.effects[i]->seen_hz(hz, own, *model.declared);
-  }
-  return modes;
-}
 
 FrameFit fit_frame(const FrameModel& model, const std::vector<ReferenceMode>& reference, const VectorXd& before,
                    Starts starts, int without) {
@@ -248,7 +213,10 @@ LeaveOneOut leave_one_out(const FrameModel& model, const std::vector<ReferenceMo
   LeaveOneOut out;
   out.chi2 = out.rms_percent = kInfinity;
   const auto n = static_cast<Index>(reference.size());
-  if (!fit.ok || n < 2 || n - 1 < fit.parameters.size()) return out;
+  // Places are chosen from few, and priors are data of their own: neither takes a mode.
+  const Index free = fit.parameters.size() - static_cast<Index>(model.with_prior().size()) -
+                     std::count(fit.is_place.begin(), fit.is_place.end(), true);
+  if (!fit.ok || n < 2 || n - 1 < free) return out;
   double chi2 = 0.0, squares = 0.0;
   std::vector<double> errors;
   for (Index i = 0; i < n; ++i) {
@@ -270,20 +238,31 @@ LeaveOneOut leave_one_out(const FrameModel& model, const std::vector<ReferenceMo
   return out;
 }
 
-VectorXd parameter_sigmas(const FrameFit& fit) {
-  const Index n = fit.parameters.size();
-  VectorXd out = VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
-  if (!fit.ok || n == 0) return out;
+MatrixXd parameter_covariance(const FrameFit& fit) {
+  const Index all = fit.parameters.size();
+  MatrixXd out = MatrixXd::Constant(all, all, std::numeric_limits<double>::quiet_NaN());
+  if (!fit.ok || all == 0) return out;
+  std::vector<Index> kept;  // places have no derivative
+  for (Index k = 0; k < all; ++k) {
+    if (fit.is_place.empty() || !fit.is_place[static_cast<std::size_t>(k)]) kept.push_back(k);
+  }
+  const MatrixXd jacobian = fit.jacobian(Eigen::all, kept);
+  const auto n = static_cast<Index>(kept.size());
   VectorXd size(n);  // columns scaled to unit norm: parameters differ by orders of magnitude
-  for (Index k = 0; k < n; ++k) size(k) = fit.jacobian.col(k).norm();
-  if (!(size.minCoeff() > 0.0)) return out;
-  const MatrixXd scaled = fit.jacobian * size.cwiseInverse().asDiagonal();
+  for (Index k = 0; k < n; ++k) size(k) = jacobian.col(k).norm();
+  if (n == 0 || !(size.minCoeff() > 0.0)) return out;
+  const MatrixXd scaled = jacobian * size.cwiseInverse().asDiagonal();
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(scaled);
   if (qr.rank() < n || std::abs(double{qr.matrixQR()(n - 1, n - 1)}) < 1e-7) return out;
   const MatrixXd inverse = (scaled.transpose() * scaled).llt().solve(MatrixXd::Identity(n, n));
-  for (Index k = 0; k < n; ++k) out(k) = std::sqrt(inverse(k, k)) / size(k);
+  for (Index i = 0; i < n; ++i) {
+    for (Index k = 0; k < n; ++k)
+      out(kept[static_cast<std::size_t>(i)], kept[static_cast<std::size_t>(k)]) = inverse(i, k) / (size(i) * size(k));
+  }
   return out;
 }
+
+VectorXd parameter_sigmas(const FrameFit& fit) { return parameter_covariance(fit).diagonal().cwiseSqrt(); }
 
 double chi2_limit(double degrees_of_freedom) {
   constexpr double kNormal = 2.748;  // normal quantile exceeded with probability 0.003

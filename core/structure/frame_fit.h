@@ -8,13 +8,18 @@
 
 namespace core::structure {
 
-// A shear frame with effects, to be fitted to reference modes. Parameters: ln(stiffness over mass) unless declared,
-// then those of the effects in their order. Borrows all members.
+// A shear frame or another kind of structure with effects, to be fitted to reference modes. Parameters: ln(stiffness
+// over mass) unless declared, those of the kind that have a prior, in units of its standard deviation from the declared
+// value, then those of the effects in their order. Borrows all members.
 struct FrameModel {
   const DeclaredFrame* declared = nullptr;
   std::vector<const StructuralEffect*> effects;
 
-  [[nodiscard]] Eigen::Index n_scale() const noexcept { return declared->stiffness_over_mass_per_s2 ? 0 : 1; }
+  [[nodiscard]] bool has_scale() const noexcept { return !declared->stiffness_over_mass_per_s2; }
+  // Parameters of the kind that have a prior.
+  [[nodiscard]] std::vector<std::size_t> with_prior() const;
+  // Number of parameters before those of the effects.
+  [[nodiscard]] Eigen::Index n_scale() const;
   [[nodiscard]] Eigen::Index n_parameters() const;
   // Parameters of one effect, from the vector of all parameters.
   [[nodiscard]] std::vector<double> of_effect(std::size_t i_effect, const Eigen::VectorXd& parameters) const;
@@ -22,8 +27,12 @@ struct FrameModel {
 
 // The frame as declared, with `stiffness_over_mass_per_s2` for ratio 1.
 [[nodiscard]] ShearFrame uniform_frame(const DeclaredFrame& declared, double stiffness_over_mass_per_s2);
+// Empty vectors for another kind.
 [[nodiscard]] ShearFrame frame_of(const FrameModel& model, const Eigen::VectorXd& parameters);
-// Modes as observed; empty if the frame has none.
+// Of another kind: the values of its parameters.
+[[nodiscard]] Eigen::VectorXd values_of(const FrameModel& model, const Eigen::VectorXd& parameters);
+// Modes as observed; empty if the frame has none. Modes of another kind are numbered as in the declared model: where
+// two exchange places on the frequency axis, numbers follow the shapes (MAC at the sights).
 [[nodiscard]] std::optional<FrameModes> seen_modes(const FrameModel& model, const Eigen::VectorXd& parameters,
                                                    bool with_shapes);
 
@@ -32,13 +41,15 @@ struct FrameFit {
   Eigen::VectorXd parameters;  // within the effects' bounds
   double chi2 = 0.0;           // sum of squared residuals in units of the reference's sigmas
   Eigen::Index n_data = 0;
-  Eigen::MatrixXd jacobian;  // of those residuals; n_data x parameters
+  Eigen::MatrixXd jacobian;    // of those residuals; n_data x parameters
+  std::vector<bool> is_place;  // parameters that count places; they have no derivative
 };
 
 enum class Starts { kAll, kBest };  // initial values: all of each effect, or the best-fitting one
 
 // Least squares by Levenberg-Marquardt with bounds (Nocedal & Wright 10.3, 16.7). Residuals: relative error of every
-// reference frequency over its sigma, and each shape's components, at the best scale, over their sigmas. Initial
+// reference frequency over its sigma, each shape's components, at the best scale, over their sigmas, and each parameter
+// that has a prior over its standard deviation. Initial
 // values: those of the last effect, and `before` for all others (from the model without the last effect), or `before`
 // alone if it has all parameters. `without`: index in `reference` that is held out; -1 none.
 [[nodiscard]] FrameFit fit_frame(const FrameModel& model, const std::vector<ReferenceMode>& reference,
@@ -54,6 +65,8 @@ struct LeaveOneOut {
 [[nodiscard]] LeaveOneOut leave_one_out(const FrameModel& model, const std::vector<ReferenceMode>& reference,
                                         const FrameFit& fit);
 
+// Covariance of the parameters about the fit; NaN where they are places, at a bound or not determined by the data.
+[[nodiscard]] Eigen::MatrixXd parameter_covariance(const FrameFit& fit);
 // Standard deviations of the parameters; NaN at a bound or if the data do not determine one.
 [[nodiscard]] Eigen::VectorXd parameter_sigmas(const FrameFit& fit);
 

@@ -36,6 +36,9 @@ struct Limits {
   static constexpr std::size_t kRegions = 4096;                  // in tracks
   static constexpr std::size_t kPointsPerFrame = 1U << 16U;      // in tracks
   static constexpr std::size_t kTrackedPoints = 400'000;         // in tracks: different ones of a whole run
+  static constexpr std::uint64_t kMatrixBytes = 512 * kMiB;      // of a stiffness or mass matrix as text
+  static constexpr std::uint64_t kMatrixRows = 200'000;          // of it
+  static constexpr std::uint64_t kMatrixEntries = 12'000'000;    // of it, as written: 300 MB with the other triangle
 };
 
 }  // namespace drivers

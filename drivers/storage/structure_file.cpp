@@ -9,6 +9,7 @@
 
 #include "drivers/storage/key_suggestion.h"
 #include "drivers/storage/limits.h"
+#include "drivers/storage/structure_kinds.h"
 #include "drivers/storage/yaml.h"
 
 namespace drivers {
@@ -73,11 +74,8 @@ struct Key {
 
 const std::vector<Key>& keys() {
   static const std::vector<Key> kKeys{
-      {"kind", "shear_frame: rigid floors on columns that shear",
-       [](const Value& v, DeclaredFrame&) {
-         if (v.text() != "shear_frame")
-           v.refuse(fmt::format("`{}` is not known; write shear_frame", printable(v.text())));
-       }},
+      {"kind", "shear_frame: rigid floors on columns that shear; or another kind, see below",
+       [](const Value&, DeclaredFrame&) {}},
       {"storeys", "how many floors move",
        [](const Value& v, DeclaredFrame& f) { f.n_storeys = v.whole(1, core::structure::kMaxStoreys); }},
       {"storey_height_mm", "height of each storey; tests gravity softening",
@@ -120,11 +118,19 @@ const YamlNode& section(const YamlNode& root, const std::string& file) {
   return *found;
 }
 
+// A kind of its own, or a shear frame whose storeys are searched for a place.
+bool is_other_kind(const YamlNode& structure) {
+  const YamlNode* kind = structure.find("kind");
+  const YamlNode* locate = structure.find("locate");
+  return (kind != nullptr && kind->text != "shear_frame") || (locate != nullptr && locate->text == "true");
+}
+
 }  // namespace
 
 DeclaredFrame parse_structure(const std::string& text, const std::string& name) {
   const YamlNode root = parse_yaml(text, name);
   const YamlNode& structure = section(root, name);
+  if (is_other_kind(structure)) return parse_structure_kind(structure, name);
   std::vector<std::string> names;
   for (const Key& key : keys()) names.push_back(std::string("structure.") + key.name);
   DeclaredFrame frame;
@@ -158,7 +164,7 @@ DeclaredFrame read_structure(const std::string& path) {
 std::string structure_keys_help() {
   std::string out;
   for (const Key& key : keys()) out += fmt::format("  {:<28}{}\n", key.name, key.meaning);
-  return out;
+  return out + structure_kinds_help();
 }
 
 }  // namespace drivers

@@ -118,6 +118,10 @@ struct ReportConfig {
   std::string directory;  // --report overrides; empty = none
   bool tracks = true;     // write tracks.csv (the largest file)
   int keep = 3;           // earlier reports that stay in the folder, as report.1, report.2, ...
+  // For the head of report.html.
+  std::string title;               // of the measurement; empty = none
+  std::vector<std::string> notes;  // "place: ...", or a sentence
+  std::string compare;             // modal.json or truth.json of a former run or a model; empty = none
 };
 
 struct RecordConfig {

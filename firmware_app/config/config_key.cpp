@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 namespace app {
 namespace {
@@ -117,10 +118,13 @@ ConfigKey text_key(std::string path, Field<std::string> field, TextRule rule, st
 }
 
 ConfigKey texts_key(std::string path, Field<std::vector<std::string>> field, TextRule rule, std::string meaning) {
-  std::string allowed = fmt::format("[] or [name, ...], each 1 .. {} letters, digits, _ - .", rule.max_length);
+  std::string allowed =
+      rule.plain ? fmt::format("[] or [name, ...], each 1 .. {} letters, digits, _ - .", rule.max_length)
+                 : fmt::format("[] or [text, ...], at most {}, each 1 .. {} bytes", rule.max_items, rule.max_length);
   ConfigKey key{std::move(path), "list of texts", "", std::move(allowed), "", std::move(meaning), {}, {}};
   key.set = [=](AppConfig& config, std::size_t i, const YamlNode& node) -> Remedy {
     if (node.kind != YamlNode::Kind::kList) return "write a list: [name, name]";
+    if (node.items.size() > rule.max_items) return fmt::format("write at most {} texts", rule.max_items);
     std::vector<std::string> texts;
     for (const YamlNode& item : node.items) {
       if (auto remedy = refuse_unless_scalar(item)) return remedy;
@@ -130,8 +134,10 @@ ConfigKey texts_key(std::string path, Field<std::vector<std::string>> field, Tex
     }
     return field(config, i) = std::move(texts), std::nullopt;
   };
+  // Plain texts need no quotes; a JSON string is also a YAML string.
   key.canonical = [=](AppConfig& config, std::size_t i) {
-    return fmt::format("[{}]", fmt::join(field(config, i), ", "));
+    return rule.plain ? fmt::format("[{}]", fmt::join(field(config, i), ", "))
+                      : nlohmann::json(field(config, i)).dump();
   };
   return key;
 }

@@ -57,6 +57,7 @@ struct TextRule {
   std::size_t min_length = 0;
   std::size_t max_length = 4096;
   bool plain = false;
+  std::size_t max_items = 4096;  // of a list of texts
 };
 
 [[nodiscard]] ConfigKey number_key(std::string path, std::string unit, Field<double> field, NumberRange range,

@@ -134,6 +134,14 @@ void add_output_keys(std::vector<ConfigKey>& keys) {
   keys.push_back(whole_key("report.keep", "reports", at(&A::report, &ReportConfig::keep), {0, 100},
                            "earlier reports that stay in report.directory, in folders report.1 (the newest), report.2, "
                            "...; a new report replaces the last one only when it is complete"));
+  keys.push_back(text_key("report.title", at(&A::report, &ReportConfig::title), {0, 120},
+                          "title of report.html, for example the structure's name; \"\" = none"));
+  keys.push_back(texts_key("report.notes", at(&A::report, &ReportConfig::notes), {1, 300, false, 24},
+                           "lines for the head of report.html: \"date: ...\", \"place: ...\", \"structure: ...\", "
+                           "\"operator: ...\" and others of this form become a list of facts, the rest a text"));
+  keys.push_back(text_key("report.compare", at(&A::report, &ReportConfig::compare), {},
+                          "modal.json of a former run, or truth.json of a model, with which report.html compares the "
+                          "modes; \"\" = none"));
   using O = RecordConfig;
   keys.push_back(text_key("record.directory", at(&A::record, &O::directory), {},
                           "folder for run records (LCM event logs with messages, every point in full precision, and "

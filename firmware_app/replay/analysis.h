@@ -25,6 +25,13 @@ struct ChannelSeries {
   std::string unit = "units";              // of the values, as shown to readers
 };
 
+// Words for the head of a page, and a result to compare with: as report.title, report.notes and report.compare.
+struct PageHead {
+  std::string title;
+  std::vector<std::string> notes;
+  std::string compare;
+};
+
 struct SeriesOptions {
   SpectrumConfig spectrum{.segment = 0};  // segment 0 = chosen from the record's length, at the decimated rate
   core::IdentifierConfig identifier;      // references are indices into ChannelSeries::channels
@@ -34,6 +41,7 @@ struct SeriesOptions {
   std::string report_directory;                     // must exist; empty = no report
   std::string source;                               // input named in the report
   std::function<void(double share)> progress = {};  // called at intervals with the share done, 0..1
+  PageHead head = {};
 };
 
 struct SeriesResult {
@@ -55,6 +63,7 @@ struct TracksResult {
   core::ModalEstimate estimate;
   core::Health losses;
   std::vector<core::ChannelInfo> channels;
+  std::string method;                // "paper" | "hovermodal"
   int n_differences = 0;             // the prewhitening used
   SetupSums sums;                    // from which the estimate was computed; those of further runs can be added
   std::vector<std::string> changes;  // with closure.adopt: auto, corrections started or withdrawn, for a reader

@@ -175,6 +175,7 @@ class LevelLoop {
       core::closure::ClosureOptions options;
       options.seed = inputs_.seed;
       options.progress = inputs_.progress;
+      if (inputs_.structure->model) options.n_surrogates_when_plain = 32;  // another kind costs more for each
       LoopLevel out = level_of(name, core::closure::close_loop(level, options));
       for (LoopLevel::Finding& finding : out.findings) finding.repair = "the structural model has it from now on";
       return out;

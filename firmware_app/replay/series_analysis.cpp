@@ -13,6 +13,7 @@
 #include "firmware_app/replay/series_faults.h"
 #include "firmware_app/report/modal_json.h"
 #include "firmware_app/report/pictures/pictures.h"
+#include "firmware_app/report/run_findings.h"
 #include "firmware_app/report/run_history.h"
 
 namespace app {
@@ -58,6 +59,7 @@ void draw(const ChannelSeries& series, const SeriesSpectra& spectra, const core:
   facts.source = options.source;
   facts.method = to_text(Method::kHovermodal);
   facts.counted = false;
+  facts.title = options.head.title, facts.notes = options.head.notes;
   PictureInputs inputs;
   inputs.channels = series.channels;
   inputs.spectrum = &spectra.sums;
@@ -66,6 +68,7 @@ void draw(const ChannelSeries& series, const SeriesSpectra& spectra, const core:
   inputs.unit = series.unit;
   inputs.max_frequency_hz = options.identifier.max_frequency_hz;
   inputs.facts = &facts;
+  compare_with(inputs, options.head.compare);
   (void)write_pictures(options.report_directory, inputs);
 }
 

@@ -56,6 +56,7 @@ class Replay {
     result_.sums = analysis_->analysis().setup_sums();
     result_.sums.view = view_;
     result_.n_differences = analysis_->analysis().n_differences();
+    result_.method = to_text(last.config.method);
     if (report_) write_report(last);
     return std::move(result_);
   }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "drivers/storage/text_file.h"
 #include "firmware_app/config/calibration.h"
 #include "firmware_app/config/core_config.h"
 #include "firmware_app/config/structure_scale.h"
@@ -18,7 +19,18 @@ PictureInputs picture_inputs(const AppConfig& config, const core::CameraInfo& ca
   inputs.channels = channels;
   inputs.unit = structure_scale(config, camera_model(config, camera)).known ? "mm" : "px";
   inputs.max_frequency_hz = identifier_config(config, channels, camera.rate_hz).max_frequency_hz;
+  compare_with(inputs, config.report.compare);
   return inputs;
+}
+
+void compare_with(PictureInputs& inputs, const std::string& path) {
+  if (path.empty()) return;
+  inputs.former_name = path;
+  try {
+    inputs.former = std::make_shared<const ModalReport>(read_modal_json(path));
+  } catch (const drivers::FileError& error) {
+    inputs.former_fault = error.what();
+  }
 }
 
 RunFacts run_facts(const AppConfig& config, const core::CameraInfo& camera, const std::string& source,
@@ -28,6 +40,7 @@ RunFacts run_facts(const AppConfig& config, const core::CameraInfo& camera, cons
   if (facts.source.empty() && config.camera.driver == drivers::CameraKind::kSynthetic)
     facts.source = "synthetic camera";
   facts.method = to_text(config.method);
+  facts.title = config.report.title, facts.notes = config.report.notes;
   facts.corrections = corrections(config, camera);
   facts.corrections.insert(facts.corrections.end(), estimate.amendments.begin(), estimate.amendments.end());
   facts.caveats = caveats(config, camera);

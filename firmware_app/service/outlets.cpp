@@ -8,6 +8,7 @@
 #include "drivers/telemetry/publisher_factory.h"
 #include "drivers/telemetry/run_identity.h"
 #include "firmware_app/config/core_config.h"
+#include "firmware_app/report/modal_json.h"
 #include "firmware_app/report/pictures/pictures.h"
 #include "firmware_app/report/run_findings.h"
 
@@ -53,6 +54,7 @@ std::unique_ptr<drivers::Publisher> open_publisher(const AppConfig& config, driv
 
 std::unique_ptr<RunReport> open_report(const AppConfig& config, const Source& source) {
   if (config.report.directory.empty()) return nullptr;
+  if (!config.report.compare.empty()) (void)read_modal_json(config.report.compare);  // refused now, not after the run
   return std::make_unique<RunReport>(config.report.directory, config, source.info, source.channels(),
                                      region_names(config));
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <optional>
 
 #include "firmware_app/config/region_axis.h"
 #include "firmware_app/report/estimate_words.h"
@@ -28,8 +29,12 @@ void print_mode(const core::Mode& mode, const std::vector<core::ChannelInfo>& ch
   }
   const std::string fold = (mode.fold_n.value_or(0) != 0 ? fmt::format(" (seen at {:.3f} Hz)", mode.apparent_hz) : "") +
                            other_frequencies_text(mode);
-  spdlog::info("  {:9.4f} Hz{}  damping {:5.2f} %  MPC {:.3f} {}", mode.frequency_hz, fold, 100.0 * mode.damping_ratio,
-               mode.mpc, shape);
+  const auto sigma = [](const std::optional<double>& value, double factor, int n_decimals) {
+    return value ? fmt::format(" ± {:.{}f}", factor * *value, n_decimals) : std::string();
+  };
+  spdlog::info("  {:9.4f}{} Hz{}  damping {:5.2f}{} %  MPC {:.3f} {}", mode.frequency_hz,
+               sigma(mode.frequency_std_hz, 1.0, 4), fold, 100.0 * mode.damping_ratio,
+               sigma(mode.damping_std, 100.0, 2), mode.mpc, shape);
 }
 
 double milliseconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-6; }
@@ -101,10 +106,18 @@ void Progress::tick() {
   next_line_ns_ = now_ns + kLinePeriodNs;
   const core::Health health = pipeline_.health();
   const std::uint64_t total = pipeline_.camera_info().frame_count;
+  const double elapsed_s = static_cast<double>(now_ns - start_ns_) * 1e-9;
+  if (total > 0 && health.frames_processed + health.frames_dropped >= total) {
+    spdlog::info("all {} frames are processed; last estimate, diagnosis and report are being made, {:.0f} s so far",
+                 total, elapsed_s);
+    return;
+  }
+  const auto processed = static_cast<double>(health.frames_processed);
   const std::string share =
-      total > 0 ? fmt::format(" of {} ({:.0f} %)", total,
-                              100.0 * static_cast<double>(health.frames_processed) / static_cast<double>(total))
-                : "";
+      total > 0 && processed > 0.0
+          ? fmt::format(" of {} ({:.0f} %, {:.0f} s left)", total, 100.0 * processed / static_cast<double>(total),
+                        elapsed_s * (static_cast<double>(total) - processed) / processed)
+          : "";
   spdlog::info("frame {}{}, {:.1f} s of stream, {} of {} points, {} dropped, {} masked, {} estimates",
                health.frames_processed, share, static_cast<double>(health.t_stream_ns) * 1e-9, health.points_tracked,
                health.points_total, health.frames_dropped, health.samples_masked, health.estimates);

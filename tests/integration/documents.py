@@ -19,7 +19,7 @@ import sys
 import time
 from pathlib import Path
 
-DOCUMENTS = ["README.md", "tools/guide/engineer.md", "tools/guide/integrator.md"]
+DOCUMENTS = ["README.md", "tools/guide/engineer.md", "tools/guide/integrator.md", "tools/guide/structures.md"]
 SECTIONS = "camera calibration regions scale tracking spectrum identification closure telemetry report record state rt".split()
 PATIENCE_S = 900
 faults = []

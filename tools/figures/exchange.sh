@@ -1,17 +1,20 @@
 #!/usr/bin/env bash
 # Results that travel, and proof against a contact sensor.
-#   tools/figures/exchange.sh [--quick] [--seeds N] [--first-seed N] [FIGURE...]     FIGURE: 1 2 3 (default: all)
+#   tools/figures/exchange.sh [--quick] [--seeds N] [--first-seed N] [FIGURE...]     FIGURE: 1 2 3 4 5 (default: all)
 # 1 reads every format back by readers of others: pyuff, scipy.io, mcap. Nobody installs them here; where Python does not
 # find them, EXCHANGE_READERS names the folders that hold them, separated by colons:
 #   pip install --target readers pyuff scipy mcap     # or Debian's python3-scipy and the sources of pyuff and mcap
 #   EXCHANGE_READERS=readers tools/figures/exchange.sh 1
+# 4 needs Debian's chromium (tools/setup.sh --ground). It keeps a picture of every section and a PDF of every page in
+# build/figures/exchange/report.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
 . tools/figures/exchange_sensor.sh
+. tools/figures/exchange_pages.sh
 take_arguments "tools/figures/exchange.sh [--quick] [--seeds N] [--first-seed N] [FIGURE...]" "$@"
-all_or_named 1 2 3
-draws 1 2
+all_or_named 1 2 3 4 5
+draws 1 2 4 5
 bin=$PWD/$bin
 out=$PWD/build/figures/exchange
 mkdir -p "$out"

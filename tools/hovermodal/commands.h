@@ -17,6 +17,7 @@ void add_batch(drivers::Command& app);
 void add_batch_flight(drivers::Command& app);  // in batch/flight.cpp: a process of a batch, not for users
 void add_compare(drivers::Command& app);
 void add_export(drivers::Command& app);
+void add_magnify(drivers::Command& app);
 void add_spy(drivers::Command& app);
 void add_inspect(drivers::Command& app);  // in spy.cpp: another view of the same messages
 void add_inspect_cameras(drivers::Command& inspect);

@@ -8,10 +8,10 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "core/identification/mac.h"
 #include "core/identification/real_shape.h"
 #include "drivers/host/command_line.h"
 #include "firmware_app/report/modal_json.h"
+#include "firmware_app/report/mode_match.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/compare/sensor.h"
 
@@ -19,6 +19,8 @@ namespace tools {
 
 namespace {
 
+using app::common_channels;
+using app::shape_for;
 using Shape = std::vector<std::complex<double>>;
 
 // Table 1 of Yoon, Hoskere, Park & Spencer 2017: accelerometers (their reference) and camera on the drone.
@@ -27,50 +29,6 @@ struct PaperMode {
 };
 constexpr std::array<PaperMode, 3> kPaperTable1{
     {{1.632, 1.649, 99.99, 1.04}, {5.054, 5.043, 99.86, 0.22}, {8.175, 8.170, 99.67, 0.06}}};
-
-struct Match {
-  const core::Mode* mode = nullptr;
-  double mac = 0.0;
-};
-
-// Components of `mode` for the channels of `names`, 0 for a channel that does not exist.
-Shape shape_for(const app::ModalReport& report, const core::Mode& mode, const std::vector<std::string>& names) {
-  Shape shape;
-  for (const std::string& name : names) {
-    const auto at = std::find(report.channel_names.begin(), report.channel_names.end(), name);
-    const auto index = static_cast<std::size_t>(at - report.channel_names.begin());
-    shape.push_back(index < mode.shape.size() ? mode.shape[index] : 0.0);
-  }
-  return shape;
-}
-
-// The mode of `report` that corresponds to `wanted`: among those within 10 % in frequency the one with the best MAC.
-Match find(const app::ModalReport& report, const core::Mode& wanted, const std::vector<std::string>& names,
-           const Shape& wanted_shape) {
-  Match best;
-  for (const core::Mode& mode : report.estimate.modes) {
-    if (std::abs(mode.frequency_hz / wanted.frequency_hz - 1.0) > 0.1) continue;
-    const double mac = core::mac(shape_for(report, mode, names), wanted_shape);
-    if (best.mode == nullptr || mac > best.mac) best = {&mode, mac};
-  }
-  return best;
-}
-
-// False for an excluded channel, whose component is unknown.
-bool is_known(const app::ModalReport& report, const std::string& name) {
-  const auto at = std::find(report.channel_names.begin(), report.channel_names.end(), name);
-  const auto c = static_cast<std::size_t>(at - report.channel_names.begin());
-  return at != report.channel_names.end() &&
-         (c >= report.estimate.channels.size() || report.estimate.channels[c].takes_part);
-}
-
-std::vector<std::string> common_channels(const app::ModalReport& a, const app::ModalReport& b) {
-  std::vector<std::string> names;
-  for (const std::string& name : a.channel_names) {
-    if (is_known(a, name) && is_known(b, name)) names.push_back(name);
-  }
-  return names;
-}
 
 // Least possible scatter for a record of this length: sqrt(zeta / (2 pi f T)), relative.
 double scatter(const core::Mode& mode, double duration_s) {
@@ -106,9 +64,11 @@ void print_table(const app::ModalReport& result, const app::ModalReport& referen
     ++number;
     const Shape true_shape =
         truth != nullptr ? shape_for(*truth, numbered, names) : shape_for(reference, numbered, names);
-    const core::Mode* wanted = truth != nullptr ? find(reference, numbered, names, true_shape).mode : &numbered;
-    const Match match = wanted != nullptr ? find(result, *wanted, names, shape_for(reference, *wanted, names))
-                                          : find(result, numbered, names, true_shape);
+    const core::Mode* wanted =
+        truth != nullptr ? app::find_mode(reference, numbered, names, true_shape).mode : &numbered;
+    const app::ModeMatch match = wanted != nullptr
+                                     ? app::find_mode(result, *wanted, names, shape_for(reference, *wanted, names))
+                                     : app::find_mode(result, numbered, names, true_shape);
     if (match.mode == nullptr || wanted == nullptr) {
       const bool folded = numbered.frequency_hz > reference.estimate.rate_hz / 2.0;
       fmt::print(
@@ -168,10 +128,11 @@ void add_sensor_options(drivers::Command& command, SensorOptions& options) {
       .one_of({"d", "v", "a"})
       .group(kGroup);
   command
-      .option("--sensor-rate", options.sensor_rate_hz, "Samples per second of the sensor, where its file has no times")
+      .option("--sensor-rate-hz,--sensor-rate", options.sensor_rate_hz,
+              "Samples per second of the sensor, where its file has no times")
       .type_name("HZ")
       .group(kGroup);
-  command.option("--rate", options.rate_hz, "Samples per second of the channel, where its file has no times")
+  command.option("--rate-hz,--rate", options.rate_hz, "Samples per second of the channel, where its file has no times")
       .type_name("HZ")
       .group(kGroup);
   command.option("--band", options.band, "Band that is compared (default: chosen by coherence)")

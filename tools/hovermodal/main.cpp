@@ -29,6 +29,7 @@ constexpr Subcommand kSubcommands[] = {
     {tools::add_batch_flight, "batch-flight", ""},
     {tools::add_compare, "compare", "Compare modes with another result, displacements with a sensor"},
     {tools::add_export, "export", "Write a run as UFF, MAT, CSV or MCAP for other programs"},
+    {tools::add_magnify, "magnify", "Make a mode of a run visible: the clip's frame moved by its shape"},
     {tools::add_spy, "spy", "Show modes, displacements and health live, over LCM"},
     {tools::add_inspect, "inspect", "Show stages live; list cameras; test the network for LCM"},
     {tools::add_regions, "regions", "Propose the regions of a clip"},

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "firmware_app/report/estimate_words.h"
+#include "firmware_app/report/modal_json.h"
 
 namespace tools {
 namespace {
@@ -51,6 +52,15 @@ std::string modes_text(const core::ModalEstimate& estimate, const std::vector<co
   }
   for (const std::string& words : app::estimate_words(estimate, channels)) text += "note: " + words + "\n";
   return text;
+}
+
+std::string modes_json(const core::ModalEstimate& estimate, const std::vector<core::ChannelInfo>& channels,
+                       const std::string& method) {
+  app::ModalReport report;
+  report.method = method;
+  for (const core::ChannelInfo& channel : channels) report.channel_names.push_back(channel.name);
+  report.estimate = estimate;
+  return app::modal_json(report);
 }
 
 }  // namespace tools

@@ -12,4 +12,9 @@ namespace tools {
 [[nodiscard]] std::string modes_text(const core::ModalEstimate& estimate,
                                      const std::vector<core::ChannelInfo>& channels);
 
+// The same as modal.json has it, without what only a whole run knows.
+[[nodiscard]] std::string modes_json(const core::ModalEstimate& estimate,
+                                     const std::vector<core::ChannelInfo>& channels,
+                                     const std::string& method = "hovermodal");
+
 }  // namespace tools

@@ -20,19 +20,24 @@ namespace {
 struct Options {
   std::vector<std::string> records, overrides;
   std::string tracks, config, report;
+  bool json = false, quiet = false;
 };
 
-void show(const app::TracksResult& result, const std::string& report) {
+void show(const app::TracksResult& result, const Options& options) {
+  if (options.json) fmt::print("{}", modes_json(result.estimate, result.channels, result.method));
+  if (options.json || options.quiet) return;
   for (const std::string& change : result.changes) fmt::print("{}\n", change);
   fmt::print("{}", modes_text(result.estimate, result.channels));
-  if (!report.empty()) fmt::print("open {}/{}\n", report, app::kReportName);
+  if (!options.report.empty()) fmt::print("open {}/{}\n", options.report, app::kReportName);
 }
 
 void replay_records(const Options& options) {
   const app::RecordsResult result =
       app::replay_records(options.records, {options.config, options.overrides}, options.report);
-  for (const std::string& remark : result.remarks) fmt::print("{}\n", remark);
-  show(result.tracks, options.report);
+  for (const std::string& remark : result.remarks) {
+    if (!options.json && !options.quiet) fmt::print("{}\n", remark);
+  }
+  show(result.tracks, options);
 }
 
 void replay(const Options& options) {
@@ -41,7 +46,7 @@ void replay(const Options& options) {
   if (!options.records.empty()) return replay_records(options);
   if (options.config.empty()) throw std::invalid_argument("replay: --tracks needs the --config of the run");
   const app::AppConfig config = app::load_config(options.config, options.overrides);
-  show(app::replay_tracks(config, options.tracks, options.report), options.report);
+  show(app::replay_tracks(config, options.tracks, options.report), options);
 }
 
 // "flights/bridge_run0007_000.lcm" -> "flights/bridge_run0007_report"
@@ -59,6 +64,8 @@ void add_record_options(drivers::Command& command, Options& options, bool requir
   command.option("--config", options.config, "Configuration to use; default for a record: the recorded one")
       .type_name("FILE");
   command.option("--set", options.overrides, "Override one key").type_name("section.key=value").repeated();
+  command.flag("--json", options.json, "Print the modes as JSON, as modal.json has them");
+  command.flag("--quiet", options.quiet, "Print nothing; files are written");
 }
 
 }  // namespace

@@ -21,6 +21,7 @@
 #include "tools/validate/peaks.h"
 #include "tools/validate/render.h"
 #include "tools/validate/signatures.h"
+#include "tools/validate/structures.h"
 #include "tools/validate/trust.h"
 
 namespace tools {
@@ -77,21 +78,8 @@ void print_pixels(const Options& options) {
   fmt::print("flicker\t{:.5f}\n", check_flicker_bands(options.seed()));
 }
 
-void print_klt(const Options& options) {
-  fmt::print(
-      "# OpenCV's KLT in drawn frames less the true tracks: worst, rms per axis; rms of the motion; points, lost\n");
-  for (const TrackError& error : check_opencv_tracks(options.seed(), options.n_frames)) {
-    fmt::print("klt\t{}\t{:.4f} px\t{:.4f} px\t{:.2f} px\t{}\t{}\n", error.name, error.worst_px, error.rms_px,
-               error.truth_rms_px, error.n_tracks, error.n_lost);
-  }
-}
-
-void print_speed(const Options& options) {
-  fmt::print("# frames of 1080p per second on {} threads\n", options.n_threads);
-  for (const RenderSpeed& speed : check_render_speed(options.seed(), options.n_threads)) {
-    fmt::print("speed\t{}\t{:.1f}\n", speed.name, speed.frames_per_s);
-  }
-}
+void print_klt(const Options& options) { print_klt_errors(options.seed(), options.n_frames); }
+void print_speed(const Options& options) { print_render_speed(options.seed(), options.n_threads); }
 
 // The identification on simulated records.
 template <void (*print)(const IdentificationOptions&)>
@@ -118,6 +106,8 @@ void closure_tracks(const Options& options) {
   print({options.n_seeds, options.n_threads, options.duration_s, options.first_seed, options.effect, options.strength,
          options.flight});
 }
+
+void structures(const Options& o) { print_structures(o.what, o.n_seeds, o.n_threads, o.first_seed, o.report); }
 
 // Options that a check may take; all others are refused.
 enum Takes : unsigned {
@@ -149,6 +139,13 @@ struct Check {
   unsigned takes;
 };
 constexpr std::array kChecks{
+    Check{"structure-kinds", "kinds of structural models against closed forms and dense matrices",
+          [](const Options&) { print_structure_kinds(); }, 0},
+    Check{"structure-where", "which of ten storeys or elements lost stiffness",
+          [](const Options& o) { print_structure_where(o.n_seeds, o.n_threads, o.first_seed); }, kRecords},
+    Check{"structure-kinds", "structural models against closed forms and dense matrices", structures, 0},
+    Check{"structure-where", "which of ten storeys or elements lost stiffness", structures, kRecords},
+    Check{"structure-large", "files of a wall of 10^5 degrees of freedom, in --report", structures, kSeed | kReport},
     Check{"signatures", "every effect's motion of the tracks against its linear signature", print_signatures, kSeed},
     Check{"peaks", "the true motion's frequencies and damping against those declared", print_peaks, kSeed | kSeeds},
     Check{"shifts", "plates drawn at known shifts, measured again", print_shifts, kSeed},

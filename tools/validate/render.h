@@ -53,4 +53,8 @@ struct RenderSpeed {
 // 1080p, 8 bits, on n_threads threads at once: the fast path and the general one.
 [[nodiscard]] std::vector<RenderSpeed> check_render_speed(std::uint64_t seed, int n_threads = 2);
 
+// Tables of check_opencv_tracks() and check_render_speed() on standard output.
+void print_klt_errors(std::uint64_t seed, int n_frames);
+void print_render_speed(std::uint64_t seed, int n_threads);
+
 }  // namespace tools

@@ -15,6 +15,14 @@
   EFFECT(roof_mass)                           \
   EFFECT(column_bending)                      \
   EFFECT(stiffness_scale)                     \
+  EFFECT(soft_part)                           \
+  EFFECT(added_mass)                          \
+  EFFECT(support_turning)                     \
+  EFFECT(support_yielding)                    \
+  EFFECT(support_restraint)                   \
+  EFFECT(spring_stiffness)                    \
+  EFFECT(axial_force)                         \
+  EFFECT(weight_softening)                    \
   EFFECT(integrator)                          \
   EFFECT(clock_rate)
 

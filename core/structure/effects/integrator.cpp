@@ -21,6 +21,7 @@ class Integrator : public StructuralEffect {
     return Obstacle{"the reference was measured: nothing was integrated",
                     "declare `data: simulated` where it came from a program"};
   }
+  bool changes_frequencies() const override { return true; }
   double seen_hz(double frequency_hz, std::span<const double> p, const DeclaredFrame& declared) const override {
     const double half = std::numbers::pi * (p.empty() ? declared.dt_s.value_or(0.0) : p[0]);
     return half > 0.0 ? std::atan(frequency_hz * half) / half : frequency_hz;

@@ -13,6 +13,7 @@ std::string outside(double value, double low, double high, std::string_view what
 }
 
 std::optional<Obstacle> needs_storeys(const DeclaredFrame& declared, std::size_t n) {
+  if (declared.model) return Obstacle{kOtherKind, "use the effects of that kind"};
   if (declared.n_storeys >= n) return std::nullopt;
   return Obstacle{"with so few storeys it is a common factor of all frequencies, which stiffness over mass absorbs",
                   "measure the stiffness or the masses"};

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "core/structure/effects/catalogue.h"
 #include "core/structure/effects/plausibility.h"
 
@@ -18,6 +20,10 @@ class StiffnessScale : public StructuralEffect {
   }
   void apply(std::span<const double> p, const DeclaredFrame&, ShearFrame& frame) const override {
     for (double& k : frame.stiffness_per_s2) k *= p[0];
+  }
+  bool changes_frequencies() const override { return true; }
+  double seen_hz(double frequency_hz, std::span<const double> p, const DeclaredFrame& declared) const override {
+    return declared.model ? std::sqrt(p[0]) * frequency_hz : frequency_hz;
   }
   std::string implausible(std::span<const double> p, const DeclaredFrame&, const ShearFrame&) const override {
     return outside(p[0], 0.3, 3.0, "a ratio of stiffness over mass");

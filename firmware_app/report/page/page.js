@@ -4,14 +4,16 @@
   const all = (selector, root) => Array.from((root || document).querySelectorAll(selector));
   const numbers = (text) => text.trim().split(/\s+/).map(Number);
 
-  // ---- Mode shapes: every moving part has its complex amplitude in page pixels as an attribute.
+  // ---- Shapes: every moving part has its complex amplitude in page pixels as an attribute.
+  const groups = all("[data-move]").map((node) => ({ node, at: numbers(node.dataset.move) }));
+  const lines = all("[data-line]").map((node) => ({ node, at: numbers(node.dataset.line) }));
+  let redraw = () => {};
+
   function animate() {
-    const controls = document.querySelector(".controls");
+    const controls = document.querySelector(".controls.motion");
     if (!controls) return;
     const play = document.getElementById("play");
     const amplitude = document.getElementById("amplitude");
-    const groups = all("[data-move]").map((node) => ({ node, at: numbers(node.dataset.move) }));
-    const lines = all("[data-line]").map((node) => ({ node, at: numbers(node.dataset.line) }));
     const still = window.matchMedia("(prefers-reduced-motion: reduce)");
     const period_ms = 2400;
     let playing = false, phase = 0, last = 0;
@@ -49,8 +51,84 @@
     still.addEventListener("change", () => { if (still.matches) set(false); });
     window.addEventListener("beforeprint", () => { set(false); phase = 0; draw(); });
     controls.hidden = false;
+    redraw = draw;
     set(!still.matches);
   }
+
+  // ---- Operating deflection shape: the components of every line are bytes of 1/127, real and imaginary part.
+  function deflection() {
+    const root = document.getElementById("deflection");
+    if (!root) return;
+    const hz = numbers(root.dataset.hz), share = numbers(root.dataset.share);
+    const bytes = Int8Array.from(atob(root.dataset.shapes), (c) => c.charCodeAt(0));
+    const n = bytes.length / hz.length;
+    const slider = document.getElementById("line"), words = document.getElementById("line-words");
+    const rows = all("table.deflection tbody tr", root);
+    const parts = groups.filter(({ node }) => root.contains(node));
+    const paths = lines.filter(({ node }) => root.contains(node));
+
+    // Motion of one part: its channels' components times page pixels per unit.
+    function move(part, values) {
+      const via = numbers(part.node.dataset.via || ""), at = [0, 0, 0, 0];
+      for (let i = 0; i + 2 < via.length; i += 3) {
+        const re = values[2 * via[i]] / 127, im = values[2 * via[i] + 1] / 127;
+        at[0] += re * via[i + 1];
+        at[1] += re * via[i + 2];
+        at[2] += im * via[i + 1];
+        at[3] += im * via[i + 2];
+      }
+      part.at = at;
+    }
+    function show(k) {
+      const values = bytes.subarray(k * n, (k + 1) * n);
+      for (const part of parts) move(part, values);
+      for (const path of paths) parts.forEach((part, i) => path.at.splice(6 * i + 2, 4, ...part.at));
+      rows.forEach((row, c) => {
+        const re = values[2 * c] / 127, im = values[2 * c + 1] / 127;
+        row.cells[1].textContent = Math.hypot(re, im).toFixed(2);
+        row.cells[2].textContent = (Math.round(Math.atan2(im, re) * 180 / Math.PI) || 0) + "°";
+      });
+      words.textContent = "At " + hz[k] + " Hz this shape holds " + share[k] + " % of the motion.";
+      slider.setAttribute("aria-valuetext", hz[k] + " Hz");
+      redraw();
+    }
+    slider.addEventListener("input", () => show(Number(slider.value)));
+    for (const pick of all(".pick", root)) {
+      pick.addEventListener("click", () => {
+        slider.value = pick.dataset.lineAt;
+        show(Number(slider.value));
+      });
+    }
+    slider.closest(".controls").hidden = false;
+  }
+
+  // ---- The table as text. Where the clipboard is not allowed, the text is selected.
+  function copies() {
+    const button = document.getElementById("copy"), text = document.getElementById("modes-text");
+    if (!button) return;
+    const said = document.getElementById("copied");
+    button.addEventListener("click", () => {
+      getSelection().selectAllChildren(text);
+      const kept = () => { said.textContent = "Selected: copy it with the keyboard or the menu."; };
+      if (!navigator.clipboard) return kept();
+      navigator.clipboard.writeText(text.textContent).then(() => { said.textContent = "Copied."; }, kept);
+    });
+    button.parentNode.hidden = false;
+  }
+
+  // Printed, folded parts would be lost.
+  window.addEventListener("beforeprint", () => {
+    for (const part of all("details:not([open])")) {
+      part.open = true;
+      part.dataset.folded = "";
+    }
+  });
+  window.addEventListener("afterprint", () => {
+    for (const part of all("details[data-folded]")) {
+      part.open = false;
+      delete part.dataset.folded;
+    }
+  });
 
   // ---- Curves: show and hide by the legend's keys.
   function toggles() {
@@ -199,6 +277,8 @@
   }
 
   animate();
+  deflection();
+  copies();
   toggles();
   cursors();
 })();

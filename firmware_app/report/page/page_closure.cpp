@@ -13,17 +13,29 @@ using core::closure::ClosureStep;
 
 constexpr const char* kTitle = "What the model lacks";
 
-std::string steps_table(const core::closure::ClosureResult& result) {
-  HtmlTable table({"Effect", "Numbers", "Held-out error", "Score", "Chance"});
-  for (const ClosureStep& step : result.steps) {
-    const std::string words = core::closure::parameters_text(step) + (step.meaning.empty() ? "" : "; " + step.meaning);
-    table.add({{step.effect, {}},
-               {words, {}},
-               {fmt::format("{:.4f} → {:.4f} {}", step.heldout_before, step.heldout_after, result.unit), {}},
-               {fmt::format("{:.4g}", step.score), {}},
-               {fmt::format("{:.3g}", step.threshold), {}}});
-  }
-  return table.html();
+// One effect in sentences: a table of them would be wider than the page.
+std::string step_html(const ClosureStep& step, const std::string& unit) {
+  std::string words = core::closure::parameters_text(step);
+  if (!step.meaning.empty()) words += "; " + step.meaning;
+  for (std::size_t at = 0; (at = words.find("+-", at)) != std::string::npos;) words.replace(at, 2, "±");
+  std::string out = paragraph_html(fmt::format("{}: {}.", step.effect, words), "effect");
+  out += paragraph_html(fmt::format(
+      "With it the error on points and frames kept out of its fit falls from {:.4f} to {:.4f} {}. Its score "
+      "is {:.4g}; chance alone reaches {:.3g}.",
+      step.heldout_before, step.heldout_after, unit, step.score, step.threshold));
+  std::string rivals;
+  for (const std::string& rival : step.rivals) rivals += (rivals.empty() ? "" : ", ") + rival;
+  if (!rivals.empty())
+    out += paragraph_html(step.effect + " cannot be distinguished from: " + rivals + "; the cause is one of these.",
+                          "note");
+  return "<li>" + out + "</li>\n";
+}
+
+std::string steps_html(const core::closure::ClosureResult& result) {
+  std::string out = paragraph_html(fmt::format("{} found:", plural(result.steps.size(), "effect was", "effects were")));
+  out += "<ol class=\"effects\">\n";
+  for (const ClosureStep& step : result.steps) out += step_html(step, result.unit);
+  return out + "</ol>\n";
 }
 
 std::string found_html(const ClosureReport& report) {
@@ -33,14 +45,7 @@ std::string found_html(const ClosureReport& report) {
                   "model of camera, lens and tracker; noise alone would leave {:.4f}.",
                   report.first_sequence, report.last_sequence, result.baseline_rms, result.unit, result.noise_floor));
   if (result.steps.empty()) return out + paragraph_html("No effect is missing: " + result.stop_reason + ".");
-  out += steps_table(result);
-  for (const ClosureStep& step : result.steps) {
-    std::string rivals;
-    for (const std::string& rival : step.rivals) rivals += (rivals.empty() ? "" : ", ") + rival;
-    if (!rivals.empty())
-      out += paragraph_html(step.effect + " cannot be distinguished from: " + rivals + "; the cause is one of these.",
-                            "note");
-  }
+  out += steps_html(result);
   out +=
       paragraph_html(fmt::format("With these effects modelled, {:.4f} {} remain.", result.residual_rms, result.unit));
   for (const std::string& effect : report.in_force) out += paragraph_html("Corrected during the run: " + effect + ".");

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <vector>
 
 #include "firmware_app/report/page/page_parts.h"
+#include "firmware_app/report/plot/spectral_matrix.h"
 #include "firmware_app/report/plot/verdict_marks.h"
 #include "firmware_app/report/run_history.h"
 
@@ -19,14 +21,6 @@ using Picture = std::string (*)(const PictureInputs&, const PictureFormat&);
 
 std::string figure(const PictureInputs& inputs, Picture picture, const std::string& above, std::string_view caption) {
   return figure_html(picture(inputs, kWideFormat), picture(inputs, kNarrowFormat), above, svg_escaped(caption));
-}
-
-// A key of the legend; the page's script uses it to hide and show its curve.
-std::string key_html(std::size_t i_curve, const std::string& label, const std::string& css_class) {
-  return fmt::format(
-      "<button type=\"button\" class=\"key\" aria-pressed=\"true\" data-k=\"{}\"><svg class=\"hm\" width=\"30\" "
-      "height=\"10\" aria-hidden=\"true\"><path class=\"{}\" d=\"M1 5h28\"/></svg>{}</button>\n",
-      i_curve, css_class, svg_escaped(label));
 }
 
 std::string curves_legend(const PictureInputs& inputs) {
@@ -69,6 +63,19 @@ std::string heading_of(const core::Mode& mode, std::size_t i) {
 
 }  // namespace
 
+std::string key_html(std::size_t i_curve, const std::string& label, const std::string& css_class) {
+  return fmt::format(
+      "<button type=\"button\" class=\"key\" aria-pressed=\"true\" data-k=\"{}\"><svg class=\"hm\" width=\"30\" "
+      "height=\"10\" aria-hidden=\"true\"><path class=\"{}\" d=\"M1 5h28\"/></svg>{}</button>\n",
+      i_curve, css_class, svg_escaped(label));
+}
+
+std::string motion_controls() {
+  return "<div class=\"controls motion\" hidden=\"hidden\"><button type=\"button\" id=\"play\">Play</button>\n"
+         "<label>Amplitude <input type=\"range\" id=\"amplitude\" min=\"0\" max=\"2\" step=\"0.1\" "
+         "value=\"1\"/></label></div>\n";
+}
+
 std::string shapes_section(const PictureInputs& inputs) {
   if (inputs.estimate == nullptr || inputs.estimate->modes.empty())
     return section_html("shapes", "Mode shapes", absent_html("There are no shapes to draw: no mode was found."));
@@ -92,11 +99,7 @@ std::string shapes_section(const PictureInputs& inputs) {
           : "Components of the channels, the largest set to 1. The input was a time series: there is no picture of the "
             "structure.";
   std::string body = paragraph_html(words);
-  if (in_image) {
-    body +=
-        "<div class=\"controls\" hidden=\"hidden\"><button type=\"button\" id=\"play\">Play</button>\n<label>Amplitude "
-        "<input type=\"range\" id=\"amplitude\" min=\"0\" max=\"2\" step=\"0.1\" value=\"1\"/></label></div>\n";
-  }
+  if (in_image) body += motion_controls();
   const bool any_std =
       std::any_of(modes.begin(), modes.end(), [](const auto& mode) { return !mode.shape_std.empty(); });
   body += "<div class=\"cards\">\n" + cards + "</div>\n";
@@ -114,8 +117,11 @@ std::string shapes_section(const PictureInputs& inputs) {
 
 std::string spectra_section(const PictureInputs& inputs) {
   if (spectra_svg(inputs, kWideFormat).empty())
-    return section_html("spectra", "Spectra",
-                        absent_html("There is no spectrum: the record ended before its first segment was full."));
+    return section_html(
+        "spectra", "Spectra",
+        absent_html(inputs.facts->merged
+                        ? "A merged result has no spectrum of its own: identified alone, each set-up has one."
+                        : "There is no spectrum: the record ended before its first segment was full."));
   const std::string cross = cross_label(inputs);
   std::string caption = fmt::format("Power spectral density of every channel ({})", spectra_remark(inputs));
   if (!cross.empty())
@@ -123,6 +129,25 @@ std::string spectra_section(const PictureInputs& inputs) {
   caption += ". Dashed lines: modes, where the camera saw them. Markers along the upper edge: rejected poles.";
   return section_html("spectra", "Spectra",
                       figure(inputs, spectra_svg, curves_legend(inputs), caption) + marks_legend(inputs));
+}
+
+std::string singular_section(const PictureInputs& inputs) {
+  const std::string title = "Singular values";
+  if (singular_values_svg(inputs, kWideFormat).empty())
+    return section_html(
+        "singular", title,
+        absent_html("There are no singular values: no spectrum, or more channels than are decomposed."));
+  constexpr const char* kOrdinals[] = {"first", "second", "third", "fourth"};
+  static_assert(std::size(kOrdinals) == kMaxSingular);
+  std::string keys = "<div class=\"legend\" role=\"group\" aria-label=\"Singular values\">\n";
+  for (std::size_t k = 0; k < inputs.lines->n_singular; ++k) keys += key_html(k, kOrdinals[k], line_class(k));
+  return section_html(
+      "singular", title,
+      figure(inputs, singular_values_svg, keys + "</div>\n",
+             fmt::format("The largest singular values of the spectral matrix of {}, over frequency. Where the first "
+                         "stands far above the second, one shape moves; where two are high, two modes lie close "
+                         "together. Motion of the camera is in them, too.",
+                         plural(inputs.lines->channels.size(), "channel", "channels"))));
 }
 
 std::string fold_section(const PictureInputs& inputs) {

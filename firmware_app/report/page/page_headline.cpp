@@ -14,36 +14,9 @@
 namespace app {
 namespace {
 
-std::string plural(std::size_t n, const char* one, const char* many) {
-  return fmt::format("{} {}", n, n == 1 ? one : many);
-}
-
 std::size_t count_of(const std::vector<core::Mode>& modes, core::Verdict verdict) {
   return static_cast<std::size_t>(
       std::count_if(modes.begin(), modes.end(), [&](const core::Mode& mode) { return mode.verdict == verdict; }));
-}
-
-std::string modes_sentence(const core::ModalEstimate& estimate) {
-  if (estimate.modes.empty()) {
-    const std::string why =
-        estimate.status == "ok" || estimate.status.empty() ? "no peak passed every test" : estimate.status;
-    return fmt::format("No mode of the structure was found: {}.", why);
-  }
-  const std::vector<core::Mode>& modes = estimate.modes;
-  std::string out =
-      plural(modes.size(), "mode of the structure was found, at ", "modes of the structure were found, from ");
-  out += four_digits_text(modes.front().frequency_hz);
-  if (modes.size() > 1) out += " to " + four_digits_text(modes.back().frequency_hz);
-  out += " Hz.";
-  const auto n_folded = static_cast<std::size_t>(std::count_if(modes.begin(), modes.end(), is_folded));
-  if (n_folded > 0) {
-    out += fmt::format(
-        " {} faster than the camera can follow directly and {} placed by the delays of the image's rows.",
-        n_folded == 1 ? "One of them is" : fmt::format("{} of them are", n_folded), n_folded == 1 ? "was" : "were");
-  }
-  const double cycles = modes.front().frequency_hz * estimate.duration_s;
-  if (std::isfinite(cycles)) out += fmt::format(" The slowest was watched through {:.0f} cycles.", std::floor(cycles));
-  return out;
 }
 
 std::string rejected_sentence(const core::ModalEstimate& estimate) {
@@ -100,69 +73,25 @@ std::string facts_html(const PictureInputs& inputs, const core::ModalEstimate& e
   return out + "</dl>\n";
 }
 
-const core::ModalEstimate& estimate_of(const PictureInputs& inputs) {
-  static const core::ModalEstimate kNone;
-  return inputs.estimate == nullptr ? kNone : *inputs.estimate;
+// A note "place: the old bridge" is a fact with a name; any other is a paragraph.
+constexpr std::size_t kMaxFactName = 24;
+bool is_fact(const std::string& note) {
+  const std::size_t colon = note.find(": ");
+  return colon != std::string::npos && colon > 0 && colon <= kMaxFactName && colon + 2 < note.size();
 }
 
-HtmlCell frequency_cell(const core::Mode& mode) {
-  std::string out = four_digits_text(mode.frequency_hz);
-  if (mode.frequency_std_hz) out += " ± " + decimals_text(*mode.frequency_std_hz, 3);
-  out += " Hz";
-  out += other_frequencies_text(mode);
-  if (!is_folded(mode)) return {out, {}};
-  return {out, fmt::format("<small>seen at {} Hz</small>", svg_escaped(four_digits_text(mode.apparent_hz)))};
-}
-
-std::string damping_of(const core::Mode& mode) {
-  std::string out = decimals_text(100.0 * mode.damping_ratio, 2);
-  if (mode.damping_std) out += " ± " + decimals_text(100.0 * *mode.damping_std, 2);
-  return out + " %";
-}
-
-std::string marker_html(const VerdictMark& mark) {
-  SvgDocument svg(14.0, 14.0, mark.label, true);
-  svg.marker(7.0, 7.0, 4.5, mark.marker, mark.marker_class);
-  return "<span class=\"mark\">" + svg.text_of() + "</span>";
-}
-
-std::string poles_table(const std::vector<core::Mode>& modes, const char* first_column) {
-  HtmlTable table({first_column, "Frequency", "Damping", "In phase (MPC)", "Verdict", "Reason"});
-  for (std::size_t i = 0; i < modes.size(); ++i) {
-    const VerdictMark& mark = mark_of(modes[i].verdict);
-    table.add({{std::to_string(i + 1), {}},
-               frequency_cell(modes[i]),
-               {damping_of(modes[i]), {}},
-               {decimals_text(modes[i].mpc, 3), {}},
-               {{}, marker_html(mark) + (modes[i].verdict == core::Verdict::kStructural ? "structural" : mark.label)},
-               {modes[i].reason, {}}});
-  }
-  return table.html();
-}
-
-std::string peaks_html(const PictureInputs& inputs, const core::ModalEstimate& estimate) {
-  if (estimate.peaks.empty()) return {};
-  std::vector<std::string> columns{"Frequency", "Height"};
-  for (const core::ChannelInfo& channel : inputs.channels) columns.push_back(channel.name);
-  HtmlTable table(std::move(columns));
-  for (const core::SpectralPeak& peak : estimate.peaks) {
-    std::vector<HtmlCell> cells{
-        {fmt::format("{} ± {} Hz", four_digits_text(peak.frequency_hz), decimals_text(0.5 * peak.resolution_hz, 3)),
-         {}},
-        {decimals_text(peak.height, 0), {}}};
-    for (std::size_t c = 0; c < inputs.channels.size(); ++c) {
-      const bool known = c < peak.share.size() && (c >= estimate.channels.size() || estimate.channels[c].takes_part);
-      cells.push_back({known ? decimals_text(peak.share[c], 2) : "–", {}});
+std::string notes_html(const RunFacts& facts) {
+  std::string named, text;
+  for (const std::string& note : facts.notes) {
+    if (!is_fact(note)) {
+      text += paragraph_html(note, "user-note");
+      continue;
     }
-    table.add(std::move(cells));
+    const std::size_t colon = note.find(": ");
+    named += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", svg_escaped(note.substr(0, colon)),
+                         svg_escaped(note.substr(colon + 2)));
   }
-  return fmt::format(
-      "<details><summary>{} of the spectra, without a verdict</summary>\n{}{}</details>\n",
-      plural(estimate.peaks.size(), "peak", "peaks"),
-      paragraph_html("Height: power over that beside it; then each channel's amplitude, the largest is 1. "
-                     "Motion of the camera, inputs and machines have peaks, too.",
-                     "note"),
-      table.html());
+  return (named.empty() ? "" : "<dl class=\"facts stated\">\n" + named + "</dl>\n") + text;
 }
 
 }  // namespace
@@ -170,8 +99,12 @@ std::string peaks_html(const PictureInputs& inputs, const core::ModalEstimate& e
 std::string headline_html(const PictureInputs& inputs) {
   const RunFacts& facts = *inputs.facts;
   const core::ModalEstimate& estimate = estimate_of(inputs);
-  std::string out = "<header>\n<h1>Modes of vibration</h1>\n";
-  if (!facts.source.empty()) out += paragraph_html(facts.source, "source");
+  std::string out =
+      fmt::format("<header>\n<h1>{}</h1>\n", facts.title.empty() ? "Modes of vibration" : svg_escaped(facts.title));
+  std::string source = facts.title.empty() ? facts.source : "Modes of vibration";
+  if (!facts.title.empty() && !facts.source.empty()) source += ", from " + facts.source;
+  if (!source.empty()) out += paragraph_html(source, "source");
+  out += notes_html(facts);
   if (has_fault(facts))
     out += paragraph_html(facts.health.state + ". The results below are those known by then.", "fault");
   std::string words = modes_sentence(estimate);
@@ -182,23 +115,6 @@ std::string headline_html(const PictureInputs& inputs) {
   for (const std::string& sentence : estimate_words(estimate, inputs.channels)) words += " " + sentence;
   out += paragraph_html(words, "verdict");
   return out + facts_html(inputs, estimate) + "</header>\n";
-}
-
-std::string modes_section(const PictureInputs& inputs) {
-  const core::ModalEstimate& estimate = estimate_of(inputs);
-  std::string body =
-      estimate.modes.empty() ? absent_html(modes_sentence(estimate)) : poles_table(estimate.modes, "Mode");
-  const bool any_sigma = std::any_of(estimate.modes.begin(), estimate.modes.end(),
-                                     [](const core::Mode& mode) { return mode.frequency_std_hz.has_value(); });
-  if (!estimate.modes.empty() && !any_sigma)
-    body += paragraph_html("No ± is shown: standard deviations need a record of two segments or more.", "note");
-  if (!estimate.rejected.empty()) {
-    body += fmt::format("<details><summary>{}, with reasons</summary>\n{}</details>\n",
-                        plural(estimate.rejected.size(), "rejected pole", "rejected poles"),
-                        poles_table(estimate.rejected, "Pole"));
-  }
-  body += peaks_html(inputs, estimate);
-  return section_html("modes", "Modes", body);
 }
 
 }  // namespace app

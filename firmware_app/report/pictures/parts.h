@@ -34,6 +34,12 @@ inline constexpr PictureFormat kNarrowFormat{328.0, true};  // a phone of 360 px
 [[nodiscard]] std::vector<LegendEntry> spectra_legend(const PictureInputs& inputs);  // one entry a channel
 [[nodiscard]] std::string cross_label(const PictureInputs& inputs);  // label of the last curve; empty: none
 [[nodiscard]] std::string spectra_remark(const PictureInputs& inputs);
+// Both on the page only. The first needs `inputs.lines`.
+[[nodiscard]] std::string singular_values_svg(const PictureInputs& inputs, const PictureFormat& format);
+[[nodiscard]] std::string mac_svg(const PictureInputs& inputs, const PictureFormat& format);
+inline constexpr std::size_t kMaxMacModes = 16;  // drawn; the table holds as many
+// MAC of two found modes over the channels that both know.
+[[nodiscard]] double mac_of(const core::Mode& a, const core::Mode& b);
 [[nodiscard]] std::string fold_map_svg(const PictureInputs& inputs, const PictureFormat& format);
 [[nodiscard]] std::string stabilisation_svg(const PictureInputs& inputs, const PictureFormat& format);
 // Relative to the last estimate, over the record of each estimate; for runs of three estimates or more.

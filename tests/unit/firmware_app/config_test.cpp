@@ -114,6 +114,7 @@ TEST(Config, EachKeySetsItsOwnMemberOnly) {
       {"telemetry.preview_px", "100"},
       {"telemetry.max_kbit_s", "64"},
       {"report.tracks", "false"},
+      {"report.notes", "[\"place: here\", wind]"},
       {"closure.adopt", "off"},
       {"closure.window_s", "70"},
       {"closure.period_s", "70"},

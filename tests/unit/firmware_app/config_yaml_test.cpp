@@ -19,6 +19,7 @@ identification: {references: [roof.u, base]}
 closure: {adopt: auto, window_s: 60, period_s: 30, delay_s: 15}
 telemetry: {lcm_url: "", stream_id: bridge_7}
 rt: {priority: 5}
+report: {notes: ["place: Wien, \"am Fluss\"", wind], title: "a: b"}
 )";
 
 TEST(ConfigYaml, ReadsBackToTheSameValues) {
@@ -30,6 +31,8 @@ TEST(ConfigYaml, ReadsBackToTheSameValues) {
   EXPECT_EQ(again.telemetry.stream_id, "bridge_7");
   EXPECT_EQ(again.telemetry.lcm_url, "");
   EXPECT_EQ(again.rt.priority, 5);
+  EXPECT_EQ(again.report.notes, (std::vector<std::string>{"place: Wien, \"am Fluss\"", "wind"}));
+  EXPECT_EQ(again.report.title, "a: b");
   EXPECT_EQ(config_yaml(again), yaml);
 }
 

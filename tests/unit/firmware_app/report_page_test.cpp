@@ -1,14 +1,13 @@
-#include "firmware_app/report/page/report_page.h"
-
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
 #include <string>
 
-#include "tests/support/made_up_run.h"
+#include "tests/support/report_page_text.h"
 #include "tests/support/telemetry_samples.h"
-#include "tests/support/xml_fault.h"
 
 namespace app {
 namespace {
@@ -18,48 +17,6 @@ using ::testing::Not;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-std::string page_of(RunData& run) {
-  run.inputs.facts = &run.facts;
-  return report_html(run.inputs);
-}
-
-// Without the part between the first `begin` and the `end` after it.
-std::string without(std::string text, const std::string& begin, const std::string& end) {
-  const std::size_t from = text.find(begin), to = text.find(end, from);
-  if (from != std::string::npos && to != std::string::npos) text.erase(from, to + end.size() - from);
-  return text;
-}
-
-// Parts of HTML unknown to an XML reader: the doctype, the text of style and script, comments.
-std::string markup_of(const std::string& page) {
-  std::string out = without(without(page, "<style>", "</style>"), "<script>", "</script>");
-  for (int i = 0; i < 3; ++i) out = without(out, "<!", ">");
-  return out;
-}
-
-std::size_t count_of(const std::string& text, const std::string& what) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
-  return n;
-}
-
-void expect_sound(const std::string& page) {
-  EXPECT_LT(page.size(), 2'000'000U);
-  const std::string markup = markup_of(page);
-  EXPECT_EQ(test_support::xml_fault(markup), "");
-  for (const char* bad : {"nan ", "nan\"", " inf", "\"inf", "-inf"}) EXPECT_THAT(markup, Not(HasSubstr(bad)));
-}
-
-void expect_nothing_from_outside(const std::string& page) {
-  const std::string name_space = "http://www.w3.org/2000/svg";
-  EXPECT_EQ(count_of(page, "http://"), count_of(page, name_space));
-  EXPECT_EQ(count_of(page, "https://"), 0U);
-  EXPECT_EQ(count_of(page, "src="), 0U);
-  EXPECT_EQ(count_of(page, "@import"), 0U);
-  EXPECT_EQ(count_of(page, "url("), 0U);
-  EXPECT_EQ(count_of(page, "href=\""), count_of(page, "href=\"#") + count_of(page, "href=\"data:image/jpeg;base64,"));
-}
-
 TEST(ReportPage, ShowsAllOfACompleteRun) {
   RunData run;
   make_run(run, 7, 1500);
@@ -67,10 +24,19 @@ TEST(ReportPage, ShowsAllOfACompleteRun) {
   run.facts.source = "clip.mp4", run.facts.method = "hovermodal", run.facts.corrections = {"lens distortion"};
   const core::closure::ClosureReport closure = tests::sample_closure(1);
   run.inputs.closure = &closure;
+  run.inputs.former = former_run(7);
+  run.facts.title = "Old bridge", run.facts.notes = {"place: the <river>", "wind from the west"};
   const std::string page = page_of(run);
   expect_sound(page);
   expect_nothing_from_outside(page);
   for (const char* text : {"clip.mp4",
+                           "<h1>Old bridge</h1>",
+                           "<dt>place</dt><dd>the &lt;river&gt;</dd>",
+                           "<p class=\"user-note\">wind from the west</p>",
+                           "MAC of every pair of modes",
+                           "Singular values of the spectral matrix",
+                           "id=\"deflection\" data-hz=",
+                           "data-via=",
                            "3 modes of the structure were found, from 1.657 to 12.93 Hz",
                            "12.93 ± 0.003 Hz",
                            "seen at 12.07 Hz",
@@ -123,33 +89,17 @@ TEST(ReportPage, TellsWhyASectionIsMissing) {
   expect_sound(page);
   expect_nothing_from_outside(page);
   EXPECT_THAT(page, HasSubstr("No mode of the structure was found: the record is &lt;short&gt;."));
-  for (const char* id : {"modes", "shapes", "spectra", "folds", "stabilisation", "convergence", "displacements",
-                         "scale", "quality", "frame-view", "closure", "losses", "timing"}) {
+  for (const char* id :
+       {"modes", "shapes", "mac", "comparison", "singular", "operating", "spectra", "folds", "stabilisation",
+        "convergence", "displacements", "scale", "quality", "frame-view", "closure", "losses", "timing"}) {
     const std::size_t begin = page.find(std::string("<section id=\"") + id + "\"");
     ASSERT_NE(begin, std::string::npos) << id;
     EXPECT_THAT(page.substr(begin, page.find("</section>", begin) - begin), HasSubstr("class=\"absent\"")) << id;
   }
   EXPECT_EQ(count_of(page, "class=\"plot"), 0U);
-}
-
-TEST(ReportPage, TellsWhatTheModelLacks) {
-  RunData run;
-  make_run(run, 3, 600);
-  core::closure::ClosureReport report = tests::sample_closure(2);
-  run.inputs.closure = &report;
-  report.result.steps[0].rivals = {"a <rival>"};
-  std::string page = page_of(run);
-  expect_sound(page);
-  for (const char* text :
-       {"What the model lacks", "Frames 0 to 1499", "readout = 22.5 +- 0.12 ms", "0.0433 → 0.0312 px",
-        "cannot be distinguished from: a &lt;rival&gt;", "in region roof, along u"})
-    EXPECT_THAT(page, HasSubstr(text));
-  report.result.steps.clear();
-  EXPECT_THAT(page_of(run), HasSubstr("No effect is missing: noise."));
-  report.refused = "too <short>";
-  page = page_of(run);
-  expect_sound(page);
-  EXPECT_THAT(page, HasSubstr("The tracks allow no diagnosis: too &lt;short&gt;."));
+  EXPECT_THAT(section_of(page, "spectra"), HasSubstr("the record ended before its first segment was full"));
+  run.facts.merged = true;
+  EXPECT_THAT(section_of(page_of(run), "spectra"), HasSubstr("A merged result has no spectrum of its own"));
 }
 
 TEST(ReportPage, ATimeSeriesHasNoPictureButItsShapes) {
@@ -172,6 +122,8 @@ TEST(ReportPage, EscapesHostileNames) {
   for (auto& region : run.inputs.regions) region.name = hostile;
   run.facts.source = run.facts.method = hostile;
   run.facts.corrections = {hostile};
+  run.facts.title = hostile, run.facts.notes = {hostile, "place: " + hostile};
+  run.inputs.former = former_run(3), run.inputs.former_name = hostile;
   run.facts.health.state = "fault: " + hostile;
   run.facts.health.warnings = {hostile};
   run.facts.health.stages[0].name = hostile;

@@ -43,6 +43,7 @@ BOUNDS = {
     "drivers/storage/json.cpp": ["kJsonBytes drivers/storage/json.h", "kJsonBytes drivers/storage/json.h"],
     "drivers/storage/regular_file.cpp": ["GIVEN BY EVERY CALLER", "GIVEN BY EVERY CALLER", "GIVEN BY EVERY CALLER"],
     "drivers/storage/scene/reader.cpp": ["kYamlBytes drivers/storage/yaml.h"],
+    "drivers/storage/matrix_market.cpp": ["kMatrixBytes"],
     "drivers/storage/structure_file.cpp": ["kYamlBytes"],
     "drivers/storage/text_file.cpp": ["GIVEN BY EVERY CALLER", "GIVEN BY EVERY CALLER"],
     "drivers/storage/timed_columns.cpp": ["kFlightLogRows", "kFlightLogRows"],

@@ -1,25 +1,16 @@
 // hovermodal closeloop: attributes the residual of a model to the effect that it lacks.
-#include <fmt/format.h>
-#include <unistd.h>
-
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
 
-#include "core/closure/closure_loop.h"
-#include "core/closure/structure_level.h"
 #include "drivers/host/command_line.h"
-#include "drivers/storage/json.h"
 #include "drivers/storage/structure_file.h"
 #include "drivers/storage/text_file.h"
-#include "firmware_app/report/closure_json.h"
 #include "tools/hovermodal/closeloop/closeloop_run.h"
 #include "tools/hovermodal/closeloop/closeloop_series.h"
+#include "tools/hovermodal/closeloop/closeloop_structure.h"
 #include "tools/hovermodal/closeloop/closeloop_tracks.h"
 #include "tools/hovermodal/closeloop/closeloop_turning.h"
-#include "tools/hovermodal/closeloop/reference.h"
-#include "tools/hovermodal/closeloop/words.h"
 #include "tools/hovermodal/commands.h"
 
 namespace tools {
@@ -88,18 +79,6 @@ void make_folder(const std::string& folder) {
     throw std::runtime_error("--report " + folder + ": cannot be made; name a folder that may be written");
 }
 
-std::string check_text(const core::closure::StructureLevel& level) {
-  if (level.check().empty()) return {};
-  std::string out = "modes excluded from the fit (--check): predicted, given, error\n";
-  const auto modes = level.model_modes();
-  for (const auto& mode : level.check()) {
-    const double hz = modes.frequency_hz(mode.number - 1);
-    out += fmt::format("{:4}  {:10.4f}  {:10.4f}  {:+7.3f} %\n", mode.number, hz, mode.frequency_hz,
-                       100.0 * (hz / mode.frequency_hz - 1.0));
-  }
-  return out;
-}
-
 void run_record(const Options& options) {
   const LoopRequest& loop = options.loop;
   if (!options.structure.empty())
@@ -135,33 +114,8 @@ void run(const Options& options) {
   if (!options.loop.records.empty()) return run_record(options);
   if (options.structure.empty() || options.loop.reference.empty())
     throw std::invalid_argument("closeloop needs --run, --structure with --reference, --record, or --clip");
-  const core::structure::DeclaredFrame declared = drivers::read_structure(options.structure);
-  auto reference = read_reference(options.loop.reference, declared);
-  auto check =
-      options.check.empty() ? std::vector<core::structure::ReferenceMode>{} : read_reference(options.check, declared);
-  const auto make_level = [&] {
-    try {
-      return std::make_unique<core::closure::StructureLevel>(declared, std::move(reference), std::move(check));
-    } catch (const std::invalid_argument& error) {
-      throw drivers::FileError(options.loop.reference + (options.check.empty() ? "" : " or " + options.check) + ": " +
-                               error.what());
-    }
-  };
-  const auto level = make_level();
   if (!options.loop.report.empty()) make_folder(options.loop.report);
-  core::closure::ClosureOptions loop;
-  loop.n_surrogates = options.loop.n_surrogates;
-  loop.seed = options.loop.seed;
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  if (terminal) loop.progress = [](const std::string& words) { fmt::print(stderr, "\r\033[K{}", words); };
-  const core::closure::ClosureResult result = core::closure::close_loop(*level, loop);
-  if (terminal) fmt::print(stderr, "\r\033[K");
-  fmt::print("{}{}", closure_text(result), check_text(*level));
-  if (options.loop.report.empty()) return;
-  const std::filesystem::path folder = options.loop.report;
-  drivers::write_file_atomically((folder / "closure.json").string(), app::closure_json(result));
-  drivers::write_file_atomically((folder / "closure_modes.svg").string(), app::closure_modes_svg(result));
-  fmt::print("{} written\n", (folder / "closure.json").string());
+  close_structure(options.loop, options.structure, options.check);
 }
 
 }  // namespace

@@ -115,7 +115,8 @@ class SeriesCloser {
 
 void add_series_options(drivers::Command& command, SeriesLoop& options) {
   SeriesRequest& request = options.request;
-  command.option("--rate", request.rate_hz, "Of --record SERIES: samples per second as declared").type_name("HZ");
+  command.option("--rate-hz,--rate", request.rate_hz, "Of --record SERIES: samples per second as declared")
+      .type_name("HZ");
   command.option("--channels", request.channels, "Of --record SERIES: columns to use, by name or number from 1")
       .type_name("NAME");
   command.option("--base", request.bases, "Of --record SERIES: columns that are the structure's base")

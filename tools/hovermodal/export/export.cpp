@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "drivers/exchange/mat_writer.h"
@@ -10,6 +11,7 @@
 #include "drivers/exchange/modes_csv.h"
 #include "drivers/exchange/uff_writer.h"
 #include "drivers/host/command_line.h"
+#include "drivers/storage/json.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/export/run_folder.h"
 
@@ -30,7 +32,7 @@ constexpr const char* kExportHelp =
 
 struct ExportOptions {
   std::string run, format, out;
-  bool force = false;
+  bool force = false, json = false, quiet = false;
 };
 
 void write(const drivers::ExchangeRun& run, const ExportOptions& options) {
@@ -40,15 +42,29 @@ void write(const drivers::ExchangeRun& run, const ExportOptions& options) {
   drivers::write_mcap(run, options.out);
 }
 
+void print_json(const LoadedRun& loaded, const ExportOptions& options) {
+  const nlohmann::ordered_json out{{"out", options.out},
+                                   {"modes", loaded.run.modes.size()},
+                                   {"channels", loaded.run.channels.size()},
+                                   {"samples", loaded.run.t_s.size()},
+                                   {"spectra", loaded.run.spectra.size()},
+                                   {"remarks", loaded.remarks}};
+  fmt::print("{}", drivers::to_json_text(out).text);
+}
+
 void export_run(const ExportOptions& options) {
   if (std::filesystem::exists(options.out) && !options.force)
     throw std::invalid_argument(options.out + ": exists; name another file, or --force to replace it");
   const LoadedRun loaded = load_run(options.run);
-  for (const std::string& remark : loaded.remarks) fmt::print(stderr, "note: {}\n", remark);
+  for (const std::string& remark : loaded.remarks) {
+    if (!options.quiet) fmt::print(stderr, "note: {}\n", remark);
+  }
   if (options.format == "csv" && loaded.run.modes.empty())
     throw std::invalid_argument(options.run +
                                 ": no modes, and a csv has nothing else; --to uff, mat and mcap have series");
   write(loaded.run, options);
+  if (options.json) return print_json(loaded, options);
+  if (options.quiet) return;
   fmt::print("{}: {} modes, {} channels, {} samples, {} spectra\n", options.out, loaded.run.modes.size(),
              loaded.run.channels.size(), loaded.run.t_s.size(), loaded.run.spectra.size());
 }
@@ -62,6 +78,8 @@ void add_export(drivers::Command& app) {
   command.option("--to", options->format, "Format").required().one_of({"uff", "mat", "csv", "mcap"});
   command.option("--out", options->out, "File to write").required().type_name("FILE");
   command.flag("--force", options->force, "Replace an existing file");
+  command.flag("--json", options->json, "Print what was written as JSON");
+  command.flag("--quiet", options->quiet, "Print nothing, no notes either");
   command.on_run([options] { export_run(*options); });
 }
 

@@ -12,6 +12,7 @@
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/identify/series_input.h"
 #include "tools/hovermodal/identify/series_output.h"
+#include "tools/hovermodal/modes_text.h"
 
 namespace tools {
 
@@ -24,7 +25,8 @@ struct IdentifyOptions {
   int segment = 0;
   int n_differences = -1;  // -1 = automatic
   core::IdentifierConfig identifier;
-  bool merge = false, keep_all = false;
+  bool merge = false, keep_all = false, json = false, quiet = false;
+  app::PageHead head;
   std::string report;
 };
 
@@ -60,7 +62,9 @@ SeriesFindings identify_file(const IdentifyOptions& options, const std::string& 
   series.mask_faults = !options.keep_all;
   series.report_directory = report;
   series.source = std::filesystem::path(path).filename().string();
-  series.progress = [&](double share) { fmt::print(stderr, "{}: spectra {:.0f} %\n", path, 100.0 * share); };
+  series.head = options.head;
+  if (!options.quiet)
+    series.progress = [&](double share) { fmt::print(stderr, "{}: spectra {:.0f} %\n", path, 100.0 * share); };
   if (!report.empty()) std::filesystem::create_directories(report);
   try {
     findings.result = app::identify_series(loaded.series, series);
@@ -84,31 +88,46 @@ void check(const IdentifyOptions& options) {
   if (options.request.rate_hz < 0.0) throw std::invalid_argument("--rate must be positive");
   if (options.segment != 0 && options.segment < 16)
     throw std::invalid_argument(fmt::format("--segment {}: at least 16 samples, or 0 = automatic", options.segment));
+  if (options.json && options.files.size() > 1 && !options.merge)
+    throw std::invalid_argument("--json prints one result: give one file, or --merge");
   if (options.merge && options.files.size() < 2) throw std::invalid_argument("--merge joins two files or more");
   if (options.merge && options.references.empty())
     throw std::invalid_argument("--merge needs --reference: the channels that stayed where they were in every file");
 }
 
+// What one result leaves: its files, and its text on the standard output.
+void hand_out(const IdentifyOptions& options, const app::SeriesResult& result, const std::string& page) {
+  if (options.json) {
+    fmt::print("{}", modes_json(result.estimate, result.channels));
+  } else if (!options.quiet) {
+    fmt::print("{}", findings_text(result));
+    if (!page.empty()) fmt::print("open {}\n", page);
+  }
+}
+
 void run(const IdentifyOptions& options) {
   check(options);
+  const bool tells = !options.json && !options.quiet;
   std::vector<SeriesFindings> all;
   for (std::size_t i = 0; i < options.files.size(); ++i) {
     const std::string report = report_of(options, i);
     all.push_back(identify_file(options, options.files[i], report));
-    if (options.files.size() > 1) fmt::print("{}{}\n", i == 0 ? "" : "\n", options.files[i]);
-    fmt::print("{}", findings_text(all.back().result));
-    if (!report.empty()) fmt::print("open {}\n", write_findings(all.back().result, report));
+    if (options.files.size() > 1 && tells) fmt::print("{}{}\n", i == 0 ? "" : "\n", options.files[i]);
+    const std::string page = report.empty() ? std::string() : write_findings(all.back().result, report);
+    if (!options.json || !options.merge) hand_out(options, all.back().result, page);
   }
   if (!options.merge) return;
   const app::SeriesResult merged = merge_findings(all);
-  fmt::print("\n{} set-ups merged\n{}", all.size(), findings_text(merged));
-  if (!options.report.empty()) fmt::print("open {}\n", write_merged(merged, options.report));
+  if (tells) fmt::print("\n{} set-ups merged\n", all.size());
+  hand_out(options, merged,
+           options.report.empty() ? std::string() : write_merged(merged, options.head, options.report));
 }
 
 void add_data_options(drivers::Command& command, IdentifyOptions& options) {
   SeriesRequest& request = options.request;
   command.option("--series", options.files, "Tables of samples").required().type_name("FILE...");
-  command.option("--rate", request.rate_hz, "Samples per second, where the file has no times").type_name("HZ");
+  command.option("--rate-hz,--rate", request.rate_hz, "Samples per second, where the file has no times")
+      .type_name("HZ");
   command
       .option("--quantity", request.quantities,
               "d displacement, v velocity, a acceleration: one for all channels, or one for each (default: by the "
@@ -152,6 +171,18 @@ void add_method_options(drivers::Command& command, IdentifyOptions& options) {
   command.flag("--merge", options.merge, "The files are set-ups of one structure, joined by --reference");
   command.option("--report", options.report, "Folder for modal.json and report.html (several files: one folder each)")
       .type_name("DIR");
+  command.option("--title", options.head.title, "Title of report.html").type_name("TEXT");
+  command
+      .option("--note", options.head.notes,
+              "Line for its head: \"place: ...\" is a fact, the rest a text; may be repeated")
+      .type_name("TEXT")
+      .repeated();
+  command
+      .option("--compare", options.head.compare,
+              "modal.json of a former run, with which report.html compares the modes")
+      .type_name("FILE");
+  command.flag("--json", options.json, "Print modal.json in place of the text (with --merge: of the merged modes)");
+  command.flag("--quiet", options.quiet, "Print nothing; files are written");
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 
 #include "core/identification/merge_setups.h"
 #include "drivers/storage/json.h"
-#include "firmware_app/report/modal_json.h"
 #include "firmware_app/report/page/report_page.h"
 #include "firmware_app/report/pictures/pictures.h"
+#include "firmware_app/report/run_findings.h"
 #include "tools/hovermodal/modes_text.h"
 
 namespace tools {
@@ -32,11 +32,7 @@ std::string findings_text(const app::SeriesResult& result) {
 }
 
 std::string write_findings(const app::SeriesResult& result, const std::string& directory) {
-  app::ModalReport report;
-  report.method = "hovermodal";
-  for (const core::ChannelInfo& channel : result.channels) report.channel_names.push_back(channel.name);
-  report.estimate = result.estimate;
-  drivers::write_file_atomically(directory + "/modal.json", app::modal_json(report));
+  drivers::write_file_atomically(directory + "/modal.json", modes_json(result.estimate, result.channels));
   return page_of(directory);
 }
 
@@ -78,15 +74,18 @@ app::SeriesResult merge_findings(const std::vector<SeriesFindings>& setups) {
   return result;
 }
 
-std::string write_merged(const app::SeriesResult& result, const std::string& directory) {
+std::string write_merged(const app::SeriesResult& result, const app::PageHead& head, const std::string& directory) {
   app::RunFacts facts;
   facts.source = "set-ups merged";
+  facts.merged = true;
+  facts.title = head.title, facts.notes = head.notes;
   facts.method = "hovermodal";
   facts.counted = false;
   app::PictureInputs inputs;
   inputs.channels = result.channels;
   inputs.estimate = &result.estimate;
   inputs.facts = &facts;
+  app::compare_with(inputs, head.compare);
   (void)app::write_pictures(directory, inputs);
   return write_findings(result, directory);
 }

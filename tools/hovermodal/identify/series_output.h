@@ -24,6 +24,6 @@ std::string write_findings(const app::SeriesResult& result, const std::string& d
 [[nodiscard]] app::SeriesResult merge_findings(const std::vector<SeriesFindings>& setups);
 
 // modal.json and a page of the merged modes.
-std::string write_merged(const app::SeriesResult& result, const std::string& directory);
+std::string write_merged(const app::SeriesResult& result, const app::PageHead& head, const std::string& directory);
 
 }  // namespace tools

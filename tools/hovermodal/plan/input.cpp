@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "drivers/host/command_line.h"
 #include "drivers/storage/csv.h"
+#include "drivers/storage/structure_file.h"
 #include "drivers/storage/text_file.h"
 #include "tools/hovermodal/plan/options.h"
 
@@ -142,6 +145,49 @@ void set_shapes(const std::string& path, PlanInput& input) {
   }
 }
 
+// The structure file that --structure names, if it names one: `o` then has the ideal kind next to it.
+std::optional<core::structure::DeclaredFrame> declared_structure(PlanOptions& o) {
+  if (o.structure == "shear" || o.structure == "cantilever" || o.structure == "beam") return std::nullopt;
+  const auto read = [&] {
+    try {
+      return drivers::read_structure(o.structure);
+    } catch (const drivers::FileError& error) {
+      refuse(fmt::format("--structure: give shear, cantilever, beam, or a structure file: {}", error.what()));
+    }
+  };
+  const core::structure::DeclaredFrame out = read();
+  if (!out.model || out.model->sights().empty())
+    refuse(o.structure + ": declare regions (name, at_m, direction); a shear frame is planned with --structure shear");
+  const auto reach = [&](int axis) {
+    double most = 0.0;
+    for (const auto& sight : out.model->sights()) most = std::max(most, std::abs(sight.at_m(axis)));
+    return most;
+  };
+  o.structure = reach(2) > reach(0) ? "cantilever" : "beam";
+  if (o.frequency_hz.empty()) {
+    if (!out.stiffness_over_mass_per_s2)
+      refuse(
+          "--frequencies: the structure file determines ratios only (stiffness: fitted); give them, or declare known");
+    o.frequency_hz = {out.numbering->frequency_hz.begin(), out.numbering->frequency_hz.end()};
+  }
+  return out;
+}
+
+// Its regions and shapes, mode by mode from the lowest.
+void set_declared(const core::structure::DeclaredFrame& declared, PlanInput& input) {
+  const int axis = input.kind == StructureKind::kBeam ? 0 : 2;
+  input.positions.clear();
+  for (const auto& sight : declared.model->sights())
+    input.positions.push_back(1e3 * sight.at_m(axis) / input.length_mm);
+  const Eigen::MatrixXd& shapes = declared.numbering->shapes;
+  for (std::size_t r = 0; r < input.modes.size() && static_cast<Eigen::Index>(r) < shapes.cols(); ++r) {
+    const Eigen::VectorXd shape = shapes.col(static_cast<Eigen::Index>(r));
+    const double largest = shape.cwiseAbs().maxCoeff();
+    if (largest > 0.0) input.modes[r].shape = {shape.begin(), shape.end()};
+    for (double& component : input.modes[r].shape) component /= largest;
+  }
+}
+
 void set_points(const drivers::Command& command, const PlanOptions& o, PlanInput& input) {
   input.points_per_region = o.points;
   input.window_px = o.window_px;
@@ -160,7 +206,10 @@ void set_points(const drivers::Command& command, const PlanOptions& o, PlanInput
 
 }  // namespace
 
-PlanInput plan_input(const drivers::Command& command, const PlanOptions& o) {
+PlanInput plan_input(const drivers::Command& command, const PlanOptions& given_options) {
+  PlanOptions o = given_options;
+  const auto declared = declared_structure(o);
+  if (o.frequency_hz.empty()) refuse("--frequencies: give the expected ones, or a structure file that determines them");
   for (const auto& [name, value] : {std::pair{"--hover-min", o.hover_min}, {"--battery-min", o.battery_min}}) {
     if (given(command, name)) require_positive(value, name);
   }
@@ -170,6 +219,7 @@ PlanInput plan_input(const drivers::Command& command, const PlanOptions& o) {
   set_modes(o, input);
   set_camera(command, o, input);
   set_points(command, o, input);
+  if (declared) set_declared(*declared, input);
   if (!o.shapes_file.empty()) set_shapes(o.shapes_file, input);
   input.relative_sigma_frequency = 0.01 * o.sigma_f_percent;
   input.relative_sigma_damping = 0.01 * o.sigma_zeta_percent;

@@ -9,8 +9,8 @@ void add_structure(drivers::Command& command, PlanOptions& o) {
   const char* group = "Structure";
   command
       .option("--structure", o.structure,
-              "Ideal shapes: shear (a frame of equal storeys), cantilever (a tower), beam (a bridge deck)")
-      .one_of({"shear", "cantilever", "beam"})
+              "Ideal shapes: shear (a frame of equal storeys), cantilever (a tower), beam (a bridge deck); or the "
+              "structure file of closeloop, with regions: its shapes and, unless given, its frequencies")
       .show_default()
       .group(group);
   command.option("--storeys", o.storeys, "shear: number of storeys; a region on every floor").group(group);
@@ -22,7 +22,6 @@ void add_structure(drivers::Command& command, PlanOptions& o) {
       .group(group);
   command.option("--frequencies", o.frequency_hz, "Expected natural frequencies, Hz, ascending, with commas between")
       .separator(',')
-      .required()
       .type_name("HZ,...")
       .group(group);
   command.option("--damping-percent", o.damping_percent, "One for all, or one for each mode (1)")

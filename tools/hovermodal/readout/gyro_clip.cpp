@@ -57,6 +57,19 @@ std::vector<double> read_stamps(const GyroClipOptions& options) {
   return stamps;
 }
 
+// The commonest reasons why a gyro does not cover the frames, with the options that mend them.
+void require_cover(const GyroClip& clip, const GyroClipOptions& options) {
+  if (clip.gyro.empty() || clip.motion.pairs.empty()) return;  // reported where they are fitted
+  const double from_s = clip.motion.pairs.front().from_s, to_s = clip.motion.pairs.back().to_s;
+  const double first_s = clip.gyro.front().t_s, last_s = clip.gyro.back().t_s;
+  if (first_s <= from_s && last_s >= to_s) return;
+  throw std::invalid_argument(fmt::format(
+      "readout: {} covers {:.3f} .. {:.3f} s, the frames lie at {:.3f} .. {:.3f} s of {}: if the clip begins "
+      "later than its stamps, --first-stamp is the line of its first frame; if the unit of the times is "
+      "another one, --time-unit-s states it",
+      options.gyro, first_s, last_s, from_s, to_s, options.stamps));
+}
+
 core::CameraModel camera_model(const GyroClipOptions& options) {
   if (options.calibration.empty()) return {};
   return drivers::read_calibration(options.calibration).camera;
@@ -75,6 +88,7 @@ GyroClip read_gyro_clip(const GyroClipOptions& options) {
   out.config.cy_px = camera.calibrated() ? camera.cy : 0.5 * (out.motion.height_px - 1);
   out.config.width_px = out.motion.width_px;
   out.config.most_offset_s = options.most_offset_s;
+  require_cover(out, options);
   return out;
 }
 

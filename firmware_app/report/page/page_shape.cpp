@@ -22,6 +22,7 @@ constexpr std::size_t kMaxPatches = 40;           // moving parts of the frame; 
 struct Motion {
   Box at_rest;
   double re_x = 0.0, re_y = 0.0, im_x = 0.0, im_y = 0.0, std_x = 0.0, std_y = 0.0;
+  std::string via;  // "channel x y ...": page pixels per unit of each channel's component
 };
 
 // The part of the image shown on a card, and its position there.
@@ -81,6 +82,7 @@ std::vector<Motion> motions_of(const PictureInputs& inputs, const core::Mode& mo
     const double x = swing_px * channel.direction_u, y = swing_px * channel.direction_v;
     motion.re_x += value.real() * x, motion.re_y += value.real() * y;
     motion.im_x += value.imag() * x, motion.im_y += value.imag() * y;
+    motion.via += fmt::format("{}{} {:.2f} {:.2f}", motion.via.empty() ? "" : " ", c, x, y);
     if (c >= mode.shape_std.size() || !std::isfinite(mode.shape_std[c])) continue;
     const double deviation = std::min(mode.shape_std[c], 2.0);
     motion.std_x += deviation * x, motion.std_y += deviation * y;
@@ -94,8 +96,14 @@ std::vector<Motion> motions_of(const PictureInputs& inputs, const core::Mode& mo
 // data-move.
 class ModeOnFrame {
  public:
-  ModeOnFrame(SvgDocument& svg, const PictureInputs& inputs, const core::Mode& mode, const Crop& crop, bool upright)
-      : svg_(svg), has_frame_(has_frame(inputs)), crop_(crop), motions_(motions_of(inputs, mode, crop, upright)) {
+  // is_live: the script can compute the motion for another shape of the same channels.
+  ModeOnFrame(SvgDocument& svg, const PictureInputs& inputs, const core::Mode& mode, const Crop& crop, bool upright,
+              bool is_live)
+      : svg_(svg),
+        has_frame_(has_frame(inputs)),
+        is_live_(is_live),
+        crop_(crop),
+        motions_(motions_of(inputs, mode, crop, upright)) {
     const auto along = [&](const Motion& m) {
       return upright ? m.at_rest.y + m.at_rest.height / 2.0 : m.at_rest.x + m.at_rest.width / 2.0;
     };
@@ -123,8 +131,9 @@ class ModeOnFrame {
 
   void draw_region(const Motion& m) {
     svg_.begin_group(
-        fmt::format("class=\"move\" data-move=\"{:.2f} {:.2f} {:.2f} {:.2f}\" transform=\"translate({:.2f} {:.2f})\"",
-                    m.re_x, m.re_y, m.im_x, m.im_y, m.re_x, m.re_y));
+        fmt::format("class=\"move\"{} data-move=\"{:.2f} {:.2f} {:.2f} {:.2f}\" transform=\"translate({:.2f} {:.2f})\"",
+                    is_live_ ? fmt::format(" data-via=\"{}\"", m.via) : std::string(), m.re_x, m.re_y, m.im_x, m.im_y,
+                    m.re_x, m.re_y));
     if (has_frame_ && motions_.size() <= kMaxPatches) {
       svg_.begin_clip(m.at_rest);
       use_frame(m.at_rest.x, m.at_rest.y);
@@ -153,7 +162,7 @@ class ModeOnFrame {
   }
 
   SvgDocument& svg_;
-  bool has_frame_;
+  bool has_frame_, is_live_;
   const Crop& crop_;
   std::vector<Motion> motions_;
 };
@@ -176,6 +185,18 @@ bool has_shape(const PictureInputs& inputs, const core::Mode& mode) {
   return !inputs.channels.empty() && !mode.shape.empty();
 }
 
+std::string moving_svg(const PictureInputs& inputs, const core::Mode& shape) {
+  if (!has_shape(inputs, shape)) return {};
+  const ModeLayout layout = mode_layout(inputs);
+  if (!layout.in_image) return {};
+  const Crop crop = crop_of(inputs, layout);
+  SvgDocument svg(crop.panel.width, crop.panel.height, "The regions displaced by the operating deflection shape", true);
+  Crop placed = crop;
+  placed.panel.x = 0.0;
+  ModeOnFrame(svg, inputs, shape, placed, layout.upright, true).draw();
+  return svg.text_of();
+}
+
 std::string mode_svg(const PictureInputs& inputs, const core::Mode& mode) {
   if (!has_shape(inputs, mode)) return {};
   ModeLayout layout = mode_layout(inputs);
@@ -186,7 +207,7 @@ std::string mode_svg(const PictureInputs& inputs, const core::Mode& mode) {
   const Crop crop = crop_of(inputs, layout);
   const double height = layout.upright ? crop.panel.height : crop.panel.height + 14.0 + 120.0;
   SvgDocument svg(kCardPx, height + 22.0, "Mode shape: the regions displaced, and their components", true);
-  ModeOnFrame(svg, inputs, mode, crop, layout.upright).draw();
+  ModeOnFrame(svg, inputs, mode, crop, layout.upright, false).draw();
   // The plot lies beside the picture, at the same height.
   const Box& panel = crop.panel;
   ModePlotSpec spec;

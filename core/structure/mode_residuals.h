@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/structure/frame_fit.h"
+
+namespace core::structure {
+
+// Residuals of one reference mode in units of its sigmas: frequency, then the shape's components at the best scale.
+void append_residuals(const FrameModes& modes, const ReferenceMode& mode, std::vector<double>& out);
+
+// Whether the derivatives of the modes give those of the residuals: another kind than a shear frame, and frequencies
+// that are seen as they are.
+[[nodiscard]] bool has_analytic_jacobian(const FrameModel& model);
+// Derivatives of all residuals, the priors' included; columns of places are zero. False if there are no modes.
+[[nodiscard]] bool analytic_jacobian(const FrameModel& model, const std::vector<ReferenceMode>& reference, int without,
+                                     const Eigen::VectorXd& parameters, Eigen::MatrixXd& out);
+
+}  // namespace core::structure

@@ -1,0 +1,171 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <random>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "drivers/storage/clip_writer.h"
+#include "drivers/storage/json.h"
+#include "tests/support/command.h"
+
+// `hovermodal magnify` as a user runs it.
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using tests::Outcome;
+
+constexpr int kWidth = 160, kHeight = 120, kFrames = 3000;
+constexpr double kMmPerPx = 2.0, kRate_hz = 25.0;
+
+// A run's folder: a roof and a middle that moves half as far, one mode of 2 Hz, 3000 frames; a base whose motion is
+// noise; a wall without a channel; and the clip, of which only the first frame is used.
+class Magnify : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / "hovermodal_magnify" /
+              testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    write_displacements();
+    write_tracks();
+    write_clip();
+    const Outcome outcome =
+        tests::run("hovermodal", "identify --series " + path("displacements.csv") + " --report " + path("made"));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+    fs::copy_file(path("made") + "/modal.json", path("modal.json"));
+  }
+
+  void write_displacements() {
+    std::ofstream table(path("displacements.csv"));
+    table << "# unit: mm\n# rate_hz: 25\nframe,t_s,scale_mm_per_px,roof,middle,base\n";
+    std::mt19937_64 random(7);
+    std::normal_distribution<double> gaussian;
+    constexpr double kPerFrame = 2.0 * 3.14159265358979 * 2.0 / kRate_hz;
+    const double r = std::exp(-0.01 * kPerFrame);
+    double y = 0.0, before = 0.0;
+    for (int k = 0; k < kFrames; ++k) {
+      const double next = 2.0 * r * std::cos(kPerFrame) * y - r * r * before + gaussian(random);
+      before = y, y = next;
+      squares_ += y * y;
+      table << k << ',' << k / kRate_hz << ',' << kMmPerPx << ',' << y + 0.05 * gaussian(random) << ','
+            << 0.5 * y + 0.05 * gaussian(random) << ',' << 0.5 * gaussian(random) << '\n';
+    }
+  }
+
+  void write_tracks() const {
+    std::ofstream table(path("tracks.csv"));
+    table << "# hovermodal tracks, version 1\n# image_size_px: " << kWidth << " x " << kHeight
+          << "\n# rate_hz: 25\n# readout_ms: 0\n"
+          << "# readout_direction: down\n# exposure_ms: 0\n# frame_count: 1\n# regions: roof,middle,base,wall\n"
+          << "frame,t_s,point,region,u_px,v_px,sigma_px\n";
+    int id = 0;
+    for (const auto& [name, u, v] : std::vector<std::tuple<const char*, int, int>>{
+             {"roof", 60, 20}, {"middle", 60, 60}, {"base", 60, 102}, {"wall", 20, 60}}) {
+      for (int i = 0; i < 3; ++i, ++id)
+        table << "0,0," << id << ',' << name << ',' << u + 8 * (i % 2) << ',' << v + i << ",0.01\n";
+    }
+  }
+
+  void write_clip() const {
+    std::vector<std::uint8_t> pixels(kWidth * kHeight);
+    std::mt19937 random(3);
+    for (std::uint8_t& pixel : pixels) pixel = static_cast<std::uint8_t>(random() % 256);
+    drivers::ClipWriter writer(path("clip.mp4"), kWidth, kHeight, kRate_hz, 10);
+    for (int i = 0; i < 30; ++i) writer.write(pixels.data());
+    writer.finish();
+  }
+
+  void edit(const std::function<void(nlohmann::ordered_json&)>& change) const {
+    nlohmann::ordered_json modal = drivers::read_json_file(path("modal.json"));
+    change(modal["modes"][0]);
+    std::ofstream(path("modal.json")) << modal.dump();
+  }
+
+  void make_base_uncertain() const {
+    edit([](nlohmann::ordered_json& mode) { mode["shape_std"]["base"] = 0.5; });
+  }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  [[nodiscard]] Outcome magnified(const std::string& more) const {
+    return tests::run("hovermodal", "magnify " + folder_.string() + " --out " + path("mode.mp4") + " " + more);
+  }
+
+  fs::path folder_;
+  double squares_ = 0.0;
+};
+
+TEST_F(Magnify, DrawsTheShapeTimesAmplitudeTimesFactor) {
+  make_base_uncertain();
+  const Outcome outcome = magnified("--mode 1 --factor 0.4 --seconds 2 --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  const auto told = nlohmann::json::parse(outcome.text);
+  // Root 2 times the rms, in px of the first frame. The mode's band, 4 zeta f to both sides, holds 2/pi atan(4) of its
+  // power.
+  const double share = 2.0 / std::numbers::pi * std::atan(4.0);
+  const double amplitude_px = std::sqrt(2.0 * share * squares_ / kFrames) / kMmPerPx;
+  EXPECT_NEAR(told["amplitude_px"].get<double>() / amplitude_px, 1.0, 0.03);
+  EXPECT_NEAR(told["frequency_hz"].get<double>(), 2.0, 0.02);
+  ASSERT_EQ(told["regions"].size(), 3U);  // the wall has no channel
+  EXPECT_EQ(told["regions"][0]["name"], "roof");
+  EXPECT_NEAR(told["regions"][0]["drawn_u_px"][0].get<double>(), 0.4 * told["amplitude_px"].get<double>(), 1e-9);
+  EXPECT_NEAR(told["regions"][1]["drawn_u_px"][0].get<double>(), 0.2 * told["amplitude_px"].get<double>(), 0.02);
+  EXPECT_EQ(told["regions"][1]["drawn_v_px"][0].get<double>(), 0.0);
+  EXPECT_EQ(told["regions"][2]["held"], "this would magnify noise");
+  EXPECT_EQ(told["regions"][2]["drawn_u_px"][0].get<double>(), 0.0);
+  EXPECT_GT(fs::file_size(path("mode.mp4")), 1000U);
+}
+
+TEST_F(Magnify, StatesWhatItHoldsStillAndDoesNotOverwrite) {
+  make_base_uncertain();
+  Outcome outcome = magnified("--seconds 1");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr("mode 1: 1.99"));
+  EXPECT_THAT(outcome.text, HasSubstr("held still: this would magnify noise"));
+  EXPECT_THAT(outcome.text, Not(HasSubstr("wall")));
+  outcome = magnified("--seconds 1");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.text, HasSubstr("mode.mp4: exists; name another file, or --force"));
+  outcome = magnified("--seconds 1 --force --quiet");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.text, "");
+}
+
+TEST_F(Magnify, RefusesToMagnifyNoise) {
+  edit([](nlohmann::ordered_json& mode) {
+    for (auto& sigma : mode["shape_std"]) sigma = 0.6;
+  });
+  Outcome outcome = magnified("");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.text, HasSubstr("this would magnify noise"));
+  edit([](nlohmann::ordered_json& mode) { mode["shape_std"] = nullptr; });
+  outcome = magnified("");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.text, HasSubstr("nobody knows whether this would magnify noise"));
+  EXPECT_FALSE(fs::exists(path("mode.mp4")));
+}
+
+TEST_F(Magnify, RefusesWhatItCannotDraw) {
+  Outcome outcome = magnified("--mode 2");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.text, HasSubstr("--mode 2: "));
+  outcome = magnified("--factor 1000");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.text, HasSubstr("parts of the image would be pushed over each other; at most"));
+  fs::remove(path("clip.mp4"));
+  outcome = magnified("");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.text, HasSubstr("--clip is needed"));
+}
+
+}  // namespace

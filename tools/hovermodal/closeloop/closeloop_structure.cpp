@@ -1,0 +1,174 @@
+// hovermodal closeloop --structure: a declared structure of any kind against measured modes.
+#include "tools/hovermodal/closeloop/closeloop_structure.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "core/closure/closure_loop.h"
+#include "core/closure/structure_level.h"
+#include "core/structure/effects/catalogue.h"
+#include "core/structure/mode_numbers.h"
+#include "core/structure/place_profile.h"
+#include "drivers/storage/json.h"
+#include "drivers/storage/structure_file.h"
+#include "drivers/storage/text_file.h"
+#include "firmware_app/report/closure_json.h"
+#include "tools/hovermodal/closeloop/reference.h"
+#include "tools/hovermodal/closeloop/words.h"
+
+namespace tools {
+namespace {
+
+using core::structure::DeclaredFrame;
+using core::structure::FrameFit;
+using core::structure::FrameModel;
+using Reference = std::vector<core::structure::ReferenceMode>;
+
+std::string check_text(const core::closure::StructureLevel& level) {
+  if (level.check().empty()) return {};
+  std::string out = "modes excluded from the fit (--check): predicted, given, error\n";
+  const auto modes = level.model_modes();
+  for (const auto& mode : level.check()) {
+    const double hz = modes.frequency_hz(mode.number - 1);
+    out += fmt::format("{:4}  {:10.4f}  {:10.4f}  {:+7.3f} %\n", mode.number, hz, mode.frequency_hz,
+                       100.0 * (hz / mode.frequency_hz - 1.0));
+  }
+  return out;
+}
+
+Reference paired(const std::string& path, const DeclaredFrame& declared) {
+  Reference out = read_reference(path, declared);
+  if (!declared.model) return out;
+  const std::vector<double> left = pair_with_model(declared, out);
+  if (out.size() < 2 && !left.empty()) {
+    const Eigen::VectorXd& hz = declared.numbering->frequency_hz;
+    throw drivers::FileError(fmt::format(
+        "{}: of its modes at {:.4g} Hz fewer than two are modes of the model, which has {:.4g} .. {:.4g} Hz; check the "
+        "units of stiffness and mass, or declare stiffness: fitted",
+        path, fmt::join(left, ", "), hz(0), hz(hz.size() - 1)));
+  }
+  if (!left.empty()) fmt::print("modes of {} that none of the model's is: {:.4g} Hz\n", path, fmt::join(left, ", "));
+  return out;
+}
+
+// The final model of the loop, fitted again effect by effect.
+struct Final {
+  FrameModel model;
+  FrameFit fit;
+};
+Final final_of(const DeclaredFrame& declared, const Reference& reference, const core::closure::ClosureResult& result) {
+  Final out{{&declared, {}}, {}};
+  out.fit = fit_frame(out.model, reference, {}, core::structure::Starts::kAll);
+  for (const auto& step : result.steps) {
+    const auto* effect = core::find_effect(core::structure::structural_effects(), step.effect,
+                                           [](const auto& one) { return one.name(); });
+    if (effect == nullptr) continue;
+    out.model.effects.push_back(effect);
+    out.fit = fit_frame(out.model, reference, out.fit.parameters, core::structure::Starts::kAll);
+  }
+  return out;
+}
+
+// Places that explain the modes as well as the one found.
+std::string places_text(const Final& last, const Reference& reference) {
+  std::string out;
+  const auto freedom = static_cast<double>(last.fit.n_data - last.fit.parameters.size());
+  const double spread = freedom > 0.0 ? std::max(1.0, std::sqrt(last.fit.chi2 / freedom)) : 1.0;
+  for (std::size_t i = 0; i < last.model.effects.size(); ++i) {
+    const auto places = place_profile(last.model, reference, last.fit, i, spread);
+    if (places.empty()) continue;
+    out += fmt::format("places of {} that the modes do not tell apart (chi-square within 95 %):\n",
+                       last.model.effects[i]->name());
+    for (const auto& place : places) {
+      if (place.cannot_be_told_apart) out += fmt::format("  {:8.1f}  {}\n", place.chi2, place.meaning);
+    }
+  }
+  return out;
+}
+
+// A factor that no structure's properties are wrong by, but units are.
+std::string units_text(const Final& last) {
+  constexpr double kMostFactor = 20.0;
+  if (!last.fit.ok || !last.model.has_scale()) return {};
+  const double factor = std::exp(last.fit.parameters(0));
+  if (factor < kMostFactor && factor > 1.0 / kMostFactor) return {};
+  return fmt::format("stiffness over mass is {:.3g} times the declared one: check the units of stiffness and mass\n",
+                     factor);
+}
+
+// Posterior of the parameters that have a prior, and which the modes do not tell.
+std::string parameters_text(const Final& last) {
+  std::string out;
+  const auto told = core::structure::identifiability(last.model, last.fit);
+  if (told.empty()) return out;
+  const Eigen::VectorXd values = values_of(last.model, last.fit.parameters);
+  const Eigen::MatrixXd covariance = parameter_covariance(last.fit);
+  const auto& parameters = last.model.declared->model->parameters();
+  const std::vector<std::size_t> all = last.model.with_prior();
+  const Eigen::Index first = last.model.has_scale() ? 1 : 0;
+  out += "parameters with a prior: declared, fitted, sigma, sigma over that of the prior\n";
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const auto& p = parameters[all[k]];
+    const double share = told[k].sigma_over_prior;
+    out += fmt::format("  {:<24}{:12.5g} {:12.5g} {:10.3g} {} {:6.3f}{}\n", p.name, p.value,
+                       values(static_cast<Eigen::Index>(all[k])), share * p.prior_sigma, p.unit, share,
+                       share > 0.9 ? "  the modes do not tell it" : "");
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const auto a = first + static_cast<Eigen::Index>(i), b = first + static_cast<Eigen::Index>(k);
+      const double correlation = covariance(a, b) / std::sqrt(covariance(a, a) * covariance(b, b));
+      if (std::abs(correlation) > 0.9)
+        out += fmt::format("  {} and {}: correlation {:.2f}; only their combination is told\n", parameters[all[k]].name,
+                           parameters[all[i]].name, correlation);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+void close_structure(const LoopRequest& request, const std::string& structure, const std::string& check_path) {
+  const DeclaredFrame declared = drivers::read_structure(structure);
+  const Reference reference = paired(request.reference, declared);
+  Reference check = check_path.empty() ? Reference{} : paired(check_path, declared);
+  const auto make_level = [&] {
+    try {
+      return std::make_unique<core::closure::StructureLevel>(declared, reference, std::move(check));
+    } catch (const std::invalid_argument& error) {
+      throw drivers::FileError(request.reference + (check_path.empty() ? "" : " or " + check_path) + ": " +
+                               error.what());
+    }
+  };
+  const auto level = make_level();
+  core::closure::ClosureOptions loop;
+  loop.n_surrogates = request.n_surrogates;
+  loop.seed = request.seed;
+  // Another kind costs more for each surrogate.
+  if (declared.model) loop.n_surrogates_when_plain = std::min<std::size_t>(request.n_surrogates, 32);
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  if (terminal) loop.progress = [](const std::string& words) { fmt::print(stderr, "\r\033[K{}", words); };
+  core::closure::ClosureResult result = core::closure::close_loop(*level, loop);
+  if (terminal) fmt::print(stderr, "\r\033[K");
+  std::erase_if(result.not_observable, [](const auto& one) { return one.reason == core::structure::kOtherKind; });
+  fmt::print("{}{}", closure_text(result), check_text(*level));
+  if (declared.model) {
+    const Final last = final_of(declared, reference, result);
+    fmt::print("{}{}{}", places_text(last, reference), parameters_text(last), units_text(last));
+  }
+  if (request.report.empty()) return;
+  const std::filesystem::path folder = request.report;
+  drivers::write_file_atomically((folder / "closure.json").string(), app::closure_json(result));
+  drivers::write_file_atomically((folder / "closure_modes.svg").string(), app::closure_modes_svg(result));
+  fmt::print("{} written\n", (folder / "closure.json").string());
+}
+
+}  // namespace tools
