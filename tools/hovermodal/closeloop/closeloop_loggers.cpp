@@ -95,7 +95,7 @@ class LoggerCloser {
     }
     if (which.first == which.second) return;
     const bool adopted = best.second < kMaterialExchange * before.second;
-    fmt::print(
+    request_.answer.note(
         "labels {} and {} exchanged: 1 - MAC of the lowest mode {:.4f} -> {:.4f}; of the other modes, which did not "
         "choose, {:.4f} -> {:.4f}: {}\n",
         series.channels[which.first].name, series.channels[which.second].name, before.first, best.first, before.second,

@@ -152,18 +152,19 @@ class SensorRun {
 
 }  // namespace
 
-void compare_sensor(const SensorOptions& options) {
+void compare_sensor(const SensorOptions& options, const Answer& answer) {
   if (options.run.empty())
     throw std::invalid_argument("--sensor needs --run: the folder of a run, or a table with its displacement");
   if (!options.band.empty() && options.band.size() != 2)
     throw std::invalid_argument("--band takes two frequencies: --band 3 14");
   const SensorFindings findings = SensorRun(options).run();
-  fmt::print("{}", sensor_text(findings));
+  answer.document(sensor_json(findings));
+  answer.text("{}", sensor_text(findings));
   if (options.report.empty()) return;
   fs::create_directories(options.report);
   drivers::write_file_atomically(options.report + "/sensor.json", sensor_json(findings));
   drivers::write_file_atomically(options.report + "/sensor.svg", sensor_svg(findings));
-  fmt::print("open {}/sensor.svg\n", options.report);
+  answer.text("open {}/sensor.svg\n", options.report);
 }
 
 }  // namespace tools

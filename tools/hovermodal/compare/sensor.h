@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/compare/sensor_comparison.h"
+#include "tools/hovermodal/answer.h"
 
 namespace tools {
 
@@ -42,7 +43,7 @@ struct SensorFindings {
 
 // Throws std::invalid_argument where the files do not fit the options, FileError on what is no table, and
 // std::runtime_error where the records cannot be compared.
-void compare_sensor(const SensorOptions& options);
+void compare_sensor(const SensorOptions& options, const Answer& answer);
 
 [[nodiscard]] std::string sensor_text(const SensorFindings& findings);
 [[nodiscard]] std::string sensor_json(const SensorFindings& findings);

@@ -17,6 +17,7 @@
 #include "drivers/storage/clip_writer.h"
 #include "drivers/storage/json.h"
 #include "drivers/storage/printable.h"
+#include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/magnify/modal_motion.h"
 
@@ -45,7 +46,8 @@ struct MagnifyOptions {
   double factor = 0.0;  // 0 = chosen
   double period_s = 2.0, seconds = 6.0;
   int crf = 8;
-  bool force = false, json = false, quiet = false, plain = false;
+  bool force = false, plain = false;
+  Answer answer;
 };
 
 core::Frame first_frame(const MagnifyOptions& options) {
@@ -133,24 +135,26 @@ void write_clip(const core::MeshWarp& warp, const core::Frame& frame, const std:
   writer.finish();
 }
 
-void print_text(const ModalMotion& motion, const MagnifyOptions& options, double factor) {
-  fmt::print("mode {}: {:.4f}{} Hz\n", options.mode, motion.frequency_hz,
-             motion.frequency_std_hz ? fmt::format(" +- {:.4f}", *motion.frequency_std_hz) : "");
-  fmt::print("amplitude {:.4g} px where the shape is 1 (root 2 times the rms), times {:g}: {:.4g} px\n",
-             motion.amplitude_px, factor, factor * motion.amplitude_px);
-  fmt::print("{:<20} {:>8} {:>8} {:>9} {:>8}\n", "region", "shape", "sigma", "drawn px", "sigma px");
+std::string magnify_text(const ModalMotion& motion, const MagnifyOptions& options, double factor) {
+  std::string text = fmt::format("mode {}: {:.4f}{} Hz\n", options.mode, motion.frequency_hz,
+                                 motion.frequency_std_hz ? fmt::format(" +- {:.4f}", *motion.frequency_std_hz) : "");
+  text += fmt::format("amplitude {:.4g} px where the shape is 1 (root 2 times the rms), times {:g}: {:.4g} px\n",
+                      motion.amplitude_px, factor, factor * motion.amplitude_px);
+  text += fmt::format("{:<20} {:>8} {:>8} {:>9} {:>8}\n", "region", "shape", "sigma", "drawn px", "sigma px");
   for (const RegionMotion& region : motion.regions) {
     if (region.is_static) continue;
     const double size = std::sqrt(std::norm(region.shape_u) + std::norm(region.shape_v));
     const double sigma = core::length(region.sigma_u, region.sigma_v), px = factor * motion.amplitude_px;
-    fmt::print("{:<20} {:8.3f} {:8.3f} {:9.3f} {:8.3f}{}\n", drivers::printable(region.name), size, sigma,
-               region.held.empty() ? px * size : 0.0, px * sigma,
-               region.held.empty() ? "" : "  held still: " + region.held);
+    text += fmt::format("{:<20} {:8.3f} {:8.3f} {:9.3f} {:8.3f}{}\n", drivers::printable(region.name), size, sigma,
+                        region.held.empty() ? px * size : 0.0, px * sigma,
+                        region.held.empty() ? "" : "  held still: " + region.held);
   }
-  fmt::print("{}: {:g} s, one cycle in {:g} s\n", drivers::printable(options.out), options.seconds, options.period_s);
+  text += fmt::format("{}: {:g} s, one cycle in {:g} s\n", drivers::printable(options.out), options.seconds,
+                      options.period_s);
+  return text;
 }
 
-void print_json(const ModalMotion& motion, const MagnifyOptions& options, double factor) {
+std::string magnify_json(const ModalMotion& motion, const MagnifyOptions& options, double factor) {
   nlohmann::ordered_json regions = nlohmann::ordered_json::array();
   for (const RegionMotion& region : motion.regions) {
     if (region.is_static) continue;
@@ -172,7 +176,7 @@ void print_json(const ModalMotion& motion, const MagnifyOptions& options, double
                                    {"rate_hz", kRate_hz},
                                    {"out", options.out},
                                    {"regions", regions}};
-  fmt::print("{}", drivers::to_json_text(out).text);
+  return drivers::to_json_text(out).text;
 }
 
 void magnify(MagnifyOptions options) {
@@ -191,8 +195,8 @@ void magnify(MagnifyOptions options) {
   double factor = options.factor;
   const core::MeshWarp warp = warp_of(motion, factor);
   write_clip(warp, frame, caption_of(motion, options, factor), options);
-  if (options.json) return print_json(motion, options, factor);
-  if (!options.quiet) print_text(motion, options, factor);
+  options.answer.document(magnify_json(motion, options, factor));
+  options.answer.text("{}", magnify_text(motion, options, factor));
 }
 
 }  // namespace
@@ -210,8 +214,7 @@ void add_magnify(drivers::Command& app) {
   command.option("--crf", options->crf, "Quality of the video: 0 lossless .. 51").range(0, 51).show_default();
   command.flag("--plain", options->plain, "No strip with mode and factor below the picture");
   command.flag("--force", options->force, "Replace an existing file");
-  command.flag("--json", options->json, "Print the result as JSON");
-  command.flag("--quiet", options->quiet, "Print nothing");
+  add_answer_options(command, options->answer, "the result");
   command.on_run([options] { magnify(*options); });
 }
 
