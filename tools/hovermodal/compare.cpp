@@ -72,7 +72,8 @@ void add_sensor_options(drivers::Command& command, SensorOptions& options) {
   command.option("--report", options.report, "Folder for sensor.json and sensor.svg").type_name("DIR").group(kGroup);
 }
 
-void run_compare(const CompareOptions& options) {
+void run_compare(CompareOptions options) {
+  options.sensor.is_quiet = options.answer.quiet;
   if (!options.sensor.sensor.empty()) {
     if (!options.result.empty() || !options.reference.empty() || !options.truth.empty())
       throw std::invalid_argument("--sensor compares displacements and --result modes; ask for one of them");

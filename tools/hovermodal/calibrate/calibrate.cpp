@@ -17,6 +17,7 @@
 #include "tools/hovermodal/calibrate/board_search.h"
 #include "tools/hovermodal/calibrate/calibration_words.h"
 #include "tools/hovermodal/commands.h"
+#include "tools/hovermodal/named_file.h"
 
 namespace tools {
 namespace {
@@ -26,6 +27,7 @@ struct Options {
   std::string board, model = "radtan", out, report;
   double square_mm = 0.0;
   int every = 0, views = 40;
+  bool force = false;
   Answer answer;
 };
 
@@ -106,7 +108,7 @@ void leave_out_bad_views(CalibrationRun& run) {
 }
 
 CalibrationRun fit_run(const Options& options, const core::ChessBoard& board) {
-  FoundBoards found = find_boards(options.sources, board, options.every);
+  FoundBoards found = find_boards(options.sources, board, options.every, options.answer.quiet);
   if (found.views.size() < core::kMinViews) throw std::runtime_error(none_found(found, board));
   CalibrationRun run{board, found.width_px,    found.height_px,    found.views, found.places,
                      {},    found.n_looked_at, found.views.size(), {}};
@@ -138,6 +140,7 @@ void write_report(const std::string& folder, const CalibrationRun& run, const An
 }
 
 void run(const Options& options) {
+  require_free(options.out, options.force);
   const CalibrationRun run = fit_run(options, parse_board(options));
   options.answer.text("{}\n", calibration_words(run));
   if (!options.report.empty()) write_report(options.report, run, options.answer);
@@ -176,6 +179,7 @@ void add_calibrate(drivers::Command& app) {
       .show_default();
   command.option("--out", options->out, "File to write, YAML").required().type_name("FILE");
   command.option("--report", options->report, "Folder for calibration.svg: coverage and residuals").type_name("DIR");
+  add_force_option(command, options->force);
   add_answer_options(command, options->answer, "the camera with its standard deviations and the doubts");
   command.footer(kFooter);
   command.on_run([options] { run(*options); });

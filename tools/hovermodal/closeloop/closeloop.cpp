@@ -79,7 +79,8 @@ void make_folder(const std::string& folder) {
     throw std::runtime_error("--report " + folder + ": cannot be made; name a folder that may be written");
 }
 
-void run_record(const Options& options) {
+void run_record(Options options) {
+  options.series.request.is_quiet = options.loop.answer.quiet;
   const LoopRequest& loop = options.loop;
   if (!options.structure.empty())
     throw std::invalid_argument("--structure applies to modes, not to --record: leave one out");

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/planning/hover_time.h"
 #include "drivers/storage/csv.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/modal_json.h"
@@ -51,6 +52,18 @@ std::vector<std::size_t> floor_channels(const std::string& path, const DeclaredF
   return out;
 }
 
+// The stated one. Where the record was too short to estimate it: the declared share; undeclared, at least what the
+// duration allows.
+double sigma_hz_of(const core::Mode& mode, double duration_s, const DeclaredFrame& declared) {
+  if (mode.frequency_std_hz.value_or(0.0) > 0.0) return *mode.frequency_std_hz;
+  const bool is_declared = declared.frequency_sigma != DeclaredFrame{}.frequency_sigma;
+  double share = declared.frequency_sigma;
+  if (!is_declared && duration_s > 0.0 && mode.damping_ratio > 0.0)
+    share =
+        std::max(share, core::planning::relative_frequency_sigma(mode.frequency_hz, mode.damping_ratio, duration_s));
+  return share * mode.frequency_hz;
+}
+
 Modes from_modal_json(const std::string& path, const DeclaredFrame& declared) {
   const app::ModalReport report = app::read_modal_json(path);
   const std::vector<std::size_t> channels = floor_channels(path, declared, report.channel_names);
@@ -59,8 +72,7 @@ Modes from_modal_json(const std::string& path, const DeclaredFrame& declared) {
     ReferenceMode reference;
     reference.number = static_cast<int>(out.size()) + 1;
     reference.frequency_hz = mode.frequency_hz;
-    reference.sigma_hz = mode.frequency_std_hz.value_or(0.0) > 0.0 ? *mode.frequency_std_hz
-                                                                   : declared.frequency_sigma * mode.frequency_hz;
+    reference.sigma_hz = sigma_hz_of(mode, report.estimate.duration_s, declared);
     for (const std::size_t c : channels) {
       if (c >= mode.shape.size()) break;
       reference.shape.push_back(mode.shape[c].real());

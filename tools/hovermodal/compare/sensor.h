@@ -18,6 +18,7 @@ struct SensorOptions {
   std::vector<double> band;  // empty, or low and high
   std::optional<double> mm_per_px, most_offset_s;
   std::string report;
+  bool is_quiet = false;  // no progress
 };
 
 // Everything that is shown about one comparison. Lengths in `unit`.

@@ -15,6 +15,7 @@
 #include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/export/run_folder.h"
+#include "tools/hovermodal/named_file.h"
 
 namespace tools {
 namespace {
@@ -55,8 +56,7 @@ std::string export_json(const LoadedRun& loaded, const ExportOptions& options) {
 }
 
 void export_run(const ExportOptions& options) {
-  if (std::filesystem::exists(options.out) && !options.force)
-    throw std::invalid_argument(options.out + ": exists; name another file, or --force to replace it");
+  require_free(options.out, options.force);
   const LoadedRun loaded = load_run(options.run);
   for (const std::string& remark : loaded.remarks) options.answer.note("note: {}\n", remark);
   if (options.format == "csv" && loaded.run.modes.empty())
@@ -76,7 +76,7 @@ void add_export(drivers::Command& app) {
   command.option("run", options->run, "Folder of a run, or its modal.json").required().type_name("RUN");
   command.option("--to", options->format, "Format").required().one_of({"uff", "mat", "csv", "mcap"});
   command.option("--out", options->out, "File to write").required().type_name("FILE");
-  command.flag("--force", options->force, "Replace an existing file");
+  add_force_option(command, options->force);
   add_answer_options(command, options->answer, "what was written");
   command.on_run([options] { export_run(*options); });
 }

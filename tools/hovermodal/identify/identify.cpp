@@ -104,8 +104,9 @@ void hand_out(const IdentifyOptions& options, const app::SeriesResult& result, c
   if (!page.empty()) options.answer.text("open {}\n", page);
 }
 
-void run(const IdentifyOptions& options) {
+void run(IdentifyOptions options) {
   check(options);
+  options.request.is_quiet = options.answer.quiet;
   std::vector<SeriesFindings> all;
   for (std::size_t i = 0; i < options.files.size(); ++i) {
     const std::string report = report_of(options, i);

@@ -191,7 +191,8 @@ class SeriesLoader {
 LoadedSeries load_series(const std::string& path, const SeriesRequest& request) {
   drivers::ForeignFormat format;
   format.no_names = request.no_header;
-  format.progress = [&](std::uint64_t n_lines) { fmt::print(stderr, "{}: {} lines read\n", path, n_lines); };
+  if (!request.is_quiet)
+    format.progress = [&](std::uint64_t n_lines) { fmt::print(stderr, "{}: {} lines read\n", path, n_lines); };
   const SeriesFile file = drivers::read_any_series(path, format);
   return SeriesLoader(file, request, path).load();
 }

@@ -20,6 +20,7 @@
 #include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/magnify/modal_motion.h"
+#include "tools/hovermodal/named_file.h"
 
 namespace tools {
 namespace {
@@ -63,9 +64,10 @@ core::Frame first_frame(const MagnifyOptions& options) {
     status = camera->capture(frame, std::chrono::milliseconds(1000));
   const std::string fault = camera->fault();
   camera->stop();
-  if (status != drivers::CaptureStatus::kFrame)
+  if (status != drivers::CaptureStatus::kFrame) {
     throw std::runtime_error(
         fmt::format("\"{}\": no frame{}{}", drivers::printable(options.clip), fault.empty() ? "" : ": ", fault));
+  }
   return frame;
 }
 
@@ -96,9 +98,10 @@ core::MeshWarp warp_of(const ModalMotion& motion, double& factor) {
     const double swing_px = kSwingShare * std::max(motion.width_px, motion.height_px);
     factor = two_digits(std::min(swing_px / motion.amplitude_px, 0.9 * most));
   }
-  if (factor > most)
+  if (factor > most) {
     throw std::invalid_argument(fmt::format(
         "--factor {:g}: parts of the image would be pushed over each other; at most {:g}", factor, two_digits(most)));
+  }
   return {motion.width_px, motion.height_px, parts_of(motion, factor)};
 }
 
@@ -180,8 +183,7 @@ std::string magnify_json(const ModalMotion& motion, const MagnifyOptions& option
 }
 
 void magnify(MagnifyOptions options) {
-  if (std::filesystem::exists(options.out) && !options.force)
-    throw std::invalid_argument(options.out + ": exists; name another file, or --force to replace it");
+  require_free(options.out, options.force);
   const ModalMotion motion = modal_motion(options.run, options.mode);
   if (options.clip.empty()) {
     options.clip = (std::filesystem::path(options.run) / "clip.mp4").string();
@@ -189,9 +191,10 @@ void magnify(MagnifyOptions options) {
       throw std::invalid_argument("--clip is needed: the video of the run (there is no " + options.clip + ")");
   }
   const core::Frame frame = first_frame(options);
-  if (frame.width_px != motion.width_px || frame.height_px != motion.height_px)
+  if (frame.width_px != motion.width_px || frame.height_px != motion.height_px) {
     throw std::invalid_argument(fmt::format("{}: {}x{}, but the run saw {}x{}", options.clip, frame.width_px,
                                             frame.height_px, motion.width_px, motion.height_px));
+  }
   double factor = options.factor;
   const core::MeshWarp warp = warp_of(motion, factor);
   write_clip(warp, frame, caption_of(motion, options, factor), options);
@@ -213,7 +216,7 @@ void add_magnify(drivers::Command& app) {
   command.option("--seconds", options->seconds, "Duration of the video").range(0.1, 600.0).show_default();
   command.option("--crf", options->crf, "Quality of the video: 0 lossless .. 51").range(0, 51).show_default();
   command.flag("--plain", options->plain, "No strip with mode and factor below the picture");
-  command.flag("--force", options->force, "Replace an existing file");
+  add_force_option(command, options->force);
   add_answer_options(command, options->answer, "the result");
   command.on_run([options] { magnify(*options); });
 }

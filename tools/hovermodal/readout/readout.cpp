@@ -12,6 +12,7 @@
 #include "drivers/storage/text_file.h"
 #include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/commands.h"
+#include "tools/hovermodal/named_file.h"
 #include "tools/hovermodal/readout/gyro_clip.h"
 #include "tools/hovermodal/readout/residual_svg.h"
 
@@ -21,6 +22,7 @@ namespace {
 struct Options {
   GyroClipOptions input;
   std::string picture;
+  bool force = false;
   Answer answer;
 };
 
@@ -83,6 +85,7 @@ std::string readout_json(const Options& options, const ClipMotion& clip, const c
 }
 
 void run(const Options& options) {
+  require_free(options.picture, options.force);
   const GyroClip clip = read_gyro_clip(options.input);
   const core::GyroReadout found = core::fit_gyro_readout(clip.motion.pairs, clip.gyro, clip.config);
   options.answer.document(readout_json(options, clip.motion, found));
@@ -101,6 +104,7 @@ void add_readout(drivers::Command& app) {
                      "  hovermodal readout --clip frames --stamps framestamp.txt --gyro gyro.txt");
   add_gyro_clip_options(command, options->input, true);
   command.option("--picture", options->picture, "SVG of the residual per frame").type_name("FILE");
+  add_force_option(command, options->force);
   add_answer_options(command, options->answer, "the readout time and what was fitted with it");
   command.on_run([options] { run(*options); });
 }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "core/tracking/region_proposal.h"
 #include "drivers/camera/camera_factory.h"
@@ -16,6 +17,7 @@
 #include "firmware_app/report/pictures/parts.h"
 #include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/commands.h"
+#include "tools/hovermodal/named_file.h"
 #include "tools/hovermodal/regions/picker.h"
 #include "tools/hovermodal/regions/regions_text.h"
 #include "tools/hovermodal/stop_signal.h"
@@ -26,7 +28,7 @@ namespace {
 struct Options {
   std::string clip, out, picture;
   double rate_hz = 0.0, seconds = 12.0;
-  bool lowest_is_base = false, serve = false;
+  bool lowest_is_base = false, serve = false, force = false;
   int port = 0;
   std::size_t most = 12;
   Answer answer;
@@ -77,12 +79,30 @@ class Progress {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+// The camera's messages name the configuration's keys; here that one is an option.
+std::string with_options(std::string message) {
+  constexpr std::string_view kKey = "camera.rate_hz", kOption = "--rate-hz";
+  for (std::size_t at = message.find(kKey); at != std::string::npos; at = message.find(kKey, at + kOption.size()))
+    message.replace(at, kKey.size(), kOption);
+  return message;
+}
+
+std::unique_ptr<drivers::Camera> open_source(const drivers::CameraOptions& source) {
+  try {
+    return drivers::make_camera(source);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(with_options(error.what()));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(with_options(error.what()));
+  }
+}
+
 // Throws std::runtime_error if the source is shorter than a second.
 Watched watch(const Options& options) {
   drivers::CameraOptions source;
   source.source = options.clip;
   source.rate_hz = options.rate_hz;
-  const auto camera = drivers::make_camera(source);
+  const auto camera = open_source(source);
   Watched out;
   out.info = camera->info();
   const auto n_pixels = static_cast<std::size_t>(out.info.width_px) * static_cast<std::size_t>(out.info.height_px);
@@ -144,6 +164,8 @@ void run_regions(const Options& options) {
     throw std::invalid_argument(
         "regions --serve: --out FILE is missing: where the page's Save button writes the regions");
   }
+  require_free(options.out, options.force);
+  require_free(options.picture, options.force);
   watch_stop_signals();
   const Watched watched = watch(options);
   core::RegionProposalConfig config;
@@ -194,6 +216,7 @@ void add_regions(drivers::Command& app) {
                "Then adjust them in a page, by mouse, finger or keyboard; its Save button writes --out. This "
                "computer alone can open it");
   command.option("--port", options->port, "Of the page; 0 = any that is free").range(0, 65535);
+  add_force_option(command, options->force);
   add_answer_options(command, options->answer, "the regions in the order of the table");
   command.footer(kFooter);
   command.on_run([options] { run_regions(*options); });

@@ -43,8 +43,8 @@ struct SimulateRun : SimulateOptions {
 
 void write_product(const fs::path& folder, const SimulateJob& job, const SceneMotion& motion,
                    const SimulateRun& options) {
-  if (job.depth == Depth::kChannels) return write_channels(folder, job, motion);
-  if (job.depth == Depth::kTracks) return write_tracks(folder, job);
+  if (job.depth == Depth::kChannels) return write_channels(folder, job, motion, options.answer.quiet);
+  if (job.depth == Depth::kTracks) return write_tracks(folder, job, options.answer.quiet);
   const int n_threads =
       options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   write_clip(core::simulation::Renderer(job.scene()), (folder / job.product()).string(), job.crf, n_threads,
