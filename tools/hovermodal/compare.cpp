@@ -79,9 +79,10 @@ void run_compare(CompareOptions options) {
       throw std::invalid_argument("--sensor compares displacements and --result modes; ask for one of them");
     return compare_sensor(options.sensor, options.answer);
   }
-  if (options.result.empty() || options.reference.empty())
+  if (options.result.empty() || options.reference.empty()) {
     throw std::invalid_argument(
         "--result and --reference are needed, or --sensor and --run; compare --help explains both");
+  }
   const app::ModalReport result = app::read_modal_json(options.result);
   const app::ModalReport reference = app::read_modal_json(options.reference);
   app::ModalReport truth;

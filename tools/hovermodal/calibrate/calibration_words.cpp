@@ -78,14 +78,16 @@ std::vector<std::string> calibration_warnings(const CalibrationRun& run) {
                     n_tilted, fit.tilt_deg.size(), kTiltedDeg));
   }
   const double focal_share = std::max(fit.sigma[0] / fit.camera.fx, fit.sigma[1] / fit.camera.fy);
-  if (focal_share > 0.005)
+  if (focal_share > 0.005) {
     out.push_back(
         fmt::format("the focal length is known to {:.1f} % only; more views, more tilt", 100.0 * focal_share));
-  if (fit.condition < 1e-8)
+  }
+  if (fit.condition < 1e-8) {
     out.push_back(
         fmt::format("poorly conditioned: parameters are nearly indistinguishable (smallest eigenvalue {:.1g}); "
                     "film with more tilt, and with the board in the corners",
                     fit.condition));
+  }
   if (run.views.size() < kFewViews) out.push_back(fmt::format("only {} views; 20 to 40 are usual", run.views.size()));
   std::vector<std::string> empty;
   const std::vector<int> count = corners_per_ninth(run);
@@ -97,9 +99,10 @@ std::vector<std::string> calibration_warnings(const CalibrationRun& run) {
         fmt::format("no board corner was seen in: {}; the distortion there is extrapolated, film the board there",
                     fmt::join(empty, ", ")));
   }
-  if (fit.rms_px > 1.0)
+  if (fit.rms_px > 1.0) {
     out.push_back(fmt::format("the error of {:.2f} px is large: is the board flat, the clip sharp, the model right?",
                               fit.rms_px));
+  }
   return out;
 }
 
@@ -112,9 +115,10 @@ std::string calibration_json(const CalibrationRun& run, const std::string& out) 
   };
   const std::array<double, 4> intrinsics{camera.fx, camera.fy, camera.cx, camera.cy};
   for (std::size_t i = 0; i < 4; ++i) add(kIntrinsics[i], intrinsics[i], run.fit.sigma[i], true);
-  for (std::size_t i = 0; i + 4 < run.fit.sigma.size(); ++i)
+  for (std::size_t i = 0; i + 4 < run.fit.sigma.size(); ++i) {
     add(coefficient_name(camera.lens, i), camera.distortion[i], run.fit.sigma[4 + i],
         static_cast<int>(i) < run.fit.n_coefficients);
+  }
   return drivers::to_json_text({{"version", 1},
                                 {"out", out},
                                 {"size", {run.width_px, run.height_px}},

@@ -19,9 +19,10 @@ void close_channels(const LoopRequest& request, const SeriesLoop& options, app::
   loop.input_unknown = options.input_unknown;
   loop.clock.rate_is_average = options.average_rate;
   loop.clock.times_known = app::use_measured_times(request.records.front(), series);
-  if (loop.clock.times_known)
+  if (loop.clock.times_known) {
     request.answer.note(
         "the frames' times were measured: the series is interpolated to an even grid, its clock is known\n");
+  }
   loop.n_surrogates = request.n_surrogates;
   loop.seed = request.seed;
   app::ResponseAnalysis found = [&] {
@@ -31,9 +32,10 @@ void close_channels(const LoopRequest& request, const SeriesLoop& options, app::
   }();
   add_modes(found.result, found.before, found.after, options.max_frequency_hz, request.reference);
   show_response(request, found.result, "closure.json");
-  for (std::size_t i = 0; i < found.adopted.size(); ++i)
+  for (std::size_t i = 0; i < found.adopted.size(); ++i) {
     request.answer.note("repair of {}: {}\n", found.adopted[i],
                         found.repairs[i].empty() ? "not applicable, the series stays as it is" : found.repairs[i]);
+  }
 }
 
 }  // namespace tools

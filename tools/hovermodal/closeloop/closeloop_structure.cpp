@@ -125,9 +125,10 @@ std::string parameters_text(const Final& last) {
     for (std::size_t k = 0; k < i; ++k) {
       const auto a = first + static_cast<Eigen::Index>(i), b = first + static_cast<Eigen::Index>(k);
       const double correlation = covariance(a, b) / std::sqrt(covariance(a, a) * covariance(b, b));
-      if (std::abs(correlation) > 0.9)
+      if (std::abs(correlation) > 0.9) {
         out += fmt::format("  {} and {}: correlation {:.2f}; only their combination is told\n", parameters[all[k]].name,
                            parameters[all[i]].name, correlation);
+      }
     }
   }
   return out;

@@ -33,11 +33,12 @@ void close_turning(const LoopRequest& request, const GyroClipOptions& options) {
   }();
   request.answer.document(app::closure_json(result));
   request.answer.text("{}", closure_text(result));
-  if (result.reference_error_before && result.reference_error_after)
+  if (result.reference_error_before && result.reference_error_after) {
     request.answer.text(
         "rotation of the image beyond the model, held-out frames: {:.4f} -> {:.4f} deg rms per "
         "frame\n",
         *result.reference_error_before, *result.reference_error_after);
+  }
   if (request.report.empty()) return;
   const auto path = (std::filesystem::path(request.report) / "closure.json").string();
   drivers::write_file_atomically(path, app::closure_json(result));

@@ -59,9 +59,10 @@ void export_run(const ExportOptions& options) {
   require_free(options.out, options.force);
   const LoadedRun loaded = load_run(options.run);
   for (const std::string& remark : loaded.remarks) options.answer.note("note: {}\n", remark);
-  if (options.format == "csv" && loaded.run.modes.empty())
+  if (options.format == "csv" && loaded.run.modes.empty()) {
     throw std::invalid_argument(options.run +
                                 ": no modes, and a csv has nothing else; --to uff, mat and mcap have series");
+  }
   write(loaded.run, options);
   options.answer.document(export_json(loaded, options));
   options.answer.text("{}: {} modes, {} channels, {} samples, {} spectra\n", options.out, loaded.run.modes.size(),
