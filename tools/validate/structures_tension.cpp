@@ -28,8 +28,8 @@ using core::structure::DeclaredFrame;
 using core::structure::ReferenceMode;
 using Eigen::Index;
 
-constexpr double kFrames_hz = 50.0, kMostSought_hz = 20.0, kSoughtModes = 8.5;  // of the designed tension
-// Shapes number the modes. Regions are placed to 0.2 % of the chord, 5 % of a component in the eighth mode: the
+constexpr double kFrames_hz = 50.0, kMostSought_hz = 20.0, kSoughtModes = 5.5;  // of the designed tension
+// Shapes number the modes. Regions are placed to 0.2 % of the chord, 3 % of a component in the fifth mode: the
 // declared shape_sigma, of which closeloop takes at least a tenth.
 constexpr double kPlaceSigma = 0.002, kShapeSigma = 1.0;
 constexpr int kMovingModes = 20, kDeclaredModes = 12;
