@@ -17,7 +17,7 @@ packages=(
   build-essential cmake ninja-build ccache pkg-config git python3
   libopencv-dev libeigen3-dev libyaml-cpp-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
   liblcm-dev liblcm-bin libglib2.0-dev iproute2
-  libcpp-httplib-dev
+  libboost-dev
   ffmpeg
   libsystemd-dev
   libavformat-dev libavcodec-dev libavutil-dev
@@ -29,7 +29,7 @@ packages=(
 fetch_kernel() { [[ " $* " != *" --device "* ]] || tests/device/kernel.sh standard >/dev/null; }
 for wanted in "$@"; do
   case $wanted in
-    --runtime) packages+=(libboost-dev spin g++-aarch64-linux-gnu qemu-user) ;;
+    --runtime) packages+=(spin g++-aarch64-linux-gnu qemu-user) ;;
     --lcm) packages+=(default-jdk liblcm-java libjchart2d-java libxmlgraphics-commons-java xvfb python3) ;;
     --device) packages+=(qemu-system-x86 busybox-static cpio kmod udev v4l-utils libcamera-tools libcamera-ipa rt-tests xz-utils bc libelf1) ;;
     --ground) packages+=(chromium fonts-dejavu-core python3) ;;

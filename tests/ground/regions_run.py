@@ -36,6 +36,14 @@ def click(browser, script):
     browser.run(script + ".click()")
 
 
+def seen_together(browser):
+    """True: the whole picture, its boxes and Save lie within the window, at the top of the page and scrolled to the picture."""
+    inside = ("[document.getElementById('picture'), document.getElementById('save'), ...document.querySelectorAll('rect.region')]"
+              ".every(e => { const b = e.getBoundingClientRect(); return b.top >= 0 && b.bottom <= innerHeight && b.left >= 0 && b.right <= innerWidth; })")
+    at_top = browser.run(f"(scrollTo(0, 0), {inside})")
+    return at_top and browser.run(f"(document.getElementById('picture').scrollIntoView(), {inside})")
+
+
 def save(browser):
     click(browser, "document.getElementById('save')")
     browser.wait(f"{STATE} !== 'not saved' && {STATE} !== ''", 10)
@@ -43,7 +51,7 @@ def save(browser):
 
 
 def main():
-    program = Program([os.path.join(bin_folder, "hovermodal"), "regions", os.path.join(clip, "clip.mp4"), "--out", SAVED, "--serve"],
+    program = Program([os.path.join(bin_folder, "hovermodal"), "regions", os.path.join(clip, "clip.mp4"), "--out", SAVED, "--force", "--serve"],
                       os.path.join(out, f"regions_{time.monotonic_ns()}.log"))
     browser = None
     try:
@@ -67,6 +75,7 @@ def main():
         browser.size(1320, 900)
         time.sleep(0.5)
         browser.run("document.activeElement.blur()")
+        tell("seen_together", seen_together(browser))
         browser.picture(os.path.join(out, "regions_page.png"))
         rename = ("(text => {{ const i = document.querySelector('#rows input'); i.value = text; "
                   "i.dispatchEvent(new Event('input')); }})('{}')")
@@ -83,8 +92,12 @@ def main():
         tell("in_file", sum(f"rect: [{', '.join(map(str, rect))}]" in text for rect in expected))
         tell("on_page", len(expected))
         tell("renamed", "name: lowest" in text)
+        browser.size(1280, 600)
+        time.sleep(0.5)
+        tell("seen_together_low", seen_together(browser))
         browser.size(390, 844, 2, True)
         time.sleep(0.5)
+        tell("seen_together_phone", seen_together(browser))
         tell("phone_overflow_px", browser.run("document.documentElement.scrollWidth - document.documentElement.clientWidth"))
         tell("console_lines", len(browser.console) - sum("422" in line for line in browser.console))
         for line in browser.console:

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/answers.h"
 #include "tests/support/command.h"
 #include "tests/support/folder_test.h"
 
@@ -41,6 +42,20 @@ class Batch : public tests::FolderTest {
     return nlohmann::json::parse(tests::read(folder_ / out / "batch.json"));
   }
 };
+
+TEST_F(Batch, PrintsItsResultAsJsonOrNothing) {
+  for (const char* seed : {"1", "2"}) {
+    const auto made =
+        tests::run("hovermodal", std::string("simulate --preset paper --tracks-only --points 6 --duration 60 "
+                                             "--seed ") +
+                                     seed + " --out " + (folder_ / "in" / seed).string());
+    ASSERT_EQ(made.exit_code, 0) << made.text;
+  }
+  const nlohmann::json told = tests::expect_answers("batch " + (folder_ / "in").string() + " --out " +
+                                                    (folder_ / "out").string() + " --set spectrum.segment=256");
+  EXPECT_EQ(told, result("out"));
+  EXPECT_EQ(told["flights"].size(), 2U);
+}
 
 TEST_F(Batch, GivesTheSameBytesForAnyNumberOfProcesses) {
   ASSERT_NO_FATAL_FAILURE(make_flights());

@@ -30,7 +30,7 @@ TEST_F(RegionsPage, WhatIsSavedInThePageIsTheFile) {
   tests::ChildProcess page(
       {tests::program("hovermodal"), "regions", path("clip/clip.mp4"), "--serve", "--out", path("regions.yaml")});
   const std::string address = "open http://127.0.0.1:";
-  ASSERT_TRUE(page.wait_for("Ctrl-C ends", 120)) << page.output();
+  ASSERT_TRUE(page.wait_for("Ctrl-C ends.", 120)) << page.output();
   const int port = std::atoi(page.output().c_str() + page.output().find(address) + address.size());
   EXPECT_THAT(tests::raw_http(port, tests::get("/")), HasSubstr("page.js"));
   EXPECT_THAT(tests::raw_http(port, tests::get("/frame.png")), HasSubstr("image/png"));

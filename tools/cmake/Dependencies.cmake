@@ -61,9 +61,9 @@ endif()
 
 option(WITH_GROUND "The ground page's web server" ON)
 if(WITH_GROUND)
-  pkg_check_modules(HTTPLIB IMPORTED_TARGET cpp-httplib)
-  if(NOT HTTPLIB_FOUND OR NOT WITH_LCM)
-    message(STATUS "cpp-httplib (libcpp-httplib-dev) or LCM not found: built without the ground page")
+  find_package(Boost CONFIG QUIET)  # headers only: Beast
+  if(NOT Boost_FOUND OR NOT WITH_LCM)
+    message(STATUS "Boost (libboost-dev) or LCM not found: built without the ground page")
     set(WITH_GROUND OFF)
   endif()
 endif()

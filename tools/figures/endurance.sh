@@ -15,6 +15,9 @@ all_or_named 1 2 3 5
 draws 2 3
 bin=$PWD/$bin
 work=$PWD/build/figures/endurance
+mkdir -p "${work%/*}"
+exec 9>"$work.lock"
+flock -n 9 || refuse "another run of endurance.sh uses $work: wait for its end"
 rm -rf "$work" && mkdir -p "$work"
 set_up # shellcheck disable=SC2119
 
@@ -53,6 +56,11 @@ ended() { # FOR SECONDS: waits for $pid; its exit code in $code
 }
 # state_of FOLDER: one digest of everything in it, names and contents.
 state_of() { (cd "$1" && find . -type f -print0 | LC_ALL=C sort -z | xargs -0 sha256sum | sha256sum | cut -c1-16); }
+# skipped_hup NUMBER SIGNAL: true, with a SKIP line, for SIGHUP where it is ignored from the start (nohup): the service leaves it so.
+skipped_hup() {
+  [ "$2" = HUP ] && ((0x$(awk '/^SigIgn/ { print $2 }' /proc/self/status) & 1)) || return 1
+  line "1.$1.HUP" SKIP "SIGHUP is ignored here" "exit code 0 within 5 s, a complete report" "start it with setsid instead of nohup"
+}
 number_of_modes() { python3 -c 'import json, sys; print(len(json.load(open(sys.argv[1]))["modes"]))' "$1" 2>/dev/null || echo 0; }
 said() { grep -c -- "$2" "$work/$1.log" || true; } # NAME TEXT: lines of a log with it
 # check LETTER "measured" "bar" "what" CONDITION: as judge, in figure 1.
@@ -198,6 +206,7 @@ names() {
 signals() {
   local signal began
   for signal in TERM INT HUP; do
+    ! skipped_hup q "$signal" || continue
     in_background "on_$signal" --report "$work/on_$signal"
     sleep 2
     began=$(date +%s%N)

@@ -34,6 +34,7 @@ print(c["senders"], sum(c.get("other_senders", {}).values()), sum(t["restarts"] 
 long_estimate() {
   local signal began
   for signal in TERM INT HUP; do
+    ! skipped_hup x "$signal" || continue
     in_background "long_$signal" --report "$work/long_$signal" --set spectrum.segment=512 --set identification.block_rows=200 \
       --set identification.period=1 --set camera.pace=as_fast_as_possible
     sleep 5

@@ -25,7 +25,7 @@ proposed_scene() { # NAME
 storeys() {
   local clip=$data/knex_frame_video/knex_1300x2046_gray.mp4
   [ -e "$clip" ] || { line 5 SKIP "no data at $clip" "a region a storey" "filmed frame"; return; }
-  "$bin/hovermodal" regions "$clip" --rate-hz 20 --seconds 29 --most 24 --out "$out/knex.yaml" --picture "$out/knex.png" >"$out/knex.txt" 2>&1 || true
+  "$bin/hovermodal" regions "$clip" --rate-hz 20 --seconds 29 --most 24 --out "$out/knex.yaml" --picture "$out/knex.png" --force >"$out/knex.txt" 2>&1 || true
   local words
   words=$(python3 - "$out/knex.yaml" <<'P'
 import re, sys

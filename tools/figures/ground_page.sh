@@ -106,6 +106,9 @@ figure_7p() {
   judge 7p "$(v proposed) proposed; dragged by $(v dragged_px), by keys $(v by_keys_px), by its corner $(v by_corner_px) px of the image; wrong name: $(v wrong_name); then $(v in_file) of $(v on_page) as on the page in the file" \
     "each moves as told, a wrong name is refused, the file is what the page shows" "$what" \
     "\"$(v by_keys_px)\" == \"[1, 10, 1, 0]\" && \"$(v dragged_px)\" ~ /^\\[[1-9][0-9]*, [1-9][0-9]*, 0, 0\\]$/ && \"$(v by_corner_px)\" ~ /^\\[0, 0, [1-9][0-9]*, [1-9][0-9]*\\]$/ && \"$(v wrong_refused)\" == \"True\" && \"$(v renamed)\" == \"True\" && $(v in_file) == $(v on_page) && $(v on_page) >= 5"
+  judge 7p.layout "1320 x 900: $(v seen_together), 1280 x 600: $(v seen_together_low), phone 390 x 844: $(v seen_together_phone)" "all True" \
+    "the whole picture, its boxes and Save within one window of the page of regions" \
+    "\"$(v seen_together)$(v seen_together_low)$(v seen_together_phone)\" == \"TrueTrueTrue\""
   judge 7p.page "$(v console_lines) errors or warnings of the page, $(v phone_overflow_px) px beyond the right edge at 390 px" "0, 0" "console and phone" \
     "$(v console_lines) == 0 && $(v phone_overflow_px) == 0"
 }

@@ -1,101 +1,22 @@
 // hovermodal compare: one result compared with another, and both with the truth.
-#include <fmt/core.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <memory>
-#include <numbers>
 #include <stdexcept>
 
-#include "core/identification/real_shape.h"
 #include "drivers/host/command_line.h"
 #include "firmware_app/report/modal_json.h"
-#include "firmware_app/report/mode_match.h"
+#include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/commands.h"
+#include "tools/hovermodal/compare/modes.h"
 #include "tools/hovermodal/compare/sensor.h"
 
 namespace tools {
 
 namespace {
 
-using app::common_channels;
-using app::shape_for;
-using Shape = std::vector<std::complex<double>>;
-
-// Table 1 of Yoon, Hoskere, Park & Spencer 2017: accelerometers (their reference) and camera on the drone.
-struct PaperMode {
-  double accelerometer_hz, drone_hz, mac_percent, error_percent;
-};
-constexpr std::array<PaperMode, 3> kPaperTable1{
-    {{1.632, 1.649, 99.99, 1.04}, {5.054, 5.043, 99.86, 0.22}, {8.175, 8.170, 99.67, 0.06}}};
-
-// Least possible scatter for a record of this length: sqrt(zeta / (2 pi f T)), relative.
-double scatter(const core::Mode& mode, double duration_s) {
-  const double waves = 2.0 * std::numbers::pi * mode.frequency_hz * duration_s;
-  return mode.damping_ratio > 0.0 && waves > 0.0 ? std::sqrt(mode.damping_ratio / waves) : 0.0;
-}
-
-std::string truth_columns(const app::ModalReport& truth, const core::Mode& found, double duration_s) {
-  for (const core::Mode& mode : truth.estimate.modes) {
-    if (std::abs(mode.frequency_hz / found.frequency_hz - 1.0) > 0.1) continue;
-    const double error = found.frequency_hz / mode.frequency_hz - 1.0;
-    return fmt::format("  {:8.3f} {:+8.3f} {:7.2f}", mode.frequency_hz, 100.0 * error,
-                       error / scatter(mode, duration_s));
-  }
-  return {};
-}
-
-void print_header(bool with_truth, bool with_paper) {
-  fmt::print("{:>4} {:>10} {:>10} {:>8} {:>8} {:>8}", "mode", "found Hz", "ref. Hz", "error %", "MAC %", "real %");
-  if (with_truth) fmt::print("  {:>8} {:>8} {:>7}", "true Hz", "error %", "sigmas");
-  if (with_paper) fmt::print("   {:>33}", "paper: drone Hz  ref. Hz  error %  MAC %");
-  fmt::print("\n");
-}
-
-// Modes are numbered by the truth if given, else by the reference.
-void print_table(const app::ModalReport& result, const app::ModalReport& reference, const app::ModalReport* truth,
-                 bool with_paper) {
-  const std::vector<std::string> names = common_channels(result, reference);
-  print_header(truth != nullptr, with_paper);
-  std::size_t number = 0;
-  for (const core::Mode& numbered : (truth != nullptr ? *truth : reference).estimate.modes) {
-    const PaperMode* paper = with_paper && number < kPaperTable1.size() ? &kPaperTable1[number] : nullptr;
-    ++number;
-    const Shape true_shape =
-        truth != nullptr ? shape_for(*truth, numbered, names) : shape_for(reference, numbered, names);
-    const core::Mode* wanted =
-        truth != nullptr ? app::find_mode(reference, numbered, names, true_shape).mode : &numbered;
-    const app::ModeMatch match = wanted != nullptr
-                                     ? app::find_mode(result, *wanted, names, shape_for(reference, *wanted, names))
-                                     : app::find_mode(result, numbered, names, true_shape);
-    if (match.mode == nullptr || wanted == nullptr) {
-      const bool folded = numbered.frequency_hz > reference.estimate.rate_hz / 2.0;
-      fmt::print(
-          "{:4} {:>10} {:>10}\n", number,
-          match.mode == nullptr ? (folded ? "folded" : "not found") : fmt::format("{:.4f}", match.mode->frequency_hz),
-          wanted == nullptr ? "not found" : fmt::format("{:.4f}", wanted->frequency_hz));
-      continue;
-    }
-    fmt::print("{:4} {:10.4f} {:10.4f} {:+8.3f} {:8.3f} {:8.3f}", number, match.mode->frequency_hz,
-               wanted->frequency_hz, 100.0 * (match.mode->frequency_hz / wanted->frequency_hz - 1.0), 100.0 * match.mac,
-               100.0 * core::real_mac(shape_for(result, *match.mode, names), shape_for(reference, *wanted, names)));
-    if (truth != nullptr) fmt::print("{}", truth_columns(*truth, *match.mode, result.estimate.duration_s));
-    if (paper != nullptr) {
-      fmt::print("   {:14.3f} {:8.3f} {:8.2f} {:6.2f}", paper->drone_hz, paper->accelerometer_hz, paper->error_percent,
-                 paper->mac_percent);
-    }
-    fmt::print("\n");
-  }
-}
-
-}  // namespace
-
-namespace {
-
 struct CompareOptions {
   std::string result, reference, truth;
   bool paper = false;
+  Answer answer;
   SensorOptions sensor;
 };
 
@@ -151,20 +72,25 @@ void add_sensor_options(drivers::Command& command, SensorOptions& options) {
   command.option("--report", options.report, "Folder for sensor.json and sensor.svg").type_name("DIR").group(kGroup);
 }
 
-void run_compare(const CompareOptions& options) {
+void run_compare(CompareOptions options) {
+  options.sensor.is_quiet = options.answer.quiet;
   if (!options.sensor.sensor.empty()) {
     if (!options.result.empty() || !options.reference.empty() || !options.truth.empty())
       throw std::invalid_argument("--sensor compares displacements and --result modes; ask for one of them");
-    return compare_sensor(options.sensor);
+    return compare_sensor(options.sensor, options.answer);
   }
-  if (options.result.empty() || options.reference.empty())
+  if (options.result.empty() || options.reference.empty()) {
     throw std::invalid_argument(
         "--result and --reference are needed, or --sensor and --run; compare --help explains both");
+  }
   const app::ModalReport result = app::read_modal_json(options.result);
   const app::ModalReport reference = app::read_modal_json(options.reference);
   app::ModalReport truth;
   if (!options.truth.empty()) truth = app::read_modal_json(options.truth);
-  print_table(result, reference, options.truth.empty() ? nullptr : &truth, options.paper);
+  const bool with_truth = !options.truth.empty();
+  const auto modes = compare_modes(result, reference, with_truth ? &truth : nullptr, options.paper);
+  options.answer.document(compared_json(modes));
+  options.answer.text("{}", compared_text(modes, with_truth, options.paper));
 }
 
 }  // namespace
@@ -177,6 +103,7 @@ void add_compare(drivers::Command& app) {
   command.option("--truth", options->truth, "truth.json: adds the error in units of the smallest possible scatter")
       .type_name("FILE");
   command.flag("--paper", options->paper, "Adds Table 1 of Yoon et al. 2017 beside it");
+  add_answer_options(command, options->answer, "the comparison (with --sensor: sensor.json)");
   add_sensor_options(command, options->sensor);
   command.on_run([options] { run_compare(*options); });
 }

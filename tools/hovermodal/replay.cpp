@@ -10,6 +10,7 @@
 #include "drivers/host/command_line.h"
 #include "firmware_app/replay/analysis.h"
 #include "firmware_app/report/page/report_page.h"
+#include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/modes_text.h"
 
@@ -20,23 +21,20 @@ namespace {
 struct Options {
   std::vector<std::string> records, overrides;
   std::string tracks, config, report;
-  bool json = false, quiet = false;
+  Answer answer;
 };
 
 void show(const app::TracksResult& result, const Options& options) {
-  if (options.json) fmt::print("{}", modes_json(result.estimate, result.channels, result.method));
-  if (options.json || options.quiet) return;
-  for (const std::string& change : result.changes) fmt::print("{}\n", change);
-  fmt::print("{}", modes_text(result.estimate, result.channels));
-  if (!options.report.empty()) fmt::print("open {}/{}\n", options.report, app::kReportName);
+  options.answer.document(modes_json(result.estimate, result.channels, result.method));
+  for (const std::string& change : result.changes) options.answer.note("{}\n", change);
+  options.answer.text("{}", modes_text(result.estimate, result.channels));
+  if (!options.report.empty()) options.answer.text("open {}/{}\n", options.report, app::kReportName);
 }
 
 void replay_records(const Options& options) {
   const app::RecordsResult result =
       app::replay_records(options.records, {options.config, options.overrides}, options.report);
-  for (const std::string& remark : result.remarks) {
-    if (!options.json && !options.quiet) fmt::print("{}\n", remark);
-  }
+  for (const std::string& remark : result.remarks) options.answer.note("{}\n", remark);
   show(result.tracks, options);
 }
 
@@ -64,8 +62,7 @@ void add_record_options(drivers::Command& command, Options& options, bool requir
   command.option("--config", options.config, "Configuration to use; default for a record: the recorded one")
       .type_name("FILE");
   command.option("--set", options.overrides, "Override one key").type_name("section.key=value").repeated();
-  command.flag("--json", options.json, "Print the modes as JSON, as modal.json has them");
-  command.flag("--quiet", options.quiet, "Print nothing; files are written");
+  add_answer_options(command, options.answer, "the modes, as modal.json has them,");
 }
 
 }  // namespace

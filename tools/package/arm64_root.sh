@@ -9,7 +9,7 @@ root=$PWD/build/package/arm64-root
 packages=(
   libc6-dev libstdc++-12-dev
   libopencv-dev libeigen3-dev libyaml-cpp-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
-  liblcm-dev libglib2.0-dev libcpp-httplib-dev libsystemd-dev libavformat-dev libavcodec-dev libavutil-dev libcamera-dev libjpeg-dev libpng-dev libmatio-dev
+  liblcm-dev libglib2.0-dev libboost-dev libsystemd-dev libavformat-dev libavcodec-dev libavutil-dev libcamera-dev libjpeg-dev libpng-dev libmatio-dev
   libgtest-dev libgmock-dev librapidcheck-dev
 )
 rm -rf "$root"

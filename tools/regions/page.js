@@ -50,7 +50,7 @@ function follow(target, region, change) {
     down.preventDefault();
     region.shape.focus();
     target.setPointerCapture(down.pointerId);
-    const begin = [...region.rect], scale = width / picture.getBoundingClientRect().width;
+    const begin = [...region.rect], scale = 1 / picture.getScreenCTM().a;
     const move = (event) => {
       region.rect = [...begin];
       change(region.rect, (event.clientX - down.clientX) * scale, (event.clientY - down.clientY) * scale);
@@ -149,6 +149,8 @@ async function begin() {
   const told = await (await fetch("/regions.json")).json();
   [width, height] = told.size;
   picture.setAttribute("viewBox", `0 0 ${width} ${height}`);
+  const header = document.querySelector("header");
+  new ResizeObserver(() => document.documentElement.style.setProperty("--head", header.offsetHeight + "px")).observe(header);
   element("image", {href: "/frame.png", width, height, preserveAspectRatio: "none"}, picture);
   told.regions.forEach(add);
   document.getElementById("add").addEventListener("click", () => {

@@ -139,12 +139,9 @@ struct Check {
   unsigned takes;
 };
 constexpr std::array kChecks{
-    Check{"structure-kinds", "kinds of structural models against closed forms and dense matrices",
-          [](const Options&) { print_structure_kinds(); }, 0},
-    Check{"structure-where", "which of ten storeys or elements lost stiffness",
-          [](const Options& o) { print_structure_where(o.n_seeds, o.n_threads, o.first_seed); }, kRecords},
     Check{"structure-kinds", "structural models against closed forms and dense matrices", structures, 0},
     Check{"structure-where", "which of ten storeys or elements lost stiffness", structures, kRecords},
+    Check{"structure-tension", "tension of stay cables filmed at 50 frames/s", structures, kRecords},
     Check{"structure-large", "files of a wall of 10^5 degrees of freedom, in --report", structures, kSeed | kReport},
     Check{"signatures", "every effect's motion of the tracks against its linear signature", print_signatures, kSeed},
     Check{"peaks", "the true motion's frequencies and damping against those declared", print_peaks, kSeed | kSeeds},

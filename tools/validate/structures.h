@@ -21,7 +21,9 @@ void print_structure_kinds();
 void print_structure_where(int n_seeds, int n_threads, int first_seed);
 // Files of a wall of 10^5 degrees of freedom with one soft group, for closeloop: wall.yaml, modes.csv, *.mtx.
 void write_large_structure(const std::string& folder, int first_seed);
-// One of the three: structure-kinds, -where, -large.
+// Tension of simulated stay cables, n_seeds for each length of the record.
+void print_structure_tension(int n_seeds, int n_threads, int first_seed);
+// One of them: structure-kinds, -where, -large, -tension.
 void print_structures(const std::string& what, int n_seeds, int n_threads, int first_seed, const std::string& folder);
 
 }  // namespace tools

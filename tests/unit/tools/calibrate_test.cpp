@@ -9,6 +9,7 @@
 
 #include "drivers/storage/calibration_file.h"
 #include "drivers/storage/yaml.h"
+#include "tests/support/answers.h"
 #include "tests/support/board_image.h"
 #include "tests/support/command.h"
 #include "tests/support/folder_test.h"
@@ -79,6 +80,24 @@ TEST_F(Calibrate, FindsALensFromDrawnFrames) {
   const std::string svg = tests::read(folder_ / "report" / "calibration.svg");
   EXPECT_EQ(test_support::xml_fault(svg), "");
   EXPECT_THAT(svg, HasSubstr("reprojection error"));
+}
+
+TEST_F(Calibrate, PrintsTheCameraAsJsonAndReplacesAFileOnlyWithForce) {
+  const tests::DrawnCamera camera;
+  paint(camera, tests::spread_poses(board_, camera, 8));
+  const std::string command =
+      "calibrate " + (folder_ / "frames").string() + " --board 9x6 --square-mm 25 --out " + out();
+  const nlohmann::json told = tests::expect_answers(command + " --force");
+  const core::CameraModel file = drivers::read_calibration(out()).camera;
+  EXPECT_NEAR(told["parameters"]["fx"]["value"].get<double>(), file.fx, 1e-6 * file.fx);
+  EXPECT_NEAR(told["parameters"]["fx"]["sigma"].get<double>(), sigma()[0], 1e-3 * sigma()[0]);
+  EXPECT_EQ(told["parameters"].size(), 9U);
+  EXPECT_EQ(told["views"], 8);
+  const std::string before = tests::read(out());
+  const tests::Streams again = tests::run_apart(command);
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_THAT(again.err, HasSubstr(out() + ": exists; name another file, or --force"));
+  EXPECT_EQ(tests::read(out()), before);
 }
 
 TEST_F(Calibrate, FindsAFisheyeFromDrawnFrames) {

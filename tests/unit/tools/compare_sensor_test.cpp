@@ -8,6 +8,7 @@
 #include <random>
 #include <string>
 
+#include "tests/support/answers.h"
 #include "tests/support/command.h"
 
 // `hovermodal compare --sensor` as a user runs it.
@@ -48,6 +49,13 @@ class CompareSensor : public testing::Test {
   }
   fs::path folder_;
 };
+
+TEST_F(CompareSensor, PrintsItsFileAsJson) {
+  const auto told = tests::expect_answers("compare --sensor " + (folder_ / "laser.csv").string() + " --run " +
+                                          (folder_ / "run").string() + " --channel roof --band 1 9 --report " +
+                                          (folder_ / "proof").string());
+  EXPECT_EQ(told, nlohmann::json::parse(tests::read(folder_ / "proof" / "sensor.json")));
+}
 
 TEST_F(CompareSensor, ALaserInMetresOnItsOwnClockAgrees) {
   const Outcome outcome = compare("--channel roof --band 1 9 --report " + (folder_ / "proof").string());

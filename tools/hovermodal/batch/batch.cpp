@@ -11,6 +11,7 @@
 #include "drivers/host/command_line.h"
 #include "drivers/storage/json.h"
 #include "drivers/storage/printable.h"
+#include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/batch/combine.h"
 #include "tools/hovermodal/batch/dispatch.h"
 #include "tools/hovermodal/batch/mpi_workers.h"
@@ -29,6 +30,7 @@ struct Options {
   std::vector<std::string> overrides;
   int jobs = 0;  // 0 = one for each processor; under MPI one for each rank
   bool mpi = false;
+  Answer answer;
 };
 
 std::string absolute(const std::string& path) {
@@ -89,12 +91,14 @@ void combine(const std::vector<FlightOrder>& orders, const std::vector<std::stri
   const BatchResult result = combine_flights(std::move(flights), folders);
   for (const std::string& folder : folders) fs::remove(fs::path(folder) / kSumsFile);
   write_result(result, out);
-  fmt::print("{}results: {}\n", batch_text(result), out);
+  options.answer.document(batch_json(result));
+  options.answer.text("{}results: {}\n", batch_text(result), out);
   std::size_t n_failed = 0;
   for (const FlightResult& flight : result.flights) n_failed += flight.failure.empty() ? 0U : 1U;
   if (n_failed > 0) {
-    throw std::runtime_error(fmt::format("{} of {} flights failed, named above; the result is that of the others",
-                                         n_failed, result.flights.size()));
+    throw std::runtime_error(
+        fmt::format("{} of {} flights failed, named in batch.txt; the result is that of the others", n_failed,
+                    result.flights.size()));
   }
 }
 
@@ -106,13 +110,14 @@ struct Worked {
 // `workers`: in addition to those of this machine.
 Worked work(const Options& options, std::vector<std::unique_ptr<Workers>> workers) {
   const Inventory found = find_flights(options.folder, options.out, options.config);
-  for (const std::string& line : found.left_out)
-    fmt::print(stderr, "left out: {}\n", drivers::printable(line, kMostShown));
+  for (const std::string& line : found.left_out) {
+    if (!options.answer.quiet) fmt::print(stderr, "left out: {}\n", drivers::printable(line, kMostShown));
+  }
   if (found.flights.empty())
     throw std::invalid_argument(options.folder + ": no flight in it; hovermodal batch --help explains what one is");
   Worked worked{orders_of(found, options), {}};
   workers.push_back(std::make_unique<LocalWorkers>(this_program(), jobs_of(options)));
-  worked.failures = work_on_all(worked.orders, workers);
+  worked.failures = work_on_all(worked.orders, workers, options.answer.quiet);
   return worked;
 }
 
@@ -170,6 +175,7 @@ void add_batch(drivers::Command& app) {
       .type_name("section.key=value")
       .repeated();
   command.flag("--mpi", options->mpi, "Share the flights with all processes that mpirun or srun has started");
+  add_answer_options(command, options->answer, "batch.json");
   command.on_run([options] { batch(*options); });
 }
 

@@ -10,10 +10,10 @@
 namespace tools {
 
 std::vector<std::string> work_on_all(const std::vector<FlightOrder>& orders,
-                                     const std::vector<std::unique_ptr<Workers>>& workers) {
+                                     const std::vector<std::unique_ptr<Workers>>& workers, bool is_quiet) {
   constexpr auto kPause = std::chrono::milliseconds(10);
   std::vector<std::string> failures(orders.size());
-  Progress progress("batch", orders.size(), "flights");
+  Progress progress("batch", orders.size(), "flights", is_quiet);
   std::size_t n_started = 0, n_ended = 0;
   progress.update(0);
   while (n_ended < orders.size()) {

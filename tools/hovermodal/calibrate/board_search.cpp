@@ -57,7 +57,8 @@ std::string hint_for(const cv::Mat& gray, const core::ChessBoard& board) {
 
 class BoardSearch {
  public:
-  BoardSearch(const core::ChessBoard& board, int every) : board_(board), every_(every) {}
+  BoardSearch(const core::ChessBoard& board, int every, bool is_quiet)
+      : board_(board), every_(every), is_quiet_(is_quiet) {}
 
   void look_through(const std::string& source) {
     if (gives_up()) return;
@@ -99,7 +100,7 @@ class BoardSearch {
                                                : std::max<std::uint64_t>(1, info.frame_count / kFramesOfClip);
     core::Frame frame;
     frame.pixels.resize(static_cast<std::size_t>(info.width_px) * static_cast<std::size_t>(info.height_px));
-    Progress progress("looking for the board,", info.frame_count);
+    Progress progress("looking for the board,", info.frame_count, "frames", is_quiet_);
     for (std::uint64_t i = 0; !gives_up(); ++i) {
       const drivers::ReadStatus status = frames.read(frame);
       if (status == drivers::ReadStatus::kFault) throw std::runtime_error(frames.error());
@@ -134,6 +135,7 @@ class BoardSearch {
 
   core::ChessBoard board_;
   int every_;
+  bool is_quiet_;
   FoundBoards found_;
 };
 
@@ -154,9 +156,10 @@ std::optional<core::BoardView> find_board(const cv::Mat& gray, const core::Chess
   return view;
 }
 
-FoundBoards find_boards(const std::vector<std::string>& sources, const core::ChessBoard& board, int every) {
+FoundBoards find_boards(const std::vector<std::string>& sources, const core::ChessBoard& board, int every,
+                        bool is_quiet) {
   drivers::silence_media_libraries();
-  BoardSearch search(board, every);
+  BoardSearch search(board, every, is_quiet);
   for (const std::string& source : sources) search.look_through(source);
   return search.take();
 }

@@ -13,9 +13,11 @@
 #include "drivers/storage/calibration_file.h"
 #include "drivers/storage/json.h"
 #include "drivers/storage/text_file.h"
+#include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/calibrate/board_search.h"
 #include "tools/hovermodal/calibrate/calibration_words.h"
 #include "tools/hovermodal/commands.h"
+#include "tools/hovermodal/named_file.h"
 
 namespace tools {
 namespace {
@@ -25,6 +27,8 @@ struct Options {
   std::string board, model = "radtan", out, report;
   double square_mm = 0.0;
   int every = 0, views = 40;
+  bool force = false;
+  Answer answer;
 };
 
 constexpr const char* kFooter = R"(HOW TO FILM THE BOARD
@@ -104,7 +108,7 @@ void leave_out_bad_views(CalibrationRun& run) {
 }
 
 CalibrationRun fit_run(const Options& options, const core::ChessBoard& board) {
-  FoundBoards found = find_boards(options.sources, board, options.every);
+  FoundBoards found = find_boards(options.sources, board, options.every, options.answer.quiet);
   if (found.views.size() < core::kMinViews) throw std::runtime_error(none_found(found, board));
   CalibrationRun run{board, found.width_px,    found.height_px,    found.views, found.places,
                      {},    found.n_looked_at, found.views.size(), {}};
@@ -123,7 +127,7 @@ CalibrationRun fit_run(const Options& options, const core::ChessBoard& board) {
   return run;
 }
 
-void write_report(const std::string& folder, const CalibrationRun& run) {
+void write_report(const std::string& folder, const CalibrationRun& run, const Answer& answer) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
@@ -132,20 +136,22 @@ void write_report(const std::string& folder, const CalibrationRun& run) {
   }
   const std::filesystem::path file = std::filesystem::path(folder) / "calibration.svg";
   drivers::write_file_atomically(file.string(), calibration_svg(run));
-  fmt::print("{} written: where the corners lay, and their residuals\n", file.string());
+  answer.text("{} written: where the corners lay, and their residuals\n", file.string());
 }
 
 void run(const Options& options) {
+  require_free(options.out, options.force);
   const CalibrationRun run = fit_run(options, parse_board(options));
-  fmt::print("{}\n", calibration_words(run));
-  if (!options.report.empty()) write_report(options.report, run);
+  options.answer.text("{}\n", calibration_words(run));
+  if (!options.report.empty()) write_report(options.report, run, options.answer);
   const std::string fault = drivers::calibration_fault(run.fit.camera, run.width_px, run.height_px);
   if (!fault.empty()) throw std::runtime_error("the result cannot be used, nothing is written: " + fault);
   const drivers::Calibration file{run.fit.camera, run.width_px, run.height_px, run.fit.rms_px};
   drivers::write_file_atomically(
       options.out, drivers::calibration_text(file, {run.board.columns, run.board.rows, run.board.square_mm,
                                                     static_cast<int>(run.views.size()), run.fit.sigma}));
-  fmt::print("{} written; use it as  calibration: {{file: {}}}\n", options.out, options.out);
+  options.answer.document(calibration_json(run, options.out));
+  options.answer.text("{} written; use it as  calibration: {{file: {}}}\n", options.out, options.out);
 }
 
 }  // namespace
@@ -173,6 +179,8 @@ void add_calibrate(drivers::Command& app) {
       .show_default();
   command.option("--out", options->out, "File to write, YAML").required().type_name("FILE");
   command.option("--report", options->report, "Folder for calibration.svg: coverage and residuals").type_name("DIR");
+  add_force_option(command, options->force);
+  add_answer_options(command, options->answer, "the camera with its standard deviations and the doubts");
   command.footer(kFooter);
   command.on_run([options] { run(*options); });
 }

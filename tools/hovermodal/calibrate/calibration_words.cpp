@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
+#include "drivers/storage/json.h"
 #include "drivers/storage/text_wrap.h"
 
 namespace tools {
@@ -17,6 +19,8 @@ constexpr double kTiltedDeg = 12.0;
 constexpr std::size_t kFewViews = 10;
 constexpr std::array<const char*, 9> kNinths{"top left", "top",         "top right", "left",        "centre",
                                              "right",    "bottom left", "bottom",    "bottom right"};
+
+constexpr std::array<const char*, 4> kIntrinsics{"fx", "fy", "cx", "cy"};
 
 const char* coefficient_name(core::LensModel lens, std::size_t i) {
   constexpr std::array<const char*, 5> kRadtan{"k1", "k2", "p1", "p2", "k3"};
@@ -32,10 +36,9 @@ std::size_t worst_view(const CalibrationRun& run) {
 std::string parameter_table(const core::CameraFit& fit) {
   const core::CameraModel& camera = fit.camera;
   std::string out = "                value   standard deviation\n";
-  const std::array<std::pair<const char*, double>, 4> intrinsics{
-      {{"fx", camera.fx}, {"fy", camera.fy}, {"cx", camera.cx}, {"cy", camera.cy}}};
+  const std::array<double, 4> intrinsics{camera.fx, camera.fy, camera.cx, camera.cy};
   for (std::size_t i = 0; i < 4; ++i) {
-    out += fmt::format("  {}      {:11.3f}   {:.3f} px\n", intrinsics[i].first, intrinsics[i].second, fit.sigma[i]);
+    out += fmt::format("  {}      {:11.3f}   {:.3f} px\n", kIntrinsics[i], intrinsics[i], fit.sigma[i]);
   }
   for (std::size_t i = 0; i + 4 < fit.sigma.size(); ++i) {
     const char* name = coefficient_name(camera.lens, i);
@@ -75,14 +78,16 @@ std::vector<std::string> calibration_warnings(const CalibrationRun& run) {
                     n_tilted, fit.tilt_deg.size(), kTiltedDeg));
   }
   const double focal_share = std::max(fit.sigma[0] / fit.camera.fx, fit.sigma[1] / fit.camera.fy);
-  if (focal_share > 0.005)
+  if (focal_share > 0.005) {
     out.push_back(
         fmt::format("the focal length is known to {:.1f} % only; more views, more tilt", 100.0 * focal_share));
-  if (fit.condition < 1e-8)
+  }
+  if (fit.condition < 1e-8) {
     out.push_back(
         fmt::format("poorly conditioned: parameters are nearly indistinguishable (smallest eigenvalue {:.1g}); "
                     "film with more tilt, and with the board in the corners",
                     fit.condition));
+  }
   if (run.views.size() < kFewViews) out.push_back(fmt::format("only {} views; 20 to 40 are usual", run.views.size()));
   std::vector<std::string> empty;
   const std::vector<int> count = corners_per_ninth(run);
@@ -94,10 +99,39 @@ std::vector<std::string> calibration_warnings(const CalibrationRun& run) {
         fmt::format("no board corner was seen in: {}; the distortion there is extrapolated, film the board there",
                     fmt::join(empty, ", ")));
   }
-  if (fit.rms_px > 1.0)
+  if (fit.rms_px > 1.0) {
     out.push_back(fmt::format("the error of {:.2f} px is large: is the board flat, the clip sharp, the model right?",
                               fit.rms_px));
+  }
   return out;
+}
+
+std::string calibration_json(const CalibrationRun& run, const std::string& out) {
+  const core::CameraModel& camera = run.fit.camera;
+  nlohmann::ordered_json parameters;
+  const auto add = [&](const char* name, double value, double sigma, bool is_fitted) {
+    parameters[name] = {{"value", value}, {"sigma", nullptr}};
+    if (is_fitted) parameters[name]["sigma"] = sigma;
+  };
+  const std::array<double, 4> intrinsics{camera.fx, camera.fy, camera.cx, camera.cy};
+  for (std::size_t i = 0; i < 4; ++i) add(kIntrinsics[i], intrinsics[i], run.fit.sigma[i], true);
+  for (std::size_t i = 0; i + 4 < run.fit.sigma.size(); ++i) {
+    add(coefficient_name(camera.lens, i), camera.distortion[i], run.fit.sigma[4 + i],
+        static_cast<int>(i) < run.fit.n_coefficients);
+  }
+  return drivers::to_json_text({{"version", 1},
+                                {"out", out},
+                                {"size", {run.width_px, run.height_px}},
+                                {"model", camera.lens == core::LensModel::kEquidistant ? "equidistant" : "radtan"},
+                                {"parameters", parameters},
+                                {"rms_px", run.fit.rms_px},
+                                {"images_examined", run.n_looked_at},
+                                {"board_found", run.n_found},
+                                {"views", run.views.size()},
+                                {"left_out", run.dropped},
+                                {"corners_per_ninth", corners_per_ninth(run)},
+                                {"warnings", calibration_warnings(run)}})
+      .text;
 }
 
 std::string calibration_words(const CalibrationRun& run) {

@@ -21,6 +21,9 @@ struct CalibrationRun {
 // What was done, the parameters with their standard deviations, coverage of the image, and warnings. Ends in a newline.
 [[nodiscard]] std::string calibration_words(const CalibrationRun& run);
 
+// Camera, standard deviations, views and doubts; `out`: the file that was written.
+[[nodiscard]] std::string calibration_json(const CalibrationRun& run, const std::string& out);
+
 // Doubts about the result, each with its remedy; empty = none.
 [[nodiscard]] std::vector<std::string> calibration_warnings(const CalibrationRun& run);
 

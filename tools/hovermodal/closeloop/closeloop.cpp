@@ -79,7 +79,8 @@ void make_folder(const std::string& folder) {
     throw std::runtime_error("--report " + folder + ": cannot be made; name a folder that may be written");
 }
 
-void run_record(const Options& options) {
+void run_record(Options options) {
+  options.series.request.is_quiet = options.loop.answer.quiet;
   const LoopRequest& loop = options.loop;
   if (!options.structure.empty())
     throw std::invalid_argument("--structure applies to modes, not to --record: leave one out");
@@ -88,6 +89,7 @@ void run_record(const Options& options) {
   TracksLoop request = options.tracks;
   request.record = loop.records.front();
   request.reference = loop.reference, request.report = loop.report, request.seed = loop.seed;
+  request.answer = loop.answer;
   close_tracks(request);
 }
 
@@ -100,6 +102,7 @@ void run_levels(const Options& options) {
   request.structure = options.structure, request.reference = options.loop.reference;
   request.report = options.loop.report, request.bases = options.series.request.bases;
   request.max_frequency_hz = options.series.max_frequency_hz, request.seed = options.loop.seed;
+  request.answer = options.loop.answer;
   close_run(request);
 }
 
@@ -146,6 +149,7 @@ void add_closeloop(drivers::Command& app) {
       .range(8, 100000)
       .show_default();
   command.option("--seed", options->loop.seed, "Seed of the surrogates").show_default();
+  add_answer_options(command, options->loop.answer, "closure.json (with --run: loop.json)");
   add_series_options(command, options->series);
   add_gyro_clip_options(command, options->clip, false);
   command.on_run([options] { run(*options); });

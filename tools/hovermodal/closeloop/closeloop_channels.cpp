@@ -1,6 +1,5 @@
 // hovermodal closeloop --record series.csv: the response of channels to unknown forces, or to a measured base.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -20,19 +19,23 @@ void close_channels(const LoopRequest& request, const SeriesLoop& options, app::
   loop.input_unknown = options.input_unknown;
   loop.clock.rate_is_average = options.average_rate;
   loop.clock.times_known = app::use_measured_times(request.records.front(), series);
-  if (loop.clock.times_known)
-    fmt::print("the frames' times were measured: the series is interpolated to an even grid, its clock is known\n");
+  if (loop.clock.times_known) {
+    request.answer.note(
+        "the frames' times were measured: the series is interpolated to an even grid, its clock is known\n");
+  }
   loop.n_surrogates = request.n_surrogates;
   loop.seed = request.seed;
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  if (terminal) loop.progress = [](const std::string& words) { fmt::print(stderr, "\r\033[K{}", words); };
-  app::ResponseAnalysis found = app::analyse_response(series, loop);
-  if (terminal) fmt::print(stderr, "\r\033[K");
+  app::ResponseAnalysis found = [&] {
+    const ProgressLine line(request.answer);
+    loop.progress = line.teller();
+    return app::analyse_response(series, loop);
+  }();
   add_modes(found.result, found.before, found.after, options.max_frequency_hz, request.reference);
   show_response(request, found.result, "closure.json");
-  for (std::size_t i = 0; i < found.adopted.size(); ++i)
-    fmt::print("repair of {}: {}\n", found.adopted[i],
-               found.repairs[i].empty() ? "not applicable, the series stays as it is" : found.repairs[i]);
+  for (std::size_t i = 0; i < found.adopted.size(); ++i) {
+    request.answer.note("repair of {}: {}\n", found.adopted[i],
+                        found.repairs[i].empty() ? "not applicable, the series stays as it is" : found.repairs[i]);
+  }
 }
 
 }  // namespace tools

@@ -25,14 +25,16 @@ class LoggerCloser {
   LoggerCloser(const LoopRequest& request, const SeriesLoop& options) : request_(request), options_(options) {
     for (const std::string& path : request.records) {
       LoadedSeries loaded = load_series(path, options.request);
-      if (loaded.series.channels.size() != 1)
+      if (loaded.series.channels.size() != 1) {
         throw std::invalid_argument(fmt::format("{}: {} channels; of several --record each holds one logger's channel",
                                                 path, loaded.series.channels.size()));
+      }
       loaded.series.channels.front().name = std::filesystem::path(path).stem().string();
       loaded_.push_back(std::move(loaded.series));
-      if (std::abs(loaded_.back().rate_hz / loaded_.front().rate_hz - 1.0) > 1e-3)
+      if (std::abs(loaded_.back().rate_hz / loaded_.front().rate_hz - 1.0) > 1e-3) {
         throw std::invalid_argument(fmt::format("{}: {:g} Hz, the first record {:g} Hz; the loggers need one rate",
                                                 path, loaded_.back().rate_hz, loaded_.front().rate_hz));
+      }
     }
   }
 
@@ -95,7 +97,7 @@ class LoggerCloser {
     }
     if (which.first == which.second) return;
     const bool adopted = best.second < kMaterialExchange * before.second;
-    fmt::print(
+    request_.answer.note(
         "labels {} and {} exchanged: 1 - MAC of the lowest mode {:.4f} -> {:.4f}; of the other modes, which did not "
         "choose, {:.4f} -> {:.4f}: {}\n",
         series.channels[which.first].name, series.channels[which.second].name, before.first, best.first, before.second,

@@ -2,7 +2,6 @@
 #include "tools/hovermodal/closeloop/closeloop_run.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <stdexcept>
@@ -26,14 +25,16 @@ void close_run(const RunLoop& request) {
     inputs.reference_hz.push_back(mode.frequency_hz);
   inputs.max_frequency_hz = request.max_frequency_hz;
   inputs.seed = request.seed;
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  if (terminal) inputs.progress = [](const std::string& words) { fmt::print(stderr, "\r\033[K{}", words); };
-  const core::closure::LoopResult result = app::close_levels(inputs);
-  if (terminal) fmt::print(stderr, "\r\033[K");
-  fmt::print("{}", app::loop_text(result));
+  const core::closure::LoopResult result = [&] {
+    const ProgressLine line(request.answer);
+    inputs.progress = line.teller();
+    return app::close_levels(inputs);
+  }();
+  request.answer.document(app::loop_json(result));
+  request.answer.text("{}", app::loop_text(result));
   const std::string& folder = request.report.empty() ? request.folder : request.report;
   app::write_loop_report(folder, result);
-  fmt::print("open {}\n", (std::filesystem::path(folder) / "loop.html").string());
+  request.answer.text("open {}\n", (std::filesystem::path(folder) / "loop.html").string());
 }
 
 }  // namespace tools

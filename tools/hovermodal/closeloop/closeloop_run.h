@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/hovermodal/answer.h"
+
 namespace tools {
 
 // `closeloop --run out`: all levels of a finished run, one after the other.
@@ -12,6 +14,7 @@ struct RunLoop {
   std::vector<std::string> overrides, bases;
   double max_frequency_hz = 0.0;
   std::uint64_t seed = 1;
+  Answer answer;
 };
 // Throws std::invalid_argument, app::ConfigError, drivers::FileError.
 void close_run(const RunLoop& request);

@@ -54,8 +54,8 @@ class SeriesCloser {
     clock.sigma_s = 1e-3 * options_.clock_sigma_ms;
     if (sigmas >= 0 && clock.sigma_s <= 0.0) clock.sigma_s = file.columns[static_cast<std::size_t>(sigmas)].front();
     const ClockModel model(clock, {loaded_.series.rate_hz});
-    fmt::print("{} readings of the clock, {} more were misread; declared {:g} Hz\n", model.n_readings(),
-               model.n_misread(), loaded_.series.rate_hz);
+    request_.answer.note("{} readings of the clock, {} more were misread; declared {:g} Hz\n", model.n_readings(),
+                         model.n_misread(), loaded_.series.rate_hz);
     std::vector<std::string> adopted;
     ClosureResult result = close_response(request_, model, request_.n_surrogates, &adopted);
     const app::ChannelSeries declared = loaded_.series;
@@ -101,8 +101,8 @@ class SeriesCloser {
     search.length_s = options_.decay_s;
     const core::closure::FreeDecayModel model(
         core::closure::find_free_decays(values, loaded_.series.rate_hz, names, loaded_.series.unit, search));
-    fmt::print("{} releases at {:.4f} Hz, {} samples or fewer each\n", model.decays().release.size(),
-               model.decays().rate_hz, model.decays().release.front().rows());
+    request_.answer.note("{} releases at {:.4f} Hz, {} samples or fewer each\n", model.decays().release.size(),
+                         model.decays().rate_hz, model.decays().release.front().rows());
     show_response(request_, close_response(request_, model, kMostOfDecays), "closure.json");
   }
 

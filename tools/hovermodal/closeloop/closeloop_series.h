@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "drivers/host/command_line.h"
+#include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/identify/series_input.h"
 
 namespace tools {
@@ -25,6 +26,7 @@ struct LoopRequest {
   std::string reference, report;
   std::uint64_t seed = 1;
   std::size_t n_surrogates = 333;
+  Answer answer;
 };
 
 void add_series_options(drivers::Command& command, SeriesLoop& options);

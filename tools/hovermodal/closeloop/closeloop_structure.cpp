@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +43,7 @@ std::string check_text(const core::closure::StructureLevel& level) {
   return out;
 }
 
-Reference paired(const std::string& path, const DeclaredFrame& declared) {
+Reference paired(const std::string& path, const DeclaredFrame& declared, const Answer& answer) {
   Reference out = read_reference(path, declared);
   if (!declared.model) return out;
   const std::vector<double> left = pair_with_model(declared, out);
@@ -55,7 +54,7 @@ Reference paired(const std::string& path, const DeclaredFrame& declared) {
         "units of stiffness and mass, or declare stiffness: fitted",
         path, fmt::join(left, ", "), hz(0), hz(hz.size() - 1)));
   }
-  if (!left.empty()) fmt::print("modes of {} that none of the model's is: {:.4g} Hz\n", path, fmt::join(left, ", "));
+  if (!left.empty()) answer.note("modes of {} that none of the model's is: {:.4g} Hz\n", path, fmt::join(left, ", "));
   return out;
 }
 
@@ -126,9 +125,10 @@ std::string parameters_text(const Final& last) {
     for (std::size_t k = 0; k < i; ++k) {
       const auto a = first + static_cast<Eigen::Index>(i), b = first + static_cast<Eigen::Index>(k);
       const double correlation = covariance(a, b) / std::sqrt(covariance(a, a) * covariance(b, b));
-      if (std::abs(correlation) > 0.9)
+      if (std::abs(correlation) > 0.9) {
         out += fmt::format("  {} and {}: correlation {:.2f}; only their combination is told\n", parameters[all[k]].name,
                            parameters[all[i]].name, correlation);
+      }
     }
   }
   return out;
@@ -138,8 +138,8 @@ std::string parameters_text(const Final& last) {
 
 void close_structure(const LoopRequest& request, const std::string& structure, const std::string& check_path) {
   const DeclaredFrame declared = drivers::read_structure(structure);
-  const Reference reference = paired(request.reference, declared);
-  Reference check = check_path.empty() ? Reference{} : paired(check_path, declared);
+  const Reference reference = paired(request.reference, declared, request.answer);
+  Reference check = check_path.empty() ? Reference{} : paired(check_path, declared, request.answer);
   const auto make_level = [&] {
     try {
       return std::make_unique<core::closure::StructureLevel>(declared, reference, std::move(check));
@@ -154,21 +154,24 @@ void close_structure(const LoopRequest& request, const std::string& structure, c
   loop.seed = request.seed;
   // Another kind costs more for each surrogate.
   if (declared.model) loop.n_surrogates_when_plain = std::min<std::size_t>(request.n_surrogates, 32);
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  if (terminal) loop.progress = [](const std::string& words) { fmt::print(stderr, "\r\033[K{}", words); };
-  core::closure::ClosureResult result = core::closure::close_loop(*level, loop);
-  if (terminal) fmt::print(stderr, "\r\033[K");
+  core::closure::ClosureResult result = [&] {
+    const ProgressLine line(request.answer);
+    loop.progress = line.teller();
+    return core::closure::close_loop(*level, loop);
+  }();
   std::erase_if(result.not_observable, [](const auto& one) { return one.reason == core::structure::kOtherKind; });
-  fmt::print("{}{}", closure_text(result), check_text(*level));
+  request.answer.document(app::closure_json(result));
+  request.answer.text("{}{}", closure_text(result), check_text(*level));
   if (declared.model) {
     const Final last = final_of(declared, reference, result);
-    fmt::print("{}{}{}", places_text(last, reference), parameters_text(last), units_text(last));
+    request.answer.text("{}{}", places_text(last, reference), parameters_text(last));
+    request.answer.note("{}", units_text(last));
   }
   if (request.report.empty()) return;
   const std::filesystem::path folder = request.report;
   drivers::write_file_atomically((folder / "closure.json").string(), app::closure_json(result));
   drivers::write_file_atomically((folder / "closure_modes.svg").string(), app::closure_modes_svg(result));
-  fmt::print("{} written\n", (folder / "closure.json").string());
+  request.answer.text("{} written\n", (folder / "closure.json").string());
 }
 
 }  // namespace tools

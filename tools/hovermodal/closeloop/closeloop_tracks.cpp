@@ -2,7 +2,6 @@
 #include "tools/hovermodal/closeloop/closeloop_tracks.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -74,23 +73,23 @@ void close_tracks(const TracksLoop& request) {
   ObservationLevel level(input.record);
   level.set_reference(read_known_modes(request.reference, level.channel_names()));
   for (const auto* list : {&input.warnings, &level.warnings()}) {
-    for (const std::string& warning : *list) fmt::print("note: {}\n", warning);
+    for (const std::string& warning : *list) request.answer.note("note: {}\n", warning);
   }
   core::closure::ClosureOptions loop;
   loop.n_surrogates = request.n_surrogates > 0 ? request.n_surrogates : ObservationLevel::kSurrogates;
   loop.seed = request.seed;
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  loop.progress = [terminal](const std::string& words) {
-    if (terminal) fmt::print(stderr, "\r\033[K{}", words);
-  };
   (void)level.fit();
   const ResidualView before = view_of(level);
-  const ClosureResult result = core::closure::close_loop(level, loop);
-  if (terminal) fmt::print(stderr, "\r\033[K");
-  fmt::print("{}", closure_text(result));
+  const ClosureResult result = [&] {
+    const ProgressLine line(request.answer);
+    loop.progress = line.teller();
+    return core::closure::close_loop(level, loop);
+  }();
+  request.answer.document(app::closure_json(result));
+  request.answer.text("{}", closure_text(result));
   if (request.report.empty()) return;
   write_pictures_of(request, level, result, before);
-  fmt::print("{} written\n", (std::filesystem::path(request.report) / "closure.json").string());
+  request.answer.text("{} written\n", (std::filesystem::path(request.report) / "closure.json").string());
 }
 
 }  // namespace tools

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/hovermodal/answer.h"
+
 namespace tools {
 
 // `closeloop --record DIR|tracks.csv --config FILE`: the observation level.
@@ -12,6 +14,7 @@ struct TracksLoop {
   std::vector<std::string> overrides;
   std::uint64_t seed = 1;
   std::size_t n_surrogates = 0;
+  Answer answer;
 };
 
 // A folder, or a file that has the header of a tracks.csv.

@@ -1,7 +1,6 @@
 #include "tools/hovermodal/closeloop/closeloop_turning.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <stdexcept>
@@ -27,20 +26,23 @@ void close_turning(const LoopRequest& request, const GyroClipOptions& options) {
   core::closure::ClosureOptions loop;
   loop.n_surrogates = kSurrogates;
   loop.seed = request.seed;
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  if (terminal) loop.progress = [](const std::string& words) { fmt::print(stderr, "\r\033[K{}", words); };
-  const core::closure::ClosureResult result = core::closure::close_loop(level, loop);
-  if (terminal) fmt::print(stderr, "\r\033[K");
-  fmt::print("{}", closure_text(result));
-  if (result.reference_error_before && result.reference_error_after)
-    fmt::print(
+  const core::closure::ClosureResult result = [&] {
+    const ProgressLine line(request.answer);
+    loop.progress = line.teller();
+    return core::closure::close_loop(level, loop);
+  }();
+  request.answer.document(app::closure_json(result));
+  request.answer.text("{}", closure_text(result));
+  if (result.reference_error_before && result.reference_error_after) {
+    request.answer.text(
         "rotation of the image beyond the model, held-out frames: {:.4f} -> {:.4f} deg rms per "
         "frame\n",
         *result.reference_error_before, *result.reference_error_after);
+  }
   if (request.report.empty()) return;
   const auto path = (std::filesystem::path(request.report) / "closure.json").string();
   drivers::write_file_atomically(path, app::closure_json(result));
-  fmt::print("{} written\n", path);
+  request.answer.text("{} written\n", path);
 }
 
 }  // namespace tools

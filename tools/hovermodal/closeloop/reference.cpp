@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/planning/hover_time.h"
 #include "drivers/storage/csv.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/modal_json.h"
@@ -43,12 +44,26 @@ std::vector<std::size_t> floor_channels(const std::string& path, const DeclaredF
   std::vector<std::size_t> out;
   for (const std::string& floor : declared.floors) {
     const auto found = std::find(names.begin(), names.end(), floor);
-    if (found == names.end())
+    if (found == names.end()) {
       refuse(path, fmt::format("no channel `{}` (structure.floors); there are: {}", drivers::printable(floor),
                                drivers::printable(fmt::format("{}", fmt::join(names, ", ")), 200)));
+    }
     out.push_back(static_cast<std::size_t>(found - names.begin()));
   }
   return out;
+}
+
+// The stated one. Where the record was too short to estimate it: the declared share; undeclared, at least what the
+// duration allows.
+double sigma_hz_of(const core::Mode& mode, double duration_s, const DeclaredFrame& declared) {
+  if (mode.frequency_std_hz.value_or(0.0) > 0.0) return *mode.frequency_std_hz;
+  const bool is_declared = declared.frequency_sigma != DeclaredFrame{}.frequency_sigma;
+  double share = declared.frequency_sigma;
+  if (!is_declared && duration_s > 0.0 && mode.damping_ratio > 0.0) {
+    share =
+        std::max(share, core::planning::relative_frequency_sigma(mode.frequency_hz, mode.damping_ratio, duration_s));
+  }
+  return share * mode.frequency_hz;
 }
 
 Modes from_modal_json(const std::string& path, const DeclaredFrame& declared) {
@@ -59,8 +74,7 @@ Modes from_modal_json(const std::string& path, const DeclaredFrame& declared) {
     ReferenceMode reference;
     reference.number = static_cast<int>(out.size()) + 1;
     reference.frequency_hz = mode.frequency_hz;
-    reference.sigma_hz = mode.frequency_std_hz.value_or(0.0) > 0.0 ? *mode.frequency_std_hz
-                                                                   : declared.frequency_sigma * mode.frequency_hz;
+    reference.sigma_hz = sigma_hz_of(mode, report.estimate.duration_s, declared);
     for (const std::size_t c : channels) {
       if (c >= mode.shape.size()) break;
       reference.shape.push_back(mode.shape[c].real());
@@ -117,9 +131,10 @@ class Table {
   [[nodiscard]] double at(int column, std::size_t row) const {
     const auto c = static_cast<std::size_t>(column);
     const double value = file_.columns[c][row];
-    if (!std::isfinite(value))
+    if (!std::isfinite(value)) {
       refuse(path_, fmt::format("mode {} has no number in column {}; fill it in, or leave the line out", row + 1,
                                 drivers::printable(file_.names[c])));
+    }
     return value;
   }
   [[nodiscard]] int whole(double value, std::size_t row) const {

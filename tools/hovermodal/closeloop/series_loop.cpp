@@ -1,7 +1,6 @@
 #include "tools/hovermodal/closeloop/series_loop.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -30,21 +29,23 @@ ClosureResult close_response(const LoopRequest& request, const ResponseModel& mo
   loop.n_surrogates = std::min(request.n_surrogates, most_surrogates);
   loop.n_surrogates_when_plain = kWhenPlain;
   loop.seed = request.seed;
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  if (terminal) loop.progress = [](const std::string& words) { fmt::print(stderr, "\r\033[K{}", words); };
   ResponseLevel level(model);
-  ClosureResult result = core::closure::close_loop(level, loop);
-  if (terminal) fmt::print(stderr, "\r\033[K");
+  ClosureResult result = [&] {
+    const ProgressLine line(request.answer);
+    loop.progress = line.teller();
+    return core::closure::close_loop(level, loop);
+  }();
   if (adopted != nullptr) *adopted = level.adopted();
   return result;
 }
 
 void show_response(const LoopRequest& request, const ClosureResult& result, const std::string& file) {
-  fmt::print("{}{}", closure_text(result), identified_text(result));
+  if (file == "closure.json") request.answer.document(app::closure_json(result));
+  request.answer.text("{}{}", closure_text(result), identified_text(result));
   if (request.report.empty()) return;
   const auto path = (std::filesystem::path(request.report) / file).string();
   drivers::write_file_atomically(path, app::closure_json(result));
-  fmt::print("{} written\n", path);
+  request.answer.text("{} written\n", path);
 }
 
 // Pairs both sets of modes with the reference; with the error before and after if there is one.

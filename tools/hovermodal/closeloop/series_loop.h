@@ -14,7 +14,7 @@ namespace tools {
                                                           const core::closure::ResponseModel& model,
                                                           std::size_t most_surrogates,
                                                           std::vector<std::string>* adopted = nullptr);
-// Prints the result, and writes it as a file of the report if requested.
+// Prints the result (with --json that of closure.json alone), and writes it as a file of the report if requested.
 void show_response(const LoopRequest& request, const core::closure::ClosureResult& result, const std::string& file);
 
 // Adds the modes of both series, paired with the reference.

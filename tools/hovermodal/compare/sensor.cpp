@@ -31,8 +31,9 @@ std::string series_of_run(const std::string& run) {
 }
 
 LoadedSeries load_channel(const std::string& path, const std::string& channel, const std::optional<double>& rate_hz,
-                          const char* option) {
+                          const char* option, bool is_quiet) {
   SeriesRequest request;
+  request.is_quiet = is_quiet;
   request.rate_hz = rate_hz.value_or(0.0);
   if (!channel.empty()) request.channels = {channel};
   LoadedSeries loaded = load_series(path, request);
@@ -76,7 +77,7 @@ class SensorRun {
 
  private:
   void load_camera() {
-    LoadedSeries loaded = load_channel(path_, options_.channel, options_.rate_hz, "--channel");
+    LoadedSeries loaded = load_channel(path_, options_.channel, options_.rate_hz, "--channel", options_.is_quiet);
     (void)app::use_measured_times(path_, loaded.series);
     const core::ChannelInfo& channel = loaded.series.channels.front();
     const SeenTime seen = seen_time(options_.run, channel.name);
@@ -98,8 +99,8 @@ class SensorRun {
   }
 
   void load_sensor() {
-    LoadedSeries loaded =
-        load_channel(options_.sensor, options_.sensor_channel, options_.sensor_rate_hz, "--sensor-channel");
+    LoadedSeries loaded = load_channel(options_.sensor, options_.sensor_channel, options_.sensor_rate_hz,
+                                       "--sensor-channel", options_.is_quiet);
     const core::ChannelInfo& channel = loaded.series.channels.front();
     out_.sensor_channel = channel.name, out_.sensor = options_.sensor;
     out_.sensor_first_s = loaded.first_s;
@@ -152,18 +153,19 @@ class SensorRun {
 
 }  // namespace
 
-void compare_sensor(const SensorOptions& options) {
+void compare_sensor(const SensorOptions& options, const Answer& answer) {
   if (options.run.empty())
     throw std::invalid_argument("--sensor needs --run: the folder of a run, or a table with its displacement");
   if (!options.band.empty() && options.band.size() != 2)
     throw std::invalid_argument("--band takes two frequencies: --band 3 14");
   const SensorFindings findings = SensorRun(options).run();
-  fmt::print("{}", sensor_text(findings));
+  answer.document(sensor_json(findings));
+  answer.text("{}", sensor_text(findings));
   if (options.report.empty()) return;
   fs::create_directories(options.report);
   drivers::write_file_atomically(options.report + "/sensor.json", sensor_json(findings));
   drivers::write_file_atomically(options.report + "/sensor.svg", sensor_svg(findings));
-  fmt::print("open {}/sensor.svg\n", options.report);
+  answer.text("open {}/sensor.svg\n", options.report);
 }
 
 }  // namespace tools

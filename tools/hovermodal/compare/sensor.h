@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/compare/sensor_comparison.h"
+#include "tools/hovermodal/answer.h"
 
 namespace tools {
 
@@ -17,6 +18,7 @@ struct SensorOptions {
   std::vector<double> band;  // empty, or low and high
   std::optional<double> mm_per_px, most_offset_s;
   std::string report;
+  bool is_quiet = false;  // no progress
 };
 
 // Everything that is shown about one comparison. Lengths in `unit`.
@@ -42,7 +44,7 @@ struct SensorFindings {
 
 // Throws std::invalid_argument where the files do not fit the options, FileError on what is no table, and
 // std::runtime_error where the records cannot be compared.
-void compare_sensor(const SensorOptions& options);
+void compare_sensor(const SensorOptions& options, const Answer& answer);
 
 [[nodiscard]] std::string sensor_text(const SensorFindings& findings);
 [[nodiscard]] std::string sensor_json(const SensorFindings& findings);

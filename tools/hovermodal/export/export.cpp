@@ -12,8 +12,10 @@
 #include "drivers/exchange/uff_writer.h"
 #include "drivers/host/command_line.h"
 #include "drivers/storage/json.h"
+#include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/export/run_folder.h"
+#include "tools/hovermodal/named_file.h"
 
 namespace tools {
 namespace {
@@ -32,7 +34,8 @@ constexpr const char* kExportHelp =
 
 struct ExportOptions {
   std::string run, format, out;
-  bool force = false, json = false, quiet = false;
+  bool force = false;
+  Answer answer;
 };
 
 void write(const drivers::ExchangeRun& run, const ExportOptions& options) {
@@ -42,31 +45,28 @@ void write(const drivers::ExchangeRun& run, const ExportOptions& options) {
   drivers::write_mcap(run, options.out);
 }
 
-void print_json(const LoadedRun& loaded, const ExportOptions& options) {
+std::string export_json(const LoadedRun& loaded, const ExportOptions& options) {
   const nlohmann::ordered_json out{{"out", options.out},
                                    {"modes", loaded.run.modes.size()},
                                    {"channels", loaded.run.channels.size()},
                                    {"samples", loaded.run.t_s.size()},
                                    {"spectra", loaded.run.spectra.size()},
                                    {"remarks", loaded.remarks}};
-  fmt::print("{}", drivers::to_json_text(out).text);
+  return drivers::to_json_text(out).text;
 }
 
 void export_run(const ExportOptions& options) {
-  if (std::filesystem::exists(options.out) && !options.force)
-    throw std::invalid_argument(options.out + ": exists; name another file, or --force to replace it");
+  require_free(options.out, options.force);
   const LoadedRun loaded = load_run(options.run);
-  for (const std::string& remark : loaded.remarks) {
-    if (!options.quiet) fmt::print(stderr, "note: {}\n", remark);
-  }
-  if (options.format == "csv" && loaded.run.modes.empty())
+  for (const std::string& remark : loaded.remarks) options.answer.note("note: {}\n", remark);
+  if (options.format == "csv" && loaded.run.modes.empty()) {
     throw std::invalid_argument(options.run +
                                 ": no modes, and a csv has nothing else; --to uff, mat and mcap have series");
+  }
   write(loaded.run, options);
-  if (options.json) return print_json(loaded, options);
-  if (options.quiet) return;
-  fmt::print("{}: {} modes, {} channels, {} samples, {} spectra\n", options.out, loaded.run.modes.size(),
-             loaded.run.channels.size(), loaded.run.t_s.size(), loaded.run.spectra.size());
+  options.answer.document(export_json(loaded, options));
+  options.answer.text("{}: {} modes, {} channels, {} samples, {} spectra\n", options.out, loaded.run.modes.size(),
+                      loaded.run.channels.size(), loaded.run.t_s.size(), loaded.run.spectra.size());
 }
 
 }  // namespace
@@ -77,9 +77,8 @@ void add_export(drivers::Command& app) {
   command.option("run", options->run, "Folder of a run, or its modal.json").required().type_name("RUN");
   command.option("--to", options->format, "Format").required().one_of({"uff", "mat", "csv", "mcap"});
   command.option("--out", options->out, "File to write").required().type_name("FILE");
-  command.flag("--force", options->force, "Replace an existing file");
-  command.flag("--json", options->json, "Print what was written as JSON");
-  command.flag("--quiet", options->quiet, "Print nothing, no notes either");
+  add_force_option(command, options->force);
+  add_answer_options(command, options->answer, "what was written");
   command.on_run([options] { export_run(*options); });
 }
 

@@ -8,7 +8,7 @@
 #ifndef HOVERMODAL_WITH_GROUND
 void tools::run_ground(const GroundOptions&) {
   throw std::runtime_error(
-      "ground: this build has no web server. Install libcpp-httplib-dev, liblcm-dev, liblcm-bin and libglib2.0-dev and "
+      "ground: this build has no web server. Install libboost-dev, liblcm-dev, liblcm-bin and libglib2.0-dev and "
       "configure again with -DWITH_GROUND=ON.");
 }
 #endif

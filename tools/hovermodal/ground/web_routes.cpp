@@ -1,15 +1,21 @@
 #include "tools/hovermodal/ground/web_routes.h"
 
 #include <fmt/format.h>
-#include <httplib.h>
 
 #include <algorithm>
 #include <array>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <charconv>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 namespace tools {
 namespace {
+
+namespace http = boost::beast::http;
+using Request = http::request<http::string_body>;
 
 // Allows only the page's own files, and forbids framing by other pages.
 constexpr std::array<std::pair<const char*, const char*>, 6> kSafetyHeaders{{
@@ -24,182 +30,170 @@ constexpr std::array<std::pair<const char*, const char*>, 6> kSafetyHeaders{{
 
 constexpr const char* kText = "text/plain; charset=utf-8";
 
-// A stream in memory: holds a complete request and collects the answer.
-class MemoryStream : public httplib::Stream {
- public:
-  explicit MemoryStream(std::string_view request) : request_(request) {}
-  [[nodiscard]] bool is_readable() const override { return !request_.empty(); }
-  [[nodiscard]] bool is_writable() const override { return true; }
-  ssize_t read(char* to, size_t size) override {
-    const std::size_t n = request_.copy(to, size);
-    request_.remove_prefix(n);
-    return static_cast<ssize_t>(n);
-  }
-  ssize_t write(const char* from, size_t size) override {
-    answer.append(from, size);
-    return static_cast<ssize_t>(size);
-  }
-  void get_remote_ip_and_port(std::string&, int&) const override {}
-  void get_local_ip_and_port(std::string&, int&) const override {}
-  [[nodiscard]] socket_t socket() const override { return INVALID_SOCKET; }
+using Headers = std::vector<std::pair<std::string, std::string>>;
 
-  std::string answer;
+std::string_view view_of(boost::beast::string_view text) { return {text.data(), text.size()}; }
 
- private:
-  std::string_view request_;
-};
-
-void say(httplib::Response& response, int status, const std::string& text) {
-  response.status = status;
-  response.set_content(text + "\n", kText);
+std::string head_of(int status, std::string_view content_type, const Headers& further) {
+  std::string out =
+      fmt::format("HTTP/1.1 {} {}\r\nConnection: close\r\nContent-Type: {}\r\n", status,
+                  view_of(http::obsolete_reason(http::int_to_status(static_cast<unsigned>(status)))), content_type);
+  for (const auto& [name, value] : kSafetyHeaders) out += fmt::format("{}: {}\r\n", name, value);
+  for (const auto& [name, value] : further) out += fmt::format("{}: {}\r\n", name, value);
+  return out;
 }
 
-const char* status_text(int status) {
-  switch (status) {
-    case 408:
-      return "Request Timeout";
-    case 413:
-      return "Content Too Large";
-    case 431:
-      return "Request Header Fields Too Large";
-    case 501:
-      return "Not Implemented";
-    case 503:
-      return "Service Unavailable";
-    default:
-      return "Bad Request";
-  }
+WebResponse said(int status, const std::string& text) { return {status, kText, text + "\n"}; }
+
+std::optional<Request> parsed(std::string_view bytes) {
+  http::request_parser<http::string_body> parser;
+  parser.eager(true);
+  parser.header_limit(static_cast<std::uint32_t>(std::min<std::size_t>(bytes.size(), UINT32_MAX)));
+  parser.body_limit(bytes.size());
+  boost::beast::error_code error;
+  parser.put(boost::asio::buffer(bytes.data(), bytes.size()), error);
+  if (error || !parser.is_done()) return std::nullopt;
+  return parser.release();
 }
 
-std::string_view query_of(std::string_view target) {
-  const std::size_t at = target.find('?');
-  return at == target.npos ? std::string_view{} : target.substr(at + 1);
+// %XX as its byte; what is no such triple stays as it is.
+std::string decoded(std::string_view text, bool plus_is_space) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned byte = 0;
+    const char* from = text.data() + i + 1;
+    if (text[i] == '%' && i + 2 < text.size() && std::from_chars(from, from + 2, byte, 16).ptr == from + 2) {
+      out += static_cast<char>(byte), i += 2;
+    } else {
+      out += text[i] == '+' && plus_is_space ? ' ' : text[i];
+    }
+  }
+  return out;
+}
+
+// Value of the first parameter of that name in a query, decoded.
+std::string parameter(std::string_view query, std::string_view name) {
+  while (!query.empty()) {
+    const std::size_t end = std::min(query.find('&'), query.size());
+    const std::string_view part = query.substr(0, end);
+    const std::size_t equals = std::min(part.find('='), part.size());
+    if (decoded(part.substr(0, equals), true) == name)
+      return decoded(part.substr(std::min(equals + 1, part.size())), true);
+    query.remove_prefix(std::min(end + 1, query.size()));
+  }
+  return {};
 }
 
 }  // namespace
 
-// Uses httplib's parser and formatting of answers, but not its sockets, routes or files.
-struct WebRoutes::Parser : httplib::Server {
-  Parser(WebGuard who, bool can_post) : guard(std::move(who)), allow_post(can_post) {
-    httplib::Headers headers;
-    for (const auto& [name, value] : kSafetyHeaders) headers.emplace(name, value);
-    set_default_headers(std::move(headers));
-    set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
-      route(request, response);
-      // httplib reads the body; Post("(.*)") then continues in dispatch().
-      return is_reading_body ? HandlerResponse::Unhandled : HandlerResponse::Handled;
-    });
-    Post(".*",
-         [this](const httplib::Request& request, httplib::Response& response) { run(*found, request, response); });
-    set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
-      say(response, 500, "the server could not answer this");
-    });
-  }
+// Boost.Beast parses requests; answers are formatted here. No socket, file or route of a library takes part.
+struct WebRoutes::Site {
+  struct Outcome {
+    WebResponse response;
+    Headers headers;
+    std::string_view asset;  // in place of response.body; of static length
+    const Route* route = nullptr;
+  };
 
-  [[nodiscard]] bool is_allowed(const httplib::Request& request, httplib::Response& response) const {
-    if (request.get_header_value_count("Host") > 1) return say(response, 400, "Host is said twice"), false;
-    const std::string host = request.get_header_value("Host"), origin = request.get_header_value("Origin");
-    const std::string site = request.get_header_value("Sec-Fetch-Site"),
-                      mode = request.get_header_value("Sec-Fetch-Mode");
-    const std::string dest = request.get_header_value("Sec-Fetch-Dest");
-    if (const std::string why = refused_origin(guard, {host, origin, site, mode, dest}); !why.empty()) {
-      return say(response, 403, why), false;
-    }
-    switch (check_token(guard, request.get_param_value("token"), request.get_header_value("Cookie"))) {
+  // The refusal of a request that may not be answered; empty where it may.
+  [[nodiscard]] std::optional<WebResponse> refusal_of(const Request& request, std::string_view query,
+                                                      Headers& headers) const {
+    if (request.count(http::field::host) > 1) return said(400, "Host is said twice");
+    const auto value = [&](boost::beast::string_view name) { return std::string(view_of(request[name])); };
+    const std::string why = refused_origin(guard, {value("Host"), value("Origin"), value("Sec-Fetch-Site"),
+                                                   value("Sec-Fetch-Mode"), value("Sec-Fetch-Dest")});
+    if (!why.empty()) return said(403, why);
+    switch (check_token(guard, parameter(query, "token"), value("Cookie"))) {
       case TokenCheck::kWrong:
-        return say(response, 401, "this is not the access token that the server printed when it started"), false;
+        return said(401, "this is not the access token that the server printed when it started");
       case TokenCheck::kMissing:
-        return say(response, 401, "an access token is needed: open the address that the server printed (?token=...)"),
-               false;
+        return said(401, "an access token is needed: open the address that the server printed (?token=...)");
       case TokenCheck::kFromQuery:
-        response.set_header("Set-Cookie",
-                            fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict", kTokenCookie, guard.token));
+        headers.emplace_back("Set-Cookie",
+                             fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict", kTokenCookie, guard.token));
         break;
       case TokenCheck::kFromCookie:
       case TokenCheck::kNotAsked:
         break;
     }
-    return true;
+    return std::nullopt;
   }
 
-  void route(const httplib::Request& request, httplib::Response& response) {
-    found = nullptr, is_reading_body = false;
-    if (!is_allowed(request, response)) return;
-    const bool is_post = request.method == "POST";
-    if (request.method != "GET" && request.method != "HEAD" && !(is_post && allow_post)) {
-      response.set_header("Allow", allow_post ? "GET, HEAD, POST" : "GET, HEAD");
-      return say(response, 405, "only reading is possible here");
+  [[nodiscard]] Outcome answer(const Request& request) const {
+    Outcome out;
+    const std::string_view target = view_of(request.target());
+    const std::size_t mark = std::min(target.find('?'), target.size());
+    const std::string path = decoded(target.substr(0, mark), false);
+    const std::string_view query = target.substr(std::min(mark + 1, target.size()));
+    if (auto refused = refusal_of(request, query, out.headers)) {
+      out.response = *std::move(refused);
+      return out;
     }
-    const auto at = (is_post ? posts : gets).find(request.path);
-    if (at == (is_post ? posts : gets).end()) return say(response, 404, "there is nothing of this name");
-    found = &at->second;
-    is_reading_body = is_post;
-    if (!is_post) run(*found, request, response);
-  }
-
-  static void run(const Route& route, const httplib::Request& request, httplib::Response& response) {
-    if (route.kind == Kind::kAsset) {
-      response.status = 200;
-      return response.set_content(route.text.data(), route.text.size(), route.content_type);
+    const bool is_post = request.method() == http::verb::post;
+    const bool is_read = request.method() == http::verb::get || request.method() == http::verb::head;
+    if (!is_read && !(is_post && allow_post)) {
+      out.headers.emplace_back("Allow", allow_post ? "GET, HEAD, POST" : "GET, HEAD");
+      out.response = said(405, "only reading is possible here");
+      return out;
     }
-    if (route.kind == Kind::kEvents) return;  // answer() writes the head
-    const std::string type = request.get_header_value("Content-Type");
-    WebResponse made = route.handler({request.path, query_of(request.target), request.body, type});
-    response.status = made.status;
-    response.set_content(std::move(made.body), made.content_type);
+    const auto& routes = is_post ? posts : gets;
+    const auto at = routes.find(path);
+    if (at == routes.end()) {
+      out.response = said(404, "there is nothing of this name");
+      return out;
+    }
+    out.route = &at->second;
+    if (out.route->kind == Kind::kAsset) {
+      out.response.content_type = out.route->content_type, out.asset = out.route->text;
+    } else if (out.route->kind != Kind::kEvents) {
+      out.response = handled(*out.route, {path, query, is_post ? std::string_view(request.body()) : std::string_view(),
+                                          view_of(request[http::field::content_type])});
+    }
+    return out;
   }
 
-  std::string answer(std::string_view request, int& status) {
-    MemoryStream stream(request);
-    bool is_closed = false;
-    status = 400;
-    found = nullptr, is_reading_body = false;
-    set_logger([&status](const httplib::Request&, const httplib::Response& response) { status = response.status; });
-    process_request(stream, true, is_closed, [](httplib::Request& parsed) {
-      parsed.ranges.clear();  // many ranges of one text would multiply the size of the answer
-      for (const char* name : {"Range", "Accept-Encoding", "Expect"}) parsed.headers.erase(name);
-    });
-    return std::move(stream.answer);
+  [[nodiscard]] static WebResponse handled(const Route& route, const WebRequest& request) {
+    try {
+      return route.handler(request);
+    } catch (...) {  // what it says may be no stranger's business
+      return said(500, "the server could not answer this");
+    }
   }
 
   WebGuard guard;
   bool allow_post;
   std::map<std::string, Route> gets, posts;
-  const Route* found = nullptr;  // of the current request
-  bool is_reading_body = false;
 };
 
 WebRoutes::WebRoutes(WebGuard guard, bool allow_post)
-    : parser_(std::make_unique<Parser>(std::move(guard), allow_post)) {}
+    : site_(std::make_unique<Site>(Site{std::move(guard), allow_post, {}, {}})) {}
 WebRoutes::~WebRoutes() = default;
 
 void WebRoutes::add(const std::string& path, Route route) {
-  auto& routes = route.kind == Kind::kPost ? parser_->posts : parser_->gets;
+  auto& routes = route.kind == Kind::kPost ? site_->posts : site_->gets;
   if (path.empty() || path.front() != '/') throw std::invalid_argument("web path \"" + path + "\": must begin with /");
   if (!routes.emplace(path, std::move(route)).second) throw std::invalid_argument("web path " + path + ": given twice");
 }
 
-WebRoutes::Answer WebRoutes::answer(std::string_view request) {
-  Answer out;
-  out.bytes = parser_->answer(request, out.status);
-  if (out.bytes.empty()) return refusal(400);
-  const Route* route = parser_->found;
-  if (route == nullptr || route->kind != Kind::kEvents || request.substr(0, 4) != "GET ") return out;
-  out.event_source = route->event_source;
-  out.status = 200;
-  out.bytes = "HTTP/1.1 200 OK\r\nContent-Type: text/event-stream\r\nConnection: close\r\n";
-  for (const auto& [name, value] : kSafetyHeaders) out.bytes += fmt::format("{}: {}\r\n", name, value);
-  out.bytes += "\r\nretry: 2000\n\n";
-  return out;
+WebRoutes::Answer WebRoutes::answer(std::string_view bytes) const {
+  const std::optional<Request> request = parsed(bytes);
+  if (!request) return refusal(400);
+  const Site::Outcome made = site_->answer(*request);
+  const bool is_head = request->method() == http::verb::head;
+  if (made.route != nullptr && made.route->kind == Kind::kEvents && !is_head)
+    return {head_of(200, "text/event-stream", made.headers) + "\r\nretry: 2000\n\n", 200, made.route->event_source};
+  const std::string_view body = made.asset.data() != nullptr ? made.asset : std::string_view(made.response.body);
+  std::string out = head_of(made.response.status, made.response.content_type, made.headers) +
+                    fmt::format("Content-Length: {}\r\n\r\n", body.size());
+  if (!is_head) out += body;
+  return {std::move(out), made.response.status, -1};
 }
 
 WebRoutes::Answer WebRoutes::refusal(int status) {
-  const char* text = status_text(status);
-  std::string head = fmt::format("HTTP/1.1 {} {}\r\nConnection: close\r\nContent-Type: {}\r\n", status, text, kText);
-  for (const auto& [name, value] : kSafetyHeaders) head += fmt::format("{}: {}\r\n", name, value);
-  if (status == 503) head += "Retry-After: 5\r\n";
+  const std::string text(view_of(http::obsolete_reason(http::int_to_status(static_cast<unsigned>(status)))));
   const std::string body = fmt::format("{} {}\n", status, text);
-  return {head + fmt::format("Content-Length: {}\r\n\r\n{}", body.size(), body), status, -1};
+  const Headers further = status == 503 ? Headers{{"Retry-After", "5"}} : Headers{};
+  return {head_of(status, kText, further) + fmt::format("Content-Length: {}\r\n\r\n{}", body.size(), body), status, -1};
 }
 
 }  // namespace tools

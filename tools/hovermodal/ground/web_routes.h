@@ -33,13 +33,13 @@ class WebRoutes {
   // Throws std::invalid_argument for an invalid path, or one that exists already.
   void add(const std::string& path, Route route);
 
-  [[nodiscard]] Answer answer(std::string_view request);
+  [[nodiscard]] Answer answer(std::string_view request) const;
   // Answer where no valid request arrived.
   [[nodiscard]] static Answer refusal(int status);
 
  private:
-  struct Parser;
-  std::unique_ptr<Parser> parser_;
+  struct Site;
+  std::unique_ptr<Site> site_;
 };
 
 }  // namespace tools

@@ -50,7 +50,7 @@ struct WebResponse {
 // A small web server for one page and its data, on a network that may be hostile. A fixed set of paths, no files; GET
 // and HEAD, and POST where allowed; one request per connection. WebGuard checks every request, and every answer carries
 // a strict content security policy. A thread of the server reads, answers and writes without ever waiting for a client
-// (cpp-httplib parses requests and formats answers; the sockets are handled here, because a library thread that reads
+// (Boost.Beast parses requests; answers and sockets are handled here, because a library thread that reads
 // from a slow client cannot serve others). Handlers run in that thread, one at a time, and must be quick; they must
 // lock data shared with other threads; an exception becomes 500.
 //

@@ -9,6 +9,7 @@
 #include "drivers/host/command_line.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/replay/analysis.h"
+#include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/identify/series_input.h"
 #include "tools/hovermodal/identify/series_output.h"
@@ -25,7 +26,8 @@ struct IdentifyOptions {
   int segment = 0;
   int n_differences = -1;  // -1 = automatic
   core::IdentifierConfig identifier;
-  bool merge = false, keep_all = false, json = false, quiet = false;
+  bool merge = false, keep_all = false;
+  Answer answer;
   app::PageHead head;
   std::string report;
 };
@@ -63,7 +65,7 @@ SeriesFindings identify_file(const IdentifyOptions& options, const std::string& 
   series.report_directory = report;
   series.source = std::filesystem::path(path).filename().string();
   series.head = options.head;
-  if (!options.quiet)
+  if (!options.answer.quiet)
     series.progress = [&](double share) { fmt::print(stderr, "{}: spectra {:.0f} %\n", path, 100.0 * share); };
   if (!report.empty()) std::filesystem::create_directories(report);
   try {
@@ -88,7 +90,7 @@ void check(const IdentifyOptions& options) {
   if (options.request.rate_hz < 0.0) throw std::invalid_argument("--rate must be positive");
   if (options.segment != 0 && options.segment < 16)
     throw std::invalid_argument(fmt::format("--segment {}: at least 16 samples, or 0 = automatic", options.segment));
-  if (options.json && options.files.size() > 1 && !options.merge)
+  if (options.answer.json && options.files.size() > 1 && !options.merge)
     throw std::invalid_argument("--json prints one result: give one file, or --merge");
   if (options.merge && options.files.size() < 2) throw std::invalid_argument("--merge joins two files or more");
   if (options.merge && options.references.empty())
@@ -97,28 +99,25 @@ void check(const IdentifyOptions& options) {
 
 // What one result leaves: its files, and its text on the standard output.
 void hand_out(const IdentifyOptions& options, const app::SeriesResult& result, const std::string& page) {
-  if (options.json) {
-    fmt::print("{}", modes_json(result.estimate, result.channels));
-  } else if (!options.quiet) {
-    fmt::print("{}", findings_text(result));
-    if (!page.empty()) fmt::print("open {}\n", page);
-  }
+  options.answer.document(modes_json(result.estimate, result.channels));
+  options.answer.text("{}", findings_text(result));
+  if (!page.empty()) options.answer.text("open {}\n", page);
 }
 
-void run(const IdentifyOptions& options) {
+void run(IdentifyOptions options) {
   check(options);
-  const bool tells = !options.json && !options.quiet;
+  options.request.is_quiet = options.answer.quiet;
   std::vector<SeriesFindings> all;
   for (std::size_t i = 0; i < options.files.size(); ++i) {
     const std::string report = report_of(options, i);
     all.push_back(identify_file(options, options.files[i], report));
-    if (options.files.size() > 1 && tells) fmt::print("{}{}\n", i == 0 ? "" : "\n", options.files[i]);
+    if (options.files.size() > 1) options.answer.text("{}{}\n", i == 0 ? "" : "\n", options.files[i]);
     const std::string page = report.empty() ? std::string() : write_findings(all.back().result, report);
-    if (!options.json || !options.merge) hand_out(options, all.back().result, page);
+    if (!options.answer.json || !options.merge) hand_out(options, all.back().result, page);
   }
   if (!options.merge) return;
   const app::SeriesResult merged = merge_findings(all);
-  if (tells) fmt::print("\n{} set-ups merged\n", all.size());
+  options.answer.text("\n{} set-ups merged\n", all.size());
   hand_out(options, merged,
            options.report.empty() ? std::string() : write_merged(merged, options.head, options.report));
 }
@@ -181,8 +180,7 @@ void add_method_options(drivers::Command& command, IdentifyOptions& options) {
       .option("--compare", options.head.compare,
               "modal.json of a former run, with which report.html compares the modes")
       .type_name("FILE");
-  command.flag("--json", options.json, "Print modal.json in place of the text (with --merge: of the merged modes)");
-  command.flag("--quiet", options.quiet, "Print nothing; files are written");
+  add_answer_options(command, options.answer, "modal.json (with --merge: of the merged modes)");
 }
 
 }  // namespace

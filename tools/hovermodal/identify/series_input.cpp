@@ -112,9 +112,10 @@ class SeriesLoader {
  private:
   void check_counts() const {
     const std::size_t n = columns_.size();
-    if (request_.quantities.size() > 1 && request_.quantities.size() != n)
+    if (request_.quantities.size() > 1 && request_.quantities.size() != n) {
       refuse(fmt::format("--quantity names {} quantities for {} channels of {}; give one, or one for each",
                          request_.quantities.size(), n, path_));
+    }
     if (request_.delays_ms.size() > 1 && request_.delays_ms.size() != n)
       refuse(fmt::format("--delays-ms names {} delays for {} channels of {}", request_.delays_ms.size(), n, path_));
   }
@@ -155,9 +156,10 @@ class SeriesLoader {
   }
 
   void remark_on_quantities() {
-    if (!unknown_.empty())
+    if (!unknown_.empty()) {
       out_.remarks.push_back("no unit known of " + joined_names(unknown_) +
                              ": assumed to be displacements; set --quantity a for accelerations, v for velocities");
+    }
     if (file_.n_not_finite > 0)
       out_.remarks.push_back(fmt::format("{} infinite values are treated as missing", file_.n_not_finite));
     if (!file_.has_names) out_.remarks.push_back("the file has no line of names: its columns are c1, c2, ...");
@@ -191,7 +193,8 @@ class SeriesLoader {
 LoadedSeries load_series(const std::string& path, const SeriesRequest& request) {
   drivers::ForeignFormat format;
   format.no_names = request.no_header;
-  format.progress = [&](std::uint64_t n_lines) { fmt::print(stderr, "{}: {} lines read\n", path, n_lines); };
+  if (!request.is_quiet)
+    format.progress = [&](std::uint64_t n_lines) { fmt::print(stderr, "{}: {} lines read\n", path, n_lines); };
   const SeriesFile file = drivers::read_any_series(path, format);
   return SeriesLoader(file, request, path).load();
 }

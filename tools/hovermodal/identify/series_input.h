@@ -15,6 +15,7 @@ struct SeriesRequest {
   std::vector<std::string> quantities;  // d, v or a: one for all, or one per channel; empty = from the units
   std::vector<std::string> bases;
   std::vector<double> delays_ms;  // one per channel; empty = from the file's comments
+  bool is_quiet = false;          // no progress
   std::string input;              // measured ground or shaker table; empty = none
 };
 
@@ -27,8 +28,8 @@ struct LoadedSeries {
 };
 
 // Rows are placed by their times or frame numbers, if the file has them: cells between are missing. Progress of
-// long files goes to standard error. Throws std::invalid_argument on a request that does not fit the file, FileError on
-// a file that is not a table of numbers.
+// long files goes to standard error, unless `is_quiet`. Throws std::invalid_argument on a request that does not fit the
+// file, FileError on a file that is not a table of numbers.
 [[nodiscard]] LoadedSeries load_series(const std::string& path, const SeriesRequest& request);
 
 // Index of the channel of that name, or from that column (number from 1) of the file; throws std::invalid_argument.

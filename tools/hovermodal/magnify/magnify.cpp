@@ -17,8 +17,10 @@
 #include "drivers/storage/clip_writer.h"
 #include "drivers/storage/json.h"
 #include "drivers/storage/printable.h"
+#include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/magnify/modal_motion.h"
+#include "tools/hovermodal/named_file.h"
 
 namespace tools {
 namespace {
@@ -45,7 +47,8 @@ struct MagnifyOptions {
   double factor = 0.0;  // 0 = chosen
   double period_s = 2.0, seconds = 6.0;
   int crf = 8;
-  bool force = false, json = false, quiet = false, plain = false;
+  bool force = false, plain = false;
+  Answer answer;
 };
 
 core::Frame first_frame(const MagnifyOptions& options) {
@@ -61,9 +64,10 @@ core::Frame first_frame(const MagnifyOptions& options) {
     status = camera->capture(frame, std::chrono::milliseconds(1000));
   const std::string fault = camera->fault();
   camera->stop();
-  if (status != drivers::CaptureStatus::kFrame)
+  if (status != drivers::CaptureStatus::kFrame) {
     throw std::runtime_error(
         fmt::format("\"{}\": no frame{}{}", drivers::printable(options.clip), fault.empty() ? "" : ": ", fault));
+  }
   return frame;
 }
 
@@ -94,9 +98,10 @@ core::MeshWarp warp_of(const ModalMotion& motion, double& factor) {
     const double swing_px = kSwingShare * std::max(motion.width_px, motion.height_px);
     factor = two_digits(std::min(swing_px / motion.amplitude_px, 0.9 * most));
   }
-  if (factor > most)
+  if (factor > most) {
     throw std::invalid_argument(fmt::format(
         "--factor {:g}: parts of the image would be pushed over each other; at most {:g}", factor, two_digits(most)));
+  }
   return {motion.width_px, motion.height_px, parts_of(motion, factor)};
 }
 
@@ -133,24 +138,26 @@ void write_clip(const core::MeshWarp& warp, const core::Frame& frame, const std:
   writer.finish();
 }
 
-void print_text(const ModalMotion& motion, const MagnifyOptions& options, double factor) {
-  fmt::print("mode {}: {:.4f}{} Hz\n", options.mode, motion.frequency_hz,
-             motion.frequency_std_hz ? fmt::format(" +- {:.4f}", *motion.frequency_std_hz) : "");
-  fmt::print("amplitude {:.4g} px where the shape is 1 (root 2 times the rms), times {:g}: {:.4g} px\n",
-             motion.amplitude_px, factor, factor * motion.amplitude_px);
-  fmt::print("{:<20} {:>8} {:>8} {:>9} {:>8}\n", "region", "shape", "sigma", "drawn px", "sigma px");
+std::string magnify_text(const ModalMotion& motion, const MagnifyOptions& options, double factor) {
+  std::string text = fmt::format("mode {}: {:.4f}{} Hz\n", options.mode, motion.frequency_hz,
+                                 motion.frequency_std_hz ? fmt::format(" +- {:.4f}", *motion.frequency_std_hz) : "");
+  text += fmt::format("amplitude {:.4g} px where the shape is 1 (root 2 times the rms), times {:g}: {:.4g} px\n",
+                      motion.amplitude_px, factor, factor * motion.amplitude_px);
+  text += fmt::format("{:<20} {:>8} {:>8} {:>9} {:>8}\n", "region", "shape", "sigma", "drawn px", "sigma px");
   for (const RegionMotion& region : motion.regions) {
     if (region.is_static) continue;
     const double size = std::sqrt(std::norm(region.shape_u) + std::norm(region.shape_v));
     const double sigma = core::length(region.sigma_u, region.sigma_v), px = factor * motion.amplitude_px;
-    fmt::print("{:<20} {:8.3f} {:8.3f} {:9.3f} {:8.3f}{}\n", drivers::printable(region.name), size, sigma,
-               region.held.empty() ? px * size : 0.0, px * sigma,
-               region.held.empty() ? "" : "  held still: " + region.held);
+    text += fmt::format("{:<20} {:8.3f} {:8.3f} {:9.3f} {:8.3f}{}\n", drivers::printable(region.name), size, sigma,
+                        region.held.empty() ? px * size : 0.0, px * sigma,
+                        region.held.empty() ? "" : "  held still: " + region.held);
   }
-  fmt::print("{}: {:g} s, one cycle in {:g} s\n", drivers::printable(options.out), options.seconds, options.period_s);
+  text += fmt::format("{}: {:g} s, one cycle in {:g} s\n", drivers::printable(options.out), options.seconds,
+                      options.period_s);
+  return text;
 }
 
-void print_json(const ModalMotion& motion, const MagnifyOptions& options, double factor) {
+std::string magnify_json(const ModalMotion& motion, const MagnifyOptions& options, double factor) {
   nlohmann::ordered_json regions = nlohmann::ordered_json::array();
   for (const RegionMotion& region : motion.regions) {
     if (region.is_static) continue;
@@ -172,12 +179,11 @@ void print_json(const ModalMotion& motion, const MagnifyOptions& options, double
                                    {"rate_hz", kRate_hz},
                                    {"out", options.out},
                                    {"regions", regions}};
-  fmt::print("{}", drivers::to_json_text(out).text);
+  return drivers::to_json_text(out).text;
 }
 
 void magnify(MagnifyOptions options) {
-  if (std::filesystem::exists(options.out) && !options.force)
-    throw std::invalid_argument(options.out + ": exists; name another file, or --force to replace it");
+  require_free(options.out, options.force);
   const ModalMotion motion = modal_motion(options.run, options.mode);
   if (options.clip.empty()) {
     options.clip = (std::filesystem::path(options.run) / "clip.mp4").string();
@@ -185,14 +191,15 @@ void magnify(MagnifyOptions options) {
       throw std::invalid_argument("--clip is needed: the video of the run (there is no " + options.clip + ")");
   }
   const core::Frame frame = first_frame(options);
-  if (frame.width_px != motion.width_px || frame.height_px != motion.height_px)
+  if (frame.width_px != motion.width_px || frame.height_px != motion.height_px) {
     throw std::invalid_argument(fmt::format("{}: {}x{}, but the run saw {}x{}", options.clip, frame.width_px,
                                             frame.height_px, motion.width_px, motion.height_px));
+  }
   double factor = options.factor;
   const core::MeshWarp warp = warp_of(motion, factor);
   write_clip(warp, frame, caption_of(motion, options, factor), options);
-  if (options.json) return print_json(motion, options, factor);
-  if (!options.quiet) print_text(motion, options, factor);
+  options.answer.document(magnify_json(motion, options, factor));
+  options.answer.text("{}", magnify_text(motion, options, factor));
 }
 
 }  // namespace
@@ -209,9 +216,8 @@ void add_magnify(drivers::Command& app) {
   command.option("--seconds", options->seconds, "Duration of the video").range(0.1, 600.0).show_default();
   command.option("--crf", options->crf, "Quality of the video: 0 lossless .. 51").range(0, 51).show_default();
   command.flag("--plain", options->plain, "No strip with mode and factor below the picture");
-  command.flag("--force", options->force, "Replace an existing file");
-  command.flag("--json", options->json, "Print the result as JSON");
-  command.flag("--quiet", options->quiet, "Print nothing");
+  add_force_option(command, options->force);
+  add_answer_options(command, options->answer, "the result");
   command.on_run([options] { magnify(*options); });
 }
 

@@ -100,7 +100,7 @@ void add_wishes(drivers::Command& command, PlanOptions& o) {
   command.option("--hover-min", o.hover_min, "Minutes to hover (as long as that needs)").group(group);
   command.option("--battery-min", o.battery_min, "Minutes on station that one battery gives").group(group);
   command.option("--out", o.folder, "Folder for plan.svg and plan.json").type_name("DIR").group(group);
-  command.flag("--json", o.json, "plan.json on standard output in place of the text").group(group);
+  add_answer_options(command, o.answer, "plan.json");
 }
 
 }  // namespace

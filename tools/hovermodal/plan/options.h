@@ -5,6 +5,7 @@
 
 #include "core/planning/hover_plan.h"
 #include "drivers/host/command_line.h"
+#include "tools/hovermodal/answer.h"
 
 namespace tools {
 
@@ -25,7 +26,7 @@ struct PlanOptions {
   double sigma_f_percent = 0.3, sigma_zeta_percent = 20.0;
   double hover_min = 0.0, battery_min = 0.0;
   std::string folder;
-  bool json = false;
+  Answer answer;
 };
 
 void add_plan_options(drivers::Command& command, PlanOptions& options);

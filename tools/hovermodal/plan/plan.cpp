@@ -35,8 +35,9 @@ void run(const drivers::Command& command, const PlanOptions& options) {
     drivers::write_file_atomically((folder / "plan.json").string(), plan_json(input, plan));
     drivers::write_file_atomically((folder / "plan.svg").string(), plan_svg(input, plan));
   }
-  fmt::print("{}", options.json ? plan_json(input, plan) : plan_text(input, plan));
-  if (!options.folder.empty() && !options.json) fmt::print("\n{}/plan.svg and plan.json written\n", options.folder);
+  options.answer.document(plan_json(input, plan));
+  options.answer.text("{}", plan_text(input, plan));
+  if (!options.folder.empty()) options.answer.text("\n{}/plan.svg and plan.json written\n", options.folder);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 void tools::run_picker(const std::vector<core::Region>&, const std::string&, const PickerOptions&) {
   throw std::runtime_error(
-      "regions --serve: this build has no web server. Install libcpp-httplib-dev and LCM (tools/setup.sh) and "
+      "regions --serve: this build has no web server. Install libboost-dev and LCM (tools/setup.sh) and "
       "configure again with -DWITH_GROUND=ON, or write the file by hand.");
 }
 

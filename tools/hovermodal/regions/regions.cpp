@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "core/tracking/region_proposal.h"
 #include "drivers/camera/camera_factory.h"
@@ -14,7 +15,9 @@
 #include "drivers/storage/json.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/pictures/parts.h"
+#include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/commands.h"
+#include "tools/hovermodal/named_file.h"
 #include "tools/hovermodal/regions/picker.h"
 #include "tools/hovermodal/regions/regions_text.h"
 #include "tools/hovermodal/stop_signal.h"
@@ -25,9 +28,10 @@ namespace {
 struct Options {
   std::string clip, out, picture;
   double rate_hz = 0.0, seconds = 12.0;
-  bool lowest_is_base = false, serve = false;
+  bool lowest_is_base = false, serve = false, force = false;
   int port = 0;
   std::size_t most = 12;
+  Answer answer;
 };
 
 constexpr const char* kFooter = R"(HOW IT CHOOSES
@@ -61,25 +65,44 @@ struct Watched {
 // A line on standard error every few seconds.
 class Progress {
  public:
-  explicit Progress(std::size_t n_wanted) : n_wanted_(n_wanted) {}
+  Progress(std::size_t n_wanted, bool is_quiet) : n_wanted_(n_wanted), quiet_(is_quiet) {}
   void tell(std::size_t n_frames) {
     const auto now = std::chrono::steady_clock::now();
-    if (now - last_ < std::chrono::seconds(2)) return;
+    if (quiet_ || now - last_ < std::chrono::seconds(2)) return;
     last_ = now;
     fmt::print(stderr, "regions: frame {} of {}; Ctrl-C ends here with what was seen\n", n_frames, n_wanted_);
   }
 
  private:
   std::size_t n_wanted_;
+  bool quiet_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
+
+// The camera's messages name the configuration's keys; here that one is an option.
+std::string with_options(std::string message) {
+  constexpr std::string_view kKey = "camera.rate_hz", kOption = "--rate-hz";
+  for (std::size_t at = message.find(kKey); at != std::string::npos; at = message.find(kKey, at + kOption.size()))
+    message.replace(at, kKey.size(), kOption);
+  return message;
+}
+
+std::unique_ptr<drivers::Camera> open_source(const drivers::CameraOptions& source) {
+  try {
+    return drivers::make_camera(source);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(with_options(error.what()));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(with_options(error.what()));
+  }
+}
 
 // Throws std::runtime_error if the source is shorter than a second.
 Watched watch(const Options& options) {
   drivers::CameraOptions source;
   source.source = options.clip;
   source.rate_hz = options.rate_hz;
-  const auto camera = drivers::make_camera(source);
+  const auto camera = open_source(source);
   Watched out;
   out.info = camera->info();
   const auto n_pixels = static_cast<std::size_t>(out.info.width_px) * static_cast<std::size_t>(out.info.height_px);
@@ -88,7 +111,7 @@ Watched watch(const Options& options) {
   camera->start();
   const auto n_wanted = static_cast<std::size_t>(options.seconds * out.info.rate_hz) + 1;
   std::optional<core::RegionSurvey> survey;
-  Progress progress(n_wanted);
+  Progress progress(n_wanted, options.answer.quiet);
   while (out.n_frames < n_wanted && stop_requested == 0) {
     const auto status = camera->capture(frame, std::chrono::milliseconds(1000));
     if (status == drivers::CaptureStatus::kTimeout) continue;
@@ -141,6 +164,8 @@ void run_regions(const Options& options) {
     throw std::invalid_argument(
         "regions --serve: --out FILE is missing: where the page's Save button writes the regions");
   }
+  require_free(options.out, options.force);
+  require_free(options.picture, options.force);
   watch_stop_signals();
   const Watched watched = watch(options);
   core::RegionProposalConfig config;
@@ -148,13 +173,15 @@ void run_regions(const Options& options) {
   core::RegionProposal proposal = core::propose_regions(watched.points, watched.info.rate_hz, watched.info.width_px,
                                                         watched.info.height_px, config);
   const std::string doubt = options.lowest_is_base ? make_lowest_base(proposal) : std::string();
-  fmt::print("{} corners, {} followed through {} frames ({:.3g} s)\n\n", watched.n_corners, watched.points.size(),
-             watched.n_frames, static_cast<double>(watched.n_frames) / watched.info.rate_hz);
-  fmt::print("{}", regions_table(proposal));
-  if (!proposal.remark.empty()) fmt::print("\n{}\n", proposal.remark);
+  options.answer.document(proposal_json(proposal, watched.info.width_px, watched.info.height_px));
+  options.answer.text("{} corners, {} followed through {} frames ({:.3g} s)\n\n", watched.n_corners,
+                      watched.points.size(), watched.n_frames,
+                      static_cast<double>(watched.n_frames) / watched.info.rate_hz);
+  options.answer.text("{}", regions_table(proposal));
+  if (!proposal.remark.empty()) options.answer.text("\n{}\n", proposal.remark);
   const std::string yaml = regions_yaml(in_order(proposal));
   if (options.out.empty()) {
-    fmt::print("\n{}", yaml);
+    options.answer.text("\n{}", yaml);
   } else {
     drivers::write_file_atomically(options.out, yaml);
   }
@@ -189,6 +216,8 @@ void add_regions(drivers::Command& app) {
                "Then adjust them in a page, by mouse, finger or keyboard; its Save button writes --out. This "
                "computer alone can open it");
   command.option("--port", options->port, "Of the page; 0 = any that is free").range(0, 65535);
+  add_force_option(command, options->force);
+  add_answer_options(command, options->answer, "the regions in the order of the table");
   command.footer(kFooter);
   command.on_run([options] { run_regions(*options); });
 }

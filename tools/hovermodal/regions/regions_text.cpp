@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "core/types/role_names.h"
+#include "drivers/storage/json.h"
 
 namespace tools {
 namespace {
@@ -67,6 +69,26 @@ std::string regions_table(const core::RegionProposal& proposal) {
     out += table_line(std::to_string(i + 1), proposal.regions[i]);
   if (proposal.rest) out += table_line("-", *proposal.rest);
   return out;
+}
+
+std::string proposal_json(const core::RegionProposal& proposal, int width_px, int height_px) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  const auto add = [&](const ProposedRegion& one) {
+    const core::Region& r = one.region;
+    list.push_back({{"name", r.name},
+                    {"rect", {r.u_px, r.v_px, r.width_px, r.height_px}},
+                    {"role", core::to_string(r.role)},
+                    {"axis", axis_text(r)},
+                    {"points", one.n_points},
+                    {"motion_px", one.motion_px},
+                    {"noise_px", one.noise_px},
+                    {"shared", one.shared > 0.0 ? nlohmann::ordered_json(one.shared) : nullptr}});
+  };
+  for (const ProposedRegion& one : proposal.regions) add(one);
+  if (proposal.rest) add(*proposal.rest);
+  return drivers::to_json_text(
+             {{"version", 1}, {"size", {width_px, height_px}}, {"regions", list}, {"remark", proposal.remark}})
+      .text;
 }
 
 std::string regions_yaml(const std::vector<core::Region>& regions) {

@@ -15,6 +15,8 @@ namespace tools {
 [[nodiscard]] std::string make_lowest_base(core::RegionProposal& proposal);
 
 // One line per region, in the order of the proposal.
+// The table and the remark as JSON.
+[[nodiscard]] std::string proposal_json(const core::RegionProposal& proposal, int width_px, int height_px);
 [[nodiscard]] std::string regions_table(const core::RegionProposal& proposal);
 
 // The regions: block of a configuration.

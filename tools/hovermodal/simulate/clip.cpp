@@ -127,13 +127,13 @@ std::string stamps_path(const std::string& clip_path) {
   return std::filesystem::path(clip_path).replace_extension(".timestamps.csv").string();
 }
 
-void write_clip(const Renderer& renderer, const std::string& path, int crf, int n_threads) {
+void write_clip(const Renderer& renderer, const std::string& path, int crf, int n_threads, bool is_quiet) {
   const auto& camera = renderer.scene().camera;
   const std::vector<DeliveredFrame> frames = delivered_frames(renderer.scene());
   std::filesystem::remove(stamps_path(path));
   drivers::ClipWriter writer(path, camera.width_px, camera.height_px, camera.rate_hz, crf);
   FrameFarm farm(renderer, frames, n_threads);
-  Progress progress("simulate", frames.size());
+  Progress progress("simulate", frames.size(), "frames", is_quiet);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     writer.write(farm.wait_for_next());
     farm.give_back();

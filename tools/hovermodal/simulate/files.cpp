@@ -134,13 +134,13 @@ void write_true_displacements(const std::filesystem::path& folder, const SceneMo
   csv.commit();
 }
 
-void write_tracks(const std::filesystem::path& folder, const SimulateJob& job) {
+void write_tracks(const std::filesystem::path& folder, const SimulateJob& job, bool is_quiet) {
   const core::simulation::TrackGenerator generator(job.scene());
   drivers::CsvWriter csv(path_in(folder, "tracks.csv"));
   write_track_header(csv, job, generator.regions());
   core::TrackFrame frame;
   fmt::memory_buffer prefix;
-  Progress progress("simulate", job.scene().n_frames());
+  Progress progress("simulate", job.scene().n_frames(), "frames", is_quiet);
   auto timing = generator.timing();
   for (DeliveredFrame delivered; timing.next(delivered);) {
     generator.generate(delivered, frame);
@@ -150,14 +150,15 @@ void write_tracks(const std::filesystem::path& folder, const SimulateJob& job) {
   csv.commit();
 }
 
-void write_channels(const std::filesystem::path& folder, const SimulateJob& job, const SceneMotion& motion) {
+void write_channels(const std::filesystem::path& folder, const SimulateJob& job, const SceneMotion& motion,
+                    bool is_quiet) {
   const double readout_s = 1e-9 * static_cast<double>(job.declared_camera().readout_ns);
   const core::simulation::ChannelGenerator generator(motion, readout_s);
   drivers::CsvWriter csv(path_in(folder, "displacements.csv"));
   write_channel_header(csv, job, generator.channels());
   core::DisplacementSample sample = generator.sample_prototype();
   std::string scale;
-  Progress progress("simulate", job.scene().n_frames());
+  Progress progress("simulate", job.scene().n_frames(), "frames", is_quiet);
   auto timing = generator.timing();
   for (DeliveredFrame delivered; timing.next(delivered);) {
     generator.generate(delivered, sample);

@@ -9,11 +9,12 @@
 
 namespace tools {
 
-Progress::Progress(std::string what, std::uint64_t total, std::string unit)
+Progress::Progress(std::string what, std::uint64_t total, std::string unit, bool is_quiet)
     : what_(std::move(what)),
       unit_(std::move(unit)),
       total_(std::max<std::uint64_t>(total, 1)),
-      terminal_(::isatty(STDERR_FILENO) == 1) {}
+      terminal_(::isatty(STDERR_FILENO) == 1),
+      quiet_(is_quiet) {}
 
 Progress::~Progress() {
   if (line_open_) std::fputc('\n', stderr);
@@ -22,6 +23,7 @@ Progress::~Progress() {
 double Progress::elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
 void Progress::update(std::uint64_t done) {
+  if (quiet_) return;
   const std::uint64_t tenth = 10 * done / total_;
   const bool due =
       terminal_ ? Clock::now() - last_print_ > std::chrono::milliseconds(200) || done == total_ : tenth > last_tenth_;
@@ -30,6 +32,7 @@ void Progress::update(std::uint64_t done) {
 }
 
 void Progress::say(const std::string& text) {
+  if (quiet_) return;
   fmt::print(stderr, "{}{}\n", line_open_ ? "\r\033[K" : "", text);
   line_open_ = false;
 }

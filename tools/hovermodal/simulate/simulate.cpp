@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
 
 #include "core/simulation/render/renderer.h"
 #include "drivers/host/command_line.h"
+#include "drivers/storage/json.h"
 #include "drivers/storage/text_file.h"
+#include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/simulate/clip.h"
 #include "tools/hovermodal/simulate/config.h"
@@ -34,14 +37,39 @@ void make_folder(const fs::path& folder) {
   }
 }
 
-void write_product(const fs::path& folder, const SimulateJob& job, const SceneMotion& motion, int threads) {
-  if (job.depth == Depth::kChannels) return write_channels(folder, job, motion);
-  if (job.depth == Depth::kTracks) return write_tracks(folder, job);
-  const int n_threads = threads > 0 ? threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  write_clip(core::simulation::Renderer(job.scene()), (folder / job.product()).string(), job.crf, n_threads);
+struct SimulateRun : SimulateOptions {
+  Answer answer;
+};
+
+void write_product(const fs::path& folder, const SimulateJob& job, const SceneMotion& motion,
+                   const SimulateRun& options) {
+  if (job.depth == Depth::kChannels) return write_channels(folder, job, motion, options.answer.quiet);
+  if (job.depth == Depth::kTracks) return write_tracks(folder, job, options.answer.quiet);
+  const int n_threads =
+      options.threads > 0 ? options.threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  write_clip(core::simulation::Renderer(job.scene()), (folder / job.product()).string(), job.crf, n_threads,
+             options.answer.quiet);
 }
 
-void simulate(const SimulateOptions& options) {
+// What was made, or found as it would be made. The folder is complete.
+void tell(const SimulateRun& options, const SimulateJob& job, const std::string& product, bool is_new) {
+  const std::size_t n_frames = job.scene().n_frames();
+  const std::uintmax_t n_bytes = fs::file_size(product);
+  options.answer.document(drivers::to_json_text({{"product", product},
+                                                 {"config", (fs::path(options.folder) / "config.yaml").string()},
+                                                 {"truth", (fs::path(options.folder) / "truth.json").string()},
+                                                 {"frames", n_frames},
+                                                 {"bytes", n_bytes},
+                                                 {"already_made", !is_new}})
+                              .text);
+  if (is_new) {
+    options.answer.text("{}: {} frames, {:.1f} MB\n", product, n_frames, static_cast<double>(n_bytes) / 1e6);
+  } else {
+    options.answer.text("{}: already made from the same parameters; --force makes it again\n", product);
+  }
+}
+
+void simulate(const SimulateRun& options) {
   if (options.help_scene) return fmt::print("{}", drivers::scene_help());
   const SimulateJob job = make_job(options);
   if (options.print_scene) return fmt::print("{}", drivers::scene_text(job.file));
@@ -53,17 +81,13 @@ void simulate(const SimulateOptions& options) {
   // First, because it fails at once if the folder cannot be written; and cheap enough to be rewritten for each
   // --method.
   write_config(folder, job, motion);
-  if (!options.force && already_made(folder, job)) {
-    fmt::print("{}: already made from the same parameters; --force makes it again\n", product);
-    return;
-  }
+  if (!options.force && already_made(folder, job)) return tell(options, job, product, false);
   // truth.json is written last: a folder that contains it is complete.
   fs::remove(folder / "truth.json");
   write_true_displacements(folder, motion);
-  write_product(folder, job, motion, options.threads);
+  write_product(folder, job, motion, options);
   write_truth(folder, job, motion);
-  fmt::print("{}: {} frames, {:.1f} MB\n", product, job.scene().n_frames(),
-             static_cast<double>(fs::file_size(product)) / 1e6);
+  tell(options, job, product, true);
 }
 
 void add_scene_options(drivers::Command& command, SimulateOptions& options) {
@@ -106,9 +130,10 @@ void add_simulate(drivers::Command& app) {
                      "  hovermodal simulate --preset paper --duration 60 --out made\n"
                      "  hovermodal simulate --print-scene > scene.yaml\n"
                      "  hovermodal simulate --scene scene.yaml --channels-only --duration 3600 --out hour");
-  const auto options = std::make_shared<SimulateOptions>();
+  const auto options = std::make_shared<SimulateRun>();
   add_scene_options(command, *options);
   add_product_options(command, *options);
+  add_answer_options(command, options->answer, "what was made");
   command.on_run([options] { simulate(*options); });
 }
 
