@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
 #include <tuple>
+
+#include "drivers/camera/recording/libav_versions.h"
 
 extern "C" {
 #include <libavutil/display.h>
@@ -65,8 +68,8 @@ std::string stream_words(const AVStream& stream) {
 }  // namespace
 
 std::string av_error_text(int code) {
-  char text[AV_ERROR_MAX_STRING_SIZE] = {};
-  return av_strerror(code, text, sizeof text) == 0 ? text : fmt::format("error {}", code);
+  std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
+  return av_strerror(code, text.data(), text.size()) == 0 ? text.data() : fmt::format("error {}", code);
 }
 
 Container::Container(const std::string& path) : path_(path), format_(open_format(path)) {
@@ -164,9 +167,9 @@ int Container::coding_block_px() const noexcept {
 }
 
 int Container::clockwise_turn_deg() const noexcept {
-  const std::uint8_t* matrix = av_stream_get_side_data(stream_, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+  const std::int32_t* matrix = display_matrix(*stream_);
   if (matrix == nullptr) return 0;
-  const double counter_clockwise = av_display_rotation_get(reinterpret_cast<const std::int32_t*>(matrix));
+  const double counter_clockwise = av_display_rotation_get(matrix);
   if (!std::isfinite(counter_clockwise)) return 0;
   const double quarters = -counter_clockwise / 90.0;
   if (std::abs(quarters - std::nearbyint(quarters)) > 0.01) return 0;  // quarter turns only

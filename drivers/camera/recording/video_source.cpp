@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "drivers/camera/recording/image_folder_source.h"
+#include "drivers/camera/recording/libav_versions.h"
 #include "drivers/camera/recording/picture_luma.h"
 #include "drivers/camera/recording/video_decoder.h"
 
@@ -169,7 +170,7 @@ class VideoSource final : public FrameSource {
       at += std::exchange(n_bad_packets_, 0);
     }
     if (at > next) trouble_.n_damaged += at - next, since_damage_ = true;
-    if (picture.key_frame != 0) since_damage_ = false;
+    if (is_key_frame(picture)) since_damage_ = false;
     if (since_damage_) ++trouble_.n_after_damage;
     index_ = at;
     ++n_read_;
