@@ -24,12 +24,7 @@ struct Hypothesis {
 
 Hypothesis evaluate(Complex s_apparent, int n, const std::vector<Complex>& shape, const FoldingConfig& config) {
   Hypothesis h{n, s_apparent + Complex(0.0, 2.0 * std::numbers::pi * n * config.rate_hz), shape, 0.0};
-  for (std::size_t c = 0; c < h.shape.size() && c < config.delay_s.size(); ++c) {
-    h.shape[c] *= std::exp(-h.s * config.delay_s[c]);
-  }
-  for (std::size_t c = 0; c < h.shape.size() && c < config.n_integrations.size(); ++c) {
-    for (int k = 0; k < config.n_integrations[c]; ++k) h.shape[c] /= h.s;
-  }
+  for (std::size_t c = 0; c < h.shape.size(); ++c) h.shape[c] = as_displacement(h.shape[c], h.s, c, config);
   if (h.s.imag() < 0.0) {  // the other member of the conjugate pair: positive frequency, conjugate shape
     h.s = std::conj(h.s);
     for (Complex& z : h.shape) z = std::conj(z);
@@ -39,6 +34,21 @@ Hypothesis evaluate(Complex s_apparent, int n, const std::vector<Complex>& shape
 }
 
 }  // namespace
+
+std::vector<int> alias_orders(double apparent_hz, double rate_hz, double limit_hz) {
+  std::vector<int> out;
+  const int reach = static_cast<int>(std::ceil(limit_hz / rate_hz)) + 1;
+  for (int n = -reach; n <= reach; ++n) {
+    if (!(std::abs(apparent_hz + n * rate_hz) > limit_hz)) out.push_back(n);
+  }
+  return out;
+}
+
+Complex as_displacement(Complex component, Complex s, std::size_t channel, const FoldingConfig& config) {
+  if (channel < config.delay_s.size()) component *= std::exp(-s * config.delay_s[channel]);
+  for (int k = 0; channel < config.n_integrations.size() && k < config.n_integrations[channel]; ++k) component /= s;
+  return component;
+}
 
 bool folding_observable(const FoldingConfig& config) noexcept {
   if (config.delay_s.size() < 3) return false;
@@ -73,12 +83,10 @@ std::vector<double> other_frequencies(const UnfoldedPole& pole, const FoldingCon
   const std::vector<Complex> observed = observed_shape(pole, config);
   const Complex s_apparent(pole.s.real(), 2.0 * std::numbers::pi * pole.apparent_hz);
   const bool observable = folding_observable(config);
-  const int reach = static_cast<int>(std::ceil(limit_hz / rate_hz)) + 1;
-  for (int n = -reach; n <= reach; ++n) {
-    const double hz = std::abs(pole.apparent_hz + n * rate_hz);
-    if (n == pole.fold_n.value_or(0) || hz > limit_hz) continue;
+  for (const int n : alias_orders(pole.apparent_hz, rate_hz, limit_hz)) {
+    if (n == pole.fold_n.value_or(0)) continue;
     if (observable && pole.mpc - evaluate(s_apparent, n, observed, config).mpc >= least_margin) continue;
-    out.push_back(hz);
+    out.push_back(std::abs(pole.apparent_hz + n * rate_hz));
   }
   std::sort(out.begin(), out.end());
   if (out.size() > kMostOthers) out.resize(kMostOthers);
@@ -92,9 +100,8 @@ UnfoldedPole unfold(Complex lambda, const std::vector<Complex>& shape, const Fol
   Hypothesis best = evaluate(s_apparent, 0, shape, config);
   Hypothesis rival{0, {}, {}, -1.0};  // second-best hypothesis
   if (config.max_frequency_hz > config.rate_hz / 2.0) {
-    const int reach = static_cast<int>(std::ceil(config.max_frequency_hz / config.rate_hz)) + 1;
-    for (int n = -reach; n <= reach; ++n) {
-      if (n == 0 || std::abs(out.apparent_hz + n * config.rate_hz) > config.max_frequency_hz) continue;
+    for (const int n : alias_orders(out.apparent_hz, config.rate_hz, config.max_frequency_hz)) {
+      if (n == 0) continue;
       Hypothesis other = evaluate(s_apparent, n, shape, config);
       if (other.mpc > best.mpc && folding_observable(config)) std::swap(best, other);
       if (other.mpc > rival.mpc) rival = std::move(other);

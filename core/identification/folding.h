@@ -1,6 +1,7 @@
 #pragma once
 
 #include <complex>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -29,6 +30,13 @@ struct UnfoldedPole {
   // = 0, mpc is that of the best hypothesis.
   bool fold_open = false;
 };
+
+// Alias orders n with |f_a + n f_s| up to `limit_hz`, ascending.
+[[nodiscard]] std::vector<int> alias_orders(double apparent_hz, double rate_hz, double limit_hz);
+
+// Undoes delay and integrations of one channel: of a component as observed, the displacement at the signed pole s.
+[[nodiscard]] std::complex<double> as_displacement(std::complex<double> component, std::complex<double> s,
+                                                   std::size_t channel, const FoldingConfig& config);
 
 // lambda: discrete pole with Im > 0. shape: as observed.
 [[nodiscard]] UnfoldedPole unfold(std::complex<double> lambda, const std::vector<std::complex<double>>& shape,

@@ -20,20 +20,6 @@ constexpr double kReach = 2.0;               // distance of a neighbour, in half
 constexpr int kRounds = 3;
 constexpr double kLeastFirstMpc = 0.7, kLeastNeighbourMpc = 0.9;  // of a neighbour in the first round, and later
 
-// Squares of a shape's components along the real and the imaginary axis.
-struct Parts {
-  double in_phase = 0.0, out_of_phase = 0.0;
-};
-
-Parts parts_of(const Shape& shape, const Shape& turn) {
-  Parts out;
-  for (std::size_t c = 0; c < shape.size(); ++c) {
-    const Complex z = shape[c] * turn[c];
-    out.in_phase += z.real() * z.real(), out.out_of_phase += z.imag() * z.imag();
-  }
-  return out;
-}
-
 double width_hz(const UnfoldedPole& pole) { return std::abs(damping_ratio(pole.s)) * frequency_hz(pole.s); }
 
 // MPC reduced by the two real parameters fitted to the n - 1 components that can be out of phase.
@@ -46,10 +32,7 @@ double without_fitted(double mpc, std::size_t n_components) {
 
 NeighbourLeakage::NeighbourLeakage(Shape neighbour, Complex s, const FoldingConfig& config)
     : neighbour_(std::move(neighbour)), turn_(neighbour_.size(), 1.0) {
-  for (std::size_t c = 0; c < turn_.size() && c < config.delay_s.size(); ++c)
-    turn_[c] = std::exp(-s * config.delay_s[c]);
-  for (std::size_t c = 0; c < turn_.size() && c < config.n_integrations.size(); ++c)
-    turn_[c] *= std::pow(s, -config.n_integrations[c]);
+  for (std::size_t c = 0; c < turn_.size(); ++c) turn_[c] = as_displacement(1.0, s, c, config);
 }
 
 // Least squares of Im(turn (phi - c psi)) over the real and the imaginary part of c.
@@ -72,23 +55,35 @@ Shape NeighbourLeakage::without(const Shape& shape) const {
   return out;
 }
 
+// Square of what is out of phase over that of what is in phase, without the neighbour's part. Does not allocate: it is
+// computed for every phase.
+double NeighbourLeakage::out_of_phase(const Shape& shape) const {
+  const Complex c = coefficient(shape);
+  double in_phase = 0.0, out_of_phase = 0.0;
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    const Complex z = (shape[i] - c * neighbour_[i]) * turn_[i];
+    in_phase += z.real() * z.real(), out_of_phase += z.imag() * z.imag();
+  }
+  return in_phase > 0.0 ? out_of_phase / in_phase : HUGE_VAL;
+}
+
 std::optional<NeighbourLeakage> NeighbourLeakage::fit(const Shape& shape, const Shape& neighbour, Complex s,
                                                       const FoldingConfig& config) {
-  NeighbourLeakage turned(neighbour, s, config);
+  NeighbourLeakage out(neighbour, s, config);
   const Complex step = std::polar(1.0, -0.5 * kTwoPi / kPhases);
-  std::optional<NeighbourLeakage> best;
+  Shape best_turn;
   double least = HUGE_VAL;
   for (int k = 0; k < kPhases; ++k) {
-    const Parts left = parts_of(turned.without(shape), turned.turn_);
-    const double ratio = left.in_phase > 0.0 ? left.out_of_phase / left.in_phase : HUGE_VAL;
-    if (ratio < least) least = ratio, best = turned;
-    for (Complex& turn : turned.turn_) turn *= step;
+    const double ratio = out.out_of_phase(shape);
+    if (ratio < least) least = ratio, best_turn = out.turn_;
+    for (Complex& turn : out.turn_) turn *= step;
   }
-  if (!best) return best;
+  if (best_turn.empty()) return std::nullopt;
+  out.turn_ = std::move(best_turn);
   double whole = 0.0, left = 0.0;
   for (const Complex& z : shape) whole += std::norm(z);
-  for (const Complex& z : best->without(shape)) left += std::norm(z);
-  return left >= kLeastLeft * whole ? best : std::nullopt;
+  for (const Complex& z : out.without(shape)) left += std::norm(z);
+  return left >= kLeastLeft * whole ? std::optional(std::move(out)) : std::nullopt;
 }
 
 namespace {
@@ -135,11 +130,10 @@ class Unmixing {
   void free_from(std::size_t i, std::size_t m) {
     const UnfoldedPole& alone = alone_[i];
     const Complex s_apparent = std::log(observed_[i].lambda) * config_.rate_hz;
-    const int reach = static_cast<int>(std::ceil(config_.max_frequency_hz / config_.rate_hz)) + 1;
     const int n_neighbour = *poles_[m].fold_n;
     double best = alone.mpc;
-    for (int n = -reach; n <= reach; ++n) {
-      if (n == n_neighbour || std::abs(alone.apparent_hz + n * config_.rate_hz) > config_.max_frequency_hz) continue;
+    for (const int n : alias_orders(alone.apparent_hz, config_.rate_hz, config_.max_frequency_hz)) {
+      if (n == n_neighbour) continue;
       const Complex s = s_apparent + Complex(0.0, kTwoPi * n * config_.rate_hz);
       const auto found = NeighbourLeakage::fit(shape_[i], free_shape_[m], s, config_);
       if (!found) continue;

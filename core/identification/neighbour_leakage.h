@@ -9,12 +9,12 @@
 
 namespace core {
 
-// Of two poles closer than their widths in the sampled spectrum, each shape carries errors that are a multiple of the
-// other's: of a weak mode that folds beside a strong one, half of the estimated shape may be the strong one's. That
-// part is seen with the row delays of another frequency, so the delays determine it: of
-//     phi - c psi        phi: shape of the pole, psi: of its neighbour, both as observed; c: one complex number
-// the delays undone for an alias order other than the neighbour's, c is the value that leaves the components in phase
-// (least squares about the best common phase).
+// If two poles are closer than their widths in the sampled spectrum, the error of each shape is a multiple of the
+// other's shape: half of a weak mode's estimated shape may belong to the strong mode that it folds beside. That part is
+// seen with the row delays of another frequency, so the delays determine it. The corrected shape is
+//     phi - c psi        phi: shape of the pole, psi: of its neighbour, both as observed; c: one complex number.
+// c is chosen so that the components are in phase once the delays are undone for the pole's own alias order (least
+// squares about the best common phase).
 class NeighbourLeakage {
  public:
   // Empty if less than a fifth of the shape's square would remain, or nothing can be fitted. s: signed frequency of the
@@ -29,6 +29,7 @@ class NeighbourLeakage {
  private:
   NeighbourLeakage(std::vector<std::complex<double>> neighbour, std::complex<double> s, const FoldingConfig& config);
   [[nodiscard]] std::complex<double> coefficient(const std::vector<std::complex<double>>& shape) const;
+  [[nodiscard]] double out_of_phase(const std::vector<std::complex<double>>& shape) const;
 
   std::vector<std::complex<double>> neighbour_;  // as observed
   std::vector<std::complex<double>> turn_;       // per channel: undoes the delay and the common phase

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <utility>
 
+#include "core/types/constants.h"
 #include "drivers/storage/text_file.h"
 
 namespace drivers {
@@ -55,7 +56,6 @@ struct NamedUnit {
   std::string_view name;
   MotionUnit unit;
 };
-constexpr double kStandardGravity = 9.80665;
 constexpr std::array kLengths{
     NamedUnit{"m", {0, 1.0}},   NamedUnit{"cm", {0, 1e-2}}, NamedUnit{"mm", {0, 1e-3}},
     NamedUnit{"um", {0, 1e-6}}, NamedUnit{"nm", {0, 1e-9}}, NamedUnit{"in", {0, 0.0254}},
@@ -63,8 +63,8 @@ constexpr std::array kLengths{
 constexpr std::array kOthers{
     NamedUnit{"px", {0, 0.0}},
     NamedUnit{"pixel", {0, 0.0}},
-    NamedUnit{"g", {2, kStandardGravity}},
-    NamedUnit{"mg", {2, 1e-3 * kStandardGravity}},
+    NamedUnit{"g", {2, core::kStandardGravity_m_s2}},
+    NamedUnit{"mg", {2, 1e-3 * core::kStandardGravity_m_s2}},
     NamedUnit{"gal", {2, 1e-2}},
 };
 

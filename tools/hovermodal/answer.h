@@ -12,8 +12,7 @@ namespace tools {
 
 // What a command leaves on its standard streams. Without options: the text of its result on standard output. --json:
 // one JSON document on standard output in its place, notes on standard error. --quiet: no text, no notes, no progress;
-// with
-// --json the document alone. Files are written in every case, and errors are always reported.
+// with --json, the document alone. Files are written in every case, and errors are always reported.
 struct Answer {
   bool json = false, quiet = false;
 

@@ -13,7 +13,6 @@
 namespace core::simulation {
 namespace {
 
-constexpr double kGravity_m_s2 = 9.80665;
 constexpr double kMmPerM = 1e3;
 constexpr double kFade_s = 1.0;
 constexpr std::size_t kLeastSamples = 4;
@@ -82,7 +81,7 @@ Accelerations levelled(const core::FlightAttitude& attitude) {
     const double z = attitude.y_m_s2[i] * std::sin(roll) + attitude.z_m_s2[i] * std::cos(roll);
     out.forward.push_back(attitude.x_m_s2[i] * std::cos(pitch) + z * std::sin(pitch));
     out.left.push_back(y);
-    out.up.push_back(-attitude.x_m_s2[i] * std::sin(pitch) + z * std::cos(pitch) - kGravity_m_s2);
+    out.up.push_back(-attitude.x_m_s2[i] * std::sin(pitch) + z * std::cos(pitch) - kStandardGravity_m_s2);
   }
   return out;
 }

@@ -5,14 +5,13 @@
 #include <string>
 
 #include "core/simulation/structure/structure_check.h"
+#include "core/types/constants.h"
 
 namespace core::simulation {
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-constexpr double kGravity_m_s2 = 9.80665;
 
 Eigen::VectorXd to_vector(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Index>(values.size()));
@@ -47,7 +46,7 @@ std::vector<double> storey_stiffness(const ShearBuilding& frame) {
   double above_kg = 0.0;
   for (std::size_t i = stiffness.size(); i-- > 0;) {
     above_kg += frame.mass_kg[i];
-    stiffness[i] -= kGravity_m_s2 * above_kg / (1e-3 * frame.storey_height_mm[i]);
+    stiffness[i] -= kStandardGravity_m_s2 * above_kg / (1e-3 * frame.storey_height_mm[i]);
     require_structure(stiffness[i] > 0.0, "stiffness left by gravity in storey " + std::to_string(i + 1) + " (N/m)",
                       stiffness[i], "the storey buckles: give stiffer columns, less mass or a taller storey");
   }

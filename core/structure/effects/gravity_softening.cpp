@@ -2,11 +2,12 @@
 
 #include "core/structure/effects/catalogue.h"
 #include "core/structure/effects/plausibility.h"
+#include "core/types/constants.h"
 
 namespace core::structure {
 namespace {
 
-constexpr double kGravityMmPerS2 = 9806.65;
+constexpr double kGravityMmPerS2 = 1e3 * kStandardGravity_m_s2;
 constexpr double kMostStability = 0.3;  // Eurocode 8, 4.4.2.2
 // The deflected column is a curve, not a straight line: up to 6/5 of the weight is effective (consistent geometric
 // stiffness). Heights from drawings are accurate to a few percent.

@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "core/structure/kinds/declared_value.h"
+#include "core/types/constants.h"
 
 namespace core::structure {
 namespace {
 
 constexpr std::size_t kCableParts = 4;  // bars
-constexpr double kGravityOfCable_m_s2 = 9.80665;
-constexpr double kMostSag = 0.125;  // of the chord: beyond, the parabola is no longer small (Irvine)
+constexpr double kMostSag = 0.125;      // of the chord: beyond, the parabola is no longer small (Irvine)
 
 void validate(const Cable& cable) {
   require_value(cable.length_m, 1e-2, 1e4, "length_m");
@@ -21,7 +21,7 @@ void validate(const Cable& cable) {
   require_value(cable.ei_nm2, 0.0, 1e15, "ei_nm2");
   require_value(cable.ea_n, 0.0, 1e15, "ea_n");
   require_value(cable.slope_deg, -90.0, 90.0, "slope_deg");
-  const double sag = cable.mass_per_m_kg * kGravityOfCable_m_s2 * cable.length_m / (8.0 * cable.tension_n);
+  const double sag = cable.mass_per_m_kg * kStandardGravity_m_s2 * cable.length_m / (8.0 * cable.tension_n);
   if (cable.ea_n > 0.0 && sag > kMostSag)
     refuse_declaration("tension_n: ", cable.tension_n, " N gives a sag of ", sag, " of the length: allowed up to ",
                        kMostSag, "; check tension and mass_per_m_kg");
@@ -70,7 +70,7 @@ std::unique_ptr<StructuralModel> make_cable(const Cable& cable, std::vector<Sigh
                       place_text(cable.length_m * static_cast<double>(i) / kCableParts));
   if (cable.ea_n > 0.0) {
     const double weight =
-        cable.mass_per_m_kg * kGravityOfCable_m_s2 * std::cos(cable.slope_deg * std::numbers::pi / 180);
+        cable.mass_per_m_kg * kStandardGravity_m_s2 * std::cos(cable.slope_deg * std::numbers::pi / 180);
     const double bow = weight * cable.length_m / cable.tension_n;
     const double stretched = cable.length_m * (1.0 + bow * bow / 8.0);
     mesh.add_uniform_restraint(cable.ea_n / stretched * weight * weight, tension, Law::kInverseSquare);

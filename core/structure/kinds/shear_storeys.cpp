@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/structure/kinds/declared_value.h"
+#include "core/types/constants.h"
 
 namespace core::structure {
 namespace {
@@ -29,7 +30,7 @@ class ShearStoreys final : public StructuralModel {
                            Role::kGravity,
                            frame_.gravity_over_height_per_s2,
                            0.0,
-                           9806.65,
+                           1e3 * kStandardGravity_m_s2,
                            10.0,
                            0.0,
                            {}});

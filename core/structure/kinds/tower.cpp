@@ -5,12 +5,12 @@
 #include <utility>
 
 #include "core/structure/kinds/declared_value.h"
+#include "core/types/constants.h"
 
 namespace core::structure {
 namespace {
 
 constexpr std::size_t kMostTowerParts = 60;
-constexpr double kGravityMPerS2 = 9.80665;
 
 void validate(const Tower& tower) {
   require_value(tower.height_m, 1e-3, 1e4, "height_m");
@@ -87,7 +87,7 @@ class TowerBuilder {
     const double rest = tower_.height_m - z;
     for (Eigen::Index i = 0; i < kRule.at.size(); ++i)
       kg += kRule.weight(i) * rest * tower_.mass_per_m_kg * mass_factor(z + rest * kRule.at(i));
-    return kGravityMPerS2 * kg;
+    return kStandardGravity_m_s2 * kg;
   }
   void add_bars() {
     std::vector<std::size_t> parts;

@@ -29,8 +29,7 @@ std::size_t lines_for(std::size_t n) {
 }
 
 Eigen::MatrixXcd matrix_at(const core::CpsdSums& sums, int bin, const std::vector<std::size_t>& channels) {
-  const double sides = 2 * bin == sums.n_fft ? 1.0 : 2.0;
-  const double factor = sides / (sums.rate_hz * sums.window_power * sums.weight.sum);
+  const double factor = 1.0 / density_divisor(sums, bin);
   const auto n = static_cast<Eigen::Index>(channels.size());
   Eigen::MatrixXcd out(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {

@@ -14,17 +14,20 @@ std::complex<double> at(const core::CpsdSums& sums, int bin, int pair) {
 // value(bin) is computed from the undivided sums.
 template <class Value>
 std::vector<PlotPoint> one_sided(const core::CpsdSums& sums, const Value& value) {
-  const double divisor = sums.rate_hz * sums.window_power * sums.weight.sum;
   std::vector<PlotPoint> out;
   for (int k = 1; k < sums.n_bins(); ++k) {
-    const double sides = 2 * k == sums.n_fft ? 1.0 : 2.0;
-    const double y = sides * value(k) / divisor;
+    const double y = value(k) / density_divisor(sums, k);
     out.push_back({k * sums.rate_hz / sums.n_fft, y > 0.0 ? y : std::numeric_limits<double>::quiet_NaN()});
   }
   return out;
 }
 
 }  // namespace
+
+double density_divisor(const core::CpsdSums& sums, int bin) noexcept {
+  const double sides = 2 * bin == sums.n_fft ? 1.0 : 2.0;
+  return sums.rate_hz * sums.window_power * sums.weight.sum / sides;
+}
 
 bool is_drawable(const core::CpsdSums* sums) noexcept {
   if (sums == nullptr || sums->n_channels < 1 || sums->n_fft < 4 || sums->n_segments == 0) return false;

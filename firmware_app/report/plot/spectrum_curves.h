@@ -13,6 +13,9 @@ namespace app {
 // True if the spectrum contains at least one segment and its sizes agree.
 [[nodiscard]] bool is_drawable(const core::CpsdSums* sums) noexcept;
 
+// The sums over it are the one-sided spectral density at that bin.
+[[nodiscard]] double density_divisor(const core::CpsdSums& sums, int bin) noexcept;
+
 // One-sided spectral densities over frequency in Hz, from bin 1 on, because the segments' means were removed. Values
 // that are not positive become NaN: a logarithmic axis cannot show them. `sums` must be drawable.
 [[nodiscard]] std::vector<PlotPoint> density(const core::CpsdSums& sums, int channel);

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "drivers/storage/limits.h"
 #include "drivers/storage/matrix_market.h"
 #include "drivers/storage/structure_file.h"
 #include "drivers/storage/text_file.h"
+#include "tests/support/folder_test.h"
 
 namespace drivers {
 namespace {
@@ -60,13 +60,8 @@ TEST(StructureKinds, RefusalsNameLineKeyAndRemedy) {
               HasSubstr("there is no node `z`"));
 }
 
-class MatrixMarket : public testing::Test {
+class MatrixMarket : public tests::FolderTest {
  protected:
-  std::string file(const std::string& text) {
-    const std::string path = testing::TempDir() + "matrix_market_test.mtx";
-    std::ofstream(path) << text;
-    return path;
-  }
   std::string refused(const std::string& text) {
     try {
       (void)read_matrix_market(file(text));

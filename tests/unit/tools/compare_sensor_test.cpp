@@ -10,6 +10,7 @@
 
 #include "tests/support/answers.h"
 #include "tests/support/command.h"
+#include "tests/support/folder_test.h"
 
 // `hovermodal compare --sensor` as a user runs it.
 namespace {
@@ -25,12 +26,10 @@ double roof_mm(double t) {
   return sum;
 }
 
-class CompareSensor : public testing::Test {
+class CompareSensor : public tests::FolderTest {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / "hovermodal_compare" /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
+    tests::FolderTest::SetUp();
     fs::create_directories(folder_ / "run");
     std::mt19937_64 random(3);
     std::normal_distribution<double> gaussian;
@@ -47,7 +46,6 @@ class CompareSensor : public testing::Test {
     return tests::run("hovermodal", "compare --sensor " + (folder_ / "laser.csv").string() + " --run " +
                                         (folder_ / "run").string() + " " + more);
   }
-  fs::path folder_;
 };
 
 TEST_F(CompareSensor, PrintsItsFileAsJson) {

@@ -16,6 +16,7 @@
 #include "drivers/storage/clip_writer.h"
 #include "drivers/storage/json.h"
 #include "tests/support/command.h"
+#include "tests/support/folder_test.h"
 
 // `hovermodal magnify` as a user runs it.
 namespace {
@@ -30,13 +31,10 @@ constexpr double kMmPerPx = 2.0, kRate_hz = 25.0;
 
 // A run's folder: a roof and a middle that moves half as far, one mode of 2 Hz, 3000 frames; a base whose motion is
 // noise; a wall without a channel; and the clip, of which only the first frame is used.
-class Magnify : public testing::Test {
+class Magnify : public tests::FolderTest {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / "hovermodal_magnify" /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+    tests::FolderTest::SetUp();
     write_displacements();
     write_tracks();
     write_clip();
@@ -101,7 +99,6 @@ class Magnify : public testing::Test {
     return tests::run("hovermodal", "magnify " + folder_.string() + " --out " + path("mode.mp4") + " " + more);
   }
 
-  fs::path folder_;
   double squares_ = 0.0;
 };
 
