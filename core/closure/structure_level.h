@@ -36,6 +36,11 @@ class StructureLevel final : public ClosureLevel {
   [[nodiscard]] std::optional<double> reference_error() const override;
   [[nodiscard]] std::string describe_residual() const override;
 
+  // After the last fit(): the model with its effects, its fit, and the standard deviation of the residual in sigmas, at
+  // least 1.
+  [[nodiscard]] const structure::FrameModel& model() const noexcept { return model_; }
+  [[nodiscard]] const structure::FrameFit& fitted() const noexcept { return fit_; }
+  [[nodiscard]] double spread() const;
   // All of the model's modes after the last fit().
   [[nodiscard]] structure::FrameModes model_modes() const;
   [[nodiscard]] const std::vector<structure::ReferenceMode>& check() const noexcept { return check_; }
@@ -51,7 +56,6 @@ class StructureLevel final : public ClosureLevel {
   [[nodiscard]] std::string implausible(const structure::FrameModel& model, const structure::FrameFit& fit) const;
   [[nodiscard]] Reference surrogate(const structure::FrameModel& model, const structure::FrameFit& fit, double spread,
                                     std::uint64_t seed) const;
-  [[nodiscard]] double spread() const;  // standard deviation of the residual in sigmas, at least 1
   [[nodiscard]] bool is_rival(const structure::FrameModel& rival, std::uint64_t seed) const;
 
   structure::DeclaredFrame declared_;

@@ -20,7 +20,9 @@ struct FrameModel {
   [[nodiscard]] std::vector<std::size_t> with_prior() const;
   // Number of parameters before those of the effects.
   [[nodiscard]] Eigen::Index n_scale() const;
-  [[nodiscard]] Eigen::Index n_parameters() const;
+  [[nodiscard]] Eigen::Index n_parameters() const { return first_of(effects.size()); }
+  // Index of an effect's first parameter; of effects.size(): the number of all parameters.
+  [[nodiscard]] Eigen::Index first_of(std::size_t i_effect) const;
   // Parameters of one effect, from the vector of all parameters.
   [[nodiscard]] std::vector<double> of_effect(std::size_t i_effect, const Eigen::VectorXd& parameters) const;
 };

@@ -45,15 +45,14 @@ std::vector<std::size_t> FrameModel::with_prior() const {
 
 Index FrameModel::n_scale() const { return (has_scale() ? 1 : 0) + static_cast<Index>(with_prior().size()); }
 
-Index FrameModel::n_parameters() const {
-  Index n = n_scale();
-  for (const StructuralEffect* effect : effects) n += static_cast<Index>(effect->parameters(*declared).size());
-  return n;
+Index FrameModel::first_of(std::size_t i_effect) const {
+  Index at = n_scale();
+  for (std::size_t i = 0; i < i_effect; ++i) at += static_cast<Index>(effects[i]->parameters(*declared).size());
+  return at;
 }
 
 std::vector<double> FrameModel::of_effect(std::size_t i_effect, const VectorXd& parameters) const {
-  Index at = n_scale();
-  for (std::size_t i = 0; i < i_effect; ++i) at += static_cast<Index>(effects[i]->parameters(*declared).size());
+  const Index at = first_of(i_effect);
   const auto n = effects[i_effect]->parameters(*declared).size();
   return {parameters.data() + at, parameters.data() + at + n};
 }

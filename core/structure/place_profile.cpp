@@ -9,13 +9,6 @@ namespace {
 
 constexpr double kOneDegree95 = 3.841;  // chi-square, one degree of freedom, 95 %
 
-Eigen::Index first_parameter(const FrameModel& model, std::size_t effect) {
-  Eigen::Index at = model.n_scale();
-  for (std::size_t i = 0; i < effect; ++i)
-    at += static_cast<Eigen::Index>(model.effects[i]->parameters(*model.declared).size());
-  return at;
-}
-
 }  // namespace
 
 std::vector<PlaceFit> place_profile(const FrameModel& model, const std::vector<ReferenceMode>& reference,
@@ -23,7 +16,7 @@ std::vector<PlaceFit> place_profile(const FrameModel& model, const std::vector<R
   std::vector<PlaceFit> out;
   const std::vector<EffectParameter> own = model.effects.at(effect)->parameters(*model.declared);
   if (own.empty() || !own.front().is_place || !fit.ok) return out;
-  const Eigen::Index at = first_parameter(model, effect);
+  const Eigen::Index at = model.first_of(effect);
   double best = std::numeric_limits<double>::infinity();
   for (const double place : own.front().starts) {
     PlaceFit one;
@@ -41,7 +34,7 @@ std::vector<PlaceFit> place_profile(const FrameModel& model, const std::vector<R
     best = std::min(best, one.chi2);
     out.push_back(std::move(one));
   }
-  for (PlaceFit& one : out) one.cannot_be_told_apart = one.chi2 <= best + spread * spread * kOneDegree95;
+  for (PlaceFit& one : out) one.is_indistinguishable = one.chi2 <= best + spread * spread * kOneDegree95;
   return out;
 }
 

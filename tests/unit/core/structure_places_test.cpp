@@ -64,7 +64,7 @@ TEST(PlacedEffects, TheSoftPartIsFoundWithItsSize) {
   EXPECT_TRUE(std::isnan(sigmas(1)));
   EXPECT_GT(sigmas(2), 0.0);
   std::size_t like = 0;
-  for (const PlaceFit& place : place_profile(model, reference, fit, 0, 1.0)) like += place.cannot_be_told_apart ? 1 : 0;
+  for (const PlaceFit& place : place_profile(model, reference, fit, 0, 1.0)) like += place.is_indistinguishable ? 1 : 0;
   EXPECT_EQ(like, 1U);
 }
 

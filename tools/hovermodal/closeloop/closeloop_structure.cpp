@@ -13,7 +13,6 @@
 
 #include "core/closure/closure_loop.h"
 #include "core/closure/structure_level.h"
-#include "core/structure/effects/catalogue.h"
 #include "core/structure/mode_numbers.h"
 #include "core/structure/place_profile.h"
 #include "drivers/storage/json.h"
@@ -26,12 +25,13 @@
 namespace tools {
 namespace {
 
+using core::closure::StructureLevel;
 using core::structure::DeclaredFrame;
 using core::structure::FrameFit;
 using core::structure::FrameModel;
 using Reference = std::vector<core::structure::ReferenceMode>;
 
-std::string check_text(const core::closure::StructureLevel& level) {
+std::string check_text(const StructureLevel& level) {
   if (level.check().empty()) return {};
   std::string out = "modes excluded from the fit (--check): predicted, given, error\n";
   const auto modes = level.model_modes();
@@ -58,76 +58,59 @@ Reference paired(const std::string& path, const DeclaredFrame& declared, const A
   return out;
 }
 
-// The final model of the loop, fitted again effect by effect.
-struct Final {
-  FrameModel model;
-  FrameFit fit;
-};
-Final final_of(const DeclaredFrame& declared, const Reference& reference, const core::closure::ClosureResult& result) {
-  Final out{{&declared, {}}, {}};
-  out.fit = fit_frame(out.model, reference, {}, core::structure::Starts::kAll);
-  for (const auto& step : result.steps) {
-    const auto* effect = core::find_effect(core::structure::structural_effects(), step.effect,
-                                           [](const auto& one) { return one.name(); });
-    if (effect == nullptr) continue;
-    out.model.effects.push_back(effect);
-    out.fit = fit_frame(out.model, reference, out.fit.parameters, core::structure::Starts::kAll);
-  }
-  return out;
-}
-
 // Places that explain the modes as well as the one found.
-std::string places_text(const Final& last, const Reference& reference) {
+std::string places_text(const StructureLevel& level, const Reference& reference) {
   std::string out;
-  const auto freedom = static_cast<double>(last.fit.n_data - last.fit.parameters.size());
-  const double spread = freedom > 0.0 ? std::max(1.0, std::sqrt(last.fit.chi2 / freedom)) : 1.0;
-  for (std::size_t i = 0; i < last.model.effects.size(); ++i) {
-    const auto places = place_profile(last.model, reference, last.fit, i, spread);
+  const std::size_t n_effects = level.model().effects.size();
+  for (std::size_t i = 0; i < n_effects; ++i) {
+    const auto places = place_profile(level.model(), reference, level.fitted(), i, level.spread());
     if (places.empty()) continue;
-    out += fmt::format("places of {} that the modes do not tell apart (chi-square within 95 %):\n",
-                       last.model.effects[i]->name());
+    out += fmt::format("places of {} that the modes do not distinguish (chi-square within 95 %):\n",
+                       level.model().effects[i]->name());
     for (const auto& place : places) {
-      if (place.cannot_be_told_apart) out += fmt::format("  {:8.1f}  {}\n", place.chi2, place.meaning);
+      if (place.is_indistinguishable) out += fmt::format("  {:8.1f}  {}\n", place.chi2, place.meaning);
     }
   }
   return out;
 }
 
 // A factor that no structure's properties are wrong by, but units are.
-std::string units_text(const Final& last) {
+std::string units_text(const StructureLevel& level) {
   constexpr double kMostFactor = 20.0;
-  if (!last.fit.ok || !last.model.has_scale()) return {};
-  const double factor = std::exp(last.fit.parameters(0));
+  if (!level.fitted().ok || !level.model().has_scale()) return {};
+  const double factor = std::exp(level.fitted().parameters(0));
   if (factor < kMostFactor && factor > 1.0 / kMostFactor) return {};
   return fmt::format("stiffness over mass is {:.3g} times the declared one: check the units of stiffness and mass\n",
                      factor);
 }
 
-// Posterior of the parameters that have a prior, and which the modes do not tell.
-std::string parameters_text(const Final& last) {
+// Posterior of the parameters that have a prior, and which of them the modes determine.
+std::string parameters_text(const StructureLevel& level) {
   std::string out;
-  const auto told = core::structure::identifiability(last.model, last.fit);
-  if (told.empty()) return out;
-  const Eigen::VectorXd values = values_of(last.model, last.fit.parameters);
-  const Eigen::MatrixXd covariance = parameter_covariance(last.fit);
-  const auto& parameters = last.model.declared->model->parameters();
-  const std::vector<std::size_t> all = last.model.with_prior();
-  const Eigen::Index first = last.model.has_scale() ? 1 : 0;
+  const FrameModel& model = level.model();
+  const FrameFit& fit = level.fitted();
+  const auto posterior = core::structure::identifiability(model, fit);
+  if (posterior.empty()) return out;
+  const Eigen::VectorXd values = values_of(model, fit.parameters);
+  const Eigen::MatrixXd covariance = parameter_covariance(fit);
+  const auto& parameters = model.declared->model->parameters();
+  const std::vector<std::size_t> all = model.with_prior();
+  const Eigen::Index first = model.has_scale() ? 1 : 0;
   out += "parameters with a prior: declared, fitted, sigma, sigma over that of the prior\n";
   for (std::size_t k = 0; k < all.size(); ++k) {
     const auto& p = parameters[all[k]];
-    const double share = told[k].sigma_over_prior;
+    const double share = posterior[k].sigma_over_prior;
     out += fmt::format("  {:<24}{:12.5g} {:12.5g} {:10.3g} {} {:6.3f}{}\n", p.name, p.value,
                        values(static_cast<Eigen::Index>(all[k])), share * p.prior_sigma, p.unit, share,
-                       share > 0.9 ? "  the modes do not tell it" : "");
+                       share > 0.9 ? "  the modes do not determine it" : "");
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       const auto a = first + static_cast<Eigen::Index>(i), b = first + static_cast<Eigen::Index>(k);
       const double correlation = covariance(a, b) / std::sqrt(covariance(a, a) * covariance(b, b));
       if (std::abs(correlation) > 0.9) {
-        out += fmt::format("  {} and {}: correlation {:.2f}; only their combination is told\n", parameters[all[k]].name,
-                           parameters[all[i]].name, correlation);
+        out += fmt::format("  {} and {}: correlation {:.2f}; only their combination is determined\n",
+                           parameters[all[k]].name, parameters[all[i]].name, correlation);
       }
     }
   }
@@ -142,7 +125,7 @@ void close_structure(const LoopRequest& request, const std::string& structure, c
   Reference check = check_path.empty() ? Reference{} : paired(check_path, declared, request.answer);
   const auto make_level = [&] {
     try {
-      return std::make_unique<core::closure::StructureLevel>(declared, reference, std::move(check));
+      return std::make_unique<StructureLevel>(declared, reference, std::move(check));
     } catch (const std::invalid_argument& error) {
       throw drivers::FileError(request.reference + (check_path.empty() ? "" : " or " + check_path) + ": " +
                                error.what());
@@ -160,16 +143,16 @@ void close_structure(const LoopRequest& request, const std::string& structure, c
     return core::closure::close_loop(*level, loop);
   }();
   std::erase_if(result.not_observable, [](const auto& one) { return one.reason == core::structure::kOtherKind; });
-  request.answer.document(app::closure_json(result));
+  const std::string json = app::closure_json(result);
+  request.answer.document(json);
   request.answer.text("{}{}", closure_text(result), check_text(*level));
   if (declared.model) {
-    const Final last = final_of(declared, reference, result);
-    request.answer.text("{}{}", places_text(last, reference), parameters_text(last));
-    request.answer.note("{}", units_text(last));
+    request.answer.text("{}{}", places_text(*level, reference), parameters_text(*level));
+    request.answer.note("{}", units_text(*level));
   }
   if (request.report.empty()) return;
   const std::filesystem::path folder = request.report;
-  drivers::write_file_atomically((folder / "closure.json").string(), app::closure_json(result));
+  drivers::write_file_atomically((folder / "closure.json").string(), json);
   drivers::write_file_atomically((folder / "closure_modes.svg").string(), app::closure_modes_svg(result));
   request.answer.text("{} written\n", (folder / "closure.json").string());
 }
