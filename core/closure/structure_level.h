@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/closure/closure_level.h"
+#include "core/structure/first_order.h"
 #include "core/structure/frame_fit.h"
 
 namespace core::closure {
@@ -12,7 +14,8 @@ namespace core::closure {
 // decrease of the summed squared prediction errors, in units of the reference's variances.
 class StructureLevel final : public ClosureLevel {
  public:
-  // Materiality threshold: an effect must at least halve the leave-one-out error.
+  // Materiality threshold: an effect must at least halve the leave-one-out error, or leave no more than the stated
+  // noise.
   static constexpr double kMaterial = 0.5;
 
   // Throws std::invalid_argument (core/structure/declared_frame.h). `check`: modes excluded from every fit. If it is
@@ -56,13 +59,21 @@ class StructureLevel final : public ClosureLevel {
   [[nodiscard]] std::string implausible(const structure::FrameModel& model, const structure::FrameFit& fit) const;
   [[nodiscard]] Reference surrogate(const structure::FrameModel& model, const structure::FrameFit& fit, double spread,
                                     std::uint64_t seed) const;
+  [[nodiscard]] bool is_like_an_effect() const;
+  [[nodiscard]] double fitted_surrogate_score(std::uint64_t seed) const;
   [[nodiscard]] bool is_rival(const structure::FrameModel& rival, std::uint64_t seed) const;
+  [[nodiscard]] std::vector<double> differences(const structure::FrameModel& rival, const structure::FrameFit& fit,
+                                                std::uint64_t seed) const;
+  [[nodiscard]] std::vector<double> first_order_differences(const structure::FrameModel& rival,
+                                                            const structure::FrameFit& fit, std::uint64_t seed) const;
 
   structure::DeclaredFrame declared_;
   Reference reference_, check_;
   structure::FrameModel model_;
   structure::FrameFit fit_;
   structure::LeaveOneOut loo_;
+  // Of another kind than a shear frame, about the last fit; empty where it cannot be formed.
+  std::optional<structure::FirstOrderEffects> first_order_;
 };
 
 }  // namespace core::closure

@@ -47,30 +47,13 @@ Bounds bounds_of(const FrameModel& model) {
   return out;
 }
 
-bool has_shapes(const std::vector<ReferenceMode>& reference) {
-  return std::any_of(reference.begin(), reference.end(), [](const ReferenceMode& m) { return !m.shape.empty(); });
-}
-
 class Problem {
  public:
   Problem(const FrameModel& model, const std::vector<ReferenceMode>& reference, int without)
-      : model_(model),
-        reference_(reference),
-        without_(without),
-        bounds_(bounds_of(model)),
-        with_shapes_(has_shapes(reference)) {}
+      : model_(model), reference_(reference), without_(without), bounds_(bounds_of(model)) {}
 
   [[nodiscard]] bool residuals(const VectorXd& p, VectorXd& out) const {
-    const auto modes = seen_modes(model_, p, with_shapes_);
-    if (!modes) return false;
-    std::vector<double> values;
-    for (std::size_t i = 0; i < reference_.size(); ++i) {
-      if (static_cast<int>(i) != without_) append_residuals(*modes, reference_[i], values);
-    }
-    const Index first = model_.has_scale() ? 1 : 0;
-    for (Index k = first; k < model_.n_scale(); ++k) values.push_back(p(k));
-    out = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
-    return out.allFinite();
+    return residuals_of(model_, reference_, without_, p, out);
   }
 
   [[nodiscard]] bool jacobian(const VectorXd& p, const VectorXd& r, MatrixXd& out) const {
@@ -109,7 +92,11 @@ class Problem {
     fit.ok = true;
     fit.chi2 = r.squaredNorm();
     fit.n_data = r.size();
+    for (std::size_t i = 0; i < reference_.size(); ++i)
+      fit.n_scales += static_cast<int>(i) != without_ && !reference_[i].shape.empty() ? 1 : 0;
     fit.is_place = bounds_.is_place;
+    for (Index k = 0; k < p.size(); ++k) fit.is_at_bound.push_back(!(p(k) > bounds_.low(k) && p(k) < bounds_.high(k)));
+    fit.residuals = std::move(r);
     fit.parameters = std::move(p);
     return true;
   }
@@ -148,7 +135,6 @@ class Problem {
   const std::vector<ReferenceMode>& reference_;
   int without_;
   Bounds bounds_;
-  bool with_shapes_;
 };
 
 // Initial ln(stiffness over mass), from all reference modes and the plain model.
@@ -209,14 +195,19 @@ FrameFit fit_frame(const FrameModel& model, const std::vector<ReferenceMode>& re
   return best;
 }
 
+// Places are chosen from few, and priors are data of their own: neither takes a mode.
+bool determines(const FrameModel& model, const std::vector<ReferenceMode>& reference, const FrameFit& fit) {
+  const auto n = static_cast<Index>(reference.size());
+  const Index free = fit.parameters.size() - static_cast<Index>(model.with_prior().size()) -
+                     std::count(fit.is_place.begin(), fit.is_place.end(), true);
+  return n >= 2 && n - 1 >= free;
+}
+
 LeaveOneOut leave_one_out(const FrameModel& model, const std::vector<ReferenceMode>& reference, const FrameFit& fit) {
   LeaveOneOut out;
   out.chi2 = out.rms_percent = kInfinity;
   const auto n = static_cast<Index>(reference.size());
-  // Places are chosen from few, and priors are data of their own: neither takes a mode.
-  const Index free = fit.parameters.size() - static_cast<Index>(model.with_prior().size()) -
-                     std::count(fit.is_place.begin(), fit.is_place.end(), true);
-  if (!fit.ok || n < 2 || n - 1 < free) return out;
+  if (!fit.ok || !determines(model, reference, fit)) return out;
   double chi2 = 0.0, squares = 0.0;
   std::vector<double> errors;
   for (Index i = 0; i < n; ++i) {

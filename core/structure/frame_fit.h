@@ -43,8 +43,13 @@ struct FrameFit {
   Eigen::VectorXd parameters;  // within the effects' bounds
   double chi2 = 0.0;           // sum of squared residuals in units of the reference's sigmas
   Eigen::Index n_data = 0;
+  Eigen::Index n_scales = 0;   // shapes: each is compared at its best scale
+  Eigen::VectorXd residuals;   // of the reference modes in their order (frequency, shape), then of the priors
   Eigen::MatrixXd jacobian;    // of those residuals; n_data x parameters
   std::vector<bool> is_place;  // parameters that count places; they have no derivative
+  std::vector<bool> is_at_bound;
+
+  [[nodiscard]] double degrees_of_freedom() const { return static_cast<double>(n_data - n_scales - parameters.size()); }
 };
 
 enum class Starts { kAll, kBest };  // initial values: all of each effect, or the best-fitting one
@@ -64,6 +69,9 @@ struct LeaveOneOut {
   double chi2 = 0.0;                   // of frequencies and shapes
   double rms_percent = 0.0;            // of the frequencies; infinite if it cannot be determined
 };
+// Whether the reference's frequencies, one held out, are at least as many as the parameters.
+[[nodiscard]] bool determines(const FrameModel& model, const std::vector<ReferenceMode>& reference,
+                              const FrameFit& fit);
 [[nodiscard]] LeaveOneOut leave_one_out(const FrameModel& model, const std::vector<ReferenceMode>& reference,
                                         const FrameFit& fit);
 

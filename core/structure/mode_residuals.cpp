@@ -59,6 +59,21 @@ void append_residuals(const FrameModes& modes, const ReferenceMode& mode, std::v
     out.push_back((modes.shapes(static_cast<Index>(i), r) * along / square - mode.shape[i]) / mode.shape_sigma[i]);
 }
 
+bool residuals_of(const FrameModel& model, const std::vector<ReferenceMode>& reference, int without, const VectorXd& p,
+                  VectorXd& out) {
+  const bool with_shapes =
+      std::any_of(reference.begin(), reference.end(), [](const ReferenceMode& m) { return !m.shape.empty(); });
+  const auto modes = seen_modes(model, p, with_shapes);
+  if (!modes) return false;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    if (static_cast<int>(i) != without) append_residuals(*modes, reference[i], values);
+  }
+  for (Index k = model.has_scale() ? 1 : 0; k < model.n_scale(); ++k) values.push_back(p(k));
+  out = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
+  return out.allFinite();
+}
+
 bool has_analytic_jacobian(const FrameModel& model) {
   if (!model.declared->model) return false;
   return std::none_of(model.effects.begin(), model.effects.end(),

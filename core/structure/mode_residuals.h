@@ -10,6 +10,10 @@ namespace core::structure {
 // Residuals of one reference mode in units of its sigmas: frequency, then the shape's components at the best scale.
 void append_residuals(const FrameModes& modes, const ReferenceMode& mode, std::vector<double>& out);
 
+// Of all modes but `without` (-1: of all), and of the priors. False: there are no modes, or a residual is not finite.
+[[nodiscard]] bool residuals_of(const FrameModel& model, const std::vector<ReferenceMode>& reference, int without,
+                                const Eigen::VectorXd& parameters, Eigen::VectorXd& out);
+
 // Whether the derivatives of the modes give those of the residuals: another kind than a shear frame, and frequencies
 // that are seen as they are.
 [[nodiscard]] bool has_analytic_jacobian(const FrameModel& model);

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # The figures of structural models of any kind: accuracy, effects, places, measured structures, tension. One line a figure.
 #   tools/figures/structures.sh [--quick] [--seeds N] [--first-seed N] [FIGURE...]
-# FIGURE: some of 1 3 4 5 6 (default: all). SKIP where measured data (HOVERMODAL_DATA) are absent.
+# FIGURE: some of 1 2 3 4 5 6 (default: all). SKIP where measured data (HOVERMODAL_DATA) are absent.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
 take_arguments "tools/figures/structures.sh [--quick] [--seeds N] [--first-seed N] [FIGURE...]" "$@"
-all_or_named 1 3 4 5 6
-draws 3 4 6
+all_or_named 1 2 3 4 5 6
+draws 2 3 4 6
 seeds=100
 [ -z "$quick" ] || seeds=6
 [ -z "$n_seeds" ] || seeds=$n_seeds
@@ -28,6 +28,22 @@ figure_1() {
   done < <(grep '^kind' "$out/kinds.txt")
   judge 1 "$n comparisons" "kinds against closed-form solutions (uniform cantilever, simply supported and continuous beam, string, two-span on springs): 1e-8; against dense matrices for frame2d, matrices" \
     "cases compared" "$n >= 18"
+}
+
+# --- 2: every kind with every effect ------------------------------------------------------------------------------------
+figure_2() {
+  local n_each=20
+  [ -z "$quick$n_seeds" ] || n_each=$seeds
+  "$bin/hovermodal-validate" structure-effects --first-seed "$first_seed" --seeds "$n_each" --threads "$(nproc)" >"$out/effects.txt"
+  local kind effect n alone rival nothing place intervals inside before after instead all=0 held=0
+  while IFS=$'\t' read -r _ kind effect n alone rival nothing place intervals inside before after instead; do
+    all=$((all + intervals)) held=$((held + inside))
+    judge "2_${kind}_$effect" "named $alone and nothing else, another with it among the rivals $rival, nothing $nothing of $n; at its place $place, 95 % interval holds in $inside of $intervals; held out $before -> $after % (medians); instead:$instead" \
+      "named and nothing else in >= 90 %, rivals right where the modes cannot tell" "$effect in a $kind, 3 to 6 modes at 5 to 8 places, $(seeds_of "$n")" \
+      "$alone + $rival >= 0.9 * $n"
+  done < <(grep '^named' "$out/effects.txt")
+  judge 2_interval "$held of $all sizes" "95 % interval holds in 90-98 %" "all kinds and effects together, where named at its place" \
+    "$held >= 0.9 * $all && $held <= 0.98 * $all"
 }
 
 # --- 3: where --------------------------------------------------------------------------------------------------------

@@ -140,6 +140,7 @@ struct Check {
 };
 constexpr std::array kChecks{
     Check{"structure-kinds", "structural models against closed forms and dense matrices", structures, 0},
+    Check{"structure-effects", "effects named in structures of every kind", structures, kRecords},
     Check{"structure-where", "which of ten storeys or elements lost stiffness", structures, kRecords},
     Check{"structure-tension", "tension of stay cables filmed at 50 frames/s", structures, kRecords},
     Check{"structure-large", "files of a wall of 10^5 degrees of freedom, in --report", structures, kSeed | kReport},

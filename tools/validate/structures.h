@@ -23,7 +23,7 @@ void print_structure_where(int n_seeds, int n_threads, int first_seed);
 void write_large_structure(const std::string& folder, int first_seed);
 // Tension of simulated stay cables, n_seeds for each length of the record.
 void print_structure_tension(int n_seeds, int n_threads, int first_seed);
-// One of them: structure-kinds, -where, -large, -tension.
+// One of them: structure-kinds, -effects, -where, -large, -tension.
 void print_structures(const std::string& what, int n_seeds, int n_threads, int first_seed, const std::string& folder);
 
 }  // namespace tools

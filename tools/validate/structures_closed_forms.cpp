@@ -13,6 +13,7 @@
 #include "core/structure/kinds/shear_storeys.h"
 #include "core/structure/kinds/tower.h"
 #include "tools/validate/structures.h"
+#include "tools/validate/structures_named.h"
 
 namespace tools {
 namespace {
@@ -225,6 +226,7 @@ void print_structure_kinds() {
 
 void print_structures(const std::string& what, int n_seeds, int n_threads, int first_seed, const std::string& folder) {
   if (what == "structure-kinds") return print_structure_kinds();
+  if (what == "structure-effects") return print_structure_effects(n_seeds, n_threads, first_seed);
   if (what == "structure-where") return print_structure_where(n_seeds, n_threads, first_seed);
   if (what == "structure-tension") return print_structure_tension(n_seeds, n_threads, first_seed);
   write_large_structure(folder, first_seed);

@@ -30,7 +30,7 @@ using Eigen::VectorXd;
 
 constexpr Index kPlaces = 10, kSeenModes = 6, kElements = 4;  // textbook elements in each part
 constexpr int kUndamaged = 300;                               // records; most end at the first test
-constexpr double kFrequencySigma = 0.001, kShapeSigma = 0.01;
+constexpr double kWhereFrequencySigma = 0.001, kWhereShapeSigma = 0.01;
 
 struct Truth {
   VectorXd hz;
@@ -133,12 +133,12 @@ Answer answer(double loss, std::uint64_t seed) {
   for (Index r = 0; r < kSeenModes; ++r) {
     ReferenceMode mode;
     mode.number = static_cast<int>(r) + 1;
-    mode.frequency_hz = truth.hz(r) * (1.0 + kFrequencySigma * draw.gaussian());
-    mode.sigma_hz = kFrequencySigma * mode.frequency_hz;
+    mode.frequency_hz = truth.hz(r) * (1.0 + kWhereFrequencySigma * draw.gaussian());
+    mode.sigma_hz = kWhereFrequencySigma * mode.frequency_hz;
     const double largest = truth.shapes.col(r).cwiseAbs().maxCoeff();
     for (Index i = 0; i < kPlaces; ++i) {
-      mode.shape.push_back(truth.shapes(i, r) / largest + kShapeSigma * draw.gaussian());
-      mode.shape_sigma.push_back(kShapeSigma);
+      mode.shape.push_back(truth.shapes(i, r) / largest + kWhereShapeSigma * draw.gaussian());
+      mode.shape_sigma.push_back(kWhereShapeSigma);
     }
     reference.push_back(std::move(mode));
   }

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/structure/declared_frame.h"
+#include "tools/validate/drawn_scene.h"
+
+namespace tools {
+
+// Matrices of a structure that share no code with the model fitted: those of core/simulation, or textbook elements.
+struct TrueMatrices {
+  Eigen::MatrixXd stiffness, mass;
+  Eigen::MatrixXd seen;  // places x degrees of freedom
+};
+
+// A structure of one kind that lacks one effect, drawn from a seed.
+struct NamedCase {
+  core::structure::DeclaredFrame declared;
+  TrueMatrices truth;
+  std::size_t place = 0;  // number of the place among those of the effect, from 1; 0: it has one only
+  double size = 0.0;      // in the unit of the effect's parameter
+};
+
+struct NamedKind {
+  std::string kind, effect;
+  NamedCase (*draw)(const std::string& effect, Draw& draw);
+};
+// Every kind with every effect where it makes sense; a file each group of kinds.
+[[nodiscard]] std::vector<NamedKind> named_kinds();
+[[nodiscard]] NamedCase draw_tower(const std::string& effect, Draw& draw);
+[[nodiscard]] NamedCase draw_beam(const std::string& effect, Draw& draw);
+[[nodiscard]] NamedCase draw_cable(const std::string& effect, Draw& draw);
+[[nodiscard]] NamedCase draw_storeys(const std::string& effect, Draw& draw);
+[[nodiscard]] NamedCase draw_frame2d(const std::string& effect, Draw& draw);
+[[nodiscard]] NamedCase draw_matrices(const std::string& effect, Draw& draw);
+[[nodiscard]] NamedCase draw_mode_table(const std::string& effect, Draw& draw);
+
+inline constexpr std::size_t kNamedParts = 6, kNamedElements = 60, kMostNamedModes = 6;
+
+// The simulator's cantilever or deck of kNamedElements elements, to be changed by parts.
+class TrueBar {
+ public:
+  enum class Ends { kFoot, kHinges };  // clamped at its start; hinged at both ends
+  // E I = 1 N m^2 per kg/m and m^4: length and mass 1, so that only ratios matter.
+  explicit TrueBar(Ends ends);
+
+  void scale_part(std::size_t part, double ratio);  // its bending stiffness, from 1
+  void add_mass(std::size_t node, double share);    // of the whole mass
+  void add_tension(double newton);                  // uniform
+  // Compression by the weight above: weight of the whole = `newton`.
+  void add_weight(double newton);
+  void add_spring(std::size_t node, bool turns, double stiffness);
+  // Gives way along a motion of the whole as a rigid body: flexibility added to that of the bar.
+  void add_flexibility(double at_start, double slope, double flexibility);
+  [[nodiscard]] Eigen::MatrixXd part(std::size_t number) const;  // its stiffness, from 1
+  // n places; the nodes' numbers.
+  std::vector<std::size_t> look(int n_places);
+  [[nodiscard]] const TrueMatrices& matrices() const noexcept { return out_; }
+
+ private:
+  [[nodiscard]] Eigen::Index dof(std::size_t node, bool turns) const;  // -1: held
+  void add(Eigen::MatrixXd& to, std::size_t element, const Eigen::Matrix4d& part) const;
+
+  Ends ends_;
+  TrueMatrices out_;
+};
+
+// Sights along a bar of length 1 at these nodes.
+[[nodiscard]] std::vector<core::structure::Sight> bar_sights(const std::vector<std::size_t>& nodes, bool upright);
+
+// Every case, n_seeds of each: effect named and nothing else, interval, held-out errors, rivals.
+void print_structure_effects(int n_seeds, int n_threads, int first_seed);
+
+}  // namespace tools
