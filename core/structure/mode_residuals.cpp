@@ -82,6 +82,7 @@ bool has_analytic_jacobian(const FrameModel& model) {
 
 bool analytic_jacobian(const FrameModel& model, const std::vector<ReferenceMode>& reference, int without,
                        const VectorXd& p, MatrixXd& out) {
+  if (p.size() == 0) return true;
   const MatrixXd slopes = value_slopes(model, p);
   std::vector<std::size_t> moved;
   for (Index v = 0; v < slopes.rows(); ++v) {

@@ -54,12 +54,13 @@ Named answer(const NamedKind& kind, std::uint64_t seed) {
   const NamedCase one = kind.draw(kind.effect, draw);
   auto reference = measured(one.truth, draw.whole(3, static_cast<int>(kMostNamedModes)), draw);
   pair_with_model(one.declared, reference);
-  if (reference.size() < 2) return {.nothing = true};
+  Named out;
+  out.nothing = reference.size() < 2;  // too few are modes of the model
+  if (out.nothing) return out;
   core::closure::StructureLevel level(one.declared, std::move(reference));
   core::closure::ClosureOptions options;
   options.seed = seed, options.n_surrogates_when_plain = 32;
   const core::closure::ClosureResult result = core::closure::close_loop(level, options);
-  Named out;
   out.nothing = result.steps.empty();
   if (out.nothing) return out;
   const core::closure::ClosureStep& first = result.steps.front();

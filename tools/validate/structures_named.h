@@ -53,8 +53,10 @@ class TrueBar {
   // Compression by the weight above: weight of the whole = `newton`.
   void add_weight(double newton);
   void add_spring(std::size_t node, bool turns, double stiffness);
-  // Gives way along a motion of the whole as a rigid body: flexibility added to that of the bar.
-  void add_flexibility(double at_start, double slope, double flexibility);
+  // Flexibility against rotation of the clamped foot: the bar turns as a rigid body.
+  void add_turning(double flexibility);
+  // A held end moves, on a spring. Its inertia and stiffness follow from those of the free nodes and of rigid motion.
+  void release(std::size_t node, double stiffness);
   [[nodiscard]] Eigen::MatrixXd part(std::size_t number) const;  // its stiffness, from 1
   // n places; the nodes' numbers.
   std::vector<std::size_t> look(int n_places);
@@ -66,6 +68,7 @@ class TrueBar {
 
   Ends ends_;
   TrueMatrices out_;
+  Eigen::VectorXd influence_;  // inertia of all nodes in translation, held ones included
 };
 
 // Sights along a bar of length 1 at these nodes.

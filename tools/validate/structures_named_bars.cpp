@@ -56,7 +56,7 @@ TrueBar::TrueBar(Ends ends) : ends_(ends) {
           ? cantilever({1000.0, static_cast<int>(kNamedElements), 1.0, 1.0, 0.0}, damping)
           : bridge_deck({1000.0, static_cast<int>(kNamedElements) - 1, 1, 1.0, 1.0, BridgeDeck::Ends::kSimple},
                         damping);
-  out_.stiffness = model.stiffness, out_.mass = model.mass;
+  out_.stiffness = model.stiffness, out_.mass = model.mass, influence_ = model.influence;
 }
 
 Index TrueBar::dof(std::size_t node, bool turns) const {
@@ -100,16 +100,39 @@ void TrueBar::add_spring(std::size_t node, bool turns, double stiffness) {
   out_.stiffness(dof(node, turns), dof(node, turns)) += stiffness;
 }
 
-void TrueBar::add_flexibility(double at_start, double slope, double flexibility) {
+void TrueBar::add_turning(double flexibility) {
   VectorXd rigid = VectorXd::Zero(out_.stiffness.rows());
-  for (std::size_t node = 0; node <= kNamedElements; ++node) {
-    const double x = static_cast<double>(node) * kElement;
-    if (dof(node, false) >= 0) rigid(dof(node, false)) = at_start + slope * x;
-    if (dof(node, true) >= 0) rigid(dof(node, true)) = slope;
+  for (std::size_t node = 1; node <= kNamedElements; ++node) {
+    rigid(dof(node, false)) = static_cast<double>(node) * kElement;
+    rigid(dof(node, true)) = 1.0;
   }
   // Inverse of K^-1 + flexibility rigid rigid' (Sherman & Morrison).
   const VectorXd force = out_.stiffness * rigid;
   out_.stiffness -= (flexibility / (1.0 + flexibility * rigid.dot(force))) * force * force.transpose();
+}
+
+void TrueBar::release(std::size_t node, double stiffness) {
+  const Index n = out_.stiffness.rows();
+  VectorXd rigid = VectorXd::Zero(n);
+  for (std::size_t i = 0; i <= kNamedElements; ++i) {
+    if (dof(i, false) >= 0) rigid(dof(i, false)) = 1.0;
+  }
+  // Of all held ends together; each one's own lie in its half of the bar.
+  VectorXd mass = influence_ - out_.mass * rigid, stiff = -(out_.stiffness * rigid);
+  const double ends = ends_ == Ends::kFoot ? 1.0 : 2.0;
+  const double own_mass = (1.0 - rigid.dot(out_.mass * rigid) - 2.0 * rigid.dot(mass)) / ends;
+  if (node == 0) {
+    mass.tail(n / 2).setZero(), stiff.tail(n / 2).setZero();
+  } else {
+    mass.head(n / 2).setZero(), stiff.head(n / 2).setZero();
+  }
+  const double own_stiffness = -rigid.dot(stiff);
+  const auto extend = [n](MatrixXd& to, const VectorXd& coupling, double own) {
+    to.conservativeResize(n + 1, n + 1);
+    to.col(n).head(n) = coupling, to.row(n).head(n) = coupling.transpose(), to(n, n) = own;
+  };
+  extend(out_.mass, mass, own_mass);
+  extend(out_.stiffness, stiff, own_stiffness + stiffness);
 }
 
 std::vector<std::size_t> TrueBar::look(int n_places) {
@@ -150,11 +173,11 @@ NamedCase draw_tower(const std::string& effect, Draw& draw) {
   } else if (effect == "support_turning") {
     const double flexibility = draw.uniform(0.05, 0.4);
     out.size = flexibility / 0.1;
-    bar.add_flexibility(0.0, 1.0, flexibility);
+    bar.add_turning(flexibility);
   } else if (effect == "support_yielding") {
     const double flexibility = draw.log_uniform(5e-4, 4e-3);
     out.size = flexibility / 0.1;
-    bar.add_flexibility(1.0, 0.0, flexibility);
+    bar.release(0, 1.0 / flexibility);
   } else if (effect == "spring_stiffness") {
     const double stiffness = draw.uniform(5.0, 20.0);
     const auto at = static_cast<std::size_t>(draw.whole(3, 5));
@@ -196,7 +219,7 @@ NamedCase draw_beam(const std::string& effect, Draw& draw) {
   } else if (effect == "support_yielding") {
     const double flexibility = draw.log_uniform(3e-4, 2e-3);
     out.place = static_cast<std::size_t>(end) + 1, out.size = flexibility / 0.1;
-    bar.add_flexibility(end == 0 ? 1.0 : 0.0, end == 0 ? -1.0 : 1.0, flexibility);
+    bar.release(end_node, 1.0 / flexibility);
   } else if (effect == "support_restraint") {
     out.place = static_cast<std::size_t>(end) + 1, out.size = draw.uniform(0.5, 5.0);
     bar.add_spring(end_node, true, out.size);
@@ -210,7 +233,7 @@ NamedCase draw_beam(const std::string& effect, Draw& draw) {
     const double stiffness = draw.uniform(50.0, 200.0);
     beam.supports[static_cast<std::size_t>(end)].displacement = Connection::spring(stiffness);
     out.size = drawn_ratio(draw);
-    bar.add_flexibility(end == 0 ? 1.0 : 0.0, end == 0 ? -1.0 : 1.0, 1.0 / (out.size * stiffness));
+    bar.release(end_node, out.size * stiffness);
   } else {  // axial_force, in units of 0.1 of Euler's load
     const double share = draw.uniform(0.0, 1.0) < 0.5 ? -draw.uniform(0.1, 0.5) : draw.uniform(0.15, 1.0);
     out.size = share / 0.1;

@@ -120,6 +120,20 @@ TEST(PlacedEffects, ACablesTensionHasTheSigmaOfItsFrequencies) {
   EXPECT_NEAR(sigma / 3.0e6, 2.0 * 1e-3 / std::sqrt(5.0), 1e-5);
 }
 
+// Stiffness known and no prior: nothing is fitted before an effect is.
+TEST(PlacedEffects, AModelWithoutFreeParametersIsComparedAsItIs) {
+  DeclaredFrame declared = bridge();
+  const auto reference = reference_of(declared, "stiffness_4", 0.7);
+  declared.stiffness_over_mass_per_s2 = 1.0;
+  const FrameFit plain = fit_frame({&declared, {}}, reference, {}, Starts::kAll);
+  ASSERT_TRUE(plain.ok);
+  EXPECT_EQ(plain.parameters.size(), 0);
+  const FrameFit soft = fit_frame({&declared, {&effect("soft_part")}}, reference, plain.parameters, Starts::kAll);
+  ASSERT_TRUE(soft.ok);
+  EXPECT_EQ(soft.parameters(0), 4.0);
+  EXPECT_NEAR(soft.parameters(1), 0.7, 1e-5);
+}
+
 TEST(ModeNumbers, MissingAndAdditionalModesArePairedByShape) {
   const DeclaredFrame declared = bridge();
   auto reference = reference_of(declared, "stiffness_2", 0.8);
