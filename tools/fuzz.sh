@@ -2,7 +2,7 @@
 # Fuzzes what comes from outside: every reader of a file, a message or a request (tests/fuzz/targets), under AddressSanitizer and
 # UndefinedBehaviorSanitizer, from the kept corpus on. One line a target; ends with 1 where one has a finding.
 #   tools/fuzz.sh [TARGET...] [--seconds S] [--seed N] [--coverage] [--keep]
-#     TARGET       config calibration timestamps clip_telemetry series lcm datagrams checkpoint http record (default: all of these); or
+#     TARGET       config calibration timestamps clip_telemetry series matrix_market lcm datagrams checkpoint http record (default: all of these); or
 #                  replay (the whole way from a record to its modes) and scene (of the simulator; the structures of
 #                  closeloop), for which all of core is built
 #     --seconds    of each target; default 60
@@ -23,7 +23,7 @@ while [ $# -gt 0 ]; do
     *) targets+=("$1"); shift ;;
   esac
 done
-[ ${#targets[@]} -gt 0 ] || targets=(config calibration timestamps clip_telemetry series lcm datagrams checkpoint http record)
+[ ${#targets[@]} -gt 0 ] || targets=(config calibration timestamps clip_telemetry series matrix_market lcm datagrams checkpoint http record)
 for target in "${targets[@]}"; do
   [ -f "tests/fuzz/targets/${target}_target.cpp" ] || { echo "fuzz: $target: no such target; there are: $(cd tests/fuzz/targets && ls | sed 's/_target.cpp//' | paste -sd' ')" >&2; exit 2; }
 done
@@ -42,6 +42,7 @@ concerned() {
   case $1 in
     config) echo firmware_app/config/config{,_check,_key,_sections_input,_sections_output,_sections_scale,_table,_yaml}.cpp drivers/storage/{yaml,key_suggestion,text_file}.cpp ;;
     calibration) echo drivers/storage/{calibration_file,calibration_text,yaml}.cpp core/geometry/{camera_model,lens_fault}.cpp ;;
+    matrix_market) echo drivers/storage/matrix_market.cpp ;;
     timestamps) echo drivers/camera/recording/timestamp_file.cpp ;;
     series) echo drivers/storage/{csv,csv_lines,csv_series,foreign_series,series_format,timed_columns,attitude_file}.cpp ;;
     lcm) echo drivers/telemetry/{stream_monitor,layout_watch,topics}.cpp drivers/telemetry/decode.h tools/hovermodal/ground/{json_series,json_status,live_stream,snapshot_json}.cpp ;;

@@ -49,6 +49,16 @@ void write_scene() {
        "  stiffness_ratio: [2, 1, 1]\n  data: simulated\n  dt_s: 0.01\n  floors: [a, b, c]\n");
 }
 
+void write_matrices() {
+  keep("matrix_market", "symmetric",
+       "%%MatrixMarket matrix coordinate real symmetric\n% two masses\n2 2 3\n1 1 3.0e6\n2 1 -1e6\n2 2 1e6\n");
+  keep("matrix_market", "array", "%%MatrixMarket matrix array real general\n2 2\n3\n-1\n-1\n1\n");
+  keep("matrix_market", "integer", "%%MatrixMarket matrix coordinate integer general\r\n3 3 2\r\n1 1 2\r\n3 3 5\r\n");
+  keep("matrix_market", "too_many", "%%MatrixMarket matrix coordinate real general\n2 2 99999999999\n1 1 1\n");
+  keep("matrix_market", "outside", "%%MatrixMarket matrix coordinate real general\n2 2 1\n3 1 1\n");
+  keep("matrix_market", "complex", "%%MatrixMarket matrix coordinate complex general\n1 1 1\n1 1 1 0\n");
+}
+
 void write_tables() {
   keep("timestamps", "plain", "frame,t_s\n0,4.438000\n1,4.495000\n2,4.5525\n");
   keep("timestamps", "comments",
@@ -96,6 +106,7 @@ void write_texts() {
   write_config();
   write_calibration();
   write_scene();
+  write_matrices();
   write_tables();
 }
 

@@ -207,6 +207,27 @@ TEST(MatricesKind, EqualFrequenciesAreBothFound) {
   EXPECT_GT(modes.frequency_hz(4), 3.0 * modes.frequency_hz(0));
 }
 
+// Stiff string with held ends, of L sqrt(T / EI) = xi: f_n / f_n0 = 1 + 2 / xi + (4 + n^2 pi^2 / 2) / xi^2 (Morse,
+// Vibration and Sound, 16). The boundary layer of bending is L / xi.
+TEST(CableKind, ResolvesTheBoundaryLayerOfHeldEnds) {
+  for (const double xi : {300.0, 600.0}) {
+    Cable cable;
+    cable.length_m = 150.0, cable.mass_per_m_kg = 60.0, cable.tension_n = 4.0e6;
+    cable.ei_nm2 = cable.tension_n * cable.length_m * cable.length_m / (xi * xi);
+    cable.end_rotation = Connection::rigid();
+    const auto model = make_cable(cable, {});
+    const auto modes = model->modes(declared_values(*model), 5, {});
+    ASSERT_TRUE(modes);
+    for (Index n = 1; n <= 5; ++n) {
+      const auto order = static_cast<double>(n);
+      const double plain = order / (2.0 * cable.length_m) * std::sqrt(cable.tension_n / cable.mass_per_m_kg);
+      const double bent =
+          1.0 + 2.0 / xi + (4.0 + 0.5 * order * order * std::numbers::pi * std::numbers::pi) / (xi * xi);
+      EXPECT_NEAR(modes->frequency_hz(n - 1) / (plain * bent), 1.0, 2e-5) << xi << ' ' << n;
+    }
+  }
+}
+
 TEST(MatricesKind, HostileMatricesAreRefusedInWords) {
   const auto words = [](const std::function<void(MatrixStructure&)>& spoil) {
     MatrixStructure s = two_masses();

@@ -19,6 +19,7 @@
 #include "drivers/storage/structure_file.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/closure_json.h"
+#include "tools/hovermodal/closeloop/closeloop_structure_pictures.h"
 #include "tools/hovermodal/closeloop/reference.h"
 #include "tools/hovermodal/closeloop/words.h"
 
@@ -154,6 +155,7 @@ void close_structure(const LoopRequest& request, const std::string& structure, c
   const std::filesystem::path folder = request.report;
   drivers::write_file_atomically((folder / "closure.json").string(), json);
   drivers::write_file_atomically((folder / "closure_modes.svg").string(), app::closure_modes_svg(result));
+  write_structure_pictures(folder, *level, result, declared, reference);
   request.answer.text("{} written\n", (folder / "closure.json").string());
 }
 

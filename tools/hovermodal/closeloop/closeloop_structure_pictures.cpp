@@ -1,0 +1,127 @@
+#include "tools/hovermodal/closeloop/closeloop_structure_pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/structure/mode_numbers.h"
+#include "core/structure/place_profile.h"
+#include "drivers/storage/text_file.h"
+#include "firmware_app/report/structure_pictures.h"
+
+namespace tools {
+namespace {
+
+using core::closure::StructureLevel;
+using core::structure::DeclaredFrame;
+using core::structure::FrameModel;
+using core::structure::FrameModes;
+using core::structure::ReferenceMode;
+using Reference = std::vector<ReferenceMode>;
+
+void write(const std::filesystem::path& path, const std::string& svg) {
+  if (!svg.empty()) drivers::write_file_atomically(path.string(), svg);
+}
+
+// The model's shape at the scale that fits the measured one best.
+std::vector<double> scaled(const FrameModes& modes, const ReferenceMode& mode) {
+  double along = 0.0, square = 0.0;
+  for (std::size_t i = 0; i < mode.shape.size(); ++i) {
+    const double weight = 1.0 / (mode.shape_sigma[i] * mode.shape_sigma[i]);
+    const double component = modes.shapes(static_cast<Eigen::Index>(i), mode.number - 1);
+    along += weight * component * mode.shape[i], square += weight * component * component;
+  }
+  std::vector<double> out;
+  for (std::size_t i = 0; i < mode.shape.size(); ++i)
+    out.push_back(modes.shapes(static_cast<Eigen::Index>(i), mode.number - 1) * (square > 0.0 ? along / square : 0.0));
+  return out;
+}
+
+double mac_of(const FrameModes& modes, const ReferenceMode& mode) {
+  return core::structure::mac(
+      Eigen::Map<const Eigen::VectorXd>(mode.shape.data(), static_cast<Eigen::Index>(mode.shape.size())),
+      modes.shapes.col(mode.number - 1).head(static_cast<Eigen::Index>(mode.shape.size())));
+}
+
+std::vector<app::ShapeComparison> comparisons(const StructureLevel& level, const DeclaredFrame& declared,
+                                              const Reference& reference) {
+  std::vector<app::ShapeComparison> out;
+  const FrameModel plain{&declared, {}};
+  const auto fit = fit_frame(plain, reference, {}, core::structure::Starts::kAll);
+  const auto before = fit.ok ? seen_modes(plain, fit.parameters, true) : std::nullopt;
+  const FrameModes after = level.model_modes();
+  if (!before || after.frequency_hz.size() == 0) return out;
+  for (const ReferenceMode& mode : reference) {
+    if (mode.shape.empty()) continue;
+    app::ShapeComparison one;
+    one.number = mode.number, one.measured_hz = mode.frequency_hz;
+    one.before_hz = before->frequency_hz(mode.number - 1), one.after_hz = after.frequency_hz(mode.number - 1);
+    one.measured = mode.shape, one.sigma = mode.shape_sigma;
+    one.before = scaled(*before, mode), one.after = scaled(after, mode);
+    one.mac_before = mac_of(*before, mode), one.mac_after = mac_of(after, mode);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+std::vector<std::string> channel_names(const DeclaredFrame& declared) {
+  std::vector<std::string> out = declared.floors;
+  if (out.empty() && declared.model) {
+    for (const auto& sight : declared.model->sights()) out.push_back(sight.channel);
+  }
+  return out;
+}
+
+std::vector<app::SoughtPlace> places(const StructureLevel& level, const Reference& reference, std::size_t i_effect) {
+  std::vector<app::SoughtPlace> out;
+  const auto profile = place_profile(level.model(), reference, level.fitted(), i_effect, level.spread());
+  if (profile.empty()) return out;
+  const auto best =
+      std::min_element(profile.begin(), profile.end(), [](const auto& a, const auto& b) { return a.chi2 < b.chi2; });
+  for (const auto& place : profile)
+    out.push_back({place.meaning.empty() ? fmt::format("place {}", place.place) : place.meaning,
+                   place.chi2 - best->chi2, place.place == best->place, place.is_indistinguishable});
+  return out;
+}
+
+std::vector<app::FittedParameter> parameters(const StructureLevel& level, const core::closure::ClosureResult& result) {
+  std::vector<app::FittedParameter> out;
+  const FrameModel& model = level.model();
+  if (model.declared->model) {
+    const auto posterior = identifiability(model, level.fitted());
+    const Eigen::VectorXd values = values_of(model, level.fitted().parameters);
+    const std::vector<std::size_t> with_prior = model.with_prior();
+    for (std::size_t k = 0; k < with_prior.size(); ++k) {
+      const auto& p = model.declared->model->parameters()[with_prior[k]];
+      app::FittedParameter one{p.name, p.unit,  values(static_cast<Eigen::Index>(with_prior[k])),
+                               {},     p.value, p.prior_sigma};
+      const double sigma = posterior[k].sigma_over_prior * p.prior_sigma;
+      if (std::isfinite(sigma)) one.sigma = sigma;
+      out.push_back(std::move(one));
+    }
+  }
+  for (const auto& step : result.steps) {
+    for (const auto& p : step.parameters) {
+      if (p.name != "place") out.push_back({step.effect + ": " + p.name, p.unit, p.value, p.sigma, {}, {}});
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+void write_structure_pictures(const std::filesystem::path& folder, const StructureLevel& level,
+                              const core::closure::ClosureResult& result, const DeclaredFrame& declared,
+                              const Reference& reference) {
+  write(folder / "structure_shapes.svg",
+        app::structure_shapes_svg(comparisons(level, declared, reference), channel_names(declared)));
+  write(folder / "structure_posterior.svg", app::structure_posterior_svg(parameters(level, result)));
+  for (std::size_t i = 0; i < result.steps.size(); ++i)
+    write(
+        folder / fmt::format("structure_place_{}.svg", i + 1),
+        app::structure_places_svg(result.steps[i].effect + " " + result.steps[i].meaning, places(level, reference, i)));
+}
+
+}  // namespace tools
