@@ -100,6 +100,7 @@ struct ClosureConfig {
   double period_s = 60.0;   // stream time between two reports
   double least_px = 0.005;  // smallest effect reported: rms point displacement
   double delay_s = 30.0;    // from the last frame of a report to the first it corrects
+  std::string structure;    // file of the declared structure, compared at the end of a run; empty = none
 };
 
 struct TelemetryConfig {

@@ -103,6 +103,11 @@ void add_closure_keys(std::vector<ConfigKey>& keys) {
                             "delay from the last frame of a report to the first frame that it corrects; must be longer "
                             "than a report takes, so that a replay corrects from the same frame on; at most "
                             "closure.period_s"));
+  keys.push_back(
+      text_key("closure.structure", at(&A::closure, &C::structure), {},
+               "file of a declared structure (tower, beam, cable, frame, matrices; tools/guide/structures.md), "
+               "which is compared with the modes at the end of a recording: which effect it lacks, and where; "
+               "\"\" = none"));
 }
 
 void add_output_keys(std::vector<ConfigKey>& keys) {

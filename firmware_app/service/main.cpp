@@ -65,6 +65,7 @@ int main(int argc, char** argv) {
     const app::Options options = app::parse_options(argc, argv);
     if (options.exit_code) return *options.exit_code;
     const app::AppConfig config = app::load_config(options.config_path, options.overrides);
+    app::check_structure(config);
     if (options.check_only) {
       std::fputs(app::check_source(config).c_str(), stdout);
       spdlog::info("{}: configuration and source are fine", options.config_path);

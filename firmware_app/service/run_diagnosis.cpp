@@ -7,17 +7,32 @@
 #include <stdexcept>
 #include <string>
 
+#include "drivers/storage/structure_file.h"
 #include "firmware_app/replay/level_loop.h"
 #include "firmware_app/report/loop_report.h"
 
 namespace app {
 
+void check_structure(const AppConfig& config) {
+  if (config.closure.structure.empty()) return;
+  try {
+    (void)drivers::read_structure(config.closure.structure);
+  } catch (const std::exception& e) {
+    throw ConfigError(std::string("closure.structure: ") + e.what());
+  }
+}
+
 void diagnose_run(const AppConfig& config, const Pipeline::Outcome& outcome, const std::function<bool()>& goes_on) {
-  if (outcome.page.empty() || !config.report.tracks || config.closure.adopt == ClosureAdopt::kOff) return;
+  if (outcome.page.empty() || !config.report.tracks || config.closure.adopt == ClosureAdopt::kOff) {
+    if (!config.closure.structure.empty())
+      spdlog::warn("closure.structure was not compared: that needs a report with tracks, and closure.adopt not off");
+    return;
+  }
   try {
     LevelLoopInputs inputs;
     inputs.folder = config.report.directory;
     inputs.config = config;
+    if (!config.closure.structure.empty()) inputs.structure = drivers::read_structure(config.closure.structure);
     inputs.progress = [&goes_on](const std::string&) {
       if (!goes_on()) throw std::runtime_error("stopped");
     };

@@ -7,6 +7,10 @@
 
 namespace app {
 
+// Reads the structure that closure.structure names, so that a wrong file ends the service at its start. Throws
+// ConfigError with the file's own words.
+void check_structure(const AppConfig& config);
+
 // Residual diagnosis over all levels of a run that has ended, from its report folder
 // (firmware_app/replay/level_loop.h): writes loop.json and loop.html to it, and the table to the log. Does nothing
 // without a report, without tracks in it, or with closure.adopt: off. Never throws: a failure is logged. Takes up to a
