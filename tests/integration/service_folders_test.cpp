@@ -38,6 +38,19 @@ TEST(ServiceFolders, ARunThatIsRefusedTouchesNothingOfTheLastReport) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
 }
 
+TEST(ServiceFolders, AWrongStructureEndsItBeforeTheFirstFrame) {
+  const auto folder = own_folder();
+  fs::create_directories(folder);
+  std::ofstream(folder / "tower.yaml") << "structure: {kind: tower, height_m: -3}\n";
+  for (const char* file : {"tower.yaml", "none.yaml"}) {
+    const ServiceRun wrong = run_service(
+        folder_run({"--set", "closure.structure=" + (folder / file).string(), "--report", folder.string()}));
+    EXPECT_EQ(wrong.code, 2) << wrong.output;
+    EXPECT_THAT(wrong.output, HasSubstr("closure.structure"));
+    EXPECT_THAT(wrong.output, HasSubstr(file));
+  }
+}
+
 TEST(ServiceFolders, ASecondOneInAFolderIsExitCode2AndARunThatIsKilledLeavesTheLastReport) {
   const auto folder = own_folder();
   fs::create_directories(folder);

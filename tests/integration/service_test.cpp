@@ -7,7 +7,6 @@
 #include <csignal>
 #include <thread>
 
-#include "drivers/storage/text_file.h"
 #include "firmware_app/report/page/report_page.h"
 #include "tests/support/loopback_network.h"
 #include "tests/support/pipeline_run.h"
@@ -77,16 +76,6 @@ TEST(Service, WrongUsageIsExitCode2AndSaysWhatToDo) {
   const ServiceRun unknown = run_service(clip_arguments({"--set", "spectrum.segmnt=128"}));
   EXPECT_EQ(unknown.code, 2);
   EXPECT_THAT(unknown.output, AllOf(HasSubstr("spectrum.segmnt"), HasSubstr("segment")));
-}
-
-TEST(Service, AWrongStructureEndsItBeforeTheFirstFrame) {
-  const auto folder = own_folder();
-  drivers::write_file_atomically((folder / "tower.yaml").string(), "structure: {kind: tower, height_m: -3}\n");
-  for (const char* file : {"tower.yaml", "none.yaml"}) {
-    const ServiceRun wrong = run_service(clip_arguments({"--set", "closure.structure=" + (folder / file).string()}));
-    EXPECT_EQ(wrong.code, 2) << wrong.output;
-    EXPECT_THAT(wrong.output, AllOf(HasSubstr("closure.structure"), HasSubstr(file)));
-  }
 }
 
 TEST(Service, CheckLooksAtConfigurationAndSourceAndLeavesNothing) {
