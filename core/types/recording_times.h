@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include "core/types/frame_prediction.h"
+
 namespace core {
 
 // Regularity of a recording's frame times, and its losses. All zero and empty: not a recording.
@@ -20,6 +22,7 @@ struct RecordingTimes {
   std::uint64_t n_damaged = 0;       // so far: frames that were not decoded completely; omitted
   std::uint64_t n_after_damage = 0;  // so far: frames predicted from a damaged one; used
   std::string remark;                // description of inconsistencies; empty: none
+  FramePrediction prediction = FramePrediction::kUnknown;  // not on the link
 
   bool operator==(const RecordingTimes&) const = default;
   [[nodiscard]] bool known() const noexcept { return !from.empty(); }
