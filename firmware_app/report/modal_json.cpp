@@ -195,6 +195,14 @@ std::string_view to_text(core::FramePrediction prediction) noexcept {
   return "";
 }
 
+core::FramePrediction frame_prediction(std::string_view text) noexcept {
+  using enum core::FramePrediction;
+  for (const core::FramePrediction one : {kNone, kPast, kBoth}) {
+    if (text == to_text(one)) return one;
+  }
+  return kUnknown;
+}
+
 std::string_view to_text(Method method) noexcept { return method == Method::kPaper ? "paper" : "hovermodal"; }
 
 std::string modal_json(const ModalReport& report, std::size_t* n_not_finite) {

@@ -284,10 +284,7 @@ class ModalReader {
     out.n_repeated = count(recording, "frames_repeated");
     out.n_damaged = count(recording, "frames_damaged");
     out.n_after_damage = count(recording, "frames_after_damage");
-    for (const auto one : {core::FramePrediction::kNone, core::FramePrediction::kPast, core::FramePrediction::kBoth}) {
-      if (find(recording, "predicted_from") != nullptr && text(recording, "predicted_from") == to_text(one))
-        out.prediction = one;
-    }
+    out.prediction = frame_prediction(find(recording, "predicted_from") ? text(recording, "predicted_from") : "");
     if (find(recording, "remark") != nullptr) out.remark = text(recording, "remark");
   }
 
