@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "core/compare/offset_search.h"
@@ -22,11 +23,14 @@ double edge_s(const BandLimited& record, const Band& band) {
   return std::min(1.0 / band.low_hz, 0.1 * record.duration_s());
 }
 
-// Least squares of camera(t) = ratio * sensor(t + offset + rate (t - middle)) over the camera's samples in a stretch.
+// Least squares of camera(t) = ratio * (y(s) + share d(s)), y the sensor, s = t + offset + rate (t - middle), over the
+// camera's samples in a stretch. d(s) = y(s) - y(s - frame) where a codec predicts from earlier frames,
+// y(s + frame) - y(s - frame) where from both; without a codec the share is 0.
 class ClockFit {
  public:
-  ClockFit(const BandLimited& camera, double camera_rate_hz, const BandLimited& sensor, const Band& band)
-      : camera_(camera), sensor_(sensor), band_(band), rate_hz_(camera_rate_hz) {}
+  ClockFit(const BandLimited& camera, double camera_rate_hz, const BandLimited& sensor, const Band& band,
+           const VideoFrames& frames = {})
+      : camera_(camera), sensor_(sensor), band_(band), frames_(frames), rate_hz_(camera_rate_hz) {}
 
   // False: too few samples, or no convergence.
   bool fit(double from_s, double to_s, ClockAlignment& out) {
@@ -34,13 +38,13 @@ class ClockFit {
     choose_samples(out);
     for (int step = 0; step < kMostFitSteps; ++step) {
       if (!add_equations(out)) return false;
-      const Eigen::Vector3d change = solve(normal_, right_);
+      const Eigen::Vector4d change = solve(normal_, right_);
       if (!change.allFinite()) return false;
-      out.ratio += change[0];
+      out.ratio += change[kRatio], out.frame_share += change[kShare];
       const double most_s = 0.1 / band_.high_hz;
-      out.clock.offset_s += std::clamp(change[1], -most_s, most_s);
-      out.clock.rate += std::clamp(change[2], -most_s / (to_s - from_s), most_s / (to_s - from_s));
-      const double moved = std::abs(change[1]) + std::abs(change[2]) * (to_s - from_s);
+      out.clock.offset_s += std::clamp(change[kOffset], -most_s, most_s);
+      out.clock.rate += std::clamp(change[kRate], -most_s / (to_s - from_s), most_s / (to_s - from_s));
+      const double moved = std::abs(change[kOffset]) + std::abs(change[kRate]) * (to_s - from_s);
       if (moved < 1e-6 / band_.high_hz) return state_sigmas(out);
     }
     return false;
@@ -53,9 +57,11 @@ class ClockFit {
   }
 
  private:
-  static Eigen::Vector3d solve(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& right) {
-    const Eigen::Vector3d scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::Matrix3d scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
+  enum Unknown : std::uint8_t { kRatio, kOffset, kRate, kShare };
+
+  static Eigen::Vector4d solve(const Eigen::Matrix4d& matrix, const Eigen::Vector4d& right) {
+    const Eigen::Vector4d scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
+    const Eigen::Matrix4d scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
     return scale.asDiagonal() * (scaled.inverse() * (scale.asDiagonal() * right));
   }
 
@@ -70,16 +76,30 @@ class ClockFit {
     }
   }
 
+  // Derivatives of the model by the unknowns at one instant; `model`: its value.
+  [[nodiscard]] Eigen::Vector4d row_at(const ClockAlignment& at, double t_s, double& model) const {
+    const double sensor_s = at.clock.sensor_s(t_s);
+    double value = sensor_.at(sensor_s), slope = sensor_.slope_at(sensor_s), moved = 0.0;
+    if (frames_.share_motion()) {
+      const double before_s = sensor_s - frames_.interval_s;
+      const double after_s = frames_.prediction == FramePrediction::kBoth ? sensor_s + frames_.interval_s : sensor_s;
+      moved = sensor_.at(after_s) - sensor_.at(before_s);
+      slope += at.frame_share * (sensor_.slope_at(after_s) - sensor_.slope_at(before_s));
+      value += at.frame_share * moved;
+    }
+    model = at.ratio * value;
+    return {value, at.ratio * slope, at.ratio * slope * (t_s - at.clock.middle_s), at.ratio * moved};
+  }
+
   bool add_equations(const ClockAlignment& at) {
     normal_.setZero(), right_.setZero();
-    scores_.assign(kScoreBlocks, Eigen::Vector3d::Zero());
-    normals_.assign(kScoreBlocks, Eigen::Matrix3d::Zero());
+    scores_.assign(kScoreBlocks, Eigen::Vector4d::Zero());
+    normals_.assign(kScoreBlocks, Eigen::Matrix4d::Zero());
     error_ = power_ = 0.0;
     for (const double t_s : sample_s_) {
-      const double sensor_s = at.clock.sensor_s(t_s), value = sensor_.at(sensor_s);
-      const double slope = at.ratio * sensor_.slope_at(sensor_s);
-      const Eigen::Vector3d row(value, slope, slope * (t_s - at.clock.middle_s));
-      const double seen = camera_.at(t_s), residual = seen - at.ratio * value;
+      double model = 0.0;
+      const Eigen::Vector4d row = row_at(at, t_s, model);
+      const double seen = camera_.at(t_s), residual = seen - model;
       error_ += residual * residual, power_ += seen * seen;
       normal_ += row * row.transpose();
       right_ += row * residual;
@@ -88,36 +108,56 @@ class ClockFit {
       scores_[block] += row * residual;
       normals_[block] += row * row.transpose();
     }
+    add_prior(at);
     return sample_s_.size() >= static_cast<std::size_t>(kScoreBlocks);
   }
 
+  // What is known of the share beforehand, in units of the residual's variance per independent sample. Without a codec
+  // the share stays what it is.
+  void add_prior(const ClockAlignment& at) {
+    prior_ = 1.0;
+    if (frames_.share_motion()) {
+      const double dependence = std::max(1.0, rate_hz_ / (2.0 * band_.width_hz()));
+      const auto n = static_cast<double>(std::max<std::size_t>(1, sample_s_.size()));
+      prior_ = std::max(dependence * error_ / n, 1e-12 * power_ / n) / (frames_.share_std() * frames_.share_std());
+      right_[kShare] -= prior_ * at.frame_share;
+    }
+    normal_(kShare, kShare) += prior_;
+  }
+
   // Jackknife over blocks of the record, to first order: without block b the result changes by -(N - N_b)^-1 times the
-  // score of b. Right for a residual of any colour within a block, and where few blocks hold most of the motion.
+  // score of b. Right for a residual of any colour within a block, and where few blocks hold most of the motion. To
+  // this comes what the prior's own uncertainty leaves.
   bool state_sigmas(ClockAlignment& out) {
     if (!add_equations(out)) return false;
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
     for (std::size_t b = 0; b < scores_.size(); ++b) {
-      const Eigen::Vector3d change = solve(normal_ - normals_[b], scores_[b]);
+      const Eigen::Vector4d change = solve(normal_ - normals_[b], scores_[b]);
       covariance += change * change.transpose();
     }
     covariance *= (kScoreBlocks - 1.0) / kScoreBlocks;
-    out.ratio_std = std::sqrt(std::max(0.0, covariance(0, 0)));
-    out.clock.offset_std_s = std::sqrt(std::max(0.0, covariance(1, 1)));
-    out.clock.rate_std = std::sqrt(std::max(0.0, covariance(2, 2)));
+    if (frames_.share_motion()) {
+      const Eigen::Vector4d pulled = solve(normal_, prior_ * frames_.share_std() * Eigen::Vector4d::Unit(kShare));
+      covariance += pulled * pulled.transpose();
+    }
+    const auto sigma = [&](Unknown of) { return std::sqrt(std::max(0.0, covariance(of, of))); };
+    out.ratio_std = sigma(kRatio), out.frame_share_std = sigma(kShare);
+    out.clock.offset_std_s = sigma(kOffset), out.clock.rate_std = sigma(kRate);
     return covariance.allFinite();
   }
 
   const BandLimited& camera_;
   const BandLimited& sensor_;
   Band band_;
+  VideoFrames frames_;
   double rate_hz_;
   double from_s_ = 0.0, to_s_ = 0.0;
-  Eigen::Matrix3d normal_;
-  Eigen::Vector3d right_;
-  std::vector<Eigen::Vector3d> scores_;   // per block of the stretch
-  std::vector<Eigen::Matrix3d> normals_;  // per block
+  Eigen::Matrix4d normal_;
+  Eigen::Vector4d right_;
+  std::vector<Eigen::Vector4d> scores_;   // per block of the stretch
+  std::vector<Eigen::Matrix4d> normals_;  // per block
   std::vector<double> sample_s_;
-  double error_ = 0.0, power_ = 0.0;
+  double error_ = 0.0, power_ = 0.0, prior_ = 1.0;
 };
 
 // What both records share, with the offset set.
@@ -207,9 +247,9 @@ ClockAlignment align_clocks(const BandLimited& camera, double camera_rate_hz, co
 }
 
 ClockAlignment refine_clocks(const BandLimited& camera, double camera_rate_hz, const BandLimited& sensor,
-                             const Band& band, const ClockAlignment& start) {
+                             const Band& band, const ClockAlignment& start, const VideoFrames& frames) {
   ClockAlignment out = start;
-  ClockFit fit(camera, camera_rate_hz, sensor, band);
+  ClockFit fit(camera, camera_rate_hz, sensor, band, frames);
   out.found = fit.fit(out.from_s, out.to_s, out);
   return out;
 }

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "core/compare/band_limited.h"
+#include "core/types/frame_prediction.h"
 
 namespace core {
 
@@ -26,14 +27,29 @@ struct ClockSearch {
   double most_offset_s = 0.0;  // |offset| searched; 0 = as far as the records overlap by half of the shorter one
 };
 
+// What a video codec does to motion (METHOD.md, 2): with frames predicted from earlier ones a share of the motion since
+// the last frame is left out or counted twice, which delays or advances a motion by an amount that depends on its
+// frequency; with frames predicted from both sides little of that is left.
+struct VideoFrames {
+  double interval_s = 0.0;  // between frames
+  FramePrediction prediction = FramePrediction::kUnknown;
+
+  [[nodiscard]] bool share_motion() const noexcept {
+    return interval_s > 0.0 && (prediction == FramePrediction::kPast || prediction == FramePrediction::kBoth);
+  }
+  // Standard deviation of the share before the fit, from coded clips of known motion.
+  [[nodiscard]] double share_std() const noexcept { return prediction == FramePrediction::kPast ? 0.1 : 0.02; }
+};
+
 struct ClockAlignment {
   bool found = false;     // false: no correlation above chance; the rest is not set
   double evidence = 0.0;  // log-likelihood ratio of the best offset to none
   double chance = 0.0;    // which chance reaches in as many trials, once in 150
   ClockRelation clock;
-  double ratio = 1.0, ratio_std = 0.0;  // amplitude camera / sensor, by least squares; < 0: opposite signs
-  std::optional<RivalOffset> rival;     // within 8 of the best
-  double from_s = 0.0, to_s = 0.0;      // camera times that were used
+  double ratio = 1.0, ratio_std = 0.0;              // amplitude camera / sensor, by least squares; < 0: opposite signs
+  double frame_share = 0.0, frame_share_std = 0.0;  // of the codec, see VideoFrames; 0 without
+  std::optional<RivalOffset> rival;                 // within 8 of the best
+  double from_s = 0.0, to_s = 0.0;                  // camera times that were used
 };
 
 // Candidate offsets by cross-correlation, the best after a fit of each; then offset, rate and amplitude ratio together
@@ -44,9 +60,11 @@ struct ClockAlignment {
                                           const Band& band, const ClockSearch& search = {});
 
 // Only the fit, from a known relation: where another band has told the offset already.
-// `start` states the shared stretch (from_s, to_s, middle_s) and where the fit begins.
+// `start` states the shared stretch (from_s, to_s, middle_s) and where the fit begins. With `frames` the codec's share
+// of the motion since the last frame is estimated as well.
 [[nodiscard]] ClockAlignment refine_clocks(const BandLimited& camera, double camera_rate_hz, const BandLimited& sensor,
-                                           const Band& band, const ClockAlignment& start);
+                                           const Band& band, const ClockAlignment& start,
+                                           const VideoFrames& frames = {});
 
 // Whether an instant of the camera counts: both records seen there, and a period of the lower limit away from all ends.
 [[nodiscard]] bool counts(const BandLimited& camera, const BandLimited& sensor, const Band& band,

@@ -69,7 +69,7 @@ class SharedComparison {
   }
 
   // The relation is fitted to the shared records twice, each time from the one before. False: no convergence.
-  bool refine(ClockAlignment& alignment) {
+  bool refine(ClockAlignment& alignment, const VideoFrames& frames) {
     for (int round = 0; round < 2; ++round) {
       cut(alignment);
       if (shared_.camera.size() < kLeastCompared) return false;
@@ -77,9 +77,10 @@ class SharedComparison {
       rest.clock = {};
       rest.from_s = 0.0, rest.to_s = static_cast<double>(shared_.camera.size()) / camera_.rate_hz;
       rest.clock.middle_s = alignment.clock.middle_s - shared_.first_s;
-      rest = refine_clocks(*camera_in_band_, camera_.rate_hz, *sensor_in_band_, band_, rest);
+      rest = refine_clocks(*camera_in_band_, camera_.rate_hz, *sensor_in_band_, band_, rest, frames);
       if (!rest.found) return false;
       alignment.ratio = rest.ratio, alignment.ratio_std = rest.ratio_std;
+      alignment.frame_share = rest.frame_share, alignment.frame_share_std = rest.frame_share_std;
       alignment.clock.offset_s += rest.clock.offset_s, alignment.clock.rate += rest.clock.rate;
       alignment.clock.offset_std_s = rest.clock.offset_std_s, alignment.clock.rate_std = rest.clock.rate_std;
     }
@@ -194,7 +195,7 @@ SensorComparison compare_with_sensor(const ComparedRecord& camera, const Compare
     out.band = *chosen, out.band_is_chosen = true;
   }
   SharedComparison shared(camera, sensor, out.band);
-  if (!shared.refine(done.alignment)) {
+  if (!shared.refine(done.alignment, config.frames)) {
     out.refusal = "the clocks cannot be aligned in the band, or the records hardly overlap; name a wider band";
     return out;
   }

@@ -18,6 +18,7 @@ struct ComparedRecord {
 struct SensorComparisonConfig {
   std::optional<Band> band;  // empty: chosen from the coherence (METHOD.md, 3)
   ClockSearch clock;
+  VideoFrames frames;  // of the video that the camera's record comes from
 };
 
 // One bin of the spectra within the band that was searched, both as displacements, aligned in time.

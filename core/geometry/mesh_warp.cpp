@@ -11,7 +11,8 @@
 namespace core {
 namespace {
 
-constexpr int kWarpIterations = 12;  // kMostStrain^12 = 0.002 of the largest shift remains
+constexpr int kWarpIterations = 12;       // kMostStrain^12 = 0.002 of the largest shift remains
+constexpr double kWarpSettled_px = 1e-4;  // a change below this ends the iteration
 
 bool is_sound(const WarpPart& part) {
   const double sum = part.left + part.top + part.right + part.bottom + std::abs(part.swing_u) + std::abs(part.swing_v);
@@ -47,12 +48,22 @@ std::uint8_t sampled(const cv::Mat& gray, const cv::Vec2f& at) {
   const float u = std::clamp(at[0], 0.0F, static_cast<float>(gray.cols - 1));
   const float v = std::clamp(at[1], 0.0F, static_cast<float>(gray.rows - 1));
   const int column = static_cast<int>(u), row = static_cast<int>(v);
+  static const std::vector<LanczosWeights>& table = lanczos_weights();
   const auto weights_at = [](float rest) -> const LanczosWeights& {
-    return lanczos_weights()[static_cast<std::size_t>(std::lround(rest * kLanczosSteps))];
+    return table[static_cast<std::size_t>(std::lround(rest * kLanczosSteps))];
   };
   const LanczosWeights &along = weights_at(u - static_cast<float>(column)),
                        &down = weights_at(v - static_cast<float>(row));
   float sum = 0.0F;
+  if (column >= 2 && row >= 2 && column + 3 < gray.cols && row + 3 < gray.rows) {  // nothing to clamp
+    for (int i = 0; i < kLanczosTaps; ++i) {
+      const auto* line = gray.ptr<std::uint8_t>(row - 2 + i) + column - 2;
+      float of_line = 0.0F;
+      for (std::size_t k = 0; k < kLanczosTaps; ++k) of_line += along[k] * static_cast<float>(line[k]);
+      sum += down[static_cast<std::size_t>(i)] * of_line;
+    }
+    return static_cast<std::uint8_t>(std::clamp(std::lround(sum), 0L, 255L));
+  }
   for (int i = 0; i < kLanczosTaps; ++i) {
     const auto* line = gray.ptr<std::uint8_t>(std::clamp(row - 2 + i, 0, gray.rows - 1));
     float of_line = 0.0F;
@@ -119,8 +130,9 @@ cv::Mat MeshWarp::draw(const cv::Mat& gray, double phase) const {
       const Vector2 to{1.0 * column * kCellPx, 1.0 * row * kCellPx};
       Vector2 from = to;  // from + shift(from) = to
       for (int i = 0; i < kWarpIterations; ++i) {
-        const Vector2 by = shift(from, phase);
+        const Vector2 by = shift(from, phase), before = from;
         from = {to.u - by.u, to.v - by.v};
+        if (length(from.u - before.u, from.v - before.v) < kWarpSettled_px) break;
       }
       nodes.at<cv::Vec2f>(row, column) = {static_cast<float>(from.u), static_cast<float>(from.v)};
     }

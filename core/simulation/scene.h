@@ -64,10 +64,13 @@ struct ChangeParameters {
   double softening = 0.0;        // share of stiffness lost at an amplitude of sqrt(2) times the last body's rms
 };
 
-// Texture: cubic B-spline with independent Gaussian coefficients on a grid of this pitch.
+// Texture: cubic B-spline with independent Gaussian coefficients on a grid of this pitch, and what it shows beside them
+// (render/texture_pattern.h).
 struct TextureParameters {
+  enum class Shows : std::uint8_t { kNoise, kFacade, kLandscape };
   double pitch_mm = 2.62;                    // content up to about 0.55 / pitch
   double mean = 128.0, contrast_rms = 25.0;  // grey levels
+  Shows shows = Shows::kNoise;
 };
 
 // Visible face of one body: flat, parallel to the plane Z = 0. Centre: equilibrium position in the world.

@@ -55,7 +55,11 @@ void validate_excitation(const ExcitationParameters& excitation, int n_bodies) {
   }
 }
 
-void validate_texture(const std::string& of, const TextureParameters& texture) {
+void validate_texture(const std::string& of, const TextureParameters& texture, TextureParameters::Shows other) {
+  if (texture.shows != TextureParameters::Shows::kNoise && texture.shows != other) {
+    throw std::invalid_argument("simulation: " + of +
+                                " cannot show this: a facade is a plate's, a landscape the background's");
+  }
   require_range("texture pitch of " + of + " (mm)", texture.pitch_mm, 0.01, 1e5);
   require_range("texture mean of " + of + " (grey levels)", texture.mean, 0.0, 255.0);
   require(texture.contrast_rms > 0.0 && texture.contrast_rms <= 128.0,
@@ -86,11 +90,11 @@ void validate_plates(const Scene& scene) {
     require_range("depth of plate " + plate.name + " (mm)", plate.z_mm, -1e7, 1e7);
     require(scene.background.depth_mm >= plate.z_mm, "depth of the background (mm)", scene.background.depth_mm,
             "give at least that of plate " + plate.name + ", " + std::to_string(plate.z_mm));
-    validate_texture("plate " + plate.name, plate.texture);
+    validate_texture("plate " + plate.name, plate.texture, TextureParameters::Shows::kFacade);
     for (const Plate* other = scene.plates.data(); other != &plate; ++other) require_apart(*other, plate);
   }
   require_range("depth of the background (mm)", scene.background.depth_mm, 1.0, 1e8);
-  validate_texture("the background", scene.background.texture);
+  validate_texture("the background", scene.background.texture, TextureParameters::Shows::kLandscape);
 }
 
 void validate_hover(const HoverParameters& hover) {

@@ -53,9 +53,10 @@ std::string suggest_key(const std::string& path, const std::vector<std::string>&
     const std::size_t whole = edit_distance(path, candidate) * 2;
     const std::size_t by_leaf = edit_distance(leaf(path), leaf(candidate)) * 2 + 1;
     std::size_t score = std::min(whole, by_leaf);
-    // "rate" for rate_hz: a forgotten ending is the most frequent mistake.
+    // "rate" for rate_hz: a forgotten ending is the most frequent mistake; of several, a unit is the shortest.
     if (path.size() > 2 && candidate.starts_with(path)) score = 0;
-    if (score < best_score) best_score = score, best = candidate;
+    const bool is_shorter = score == 0 && best_score == 0 && candidate.size() < best.size();
+    if (score < best_score || is_shorter) best_score = score, best = candidate;
   }
   if (best_score <= std::max<std::size_t>(4, leaf(path).size())) {
     return fmt::format("did you mean `{}`? ({} lists all)", best, help_option);

@@ -94,7 +94,9 @@ const std::vector<Key>& keys() {
        }},
       {"dt_s", "time step of that simulation, where known",
        [](const Value& v, DeclaredFrame& f) { f.dt_s = v.number(1e-9, 1e3); }},
-      {"frequency_sigma_percent", "of reference frequencies that state none (default: 0.15)",
+      {"frequency_sigma_percent",
+       "of reference frequencies that state none (default: 0.15;\n                              of a modal.json 1.2 "
+       "sqrt(zeta / (2 pi f T)), if larger)",
        [](const Value& v, DeclaredFrame& f) { f.frequency_sigma = 0.01 * v.number(1e-4, 20.0); }},
       {"shape_sigma", "of shape components that state none, largest component 1 (default: 0.02)",
        [](const Value& v, DeclaredFrame& f) { f.shape_sigma = v.number(1e-4, 1.0); }},

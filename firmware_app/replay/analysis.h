@@ -68,8 +68,10 @@ struct TracksResult {
   SetupSums sums;                    // from which the estimate was computed; those of further runs can be added
   std::vector<std::string> changes;  // with closure.adopt: auto, corrections started or withdrawn, for a reader
 };
+// `progress`: called after every frame with their number so far and that of the file.
+using FrameProgress = std::function<void(std::uint64_t done, std::uint64_t total)>;
 [[nodiscard]] TracksResult replay_tracks(const AppConfig& config, const std::string& tracks_path,
-                                         const std::string& report_directory);
+                                         const std::string& report_directory, const FrameProgress& progress = {});
 
 // The same from run records (record.directory): to the same bits as the run's own estimates. Several runs of one view
 // continue each other's sums, and give one estimate; its report then has no time series.

@@ -158,6 +158,10 @@ Json losses_json(const core::Health& losses) {
           {"samples_masked", losses.samples_masked}, {"snapshots_skipped", losses.snapshots_skipped}};
 }
 
+Json prediction_json(core::FramePrediction prediction) {
+  return prediction == core::FramePrediction::kUnknown ? Json(nullptr) : Json(to_text(prediction));
+}
+
 Json recording_json(const core::RecordingTimes& times) {
   return {{"rate_hz", times.rate_hz},
           {"times_from", times.from},
@@ -171,10 +175,33 @@ Json recording_json(const core::RecordingTimes& times) {
           {"frames_repeated", times.n_repeated},
           {"frames_damaged", times.n_damaged},
           {"frames_after_damage", times.n_after_damage},
+          {"predicted_from", prediction_json(times.prediction)},
           {"remark", times.remark.empty() ? Json(nullptr) : Json(times.remark)}};
 }
 
 }  // namespace
+
+std::string_view to_text(core::FramePrediction prediction) noexcept {
+  switch (prediction) {
+    case core::FramePrediction::kUnknown:
+      return "";
+    case core::FramePrediction::kNone:
+      return "no frame";
+    case core::FramePrediction::kPast:
+      return "earlier frames";
+    case core::FramePrediction::kBoth:
+      return "earlier and later frames";
+  }
+  return "";
+}
+
+core::FramePrediction frame_prediction(std::string_view text) noexcept {
+  using enum core::FramePrediction;
+  for (const core::FramePrediction one : {kNone, kPast, kBoth}) {
+    if (text == to_text(one)) return one;
+  }
+  return kUnknown;
+}
 
 std::string_view to_text(Method method) noexcept { return method == Method::kPaper ? "paper" : "hovermodal"; }
 

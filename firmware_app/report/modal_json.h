@@ -25,6 +25,8 @@ struct ModalReport {
 };
 
 [[nodiscard]] std::string_view to_text(Method method) noexcept;
+[[nodiscard]] std::string_view to_text(core::FramePrediction prediction) noexcept;     // unknown: empty
+[[nodiscard]] core::FramePrediction frame_prediction(std::string_view text) noexcept;  // the inverse
 
 // Text of modal.json: no wall clock, no paths, no busy times, so that the same input gives the same bytes. Unknown
 // values are null. `n_not_finite`, if given, receives the number of NaNs and infinities written as null: a fault of

@@ -284,6 +284,7 @@ class ModalReader {
     out.n_repeated = count(recording, "frames_repeated");
     out.n_damaged = count(recording, "frames_damaged");
     out.n_after_damage = count(recording, "frames_after_damage");
+    out.prediction = frame_prediction(find(recording, "predicted_from") ? text(recording, "predicted_from") : "");
     if (find(recording, "remark") != nullptr) out.remark = text(recording, "remark");
   }
 

@@ -58,10 +58,10 @@ figure_4() {
 
 # The demo's modes, each magnified; the service tracks the regions of the video.
 figure_5() {
-  local magnified=$out/magnified size=1920x1080 n_modes mode worst n_regions n_held
+  local magnified=$out/magnified size=1600x900 n_modes mode worst n_regions n_held
   [ -z "$quick" ] || size=640x360
   rm -rf "$magnified" && mkdir -p "$magnified"
-  quietly "$bin/hovermodal" simulate --preset paper --duration 60 --seed "$first_seed" --size "$size" --out "$magnified/demo"
+  quietly "$bin/hovermodal" simulate --scene tools/scenes/facade.yaml --duration 60 --seed "$first_seed" --size "$size" --out "$magnified/demo"
   quietly "$bin/hovermodald" --config "$magnified/demo/config.yaml" --set telemetry.lcm_url= --report "$magnified/demo"
   n_modes=$(python3 -c 'import json, sys; print(len(json.load(open(sys.argv[1]))["modes"]))' "$magnified/demo/modal.json")
   for ((mode = 1; mode <= n_modes; mode++)); do

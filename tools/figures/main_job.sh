@@ -56,9 +56,9 @@ compare_to_truth() {  # RESULT FOLDER TABLE
   "$bin/hovermodal" compare --result "$1" --reference "$2/true_motion/modal.json" --truth "$2/truth.json" >"$3"
 }
 
-# --- 1: the demo's clips, and tracks of many seeds -------------------------------------------------------------------
+# --- 1: the demo's clips, of the scene that declares everything, and tracks of many seeds -------------------------------------------------------------------
 clip_figure() {  # NUMBER SECONDS FOLDER
-  quietly tools/demo.sh --seconds "$2" --seed "$first_seed" --out "$3" || { line "$1" MISS "the demo failed" "-" "$2 s clip"; return; }
+  quietly tools/demo.sh --scene tools/scenes/paper.yaml --seconds "$2" --seed "$first_seed" --out "$3" || { line "$1" MISS "the demo failed" "-" "$2 s clip"; return; }
   compare_to_truth "$3/modal.json" "$3" "$3/table.txt"
   local segment=512
   [ "$2" -ge 45 ] || segment=256

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <chrono>
+
 namespace tools {
 
 void add_answer_options(drivers::Command& command, Answer& answer, const std::string& what) {
@@ -17,7 +19,12 @@ ProgressLine::~ProgressLine() {
 
 std::function<void(const std::string& words)> ProgressLine::teller() const {
   if (!shows_) return {};
-  return [](const std::string& words) { std::fprintf(stderr, "\r\033[K%s", words.c_str()); };
+  const auto start = std::chrono::steady_clock::now();
+  return [start](const std::string& words) {
+    const std::chrono::duration<double> so_far = std::chrono::steady_clock::now() - start;
+    fmt::print(stderr, "\r\033[K{}, {:.0f} s so far", words, so_far.count());
+    std::fflush(stderr);
+  };
 }
 
 }  // namespace tools

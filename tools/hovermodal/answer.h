@@ -36,7 +36,8 @@ struct Answer {
 // `what`: of the document, e.g. "the modes, as modal.json has them".
 void add_answer_options(drivers::Command& command, Answer& answer, const std::string& what);
 
-// What a long computation is doing, on one line of a terminal; elsewhere and with --quiet nothing.
+// What a long computation whose number of steps is not known is doing, and how long so far, on one line of a terminal;
+// elsewhere and with --quiet nothing.
 class ProgressLine {
  public:
   explicit ProgressLine(const Answer& answer);

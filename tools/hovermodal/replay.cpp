@@ -13,6 +13,7 @@
 #include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/modes_text.h"
+#include "tools/hovermodal/simulate/progress.h"
 
 namespace tools {
 
@@ -31,6 +32,17 @@ void show(const app::TracksResult& result, const Options& options) {
   if (!options.report.empty()) options.answer.text("open {}/{}\n", options.report, app::kReportName);
 }
 
+// Shown once two seconds are over.
+app::FrameProgress progress_of(const Options& options) {
+  if (!options.answer.tells()) return {};
+  const auto shown = std::make_shared<std::unique_ptr<Progress>>();
+  return [shown](std::uint64_t done, std::uint64_t total) {
+    constexpr double kSilent_s = 2.0;
+    if (!*shown) *shown = std::make_unique<Progress>("replay", total);
+    if ((*shown)->elapsed_s() > kSilent_s) (*shown)->update(done);
+  };
+}
+
 void replay_records(const Options& options) {
   const app::RecordsResult result =
       app::replay_records(options.records, {options.config, options.overrides}, options.report);
@@ -44,7 +56,7 @@ void replay(const Options& options) {
   if (!options.records.empty()) return replay_records(options);
   if (options.config.empty()) throw std::invalid_argument("replay: --tracks needs the --config of the run");
   const app::AppConfig config = app::load_config(options.config, options.overrides);
-  show(app::replay_tracks(config, options.tracks, options.report), options);
+  show(app::replay_tracks(config, options.tracks, options.report, progress_of(options)), options);
 }
 
 // "flights/bridge_run0007_000.lcm" -> "flights/bridge_run0007_report"

@@ -62,7 +62,11 @@ Texture background_texture(const Scene& scene) {
   require_resolved("the background", texture.pitch_mm * camera.alpha_px / distance_mm);
   const double view = std::max(camera.width_px, camera.height_px) / camera.alpha_px;
   const double extent_mm = view * distance_mm + 6.0 * std::max(scene.hover.x_rms_mm, scene.hover.y_rms_mm);
-  return {texture, cells_for(extent_mm, texture.pitch_mm), scene.seed, "background_texture"};
+  const double half_view_mm = 0.5 * camera.height_px / camera.alpha_px * distance_mm;
+  const bool has_pattern = texture.shows == TextureParameters::Shows::kLandscape;
+  return {texture,    cells_for(extent_mm, texture.pitch_mm),
+          scene.seed, "background_texture",
+          0,          has_pattern ? landscape_pattern(half_view_mm, scene.seed) : TexturePattern{}};
 }
 
 std::vector<Texture> plate_textures(const Scene& scene) {
@@ -70,8 +74,11 @@ std::vector<Texture> plate_textures(const Scene& scene) {
   for (const Plate& plate : scene.plates) {
     require_resolved(scene, plate);
     const double extent_mm = std::max(plate.width_mm, plate.height_mm);
-    textures.emplace_back(plate.texture, cells_for(extent_mm, plate.texture.pitch_mm), scene.seed, "plate_texture",
-                          textures.size());
+    const bool has_pattern = plate.texture.shows == TextureParameters::Shows::kFacade;
+    const std::size_t body = textures.size();
+    textures.emplace_back(
+        plate.texture, cells_for(extent_mm, plate.texture.pitch_mm), scene.seed, "plate_texture", body,
+        has_pattern ? facade_pattern(plate.width_mm, plate.height_mm, scene.seed, body) : TexturePattern{});
   }
   return textures;
 }

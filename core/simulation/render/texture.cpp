@@ -20,7 +20,7 @@ std::array<double, 4> weights(double s) noexcept {
 }  // namespace
 
 Texture::Texture(const TextureParameters& texture, int cells, std::uint64_t seed, std::string_view name,
-                 std::uint64_t index)
+                 std::uint64_t index, const TexturePattern& pattern)
     : pitch_mm_(texture.pitch_mm), n_(cells), stride_(cells + 3), mean_(texture.mean) {
   RandomStream stream(seed, name, index);
   coefficient_.resize(static_cast<std::size_t>(n_ * stride_));
@@ -28,6 +28,12 @@ Texture::Texture(const TextureParameters& texture, int cells, std::uint64_t seed
     float* row = coefficient_.data() + j * stride_;
     for (std::int64_t i = 0; i < n_; ++i) {
       row[i] = static_cast<float>(texture.contrast_rms / kMeanSquare * stream.gaussian());
+    }
+    for (std::int64_t i = 0; pattern && i < n_; ++i) {
+      // The half of the period beyond its middle lies before the origin.
+      const auto place_mm = [&](std::int64_t k) { return pitch_mm_ * static_cast<double>(k < n_ / 2 ? k : k - n_); };
+      const PatternPoint shown = pattern(place_mm(i), place_mm(j));
+      row[i] = static_cast<float>(shown.grey + shown.noise * static_cast<double>(row[i]));
     }
     for (std::int64_t i = 0; i < stride_ - n_; ++i) row[n_ + i] = row[i];
   }

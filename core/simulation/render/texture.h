@@ -4,12 +4,14 @@
 #include <string_view>
 #include <vector>
 
+#include "core/simulation/render/texture_pattern.h"
 #include "core/simulation/scene.h"
 
 namespace core::simulation {
 
 // A grey-level function of the plane, defined everywhere and evaluated exactly: a cubic B-spline with independent
-// Gaussian coefficients, periodic over n x n cells. Nothing is resampled, so shifts have no interpolation error.
+// Gaussian coefficients, and those of a pattern, periodic over n x n cells. Nothing is resampled, so shifts have no
+// interpolation error.
 class Texture {
  public:
   // One cell of a row y = const, value = p[0] + s (p[1] + s (p[2] + s p[3])), 0 <= s < 1 across the cell.
@@ -17,9 +19,9 @@ class Texture {
     float p[4];
   };
 
-  // cells: power of two. Coefficients come from the stream (seed, name, index).
+  // cells: power of two. Coefficients come from the stream (seed, name, index), and from `pattern`, where there is one.
   Texture(const TextureParameters& texture, int cells, std::uint64_t seed, std::string_view name,
-          std::uint64_t index = 0);
+          std::uint64_t index = 0, const TexturePattern& pattern = {});
 
   [[nodiscard]] double pitch_mm() const noexcept { return pitch_mm_; }
   [[nodiscard]] double period_mm() const noexcept { return static_cast<double>(n_) * pitch_mm_; }

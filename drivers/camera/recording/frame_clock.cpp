@@ -37,6 +37,7 @@ class ClockMaker {
   ClockMaker(const std::string& path, const FrameSource& source, double declared_hz, const ClipTelemetry& telemetry)
       : path_(path), info_(source.info()), declared_hz_(declared_hz), telemetry_(telemetry) {
     clock_.times_.stated_hz = info_.has_rate && std::isfinite(info_.rate_hz) ? info_.rate_hz : 0.0;
+    if (info_.scan != nullptr) clock_.times_.prediction = info_.scan->prediction;
     clock_.stamp_file_ = find_timestamp_file(path);
     if (!clock_.stamp_file_.empty()) {
       take_stamps(source);

@@ -24,6 +24,26 @@ bool is_shown(const Container& container, const AVPacket& packet) noexcept {
   return container.stream().codecpar->codec_id != AV_CODEC_ID_VP8 || (packet.data[0] & 0x10) != 0;
 }
 
+// In the order of decoding: a frame that is shown before one already decoded was predicted from it.
+class PredictionScan {
+ public:
+  void take(bool is_key, std::int64_t tick) noexcept {
+    any_predicted_ = any_predicted_ || !is_key;
+    any_reordered_ = any_reordered_ || (any_ && tick < last_);
+    last_ = any_ ? std::max(last_, tick) : tick;
+    any_ = true;
+  }
+  [[nodiscard]] core::FramePrediction found() const noexcept {
+    if (!any_) return core::FramePrediction::kUnknown;
+    if (!any_predicted_) return core::FramePrediction::kNone;
+    return any_reordered_ ? core::FramePrediction::kBoth : core::FramePrediction::kPast;
+  }
+
+ private:
+  bool any_ = false, any_predicted_ = false, any_reordered_ = false;
+  std::int64_t last_ = 0;
+};
+
 struct Seen {
   std::int64_t tick;
   std::uint32_t bytes;
@@ -38,6 +58,7 @@ PacketScan scan_packets(const std::string& path) {
   PacketScan scan;
   scan.tick_s = container.tick_s();
   std::vector<Seen> seen;
+  PredictionScan prediction;
   std::int64_t last_dts = AV_NOPTS_VALUE;
   while (scan.n_packets < kMostScanned && container.n_bytes_read() < kMostScannedBytes) {
     if (!container.next(*packet)) {
@@ -56,8 +77,11 @@ PacketScan scan_packets(const std::string& path) {
       last_dts = packet->dts;
     }
     const std::int64_t tick = packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts;
-    if (tick >= -kMostTicks && tick <= kMostTicks) seen.push_back({tick, static_cast<std::uint32_t>(packet->size)});
+    if (tick < -kMostTicks || tick > kMostTicks) continue;
+    seen.push_back({tick, static_cast<std::uint32_t>(packet->size)});
+    prediction.take((packet->flags & AV_PKT_FLAG_KEY) != 0, tick);
   }
+  scan.prediction = prediction.found();
   if (static_cast<double>(seen.size()) < kWithTimes * static_cast<double>(scan.n_packets)) return scan;
   std::stable_sort(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) { return a.tick < b.tick; });
   if (seen.empty() || static_cast<double>(seen.back().tick - seen.front().tick) * scan.tick_s > kMostSpan_s)

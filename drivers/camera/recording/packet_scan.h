@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/types/frame_prediction.h"
+
 namespace drivers {
 
 // Properties of a recording's packets, without decoding, in the order in which their pictures are shown.
@@ -14,7 +16,8 @@ struct PacketScan {
   std::vector<std::uint32_t> bytes;    // sizes
   std::uint64_t n_packets = 0;
   double tick_s = 0.0;
-  bool complete = false;      // false: a very large file, of which only the beginning was scanned
+  bool complete = false;  // false: a very large file, of which only the beginning was scanned
+  core::FramePrediction prediction = core::FramePrediction::kUnknown;
   double backward_at_s = -1;  // position at which time runs backward by more than a second; -1: none
 };
 

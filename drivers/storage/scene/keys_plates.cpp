@@ -35,6 +35,7 @@ SceneKey never_written(SceneKey key) {
   return key;
 }
 
+using Shows = TextureParameters::Shows;
 using TextureOf = TextureParameters& (*)(SceneFile&, std::size_t);
 
 std::vector<SceneKey> texture_keys(const std::string& section, TextureOf of) {
@@ -45,7 +46,12 @@ std::vector<SceneKey> texture_keys(const std::string& section, TextureOf of) {
                        "grid of the texture, content up to 0.55 / pitch; 0 = 2.75 px of the image (background: 7)"),
           scene_number(section + ".mean", "grey levels", at(&TextureParameters::mean), {0.0, 255.0}, "brightness"),
           scene_number(section + ".contrast_rms", "grey levels", at(&TextureParameters::contrast_rms), {0.0, 128.0},
-                       "strength of the texture; more than 0, or nothing can be tracked there")};
+                       "strength of the texture; more than 0, or nothing can be tracked there"),
+          scene_choice<Shows>(
+              section + ".shows", [of](SceneFile& file, std::size_t i) -> Shows& { return of(file, i).shows; },
+              {{"noise", Shows::kNoise}, {"facade", Shows::kFacade}, {"landscape", Shows::kLandscape}},
+              "beside the noise: facade, of plates: one storey with windows; landscape, of the background: sky, town, "
+              "ground")};
 }
 
 void add_plate_list_keys(std::vector<SceneKey>& keys) {

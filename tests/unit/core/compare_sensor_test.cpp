@@ -90,13 +90,15 @@ class Motion {
 struct Setting {
   unsigned seed = 1;
   double duration_s = 60.0, late_s = 0.3, fast = 50e-6, camera_noise = 0.02, sensor_noise = 0.006, gain = 1.0,
-         drift = 0.0;
+         drift = 0.0, frame_share = 0.0;
   int derivative = 0;
 };
 
 struct Pair {
   ComparedRecord camera, sensor;
 };
+
+constexpr double kFrame_s = 1.0 / 30.0;
 
 Pair records(const Setting& setting) {
   const Motion motion(setting.seed);
@@ -106,7 +108,8 @@ Pair records(const Setting& setting) {
   out.camera = {30.0,
                 sampled(30.0, setting.duration_s,
                         [&](double t) {
-                          return setting.gain * motion(t) + setting.camera_noise * gaussian(random) +
+                          return setting.gain * (motion(t) + setting.frame_share * (motion(t) - motion(t - kFrame_s))) +
+                                 setting.camera_noise * gaussian(random) +
                                  setting.drift * std::sin(core::kTwoPi * 0.21 * t);
                         }),
                 0};
@@ -131,7 +134,7 @@ TEST(SensorComparison, OffsetRateAndAmplitudeAreWithinTheirSigmas) {
     Setting setting;
     setting.seed = seed;
     const Pair pair = records(setting);
-    const SensorComparison found = core::compare_with_sensor(pair.camera, pair.sensor, {Band{3.0, 11.0}, {}});
+    const SensorComparison found = core::compare_with_sensor(pair.camera, pair.sensor, {Band{3.0, 11.0}, {}, {}});
     ASSERT_EQ(found.refusal, "");
     const core::ClockRelation& clock = found.alignment.clock;
     offset += std::pow((clock.offset_s - true_offset_s(setting, clock.middle_s)) / clock.offset_std_s, 2);
@@ -147,12 +150,50 @@ TEST(SensorComparison, OffsetRateAndAmplitudeAreWithinTheirSigmas) {
   EXPECT_THAT(amplitude, testing::AllOf(testing::Gt(8.0), testing::Lt(42.0)));
 }
 
+// A codec that leaves out a twentieth of the motion since the last frame delays by more than the sigma without it.
+TEST(SensorComparison, TheDelayOfACodecIsNotTakenForTheClocks) {
+  double with = 0.0, without = 0.0;
+  constexpr int kSeeds = 12;
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+    Setting setting;
+    setting.seed = seed, setting.frame_share = -0.05;
+    const Pair pair = records(setting);
+    core::SensorComparisonConfig config{Band{3.0, 11.0}, {}, {}};
+    const auto error = [&](const SensorComparison& found) {
+      const core::ClockRelation& clock = found.alignment.clock;
+      return (clock.offset_s - true_offset_s(setting, clock.middle_s)) / clock.offset_std_s;
+    };
+    without += std::pow(error(core::compare_with_sensor(pair.camera, pair.sensor, config)), 2);
+    config.frames = {kFrame_s, core::FramePrediction::kPast};
+    const SensorComparison found = core::compare_with_sensor(pair.camera, pair.sensor, config);
+    with += std::pow(error(found), 2);
+    EXPECT_NEAR(found.alignment.frame_share, setting.frame_share, 4.0 * found.alignment.frame_share_std);
+    EXPECT_LT(found.alignment.frame_share_std, 0.03);
+  }
+  // Sum of squares of 12 standard normal numbers: 3 ... 28 at 99 %; blocks widen the tail.
+  EXPECT_THAT(with, testing::AllOf(testing::Gt(3.0), testing::Lt(32.0)));
+  EXPECT_GT(without, 50.0);
+}
+
+// One frequency says nothing about the codec beside the clocks: the offset is as uncertain as the codec's delay.
+TEST(SensorComparison, ANarrowBandStatesTheCodecsDelayAsUncertain) {
+  const Pair pair = records({});
+  const auto sigma_s = [&](core::FramePrediction prediction) {
+    const core::SensorComparisonConfig config{Band{3.9, 4.1}, {0.5}, {kFrame_s, prediction}};
+    return core::compare_with_sensor(pair.camera, pair.sensor, config).alignment.clock.offset_std_s;
+  };
+  const double w = core::kTwoPi * 4.0, delay_s = std::sin(w * kFrame_s) / w;
+  EXPECT_NEAR(sigma_s(core::FramePrediction::kPast), 0.1 * delay_s, 0.03 * delay_s);
+  EXPECT_NEAR(sigma_s(core::FramePrediction::kBoth), 0.02 * 2.0 * delay_s, 0.015 * delay_s);
+  EXPECT_LT(sigma_s(core::FramePrediction::kNone), 0.02 * delay_s);
+}
+
 TEST(SensorComparison, FollowsAClockErrorOfManyPeriods) {
   Setting setting;
   setting.duration_s = 400.0, setting.fast = 900e-6,
   setting.late_s = -4.0;  // 0.36 s over the record: more than three periods
   const Pair pair = records(setting);
-  const SensorComparison found = core::compare_with_sensor(pair.camera, pair.sensor, {Band{3.0, 11.0}, {}});
+  const SensorComparison found = core::compare_with_sensor(pair.camera, pair.sensor, {Band{3.0, 11.0}, {}, {}});
   ASSERT_EQ(found.refusal, "");
   EXPECT_NEAR(1e6 * found.alignment.clock.rate, 900.0, 5.0);
   EXPECT_LT(found.rmse, 1.2 * setting.camera_noise);
@@ -162,7 +203,7 @@ TEST(SensorComparison, AnAccelerometerIsComparedAsDisplacement) {
   Setting setting;
   setting.derivative = 2, setting.sensor_noise = 1.0, setting.gain = 1.1;
   const Pair pair = records(setting);
-  const SensorComparison found = core::compare_with_sensor(pair.camera, pair.sensor, {Band{3.0, 11.0}, {}});
+  const SensorComparison found = core::compare_with_sensor(pair.camera, pair.sensor, {Band{3.0, 11.0}, {}, {}});
   ASSERT_EQ(found.refusal, "");
   EXPECT_NEAR(found.alignment.ratio, 1.1, 4.0 * found.alignment.ratio_std + 0.003);
   EXPECT_GT(found.rmse, found.rmse_scaled);
@@ -172,7 +213,7 @@ TEST(SensorComparison, OppositeSignsAreFoundAndSaid) {
   Setting setting;
   setting.gain = -1.0;
   const Pair pair = records(setting);
-  const SensorComparison found = core::compare_with_sensor(pair.camera, pair.sensor, {Band{3.0, 11.0}, {}});
+  const SensorComparison found = core::compare_with_sensor(pair.camera, pair.sensor, {Band{3.0, 11.0}, {}, {}});
   ASSERT_EQ(found.refusal, "");
   EXPECT_NEAR(found.alignment.ratio, -1.0, 0.05);
   EXPECT_GT(found.correlation, 0.9);
@@ -198,7 +239,7 @@ TEST(SensorComparison, RecordsWithoutCommonMotionAreRefused) {
   for (int trial = 0; trial < 20; ++trial) {
     const auto noise = [&](double) { return gaussian(random); };
     const SensorComparison found = core::compare_with_sensor(
-        {30.0, sampled(30.0, 60.0, noise), 0}, {200.0, sampled(200.0, 60.0, noise), 0}, {Band{3.0, 11.0}, {}});
+        {30.0, sampled(30.0, 60.0, noise), 0}, {200.0, sampled(200.0, 60.0, noise), 0}, {Band{3.0, 11.0}, {}, {}});
     n_white += found.refusal.empty() ? 1 : 0;
   }
   EXPECT_LE(n_white, 1);
@@ -209,7 +250,7 @@ TEST(SensorComparison, MissingSamplesDoNotBias) {
   Pair pair = records(setting);
   for (std::size_t k = 300; k < 330; ++k) pair.camera.value[k] = core::kNan;
   for (std::size_t k = 50; k < pair.camera.value.size(); k += 97) pair.camera.value[k] = core::kNan;
-  const SensorComparison found = core::compare_with_sensor(pair.camera, pair.sensor, {Band{3.0, 11.0}, {}});
+  const SensorComparison found = core::compare_with_sensor(pair.camera, pair.sensor, {Band{3.0, 11.0}, {}, {}});
   ASSERT_EQ(found.refusal, "");
   EXPECT_NEAR(found.alignment.clock.offset_s, true_offset_s(setting, found.alignment.clock.middle_s),
               4.0 * found.alignment.clock.offset_std_s);
@@ -221,9 +262,9 @@ TEST(SensorComparison, RefusalsAreInWords) {
   const Pair pair = records(setting);
   EXPECT_THAT(core::compare_with_sensor({30.0, {1.0}, 0}, pair.sensor, {}).refusal,
               testing::HasSubstr("fewer than 64"));
-  EXPECT_THAT(core::compare_with_sensor(pair.camera, pair.sensor, {Band{3.0, 15.0}, {}}).refusal,
+  EXPECT_THAT(core::compare_with_sensor(pair.camera, pair.sensor, {Band{3.0, 15.0}, {}, {}}).refusal,
               testing::HasSubstr("half the lower rate"));
-  EXPECT_THAT(core::compare_with_sensor(pair.camera, pair.sensor, {Band{0.01, 5.0}, {}}).refusal,
+  EXPECT_THAT(core::compare_with_sensor(pair.camera, pair.sensor, {Band{0.01, 5.0}, {}, {}}).refusal,
               testing::HasSubstr("two periods"));
   EXPECT_THAT(core::compare_with_sensor({30.0, std::vector<double>(100, core::kNan), 0}, pair.sensor, {}).refusal,
               testing::HasSubstr("missing"));

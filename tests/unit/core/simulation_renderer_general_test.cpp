@@ -68,6 +68,13 @@ void expect_as_by_brute_force(const Scene& scene, const std::string& what) {
   EXPECT_GT(n_plates, 20) << what;
 }
 
+TEST(RendererGeneralWay, AFacadeBeforeALandscapeIsAsByBruteForce) {
+  Scene scene = small_scene(3);
+  for (Plate& plate : scene.plates) plate.texture.shows = TextureParameters::Shows::kFacade;
+  scene.background.texture.shows = TextureParameters::Shows::kLandscape;
+  expect_as_by_brute_force(scene, "facade");
+}
+
 TEST(RendererGeneralWay, AgreesWithTheQuickWay) {
   const Scene scene = small_scene(3);
   const Renderer quick(scene), general(scene, Renderer::Way::kGeneral);

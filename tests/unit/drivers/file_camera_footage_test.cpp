@@ -82,6 +82,18 @@ TEST(FileCameraFootage, EverySeventhFrameGoneIsNoOtherRate) {
   EXPECT_EQ(played.run.frames.back().t_start_ns, 140 * 40'000'000LL);
 }
 
+TEST(FileCameraFootage, PredictionOfFramesIsKnown) {
+  const auto predicted = [](const char* name, const char* coder) {
+    const auto clip = fresh_folder() / name;
+    ffmpeg(fmt::format("{} {} {}", noisy_film(40), coder, quoted(clip)));
+    return play(clip).times.prediction;
+  };
+  EXPECT_EQ(predicted("past.mp4", "-c:v libx264 -preset fast -bf 0"), core::FramePrediction::kPast);
+  EXPECT_EQ(predicted("both.mp4", "-c:v libx264 -preset fast -bf 2 -x264-params b-adapt=0"),
+            core::FramePrediction::kBoth);
+  EXPECT_EQ(predicted("none.mkv", "-c:v mjpeg -pix_fmt yuvj420p"), core::FramePrediction::kNone);
+}
+
 TEST(FileCameraFootage, AGapIsMaskedCells) {
   const auto clip = fresh_folder() / "gap.mkv";  // times in whole milliseconds
   ffmpeg(fmt::format("{} -vf \"select='not(between(n,90,179))'\" -vsync vfr {} {}", noisy_film(300, 30.0), kH264,

@@ -79,6 +79,25 @@ std::string modes_with(const char* first_hz) {
   return text.replace(text.find("%1"), 2, first_hz);
 }
 
+TEST_F(Answers, InspectListsWhatItFinds) {
+  EXPECT_TRUE(tests::expect_answers("inspect cameras")["cameras"].is_array());
+  // Whatever the network is like: the document tells it, and a fault is the exit code's as well.
+  const std::string lcm = "inspect lcm --seconds 0";
+  const int exit_code = tests::run_apart(lcm).exit_code;
+  const auto told = tests::expect_answers(lcm, exit_code);
+  if (exit_code == 0) {
+    EXPECT_GT(told["findings"].size(), 2U);
+    for (const auto& finding : told["findings"]) EXPECT_NE(finding["kind"], "bad") << finding;
+  }
+}
+
+TEST_F(Answers, GroundDoesNotKeepAnAccessTokenToItself) {
+  const tests::Streams quiet = tests::run_apart("ground --bind 0.0.0.0 --port 0 --seconds 0.1 --quiet");
+  EXPECT_NE(quiet.exit_code, 0);
+  EXPECT_EQ(quiet.out, "");
+  EXPECT_THAT(quiet.err, testing::AnyOf(HasSubstr("give one by --token"), HasSubstr("this build has no web server")));
+}
+
 TEST_F(Answers, CompareListsTheModes) {
   write("a.json", modes_with("2.02"));
   write("b.json", modes_with("2"));

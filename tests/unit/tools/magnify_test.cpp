@@ -8,6 +8,8 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <opencv2/core.hpp>
+#include <opencv2/videoio.hpp>
 #include <random>
 #include <string>
 #include <tuple>
@@ -30,7 +32,7 @@ constexpr int kWidth = 160, kHeight = 120, kFrames = 3000;
 constexpr double kMmPerPx = 2.0, kRate_hz = 25.0;
 
 // A run's folder: a roof and a middle that moves half as far, one mode of 2 Hz, 3000 frames; a base whose motion is
-// noise; a wall without a channel; and the clip, of which only the first frame is used.
+// noise; a wall without a channel; and the clip.
 class Magnify : public tests::FolderTest {
  protected:
   void SetUp() override {
@@ -61,17 +63,21 @@ class Magnify : public tests::FolderTest {
     }
   }
 
-  void write_tracks() const {
+  // The points of a picture that moves by 2 px a frame.
+  void write_tracks(int n_frames = 1) const {
     std::ofstream table(path("tracks.csv"));
     table << "# hovermodal tracks, version 1\n# image_size_px: " << kWidth << " x " << kHeight
           << "\n# rate_hz: 25\n# readout_ms: 0\n"
-          << "# readout_direction: down\n# exposure_ms: 0\n# frame_count: 1\n# regions: roof,middle,base,wall\n"
-          << "frame,t_s,point,region,u_px,v_px,sigma_px\n";
-    int id = 0;
-    for (const auto& [name, u, v] : std::vector<std::tuple<const char*, int, int>>{
-             {"roof", 60, 20}, {"middle", 60, 60}, {"base", 60, 102}, {"wall", 20, 60}}) {
-      for (int i = 0; i < 3; ++i, ++id)
-        table << "0,0," << id << ',' << name << ',' << u + 8 * (i % 2) << ',' << v + i << ",0.01\n";
+          << "# readout_direction: down\n# exposure_ms: 0\n# frame_count: " << n_frames
+          << "\n# regions: roof,middle,base,wall\nframe,t_s,point,region,u_px,v_px,sigma_px\n";
+    for (int k = 0; k < n_frames; ++k) {
+      int id = 0;
+      for (const auto& [name, u, v] : std::vector<std::tuple<const char*, int, int>>{
+               {"roof", 60, 20}, {"middle", 60, 60}, {"base", 60, 102}, {"wall", 20, 60}}) {
+        for (int i = 0; i < 3; ++i, ++id)
+          table << k << ',' << k / kRate_hz << ',' << id << ',' << name << ',' << u + 8 * (i % 2) + 2 * k << ','
+                << v + i << ",0.01\n";
+      }
     }
   }
 
@@ -82,6 +88,47 @@ class Magnify : public tests::FolderTest {
     drivers::ClipWriter writer(path("clip.mp4"), kWidth, kHeight, kRate_hz, 10);
     for (int i = 0; i < 30; ++i) writer.write(pixels.data());
     writer.finish();
+  }
+
+  // Waves.
+  static double pattern(double u, double v) {
+    return 128.0 + 40.0 * std::sin(0.45 * u + 0.3 * v) + 30.0 * std::sin(0.31 * u - 0.53 * v) +
+           20.0 * std::sin(0.83 * u);
+  }
+  void write_panned_clip(int n_frames) const {
+    std::vector<std::uint8_t> pixels(kWidth * kHeight);
+    drivers::ClipWriter writer(path("clip.mp4"), kWidth, kHeight, kRate_hz, 0);
+    for (int k = 0; k < n_frames; ++k) {
+      for (int i = 0; i < kWidth * kHeight; ++i)
+        pixels[static_cast<std::size_t>(i)] =
+            static_cast<std::uint8_t>(std::lround(pattern(i % kWidth - 2.0 * k, 1.0 * (i / kWidth))));
+      writer.write(pixels.data());
+    }
+    writer.finish();
+  }
+  // By least squares of each frame's patch of the roof against the pattern.
+  static std::vector<double> shifts_of_the_roof(const std::string& clip) {
+    cv::VideoCapture video(clip);
+    std::vector<double> out;
+    cv::Mat colour, gray;
+    for (int k = 0; video.read(colour); ++k) {
+      cv::extractChannel(colour, gray, 1);
+      double best = 1e18, best_px = 0.0;
+      const double pan_px = 2.0 * k;
+      for (double by_px = -12.0; by_px <= 12.0; by_px += 0.05) {
+        double error = 0.0;
+        for (int v = 15; v <= 25; ++v) {
+          for (int u = 58; u <= 70; ++u) {
+            const int at = u + static_cast<int>(pan_px);
+            error += std::pow(gray.at<std::uint8_t>(v, at) - pattern(at - pan_px - by_px, v), 2);
+          }
+        }
+        if (error < best) best = error, best_px = by_px;
+      }
+      out.push_back(pan_px + best_px);
+    }
+    for (std::size_t k = out.size(); k-- > 0;) out[k] -= out[0];
+    return out;
   }
 
   void edit(const std::function<void(nlohmann::ordered_json&)>& change) const {
@@ -121,6 +168,29 @@ TEST_F(Magnify, DrawsTheShapeTimesAmplitudeTimesFactor) {
   EXPECT_EQ(told["regions"][2]["held"], "this would magnify noise");
   EXPECT_EQ(told["regions"][2]["drawn_u_px"][0].get<double>(), 0.0);
   EXPECT_GT(fs::file_size(path("mode.mp4")), 1000U);
+}
+
+// The clip pans to the right, 2 px a frame: the roof is drawn where it has gone, by the same cycle.
+TEST_F(Magnify, AllFramesAreWarpedWhereTheirRegionsAre) {
+  constexpr int kPanned = 20;
+  write_panned_clip(kPanned);
+  write_tracks(kPanned);
+  const Outcome outcome = magnified("--factor 0.4 --all-frames --plain --period-s 0.8 --crf 0 --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  const std::size_t at = outcome.text.find('{');
+  ASSERT_NE(at, std::string::npos) << outcome.text;
+  const auto told = nlohmann::json::parse(outcome.text.substr(at));
+  EXPECT_EQ(told["frames"], kPanned);
+  EXPECT_EQ(told["all_frames"], true);
+  const double swing_px = told["regions"][0]["drawn_u_px"][0].get<double>();
+  ASSERT_GT(swing_px, 0.5);
+  const std::vector<double> shown = shifts_of_the_roof(path("mode.mp4"));
+  ASSERT_EQ(shown.size(), static_cast<std::size_t>(kPanned));
+  for (int k = 0; k < kPanned; ++k) {
+    const double phase = 2.0 * std::numbers::pi * k / (0.8 * kRate_hz);
+    const double first_px = swing_px;  // frame 0 is drawn at the crest
+    EXPECT_NEAR(shown[static_cast<std::size_t>(k)], 2.0 * k + swing_px * std::cos(phase) - first_px, 0.15) << k;
+  }
 }
 
 TEST_F(Magnify, StatesWhatItHoldsStillAndDoesNotOverwrite) {

@@ -65,7 +65,7 @@ TEST_F(SimulateScene, EveryExampleMakesItsRecordAndAConfigurationTheServiceTakes
     EXPECT_NO_THROW((void)app::load_config((out / "config.yaml").string())) << entry.path();
     ++n;
   }
-  EXPECT_EQ(n, 6);
+  EXPECT_EQ(n, 7);
 }
 
 TEST_F(SimulateScene, ConfigurationTellsWhatIsDeclaredAndTruthTellsAll) {
@@ -205,7 +205,7 @@ TEST_F(SimulateScene, RefusesBadScenesWithExitCode2) {
   std::ofstream(folder_ / "bad.yaml") << "camera:\n  readout: 3\n";
   const Outcome unknown = run("hovermodal", "simulate --scene " + (folder_ / "bad.yaml").string() + out);
   EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_THAT(unknown.text, HasSubstr("bad.yaml:2: camera.readout: unknown key; did you mean"));
+  EXPECT_THAT(unknown.text, HasSubstr("bad.yaml:2: camera.readout: unknown key; did you mean `camera.readout_ms`"));
   EXPECT_EQ(run("hovermodal", "simulate --scene " + (folder_ / "none.yaml").string() + out).exit_code, 2);
   EXPECT_EQ(run("hovermodal", "simulate --scene " + folder_.string() + out).exit_code, 2);
   EXPECT_EQ(run("hovermodal", "simulate --tracks-only" + out).exit_code, 2);

@@ -13,6 +13,7 @@
 #include "drivers/storage/series_format.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/replay/run_folder.h"
+#include "firmware_app/report/modal_json.h"
 #include "tools/hovermodal/compare/seen_time.h"
 #include "tools/hovermodal/identify/series_input.h"
 
@@ -68,6 +69,7 @@ class SensorRun {
     core::SensorComparisonConfig config;
     if (!options_.band.empty()) config.band = core::Band{options_.band[0], options_.band[1]};
     config.clock.most_offset_s = options_.most_offset_s.value_or(0.0);
+    config.frames = frames();
     out_.comparison = core::compare_with_sensor(camera_, sensor_, config);
     const std::string& refusal = out_.comparison.refusal;
     if (!refusal.empty())
@@ -76,6 +78,18 @@ class SensorRun {
   }
 
  private:
+  // How the run's video was coded.
+  core::VideoFrames frames() {
+    const fs::path path = fs::path(options_.run) / "modal.json";
+    core::VideoFrames out{1.0 / camera_.rate_hz, core::FramePrediction::kUnknown};
+    if (fs::is_directory(options_.run) && fs::exists(path))
+      out.prediction = app::read_modal_json(path.string()).losses.times.prediction;
+    if (out.prediction == core::FramePrediction::kUnknown)
+      out_.remarks.emplace_back(
+          "no coded video is known behind the channel: a codec's delay is not part of the sigmas");
+    return out;
+  }
+
   void load_camera() {
     LoadedSeries loaded = load_channel(path_, options_.channel, options_.rate_hz, "--channel", options_.is_quiet);
     (void)app::use_measured_times(path_, loaded.series);

@@ -66,6 +66,9 @@ std::string sensor_text(const SensorFindings& findings) {
   text += fmt::format("coherence    {:.5f}, mean over the band, weighted by power, {} segments\n", found.coherence,
                       found.n_averages);
   text += "amplitude    " + amplitude_words(findings) + "\n";
+  if (found.alignment.frame_share_std > 0.0)
+    text += fmt::format("video codec  adds {:+.4f} ± {:.4f} of the motion between frames; this is part of the sigmas\n",
+                        found.alignment.frame_share, found.alignment.frame_share_std);
   if (found.alignment.ratio < 0.0) text += "note: channel and sensor have opposite signs; the sensor's was changed\n";
   if (found.alignment.rival)
     text += fmt::format(
@@ -105,6 +108,9 @@ std::string sensor_json(const SensorFindings& findings) {
                                  {"amplitude_ratio", std::abs(alignment.ratio)},
                                  {"amplitude_ratio_std", alignment.ratio_std},
                                  {"opposite_signs", alignment.ratio < 0.0}};
+  json["frame_share"] = nullptr, json["frame_share_std"] = nullptr;  // a table that is no run is of no video
+  if (alignment.frame_share_std > 0.0)
+    json["frame_share"] = alignment.frame_share, json["frame_share_std"] = alignment.frame_share_std;
   json["rival_offset_s"] = nullptr;
   if (alignment.rival)
     json["rival_offset_s"] = alignment.rival->offset_s + findings.sensor_first_s - findings.camera_first_s;

@@ -42,6 +42,7 @@ void add_ground(drivers::Command& app) {
       "travels to a browser is not encrypted: across a network that you do not trust use a tunnel,\n"
       "  ssh -L 8086:127.0.0.1:8086 ground-station\n"
       "Camera pictures need telemetry.preview_period_s above 0 in the service's configuration.");
+  add_answer_options(ground, options->answer, "where the page is");
   ground.on_run([options] { run_ground(*options); });
 }
 

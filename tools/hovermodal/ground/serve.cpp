@@ -7,8 +7,11 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <thread>
 
+#include "drivers/storage/json.h"
 #include "drivers/telemetry/lcm_listener.h"
 #include "tools/hovermodal/ground/live_stream.h"
 #include "tools/hovermodal/ground/page.h"
@@ -50,16 +53,19 @@ std::vector<std::string> own_addresses() {
 }
 
 void tell_where(const WebServer& server, const GroundOptions& options) {
-  std::printf("listening on %s for %s_*\n", options.url.c_str(), options.prefix.c_str());
+  std::vector<std::string> urls;
   const std::string url = server.url();
   const std::string any = "//0.0.0.0:";
   if (const std::size_t at = url.find(any); at != url.npos) {
-    for (const std::string& address : own_addresses()) {
-      std::printf("open %s\n", (url.substr(0, at + 2) + address + url.substr(at + any.size() - 1)).c_str());
-    }
+    for (const std::string& address : own_addresses())
+      urls.push_back(url.substr(0, at + 2) + address + url.substr(at + any.size() - 1));
   } else {
-    std::printf("open %s\n", url.c_str());
+    urls.push_back(url);
   }
+  options.answer.document(
+      drivers::to_json_text({{"listening_on", options.url}, {"prefix", options.prefix}, {"open", urls}}).text);
+  options.answer.text("listening on {} for {}_*\n", options.url, options.prefix);
+  for (const std::string& one : urls) options.answer.text("open {}\n", one);
   std::fflush(stdout);
 }
 
@@ -76,6 +82,8 @@ WebOptions web_options(const GroundOptions& options) {
 }  // namespace
 
 void run_ground(const GroundOptions& options) {
+  if (options.answer.quiet && !options.answer.json && options.token.empty() && !is_loopback(options.bind_address))
+    throw std::invalid_argument("ground --quiet: nobody would learn the random access token; give one by --token");
   LiveStream stream(options.prefix);
   WebServer server(web_options(options));
   add_paths(server, stream);
@@ -92,7 +100,7 @@ void run_ground(const GroundOptions& options) {
     if (!has_more) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     } else if (has_more = listener.poll(); !has_more) {
-      std::printf("the log has ended; the page stays until you stop this (Ctrl-C)\n");
+      options.answer.note("the log has ended; the page stays until you stop this (Ctrl-C)\n");
       std::fflush(stdout);
     }
   }

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/hovermodal/answer.h"
+
 namespace tools {
 
 struct GroundOptions {
@@ -13,6 +15,7 @@ struct GroundOptions {
   std::string token;               // empty: none on a loopback address, a random one elsewhere
   std::vector<std::string> names;  // other host names under which the page is opened
   double seconds = 0.0;            // 0 = until stopped
+  Answer answer;
 };
 
 // Serves the page until stopped (SIGINT, SIGTERM, seconds). Throws std::invalid_argument for impossible options,

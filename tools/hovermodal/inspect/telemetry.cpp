@@ -4,12 +4,16 @@
 
 #include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "drivers/camera/recording/clip_telemetry.h"
 #include "drivers/camera/recording/frame_source.h"
 #include "drivers/host/command_line.h"
+#include "drivers/storage/json.h"
+#include "tools/hovermodal/answer.h"
 
 namespace tools {
 
@@ -17,6 +21,7 @@ namespace {
 
 struct Options {
   std::string file, attitude;
+  Answer answer;
 };
 
 void write_attitude(const drivers::ClipTelemetry& telemetry, const Options& options) {
@@ -30,16 +35,23 @@ void write_attitude(const drivers::ClipTelemetry& telemetry, const Options& opti
   }
   out.close();
   if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", options.attitude));
-  fmt::print("{}: {} attitudes; use it with camera.attitude_file\n", options.attitude, telemetry.attitude.size());
+  options.answer.note("{}: {} attitudes; use it with camera.attitude_file\n", options.attitude,
+                      telemetry.attitude.size());
 }
 
 void print(const Options& options) {
   drivers::silence_media_libraries();
   const drivers::ClipTelemetry telemetry = drivers::read_telemetry(options.file);
-  fmt::print("{}: {}\n", options.file, telemetry.from);
-  for (const std::string& words : drivers::telemetry_words(telemetry)) fmt::print("  {}\n", words);
+  const std::vector<std::string> told = drivers::telemetry_words(telemetry);
+  nlohmann::ordered_json json{
+      {"file", options.file}, {"from", telemetry.from}, {"words", told}, {"readout_ms", nullptr}};
+  if (!telemetry.readout_s.empty()) json["readout_ms"] = 1e3 * telemetry.readout_s.front().value;
+  json["attitudes"] = telemetry.attitude.size();
+  options.answer.document(drivers::to_json_text(json).text);
+  options.answer.text("{}: {}\n", options.file, telemetry.from);
+  for (const std::string& words : told) options.answer.text("  {}\n", words);
   if (!telemetry.readout_s.empty())
-    fmt::print("  to use it: camera: {{readout_ms: {:.3f}}}\n", 1e3 * telemetry.readout_s.front().value);
+    options.answer.text("  to use it: camera: {{readout_ms: {:.3f}}}\n", 1e3 * telemetry.readout_s.front().value);
   if (!options.attitude.empty()) write_attitude(telemetry, options);
 }
 
@@ -51,6 +63,7 @@ void add_inspect_telemetry(drivers::Command& inspect) {
   const auto options = std::make_shared<Options>();
   telemetry.option("FILE", options->file, "Video (its .SRT or GPMF is found), .SRT, or GPMF bytes (.raw)").required();
   telemetry.option("--attitude", options->attitude, "Write the attitude to this CSV, for camera.attitude_file");
+  add_answer_options(telemetry, options->answer, "what was found");
   telemetry.on_run([options] { print(*options); });
 }
 

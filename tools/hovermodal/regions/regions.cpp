@@ -20,6 +20,7 @@
 #include "tools/hovermodal/named_file.h"
 #include "tools/hovermodal/regions/picker.h"
 #include "tools/hovermodal/regions/regions_text.h"
+#include "tools/hovermodal/simulate/progress.h"
 #include "tools/hovermodal/stop_signal.h"
 
 namespace tools {
@@ -62,23 +63,6 @@ struct Watched {
   std::size_t n_corners = 0;
 };
 
-// A line on standard error every few seconds.
-class Progress {
- public:
-  Progress(std::size_t n_wanted, bool is_quiet) : n_wanted_(n_wanted), quiet_(is_quiet) {}
-  void tell(std::size_t n_frames) {
-    const auto now = std::chrono::steady_clock::now();
-    if (quiet_ || now - last_ < std::chrono::seconds(2)) return;
-    last_ = now;
-    fmt::print(stderr, "regions: frame {} of {}; Ctrl-C ends here with what was seen\n", n_frames, n_wanted_);
-  }
-
- private:
-  std::size_t n_wanted_;
-  bool quiet_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
 // The camera's messages name the configuration's keys; here that one is an option.
 std::string with_options(std::string message) {
   constexpr std::string_view kKey = "camera.rate_hz", kOption = "--rate-hz";
@@ -111,7 +95,8 @@ Watched watch(const Options& options) {
   camera->start();
   const auto n_wanted = static_cast<std::size_t>(options.seconds * out.info.rate_hz) + 1;
   std::optional<core::RegionSurvey> survey;
-  Progress progress(n_wanted, options.answer.quiet);
+  Progress progress("regions", n_wanted, "frames", options.answer.quiet);
+  progress.say("regions: Ctrl-C ends the watching with what was seen so far");
   while (out.n_frames < n_wanted && stop_requested == 0) {
     const auto status = camera->capture(frame, std::chrono::milliseconds(1000));
     if (status == drivers::CaptureStatus::kTimeout) continue;
@@ -122,7 +107,7 @@ Watched watch(const Options& options) {
     } else {
       survey->add(core::gray_view(frame));
     }
-    progress.tell(out.n_frames);
+    progress.update(out.n_frames);
   }
   const std::string fault = camera->fault();
   camera->stop();

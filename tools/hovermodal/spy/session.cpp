@@ -92,7 +92,9 @@ End listen(const SpyOptions& options, drivers::LcmListener& listener, drivers::S
   for (;;) {
     const bool has_more = listener.poll();
     view.now_ns = drivers::LcmListener::now_ns();
-    if (screen == nullptr) {
+    if (!options.answer.tells()) {
+      // Only the end is told.
+    } else if (screen == nullptr) {
       plain.update(monitor, view);
     } else if (view.now_ns - drawn_ns >= kRedraw_ns) {
       drawn_ns = view.now_ns;
@@ -128,16 +130,17 @@ void run_spy(const SpyOptions& options) {
   std::optional<TerminalScreen> screen;
   ViewOptions view;
   if (options.plain || !locale_is_utf8()) view.charset = Charset::kAscii;
-  if (!options.plain && stdout_is_terminal()) {
+  if (options.answer.tells() && !options.plain && stdout_is_terminal()) {
     screen.emplace();
   } else {
-    std::printf("listening on %s for %s_*\n", options.url.c_str(), options.prefix.c_str());
+    options.answer.text("listening on {} for {}_*\n", options.url, options.prefix);
     std::fflush(stdout);
   }
   const End end = listen(options, listener, monitor, screen ? &*screen : nullptr, view);
   screen.reset();
   view.now_ns = drivers::LcmListener::now_ns();
-  for (const auto& line : render(options.view, monitor, view)) std::printf("%s\n", line.c_str());
+  for (const auto& line : render(options.view, monitor, view)) options.answer.text("{}\n", line);
+  options.answer.document(count_json(monitor));
   count_file << (options.count_file.empty() ? "" : count_json(monitor)) << std::flush;
   if (!options.count_file.empty() && !count_file) {
     throw std::runtime_error(fmt::format("--count \"{}\": cannot be written", options.count_file));

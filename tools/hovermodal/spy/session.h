@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "tools/hovermodal/answer.h"
+
 namespace tools {
 
 enum class SpyView { kModes, kStages };
@@ -14,6 +16,7 @@ struct SpyOptions {
   double seconds = 0.0;  // 0 = no limit
   bool plain = false;
   std::string count_file;  // empty = none
+  Answer answer;           // --json: the numbers of messages at the end, in place of what is shown
 };
 
 // Listens and shows until stopped (SIGINT, SIGTERM, --once, --seconds, end of a log). Throws

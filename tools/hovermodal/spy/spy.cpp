@@ -21,6 +21,7 @@ std::shared_ptr<SpyOptions> add_listener(drivers::Command spy) {
   spy.flag("--plain", options->plain, "Plain lines, ASCII only, also on a terminal");
   spy.option("--count", options->count_file,
              "Write the number of messages received and missed to this JSON file at the end");
+  add_answer_options(spy, options->answer, "the numbers of --count at the end");
   spy.on_run([options, spy] {
     if (!spy.subcommand_given()) run_spy(*options);  // otherwise the subcommand has already run
   });
