@@ -69,12 +69,12 @@ TEST(ChangeTest, FlightsWithoutTemperatureAreLeftOut) {
 
 TEST(ChangeTest, FalseReportsOfAFamilyAreRare) {
   int n_false = 0;
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     std::vector<FlightSeries> family;
     for (std::uint64_t i = 0; i < 5; ++i) family.push_back(series_of(100 * seed + i, [](std::size_t) { return 1.0; }));
     for (const Change& one : test_changes(two_years(true), family, kLevel)) n_false += one.is_significant ? 1 : 0;
   }
-  EXPECT_LE(n_false, 2);
+  EXPECT_LE(n_false, 1);
 }
 
 TEST(ChangeTest, ScatterBeyondTheStatedSigmaIsNoChange) {

@@ -1,5 +1,7 @@
 #include "tools/hovermodal/changes/matched_flights.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -121,6 +123,13 @@ class Matching {
 MatchedFlights match_flights(const std::vector<const app::ModalReport*>& reports,
                              const core::monitoring::Conditions& conditions) {
   return Matching(reports, conditions).match();
+}
+
+std::string words_of(const core::monitoring::ContradictingFlight& flight) {
+  const std::string share = fmt::format("{:.2f} % +- {:.2f} % {}", 100.0 * std::abs(flight.share), 100.0 * flight.std,
+                                        flight.share > 0.0 ? "higher" : "lower");
+  if (!flight.is_common) return fmt::format("its modes lie {} on average", share);
+  return fmt::format("all its {} modes lie {}: check its frame rate or clock", flight.n_modes, share);
 }
 
 FlightSeries frequencies_of(const std::vector<const app::ModalReport*>& reports, const Places& mode) {

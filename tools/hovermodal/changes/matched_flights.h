@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "core/identification/combine_estimates.h"
@@ -24,6 +25,9 @@ struct MatchedFlights {
 // frequencies (a frame rate of 25 stated for 30). `reports`: in the order of time, borrowed; conditions: of each.
 [[nodiscard]] MatchedFlights match_flights(const std::vector<const app::ModalReport*>& reports,
                                            const core::monitoring::Conditions& conditions);
+
+// "all its 5 modes lie 1.02 % +- 0.05 % higher: check its frame rate or clock"
+[[nodiscard]] std::string words_of(const core::monitoring::ContradictingFlight& flight);
 
 // Of one mode; without those that state no standard deviation.
 [[nodiscard]] core::monitoring::FlightSeries frequencies_of(const std::vector<const app::ModalReport*>& reports,

@@ -15,7 +15,7 @@ using app::Box;
 using core::monitoring::Change;
 using core::monitoring::ChangeKind;
 
-constexpr double kWidthPx = 960.0, kPanelWidthPx = 350.0, kPanelHeightPx = 120.0, kPitchPx = 172.0, kTopPx = 84.0;
+constexpr double kWidthPx = 960.0, kPanelWidthPx = 350.0, kPanelHeightPx = 120.0, kPitchPx = 190.0, kTopPx = 84.0;
 constexpr double kLeftPx = 86.0, kRightPanelPx = 530.0, kMarginDays = 0.04;
 constexpr std::size_t kMostModes = 12;
 

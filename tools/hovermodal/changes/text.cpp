@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "drivers/storage/printable.h"
+#include "tools/hovermodal/changes/matched_flights.h"
 #include "tools/hovermodal/changes/mode_histories.h"
 
 namespace tools {
@@ -71,15 +72,6 @@ std::string mode_words(const ModeHistories& result, const ModeHistory& mode, std
   return text;
 }
 
-std::string contradiction_words(const ModeHistories& result, const core::monitoring::ContradictingFlight& one) {
-  const std::string share = fmt::format("{:.2f} % +- {:.2f} % {}", 100.0 * std::abs(one.share), 100.0 * one.std,
-                                        one.share > 0.0 ? "higher" : "lower");
-  return fmt::format("{} contradicts the others: {}; it is left out\n", flight_words(result, one.flight),
-                     one.is_common
-                         ? fmt::format("all its {} modes lie {}: check its frame rate or clock", one.n_modes, share)
-                         : fmt::format("its modes lie {} on average", share));
-}
-
 }  // namespace
 
 std::string changes_text(const ModeHistories& result) {
@@ -88,7 +80,9 @@ std::string changes_text(const ModeHistories& result) {
       fmt::format("{} flights, {} to {}; temperature {}\n", result.flights.size(),
                   shown(first.date.empty() ? first.name : first.date), shown(last.date.empty() ? last.name : last.date),
                   result.knows_temperature ? "removed by regression" : "not known");
-  for (const auto& one : result.contradicting) text += contradiction_words(result, one);
+  for (const auto& one : result.contradicting)
+    text +=
+        fmt::format("{} contradicts the others: {}; it is left out\n", flight_words(result, one.flight), words_of(one));
   for (std::size_t m = 0; m < result.modes.size(); ++m) text += mode_words(result, result.modes[m], m + 1);
   if (result.n_rare > 0)
     text += fmt::format("{} further mode{} in less than a third of the flights: not tested\n", result.n_rare,
