@@ -97,13 +97,13 @@ check_pragma_once() {
   done
 }
 
-# One namespace a room; within core planning, simulation, structure and closure have their own. Braces of *_kernels stand
+# One namespace a room; within core planning, simulation, structure, closure and monitoring have their own. Braces of *_kernels stand
 # within the room's.
 check_namespaces() {
   awk '
     function expected(file, part) {
       split(file, part, "/")
-      if (part[1] == "core") return part[2] ~ /^(planning|simulation|structure|closure)$/ ? "core::" part[2] : "core"
+      if (part[1] == "core") return part[2] ~ /^(planning|simulation|structure|closure|monitoring)$/ ? "core::" part[2] : "core"
       return part[1] == "firmware_app" ? "app" : part[1]
     }
     FNR == 1 { room = expected(FILENAME) }

@@ -6,11 +6,13 @@
 
 namespace core::closure {
 
-// Seeded normal numbers for surrogates. The C++ standard defines the generator and this code the polar method
+// Seeded numbers for surrogates. The C++ standard defines the generator and this code the polar method
 // (Marsaglia & Bray 1964), so the numbers are the same with every standard library.
 class NoiseStream {
  public:
   explicit NoiseStream(std::uint64_t seed) : engine_(seed) {}
+
+  double uniform() { return static_cast<double>(engine_() >> 11U) * 0x1.0p-53; }  // [0, 1)
 
   double gaussian() {
     if (has_spare_) {
@@ -30,8 +32,6 @@ class NoiseStream {
   }
 
  private:
-  double uniform() { return static_cast<double>(engine_() >> 11U) * 0x1.0p-53; }
-
   std::mt19937_64 engine_;
   double spare_ = 0.0;
   bool has_spare_ = false;

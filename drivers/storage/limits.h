@@ -29,6 +29,7 @@ struct Limits {
   static constexpr std::size_t kJsonBytes = 8 * kMiB;            // of a result or a simulated truth
   static constexpr std::size_t kJsonKeys = 4096;                 // of one object in it
   static constexpr std::size_t kColumns = 4096;                  // of a table
+  static constexpr std::size_t kFlights = 2000;                  // whose modes are compared over time
   static constexpr std::size_t kSeriesCells = 30'000'000;        // of all columns: 20 hours of 8 channels at 50 Hz
   static constexpr std::size_t kExchangeBytes = 96 * kMiB;       // of a universal or MAT file, and of the series in it
   static constexpr std::size_t kCommentBytes = kMiB;             // above a table

@@ -27,6 +27,7 @@ constexpr Subcommand kSubcommands[] = {
     {tools::add_report, "report", "Write the report of a run record"},
     {tools::add_batch, "batch", "Process a folder of flights and combine their results"},
     {tools::add_batch_flight, "batch-flight", ""},
+    {tools::add_changes, "changes", "Test the modes of many flights for a change over time"},
     {tools::add_compare, "compare", "Compare modes with another result, displacements with a sensor"},
     {tools::add_export, "export", "Write a run as UFF, MAT, CSV or MCAP for other programs"},
     {tools::add_magnify, "magnify", "Make a mode of a run visible: the clip's frame moved by its shape"},
@@ -59,6 +60,8 @@ int main(int argc, char** argv) {
   try {
     drivers::keep_memory_reserve();
     return run(argc, argv);
+  } catch (const tools::ChangeFound&) {
+    return 3;
   } catch (const std::invalid_argument& e) {
     std::fprintf(stderr, "hovermodal: %s\n", drivers::printable_lines(e.what(), "  ").c_str());
     return 2;

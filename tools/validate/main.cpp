@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "drivers/host/command_line.h"
+#include "tools/validate/years_of_flights.h"
 #include "tools/validate/closure_series_tracked.h"
 #include "tools/validate/closure_tracks.h"
 #include "tools/validate/footage.h"
@@ -108,6 +109,12 @@ void closure_tracks(const Options& options) {
 }
 
 void structures(const Options& o) { print_structures(o.what, o.n_seeds, o.n_threads, o.first_seed, o.report); }
+
+template <void (*write)(const ChangesOptions&)>
+void changes(const Options& o) {
+  if (o.report.empty()) throw std::invalid_argument(o.what + ": --report names the folder for the flights");
+  write({o.n_seeds, o.n_threads, o.first_seed, o.strength, o.report});
+}
 
 // Options that a check may take; all others are refused.
 enum Takes : unsigned {
@@ -206,6 +213,12 @@ constexpr std::array kChecks{
     Check{"geometry-pixels-drawn", "the same with camera, structure and noise drawn",
           geometry<print_geometry_pixels, true>, kFlights | kReport},
     Check{"trust-modes", "every mode of a record, and the intervals stated", geometry<print_trust_modes>, kFlights},
+    Check{"trust-losses", "the modes of a record that losses of frames hide", geometry<print_trust_losses>,
+          kRecords | kDuration},
+    Check{"changes-flights", "thirty flights over two years, one storey loses --strength of its stiffness; in --report",
+          changes<write_changing_flights>, kRecords | kStrength | kReport},
+    Check{"changes-clock", "three flights, the clock of one is wrong; in --report", changes<write_clock_flights>,
+          kRecords | kReport},
     Check{"paper", "the paper's experiment by its own chain, as published", geometry<print_paper>, kFlights},
     Check{"table1", "the paper's Table 1 and Figures 6 to 9, sensor by sensor", geometry<print_table1>,
           kFlights | kReport},
@@ -260,12 +273,17 @@ void add_options(drivers::Command& program, Options& options) {
   program.option("--duration", options.duration_s, "geometry, closure-tracks: seconds; 0 = that of the figure")
       .range(0.0, 3600.0);
   program.option("--effect", options.effect, "closure-tracks, -clip, -live: this effect only").type_name("NAME");
-  program.option("--strength", options.strength, "closure-tracks: this strength only; 0 = all").range(0.0, 100.0);
+  program
+      .option("--strength", options.strength,
+              "closure-tracks: this strength only; 0 = all; changes-flights: share of the stiffness")
+      .range(0.0, 100.0);
   program
       .option("--flight", options.flight,
               "null, geometry, closure-tracks-foreign: the recorded flight that moves the camera")
       .type_name("FILE");
-  program.option("--report", options.report, "table1: folder for the pictures; geometry-pixels: for clips and reports")
+  program
+      .option("--report", options.report,
+              "table1: folder for the pictures; geometry-pixels, changes: for clips and reports")
       .type_name("DIR");
 }
 

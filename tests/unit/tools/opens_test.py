@@ -65,6 +65,7 @@ BOUNDS = {
     "tools/hovermodal/batch/inventory.cpp": [LIST],
     "tools/hovermodal/batch/mpi_workers.cpp": ["A MESSAGE OF MPI", "A MESSAGE OF MPI"],
     "tools/hovermodal/batch/workers.cpp": ["A LOG OF OUR OWN"],
+    "tools/hovermodal/changes/flight_list.cpp": ["kFlights", "kFlights"],
     "tools/hovermodal/closeloop/closeloop_tracks.cpp": ["kLineBytes drivers/storage/csv_lines.h"],
     "tools/hovermodal/compare/seen_time.cpp": ["kLineBytes drivers/storage/csv_lines.h"],
     "tools/hovermodal/export/keyframe_places.cpp": ["kLineBytes drivers/storage/csv_lines.h"],

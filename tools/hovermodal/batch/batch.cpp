@@ -85,7 +85,7 @@ void combine(const std::vector<FlightOrder>& orders, const std::vector<std::stri
   std::vector<std::string> folders;
   for (std::size_t f = 0; f < orders.size(); ++f) {
     flights.push_back(
-        {orders[f].flight.name, orders[f].flight.kind, without_folder(failures[f], options.folder), 0, {}});
+        {orders[f].flight.name, orders[f].flight.kind, without_folder(failures[f], options.folder), "", 0, {}});
     folders.push_back(orders[f].into);
   }
   const BatchResult result = combine_flights(std::move(flights), folders);

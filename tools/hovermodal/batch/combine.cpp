@@ -10,6 +10,7 @@
 #include "drivers/storage/checkpoint_file.h"
 #include "firmware_app/chain/state/setup_sums.h"
 #include "tools/hovermodal/batch/flight_order.h"
+#include "tools/hovermodal/changes/matched_flights.h"
 
 namespace tools {
 
@@ -41,6 +42,7 @@ class Combination {
         flight.failure = e.what();
       }
     }
+    leave_out_contradictions();
     for (std::size_t v = 0; v < result_.views.size(); ++v) identify(v);
     list_modes();
     return std::move(result_);
@@ -77,6 +79,25 @@ class Combination {
     seen_.push_back({f, std::move(print)});
   }
 
+  // A view of which all flights contradict keeps them: there is nothing else to show of it.
+  void leave_out_contradictions() {
+    std::vector<const app::ModalReport*> reports;
+    std::vector<std::size_t> flight_of;
+    core::monitoring::Conditions conditions;
+    for (std::size_t f = 0; f < result_.flights.size(); ++f) {
+      if (!result_.flights[f].failure.empty()) continue;
+      conditions.day.push_back(static_cast<double>(f));
+      reports.push_back(&result_.flights[f].report);
+      flight_of.push_back(f);
+    }
+    for (const auto& one : match_flights(reports, conditions).contradicting) {
+      FlightResult& flight = result_.flights[flight_of[one.flight]];
+      std::vector<std::size_t>& of_view = result_.views[flight.i_view].flights;
+      flight.contradiction = words_of(one);
+      if (of_view.size() > 1) std::erase(of_view, flight_of[one.flight]);
+    }
+  }
+
   void identify(std::size_t v) {
     ViewResult& view = result_.views[v];
     view.report = result_.flights[view.flights.front()].report;
@@ -104,7 +125,8 @@ class Combination {
     }
     for (std::size_t f = 0; f < result_.flights.size(); ++f) {
       const FlightResult& flight = result_.flights[f];
-      if (!flight.failure.empty() || result_.views[flight.i_view].flights.size() == 1) continue;
+      if (!flight.failure.empty() || !flight.contradiction.empty()) continue;
+      if (result_.views[flight.i_view].flights.size() == 1) continue;
       inputs.push_back({flight.report.channel_names, &flight.report.estimate, false});
       flight_of_input.push_back(f);
     }

@@ -14,9 +14,10 @@ namespace tools {
 struct FlightResult {
   std::string name;
   FlightKind kind = FlightKind::kRecord;
-  std::string failure;      // empty: the flight is part of the result
-  std::size_t i_view = 0;   // into BatchResult::views
-  app::ModalReport report;  // as its modal.json
+  std::string failure;        // empty: the flight is part of the result
+  std::string contradiction;  // its frequencies against those of all others; not empty: it is left out of them
+  std::size_t i_view = 0;     // into BatchResult::views
+  app::ModalReport report;    // as its modal.json
 };
 
 // Flights whose sums may be added, and the one estimate of all of them.
@@ -45,8 +46,8 @@ struct BatchResult {
 
 // Reads the results of the flights from `folders`, in the order of `flights`, one at a time. Flights of one view are
 // added and identified together; estimates of different views are combined by inverse variance. A flight whose results
-// cannot be read, or whose samples equal those of an earlier one, fails. Depends only on the flights' results and
-// order.
+// cannot be read, or whose samples equal those of an earlier one, fails. A flight that contradicts the others
+// (contradicting_flights.h) is left out. Depends only on the flights' results and order.
 [[nodiscard]] BatchResult combine_flights(std::vector<FlightResult> flights, const std::vector<std::string>& folders);
 
 [[nodiscard]] std::string batch_json(const BatchResult& result);

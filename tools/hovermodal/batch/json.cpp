@@ -51,6 +51,7 @@ Json flight_json(const FlightResult& flight) {
   const core::ModalEstimate& estimate = flight.report.estimate;
   Json out = {{"name", flight.name}, {"kind", to_string(flight.kind)}};
   out["failure"] = flight.failure.empty() ? Json(nullptr) : Json(flight.failure);
+  out["contradiction"] = flight.contradiction.empty() ? Json(nullptr) : Json(flight.contradiction);
   out["view"] = flight.failure.empty() ? Json(flight.i_view + 1) : Json(nullptr);
   out["duration_s"] = flight.failure.empty() ? Json(estimate.duration_s) : Json(nullptr);
   out["modes"] = estimate.modes.size();

@@ -49,6 +49,8 @@ std::string batch_text(const BatchResult& result) {
   for (const BatchMode& mode : result.unsettled) text += row("-", mode, n_done);
   text += "scatter: of the flights about their mean, over what they state; about 1 where nothing changed\n";
   for (const FlightResult& flight : result.flights) {
+    if (!flight.contradiction.empty())
+      text += fmt::format("left out: {} contradicts the others: {}\n", shown(flight.name), flight.contradiction);
     if (!flight.failure.empty()) text += fmt::format("failed: {}: {}\n", shown(flight.name), shown(flight.failure));
   }
   return text;
