@@ -10,7 +10,7 @@ namespace core {
 namespace {
 
 constexpr std::size_t kReach =
-    16;                          // samples on either side used for a prediction: fewer do not separate modes from noise
+    32;                          // samples on either side used for a prediction: fewer do not separate modes from noise
 constexpr int kRounds = 4;       // iterations of autocorrelation and prediction
 constexpr double kRidge = 1e-7;  // share of the variance on the diagonal: a pure sine stays solvable
 

@@ -41,12 +41,12 @@ TEST(BridgeLosses, FollowsALineThroughEveryShortGap) {
 }
 
 TEST(BridgeLosses, LongGapsAndEndsStayMissing) {
-  std::vector<double> x(20, 1.0);
-  std::vector<std::uint8_t> seen(20, 1);
-  for (std::size_t t = 5; t < 11; ++t) seen[t] = 0, x[t] = 0.0;  // six
-  seen[0] = seen[19] = 0;
+  std::vector<double> x(30, 1.0);
+  std::vector<std::uint8_t> seen(30, 1);
+  for (std::size_t t = 5; t < 5 + kLongestBridge + 1; ++t) seen[t] = 0, x[t] = 0.0;
+  seen[0] = seen[29] = 0;
   const Bridged out = bridged(x, seen);
-  for (std::size_t t = 0; t < 20; ++t) EXPECT_EQ(out.held[t], seen[t]) << t;
+  for (std::size_t t = 0; t < 30; ++t) EXPECT_EQ(out.held[t], seen[t]) << t;
 }
 
 TEST(BridgeLosses, AnythingMayBeMissing) {

@@ -16,17 +16,17 @@ TEST(GapWeights, RiseBesideALongGapOnly) {
   std::vector<double> weight(100);
   EXPECT_FALSE(gap_weights(seen, weight));
   EXPECT_EQ(weight, std::vector<double>(100, 1.0));
-  for (std::size_t t = 40; t < 48; ++t) seen[t] = 0;
+  for (std::size_t t = 40; t < 52; ++t) seen[t] = 0;
   seen[80] = 0;
   EXPECT_TRUE(gap_weights(seen, weight));
   EXPECT_EQ(weight[40], 0.0);
-  EXPECT_EQ(weight[47], 0.0);
-  EXPECT_EQ(weight[31], 1.0);
-  EXPECT_EQ(weight[56], 1.0);
-  EXPECT_NEAR(weight[39], std::pow(std::sin(std::numbers::pi / 18.0), 2), 1e-12);
-  for (std::size_t k = 0; k < 8; ++k) {
-    EXPECT_LT(weight[39 - k], k == 7 ? 1.0 : weight[38 - k]);
-    EXPECT_DOUBLE_EQ(weight[39 - k], weight[48 + k]);
+  EXPECT_EQ(weight[51], 0.0);
+  EXPECT_EQ(weight[27], 1.0);
+  EXPECT_EQ(weight[64], 1.0);
+  EXPECT_NEAR(weight[39], std::pow(std::sin(std::numbers::pi / 26.0), 2), 1e-12);
+  for (std::size_t k = 0; k < 12; ++k) {
+    EXPECT_LT(weight[39 - k], k == 11 ? 1.0 : weight[38 - k]);
+    EXPECT_DOUBLE_EQ(weight[39 - k], weight[52 + k]);
   }
   EXPECT_EQ(weight[79], 1.0);
   EXPECT_EQ(weight[80], 0.0);
@@ -34,11 +34,11 @@ TEST(GapWeights, RiseBesideALongGapOnly) {
 
 TEST(GapWeights, AGapAtTheEndOfTheSegmentHasOneSide) {
   std::vector<std::uint8_t> seen(60, 1);
-  for (std::size_t t = 50; t < 60; ++t) seen[t] = 0;
+  for (std::size_t t = 48; t < 60; ++t) seen[t] = 0;
   std::vector<double> weight(60);
   EXPECT_TRUE(gap_weights(seen, weight));
-  EXPECT_GT(weight[49], 0.0);
-  EXPECT_LT(weight[49], 0.1);
+  EXPECT_GT(weight[47], 0.0);
+  EXPECT_LT(weight[47], 0.1);
   EXPECT_EQ(weight[0], 1.0);
 }
 
