@@ -5,7 +5,7 @@
 namespace core {
 
 // From which frames a video codec predicts the others. It states a frame as a prediction and a rounded difference, so
-// that a share of the motion between frames is left out or counted twice.
+// that a share of the motion between frames is left out or counted twice. The values are those of run_recording_t.
 enum class FramePrediction : std::uint8_t {
   kUnknown,  // no video, or one that is not scanned
   kNone,     // every frame stands alone

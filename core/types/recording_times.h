@@ -18,11 +18,11 @@ struct RecordingTimes {
   std::uint64_t n_lost = 0;    // cells of the grid without a frame in the file, between its first and last frame
   std::uint64_t n_gaps = 0;    // number of contiguous groups of such cells
   double longest_gap_s = 0.0;
-  std::uint64_t n_repeated = 0;                            // so far: frames that repeat the previous picture; omitted
-  std::uint64_t n_damaged = 0;                             // so far: frames that were not decoded completely; omitted
-  std::uint64_t n_after_damage = 0;                        // so far: frames predicted from a damaged one; used
-  std::string remark;                                      // description of inconsistencies; empty: none
-  FramePrediction prediction = FramePrediction::kUnknown;  // not on the link
+  std::uint64_t n_repeated = 0;      // so far: frames that repeat the previous picture; omitted
+  std::uint64_t n_damaged = 0;       // so far: frames that were not decoded completely; omitted
+  std::uint64_t n_after_damage = 0;  // so far: frames predicted from a damaged one; used
+  std::string remark;                // description of inconsistencies; empty: none
+  FramePrediction prediction = FramePrediction::kUnknown;
 
   bool operator==(const RecordingTimes&) const = default;
   [[nodiscard]] bool known() const noexcept { return !from.empty(); }

@@ -110,6 +110,7 @@ hovermodal::run_recording_t to_message(const core::RecordingTimes& times) {
   out.n_damaged = count(times.n_damaged);
   out.n_after_damage = count(times.n_after_damage);
   out.remark = times.remark;
+  out.prediction = static_cast<std::int8_t>(times.prediction);
   return out;
 }
 
@@ -119,14 +120,18 @@ std::optional<core::RecordingTimes> from_message(const hovermodal::run_recording
                       all([](double v) { return std::isfinite(v) && v >= 0.0; }, message.rate_hz, message.stated_hz,
                           message.jitter_s, message.worst_s, message.longest_gap_s) &&
                       all([](std::int64_t n) { return n >= 0; }, message.n_frames, message.n_lost, message.n_gaps,
-                          message.n_repeated, message.n_damaged, message.n_after_damage);
+                          message.n_repeated, message.n_damaged, message.n_after_damage) &&
+                      message.prediction >= 0 &&
+                      message.prediction <= static_cast<std::int8_t>(core::FramePrediction::kBoth);
   if (!can_be) return std::nullopt;
   const auto count = [](std::int64_t n) { return static_cast<std::uint64_t>(n); };
-  return core::RecordingTimes{
-      message.times_from,    message.rate_hz,           message.stated_hz,        message.jitter_s,
-      message.worst_s,       count(message.n_frames),   count(message.n_lost),    count(message.n_gaps),
-      message.longest_gap_s, count(message.n_repeated), count(message.n_damaged), count(message.n_after_damage),
-      message.remark};
+  return core::RecordingTimes{message.times_from,       message.rate_hz,
+                              message.stated_hz,        message.jitter_s,
+                              message.worst_s,          count(message.n_frames),
+                              count(message.n_lost),    count(message.n_gaps),
+                              message.longest_gap_s,    count(message.n_repeated),
+                              count(message.n_damaged), count(message.n_after_damage),
+                              message.remark,           static_cast<core::FramePrediction>(message.prediction)};
 }
 
 std::optional<core::RunHead> from_message(const hovermodal::run_t& message) {

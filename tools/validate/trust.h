@@ -9,8 +9,8 @@ namespace tools {
 // lines.
 void print_trust_modes(const GeometryOptions& options);
 
-// Modes of drawn storeys that are found in the full record, and of them those found after frames were lost one by one or in
-// bursts of one to ten.
+// Modes of drawn storeys that are found in the full record, and of them those found after frames were lost one by one
+// or in bursts of one to ten.
 void print_trust_losses(const GeometryOptions& options);
 
 }  // namespace tools

@@ -126,6 +126,7 @@ core::RecordingTimes uneven_times() {
   times.jitter_s = 1.0 / 3e4, times.worst_s = 0.011;
   times.n_frames = 1500, times.n_lost = 13, times.n_gaps = 2, times.longest_gap_s = 0.4;
   times.n_repeated = 7, times.n_damaged = 3, times.n_after_damage = 11;
+  times.prediction = core::FramePrediction::kPast;
   times.remark = "the frames are parts of two recordings";
   return times;
 }

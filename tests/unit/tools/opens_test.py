@@ -11,7 +11,7 @@ OPENS = re.compile(r"open_regular_file\(|read_text_file\(|read_json_file\(|read_
                    r"avformat_open_input\(|imread\(path|mmap\(|directory_iterator\(")
 NO_OPEN = re.compile(r"^\s*(//|\*)|std::optional<Message> |\.open\(\)|> open\(|\bopen\(\) const|: open\(\)|= open\(\)|\bopen\(\)\.|int open\(|"
                      r"open\(mark|void open\(|std::size_t open\(|::open\(Topic|V4l2Device::open\(const|opens? \(|gate_\.open|void load|\[\[nodiscard\]\] |"
-                     r"= open\((key|list)")
+                     r"= open\((key|list)|, open\(\), ")
 
 # File -> what bounds each of its opens: NAME of Limits with the file that applies it, or words in capitals.
 PROC, DEVICE, OUT, LIST = "A FILE OF THE KERNEL", "A DEVICE", "WRITTEN", "NAMES OF A FOLDER"
