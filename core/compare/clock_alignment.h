@@ -37,8 +37,8 @@ struct VideoFrames {
   [[nodiscard]] bool share_motion() const noexcept {
     return interval_s > 0.0 && (prediction == FramePrediction::kPast || prediction == FramePrediction::kBoth);
   }
-  // Standard deviation of the share before the fit, from coded clips of known motion.
-  [[nodiscard]] double share_std() const noexcept { return prediction == FramePrediction::kPast ? 0.1 : 0.02; }
+  // Standard deviation of the share before the fit: its rms in coded clips of known motion.
+  [[nodiscard]] double share_std() const noexcept { return prediction == FramePrediction::kPast ? 0.05 : 0.02; }
 };
 
 struct ClockAlignment {

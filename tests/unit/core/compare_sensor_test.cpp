@@ -183,7 +183,7 @@ TEST(SensorComparison, ANarrowBandStatesTheCodecsDelayAsUncertain) {
     return core::compare_with_sensor(pair.camera, pair.sensor, config).alignment.clock.offset_std_s;
   };
   const double w = core::kTwoPi * 4.0, delay_s = std::sin(w * kFrame_s) / w;
-  EXPECT_NEAR(sigma_s(core::FramePrediction::kPast), 0.1 * delay_s, 0.03 * delay_s);
+  EXPECT_NEAR(sigma_s(core::FramePrediction::kPast), 0.05 * delay_s, 0.015 * delay_s);
   EXPECT_NEAR(sigma_s(core::FramePrediction::kBoth), 0.02 * 2.0 * delay_s, 0.015 * delay_s);
   EXPECT_LT(sigma_s(core::FramePrediction::kNone), 0.02 * delay_s);
 }
