@@ -27,10 +27,11 @@ struct Candidate {
   std::size_t first_flight;  // of a step
   VectorXd direction;        // of unit length, without constant and temperature
   double length;             // of the weighted regressor without constant and temperature
+  VectorXd regressor;        // weighted
 };
 
 struct Best {
-  double statistic = -1.0, gain = 0.0;
+  double statistic = -1.0;  // negative: no candidate
   std::size_t candidate = 0;
   double variance = 1.0;  // of the residual, in units of the stated one
 };
@@ -57,28 +58,18 @@ class Design {
   [[nodiscard]] const FlightSeries& values() const noexcept { return values_; }
   [[nodiscard]] const Candidate& candidate(std::size_t i) const { return candidates_[i]; }
 
-  // y: weighted values. Of two candidates that explain as much the earlier one.
-  [[nodiscard]] Best best(const VectorXd& y) const {
+  // y: weighted values; `kind`: of candidates of this kind only. Of two candidates that explain as much the earlier
+  // one.
+  [[nodiscard]] Best best(const VectorXd& y, std::optional<ChangeKind> kind = std::nullopt) const {
     Best out;
     const VectorXd rest = without_basis(y);
     const double squares = rest.squaredNorm();
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      if (kind && candidates_[i].kind != *kind) continue;
       const double gain = std::pow(candidates_[i].direction.dot(rest), 2);
       const double variance = std::max(0.0, squares - gain) / freedom();
       const double statistic = gain / std::max(1.0, variance);
-      if (statistic > out.statistic) out = {statistic, gain, i, variance};
-    }
-    return out;
-  }
-  // The largest statistic of the other kind.
-  [[nodiscard]] double best_of_kind(const VectorXd& y, ChangeKind kind) const {
-    double out = 0.0;
-    const VectorXd rest = without_basis(y);
-    const double squares = rest.squaredNorm();
-    for (const Candidate& one : candidates_) {
-      if (one.kind != kind) continue;
-      const double gain = std::pow(one.direction.dot(rest), 2);
-      out = std::max(out, gain / std::max(1.0, std::max(0.0, squares - gain) / freedom()));
+      if (statistic > out.statistic) out = {statistic, i, variance};
     }
     return out;
   }
@@ -119,7 +110,7 @@ class Design {
     out.scatter = std::sqrt(best.variance);
     out.size = chosen.direction.dot(without_basis(y)) / chosen.length;
     out.size_std = excess / chosen.length;
-    const VectorXd left = out.is_significant ? VectorXd(y - out.size * regressor_[best.candidate]) : y;
+    const VectorXd left = out.is_significant ? VectorXd(y - out.size * chosen.regressor) : y;
     out.mean = left.dot(weights_) / weights_.squaredNorm();
     if (basis_.size() < 2) return;
     out.per_kelvin = left.dot(basis_[1]) / temperature_length_;
@@ -167,8 +158,7 @@ class Design {
     // Compared with what the constant alone leaves: temperature must not explain the candidate.
     const VectorXd varying = regressor - basis_[0].dot(regressor) * basis_[0];
     if (!(own.squaredNorm() > kLeastOwnShare * varying.squaredNorm())) return;
-    candidates_.push_back({kind, first_flight, own.normalized(), own.norm()});
-    regressor_.push_back(regressor);
+    candidates_.push_back({kind, first_flight, own.normalized(), own.norm(), regressor});
   }
 
   void add_candidates(const Conditions& conditions) {
@@ -199,7 +189,6 @@ class Design {
   std::vector<VectorXd> basis_;  // orthonormal: constant, temperature
   double temperature_length_ = 0.0;
   std::vector<Candidate> candidates_;
-  std::vector<VectorXd> regressor_;  // weighted, of each candidate
 };
 
 // The largest statistics of the family in series without a change, ascending: of errors with Student's distribution,
@@ -259,7 +248,7 @@ std::vector<Change> test_changes(const Conditions& conditions, const std::vector
     change.kind = chosen.kind;
     change.first_flight = chosen.first_flight;
     const ChangeKind other = chosen.kind == ChangeKind::kStep ? ChangeKind::kTrend : ChangeKind::kStep;
-    change.kind_is_clear = best[i].statistic - designs[i].best_of_kind(y, other) > kClearKind;
+    change.kind_is_clear = best[i].statistic - std::max(0.0, designs[i].best(y, other).statistic) > kClearKind;
     designs[i].estimate(y, best[i], change);
   }
   return out;

@@ -13,14 +13,13 @@
 #include "drivers/storage/csv_lines.h"
 #include "drivers/storage/limits.h"
 #include "drivers/storage/text_file.h"
+#include "tools/hovermodal/batch/flight_order.h"
 
 namespace tools {
 namespace {
 
 namespace fs = std::filesystem;
 using Cells = std::vector<std::string_view>;
-
-constexpr const char* kModesName = "modal.json";
 
 struct FlightColumns {
   std::size_t report = 0, time = 0;
@@ -121,7 +120,7 @@ std::vector<DatedFlight> read_table(const std::string& path) {
 std::vector<DatedFlight> list_folder(const std::string& path) {
   std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
-    if (fs::is_regular_file(entry.path() / kModesName)) names.push_back(entry.path().filename().string());
+    if (fs::is_regular_file(entry.path() / kModesFile)) names.push_back(entry.path().filename().string());
     if (names.size() > drivers::Limits::kFlights)
       throw drivers::FileError(fmt::format("{}: more than {} flights; give the folder of one structure",
                                            drivers::printable(path, 500), drivers::Limits::kFlights));
@@ -147,7 +146,7 @@ std::vector<DatedFlight> read_flights(const std::string& path) {
   const fs::path beside = is_folder ? fs::path(path) : fs::path(path).parent_path();
   for (DatedFlight& flight : flights) {
     const fs::path named = beside / flight.name;
-    flight.report = app::read_modal_json((fs::is_directory(named) ? named / kModesName : named).string());
+    flight.report = app::read_modal_json((fs::is_directory(named) ? named / kModesFile : named).string());
     flight.report.estimate.poles.clear();
   }
   std::stable_sort(flights.begin(), flights.end(),
