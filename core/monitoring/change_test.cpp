@@ -83,7 +83,7 @@ class Design {
   [[nodiscard]] VectorXd left_by(const Best& best) const {
     const VectorXd rest = without_basis(weighted());
     const Candidate& chosen = candidates_[best.candidate];
-    const double n = static_cast<double>(values_.size());
+    const auto n = static_cast<double>(values_.size());
     return (rest - chosen.direction.dot(rest) * chosen.direction) * std::sqrt(n / freedom());
   }
   // The residuals of the flights in any order, repeated, with any sign: errors that are no Student's t (a shape beside
@@ -209,7 +209,7 @@ ChanceLevels chance_levels(const std::vector<Design>& designs, const std::vector
   closure::NoiseStream noise(kSeed);
   std::vector<VectorXd> left;
   for (std::size_t i = 0; i < designs.size(); ++i)
-    left.push_back(designs[i].is_tested() ? designs[i].left_by(best[i]) : VectorXd());
+    left.emplace_back(designs[i].is_tested() ? designs[i].left_by(best[i]) : VectorXd());
   ChanceLevels out;
   for (int s = 0; s < kSurrogates; ++s) {
     double student = 0.0, resampled = 0.0;

@@ -84,9 +84,10 @@ DatedFlight flight_of(const drivers::CsvLines& lines, const Cells& cells, const 
   const std::string_view time = cell_at(lines, cells, columns.time, columns.is_date ? "date" : "day");
   if (columns.is_date) {
     const auto days = days_of_date(time);
-    if (!days)
+    if (!days) {
       lines.fail(
           fmt::format("date: \"{}\" is no date; write 2026-03-31 or 2026-03-31T14:05", drivers::printable(time)));
+    }
     flight.date = std::string(time), flight.day = *days;
   } else {
     flight.day = number_at(lines, time, "day");
@@ -121,14 +122,16 @@ std::vector<DatedFlight> list_folder(const std::string& path) {
   std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
     if (fs::is_regular_file(entry.path() / kModesFile)) names.push_back(entry.path().filename().string());
-    if (names.size() > drivers::Limits::kFlights)
+    if (names.size() > drivers::Limits::kFlights) {
       throw drivers::FileError(fmt::format("{}: more than {} flights; give the folder of one structure",
                                            drivers::printable(path, 500), drivers::Limits::kFlights));
+    }
   }
-  if (names.size() < 2)
+  if (names.size() < 2) {
     throw drivers::FileError(
         drivers::printable(path, 500) +
         ": fewer than two folders with a modal.json; hovermodal changes --help states what is read");
+  }
   std::sort(names.begin(), names.end());
   std::vector<DatedFlight> flights;
   for (const std::string& name : names) {

@@ -114,9 +114,10 @@ class Histories {
       ModeHistory::Component& component = out.shape.emplace_back();
       component.channel = names[c];
       for (std::size_t k = 0; k < group.size(); ++k) {
-        if (shapes[k].std[c] > 0.0)
+        if (shapes[k].std[c] > 0.0) {
           component.value.values.push_back(
               {group[k].i_estimate, shapes[k].value[c], shapes[k].std[c], estimate(group[k]).degrees_of_freedom});
+        }
       }
     }
   }
@@ -153,6 +154,7 @@ class Histories {
 
   void test_family(const std::vector<History*>& family, double level) const {
     std::vector<FlightSeries> series;
+    series.reserve(family.size());
     for (const History* one : family) series.push_back(one->values);
     const auto changes = core::monitoring::test_changes(conditions_, series, level);
     for (std::size_t i = 0; i < family.size(); ++i) family[i]->change = changes[i];

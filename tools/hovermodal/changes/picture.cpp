@@ -58,9 +58,10 @@ void draw(app::SvgDocument& svg, const ModeHistories& result, const History& his
   if (change.is_tested) {
     std::vector<app::PlotPoint> course;
     const double mean_kelvin = mean_temperature(result, history);
-    for (const auto& value : history.values)
+    for (const auto& value : history.values) {
       course.push_back(
           {result.flights[value.flight].day - first, shown(fitted(result, change, value.flight, mean_kelvin))});
+    }
     panel.curve(course, "v");
   }
   if (change.is_significant && change.kind == ChangeKind::kStep)
@@ -81,9 +82,10 @@ std::string title(const ModeHistory& mode, std::size_t number) {
   std::string out = fmt::format("mode {}", number);
   if (f.is_tested) out += fmt::format(": {:.4f} Hz", f.mean);
   if (!mode.is_changed()) return out + ", no change";
-  if (f.is_significant)
+  if (f.is_significant) {
     out += f.kind == ChangeKind::kStep ? fmt::format(", step of {:+.2f} %", 100.0 * f.size / f.mean)
                                        : fmt::format(", trend of {:+.2f} % a year", 36525.0 * f.size / f.mean);
+  }
   if (mode.log_damping.change.is_significant) out += ", damping changed";
   const auto n = std::count_if(mode.shape.begin(), mode.shape.end(),
                                [](const auto& one) { return one.value.change.is_significant; });
@@ -110,9 +112,10 @@ std::string changes_svg(const ModeHistories& result) {
     svg.text(kLeftPx, y - 8.0, title(result.modes[m], m + 1));
     if (!result.modes[m].frequency.values.empty())
       draw(svg, result, result.modes[m].frequency, as_is, "Hz", {kLeftPx, y, kPanelWidthPx, kPanelHeightPx});
-    if (!result.modes[m].log_damping.values.empty())
+    if (!result.modes[m].log_damping.values.empty()) {
       draw(svg, result, result.modes[m].log_damping, percent_of_log, "damping, %",
            {kRightPanelPx, y, kPanelWidthPx, kPanelHeightPx});
+    }
   }
   return svg.text_of();
 }

@@ -23,9 +23,10 @@ bool has_dates(const ModeHistories& result) { return !result.flights.front().dat
 
 // A size and its standard deviation, in `unit` of `scale`.
 std::string size_words(const ModeHistories& result, const Change& change, double scale, const char* unit) {
-  if (change.kind == ChangeKind::kStep)
+  if (change.kind == ChangeKind::kStep) {
     return fmt::format("step at {}: {:+.3g} +- {:.2g} {}", flight_words(result, change.first_flight),
                        scale * change.size, scale * change.size_std, unit);
+  }
   const double span = has_dates(result) ? 365.25 : 1.0;
   return fmt::format("trend: {:+.3g} +- {:.2g} {} a {}", span * scale * change.size, span * scale * change.size_std,
                      unit, has_dates(result) ? "year" : "day");
@@ -54,9 +55,10 @@ std::string mode_words(const ModeHistories& result, const ModeHistory& mode, std
                                  n, result.flights.size());
   text += fmt::format("  frequency  {}{}\n", change_words(result, f, f.mean != 0.0 ? 100.0 / f.mean : 1.0, "%"),
                       scatter_words(f));
-  if (f.per_kelvin_std > 0.0)
+  if (f.per_kelvin_std > 0.0) {
     text += fmt::format("             {:+.4f} +- {:.4f} % per kelvin\n", 100.0 * f.per_kelvin / f.mean,
                         100.0 * f.per_kelvin_std / f.mean);
+  }
   text += fmt::format("  damping    {}{}\n", change_words(result, z, 100.0, "%"), scatter_words(z));
   std::size_t n_tested = 0, n_changed = 0;
   for (const ModeHistory::Component& one : mode.shape) {
@@ -66,9 +68,10 @@ std::string mode_words(const ModeHistories& result, const ModeHistory& mode, std
     text += fmt::format("  shape      {}: {}\n", shown(one.channel),
                         change_words(result, one.value.change, 1.0, "of the shape"));
   }
-  if (n_changed == 0)
+  if (n_changed == 0) {
     text += n_tested > 0 ? fmt::format("  shape      no change in {} components\n", n_tested)
                          : std::string("  shape      not tested\n");
+  }
   return text;
 }
 
@@ -80,13 +83,15 @@ std::string changes_text(const ModeHistories& result) {
       fmt::format("{} flights, {} to {}; temperature {}\n", result.flights.size(),
                   shown(first.date.empty() ? first.name : first.date), shown(last.date.empty() ? last.name : last.date),
                   result.knows_temperature ? "removed by regression" : "not known");
-  for (const auto& one : result.contradicting)
+  for (const auto& one : result.contradicting) {
     text +=
         fmt::format("{} contradicts the others: {}; it is left out\n", flight_words(result, one.flight), words_of(one));
+  }
   for (std::size_t m = 0; m < result.modes.size(); ++m) text += mode_words(result, result.modes[m], m + 1);
-  if (result.n_rare > 0)
+  if (result.n_rare > 0) {
     text += fmt::format("{} further mode{} in less than a third of the flights: not tested\n", result.n_rare,
                         result.n_rare == 1 ? "" : "s");
+  }
   text += result.is_changed() ? "CHANGED\n" : "no change found\n";
   return text;
 }
