@@ -150,7 +150,7 @@ class Design {
     if (kelvin.norm() < kLeastTemperature_k * std::sqrt(static_cast<double>(kelvin.size()))) return;
     const VectorXd own = without_basis(weights_.cwiseProduct(kelvin));
     temperature_length_ = own.norm();
-    if (temperature_length_ > 0.0) basis_.push_back(own / temperature_length_);
+    if (temperature_length_ > 0.0) basis_.emplace_back(own / temperature_length_);
   }
 
   void add(ChangeKind kind, std::size_t first_flight, const VectorXd& course) {
