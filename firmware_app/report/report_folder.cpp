@@ -42,11 +42,9 @@ void for_each_file(const fs::path& folder, const Act& act) {
 
 std::uintmax_t bytes_in(const fs::path& folder) {
   std::uintmax_t sum = 0;
-  std::error_code ignored;
-  if (!fs::is_directory(folder, ignored)) return 0;
+  if (!fs::is_directory(folder)) return 0;
   for_each_file(folder, [&](const fs::path& file) {
-    const std::uintmax_t size = fs::is_regular_file(file, ignored) ? fs::file_size(file, ignored) : 0;
-    if (!ignored && file.filename() != ".reserve") sum += size;
+    if (file.filename() != ".reserve" && fs::is_regular_file(file)) sum += fs::file_size(file);
   });
   return sum;
 }
@@ -61,13 +59,14 @@ void sync_folder(const fs::path& folder) noexcept {
 void set_last_aside(const fs::path& folder) {
   for (const char* name : kReportFiles) {
     for (const std::string& file : {std::string(name), name + std::string(".partial")}) {
-      std::error_code absent;
-      if (!fs::is_regular_file(fs::symlink_status(folder / file, absent))) {
-        fs::remove(folder / file, absent);  // a link or a pipe is no report
-        continue;
+      const fs::file_status status = fs::symlink_status(folder / file);  // throws where the disk cannot say
+      if (fs::is_regular_file(status)) {
+        fs::create_directory(folder / kReplaced);
+        fs::rename(folder / file, folder / kReplaced / file);
+      } else if (fs::exists(status)) {
+        std::error_code ignored;
+        fs::remove(folder / file, ignored);  // a link or a pipe is no report
       }
-      fs::create_directory(folder / kReplaced);
-      fs::rename(folder / file, folder / kReplaced / file);
     }
   }
   fs::rename(folder / kComplete, folder / kPlacing);

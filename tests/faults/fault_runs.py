@@ -9,7 +9,8 @@ report of an earlier run. A crash is a signal or a run without an end (120 s). A
   - exit code 0 without a complete report, or "open PAGE" where there is none,
   - another exit code without an error in words,
   - an earlier report of which a byte is lost: neither in place nor in report.1, nor after the next run.
-Prints "program<TAB>kind<TAB>runs<TAB>reached<TAB>crashes<TAB>silent<TAB>told"; each finding in FOLDER/findings.txt. Exit code 1 where there is one."""
+Prints "program<TAB>kind<TAB>runs<TAB>reached<TAB>crashes<TAB>silent<TAB>told", then each finding, which stands in FOLDER/findings.txt, too.
+Exit code 1 where there is one."""
 import argparse
 import hashlib
 import json
@@ -201,6 +202,7 @@ def main():
         program.reference()
     hunt = Hunt(options)
     n_bad = sum(hunt.hunt(p, k) for p in programs if p.name in options.programs.split(",") for k in options.kinds.split(","))
+    print((options.folder / "findings.txt").read_text(encoding="utf-8"), end="")
     sys.exit(1 if n_bad else 0)
 
 
