@@ -165,6 +165,8 @@ class Loop {
     result_.modes_after = level_.modes();
     result_.reference_error_after = level_.reference_error();
     result_.not_observable = level_.not_observable();
+    ClosureLevel::Noise noise = level_.noise();
+    result_.noise = std::move(noise.values), result_.noise_advice = std::move(noise.advice);
     const auto excess = [&](double rms) { return std::max(rms * rms - fit_.noise_floor * fit_.noise_floor, 0.0); };
     const double whole = excess(result_.baseline_rms);
     if (fit_.structured)
