@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace core::closure {
 namespace {
@@ -202,6 +203,23 @@ TEST(ClosureLoop, NeverDrawsASurrogateTwice) {
   level.known = {{"a", 2.5}, {"b", 2.0}, {"c", 1.5}};
   (void)close_loop(level, {.n_surrogates = 50});
   for (const auto& [seed, times] : level.seeds) EXPECT_EQ(times, 1) << seed;
+}
+
+// So that the time left can be told.
+TEST(ClosureLoop, TellsHowManySurrogatesOfAStepAreDone) {
+  ScriptedLevel level;
+  level.known = {{"strong", 0.5}};
+  std::vector<LoopProgress> told;
+  (void)close_loop(level, {.n_surrogates = 50, .progress = [&](const LoopProgress& now) { told.push_back(now); }});
+  std::size_t n_counted = 0;
+  for (const LoopProgress& now : told) {
+    if (now.n == 0) continue;
+    EXPECT_EQ(now.words, "surrogates of step 1");
+    EXPECT_EQ(now.n, 50U);
+    EXPECT_EQ(now.n_done, n_counted++);
+  }
+  EXPECT_EQ(n_counted, 50U);
+  EXPECT_EQ(told.front().words, "fitting the model without effects");
 }
 
 TEST(ClosureLoop, DrawsNoMoreSurrogatesWhereAFewLeaveNoDoubt) {

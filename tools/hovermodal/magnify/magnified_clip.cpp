@@ -36,6 +36,9 @@ class ClipFrames {
   ClipFrames(const std::string& clip, const ModalMotion& motion) : clip_(clip) {
     drivers::CameraOptions source;
     source.source = clip;
+    // Images state no rate.
+    if (std::filesystem::is_directory(clip) && !std::filesystem::exists(std::filesystem::path(clip) / "timestamps.csv"))
+      source.rate_hz = motion.rate_hz;
     camera_ = drivers::make_camera(source);
     const core::CameraInfo info = camera_->info();
     if (info.width_px != motion.width_px || info.height_px != motion.height_px) {
