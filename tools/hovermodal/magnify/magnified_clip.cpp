@@ -60,9 +60,10 @@ class ClipFrames {
       status = camera_->capture(frame_, std::chrono::milliseconds(1000));
     if (status == drivers::CaptureStatus::kFrame) return true;
     const std::string fault = camera_->fault();
-    if (status == drivers::CaptureStatus::kTimeout || !fault.empty())
+    if (status == drivers::CaptureStatus::kTimeout || !fault.empty()) {
       throw std::runtime_error(
           fmt::format("\"{}\": no frame{}{}", drivers::printable(clip_), fault.empty() ? "" : ": ", fault));
+    }
     return false;
   }
   [[nodiscard]] const core::Frame& frame() const noexcept { return frame_; }

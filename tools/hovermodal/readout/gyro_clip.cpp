@@ -50,9 +50,10 @@ std::vector<core::GyroSample> read_gyro(const GyroClipOptions& options) {
 std::vector<double> read_stamps(const GyroClipOptions& options) {
   std::vector<double> stamps;
   for_each_row(options.stamps, 1, [&](std::span<const double> row) { stamps.push_back(row[0] * options.time_unit_s); });
-  if (static_cast<std::size_t>(options.first_stamp) >= stamps.size())
+  if (static_cast<std::size_t>(options.first_stamp) >= stamps.size()) {
     throw std::invalid_argument(fmt::format("readout: --first-stamp {}; {} holds {} stamps", options.first_stamp,
                                             options.stamps, stamps.size()));
+  }
   stamps.erase(stamps.begin(), stamps.begin() + options.first_stamp);
   return stamps;
 }
