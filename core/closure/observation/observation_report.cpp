@@ -130,7 +130,8 @@ ClosureLevel::Noise describe_noise(const ObservationFit& fit) {
     out.values.push_back({"change at its first frame over others", "1", in_time.group_change, {}});
   }
   if (in_time.group_frames > 0 || shares.neighbourhood + of_region > kCodec)
-    out.advice = "errors of a video codec: record at a higher bit rate or with intra frames only, without noise reduction";
+    out.advice =
+        "errors of a video codec: record at a higher bit rate or with intra frames only, without noise reduction";
   return out;
 }
 
