@@ -60,6 +60,8 @@ class EffectInModel {
   [[nodiscard]] virtual bool is_refined() const { return n_constants() > 0; }
   virtual void refine(const FitView& /*fit*/) {}
   [[nodiscard]] virtual double freedom() const { return 0.0; }  // taken in addition to the model's columns
+  // Takes so much of the noise from the residual that the noise cannot be measured again.
+  [[nodiscard]] virtual bool hides_noise() const { return false; }
 
  protected:
   EffectInModel(const EffectInModel&) = default;

@@ -182,9 +182,14 @@ CorrelationShares ObservationFit::measured_correlation() const {
                            record_.rate_hz, PointMotionModel::kLowBand_hz);
 }
 
+bool ObservationFit::hides_noise() const {
+  return std::any_of(effects_.begin(), effects_.end(), [](const auto& effect) { return effect->hides_noise(); });
+}
+
 // Scores with different correlations cannot be compared: it is measured in the first solution, as if points were
 // independent, and once more without it, and then kept. Sigmas are measured again.
 bool ObservationFit::measure_noise() {
+  if (hides_noise()) return false;
   const Eigen::VectorXd noise =
       point_noise(model_.residual(), model_.q_high(), record_.rate_hz, PointMotionModel::kLowBand_hz);
   const double change = std::abs(std::sqrt(noise.cwiseAbs2().mean()) - 1.0);

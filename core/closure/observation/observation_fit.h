@@ -44,6 +44,7 @@ class ObservationFit {
   [[nodiscard]] Eigen::RowVectorXd amplitude(std::size_t effect) const;
   // Degrees of freedom that effects take from the noise in addition to the model's columns.
   [[nodiscard]] double freedom_beside() const;
+  [[nodiscard]] bool hides_noise() const;  // of any adopted effect
 
  private:
   [[nodiscard]] Eigen::Index amplitude_row(std::size_t effect) const;  // of an effect with a pattern

@@ -125,11 +125,11 @@ ClosureLevel::Noise describe_noise(const ObservationFit& fit) {
                 {"common to overlapping windows", "%", 100.0 * shares.window, {}},
                 {"common to neighbours within 40 px", "%", 100.0 * shares.neighbourhood, {}},
                 {"common to whole regions", "%", 100.0 * of_region, {}}};
-  if (in_time.group_frames > 0) {
-    out.values.push_back({"group of pictures", "frames", static_cast<double>(in_time.group_frames), {}});
-    out.values.push_back({"change at its first frame over others", "1", in_time.group_change, {}});
+  if (in_time.period_frames > 0) {
+    out.values.push_back({"period of a codec", "frames", static_cast<double>(in_time.period_frames), {}});
+    out.values.push_back({"change at its first frame over the others", "1", in_time.period_change, {}});
   }
-  if (in_time.group_frames > 0 || shares.neighbourhood + of_region > kCodec)
+  if (in_time.period_frames > 0 || shares.neighbourhood + of_region > kCodec)
     out.advice =
         "errors of a video codec: record at a higher bit rate or with intra frames only, without noise reduction";
   return out;

@@ -131,7 +131,6 @@ std::vector<CandidateScore> ObservationScores::score() {
   const Unexplained unexplained{left - view.held_out.noise_variance() * n_values, is_material ? learned.gain : 0.0};
   is_other_cause_.clear();
   std::vector<CandidateScore> out;
-  bool any = false;
   for (std::size_t i = 0; i < prepared_.size(); ++i) {
     const bool is_named = i < named.size();
     CandidateScore s;
@@ -144,18 +143,37 @@ std::vector<CandidateScore> ObservationScores::score() {
     Objection objection;
     if (is_named) {
       objection = refusal(*prepared_[i], s.score, tested, unexplained);
-    } else if (any) {
-      objection.words = "a named effect explains it";
     } else {
-      objection.words = smallness(*prepared_[i], s.score, unexplained.above_noise);
+      refuse_unspecific(out, tested);
+      const auto adoptable = [](const CandidateScore& other) { return other.refusal.empty(); };
+      if (std::any_of(out.begin(), out.end(), adoptable)) {
+        objection.words = "a named effect explains it";
+      } else if (fit_.hides_noise()) {
+        objection.words = "cannot be told from what a random field leaves";
+      } else {
+        objection.words = smallness(*prepared_[i], s.score, unexplained.above_noise);
+      }
     }
-    any = any || objection.words.empty();
     s.refusal = objection.words;
     is_other_cause_.push_back(objection.is_other_cause ? 1 : 0);
     out.push_back(std::move(s));
   }
+  if (prepared_.size() == named.size()) refuse_unspecific(out, tested);  // no latent one is left
   is_scored_ = true;
   return out;
+}
+
+void ObservationScores::refuse_unspecific(std::vector<CandidateScore>& scores, const TestedResidual& tested) {
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    if (!prepared_[i]->is_unspecific() || !scores[i].refusal.empty()) continue;
+    double best = constants_gain(tested);
+    std::string of = "constants";
+    for (std::size_t k = 0; k < scores.size(); ++k) {
+      if (k != i && scores[k].score > best) best = scores[k].score, of = scores[k].effect;
+    }
+    if (best < kOfUnspecific * scores[i].score) continue;
+    scores[i].refusal = of + " explains " + std::to_string(std::lround(100.0 * best / scores[i].score)) + " % of it";
+  }
 }
 
 double ObservationScores::surrogate_score(std::uint64_t seed) {

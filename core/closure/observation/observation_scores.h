@@ -21,7 +21,8 @@ class ObservationScores {
   // place and band where the effect has one; otherwise it is a projection of another effect.
   // Of constants: they together, and each of them a part.
   static constexpr double kOfLearned = 0.8, kOfFamily = 0.1;
-  static constexpr double kRival = 0.9;  // of the score of the effect in whose place it stands
+  static constexpr double kRival = 0.9;         // of the score of the effect in whose place it stands
+  static constexpr double kOfUnspecific = 0.5;  // of an unspecific effect's score, by one that is specific
   static constexpr std::size_t kMostLatent = 8;
 
   // Both arguments must outlive the object.
@@ -48,6 +49,8 @@ class ObservationScores {
   [[nodiscard]] std::size_t n_latent() const;
   void prepare();
   [[nodiscard]] double constants_gain(const TestedResidual& tested) const;
+  // Of the named candidates scored so far.
+  void refuse_unspecific(std::vector<CandidateScore>& scores, const TestedResidual& tested);
   // What there is to explain, as held-out squares in noise variances.
   struct Unexplained {
     double above_noise = 0.0;

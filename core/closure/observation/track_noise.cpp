@@ -73,7 +73,7 @@ TrackNoise track_noise(const Eigen::MatrixXd& residual, double rate_hz) {
       const double significance = (own.mean() - rest.mean()) / (spread * std::sqrt(1.0 / own.n + 1.0 / rest.n));
       if (!(significance > most)) continue;
       most = significance;
-      out.group_frames = period, out.group_change = std::exp(0.5 * (own.mean() - rest.mean()));
+      out.period_frames = period, out.period_change = std::exp(0.5 * (own.mean() - rest.mean()));
     }
   }
   return out;

@@ -5,13 +5,13 @@
 namespace core::closure {
 
 // Errors of tracked points in time. A sensor's are independent from frame to frame; those of a video codec persist
-// until the next frame that is coded for itself (the first of a group of pictures).
+// until a frame that it refreshes (the first of a group of pictures, or of a pyramid of predicted frames).
 struct TrackNoise {
   double correlation_s = 0.0;  // time in which their autocorrelation falls to 1/e; 0: independent from frame to frame
   // Every so many frames they change more than otherwise, by this factor (rms). 0 frames: no such period is
   // significant.
-  int group_frames = 0;
-  double group_change = 1.0;
+  int period_frames = 0;
+  double period_change = 1.0;
 };
 
 // residual: 2 points x frames, in sigmas, on an even grid; a frame of zeros is a gap. Periods from 2 frames to an

@@ -23,6 +23,7 @@
   EFFECT(rocking)                              \
   EFFECT(torsion)                              \
   EFFECT(moving_part)                          \
+  EFFECT(refraction)                           \
   EFFECT(rotor_line)                           \
   EFFECT(camera_vibration)
 

@@ -1,0 +1,225 @@
+#include "core/closure/observation/random_field.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace core::closure {
+namespace {
+
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
+
+constexpr double kLeastOwn = 1e-9;          // of a component's variance beside the largest
+constexpr double kLeastDeterminant = 1e-4;  // of a point's block: below, no other point predicts it
+constexpr double kRungSigmas = 2.0;         // of a gain by noise: less is none
+constexpr int kSteps = 60, kDecades = 8;
+
+MatrixXd unit_covariance(const PointGeometry& geometry, double length_px) {
+  const Index n = geometry.x.size();
+  MatrixXd out = MatrixXd::Zero(2 * n, 2 * n);
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j < n; ++j) {
+      const double apart_px =
+          geometry.alpha_px * std::hypot(geometry.x(i) - geometry.x(j), geometry.y(i) - geometry.y(j));
+      out(2 * i, 2 * j) = out(2 * i + 1, 2 * j + 1) = std::exp(-apart_px / length_px);
+    }
+  }
+  return out;
+}
+
+// Orthonormal columns beside those of q.
+MatrixXd complement(const MatrixXd& q) {
+  const Eigen::HouseholderQR<MatrixXd> qr(q);
+  const MatrixXd all = qr.householderQ() * MatrixXd::Identity(q.rows(), q.rows());
+  return all.rightCols(q.rows() - q.cols());
+}
+
+// Squares along each column of `of`.
+VectorXd squares_along(const MatrixXd& of, const MatrixXd& moments) {
+  return (moments * of).cwiseProduct(of).colwise().sum().transpose();
+}
+
+// Held-out squares where the noise has inverse covariance P beside the model's columns.
+double held_out(const MatrixXd& p, const MatrixXd& moments, const std::vector<char>& counted) {
+  const MatrixXd pm = p * moments;
+  double sum = 0.0;
+  for (std::size_t j = 0; j < counted.size(); ++j) {
+    if (counted[j] == 0) continue;
+    const auto at = static_cast<Index>(2 * j);
+    const Eigen::Matrix2d own = p.block<2, 2>(at, at).inverse();
+    const Eigen::Matrix2d left = pm.middleRows(at, 2) * p.middleCols(at, 2);
+    sum += (own * left * own.transpose()).trace();
+  }
+  return sum;
+}
+
+std::vector<char> predictable(const MatrixXd& p) {
+  std::vector<char> out;
+  for (Index at = 0; at < p.rows(); at += 2)
+    out.push_back(p.block<2, 2>(at, at).determinant() > kLeastDeterminant ? 1 : 0);
+  return out;
+}
+
+}  // namespace
+
+double FieldSize::rms_px() const {
+  double sum = 0.0;
+  for (const double variance : variance_px2) sum += variance;
+  return std::sqrt(sum);
+}
+
+RandomField::RandomField(const FitView& fit) : fit_(fit) {
+  const PointMotionModel& model = fit.model;
+  const MatrixXd above = complement(model.q_high()), within = complement(model.q_low());
+  const auto components_of = [](const MatrixXd& beside, const MatrixXd& covariance) {
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(beside.transpose() * covariance * beside);
+    const double least = kLeastOwn * eigen.eigenvalues().maxCoeff();
+    return Components{beside * eigen.eigenvectors(), eigen.eigenvalues().cwiseMax(least)};
+  };
+  double length_px = kShortest_px;
+  for (std::size_t i = 0; i < kOctaves; ++i, length_px *= 2.0) {
+    const MatrixXd half = model.whitened(unit_covariance(model.geometry(), length_px));
+    const MatrixXd covariance = model.whitened<MatrixXd>(half.transpose());
+    lengths_.push_back({length_px, covariance, components_of(above, covariance), components_of(within, covariance)});
+  }
+}
+
+const RandomField::Components& RandomField::components(const OfLength& of, std::size_t rung) const {
+  return holds(fit_.model.band(), rung) ? of.within : of.above;
+}
+
+double RandomField::freedom_in(std::size_t rung) const {
+  return fit_.held_out.share_of(RungSet{1} << rung) * static_cast<double>(fit_.record.n_frames());
+}
+
+const RandomField::OfLength& RandomField::of(const FieldSize& size) const {
+  for (const OfLength& length : lengths_) {
+    if (length.length_px >= size.length_px) return length;
+  }
+  return lengths_.back();
+}
+
+// Likelihood of n values of each component: variance 1 + v own. The deviance is beside that of v = 0.
+RandomField::Estimate RandomField::estimate(const VectorXd& own, const VectorXd& squares, double n) {
+  const auto deviance = [&](double v) {
+    const Eigen::ArrayXd one = 1.0 + v * own.array();
+    return (n * one.log() + squares.array() / one - squares.array()).sum();
+  };
+  Estimate out;
+  const double top = 100.0 * (squares / n).maxCoeff() / own.maxCoeff();
+  double best = -kDecades;
+  for (double power = -kDecades; power <= 0.0; power += 0.5) {
+    if (deviance(top * std::pow(10.0, power)) < deviance(top * std::pow(10.0, best))) best = power;
+  }
+  double low = best - 0.5, high = best + 0.5;
+  for (int step = 0; step < kSteps; ++step) {
+    const double third = (high - low) / 3.0;
+    if (deviance(top * std::pow(10.0, low + third)) < deviance(top * std::pow(10.0, high - third))) {
+      high -= third;
+    } else {
+      low += third;
+    }
+  }
+  const double v = top * std::pow(10.0, 0.5 * (low + high));
+  if (!(deviance(v) < 0.0)) return out;
+  out.variance = v, out.deviance = deviance(v);
+  out.information = 0.5 * n * (own.array() / (1.0 + v * own.array())).square().sum();
+  return out;
+}
+
+// By all rungs together.
+std::size_t RandomField::best_length(const ResidualMoments& moments, FieldSize& size) const {
+  std::vector<double> deviance;
+  const double n = static_cast<double>(fit_.record.n_frames());
+  for (const OfLength& length : lengths_) {
+    const VectorXd squares = squares_along(length.above.direction, moments.all_sum);
+    deviance.push_back(estimate(length.above.variance, squares, n).deviance);
+  }
+  const auto best = static_cast<std::size_t>(std::min_element(deviance.begin(), deviance.end()) - deviance.begin());
+  size.length_px = lengths_[best].length_px;
+  // Curvature over the logarithm; at an end of the grid the length is known to an octave at best.
+  const bool inside = best > 0 && best + 1 < deviance.size();
+  const double bend = inside ? deviance[best - 1] + deviance[best + 1] - 2.0 * deviance[best] : 0.0;
+  const double octave = std::log(2.0), grid = octave / std::sqrt(12.0);
+  size.length_factor_sigma = bend > 0.0 ? std::hypot(octave * std::sqrt(2.0 / bend), grid) : octave;
+  return best;
+}
+
+FieldSize RandomField::size(const ResidualMoments& moments) const {
+  FieldSize out;
+  const OfLength& length = lengths_[best_length(moments, out)];
+  const MatrixXd plain_above = length.above.direction * length.above.direction.transpose();
+  const MatrixXd plain_within = length.within.direction * length.within.direction.transpose();
+  const std::vector<char> counted = predictable(plain_above);
+  double variance_of_sum = 0.0;
+  for (std::size_t rung = 0; rung < moments.of_rung.size(); ++rung) {
+    const Components& own = components(length, rung);
+    const MatrixXd& m = moments.of_rung[rung];
+    const double n = freedom_in(rung);
+    const Estimate found = estimate(own.variance, squares_along(own.direction, m), n);
+    out.variance_px2.push_back(0.0);
+    if (found.variance <= 0.0) continue;
+    const VectorXd kept = (1.0 + found.variance * own.variance.array()).inverse();
+    const MatrixXd p = own.direction * kept.asDiagonal() * own.direction.transpose();
+    const MatrixXd& plain = &own == &length.within ? plain_within : plain_above;
+    const double gain = held_out(plain, m, counted) - held_out(p, m, counted);
+    const double taken = static_cast<double>(kept.size()) - kept.sum();
+    if (!(gain > kRungSigmas * std::sqrt(2.0 * n * taken))) continue;
+    // Over the whole record a rung holds its share of the frames.
+    out.variance_px2.back() = found.variance * n / static_cast<double>(fit_.record.n_frames());
+    out.gain += gain;
+    variance_of_sum += std::pow(n / static_cast<double>(fit_.record.n_frames()), 2) / found.information;
+  }
+  if (out.gain > 0.0) out.rms_sigma_px = 0.5 * std::sqrt(variance_of_sum) / out.rms_px();
+  return out;
+}
+
+double RandomField::n_patterns(const FieldSize& size, const ResidualMoments& moments) const {
+  const OfLength& length = of(size);
+  double n = 0.0;
+  MatrixXd sum = MatrixXd::Zero(moments.all_sum.rows(), moments.all_sum.cols());
+  for (std::size_t rung = 0; rung < size.variance_px2.size(); ++rung) {
+    if (size.variance_px2[rung] > 0.0) sum += moments.of_rung[rung], n += freedom_in(rung);
+  }
+  const MatrixXd& u = length.above.direction;
+  MatrixXd beyond = u.transpose() * sum * u;
+  beyond.diagonal().array() -= n;
+  const auto m = static_cast<double>(beyond.rows());
+  const double squares = beyond.squaredNorm() - n * m * (m + 1.0);  // less those of noise
+  const double trace = beyond.trace();
+  return squares > 0.0 ? trace * trace / squares : m;
+}
+
+MatrixXd RandomField::predicted(const FieldSize& size, const MatrixXd& series) const {
+  const OfLength& length = of(size);
+  MatrixXd out = MatrixXd::Zero(series.rows(), series.cols());
+  for (std::size_t rung = 0; rung < size.variance_px2.size(); ++rung) {
+    if (!(size.variance_px2[rung] > 0.0)) continue;
+    const Components& own = components(length, rung);
+    const double n = freedom_in(rung);
+    const double v = size.variance_px2[rung] * static_cast<double>(fit_.record.n_frames()) / n;
+    const MatrixXd cosines = fit_.held_out.rungs().cosines(series.cols(), RungSet{1} << rung);
+    const VectorXd share = v / (1.0 + v * own.variance.array());
+    const MatrixXd slow = share.asDiagonal() * (own.direction.transpose() * (series * cosines));
+    out += (length.covariance * (own.direction * slow)) * cosines.transpose();
+  }
+  return out;
+}
+
+double RandomField::freedom(const FieldSize& size) const {
+  const OfLength& length = of(size);
+  double sum = 0.0;
+  for (std::size_t rung = 0; rung < size.variance_px2.size(); ++rung) {
+    if (!(size.variance_px2[rung] > 0.0)) continue;
+    const double n = freedom_in(rung);
+    const double v = size.variance_px2[rung] * static_cast<double>(fit_.record.n_frames()) / n;
+    const Eigen::ArrayXd own = components(length, rung).variance.array();
+    sum += n * (v * own / (1.0 + v * own)).sum();
+  }
+  return sum;
+}
+
+}  // namespace core::closure
