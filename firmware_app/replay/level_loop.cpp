@@ -13,6 +13,7 @@
 #include "core/closure/closure_loop.h"
 #include "core/closure/observation/observation_level.h"
 #include "core/closure/structure_level.h"
+#include "core/structure/mode_numbers.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/chain/observation.h"
 #include "firmware_app/replay/loop_corrections.h"
@@ -171,7 +172,11 @@ class LevelLoop {
     if (!inputs_.structure) return skipped(name, "no structure is declared (--structure)");
     tell("fitting the declared structure");
     try {
-      core::closure::StructureLevel level(*inputs_.structure, modes.for_structure(so_far, *inputs_.structure));
+      auto paired = modes.for_structure(so_far, *inputs_.structure);
+      std::vector<core::structure::ReferenceMode> unpaired;
+      if (inputs_.structure->model)  // by frequency alone
+        unpaired = core::structure::pair_with_model(*inputs_.structure, paired);
+      core::closure::StructureLevel level(*inputs_.structure, std::move(paired), {}, std::move(unpaired));
       core::closure::ClosureOptions options;
       options.seed = inputs_.seed;
       options.progress = inputs_.progress;

@@ -45,8 +45,8 @@ double mac_of(const FrameModes& modes, const ReferenceMode& mode) {
       modes.shapes.col(mode.number - 1).head(static_cast<Eigen::Index>(mode.shape.size())));
 }
 
-std::vector<app::ShapeComparison> comparisons(const StructureLevel& level, const DeclaredFrame& declared,
-                                              const Reference& reference) {
+std::vector<app::ShapeComparison> comparisons(const StructureLevel& level, const DeclaredFrame& declared) {
+  const Reference& reference = level.reference();
   std::vector<app::ShapeComparison> out;
   const FrameModel plain{&declared, {}};
   const auto fit = fit_frame(plain, reference, {}, core::structure::Starts::kAll);
@@ -74,9 +74,9 @@ std::vector<std::string> channel_names(const DeclaredFrame& declared) {
   return out;
 }
 
-std::vector<app::SoughtPlace> places(const StructureLevel& level, const Reference& reference, std::size_t i_effect) {
+std::vector<app::SoughtPlace> places(const StructureLevel& level, std::size_t i_effect) {
   std::vector<app::SoughtPlace> out;
-  const auto profile = place_profile(level.model(), reference, level.fitted(), i_effect, level.spread());
+  const auto profile = place_profile(level.model(), level.reference(), level.fitted(), i_effect, level.spread());
   if (profile.empty()) return out;
   const auto best =
       std::min_element(profile.begin(), profile.end(), [](const auto& a, const auto& b) { return a.chi2 < b.chi2; });
@@ -113,15 +113,13 @@ std::vector<app::FittedParameter> parameters(const StructureLevel& level, const 
 }  // namespace
 
 void write_structure_pictures(const std::filesystem::path& folder, const StructureLevel& level,
-                              const core::closure::ClosureResult& result, const DeclaredFrame& declared,
-                              const Reference& reference) {
+                              const core::closure::ClosureResult& result, const DeclaredFrame& declared) {
   write(folder / "structure_shapes.svg",
-        app::structure_shapes_svg(comparisons(level, declared, reference), channel_names(declared)));
+        app::structure_shapes_svg(comparisons(level, declared), channel_names(declared)));
   write(folder / "structure_posterior.svg", app::structure_posterior_svg(parameters(level, result)));
   for (std::size_t i = 0; i < result.steps.size(); ++i)
-    write(
-        folder / fmt::format("structure_place_{}.svg", i + 1),
-        app::structure_places_svg(result.steps[i].effect + " " + result.steps[i].meaning, places(level, reference, i)));
+    write(folder / fmt::format("structure_place_{}.svg", i + 1),
+          app::structure_places_svg(result.steps[i].effect + " " + result.steps[i].meaning, places(level, i)));
 }
 
 }  // namespace tools

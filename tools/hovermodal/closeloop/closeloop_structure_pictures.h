@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
 #include "core/closure/structure_level.h"
 #include "core/types/closure_result.h"
@@ -12,7 +11,6 @@ namespace tools {
 // structure_place_N.svg of the N-th effect where it has places, structure_posterior.svg. Throws drivers::FileError.
 void write_structure_pictures(const std::filesystem::path& folder, const core::closure::StructureLevel& level,
                               const core::closure::ClosureResult& result,
-                              const core::structure::DeclaredFrame& declared,
-                              const std::vector<core::structure::ReferenceMode>& reference);
+                              const core::structure::DeclaredFrame& declared);
 
 }  // namespace tools
