@@ -27,7 +27,7 @@ fi
 results=$PWD/build/release/test_results
 rm -f "$results".*
 status=0
-ctest --test-dir build/release --output-on-failure --output-junit "$results.xml" -j "$(nproc)" "$@" || status=$?
+ctest --test-dir build/release --output-on-failure --output-junit "$results.xml" --test-output-size-passed 10000000 -j "$(nproc)" "$@" || status=$?
 [ -f "$results.xml" ] || exit "$status" # nothing was run (-N)
 ctest --test-dir build/release --show-only=json-v1 >"$results.json"
 tools/test_summary.py "$results.xml" "$results.json" || status=$((status > 0 ? status : 1))

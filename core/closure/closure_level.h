@@ -70,6 +70,12 @@ class ClosureLevel {
   [[nodiscard]] virtual std::optional<double> reference_error() const = 0;
   [[nodiscard]] virtual std::string reference_unit() const { return unit(); }  // of reference_error()
   [[nodiscard]] virtual std::string describe_residual() const = 0;             // of the last fit: where and how large
+  // Noise of the data as the last fit() shows it, and how to lower it. Empty: not measured.
+  struct Noise {
+    std::vector<ParameterValue> values;
+    std::string advice;
+  };
+  [[nodiscard]] virtual Noise noise() const { return {}; }
 };
 
 }  // namespace core::closure

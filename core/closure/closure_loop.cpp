@@ -106,7 +106,7 @@ class Loop {
   [[nodiscard]] double threshold_of_step(double best) {
     std::vector<double> scores;
     for (std::size_t i = 0; i < options_.n_surrogates; ++i) {
-      if (i % 32 == 0) tell("surrogate " + std::to_string(i + 1) + " of " + std::to_string(options_.n_surrogates));
+      tell("surrogates of step " + std::to_string(result_.steps.size() + 1), i, options_.n_surrogates);
       scores.push_back(level_.surrogate_score(next_seed()));
       if (scores.size() == options_.n_surrogates_when_plain && best > kPlain * chance_threshold(scores)) break;
     }
@@ -165,6 +165,8 @@ class Loop {
     result_.modes_after = level_.modes();
     result_.reference_error_after = level_.reference_error();
     result_.not_observable = level_.not_observable();
+    ClosureLevel::Noise noise = level_.noise();
+    result_.noise = std::move(noise.values), result_.noise_advice = std::move(noise.advice);
     const auto excess = [&](double rms) { return std::max(rms * rms - fit_.noise_floor * fit_.noise_floor, 0.0); };
     const double whole = excess(result_.baseline_rms);
     if (fit_.structured)
@@ -175,8 +177,8 @@ class Loop {
   // Never repeats within a run. splitmix64's constant separates the streams of runs with different seeds.
   [[nodiscard]] std::uint64_t next_seed() noexcept { return options_.seed * 0x9e3779b97f4a7c15ULL + n_drawn_++; }
 
-  void tell(const std::string& words) const {
-    if (options_.progress) options_.progress(words);
+  void tell(const std::string& words, std::size_t n_done = 0, std::size_t n = 0) const {
+    if (options_.progress) options_.progress({words, n_done, n});
   }
 
   ClosureLevel& level_;

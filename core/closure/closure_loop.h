@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "core/closure/closure_level.h"
 #include "core/types/closure_result.h"
+#include "core/types/loop_progress.h"
 
 namespace core::closure {
 
@@ -17,8 +17,8 @@ struct ClosureOptions {
   std::size_t n_surrogates_when_plain = 0;
   std::uint64_t seed = 1;
   std::size_t max_steps = 8;
-  double least_gain = 0.0;  // in the level's unit (rms, held out): a step with a smaller gain is not adopted
-  std::function<void(const std::string&)> progress = {};  // called with a description of the current step
+  double least_gain = 0.0;     // in the level's unit (rms, held out): a step with a smaller gain is not adopted
+  TellProgress progress = {};  // called at the start of each part, and after each surrogate
 };
 
 // Probability that an effect is adopted in a record that contains none.

@@ -79,7 +79,7 @@ void check_gyro_record(const std::vector<FramePair>& pairs, const std::vector<Gy
     from_s = std::min(from_s, pair.from_s);
     to_s = std::max(to_s, pair.to_s);
   }
-  const double beyond_s = config.most_offset_s + 0.1;
+  const double beyond_s = config.beyond_s();
   if (gyro.size() < 16 || gyro.front().t_s > from_s - beyond_s || gyro.back().t_s < to_s + beyond_s)
     throw std::invalid_argument("gyro readout: the gyro record does not cover the frames and " +
                                 std::to_string(beyond_s) + " s on either side: are both in the same unit and clock?");

@@ -42,6 +42,9 @@ struct GyroReadoutConfig {
   double cx_px = 0.0, cy_px = 0.0;
   double width_px = 0.0;
   double most_offset_s = 0.1;  // largest clock offset considered
+
+  // How long before the first and after the last frame the gyro must have measured.
+  [[nodiscard]] double beyond_s() const noexcept { return most_offset_s + 0.1; }
 };
 
 struct GyroReadout {

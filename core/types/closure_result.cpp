@@ -21,4 +21,17 @@ std::string parameters_text(const ClosureStep& step) {
   return out.empty() ? "nothing fitted" : out;
 }
 
+std::string noise_text(const ClosureResult& result) {
+  std::string out;
+  for (const ParameterValue& p : result.noise) {
+    if (p.value == 0.0) continue;
+    char number[64];
+    std::snprintf(number, sizeof number, " %.3g", p.value);
+    out += (out.empty() ? "" : ", ") + p.name + number;
+    if (p.unit != "1") out += " " + p.unit;
+  }
+  if (!out.empty() && !result.noise_advice.empty()) out += "; " + result.noise_advice;
+  return out;
+}
+
 }  // namespace core::closure

@@ -68,6 +68,8 @@ struct ClosureResult {
   std::vector<ClosureStep> steps;
   double unexplained_fraction = 0.0;  // of the baseline's mean square above the noise
   std::string unexplained;
+  std::vector<ParameterValue> noise;  // of the data, as measured on the last fit; empty: the level does not measure it
+  std::string noise_advice;           // how to lower it; may be empty
   std::vector<NotObservable> not_observable;
   std::vector<ClosureMode> modes_before, modes_after;
   std::optional<double> reference_error_before, reference_error_after;  // rms, on held-out data
@@ -79,5 +81,7 @@ struct ClosureResult {
 
 // "readout = 28.9 +- 0.54 ms, ..."; "nothing fitted" without parameters.
 [[nodiscard]] std::string parameters_text(const ClosureStep& step);
+// "rms per axis 0.0123 px, correlation time 0.12 s; <advice>", without what is 0; empty: not measured.
+[[nodiscard]] std::string noise_text(const ClosureResult& result);
 
 }  // namespace core::closure

@@ -101,7 +101,8 @@ std::string write_checkpoint(const std::string& path, std::span<const std::uint8
 CheckpointRead read_checkpoint(const std::string& path, std::uint64_t max_bytes) {
   CheckpointRead out;
   std::error_code error;
-  out.exists = std::filesystem::exists(path, error);
+  // A path that cannot be looked at counts as there: opening it says why.
+  out.exists = std::filesystem::status(path, error).type() != std::filesystem::file_type::not_found;
   if (!out.exists) return out;
   FileHandle in;
   try {

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 
 #include "drivers/storage/text_file.h"
 #include "drivers/telemetry/decode.h"
 #include "drivers/telemetry/encode_run.h"
+#include "drivers/telemetry/event_log_format.h"
 #include "drivers/telemetry/event_log_reader.h"
 #include "drivers/telemetry/record_folder.h"
 #include "drivers/telemetry/topics.h"
@@ -19,6 +21,11 @@ namespace drivers {
 class RunRecordReader::Impl {
  public:
   explicit Impl(const std::string& path) : files(files_from(path)) {
+    for (const std::string& file : files) {
+      std::error_code unknown;
+      const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+      if (!unknown) n_bytes += size;
+    }
     while (!head_) {
       if (!next_event()) {
         throw FileError(fmt::format(
@@ -47,7 +54,7 @@ class RunRecordReader::Impl {
 
   std::vector<std::string> files;
   std::optional<core::RunHead> head_;
-  std::uint64_t n_damaged = 0, n_left_out = 0;
+  std::uint64_t n_damaged = 0, n_left_out = 0, n_bytes = 0, n_bytes_read = 0;
   bool starts_late = false;
   std::string end;
   std::optional<core::RunCounts> counts;
@@ -79,7 +86,10 @@ class RunRecordReader::Impl {
       const std::uint64_t n_before = log_->n_damaged();
       const bool is_there = log_->next(event_);
       n_damaged += log_->n_damaged() - n_before;
-      if (is_there) return true;
+      if (is_there) {
+        n_bytes_read += kEventHeadBytes + event_.channel.size() + event_.data.size();
+        return true;
+      }
       log_.reset();
     }
   }
@@ -145,6 +155,8 @@ RunRecordReader::~RunRecordReader() = default;
 const core::RunHead& RunRecordReader::head() const noexcept { return *impl_->head_; }
 bool RunRecordReader::next(core::RecordedFrame& out) { return impl_->next(out); }
 const std::vector<std::string>& RunRecordReader::files() const noexcept { return impl_->files; }
+std::uint64_t RunRecordReader::bytes() const noexcept { return impl_->n_bytes; }
+std::uint64_t RunRecordReader::bytes_read() const noexcept { return impl_->n_bytes_read; }
 std::uint64_t RunRecordReader::n_damaged() const noexcept { return impl_->n_damaged; }
 std::uint64_t RunRecordReader::n_attitudes_left_out() const noexcept { return impl_->n_left_out; }
 bool RunRecordReader::starts_late() const noexcept { return impl_->starts_late; }

@@ -24,6 +24,8 @@ class RunRecordReader {
   [[nodiscard]] bool next(core::RecordedFrame& out);
 
   [[nodiscard]] const std::vector<std::string>& files() const noexcept;
+  [[nodiscard]] std::uint64_t bytes() const noexcept;                 // of its files, as they were at the start
+  [[nodiscard]] std::uint64_t bytes_read() const noexcept;            // of valid messages, so far
   [[nodiscard]] std::uint64_t n_damaged() const noexcept;             // messages that could not be decoded
   [[nodiscard]] std::uint64_t n_attitudes_left_out() const noexcept;  // attitudes missing in the record
   [[nodiscard]] bool starts_late() const noexcept;                    // its first files are missing

@@ -85,8 +85,10 @@ struct RecordsResult {
   TracksResult tracks;
   std::vector<std::string> remarks;  // what a record lacks, for a reader
 };
+// `progress`: called after every frame with the bytes read so far and those of the records.
+using ByteProgress = std::function<void(std::uint64_t done, std::uint64_t total)>;
 // Throws ConfigError, drivers::FileError, std::invalid_argument where runs do not fit together.
 [[nodiscard]] RecordsResult replay_records(const std::vector<std::string>& paths, const RecordOverrides& overrides,
-                                           const std::string& report_directory);
+                                           const std::string& report_directory, const ByteProgress& progress = {});
 
 }  // namespace app

@@ -190,7 +190,7 @@ class LevelLoop {
   }
 
   void tell(const std::string& words) const {
-    if (inputs_.progress) inputs_.progress(words);
+    if (inputs_.progress) inputs_.progress({words});
   }
 
   const LevelLoopInputs& inputs_;

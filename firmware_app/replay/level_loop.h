@@ -2,12 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/structure/declared_frame.h"
+#include "core/types/loop_progress.h"
 #include "core/types/loop_result.h"
 #include "firmware_app/config/config.h"
 
@@ -23,7 +23,7 @@ struct LevelLoopInputs {
   double max_frequency_hz = 0.0;
   std::size_t n_surrogates = 64;
   std::uint64_t seed = 1;
-  std::function<void(const std::string&)> progress = {};
+  core::closure::TellProgress progress = {};
 };
 
 // Clock and frames -> observation -> response -> structure if declared, each on the data corrected by the level before;

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <functional>
 #include <list>
 #include <memory>
 #include <stdexcept>
@@ -28,18 +30,25 @@ class Record {
       config_.closure.adopt = ClosureAdopt::kOff;
   }
 
-  [[nodiscard]] TrackSource source() {
+  // `read`: called after every frame.
+  [[nodiscard]] TrackSource source(const std::function<void()>& read) {
     return {config_,
             recorded_.camera(),
             reader_.head().keyframe,
             path_,
-            [this](core::RecordedFrame& out) { return reader_.next(out); },
+            [this, read](core::RecordedFrame& out) {
+              if (!reader_.next(out)) return false;
+              if (read) read();
+              return true;
+            },
             recorded_.image() ? &*recorded_.image() : nullptr,
             resumed(),
             [this] {
               return RunAccount{reader_.counts(), reader_.times()};
             }};
   }
+
+  [[nodiscard]] const drivers::RunRecordReader& reader() const noexcept { return reader_; }
 
   // is_first: first of the records that are replayed together.
   void remark(std::vector<std::string>& remarks, bool is_first) const {
@@ -76,12 +85,17 @@ class Record {
 }  // namespace
 
 RecordsResult replay_records(const std::vector<std::string>& paths, const RecordOverrides& overrides,
-                             const std::string& report_directory) {
+                             const std::string& report_directory, const ByteProgress& progress) {
   std::list<Record> records;
+  const auto tell = [&] {
+    std::uint64_t done = 0, total = 0;
+    for (const Record& record : records) done += record.reader().bytes_read(), total += record.reader().bytes();
+    progress(std::min(done, total), total);
+  };
   std::vector<TrackSource> sources;
   for (const std::string& path : paths) {
     records.emplace_back(path, overrides);
-    sources.push_back(records.back().source());
+    sources.push_back(records.back().source(progress ? tell : std::function<void()>()));
   }
   if (sources.empty()) throw std::invalid_argument("no record to replay");
   RecordsResult result{replay(sources, report_directory), {}};
@@ -95,7 +109,8 @@ RecordsResult replay_records(const std::vector<std::string>& paths, const Record
 
 namespace app {
 
-RecordsResult replay_records(const std::vector<std::string>&, const RecordOverrides&, const std::string&) {
+RecordsResult replay_records(const std::vector<std::string>&, const RecordOverrides&, const std::string&,
+                             const ByteProgress&) {
   throw std::runtime_error("this build has no LCM, and reads no record; a tracks.csv can be replayed");
 }
 

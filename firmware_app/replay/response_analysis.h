@@ -2,12 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "core/closure/response/channel_model.h"
 #include "core/types/closure_result.h"
+#include "core/types/loop_progress.h"
 #include "firmware_app/replay/analysis.h"
 
 namespace app {
@@ -29,7 +29,7 @@ struct ResponseOptions {
   bool input_unknown = false;  // the base is treated as an effect that may be adopted, not as a known input
   std::size_t n_surrogates = 333;
   std::uint64_t seed = 1;
-  std::function<void(const std::string&)> progress = {};
+  core::closure::TellProgress progress = {};
 };
 
 // The response level on a series: attributes what a linear structure under white forces does not explain to an effect,

@@ -58,6 +58,11 @@ std::string closure_json(const core::closure::ClosureResult& result) {
     out["refused"].push_back(
         {{"effect", candidate.effect}, {"heldout", candidate.heldout}, {"reason", candidate.refusal}});
   out["unexplained"] = {{"fraction", result.unexplained_fraction}, {"description", result.unexplained}};
+  if (!result.noise.empty()) {
+    out["noise"] = {{"values", Json::array()}, {"advice", result.noise_advice}};
+    for (const auto& value : result.noise)
+      out["noise"]["values"].push_back({{"name", value.name}, {"value", value.value}, {"unit", value.unit}});
+  }
   out["not_observable"] = Json::array();
   for (const auto& effect : result.not_observable)
     out["not_observable"].push_back(

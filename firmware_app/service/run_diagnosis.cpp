@@ -33,7 +33,7 @@ void diagnose_run(const AppConfig& config, const Pipeline::Outcome& outcome, con
     inputs.folder = config.report.directory;
     inputs.config = config;
     if (!config.closure.structure.empty()) inputs.structure = drivers::read_structure(config.closure.structure);
-    inputs.progress = [&goes_on](const std::string&) {
+    inputs.progress = [&goes_on](const core::closure::LoopProgress&) {
       if (!goes_on()) throw std::runtime_error("stopped");
     };
     const core::closure::LoopResult result = close_levels(inputs);

@@ -33,13 +33,14 @@ data_there() { # prints which sets of measured data exist
 # run_part NAME: its result, or a message why there is none. 0: a result without MISS, 1: with MISS, 2: no result.
 run_part() {
   local name=$1 command rooms before started log=$logs/$1.log code=0 start_load commit
-  command=$(part_field "$name" 4) rooms=$(part_field "$name" 3)
+  command=$(part_field "$name" 4) before=$(digests "$name")
+  rooms=$(sed 's/^# room: //; s/ [^ ]*$//' <<<"$before")
   # shellcheck disable=SC2086 -- rooms are several words
   if [ -n "$(git status --porcelain -- $rooms)" ]; then
     echo "  $name: not run: its rooms have changes that are not committed (git status -- $rooms)" >&2
     return 2
   fi
-  before=$(digests "$name") commit=$(git rev-parse HEAD) start_load=$(load) started=$SECONDS
+  commit=$(git rev-parse HEAD) start_load=$(load) started=$SECONDS
   bash -c "$command" >"$log" 2>&1 || code=$?
   if ! grep -q '^# whole: ' "$log" || [ "$code" -gt 1 ]; then
     echo "  $name: no result: '$command' did not come to its end (exit code $code); see $log" >&2

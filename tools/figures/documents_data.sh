@@ -4,7 +4,8 @@
 # $out is relative to the project.
 # measured_outcome DATA: "PASSED FAILED SKIPPED" of the tests labelled measured with the data in this folder.
 measured_outcome() {
-  HOVERMODAL_DATA=$1 ctest --test-dir build/release -L measured -j "$(nproc)" --output-junit "$PWD/$out/measured.xml" >"$out/measured.log" 2>&1 || true
+  HOVERMODAL_DATA=$1 ctest --test-dir build/release -L measured -j "$(nproc)" --output-junit "$PWD/$out/measured.xml" \
+    --test-output-size-passed 10000000 >"$out/measured.log" 2>&1 || true
   ctest --test-dir build/release -L measured --show-only=json-v1 >"$out/measured.json"
   { tools/test_summary.py "$out/measured.xml" "$out/measured.json" || true; } | awk '/^tests:/ { print $2, $4, $6 }'
 }

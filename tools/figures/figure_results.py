@@ -1,6 +1,7 @@
 """Results of the figure scripts: the parts that there are, what one run of a part left, and what changed since.
 
 A part is one command of tools/figures with the rooms (files and folders) that its lines measure; parts.tsv lists them.
+"@NAME" among the rooms is a group of rooms, which parts.tsv defines before its first use.
 tools/figures/all.sh runs parts and writes results/PART.txt: a head of "# key: value" lines, then the lines as printed.
 """
 import glob
@@ -25,15 +26,24 @@ class Malformed(ValueError):
 
 
 def read_parts(path=PARTS):
-    parts = []
-    for n, text in enumerate(open(path, encoding="utf-8"), 1):
+    parts, groups = [], {}
+    with open(path, encoding="utf-8") as file:
+        rows = file.read().splitlines()
+    for n, text in enumerate(rows, 1):
         if text.startswith("#") or not text.strip():
             continue
-        columns = text.rstrip("\n").split("\t")
+        columns = text.split("\t")
+        if columns[0].startswith("@") and len(columns) == 2:
+            groups[columns[0]] = columns[1].split()
+            continue
         if len(columns) != 5:
             raise Malformed(f"{path}:{n}: {len(columns)} columns, expected name, minutes, rooms, command, title")
         name, minutes, rooms, command, title = columns
-        parts.append(Part(name, float(minutes), rooms.split(), command, title))
+        unknown = [room for room in rooms.split() if room.startswith("@") and room not in groups]
+        if unknown:
+            raise Malformed(f"{path}:{n}: {unknown[0]}: no such group of rooms is defined above")
+        named = [one for room in rooms.split() for one in groups.get(room, [room])]
+        parts.append(Part(name, float(minutes), named, command, title))
     return parts
 
 
@@ -114,6 +124,17 @@ def room_digest(room, root=ROOT):
 def changed_rooms(part, result, digest=room_digest):
     """Rooms of the part that are not what they were when the result was made."""
     return [room for room in part.rooms if result.rooms.get(room) != digest(room)]
+
+
+def included_from_elsewhere(rooms, root=ROOT):
+    """(file, header) for each header of this project that a source of the rooms includes and that no room holds."""
+    files = {name for room in rooms for name in tracked_files(room, root)}
+    found = []
+    for name in sorted(n for n in files if n.endswith((".h", ".cpp"))):
+        with open(os.path.join(root, name), encoding="utf-8") as source:
+            headers = re.findall(r'^#include "([^"]+)"', source.read(), re.M)
+        found += [(name, h) for h in headers if h not in files and os.path.isfile(os.path.join(root, h))]
+    return found
 
 
 class Digests:

@@ -3,9 +3,9 @@
 #include <fmt/core.h>
 
 #include <cstdio>
-#include <functional>
 #include <string>
 
+#include "core/types/loop_progress.h"
 #include "drivers/host/command_line.h"
 
 namespace tools {
@@ -36,8 +36,9 @@ struct Answer {
 // `what`: of the document, e.g. "the modes, as modal.json has them".
 void add_answer_options(drivers::Command& command, Answer& answer, const std::string& what);
 
-// What a long computation whose number of steps is not known is doing, and how long so far, on one line of a terminal;
-// elsewhere and with --quiet nothing.
+// What residual diagnosis is doing, on standard error: how long so far, and of a part that is counted how long it still
+// takes at most (how many parts there are is known at the end only). One line of a terminal; elsewhere a line every
+// five seconds; with --quiet nothing.
 class ProgressLine {
  public:
   explicit ProgressLine(const Answer& answer);
@@ -46,10 +47,10 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   // Empty where nothing is shown. Valid without this object.
-  [[nodiscard]] std::function<void(const std::string& words)> teller() const;
+  [[nodiscard]] core::closure::TellProgress teller() const;
 
  private:
-  bool shows_;
+  bool shows_, terminal_;
 };
 
 }  // namespace tools

@@ -1,7 +1,9 @@
 // hovermodal replay, report: the service's chain on recorded tracks, starting with geometry.
 #include <fmt/core.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -32,20 +34,21 @@ void show(const app::TracksResult& result, const Options& options) {
   if (!options.report.empty()) options.answer.text("open {}/{}\n", options.report, app::kReportName);
 }
 
-// Shown once two seconds are over.
-app::FrameProgress progress_of(const Options& options) {
+// Shown once two seconds are over. `per_unit`: of what is counted.
+std::function<void(std::uint64_t, std::uint64_t)> progress_of(const Options& options, const std::string& unit,
+                                                              std::uint64_t per_unit) {
   if (!options.answer.tells()) return {};
   const auto shown = std::make_shared<std::unique_ptr<Progress>>();
-  return [shown](std::uint64_t done, std::uint64_t total) {
+  return [shown, unit, per_unit](std::uint64_t done, std::uint64_t total) {
     constexpr double kSilent_s = 2.0;
-    if (!*shown) *shown = std::make_unique<Progress>("replay", total);
-    if ((*shown)->elapsed_s() > kSilent_s) (*shown)->update(done);
+    if (!*shown) *shown = std::make_unique<Progress>("replay", total / per_unit, unit);
+    if ((*shown)->elapsed_s() > kSilent_s) (*shown)->update(done / per_unit);
   };
 }
 
 void replay_records(const Options& options) {
-  const app::RecordsResult result =
-      app::replay_records(options.records, {options.config, options.overrides}, options.report);
+  const app::RecordsResult result = app::replay_records(options.records, {options.config, options.overrides},
+                                                        options.report, progress_of(options, "kB", 1000));
   for (const std::string& remark : result.remarks) options.answer.note("{}\n", remark);
   show(result.tracks, options);
 }
@@ -56,7 +59,7 @@ void replay(const Options& options) {
   if (!options.records.empty()) return replay_records(options);
   if (options.config.empty()) throw std::invalid_argument("replay: --tracks needs the --config of the run");
   const app::AppConfig config = app::load_config(options.config, options.overrides);
-  show(app::replay_tracks(config, options.tracks, options.report, progress_of(options)), options);
+  show(app::replay_tracks(config, options.tracks, options.report, progress_of(options, "frames", 1)), options);
 }
 
 // "flights/bridge_run0007_000.lcm" -> "flights/bridge_run0007_report"

@@ -112,6 +112,8 @@ std::vector<std::string> ObservationLevel::rivals(std::size_t adopted, std::uint
 
 std::string ObservationLevel::describe_residual() const { return core::closure::describe_residual(fit_); }
 
+ClosureLevel::Noise ObservationLevel::noise() const { return describe_noise(fit_); }
+
 std::vector<std::string> ObservationLevel::channel_names() const {
   std::vector<std::string> names;
   for (const core::ChannelInfo& channel : region_channels(fit_.view()).info) names.push_back(channel.name);

@@ -51,6 +51,7 @@ class ObservationLevel final : public ClosureLevel {
   [[nodiscard]] std::optional<double> reference_error() const override;
   [[nodiscard]] std::string reference_unit() const override { return "%"; }
   [[nodiscard]] std::string describe_residual() const override;
+  [[nodiscard]] Noise noise() const override;
 
   // State of the last fit.
   [[nodiscard]] const ObservationFit& state() const noexcept { return fit_; }

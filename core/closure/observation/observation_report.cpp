@@ -8,6 +8,7 @@
 #include "core/closure/observation/effects/catalogue.h"
 #include "core/closure/observation/latent_words.h"
 #include "core/closure/observation/region_modes.h"
+#include "core/closure/observation/track_noise.h"
 
 namespace core::closure {
 namespace {
@@ -64,19 +65,6 @@ std::string nearest_words(const Eigen::VectorXd& pattern_px, const FitView& fit,
   return words;
 }
 
-// Empty where the points' noise is independent.
-std::string noise_words(const ObservationFit& fit) {
-  const CorrelationShares& shares = fit.model().correlation().shares();
-  if (shares.none()) return {};
-  const auto percent = [](double share) { return std::to_string(std::lround(100.0 * share)) + " %"; };
-  std::string words = "; of the noise " + percent(shares.window) + " is common to overlapping windows, " +
-                      percent(shares.neighbourhood) + " to neighbours within 40 px, " +
-                      percent(std::max(shares.region_u, shares.region_v)) + " to whole regions";
-  if (shares.neighbourhood + std::max(shares.region_u, shares.region_v) > 0.1)
-    words += ": errors of a video codec (a higher bit rate or intra frames only lower them)";
-  return words;
-}
-
 }  // namespace
 
 std::vector<NotObservable> not_observable(const ObservationFit& fit,
@@ -123,7 +111,28 @@ std::string describe_residual(const ObservationFit& fit) {
   return "leading pattern: " + std::to_string(std::lround(100.0 * share[most])) + " % in region " +
          record.regions[most].name + ", " + std::to_string(std::lround(100.0 * along_v)) + " % along v; " +
          std::to_string(std::lround(100.0 * slow)) + " % of the residual below " +
-         std::to_string(PointMotionModel::kLowBand_hz).substr(0, 3) + " Hz" + noise_words(fit);
+         std::to_string(PointMotionModel::kLowBand_hz).substr(0, 3) + " Hz";
+}
+
+ClosureLevel::Noise describe_noise(const ObservationFit& fit) {
+  constexpr double kCodec = 0.1;  // share of the noise; overlapping windows alone correlate less outside of each other
+  const CorrelationShares& shares = fit.model().correlation().shares();
+  const TrackNoise in_time = track_noise(fit.model().residual(), fit.record().rate_hz);
+  const double of_region = std::max(shares.region_u, shares.region_v);
+  ClosureLevel::Noise out;
+  out.values = {{"rms per axis", "px", fit.sigma_px(), {}},
+                {"correlation time", "s", in_time.correlation_s, {}},
+                {"common to overlapping windows", "%", 100.0 * shares.window, {}},
+                {"common to neighbours within 40 px", "%", 100.0 * shares.neighbourhood, {}},
+                {"common to whole regions", "%", 100.0 * of_region, {}}};
+  if (in_time.group_frames > 0) {
+    out.values.push_back({"group of pictures", "frames", static_cast<double>(in_time.group_frames), {}});
+    out.values.push_back({"change at its first frame over others", "1", in_time.group_change, {}});
+  }
+  if (in_time.group_frames > 0 || shares.neighbourhood + of_region > kCodec)
+    out.advice =
+        "errors of a video codec: record at a higher bit rate or with intra frames only, without noise reduction";
+  return out;
 }
 
 }  // namespace core::closure

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/closure/closure_level.h"
 #include "core/closure/observation/effect.h"
 #include "core/closure/observation/observation_fit.h"
 #include "core/types/closure_result.h"
@@ -24,5 +25,8 @@ namespace core::closure {
 
 // Describes the leading pattern of the residual: region, axis, share of the low band.
 [[nodiscard]] std::string describe_residual(const ObservationFit& fit);
+
+// Noise of the points: size, correlation in time and between points, the period of a video codec.
+[[nodiscard]] ClosureLevel::Noise describe_noise(const ObservationFit& fit);
 
 }  // namespace core::closure

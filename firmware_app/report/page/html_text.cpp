@@ -31,6 +31,13 @@ std::string paragraph_html(std::string_view text, std::string_view css_class) {
 
 std::string absent_html(std::string_view text) { return paragraph_html(text, "absent"); }
 
+std::string merged_html(std::string_view what) {
+  return absent_html(fmt::format(
+      "A merged result has no {} of its own, because its set-ups were not measured at the same time. Each set-up has: "
+      "identify its file alone, without --merge.",
+      what));
+}
+
 std::string figure_html(const std::string& wide_svg, const std::string& narrow_svg, const std::string& above,
                         const std::string& below) {
   return fmt::format(

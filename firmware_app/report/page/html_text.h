@@ -15,6 +15,8 @@ namespace app {
 [[nodiscard]] std::string paragraph_html(std::string_view text, std::string_view css_class = {});
 // States why a section has no content.
 [[nodiscard]] std::string absent_html(std::string_view text);
+// The same for what only the set-ups of a merged result have, e.g. "spectrum".
+[[nodiscard]] std::string merged_html(std::string_view what);
 
 // A picture in two widths, of which the page's style shows one. `above` and `below`: html, e.g. a legend.
 [[nodiscard]] std::string figure_html(const std::string& wide_svg, const std::string& narrow_svg,

@@ -44,6 +44,8 @@ std::string found_html(const ClosureReport& report) {
       fmt::format("Frames {} to {}: the points deviate by {:.4f} {} rms from the positions predicted by the "
                   "model of camera, lens and tracker; noise alone would leave {:.4f}.",
                   report.first_sequence, report.last_sequence, result.baseline_rms, result.unit, result.noise_floor));
+  if (const std::string noise = noise_text(result); !noise.empty())
+    out += paragraph_html(fmt::format("Noise of the points: {}.", noise));
   if (result.steps.empty()) return out + paragraph_html("No effect is missing: " + result.stop_reason + ".");
   out += steps_html(result);
   out +=

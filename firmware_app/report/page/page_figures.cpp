@@ -117,11 +117,10 @@ std::string shapes_section(const PictureInputs& inputs) {
 
 std::string spectra_section(const PictureInputs& inputs) {
   if (spectra_svg(inputs, kWideFormat).empty())
-    return section_html(
-        "spectra", "Spectra",
-        absent_html(inputs.facts->merged
-                        ? "A merged result has no spectrum of its own: identified alone, each set-up has one."
-                        : "There is no spectrum: the record ended before its first segment was full."));
+    return section_html("spectra", "Spectra",
+                        inputs.facts->merged
+                            ? merged_html("spectrum")
+                            : absent_html("There is no spectrum: the record ended before its first segment was full."));
   const std::string cross = cross_label(inputs);
   std::string caption = fmt::format("Power spectral density of every channel ({})", spectra_remark(inputs));
   if (!cross.empty())
@@ -136,7 +135,9 @@ std::string singular_section(const PictureInputs& inputs) {
   if (singular_values_svg(inputs, kWideFormat).empty())
     return section_html(
         "singular", title,
-        absent_html("There are no singular values: no spectrum, or more channels than are decomposed."));
+        inputs.facts->merged
+            ? merged_html("singular values")
+            : absent_html("There are no singular values: no spectrum, or more channels than are decomposed."));
   constexpr const char* kOrdinals[] = {"first", "second", "third", "fourth"};
   static_assert(std::size(kOrdinals) == kMaxSingular);
   std::string keys = "<div class=\"legend\" role=\"group\" aria-label=\"Singular values\">\n";

@@ -86,7 +86,9 @@ std::string shape_table(const PictureInputs& inputs, const SpectralLine& line) {
 std::string operating_section(const PictureInputs& inputs) {
   if (inputs.lines == nullptr || inputs.lines->lines.empty() || inputs.channels.empty())
     return section_html("operating", kOperatingTitle,
-                        absent_html("There is no spectrum from which the shape at a frequency could be taken."));
+                        inputs.facts->merged
+                            ? merged_html("shape at a frequency")
+                            : absent_html("There is no spectrum from which the shape at a frequency could be taken."));
   const SpectralLines& lines = *inputs.lines;
   const core::ModalEstimate& estimate = estimate_of(inputs);
   const std::size_t first = first_line(lines, estimate);

@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace core::closure {
 namespace {
@@ -32,10 +33,12 @@ class ScriptedLevel : public ClosureLevel {
   double refit_loss = 1.0;  // factor of the held-out error after a refit
   std::vector<std::string> adopted;
 
-  std::string name() const override { return "structure"; }
-  std::string unit() const override { return "%"; }
-  std::vector<NotObservable> not_observable() const override { return {{"clock", "absorbed", "film a clock"}}; }
-  std::vector<std::string> candidates() const override {
+  [[nodiscard]] std::string name() const override { return "structure"; }
+  [[nodiscard]] std::string unit() const override { return "%"; }
+  [[nodiscard]] std::vector<NotObservable> not_observable() const override {
+    return {{"clock", "absorbed", "film a clock"}};
+  }
+  [[nodiscard]] std::vector<std::string> candidates() const override {
     std::vector<std::string> out;
     for (const Known& k : known) out.push_back(k.name);
     return out;
@@ -85,15 +88,15 @@ class ScriptedLevel : public ClosureLevel {
     heldout = before_;
     known.push_back(taken_);
   }
-  std::vector<ParameterValue> parameters(std::size_t) const override { return {{"p", "1", 2.0, 0.1}}; }
-  std::string meaning(std::size_t i) const override { return "meaning of " + adopted.at(i); }
+  [[nodiscard]] std::vector<ParameterValue> parameters(std::size_t) const override { return {{"p", "1", 2.0, 0.1}}; }
+  [[nodiscard]] std::string meaning(std::size_t i) const override { return "meaning of " + adopted.at(i); }
   std::vector<std::string> rivals(std::size_t i, std::uint64_t) override {
     return i == 0 ? std::vector<std::string>{"twin"} : std::vector<std::string>{};
   }
-  std::vector<ClosureMode> modes() const override { return {}; }
-  std::optional<double> reference_error() const override { return heldout; }
-  std::string reference_unit() const override { return "mm"; }
-  std::string describe_residual() const override { return "left over"; }
+  [[nodiscard]] std::vector<ClosureMode> modes() const override { return {}; }
+  [[nodiscard]] std::optional<double> reference_error() const override { return heldout; }
+  [[nodiscard]] std::string reference_unit() const override { return "mm"; }
+  [[nodiscard]] std::string describe_residual() const override { return "left over"; }
 
   std::map<std::uint64_t, int> seeds;
 
@@ -202,6 +205,23 @@ TEST(ClosureLoop, NeverDrawsASurrogateTwice) {
   level.known = {{"a", 2.5}, {"b", 2.0}, {"c", 1.5}};
   (void)close_loop(level, {.n_surrogates = 50});
   for (const auto& [seed, times] : level.seeds) EXPECT_EQ(times, 1) << seed;
+}
+
+// So that the time left can be told.
+TEST(ClosureLoop, TellsHowManySurrogatesOfAStepAreDone) {
+  ScriptedLevel level;
+  level.known = {{"strong", 0.5}};
+  std::vector<LoopProgress> told;
+  (void)close_loop(level, {.n_surrogates = 50, .progress = [&](const LoopProgress& now) { told.push_back(now); }});
+  std::size_t n_counted = 0;
+  for (const LoopProgress& now : told) {
+    if (now.n == 0) continue;
+    EXPECT_EQ(now.words, "surrogates of step 1");
+    EXPECT_EQ(now.n, 50U);
+    EXPECT_EQ(now.n_done, n_counted++);
+  }
+  EXPECT_EQ(n_counted, 50U);
+  EXPECT_EQ(told.front().words, "fitting the model without effects");
 }
 
 TEST(ClosureLoop, DrawsNoMoreSurrogatesWhereAFewLeaveNoDoubt) {

@@ -35,6 +35,14 @@ TEST(CheckpointFile, ReadsBackWhatWasWrittenLast) {
   EXPECT_FALSE(fs::exists(path + ".partial"));
 }
 
+TEST(CheckpointFile, APathThatCannotBeLookedAtIsRefusedNotTakenForAbsent) {
+  const fs::path path = test_support::fresh_folder() / "state";
+  fs::create_symlink("state", path);  // a link to itself
+  const CheckpointRead read = read_checkpoint(path.string());
+  EXPECT_TRUE(read.exists);
+  EXPECT_THAT(read.refused, HasSubstr(path.string()));
+}
+
 TEST(CheckpointFile, RefusesEveryTruncationAndEveryFlippedBit) {
   const fs::path path = test_support::fresh_folder() / "state";
   ASSERT_EQ(write_checkpoint(path.string(), some_bytes(61)), "");

@@ -109,10 +109,12 @@ TEST_F(RunRecord, ComesBackToTheLastBit) {
   EXPECT_EQ(reader.head().files[1].key, "camera.attitude_file");
   core::RecordedFrame frame;
   for (std::uint64_t k = 0; k < 20; ++k) {
+    EXPECT_LT(reader.bytes_read(), reader.bytes());
     ASSERT_TRUE(reader.next(frame)) << k;
     expect_same(frame, k);
   }
   EXPECT_FALSE(reader.next(frame));
+  EXPECT_EQ(reader.bytes_read(), reader.bytes());
   EXPECT_EQ(reader.n_damaged(), 0U);
   EXPECT_EQ(reader.n_attitudes_left_out(), 6U);
   EXPECT_FALSE(reader.starts_late());

@@ -105,6 +105,30 @@ class Tables(unittest.TestCase):
         project.write("core/a.h", "int d;\n")
         self.assertNotEqual(before, figure_results.room_digest("core/a*", project.root))
 
+    def test_a_group_of_rooms_stands_for_its_rooms(self):
+        project = Project("part speed")
+        path = os.path.join(project.root, "tools", "figures", "parts.tsv")
+        project.write("tools/figures/parts.tsv", "@both\tcore rt\nspeed\t1\t@both tools/x\tcommand\tspeed\n")
+        self.assertEqual(figure_results.read_parts(path)[0].rooms, ["core", "rt", "tools/x"])
+        project.write("tools/figures/parts.tsv", "speed\t1\t@none\tcommand\tspeed\n")
+        with self.assertRaisesRegex(figure_results.Malformed, "parts.tsv:1: @none"):
+            figure_results.read_parts(path)
+
+    def test_an_include_from_elsewhere_is_found(self):
+        project = Project("part speed")
+        project.write("rt/r.h", "int r;\n")
+        project.write("core/a.cpp", '#include "rt/r.h"\n#include "core/a.h"\n#include <vector>\n')
+        project.write("core/a.h", "int a;\n")
+        found = figure_results.included_from_elsewhere(["core"], project.root)
+        self.assertEqual(found, [("core/a.cpp", "rt/r.h")])
+
+    def test_the_groups_of_the_parts_include_nothing_from_elsewhere(self):
+        with open(figure_results.PARTS, encoding="utf-8") as parts:
+            groups = [row.split("\t") for row in parts.read().splitlines() if row.startswith("@")]
+        self.assertTrue(groups)
+        for name, rooms in groups:
+            self.assertEqual(figure_results.included_from_elsewhere(rooms.split()), [], name)
+
     def test_a_run_that_did_not_come_to_its_end_is_no_result(self):
         for text in (RESULT.replace("# whole: yes\n", ""), RESULT.replace("whole: yes", "whole: no")):
             with self.assertRaises(figure_results.Malformed):

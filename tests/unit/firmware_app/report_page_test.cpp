@@ -100,6 +100,8 @@ TEST(ReportPage, TellsWhyASectionIsMissing) {
   EXPECT_THAT(section_of(page, "spectra"), HasSubstr("the record ended before its first segment was full"));
   run.facts.merged = true;
   EXPECT_THAT(section_of(page_of(run), "spectra"), HasSubstr("A merged result has no spectrum of its own"));
+  EXPECT_THAT(section_of(page_of(run), "singular"), HasSubstr("has no singular values of its own"));
+  EXPECT_THAT(section_of(page_of(run), "operating"), HasSubstr("has no shape at a frequency of its own"));
 }
 
 TEST(ReportPage, ATimeSeriesHasNoPictureButItsShapes) {

@@ -236,7 +236,7 @@ TEST_F(Identify, BadInputIsRefusedByNameOrStated) {
   std::string rows;
   for (int k = 0; k < 1000; ++k)
     rows += std::to_string(std::sin(k * 0.7)) + "," + std::to_string(std::cos(k * k)) + "\n";
-  refused("a,b\n" + rows, "", "say --rate HZ");
+  refused("a,b\n" + rows, "", "say --rate-hz HZ");
   refused("a,b\n" + rows, "--rate 20 --channels z", "no column 'z'");
   refused("a,b\n" + rows, "--rate 20 --channels 7", "no column '7'");
   refused("a,b\n" + rows, "--rate 20 --quantity d,v,a", "3 quantities for 2 channels");

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 #include <random>
 #include <string>
@@ -191,6 +192,18 @@ TEST_F(Magnify, AllFramesAreWarpedWhereTheirRegionsAre) {
     const double first_px = swing_px;  // frame 0 is drawn at the crest
     EXPECT_NEAR(shown[static_cast<std::size_t>(k)], 2.0 * k + swing_px * std::cos(phase) - first_px, 0.15) << k;
   }
+}
+
+// Images state no rate: it is the run's.
+TEST_F(Magnify, AFolderOfImagesHasTheRateOfTheRun) {
+  make_base_uncertain();
+  fs::create_directories(path("frames"));
+  cv::Mat frame(kHeight, kWidth, CV_8UC1);
+  cv::randu(frame, 0, 255);
+  for (int k = 0; k < 3; ++k) cv::imwrite(path(cv::format("frames/f%d.png", k)), frame);
+  const Outcome outcome = magnified("--clip " + path("frames") + " --factor 0.4 --seconds 1 --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_GT(fs::file_size(path("mode.mp4")), 1000U);
 }
 
 TEST_F(Magnify, StatesWhatItHoldsStillAndDoesNotOverwrite) {

@@ -75,6 +75,25 @@ TEST_F(Readout, PrintsTheReadoutOfAGlobalShutterAsJson) {
   EXPECT_THAT(tests::run_apart(command()).out, HasSubstr("readout_ms\t"));
 }
 
+// The clip lacks the first frames of its stamps: the gyro then covers the frames, but not enough on either side.
+TEST_F(Readout, AClipThatBeginsLaterThanItsStampsIsToldTheOption) {
+  std::ofstream stamps(folder_ / "early.txt");
+  for (int k = -20; k < kFrames; ++k) stamps << 1.0 + k / kRate_hz << '\n';
+  stamps.close();
+  std::ofstream gyro(folder_ / "short.txt");
+  for (int k = 0; k < 1000; ++k) {
+    const double t = 0.1 + k / 200.0;
+    gyro << "0.1,0.2,0.3," << t << '\n';
+  }
+  gyro.close();
+  const tests::Streams outcome = tests::run_apart("readout --clip " + path("frames") + " --stamps " +
+                                                  path("early.txt") + " --gyro " + path("short.txt"));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--first-stamp is the line of its first frame (the clip has 60 frames, "));
+  EXPECT_THAT(outcome.err, HasSubstr("early.txt has 80 stamps from there on)"));
+  EXPECT_THAT(outcome.err, HasSubstr("--time-unit-s"));
+}
+
 TEST_F(Readout, ReplacesAPictureOnlyWithForce) {
   std::ofstream(path("residual.svg")) << "mine";
   const tests::Streams outcome = tests::run_apart(command() + " --picture " + path("residual.svg"));

@@ -18,6 +18,13 @@ FAILED = '<testcase name="fails" status="fail"><failure message=""/><system-out>
 NOT_BUILT = '<testcase name="not_built" status="notrun"><skipped message="Unable to find executable"/></testcase>'
 LABELS = {"measured_one": "measured", "measured_two": "measured", "device_usb": "device", "fails": "unit"}
 
+SUITE = "Running main()\n[ RUN      ] Welch.IsEven\n[       OK ] Welch.IsEven (3 ms)\n{}[----------] tests from Welch (3 ms total)\n"
+
+
+def suite(status, more, element=""):
+    output = SUITE.format(more)
+    return f'<testcase name="Welch" status="{status}">{element}<system-out>{output}</system-out></testcase>'
+
 
 class Summary(unittest.TestCase):
     def summary_of(self, *cases):
@@ -46,6 +53,29 @@ class Summary(unittest.TestCase):
         code, lines = self.summary_of(RUN, NOT_BUILT)
         self.assertEqual(code, 1)
         self.assertEqual(lines[-2], "tests: 1 passed, 1 failed, 0 skipped")
+
+    def test_a_suite_counts_as_its_tests(self):
+        skipped = "[ RUN      ] Welch.Odd/0\na.cpp:1: Skipped\nno odd numbers\n\ncut line[  SKIPPED ] Welch.Odd/0 (0 ms)\n"
+        code, lines = self.summary_of(suite("run", "[ RUN      ] Welch.Two\n[       OK ] Welch.Two (0 ms)\n" + skipped))
+        self.assertEqual(code, 0)
+        self.assertEqual(lines[1:], ["2 passed, 1 skipped", "   1 test: no odd numbers", "tests: 2 passed, 0 failed, 1 skipped", ""])
+
+    def test_a_failed_test_of_a_suite_is_named(self):
+        failed = "[ RUN      ] Welch.Odd/1\nno\n[  FAILED  ] Welch.Odd/1, where GetParam() = (3, a b) (1 ms)\n[  FAILED  ] 1 test, listed below:\n"
+        code, lines = self.summary_of(suite("fail", failed, '<failure message=""/>'))
+        self.assertEqual(code, 1)
+        self.assertEqual(lines[1:], ["1 passed, 1 failed, 0 skipped", "FAILED Welch.Odd/1", "tests: 1 passed, 1 failed, 0 skipped", ""])
+
+    def test_a_test_that_ends_the_process_has_failed_whatever_its_status(self):
+        for status in ("fail", "run"):
+            code, lines = self.summary_of(suite(status, "[ RUN      ] Welch.Ends\n"))
+            self.assertEqual(code, 1)
+            self.assertEqual(lines[1:3], ["1 passed, 1 failed, 0 skipped", "FAILED Welch.Ends (did not end)"])
+
+    def test_what_fails_outside_of_a_suites_tests_has_the_suites_name(self):
+        code, lines = self.summary_of(suite("fail", "leak\n", '<failure message=""/>'))
+        self.assertEqual(code, 1)
+        self.assertEqual(lines[1:3], ["1 passed, 1 failed, 0 skipped", "FAILED Welch"])
 
     def test_a_run_of_no_test_is_no_success(self):
         self.assertEqual(self.summary_of()[0], 1)

@@ -58,7 +58,7 @@ std::string help() {
          "floor\n"
          "(named as in `floors`) with the shape. The report consists of closure.json and closure_modes.svg.\n"
          "\nA record in place of modes (tables as for `hovermodal identify`):\n"
-         "  hovermodal closeloop --record out/displacements.csv --rate 20 --clock readings.csv --report loop\n"
+         "  hovermodal closeloop --record out/displacements.csv --rate-hz 20 --clock readings.csv --report loop\n"
          "      the frames' times against a filmed clock: rate, lost frames; modes before and after\n"
          "  ... --free-decay    a structure pulled and released: does one linear mode explain every decay?\n"
          "  hovermodal closeloop --record out/displacements.csv --base base --report loop\n"

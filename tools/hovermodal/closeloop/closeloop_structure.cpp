@@ -20,8 +20,8 @@
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/closure_json.h"
 #include "tools/hovermodal/closeloop/closeloop_structure_pictures.h"
+#include "tools/hovermodal/closeloop/closing.h"
 #include "tools/hovermodal/closeloop/reference.h"
-#include "tools/hovermodal/closeloop/words.h"
 
 namespace tools {
 namespace {
@@ -150,27 +150,20 @@ void close_structure(const LoopRequest& request, const std::string& structure, c
   loop.seed = request.seed;
   // Another kind costs more for each surrogate.
   if (declared.model) loop.n_surrogates_when_plain = std::min<std::size_t>(request.n_surrogates, 32);
-  core::closure::ClosureResult result = [&] {
-    const ProgressLine line(request.answer);
-    loop.progress = line.teller();
-    return core::closure::close_loop(*level, loop);
-  }();
+  core::closure::ClosureResult result = close_level(request.answer, *level, loop);
   std::erase_if(result.not_observable, [](const auto& one) { return one.reason == core::structure::kOtherKind; });
-  const std::string json = app::closure_json(result);
-  request.answer.document(json);
-  request.answer.text("{}{}", closure_text(result), check_text(*level));
-  if (declared.model) {
-    if (const Reference left = level->unpaired(); !left.empty())
-      request.answer.note("modes of {} that none of the model's is: {}\n", request.reference, hz_text(left));
-    request.answer.text("{}{}", places_text(*level), parameters_text(*level));
-    request.answer.note("{}", units_text(*level));
+  if (!request.report.empty()) {
+    const std::filesystem::path folder = request.report;
+    drivers::write_file_atomically((folder / "closure_modes.svg").string(), app::closure_modes_svg(result));
+    write_structure_pictures(folder, *level, result, declared);
   }
-  if (request.report.empty()) return;
-  const std::filesystem::path folder = request.report;
-  drivers::write_file_atomically((folder / "closure.json").string(), json);
-  drivers::write_file_atomically((folder / "closure_modes.svg").string(), app::closure_modes_svg(result));
-  write_structure_pictures(folder, *level, result, declared);
-  request.answer.text("{} written\n", (folder / "closure.json").string());
+  std::string more = check_text(*level);
+  if (declared.model) more += places_text(*level) + parameters_text(*level);
+  show_closure(request.answer, result, more, request.report);
+  if (!declared.model) return;
+  if (const Reference left = level->unpaired(); !left.empty())
+    request.answer.note("modes of {} that none of the model's is: {}\n", request.reference, hz_text(left));
+  request.answer.note("{}", units_text(*level));
 }
 
 }  // namespace tools

@@ -8,6 +8,7 @@
 
 #include "core/structure/mode_numbers.h"
 #include "core/structure/place_profile.h"
+#include "drivers/storage/json.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/structure_pictures.h"
 

@@ -17,8 +17,8 @@
 #include "firmware_app/replay/tracks_record.h"
 #include "firmware_app/report/closure_json.h"
 #include "firmware_app/report/closure_pictures.h"
+#include "tools/hovermodal/closeloop/closing.h"
 #include "tools/hovermodal/closeloop/series_modes.h"
-#include "tools/hovermodal/closeloop/words.h"
 
 namespace tools {
 namespace {
@@ -43,7 +43,6 @@ void write_pictures_of(const TracksLoop& request, const ObservationLevel& level,
   const app::ResidualPair pair{before, view_of(level), level.state().record().width_px,
                                level.state().record().height_px,
                                std::sqrt(squares / static_cast<double>(level.state().record().sigma_px.size()))};
-  write("closure.json", app::closure_json(result));
   write("closure_field.svg", app::closure_field_svg(pair));
   write("closure_residual.svg", app::closure_residual_svg(pair));
   if (!result.reference_error_before || !result.reference_error_after) return;
@@ -80,16 +79,9 @@ void close_tracks(const TracksLoop& request) {
   loop.seed = request.seed;
   (void)level.fit();
   const ResidualView before = view_of(level);
-  const ClosureResult result = [&] {
-    const ProgressLine line(request.answer);
-    loop.progress = line.teller();
-    return core::closure::close_loop(level, loop);
-  }();
-  request.answer.document(app::closure_json(result));
-  request.answer.text("{}", closure_text(result));
-  if (request.report.empty()) return;
-  write_pictures_of(request, level, result, before);
-  request.answer.text("{} written\n", (std::filesystem::path(request.report) / "closure.json").string());
+  const ClosureResult result = close_level(request.answer, level, loop);
+  if (!request.report.empty()) write_pictures_of(request, level, result, before);
+  show_closure(request.answer, result, "", request.report);
 }
 
 }  // namespace tools

@@ -1,16 +1,11 @@
 #include "tools/hovermodal/closeloop/series_loop.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <filesystem>
 
 #include "core/closure/closure_loop.h"
 #include "core/closure/response/response_level.h"
-#include "drivers/storage/json.h"
-#include "firmware_app/report/closure_json.h"
+#include "tools/hovermodal/closeloop/closing.h"
 #include "tools/hovermodal/closeloop/series_modes.h"
-#include "tools/hovermodal/closeloop/words.h"
 
 namespace tools {
 namespace {
@@ -30,22 +25,13 @@ ClosureResult close_response(const LoopRequest& request, const ResponseModel& mo
   loop.n_surrogates_when_plain = kWhenPlain;
   loop.seed = request.seed;
   ResponseLevel level(model);
-  ClosureResult result = [&] {
-    const ProgressLine line(request.answer);
-    loop.progress = line.teller();
-    return core::closure::close_loop(level, loop);
-  }();
+  ClosureResult result = close_level(request.answer, level, loop);
   if (adopted != nullptr) *adopted = level.adopted();
   return result;
 }
 
 void show_response(const LoopRequest& request, const ClosureResult& result, const std::string& file) {
-  if (file == "closure.json") request.answer.document(app::closure_json(result));
-  request.answer.text("{}{}", closure_text(result), identified_text(result));
-  if (request.report.empty()) return;
-  const auto path = (std::filesystem::path(request.report) / file).string();
-  drivers::write_file_atomically(path, app::closure_json(result));
-  request.answer.text("{} written\n", path);
+  show_closure(request.answer, result, identified_text(result), request.report, file);
 }
 
 // Pairs both sets of modes with the reference; with the error before and after if there is one.

@@ -70,6 +70,8 @@ std::string closure_text(const ClosureResult& result) {
   out += fmt::format("stopped: {}\n", result.stop_reason);
   out += fmt::format("residual {:.3g} -> {:.3g} {} rms; unexplained {:.0f} %: {}\n", result.baseline_rms,
                      result.residual_rms, unit, 100.0 * result.unexplained_fraction, result.unexplained);
+  if (const std::string noise = noise_text(result); !noise.empty())
+    out += fmt::format("noise of the data: {}\n", noise);
   if (result.reference_error_before && result.reference_error_after)
     out += fmt::format("error on data excluded from the fit {:.3g} -> {:.3g} {}\n", *result.reference_error_before,
                        *result.reference_error_after, result.reference_unit);

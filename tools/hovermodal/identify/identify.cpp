@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
@@ -36,11 +37,12 @@ constexpr const char* kHelp =
     "Modes of any time series: displacements of a run, accelerometers, lasers, tracks of other programs\n"
     "  hovermodal identify --series out/displacements.csv --base base\n"
     "      a run of the service: rate, units and row delays are in the file\n"
-    "  hovermodal identify --series frame.csv --rate 256 --quantity v,v,v,a,a --channels 1 2 3 4 5 --max-frequency 12\n"
+    "  hovermodal identify --series frame.csv --rate-hz 256 --quantity v,v,v,a,a --channels 1 2 3 4 5 --max-frequency "
+    "12\n"
     "      lasers beside accelerometers; decimated to just above 12 Hz; the columns by number\n"
     "  hovermodal identify --series table.csv --quantity a --input ground --max-frequency 22 --report out\n"
     "      a measured ground: its own peaks are distinguished from modes, and the response to it is listed\n"
-    "  hovermodal identify --series a.csv b.csv c.csv --rate 256 --reference ref_x ref_y --merge --report out\n"
+    "  hovermodal identify --series a.csv b.csv c.csv --rate-hz 256 --reference ref_x ref_y --merge --report out\n"
     "      set-ups with moved sensors, joined by the two that stayed\n"
     "  hovermodal identify --series rig.uff --base floor    # or a MAT file: series are its longest arrays\n"
     "A file: one row per sample; names on the first line, or none; comma, semicolon, tab or blanks between cells;\n"
@@ -65,8 +67,14 @@ SeriesFindings identify_file(const IdentifyOptions& options, const std::string& 
   series.report_directory = report;
   series.source = std::filesystem::path(path).filename().string();
   series.head = options.head;
-  if (!options.answer.quiet)
-    series.progress = [&](double share) { fmt::print(stderr, "{}: spectra {:.0f} %\n", path, 100.0 * share); };
+  const auto start = std::chrono::steady_clock::now();
+  if (!options.answer.quiet) {
+    series.progress = [&](double share) {
+      const double so_far_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      fmt::print(stderr, "{}: spectra {:.0f} %, {:.0f} s left\n", path, 100.0 * share,
+                 so_far_s * (1.0 - share) / share);
+    };
+  }
   if (!report.empty()) std::filesystem::create_directories(report);
   try {
     findings.result = app::identify_series(loaded.series, series);
@@ -87,7 +95,7 @@ std::string report_of(const IdentifyOptions& options, std::size_t i) {
 }
 
 void check(const IdentifyOptions& options) {
-  if (options.request.rate_hz < 0.0) throw std::invalid_argument("--rate must be positive");
+  if (options.request.rate_hz < 0.0) throw std::invalid_argument("--rate-hz must be positive");
   if (options.segment != 0 && options.segment < 16)
     throw std::invalid_argument(fmt::format("--segment {}: at least 16 samples, or 0 = automatic", options.segment));
   if (options.answer.json && options.files.size() > 1 && !options.merge)

@@ -42,8 +42,9 @@ double measured_rate_hz(const Column& t) {
 void place(const Column& positions, double cells_per_unit, const std::string& path, SampleGrid& grid) {
   const double span = (positions.back() - positions.front()) * cells_per_unit;
   if (span > kMostCellsPerRow * static_cast<double>(positions.size()) + 1000.0) {
-    throw std::invalid_argument(fmt::format(
-        "{}: {} rows span {:.0f} samples: is there a gap of hours, or a wrong --rate?", path, positions.size(), span));
+    throw std::invalid_argument(
+        fmt::format("{}: {} rows span {:.0f} samples: is there a gap of hours, or a wrong --rate-hz?", path,
+                    positions.size(), span));
   }
   std::int64_t last = -1;
   std::size_t n_refused = 0;
@@ -63,7 +64,7 @@ void place(const Column& positions, double cells_per_unit, const std::string& pa
 void require_agreement(double said_hz, double file_hz, const char* of_file, const std::string& path) {
   if (said_hz <= 0.0 || std::abs(file_hz / said_hz - 1.0) <= kLargestDisagreement) return;
   throw std::invalid_argument(
-      fmt::format("{}: --rate {:g} disagrees with the file's {}, {:.6g} Hz", path, said_hz, of_file, file_hz));
+      fmt::format("{}: --rate-hz {:g} disagrees with the file's {}, {:.6g} Hz", path, said_hz, of_file, file_hz));
 }
 
 std::string lower_without_blanks(const std::string& name) {
@@ -107,7 +108,8 @@ SampleGrid sample_grid(const drivers::SeriesFile& file, double rate_hz, const st
   }
   if (file.rate_hz) require_agreement(rate_hz, *file.rate_hz, "head", path);
   grid.rate_hz = rate_hz > 0.0 ? rate_hz : file.rate_hz.value_or(0.0);
-  if (!(grid.rate_hz > 0.0)) throw std::invalid_argument(path + ": no column t_s with times in seconds: say --rate HZ");
+  if (!(grid.rate_hz > 0.0))
+    throw std::invalid_argument(path + ": no column t_s with times in seconds: say --rate-hz HZ");
   const int i_frame = file.column("frame");
   if (i_frame >= 0) {
     place(file.columns[static_cast<std::size_t>(i_frame)], 1.0, path, grid);

@@ -36,6 +36,9 @@ class ClipFrames {
   ClipFrames(const std::string& clip, const ModalMotion& motion) : clip_(clip) {
     drivers::CameraOptions source;
     source.source = clip;
+    // Images state no rate.
+    if (std::filesystem::is_directory(clip) && !std::filesystem::exists(std::filesystem::path(clip) / "timestamps.csv"))
+      source.rate_hz = motion.rate_hz;
     camera_ = drivers::make_camera(source);
     const core::CameraInfo info = camera_->info();
     if (info.width_px != motion.width_px || info.height_px != motion.height_px) {
@@ -57,9 +60,10 @@ class ClipFrames {
       status = camera_->capture(frame_, std::chrono::milliseconds(1000));
     if (status == drivers::CaptureStatus::kFrame) return true;
     const std::string fault = camera_->fault();
-    if (status == drivers::CaptureStatus::kTimeout || !fault.empty())
+    if (status == drivers::CaptureStatus::kTimeout || !fault.empty()) {
       throw std::runtime_error(
           fmt::format("\"{}\": no frame{}{}", drivers::printable(clip_), fault.empty() ? "" : ": ", fault));
+    }
     return false;
   }
   [[nodiscard]] const core::Frame& frame() const noexcept { return frame_; }

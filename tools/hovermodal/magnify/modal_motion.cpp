@@ -126,11 +126,12 @@ class MotionReader {
 
   // The record's part within the mode's band, along the mode's shape: sum over the band's lines of the discrete Fourier
   // transform. Lost samples count as zero.
-  [[nodiscard]] double amplitude_px() const {
+  [[nodiscard]] double amplitude_px() {
     const app::MeasuredRows rows = app::rows_of_displacements((folder_ / "displacements.csv").string(), {});
     const app::ChannelSeries series = app::on_grid(rows);
     const std::size_t n = series.value.empty() ? 0 : series.value.front().size();
     if (n == 0 || !(series.rate_hz > 0.0)) throw std::runtime_error("displacements.csv has no samples");
+    out_.rate_hz = series.rate_hz;
     const double line_hz = series.rate_hz / static_cast<double>(n);
     const double half_hz = std::max(kHalfBand * mode_.damping_ratio * mode_.frequency_hz, kLeastBandLines * line_hz);
     const auto low = std::max<long>(1, std::lround((mode_.apparent_hz - half_hz) / line_hz));

@@ -24,6 +24,7 @@ struct ModalMotion {
   double frequency_hz = 0.0, apparent_hz = 0.0;
   std::optional<double> frequency_std_hz;
   int width_px = 0, height_px = 0;  // of the run's image
+  double rate_hz = 0.0;             // of its frames
   // Of the component 1, in the first frame's pixels: root 2 times the rms of the record's part within 4 zeta f of the
   // mode's frequency.
   double amplitude_px = 0.0;

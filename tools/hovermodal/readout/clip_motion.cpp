@@ -11,6 +11,7 @@
 #include "core/tracking/point_seeder.h"
 #include "core/tracking/pyramid_klt.h"
 #include "drivers/camera/recording/frame_source.h"
+#include "tools/hovermodal/simulate/progress.h"
 
 namespace tools {
 namespace {
@@ -94,16 +95,17 @@ bool inside_any(const cv::Point2f& point, const std::vector<std::array<double, 4
 
 ClipMotion track_clip(const std::string& path, const std::vector<double>& stamps_s, const core::CameraModel& camera,
                       core::ReadoutDirection direction, int hold_out_every,
-                      const std::vector<std::array<double, 4>>& ignored) {
+                      const std::vector<std::array<double, 4>>& ignored, bool is_quiet) {
   drivers::silence_media_libraries();
   const auto source = drivers::open_frame_source(path);
-  ClipMotion clip{source->info().width_px, source->info().height_px, {}};
+  ClipMotion clip{source->info().width_px, source->info().height_px, 0, {}};
   const core::ReadoutModel readout{0.0, direction, clip.width_px, clip.height_px};
   core::Frame frame;
   frame.width_px = clip.width_px;
   frame.height_px = clip.height_px;
   frame.pixels.resize(static_cast<std::size_t>(clip.width_px) * static_cast<std::size_t>(clip.height_px));
   cv::Mat last;
+  Progress progress("readout", source->info().frame_count, "frames", is_quiet);
   std::size_t n = 0;
   for (; source->read(frame) == drivers::ReadStatus::kFrame; ++n) {
     if (n >= stamps_s.size())
@@ -119,7 +121,9 @@ ClipMotion track_clip(const std::string& path, const std::vector<double>& stamps
     }
     if (pair.points.size() >= kLeastPoints) clip.pairs.push_back(std::move(pair));
     last = now;
+    progress.update(std::min<std::uint64_t>(n + 1, std::max<std::uint64_t>(source->info().frame_count, 1)));
   }
+  clip.n_frames = n;
   if (!source->error().empty()) throw std::runtime_error(source->error());
   for (std::size_t k = 0; k < clip.pairs.size(); ++k)
     clip.pairs[k].held_out = hold_out_every > 0 && (k + 1) % static_cast<std::size_t>(hold_out_every) == 0;

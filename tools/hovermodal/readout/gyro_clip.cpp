@@ -50,24 +50,31 @@ std::vector<core::GyroSample> read_gyro(const GyroClipOptions& options) {
 std::vector<double> read_stamps(const GyroClipOptions& options) {
   std::vector<double> stamps;
   for_each_row(options.stamps, 1, [&](std::span<const double> row) { stamps.push_back(row[0] * options.time_unit_s); });
-  if (static_cast<std::size_t>(options.first_stamp) >= stamps.size())
+  if (static_cast<std::size_t>(options.first_stamp) >= stamps.size()) {
     throw std::invalid_argument(fmt::format("readout: --first-stamp {}; {} holds {} stamps", options.first_stamp,
                                             options.stamps, stamps.size()));
+  }
   stamps.erase(stamps.begin(), stamps.begin() + options.first_stamp);
   return stamps;
 }
 
 // The commonest reasons why a gyro does not cover the frames, with the options that mend them.
-void require_cover(const GyroClip& clip, const GyroClipOptions& options) {
+void require_cover(const GyroClip& clip, std::size_t n_stamps, const GyroClipOptions& options) {
   if (clip.gyro.empty() || clip.motion.pairs.empty()) return;  // reported where they are fitted
-  const double from_s = clip.motion.pairs.front().from_s, to_s = clip.motion.pairs.back().to_s;
+  const double beyond_s = clip.config.beyond_s();
+  const double from_s = clip.motion.pairs.front().from_s - beyond_s, to_s = clip.motion.pairs.back().to_s + beyond_s;
   const double first_s = clip.gyro.front().t_s, last_s = clip.gyro.back().t_s;
   if (first_s <= from_s && last_s >= to_s) return;
+  const std::string more = n_stamps > clip.motion.n_frames
+                               ? fmt::format(" (the clip has {} frames, {} has {} stamps from there on)",
+                                             clip.motion.n_frames, options.stamps, n_stamps)
+                               : std::string();
   throw std::invalid_argument(fmt::format(
-      "readout: {} covers {:.3f} .. {:.3f} s, the frames lie at {:.3f} .. {:.3f} s of {}: if the clip begins "
-      "later than its stamps, --first-stamp is the line of its first frame; if the unit of the times is "
-      "another one, --time-unit-s states it",
-      options.gyro, first_s, last_s, from_s, to_s, options.stamps));
+      "readout: {} covers {:.3f} .. {:.3f} s; needed are {:.3f} .. {:.3f} s, the frames by {} and {:.3g} s on either "
+      "side: "
+      "if the clip begins later than its stamps, --first-stamp is the line of its first frame{}; if the unit of the "
+      "times is another one, --time-unit-s states it; a smaller --most-offset-s needs less on either side",
+      options.gyro, first_s, last_s, from_s, to_s, options.stamps, beyond_s, more));
 }
 
 core::CameraModel camera_model(const GyroClipOptions& options) {
@@ -77,18 +84,19 @@ core::CameraModel camera_model(const GyroClipOptions& options) {
 
 }  // namespace
 
-GyroClip read_gyro_clip(const GyroClipOptions& options) {
+GyroClip read_gyro_clip(const GyroClipOptions& options, bool is_quiet) {
   const core::CameraModel camera = camera_model(options);
+  const std::vector<double> stamps_s = read_stamps(options);
   GyroClip out;
-  out.motion = track_clip(options.clip, read_stamps(options), camera, options.direction, options.hold_out_every,
-                          options.ignored);
+  out.motion =
+      track_clip(options.clip, stamps_s, camera, options.direction, options.hold_out_every, options.ignored, is_quiet);
   out.gyro = read_gyro(options);
   out.config.focal_px = camera.calibrated() ? 0.5 * (camera.fx + camera.fy) : options.focal_px;
   out.config.cx_px = camera.calibrated() ? camera.cx : 0.5 * (out.motion.width_px - 1);
   out.config.cy_px = camera.calibrated() ? camera.cy : 0.5 * (out.motion.height_px - 1);
   out.config.width_px = out.motion.width_px;
   out.config.most_offset_s = options.most_offset_s;
-  require_cover(out, options);
+  require_cover(out, stamps_s.size(), options);
   return out;
 }
 

@@ -27,6 +27,7 @@ struct GyroClip {
   core::GyroReadoutConfig config;
 };
 // Throws drivers::FileError, std::invalid_argument, and as track_clip() does.
-[[nodiscard]] GyroClip read_gyro_clip(const GyroClipOptions& options);
+// is_quiet: no progress on standard error.
+[[nodiscard]] GyroClip read_gyro_clip(const GyroClipOptions& options, bool is_quiet);
 
 }  // namespace tools

@@ -86,7 +86,7 @@ std::string readout_json(const Options& options, const ClipMotion& clip, const c
 
 void run(const Options& options) {
   require_free(options.picture, options.force);
-  const GyroClip clip = read_gyro_clip(options.input);
+  const GyroClip clip = read_gyro_clip(options.input, !options.answer.tells());
   const core::GyroReadout found = core::fit_gyro_readout(clip.motion.pairs, clip.gyro, clip.config);
   options.answer.document(readout_json(options, clip.motion, found));
   options.answer.text("{}", readout_text(options, clip.motion, found));
