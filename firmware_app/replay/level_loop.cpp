@@ -21,6 +21,7 @@
 #include "firmware_app/replay/response_analysis.h"
 #include "firmware_app/replay/run_folder.h"
 #include "firmware_app/replay/tracks_record.h"
+#include "firmware_app/report/structure_level_pictures.h"
 
 namespace app {
 namespace {
@@ -183,6 +184,8 @@ class LevelLoop {
       if (inputs_.structure->model) options.n_surrogates_when_plain = 32;  // another kind costs more for each
       LoopLevel out = level_of(name, core::closure::close_loop(level, options));
       for (LoopLevel::Finding& finding : out.findings) finding.repair = "the structural model has it from now on";
+      for (StructurePicture& one : structure_level_pictures(level, *out.result, *inputs_.structure))
+        out.pictures.push_back({std::move(one.title), std::move(one.svg)});
       return out;
     } catch (const std::invalid_argument& e) {
       return skipped(name, e.what());

@@ -19,7 +19,7 @@
 #include "drivers/storage/structure_file.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/closure_json.h"
-#include "tools/hovermodal/closeloop/closeloop_structure_pictures.h"
+#include "firmware_app/report/structure_level_pictures.h"
 #include "tools/hovermodal/closeloop/closing.h"
 #include "tools/hovermodal/closeloop/reference.h"
 
@@ -155,7 +155,8 @@ void close_structure(const LoopRequest& request, const std::string& structure, c
   if (!request.report.empty()) {
     const std::filesystem::path folder = request.report;
     drivers::write_file_atomically((folder / "closure_modes.svg").string(), app::closure_modes_svg(result));
-    write_structure_pictures(folder, *level, result, declared);
+    for (const app::StructurePicture& one : app::structure_level_pictures(*level, result, declared))
+      drivers::write_file_atomically((folder / (one.name + ".svg")).string(), one.svg);
   }
   std::string more = check_text(*level);
   if (declared.model) more += places_text(*level) + parameters_text(*level);
