@@ -1,6 +1,7 @@
 #include "core/structure/paired_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -15,11 +16,11 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kWrong = 0.2;                            // relative error of frequency of a mode without a partner
-constexpr double kClear = 1.0;                            // Pairing::worst up to which no other pairing is sought
-constexpr std::size_t kMostTried = 8;                     // pairings of one model
-constexpr std::size_t kMostStarts = 3;                    // initial values of one pairing
-constexpr double kShares[] = {0.03, 0.1, 0.3, 1.0, 3.0};  // of an initial value's distance from no effect
+constexpr double kWrong = 0.2;                           // relative error of frequency of a mode without a partner
+constexpr double kClear = 1.0;                           // Pairing::worst up to which no other pairing is sought
+constexpr std::size_t kMostTried = 8;                    // pairings of one model
+constexpr std::size_t kMostStarts = 3;                   // initial values of one pairing
+constexpr std::array kShares{0.03, 0.1, 0.3, 1.0, 3.0};  // of an initial value's distance from no effect
 
 // Initial values that give one pairing, the nearest to the data first.
 struct Tried {
