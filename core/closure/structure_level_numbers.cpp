@@ -27,6 +27,7 @@ void StructureLevel::settle_numbers() {
   if (!declared_.model || !is_ambiguous(pairing_of(model_, fit_, measured_))) return;
   const PairedFit own = fit_paired(model_, measured_, number_, fit_.parameters);
   std::vector<PairedFit> with_effect;
+  with_effect.reserve(effects.size());
   const PairedFit* best = &own;
   for (const Effect effect : effects)
     with_effect.push_back(fit_paired(with(effect), measured_, number_, fit_.parameters));
