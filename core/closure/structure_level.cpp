@@ -9,6 +9,7 @@
 #include "core/closure/closure_loop.h"
 #include "core/closure/structure_words.h"
 #include "core/structure/effects/catalogue.h"
+#include "core/structure/mode_numbers.h"
 
 namespace core::closure {
 
@@ -19,9 +20,13 @@ using structure::LeaveOneOut;
 using structure::ReferenceMode;
 using structure::Starts;
 
-StructureLevel::StructureLevel(structure::DeclaredFrame declared, Reference reference, Reference check)
-    : declared_(std::move(declared)), reference_(std::move(reference)), check_(std::move(check)) {
+StructureLevel::StructureLevel(structure::DeclaredFrame declared, Reference reference, Reference check,
+                               Reference unpaired)
+    : declared_(std::move(declared)), measured_(reference), check_(std::move(check)), reference_(std::move(reference)) {
   structure::validate(declared_, reference_);
+  for (const ReferenceMode& mode : reference_) number_.push_back(mode.number);
+  for (ReferenceMode& mode : unpaired) measured_.push_back(std::move(mode));
+  number_.resize(measured_.size(), 0);
   if (check_.size() == 1) {
     if (check_.front().number < 1 || static_cast<std::size_t>(check_.front().number) > declared_.n_storeys)
       throw std::invalid_argument("a mode of --check is not a mode of the frame");
@@ -56,6 +61,7 @@ LevelFit StructureLevel::fit() {
   fit_ = fit_frame(model_, reference_, fit_.parameters, Starts::kAll);
   if (!fit_.ok)
     throw std::runtime_error("structure: no stiffness gives such frequencies; check storeys and units (Hz)");
+  settle_numbers();
   loo_ = leave_one_out(model_, reference_, fit_);
   LevelFit out;
   out.residual_rms = rms_percent(reference_, model_modes());
@@ -106,10 +112,13 @@ std::string StructureLevel::refusal(const FrameModel& model, const FrameFit& fit
 
 std::vector<CandidateScore> StructureLevel::score() {
   std::vector<CandidateScore> out;
-  for (const Effect effect : open()) {
+  const std::vector<Effect> effects = open();
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    const Effect effect = effects[i];
     const FrameModel model = with(effect);
-    const FrameFit fit = fit_frame(model, reference_, fit_.parameters, Starts::kAll);
-    const LeaveOneOut loo = leave_one_out(model, reference_, fit);
+    const Reference reference = structure::numbered(measured_, candidate_number_[i]);
+    const FrameFit fit = fit_frame(model, reference, fit_.parameters, Starts::kAll);
+    const LeaveOneOut loo = leave_one_out(model, reference, fit);
     CandidateScore score;
     score.effect = effect->name();
     score.id = {score.effect};
@@ -122,7 +131,11 @@ std::vector<CandidateScore> StructureLevel::score() {
   return out;
 }
 
-void StructureLevel::adopt(std::size_t candidate) { model_ = with(open().at(candidate)); }
+void StructureLevel::adopt(std::size_t candidate) {
+  number_ = candidate_number_.at(candidate);
+  reference_ = structure::numbered(measured_, number_);
+  model_ = with(open().at(candidate));
+}
 
 void StructureLevel::drop() {
   model_.effects.pop_back();

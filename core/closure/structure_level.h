@@ -19,9 +19,10 @@ class StructureLevel final : public ClosureLevel {
   static constexpr double kMaterial = 0.5;
 
   // Throws std::invalid_argument (core/structure/declared_frame.h). `check`: modes excluded from every fit. If it is
-  // given, reference_error() is computed on these modes, otherwise it is the leave-one-out error.
+  // given, reference_error() is computed on these modes, otherwise it is the leave-one-out error. `unpaired`: measured
+  // modes that are none of the declared model's (pair_with_model): an effect may make them its own.
   StructureLevel(structure::DeclaredFrame declared, std::vector<structure::ReferenceMode> reference,
-                 std::vector<structure::ReferenceMode> check = {});
+                 std::vector<structure::ReferenceMode> check = {}, std::vector<structure::ReferenceMode> unpaired = {});
 
   [[nodiscard]] std::string name() const override { return "structure"; }
   [[nodiscard]] std::string unit() const override { return "%"; }
@@ -47,6 +48,9 @@ class StructureLevel final : public ClosureLevel {
   // All of the model's modes after the last fit().
   [[nodiscard]] structure::FrameModes model_modes() const;
   [[nodiscard]] const std::vector<structure::ReferenceMode>& check() const noexcept { return check_; }
+  // The measured modes that take part, under their numbers in model(); and those that are none of its modes.
+  [[nodiscard]] const std::vector<structure::ReferenceMode>& reference() const noexcept { return reference_; }
+  [[nodiscard]] std::vector<structure::ReferenceMode> unpaired() const;
 
  private:
   using Effect = const structure::StructuralEffect*;
@@ -57,18 +61,27 @@ class StructureLevel final : public ClosureLevel {
   [[nodiscard]] std::string refusal(const structure::FrameModel& model, const structure::FrameFit& fit,
                                     const structure::LeaveOneOut& loo) const;
   [[nodiscard]] std::string implausible(const structure::FrameModel& model, const structure::FrameFit& fit) const;
-  [[nodiscard]] Reference surrogate(const structure::FrameModel& model, const structure::FrameFit& fit, double spread,
-                                    std::uint64_t seed) const;
+  [[nodiscard]] static Reference surrogate(const structure::FrameModel& model, const structure::FrameFit& fit,
+                                           Reference reference, double spread, std::uint64_t seed);
   [[nodiscard]] bool is_like_an_effect() const;
   [[nodiscard]] double fitted_surrogate_score(std::uint64_t seed) const;
   [[nodiscard]] bool is_rival(const structure::FrameModel& rival, std::uint64_t seed) const;
   [[nodiscard]] std::vector<double> differences(const structure::FrameModel& rival, const structure::FrameFit& fit,
-                                                std::uint64_t seed) const;
+                                                const Reference& reference, std::uint64_t seed) const;
   [[nodiscard]] std::vector<double> first_order_differences(const structure::FrameModel& rival,
-                                                            const structure::FrameFit& fit, std::uint64_t seed) const;
+                                                            const structure::FrameFit& fit, const Reference& reference,
+                                                            std::uint64_t seed) const;
+
+  void settle_numbers();
+  [[nodiscard]] bool covers(const std::vector<int>& number) const;
+  [[nodiscard]] Reference under_own_numbers(const structure::FrameModel& model, const structure::FrameFit& fit) const;
 
   structure::DeclaredFrame declared_;
-  Reference reference_, check_;
+  Reference measured_, check_;
+  // Numbers of measured_ in model_, 0: takes no part; and in model_ with each of open(), empty: the same.
+  std::vector<int> number_;
+  std::vector<std::vector<int>> candidate_number_;
+  Reference reference_;  // those of measured_ that take part
   structure::FrameModel model_;
   structure::FrameFit fit_;
   structure::LeaveOneOut loo_;

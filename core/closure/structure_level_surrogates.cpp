@@ -31,6 +31,12 @@ Eigen::VectorXd noisy(const FrameFit& fit, Eigen::Index n_priors, double spread,
   return out;
 }
 
+// The same modes under the numbers of another model.
+std::vector<ReferenceMode> as_in(const std::vector<ReferenceMode>& numbers, std::vector<ReferenceMode> data) {
+  for (std::size_t i = 0; i < data.size(); ++i) data[i].number = numbers[i].number;
+  return data;
+}
+
 }  // namespace
 
 // Tests the residual along the effects at their places, which has more power against one of them than chi-square
@@ -44,9 +50,9 @@ bool StructureLevel::is_like_an_effect() const {
   return first_order_->largest_gain(fit_.residuals) > chance_threshold(std::move(gains));
 }
 
-StructureLevel::Reference StructureLevel::surrogate(const FrameModel& model, const FrameFit& fit, double spread,
-                                                    std::uint64_t seed) const {
-  Reference out = reference_;
+// `out`: the reference under the model's numbers.
+StructureLevel::Reference StructureLevel::surrogate(const FrameModel& model, const FrameFit& fit, Reference out,
+                                                    double spread, std::uint64_t seed) {
   const auto modes = seen_modes(model, fit.parameters, true);
   if (!modes) return out;
   NoiseStream noise(seed);
@@ -69,7 +75,7 @@ double StructureLevel::surrogate_score(std::uint64_t seed) {
 }
 
 double StructureLevel::fitted_surrogate_score(std::uint64_t seed) const {
-  const Reference data = surrogate(model_, fit_, 1.0, seed);
+  const Reference data = surrogate(model_, fit_, reference_, 1.0, seed);
   const FrameFit plain = fit_frame(model_, data, fit_.parameters, Starts::kBest);
   const double before = leave_one_out(model_, data, plain).chi2;
   double best = 0.0;
@@ -85,27 +91,31 @@ double StructureLevel::fitted_surrogate_score(std::uint64_t seed) const {
 // Tests whether data simulated from the rival favour the adopted model by as much as the reference does (Cox 1961, with
 // surrogates).
 bool StructureLevel::is_rival(const FrameModel& rival, std::uint64_t seed) const {
-  const FrameFit fit = fit_frame(rival, reference_, {}, Starts::kAll);
-  const LeaveOneOut loo = leave_one_out(rival, reference_, fit);
+  FrameFit fit = fit_frame(rival, reference_, {}, Starts::kAll);
+  const Reference reference = under_own_numbers(rival, fit);
+  fit = fit_frame(rival, reference, {}, Starts::kAll);
+  const LeaveOneOut loo = leave_one_out(rival, reference, fit);
   if (!fit.ok || !std::isfinite(loo.chi2) || !implausible(rival, fit).empty()) return false;
   const double difference = loo.chi2 - loo_.chi2;
   if (difference <= 0.0) return true;
   const double noise = spread(), freedom = fit.degrees_of_freedom();
   if (freedom > 0.0 && fit.chi2 > noise * noise * structure::chi2_limit(freedom)) return false;
-  std::vector<double> chance = declared_.model ? first_order_differences(rival, fit, seed) : std::vector<double>{};
-  if (chance.empty()) chance = differences(rival, fit, seed);
+  std::vector<double> chance =
+      declared_.model ? first_order_differences(rival, fit, reference, seed) : std::vector<double>{};
+  if (chance.empty()) chance = differences(rival, fit, reference, seed);
   return !chance.empty() && difference <= chance_threshold(std::move(chance));
 }
 
 // By how much surrogates of the fitted rival favour the adopted model.
 std::vector<double> StructureLevel::differences(const FrameModel& rival, const FrameFit& fit,
-                                                std::uint64_t seed) const {
+                                                const Reference& reference, std::uint64_t seed) const {
   std::vector<double> out;
   for (std::size_t i = 0; i < kRivalSurrogates; ++i) {
-    const Reference data = surrogate(rival, fit, spread(), seed * 1000003ULL + i);
+    const Reference data = surrogate(rival, fit, reference, spread(), seed * 1000003ULL + i);
+    const Reference renumbered = as_in(reference_, data);
     const FrameFit own = fit_frame(rival, data, fit.parameters, Starts::kBest);
-    const FrameFit other = fit_frame(model_, data, fit_.parameters, Starts::kBest);
-    const double gap = leave_one_out(rival, data, own).chi2 - leave_one_out(model_, data, other).chi2;
+    const FrameFit other = fit_frame(model_, renumbered, fit_.parameters, Starts::kBest);
+    const double gap = leave_one_out(rival, data, own).chi2 - leave_one_out(model_, renumbered, other).chi2;
     if (std::isfinite(gap)) out.push_back(gap);
   }
   return out;
@@ -113,10 +123,10 @@ std::vector<double> StructureLevel::differences(const FrameModel& rival, const F
 
 // The same with both models linear about their fits to the rival's data without noise. Empty: cannot be formed.
 std::vector<double> StructureLevel::first_order_differences(const FrameModel& rival, const FrameFit& fit,
-                                                            std::uint64_t seed) const {
-  const Reference exact = surrogate(rival, fit, 0.0, seed);
+                                                            const Reference& reference, std::uint64_t seed) const {
+  const Reference exact = as_in(reference_, surrogate(rival, fit, reference, 0.0, seed));
   const FrameFit other = fit_frame(model_, exact, fit_.parameters, Starts::kBest);
-  const auto own_held = structure::HeldOutModes::about(rival, reference_, fit);
+  const auto own_held = structure::HeldOutModes::about(rival, reference, fit);
   const auto other_held = structure::HeldOutModes::about(model_, exact, other);
   std::vector<double> out;
   if (!own_held || !other_held) return out;

@@ -23,33 +23,33 @@ VectorXd shape_of(const ReferenceMode& mode) {
   return Eigen::Map<const VectorXd>(mode.shape.data(), static_cast<Index>(mode.shape.size()));
 }
 
-double cost(const ReferenceMode& mode, const ModelModes& model, Index r, double log_factor) {
-  const double off = (std::log(mode.frequency_hz / model.frequency_hz(r)) - log_factor) / kFrequencyWidth;
+double cost(const ReferenceMode& mode, double model_hz, const Eigen::MatrixXd& shapes, Index r, double log_factor) {
+  const double off = (std::log(mode.frequency_hz / model_hz) - log_factor) / kFrequencyWidth;
   if (mode.shape.size() < 2) return off * off;
-  const double shape = (1.0 - mac(shape_of(mode), model.shapes.col(r))) / kShapeWidth;
+  const double shape = (1.0 - mac(shape_of(mode), shapes.col(r))) / kShapeWidth;
   return std::min(off * off, 2.0 * kUnpaired) * 0.5 + shape * shape;
 }
 
-struct Pairing {
-  double cost = std::numeric_limits<double>::infinity();
-  std::vector<std::size_t> partner;  // Assignment::kNone: none
-};
-
-Pairing pair_at(const ModelModes& model, const std::vector<ReferenceMode>& reference, double log_factor) {
-  const auto n_modes = static_cast<std::size_t>(model.frequency_hz.size());
+Pairing pair_at(const VectorXd& hz, const Eigen::MatrixXd& shapes, const std::vector<ReferenceMode>& reference,
+                double log_factor) {
+  const auto n_modes = static_cast<std::size_t>(hz.size());
   std::vector<double> costs;
   for (const ReferenceMode& mode : reference) {
-    for (Index r = 0; r < model.frequency_hz.size(); ++r) costs.push_back(cost(mode, model, r, log_factor) / kUnpaired);
+    for (Index r = 0; r < hz.size(); ++r) costs.push_back(cost(mode, hz(r), shapes, r, log_factor) / kUnpaired);
   }
   Assignment assignment(reference.size(), n_modes);
   const auto columns = assignment.solve(costs, reference.size(), n_modes);
-  Pairing out{0.0, {columns.begin(), columns.end()}};
-  for (std::size_t i = 0; i < reference.size(); ++i)
-    out.cost += columns[i] == Assignment::kNone ? 1.0 : costs[i * n_modes + columns[i]];
+  Pairing out;
   std::size_t highest = 0, paired = 0;  // of the model's modes
-  for (const std::size_t column : columns) {
-    if (column == Assignment::kNone) continue;
-    highest = std::max(highest, column + 1);
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    out.number.push_back(columns[i] == Assignment::kNone ? 0 : static_cast<int>(columns[i]) + 1);
+    if (columns[i] == Assignment::kNone) {
+      out.cost += 1.0;
+      continue;
+    }
+    const double own = costs[i * n_modes + columns[i]];
+    out.cost += own, out.worst = std::max(out.worst, kUnpaired * own);
+    highest = std::max(highest, columns[i] + 1);
     ++paired;
   }
   out.cost += kMissing * static_cast<double>(highest - paired);
@@ -79,35 +79,42 @@ void number_as(const ModelModes& known, ModelModes& modes) {
   }
 }
 
-std::vector<double> pair_with_model(const DeclaredFrame& declared, std::vector<ReferenceMode>& reference) {
-  const ModelModes& model = *declared.numbering;
+Pairing pair_modes(const VectorXd& hz, const Eigen::MatrixXd& shapes, bool any_factor,
+                   const std::vector<ReferenceMode>& reference) {
   std::vector<double> factors{0.0};
-  if (!declared.stiffness_over_mass_per_s2) {
+  if (any_factor) {
     for (const ReferenceMode& mode : reference) {
-      for (const double hz : model.frequency_hz) factors.push_back(std::log(mode.frequency_hz / hz));
+      for (const double own : hz) factors.push_back(std::log(mode.frequency_hz / own));
     }
   }
   Pairing best;
+  best.cost = std::numeric_limits<double>::infinity();
   for (const double factor : factors) {
-    Pairing one = pair_at(model, reference, factor);
-    if (one.cost + kFactorCost * factor * factor < best.cost) {
-      best = std::move(one);
-      best.cost += kFactorCost * factor * factor;
-    }
+    Pairing one = pair_at(hz, shapes, reference, factor);
+    one.cost += kFactorCost * factor * factor;
+    if (one.cost < best.cost) best = std::move(one);
   }
-  std::vector<double> left;
-  std::vector<ReferenceMode> kept;
+  return best;
+}
+
+std::vector<ReferenceMode> numbered(std::vector<ReferenceMode> reference, const std::vector<int>& number) {
+  std::vector<ReferenceMode> out;
   for (std::size_t i = 0; i < reference.size(); ++i) {
-    if (best.partner[i] == Assignment::kNone) {
-      left.push_back(reference[i].frequency_hz);
-      continue;
-    }
-    reference[i].number = static_cast<int>(best.partner[i]) + 1;
-    kept.push_back(std::move(reference[i]));
+    if (number[i] == 0) continue;
+    out.push_back(std::move(reference[i]));
+    out.back().number = number[i];
   }
-  std::sort(kept.begin(), kept.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
-  std::sort(left.begin(), left.end());
-  reference = std::move(kept);
+  return out;
+}
+
+std::vector<ReferenceMode> pair_with_model(const DeclaredFrame& declared, std::vector<ReferenceMode>& reference) {
+  const ModelModes& model = *declared.numbering;
+  const Pairing best = pair_modes(model.frequency_hz, model.shapes, !declared.stiffness_over_mass_per_s2, reference);
+  std::vector<ReferenceMode> left;
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    if (best.number[i] == 0) left.push_back(reference[i]);
+  }
+  reference = numbered(std::move(reference), best.number);
   return left;
 }
 

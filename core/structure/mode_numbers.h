@@ -14,9 +14,22 @@ namespace core::structure {
 // of `known`.
 void number_as(const ModelModes& known, ModelModes& modes);
 
-// Gives each reference mode the number of the declared model's mode that it is: pairs of least cost, of frequency (a
-// tenth; a common factor is allowed unless stiffness is known) and MAC where shapes are known. Reference modes that
-// pair with none are removed and returned, lowest first: frequencies in Hz.
-std::vector<double> pair_with_model(const DeclaredFrame& declared, std::vector<ReferenceMode>& reference);
+// Which of a model's modes each reference mode is.
+struct Pairing {
+  std::vector<int> number;  // of each reference mode, from 1; 0: none
+  double cost = 0.0;        // of all of them
+  double worst = 0.0;       // of the worst pair: 1 is a tenth of the frequency or a fifth of the MAC, 4 the limit
+};
+
+// Pairs of least cost, of frequency and MAC where shapes are known. `hz`, `shapes` (components x modes): the model's.
+// `any_factor`: a common factor of all frequencies is allowed.
+[[nodiscard]] Pairing pair_modes(const Eigen::VectorXd& hz, const Eigen::MatrixXd& shapes, bool any_factor,
+                                 const std::vector<ReferenceMode>& reference);
+// Those that have a number, under it, in their order.
+[[nodiscard]] std::vector<ReferenceMode> numbered(std::vector<ReferenceMode> reference, const std::vector<int>& number);
+
+// Gives each reference mode its number in the declared model. Those that pair with none are removed and returned; both
+// stay in their order.
+std::vector<ReferenceMode> pair_with_model(const DeclaredFrame& declared, std::vector<ReferenceMode>& reference);
 
 }  // namespace core::structure

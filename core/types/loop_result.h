@@ -24,6 +24,10 @@ struct LoopLevel {
   std::vector<Finding> findings;
   std::string left;                     // description of what remains unexplained
   std::optional<ClosureResult> result;  // of levels that use the common loop
+  struct Picture {
+    std::string title, svg;  // a complete SVG file
+  };
+  std::vector<Picture> pictures = {};
 };
 
 // A mode as identified before any repair and after the last.

@@ -25,7 +25,7 @@ void StructureMap::refuse(const std::string& key, const std::string& what) const
   refuse_at(found == nullptr ? node_.line : found->line, path_ + "." + key, what);
 }
 
-void StructureMap::allow(std::initializer_list<const char*> keys) const {
+void StructureMap::allow(const std::vector<const char*>& keys) const {
   std::vector<std::string> names;
   for (const char* key : keys) names.push_back(path_ + "." + key);
   for (std::size_t i = 0; i < node_.keys.size(); ++i) {
@@ -76,7 +76,7 @@ std::string StructureMap::text_or(const std::string& key, const std::string& fal
 std::string StructureMap::one_of(const std::string& key, std::initializer_list<const char*> names) const {
   const std::string value = text_or(key, *names.begin());
   if (std::find(names.begin(), names.end(), value) == names.end())
-    refuse(key, fmt::format("`{}` is not known; write {}", printable(value), fmt::join(names, ", ")));
+    refuse(key, fmt::format("`{}` is not known; write {}", printable(value), fmt::join(names, " or ")));
   return value;
 }
 

@@ -15,7 +15,7 @@ class StructureMap {
   StructureMap(const YamlNode& node, std::string path, const std::string& file);
 
   // Refuses keys that are not among these.
-  void allow(std::initializer_list<const char*> keys) const;
+  void allow(const std::vector<const char*>& keys) const;
   [[nodiscard]] bool has(const std::string& key) const { return node_.find(key) != nullptr; }
   [[nodiscard]] double number(const std::string& key, double low, double high) const;
   [[nodiscard]] double number_or(const std::string& key, double low, double high, double fallback) const;

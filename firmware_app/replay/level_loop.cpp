@@ -13,6 +13,7 @@
 #include "core/closure/closure_loop.h"
 #include "core/closure/observation/observation_level.h"
 #include "core/closure/structure_level.h"
+#include "core/structure/mode_numbers.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/chain/observation.h"
 #include "firmware_app/replay/loop_corrections.h"
@@ -20,6 +21,7 @@
 #include "firmware_app/replay/response_analysis.h"
 #include "firmware_app/replay/run_folder.h"
 #include "firmware_app/replay/tracks_record.h"
+#include "firmware_app/report/structure_level_pictures.h"
 
 namespace app {
 namespace {
@@ -171,13 +173,19 @@ class LevelLoop {
     if (!inputs_.structure) return skipped(name, "no structure is declared (--structure)");
     tell("fitting the declared structure");
     try {
-      core::closure::StructureLevel level(*inputs_.structure, modes.for_structure(so_far, *inputs_.structure));
+      auto paired = modes.for_structure(so_far, *inputs_.structure);
+      std::vector<core::structure::ReferenceMode> unpaired;
+      if (inputs_.structure->model)  // by frequency alone
+        unpaired = core::structure::pair_with_model(*inputs_.structure, paired);
+      core::closure::StructureLevel level(*inputs_.structure, std::move(paired), {}, std::move(unpaired));
       core::closure::ClosureOptions options;
       options.seed = inputs_.seed;
       options.progress = inputs_.progress;
       if (inputs_.structure->model) options.n_surrogates_when_plain = 32;  // another kind costs more for each
       LoopLevel out = level_of(name, core::closure::close_loop(level, options));
       for (LoopLevel::Finding& finding : out.findings) finding.repair = "the structural model has it from now on";
+      for (StructurePicture& one : structure_level_pictures(level, *out.result, *inputs_.structure))
+        out.pictures.push_back({std::move(one.title), std::move(one.svg)});
       return out;
     } catch (const std::invalid_argument& e) {
       return skipped(name, e.what());

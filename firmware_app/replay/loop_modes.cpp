@@ -5,8 +5,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/structure/mode_numbers.h"
-
 namespace app {
 namespace {
 
@@ -118,7 +116,6 @@ std::vector<core::structure::ReferenceMode> LoopModes::for_structure(const LoopR
     one.sigma_hz = stated > 0.0 ? stated : declared.frequency_sigma * one.frequency_hz;
     out.push_back(one);
   }
-  if (declared.model) (void)core::structure::pair_with_model(declared, out);  // by frequency alone
   return out;
 }
 

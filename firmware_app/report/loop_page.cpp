@@ -85,6 +85,18 @@ std::string picture_html(const LoopResult& result) {
   return closure_modes_svg(drawn, compared_text(result));
 }
 
+// The declared structure against the modes: errors before and after, shapes, places, parameters; empty if there is
+// none.
+std::string structure_html(const LoopResult& result) {
+  std::string out;
+  for (const LoopLevel& level : result.levels) {
+    if (level.level != "structure" || !level.result) continue;
+    out += closure_modes_svg(*level.result);
+    for (const LoopLevel::Picture& one : level.pictures) out += paragraph_html(one.title + ".") + one.svg;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string loop_page(const LoopResult& result) {
@@ -102,6 +114,8 @@ std::string loop_page(const LoopResult& result) {
                                         compared_text(result), *result.error_before, *result.error_after));
   modes += picture_html(result);
   out += section_html("modes", "Modes before any repair and after the last", modes);
+  if (const std::string structure = structure_html(result); !structure.empty())
+    out += section_html("structure", "The declared structure and the modes", structure);
   for (const std::string& remark : result.remarks) out += paragraph_html(remark);
   return out + "</main>\n<footer><p>Written by hovermodal " HOVERMODAL_VERSION
                ". The numbers of this page are in <code>loop.json</code>.</p></footer>\n</body>\n</html>\n";

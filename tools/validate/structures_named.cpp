@@ -53,11 +53,11 @@ Named answer(const NamedKind& kind, std::uint64_t seed) {
   Draw draw(seed, fmt::format("named.{}.{}", kind.kind, kind.effect));
   const NamedCase one = kind.draw(kind.effect, draw);
   auto reference = measured(one.truth, draw.whole(3, static_cast<int>(kMostNamedModes)), draw);
-  pair_with_model(one.declared, reference);
   Named out;
+  std::vector<core::structure::ReferenceMode> unpaired = pair_with_model(one.declared, reference);
   out.nothing = reference.size() < 2;  // too few are modes of the model
   if (out.nothing) return out;
-  core::closure::StructureLevel level(one.declared, std::move(reference));
+  core::closure::StructureLevel level(one.declared, std::move(reference), {}, std::move(unpaired));
   core::closure::ClosureOptions options;
   options.seed = seed, options.n_surrogates_when_plain = 32;
   const core::closure::ClosureResult result = core::closure::close_loop(level, options);

@@ -6,6 +6,7 @@
 #include "core/structure/kinds/beam.h"
 #include "core/structure/kinds/cable.h"
 #include "core/structure/mode_numbers.h"
+#include "core/structure/paired_fit.h"
 #include "core/structure/place_profile.h"
 
 namespace core::structure {
@@ -145,7 +146,7 @@ TEST(ModeNumbers, MissingAndAdditionalModesArePairedByShape) {
   reference.insert(reference.begin() + 1, foreign);
   const auto left = pair_with_model(declared, reference);
   ASSERT_EQ(left.size(), 1U);
-  EXPECT_EQ(left.front(), foreign.frequency_hz);
+  EXPECT_EQ(left.front().frequency_hz, foreign.frequency_hz);
   ASSERT_EQ(reference.size(), 4U);
   const int expected[] = {1, 3, 4, 5};
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(reference[i].number, expected[i]);
@@ -160,6 +161,29 @@ TEST(ModeNumbers, SwappedNeighboursKeepTheirShapes) {
   number_as(known, modes);
   EXPECT_EQ(modes.frequency_hz(0), 1.02);
   EXPECT_EQ(modes.shapes(0, 0), 1.0);
+}
+
+// The support yields so much that the declared model's nearest modes are others.
+TEST(PairedFit, ModesThatAnEffectMovedFarGetTheirOwnNumbers) {
+  DeclaredFrame declared = bridge();
+  declared.stiffness_over_mass_per_s2 = 1.0;
+  const auto measured = reference_of(declared, "support_1_displacement_flexibility", 2e-5);
+  auto paired = measured;
+  (void)pair_with_model(declared, paired);
+  std::vector<int> number(measured.size(), 0), own;
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    for (const auto& mode : paired) {
+      if (mode.frequency_hz == measured[i].frequency_hz) number[i] = mode.number;
+    }
+    own.push_back(measured[i].number);
+  }
+  ASSERT_NE(number, own);
+  const PairedFit without = fit_paired({&declared, {}}, measured, number, Eigen::VectorXd());
+  const PairedFit with = fit_paired({&declared, {&effect("support_yielding")}}, measured, number, Eigen::VectorXd());
+  ASSERT_TRUE(with.fit.ok);
+  EXPECT_EQ(with.number, own);
+  EXPECT_LT(with.fit.chi2, 1e-3);
+  EXPECT_TRUE(!without.fit.ok || without.cost > with.cost);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/storage/structure_file.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/replay/run_folder.h"
 #include "firmware_app/report/loop_report.h"
@@ -135,6 +136,26 @@ TEST(LevelLoop, TheReportHoldsTheTablesAsTextJsonAndPage) {
   EXPECT_THAT(page, HasSubstr("<svg"));
   EXPECT_THAT(page, HasSubstr("dropped_frames"));
   EXPECT_THAT(loop_text(result), HasSubstr("no structure is declared"));
+  EXPECT_EQ(page.find("id=\"structure\""), std::string::npos);
+}
+
+TEST(LevelLoop, TheReportDrawsADeclaredStructureBesideTheModes) {
+  LevelLoopInputs inputs;
+  inputs.folder = folder_with("structure", {});
+  inputs.bases = {"base"};
+  inputs.n_surrogates = 16;
+  // A string whose first and third modes are near those of the record.
+  inputs.structure = drivers::parse_structure(
+      "structure: {kind: cable, length_m: 100, mass_per_m_kg: 1, tension_n: 129600, tension_prior_percent: 30}\n",
+      "cable.yaml");
+  const LoopResult result = close_levels(inputs);
+  ASSERT_EQ(level(result, "structure").skipped, "");
+  const std::string page = loop_page(result);
+  const std::size_t section = page.find("id=\"structure\"");
+  ASSERT_NE(section, std::string::npos);
+  EXPECT_NE(page.find("<svg", section), std::string::npos);
+  ASSERT_FALSE(level(result, "structure").pictures.empty());
+  EXPECT_NE(page.find(level(result, "structure").pictures.front().svg, section), std::string::npos);
 }
 
 TEST(LevelLoop, AFolderWithoutARecordIsRefusedInWords) {

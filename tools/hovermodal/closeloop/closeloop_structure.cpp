@@ -19,7 +19,7 @@
 #include "drivers/storage/structure_file.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/closure_json.h"
-#include "tools/hovermodal/closeloop/closeloop_structure_pictures.h"
+#include "firmware_app/report/structure_level_pictures.h"
 #include "tools/hovermodal/closeloop/closing.h"
 #include "tools/hovermodal/closeloop/reference.h"
 
@@ -44,27 +44,37 @@ std::string check_text(const StructureLevel& level) {
   return out;
 }
 
-Reference paired(const std::string& path, const DeclaredFrame& declared, const Answer& answer) {
-  Reference out = read_reference(path, declared);
+// Modes of a file: those of the model, and others.
+struct Measured {
+  Reference paired, unpaired;
+};
+
+std::string hz_text(const Reference& modes) {
+  std::vector<double> hz;
+  for (const auto& mode : modes) hz.push_back(mode.frequency_hz);
+  return fmt::format("{:.4g} Hz", fmt::join(hz, ", "));
+}
+
+Measured measured(const std::string& path, const DeclaredFrame& declared) {
+  Measured out{read_reference(path, declared), {}};
   if (!declared.model) return out;
-  const std::vector<double> left = pair_with_model(declared, out);
-  if (out.size() < 2 && !left.empty()) {
+  out.unpaired = pair_with_model(declared, out.paired);
+  if (out.paired.size() < 2 && !out.unpaired.empty()) {
     const Eigen::VectorXd& hz = declared.numbering->frequency_hz;
     throw drivers::FileError(fmt::format(
-        "{}: of its modes at {:.4g} Hz fewer than two are modes of the model, which has {:.4g} .. {:.4g} Hz; check the "
+        "{}: of its modes at {} fewer than two are modes of the model, which has {:.4g} .. {:.4g} Hz; check the "
         "units of stiffness and mass, or declare stiffness: fitted",
-        path, fmt::join(left, ", "), hz(0), hz(hz.size() - 1)));
+        path, hz_text(out.unpaired), hz(0), hz(hz.size() - 1)));
   }
-  if (!left.empty()) answer.note("modes of {} that none of the model's is: {:.4g} Hz\n", path, fmt::join(left, ", "));
   return out;
 }
 
 // Places that explain the modes as well as the one found.
-std::string places_text(const StructureLevel& level, const Reference& reference) {
+std::string places_text(const StructureLevel& level) {
   std::string out;
   const std::size_t n_effects = level.model().effects.size();
   for (std::size_t i = 0; i < n_effects; ++i) {
-    const auto places = place_profile(level.model(), reference, level.fitted(), i, level.spread());
+    const auto places = place_profile(level.model(), level.reference(), level.fitted(), i, level.spread());
     if (places.empty()) continue;
     out += fmt::format("places of {} that the modes do not distinguish (chi-square within 95 %):\n",
                        level.model().effects[i]->name());
@@ -122,11 +132,13 @@ std::string parameters_text(const StructureLevel& level) {
 
 void close_structure(const LoopRequest& request, const std::string& structure, const std::string& check_path) {
   const DeclaredFrame declared = drivers::read_structure(structure);
-  const Reference reference = paired(request.reference, declared, request.answer);
-  Reference check = check_path.empty() ? Reference{} : paired(check_path, declared, request.answer);
+  const Measured reference = measured(request.reference, declared);
+  Measured check = check_path.empty() ? Measured{} : measured(check_path, declared);
+  if (!check.unpaired.empty())
+    request.answer.note("modes of {} that none of the model's is: {}\n", check_path, hz_text(check.unpaired));
   const auto make_level = [&] {
     try {
-      return std::make_unique<StructureLevel>(declared, reference, std::move(check));
+      return std::make_unique<StructureLevel>(declared, reference.paired, std::move(check.paired), reference.unpaired);
     } catch (const std::invalid_argument& error) {
       throw drivers::FileError(request.reference + (check_path.empty() ? "" : " or " + check_path) + ": " +
                                error.what());
@@ -143,12 +155,16 @@ void close_structure(const LoopRequest& request, const std::string& structure, c
   if (!request.report.empty()) {
     const std::filesystem::path folder = request.report;
     drivers::write_file_atomically((folder / "closure_modes.svg").string(), app::closure_modes_svg(result));
-    write_structure_pictures(folder, *level, result, declared, reference);
+    for (const app::StructurePicture& one : app::structure_level_pictures(*level, result, declared))
+      drivers::write_file_atomically((folder / (one.name + ".svg")).string(), one.svg);
   }
   std::string more = check_text(*level);
-  if (declared.model) more += places_text(*level, reference) + parameters_text(*level);
+  if (declared.model) more += places_text(*level) + parameters_text(*level);
   show_closure(request.answer, result, more, request.report);
-  if (declared.model) request.answer.note("{}", units_text(*level));
+  if (!declared.model) return;
+  if (const Reference left = level->unpaired(); !left.empty())
+    request.answer.note("modes of {} that none of the model's is: {}\n", request.reference, hz_text(left));
+  request.answer.note("{}", units_text(*level));
 }
 
 }  // namespace tools

@@ -1,18 +1,17 @@
-#include "tools/hovermodal/closeloop/closeloop_structure_pictures.h"
+#include "firmware_app/report/structure_level_pictures.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/structure/mode_numbers.h"
 #include "core/structure/place_profile.h"
-#include "drivers/storage/json.h"
-#include "drivers/storage/text_file.h"
 #include "firmware_app/report/structure_pictures.h"
 
-namespace tools {
+namespace app {
 namespace {
 
 using core::closure::StructureLevel;
@@ -21,10 +20,6 @@ using core::structure::FrameModel;
 using core::structure::FrameModes;
 using core::structure::ReferenceMode;
 using Reference = std::vector<ReferenceMode>;
-
-void write(const std::filesystem::path& path, const std::string& svg) {
-  if (!svg.empty()) drivers::write_file_atomically(path.string(), svg);
-}
 
 // The model's shape at the scale that fits the measured one best.
 std::vector<double> scaled(const FrameModes& modes, const ReferenceMode& mode) {
@@ -46,9 +41,9 @@ double mac_of(const FrameModes& modes, const ReferenceMode& mode) {
       modes.shapes.col(mode.number - 1).head(static_cast<Eigen::Index>(mode.shape.size())));
 }
 
-std::vector<app::ShapeComparison> comparisons(const StructureLevel& level, const DeclaredFrame& declared,
-                                              const Reference& reference) {
-  std::vector<app::ShapeComparison> out;
+std::vector<ShapeComparison> comparisons(const StructureLevel& level, const DeclaredFrame& declared) {
+  const Reference& reference = level.reference();
+  std::vector<ShapeComparison> out;
   const FrameModel plain{&declared, {}};
   const auto fit = fit_frame(plain, reference, {}, core::structure::Starts::kAll);
   const auto before = fit.ok ? seen_modes(plain, fit.parameters, true) : std::nullopt;
@@ -56,7 +51,7 @@ std::vector<app::ShapeComparison> comparisons(const StructureLevel& level, const
   if (!before || after.frequency_hz.size() == 0) return out;
   for (const ReferenceMode& mode : reference) {
     if (mode.shape.empty()) continue;
-    app::ShapeComparison one;
+    ShapeComparison one;
     one.number = mode.number, one.measured_hz = mode.frequency_hz;
     one.before_hz = before->frequency_hz(mode.number - 1), one.after_hz = after.frequency_hz(mode.number - 1);
     one.measured = mode.shape, one.sigma = mode.shape_sigma;
@@ -75,9 +70,9 @@ std::vector<std::string> channel_names(const DeclaredFrame& declared) {
   return out;
 }
 
-std::vector<app::SoughtPlace> places(const StructureLevel& level, const Reference& reference, std::size_t i_effect) {
-  std::vector<app::SoughtPlace> out;
-  const auto profile = place_profile(level.model(), reference, level.fitted(), i_effect, level.spread());
+std::vector<SoughtPlace> places(const StructureLevel& level, std::size_t i_effect) {
+  std::vector<SoughtPlace> out;
+  const auto profile = place_profile(level.model(), level.reference(), level.fitted(), i_effect, level.spread());
   if (profile.empty()) return out;
   const auto best =
       std::min_element(profile.begin(), profile.end(), [](const auto& a, const auto& b) { return a.chi2 < b.chi2; });
@@ -87,8 +82,8 @@ std::vector<app::SoughtPlace> places(const StructureLevel& level, const Referenc
   return out;
 }
 
-std::vector<app::FittedParameter> parameters(const StructureLevel& level, const core::closure::ClosureResult& result) {
-  std::vector<app::FittedParameter> out;
+std::vector<FittedParameter> parameters(const StructureLevel& level, const core::closure::ClosureResult& result) {
+  std::vector<FittedParameter> out;
   const FrameModel& model = level.model();
   if (model.declared->model) {
     const auto posterior = identifiability(model, level.fitted());
@@ -96,8 +91,7 @@ std::vector<app::FittedParameter> parameters(const StructureLevel& level, const 
     const std::vector<std::size_t> with_prior = model.with_prior();
     for (std::size_t k = 0; k < with_prior.size(); ++k) {
       const auto& p = model.declared->model->parameters()[with_prior[k]];
-      app::FittedParameter one{p.name, p.unit,  values(static_cast<Eigen::Index>(with_prior[k])),
-                               {},     p.value, p.prior_sigma};
+      FittedParameter one{p.name, p.unit, values(static_cast<Eigen::Index>(with_prior[k])), {}, p.value, p.prior_sigma};
       const double sigma = posterior[k].sigma_over_prior * p.prior_sigma;
       if (std::isfinite(sigma)) one.sigma = sigma;
       out.push_back(std::move(one));
@@ -113,16 +107,23 @@ std::vector<app::FittedParameter> parameters(const StructureLevel& level, const 
 
 }  // namespace
 
-void write_structure_pictures(const std::filesystem::path& folder, const StructureLevel& level,
-                              const core::closure::ClosureResult& result, const DeclaredFrame& declared,
-                              const Reference& reference) {
-  write(folder / "structure_shapes.svg",
-        app::structure_shapes_svg(comparisons(level, declared, reference), channel_names(declared)));
-  write(folder / "structure_posterior.svg", app::structure_posterior_svg(parameters(level, result)));
-  for (std::size_t i = 0; i < result.steps.size(); ++i)
-    write(
-        folder / fmt::format("structure_place_{}.svg", i + 1),
-        app::structure_places_svg(result.steps[i].effect + " " + result.steps[i].meaning, places(level, reference, i)));
+std::vector<StructurePicture> structure_level_pictures(const StructureLevel& level,
+                                                       const core::closure::ClosureResult& result,
+                                                       const DeclaredFrame& declared) {
+  std::vector<StructurePicture> out;
+  const auto add = [&](std::string name, std::string title, std::string svg) {
+    if (!svg.empty()) out.push_back({std::move(name), std::move(title), std::move(svg)});
+  };
+  add("structure_shapes", "Measured and computed shapes",
+      structure_shapes_svg(comparisons(level, declared), channel_names(declared)));
+  add("structure_posterior", "Fitted parameters and their standard deviations",
+      structure_posterior_svg(parameters(level, result)));
+  for (std::size_t i = 0; i < result.steps.size(); ++i) {
+    const std::string effect = result.steps[i].effect + " " + result.steps[i].meaning;
+    add(fmt::format("structure_place_{}", i + 1), "Places of " + effect,
+        structure_places_svg(effect, places(level, i)));
+  }
+  return out;
 }
 
-}  // namespace tools
+}  // namespace app
