@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "firmware_app/report/closure_json.h"
@@ -75,8 +76,8 @@ std::string modes_svg_of(const ClosureResult& result, const std::string& axis, c
   panel.draw_y_axis(true, 8);
   panel.draw_frame();
   svg.line(box.x, panel.y_px(0.0), box.right(), panel.y_px(0.0), "v");
-  const Series both[] = {{&result.modes_before, -kApart, Marker::kSquare, "m1", "k1", "before"},
-                         {&result.modes_after, kApart, Marker::kDot, "m0", "k0", "after"}};
+  const std::array both{Series{&result.modes_before, -kApart, Marker::kSquare, "m1", "k1", "before"},
+                        Series{&result.modes_after, kApart, Marker::kDot, "m0", "k0", "after"}};
   double y = layout.legend_y;
   const double x = layout.legend_x;
   for (const Series& series : both) {
