@@ -31,7 +31,7 @@ void copy_stream_facts(const CpsdSums& sums, ModalEstimate& estimate) {
   estimate.resolution_hz = resolution_hz(sums);
 }
 
-// Poles of all orders, as observed and unfolded, and what leaks into them from a neighbour; parallel lists.
+// Poles of all orders: observed, unfolded, and the leakage of a neighbour into each. The lists are parallel.
 struct Poles {
   std::vector<PoleOfOrder> observed;
   std::vector<OrderPole> unfolded;

@@ -123,8 +123,8 @@ class Design {
     return static_cast<double>(values_.size()) - static_cast<double>(basis_.size()) - 1.0;
   }
 
-  // The error of an estimated std goes with that of its value (few blocks of a flight give both): a flight with too
-  // small a std would weigh most where it is most wrong. Therefore variances are drawn towards their median.
+  // A flight's few blocks give both value and std, so their errors are correlated: weights from these stds would be
+  // largest for values with large errors. Therefore variances are shrunk towards their median.
   void share_variances() {
     std::vector<double> variances;
     for (const FlightValue& value : values_) variances.push_back(value.std * value.std);

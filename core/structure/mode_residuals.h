@@ -14,8 +14,8 @@ void append_residuals(const FrameModes& modes, const ReferenceMode& mode, std::v
 [[nodiscard]] bool residuals_of(const FrameModel& model, const std::vector<ReferenceMode>& reference, int without,
                                 const Eigen::VectorXd& parameters, Eigen::VectorXd& out);
 
-// Whether the derivatives of the modes give those of the residuals: another kind than a shear frame, and frequencies
-// that are seen as they are.
+// True if the residuals' derivatives follow from those of the modes: not for a shear frame, nor with an effect that
+// changes the frequencies observed (StructuralEffect::changes_frequencies()).
 [[nodiscard]] bool has_analytic_jacobian(const FrameModel& model);
 // Derivatives of all residuals, the priors' included; columns of places are zero. False if there are no modes.
 [[nodiscard]] bool analytic_jacobian(const FrameModel& model, const std::vector<ReferenceMode>& reference, int without,

@@ -30,7 +30,7 @@ std::optional<std::uint64_t> number_of(const fs::path& path) {
   return in >> value ? std::optional(value) : std::nullopt;  // "max": none
 }
 
-// Of control group v2; each level up may have a tighter limit.
+// The smallest over the levels of control group v2, because a level above may have a tighter limit.
 std::uint64_t left_in_group(const fs::path& root) {
   std::ifstream in(root / "proc/self/cgroup");
   std::string line;

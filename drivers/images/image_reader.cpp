@@ -85,7 +85,7 @@ ImageSize size_of_jpeg(std::FILE* file, const std::string& path) {
   return {};
 }
 
-// Before the library is loaded. For formats other than PNG and JPEG the library's own bound holds.
+// Called before the image library is loaded. For formats other than PNG and JPEG the library's own limit holds.
 void require_usable_size(const std::string& path) {
   constexpr std::string_view kPng("\x89PNG\r\n\x1a\n", 8), kJpeg("\xFF\xD8\xFF", 3);
   const FileHandle file = open_regular_file(path, "name an image");

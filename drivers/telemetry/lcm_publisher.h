@@ -19,10 +19,10 @@ namespace drivers {
 
 // Results as LCM messages, over the network, into an LCM event log, or both. Network and log number the messages of an
 // LCM channel separately, whether sent or failed: a receiver sees a failed send as a gap. A message withheld from the
-// network (LcmOptions::max_kbit_s) has no number there and is no gap; the log contains everything. Spectra, which come
-// all at once, wait for room until the next ones replace them, or the end. Every health message states how many
-// messages were sent on each channel of its own output, itself included, and how many were withheld. Messages above
-// some 1400 bytes are fragmented by LCM.
+// network (LcmOptions::max_kbit_s) has no number there and is no gap; the log contains everything. The spectra of one
+// estimate are queued and sent as max_kbit_s permits, until those of the next replace them; at the end all are
+// sent. Every health message states how many messages were sent on each channel of its own output, itself included,
+// and how many were withheld. Messages above some 1400 bytes are fragmented by LCM.
 class LcmPublisher : public Publisher {
  public:
   // Opens and tests all outputs. An output that would lose every message is an error here, not a count later; throws as

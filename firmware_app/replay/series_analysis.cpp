@@ -11,6 +11,7 @@
 #include "firmware_app/replay/analysis.h"
 #include "firmware_app/replay/series_channels.h"
 #include "firmware_app/replay/series_faults.h"
+#include "firmware_app/report/earlier_files.h"
 #include "firmware_app/report/modal_json.h"
 #include "firmware_app/report/pictures/pictures.h"
 #include "firmware_app/report/run_findings.h"
@@ -69,6 +70,7 @@ void draw(const ChannelSeries& series, const SeriesSpectra& spectra, const core:
   inputs.max_frequency_hz = options.identifier.max_frequency_hz;
   inputs.facts = &facts;
   compare_with(inputs, options.head.compare);
+  keep_earlier_report(options.report_directory);
   (void)write_pictures(options.report_directory, inputs);
 }
 

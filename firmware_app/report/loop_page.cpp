@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "firmware_app/report/closure_json.h"
+#include "firmware_app/report/closure_modes_svg.h"
 #include "firmware_app/report/loop_report.h"
 #include "firmware_app/report/page/html_text.h"
 #include "firmware_app/report/page/page_parts.h"
@@ -82,7 +83,8 @@ std::string picture_html(const LoopResult& result) {
     }
   }
   drawn.baseline_rms = result.error_before.value_or(0.0), drawn.residual_rms = result.error_after.value_or(0.0);
-  return closure_modes_svg(drawn, compared_text(result));
+  const std::string wide = closure_modes_svg(drawn, compared_text(result));
+  return wide.empty() ? wide : figure_html(wide, closure_modes_narrow_svg(drawn, compared_text(result)), {}, {});
 }
 
 // The declared structure against the modes: errors before and after, shapes, places, parameters; empty if there is

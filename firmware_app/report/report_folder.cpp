@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "drivers/storage/text_file.h"
+#include "firmware_app/report/earlier_files.h"
 
 namespace app {
 namespace {
@@ -81,23 +82,10 @@ void place_new(const fs::path& folder) {
   fs::remove(folder / kPlacing);
 }
 
-void number_last(const fs::path& folder, int keep) {
-  const auto numbered = [&](int i) { return folder / fmt::format("report.{}", i); };
-  int free = 1;  // the first number without a folder: an interrupted shift left it
-  while (free <= keep && fs::exists(fs::symlink_status(numbered(free)))) ++free;
-  if (free > keep) fs::remove_all(numbered(keep));
-  for (int i = std::min(free, keep); i > 1; --i) fs::rename(numbered(i - 1), numbered(i));
-  if (keep > 0) {
-    fs::rename(folder / kReplaced, numbered(1));
-  } else {
-    fs::remove_all(folder / kReplaced);
-  }
-}
-
 void go_on_with_hand_over(const fs::path& folder, int keep) {
   if (fs::is_directory(folder / kComplete)) set_last_aside(folder);
   if (fs::is_directory(folder / kPlacing)) place_new(folder);
-  if (fs::is_directory(folder / kReplaced)) number_last(folder, keep);
+  if (fs::is_directory(folder / kReplaced)) number_earlier(folder, "report", folder / kReplaced, keep);
   sync_folder(folder);
 }
 

@@ -18,8 +18,8 @@ namespace app {
 [[nodiscard]] std::string keyframe_path(const AppConfig& config);  // beside it
 // Keeps the keyframe for a later run; health reports whether the earlier one was used, and a failure.
 void keep_keyframe(const AppConfig& config, const Source& source, HealthCollector& health);
-// Resumes from the state found at `path`; health reports success or why not. Returns that state, its boot_id empty
-// where the stamps are on another clock; empty: the record begins without one.
+// Resumes from the state found at `path`; health reports success or why not. Returns the state resumed from, or empty
+// where there is none. Its boot_id is empty if the time stamps since then are on another clock.
 [[nodiscard]] std::optional<RunState> resume_state(const std::string& path, const RunState& view,
                                                    SpectrumAccumulator& spectra, ModeIdentification& modes,
                                                    HealthCollector& health);

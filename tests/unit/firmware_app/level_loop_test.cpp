@@ -133,7 +133,8 @@ TEST(LevelLoop, TheReportHoldsTheTablesAsTextJsonAndPage) {
   EXPECT_EQ(json["levels"][2]["closure"]["level"], "response");
   EXPECT_NEAR(json["modes"][0]["reference_hz"].get<double>(), kFirst_hz, 1e-9);
   const std::string page = drivers::read_text_file(folder + "/loop.html", 1 << 20);
-  EXPECT_THAT(page, HasSubstr("<svg"));
+  EXPECT_THAT(page, HasSubstr("plot wide"));
+  EXPECT_THAT(page, HasSubstr("viewBox=\"0 0 328 ")) << "for a phone";
   EXPECT_THAT(page, HasSubstr("dropped_frames"));
   EXPECT_THAT(loop_text(result), HasSubstr("no structure is declared"));
   EXPECT_EQ(page.find("id=\"structure\""), std::string::npos);

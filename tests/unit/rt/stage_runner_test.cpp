@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Plays a list of answers, then the last one for ever. All but the atomics belong to the stage's thread.
+// step() returns the script's values in turn, then always the last. All but the atomics belong to the stage's thread.
 class ScriptedStage : public Stage {
  public:
   explicit ScriptedStage(std::vector<StepStatus> script) : script_(std::move(script)) {}

@@ -79,6 +79,10 @@ TEST_F(CompareSensor, WhatIsMissingIsNamedWithItsRemedy) {
   EXPECT_EQ(no_unit.exit_code, 2);
   EXPECT_THAT(no_unit.text, HasSubstr("--sensor-unit"));
   EXPECT_THAT(compare("--channel roof --band 1 9 --quantity d").text, HasSubstr("its bias is not known"));
+  const Outcome with_unit =
+      compare("--channel roof --band 1 9 --sensor-unit mm --report '" + (folder_ / "two").string() + "'");
+  EXPECT_EQ(with_unit.exit_code, 0) << with_unit.text;
+  EXPECT_THAT(with_unit.text, Not(HasSubstr("no unit known"))) << "it was named";
   EXPECT_EQ(tests::run("hovermodal", "compare").exit_code, 2);
 }
 

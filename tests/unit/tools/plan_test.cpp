@@ -84,6 +84,16 @@ TEST_F(Plan, WritesPlanJsonAndPicture) {
     EXPECT_NE(svg.find(label), std::string::npos) << label;
 }
 
+TEST_F(Plan, TheEarlierPlanOfAFolderStaysBesideTheNewOne) {
+  const std::string out = " --out " + (folder_ / "out").string();
+  ASSERT_EQ(plan(kFrame + kCamera + out).exit_code, 0);
+  const std::string first = read(folder_ / "out" / "plan.json");
+  ASSERT_EQ(plan(kFrame + kCamera + kAmplitudes + out).exit_code, 0);
+  EXPECT_NE(read(folder_ / "out" / "plan.json"), first);
+  EXPECT_EQ(read(folder_ / "out" / "plan.1" / "plan.json"), first);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "plan.1" / "plan.svg"));
+}
+
 TEST_F(Plan, SameInputGivesTheSameBytes) {
   for (const char* name : {"a", "b"})
     ASSERT_EQ(plan(kFrame + kCamera + kAmplitudes + "--out " + (folder_ / name).string()).exit_code, 0);

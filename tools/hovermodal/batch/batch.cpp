@@ -11,6 +11,7 @@
 #include "drivers/host/command_line.h"
 #include "drivers/storage/json.h"
 #include "drivers/storage/printable.h"
+#include "firmware_app/report/earlier_files.h"
 #include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/batch/combine.h"
 #include "tools/hovermodal/batch/dispatch.h"
@@ -57,9 +58,9 @@ std::vector<FlightOrder> orders_of(const Inventory& found, const Options& option
 
 // batch.json, batch.txt, batch.svg, and the report of each view of several flights.
 void write_result(const BatchResult& result, const fs::path& out) {
+  app::keep_earlier(out.string(), "batch", {"batch.json", "batch.txt", "batch.svg"});
   drivers::write_file_atomically((out / "batch.json").string(), batch_json(result));
   drivers::write_file_atomically((out / "batch.txt").string(), batch_text(result));
-  fs::remove(out / "batch.svg");
   if (const std::string svg = batch_svg(result); !svg.empty())
     drivers::write_file_atomically((out / "batch.svg").string(), svg);
   fs::remove_all(out / "views");

@@ -13,6 +13,7 @@
 #include "drivers/storage/calibration_file.h"
 #include "drivers/storage/json.h"
 #include "drivers/storage/text_file.h"
+#include "firmware_app/report/earlier_files.h"
 #include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/calibrate/board_search.h"
 #include "tools/hovermodal/calibrate/calibration_words.h"
@@ -134,6 +135,7 @@ void write_report(const std::string& folder, const CalibrationRun& run, const An
     throw std::runtime_error(
         fmt::format("--report {}: cannot be made: {}; name a folder that may be written", folder, error.message()));
   }
+  app::keep_earlier(folder, "calibration", {"calibration.svg"});
   const std::filesystem::path file = std::filesystem::path(folder) / "calibration.svg";
   drivers::write_file_atomically(file.string(), calibration_svg(run));
   answer.text("{} written: where the corners lay, and their residuals\n", file.string());

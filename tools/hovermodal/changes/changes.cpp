@@ -5,6 +5,7 @@
 
 #include "drivers/host/command_line.h"
 #include "drivers/storage/json.h"
+#include "firmware_app/report/earlier_files.h"
 #include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/changes/mode_histories.h"
 #include "tools/hovermodal/commands.h"
@@ -39,6 +40,7 @@ void run_changes(const ChangesOptions& options) {
   const std::string json = changes_json(result);
   if (!options.out.empty()) {
     fs::create_directories(options.out);
+    app::keep_earlier(options.out, "changes", {"changes.json", "changes.svg"});
     drivers::write_file_atomically((fs::path(options.out) / "changes.json").string(), json);
     if (const std::string svg = changes_svg(result); !svg.empty())
       drivers::write_file_atomically((fs::path(options.out) / "changes.svg").string(), svg);

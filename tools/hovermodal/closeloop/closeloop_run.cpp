@@ -8,6 +8,7 @@
 
 #include "drivers/storage/structure_file.h"
 #include "firmware_app/replay/level_loop.h"
+#include "firmware_app/report/earlier_files.h"
 #include "firmware_app/report/loop_report.h"
 #include "tools/hovermodal/closeloop/series_modes.h"
 
@@ -33,6 +34,7 @@ void close_run(const RunLoop& request) {
   request.answer.document(app::loop_json(result));
   request.answer.text("{}", app::loop_text(result));
   const std::string& folder = request.report.empty() ? request.folder : request.report;
+  app::keep_earlier(folder, "loop", {"loop.html", "loop.json"});
   app::write_loop_report(folder, result);
   request.answer.text("open {}\n", (std::filesystem::path(folder) / "loop.html").string());
 }

@@ -152,6 +152,7 @@ void close_structure(const LoopRequest& request, const std::string& structure, c
   if (declared.model) loop.n_surrogates_when_plain = std::min<std::size_t>(request.n_surrogates, 32);
   core::closure::ClosureResult result = close_level(request.answer, *level, loop);
   std::erase_if(result.not_observable, [](const auto& one) { return one.reason == core::structure::kOtherKind; });
+  keep_earlier_closure(request.report);
   if (!request.report.empty()) {
     const std::filesystem::path folder = request.report;
     drivers::write_file_atomically((folder / "closure_modes.svg").string(), app::closure_modes_svg(result));

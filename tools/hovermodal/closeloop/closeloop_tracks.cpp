@@ -80,6 +80,7 @@ void close_tracks(const TracksLoop& request) {
   (void)level.fit();
   const ResidualView before = view_of(level);
   const ClosureResult result = close_level(request.answer, level, loop);
+  keep_earlier_closure(request.report);
   if (!request.report.empty()) write_pictures_of(request, level, result, before);
   show_closure(request.answer, result, "", request.report);
 }

@@ -30,6 +30,7 @@ void close_turning(const LoopRequest& request, const GyroClipOptions& options) {
     more = fmt::format("rotation of the image beyond the model, held-out frames: {:.4f} -> {:.4f} deg rms per frame\n",
                        *result.reference_error_before, *result.reference_error_after);
   }
+  keep_earlier_closure(request.report);
   show_closure(request.answer, result, more, request.report);
 }
 

@@ -5,6 +5,7 @@
 
 #include "drivers/storage/json.h"
 #include "firmware_app/report/closure_json.h"
+#include "firmware_app/report/earlier_files.h"
 #include "tools/hovermodal/closeloop/words.h"
 
 namespace tools {
@@ -25,6 +26,13 @@ void show_closure(const Answer& answer, const core::closure::ClosureResult& resu
   const std::string path = (std::filesystem::path(report) / file).string();
   drivers::write_file_atomically(path, json);
   answer.text("{} written\n", path);
+}
+
+void keep_earlier_closure(const std::string& report) {
+  if (!report.empty())
+    app::keep_earlier(
+        report, "closure",
+        {"closure.json", "closure_field.svg", "closure_residual.svg", "closure_modes.svg", "structure_*"});
 }
 
 }  // namespace tools

@@ -18,4 +18,8 @@ namespace tools {
 void show_closure(const Answer& answer, const core::closure::ClosureResult& result, const std::string& more,
                   const std::string& report, const std::string& file = "closure.json");
 
+// The files of an earlier closure.json and its pictures in `report` move to `report`/closure.1. An empty `report` is
+// none.
+void keep_earlier_closure(const std::string& report);
+
 }  // namespace tools

@@ -1,9 +1,11 @@
 #include "tools/hovermodal/closeloop/series_loop.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "core/closure/closure_loop.h"
 #include "core/closure/response/response_level.h"
+#include "firmware_app/report/earlier_files.h"
 #include "tools/hovermodal/closeloop/closing.h"
 #include "tools/hovermodal/closeloop/series_modes.h"
 
@@ -31,6 +33,11 @@ ClosureResult close_response(const LoopRequest& request, const ResponseModel& mo
 }
 
 void show_response(const LoopRequest& request, const ClosureResult& result, const std::string& file) {
+  if (file == "closure.json") {
+    keep_earlier_closure(request.report);
+  } else if (!request.report.empty()) {
+    app::keep_earlier(request.report, std::filesystem::path(file).stem().string(), {file});
+  }
   show_closure(request.answer, result, identified_text(result), request.report, file);
 }
 

@@ -13,6 +13,7 @@
 #include "drivers/storage/series_format.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/replay/run_folder.h"
+#include "firmware_app/report/earlier_files.h"
 #include "firmware_app/report/modal_json.h"
 #include "tools/hovermodal/compare/seen_time.h"
 #include "tools/hovermodal/identify/series_input.h"
@@ -137,8 +138,9 @@ class SensorRun {
     }
     out_.sensor_rate_hz = sensor_.rate_hz, out_.n_sensor = sensor_.value.size();
     out_.n_integrations = sensor_.n_integrations;
+    // The options that replace a unit of the file are checked above.
     for (const std::string& remark : loaded.remarks) {
-      if (motion || remark.find("no unit known") == std::string::npos) out_.remarks.push_back(remark);
+      if (remark.find("no unit known") == std::string::npos) out_.remarks.push_back(remark);
     }
   }
 
@@ -177,6 +179,7 @@ void compare_sensor(const SensorOptions& options, const Answer& answer) {
   answer.text("{}", sensor_text(findings));
   if (options.report.empty()) return;
   fs::create_directories(options.report);
+  app::keep_earlier(options.report, "sensor", {"sensor.json", "sensor.svg"});
   drivers::write_file_atomically(options.report + "/sensor.json", sensor_json(findings));
   drivers::write_file_atomically(options.report + "/sensor.svg", sensor_svg(findings));
   answer.text("open {}/sensor.svg\n", options.report);

@@ -62,7 +62,7 @@ struct WebResponse {
 class WebServer {
  public:
   using Handler = std::function<WebResponse(const WebRequest&)>;
-  // The text of the next event, on one line (JSON); empty optional: nothing new.
+  // The text of the next event, on one line (JSON); empty: no new event.
   using EventSource = std::function<std::optional<std::string>()>;
 
   struct Counts {

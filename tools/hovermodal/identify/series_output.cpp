@@ -7,6 +7,7 @@
 
 #include "core/identification/merge_setups.h"
 #include "drivers/storage/json.h"
+#include "firmware_app/report/earlier_files.h"
 #include "firmware_app/report/page/report_page.h"
 #include "firmware_app/report/pictures/pictures.h"
 #include "firmware_app/report/run_findings.h"
@@ -86,6 +87,7 @@ std::string write_merged(const app::SeriesResult& result, const app::PageHead& h
   inputs.estimate = &result.estimate;
   inputs.facts = &facts;
   app::compare_with(inputs, head.compare);
+  app::keep_earlier_report(directory);
   (void)app::write_pictures(directory, inputs);
   return write_findings(result, directory);
 }

@@ -8,6 +8,7 @@
 
 #include "drivers/host/command_line.h"
 #include "drivers/storage/json.h"
+#include "firmware_app/report/earlier_files.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/plan/options.h"
 #include "tools/hovermodal/plan/words.h"
@@ -32,6 +33,7 @@ void run(const drivers::Command& command, const PlanOptions& options) {
   if (!options.folder.empty()) {
     const std::filesystem::path folder = options.folder;
     make_folder(folder);
+    app::keep_earlier(options.folder, "plan", {"plan.json", "plan.svg"});
     drivers::write_file_atomically((folder / "plan.json").string(), plan_json(input, plan));
     drivers::write_file_atomically((folder / "plan.svg").string(), plan_svg(input, plan));
   }

@@ -113,7 +113,7 @@ void write_true_displacements(const std::filesystem::path& folder, const SceneMo
   fmt::memory_buffer& out = csv.buffer();
   append(out,
          "# true absolute displacement in mm in the middle of the exposure of row 0, at the true time of each picture; "
-         "one that is delivered again has no second line\nframe,t_s");
+         "one that is delivered again has no second line\n# unit: mm\nframe,t_s");
   for (const auto& plate : scene.plates) append(out, ",{}", plate.name);
   end_line(csv);
   core::simulation::FrameTiming timing(scene);
