@@ -12,7 +12,8 @@ namespace {
 using Eigen::Index, Eigen::MatrixXd;
 
 constexpr std::array kLags_s{0.1, 0.2, 0.35, 0.5, 0.75, 1.0};
-constexpr double kSlowest_px_s = 5.0, kFastest_px_s = 600.0, kSpeedStep = 1.35;
+constexpr double kSlowest_px_s = 5.0, kSpeedStep = 1.35;
+constexpr int kSpeeds = 16;  // up to 450 px/s
 constexpr int kDirections = 20;
 constexpr std::array kLengths_px{15.0, 30.0, 60.0, 120.0, 240.0};
 constexpr Index kMostPoints = 80;
@@ -76,7 +77,8 @@ FieldDrift field_drift(const MatrixXd& all_px, const PointGeometry& geometry, do
     best.sigma_px_s = 0.5 * speed * std::max(kSpeedStep - 1.0, 2.0 * std::numbers::pi / kDirections);
   };
   for (const double length_px : kLengths_px) {
-    for (double speed = kSlowest_px_s; speed <= kFastest_px_s; speed *= kSpeedStep) {
+    for (int i = 0; i < kSpeeds; ++i) {
+      const double speed = kSlowest_px_s * std::pow(kSpeedStep, i);
       for (int k = 0; k < kDirections; ++k) compare(length_px, speed, 2.0 * std::numbers::pi * k / kDirections);
     }
   }

@@ -16,7 +16,7 @@ struct FieldDrift {
 };
 
 // field_px: 2 points x frames. Compared are the covariances between points (80 at most) at lags of 0.1 to 1 s with
-// those of a field that moves, for lengths of 15 to 240 px and speeds of 5 to 600 px/s. The length is free: the motions
+// those of a field that moves, for lengths of 15 to 240 px and speeds of 5 to 450 px/s. The length is free: the motions
 // that a fit removes from the field shorten its covariances.
 [[nodiscard]] FieldDrift field_drift(const Eigen::MatrixXd& field_px, const PointGeometry& geometry, double rate_hz);
 

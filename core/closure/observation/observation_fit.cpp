@@ -176,8 +176,7 @@ CorrelationShares ObservationFit::measured_correlation() const {
   const PointCorrelation& known = model_.correlation();
   const Eigen::MatrixXd& q = model_.q_high();
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(q.rows(), q.rows());
-  const Eigen::MatrixXd removal =
-      known.put_back<Eigen::MatrixXd>((identity - q * q.transpose()) * known.removed(identity));
+  const auto removal = known.put_back<Eigen::MatrixXd>((identity - q * q.transpose()) * known.removed(identity));
   return noise_correlation(known.put_back(model_.residual()), removal, record_.region_of_point, mean_places_px(),
                            record_.rate_hz, PointMotionModel::kLowBand_hz);
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -21,10 +22,10 @@ std::vector<KnownSignal> motions_of(const FitView& fit) {
   for (std::size_t c = 0; c < channels.rows.size(); ++c)
     out.push_back({"the motion of " + channels.info[c].name, amplitudes.row(channels.rows[c])});
   const Eigen::Index plane = fit.model.first_plane_row();
-  const char* names[] = {"the camera's translation along u", "the camera's translation along v",
-                         "the camera's distance"};
+  constexpr std::array kNames{"the camera's translation along u", "the camera's translation along v",
+                              "the camera's distance"};
   for (Eigen::Index i = 0; i < 3 && plane + i < fit.model.n_own(); ++i)
-    out.push_back({names[i], amplitudes.row(plane + i)});
+    out.push_back({kNames[static_cast<std::size_t>(i)], amplitudes.row(plane + i)});
   const std::size_t n_plain = out.size();
   for (std::size_t i = 0; i < n_plain; ++i) {
     const Eigen::RowVectorXd s = out[i].series.array() - out[i].series.mean();
@@ -59,9 +60,10 @@ std::string nearest_words(const Eigen::VectorXd& pattern_px, const FitView& fit,
   }
   std::sort(near.rbegin(), near.rend());
   std::string words;
-  for (std::size_t i = 0; i < std::min(near.size(), kMost); ++i)
+  for (std::size_t i = 0; i < std::min(near.size(), kMost); ++i) {
     words += (i == 0 ? "; nearest: " : ", ") + near[i].second + " (" +
              std::to_string(std::lround(100.0 * near[i].first)) + " % of it)";
+  }
   return words;
 }
 
@@ -129,9 +131,10 @@ ClosureLevel::Noise describe_noise(const ObservationFit& fit) {
     out.values.push_back({"period of a codec", "frames", static_cast<double>(in_time.period_frames), {}});
     out.values.push_back({"change at its first frame over the others", "1", in_time.period_change, {}});
   }
-  if (in_time.period_frames > 0 || shares.neighbourhood + of_region > kCodec)
+  if (in_time.period_frames > 0 || shares.neighbourhood + of_region > kCodec) {
     out.advice =
         "errors of a video codec: record at a higher bit rate or with intra frames only, without noise reduction";
+  }
   return out;
 }
 

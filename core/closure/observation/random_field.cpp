@@ -82,7 +82,7 @@ RandomField::RandomField(const FitView& fit) : fit_(fit) {
   double length_px = kShortest_px;
   for (std::size_t i = 0; i < kOctaves; ++i, length_px *= 2.0) {
     const MatrixXd half = model.whitened(unit_covariance(model.geometry(), length_px));
-    const MatrixXd covariance = model.whitened<MatrixXd>(half.transpose());
+    const auto covariance = model.whitened<MatrixXd>(half.transpose());
     lengths_.push_back({length_px, covariance, components_of(above, covariance), components_of(within, covariance)});
   }
 }
@@ -111,7 +111,8 @@ RandomField::Estimate RandomField::estimate(const VectorXd& own, const VectorXd&
   Estimate out;
   const double top = 100.0 * (squares / n).maxCoeff() / own.maxCoeff();
   double best = -kDecades;
-  for (double power = -kDecades; power <= 0.0; power += 0.5) {
+  for (int half = -2 * kDecades; half <= 0; ++half) {
+    const double power = 0.5 * half;
     if (deviance(top * std::pow(10.0, power)) < deviance(top * std::pow(10.0, best))) best = power;
   }
   double low = best - 0.5, high = best + 0.5;
@@ -133,7 +134,7 @@ RandomField::Estimate RandomField::estimate(const VectorXd& own, const VectorXd&
 // By all rungs together.
 std::size_t RandomField::best_length(const ResidualMoments& moments, FieldSize& size) const {
   std::vector<double> deviance;
-  const double n = static_cast<double>(fit_.record.n_frames());
+  const auto n = static_cast<double>(fit_.record.n_frames());
   for (const OfLength& length : lengths_) {
     const VectorXd squares = squares_along(length.above.direction, moments.all_sum);
     deviance.push_back(estimate(length.above.variance, squares, n).deviance);

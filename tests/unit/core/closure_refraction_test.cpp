@@ -97,7 +97,8 @@ TEST(RandomField, OfOnePatternHasOnePattern) {
   const FitView fit = level.state().view();
   NoiseStream noise(4);
   Eigen::VectorXd pattern(2 * fit.record.n_points());
-  for (Eigen::Index i = 0; i < pattern.size(); ++i) pattern(i) = std::sin(0.3 * static_cast<double>(i / 2));
+  for (Eigen::Index j = 0; j < pattern.size() / 2; ++j)
+    pattern.segment<2>(2 * j).setConstant(std::sin(0.3 * static_cast<double>(j)));
   Eigen::MatrixXd series(pattern.size(), kFrames);
   for (Eigen::Index k = 0; k < kFrames; ++k) {
     const double amplitude = 5.0 * noise.gaussian();

@@ -77,9 +77,10 @@ class RefractionCandidate final : public EffectCandidate {
   [[nodiscard]] bool is_learned() const override { return true; }
   [[nodiscard]] bool is_unspecific() const override { return true; }
   [[nodiscard]] Objection objection() const override {
-    if (n_patterns_ < kLeastPatterns)
+    if (n_patterns_ < kLeastPatterns) {
       return {"it has " + std::to_string(std::lround(n_patterns_)) + " patterns: effects with patterns of their own",
               true};
+    }
     if (drift_.likeness < kLeastLikeness)
       return {"it does not drift over the points: errors of the tracker or of a codec", true};
     return {};
