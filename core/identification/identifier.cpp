@@ -136,6 +136,7 @@ std::vector<Mode> judge_lines(const Fitted& fitted, const std::vector<PoleCluste
 std::vector<Mode> judge_published_lines(const std::vector<PoleCluster>& lines, const JudgedChannels& channels,
                                         const VerdictRules& rules) {
   std::vector<Mode> modes;
+  modes.reserve(lines.size());
   for (const PoleCluster& line : lines) modes.push_back(judge_as_published(line, channels.outputs, rules));
   number_by_frequency(modes);
   return modes;
