@@ -74,7 +74,8 @@ class StructureLevel final : public ClosureLevel {
 
   void settle_numbers();
   [[nodiscard]] bool covers(const std::vector<int>& number) const;
-  [[nodiscard]] Reference under_own_numbers(const structure::FrameModel& model, const structure::FrameFit& fit) const;
+  [[nodiscard]] std::optional<Reference> under_own_numbers(const structure::FrameModel& model,
+                                                           const structure::FrameFit& fit) const;
 
   structure::DeclaredFrame declared_;
   Reference measured_, check_;

@@ -1,5 +1,6 @@
 // StructureLevel: which measured mode is which mode of the model.
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/closure/structure_level.h"
@@ -47,12 +48,15 @@ void StructureLevel::settle_numbers() {
   fit_ = fit_frame(model_, reference_, fit_.parameters, Starts::kAll);
 }
 
-// The modes that take part under the numbers of another model, fitted as if its numbers were those of model_.
-StructureLevel::Reference StructureLevel::under_own_numbers(const FrameModel& model, const FrameFit& fit) const {
+// The modes that take part under the numbers of another model, `fit` its fit under number_. Empty: they are number_.
+std::optional<StructureLevel::Reference> StructureLevel::under_own_numbers(const FrameModel& model,
+                                                                           const FrameFit& fit) const {
+  if (!declared_.model) return std::nullopt;
   const structure::Pairing pairing = pairing_of(model, fit, measured_);
-  if (!declared_.model || (pairing.number == number_ && !is_ambiguous(pairing))) return reference_;
+  if (pairing.number == number_ && !is_ambiguous(pairing)) return std::nullopt;
   const PairedFit own = fit_paired(model, measured_, number_, fit.parameters);
-  return own.fit.ok && covers(own.number) ? structure::numbered(measured_, own.number) : reference_;
+  if (!own.fit.ok || !covers(own.number) || own.number == number_) return std::nullopt;
+  return structure::numbered(measured_, own.number);
 }
 
 StructureLevel::Reference StructureLevel::unpaired() const {

@@ -1,6 +1,7 @@
 // StructureLevel: what chance gives, by surrogates, and which effects explain the data as well.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/closure/closure_loop.h"
@@ -92,8 +93,9 @@ double StructureLevel::fitted_surrogate_score(std::uint64_t seed) const {
 // surrogates).
 bool StructureLevel::is_rival(const FrameModel& rival, std::uint64_t seed) const {
   FrameFit fit = fit_frame(rival, reference_, {}, Starts::kAll);
-  const Reference reference = under_own_numbers(rival, fit);
-  fit = fit_frame(rival, reference, {}, Starts::kAll);
+  const std::optional<Reference> renumbered = under_own_numbers(rival, fit);
+  if (renumbered) fit = fit_frame(rival, *renumbered, {}, Starts::kAll);
+  const Reference& reference = renumbered ? *renumbered : reference_;
   const LeaveOneOut loo = leave_one_out(rival, reference, fit);
   if (!fit.ok || !std::isfinite(loo.chi2) || !implausible(rival, fit).empty()) return false;
   const double difference = loo.chi2 - loo_.chi2;

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "firmware_app/report/closure_json.h"
 #include "firmware_app/report/plot/svg_plot.h"
 
 namespace app {

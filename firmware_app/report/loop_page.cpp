@@ -1,7 +1,6 @@
 // loop.html: residual diagnosis over all levels, on one page.
 #include <fmt/format.h>
 
-#include "firmware_app/report/closure_json.h"
 #include "firmware_app/report/closure_modes_svg.h"
 #include "firmware_app/report/loop_report.h"
 #include "firmware_app/report/page/html_text.h"
@@ -67,7 +66,13 @@ std::string modes_html(const LoopResult& result) {
   return result.modes.empty() ? absent_html("No mode was identified.") : table.html();
 }
 
-// The same numbers as a picture; empty if there are none.
+// The errors of the modes, in both widths; empty if there are none.
+std::string modes_figure_html(const core::closure::ClosureResult& drawn, const std::string& axis) {
+  const std::string wide = closure_modes_svg(drawn, axis);
+  return wide.empty() ? wide : figure_html(wide, closure_modes_narrow_svg(drawn, axis), {}, {});
+}
+
+// The numbers of modes_html() as a picture; empty if there are none.
 std::string picture_html(const LoopResult& result) {
   core::closure::ClosureResult drawn;
   for (std::size_t i = 0; i < result.modes.size(); ++i) {
@@ -83,8 +88,7 @@ std::string picture_html(const LoopResult& result) {
     }
   }
   drawn.baseline_rms = result.error_before.value_or(0.0), drawn.residual_rms = result.error_after.value_or(0.0);
-  const std::string wide = closure_modes_svg(drawn, compared_text(result));
-  return wide.empty() ? wide : figure_html(wide, closure_modes_narrow_svg(drawn, compared_text(result)), {}, {});
+  return modes_figure_html(drawn, compared_text(result));
 }
 
 // The declared structure against the modes: errors before and after, shapes, places, parameters; empty if there is
@@ -93,7 +97,7 @@ std::string structure_html(const LoopResult& result) {
   std::string out;
   for (const LoopLevel& level : result.levels) {
     if (level.level != "structure" || !level.result) continue;
-    out += closure_modes_svg(*level.result);
+    out += modes_figure_html(*level.result, kModelErrorAxis);
     for (const LoopLevel::Picture& one : level.pictures) out += paragraph_html(one.title + ".") + one.svg;
   }
   return out;

@@ -42,19 +42,22 @@ FieldDrift field_drift(const MatrixXd& all_px, const PointGeometry& geometry, do
   }
   struct Lag {
     double seconds;
-    MatrixXd products;
+    MatrixXd antisymmetric;  // part of the covariances
   };
   std::vector<Lag> lags;
   const double all = field_px.squaredNorm();
+  double measured = 0.0;
   for (const double wanted_s : kLags_s) {
     const auto lag = std::max<Index>(1, std::lround(wanted_s * rate_hz));
     if (lag >= field_px.cols() || !(all > 0.0)) continue;
-    lags.push_back({static_cast<double>(lag) / rate_hz, lagged(field_px, lag) / all});
+    const MatrixXd products = lagged(field_px, lag) / all;
+    lags.push_back({static_cast<double>(lag) / rate_hz, products - products.transpose()});
+    measured += 0.5 * lags.back().antisymmetric.squaredNorm();  // each pair once
   }
-  // A field that stands has symmetric covariances, one that drifts has not. Cosine of the angle between the
+  // The covariances of a static field are symmetric, those of one that drifts are not. Cosine of the angle between the
   // antisymmetric parts of the measured and the predicted ones, over all lags.
   const auto likeness = [&](double length_px, double u_px_s, double v_px_s) {
-    double product = 0.0, squares = 0.0, measured = 0.0;
+    double product = 0.0, squares = 0.0;
     for (const Lag& lag : lags) {
       for (Index j = 0; j < n; ++j) {
         for (Index i = 0; i < j; ++i) {
@@ -62,8 +65,7 @@ FieldDrift field_drift(const MatrixXd& all_px, const PointGeometry& geometry, do
           const double on_u = u_px_s * lag.seconds, on_v = v_px_s * lag.seconds;
           const double predicted = std::exp(-std::hypot(du - on_u, dv - on_v) / length_px) -
                                    std::exp(-std::hypot(du + on_u, dv + on_v) / length_px);
-          const double own = lag.products(i, j) - lag.products(j, i);
-          product += predicted * own, squares += predicted * predicted, measured += own * own;
+          product += predicted * lag.antisymmetric(i, j), squares += predicted * predicted;
         }
       }
     }

@@ -11,7 +11,7 @@ struct FieldDrift {
   double u_px_s = 0.0, v_px_s = 0.0;
   double sigma_px_s = 0.0;  // half a step of the grid
   // Likeness of the antisymmetric parts of the covariances between points at different times with those of a field that
-  // moves so: about 0 for one that stands, 1 at most.
+  // moves so: about 0 for a static one, 1 at most.
   double likeness = 0.0;
 };
 

@@ -13,7 +13,6 @@ namespace {
 
 constexpr Eigen::Index kParts = 5;
 constexpr Eigen::Index kSharedBins = 4;  // bins of the padded spectrum that share noise: in one part
-constexpr double kRungSigmas = 2.0;      // of a gain by noise: less is none
 constexpr double kMostRungs = 0.6;       // of the degrees of freedom: more is a pattern of all rungs
 
 Eigen::MatrixXcd one_sided(const Eigen::MatrixXd& residual) {
@@ -111,9 +110,8 @@ PatternGain HeldOut::of_pattern(const PatternBeside& pattern, const ResidualMome
   double all = 0.0;
   for (std::size_t rung = 0; rung < rungs_.size(); ++rung) {
     const double gain = gain_in_rung(rung, pattern, moments);
-    const double freedom = share_of(RungSet{1} << rung) * n_frames_;
     all += gain;
-    if (!(gain > kRungSigmas * std::sqrt(2.0 * freedom))) continue;
+    if (!(gain > kRungSigmas * std::sqrt(2.0 * freedom_in(rung)))) continue;
     out.gain += gain, out.band |= RungSet{1} << rung;
   }
   if (out.band == 0) return {all, kAllRungs};
@@ -162,7 +160,7 @@ RungSet HeldOut::strongest(const ResidualMoments& moments) const {
   double most = 0.0;
   for (std::size_t rung = 0; rung < rungs_.size(); ++rung) {
     const Eigen::VectorXd g = leading_pattern(moments.of_rung[rung]);
-    const double excess = g.dot(moments.of_rung[rung] * g) - share_of(RungSet{1} << rung) * n_frames_;
+    const double excess = g.dot(moments.of_rung[rung] * g) - freedom_in(rung);
     if (excess > most) most = excess, best = rung;
   }
   return RungSet{1} << best;

@@ -9,6 +9,7 @@
 namespace core::closure {
 
 inline constexpr double kLeastBeside = 1e-3;  // of a pattern's norm that must lie outside the model's columns
+inline constexpr double kRungSigmas = 2.0;    // of a gain in one rung by noise: less is none
 
 // Second moments of a residual, from which all scores of patterns are computed.
 struct ResidualMoments {
@@ -52,6 +53,7 @@ class HeldOut {
   [[nodiscard]] double n_values() const noexcept { return n_values_; }
   [[nodiscard]] const Rungs& rungs() const noexcept { return rungs_; }
   [[nodiscard]] double share_of(RungSet band) const;  // of the degrees of freedom in time
+  [[nodiscard]] double freedom_in(std::size_t rung) const { return share_of(RungSet{1} << rung) * n_frames_; }
   [[nodiscard]] double squares(const Eigen::MatrixXd& residual) const;
   // Prediction errors of points left out, outside the band of the model's added columns; 2 points x frames, in sigmas.
   [[nodiscard]] Eigen::MatrixXd errors(const Eigen::MatrixXd& residual) const { return high_.errors(residual); }

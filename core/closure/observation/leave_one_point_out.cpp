@@ -67,4 +67,18 @@ double LeaveOnePointOut::squares_with(const Eigen::MatrixXd& moments, const Eige
   return sum;
 }
 
+double LeaveOnePointOut::squares_under(const Eigen::MatrixXd& inverse_covariance,
+                                       const Eigen::MatrixXd& moments) const {
+  const Eigen::MatrixXd half = inverse_covariance * moments;
+  double sum = 0.0;
+  for (std::size_t j = 0; j < hat_.size(); ++j) {
+    if (counted_[j] == 0) continue;
+    const auto at = static_cast<Eigen::Index>(2 * j);
+    const Eigen::Matrix2d own = inverse_covariance.block<2, 2>(at, at).inverse();
+    const Eigen::Matrix2d left = half.middleRows(at, 2) * inverse_covariance.middleCols(at, 2);
+    sum += (own * left * own.transpose()).trace();
+  }
+  return sum;
+}
+
 }  // namespace core::closure

@@ -17,6 +17,9 @@ class LeaveOnePointOut {
   [[nodiscard]] double squares(const Eigen::MatrixXd& moments) const;
   // The same with one more orthonormal column g, orthogonal to Q.
   [[nodiscard]] double squares_with(const Eigen::MatrixXd& moments, const Eigen::VectorXd& g) const;
+  // Where noise is correlated (universal kriging, Dubrule 1983): e_j = P_jj^-1 (P z)_j, P its inverse covariance beside
+  // Q. `moments` may hold parts along Q, which P removes. With P = I - Q Q' it is squares().
+  [[nodiscard]] double squares_under(const Eigen::MatrixXd& inverse_covariance, const Eigen::MatrixXd& moments) const;
   // Expected square per value for noise of unit variance, leverage included.
   [[nodiscard]] double noise_variance() const noexcept { return noise_ / static_cast<double>(n_values_); }
   [[nodiscard]] double noise() const noexcept { return noise_; }  // expected squares per frame

@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 #include <stdexcept>
+#include <utility>
 
 #include "core/closure/observation/block_estimates.h"
 #include "core/closure/observation/kinds/latent_pattern.h"
@@ -129,41 +130,39 @@ std::vector<CandidateScore> ObservationScores::score() {
   const PatternGain learned = view.held_out.of_learned(moments);
   const bool is_material = learned.gain > material_of(learned.band, view, kLearnedBar) * n_values;
   const Unexplained unexplained{left - view.held_out.noise_variance() * n_values, is_material ? learned.gain : 0.0};
-  is_other_cause_.clear();
-  std::vector<CandidateScore> out;
-  for (std::size_t i = 0; i < prepared_.size(); ++i) {
-    const bool is_named = i < named.size();
+  const auto scored = [&](std::size_t i, EffectId id, std::string name) {
     CandidateScore s;
-    s.id = is_named ? named[i]->id() : latent_id(n_latent() + 1);
-    s.effect = is_named ? named[i]->name() : latent_name(n_latent() + 1);
-    s.kind = is_named ? EffectKind::kNamed : EffectKind::kLatent;
-    s.n_parameters = is_named ? named[i]->n_parameters() : 1;
+    s.id = std::move(id), s.effect = std::move(name);
     s.score = prepared_[i]->find(tested);
     s.heldout = view.sigma_px * std::sqrt(std::max(squares - s.score, 0.0) / n_values);
-    Objection objection;
-    if (is_named) {
-      objection = refusal(*prepared_[i], s.score, tested, unexplained);
-    } else {
-      refuse_unspecific(out, tested);
-      const auto adoptable = [](const CandidateScore& other) { return other.refusal.empty(); };
-      if (std::any_of(out.begin(), out.end(), adoptable)) {
-        objection.words = "a named effect explains it";
-      } else if (fit_.hides_noise()) {
-        objection.words = "cannot be told from what a random field leaves";
-      } else {
-        objection.words = smallness(*prepared_[i], s.score, unexplained.above_noise);
-      }
-    }
-    s.refusal = objection.words;
-    is_other_cause_.push_back(objection.is_other_cause ? 1 : 0);
+    return s;
+  };
+  is_other_cause_.assign(prepared_.size(), 0);
+  std::vector<CandidateScore> out;
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    CandidateScore s = scored(i, named[i]->id(), named[i]->name());
+    s.n_parameters = named[i]->n_parameters();
+    Objection objection = refusal(*prepared_[i], s.score, tested, unexplained);
+    s.refusal = std::move(objection.words);
+    is_other_cause_[i] = objection.is_other_cause ? 1 : 0;
     out.push_back(std::move(s));
   }
-  if (prepared_.size() == named.size()) refuse_unspecific(out, tested);  // no latent one is left
+  refuse_unspecific(out, tested);
+  if (prepared_.size() > named.size()) {
+    const bool is_explained =
+        std::any_of(out.begin(), out.end(), [](const CandidateScore& other) { return other.refusal.empty(); });
+    CandidateScore s = scored(named.size(), latent_id(n_latent() + 1), latent_name(n_latent() + 1));
+    s.kind = EffectKind::kLatent, s.n_parameters = 1;
+    s.refusal = is_explained         ? "a named effect explains it"
+                : fit_.hides_noise() ? "cannot be distinguished from what a random field leaves"
+                                     : smallness(*prepared_.back(), s.score, unexplained.above_noise);
+    out.push_back(std::move(s));
+  }
   is_scored_ = true;
   return out;
 }
 
-void ObservationScores::refuse_unspecific(std::vector<CandidateScore>& scores, const TestedResidual& tested) {
+void ObservationScores::refuse_unspecific(std::vector<CandidateScore>& scores, const TestedResidual& tested) const {
   for (std::size_t i = 0; i < scores.size(); ++i) {
     if (!prepared_[i]->is_unspecific() || !scores[i].refusal.empty()) continue;
     double best = constants_gain(tested);

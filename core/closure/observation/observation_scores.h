@@ -49,8 +49,8 @@ class ObservationScores {
   [[nodiscard]] std::size_t n_latent() const;
   void prepare();
   [[nodiscard]] double constants_gain(const TestedResidual& tested) const;
-  // Of the named candidates scored so far.
-  void refuse_unspecific(std::vector<CandidateScore>& scores, const TestedResidual& tested);
+  // scores: of the named candidates, in their order.
+  void refuse_unspecific(std::vector<CandidateScore>& scores, const TestedResidual& tested) const;
   // What there is to explain, as held-out squares in noise variances.
   struct Unexplained {
     double above_noise = 0.0;

@@ -1,20 +1,17 @@
 #include "core/closure/observation/random_field.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 namespace core::closure {
 namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
-constexpr double kLeastOwn = 1e-9;          // of a component's variance beside the largest
-constexpr double kLeastDeterminant = 1e-4;  // of a point's block: below, no other point predicts it
-constexpr double kRungSigmas = 2.0;         // of a gain by noise: less is none
+constexpr double kLeastOwn = 1e-9;  // of a component's variance beside the largest
 constexpr int kSteps = 60, kDecades = 8;
 
 MatrixXd unit_covariance(const PointGeometry& geometry, double length_px) {
@@ -42,27 +39,6 @@ VectorXd squares_along(const MatrixXd& of, const MatrixXd& moments) {
   return (moments * of).cwiseProduct(of).colwise().sum().transpose();
 }
 
-// Held-out squares where the noise has inverse covariance P beside the model's columns.
-double held_out(const MatrixXd& p, const MatrixXd& moments, const std::vector<char>& counted) {
-  const MatrixXd pm = p * moments;
-  double sum = 0.0;
-  for (std::size_t j = 0; j < counted.size(); ++j) {
-    if (counted[j] == 0) continue;
-    const auto at = static_cast<Index>(2 * j);
-    const Eigen::Matrix2d own = p.block<2, 2>(at, at).inverse();
-    const Eigen::Matrix2d left = pm.middleRows(at, 2) * p.middleCols(at, 2);
-    sum += (own * left * own.transpose()).trace();
-  }
-  return sum;
-}
-
-std::vector<char> predictable(const MatrixXd& p) {
-  std::vector<char> out;
-  for (Index at = 0; at < p.rows(); at += 2)
-    out.push_back(p.block<2, 2>(at, at).determinant() > kLeastDeterminant ? 1 : 0);
-  return out;
-}
-
 }  // namespace
 
 double FieldSize::rms_px() const {
@@ -71,9 +47,12 @@ double FieldSize::rms_px() const {
   return std::sqrt(sum);
 }
 
-RandomField::RandomField(const FitView& fit) : fit_(fit) {
+RandomField::RandomField(const FitView& fit) : fit_(fit), above_(fit.model.q_high()) {
   const PointMotionModel& model = fit.model;
-  const MatrixXd above = complement(model.q_high()), within = complement(model.q_low());
+  const bool has_own_band = model.q_low().cols() > model.q_high().cols();
+  const MatrixXd beside_above = complement(model.q_high());
+  const MatrixXd beside_within = has_own_band ? complement(model.q_low()) : MatrixXd();
+  if (has_own_band) within_.emplace(model.q_low());
   const auto components_of = [](const MatrixXd& beside, const MatrixXd& covariance) {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(beside.transpose() * covariance * beside);
     const double least = kLeastOwn * eigen.eigenvalues().maxCoeff();
@@ -82,17 +61,21 @@ RandomField::RandomField(const FitView& fit) : fit_(fit) {
   double length_px = kShortest_px;
   for (std::size_t i = 0; i < kOctaves; ++i, length_px *= 2.0) {
     const MatrixXd half = model.whitened(unit_covariance(model.geometry(), length_px));
-    const auto covariance = model.whitened<MatrixXd>(half.transpose());
-    lengths_.push_back({length_px, covariance, components_of(above, covariance), components_of(within, covariance)});
+    OfLength one{length_px, model.whitened<MatrixXd>(half.transpose()), {}, {}};
+    one.above = components_of(beside_above, one.covariance);
+    if (has_own_band) one.within = components_of(beside_within, one.covariance);
+    lengths_.push_back(std::move(one));
   }
 }
 
 const RandomField::Components& RandomField::components(const OfLength& of, std::size_t rung) const {
-  return holds(fit_.model.band(), rung) ? of.within : of.above;
+  return is_within(rung) ? *of.within : of.above;
 }
 
-double RandomField::freedom_in(std::size_t rung) const {
-  return fit_.held_out.share_of(RungSet{1} << rung) * static_cast<double>(fit_.record.n_frames());
+double RandomField::share_of(std::size_t rung) const { return fit_.held_out.share_of(RungSet{1} << rung); }
+
+double RandomField::variance_in(std::size_t rung, const FieldSize& size) const {
+  return size.variance_px2[rung] / share_of(rung);
 }
 
 const RandomField::OfLength& RandomField::of(const FieldSize& size) const {
@@ -152,27 +135,23 @@ std::size_t RandomField::best_length(const ResidualMoments& moments, FieldSize& 
 FieldSize RandomField::size(const ResidualMoments& moments) const {
   FieldSize out;
   const OfLength& length = lengths_[best_length(moments, out)];
-  const MatrixXd plain_above = length.above.direction * length.above.direction.transpose();
-  const MatrixXd plain_within = length.within.direction * length.within.direction.transpose();
-  const std::vector<char> counted = predictable(plain_above);
   double variance_of_sum = 0.0;
   for (std::size_t rung = 0; rung < moments.of_rung.size(); ++rung) {
     const Components& own = components(length, rung);
     const MatrixXd& m = moments.of_rung[rung];
-    const double n = freedom_in(rung);
+    const double n = fit_.held_out.freedom_in(rung), share = share_of(rung);
     const Estimate found = estimate(own.variance, squares_along(own.direction, m), n);
     out.variance_px2.push_back(0.0);
     if (found.variance <= 0.0) continue;
     const VectorXd kept = (1.0 + found.variance * own.variance.array()).inverse();
     const MatrixXd p = own.direction * kept.asDiagonal() * own.direction.transpose();
-    const MatrixXd& plain = &own == &length.within ? plain_within : plain_above;
-    const double gain = held_out(plain, m, counted) - held_out(p, m, counted);
+    const LeaveOnePointOut& left_out = is_within(rung) ? *within_ : above_;
+    const double gain = left_out.squares(m) - left_out.squares_under(p, m);
     const double taken = static_cast<double>(kept.size()) - kept.sum();
     if (!(gain > kRungSigmas * std::sqrt(2.0 * n * taken))) continue;
-    // Over the whole record a rung holds its share of the frames.
-    out.variance_px2.back() = found.variance * n / static_cast<double>(fit_.record.n_frames());
+    out.variance_px2.back() = found.variance * share;
     out.gain += gain;
-    variance_of_sum += std::pow(n / static_cast<double>(fit_.record.n_frames()), 2) / found.information;
+    variance_of_sum += share * share / found.information;
   }
   if (out.gain > 0.0) out.rms_sigma_px = 0.5 * std::sqrt(variance_of_sum) / out.rms_px();
   return out;
@@ -183,7 +162,7 @@ double RandomField::n_patterns(const FieldSize& size, const ResidualMoments& mom
   double n = 0.0;
   MatrixXd sum = MatrixXd::Zero(moments.all_sum.rows(), moments.all_sum.cols());
   for (std::size_t rung = 0; rung < size.variance_px2.size(); ++rung) {
-    if (size.variance_px2[rung] > 0.0) sum += moments.of_rung[rung], n += freedom_in(rung);
+    if (size.variance_px2[rung] > 0.0) sum += moments.of_rung[rung], n += fit_.held_out.freedom_in(rung);
   }
   const MatrixXd& u = length.above.direction;
   MatrixXd beyond = u.transpose() * sum * u;
@@ -200,8 +179,7 @@ MatrixXd RandomField::predicted(const FieldSize& size, const MatrixXd& series) c
   for (std::size_t rung = 0; rung < size.variance_px2.size(); ++rung) {
     if (!(size.variance_px2[rung] > 0.0)) continue;
     const Components& own = components(length, rung);
-    const double n = freedom_in(rung);
-    const double v = size.variance_px2[rung] * static_cast<double>(fit_.record.n_frames()) / n;
+    const double v = variance_in(rung, size);
     const MatrixXd cosines = fit_.held_out.rungs().cosines(series.cols(), RungSet{1} << rung);
     const VectorXd share = v / (1.0 + v * own.variance.array());
     const MatrixXd slow = share.asDiagonal() * (own.direction.transpose() * (series * cosines));
@@ -215,10 +193,8 @@ double RandomField::freedom(const FieldSize& size) const {
   double sum = 0.0;
   for (std::size_t rung = 0; rung < size.variance_px2.size(); ++rung) {
     if (!(size.variance_px2[rung] > 0.0)) continue;
-    const double n = freedom_in(rung);
-    const double v = size.variance_px2[rung] * static_cast<double>(fit_.record.n_frames()) / n;
-    const Eigen::ArrayXd own = components(length, rung).variance.array();
-    sum += n * (v * own / (1.0 + v * own)).sum();
+    const Eigen::ArrayXd own = variance_in(rung, size) * components(length, rung).variance.array();
+    sum += fit_.held_out.freedom_in(rung) * (own / (1.0 + own)).sum();
   }
   return sum;
 }

@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/closure/observation/fit_view.h"
+#include "core/closure/observation/leave_one_point_out.h"
 
 namespace core::closure {
 
@@ -12,7 +14,7 @@ namespace core::closure {
 // rms^2 exp(-d / length) between points d apart.
 struct FieldSize {
   double length_px = 0.0;
-  std::vector<double> variance_px2;  // in each rung of the spectrum; 0: no more than noise there
+  std::vector<double> variance_px2;  // in each rung of the spectrum, of the whole record; 0: no more than noise there
   double gain = 0.0;                 // decrease of the held-out squares in noise variances
   double rms_sigma_px = 0.0;         // of rms_px()
   double length_factor_sigma = 0.0;  // standard deviation of the length's logarithm
@@ -29,6 +31,7 @@ class RandomField {
 
   explicit RandomField(const FitView& fit);
 
+  // moments: of a residual of the fit.
   [[nodiscard]] FieldSize size(const ResidualMoments& moments) const;
   // Number of directions among which its squares are divided (participation ratio): 1 for a single pattern.
   [[nodiscard]] double n_patterns(const FieldSize& size, const ResidualMoments& moments) const;
@@ -45,7 +48,8 @@ class RandomField {
   struct OfLength {
     double length_px = 0.0;
     Eigen::MatrixXd covariance;  // whitened, of a field of 1 px rms
-    Components above, within;    // the band of the model's added columns
+    Components above;
+    std::optional<Components> within;  // the band of the model's added columns; empty: it has none
   };
   struct Estimate {
     double variance = 0.0, deviance = 0.0, information = 0.0;
@@ -53,11 +57,16 @@ class RandomField {
 
   [[nodiscard]] static Estimate estimate(const Eigen::VectorXd& own, const Eigen::VectorXd& squares, double n);
   [[nodiscard]] const Components& components(const OfLength& of, std::size_t rung) const;
-  [[nodiscard]] double freedom_in(std::size_t rung) const;  // of one series
+  [[nodiscard]] bool is_within(std::size_t rung) const noexcept { return within_ && holds(fit_.model.band(), rung); }
+  // Variance of the field within a rung, of its own frames only.
+  [[nodiscard]] double variance_in(std::size_t rung, const FieldSize& size) const;
+  [[nodiscard]] double share_of(std::size_t rung) const;  // of the record's frames
   [[nodiscard]] const OfLength& of(const FieldSize& size) const;
   [[nodiscard]] std::size_t best_length(const ResidualMoments& moments, FieldSize& size) const;
 
   FitView fit_;
+  LeaveOnePointOut above_;
+  std::optional<LeaveOnePointOut> within_;
   std::vector<OfLength> lengths_;
 };
 

@@ -12,8 +12,8 @@ namespace {
 using Index = Eigen::Index;
 
 constexpr double kLongest_s = 10.0;  // longest correlation time that is followed
-constexpr int kLongestGroup_frames = 300;
-constexpr int kLeastGroups = 8;
+constexpr int kLongestPeriod_frames = 300;
+constexpr int kLeastPeriods = 8;
 constexpr double kSignificant = 6.0;  // standard deviations
 
 double correlation_time(const Eigen::MatrixXd& residual, double rate_hz) {
@@ -59,7 +59,7 @@ TrackNoise track_noise(const Eigen::MatrixXd& residual, double rate_hz) {
   for (const double x : changes) {
     if (std::isfinite(x)) all.add(x);
   }
-  const int longest = std::min(kLongestGroup_frames, static_cast<int>(changes.size()) / kLeastGroups);
+  const int longest = std::min(kLongestPeriod_frames, static_cast<int>(changes.size()) / kLeastPeriods);
   double most = kSignificant;
   for (int period = 2; period <= longest; ++period) {
     std::vector<Moments> of_phase(static_cast<std::size_t>(period));
@@ -67,7 +67,7 @@ TrackNoise track_noise(const Eigen::MatrixXd& residual, double rate_hz) {
       if (std::isfinite(changes[k])) of_phase[k % static_cast<std::size_t>(period)].add(changes[k]);
     }
     for (const Moments& own : of_phase) {
-      if (own.n < kLeastGroups - 1) continue;
+      if (own.n < kLeastPeriods - 1) continue;
       const Moments rest{all.n - own.n, all.sum - own.sum, all.squares - own.squares};
       const double spread = std::sqrt(std::max(rest.squares / rest.n - rest.mean() * rest.mean(), 1e-12));
       const double significance = (own.mean() - rest.mean()) / (spread * std::sqrt(1.0 / own.n + 1.0 / rest.n));

@@ -4,10 +4,10 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 
 #include "drivers/storage/text_file.h"
+#include "tests/support/command.h"
 #include "tests/support/folder_test.h"
 
 namespace {
@@ -20,11 +20,7 @@ class EarlierFiles : public tests::FolderTest {
     fs::create_directories((folder_ / name).parent_path());
     std::ofstream(folder_ / name) << text;
   }
-  [[nodiscard]] std::string text_of(const std::string& name) const {
-    std::ostringstream out;
-    out << std::ifstream(folder_ / name).rdbuf();
-    return out.str();
-  }
+  [[nodiscard]] std::string text_of(const std::string& name) const { return tests::read(folder_ / name); }
   void keep() const { app::keep_earlier(folder_.string(), "closure", {"closure.json", "structure_*"}); }
 };
 

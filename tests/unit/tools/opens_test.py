@@ -57,6 +57,7 @@ BOUNDS = {
     "drivers/telemetry/run_record_reader.cpp": ["kRecordEventBytes drivers/telemetry/event_log_reader.cpp"],
     "firmware_app/chain/state/run_head.cpp": ["NAMEDFILE::KMOSTBYTES OF THE RECORD'S FORMAT"],
     "firmware_app/config/config.cpp": ["kYamlBytes drivers/storage/yaml.h"],
+    "firmware_app/report/earlier_files.cpp": [LIST],
     "firmware_app/report/modal_json_reader.cpp": ["kJsonBytes drivers/storage/json.h"],
     "firmware_app/report/report_folder.cpp": [LIST, LIST, OUT],
     "firmware_app/service/kept_keyframe.cpp": ["SIZE OF THE CAMERA'S IMAGE"],

@@ -19,6 +19,7 @@
 #include "drivers/storage/structure_file.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/closure_json.h"
+#include "firmware_app/report/closure_modes_svg.h"
 #include "firmware_app/report/structure_level_pictures.h"
 #include "tools/hovermodal/closeloop/closing.h"
 #include "tools/hovermodal/closeloop/reference.h"

@@ -16,6 +16,7 @@
 #include "drivers/storage/text_file.h"
 #include "firmware_app/replay/tracks_record.h"
 #include "firmware_app/report/closure_json.h"
+#include "firmware_app/report/closure_modes_svg.h"
 #include "firmware_app/report/closure_pictures.h"
 #include "tools/hovermodal/closeloop/closing.h"
 #include "tools/hovermodal/closeloop/series_modes.h"

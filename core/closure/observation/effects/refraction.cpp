@@ -10,7 +10,6 @@
 #include "core/closure/observation/field_drift.h"
 #include "core/closure/observation/kinds/materiality.h"
 #include "core/closure/observation/random_field.h"
-#include "core/types/constants.h"
 
 namespace core::closure {
 namespace {
@@ -43,7 +42,7 @@ class RefractionInModel final : public EffectInModel {
     Eigen::MatrixXd series = fit.model.residual();
     if (field_px_.size() > 0) series += fit.model.whitened(fit.model.at_common_instants(field_px_));
     const RandomField field(fit);
-    const FieldSize size = field.size(residual_moments(series, fit.record.rate_hz));
+    const FieldSize size = field.size(residual_moments(fit.model.left_of(series), fit.record.rate_hz));
     if (!(size.gain > 0.0)) return;
     size_ = size;
     freedom_ = field.freedom(size_);
@@ -101,8 +100,8 @@ class RefractionCandidate final : public EffectCandidate {
 
 // Refraction by cells of warm air that drift through the line of sight: a displacement field that is random in space
 // and time. Observable by neighbouring points that move alike in many patterns, which pass over the image. Otherwise
-// absorbed by every region's own displacement, by what its points have in common; confused with a codec's errors, which
-// stand.
+// absorbed by every region's own displacement, by what its points have in common; confused with the errors of a codec,
+// which do not drift.
 class Refraction final : public ObservationEffect {
  public:
   [[nodiscard]] EffectId id() const override { return {"refraction"}; }
