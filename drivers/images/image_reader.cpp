@@ -97,17 +97,20 @@ void require_usable_size(const std::string& path) {
                                                     : ImageSize{};
   if (image.width == 0) return;
   const std::string size = "has " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels";
-  if (image.height > Limits::kImagePixels / image.width)
+  if (image.height > Limits::kImagePixels / image.width) {
     throw std::runtime_error(size + ", more than " + std::to_string(Limits::kImagePixels) +
                              " (8192 x 8192): reduce it");
-  if (image.bytes_a_pixel != 0 && image.height > Limits::kImageBytes / image.bytes_a_pixel / image.width)
+  }
+  if (image.bytes_a_pixel != 0 && image.height > Limits::kImageBytes / image.bytes_a_pixel / image.width) {
     throw std::runtime_error(size + " of " + std::to_string(image.bytes_a_pixel) + " bytes, more than " +
                              std::to_string(Limits::kImageBytes) +
                              " bytes: convert it to 8 bits without alpha, or reduce it");
-  if (image.beside > Limits::kJpegBytes)
+  }
+  if (image.beside > Limits::kJpegBytes) {
     throw std::runtime_error(size + " in a progressive JPEG, which takes " + std::to_string(image.beside) +
                              " bytes beside them, more than " + std::to_string(Limits::kJpegBytes) +
                              ": save it as baseline, or reduce it");
+  }
 }
 
 }  // namespace

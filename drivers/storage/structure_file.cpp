@@ -97,9 +97,10 @@ DeclaredFrame parse_structure(const std::string& text, const std::string& name) 
   }
   if (structure.find("storeys") == nullptr)
     throw FileError(fmt::format("{}:{}: structure.storeys is missing; say how many floors move", name, structure.line));
-  if (frame.dt_s && !frame.simulated)
+  if (frame.dt_s && !frame.simulated) {
     throw FileError(fmt::format("{}:{}: structure.dt_s belongs to `data: simulated`; add it, or leave dt_s out", name,
                                 structure.line));
+  }
   try {
     core::structure::validate(frame);
   } catch (const std::invalid_argument& error) {

@@ -102,16 +102,19 @@ class LevelLoop {
     out.residual_before = 1e3 * times.jitter_rms_s;
     const bool is_moved = times.are_measured() && times.are_uneven(rows_.series.rate_hz);
     out.residual_after = is_moved ? 0.0 : 1e3 * times.jitter_rms_s;
-    if (is_moved)
+    if (is_moved) {
       out.findings.push_back({fmt::format("the frames lie {:.3g} ms rms off an even grid", 1e3 * times.jitter_rms_s),
                               "the displacements are interpolated to the grid's instants"});
-    if (times.n_missing > 0)
+    }
+    if (times.n_missing > 0) {
       out.findings.push_back(
           {fmt::format("{} of {} frames are missing", times.n_missing, times.n_missing + times.number.size()),
            "they are gaps of the record"});
-    if (times_.n_repeated > 0)
+    }
+    if (times_.n_repeated > 0) {
       out.findings.push_back({fmt::format("{} frames show the picture before them", times_.n_repeated),
                               "they were left out when the clip was read"});
+    }
     out.left = clock_.times_known
                    ? "the times were measured: nothing of the clock is looked for below"
                    : "the frames are counted: lost, repeated and late ones are looked for in the response";

@@ -54,9 +54,10 @@ std::string closure_json(const core::closure::ClosureResult& result) {
   out["steps"] = Json::array();
   for (const auto& step : result.steps) out["steps"].push_back(step_json(step));
   out["refused"] = Json::array();
-  for (const auto& candidate : result.refused)
+  for (const auto& candidate : result.refused) {
     out["refused"].push_back(
         {{"effect", candidate.effect}, {"heldout", candidate.heldout}, {"reason", candidate.refusal}});
+  }
   out["unexplained"] = {{"fraction", result.unexplained_fraction}, {"description", result.unexplained}};
   if (!result.noise.empty()) {
     out["noise"] = {{"values", Json::array()}, {"advice", result.noise_advice}};
@@ -64,9 +65,10 @@ std::string closure_json(const core::closure::ClosureResult& result) {
       out["noise"]["values"].push_back({{"name", value.name}, {"value", value.value}, {"unit", value.unit}});
   }
   out["not_observable"] = Json::array();
-  for (const auto& effect : result.not_observable)
+  for (const auto& effect : result.not_observable) {
     out["not_observable"].push_back(
         {{"effect", effect.effect}, {"reason", effect.reason}, {"instead", effect.instead}});
+  }
   out["modes_before"] = modes_json(result.modes_before);
   out["modes_after"] = modes_json(result.modes_after);
   out["reference_error_before"] = or_null(result.reference_error_before);

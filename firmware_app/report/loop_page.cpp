@@ -115,9 +115,10 @@ std::string loop_page(const LoopResult& result) {
       svg_style(), page_css());
   out += section_html("levels", "Levels: residual before and after, what was found and done", levels_html(result));
   std::string modes = modes_html(result);
-  if (result.error_before && result.error_after)
+  if (result.error_before && result.error_after) {
     modes += paragraph_html(fmt::format("rms over the modes found both times, {}: {:.3f} before, {:.3f} after.",
                                         compared_text(result), *result.error_before, *result.error_after));
+  }
   modes += picture_html(result);
   out += section_html("modes", "Modes before any repair and after the last", modes);
   if (const std::string structure = structure_html(result); !structure.empty())

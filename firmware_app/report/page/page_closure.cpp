@@ -25,9 +25,10 @@ std::string step_html(const ClosureStep& step, const std::string& unit) {
       step.heldout_before, step.heldout_after, unit, step.score, step.threshold));
   std::string rivals;
   for (const std::string& rival : step.rivals) rivals += (rivals.empty() ? "" : ", ") + rival;
-  if (!rivals.empty())
+  if (!rivals.empty()) {
     out += paragraph_html(step.effect + " cannot be distinguished from: " + rivals + "; the cause is one of these.",
                           "note");
+  }
   return "<li>" + out + "</li>\n";
 }
 
@@ -51,23 +52,26 @@ std::string found_html(const ClosureReport& report) {
   out +=
       paragraph_html(fmt::format("With these effects modelled, {:.4f} {} remain.", result.residual_rms, result.unit));
   for (const std::string& effect : report.in_force) out += paragraph_html("Corrected during the run: " + effect + ".");
-  if (report.in_force.size() < result.steps.size())
+  if (report.in_force.size() < result.steps.size()) {
     out += paragraph_html(
         "Effects that were not corrected are still in the results: declare them, or remove their "
         "cause, and run again.");
+  }
   return out;
 }
 
 }  // namespace
 
 std::string closure_section(const PictureInputs& inputs) {
-  if (inputs.closure == nullptr)
+  if (inputs.closure == nullptr) {
     return section_html(
         "closure", kTitle,
         absent_html("No diagnosis was made: closure.adopt is off, or this was not a run of the service."));
-  if (!inputs.closure->refused.empty())
+  }
+  if (!inputs.closure->refused.empty()) {
     return section_html("closure", kTitle,
                         absent_html("The tracks allow no diagnosis: " + inputs.closure->refused + "."));
+  }
   return section_html("closure", kTitle, found_html(*inputs.closure));
 }
 

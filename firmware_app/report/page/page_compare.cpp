@@ -78,12 +78,14 @@ std::string only_there(const ModalReport& former, const std::vector<const core::
 }  // namespace
 
 std::string comparison_section(const PictureInputs& inputs) {
-  if (!inputs.former_fault.empty())
+  if (!inputs.former_fault.empty()) {
     return section_html("comparison", "Comparison",
                         absent_html("The former result cannot be read: " + inputs.former_fault));
-  if (inputs.former == nullptr)
+  }
+  if (inputs.former == nullptr) {
     return section_html("comparison", "Comparison",
                         absent_html("No former run or model was given: report.compare names a modal.json."));
+  }
   const ModalReport own = result_of(inputs);
   const std::vector<std::string> names = common_channels(own, *inputs.former);
   HtmlTable table({"Mode", "This run", "There", "Difference", "in sigmas", "Damping here", "Damping there", "MAC"});

@@ -107,20 +107,22 @@ std::string shapes_section(const PictureInputs& inputs) {
                                  : "No bars: standard deviations need a record of two segments or more.",
                          "note");
   const auto has_both = [](const core::Region& region) { return region.both_axes; };
-  if (std::any_of(inputs.regions.begin(), inputs.regions.end(), has_both))
+  if (std::any_of(inputs.regions.begin(), inputs.regions.end(), has_both)) {
     body +=
         paragraph_html("Regions with two axes: solid is the motion along u (right), dashed along v (down).", "note");
+  }
   if (modes.size() > n_cards)
     body += paragraph_html(fmt::format("{} more modes are in the table above only.", modes.size() - n_cards), "note");
   return section_html("shapes", "Mode shapes", body);
 }
 
 std::string spectra_section(const PictureInputs& inputs) {
-  if (spectra_svg(inputs, kWideFormat).empty())
+  if (spectra_svg(inputs, kWideFormat).empty()) {
     return section_html("spectra", "Spectra",
                         inputs.facts->merged
                             ? merged_html("spectrum")
                             : absent_html("There is no spectrum: the record ended before its first segment was full."));
+  }
   const std::string cross = cross_label(inputs);
   std::string caption = fmt::format("Power spectral density of every channel ({})", spectra_remark(inputs));
   if (!cross.empty())
@@ -132,12 +134,13 @@ std::string spectra_section(const PictureInputs& inputs) {
 
 std::string singular_section(const PictureInputs& inputs) {
   const std::string title = "Singular values";
-  if (singular_values_svg(inputs, kWideFormat).empty())
+  if (singular_values_svg(inputs, kWideFormat).empty()) {
     return section_html(
         "singular", title,
         inputs.facts->merged
             ? merged_html("singular values")
             : absent_html("There are no singular values: no spectrum, or more channels than are decomposed."));
+  }
   constexpr const char* kOrdinals[] = {"first", "second", "third", "fourth"};
   static_assert(std::size(kOrdinals) == kMaxSingular);
   std::string keys = "<div class=\"legend\" role=\"group\" aria-label=\"Singular values\">\n";
@@ -175,11 +178,12 @@ std::string fold_section(const PictureInputs& inputs) {
 
 std::string stabilisation_section(const PictureInputs& inputs) {
   const std::string title = "Stabilisation diagram";
-  if (stabilisation_svg(inputs, kWideFormat).empty())
+  if (stabilisation_svg(inputs, kWideFormat).empty()) {
     return section_html(
         "stabilisation", title,
         absent_html("There are no poles to show: no system was identified in the record, or its poles were not "
                     "kept."));
+  }
   const std::string loose =
       "<li><span class=\"mark\"><svg class=\"hm\" viewBox=\"0 0 14 14\"><circle class=\"m7\" cx=\"7\" cy=\"7\" "
       "r=\"2\"/></svg></span><b>loose</b> A pole of too few orders to be listed.</li>\n";
@@ -194,9 +198,10 @@ std::string stabilisation_section(const PictureInputs& inputs) {
 
 std::string displacements_section(const PictureInputs& inputs) {
   const std::string title = "Displacement over time";
-  if (displacements_svg(inputs, kWideFormat).empty())
+  if (displacements_svg(inputs, kWideFormat).empty()) {
     return section_html("displacements", title,
                         absent_html("There is no time history: fewer than two samples were measured."));
+  }
   return section_html(
       "displacements", title,
       figure(inputs, displacements_svg, {},
@@ -208,11 +213,12 @@ std::string displacements_section(const PictureInputs& inputs) {
 
 std::string scale_section(const PictureInputs& inputs) {
   const std::string title = "Scale over time";
-  if (scale_svg(inputs, kWideFormat).empty())
+  if (scale_svg(inputs, kWideFormat).empty()) {
     return section_html("scale", title,
                         absent_html(inputs.facts->counted
                                         ? "The scale did not vary: it was held fixed, or the camera kept its distance."
                                         : "There is no scale: the input was a time series."));
+  }
   return section_html("scale", title,
                       figure(inputs, scale_svg, {},
                              "How much of the structure one pixel covers (" + scale_range_text(inputs) +
@@ -221,9 +227,10 @@ std::string scale_section(const PictureInputs& inputs) {
 
 std::string quality_section(const PictureInputs& inputs) {
   const std::string title = "Track quality";
-  if (points_seen_svg(inputs, kWideFormat).empty())
+  if (points_seen_svg(inputs, kWideFormat).empty()) {
     return section_html("quality", title,
                         absent_html("There are no tracks: the input was a time series, or no frame was tracked."));
+  }
   return section_html("quality", title,
                       "<h3>Points seen</h3>\n" +
                           figure(inputs, points_seen_svg, {},
@@ -237,9 +244,10 @@ std::string quality_section(const PictureInputs& inputs) {
 
 std::string frame_section(const PictureInputs& inputs) {
   const std::string title = "What was watched";
-  if (frame_svg(inputs, kWideFormat).empty())
+  if (frame_svg(inputs, kWideFormat).empty()) {
     return section_html("frame-view", title,
                         absent_html("There is no picture: the input was a time series, not frames."));
+  }
   const std::string legend =
       "<ul class=\"marks roles\">\n<li><i class=\"swatch structure\"></i><b>structure</b> solid</li>\n<li><i "
       "class=\"swatch "

@@ -48,9 +48,10 @@ std::string losses_section(const PictureInputs& inputs) {
 std::string timing_section(const PictureInputs& inputs) {
   const std::string title = "Timing of this run";
   const core::Health& h = inputs.facts->health;
-  if (h.stages.empty())
+  if (h.stages.empty()) {
     return section_html("timing", title,
                         absent_html("No stage was timed: the record was worked through in one thread."));
+  }
   HtmlTable table({"Stage", "In", "Out", "Dropped", "Mean step", "Worst step", "Queue"});
   for (const core::StageHealth& stage : h.stages) {
     const std::uint64_t n = std::max(stage.n_in, stage.n_out);

@@ -67,9 +67,10 @@ std::string strongest_words(const core::SpectralPeak& peak, const PictureInputs&
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return peak.share[a] > peak.share[b]; });
   std::string out;
-  for (std::size_t i = 0; i < order.size() && i < kMaxNamedChannels; ++i)
+  for (std::size_t i = 0; i < order.size() && i < kMaxNamedChannels; ++i) {
     out += fmt::format("{}{} {}", i == 0 ? "" : ", ", inputs.channels[order[i]].name,
                        decimals_text(peak.share[order[i]], 2));
+  }
   return order.size() > kMaxNamedChannels ? out + ", …" : out;
 }
 

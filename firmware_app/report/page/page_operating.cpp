@@ -60,9 +60,10 @@ std::string controls_html(const SpectralLines& lines, std::size_t first, const c
       "<div class=\"controls\" hidden=\"hidden\"><label>Frequency <input type=\"range\" id=\"line\" min=\"0\" "
       "max=\"{}\" step=\"1\" value=\"{}\"/></label>\n",
       lines.lines.size() - 1, first);
-  for (const double hz : picks_of(estimate))
+  for (const double hz : picks_of(estimate)) {
     out += fmt::format("<button type=\"button\" class=\"pick\" data-line-at=\"{}\">{} Hz</button>\n", lines.nearest(hz),
                        four_digits_text(hz));
+  }
   return out + "</div>\n";
 }
 
@@ -84,11 +85,12 @@ std::string shape_table(const PictureInputs& inputs, const SpectralLine& line) {
 }  // namespace
 
 std::string operating_section(const PictureInputs& inputs) {
-  if (inputs.lines == nullptr || inputs.lines->lines.empty() || inputs.channels.empty())
+  if (inputs.lines == nullptr || inputs.lines->lines.empty() || inputs.channels.empty()) {
     return section_html("operating", kOperatingTitle,
                         inputs.facts->merged
                             ? merged_html("shape at a frequency")
                             : absent_html("There is no spectrum from which the shape at a frequency could be taken."));
+  }
   const SpectralLines& lines = *inputs.lines;
   const core::ModalEstimate& estimate = estimate_of(inputs);
   const std::size_t first = first_line(lines, estimate);
