@@ -17,6 +17,7 @@ constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 constexpr double kTie = 0.01;                 // of the score: as good as equal
 constexpr double kPlain = 3.0;                // times what few surrogates say of chance
 constexpr std::size_t kAdoptionsPerStep = 2;  // at most, where effects become needless
+constexpr std::size_t kRevertsPerStep = 3;    // at most, where the best candidates fail in the refit
 constexpr double kKeptOfScore = 0.5;          // a refit must keep so much of the predicted drop in held-out squares
 
 class Loop {
@@ -32,6 +33,11 @@ class Loop {
   }
 
  private:
+  struct Reverted {
+    EffectId id;
+    std::string reason;
+  };
+
   void start() {
     tell("fitting the model without effects");
     result_.level = level_.name();
@@ -50,10 +56,14 @@ class Loop {
       return stop("the largest allowed number of effects is adopted");
     if (level_.candidates().empty()) return stop("no candidate is left; " + fit_.words);
     tell("scoring the candidates of step " + std::to_string(result_.steps.size() + 1));
-    const std::vector<CandidateScore> scores = level_.score();
+    std::vector<CandidateScore> scores = level_.score();
+    refuse_reverted(scores);
     result_.refused = ranked(scores, kNone);
     const std::size_t best = best_of(scores);
-    if (best == kNone) return stop("no candidate lowers the held-out error materially and plausibly");
+    if (best == kNone) {
+      return stop(reverted_.empty() ? "no candidate lowers the held-out error materially and plausibly"
+                                    : reverted_.back().reason);
+    }
     const double threshold = threshold_of_step(scores[best].score);
     if (!(scores[best].score > threshold)) {
       for (CandidateScore& score : result_.refused) {
@@ -69,15 +79,14 @@ class Loop {
     level_.adopt(best);
     fit_ = level_.fit();
     const double predicted = before.heldout * before.heldout - scores[best].heldout * scores[best].heldout;
-    const double reached = before.heldout * before.heldout - fit_.heldout * fit_.heldout;
     const bool from_nothing = std::isinf(before.heldout) && std::isfinite(fit_.heldout);
-    if (!from_nothing && !(reached > 0.0 && reached >= kKeptOfScore * predicted)) {
-      return take_back(scores[best].effect +
-                       " was reverted: the held-out error did not fall when all effects were refitted");
-    }
+    const double reached = drop(before, fit_);
+    if (!from_nothing && !keeps(reached, predicted)) return take_back(scores[best], predicted);
     if (!from_nothing && reached < options_.least_gain * options_.least_gain) {
-      return take_back("the best candidate, " + scores[best].effect +
-                       ", reduces the residual by less than the smallest gain asked for");
+      level_.drop();
+      fit_ = level_.fit();
+      return stop("the best candidate, " + scores[best].effect +
+                  ", reduces the residual by less than the smallest gain asked for");
     }
     ClosureStep step;
     step.effect = scores[best].effect;
@@ -90,6 +99,8 @@ class Loop {
     step.others = ranked(scores, best);
     result_.steps.push_back(std::move(step));
     result_.refused.clear();
+    reverted_.clear();
+    retried_.clear();
     ++n_adoptions_;
     remove_needless();
     return true;
@@ -143,10 +154,37 @@ class Loop {
     return scores;
   }
 
-  bool take_back(const std::string& reason) {
+  // Of the held-out squares.
+  [[nodiscard]] static double drop(const LevelFit& without, const LevelFit& with) {
+    return without.heldout * without.heldout - with.heldout * with.heldout;
+  }
+  [[nodiscard]] static bool keeps(double reached, double predicted) {
+    return reached > 0.0 && reached >= kKeptOfScore * predicted;
+  }
+
+  // The next best candidate is tried in its place. A level may measure its noise anew when an effect is adopted; the
+  // fits before and after cannot be compared then, and the same candidate is scored once more with the new noise.
+  bool take_back(const CandidateScore& effect, double predicted) {
+    const LevelFit with = fit_;
     level_.drop();
     fit_ = level_.fit();
-    return stop(reason);
+    const bool noise_changed = keeps(drop(fit_, with), predicted);
+    const bool tried = std::find(retried_.begin(), retried_.end(), effect.id) != retried_.end();
+    if (noise_changed && !tried) {
+      retried_.push_back(effect.id);
+      return true;
+    }
+    reverted_.push_back(
+        {effect.id, effect.effect + " was reverted: the held-out error did not fall when all effects were refitted"});
+    return reverted_.size() < kRevertsPerStep || stop(reverted_.back().reason);
+  }
+
+  void refuse_reverted(std::vector<CandidateScore>& scores) const {
+    for (CandidateScore& score : scores) {
+      for (const Reverted& reverted : reverted_) {
+        if (score.id == reverted.id && score.refusal.empty()) score.refusal = reverted.reason;
+      }
+    }
   }
 
   bool stop(const std::string& reason) {
@@ -186,13 +224,15 @@ class Loop {
   ClosureResult result_;
   LevelFit fit_;
   std::uint64_t n_drawn_ = 0;
-  std::size_t n_adoptions_ = 0;  // with those that became needless
+  std::size_t n_adoptions_ = 0;     // with those that became needless
+  std::vector<Reverted> reverted_;  // since the last adoption
+  std::vector<EffectId> retried_;   // with noise measured anew
 };
 
 }  // namespace
 
 double chance_threshold(std::vector<double> scores) {
-  const double n = static_cast<double>(scores.size());
+  const auto n = static_cast<double>(scores.size());
   const auto k = static_cast<std::size_t>(std::floor(kChance * (n + 1.0) + 1e-9));
   if (k > 0) {
     std::nth_element(scores.begin(), scores.begin() + static_cast<std::ptrdiff_t>(k - 1), scores.end(),
@@ -208,9 +248,10 @@ double chance_threshold(std::vector<double> scores) {
 }
 
 ClosureResult close_loop(ClosureLevel& level, const ClosureOptions& options) {
-  if (options.n_surrogates < 8)
+  if (options.n_surrogates < 8) {
     throw std::invalid_argument("surrogates: " + std::to_string(options.n_surrogates) +
                                 " are too few for a chance threshold; use 333 or more (8 at least)");
+  }
   return Loop(level, options).run();
 }
 

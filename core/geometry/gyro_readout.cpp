@@ -26,8 +26,9 @@ std::vector<std::vector<double>> distances(const GyroProblem& problem, GyroState
   (void)problem.cost(state, flows, true);
   std::vector<std::vector<double>> all(flows.size());
   for (std::size_t k = 0; k < flows.size(); ++k) {
-    for (const DerotatedFlow& flow : flows[k])
+    for (const DerotatedFlow& flow : flows[k]) {
       all[k].push_back(judge(flow, state.shift_px[k], state.model()).across_px);
+    }
   }
   return all;
 }

@@ -61,8 +61,10 @@ void draw_series(SvgDocument& svg, const PlotPanel& panel, const Series& series)
 
 std::string modes_svg_of(const ClosureResult& result, const std::string& axis, const ModesLayout& layout) {
   int last = 0;
-  for (const ClosureMode& mode : result.modes_before) {
-    if (mode.error_percent) last = std::max(last, mode.number);
+  for (const auto* modes : {&result.modes_before, &result.modes_after}) {
+    for (const ClosureMode& mode : *modes) {
+      if (mode.error_percent) last = std::max(last, mode.number);
+    }
   }
   if (last == 0) return {};
   SvgDocument svg(layout.width, layout.height, "Error of each mode before and after");

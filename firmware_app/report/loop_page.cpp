@@ -23,7 +23,7 @@ std::string number_text(const std::optional<double>& value, fmt::format_string<c
 }
 
 std::string levels_html(const LoopResult& result) {
-  HtmlTable table({"level", "residual before", "after", "found", "what was done", "left"});
+  HtmlTable table({"level", "residual before", "after", "found", "what was done", "left"}, "words");
   for (const LoopLevel& level : result.levels) {
     if (!level.skipped.empty()) {
       table.add({{level.level, {}}, {"-", {}}, {"-", {}}, {"not done: " + level.skipped, {}}, {"-", {}}, {"-", {}}});
@@ -53,7 +53,8 @@ std::string estimate_html(const std::optional<LoopMode::Estimate>& one) {
 
 std::string modes_html(const LoopResult& result) {
   HtmlTable table({"mode", "reference Hz", "before: frequency, damping", "after: frequency, damping",
-                   std::string(compared_text(result)) + ", before", "after"});
+                   std::string(compared_text(result)) + ", before", "after"},
+                  "words");
   for (std::size_t i = 0; i < result.modes.size(); ++i) {
     const LoopMode& mode = result.modes[i];
     table.add({{std::to_string(i + 1), {}},

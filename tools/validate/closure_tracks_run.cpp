@@ -79,6 +79,7 @@ TracksOutcome close_tracks_record(const core::closure::ObservationRecord& record
   for (const core::closure::ClosureStep& step : out.result.steps) {
     if (!step.meaning.empty()) out.words += "{" + step.meaning + "}";
   }
+  out.words += "{" + out.result.stop_reason + "}";
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return out;
 }

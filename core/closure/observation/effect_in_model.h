@@ -20,6 +20,19 @@ enum class CorrectionStage : std::uint8_t {
   kPose,       // the camera does not look along the plane's normal
 };
 
+// The course of an adopted pattern in the last solution.
+struct PatternCourse {
+  Eigen::RowVectorXd amplitude, rate;  // in each frame, at the time of the mean row; its change per frame
+  double readout_frames = 0.0;
+  double mean_share = 0.0;  // readout fraction of the mean row
+};
+
+// What an adopted effect may leave of itself because its form is not exact: so much of its rms, so far beside its band.
+struct Leaves {
+  double share = 0.05;
+  double beside_hz = 0.3;
+};
+
 // An adopted effect: its state and its contribution to the model. A subclass overrides the functions of its kind: a
 // pattern, constants, or a motion that it estimates itself.
 class EffectInModel {
@@ -43,6 +56,16 @@ class EffectInModel {
   virtual void set_places(const ObservationRecord& /*record*/, const PointGeometry& /*geometry*/) {}
   // Of the camera per unit of the amplitude, where the pattern is the first order of a rotation; else zero.
   [[nodiscard]] virtual Eigen::Vector3d rotation() const { return Eigen::Vector3d::Zero(); }
+  // Where the pattern is the first order of another motion: removes the difference from undistorted positions
+  // (2 points x frames, px), so that the pattern is exact.
+  [[nodiscard]] virtual bool has_second_order() const { return false; }
+  virtual void remove_second_order(const PatternCourse& /*course*/, const ObservationRecord& /*record*/,
+                                   Eigen::MatrixXd& /*positions*/) const {}
+  [[nodiscard]] virtual Leaves leaves() const { return {}; }
+  // What the effect moves the points by, 2 points x frames in px; amplitude: as for parameters(). Empty: constants.
+  [[nodiscard]] virtual Eigen::MatrixXd motion_px(const Eigen::RowVectorXd& amplitude) const {
+    return pattern() != nullptr && amplitude.size() > 0 ? (*pattern() * amplitude).eval() : Eigen::MatrixXd();
+  }
 
   // Constants of the record, refined by joint Gauss-Newton steps of all effects. derivatives(): of the prediction,
   // after removal of the model's columns, 2 points x frames in sigmas.

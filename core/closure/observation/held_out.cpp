@@ -40,6 +40,7 @@ std::vector<Eigen::MatrixXcd> parts_of(const Eigen::MatrixXcd& spectrum, const R
       at[static_cast<std::size_t>(n++ / kSharedBins % kParts)].push_back(b);
   }
   std::vector<Eigen::MatrixXcd> out;
+  out.reserve(at.size());
   for (const auto& columns : at) out.emplace_back(spectrum(Eigen::all, columns));
   return out;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "core/closure/observation/line_search.h"
@@ -14,6 +15,7 @@ namespace core::closure {
 namespace {
 
 constexpr int kStretches = 8;
+constexpr double kPart_hz = 0.25;  // of a band, in which the share of noise is estimated
 
 }  // namespace
 
@@ -35,21 +37,52 @@ Eigen::RowVectorXcd LineSearch::analytic(const Eigen::RowVectorXcd& bins, const 
   return out;
 }
 
-Eigen::MatrixXd LineSearch::motion(const Eigen::MatrixXd& residual, const LineFinding& finding,
-                                   const Eigen::MatrixXd& later) const {
+// Least squares in each bin. Each axis and part of the band is then reduced by the share of noise in its squares
+// (Wiener): an axis that does not turn, and the far tails of a resonance, would add noise alone.
+LineSearch::Turns LineSearch::turns(const Eigen::MatrixXcd& bins, const std::vector<Side>& both) const {
+  const Band b = both.front().band;
+  const Eigen::Index n_axes = fields_.cols();
+  const double per_bin = 2.0 * static_cast<double>(n_frames_) / n_fft_;  // squares of noise of unit variance
+  const auto part = std::max<Eigen::Index>(1, std::lround(kPart_hz * n_fft_ / rate_hz_));
+  Turns out{std::vector<Eigen::MatrixXcd>(both.size(), Eigen::MatrixXcd::Zero(n_axes, b.count)), 0.0};
+  std::vector<Eigen::MatrixXd> noise(both.size(), Eigen::MatrixXd::Zero(n_axes, b.count));
+  for (Eigen::Index c = 0; c < b.count; ++c) {
+    const Eigen::MatrixXcd w = left_of(fields_at(b.first + c, both)), squares = w.adjoint() * w;
+    const Eigen::MatrixXcd inverse = squares.ldlt().solve(Eigen::MatrixXcd::Identity(w.cols(), w.cols()));
+    const Eigen::VectorXcd turn = inverse * (w.adjoint() * bins.col(c));
+    Eigen::Index first = 0;
+    for (std::size_t side = 0; side < both.size(); ++side) {
+      if (!both[side].band.holds(b.first + c)) continue;
+      out.of_side[side].col(c) = turn.segment(first, n_axes);
+      noise[side].col(c) = per_bin * inverse.diagonal().segment(first, n_axes).real();
+      first += n_axes;
+    }
+  }
+  for (std::size_t side = 0; side < both.size(); ++side) {
+    for (Eigen::Index c = 0; c < b.count; c += part) {
+      const Eigen::Index count = std::min(part, b.count - c);
+      for (Eigen::Index axis = 0; axis < n_axes; ++axis) {
+        auto of_part = out.of_side[side].row(axis).segment(c, count);
+        const Eigen::RowVectorXd of_bin = noise[side].row(axis).segment(c, count);
+        const double power = of_part.squaredNorm(), of_noise = of_bin.sum();
+        const double kept = power > of_noise ? 1.0 - of_noise / power : 0.0;
+        of_part *= kept;
+        out.freedom += kept * per_bin * static_cast<double>((of_bin.array() > 0.0).count());
+      }
+    }
+  }
+  return out;
+}
+
+LineMotion LineSearch::motion(const Eigen::MatrixXd& residual, const LineFinding& finding,
+                              const Eigen::MatrixXd& later) const {
   const std::vector<Side> both = sides(finding);
   const Band b = both.front().band;
   const Eigen::MatrixXcd bins = spectrum(residual).middleCols(b.first, b.count);
-  std::vector<Eigen::MatrixXcd> motion(both.size(), Eigen::MatrixXcd::Zero(bins.rows(), bins.cols()));
-  for (Eigen::Index c = 0; c < b.count; ++c) {
-    const Eigen::MatrixXcd fields = fields_at(b.first + c, both), w = left_of(fields);
-    const Eigen::VectorXcd amplitude = (w.adjoint() * w).ldlt().solve(w.adjoint() * bins.col(c));
-    for (std::size_t side = 0, at = 0; side < both.size(); ++side) {
-      if (!both[side].band.holds(b.first + c)) continue;
-      const auto first = static_cast<Eigen::Index>(at++) * fields_.cols();
-      motion[side].col(c) = fields.middleCols(first, fields_.cols()) * amplitude.segment(first, fields_.cols());
-    }
-  }
+  const Turns found = turns(bins, both);
+  std::vector<Eigen::MatrixXcd> motion;
+  for (std::size_t side = 0; side < both.size(); ++side)
+    motion.emplace_back(fields_of(both[side].fold) * found.of_side[side]);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(residual.rows(), residual.cols());
   for (std::size_t side = 0; side < both.size(); ++side) {
     const double turns = (both[side].apparent_hz + both[side].fold * rate_hz_) / rate_hz_ * readout_frames_;
@@ -60,11 +93,13 @@ Eigen::MatrixXd LineSearch::motion(const Eigen::MatrixXd& residual, const LineFi
         out(i, k) += (series(k) * std::polar(1.0, 2.0 * std::numbers::pi * turns * later(i / 2, k))).real();
     }
   }
-  return out;
+  return {std::move(out), found.freedom};
 }
 
-// In every bin the motion is a combination of the fields, except for the drift of points over the rows.
-LineAngles LineSearch::angles(const Eigen::MatrixXd& motion_px, const LineFinding& finding) const {
+// In every bin the motion is a combination of the fields, except for the drift of points over the rows. What was kept
+// out of it as noise is still in the residual, and is counted.
+LineAngles LineSearch::angles(const Eigen::MatrixXd& motion_px, const Eigen::MatrixXd& residual,
+                              const LineFinding& finding) const {
   const Band b = band(finding.apparent_hz, finding.half_width_hz);
   LineAngles out;
   if (b.count < 1) return out;
@@ -72,7 +107,8 @@ LineAngles LineSearch::angles(const Eigen::MatrixXd& motion_px, const LineFindin
       spectrum(model_.whitened(model_.at_common_instants(motion_px))).middleCols(b.first, b.count);
   const Eigen::MatrixXcd seen = fields_of(finding.fold);
   const Eigen::MatrixXcd left = left_of(seen), fields = model_.whitened(seen);
-  const Eigen::MatrixXcd amplitude = (fields.adjoint() * fields).ldlt().solve(fields.adjoint() * bins);
+  Eigen::MatrixXcd amplitude = (fields.adjoint() * fields).ldlt().solve(fields.adjoint() * bins);
+  amplitude += (left.adjoint() * left).ldlt().solve(left.adjoint() * spectrum(residual).middleCols(b.first, b.count));
   const Eigen::MatrixXcd covariance =
       (left.adjoint() * left).ldlt().solve(Eigen::MatrixXcd::Identity(fields.cols(), fields.cols()));
   const auto n = static_cast<double>(n_frames_);

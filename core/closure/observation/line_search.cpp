@@ -183,12 +183,6 @@ double LineSearch::band_gain(const Eigen::MatrixXcd& spectrum, const LineFinding
   return b.count < 1 ? 0.0 : gain(moments_of(spectrum.middleCols(b.first, b.count)), fields_of(finding.fold));
 }
 
-double LineSearch::freedom_of(const LineFinding& finding) const {
-  double sum = 0.0;
-  for (const Side& side : sides(finding)) sum += 6.0 * static_cast<double>(side.band.count * n_frames_) / n_fft_;
-  return sum;
-}
-
 std::array<double, 3> LineSearch::quantiles_hz(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const {
   const Band b = band(finding.apparent_hz, finding.half_width_hz);
   const Eigen::MatrixXcd fields = fields_of(finding.fold);
@@ -222,7 +216,6 @@ void LineSearch::recentre(const Eigen::MatrixXcd& spectrum, LineFinding& finding
     trial.gain = band_gain(spectrum, trial);
     if (trial.gain > finding.gain) finding = trial;
   }
-  finding.freedom = freedom_of(finding);
   finding.next_gain = finding.gain - margin;
   const std::array<double, 3> places = quantiles_hz(spectrum, finding);
   finding.spread_hz = 0.5 * (places[2] - places[0]);
@@ -253,7 +246,6 @@ void LineSearch::try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz,
   own.gain = -1e300;
   for (const double half_width_hz : kHalfWidth_hz) {
     trial.half_width_hz = half_width_hz;
-    trial.freedom = freedom_of(trial);
     trial.gain = band_gain(spectrum, trial);
     if (trial.gain > own.gain) own = trial;
   }

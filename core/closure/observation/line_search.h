@@ -19,7 +19,6 @@ struct LineFinding {
   int fold = 0;
   double half_width_hz = 0.0;
   double spread_hz = 0.0;  // half the distance between the 16 % and 84 % quantiles of its power above the noise
-  double freedom = 0.0;    // degrees of freedom that its motion takes from the noise
   double gain = 0.0;       // decrease of the held-out squares, in noise variances
   double next_gain = 0.0;  // gain of the second-best alias order
 
@@ -45,6 +44,11 @@ struct LineAngles {
   std::array<double, 3> rms{}, sigma{};
 };
 
+struct LineMotion {
+  Eigen::MatrixXd px;    // 2 points x frames
+  double freedom = 0.0;  // that it takes from the noise
+};
+
 class LineSearch {
  public:
   static constexpr int kMostFolds = 8;
@@ -59,12 +63,14 @@ class LineSearch {
   // Gain in the finding's band of the best pattern of any other kind, learned on four fifths of its bins and scored on
   // the remaining fifth.
   [[nodiscard]] double pattern_gain(const Eigen::MatrixXd& residual, const LineFinding& finding) const;
-  // The finding's motion in px, fitted to this residual. later: points x frames, difference between a point's readout
-  // fraction and its mean, in readouts.
-  [[nodiscard]] Eigen::MatrixXd motion(const Eigen::MatrixXd& residual, const LineFinding& finding,
-                                       const Eigen::MatrixXd& later) const;
-  // motion_px: result of motion().
-  [[nodiscard]] LineAngles angles(const Eigen::MatrixXd& motion_px, const LineFinding& finding) const;
+  // The finding's motion fitted to this residual, each axis and part of the band less its share of noise. later: points
+  // x frames, difference between a point's readout fraction and its mean, in readouts.
+  [[nodiscard]] LineMotion motion(const Eigen::MatrixXd& residual, const LineFinding& finding,
+                                  const Eigen::MatrixXd& later) const;
+  // motion_px: sum of motion().
+  // residual: of the fit without this motion.
+  [[nodiscard]] LineAngles angles(const Eigen::MatrixXd& motion_px, const Eigen::MatrixXd& residual,
+                                  const LineFinding& finding) const;
   [[nodiscard]] LineFrequency frequency(const Eigen::MatrixXd& motion_px, const LineFinding& finding) const;
 
  private:
@@ -88,6 +94,12 @@ class LineSearch {
   [[nodiscard]] Eigen::MatrixXcd fields_of(int fold) const;
   // Fields of all sides that contain the bin, as columns.
   [[nodiscard]] Eigen::MatrixXcd fields_at(Eigen::Index bin, const std::vector<Side>& sides) const;
+  // Turns about the three axes in each bin of the first side's band: axes x bins for each side.
+  struct Turns {
+    std::vector<Eigen::MatrixXcd> of_side;
+    double freedom = 0.0;
+  };
+  [[nodiscard]] Turns turns(const Eigen::MatrixXcd& bins, const std::vector<Side>& both) const;
   // Part of the fields outside the model's own columns, whitened.
   [[nodiscard]] Eigen::MatrixXcd left_of(const Eigen::MatrixXcd& fields) const;
   [[nodiscard]] double gain(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& fields) const;
@@ -96,7 +108,6 @@ class LineSearch {
   void recentre(const Eigen::MatrixXcd& spectrum, LineFinding& finding) const;
   // Frequencies in the band at which its cumulative power above the noise reaches 16, 50 and 84 %, Hz.
   [[nodiscard]] std::array<double, 3> quantiles_hz(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const;
-  [[nodiscard]] double freedom_of(const LineFinding& finding) const;
   void try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz, LineFinding& best) const;
 
   const PointMotionModel& model_;

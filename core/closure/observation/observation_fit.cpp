@@ -133,7 +133,7 @@ Eigen::VectorXd ObservationFit::magnification(const Eigen::VectorXd& places_px) 
   return out;
 }
 
-// Second orders of the adopted rotations, computed from the amplitudes of the previous solution.
+// Of the adopted effects, computed from the amplitudes of the previous solution.
 void ObservationFit::remove_second_orders(Eigen::MatrixXd& positions) const {
   Eigen::MatrixXd rotations = Eigen::MatrixXd::Zero(3, positions.cols()), rates = rotations;
   double share = 0.0;
@@ -148,6 +148,13 @@ void ObservationFit::remove_second_orders(Eigen::MatrixXd& positions) const {
     any = true;
   }
   if (any) remove_second_order(record_, model_.geometry(), rotations, rates, readout_frames_, share, positions);
+  for (std::size_t i = 0; i < effects_.size(); ++i) {
+    const Eigen::Index row = amplitude_row(i);
+    if (!effects_[i]->has_second_order() || row >= model_.amplitudes().rows()) continue;
+    effects_[i]->remove_second_order(
+        {model_.amplitudes().row(row), model_.rates().row(row), readout_frames_, model_.share_of_column(row)}, record_,
+        positions);
+  }
 }
 
 // One Gauss-Newton step of all constants together.
@@ -218,7 +225,8 @@ void ObservationFit::solve_once() {
   set_places(measured_.rowwise().mean());
   const auto any = [&](const auto& holds) { return std::any_of(effects_.begin(), effects_.end(), holds); };
   const bool refined = any([](const auto& effect) { return effect->is_refined(); });
-  const bool rotates = any([](const auto& effect) { return !effect->rotation().isZero(); });
+  const bool rotates =
+      any([](const auto& effect) { return !effect->rotation().isZero() || effect->has_second_order(); });
   int rounds =
       std::max({refined ? kRefinedRounds : 1, rotates ? kRotationRounds : 1, missing_.empty() ? 1 : kFillRounds});
   for (int round = 0; round <= rounds; ++round) {

@@ -1,7 +1,9 @@
 #include "core/closure/observation/observation_scores.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <random>
 #include <stdexcept>
@@ -10,6 +12,7 @@
 #include "core/closure/observation/block_estimates.h"
 #include "core/closure/observation/kinds/latent_pattern.h"
 #include "core/closure/observation/kinds/materiality.h"
+#include "core/closure/observation/remainder.h"
 
 namespace core::closure {
 namespace {
@@ -96,6 +99,16 @@ std::string ObservationScores::smallness(const EffectCandidate& candidate, doubl
   return gain > least * above_noise ? std::string() : "explains too little of what exceeds the noise";
 }
 
+std::string ObservationScores::left_by_adopted(const EffectCandidate& candidate, const ResidualMoments& moments) const {
+  const std::unique_ptr<EffectInModel> found = candidate.adopted();
+  if (found->pattern() == nullptr) return {};
+  const std::optional<Remainder> remainder = remainder_of(*found->pattern(), found->band(), fit_, moments);
+  if (!remainder) return {};
+  std::array<char, 16> percent{};
+  (void)std::snprintf(percent.data(), percent.size(), "%.1f", 100.0 * remainder->share);
+  return "what " + remainder->effect + " leaves of itself: " + percent.data() + " % of it, at its frequencies";
+}
+
 Objection ObservationScores::refusal(const EffectCandidate& candidate, double gain, const TestedResidual& tested,
                                      const Unexplained& unexplained) const {
   std::string small = smallness(candidate, gain, unexplained.above_noise);
@@ -144,6 +157,7 @@ std::vector<CandidateScore> ObservationScores::score() {
     s.n_parameters = named[i]->n_parameters();
     Objection objection = refusal(*prepared_[i], s.score, tested, unexplained);
     s.refusal = std::move(objection.words);
+    if (s.refusal.empty()) s.refusal = left_by_adopted(*prepared_[i], moments);
     is_other_cause_[i] = objection.is_other_cause ? 1 : 0;
     out.push_back(std::move(s));
   }
@@ -156,6 +170,7 @@ std::vector<CandidateScore> ObservationScores::score() {
     s.refusal = is_explained         ? "a named effect explains it"
                 : fit_.hides_noise() ? "cannot be distinguished from what a random field leaves"
                                      : smallness(*prepared_.back(), s.score, unexplained.above_noise);
+    if (s.refusal.empty()) s.refusal = left_by_adopted(*prepared_.back(), moments);
     out.push_back(std::move(s));
   }
   is_scored_ = true;

@@ -128,6 +128,13 @@ void PointMotionModel::place_in_readout() {
 }
 
 // Computes the amplitudes of all columns; the remainder is residual_.
+Eigen::VectorXd PointMotionModel::amplitudes_of(const Eigen::VectorXd& whitened) const {
+  const Eigen::VectorXd kept = solve_high_ * whitened;
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(x_.cols());
+  for (Eigen::Index i = 0; i < kept.size(); ++i) out(kept_[static_cast<std::size_t>(i)]) = kept(i);
+  return out;
+}
+
 void PointMotionModel::fit_columns(const Eigen::MatrixXd& z) {
   common_ = Eigen::MatrixXd::Zero(x_.cols(), z.cols());
   Eigen::MatrixXd high = product(solve_high_, z);

@@ -98,6 +98,8 @@ class PointMotionModel {
   // Residual of a field or record at the frames' common instants after the fit, 2 points x frames in sigmas, without
   // its mean over time.
   [[nodiscard]] Eigen::MatrixXd left_of(const Eigen::MatrixXd& values) const;
+  // Amplitudes that the columns outside the band take of a whitened field, beside which the field leaves its residual.
+  [[nodiscard]] Eigen::VectorXd amplitudes_of(const Eigen::VectorXd& whitened) const;
   // Orthonormal columns outside and within the band of the added columns.
   [[nodiscard]] const Eigen::MatrixXd& q_high() const noexcept { return q_high_; }
   [[nodiscard]] const Eigen::MatrixXd& q_low() const noexcept { return q_low_; }

@@ -23,9 +23,9 @@ struct RenderLine {
   std::vector<std::uint8_t> pixels;
 };
 
-// Adds the current plate, pixels begin .. end - 1, behind all plates added before: of the light of one instant, with
-// weight `weight`, its share moves from background to plate. Exact if one straight edge crosses a pixel; edges of two
-// plates in the same pixel are treated as independent.
+// Adds the current plate to pixels begin .. end - 1, behind all plates added before, for one instant of the exposure.
+// `weight` is the share of that instant in the exposure; so much light is moved from the background to the plate. Exact
+// if one straight edge crosses a pixel; edges of two plates in the same pixel are treated as independent.
 void lay_plate(RenderLine& line, int begin, int end, std::size_t instant, float weight) noexcept;
 
 }  // namespace core::simulation

@@ -46,10 +46,10 @@ LineFit fit_line(double frequency_hz, double wander_hz) {
                           dynamic_cast<const LineEffect&>(*rotor).patterns(model.geometry(), kReadout_frames), kFrames);
   LineFit fit{search.find(model.residual()), 0.0};
   const Eigen::MatrixXd later = Eigen::MatrixXd::Zero(record.n_points(), kFrames);
-  Eigen::MatrixXd motion = search.motion(model.residual(), fit.finding, later);
+  Eigen::MatrixXd motion = search.motion(model.residual(), fit.finding, later).px;
   for (int round = 0; round < 6; ++round) {  // recovers the part of the line that the regions' free motion had absorbed
     model.solve(positions - motion, kReadout_frames, 1);
-    motion += search.motion(model.residual(), fit.finding, later);
+    motion += search.motion(model.residual(), fit.finding, later).px;
   }
   fit.share_left = (rotation - motion).norm() / rotation.norm();
   return fit;

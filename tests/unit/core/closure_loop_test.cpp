@@ -30,7 +30,8 @@ class ScriptedLevel : public ClosureLevel {
  public:
   std::vector<Known> known;
   double heldout = 4.0, chance = 0.5;
-  double refit_loss = 1.0;  // factor of the held-out error after a refit
+  std::map<std::string, double> refit_losses;  // factor of the held-out error after the refit with an effect
+  std::optional<double> heldout_once_known;    // without an effect, after it was adopted once and dropped
   std::vector<std::string> adopted;
 
   [[nodiscard]] std::string name() const override { return "structure"; }
@@ -51,6 +52,7 @@ class ScriptedLevel : public ClosureLevel {
     for (const Known& k : known) {
       CandidateScore s;
       s.effect = k.name;
+      s.id = {k.name};
       s.n_parameters = k.n_parameters;
       s.heldout = k.heldout_alone;
       s.score = heldout * heldout - k.heldout_alone * k.heldout_alone;
@@ -75,7 +77,8 @@ class ScriptedLevel : public ClosureLevel {
   void adopt(std::size_t i) override {
     adopted.push_back(known.at(i).name);
     before_ = heldout;
-    heldout = known.at(i).heldout_alone * refit_loss;
+    heldout = known.at(i).heldout_alone;
+    if (const auto loss = refit_losses.find(known.at(i).name); loss != refit_losses.end()) heldout *= loss->second;
     taken_ = known.at(i);
     known.erase(known.begin() + static_cast<std::ptrdiff_t>(i));
     for (Known& k : known) {
@@ -85,7 +88,7 @@ class ScriptedLevel : public ClosureLevel {
   }
   void drop() override {
     adopted.pop_back();
-    heldout = before_;
+    heldout = heldout_once_known.value_or(before_);
     known.push_back(taken_);
   }
   [[nodiscard]] std::vector<ParameterValue> parameters(std::size_t) const override { return {{"p", "1", 2.0, 0.1}}; }
@@ -178,12 +181,35 @@ TEST(ClosureLoop, FewerParametersWinATie) {
 
 TEST(ClosureLoop, TakesBackWhatTheRefitDoesNotKeep) {
   ScriptedLevel level;
-  level.refit_loss = 10.0;
+  level.refit_losses = {{"deceiver", 10.0}};
   level.known = {{"deceiver", 1.5}};
   const ClosureResult result = close_loop(level);
   EXPECT_TRUE(level.adopted.empty());
   EXPECT_TRUE(result.steps.empty());
   EXPECT_THAT(result.stop_reason, HasSubstr("was reverted"));
+}
+
+TEST(ClosureLoop, TheNextBestIsTriedAfterOneThatTheRefitDoesNotKeep) {
+  ScriptedLevel level;
+  level.refit_losses = {{"deceiver", 10.0}};
+  level.known = {{"deceiver", 0.9}, {"true", 1.2}};
+  const ClosureResult result = close_loop(level);
+  ASSERT_EQ(result.steps.size(), 1U);
+  EXPECT_EQ(result.steps[0].effect, "true");
+  ASSERT_FALSE(result.refused.empty());
+  EXPECT_EQ(result.refused[0].effect, "deceiver");
+  EXPECT_THAT(result.refused[0].refusal, HasSubstr("was reverted"));
+}
+
+// The noise held a part of the effect: the error without it is larger than was known before it was adopted.
+TEST(ClosureLoop, AnEffectThatChangesTheNoiseIsComparedWithTheNewNoise) {
+  ScriptedLevel level;
+  level.heldout = 1.5, level.known = {{"hidden in the noise", 1.0}};
+  level.refit_losses = {{"hidden in the noise", 1.49}};
+  level.heldout_once_known = 4.0;
+  const ClosureResult result = close_loop(level);
+  ASSERT_EQ(result.steps.size(), 1U);
+  EXPECT_DOUBLE_EQ(result.steps[0].heldout_before, 4.0);
 }
 
 TEST(ClosureLoop, WhatTakesOutLessThanWasAskedForIsNotTold) {

@@ -125,6 +125,27 @@ TEST(ObservationLevel, APartThatMovesByItselfIsNamedWithItsFrequency) {
   EXPECT_NEAR(result.steps[0].parameters.at(1).value, 3.6, 0.05);
 }
 
+// Floors turned exactly, with the camera's own motion: a point goes away by its distance from the middle line times the
+// angle, and comes nearer to that line.
+TEST(ObservationLevel, FloorsThatTurnFarAreNamedAndLeaveNothing) {
+  ObservationRecord record = swaying_record(1500, {});
+  for (Eigen::Index j = 8; j < record.n_points(); ++j) {
+    const double across = -150.0 + 43.3 * static_cast<double>(j % 8) - 1.55;
+    const double share = static_cast<double>(j / 8) / 3.0;
+    for (Eigen::Index k = 0; k < record.n_frames(); ++k) {
+      const double turn = share * 0.1 * std::sin(2.0 * kPi * 3.3 * seconds(k));
+      const double away = std::sin(turn) * across / record.alpha_px, nearer = across * (std::cos(turn) - 1.0);
+      record.u_px(k, j) = record.cx_px + (record.u_px(k, j) - record.cx_px + nearer) / (1.0 + away);
+      record.v_px(k, j) = record.cy_px + (record.v_px(k, j) - record.cy_px) / (1.0 + away);
+    }
+  }
+  const ClosureResult result = closed(record);
+  ASSERT_EQ(result.steps.size(), 1U) << words(result);
+  EXPECT_EQ(result.steps[0].effect, "torsion");
+  EXPECT_NEAR(result.steps[0].parameters.at(1).value, 3.3, 0.05);
+  EXPECT_LT(result.residual_rms, 1.02 * result.noise_floor);
+}
+
 TEST(ObservationLevel, RockingIsNoRollWhereTheBackgroundStandsStill) {
   ObservationRecord record = swaying_record(1500, {});
   record.regions[0].role = core::RegionRole::kBackground;

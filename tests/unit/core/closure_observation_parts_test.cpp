@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -12,6 +13,7 @@
 #include "core/closure/observation/observation_report.h"
 #include "core/closure/observation/observation_scores.h"
 #include "core/closure/observation/region_modes.h"
+#include "core/closure/observation/remainder.h"
 #include "core/closure/observation/stacked_positions.h"
 #include "tests/support/swaying_record.h"
 
@@ -73,6 +75,36 @@ TEST(ObservationFit, AmplitudeIsTheInjectedRotation) {
   Eigen::RowVectorXd truth(1000);
   for (Eigen::Index k = 0; k < 1000; ++k) truth(k) = std::sin(2.0 * kPi * 0.23 * static_cast<double>(k) / 25.0 + 1.0);
   EXPECT_GT(std::abs(amplitude.dot(truth)), 0.98 * amplitude.norm() * truth.norm());
+}
+
+// A bend of the image with an amplitude of its own, in a record where the camera's roll is adopted.
+std::optional<Remainder> remainder_of_bend(double bend_px, double frequency_hz) {
+  ObservationRecord record = swaying_record(1500, {.roll_rms_rad = 0.1 * kPi / 180.0});
+  Eigen::VectorXd bend = Eigen::VectorXd::Zero(2 * record.n_points());
+  for (Eigen::Index j = 0; j < record.n_points(); ++j) {
+    bend(2 * j + 1) = j % 2 == 0 ? 1.0 : -1.0;
+    for (Eigen::Index k = 0; k < record.n_frames(); ++k) {
+      const double t = static_cast<double>(k) / record.rate_hz;
+      record.v_px(k, j) += bend_px * bend(2 * j + 1) * std::sin(2.0 * kPi * frequency_hz * t + 0.4);
+    }
+  }
+  ObservationFit fit(record);
+  const auto catalogue = catalogue_of({"camera_roll"});
+  ObservationScores scores(fit, catalogue);
+  fit.solve();
+  scores.begin();
+  fit.add(scores.adopted(0));
+  fit.solve();
+  return remainder_of(bend, kAllRungs, fit, residual_moments(fit.model().residual(), record.rate_hz));
+}
+
+TEST(Remainder, IsSmallAndAtTheFrequenciesOfAnAdoptedEffect) {
+  const auto small = remainder_of_bend(0.02, 0.23);
+  ASSERT_TRUE(small);
+  EXPECT_EQ(small->effect, "camera roll");
+  EXPECT_LT(small->share, 0.05);
+  EXPECT_FALSE(remainder_of_bend(0.02, 5.1)) << "at another frequency";
+  EXPECT_FALSE(remainder_of_bend(0.12, 0.23)) << "as large as an effect of its own";
 }
 
 TEST(ObservationScores, TheInjectedEffectLeadsAndSurrogatesAreRepeatable) {

@@ -75,7 +75,7 @@ class MovingPartCandidate final : public EffectCandidate {
     return common.words.empty() ? follows_regions(fit_, whitened, part_.found.band) : common;
   }
   [[nodiscard]] std::unique_ptr<EffectInModel> adopted() const override {
-    return learned_pattern({id_, name_, EffectKind::kNamed}, part_.found.band, part_.pattern);
+    return std::make_unique<LearnedPattern>(LearnedName{id_, name_}, part_.found.band, part_.pattern);
   }
 
  private:

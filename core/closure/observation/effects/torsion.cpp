@@ -1,11 +1,87 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/closure/observation/effects/catalogue.h"
-#include "core/closure/observation/effects/rotation_patterns.h"
 #include "core/closure/observation/kinds/family_effect.h"
+#include "core/closure/observation/kinds/learned_pattern.h"
 
 namespace core::closure {
 namespace {
+
+// Distances of the structure's points from its upright middle line, in units of the focal length; zero for all others.
+Eigen::VectorXd from_middle(const ObservationRecord& record, const PointGeometry& geometry) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(geometry.x.size());
+  double low = 0.0, high = 0.0;
+  bool any = false;
+  for (Eigen::Index j = 0; j < out.size(); ++j) {
+    if (!makes_channel(record.regions[record.region_of_point[static_cast<std::size_t>(j)]].role)) continue;
+    const double x = geometry.x(j);
+    low = any ? std::min(low, x) : x, high = any ? std::max(high, x) : x;
+    any = true;
+  }
+  for (Eigen::Index j = 0; j < out.size(); ++j) {
+    if (makes_channel(record.regions[record.region_of_point[static_cast<std::size_t>(j)]].role))
+      out(j) = geometry.x(j) - 0.5 * (low + high);
+  }
+  return out;
+}
+
+// px per rad, 2 points x regions: each region turned about the middle line. A point at a distance d from it goes away
+// by d times the angle, and its image moves towards the principal point by the same share.
+Eigen::MatrixXd turned_regions(const ObservationRecord& record, const PointGeometry& geometry) {
+  const Eigen::VectorXd distance = from_middle(record, geometry);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(2 * distance.size(), static_cast<Eigen::Index>(record.regions.size()));
+  for (Eigen::Index j = 0; j < distance.size(); ++j) {
+    const auto region = static_cast<Eigen::Index>(record.region_of_point[static_cast<std::size_t>(j)]);
+    out.block<2, 1>(2 * j, region) = -geometry.alpha_px * distance(j) * Eigen::Vector2d(geometry.x(j), geometry.y(j));
+  }
+  return out;
+}
+
+// The pattern holds where the points are on average; they are where the camera's and the structure's motion has
+// carried them, and a turn also brings points nearer to the middle line (second order).
+class TorsionInModel final : public LearnedPattern {
+ public:
+  using LearnedPattern::LearnedPattern;
+  [[nodiscard]] std::unique_ptr<EffectInModel> clone() const override {
+    return std::make_unique<TorsionInModel>(*this);
+  }
+  void set_places(const ObservationRecord& record, const PointGeometry& geometry) override {
+    geometry_ = geometry;
+    distance_ = from_middle(record, geometry);
+    turn_ = Eigen::VectorXd::Zero(distance_.size());
+    const Eigen::MatrixXd fields = turned_regions(record, geometry);
+    for (Eigen::Index j = 0; j < turn_.size(); ++j) {
+      const auto region = static_cast<Eigen::Index>(record.region_of_point[static_cast<std::size_t>(j)]);
+      const double squares = fields.col(region).squaredNorm();
+      if (squares > 0.0) turn_(j) = fields.col(region).dot(*pattern()) / squares;
+    }
+  }
+  [[nodiscard]] bool has_second_order() const override { return true; }
+  void remove_second_order(const PatternCourse& course, const ObservationRecord& record,
+                           Eigen::MatrixXd& positions) const override {
+    const double alpha = geometry_.alpha_px;
+    for (Eigen::Index j = 0; j < turn_.size(); ++j) {
+      if (turn_(j) == 0.0) continue;
+      const double later = course.readout_frames * (geometry_.share(j) - course.mean_share);
+      const Eigen::Vector2d principal(record.cx_px, record.cy_px), mean(geometry_.x(j), geometry_.y(j));
+      for (Eigen::Index k = 0; k < positions.cols(); ++k) {
+        const double angle = turn_(j) * (course.amplitude(k) + later * course.rate(k)), away = angle * distance_(j);
+        auto at = positions.block<2, 1>(2 * j, k);
+        const Eigen::Vector2d flat = (1.0 + away) * (at - principal);
+        at = principal + flat - alpha * away * mean;
+        at.x() += 0.5 * alpha * distance_(j) * angle * angle;
+      }
+    }
+  }
+
+ private:
+  PointGeometry geometry_;
+  Eigen::VectorXd distance_;  // as from_middle()
+  Eigen::VectorXd turn_;      // of each point's region, rad per unit of the amplitude
+};
 
 // Regions turn about the upright axis, each by its own share: one side comes nearer, the other goes away. Observable by
 // the perspective of wide regions; confused with the camera's yaw, which turns all regions and the background alike.
@@ -15,14 +91,7 @@ class Torsion final : public FamilyEffect {
   [[nodiscard]] std::string name() const override { return "torsion"; }
   // Of each region of the structure.
   [[nodiscard]] Eigen::MatrixXd fields(const ObservationRecord& record, const PointGeometry& geometry) const override {
-    const Eigen::VectorXd turn = yaw_pattern(geometry);
-    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(turn.size(), static_cast<Eigen::Index>(record.regions.size()));
-    for (std::size_t j = 0; j < record.region_of_point.size(); ++j) {
-      const std::size_t region = record.region_of_point[j];
-      if (!makes_channel(record.regions[region].role)) continue;
-      const auto row = 2 * static_cast<Eigen::Index>(j);
-      all.block<2, 1>(row, static_cast<Eigen::Index>(region)) = turn.segment<2>(row);
-    }
+    const Eigen::MatrixXd all = turned_regions(record, geometry);
     std::vector<Eigen::Index> used;
     for (Eigen::Index c = 0; c < all.cols(); ++c) {
       if (!all.col(c).isZero(0.0)) used.push_back(c);
@@ -31,6 +100,9 @@ class Torsion final : public FamilyEffect {
   }
   [[nodiscard]] NotObservable when_absent() const override {
     return {name(), "no region of the structure is seen", "declare the floors"};
+  }
+  [[nodiscard]] std::unique_ptr<EffectInModel> in_model(RungSet band, const Eigen::VectorXd& pattern) const override {
+    return std::make_unique<TorsionInModel>(LearnedName{id(), name()}, band, pattern);
   }
 };
 

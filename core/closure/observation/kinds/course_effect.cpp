@@ -27,6 +27,7 @@ class CoursesInModel final : public EffectInModel {
   void correct(CorrectionStage stage, const CorrectionView& /*view*/, Eigen::MatrixXd& positions) const override {
     if (stage == CorrectionStage::kTracker && motion_px_.size() > 0) positions -= motion_px_;
   }
+  [[nodiscard]] Eigen::MatrixXd motion_px(const Eigen::RowVectorXd& /*amplitude*/) const override { return motion_px_; }
   [[nodiscard]] bool is_refined() const override { return true; }
   void refine(const FitView& fit) override {
     const CourseFit more(courses_, fit.model.residual());

@@ -38,7 +38,7 @@ class FamilyCandidate final : public EffectCandidate {
     return follows_motion(fit_, fit_.model.whitened(pattern_), found_.band);
   }
   [[nodiscard]] std::unique_ptr<EffectInModel> adopted() const override {
-    return learned_pattern({effect_.id(), effect_.name(), EffectKind::kNamed}, found_.band, pattern_);
+    return effect_.in_model(found_.band, pattern_);
   }
 
  private:
@@ -69,6 +69,10 @@ class FamilyCandidate final : public EffectCandidate {
 };
 
 }  // namespace
+
+std::unique_ptr<EffectInModel> FamilyEffect::in_model(RungSet band, const Eigen::VectorXd& pattern) const {
+  return std::make_unique<LearnedPattern>(LearnedName{id(), name()}, band, pattern);
+}
 
 std::optional<NotObservable> FamilyEffect::obstacle(const FitView& fit, bool is_adopted) const {
   if (is_adopted || fields(fit.record, fit.model.geometry()).cols() > 0) return std::nullopt;

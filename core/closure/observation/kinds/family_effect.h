@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "core/closure/observation/effect.h"
 
 namespace core::closure {
@@ -12,6 +14,8 @@ class FamilyEffect : public ObservationEffect {
   [[nodiscard]] virtual Eigen::MatrixXd fields(const ObservationRecord& record,
                                                const PointGeometry& geometry) const = 0;
   [[nodiscard]] virtual NotObservable when_absent() const = 0;
+  // pattern: the combination found, px, 2 points long.
+  [[nodiscard]] virtual std::unique_ptr<EffectInModel> in_model(RungSet band, const Eigen::VectorXd& pattern) const;
 
   [[nodiscard]] std::size_t n_parameters() const override { return 2; }
   [[nodiscard]] std::optional<NotObservable> obstacle(const FitView& fit, bool is_adopted) const final;

@@ -12,14 +12,17 @@ constexpr double kFollows = 0.9;         // of the amplitude's variance explaine
 constexpr double kFollowsRegions = 0.6;  // by those of single regions, of which there are many
 
 // Of the plane and of the regions on the average, with their rates: with a readout a wrong time shows as a motion's
-// velocity. Single regions are no motion of the camera: a rotation moves each of them by its own height.
-Eigen::MatrixXd common_motions(const PointMotionModel& model) {
+// velocity. Single regions are no motion of the camera: a rotation moves each of them by its own height. What the
+// pattern itself moves the columns by is not counted: a strong roll is most of what regions far from the axis do.
+Eigen::MatrixXd common_motions(const PointMotionModel& model, const Eigen::VectorXd& whitened,
+                               const Eigen::RowVectorXd& amplitude) {
+  const Eigen::MatrixXd own = model.amplitudes() - model.amplitudes_of(whitened) * amplitude;
   const Eigen::Index plane = model.first_plane_row(), rows = std::min<Eigen::Index>(3, model.n_own() - plane);
   Eigen::MatrixXd out(2 * (rows + (plane > 0 ? 1 : 0)), model.amplitudes().cols());
-  out.topRows(rows) = model.amplitudes().middleRows(plane, rows);
+  out.topRows(rows) = own.middleRows(plane, rows);
   out.middleRows(rows, rows) = model.rates().middleRows(plane, rows);
   if (plane > 0) {
-    out.row(2 * rows) = model.amplitudes().topRows(plane).colwise().mean();
+    out.row(2 * rows) = own.topRows(plane).colwise().mean();
     out.row(2 * rows + 1) = model.rates().topRows(plane).colwise().mean();
   }
   return out;
@@ -53,12 +56,19 @@ Eigen::MatrixXd motions_elsewhere(const FitView& fit, const Eigen::VectorXd& pat
   return out;
 }
 
-// Is this share of a pattern's amplitude in a band, without its noise, explained by the motions?
-bool follows(const FitView& fit, const Eigen::VectorXd& whitened, RungSet band, Eigen::MatrixXd motions, double share) {
-  const PointMotionModel& model = fit.model;
+// The part of a whitened pattern outside the model's columns, and its amplitude in units of noise.
+struct PatternLeft {
+  double norm = 0.0;
+  Eigen::RowVectorXd amplitude;
+};
+PatternLeft left_of(const PointMotionModel& model, const Eigen::VectorXd& whitened) {
   const Eigen::VectorXd g = whitened - model.q_low() * (model.q_low().transpose() * whitened);
-  if (!(g.norm() > 0.0)) return false;
-  Eigen::RowVectorXd a = g.normalized().transpose() * model.residual();
+  if (!(g.norm() > 0.0)) return {};
+  return {g.norm(), g.normalized().transpose() * model.residual()};
+}
+
+// Is this share of an amplitude in a band, without its noise, explained by the motions?
+bool follows(const FitView& fit, Eigen::RowVectorXd a, RungSet band, Eigen::MatrixXd motions, double share) {
   if (band != kAllRungs) {
     const Eigen::MatrixXd cosines = fit.held_out.rungs().cosines(a.size(), band);
     motions = (motions * cosines).eval();
@@ -71,12 +81,17 @@ bool follows(const FitView& fit, const Eigen::VectorXd& whitened, RungSet band, 
 }  // namespace
 
 Objection follows_motion(const FitView& fit, const Eigen::VectorXd& whitened, RungSet band) {
-  if (!follows(fit, whitened, band, common_motions(fit.model), kFollows)) return {};
+  const PatternLeft left = left_of(fit.model, whitened);
+  if (!(left.norm > 0.0)) return {};
+  const Eigen::MatrixXd motions = common_motions(fit.model, whitened, left.amplitude / left.norm);
+  if (!follows(fit, left.amplitude, band, motions, kFollows)) return {};
   return {"its amplitude only follows the motions already in the model", true};
 }
 
 Objection follows_regions(const FitView& fit, const Eigen::VectorXd& whitened, RungSet band) {
-  if (!follows(fit, whitened, band, motions_elsewhere(fit, whitened), kFollowsRegions)) return {};
+  const PatternLeft left = left_of(fit.model, whitened);
+  if (!(left.norm > 0.0) || !follows(fit, left.amplitude, band, motions_elsewhere(fit, whitened), kFollowsRegions))
+    return {};
   return {"its amplitude only follows the motions of other regions", true};
 }
 

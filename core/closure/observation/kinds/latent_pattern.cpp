@@ -21,7 +21,8 @@ class LatentCandidate final : public EffectCandidate {
   [[nodiscard]] double material_share() const override { return kLearnedBar; }
   [[nodiscard]] bool is_learned() const override { return true; }
   [[nodiscard]] std::unique_ptr<EffectInModel> adopted() const override {
-    return learned_pattern({latent_id(number_), latent_name(number_), EffectKind::kLatent}, found_.band, pattern_);
+    return std::make_unique<LearnedPattern>(LearnedName{latent_id(number_), latent_name(number_), EffectKind::kLatent},
+                                            found_.band, pattern_);
   }
 
  private:

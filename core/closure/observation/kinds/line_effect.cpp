@@ -1,5 +1,6 @@
 #include "core/closure/observation/kinds/line_effect.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -15,6 +16,8 @@ namespace {
 
 constexpr double kWidest_hz = 1.2;  // half width; a wider band is a broad-band rotation
 constexpr double kToldOrder = 0.8;  // of a line's gain: the most that another alias order may reach
+constexpr double kOfTails = 0.3;    // of the rms of a resonance: the most that lies outside its band
+constexpr double kTails = 2.0;      // half widths beside its band in which they lie
 constexpr double kOfPattern = 0.7;  // smallest share of the gain of the best pattern learned in its band
 
 LineSearch search_in(const LineEffect& effect, const FitView& fit) {
@@ -38,16 +41,23 @@ class LineInModel final : public EffectInModel {
   void correct(CorrectionStage stage, const CorrectionView& /*view*/, Eigen::MatrixXd& positions) const override {
     if (stage == CorrectionStage::kVibration && motion_px_.size() > 0) positions -= motion_px_;
   }
+  [[nodiscard]] Eigen::MatrixXd motion_px(const Eigen::RowVectorXd& /*amplitude*/) const override { return motion_px_; }
+  // A resonance has tails, which cost more than they gain where three axes are free.
+  [[nodiscard]] Leaves leaves() const override {
+    return effect_.is_steady() ? Leaves{} : Leaves{kOfTails, kTails * line_.half_width_hz};
+  }
   [[nodiscard]] bool is_refined() const override { return true; }
   void refine(const FitView& fit) override {
     const LineSearch search = search_in(effect_, fit);
-    const Eigen::MatrixXd more =
-        search.motion(fit.model.residual(), line_, later_in_readout(fit.record, fit.predicted_px));
-    motion_px_ = motion_px_.size() > 0 ? (motion_px_ + more).eval() : more;
+    const LineMotion more = search.motion(fit.model.residual(), line_, later_in_readout(fit.record, fit.predicted_px));
+    const Eigen::MatrixXd before =
+        motion_px_.size() > 0 ? motion_px_ : Eigen::MatrixXd::Zero(more.px.rows(), more.px.cols());
+    motion_px_ = before + more.px;
+    freedom_ = std::max(freedom_, more.freedom);  // of the first motion: what later rounds add is noise
     hz_ = search.frequency(motion_px_, line_);
-    angles_ = search.angles(motion_px_, line_);
+    angles_ = search.angles(before, fit.model.residual(), line_);
   }
-  [[nodiscard]] double freedom() const override { return line_.freedom; }
+  [[nodiscard]] double freedom() const override { return freedom_; }
 
  private:
   [[nodiscard]] std::vector<ParameterValue> band_parameters(double true_hz) const {
@@ -64,6 +74,7 @@ class LineInModel final : public EffectInModel {
   LineFrequency hz_;
   LineAngles angles_;
   Eigen::MatrixXd motion_px_;
+  double freedom_ = 0.0;
 };
 
 class LineCandidate final : public EffectCandidate {
