@@ -1,10 +1,13 @@
 // Writes the seeds of every fuzz target: small inputs that are valid, or invalid in one way.
 //   make_corpus tests/fuzz/corpus
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 
 #include "core/spectrum/time_grid.h"
+#include "drivers/mavlink/mavlink_frame.h"
+#include "drivers/mavlink/mavlink_layouts.h"
 #include "drivers/storage/checkpoint_file.h"
 #include "drivers/storage/text_file.h"
 #include "drivers/telemetry/encode_run.h"
@@ -48,6 +51,24 @@ Bytes piece(std::uint8_t kind, const Bytes& bytes) {
   put_number(out, bytes.size(), 2);
   append(out, bytes);
   return out;
+}
+
+// A heartbeat, an attitude and an answer about the time, in one stream, and each cut short.
+void write_mavlink_frames() {
+  Bytes all;
+  for (const std::uint32_t id :
+       {drivers::MavlinkFields::Heartbeat::kId, drivers::MavlinkFields::AttitudeQuaternion::kId,
+        drivers::MavlinkFields::Timesync::kId, drivers::MavlinkFields::EscStatus::kId}) {
+    drivers::MavlinkFrame frame{.id = id, .system = 1, .component = 1};
+    for (std::size_t i = 0; i < 40; ++i) frame.payload[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 0x3F : i);
+    std::array<std::uint8_t, drivers::kMavlinkMostBytes> out{};
+    const std::size_t n = drivers::write_mavlink(frame, out);
+    const Bytes one(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(n));
+    keep("mavlink", "kind_" + std::to_string(id), one);
+    keep("mavlink", "cut_" + std::to_string(id), Bytes(one.begin(), one.end() - 1));
+    append(all, one);
+  }
+  keep("mavlink", "stream", all);
 }
 
 void write_lcm() {
@@ -235,6 +256,7 @@ int main(int argc, char** argv) {
     tests::fuzz::write_texts();
     tests::fuzz::write_exchange();
     write_lcm();
+    write_mavlink_frames();
     write_datagrams();
     write_checkpoint();
     write_http();

@@ -7,8 +7,8 @@
 namespace tools {
 
 // Each function adds one subcommand to `app`, in the file of its name. The callback throws on failure:
-// std::invalid_argument for usage (exit 2), std::runtime_error for a fault (exit 1), ChangeFound after a complete answer
-// that is an alarm (exit 3, without a message). `main` alone catches.
+// std::invalid_argument for usage (exit 2), std::runtime_error for a fault (exit 1), ChangeFound after a complete
+// answer that is an alarm (exit 3, without a message). `main` alone catches.
 class ChangeFound : public std::exception {};
 
 void add_calibrate(drivers::Command& app);
@@ -31,5 +31,6 @@ void add_inspect_lcm(drivers::Command& inspect);
 void add_regions(drivers::Command& app);
 void add_readout(drivers::Command& app);
 void add_ground(drivers::Command& app);
+void add_mavlink(drivers::Command& app);
 
 }  // namespace tools

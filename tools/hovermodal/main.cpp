@@ -35,6 +35,7 @@ constexpr Subcommand kSubcommands[] = {
     {tools::add_inspect, "inspect", "Show stages live; list cameras; test the network for LCM"},
     {tools::add_regions, "regions", "Propose the regions of a clip"},
     {tools::add_ground, "ground", "Serve the ground page: watch a flight in a browser"},
+    {tools::add_mavlink, "mavlink", "Connect an autopilot and the service (MAVLink 2)"},
     {tools::add_readout, "readout", "Estimate a camera's readout time beside a gyro"},
 };
 

@@ -10,7 +10,7 @@ OPENS = re.compile(r"open_regular_file\(|read_text_file\(|read_json_file\(|read_
                    r"EventLogReader [a-z_]+[({;]|EventLogReader> |std::[io]?fstream [a-z_]+[({;]|[^_a-zA-Z.>]open(at)?\(|\bf(d)?open\(|"
                    r"avformat_open_input\(|imread\(path|mmap\(|directory_iterator\(")
 NO_OPEN = re.compile(r"^\s*(//|\*)|std::optional<Message> |\.open\(\)|> open\(|\bopen\(\) const|: open\(\)|= open\(\)|\bopen\(\)\.|int open\(|"
-                     r"open\(mark|void open\(|std::size_t open\(|::open\(Topic|V4l2Device::open\(const|opens? \(|gate_\.open|void load|\[\[nodiscard\]\] |"
+                     r"open\(mark|void open\(|std::size_t open\(|::open\(Topic|V4l2Device::open\(const|MavlinkLink::open\(|opens? \(|gate_\.open|void load|\[\[nodiscard\]\] |"
                      r"= open\((key|list)|, open\(\), ")
 
 # File -> what bounds each of its opens: NAME of Limits with the file that applies it, or words in capitals.
@@ -32,6 +32,7 @@ BOUNDS = {
     "drivers/host/host_status.cpp": [PROC, PROC, PROC],
     "drivers/host/memory_left.cpp": [PROC, PROC, PROC, PROC],
     "drivers/images/image_reader.cpp": ["kImagePixels", "kImagePixels"],
+    "drivers/mavlink/mavlink_link.cpp": [DEVICE],
     "drivers/storage/attitude_file.cpp": ["kAttitudes"],
     "drivers/storage/calibration_file.cpp": ["kCalibrationBytes"],
     "drivers/storage/checkpoint_file.cpp": [OUT, "kStateBytes drivers/storage/checkpoint_file.h", "kStateBytes drivers/storage/checkpoint_file.h", PROC],

@@ -1,0 +1,174 @@
+#include "tools/hovermodal/mavlink/bridge.h"
+
+#include <stdexcept>
+
+#ifndef HOVERMODAL_WITH_LCM
+
+void tools::run_mavlink(const MavlinkOptions&) {
+  throw std::runtime_error(
+      "mavlink: this build has no LCM. Install liblcm-dev, liblcm-bin and libglib2.0-dev and configure again with "
+      "-DWITH_LCM=ON.");
+}
+
+#else
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "drivers/mavlink/mavlink_companion.h"
+#include "drivers/mavlink/mavlink_link.h"
+#include "drivers/storage/csv_writer.h"
+#include "drivers/telemetry/attitude_sender.h"
+#include "drivers/telemetry/lcm_listener.h"
+#include "drivers/telemetry/modes_listener.h"
+#include "tools/hovermodal/stop_signal.h"
+
+namespace tools {
+namespace {
+
+constexpr std::int64_t kStatus_ns = 1'000'000'000;
+constexpr int kWait_ms = 20;
+
+class AttitudeCsv {
+ public:
+  explicit AttitudeCsv(const std::string& path) {
+    if (path.empty()) return;
+    out_.emplace(path);
+    fmt::format_to(std::back_inserter(out_->buffer()), "t_s,qw,qx,qy,qz\n");
+  }
+  void write(const core::AttitudeSample& sample) {
+    if (!out_) return;
+    if (!(sample.t_s > last_s_)) {
+      ++n_left_out_;
+      return;
+    }
+    last_s_ = sample.t_s;
+    const auto& q = sample.wxyz;
+    fmt::format_to(std::back_inserter(out_->buffer()), "{:.6f},{:.8g},{:.8g},{:.8g},{:.8g}\n", sample.t_s, q[0], q[1],
+                   q[2], q[3]);
+    (void)out_->end_line();  // a failure is kept and told by commit()
+  }
+  // Times of the file increase.
+  [[nodiscard]] std::uint64_t n_left_out() const noexcept { return n_left_out_; }
+  void commit() {
+    if (out_) out_->commit();
+  }
+
+ private:
+  std::optional<drivers::CsvWriter> out_;
+  double last_s_ = -1.0;
+  std::uint64_t n_left_out_ = 0;
+};
+
+std::string clock_text(const drivers::MavlinkCompanion& companion) {
+  const auto fit = companion.clock().fit();
+  if (!fit) return "clock not known yet";
+  return fmt::format("clock +- {:.2f} ms (round trip {:.1f} ms, drift {:.1f} ppm)", 1e-6 * fit->sigma_ns,
+                     1e-6 * static_cast<double>(fit->round_trip_ns), 1e6 * fit->drift);
+}
+
+std::string status_line(const drivers::MavlinkCompanion& companion) {
+  if (!companion.autopilot()) return "waiting for an autopilot's heartbeat";
+  return fmt::format("system {}: {} attitudes, {}, {} lost", *companion.autopilot(), companion.counts().attitudes,
+                     clock_text(companion), companion.counts().lost);
+}
+
+std::string summary(const drivers::MavlinkCompanion& companion) {
+  const auto& counts = companion.counts();
+  const auto& stream = companion.stream();
+  std::string out = status_line(companion) + "\n";
+  out += fmt::format("messages: {} read, {} wrong checksums, {} bytes of no message, {} of others or not understood\n",
+                     stream.frames, stream.wrong_checksums, stream.skipped_bytes, counts.not_ours);
+  if (counts.before_clock > 0) out += fmt::format("attitudes before the clock was known: {}\n", counts.before_clock);
+  if (counts.without_heading > 0)
+    out += fmt::format("gimbal attitudes without the aircraft's heading: {}\n", counts.without_heading);
+  if (counts.unasked > 0) out += fmt::format("time answers that nobody had asked for: {}\n", counts.unasked);
+  if (companion.clock().restarts() > 0)
+    out += fmt::format("the autopilot's clock began anew: {} times\n", companion.clock().restarts());
+  if (const auto motors = companion.motors_hz(); !motors.empty())
+    out += fmt::format("motors turn at {:.2f} Hz\n", fmt::join(motors, ", "));
+  if (const auto& at = companion.position())
+    out += fmt::format("position {:.7f} {:.7f}, {:.1f} m above home\n", at->latitude_deg, at->longitude_deg,
+                       at->above_home_m);
+  if (const auto& wind = companion.wind())
+    out += fmt::format("wind {:.1f} m/s from {:.0f} deg\n", wind->speed_m_s, wind->from_deg);
+  return out;
+}
+
+nlohmann::json document(const drivers::MavlinkCompanion& companion) {
+  const auto& c = companion.counts();
+  const auto& s = companion.stream();
+  nlohmann::json out{{"messages", s.frames},
+                     {"wrong_checksums", s.wrong_checksums},
+                     {"skipped_bytes", s.skipped_bytes},
+                     {"attitudes", c.attitudes},
+                     {"before_clock", c.before_clock},
+                     {"without_heading", c.without_heading},
+                     {"time_exchanges", c.exchanges},
+                     {"time_unasked", c.unasked},
+                     {"lost", c.lost},
+                     {"not_ours", c.not_ours},
+                     {"clock_restarts", companion.clock().restarts()},
+                     {"motors_hz", companion.motors_hz()}};
+  if (const auto fit = companion.clock().fit())
+    out["clock"] = {
+        {"offset_ns", fit->offset_ns}, {"at_ns", fit->local_ns}, {"drift", fit->drift}, {"sigma_ns", fit->sigma_ns}};
+  return out;
+}
+
+std::vector<drivers::MavlinkCompanion::Mode> lowest_of(const std::vector<drivers::ModesListener::Mode>& modes) {
+  std::vector<drivers::MavlinkCompanion::Mode> out;
+  out.reserve(modes.size());
+  for (const auto& mode : modes) out.push_back({mode.frequency_hz, mode.damping_ratio});
+  return out;
+}
+
+}  // namespace
+
+void run_mavlink(const MavlinkOptions& options) {
+  watch_stop_signals();
+  const auto link = drivers::MavlinkLink::open(options.link);
+  drivers::AttitudeSender sender(options.url, options.channel);
+  // Its own thread: the time of an answer of the autopilot must not wait for LCM.
+  drivers::ModesListener modes(options.url, options.prefix);
+  AttitudeCsv csv(options.csv);
+  drivers::MavlinkCompanion companion({.of_gimbal = options.of_gimbal, .datagrams = link->is_datagrams()},
+                                      [&](const core::AttitudeSample& sample) {
+                                        (void)sender.send(sample);
+                                        csv.write(sample);
+                                      });
+  const std::int64_t start_ns = drivers::LcmListener::now_ns();
+  std::int64_t next_status_ns = start_ns + kStatus_ns;
+  std::array<std::uint8_t, 4096> bytes{};
+  while (stop_requested == 0) {
+    const std::size_t n = link->receive(bytes, kWait_ms);
+    const std::int64_t now_ns = drivers::LcmListener::now_ns();
+    if (n > 0) companion.take(std::span(bytes).first(n), now_ns);
+    if (const auto due = companion.due(now_ns); !due.empty()) (void)link->send(due);
+    if (const auto estimate = modes.take()) (void)link->send(companion.modes(lowest_of(*estimate), now_ns));
+    if (now_ns >= next_status_ns) {
+      next_status_ns += kStatus_ns;
+      options.answer.text("{}\n", status_line(companion));
+      std::fflush(stdout);
+    }
+    if (options.seconds > 0.0 && static_cast<double>(now_ns - start_ns) > 1e9 * options.seconds) break;
+  }
+  csv.commit();
+  options.answer.text("{}", summary(companion));
+  if (csv.n_left_out() > 0)
+    options.answer.note("attitudes left out of {}, because their times do not increase: {}\n", options.csv,
+                        csv.n_left_out());
+  if (sender.n_failed() > 0) options.answer.note("attitudes that LCM did not send: {}\n", sender.n_failed());
+  if (link->from_others() > 0) options.answer.note("datagrams of other senders, not read: {}\n", link->from_others());
+  options.answer.document(document(companion).dump(2) + "\n");
+}
+
+}  // namespace tools
+
+#endif

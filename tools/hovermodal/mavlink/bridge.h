@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "tools/hovermodal/answer.h"
+
+namespace tools {
+
+struct MavlinkOptions {
+  std::string link;
+  std::string url = "udpm://239.255.76.67:7667?ttl=0", prefix = "HOVERMODAL", channel = "ATTITUDE";
+  bool of_gimbal = false;
+  double seconds = 0.0;  // 0: until stopped
+  std::string csv;       // attitudes, as camera.attitude_file reads them
+  Answer answer;
+};
+
+// Hands the autopilot's attitude to a service over LCM, and the service's modes to the ground station, until stopped.
+void run_mavlink(const MavlinkOptions& options);
+
+}  // namespace tools
