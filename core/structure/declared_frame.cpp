@@ -49,6 +49,10 @@ void validate(const DeclaredFrame& frame) {
   if (frame.storey_height_mm) require(*frame.storey_height_mm, 1.0, 1e5, "storey_height_mm");
   if (frame.stiffness_over_mass_per_s2) require(*frame.stiffness_over_mass_per_s2, 1e-6, 1e12, "stiffness_over_mass");
   if (frame.dt_s) require(*frame.dt_s, 1e-9, 1e3, "dt_s");
+  if (frame.temperature) {
+    require(frame.temperature->stiffness_per_k, -0.05, 0.05, "stiffness_per_k");
+    require(frame.temperature->axial_n_per_k, -1e12, 1e12, "axial_n_per_k");
+  }
   require(frame.frequency_sigma, 1e-6, 0.2, "frequency_sigma");
   require(frame.shape_sigma, 1e-4, 1.0, "shape_sigma");
   if (!frame.floors.empty() && frame.floors.size() != frame.n_components())

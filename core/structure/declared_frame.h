@@ -10,6 +10,12 @@
 
 namespace core::structure {
 
+// How properties depend on temperature: relative change of the stiffness of all parts, and change of the axial force of
+// restrained bars and cables (of a rigidly held bar -E A times its expansion), per kelvin.
+struct TemperatureLaw {
+  double stiffness_per_k = 0.0, axial_n_per_k = 0.0;
+};
+
 // Declared properties of a structure. Fields without further remark belong to a shear frame, lowest storey first. Empty
 // = unknown.
 struct DeclaredFrame {
@@ -24,6 +30,7 @@ struct DeclaredFrame {
   // For stiffness ratio 1 over mass 1. Empty: fitted; a common factor of all frequencies then carries no information.
   // Another kind: any value declares that its stiffness and mass are known absolutely.
   std::optional<double> stiffness_over_mass_per_s2;
+  std::optional<TemperatureLaw> temperature;
   bool simulated = false;           // the reference comes from a simulation: its integrator may shift frequencies
   std::optional<double> dt_s;       // step of that integrator
   double frequency_sigma = 0.0015;  // of a reference frequency that has no sigma, relative
@@ -41,6 +48,8 @@ struct ReferenceMode {
   double sigma_hz = 0.0;
   std::vector<double> shape;        // per storey or sight, largest component 1; empty: unknown
   std::vector<double> shape_sigma;  // one per component
+  std::optional<double> damping_ratio;
+  double damping_sigma = 0.0;  // 0: unknown
 };
 
 inline constexpr std::size_t kMaxStoreys = 100;

@@ -83,7 +83,7 @@ VectorXd values_of(const FrameModel& model, const VectorXd& parameters) {
   for (const std::size_t i : model.with_prior())
     values(static_cast<Index>(i)) += kind.parameters()[i].prior_sigma * parameters(at++);
   for (std::size_t i = 0; i < model.effects.size(); ++i)
-    model.effects[i]->apply(model.of_effect(i, parameters), kind, values);
+    model.effects[i]->apply(model.of_effect(i, parameters), *model.declared, values);
   return values;
 }
 

@@ -42,9 +42,13 @@ class StructuralEffect {
   [[nodiscard]] virtual std::optional<Obstacle> obstacle(const DeclaredFrame& declared) const = 0;
   // Applies the effect to the frame, in the order of adoption; each effect changes a field of its own.
   virtual void apply(std::span<const double> /*parameters*/, const DeclaredFrame&, ShearFrame&) const {}
-  // The same for another kind of model: changes the values of its parameters.
-  virtual void apply(std::span<const double> /*parameters*/, const StructuralModel&,
-                     Eigen::VectorXd& /*values*/) const {}
+  // The same for another kind of model (declared.model): changes the values of its parameters.
+  virtual void apply(std::span<const double> /*parameters*/, const DeclaredFrame&, Eigen::VectorXd& /*values*/) const {}
+  // Index of the one parameter of declared.model that these values change; empty: several, or another kind.
+  [[nodiscard]] virtual std::optional<std::size_t> model_parameter(std::span<const double> /*parameters*/,
+                                                                   const DeclaredFrame&) const {
+    return std::nullopt;
+  }
   // Frequency at which a frequency of the frame is observed.
   [[nodiscard]] virtual double seen_hz(double frequency_hz, std::span<const double> /*parameters*/,
                                        const DeclaredFrame&) const {

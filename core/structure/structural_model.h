@@ -18,7 +18,10 @@ enum class Role {
   kSpring,            // stiffness of a declared spring: soil, pier, guy; N/m or N m/rad
   kAxialForce,        // tension positive, N
   kGravity,           // factor of the weight's softening; 1 = as declared
-  kShearFlexibility,  // of a cross-section: 1 / (shear stiffness), 1/N
+  kShearFlexibility,  // of all cross-sections, in series with bending; 0 = rigid in shear
+  kRigidEnd,          // length over which one end of a member is rigid, m
+  kCoupling,          // stiffness of a spring between two declared places, N/m
+  kLength,            // factor of all lengths; 1 = as declared
   kOther
 };
 
@@ -40,6 +43,14 @@ struct Sight {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  // unit length; the camera's line of sight is projected out
 };
 
+// A part of a drawing of the structure, in its plane of x and z: a bar, or a node where both ends are one place.
+struct DrawnItem {
+  std::optional<std::size_t> parameter;  // that changes it; empty: none
+  Eigen::Vector2d from_m = Eigen::Vector2d::Zero(), to_m = Eigen::Vector2d::Zero();
+
+  [[nodiscard]] bool is_node() const { return from_m == to_m; }
+};
+
 struct ModelModes {
   Eigen::VectorXd frequency_hz;  // ascending; rigid-body motion is left out
   Eigen::MatrixXd shapes;        // sights x modes; modal mass 1 kg (relative where masses are relative)
@@ -59,6 +70,8 @@ class StructuralModel {
   [[nodiscard]] virtual std::string_view kind() const noexcept = 0;
   [[nodiscard]] virtual const std::vector<ModelParameter>& parameters() const noexcept = 0;
   [[nodiscard]] virtual const std::vector<Sight>& sights() const noexcept = 0;
+  // Empty: the kind has no geometry.
+  [[nodiscard]] virtual std::vector<DrawnItem> drawing() const { return {}; }
   // The lowest modes, at most `n_modes`, with derivatives by the parameters of these indices. Empty if the structure
   // has no stiffness left (it buckles), or if values are not finite. `values`: one per parameter.
   [[nodiscard]] virtual std::optional<ModelModes> modes(const Eigen::VectorXd& values, std::size_t n_modes,

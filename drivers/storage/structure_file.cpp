@@ -40,6 +40,8 @@ const std::vector<Key>& keys() {
        [](const StructureMap& m, const char* key, DeclaredFrame& f) {
          f.stiffness_over_mass_per_s2 = m.number(key, 1e-6, 1e12);
        }},
+      {"temperature", "{stiffness_per_k}: relative change of stiffness per kelvin; tests another temperature",
+       [](const StructureMap& m, const char*, DeclaredFrame& f) { f.temperature = parse_temperature(m); }},
       {"data", "measured | simulated: where the reference comes from (default: measured)",
        [](const StructureMap& m, const char* key, DeclaredFrame& f) {
          f.simulated = m.one_of(key, {"measured", "simulated"}) == "simulated";

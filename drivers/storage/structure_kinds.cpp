@@ -60,8 +60,9 @@ std::vector<Sight> sights(const StructureMap& map, const Eigen::Vector3d& usual)
 }
 
 Model beam(const StructureMap& map) {
-  map.allow({"kind", "stiffness", "modes", "frequency_sigma_percent", "shape_sigma", "regions", "spans", "supports",
-             "masses", "axial_n", "shear_n", "rotary_per_m_kgm", "spring_prior_percent", "part_prior_percent"});
+  map.allow({"kind", "stiffness", "modes", "frequency_sigma_percent", "shape_sigma", "temperature", "regions", "spans",
+             "supports", "masses", "axial_n", "shear_n", "rotary_per_m_kgm", "spring_prior_percent",
+             "part_prior_percent"});
   core::structure::Beam out;
   for (const StructureMap& span : map.maps("spans")) {
     span.allow({"length_m", "ei_nm2", "mass_per_m_kg", "parts"});
@@ -89,6 +90,7 @@ Model tower(const StructureMap& map) {
              "modes",
              "frequency_sigma_percent",
              "shape_sigma",
+             "temperature",
              "regions",
              "height_m",
              "ei_nm2",
@@ -128,9 +130,9 @@ Model tower(const StructureMap& map) {
 }
 
 Model cable(const StructureMap& map) {
-  map.allow({"kind", "stiffness", "modes", "frequency_sigma_percent", "shape_sigma", "regions", "length_m",
-             "mass_per_m_kg", "tension_n", "tension_prior_percent", "ei_nm2", "ei_prior_percent", "ea_n", "slope_deg",
-             "end_rotation"});
+  map.allow({"kind", "stiffness", "modes", "frequency_sigma_percent", "shape_sigma", "temperature", "regions",
+             "length_m", "mass_per_m_kg", "tension_n", "tension_prior_percent", "ei_nm2", "ei_prior_percent", "ea_n",
+             "slope_deg", "end_rotation"});
   core::structure::Cable out;
   out.length_m = map.number("length_m", 1e-2, 1e4), out.mass_per_m_kg = map.number("mass_per_m_kg", 1e-6, 1e6);
   out.tension_n = map.number("tension_n", 1e-6, 1e12);
@@ -142,8 +144,8 @@ Model cable(const StructureMap& map) {
 }
 
 Model frame2d(const StructureMap& map) {
-  map.allow({"kind", "stiffness", "modes", "frequency_sigma_percent", "shape_sigma", "regions", "nodes", "members",
-             "spring_prior_percent", "part_prior_percent"});
+  map.allow({"kind", "stiffness", "modes", "frequency_sigma_percent", "shape_sigma", "temperature", "regions", "nodes",
+             "members", "couplings", "spring_prior_percent", "part_prior_percent"});
   core::structure::Frame2d out;
   for (const StructureMap& node : map.maps("nodes")) {
     node.allow({"name", "at_m", "mass_kg", "x", "z", "rotation"});
@@ -163,13 +165,18 @@ Model frame2d(const StructureMap& map) {
     one.axial_n = member.number_or("axial_n", -1e15, 1e15, 0.0);
     out.members.push_back(std::move(one));
   }
+  for (const StructureMap& coupling : map.maps("couplings")) {
+    coupling.allow({"from", "to", "stiffness_n_per_m"});
+    out.couplings.push_back(
+        {coupling.text("from"), coupling.text("to"), coupling.number_or("stiffness_n_per_m", 0.0, 1e15, 0.0)});
+  }
   out.spring_prior = share(map, "spring_prior_percent"), out.part_prior = share(map, "part_prior_percent");
   return make_frame2d(out, sights(map, Eigen::Vector3d::UnitX()));
 }
 
 Model storeys(const StructureMap& map) {
-  map.allow({"kind", "locate", "stiffness", "modes", "frequency_sigma_percent", "shape_sigma", "regions", "masses",
-             "stiffness_ratio", "part_prior_percent"});
+  map.allow({"kind", "locate", "stiffness", "modes", "frequency_sigma_percent", "shape_sigma", "temperature", "regions",
+             "masses", "stiffness_ratio", "part_prior_percent"});
   core::structure::ShearFrame out;
   out.mass = map.numbers("masses", 1e-6, 1e6, 0);
   if (out.mass.empty() || out.mass.size() > core::structure::kMaxStoreys)
@@ -180,7 +187,8 @@ Model storeys(const StructureMap& map) {
 }
 
 Model matrices(const StructureMap& map, const std::filesystem::path& folder) {
-  map.allow({"kind", "stiffness", "modes", "frequency_sigma_percent", "shape_sigma", "k", "m", "groups", "regions"});
+  map.allow({"kind", "stiffness", "modes", "frequency_sigma_percent", "shape_sigma", "temperature", "k", "m", "groups",
+             "regions"});
   const auto path = [&](const std::string& name) { return (folder / name).string(); };
   core::structure::MatrixStructure out;
   out.stiffness = read_matrix_market(path(map.text("k"))), out.mass = read_matrix_market(path(map.text("m")));
@@ -211,8 +219,8 @@ Model matrices(const StructureMap& map, const std::filesystem::path& folder) {
 }
 
 Model modes(const StructureMap& map) {
-  map.allow({"kind", "stiffness", "modes", "frequency_sigma_percent", "shape_sigma", "channels", "parameters", "table",
-             "prior_percent"});
+  map.allow({"kind", "stiffness", "modes", "frequency_sigma_percent", "shape_sigma", "temperature", "channels",
+             "parameters", "table", "prior_percent"});
   core::structure::ModeTable out;
   out.channels = map.texts("channels"), out.parameters = map.texts("parameters");
   out.prior = share(map, "prior_percent");
@@ -250,6 +258,7 @@ core::structure::DeclaredFrame parse_structure_kind(const YamlNode& section, con
     const char* usual_stiffness = kind == "cable" ? "known" : "fitted";
     if (map.one_of("stiffness", {usual_stiffness, kind == "cable" ? "fitted" : "known"}) == "known")
       declared.stiffness_over_mass_per_s2 = 1.0;
+    declared.temperature = parse_temperature(map);
     declared.frequency_sigma = 0.01 * map.number_or("frequency_sigma_percent", 1e-4, 20.0, 0.15);
     declared.shape_sigma = map.number_or("shape_sigma", 1e-4, 1.0, 0.02);
     core::structure::validate(declared);
@@ -257,6 +266,14 @@ core::structure::DeclaredFrame parse_structure_kind(const YamlNode& section, con
   } catch (const std::invalid_argument& error) {
     throw FileError(fmt::format("{}:{}: structure: {}", file, section.line, error.what()));
   }
+}
+
+std::optional<core::structure::TemperatureLaw> parse_temperature(const StructureMap& map) {
+  if (!map.has("temperature")) return std::nullopt;
+  const StructureMap own = map.map("temperature");
+  own.allow({"stiffness_per_k", "axial_n_per_k"});
+  return core::structure::TemperatureLaw{own.number_or("stiffness_per_k", -0.05, 0.05, 0.0),
+                                         own.number_or("axial_n_per_k", -1e12, 1e12, 0.0)};
 }
 
 const char* structure_kinds() { return "shear_frame, beam, tower, cable, frame2d, matrices, modes"; }
@@ -267,6 +284,12 @@ std::string structure_kinds_help() {
          "with locate: true. Keys common to them:\n"
          "  stiffness                   fitted | known: whether a common factor of stiffness over mass is fitted\n"
          "  modes                       number of modes of the model that may be referred to\n"
+         "  temperature                 {stiffness_per_k, axial_n_per_k}: relative change of the stiffness of all "
+         "parts, "
+         "and\n"
+         "                              change of axial forces, per kelvin: tests another temperature\n"
+         "  couplings                   frame2d: [{from, to, stiffness_n_per_m: 0}]: nodes between which a spring may "
+         "act\n"
          "  regions                     [{name, at_m: [x, y, z], direction: [x, y, z]}]: where channels look\n";
 }
 

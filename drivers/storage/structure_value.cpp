@@ -101,6 +101,8 @@ std::vector<std::string> StructureMap::texts(const std::string& key) const {
   return out;
 }
 
+StructureMap StructureMap::map(const std::string& key) const { return {at(key), path_ + "." + key, file_}; }
+
 std::vector<StructureMap> StructureMap::maps(const std::string& key) const {
   std::vector<StructureMap> out;
   if (!has(key)) return out;

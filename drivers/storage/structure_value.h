@@ -28,7 +28,8 @@ class StructureMap {
   [[nodiscard]] std::vector<double> numbers(const std::string& key, double low, double high, std::size_t n) const;
   [[nodiscard]] std::vector<std::string> texts(const std::string& key) const;
   [[nodiscard]] std::vector<StructureMap> maps(const std::string& key) const;  // empty: not there
-  [[noreturn]] void refuse(const std::string& what) const;                     // of the whole map
+  [[nodiscard]] StructureMap map(const std::string& key) const;
+  [[noreturn]] void refuse(const std::string& what) const;  // of the whole map
   [[noreturn]] void refuse(const std::string& key, const std::string& what) const;
 
  private:

@@ -114,6 +114,7 @@ std::vector<core::structure::ReferenceMode> LoopModes::for_structure(const LoopR
     one.frequency_hz = mode.after->frequency_hz;
     const double stated = mode.after->frequency_std_hz.value_or(0.0);
     one.sigma_hz = stated > 0.0 ? stated : declared.frequency_sigma * one.frequency_hz;
+    one.damping_ratio = mode.after->damping_ratio, one.damping_sigma = mode.after->damping_std.value_or(0.0);
     out.push_back(one);
   }
   return out;

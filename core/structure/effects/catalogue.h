@@ -23,6 +23,11 @@
   EFFECT(spring_stiffness)                    \
   EFFECT(axial_force)                         \
   EFFECT(weight_softening)                    \
+  EFFECT(shear_flexibility)                   \
+  EFFECT(rigid_offset)                        \
+  EFFECT(coupling)                            \
+  EFFECT(temperature)                         \
+  EFFECT(length_scale)                        \
   EFFECT(integrator)                          \
   EFFECT(clock_rate)
 

@@ -44,7 +44,8 @@ std::optional<Obstacle> RoleEffect::obstacle(const DeclaredFrame& declared) cons
   return std::nullopt;
 }
 
-void RoleEffect::apply(std::span<const double> p, const StructuralModel& model, Eigen::VectorXd& values) const {
+void RoleEffect::apply(std::span<const double> p, const DeclaredFrame& declared, Eigen::VectorXd& values) const {
+  const StructuralModel& model = *declared.model;
   const std::vector<std::size_t> all = places(model);
   if (all.empty()) return;
   const std::size_t i = all[place(p, all.size())];
@@ -52,6 +53,13 @@ void RoleEffect::apply(std::span<const double> p, const StructuralModel& model, 
   const ModelParameter& parameter = model.parameters()[i];
   value = std::clamp(form_.is_factor ? value * p.back() : value + p.back() * parameter.scale, parameter.low,
                      parameter.high);
+}
+
+std::optional<std::size_t> RoleEffect::model_parameter(std::span<const double> p, const DeclaredFrame& declared) const {
+  if (!declared.model) return std::nullopt;
+  const std::vector<std::size_t> all = places(*declared.model);
+  if (all.empty()) return std::nullopt;
+  return all[place(p, all.size())];
 }
 
 std::string RoleEffect::implausible(std::span<const double> p, const DeclaredFrame& declared, const ShearFrame&) const {

@@ -28,7 +28,9 @@ class RoleEffect : public StructuralEffect {
   [[nodiscard]] std::string_view name() const override { return name_; }
   [[nodiscard]] std::vector<EffectParameter> parameters(const DeclaredFrame& declared) const override;
   [[nodiscard]] std::optional<Obstacle> obstacle(const DeclaredFrame& declared) const override;
-  void apply(std::span<const double> p, const StructuralModel& model, Eigen::VectorXd& values) const override;
+  void apply(std::span<const double> p, const DeclaredFrame& declared, Eigen::VectorXd& values) const override;
+  [[nodiscard]] std::optional<std::size_t> model_parameter(std::span<const double> p,
+                                                           const DeclaredFrame& declared) const override;
   [[nodiscard]] std::string implausible(std::span<const double> p, const DeclaredFrame& declared,
                                         const ShearFrame& frame) const override;
   [[nodiscard]] std::string meaning(std::span<const double> p, const DeclaredFrame& declared) const override;

@@ -20,10 +20,12 @@ VectorXd legendre(int n, double xi) {
 
 }  // namespace
 
-BarBasis::BarBasis(double length, int bubbles, bool shear, bool axial)
-    : length_(length), bubbles_(bubbles), shear_(shear), axial_(axial) {}
+BarBasis::BarBasis(double length, int bubbles, bool shear, bool axial, int in_series)
+    : length_(length), bubbles_(bubbles), shear_(shear), axial_(axial), in_series_(in_series) {}
 
-Index BarBasis::size() const noexcept { return 6 + Index{bubbles_} * (1 + (shear_ ? 1 : 0) + (axial_ ? 1 : 0)); }
+Index BarBasis::size() const noexcept {
+  return 6 + Index{bubbles_} * (1 + (shear_ ? 1 : 0) + (axial_ ? 1 : 0)) + in_series_;
+}
 
 // Linear functions of two ends and integrated Legendre polynomials, (P_{n+1} - P_{n-1}) / (2n + 1), scaled to
 // orthonormal derivatives.
@@ -49,7 +51,7 @@ void BarBasis::hermite(double xi, Point& out) const {
   out.dw(2) = 0.25 * (-1.0 - 2.0 * xi + 3.0 * x2), out.dw(5) = 0.25 * (-1.0 + 2.0 * xi + 3.0 * x2);
   out.ddw(1) = 1.5 * xi / (h * h), out.ddw(4) = -out.ddw(1);
   out.ddw(2) = 0.5 * (-1.0 + 3.0 * xi) / h, out.ddw(5) = 0.5 * (1.0 + 3.0 * xi) / h;
-  const Index first = out.w.size() - bubbles_;
+  const Index first = out.w.size() - in_series_ - bubbles_;
   const VectorXd p = legendre(bubbles_ + 3, xi);
   for (int k = 0; k < bubbles_; ++k) {
     const int n = k + 2;
@@ -58,6 +60,21 @@ void BarBasis::hermite(double xi, Point& out) const {
     out.w(first + k) = scale * (integral(n + 1) - integral(n - 1)) / (2.0 * n + 1.0);
     out.dw(first + k) = scale * integral(n) / h;
     out.ddw(first + k) = scale * p(n) / (h * h);
+  }
+}
+
+// After turn and dturn are those of w_b.
+void BarBasis::add_shear(double xi, Point& out) const {
+  const Index first = out.w.size() - in_series_;
+  const double per_length = 2.0 / length_, scale_0 = std::sqrt(0.5);
+  out.w(first) = scale_0 * (1.0 + xi - 2.0 * out.w(4));
+  out.dw(first) = scale_0 * (per_length - 2.0 * out.dw(4));
+  out.turn(first) = -2.0 * scale_0 * out.turn(4), out.dturn(first) = -2.0 * scale_0 * out.dturn(4);
+  const VectorXd p = legendre(in_series_ + 1, xi);
+  for (int n = 1; n < in_series_; ++n) {
+    const double scale = std::sqrt(n + 0.5);
+    out.w(first + n) = scale * (p(n + 1) - p(n - 1)) / (2.0 * n + 1.0);
+    out.dw(first + n) = scale * per_length * p(n);
   }
 }
 
@@ -73,6 +90,7 @@ BarBasis::Point BarBasis::at(double s) const {
     hermite(xi, out);
     out.turn = out.dw;
     out.dturn = out.ddw;
+    if (in_series_ > 0) add_shear(xi, out);
   }
   return out;
 }

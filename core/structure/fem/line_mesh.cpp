@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace core::structure {
@@ -13,16 +15,13 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using Triplets = std::vector<Eigen::Triplet<double>>;
 
-constexpr int kTaperPoints = 4;  // more points of the rule than the shape functions alone need
-
-SparseMatrix matrix_of(const std::vector<Eigen::Triplet<double>>& entries, Index n) {
+SparseMatrix matrix_of(const Triplets& entries, Index n) {
   SparseMatrix out(n, n);
   out.setFromTriplets(entries.begin(), entries.end());
   return out;
 }
-
-double at_or_one(const std::function<double(double)>& factor, double s) { return factor ? factor(s) : 1.0; }
 
 }  // namespace
 
@@ -34,9 +33,9 @@ class LineMesh::Assembly {
       nodes_.push_back(node.dof);
       for (Index& dof : nodes_.back()) dof = dof == kFixed ? kFixed : n_++;
     }
-    for (const PlacedBar& bar : mesh.bars_) {
+    for (std::size_t i = 0; i < mesh.bars_.size(); ++i) {
       internal_.push_back(n_);
-      n_ += mesh.basis(bar).size() - 6;
+      n_ += mesh.basis(i).size() - 6;
     }
   }
 
@@ -50,7 +49,7 @@ class LineMesh::Assembly {
     const PlacedBar& bar = mesh_.bars_[i_bar];
     std::vector<Index> out;
     for (const std::size_t node : {bar.from, bar.to}) out.insert(out.end(), nodes_[node].begin(), nodes_[node].end());
-    const Index n = mesh_.basis(bar).size();
+    const Index n = mesh_.basis(i_bar).size();
     for (Index k = 6; k < n; ++k) out.push_back(internal_[i_bar] + k - 6);
     return out;
   }
@@ -60,13 +59,19 @@ class LineMesh::Assembly {
     const PlacedBar& bar = mesh_.bars_[i_bar];
     const Node &a = mesh_.nodes_[bar.from], &b = mesh_.nodes_[bar.to];
     const double length = std::hypot(b.x - a.x, b.z - a.z), c = (b.x - a.x) / length, s = (b.z - a.z) / length;
-    const Index n = mesh_.basis(bar).size();
+    const Index n = mesh_.basis(i_bar).size();
     MatrixXd out = MatrixXd::Identity(n, n);
     for (const Index end : {Index{0}, Index{3}}) {
       out(end, end) = c, out(end, end + 1) = s;
       out(end + 1, end) = -s, out(end + 1, end + 1) = c;
     }
     return out;
+  }
+
+  // The bar's last `count` degrees of freedom.
+  [[nodiscard]] std::vector<Index> last_dofs(std::size_t i_bar, int count) const {
+    const std::vector<Index> all = dofs(i_bar);
+    return {all.end() - count, all.end()};
   }
 
   void add(Triplets& out, std::size_t i_bar, const MatrixXd& element) const {
@@ -88,85 +93,109 @@ class LineMesh::Assembly {
   Index n_ = 0;
 };
 
-std::size_t LineMesh::add_node(double x_m, double z_m) {
-  nodes_.push_back({x_m, z_m});
-  return nodes_.size() - 1;
-}
+// Gathers terms of equal factors.
+class LineMesh::Terms {
+ public:
+  Terms(const LineMesh& mesh, const Assembly& assembly) : mesh_(mesh), assembly_(assembly) {}
 
-std::size_t LineMesh::add_parameter(ModelParameter parameter) {
-  parameters_.push_back(std::move(parameter));
-  return parameters_.size() - 1;
-}
+  void add(std::size_t bar, const Piece& piece) {
+    Term& term = of(piece.factors, piece.power);
+    assembly_.add(piece.is_mass ? term.mass : term.stiffness, bar, piece.matrix);
+  }
+  Triplets& stiffness(const std::vector<Factor>& factors, int power) { return of(factors, power).stiffness; }
+  Triplets& mass(const std::vector<Factor>& factors, int power) { return of(factors, power).mass; }
 
-std::size_t LineMesh::add_bar(std::size_t from, std::size_t to, const Bar& bar, std::optional<std::size_t> part) {
-  bars_.push_back({from, to, bar, part});
-  return bars_.size() - 1;
-}
-
-void LineMesh::add_tension(std::size_t bar, const std::function<double(double)>& newton, std::size_t parameter) {
-  tensions_.push_back({bar, parameter, newton});
-}
-
-void LineMesh::add_spring(std::size_t node, Motion motion, std::size_t parameter, Law law, double least) {
-  springs_.push_back({node, parameter, motion, law, least});
-}
-
-void LineMesh::add_mass(std::size_t node, double kg, std::optional<std::size_t> parameter) {
-  masses_.push_back({node, kg, parameter});
-}
-
-void LineMesh::add_uniform_restraint(double factor, std::size_t parameter, Law law) {
-  restraints_.push_back({factor, parameter, law});
-}
-
-BarBasis LineMesh::basis(const PlacedBar& bar) const {
-  const Node &a = nodes_[bar.from], &b = nodes_[bar.to];
-  return {std::hypot(b.x - a.x, b.z - a.z), bubbles_, bar.bar.shear.has_value(), axial_};
-}
-
-// All bars: matrices by parameter, and the integral of the motion across the bars.
-LineMesh::Gathered LineMesh::gather(const Assembly& assembly) const {
-  Gathered out;
-  out.linear.resize(parameters_.size()), out.added.resize(parameters_.size());
-  out.across = VectorXd::Zero(assembly.n_dof());
-  const GaussRule rule = gauss_rule(bubbles_ + 4 + kTaperPoints);
-  for (std::size_t i = 0; i < bars_.size(); ++i) {
-    const Bar& bar = bars_[i].bar;
-    const BarBasis shape = basis(bars_[i]);
-    MatrixXd k = MatrixXd::Zero(shape.size(), shape.size()), m = k;
-    VectorXd integral = VectorXd::Zero(shape.size());
-    for (Index g = 0; g < rule.at.size(); ++g) {
-      const double s = rule.at(g), dx = rule.weight(g) * shape.length();
-      const BarBasis::Point p = shape.at(s);
-      const double stiff = dx * at_or_one(bar.stiffness_along, s), heavy = dx * at_or_one(bar.mass_along, s);
-      k += stiff * bar.ei * p.dturn * p.dturn.transpose();
-      if (axial_) k += stiff * bar.ea * p.du * p.du.transpose();
-      if (bar.shear) k += stiff * *bar.shear * (p.dw - p.turn) * (p.dw - p.turn).transpose();
-      m += heavy * bar.mass_per_m * (p.u * p.u.transpose() + p.w * p.w.transpose());
-      if (bar.shear) m += heavy * bar.rotary_per_m * p.turn * p.turn.transpose();
-      integral += dx * p.w;
+  void build(AffineMatrices& out, Index n) const {
+    out.stiffness = out.mass = SparseMatrix(n, n);
+    for (const Term& term : terms_) {
+      if (term.factors.empty()) {
+        out.stiffness = matrix_of(term.stiffness, n), out.mass = matrix_of(term.mass, n);
+        continue;
+      }
+      AffineTerm one{term.factors, {}, {}};
+      if (!term.stiffness.empty()) one.stiffness = matrix_of(term.stiffness, n);
+      if (!term.mass.empty()) one.mass = matrix_of(term.mass, n);
+      out.terms.push_back(std::move(one));
     }
-    assembly.add(bars_[i].part ? out.linear[*bars_[i].part] : out.stiffness, i, k);
-    assembly.add(out.mass, i, m);
+  }
+
+ private:
+  struct Term {
+    std::vector<Factor> factors;
+    Triplets stiffness, mass;
+  };
+  using Key = std::vector<std::tuple<std::size_t, Law, int, double, std::size_t>>;
+
+  Term& of(std::vector<Factor> factors, int power) {
+    if (mesh_.length_ && power != 0) factors.push_back(Factor::of_power(*mesh_.length_, power));
+    Key key;
+    for (const Factor& f : factors) key.emplace_back(f.parameter, f.law, f.power, f.least, f.at);
+    const auto [found, is_new] = index_.emplace(key, terms_.size());
+    if (is_new) terms_.push_back({std::move(factors), {}, {}});
+    return terms_[found->second];
+  }
+
+  const LineMesh& mesh_;
+  const Assembly& assembly_;
+  std::vector<Term> terms_;
+  std::map<Key, std::size_t> index_;
+};
+
+void LineMesh::add_bars(Terms& terms) const {
+  for (std::size_t i = 0; i < bars_.size(); ++i) {
+    for (const Piece& piece : pieces(i, basis(i))) terms.add(i, piece);
+  }
+  for (const RigidEnd& end : rigid_ends_) {
+    for (const Piece& piece : changes_by(end)) terms.add(end.bar, piece);
+  }
+}
+
+// Springs, links and masses.
+void LineMesh::add_nodes(const Assembly& assembly, Terms& terms) const {
+  for (const Spring& spring : springs_) {
+    const auto d = static_cast<int>(assembly.dof(spring.node, spring.motion));
+    if (d < 0) continue;
+    const Factor factor = spring.law == Law::kReciprocal ? Factor::reciprocal(spring.parameter, spring.least)
+                                                         : Factor::of_power(spring.parameter, 1);
+    terms.stiffness({factor}, spring.motion == Motion::kTurn ? -2 : 0).emplace_back(d, d, 1.0);
+  }
+  for (const Link& link : links_) {
+    const Node &a = nodes_[link.from], &b = nodes_[link.to];
+    const double apart = std::hypot(b.x - a.x, b.z - a.z);
+    const double c = apart > 0.0 ? (b.x - a.x) / apart : 1.0, s = apart > 0.0 ? (b.z - a.z) / apart : 0.0;
+    const std::array<std::pair<Index, double>, 4> ends{{{assembly.dof(link.from, Motion::kX), -c},
+                                                        {assembly.dof(link.from, Motion::kZ), -s},
+                                                        {assembly.dof(link.to, Motion::kX), c},
+                                                        {assembly.dof(link.to, Motion::kZ), s}}};
+    Triplets& out = terms.stiffness({Factor::of_power(link.parameter, 1)}, 0);
+    for (const auto& [i, of_i] : ends) {
+      for (const auto& [j, of_j] : ends) {
+        if (i >= 0 && j >= 0) out.emplace_back(static_cast<int>(i), static_cast<int>(j), of_i * of_j);
+      }
+    }
+  }
+  for (const Mass& mass : masses_) {
+    std::vector<Factor> factors;
+    if (mass.parameter) factors.push_back(Factor::of_power(*mass.parameter, 1));
+    for (const Motion motion : {Motion::kX, Motion::kZ}) {
+      const auto d = static_cast<int>(assembly.dof(mass.node, motion));
+      if (d >= 0) terms.mass(factors, 0).emplace_back(d, d, mass.kg);
+    }
+  }
+}
+
+// Integral of the motion across all bars, by degree of freedom.
+VectorXd LineMesh::across(const Assembly& assembly) const {
+  VectorXd out = VectorXd::Zero(assembly.n_dof());
+  const GaussRule rule = gauss_rule(n_points());
+  for (std::size_t i = 0; i < bars_.size(); ++i) {
+    const BarBasis shape = basis(i);
+    VectorXd integral = VectorXd::Zero(shape.size());
+    for (Index g = 0; g < rule.at.size(); ++g) integral += rule.weight(g) * shape.length() * shape.at(rule.at(g)).w;
     const VectorXd turned = assembly.rotation(i).transpose() * integral;
     const std::vector<Index> at = assembly.dofs(i);
     for (std::size_t d = 0; d < at.size(); ++d) {
-      if (at[d] != kFixed) out.across(at[d]) += turned(static_cast<Index>(d));
-    }
-  }
-  for (const Tension& tension : tensions_) {
-    const BarBasis shape = basis(bars_[tension.bar]);
-    MatrixXd k = MatrixXd::Zero(shape.size(), shape.size());
-    for (Index g = 0; g < rule.at.size(); ++g) {
-      const VectorXd slope = shape.at(rule.at(g)).dw;
-      k += rule.weight(g) * shape.length() * tension.newton(rule.at(g)) * slope * slope.transpose();
-    }
-    assembly.add(out.linear[tension.parameter], tension.bar, k);
-  }
-  for (const Mass& mass : masses_) {
-    for (const Motion motion : {Motion::kX, Motion::kZ}) {
-      const auto d = static_cast<int>(assembly.dof(mass.node, motion));
-      if (d >= 0) (mass.parameter ? out.added[*mass.parameter] : out.mass).emplace_back(d, d, mass.kg);
+      if (at[d] != kFixed) out(at[d]) += turned(static_cast<Index>(d));
     }
   }
   return out;
@@ -190,7 +219,7 @@ VectorXd LineMesh::seen_by(const Sight& sight, const Assembly& assembly, double 
          << " m); check at_m and its unit (m)";
     throw std::invalid_argument(text.str());
   }
-  const BarBasis::Point p = basis(bars_[nearest]).at(where);
+  const BarBasis::Point p = basis(nearest).at(where);
   const MatrixXd rotation = assembly.rotation(nearest);
   const double c = rotation(0, 0), s = rotation(0, 1);
   const VectorXd seen =
@@ -206,31 +235,29 @@ VectorXd LineMesh::seen_by(const Sight& sight, const Assembly& assembly, double 
 AffineMatrices LineMesh::build(const char* kind, std::vector<Sight> sights, double reach_m) const {
   const Assembly assembly(*this);
   const Index n = assembly.n_dof();
-  const Gathered gathered = gather(assembly);
+  Terms terms(*this, assembly);
+  add_bars(terms);
+  add_nodes(assembly, terms);
   AffineMatrices out;
   out.kind = kind;
   out.parameters = parameters_;
-  out.stiffness = matrix_of(gathered.stiffness, n), out.mass = matrix_of(gathered.mass, n);
-  for (std::size_t p = 0; p < parameters_.size(); ++p) {
-    if (gathered.linear[p].empty() && gathered.added[p].empty()) continue;
-    AffineTerm term;
-    term.parameter = p;
-    if (!gathered.linear[p].empty()) term.stiffness = matrix_of(gathered.linear[p], n);
-    if (!gathered.added[p].empty()) term.mass = matrix_of(gathered.added[p], n);
-    out.terms.push_back(std::move(term));
+  terms.build(out, n);
+  if (!restraints_.empty()) {
+    const VectorXd along = across(assembly);
+    for (const Restraint& r : restraints_) {
+      const MatrixXd square = r.factor * along * along.transpose();
+      std::vector<Factor> factors{Factor::of_power(r.parameter, r.power)};
+      if (length_) factors.push_back(Factor::of_power(*length_, 1));
+      out.terms.push_back({std::move(factors), square.sparseView(), {}});
+    }
   }
-  for (const Spring& spring : springs_) {
-    const auto d = static_cast<int>(assembly.dof(spring.node, spring.motion));
-    if (d >= 0) out.terms.push_back({spring.parameter, spring.law, spring.least, matrix_of({{d, d, 1.0}}, n), {}});
-  }
-  for (const Restraint& r : restraints_) {
-    const MatrixXd square = r.factor * gathered.across * gathered.across.transpose();
-    out.terms.push_back({r.parameter, r.law, 0.0, square.sparseView(), {}});
-  }
+  for (const Shear& shear : shears_)
+    out.rigid.push_back({shear.parameter, assembly.last_dofs(shear.bar, shear.functions)});
   out.readout = MatrixXd::Zero(static_cast<Index>(sights.size()), n);
   for (std::size_t i = 0; i < sights.size(); ++i)
     out.readout.row(static_cast<Index>(i)) = seen_by(sights[i], assembly, reach_m);
   out.sights = std::move(sights);
+  out.drawing = drawing();
   return out;
 }
 

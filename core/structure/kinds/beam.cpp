@@ -48,6 +48,9 @@ class BeamBuilder {
     for (std::size_t i = 0; i < nodes_.size(); ++i)
       add_possible_mass(mesh_, nodes_[i], total_kg_, "mass_" + std::to_string(i), place_text(at_[i]));
     for (const Beam::Mass& mass : beam_.masses) add_mass(mass);
+    add_shear();
+    add_rigid_ends();
+    mesh_.set_length(mesh_.add_parameter(length_parameter()));
     return mesh_.build("beam", std::move(sights), 0.5 * length_);
   }
 
@@ -99,6 +102,30 @@ class BeamBuilder {
     for (std::size_t i = 0; i < mesh_.n_bars(); ++i)
       mesh_.add_tension(
           i, [](double) { return 1.0; }, parameter);
+  }
+  // In series with bending; with shear_n it is declared.
+  void add_shear() {
+    if (beam_.shear_n) return;
+    double longest = 0.0;
+    for (const Beam::Span& span : beam_.spans) longest = std::max(longest, span.length_m);
+    const double scale = 0.01 * longest * longest / ei_;
+    const std::size_t parameter = mesh_.add_parameter(shear_parameter("1/N", scale));
+    for (std::size_t i = 0; i < mesh_.n_bars(); ++i)
+      mesh_.add_shear(i, 1.0, parameter, kRigidFlexibility * scale, shear_functions_for(mesh_.n_bars()));
+  }
+  // Of the parts next to the supports.
+  void add_rigid_ends() {
+    std::size_t bar = 0;
+    for (std::size_t i = 0; i < beam_.spans.size(); ++i) {
+      const Beam::Span& span = beam_.spans[i];
+      const double most = kMostRigidEnd * span.length_m / static_cast<double>(span.parts);
+      const std::string name = "rigid_end_" + std::to_string(i + 1);
+      mesh_.add_rigid_end(bar, false,
+                          mesh_.add_parameter(rigid_end_parameter(name + "_first", place_text(at_[bar]), most)), most);
+      bar += span.parts;
+      mesh_.add_rigid_end(bar - 1, true,
+                          mesh_.add_parameter(rigid_end_parameter(name + "_last", place_text(at_[bar]), most)), most);
+    }
   }
   void add_mass(const Beam::Mass& mass) {
     require_value(mass.at_m, 0.0, length_, "masses at_m");

@@ -91,8 +91,9 @@ std::unique_ptr<StructuralModel> make_cable(const Cable& cable, std::vector<Sigh
         cable.mass_per_m_kg * kStandardGravity_m_s2 * std::cos(cable.slope_deg * std::numbers::pi / 180);
     const double bow = weight * cable.length_m / cable.tension_n;
     const double stretched = cable.length_m * (1.0 + bow * bow / 8.0);
-    mesh.add_uniform_restraint(cable.ea_n / stretched * weight * weight, tension, Law::kInverseSquare);
+    mesh.add_uniform_restraint(cable.ea_n / stretched * weight * weight, tension, -2);
   }
+  mesh.set_length(mesh.add_parameter(length_parameter()));
   return std::make_unique<AffineModel>(mesh.build("cable", std::move(sights), 0.5 * cable.length_m));
 }
 

@@ -29,6 +29,15 @@ void connect(LineMesh& mesh, std::size_t node, Motion motion, const Connection& 
 void add_possible_mass(LineMesh& mesh, std::size_t node, double most, const std::string& name,
                        const std::string& place);
 
+// Parameters that bars of every kind have; `scale` of the first: change that is noticeable.
+[[nodiscard]] ModelParameter shear_parameter(const char* unit, double scale);
+[[nodiscard]] ModelParameter rigid_end_parameter(const std::string& name, const std::string& place, double most_m);
+[[nodiscard]] ModelParameter length_parameter();
+// Functions of the shear in series of each bar (bar_basis.h), so that frequencies with it are exact to about 1e-6.
+[[nodiscard]] int shear_functions_for(std::size_t n_bars) noexcept;
+// A rigid end is at most this share of its bar.
+inline constexpr double kMostRigidEnd = 0.5;
+
 // Bubbles of each bar so that the lowest twelve modes of the whole are exact to about 1e-9.
 [[nodiscard]] int bubbles_for(std::size_t n_bars) noexcept;
 

@@ -25,6 +25,10 @@ class Frame2dBuilder {
     for (const Frame2d::Node& node : frame_.nodes) add_node(node);
     for (const Frame2d::Member& member : frame_.members) add_member(member);
     for (const Frame2d::Node& node : frame_.nodes) add_connections(node);
+    for (const Frame2d::Coupling& coupling : frame_.couplings) add_coupling(coupling);
+    add_shear();
+    for (std::size_t i = 0; i < frame_.members.size(); ++i) add_rigid_ends(i);
+    mesh_.set_length(mesh_.add_parameter(length_parameter()));
     return mesh_.build("frame2d", std::move(sights), 0.5 * largest_);
   }
 
@@ -35,17 +39,19 @@ class Frame2dBuilder {
     if (!nodes_.emplace(node.name, mesh_.add_node(node.x_m, node.z_m)).second)
       refuse_declaration("nodes: `", node.name, "` stands twice; name each node once");
   }
-  [[nodiscard]] std::size_t node(const std::string& name, const Frame2d::Member& member) const {
+  [[nodiscard]] std::size_t node(const std::string& name, const std::string& of) const {
     const auto found = nodes_.find(name);
-    if (found == nodes_.end())
-      refuse_declaration("members ", member.name, ": there is no node `", name, "`; add it under nodes");
+    if (found == nodes_.end()) refuse_declaration(of, ": there is no node `", name, "`; add it under nodes");
     return found->second;
   }
+  [[nodiscard]] double length_of(const Frame2d::Member& member) const {
+    const auto &a = frame_.nodes[nodes_.at(member.from)], &b = frame_.nodes[nodes_.at(member.to)];
+    return std::hypot(b.x_m - a.x_m, b.z_m - a.z_m);
+  }
   void add_member(const Frame2d::Member& member) {
-    const std::size_t from = node(member.from, member), to = node(member.to, member);
-    const auto& a = frame_.nodes[from];
-    const auto& b = frame_.nodes[to];
-    const double length = std::hypot(b.x_m - a.x_m, b.z_m - a.z_m);
+    const std::string of = "members " + member.name;
+    const std::size_t from = node(member.from, of), to = node(member.to, of);
+    const double length = length_of(member);
     require_value(length, 1e-4, 1e5, "members " + member.name + ": length");
     require_value(member.ei_nm2, 1e-9, 1e18, "members " + member.name + " ei_nm2");
     require_value(member.ea_n, 1e-9, 1e18, "members " + member.name + " ea_n");
@@ -86,6 +92,45 @@ class Frame2dBuilder {
     require_value(node.mass_kg, 0.0, 1e12, "nodes " + node.name + " mass_kg");
     if (node.mass_kg > 0.0) mesh_.add_mass(at, node.mass_kg, std::nullopt);
     if (!held) add_possible_mass(mesh_, at, std::max(total_kg_, 1e-9), "mass_" + node.name, node.name);
+  }
+
+  void add_coupling(const Frame2d::Coupling& coupling) {
+    const std::string name = coupling.from + "-" + coupling.to, of = "couplings " + name;
+    const std::size_t from = node(coupling.from, of), to = node(coupling.to, of);
+    if (from == to) refuse_declaration(of, ": it couples a node with itself; name two nodes");
+    require_value(coupling.stiffness_n_per_m, 0.0, 1e15, of + " stiffness_n_per_m");
+    const double typical = ei_ / (largest_ * largest_ * largest_);
+    ModelParameter p;
+    p.name = "coupling_" + name, p.unit = "N/m", p.place = name;
+    p.role = coupling.stiffness_n_per_m > 0.0 ? Role::kSpring : Role::kCoupling;
+    p.value = coupling.stiffness_n_per_m, p.high = 1e3 * std::max(typical, coupling.stiffness_n_per_m);
+    p.scale = coupling.stiffness_n_per_m > 0.0 ? coupling.stiffness_n_per_m : typical;
+    p.prior_sigma = frame_.spring_prior * coupling.stiffness_n_per_m;
+    mesh_.add_link(from, to, mesh_.add_parameter(std::move(p)));
+  }
+  // One ratio for all members without shear_n: E over kappa G, so that a section's shear stiffness is E A over it.
+  void add_shear() {
+    constexpr double kUsual = 3.0;  // steel, kappa 0.85
+    if (std::all_of(frame_.members.begin(), frame_.members.end(), [](const auto& m) { return m.shear_n.has_value(); }))
+      return;
+    ModelParameter p = shear_parameter("1", kUsual);
+    p.name = "shear_ratio";
+    const std::size_t parameter = mesh_.add_parameter(std::move(p));
+    for (std::size_t i = 0; i < frame_.members.size(); ++i) {
+      if (!frame_.members[i].shear_n)
+        mesh_.add_shear(i, frame_.members[i].ea_n, parameter, kRigidFlexibility, shear_functions_for(mesh_.n_bars()));
+    }
+  }
+  void add_rigid_ends(std::size_t i) {
+    const Frame2d::Member& member = frame_.members[i];
+    const double most = kMostRigidEnd * length_of(member);
+    for (const bool is_last : {false, true}) {
+      const std::string& at = is_last ? member.to : member.from;
+      mesh_.add_rigid_end(i, is_last,
+                          mesh_.add_parameter(rigid_end_parameter("rigid_end_" + member.name + "_" + at,
+                                                                  member.name + " at " + at, most)),
+                          most);
+    }
   }
 
   const Frame2d& frame_;

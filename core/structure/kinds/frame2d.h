@@ -24,8 +24,15 @@ struct Frame2d {
     double axial_n = 0.0;  // tension positive
     std::string group;     // members of one group share a stiffness factor; empty: its own
   };
+  // A spring between two nodes along the line that connects them (along x where they lie in one place): of two
+  // structures in one file, or of two parts of one. 0: a place where there may be one.
+  struct Coupling {
+    std::string from, to;
+    double stiffness_n_per_m = 0.0;
+  };
   std::vector<Node> nodes;
   std::vector<Member> members;
+  std::vector<Coupling> couplings;
   double spring_prior = 0.0, part_prior = 0.0;
 };
 

@@ -134,7 +134,7 @@ std::unique_ptr<StructuralModel> make_matrices(const MatrixStructure& s) {
     if (group.stiffness.rows() == 0) p.role = Role::kOther;
     out.parameters.push_back(std::move(p));
     AffineTerm term;
-    term.parameter = i;
+    term.factors = {Factor::of_power(i, 1)};
     if (group.stiffness.rows() > 0) {
       term.stiffness = reduced(group.stiffness, basis);
       out.stiffness -= term.stiffness;

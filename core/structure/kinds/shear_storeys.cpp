@@ -43,6 +43,18 @@ class ShearStoreys final : public StructuralModel {
   [[nodiscard]] const std::vector<ModelParameter>& parameters() const noexcept override { return parameters_; }
   [[nodiscard]] const std::vector<Sight>& sights() const noexcept override { return sights_; }
 
+  // Storeys one above the other, of unit height.
+  [[nodiscard]] std::vector<DrawnItem> drawing() const override {
+    std::vector<DrawnItem> out;
+    for (std::size_t i = 0; i < n(); ++i) {
+      const Eigen::Vector2d floor(0.0, static_cast<double>(i) + 1.0);
+      out.push_back({i, floor - Eigen::Vector2d::UnitY(), floor});
+      out.push_back({n() + i, floor, floor});
+    }
+    out.push_back({2 * n() + 1, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()});
+    return out;
+  }
+
   [[nodiscard]] std::optional<ModelModes> modes(const VectorXd& values, std::size_t n_modes,
                                                 const std::vector<std::size_t>& derivatives) const override {
     auto out = at(values, n_modes);

@@ -52,6 +52,8 @@ class TowerBuilder {
     for (std::size_t i = 1; i < nodes_.size(); ++i)
       add_possible_mass(mesh_, nodes_[i], shaft_kg_ + tower_.tip_mass_kg, "mass_" + std::to_string(i),
                         place_text(at_[i]));
+    add_shear();
+    mesh_.set_length(mesh_.add_parameter(length_parameter()));
     return mesh_.build("tower", std::move(sights), 0.5 * tower_.height_m);
   }
 
@@ -80,10 +82,10 @@ class TowerBuilder {
     const double step = tower_.height_m / static_cast<double>(tower_.parts);
     return std::min(static_cast<std::size_t>(middle / step), tower_.parts - 1);
   }
-  // Weight of shaft and tip above z, N.
+  // Weight of the shaft above z, N.
   [[nodiscard]] double weight_above(double z) const {
     static const GaussRule kRule = gauss_rule(12);
-    double kg = tower_.tip_mass_kg;
+    double kg = 0.0;
     const double rest = tower_.height_m - z;
     for (Eigen::Index i = 0; i < kRule.at.size(); ++i)
       kg += kRule.weight(i) * rest * tower_.mass_per_m_kg * mass_factor(z + rest * kRule.at(i));
@@ -117,8 +119,19 @@ class TowerBuilder {
       }
       const std::size_t number = mesh_.add_bar(nodes_[i], nodes_[i + 1], bar, parts[part_of(low + 0.5 * length)]);
       mesh_.add_tension(
-          number, [this, low, length](double s) { return -weight_above(low + s * length); }, gravity);
+          number, [this, low, length](double s) { return -weight_above(low + s * length); }, gravity, true);
+      if (tower_.tip_mass_kg > 0.0)
+        mesh_.add_tension(
+            number, [this](double) { return -kStandardGravity_m_s2 * tower_.tip_mass_kg; }, gravity);
     }
+  }
+  // In series with bending, along the height as the mass; with shear_n it is declared.
+  void add_shear() {
+    if (tower_.shear_n) return;
+    const double scale = 0.01 * tower_.height_m * tower_.height_m / tower_.ei_nm2;
+    const std::size_t parameter = mesh_.add_parameter(shear_parameter("1/N", scale));
+    for (std::size_t i = 0; i < mesh_.n_bars(); ++i)
+      mesh_.add_shear(i, 1.0, parameter, kRigidFlexibility * scale, shear_functions_for(mesh_.n_bars()));
   }
   void add_foot() {
     const double h = tower_.height_m;

@@ -54,8 +54,9 @@ std::string help() {
          "  hovermodal closeloop --record out --config flight.yaml --report loop\n"
          "\nKeys of frame.yaml, under `structure:`\n" +
          drivers::structure_keys_help() +
-         "\nColumns of modes.csv: frequency_hz or frequency_rad_s; optional: mode (number from 1), sigma_hz, one a "
-         "floor\n"
+         "\nColumns of modes.csv: frequency_hz or frequency_rad_s; optional: mode (number from 1), sigma_hz, "
+         "damping_ratio and\n"
+         "damping_sigma (the mechanism of damping, from damping over frequency), one a floor\n"
          "(named as in `floors`) with the shape. The report consists of closure.json and closure_modes.svg.\n"
          "\nA record in place of modes (tables as for `hovermodal identify`):\n"
          "  hovermodal closeloop --record out/displacements.csv --rate-hz 20 --clock readings.csv --report loop\n"

@@ -13,6 +13,7 @@
 
 #include "core/closure/closure_loop.h"
 #include "core/closure/structure_level.h"
+#include "core/structure/damping_law.h"
 #include "core/structure/mode_numbers.h"
 #include "core/structure/place_profile.h"
 #include "drivers/storage/json.h"
@@ -84,6 +85,13 @@ std::string places_text(const StructureLevel& level) {
     }
   }
   return out;
+}
+
+// The mechanism of damping, of all measured modes.
+std::string damping_text(const Measured& reference) {
+  Reference all = reference.paired;
+  all.insert(all.end(), reference.unpaired.begin(), reference.unpaired.end());
+  return damping_words(core::structure::damping_verdict(all));
 }
 
 // A factor that no structure's properties are wrong by, but units are.
@@ -162,6 +170,7 @@ void close_structure(const LoopRequest& request, const std::string& structure, c
   }
   std::string more = check_text(*level);
   if (declared.model) more += places_text(*level) + parameters_text(*level);
+  if (const std::string words = damping_text(reference); !words.empty()) more += words + "\n";
   show_closure(request.answer, result, more, request.report);
   if (!declared.model) return;
   if (const Reference left = level->unpaired(); !left.empty())

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "core/planning/hover_time.h"
@@ -75,6 +76,7 @@ Modes from_modal_json(const std::string& path, const DeclaredFrame& declared) {
     reference.number = static_cast<int>(out.size()) + 1;
     reference.frequency_hz = mode.frequency_hz;
     reference.sigma_hz = sigma_hz_of(mode, report.estimate.duration_s, declared);
+    reference.damping_ratio = mode.damping_ratio, reference.damping_sigma = mode.damping_std.value_or(0.0);
     for (const std::size_t c : channels) {
       if (c >= mode.shape.size()) break;
       reference.shape.push_back(mode.shape[c].real());
@@ -105,6 +107,8 @@ class Table {
       mode.number = numbers < 0 ? static_cast<int>(row) + 1 : whole(at(numbers, row), row);
       const double sigma_hz = sigmas < 0 ? std::nan("") : file_.columns[static_cast<std::size_t>(sigmas)][row];
       mode.sigma_hz = std::isnan(sigma_hz) ? declared.frequency_sigma * mode.frequency_hz : sigma_hz;
+      if (const auto damping = optional_at("damping_ratio", row)) mode.damping_ratio = *damping;
+      mode.damping_sigma = optional_at("damping_sigma", row).value_or(0.0);
       for (const std::size_t c : floors) {
         mode.shape.push_back(at(static_cast<int>(c), row));
         mode.shape_sigma.push_back(declared.shape_sigma);
@@ -127,6 +131,11 @@ class Table {
   [[nodiscard]] bool has_any_floor(const DeclaredFrame& declared) const {
     return std::any_of(declared.floors.begin(), declared.floors.end(),
                        [&](const std::string& floor) { return file_.column(floor) >= 0; });
+  }
+  [[nodiscard]] std::optional<double> optional_at(const char* name, std::size_t row) const {
+    const int column = file_.column(name);
+    if (column < 0 || std::isnan(file_.columns[static_cast<std::size_t>(column)][row])) return std::nullopt;
+    return at(column, row);
   }
   [[nodiscard]] double at(int column, std::size_t row) const {
     const auto c = static_cast<std::size_t>(column);
