@@ -68,7 +68,7 @@ LevelFit StructureLevel::fit() {
   double squares = 0.0;
   for (const ReferenceMode& mode : reference_) squares += relative_sigma(mode) * relative_sigma(mode);
   out.noise_floor = 100.0 * std::sqrt(squares / static_cast<double>(reference_.size()));
-  out.heldout = loo_.rms_percent;
+  out.heldout = loo_.with_shapes_percent;
   if (declared_.model) first_order_ = structure::FirstOrderEffects::about(model_, open(), reference_, fit_);
   const double freedom = fit_.degrees_of_freedom();
   const bool exceeds = freedom > 0.0 && fit_.chi2 > structure::chi2_limit(freedom);
@@ -96,16 +96,16 @@ std::string StructureLevel::implausible(const FrameModel& model, const FrameFit&
 
 std::string StructureLevel::refusal(const FrameModel& model, const FrameFit& fit, const LeaveOneOut& loo) const {
   if (!fit.ok) return "no parameters of it give a frame";
-  if (!std::isfinite(loo.rms_percent)) {
+  if (!std::isfinite(loo.with_shapes_percent)) {
     return number(static_cast<double>(fit.parameters.size())) +
            " parameters cannot be fitted with a mode left out; measure more modes";
   }
   if (std::string words = implausible(model, fit); !words.empty()) return words;
   const double freedom = fit.degrees_of_freedom();
   const bool is_noise = freedom > 0.0 && fit.chi2 <= structure::chi2_limit(freedom);
-  if (loo.rms_percent > (is_noise ? 1.0 : kMaterial) * loo_.rms_percent) {
-    return loo.rms_percent < loo_.rms_percent ? "does not halve the held-out error"
-                                              : "does not lower the held-out error";
+  if (loo.with_shapes_percent > (is_noise ? 1.0 : kMaterial) * loo_.with_shapes_percent) {
+    return loo.with_shapes_percent < loo_.with_shapes_percent ? "does not halve the held-out error"
+                                                              : "does not lower the held-out error";
   }
   return {};
 }
@@ -123,7 +123,7 @@ std::vector<CandidateScore> StructureLevel::score() {
     score.effect = effect->name();
     score.id = {score.effect};
     score.n_parameters = effect->parameters(declared_).size();
-    score.heldout = loo.rms_percent;
+    score.heldout = loo.with_shapes_percent;
     score.score = std::isfinite(loo.chi2) ? loo_.chi2 - loo.chi2 : -std::numeric_limits<double>::infinity();
     score.refusal = refusal(model, fit, loo);
     out.push_back(std::move(score));

@@ -10,8 +10,9 @@
 namespace core::closure {
 
 // Structure level: frequencies (and shapes, where given) of a declared shear frame are compared with reference modes.
-// Unit: percent of frequency. Cross-validation: one mode at a time is held out and predicted from the others. Score =
-// decrease of the summed squared prediction errors, in units of the reference's variances.
+// Unit: percent of frequency; a shape's error counts as one of its frequency of as many sigmas. Cross-validation: one
+// mode at a time is held out and predicted from the others. Score = decrease of the summed squared prediction errors,
+// in units of the reference's variances.
 class StructureLevel final : public ClosureLevel {
  public:
   // Materiality threshold: an effect must at least halve the leave-one-out error, or leave no more than the stated

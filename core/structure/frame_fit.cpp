@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "core/linear/damped_least_squares.h"
 #include "core/structure/mode_residuals.h"
@@ -205,10 +206,10 @@ bool determines(const FrameModel& model, const std::vector<ReferenceMode>& refer
 
 LeaveOneOut leave_one_out(const FrameModel& model, const std::vector<ReferenceMode>& reference, const FrameFit& fit) {
   LeaveOneOut out;
-  out.chi2 = out.rms_percent = kInfinity;
+  out.chi2 = out.rms_percent = out.with_shapes_percent = kInfinity;
   const auto n = static_cast<Index>(reference.size());
   if (!fit.ok || !determines(model, reference, fit)) return out;
-  double chi2 = 0.0, squares = 0.0;
+  double chi2 = 0.0, squares = 0.0, with_shapes = 0.0;
   std::vector<double> errors;
   for (Index i = 0; i < n; ++i) {
     const FrameFit others = fit_frame(model, reference, fit.parameters, Starts::kBest, static_cast<int>(i));
@@ -218,13 +219,19 @@ LeaveOneOut leave_one_out(const FrameModel& model, const std::vector<ReferenceMo
     if (!modes) return out;
     std::vector<double> residuals;
     append_residuals(*modes, mode, residuals);
-    for (const double r : residuals) chi2 += r * r;
+    const auto square = [](double sum, double r) { return sum + r * r; };
+    const double of_shape = std::accumulate(residuals.begin() + 1, residuals.end(), 0.0, square);
+    chi2 += residuals.front() * residuals.front() + of_shape;
     errors.push_back(modes->frequency_hz(mode.number - 1) / mode.frequency_hz - 1.0);
     squares += errors.back() * errors.back();
+    const double sigma = mode.sigma_hz / mode.frequency_hz;
+    with_shapes += errors.back() * errors.back();
+    if (!mode.shape.empty()) with_shapes += sigma * sigma * of_shape / static_cast<double>(mode.shape.size());
   }
   if (!std::isfinite(chi2)) return out;
   out.chi2 = chi2;
   out.rms_percent = 100.0 * std::sqrt(squares / static_cast<double>(n));
+  out.with_shapes_percent = 100.0 * std::sqrt(with_shapes / static_cast<double>(n));
   out.relative_error = std::move(errors);
   return out;
 }

@@ -68,6 +68,9 @@ struct LeaveOneOut {
   std::vector<double> relative_error;  // of the frequency, per reference mode; empty: too few modes
   double chi2 = 0.0;                   // of frequencies and shapes
   double rms_percent = 0.0;            // of the frequencies; infinite if it cannot be determined
+  // The same with the shapes: an error of a component counts as one of the frequency of as many sigmas, a mode's
+  // components as their mean square. Without shapes rms_percent.
+  double with_shapes_percent = 0.0;
 };
 // Whether the reference's frequencies, one held out, are at least as many as the parameters.
 [[nodiscard]] bool determines(const FrameModel& model, const std::vector<ReferenceMode>& reference,
