@@ -109,15 +109,20 @@ std::vector<NamedKind> named_kinds() {
   const auto add = [&](const char* kind, auto draw, std::initializer_list<const char*> effects) {
     for (const char* effect : effects) out.push_back({kind, effect, draw});
   };
-  add("shear_frame", draw_storeys, {"soft_part", "added_mass", "support_turning", "weight_softening"});
+  add("shear_frame", draw_storeys, {"soft_part", "added_mass", "support_turning", "weight_softening", "temperature"});
   add("tower", draw_tower,
-      {"soft_part", "added_mass", "support_turning", "support_yielding", "spring_stiffness", "weight_softening"});
+      {"soft_part", "added_mass", "support_turning", "support_yielding", "spring_stiffness", "weight_softening",
+       "shear_flexibility", "temperature", "length_scale"});
   add("beam", draw_beam,
       {"soft_part", "added_mass", "support_turning", "support_yielding", "support_restraint", "spring_stiffness",
-       "axial_force"});
-  add("cable", draw_cable, {"soft_part", "added_mass", "support_restraint", "axial_force"});
-  add("frame2d", draw_frame2d, {"soft_part", "added_mass", "support_turning", "support_yielding"});
-  add("matrices", draw_matrices, {"soft_part"});
+       "axial_force", "shear_flexibility", "rigid_offset", "temperature", "length_scale"});
+  add("cable", draw_cable,
+      {"soft_part", "added_mass", "support_restraint", "axial_force", "temperature", "length_scale"});
+  add("frame2d", draw_frame2d,
+      {"soft_part", "added_mass", "support_turning", "support_yielding", "shear_flexibility", "rigid_offset",
+       "temperature", "length_scale"});
+  add("frame2d", draw_masts, {"coupling"});
+  add("matrices", draw_matrices, {"soft_part", "temperature"});
   add("modes", draw_mode_table, {"soft_part"});
   return out;
 }
@@ -130,6 +135,7 @@ void print_structure_effects(int n_seeds, int n_threads, int first_seed) {
   for (const NamedKind& kind : named_kinds())
     print_case(kind, for_each_seed(
                          n_seeds, n_threads, [&](std::uint64_t seed) { return answer(kind, seed); }, first_seed));
+  print_structure_damping(n_seeds, n_threads, first_seed);
 }
 
 }  // namespace tools

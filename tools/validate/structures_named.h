@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,16 @@ struct NamedKind {
 [[nodiscard]] NamedCase draw_storeys(const std::string& effect, Draw& draw);
 [[nodiscard]] NamedCase draw_frame2d(const std::string& effect, Draw& draw);
 [[nodiscard]] NamedCase draw_matrices(const std::string& effect, Draw& draw);
+[[nodiscard]] NamedCase draw_masts(const std::string& effect, Draw& draw);  // two of them
 [[nodiscard]] NamedCase draw_mode_table(const std::string& effect, Draw& draw);
+
+// Of several files of cases. Relative change of stiffness per kelvin of a polymer's or asphalt's; a factor of all
+// lengths; a change of temperature; the declaration that an effect needs: stiffness known, coefficients of temperature.
+inline constexpr double kWarmPerKelvin = -2e-3;
+[[nodiscard]] double drawn_length(Draw& draw);
+void warm(NamedCase& out, Draw& draw);
+[[nodiscard]] core::structure::DeclaredFrame declared_as(std::unique_ptr<core::structure::StructuralModel> model,
+                                                         const std::string& effect);
 
 inline constexpr std::size_t kNamedParts = 6, kNamedElements = 60, kMostNamedModes = 6;
 
@@ -44,12 +54,15 @@ inline constexpr std::size_t kNamedParts = 6, kNamedElements = 60, kMostNamedMod
 class TrueBar {
  public:
   enum class Ends { kFoot, kHinges };  // clamped at its start; hinged at both ends
-  // E I = 1 N m^2 per kg/m and m^4: length and mass 1, so that only ratios matter.
-  explicit TrueBar(Ends ends);
+  // E I = 1 N m^2, 1 kg/m: with length 1 only ratios matter.
+  explicit TrueBar(Ends ends, double length_m = 1.0);
 
   void scale_part(std::size_t part, double ratio);  // its bending stiffness, from 1
-  void add_mass(std::size_t node, double share);    // of the whole mass
-  void add_tension(double newton);                  // uniform
+  // Elements that do not bend, from 0: 1e4 times as stiff, which leaves less than 1e-4 of their share.
+  void stiffen(std::size_t first, std::size_t count);
+  void shear(double flexibility);                 // 1 / (shear stiffness): a new bar, before anything else
+  void add_mass(std::size_t node, double share);  // of the whole mass
+  void add_tension(double newton);                // uniform
   // Compression by the weight above: weight of the whole = `newton`.
   void add_weight(double newton);
   void add_spring(std::size_t node, bool turns, double stiffness);
@@ -67,6 +80,7 @@ class TrueBar {
   void add(Eigen::MatrixXd& to, std::size_t element, const Eigen::Matrix4d& part) const;
 
   Ends ends_;
+  double length_m_, element_m_;
   TrueMatrices out_;
   Eigen::VectorXd influence_;  // inertia of all nodes in translation, held ones included
 };
@@ -76,5 +90,7 @@ class TrueBar {
 
 // Every case, n_seeds of each: effect named and nothing else, interval, held-out errors, rivals.
 void print_structure_effects(int n_seeds, int n_threads, int first_seed);
+// Mechanisms of damping, n_seeds of each.
+void print_structure_damping(int n_seeds, int n_threads, int first_seed);
 
 }  // namespace tools

@@ -1,9 +1,10 @@
-// Bars for the figure of named effects: matrices of the simulator's cantilever and deck, and the cases made of them.
+// Towers, beams and cables for the figure of named effects.
 #include <cmath>
+#include <memory>
 #include <numbers>
-#include <stdexcept>
+#include <optional>
+#include <utility>
 
-#include "core/simulation/structure/beam_builders.h"
 #include "core/structure/kinds/beam.h"
 #include "core/structure/kinds/cable.h"
 #include "core/structure/kinds/tower.h"
@@ -14,33 +15,10 @@ namespace tools {
 namespace {
 
 using namespace core::structure;
-using Eigen::Index;
-using Eigen::Matrix4d;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-constexpr double kElement = 1.0 / static_cast<double>(kNamedElements);
-constexpr std::size_t kElementsInPart = kNamedElements / kNamedParts;
 constexpr double kEuler = std::numbers::pi * std::numbers::pi;  // Euler's load of the hinged bar
 
-// Textbook elements of length l, E I = 1, tension 1 (Clough & Penzien, Dynamics of Structures, 10.3 to 10.5).
-Matrix4d bending() {
-  const double l = kElement;
-  Matrix4d k;
-  k << 12, 6 * l, -12, 6 * l, 6 * l, 4 * l * l, -6 * l, 2 * l * l, -12, -6 * l, 12, -6 * l, 6 * l, 2 * l * l, -6 * l,
-      4 * l * l;
-  return k / (l * l * l);
-}
-Matrix4d geometric() {
-  const double l = kElement;
-  Matrix4d k;
-  k << 36, 3 * l, -36, 3 * l, 3 * l, 4 * l * l, -3 * l, -l * l, -36, -3 * l, 36, -3 * l, 3 * l, -l * l, -3 * l,
-      4 * l * l;
-  return k / (30.0 * l);
-}
-
 // Number of a part's end among the model's nodes, and the element node there.
-std::size_t node_of(std::size_t part_end) { return part_end * kElementsInPart; }
+std::size_t node_of(std::size_t part_end) { return part_end * (kNamedElements / kNamedParts); }
 
 double drawn_ratio(Draw& draw) {
   return draw.uniform(0.0, 1.0) < 0.5 ? draw.uniform(0.4, 0.7) : draw.uniform(1.5, 2.5);
@@ -48,111 +26,17 @@ double drawn_ratio(Draw& draw) {
 
 }  // namespace
 
-TrueBar::TrueBar(Ends ends) : ends_(ends) {
-  using namespace core::simulation;
-  const ModalDamping damping{{0.01}};
-  const StructureModel model =
-      ends == Ends::kFoot
-          ? cantilever({1000.0, static_cast<int>(kNamedElements), 1.0, 1.0, 0.0}, damping)
-          : bridge_deck({1000.0, static_cast<int>(kNamedElements) - 1, 1, 1.0, 1.0, BridgeDeck::Ends::kSimple},
-                        damping);
-  out_.stiffness = model.stiffness, out_.mass = model.mass, influence_ = model.influence;
-}
+double drawn_length(Draw& draw) { return 1.0 + draw.sign() * draw.uniform(0.02, 0.1); }
 
-Index TrueBar::dof(std::size_t node, bool turns) const {
-  const auto full = static_cast<Index>(2 * node + (turns ? 1 : 0));
-  if (ends_ == Ends::kFoot) return full - 2 >= 0 ? full - 2 : -1;
-  if (!turns && (node == 0 || node == kNamedElements)) return -1;
-  return node == kNamedElements ? full - 2 : full - 1;
-}
+void warm(NamedCase& out, Draw& draw) { out.size = draw.sign() * draw.uniform(10.0, 30.0); }
 
-void TrueBar::add(MatrixXd& to, std::size_t element, const Matrix4d& part) const {
-  const Index at[] = {dof(element, false), dof(element, true), dof(element + 1, false), dof(element + 1, true)};
-  for (Index i = 0; i < 4; ++i) {
-    for (Index j = 0; j < 4; ++j) {
-      if (at[i] >= 0 && at[j] >= 0) to(at[i], at[j]) += part(i, j);
-    }
-  }
-}
-
-MatrixXd TrueBar::part(std::size_t number) const {
-  MatrixXd out = MatrixXd::Zero(out_.stiffness.rows(), out_.stiffness.cols());
-  for (std::size_t e = (number - 1) * kElementsInPart; e < number * kElementsInPart; ++e) add(out, e, bending());
-  return out;
-}
-
-void TrueBar::scale_part(std::size_t number, double ratio) { out_.stiffness += (ratio - 1.0) * part(number); }
-
-void TrueBar::add_mass(std::size_t node, double share) { out_.mass(dof(node, false), dof(node, false)) += share; }
-
-void TrueBar::add_tension(double newton) {
-  for (std::size_t e = 0; e < kNamedElements; ++e) add(out_.stiffness, e, newton * geometric());
-}
-
-void TrueBar::add_weight(double newton) {
-  for (std::size_t e = 0; e < kNamedElements; ++e) {
-    const double middle = (static_cast<double>(e) + 0.5) * kElement;
-    add(out_.stiffness, e, -newton * (1.0 - middle) * geometric());
-  }
-}
-
-void TrueBar::add_spring(std::size_t node, bool turns, double stiffness) {
-  out_.stiffness(dof(node, turns), dof(node, turns)) += stiffness;
-}
-
-void TrueBar::add_turning(double flexibility) {
-  VectorXd rigid = VectorXd::Zero(out_.stiffness.rows());
-  for (std::size_t node = 1; node <= kNamedElements; ++node) {
-    rigid(dof(node, false)) = static_cast<double>(node) * kElement;
-    rigid(dof(node, true)) = 1.0;
-  }
-  // Inverse of K^-1 + flexibility rigid rigid' (Sherman & Morrison).
-  const VectorXd force = out_.stiffness * rigid;
-  out_.stiffness -= (flexibility / (1.0 + flexibility * rigid.dot(force))) * force * force.transpose();
-}
-
-void TrueBar::release(std::size_t node, double stiffness) {
-  const Index n = out_.stiffness.rows();
-  VectorXd rigid = VectorXd::Zero(n);
-  for (std::size_t i = 0; i <= kNamedElements; ++i) {
-    if (dof(i, false) >= 0) rigid(dof(i, false)) = 1.0;
-  }
-  // Of all held ends together; each one's own lie in its half of the bar.
-  VectorXd mass = influence_ - out_.mass * rigid, stiff = -(out_.stiffness * rigid);
-  const double ends = ends_ == Ends::kFoot ? 1.0 : 2.0;
-  const double own_mass = (1.0 - rigid.dot(out_.mass * rigid) - 2.0 * rigid.dot(mass)) / ends;
-  if (node == 0) {
-    mass.tail(n / 2).setZero(), stiff.tail(n / 2).setZero();
-  } else {
-    mass.head(n / 2).setZero(), stiff.head(n / 2).setZero();
-  }
-  const double own_stiffness = -rigid.dot(stiff);
-  const auto extend = [n](MatrixXd& to, const VectorXd& coupling, double own) {
-    to.conservativeResize(n + 1, n + 1);
-    to.col(n).head(n) = coupling, to.row(n).head(n) = coupling.transpose(), to(n, n) = own;
-  };
-  extend(out_.mass, mass, own_mass);
-  extend(out_.stiffness, stiff, own_stiffness + stiffness);
-}
-
-std::vector<std::size_t> TrueBar::look(int n_places) {
-  std::vector<std::size_t> nodes;
-  out_.seen = MatrixXd::Zero(n_places, out_.stiffness.rows());
-  for (int i = 0; i < n_places; ++i) {
-    const double share = ends_ == Ends::kFoot ? (i + 1.0) / n_places : (i + 0.7) / (n_places + 0.4);
-    nodes.push_back(static_cast<std::size_t>(std::lround(share * static_cast<double>(kNamedElements))));
-    out_.seen(i, dof(nodes.back(), false)) = 1.0;
-  }
-  return nodes;
-}
-
-std::vector<Sight> bar_sights(const std::vector<std::size_t>& nodes, bool upright) {
-  std::vector<Sight> out;
-  for (const std::size_t node : nodes) {
-    const double x = static_cast<double>(node) * kElement;
-    out.push_back({"r" + std::to_string(out.size() + 1), upright ? Eigen::Vector3d(0, 0, x) : Eigen::Vector3d(x, 0, 0),
-                   upright ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitZ()});
-  }
+DeclaredFrame declared_as(std::unique_ptr<StructuralModel> model, const std::string& effect) {
+  DeclaredFrame out = declare(std::move(model), kMostNamedModes);
+  if (effect == "temperature") out.temperature = TemperatureLaw{kWarmPerKelvin, 0.0};
+  // A rigid end shortens a clamped bar: but for shapes that is a common factor, as the other two are.
+  const bool is_factor =
+      effect == "temperature" || effect == "length_scale" || (effect == "rigid_offset" && out.model->kind() == "beam");
+  if (is_factor) out.stiffness_over_mass_per_s2 = 1.0;
   return out;
 }
 
@@ -184,6 +68,20 @@ NamedCase draw_tower(const std::string& effect, Draw& draw) {
     out.size = drawn_ratio(draw);
     tower.guys.push_back({static_cast<double>(at) / static_cast<double>(kNamedParts), stiffness});
     bar.add_spring(node_of(at), false, out.size * stiffness);
+  } else if (effect == "shear_flexibility") {
+    const double flexibility = draw.log_uniform(2e-3, 2e-2);
+    out.size = flexibility / 0.01;
+    bar.shear(flexibility);
+  } else if (effect == "temperature") {
+    warm(out, draw);
+    for (std::size_t i = 1; i <= kNamedParts; ++i) bar.scale_part(i, 1.0 + kWarmPerKelvin * out.size);
+  } else if (effect == "length_scale") {  // a guy's stiffness does not change with it
+    const double stiffness = draw.uniform(5.0, 20.0);
+    const auto at = static_cast<std::size_t>(draw.whole(3, 5));
+    out.size = drawn_length(draw);
+    tower.guys.push_back({static_cast<double>(at) / static_cast<double>(kNamedParts), stiffness});
+    bar = TrueBar(TrueBar::Ends::kFoot, out.size);
+    bar.add_spring(node_of(at), false, stiffness);
   } else {  // weight_softening: in units of 0.2 of the declared weight
     // A weight of 7.84 E I / L^2 buckles the cantilever (Timoshenko & Gere 1961); scaled by mass in units of gravity.
     const double weight = draw.uniform(0.5, 1.2), factor = draw.uniform(2.0, 4.0);
@@ -194,7 +92,7 @@ NamedCase draw_tower(const std::string& effect, Draw& draw) {
   }
   const auto nodes = bar.look(draw.whole(5, 8));
   out.truth = bar.matrices();
-  out.declared = declare(make_tower(tower, bar_sights(nodes, true)), kMostNamedModes);
+  out.declared = declared_as(make_tower(tower, bar_sights(nodes, true)), effect);
   return out;
 }
 
@@ -205,6 +103,7 @@ NamedCase draw_beam(const std::string& effect, Draw& draw) {
   beam.supports.resize(2);
   TrueBar bar(TrueBar::Ends::kHinges);
   NamedCase out;
+  std::optional<TemperatureLaw> law;
   const int end = draw.whole(0, 1);
   const auto end_node = end == 0 ? std::size_t{0} : kNamedElements;
   if (effect == "soft_part") {
@@ -234,6 +133,29 @@ NamedCase draw_beam(const std::string& effect, Draw& draw) {
     beam.supports[static_cast<std::size_t>(end)].displacement = Connection::spring(stiffness);
     out.size = drawn_ratio(draw);
     bar.release(end_node, out.size * stiffness);
+  } else if (effect == "shear_flexibility") {
+    const double flexibility = draw.log_uniform(2e-3, 2e-2);
+    out.size = flexibility / 0.01;
+    bar.shear(flexibility);
+  } else if (effect == "rigid_offset") {  // in units of an element; both ends clamped
+    for (auto& support : beam.supports) support.rotation = Connection::rigid();
+    const int count = draw.whole(2, 4);
+    out.place = static_cast<std::size_t>(end) + 1, out.size = count;
+    for (const std::size_t node : {std::size_t{0}, kNamedElements}) bar.add_spring(node, true, kClamp);
+    const auto n = static_cast<std::size_t>(count);
+    bar.stiffen(end == 0 ? 0 : kNamedElements - n, n);
+  } else if (effect == "temperature") {  // between abutments: a rise compresses
+    constexpr double kPerKelvin = -5e-4, kEulerPerKelvin = -0.02;
+    out.size = draw.sign() * draw.uniform(8.0, 25.0);
+    for (std::size_t i = 1; i <= kNamedParts; ++i) bar.scale_part(i, 1.0 + kPerKelvin * out.size);
+    bar.add_tension(out.size * kEulerPerKelvin * kEuler);
+    law = TemperatureLaw{kPerKelvin, kEulerPerKelvin * kEuler};
+  } else if (effect == "length_scale") {  // a support's stiffness does not change with it
+    const double stiffness = draw.uniform(50.0, 200.0);
+    beam.supports[static_cast<std::size_t>(end)].displacement = Connection::spring(stiffness);
+    out.size = drawn_length(draw);
+    bar = TrueBar(TrueBar::Ends::kHinges, out.size);
+    bar.release(end_node, stiffness);
   } else {  // axial_force, in units of 0.1 of Euler's load
     const double share = draw.uniform(0.0, 1.0) < 0.5 ? -draw.uniform(0.1, 0.5) : draw.uniform(0.15, 1.0);
     out.size = share / 0.1;
@@ -241,7 +163,8 @@ NamedCase draw_beam(const std::string& effect, Draw& draw) {
   }
   const auto nodes = bar.look(draw.whole(5, 8));
   out.truth = bar.matrices();
-  out.declared = declare(make_beam(beam, bar_sights(nodes, false)), kMostNamedModes);
+  out.declared = declared_as(make_beam(beam, bar_sights(nodes, false)), effect);
+  out.declared.temperature = law;
   return out;
 }
 
@@ -253,6 +176,7 @@ NamedCase draw_cable(const std::string& effect, Draw& draw) {
   cable.tension_prior = 0.0, cable.ei_prior = 0.0;
   TrueBar bar(TrueBar::Ends::kHinges);
   NamedCase out;
+  std::optional<TemperatureLaw> law;
   bool known = false;
   double force = tension;
   if (effect == "axial_force") {  // in units of a tenth of the declared tension
@@ -266,6 +190,14 @@ NamedCase draw_cable(const std::string& effect, Draw& draw) {
   } else if (effect == "soft_part") {  // the bending stiffness
     out.size = drawn_ratio(draw), known = true;
     for (std::size_t i = 1; i <= kNamedParts; ++i) bar.scale_part(i, out.size);
+  } else if (effect == "temperature") {
+    constexpr double kPerKelvin = -5e-4, kTensionPerKelvin = -6e-3;
+    out.size = draw.sign() * draw.uniform(8.0, 30.0), force *= 1.0 + kTensionPerKelvin * out.size, known = true;
+    for (std::size_t i = 1; i <= kNamedParts; ++i) bar.scale_part(i, 1.0 + kPerKelvin * out.size);
+    law = TemperatureLaw{kPerKelvin, kTensionPerKelvin * tension};
+  } else if (effect == "length_scale") {
+    out.size = drawn_length(draw), known = true;
+    bar = TrueBar(TrueBar::Ends::kHinges, out.size);
   } else {  // support_restraint, in units of sqrt(T E I)
     const int end = draw.whole(0, 1);
     out.place = static_cast<std::size_t>(end) + 1, out.size = draw.uniform(0.5, 4.0);
@@ -276,6 +208,7 @@ NamedCase draw_cable(const std::string& effect, Draw& draw) {
   out.truth = bar.matrices();
   out.declared = declare(make_cable(cable, bar_sights(nodes, false)), kMostNamedModes);
   if (known) out.declared.stiffness_over_mass_per_s2 = 1.0;
+  out.declared.temperature = law;
   return out;
 }
 

@@ -10,6 +10,7 @@
 #include "core/structure/kinds/modes.h"
 #include "core/structure/kinds/shear_storeys.h"
 #include "core/types/constants.h"
+#include "tools/validate/structures_elements.h"
 #include "tools/validate/structures_named.h"
 
 namespace tools {
@@ -31,39 +32,47 @@ constexpr double kPortalEa = 400.0, kPortalMass = 1e-4;  // MN and Gg/m: kg/m ti
 
 Index portal_dof(Index node, Index motion) { return 3 * node + motion; }  // x, z, turn
 
-// Matrices of the portal with nothing held (Clough & Penzien, 10.3), and the share of each member.
+// How the portal departs from its declaration.
+struct PortalChange {
+  std::array<double, kLines> ratio{1, 1, 1, 1, 1, 1};  // of the members' stiffness
+  double shear_ratio = 0.0;                            // E over kappa G
+  double length = 1.0;                                 // factor of all
+  std::size_t rigid_member = 0, rigid_count = 0;       // from 1; elements that are rigid at one end of it
+  bool rigid_is_last = false;
+};
+
+// Matrices of the portal with nothing held.
 struct Portal {
   MatrixXd stiffness = MatrixXd::Zero(3 * kPortalNodes, 3 * kPortalNodes), mass = stiffness;
-  explicit Portal(const std::array<double, kLines>& ratio) {
-    for (int line = 0; line < kLines; ++line) add_line(line, ratio[static_cast<std::size_t>(line)]);
+  explicit Portal(const PortalChange& change) {
+    for (int line = 0; line < kLines; ++line) {
+      const auto at = static_cast<std::size_t>(line);
+      if (change.shear_ratio > 0.0) {
+        add_sheared(line, change.shear_ratio);
+        continue;
+      }
+      for (int e = 0; e < kInLine; ++e) {
+        const int from_end = change.rigid_is_last ? kInLine - 1 - e : e;
+        const bool is_rigid = change.rigid_member == at + 1 && from_end < static_cast<int>(change.rigid_count);
+        const Corner a = kCorners[at], b = kCorners[at + 1];
+        add_plane_element(stiffness, mass, line * kInLine + e,
+                          {(b.x - a.x) * change.length / kInLine, (b.z - a.z) * change.length / kInLine,
+                           change.ratio[at] * kPortalEi[at] * (is_rigid ? 1e4 : 1.0),
+                           change.ratio[at] * kPortalEa * (is_rigid ? 1e4 : 1.0), kPortalMass});
+      }
+    }
   }
 
  private:
-  void add_line(int line, double ratio) {
+  void add_sheared(int line, double shear_ratio) {
+    constexpr int kInOne = static_cast<int>(kShearNodes) - 1;
     const auto at = static_cast<std::size_t>(line);
     const Corner a = kCorners[at], b = kCorners[at + 1];
-    const double whole = std::hypot(b.x - a.x, b.z - a.z), l = whole / kInLine;
-    const double c = (b.x - a.x) / whole, s = (b.z - a.z) / whole;
-    MatrixXd k = MatrixXd::Zero(6, 6), m = k, turn = MatrixXd::Identity(6, 6);
-    const double axial = ratio * kPortalEa / l, bend = ratio * kPortalEi[at] / (l * l * l), g = kPortalMass * l / 420.0;
-    for (const Index i : {0, 3}) {
-      turn(i, i) = turn(i + 1, i + 1) = c, turn(i, i + 1) = s, turn(i + 1, i) = -s;
-      for (const Index j : {0, 3}) k(i, j) = i == j ? axial : -axial, m(i, j) = (i == j ? 140.0 : 70.0) * g;
-    }
-    const Index own[4] = {1, 2, 4, 5};
-    Eigen::Matrix4d kb, mb;
-    kb << 12, 6 * l, -12, 6 * l, 6 * l, 4 * l * l, -6 * l, 2 * l * l, -12, -6 * l, 12, -6 * l, 6 * l, 2 * l * l, -6 * l,
-        4 * l * l;
-    mb << 156, 22 * l, 54, -13 * l, 22 * l, 4 * l * l, 13 * l, -3 * l * l, 54, 13 * l, 156, -22 * l, -13 * l,
-        -3 * l * l, -22 * l, 4 * l * l;
-    for (Index i = 0; i < 4; ++i) {
-      for (Index j = 0; j < 4; ++j) k(own[i], own[j]) += bend * kb(i, j), m(own[i], own[j]) += g * mb(i, j);
-    }
-    for (int e = 0; e < kInLine; ++e) {
-      const Index first = 3 * (line * kInLine + e);
-      stiffness.block(first, first, 6, 6) += turn.transpose() * k * turn;
-      mass.block(first, first, 6, 6) += turn.transpose() * m * turn;
-    }
+    for (int e = 0; e < kInLine; e += kInOne)
+      add_plane_shear_element(
+          stiffness, mass, line * kInLine + e,
+          {(b.x - a.x) * kInOne / kInLine, (b.z - a.z) * kInOne / kInLine, kPortalEi[at], kPortalEa, kPortalMass},
+          kPortalEa / shear_ratio);
   }
 };
 
@@ -92,13 +101,25 @@ Frame2d declared_portal() {
 NamedCase draw_frame2d(const std::string& effect, Draw& draw) {
   constexpr double kLength = 3.0;  // largest member, by which the model scales its supports
   NamedCase out;
-  std::array<double, kLines> ratio{1, 1, 1, 1, 1, 1};
+  PortalChange change;
   const int member = draw.whole(1, kLines), inner = draw.whole(1, kLines - 1), foot = draw.whole(0, 1);
   if (effect == "soft_part") {
     out.place = static_cast<std::size_t>(member), out.size = draw.uniform(0.4, 0.8);
-    ratio[out.place - 1] = out.size;
+    change.ratio[out.place - 1] = out.size;
+  } else if (effect == "shear_flexibility") {  // E over kappa G, in units of 3
+    change.shear_ratio = draw.log_uniform(5.0, 50.0), out.size = change.shear_ratio / 3.0;
+  } else if (effect == "rigid_offset") {  // in units of an element, a tenth of the member
+    change.rigid_member = static_cast<std::size_t>(member), change.rigid_is_last = draw.whole(0, 1) == 1;
+    change.rigid_count = static_cast<std::size_t>(draw.whole(2, 4));
+    out.place = 2 * change.rigid_member - (change.rigid_is_last ? 0 : 1);
+    out.size = static_cast<double>(change.rigid_count);
+  } else if (effect == "temperature") {
+    warm(out, draw);
+    change.ratio.fill(1.0 + kWarmPerKelvin * out.size);
+  } else if (effect == "length_scale") {
+    change.length = out.size = drawn_length(draw);
   }
-  Portal portal(ratio);
+  Portal portal(change);
   const Index foot_node = foot == 0 ? 0 : kPortalNodes - 1;
   double turning = 1e9, yielding = 1e9;
   if (effect == "added_mass") {
@@ -138,7 +159,7 @@ NamedCase draw_frame2d(const std::string& effect, Draw& draw) {
                       {a.x + along * (b.x - a.x), 0.0, a.z + along * (b.z - a.z)},
                       lies ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX()});
   }
-  out.declared = declare(make_frame2d(declared_portal(), std::move(sights)), kMostNamedModes);
+  out.declared = declared_as(make_frame2d(declared_portal(), std::move(sights)), effect);
   return out;
 }
 
@@ -170,6 +191,10 @@ NamedCase draw_storeys(const std::string& effect, Draw& draw) {
     out.size = over_height / 10.0;
     building.storey_height_mm.assign(static_cast<std::size_t>(n), 1e3 * core::kStandardGravity_m_s2 / over_height);
   }
+  if (effect == "temperature") {
+    warm(out, draw);
+    for (double& k : building.stiffness_n_per_m) k *= 1.0 + kWarmPerKelvin * out.size;
+  }
   core::simulation::StructureModel model =
       core::simulation::shear_frame(building, core::simulation::ModalDamping{{0.01}});
   if (effect == "support_turning") {  // the foundation rocks: k h^2 over its stiffness, in units of 0.02
@@ -185,11 +210,11 @@ NamedCase draw_storeys(const std::string& effect, Draw& draw) {
   std::vector<Sight> sights;
   for (int i = 0; i < n; ++i)
     sights.push_back({"r" + std::to_string(i + 1), {0.0, 0.0, i + 1.0}, Eigen::Vector3d::UnitX()});
-  out.declared = declare(make_shear_storeys(frame, std::move(sights)), kMostNamedModes);
+  out.declared = declared_as(make_shear_storeys(frame, std::move(sights)), effect);
   return out;
 }
 
-NamedCase draw_matrices(const std::string&, Draw& draw) {
+NamedCase draw_matrices(const std::string& effect, Draw& draw) {
   TrueBar bar(TrueBar::Ends::kFoot);
   const auto nodes = bar.look(draw.whole(5, 8));
   NamedCase out;
@@ -200,11 +225,16 @@ NamedCase draw_matrices(const std::string&, Draw& draw) {
     declared.groups.push_back({"g" + std::to_string(i), bar.part(i).sparseView(), {}, 0.0});
   for (std::size_t i = 0; i < nodes.size(); ++i)
     declared.seen.push_back({"r" + std::to_string(i + 1), {{2 * nodes[i] - 2, 1.0}}});
-  out.place = static_cast<std::size_t>(draw.whole(1, static_cast<int>(kNamedParts)));
-  out.size = draw.uniform(0.4, 0.8);
-  bar.scale_part(out.place, out.size);
+  if (effect == "temperature") {
+    warm(out, draw);
+    for (std::size_t i = 1; i <= kNamedParts; ++i) bar.scale_part(i, 1.0 + kWarmPerKelvin * out.size);
+  } else {
+    out.place = static_cast<std::size_t>(draw.whole(1, static_cast<int>(kNamedParts)));
+    out.size = draw.uniform(0.4, 0.8);
+    bar.scale_part(out.place, out.size);
+  }
   out.truth = bar.matrices();
-  out.declared = declare(make_matrices(declared), kMostNamedModes);
+  out.declared = declared_as(make_matrices(declared), effect);
   return out;
 }
 
