@@ -1,11 +1,11 @@
 // loop.html: residual diagnosis over all levels, on one page.
 #include <fmt/format.h>
 
-#include "firmware_app/report/closure_modes_svg.h"
 #include "firmware_app/report/loop_report.h"
 #include "firmware_app/report/page/html_text.h"
 #include "firmware_app/report/page/page_parts.h"
 #include "firmware_app/report/plot/svg_document.h"
+#include "firmware_app/report/structure_section.h"
 
 namespace app {
 namespace {
@@ -67,12 +67,6 @@ std::string modes_html(const LoopResult& result) {
   return result.modes.empty() ? absent_html("No mode was identified.") : table.html();
 }
 
-// The errors of the modes, in both widths; empty if there are none.
-std::string modes_figure_html(const core::closure::ClosureResult& drawn, const std::string& axis) {
-  const std::string wide = closure_modes_svg(drawn, axis);
-  return wide.empty() ? wide : figure_html(wide, closure_modes_narrow_svg(drawn, axis), {}, {});
-}
-
 // The numbers of modes_html() as a picture; empty if there are none.
 std::string picture_html(const LoopResult& result) {
   core::closure::ClosureResult drawn;
@@ -90,18 +84,6 @@ std::string picture_html(const LoopResult& result) {
   }
   drawn.baseline_rms = result.error_before.value_or(0.0), drawn.residual_rms = result.error_after.value_or(0.0);
   return modes_figure_html(drawn, compared_text(result));
-}
-
-// The declared structure against the modes: errors before and after, shapes, places, parameters; empty if there is
-// none.
-std::string structure_html(const LoopResult& result) {
-  std::string out;
-  for (const LoopLevel& level : result.levels) {
-    if (level.level != "structure" || !level.result) continue;
-    out += modes_figure_html(*level.result, kModelErrorAxis);
-    for (const LoopLevel::Picture& one : level.pictures) out += paragraph_html(one.title + ".") + one.svg;
-  }
-  return out;
 }
 
 }  // namespace
@@ -122,8 +104,7 @@ std::string loop_page(const LoopResult& result) {
   }
   modes += picture_html(result);
   out += section_html("modes", "Modes before any repair and after the last", modes);
-  if (const std::string structure = structure_html(result); !structure.empty())
-    out += section_html("structure", "The declared structure and the modes", structure);
+  out += structure_section(result);
   for (const std::string& remark : result.remarks) out += paragraph_html(remark);
   return out + "</main>\n<footer><p>Written by hovermodal " HOVERMODAL_VERSION
                ". The numbers of this page are in <code>loop.json</code>.</p></footer>\n</body>\n</html>\n";

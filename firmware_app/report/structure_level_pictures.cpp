@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -82,6 +84,45 @@ std::vector<SoughtPlace> places(const StructureLevel& level, std::size_t i_effec
   return out;
 }
 
+// The model's drawing with the parameters that the adopted effects change.
+std::vector<DrawnPart> drawn_parts(const StructureLevel& level, const core::closure::ClosureResult& result) {
+  std::vector<DrawnPart> out;
+  const FrameModel& model = level.model();
+  if (!model.declared->model) return out;
+  std::map<std::size_t, std::string> found;
+  std::set<std::size_t> alike;
+  for (std::size_t i = 0; i < model.effects.size() && i < result.steps.size(); ++i) {
+    std::vector<double> own = model.of_effect(i, level.fitted().parameters);
+    const auto parameter = model.effects[i]->model_parameter(own, *model.declared);
+    if (!parameter) continue;
+    found[*parameter] = result.steps[i].effect + ": " + result.steps[i].meaning;
+    for (const auto& place : place_profile(model, level.reference(), level.fitted(), i, level.spread())) {
+      own.front() = static_cast<double>(place.place);
+      const auto other = model.effects[i]->model_parameter(own, *model.declared);
+      if (place.is_indistinguishable && other) alike.insert(*other);
+    }
+  }
+  const auto drawing = model.declared->model->drawing();
+  bool is_marked = false;
+  for (const core::structure::DrawnItem& item : drawing) {
+    DrawnPart part{item.from_m.x(), item.from_m.y(), item.to_m.x(), item.to_m.y(), false, {}, false};
+    const core::structure::Role role =
+        item.parameter ? model.declared->model->parameters()[*item.parameter].role : core::structure::Role::kOther;
+    part.is_member = !item.is_node() && (!item.parameter || role == core::structure::Role::kPartStiffness);
+    if (item.parameter && found.contains(*item.parameter)) part.found = found[*item.parameter], is_marked = true;
+    part.is_indistinguishable = item.parameter && alike.contains(*item.parameter);
+    out.push_back(std::move(part));
+  }
+  // What acts on the whole is no place on it.
+  return is_marked ? out : std::vector<DrawnPart>{};
+}
+
+std::vector<SeenPlace> seen_places(const DeclaredFrame& declared) {
+  std::vector<SeenPlace> out;
+  for (const auto& sight : declared.model->sights()) out.push_back({sight.at_m.x(), sight.at_m.z()});
+  return out;
+}
+
 std::vector<FittedParameter> parameters(const StructureLevel& level, const core::closure::ClosureResult& result) {
   std::vector<FittedParameter> out;
   const FrameModel& model = level.model();
@@ -118,6 +159,9 @@ std::vector<StructurePicture> structure_level_pictures(const StructureLevel& lev
       structure_shapes_svg(comparisons(level, declared), channel_names(declared)));
   add("structure_posterior", "Fitted parameters and their standard deviations",
       structure_posterior_svg(parameters(level, result)));
+  if (declared.model)
+    add("structure_drawing", "The structure, and where what was found acts",
+        structure_drawing_svg(drawn_parts(level, result), seen_places(declared)));
   for (std::size_t i = 0; i < result.steps.size(); ++i) {
     const std::string effect = result.steps[i].effect + " " + result.steps[i].meaning;
     add(fmt::format("structure_place_{}", i + 1), "Places of " + effect,

@@ -14,7 +14,8 @@ struct StructurePicture {
 };
 
 // Pictures of a closed structural loop: structure_shapes where shapes were measured, structure_posterior where there
-// are parameters, structure_place_N of the N-th effect where it has places. Fits the places again: seconds. Any thread.
+// are parameters, structure_drawing where something was found at a place of a structure with a geometry,
+// structure_place_N of the N-th effect where it has places. Fits the places again: seconds. Any thread.
 [[nodiscard]] std::vector<StructurePicture> structure_level_pictures(const core::closure::StructureLevel& level,
                                                                      const core::closure::ClosureResult& result,
                                                                      const core::structure::DeclaredFrame& declared);

@@ -23,6 +23,17 @@ struct SoughtPlace {
   bool is_indistinguishable = false;  // the modes cannot distinguish it from that place
 };
 
+// A line or node of the drawing of a structure, m; x to the right, z upwards.
+struct DrawnPart {
+  double from_x = 0.0, from_z = 0.0, to_x = 0.0, to_z = 0.0;
+  bool is_member = false;             // of the structure as declared: always drawn
+  std::string found;                  // label of what was found there; empty: nothing
+  bool is_indistinguishable = false;  // it may as well be here
+};
+struct SeenPlace {
+  double x = 0.0, z = 0.0;
+};
+
 // A fitted parameter: of the model with a prior, or of an adopted effect (no prior).
 struct FittedParameter {
   std::string name, unit;
@@ -37,6 +48,9 @@ struct FittedParameter {
                                                const std::vector<std::string>& channels);
 // The structure's places from the first (lowest) upwards, with what was found marked on it.
 [[nodiscard]] std::string structure_places_svg(const std::string& effect, const std::vector<SoughtPlace>& places);
+// The structure to scale with what was found marked on it, and the places that are seen.
+[[nodiscard]] std::string structure_drawing_svg(const std::vector<DrawnPart>& parts,
+                                                const std::vector<SeenPlace>& seen);
 // Each parameter with one and two standard deviations, in units of its prior's about the declared value; one without a
 // prior in units of its own value.
 [[nodiscard]] std::string structure_posterior_svg(const std::vector<FittedParameter>& parameters);

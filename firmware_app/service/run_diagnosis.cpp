@@ -10,6 +10,7 @@
 #include "drivers/storage/structure_file.h"
 #include "firmware_app/replay/level_loop.h"
 #include "firmware_app/report/loop_report.h"
+#include "firmware_app/report/structure_section.h"
 
 namespace app {
 
@@ -38,6 +39,7 @@ void diagnose_run(const AppConfig& config, const Pipeline::Outcome& outcome, con
     };
     const core::closure::LoopResult result = close_levels(inputs);
     write_loop_report(inputs.folder, result);
+    add_structure_to_report(inputs.folder, result);
     std::istringstream lines(loop_text(result));
     for (std::string line; std::getline(lines, line);) spdlog::info("{}", line);
   } catch (const std::exception& e) {
