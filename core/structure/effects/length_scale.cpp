@@ -18,7 +18,7 @@ class LengthScale : public RoleEffect {
                                         2.5,
                                         "the model's matrices hold no lengths",
                                         "declare a beam, tower, cable or frame2d"}) {}
-  std::optional<Obstacle> obstacle(const DeclaredFrame& declared) const override {
+  [[nodiscard]] std::optional<Obstacle> obstacle(const DeclaredFrame& declared) const override {
     if (!declared.model || declared.model->kind() == "shear_frame")
       return Obstacle{"heights of storeys enter by their stiffness only", "stiffness_scale states the common factor"};
     if (auto words = RoleEffect::obstacle(declared)) return words;

@@ -13,14 +13,15 @@ constexpr double kMost_k = 80.0;  // change of temperature of a structure
 // the axial force of restrained bars change by declared coefficients.
 class TemperatureChange : public StructuralEffect {
  public:
-  std::string_view name() const override { return "temperature"; }
-  std::vector<EffectParameter> parameters(const DeclaredFrame&) const override {
+  [[nodiscard]] std::string_view name() const override { return "temperature"; }
+  [[nodiscard]] std::vector<EffectParameter> parameters(const DeclaredFrame&) const override {
     return {{"change", "K", 0.0, {-15.0, 15.0}, -2.0 * kMost_k, 2.0 * kMost_k}};
   }
-  std::optional<Obstacle> obstacle(const DeclaredFrame& declared) const override {
-    if (!declared.temperature)
+  [[nodiscard]] std::optional<Obstacle> obstacle(const DeclaredFrame& declared) const override {
+    if (!declared.temperature) {
       return Obstacle{"how stiffness and axial force depend on temperature is not declared",
                       "declare temperature: {stiffness_per_k, axial_n_per_k}"};
+    }
     const bool has_axial = declared.model && declared.temperature->axial_n_per_k != 0.0 &&
                            !parameters_of(*declared.model, Role::kAxialForce).empty();
     if (has_axial) return std::nullopt;
@@ -43,10 +44,11 @@ class TemperatureChange : public StructuralEffect {
     for (const std::size_t i : parameters_of(*declared.model, Role::kAxialForce))
       change(i, values(static_cast<Eigen::Index>(i)) + p[0] * declared.temperature->axial_n_per_k);
   }
-  std::string implausible(std::span<const double> p, const DeclaredFrame&, const ShearFrame&) const override {
+  [[nodiscard]] std::string implausible(std::span<const double> p, const DeclaredFrame&,
+                                        const ShearFrame&) const override {
     return outside(p[0], -kMost_k, kMost_k, "a change of temperature (K)");
   }
-  std::string meaning(std::span<const double> p, const DeclaredFrame& declared) const override {
+  [[nodiscard]] std::string meaning(std::span<const double> p, const DeclaredFrame& declared) const override {
     std::ostringstream text;
     text.precision(3);
     text << "stiffness " << 100.0 * (factor(p[0], declared) - 1.0) << " %";

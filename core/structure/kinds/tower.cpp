@@ -120,9 +120,11 @@ class TowerBuilder {
       const std::size_t number = mesh_.add_bar(nodes_[i], nodes_[i + 1], bar, parts[part_of(low + 0.5 * length)]);
       mesh_.add_tension(
           number, [this, low, length](double s) { return -weight_above(low + s * length); }, gravity, true);
-      if (tower_.tip_mass_kg > 0.0)
+      if (tower_.tip_mass_kg > 0.0) {
+        const double tip_n = kStandardGravity_m_s2 * tower_.tip_mass_kg;
         mesh_.add_tension(
-            number, [this](double) { return -kStandardGravity_m_s2 * tower_.tip_mass_kg; }, gravity);
+            number, [tip_n](double) { return -tip_n; }, gravity);
+      }
     }
   }
   // In series with bending, along the height as the mass; with shear_n it is declared.
