@@ -59,7 +59,7 @@ NamedCase draw_masts(const std::string& effect, Draw& draw) {
       out.truth.stiffness(3 * node_at(mast, 0) + motion, 3 * node_at(mast, 0) + motion) += 1e9;
   }
   const int level = draw.whole(1, static_cast<int>(kLevels));
-  out.place = static_cast<std::size_t>(level), out.size = draw.log_uniform(0.02, 0.5);
+  out.place = static_cast<std::size_t>(level), out.size = draw.log_uniform(0.02, 0.15);
   const Index a = 3 * node_at(0, level * kInLevel), b = 3 * node_at(1, level * kInLevel);
   for (const Index i : {a, b}) {
     for (const Index j : {a, b}) out.truth.stiffness(i, j) += (i == j ? 1.0 : -1.0) * out.size * kUnit;
