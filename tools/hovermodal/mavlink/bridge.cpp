@@ -134,9 +134,9 @@ std::vector<drivers::MavlinkCompanion::Mode> lowest_of(const std::vector<drivers
 void run_mavlink(const MavlinkOptions& options) {
   watch_stop_signals();
   const auto link = drivers::MavlinkLink::open(options.link);
-  drivers::AttitudeSender sender(options.url, options.channel);
   // Its own thread: the time of an answer of the autopilot must not wait for LCM.
-  drivers::ModesListener modes(options.url, options.prefix);
+  drivers::ModesListener modes(options.url, options.prefix);  // first: it says what a network lacks
+  drivers::AttitudeSender sender(options.url, options.channel);
   AttitudeCsv csv(options.csv);
   drivers::MavlinkCompanion companion({.of_gimbal = options.of_gimbal, .datagrams = link->is_datagrams()},
                                       [&](const core::AttitudeSample& sample) {
