@@ -15,6 +15,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -73,7 +74,7 @@ Descriptor socket_for(const std::string& host, const std::string& port, int type
     if (fd.is_open() && use(fd.get(), *one)) return fd;
     error = errno;
   }
-  throw std::runtime_error(host + ":" + port + ": " + std::strerror(error));
+  throw std::runtime_error(host + ":" + port + ": " + std::generic_category().message(error));
 }
 
 class UdpLink final : public MavlinkLink {
@@ -195,14 +196,14 @@ class SerialLink final : public MavlinkLink {
  public:
   SerialLink(const std::string& device, speed_t speed)
       : fd_(::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {
-    if (!fd_.is_open()) throw std::runtime_error(device + ": " + std::strerror(errno));
+    if (!fd_.is_open()) throw std::runtime_error(device + ": " + std::generic_category().message(errno));
     termios line{};
     if (::tcgetattr(fd_.get(), &line) != 0) throw std::runtime_error(device + ": no serial line");
     ::cfmakeraw(&line);
     line.c_cflag |= CLOCAL | CREAD;
     line.c_cflag &= ~static_cast<tcflag_t>(CRTSCTS | CSTOPB);
     if (::cfsetspeed(&line, speed) != 0 || ::tcsetattr(fd_.get(), TCSANOW, &line) != 0)
-      throw std::runtime_error(device + ": " + std::strerror(errno));
+      throw std::runtime_error(device + ": " + std::generic_category().message(errno));
   }
   [[nodiscard]] std::size_t receive(std::span<std::uint8_t> bytes, int timeout_ms) override {
     if (!is_ready(fd_.get(), POLLIN, timeout_ms)) return 0;
@@ -233,9 +234,10 @@ Parts parts_of(const std::string& way) {
 int number_in(const std::string& way, const std::string& text, int low, int high, const char* what) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < low || value > high)
+  if (error != std::errc() || end != text.data() + text.size() || value < low || value > high) {
     throw std::invalid_argument("\"" + way + "\": the " + what + " is a number of " + std::to_string(low) + " to " +
                                 std::to_string(high));
+  }
   return value;
 }
 

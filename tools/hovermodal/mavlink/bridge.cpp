@@ -16,6 +16,8 @@ void tools::run_mavlink(const MavlinkOptions&) {
 #include <fmt/ranges.h>
 
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -44,14 +46,15 @@ class AttitudeCsv {
   }
   void write(const core::AttitudeSample& sample) {
     if (!out_) return;
-    if (!(sample.t_s > last_s_)) {
+    const std::int64_t now_us = std::llround(1e6 * sample.t_s);  // as it is written
+    if (now_us <= last_us_) {
       ++n_left_out_;
       return;
     }
-    last_s_ = sample.t_s;
+    last_us_ = now_us;
     const auto& q = sample.wxyz;
-    fmt::format_to(std::back_inserter(out_->buffer()), "{:.6f},{:.8g},{:.8g},{:.8g},{:.8g}\n", sample.t_s, q[0], q[1],
-                   q[2], q[3]);
+    fmt::format_to(std::back_inserter(out_->buffer()), "{:.6f},{:.8g},{:.8g},{:.8g},{:.8g}\n",
+                   1e-6 * static_cast<double>(now_us), q[0], q[1], q[2], q[3]);
     (void)out_->end_line();  // a failure is kept and told by commit()
   }
   // Times of the file increase.
@@ -62,7 +65,7 @@ class AttitudeCsv {
 
  private:
   std::optional<drivers::CsvWriter> out_;
-  double last_s_ = -1.0;
+  std::int64_t last_us_ = -1;
   std::uint64_t n_left_out_ = 0;
 };
 
@@ -86,18 +89,23 @@ std::string summary(const drivers::MavlinkCompanion& companion) {
   out += fmt::format("messages: {} read, {} wrong checksums, {} bytes of no message, {} of others or not understood\n",
                      stream.frames, stream.wrong_checksums, stream.skipped_bytes, counts.not_ours);
   if (counts.before_clock > 0) out += fmt::format("attitudes before the clock was known: {}\n", counts.before_clock);
-  if (counts.without_heading > 0)
+  if (counts.without_heading > 0) {
     out += fmt::format("gimbal attitudes without the aircraft's heading: {}\n", counts.without_heading);
+  }
   if (counts.unasked > 0) out += fmt::format("time answers that nobody had asked for: {}\n", counts.unasked);
-  if (companion.clock().restarts() > 0)
+  if (companion.clock().restarts() > 0) {
     out += fmt::format("the autopilot's clock began anew: {} times\n", companion.clock().restarts());
-  if (const auto motors = companion.motors_hz(); !motors.empty())
+  }
+  if (const auto motors = companion.motors_hz(); !motors.empty()) {
     out += fmt::format("motors turn at {:.2f} Hz\n", fmt::join(motors, ", "));
-  if (const auto& at = companion.position())
+  }
+  if (const auto& at = companion.position()) {
     out += fmt::format("position {:.7f} {:.7f}, {:.1f} m above home\n", at->latitude_deg, at->longitude_deg,
                        at->above_home_m);
-  if (const auto& wind = companion.wind())
+  }
+  if (const auto& wind = companion.wind()) {
     out += fmt::format("wind {:.1f} m/s from {:.0f} deg\n", wind->speed_m_s, wind->from_deg);
+  }
   return out;
 }
 
@@ -116,9 +124,10 @@ nlohmann::json document(const drivers::MavlinkCompanion& companion) {
                      {"not_ours", c.not_ours},
                      {"clock_restarts", companion.clock().restarts()},
                      {"motors_hz", companion.motors_hz()}};
-  if (const auto fit = companion.clock().fit())
+  if (const auto fit = companion.clock().fit()) {
     out["clock"] = {
         {"offset_ns", fit->offset_ns}, {"at_ns", fit->local_ns}, {"drift", fit->drift}, {"sigma_ns", fit->sigma_ns}};
+  }
   return out;
 }
 
@@ -161,9 +170,10 @@ void run_mavlink(const MavlinkOptions& options) {
   }
   csv.commit();
   options.answer.text("{}", summary(companion));
-  if (csv.n_left_out() > 0)
+  if (csv.n_left_out() > 0) {
     options.answer.note("attitudes left out of {}, because their times do not increase: {}\n", options.csv,
                         csv.n_left_out());
+  }
   if (sender.n_failed() > 0) options.answer.note("attitudes that LCM did not send: {}\n", sender.n_failed());
   if (link->from_others() > 0) options.answer.note("datagrams of other senders, not read: {}\n", link->from_others());
   options.answer.document(document(companion).dump(2) + "\n");
