@@ -8,7 +8,7 @@
 namespace app {
 namespace {
 
-constexpr double kDrawingPx = 760.0, kMostWide = 420.0, kMostHigh = 380.0, kLeft = 60.0, kTopPx = 84.0;
+constexpr double kDrawingPx = 760.0, kMostWide = 420.0, kMostHigh = 380.0, kLeft = 60.0, kTopPx = 84.0, kLabelPx = 38.0;
 constexpr std::size_t kMostLabels = 12;
 
 // From metres to pixels, the same in both directions.
@@ -47,7 +47,7 @@ std::string structure_drawing_svg(const std::vector<DrawnPart>& parts, const std
       std::min<std::size_t>(static_cast<std::size_t>(std::count_if(parts.begin(), parts.end(),
                                                                    [](const auto& p) { return !p.found.empty(); })),
                             kMostLabels));
-  SvgDocument svg(kDrawingPx, std::max(scale.bottom() + 36.0, kTopPx + 20.0 * n_found + 24.0), "The structure");
+  SvgDocument svg(kDrawingPx, std::max(scale.bottom() + 36.0, kTopPx + kLabelPx * n_found + 24.0), "The structure");
   svg.text(24.0, 24.0, "The structure, and where what was found acts", Anchor::kStart, "h");
   svg.text(24.0, 44.0, "thick or filled: found; dashed or ringed: the modes do not distinguish it (95 %); dots: seen",
            Anchor::kStart, "s q");
@@ -64,11 +64,16 @@ std::string structure_drawing_svg(const std::vector<DrawnPart>& parts, const std
     if (part.found.empty()) continue;
     const bool is_node = part.from_x == part.to_x && part.from_z == part.to_z;
     draw_part(svg, scale, part, is_node ? "m1" : "k1", "stroke-width=\"5\"", Marker::kDiamond);
-    if (label > kTopPx + 20.0 * static_cast<double>(kMostLabels)) continue;
+    if (label > kTopPx + kLabelPx * static_cast<double>(kMostLabels)) continue;
     const double x = scale.x(0.5 * (part.from_x + part.to_x)), z = scale.z(0.5 * (part.from_z + part.to_z));
     svg.line(x, z, kLeft + kMostWide + 14.0, label, "w");
-    svg.text(kLeft + kMostWide + 18.0, label + 4.0, shortened(part.found, 36));
-    label += 20.0;
+    // The effect, and below it what it is here.
+    const std::size_t colon = std::min(part.found.find(": "), part.found.size());
+    svg.text(kLeft + kMostWide + 18.0, label + 4.0, shortened(part.found.substr(0, colon), 36));
+    if (colon < part.found.size())
+      svg.text(kLeft + kMostWide + 18.0, label + 20.0, shortened(part.found.substr(colon + 2), 44), Anchor::kStart,
+               "s q");
+    label += kLabelPx;
   }
   return svg.text_of();
 }
