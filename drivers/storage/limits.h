@@ -27,6 +27,7 @@ struct Limits {
   static constexpr std::size_t kYamlBytes = kMiB;                // of a configuration, scene or structure
   static constexpr std::size_t kCalibrationBytes = 4 * kMiB;     // calibration programs also write the corners used
   static constexpr std::size_t kJsonBytes = 8 * kMiB;            // of a result or a simulated truth
+  static constexpr std::size_t kPageBytes = 64 * kMiB;           // of a report's page
   static constexpr std::size_t kJsonKeys = 4096;                 // of one object in it
   static constexpr std::size_t kColumns = 4096;                  // of a table
   static constexpr std::size_t kFlights = 2000;                  // whose modes are compared over time

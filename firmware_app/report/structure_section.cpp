@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "drivers/storage/json.h"
+#include "drivers/storage/limits.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/closure_modes_svg.h"
 #include "firmware_app/report/page/html_text.h"
@@ -11,7 +12,6 @@
 namespace app {
 namespace {
 
-constexpr std::size_t kPageBytes = std::size_t{64} << 20U;
 constexpr const char* kSection = "<section id=\"structure\">";
 constexpr const char* kSectionEnd = "</section>\n";
 constexpr const char* kBefore = "<section id=\"losses\">";
@@ -54,7 +54,7 @@ void add_structure_to_report(const std::string& directory, const core::closure::
   const std::filesystem::path path = std::filesystem::path(directory) / "report.html";
   const std::string section = structure_section(result);
   if (section.empty() || !std::filesystem::exists(path)) return;
-  const std::string page = drivers::read_text_file(path.string(), kPageBytes);
+  const std::string page = drivers::read_text_file(path.string(), drivers::Limits::kPageBytes);
   drivers::write_file_atomically(path.string(), with_structure_section(page, section));
 }
 

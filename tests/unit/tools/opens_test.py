@@ -61,6 +61,7 @@ BOUNDS = {
     "firmware_app/report/earlier_files.cpp": [LIST],
     "firmware_app/report/modal_json_reader.cpp": ["kJsonBytes drivers/storage/json.h"],
     "firmware_app/report/report_folder.cpp": [LIST, LIST, OUT],
+    "firmware_app/report/structure_section.cpp": ["kPageBytes"],
     "firmware_app/service/kept_keyframe.cpp": ["SIZE OF THE CAMERA'S IMAGE"],
     "firmware_app/service/kept_state.cpp": ["SIZE OF THE RUN'S OWN STATE"],
     "tools/hovermodal/batch/combine.cpp": ["kStateBytes drivers/storage/checkpoint_file.h"],
