@@ -4,7 +4,7 @@
   tools/mavlink_layouts.py MAVLINK_CHECKOUT > drivers/mavlink/mavlink_layouts.h
 
 MAVLINK_CHECKOUT: a checkout of https://github.com/mavlink/mavlink. Fields are ordered and the extra byte of the checksum
-is computed as https://mavlink.io/en/guide/serialization.html says.
+is computed as https://mavlink.io/en/guide/serialization.html states.
 """
 import re
 import subprocess
@@ -12,7 +12,7 @@ import sys
 import xml.etree.ElementTree as xml
 
 WANTED = ["HEARTBEAT", "ATTITUDE", "ATTITUDE_QUATERNION", "GLOBAL_POSITION_INT", "TIMESYNC", "WIND", "WIND_COV",
-          "NAMED_VALUE_FLOAT", "STATUSTEXT", "GIMBAL_DEVICE_ATTITUDE_STATUS", "ESC_STATUS", "ONBOARD_COMPUTER_STATUS",
+          "NAMED_VALUE_FLOAT", "STATUSTEXT", "GIMBAL_DEVICE_ATTITUDE_STATUS", "ESC_STATUS",
           "ESC_TELEMETRY_1_TO_4", "ESC_TELEMETRY_5_TO_8", "ESC_TELEMETRY_9_TO_12"]
 FILES = ["minimal", "standard", "common", "ardupilotmega"]
 SIZES = {"char": 1, "uint8_t": 1, "int8_t": 1, "uint16_t": 2, "int16_t": 2, "uint32_t": 4, "int32_t": 4, "float": 4,
@@ -72,14 +72,13 @@ def main(checkout):
     print("struct MavlinkLayout {\n  std::uint32_t id = 0;\n"
           "  std::uint8_t crc_extra = 0;  // completes the checksum\n"
           "  std::uint8_t size = 0;       // of the payload with all extensions, bytes\n};\n")
-    print("// All messages, by id: with them a frame of any kind is told from noise.")
+    print("// All messages, by id: with them a frame of any kind is distinguished from noise.")
     print(f"inline constexpr std::array<MavlinkLayout, {len(everything)}> kMavlinkLayouts{{{{")
     print("    " + " ".join(f"{{{m.id}, {m.crc_extra}, {m.size}}}," for m in everything))
     print("}};\n\n// Ids, and the places of fields in the payload, bytes, of the messages that are understood.\nstruct MavlinkFields {")
     for m in messages:
         camel = "".join(part.capitalize() for part in m.name.split("_"))
-        print(f"struct {camel} {{\nstatic constexpr std::uint32_t kId = {m.id};\n"
-              f"static constexpr std::size_t kSize = {m.size};")
+        print(f"struct {camel} {{\nstatic constexpr std::uint32_t kId = {m.id};")
         at = 0
         for f in m.fields:
             what = f.type + (f"[{f.count}]" if f.count else "")

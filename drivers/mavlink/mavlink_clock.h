@@ -10,8 +10,8 @@ namespace drivers {
 // The autopilot's clock against this computer's CLOCK_MONOTONIC, from exchanges of TIMESYNC. An exchange states the
 // remote time between sending and receiving here; its error is half the difference of the two delays, so that those
 // with the shortest round trips are the most exact. The quarter with the shortest round trips of the last kKept
-// exchanges is fitted by offset and drift (Mills 1991, the clock filter of NTP). An offset that jumps begins anew: the
-// autopilot has been restarted. One thread; without allocation.
+// exchanges is fitted by offset and drift (Mills 1991, the clock filter of NTP). After a jump of the offset the fit
+// starts again: the autopilot has been restarted. One thread; without allocation.
 class MavlinkClock {
  public:
   static constexpr std::size_t kKept = 512, kLeast = 8;

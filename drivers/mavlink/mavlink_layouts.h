@@ -15,7 +15,7 @@ struct MavlinkLayout {
   std::uint8_t size = 0;       // of the payload with all extensions, bytes
 };
 
-// All messages, by id: with them a frame of any kind is told from noise.
+// All messages, by id: with them a frame of any kind is distinguished from noise.
 inline constexpr std::array<MavlinkLayout, 307> kMavlinkLayouts{{
     {0, 50, 9},       {1, 124, 43},     {2, 137, 12},     {4, 237, 14},     {5, 217, 28},      {6, 104, 3},
     {7, 119, 32},     {8, 117, 36},     {11, 89, 6},      {20, 214, 20},    {21, 159, 2},      {22, 220, 25},
@@ -75,7 +75,6 @@ inline constexpr std::array<MavlinkLayout, 307> kMavlinkLayouts{{
 struct MavlinkFields {
   struct Heartbeat {
     static constexpr std::uint32_t kId = 0;
-    static constexpr std::size_t kSize = 9;
     static constexpr std::size_t custom_mode = 0;      // uint32_t
     static constexpr std::size_t type = 4;             // uint8_t
     static constexpr std::size_t autopilot = 5;        // uint8_t
@@ -85,7 +84,6 @@ struct MavlinkFields {
   };
   struct Attitude {
     static constexpr std::uint32_t kId = 30;
-    static constexpr std::size_t kSize = 28;
     static constexpr std::size_t time_boot_ms = 0;  // uint32_t
     static constexpr std::size_t roll = 4;          // float
     static constexpr std::size_t pitch = 8;         // float
@@ -96,7 +94,6 @@ struct MavlinkFields {
   };
   struct AttitudeQuaternion {
     static constexpr std::uint32_t kId = 31;
-    static constexpr std::size_t kSize = 48;
     static constexpr std::size_t time_boot_ms = 0;    // uint32_t
     static constexpr std::size_t q1 = 4;              // float
     static constexpr std::size_t q2 = 8;              // float
@@ -109,7 +106,6 @@ struct MavlinkFields {
   };
   struct GlobalPositionInt {
     static constexpr std::uint32_t kId = 33;
-    static constexpr std::size_t kSize = 28;
     static constexpr std::size_t time_boot_ms = 0;   // uint32_t
     static constexpr std::size_t lat = 4;            // int32_t
     static constexpr std::size_t lon = 8;            // int32_t
@@ -122,7 +118,6 @@ struct MavlinkFields {
   };
   struct Timesync {
     static constexpr std::uint32_t kId = 111;
-    static constexpr std::size_t kSize = 18;
     static constexpr std::size_t tc1 = 0;                // int64_t
     static constexpr std::size_t ts1 = 8;                // int64_t
     static constexpr std::size_t target_system = 16;     // uint8_t
@@ -130,14 +125,12 @@ struct MavlinkFields {
   };
   struct Wind {
     static constexpr std::uint32_t kId = 168;
-    static constexpr std::size_t kSize = 12;
     static constexpr std::size_t direction = 0;  // float
     static constexpr std::size_t speed = 4;      // float
     static constexpr std::size_t speed_z = 8;    // float
   };
   struct WindCov {
     static constexpr std::uint32_t kId = 231;
-    static constexpr std::size_t kSize = 40;
     static constexpr std::size_t time_usec = 0;        // uint64_t
     static constexpr std::size_t wind_x = 8;           // float
     static constexpr std::size_t wind_y = 12;          // float
@@ -150,14 +143,12 @@ struct MavlinkFields {
   };
   struct NamedValueFloat {
     static constexpr std::uint32_t kId = 251;
-    static constexpr std::size_t kSize = 18;
     static constexpr std::size_t time_boot_ms = 0;  // uint32_t
     static constexpr std::size_t value = 4;         // float
     static constexpr std::size_t name = 8;          // char[10]
   };
   struct Statustext {
     static constexpr std::uint32_t kId = 253;
-    static constexpr std::size_t kSize = 54;
     static constexpr std::size_t severity = 0;    // uint8_t
     static constexpr std::size_t text = 1;        // char[50]
     static constexpr std::size_t id = 51;         // uint16_t
@@ -165,7 +156,6 @@ struct MavlinkFields {
   };
   struct GimbalDeviceAttitudeStatus {
     static constexpr std::uint32_t kId = 285;
-    static constexpr std::size_t kSize = 49;
     static constexpr std::size_t time_boot_ms = 0;         // uint32_t
     static constexpr std::size_t q = 4;                    // float[4]
     static constexpr std::size_t angular_velocity_x = 20;  // float
@@ -181,41 +171,14 @@ struct MavlinkFields {
   };
   struct EscStatus {
     static constexpr std::uint32_t kId = 291;
-    static constexpr std::size_t kSize = 57;
     static constexpr std::size_t time_usec = 0;  // uint64_t
     static constexpr std::size_t rpm = 8;        // int32_t[4]
     static constexpr std::size_t voltage = 24;   // float[4]
     static constexpr std::size_t current = 40;   // float[4]
     static constexpr std::size_t index = 56;     // uint8_t
   };
-  struct OnboardComputerStatus {
-    static constexpr std::uint32_t kId = 390;
-    static constexpr std::size_t kSize = 240;
-    static constexpr std::size_t time_usec = 0;            // uint64_t
-    static constexpr std::size_t uptime = 8;               // uint32_t
-    static constexpr std::size_t ram_usage = 12;           // uint32_t
-    static constexpr std::size_t ram_total = 16;           // uint32_t
-    static constexpr std::size_t storage_type = 20;        // uint32_t[4]
-    static constexpr std::size_t storage_usage = 36;       // uint32_t[4]
-    static constexpr std::size_t storage_total = 52;       // uint32_t[4]
-    static constexpr std::size_t link_type = 68;           // uint32_t[6]
-    static constexpr std::size_t link_tx_rate = 92;        // uint32_t[6]
-    static constexpr std::size_t link_rx_rate = 116;       // uint32_t[6]
-    static constexpr std::size_t link_tx_max = 140;        // uint32_t[6]
-    static constexpr std::size_t link_rx_max = 164;        // uint32_t[6]
-    static constexpr std::size_t fan_speed = 188;          // int16_t[4]
-    static constexpr std::size_t type = 196;               // uint8_t
-    static constexpr std::size_t cpu_cores = 197;          // uint8_t[8]
-    static constexpr std::size_t cpu_combined = 205;       // uint8_t[10]
-    static constexpr std::size_t gpu_cores = 215;          // uint8_t[4]
-    static constexpr std::size_t gpu_combined = 219;       // uint8_t[10]
-    static constexpr std::size_t temperature_board = 229;  // int8_t
-    static constexpr std::size_t temperature_core = 230;   // int8_t[8]
-    static constexpr std::size_t status_flags = 238;       // uint16_t
-  };
   struct EscTelemetry1To4 {
     static constexpr std::uint32_t kId = 11030;
-    static constexpr std::size_t kSize = 44;
     static constexpr std::size_t voltage = 0;        // uint16_t[4]
     static constexpr std::size_t current = 8;        // uint16_t[4]
     static constexpr std::size_t totalcurrent = 16;  // uint16_t[4]
@@ -225,7 +188,6 @@ struct MavlinkFields {
   };
   struct EscTelemetry5To8 {
     static constexpr std::uint32_t kId = 11031;
-    static constexpr std::size_t kSize = 44;
     static constexpr std::size_t voltage = 0;        // uint16_t[4]
     static constexpr std::size_t current = 8;        // uint16_t[4]
     static constexpr std::size_t totalcurrent = 16;  // uint16_t[4]
@@ -235,7 +197,6 @@ struct MavlinkFields {
   };
   struct EscTelemetry9To12 {
     static constexpr std::uint32_t kId = 11032;
-    static constexpr std::size_t kSize = 44;
     static constexpr std::size_t voltage = 0;        // uint16_t[4]
     static constexpr std::size_t current = 8;        // uint16_t[4]
     static constexpr std::size_t totalcurrent = 16;  // uint16_t[4]

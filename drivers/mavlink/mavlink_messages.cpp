@@ -29,11 +29,6 @@ void put_text(MavlinkFrame& frame, std::size_t at, std::string_view text, std::s
   std::copy_n(text.begin(), std::min(text.size(), most), frame.payload.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
-template <class Values>
-bool all_finite(const Values& values) noexcept {
-  return std::all_of(std::begin(values), std::end(values), [](double v) { return std::isfinite(v); });
-}
-
 std::array<double, 4> quaternion_at(const MavlinkFrame& frame, std::size_t at) noexcept {
   std::array<double, 4> out{};
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = field<float>(frame, at + sizeof(float) * i);
@@ -123,7 +118,7 @@ std::optional<MavlinkWind> mavlink_wind(const MavlinkFrame& frame) noexcept {
   } else {
     return std::nullopt;
   }
-  if (!all_finite(std::array{out.speed_m_s, out.from_deg})) return std::nullopt;
+  if (!std::isfinite(out.speed_m_s) || !std::isfinite(out.from_deg)) return std::nullopt;
   out.from_deg -= 360.0 * std::floor(out.from_deg / 360.0);
   return out;
 }

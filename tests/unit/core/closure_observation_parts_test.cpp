@@ -36,6 +36,14 @@ std::size_t place_of(const std::vector<CandidateScore>& scores, const std::strin
   return static_cast<std::size_t>(found - scores.begin());
 }
 
+// Solves the fit, adopts the first candidate and solves again.
+void solve_with_first(ObservationFit& fit, ObservationScores& scores) {
+  fit.solve();
+  scores.begin();
+  fit.add(scores.adopted(0));
+  fit.solve();
+}
+
 TEST(StackedPositions, GapsAreStraightLinesAndListed) {
   ObservationRecord record = swaying_record(600, {});
   const double before = record.u_px(9, 5), after = record.u_px(12, 5);
@@ -67,10 +75,7 @@ TEST(ObservationFit, AmplitudeIsTheInjectedRotation) {
   ObservationFit fit(swaying_record(1000, {.roll_rms_rad = 0.03 * kPi / 180.0}));
   const auto catalogue = catalogue_of({"camera_roll"});
   ObservationScores scores(fit, catalogue);
-  fit.solve();
-  scores.begin();
-  fit.add(scores.adopted(0));
-  fit.solve();
+  solve_with_first(fit, scores);
   const Eigen::RowVectorXd amplitude = fit.amplitude(0);
   Eigen::RowVectorXd truth(1000);
   for (Eigen::Index k = 0; k < 1000; ++k) truth(k) = std::sin(2.0 * kPi * 0.23 * static_cast<double>(k) / 25.0 + 1.0);
@@ -91,10 +96,7 @@ std::optional<Remainder> remainder_of_bend(double bend_px, double frequency_hz) 
   ObservationFit fit(record);
   const auto catalogue = catalogue_of({"camera_roll"});
   ObservationScores scores(fit, catalogue);
-  fit.solve();
-  scores.begin();
-  fit.add(scores.adopted(0));
-  fit.solve();
+  solve_with_first(fit, scores);
   return remainder_of(bend, kAllRungs, fit, residual_moments(fit.model().residual(), record.rate_hz));
 }
 

@@ -55,7 +55,7 @@ class AttitudeCsv {
     const auto& q = sample.wxyz;
     fmt::format_to(std::back_inserter(out_->buffer()), "{:.6f},{:.8g},{:.8g},{:.8g},{:.8g}\n",
                    1e-6 * static_cast<double>(now_us), q[0], q[1], q[2], q[3]);
-    (void)out_->end_line();  // a failure is kept and told by commit()
+    (void)out_->end_line();  // commit() reports a failure
   }
   // Times of the file increase.
   [[nodiscard]] std::uint64_t n_left_out() const noexcept { return n_left_out_; }
@@ -94,7 +94,7 @@ std::string summary(const drivers::MavlinkCompanion& companion) {
   }
   if (counts.unasked > 0) out += fmt::format("time answers that nobody had asked for: {}\n", counts.unasked);
   if (companion.clock().restarts() > 0) {
-    out += fmt::format("the autopilot's clock began anew: {} times\n", companion.clock().restarts());
+    out += fmt::format("the autopilot's clock was restarted: {} times\n", companion.clock().restarts());
   }
   if (const auto motors = companion.motors_hz(); !motors.empty()) {
     out += fmt::format("motors turn at {:.2f} Hz\n", fmt::join(motors, ", "));
@@ -144,7 +144,7 @@ void run_mavlink(const MavlinkOptions& options) {
   watch_stop_signals();
   const auto link = drivers::MavlinkLink::open(options.link);
   // Its own thread: the time of an answer of the autopilot must not wait for LCM.
-  drivers::ModesListener modes(options.url, options.prefix);  // first: it says what a network lacks
+  drivers::ModesListener modes(options.url, options.prefix);  // first: its error names what the network lacks
   drivers::AttitudeSender sender(options.url, options.channel);
   AttitudeCsv csv(options.csv);
   drivers::MavlinkCompanion companion({.of_gimbal = options.of_gimbal, .datagrams = link->is_datagrams()},
