@@ -162,7 +162,7 @@ class Loop {
     return reached > 0.0 && reached >= kKeptOfScore * predicted;
   }
 
-  // The next best candidate is tried in its place. A level may measure its noise anew when an effect is adopted; the
+  // The next best candidate is tried in its place. A level may measure its noise again when an effect is adopted; the
   // fits before and after cannot be compared then, and the same candidate is scored once more with the new noise.
   bool take_back(const CandidateScore& effect, double predicted) {
     const LevelFit with = fit_;
@@ -226,7 +226,7 @@ class Loop {
   std::uint64_t n_drawn_ = 0;
   std::size_t n_adoptions_ = 0;     // with those that became needless
   std::vector<Reverted> reverted_;  // since the last adoption
-  std::vector<EffectId> retried_;   // with noise measured anew
+  std::vector<EffectId> retried_;   // with noise measured again
 };
 
 }  // namespace

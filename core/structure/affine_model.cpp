@@ -115,15 +115,15 @@ MatrixXd AffineModel::mass(const VectorXd& values) const {
 }
 
 std::vector<Index> AffineModel::moving(const VectorXd& values, const std::vector<std::size_t>& derivatives) const {
-  std::vector<bool> rests(static_cast<std::size_t>(matrices_.stiffness.rows()), false);
+  std::vector<bool> is_static(static_cast<std::size_t>(matrices_.stiffness.rows()), false);
   for (const RigidPart& part : matrices_.rigid) {
     const bool is_sought = std::find(derivatives.begin(), derivatives.end(), part.parameter) != derivatives.end();
     if (values(static_cast<Index>(part.parameter)) != 0.0 || is_sought) continue;
-    for (const Index dof : part.dofs) rests[static_cast<std::size_t>(dof)] = true;
+    for (const Index dof : part.dofs) is_static[static_cast<std::size_t>(dof)] = true;
   }
   std::vector<Index> out;
   for (Index i = 0; i < matrices_.stiffness.rows(); ++i) {
-    if (!rests[static_cast<std::size_t>(i)]) out.push_back(i);
+    if (!is_static[static_cast<std::size_t>(i)]) out.push_back(i);
   }
   return out;
 }

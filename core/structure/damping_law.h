@@ -33,7 +33,8 @@ struct DampingLawFit {
 struct DampingVerdict {
   std::size_t n_modes = 0;          // that have a damping ratio with a sigma
   std::vector<DampingLawFit> laws;  // in the order of DampingLaw; empty: too few modes
-  // Laws that the sigmas leave: one is told, of several none. Rayleigh's only where it explains more than its parts.
+  // Laws that the sigmas leave: one is reported, of several none. Rayleigh's only where it explains more than its
+  // parts.
   [[nodiscard]] std::vector<DampingLaw> possible() const;
 };
 
@@ -43,7 +44,8 @@ inline constexpr std::size_t kLeastDampedModes = 3;  // any law of two coefficie
 // by more than nine.
 [[nodiscard]] DampingVerdict damping_verdict(const std::vector<ReferenceMode>& reference);
 
-// One paragraph for a reader: which law, with its coefficient, or why none is told. Empty: no mode has a damping ratio.
+// One paragraph for a reader: which law, with its coefficient, or why none is reported. Empty: no mode has a damping
+// ratio.
 [[nodiscard]] std::string damping_words(const DampingVerdict& verdict);
 
 }  // namespace core::structure

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/closure/observation/power_quantiles.h"
 #include "core/closure/observation/row_spectra.h"
 #include "core/linear/dense.h"
 #include "core/spectrum/real_fft.h"
@@ -191,16 +192,9 @@ std::array<double, 3> LineSearch::quantiles_hz(const Eigen::MatrixXcd& spectrum,
   const Eigen::MatrixXcd seen = g.adjoint() * spectrum.middleCols(b.first, b.count);
   const double noise = 2.0 * static_cast<double>(g.cols() * n_frames_) / n_fft_;
   const Eigen::VectorXd excess = seen.colwise().squaredNorm().transpose().array() - noise;
-  const double whole = excess.sum();
   std::array<double, 3> out{};
-  double sum = 0.0;
-  std::size_t reached = 0;
-  for (Eigen::Index k = 0; k < b.count && reached < 3; ++k) {
-    sum += excess(k);
-    while (reached < 3 && sum >= std::array{0.16, 0.5, 0.84}[reached] * whole)
-      out[reached++] = rate_hz_ / n_fft_ * static_cast<double>(b.first + k);
-  }
-  while (reached < 3) out[reached++] = rate_hz_ / n_fft_ * static_cast<double>(b.first + b.count);
+  const auto at = power_quantiles(excess, kSpreadShares);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = rate_hz_ / n_fft_ * static_cast<double>(b.first + at[i]);
   return out;
 }
 

@@ -133,7 +133,8 @@ Eigen::VectorXd ObservationFit::magnification(const Eigen::VectorXd& places_px) 
   return out;
 }
 
-// Of the adopted effects, computed from the amplitudes of the previous solution.
+// Of the adopted effects, computed from the amplitudes of the previous solution. Rotations of the camera are removed
+// together: the second order of two of them holds their product.
 void ObservationFit::remove_second_orders(Eigen::MatrixXd& positions) const {
   Eigen::MatrixXd rotations = Eigen::MatrixXd::Zero(3, positions.cols()), rates = rotations;
   double share = 0.0;
@@ -149,8 +150,8 @@ void ObservationFit::remove_second_orders(Eigen::MatrixXd& positions) const {
   }
   if (any) remove_second_order(record_, model_.geometry(), rotations, rates, readout_frames_, share, positions);
   for (std::size_t i = 0; i < effects_.size(); ++i) {
+    if (!effects_[i]->has_second_order() || amplitude_row(i) >= model_.amplitudes().rows()) continue;
     const Eigen::Index row = amplitude_row(i);
-    if (!effects_[i]->has_second_order() || row >= model_.amplitudes().rows()) continue;
     effects_[i]->remove_second_order(
         {model_.amplitudes().row(row), model_.rates().row(row), readout_frames_, model_.share_of_column(row)}, record_,
         positions);

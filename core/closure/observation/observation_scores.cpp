@@ -39,6 +39,17 @@ Eigen::MatrixXd shuffled(const Eigen::MatrixXd& residual, double rate_hz, std::u
   return shifted;
 }
 
+// Which adopted effect leaves this candidate's pattern of itself, in words; empty: none.
+std::string left_by_adopted(const EffectCandidate& candidate, const Remainders& remainders) {
+  const std::unique_ptr<EffectInModel> found = candidate.adopted();
+  if (found->pattern() == nullptr) return {};
+  const std::optional<Remainder> remainder = remainders.find(*found->pattern(), found->band());
+  if (!remainder) return {};
+  std::array<char, 16> percent{};
+  (void)std::snprintf(percent.data(), percent.size(), "%.1f", 100.0 * remainder->share);
+  return "what " + remainder->effect + " leaves of itself: " + percent.data() + " % of it, at its frequencies";
+}
+
 }  // namespace
 
 void ObservationScores::begin() {
@@ -99,16 +110,6 @@ std::string ObservationScores::smallness(const EffectCandidate& candidate, doubl
   return gain > least * above_noise ? std::string() : "explains too little of what exceeds the noise";
 }
 
-std::string ObservationScores::left_by_adopted(const EffectCandidate& candidate, const ResidualMoments& moments) const {
-  const std::unique_ptr<EffectInModel> found = candidate.adopted();
-  if (found->pattern() == nullptr) return {};
-  const std::optional<Remainder> remainder = remainder_of(*found->pattern(), found->band(), fit_, moments);
-  if (!remainder) return {};
-  std::array<char, 16> percent{};
-  (void)std::snprintf(percent.data(), percent.size(), "%.1f", 100.0 * remainder->share);
-  return "what " + remainder->effect + " leaves of itself: " + percent.data() + " % of it, at its frequencies";
-}
-
 Objection ObservationScores::refusal(const EffectCandidate& candidate, double gain, const TestedResidual& tested,
                                      const Unexplained& unexplained) const {
   std::string small = smallness(candidate, gain, unexplained.above_noise);
@@ -119,7 +120,7 @@ Objection ObservationScores::refusal(const EffectCandidate& candidate, double ga
     return {"a projection of another effect: it explains " + std::to_string(std::lround(100.0 * gain / free_gain)) +
             " % of what the best learned pattern explains"};
   }
-  return candidate.objection();
+  return candidate.objection(tested);
 }
 
 // Of all constants that are still open, together: those of a lens share what one pattern explains.
@@ -137,6 +138,7 @@ std::vector<CandidateScore> ObservationScores::score() {
   const Eigen::MatrixXd& residual = view.model.residual();
   const ResidualMoments moments = residual_moments(residual, view.record.rate_hz);
   const TestedResidual tested{residual, moments};
+  const Remainders remainders(fit_, moments);
   const std::vector<const ObservationEffect*> named = open();
   const double n_values = view.held_out.n_values(), freedom = fit_.freedom_beside();
   const double left = view.held_out.squares(residual), squares = left + 2.0 * freedom;
@@ -157,7 +159,7 @@ std::vector<CandidateScore> ObservationScores::score() {
     s.n_parameters = named[i]->n_parameters();
     Objection objection = refusal(*prepared_[i], s.score, tested, unexplained);
     s.refusal = std::move(objection.words);
-    if (s.refusal.empty()) s.refusal = left_by_adopted(*prepared_[i], moments);
+    if (s.refusal.empty()) s.refusal = left_by_adopted(*prepared_[i], remainders);
     is_other_cause_[i] = objection.is_other_cause ? 1 : 0;
     out.push_back(std::move(s));
   }
@@ -170,7 +172,7 @@ std::vector<CandidateScore> ObservationScores::score() {
     s.refusal = is_explained         ? "a named effect explains it"
                 : fit_.hides_noise() ? "cannot be distinguished from what a random field leaves"
                                      : smallness(*prepared_.back(), s.score, unexplained.above_noise);
-    if (s.refusal.empty()) s.refusal = left_by_adopted(*prepared_.back(), moments);
+    if (s.refusal.empty()) s.refusal = left_by_adopted(*prepared_.back(), remainders);
     out.push_back(std::move(s));
   }
   is_scored_ = true;

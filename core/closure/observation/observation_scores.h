@@ -57,8 +57,6 @@ class ObservationScores {
     double by_learned = 0.0;  // gain of the best learned pattern; 0: immaterial
   };
   [[nodiscard]] std::string smallness(const EffectCandidate& candidate, double gain, double above_noise) const;
-  // Which adopted effect leaves this pattern of itself, in words; empty: none.
-  [[nodiscard]] std::string left_by_adopted(const EffectCandidate& candidate, const ResidualMoments& moments) const;
   [[nodiscard]] Objection refusal(const EffectCandidate& candidate, double gain, const TestedResidual& tested,
                                   const Unexplained& unexplained) const;
 

@@ -127,24 +127,27 @@ void PointMotionModel::place_in_readout() {
   }
 }
 
-// Computes the amplitudes of all columns; the remainder is residual_.
+// Writes rows of the independent columns, beginning with the first-th of them, to their places among all columns.
+void PointMotionModel::place_rows(const Eigen::MatrixXd& rows, Eigen::Index first, Eigen::MatrixXd& all) const {
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) all.row(kept_[static_cast<std::size_t>(first + i)]) = rows.row(i);
+}
+
 Eigen::VectorXd PointMotionModel::amplitudes_of(const Eigen::VectorXd& whitened) const {
-  const Eigen::VectorXd kept = solve_high_ * whitened;
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(x_.cols());
-  for (Eigen::Index i = 0; i < kept.size(); ++i) out(kept_[static_cast<std::size_t>(i)]) = kept(i);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(x_.cols(), 1);
+  place_rows(solve_high_ * whitened, 0, out);
   return out;
 }
 
+// Computes the amplitudes of all columns; the remainder is residual_.
 void PointMotionModel::fit_columns(const Eigen::MatrixXd& z) {
   common_ = Eigen::MatrixXd::Zero(x_.cols(), z.cols());
   Eigen::MatrixXd high = product(solve_high_, z);
   if (extra_.cols() > 0) {
     const Eigen::MatrixXd extra = solve_extra_ * z * cosines_ * cosines_.transpose();
     high -= give_back_ * extra;
-    for (Eigen::Index i = 0; i < extra.rows(); ++i)
-      common_.row(kept_[static_cast<std::size_t>(high.rows() + i)]) = extra.row(i);
+    place_rows(extra, high.rows(), common_);
   }
-  for (Eigen::Index i = 0; i < high.rows(); ++i) common_.row(kept_[static_cast<std::size_t>(i)]) = high.row(i);
+  place_rows(high, 0, common_);
   residual_ = z;
   add_product(residual_, -1.0, x_, common_);
 }
@@ -182,7 +185,7 @@ void PointMotionModel::estimate_rates() {
   }
   rate.topRows(n_high) = high.solve(rate.topRows(n_high)).eval();
   rate_common_ = Eigen::MatrixXd::Zero(x_.cols(), common_.cols());
-  for (Eigen::Index i = 0; i < rate.rows(); ++i) rate_common_.row(kept_[static_cast<std::size_t>(i)]) = rate.row(i);
+  place_rows(rate, 0, rate_common_);
 }
 
 // Time of the points' rows after the common instant, in frames.

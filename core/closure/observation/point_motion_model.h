@@ -123,6 +123,7 @@ class PointMotionModel {
   void add_plane_columns(const ObservationRecord& record);
   void factorise();
   void place_in_readout();
+  void place_rows(const Eigen::MatrixXd& rows, Eigen::Index first, Eigen::MatrixXd& all) const;
   void fit_columns(const Eigen::MatrixXd& z);
   void estimate_rates();
   [[nodiscard]] Eigen::VectorXd row_instants() const;

@@ -1,8 +1,11 @@
 #include "core/closure/observation/remainder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 
+#include "core/closure/observation/power_quantiles.h"
 #include "core/closure/observation/row_spectra.h"
 
 namespace core::closure {
@@ -12,29 +15,13 @@ constexpr double kInside = 0.8;      // of the pattern's squares: at the effect'
 constexpr double kTail = 0.025;      // of the effect's squares, left out at either end of its band
 constexpr double kMovesPoint = 0.1;  // of the effect's rms: a point that it moves
 
-struct BandHz {
-  double low = 0.0, high = 0.0;
-};
-
 // Frequencies that hold an effect's squares but their tails.
 BandHz band_of(const Eigen::MatrixXd& motion_px, double rate_hz, double beside_hz) {
-  const Eigen::MatrixXd moving = motion_px.colwise() - motion_px.rowwise().mean();
-  const int n_fft = row_fft_size(moving);
-  const Eigen::RowVectorXd power = row_spectra(moving, n_fft).cwiseAbs2().colwise().sum();
-  const double whole = power.sum();
-  BandHz out{0.0, 0.5 * rate_hz};
-  double sum = 0.0;
-  bool below = true;
-  for (Eigen::Index b = 0; b < power.size(); ++b) {
-    sum += power(b);
-    const double hz = rate_hz * static_cast<double>(b) / n_fft;
-    if (below && sum > kTail * whole) out.low = hz, below = false;
-    if (sum >= (1.0 - kTail) * whole) {
-      out.high = hz;
-      break;
-    }
-  }
-  return {out.low - beside_hz, out.high + beside_hz};
+  const int n_fft = row_fft_size(motion_px);
+  const Eigen::VectorXd power = row_spectra(motion_px, n_fft).cwiseAbs2().colwise().sum().transpose();
+  const auto [low, high] = power_quantiles(power, std::array{kTail, 1.0 - kTail});
+  const double bin_hz = rate_hz / n_fft;
+  return {bin_hz * static_cast<double>(low) - beside_hz, bin_hz * static_cast<double>(high) + beside_hz};
 }
 
 // Squares of a pattern's amplitude above the noise, in each bin of the residual's spectrum.
@@ -71,9 +58,13 @@ PatternPower power_of(const Eigen::VectorXd& pattern_px, RungSet band, const Fit
   return out;
 }
 
+double rms_of(const Eigen::VectorXd& rms_px) {
+  return std::sqrt(rms_px.squaredNorm() / static_cast<double>(rms_px.size()));
+}
+
 // Of the pattern's squares, on points that the effect moves.
 double share_on_points(const Eigen::VectorXd& pattern_px, const Eigen::VectorXd& rms_px) {
-  const double bar = kMovesPoint * std::sqrt(rms_px.squaredNorm() / static_cast<double>(rms_px.size()));
+  const double bar = kMovesPoint * rms_of(rms_px);
   double sum = 0.0;
   for (Eigen::Index i = 0; i < pattern_px.size(); i += 2) {
     if (rms_px.segment<2>(i).norm() > bar) sum += pattern_px.segment<2>(i).squaredNorm();
@@ -83,26 +74,32 @@ double share_on_points(const Eigen::VectorXd& pattern_px, const Eigen::VectorXd&
 
 }  // namespace
 
-std::optional<Remainder> remainder_of(const Eigen::VectorXd& pattern_px, RungSet band, const ObservationFit& fit,
-                                      const ResidualMoments& residual) {
-  if (!(pattern_px.squaredNorm() > 0.0)) return std::nullopt;
-  const FitView view = fit.view();
-  const PatternPower power = power_of(pattern_px, band, view, residual);
-  const double whole = power.of_bin.sum();
-  const auto n_values = static_cast<double>(pattern_px.size() * view.record.n_frames());
-  const double rms = std::sqrt(std::max(whole, 0.0) * pattern_px.squaredNorm() / n_values);
+Remainders::Remainders(const ObservationFit& fit, const ResidualMoments& residual)
+    : view_(fit.view()), residual_(residual) {
   for (std::size_t i = 0; i < fit.effects().size(); ++i) {
     const EffectInModel& effect = *fit.effects()[i];
     if (effect.kind() != EffectKind::kNamed) continue;
-    const Leaves leaves = effect.leaves();
-    const Eigen::MatrixXd motion = effect.motion_px(fit.amplitude(i));
+    Eigen::MatrixXd motion = effect.motion_px(fit.amplitude(i));
     if (motion.size() == 0) continue;
-    const Eigen::VectorXd of_row =
-        (motion.colwise() - motion.rowwise().mean()).rowwise().norm() / std::sqrt(static_cast<double>(motion.cols()));
-    const double of_effect = std::sqrt(of_row.squaredNorm() / static_cast<double>(of_row.size()));
-    if (!(rms < leaves.share * of_effect) || share_on_points(pattern_px, of_row) < kInside) continue;
-    if (power.within(band_of(motion, view.record.rate_hz, leaves.beside_hz)) < kInside * whole) continue;
-    return Remainder{effect.name(), rms / of_effect};
+    motion.colwise() -= motion.rowwise().mean().eval();
+    const Leaves leaves = effect.leaves();
+    adopted_.push_back({effect.name(), leaves.share,
+                        motion.rowwise().norm() / std::sqrt(static_cast<double>(motion.cols())),
+                        band_of(motion, view_.record.rate_hz, leaves.beside_hz)});
+  }
+}
+
+std::optional<Remainder> Remainders::find(const Eigen::VectorXd& pattern_px, RungSet band) const {
+  if (adopted_.empty() || !(pattern_px.squaredNorm() > 0.0)) return std::nullopt;
+  const PatternPower power = power_of(pattern_px, band, view_, residual_);
+  const double whole = power.of_bin.sum();
+  const auto n_values = static_cast<double>(pattern_px.size() * view_.record.n_frames());
+  const double rms = std::sqrt(std::max(whole, 0.0) * pattern_px.squaredNorm() / n_values);
+  for (const Adopted& effect : adopted_) {
+    const double of_effect = rms_of(effect.rms_px);
+    if (rms < effect.most_share * of_effect && share_on_points(pattern_px, effect.rms_px) >= kInside &&
+        power.within(effect.band) >= kInside * whole)
+      return Remainder{effect.name, rms / of_effect};
   }
   return std::nullopt;
 }

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/closure/observation/observation_fit.h"
 
@@ -13,9 +14,29 @@ struct Remainder {
   std::string effect;
   double share = 0.0;  // rms of the pattern over that of the effect
 };
-// pattern_px: 2 points long, of any size. residual: moments of the fit's own residual. Empty: no adopted named effect
-// explains it.
-[[nodiscard]] std::optional<Remainder> remainder_of(const Eigen::VectorXd& pattern_px, RungSet band,
-                                                    const ObservationFit& fit, const ResidualMoments& residual);
+
+struct BandHz {
+  double low = 0.0, high = 0.0;
+};
+
+// Of the named effects in a fit. Both arguments must outlive it.
+class Remainders {
+ public:
+  // residual: moments of the fit's own residual.
+  Remainders(const ObservationFit& fit, const ResidualMoments& residual);
+  // pattern_px: 2 points long, of any size. Empty: no adopted effect explains it.
+  [[nodiscard]] std::optional<Remainder> find(const Eigen::VectorXd& pattern_px, RungSet band) const;
+
+ private:
+  struct Adopted {
+    std::string name;
+    double most_share = 0.0;  // of its rms, in a remainder
+    Eigen::VectorXd rms_px;   // of its motion, 2 points long
+    BandHz band;
+  };
+  const FitView view_;
+  const ResidualMoments& residual_;
+  std::vector<Adopted> adopted_;
+};
 
 }  // namespace core::closure

@@ -67,7 +67,7 @@ Ritz ritz_of(const MatrixXd& h) {
 
 bool SparseFactor::factorise(const SparseMatrix& k) {
   ldlt_.analyzePattern(k);
-  const double entries = static_cast<double>(ldlt_.matrixL().nestedExpression().data().allocatedSize());
+  const double entries = ldlt_.n_entries();
   if (entries > kMostFactorEntries) {
     std::ostringstream text;
     text << "the factor of the stiffness matrix would have " << entries << " entries, more than " << kMostFactorEntries

@@ -21,7 +21,11 @@ class SparseFactor {
  private:
   bool factorise(const SparseMatrix& k);
 
-  Eigen::SimplicialLDLT<SparseMatrix> ldlt_;
+  // Size of the factor after analyzePattern(), before it is allocated; Eigen has no public function for it.
+  struct Ldlt : Eigen::SimplicialLDLT<SparseMatrix> {
+    [[nodiscard]] double n_entries() const { return m_nonZerosPerCol.cast<double>().sum(); }
+  };
+  Ldlt ldlt_;
   double shift_ = 0.0;
 };
 

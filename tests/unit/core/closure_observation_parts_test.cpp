@@ -97,7 +97,8 @@ std::optional<Remainder> remainder_of_bend(double bend_px, double frequency_hz) 
   const auto catalogue = catalogue_of({"camera_roll"});
   ObservationScores scores(fit, catalogue);
   solve_with_first(fit, scores);
-  return remainder_of(bend, kAllRungs, fit, residual_moments(fit.model().residual(), record.rate_hz));
+  const ResidualMoments residual = residual_moments(fit.model().residual(), record.rate_hz);
+  return Remainders(fit, residual).find(bend, kAllRungs);
 }
 
 TEST(Remainder, IsSmallAndAtTheFrequenciesOfAnAdoptedEffect) {

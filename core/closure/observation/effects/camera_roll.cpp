@@ -13,8 +13,9 @@ class CameraRoll final : public RotationEffect {
                                         const PointGeometry& geometry) const override {
     return roll_pattern(geometry);
   }
-  [[nodiscard]] std::string not_in(RungSet band, const FitView& fit) const override {
-    const RollCourse course = roll_course(fit, band);
+  [[nodiscard]] std::string not_in(const PatternGain& found, const ResidualMoments& /*residual*/,
+                                   const FitView& fit) const override {
+    const RollCourse course = roll_course(fit, found.band);
     if (std::string words = not_of_camera(course, fit); !words.empty()) return words;
     return course.is_vibration() ? "a narrow band above the camera's slow rotation: a vibration" : "";
   }

@@ -41,7 +41,7 @@ std::vector<NotObservable> never_observable() {
       {"sway of the background",
        "translation of the background is free in each frame: what is declared to rest is believed, as its sway cannot "
        "be "
-       "told from the camera's yaw",
+       "distinguished from the camera's yaw",
        "declare a second background at another depth"},
   };
 }

@@ -65,7 +65,7 @@ class MovingPartCandidate final : public EffectCandidate {
   [[nodiscard]] std::optional<double> free_gain(const TestedResidual& residual) const override {
     return fit_.held_out.of_learned_in(part_.found.band, residual.moments);
   }
-  [[nodiscard]] Objection objection() const override {
+  [[nodiscard]] Objection objection(const TestedResidual& /*residual*/) const override {
     if (part_.pattern.size() == 0) return {};
     if (of_place_ < kOfPlace)
       return {"its region moves in many ways: this one is " + std::to_string(std::lround(100.0 * of_place_)) +

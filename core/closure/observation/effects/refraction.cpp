@@ -75,7 +75,7 @@ class RefractionCandidate final : public EffectCandidate {
   [[nodiscard]] double material_share() const override { return kFullBandBar; }
   [[nodiscard]] bool is_learned() const override { return true; }
   [[nodiscard]] bool is_unspecific() const override { return true; }
-  [[nodiscard]] Objection objection() const override {
+  [[nodiscard]] Objection objection(const TestedResidual& /*residual*/) const override {
     if (n_patterns_ < kLeastPatterns) {
       return {"it has " + std::to_string(std::lround(n_patterns_)) + " patterns: effects with patterns of their own",
               true};

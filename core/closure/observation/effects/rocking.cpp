@@ -6,13 +6,6 @@ namespace {
 
 constexpr double kRolls = 0.9;  // of its gain: a roll of the camera that explains so much is as likely
 
-double gain_of(const Eigen::VectorXd& pattern_px, const FitView& fit) {
-  return fit.held_out
-      .of_pattern(pattern_beside(fit.model, fit.model.whitened(pattern_px)),
-                  residual_moments(fit.model.residual(), fit.record.rate_hz))
-      .gain;
-}
-
 // The whole structure turns in its own plane about its base. Confused with the camera's roll: distinguished from it by
 // a background that stands still, or else, where the turn is a resonance, by the base, which a roll would move.
 class Rocking final : public RotationEffect {
@@ -27,16 +20,16 @@ class Rocking final : public RotationEffect {
     }
     return out;
   }
-  [[nodiscard]] std::string not_in(RungSet band, const FitView& fit) const override {
+  [[nodiscard]] std::string not_in(const PatternGain& found, const ResidualMoments& residual,
+                                   const FitView& fit) const override {
     if (has_background(fit.record)) {
-      return gain_of(roll_pattern(fit.model.geometry()), fit) >
-                     kRolls * gain_of(pattern(fit.record, fit.model.geometry()), fit)
-                 ? "the background turns as well: the camera's roll explains as much"
-                 : "";
+      const Eigen::VectorXd roll = fit.model.whitened(roll_pattern(fit.model.geometry()));
+      const double of_roll = fit.held_out.of_pattern(pattern_beside(fit.model, roll), residual).gain;
+      return of_roll > kRolls * found.gain ? "the background turns as well: the camera's roll explains as much" : "";
     }
-    const RollCourse course = roll_course(fit, band);
+    const RollCourse course = roll_course(fit, found.band);
     if (course.is_resonance() && course.is_about_base()) return {};
-    return "without a background it cannot be told from the camera's roll";
+    return "without a background it cannot be distinguished from the camera's roll";
   }
 };
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/closure/observation/line_search.h"
+#include "core/closure/observation/power_quantiles.h"
 #include "core/spectrum/real_fft.h"
 
 namespace core::closure {
@@ -116,21 +117,16 @@ RollCourse roll_course(const FitView& fit, RungSet band) {
   const double bin_hz = 0.5 * fit.record.rate_hz / static_cast<double>(turn.size() - 1);
   const double noise = static_cast<double>(fit.record.n_frames()) / static_cast<double>(turn.size() - 1);
   std::vector<Eigen::Index> bins;
-  double whole = 0.0;
   for (Eigen::Index b = 1; b < turn.size(); ++b) {
-    if (band != kAllRungs && !holds(band, rungs.of(bin_hz * static_cast<double>(b)))) continue;
-    bins.push_back(b);
-    whole += std::norm(turn(b)) - noise;
+    if (band == kAllRungs || holds(band, rungs.of(bin_hz * static_cast<double>(b)))) bins.push_back(b);
   }
-  if (!(whole > 0.0)) return out;
-  const std::array<double*, 3> places{&out.low_hz, &out.middle_hz, &out.high_hz};
-  double sum = 0.0;
-  std::size_t reached = 0;
-  for (const Eigen::Index b : bins) {
-    sum += std::norm(turn(b)) - noise;
-    while (reached < 3 && sum >= std::array{0.16, 0.5, 0.84}[reached] * whole)
-      *places[reached++] = bin_hz * static_cast<double>(b);
-  }
+  const Eigen::VectorXd power = (turn(bins).cwiseAbs2().array() - noise).matrix().transpose();
+  if (!(power.sum() > 0.0)) return out;
+  std::array<double, 3> places{};
+  const auto reached = power_quantiles(power, kSpreadShares);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    places[i] = bin_hz * static_cast<double>(bins[static_cast<std::size_t>(reached[i])]);
+  out.low_hz = places[0], out.middle_hz = places[1], out.high_hz = places[2];
   const std::optional<BaseMotion> base = base_motion(fit, roll);
   if (!base) return out;
   // Regression of the base's displacement on the turn, over the bins between the outer quantiles.
@@ -157,9 +153,9 @@ RollCourse roll_course(const FitView& fit, RungSet band) {
 
 std::string not_of_camera(const RollCourse& course, const FitView& fit) {
   if (has_background(fit.record) || !course.is_resonance() || course.is_about_axis()) return {};
-  return course.is_about_base()
-             ? "it turns about the structure's base and not about the optical axis"
-             : "a resonance, and without a background the structure's rocking cannot be told from the camera's roll";
+  return course.is_about_base() ? "it turns about the structure's base and not about the optical axis"
+                                : "a resonance, and without a background the structure's rocking cannot be "
+                                  "distinguished from the camera's roll";
 }
 
 }  // namespace core::closure

@@ -82,7 +82,7 @@ class ConstantCandidate final : public EffectCandidate {
   }
   [[nodiscard]] double material_share() const override { return kGlobalBar; }
   [[nodiscard]] std::span<const Eigen::MatrixXd> constant_fields() const override { return error_fields_; }
-  [[nodiscard]] Objection objection() const override {
+  [[nodiscard]] Objection objection(const TestedResidual& /*residual*/) const override {
     if (sigmas_ > kLeastSigmas) return {};
     return {"within three of its own standard deviations of zero", true};
   }

@@ -59,7 +59,7 @@ class CourseCandidate final : public EffectCandidate {
     smooth_ = found_ ? smooth_share_of(CourseFit(*found_, residual.values)) : 0.0;
     return gain_of(found_, residual);
   }
-  [[nodiscard]] Objection objection() const override {
+  [[nodiscard]] Objection objection(const TestedResidual& /*residual*/) const override {
     if (smooth_ < kMostSmooth) return {};
     return {"a smooth field over the image is " + std::to_string(std::lround(100.0 * smooth_)) +
                 " % of it: motion or optics, not an error of each point",

@@ -33,7 +33,7 @@ class FamilyCandidate final : public EffectCandidate {
   [[nodiscard]] std::optional<double> free_gain(const TestedResidual& residual) const override {
     return fit_.held_out.of_learned_in(found_.band, residual.moments);
   }
-  [[nodiscard]] Objection objection() const override {
+  [[nodiscard]] Objection objection(const TestedResidual& /*residual*/) const override {
     if (pattern_.size() == 0) return {};
     return follows_motion(fit_, fit_.model.whitened(pattern_), found_.band);
   }

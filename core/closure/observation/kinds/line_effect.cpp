@@ -89,7 +89,7 @@ class LineCandidate final : public EffectCandidate {
     return found_.gain;
   }
   [[nodiscard]] double material_share() const override { return kLineBar; }
-  [[nodiscard]] Objection objection() const override {
+  [[nodiscard]] Objection objection(const TestedResidual& /*residual*/) const override {
     if (found_.is_steady(fit_.record.rate_hz, fit_.readout_frames) != effect_.is_steady())
       return {effect_.is_steady() ? "it is a band, or slower than a rotor" : "it is the line of a steady rotor", false};
     if (!effect_.is_steady() && found_.spread_hz > kWidest_hz) return {"too wide for a band", false};

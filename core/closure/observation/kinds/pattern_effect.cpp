@@ -58,8 +58,9 @@ class PatternCandidate final : public EffectCandidate {
   [[nodiscard]] std::optional<double> free_gain(const TestedResidual& residual) const override {
     return fit_.held_out.of_learned_in(found_.band, residual.moments);
   }
-  [[nodiscard]] Objection objection() const override {
-    if (std::string words = effect_.not_in(found_.band, fit_); !words.empty()) return {std::move(words), true};
+  [[nodiscard]] Objection objection(const TestedResidual& residual) const override {
+    if (std::string words = effect_.not_in(found_, residual.moments, fit_); !words.empty())
+      return {std::move(words), true};
     return follows_motion(fit_, whitened(), found_.band);
   }
   [[nodiscard]] std::unique_ptr<EffectInModel> adopted() const override {

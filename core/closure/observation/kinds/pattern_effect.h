@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/closure/observation/effect.h"
+#include "core/closure/observation/held_out.h"
 
 namespace core::closure {
 
@@ -12,8 +13,11 @@ class PatternEffect : public ObservationEffect {
                                                 const PointGeometry& geometry) const = 0;
   [[nodiscard]] virtual std::string unit() const = 0;
   [[nodiscard]] virtual double per_unit() const { return 1.0; }  // reported value = internal value * per_unit
-  // Why an amplitude in this band is not that of the effect; empty: no reason.
-  [[nodiscard]] virtual std::string not_in(RungSet /*band*/, const FitView& /*fit*/) const { return {}; }
+  // Why an amplitude with this gain in its band is not that of the effect; empty: no reason. residual: of the fit.
+  [[nodiscard]] virtual std::string not_in(const PatternGain& /*found*/, const ResidualMoments& /*residual*/,
+                                           const FitView& /*fit*/) const {
+    return {};
+  }
   // Of the camera per internal unit, where the pattern is the first order of a rotation.
   [[nodiscard]] virtual Eigen::Vector3d rotation() const { return Eigen::Vector3d::Zero(); }
 
