@@ -48,7 +48,8 @@ void StreamMonitor::dispatch(Topic topic, const void* data, std::size_t n_bytes,
       static_cast<void>(open<hovermodal::tracks_t>(topic, data, n_bytes, now_ns));
       break;
     case kClosure:
-      if (auto m = open<hovermodal::closure_report_t>(topic, data, n_bytes, now_ns)) closure_ = std::move(*m);
+      if (auto m = open<hovermodal::closure_report_t>(topic, data, n_bytes, now_ns))
+        (m->level == "structure" ? structure_ : closure_) = std::move(*m);
       break;
     case kPreview:
       if (auto m = open<hovermodal::preview_t>(topic, data, n_bytes, now_ns)) preview_ = std::move(*m);

@@ -65,8 +65,9 @@ class StreamMonitor {
   [[nodiscard]] std::vector<const hovermodal::mode_t*> modes() const;
   [[nodiscard]] int parts_heard() const noexcept { return static_cast<int>(parts_.size()); }
 
-  // The newest report of residual diagnosis.
+  // The newest report of residual diagnosis; and of the comparison of a declared structure with the modes.
   [[nodiscard]] const std::optional<hovermodal::closure_report_t>& closure() const noexcept { return closure_; }
+  [[nodiscard]] const std::optional<hovermodal::closure_report_t>& structure() const noexcept { return structure_; }
 
   // The newest preview image.
   [[nodiscard]] const std::optional<hovermodal::preview_t>& preview() const noexcept { return preview_; }
@@ -100,7 +101,7 @@ class StreamMonitor {
   std::int64_t config_hash_ = 0, stream_time_ns_ = 0, last_received_ns_ = 0, finished_at_ns_ = 0;
   bool is_finished_ = false;
   std::optional<hovermodal::health_t> health_, previous_health_;
-  std::optional<hovermodal::closure_report_t> closure_;
+  std::optional<hovermodal::closure_report_t> closure_, structure_;
   std::optional<hovermodal::modal_estimate_t> estimate_;  // its own `modes` moved into parts_
   std::map<std::int16_t, std::vector<hovermodal::mode_t>> parts_;
   std::size_t n_modes_ = 0;

@@ -106,7 +106,8 @@ void add_closure_keys(std::vector<ConfigKey>& keys) {
   keys.push_back(
       text_key("closure.structure", at(&A::closure, &C::structure), {},
                "file of a declared structure (tower, beam, cable, frame, matrices; tools/guide/structures.md), "
-               "which is compared with the modes at the end of a recording: which effect it lacks, and where; "
+               "which is compared with the modes every closure.period_s and at the end of a recording: which effect it "
+               "lacks, and where; "
                "\"\" = none"));
 }
 

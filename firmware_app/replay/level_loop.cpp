@@ -1,4 +1,5 @@
 #include "firmware_app/replay/level_loop.h"
+#include "firmware_app/chain/structure_comparison.h"
 
 #include <fmt/format.h>
 
@@ -12,8 +13,6 @@
 
 #include "core/closure/closure_loop.h"
 #include "core/closure/observation/observation_level.h"
-#include "core/closure/structure_level.h"
-#include "core/structure/mode_numbers.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/chain/observation.h"
 #include "firmware_app/replay/loop_corrections.h"
@@ -176,18 +175,14 @@ class LevelLoop {
     if (!inputs_.structure) return skipped(name, "no structure is declared (--structure)");
     tell("fitting the declared structure");
     try {
-      auto paired = modes.for_structure(so_far, *inputs_.structure);
-      std::vector<core::structure::ReferenceMode> unpaired;
-      if (inputs_.structure->model)  // by frequency alone
-        unpaired = core::structure::pair_with_model(*inputs_.structure, paired);
-      core::closure::StructureLevel level(*inputs_.structure, std::move(paired), {}, std::move(unpaired));
       core::closure::ClosureOptions options;
       options.seed = inputs_.seed;
       options.progress = inputs_.progress;
-      if (inputs_.structure->model) options.n_surrogates_when_plain = 32;  // another kind costs more for each
-      LoopLevel out = level_of(name, core::closure::close_loop(level, options));
+      StructureFinding found =
+          compare_structure(*inputs_.structure, modes.for_structure(so_far, *inputs_.structure), options);
+      LoopLevel out = level_of(name, std::move(found.result));
       for (LoopLevel::Finding& finding : out.findings) finding.repair = "the structural model has it from now on";
-      for (StructurePicture& one : structure_level_pictures(level, *out.result, *inputs_.structure))
+      for (StructurePicture& one : structure_level_pictures(*found.level, *out.result, *inputs_.structure))
         out.pictures.push_back({std::move(one.title), std::move(one.svg)});
       return out;
     } catch (const std::invalid_argument& e) {

@@ -46,6 +46,7 @@ DataFlow::DataFlow(const AppConfig& c, std::unique_ptr<drivers::Camera> camera,
 std::vector<rt::StageRunner*> DataFlow::list_runners() {
   std::vector<rt::StageRunner*> all{&run_capture, &run_tracking, &run_spectrum, &run_identification};
   if (closes_loop()) all.push_back(&run_closure);
+  if (compares_structure()) all.push_back(&run_structure);
   all.push_back(&run_publish);
   if (keeps_state()) all.push_back(&run_checkpoint);
   return all;
@@ -74,6 +75,8 @@ void DataFlow::connect() {
   nudge(recent_tracks, tracking, closure);
   nudge(closures, closure, publish);
   nudge(correction_switches, closure, tracking);
+  nudge(comparisons, structure, publish);
+  estimates.set_reader_wakeup(&structure.wakeup());
   previews.set_reader_wakeup(&publish.wakeup());
   spectrum_states.set_reader_wakeup(&checkpoint.wakeup());
 }
@@ -96,10 +99,12 @@ void DataFlow::watch() {
   health.watch({&run_spectrum, [this] { return samples.depth(); }, samples.n_slots()});
   health.watch({&run_identification, {}, 0});
   if (closes_loop()) health.watch({&run_closure, [this] { return recent_tracks.depth(); }, recent_tracks.n_slots()});
+  if (compares_structure()) health.watch({&run_structure, {}, 0});
   health.watch({&run_publish, [this] { return records.depth(); }, records.n_slots()});
   const auto stall_ns = static_cast<std::int64_t>(1e9 * config.rt.stall_s);
   for (rt::StageRunner* runner : runners) runner->set_stall_limit_ns(stall_ns);
-  for (rt::StageRunner* slow : {&run_identification, &run_closure}) slow->set_stall_limit_ns(10 * stall_ns);
+  for (rt::StageRunner* slow : {&run_identification, &run_closure, &run_structure})
+    slow->set_stall_limit_ns(10 * stall_ns);
 }
 
 std::string DataFlow::fault() {

@@ -15,9 +15,11 @@
 #include "firmware_app/service/kept_state.h"
 #include "firmware_app/service/outlets.h"
 #include "firmware_app/service/real_time.h"
+#include "firmware_app/service/run_diagnosis.h"
 #include "firmware_app/service/source.h"
 #include "firmware_app/service/stages/closure_stage.h"
 #include "firmware_app/service/stages/identification_stage.h"
+#include "firmware_app/service/stages/structure_stage.h"
 #include "rt/stage_runner.h"
 
 namespace app {
@@ -46,12 +48,14 @@ struct DataFlow {
                            identifier_maker(config, source.info, source.keyframe, source.displacement.spectra()), book};
   Diagnosis diagnosis{missing_effect_search_config(config, source.info, source.keyframe), book,
                       geometry_maker(config, source.info, source.keyframe)};
+  StructureComparison comparison{declared_structure(config), source.channels(), config.closure.period_s};
   core::PreviewMaker preview_maker = preview_maker_for(config, source);
 
   // camera -> [frames] -> tracking -> [samples] -> spectrum -> (snapshots) -> identification -> [results] -> publish
   //                                -> [records], (previews) -> publish
   //                                -> [recent_tracks] -> closure -> [closures] -> publish; [correction_switches] ->
   //                                tracking
+  // identification -> (estimates) -> structure -> [comparisons] -> publish
   // spectrum, identification -> (spectrum_states, mode_states) -> checkpoint -> the state file
   rt::SpscRing<core::Frame> frames{slots(config.rt.frame_slots), source.first_frame};
   rt::SpscRing<core::DisplacementSample> samples{slots(config.rt.sample_slots), source.displacement.sample_prototype()};
@@ -61,6 +65,8 @@ struct DataFlow {
   rt::SpscRing<IdentificationResult> results{slots(kResultSlots), IdentificationResult{}};
   rt::SpscRing<core::TrackFrame> recent_tracks{closes_loop() ? slots(kRecentSlots) : 1, source.keyframe};
   rt::SpscRing<core::closure::ClosureReport> closures{slots(kResultSlots), core::closure::ClosureReport{}};
+  rt::TripleBuffer<core::ModalEstimate> estimates{core::ModalEstimate{}};
+  rt::SpscRing<core::closure::ClosureReport> comparisons{slots(kResultSlots), core::closure::ClosureReport{}};
   rt::SpscRing<CorrectionSwitch> correction_switches{slots(kResultSlots), CorrectionSwitch{}};
   rt::TripleBuffer<StateBytes> spectrum_states{state_room(spectra.state_bytes())};
   rt::TripleBuffer<StateBytes> mode_states{state_room(modes.state_bytes())};
@@ -75,12 +81,16 @@ struct DataFlow {
       diagnosis.change()};
   SpectrumStage spectrum{
       {samples.reader(), snapshots, keeps_state() ? &spectrum_states : nullptr}, spectra, source.info.lossless};
-  IdentificationStage identification{{snapshots, results.writer(), keeps_state() ? &mode_states : nullptr}, modes};
+  IdentificationStage identification{{snapshots, results.writer(), keeps_state() ? &mode_states : nullptr,
+                                      compares_structure() ? &estimates : nullptr},
+                                     modes};
   ClosureStage closure{{recent_tracks.reader(), closures.writer(), where(takes_out(), correction_switches.writer())},
                        diagnosis};
+  StructureStage structure{{estimates, comparisons.writer()}, comparison};
   CheckpointStage checkpoint{spectrum_states, mode_states, view_of(config, source), state_path(config)};
   HealthCollector health{source.info.rate_hz, capture, tracking, spectrum};
-  PublishStage publish{{records.reader(), results.reader(), previews, where(closes_loop(), closures.reader())},
+  PublishStage publish{{records.reader(), results.reader(), previews, where(closes_loop(), closures.reader()),
+                        where(compares_structure(), comparisons.reader())},
                        outlets()};
 
   // Started back to front, stopped front to back.
@@ -89,12 +99,14 @@ struct DataFlow {
   rt::StageRunner run_spectrum{spectrum, frame_thread("hm-spectrum", config.rt, config.rt.spectrum_cpu)};
   rt::StageRunner run_identification{identification, {"hm-identify"}};
   rt::StageRunner run_closure{closure, {"hm-closure"}};
+  rt::StageRunner run_structure{structure, {"hm-structure"}};
   rt::StageRunner run_publish{publish, {"hm-publish"}};
   rt::StageRunner run_checkpoint{checkpoint, {"hm-checkpoint"}};
   const std::vector<rt::StageRunner*> runners = list_runners();  // in flow order
 
   [[nodiscard]] bool closes_loop() const noexcept { return config.closure.adopt != ClosureAdopt::kOff; }
   [[nodiscard]] bool takes_out() const noexcept { return config.closure.adopt == ClosureAdopt::kAuto; }
+  [[nodiscard]] bool compares_structure() const noexcept { return !config.closure.structure.empty() && closes_loop(); }
   [[nodiscard]] bool keeps_state() const noexcept { return !config.state.directory.empty(); }
   [[nodiscard]] std::string fault();         // what ended the flow; empty: no fault
   [[nodiscard]] core::Health status();       // present counters

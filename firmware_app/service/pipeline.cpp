@@ -61,11 +61,13 @@ void Pipeline::request_stop() noexcept {
   std::int64_t none = 0;
   stop_ns_.compare_exchange_strong(none, rt::monotonic_ns(), std::memory_order_relaxed);
   flow_->capture.request_stop();
+  flow_->structure.request_stop();
 }
 
 bool Pipeline::is_left(const rt::StageRunner& runner) const noexcept {
   return (leaves_estimate_ && &runner == &flow_->run_identification) ||
-         (leaves_diagnosis_ && &runner == &flow_->run_closure);
+         (leaves_diagnosis_ && &runner == &flow_->run_closure) ||
+         (leaves_comparison_ && &runner == &flow_->run_structure);
 }
 
 // A step that was begun before the stop is measured from the stop on.
@@ -86,6 +88,10 @@ void Pipeline::leave_the_late() noexcept {
     leaves_diagnosis_ = true;
     flow_->tracking.stop_waiting();
     flow_->publish.go_on_without(PublishStage::kDiagnosis);
+  }
+  if (!leaves_comparison_ && is_late(flow_->run_structure, kPatience_ns)) {
+    leaves_comparison_ = true;
+    flow_->publish.go_on_without(PublishStage::kComparison);
   }
 }
 

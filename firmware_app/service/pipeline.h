@@ -80,7 +80,7 @@ class Pipeline {
   std::vector<std::shared_ptr<drivers::FolderClaim>> claims_;  // of the folders that the run writes into
   std::unique_ptr<DataFlow> flow_;
   std::atomic<std::int64_t> stop_ns_{0};  // CLOCK_MONOTONIC of the first request; relaxed: independent; 0: none
-  bool leaves_estimate_ = false, leaves_diagnosis_ = false;  // main thread
+  bool leaves_estimate_ = false, leaves_diagnosis_ = false, leaves_comparison_ = false;  // main thread
 };
 
 // Checks all that can be checked without running: opens the source, compares regions, seeds. For --check. Returns how

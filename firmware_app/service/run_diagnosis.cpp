@@ -14,10 +14,14 @@
 
 namespace app {
 
+core::structure::DeclaredFrame declared_structure(const AppConfig& config) {
+  if (config.closure.structure.empty()) return {};
+  return drivers::read_structure(config.closure.structure);
+}
+
 void check_structure(const AppConfig& config) {
-  if (config.closure.structure.empty()) return;
   try {
-    (void)drivers::read_structure(config.closure.structure);
+    (void)declared_structure(config);
   } catch (const std::exception& e) {
     throw ConfigError(std::string("closure.structure: ") + e.what());
   }
@@ -33,7 +37,7 @@ void diagnose_run(const AppConfig& config, const Pipeline::Outcome& outcome, con
     LevelLoopInputs inputs;
     inputs.folder = config.report.directory;
     inputs.config = config;
-    if (!config.closure.structure.empty()) inputs.structure = drivers::read_structure(config.closure.structure);
+    if (!config.closure.structure.empty()) inputs.structure = declared_structure(config);
     inputs.progress = [&goes_on](const core::closure::LoopProgress&) {
       if (!goes_on()) throw std::runtime_error("stopped");
     };

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "core/structure/declared_frame.h"
 #include "firmware_app/config/config.h"
 #include "firmware_app/service/pipeline.h"
 
@@ -10,6 +11,8 @@ namespace app {
 // Reads the structure that closure.structure names, so that a wrong file ends the service at its start. Throws
 // ConfigError with the file's own words.
 void check_structure(const AppConfig& config);
+// That structure; without one, a structure of no kind. Throws drivers::FileError.
+[[nodiscard]] core::structure::DeclaredFrame declared_structure(const AppConfig& config);
 
 // Residual diagnosis over all levels of a run that has ended, from its report folder
 // (firmware_app/replay/level_loop.h): writes loop.json and loop.html to it, and the table to the log. Does nothing

@@ -57,6 +57,22 @@ TEST(Pipeline, FindsTheModesOfASimulatedBuilding) {
   }
 }
 
+TEST(Pipeline, ComparesADeclaredStructureWithItsModes) {
+  const std::filesystem::path folder = own_folder();
+  const std::string file = (folder / "frame.yaml").string();
+  std::ofstream(file) << "structure: {kind: shear_frame, storeys: 6}\n";
+  Rig rig(frames(1000), {"closure.structure=" + file, "closure.period_s=20", "closure.window_s=24"});
+  const auto heard = rig.heard;
+  const auto outcome = rig.run();
+  EXPECT_EQ(outcome.fault, "");
+  const auto is_of_structure = [](const auto& report) { return report.result.level == "structure"; };
+  const auto found = std::find_if(heard->closures.begin(), heard->closures.end(), is_of_structure);
+  ASSERT_NE(found, heard->closures.end());
+  EXPECT_GT(found->duration_s, 0.0);
+  EXPECT_TRUE(std::any_of(outcome.health.stages.begin(), outcome.health.stages.end(),
+                          [](const core::StageHealth& stage) { return stage.name == "structure"; }));
+}
+
 // Two periods and the remainder; the output does not depend on the time that the stages take.
 TEST(Pipeline, ClosesTheLoopWhileItRuns) {
   std::vector<std::shared_ptr<Heard>> heard;

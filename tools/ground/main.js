@@ -4,7 +4,7 @@ import { byId } from "./dom.js";
 import { ModeCards } from "./mode_cards.js";
 import { SpectraView, StableView, TracesView } from "./pictures.js";
 import { State } from "./state.js";
-import { showClosure, showHead, showHealth, showLink, showNotice, showRegions } from "./tables.js";
+import { showClosure, showStructure, showHead, showHealth, showLink, showNotice, showRegions } from "./tables.js";
 
 const kRetry_ms = 3000, kSwing_ms = 2400, kShapeFrame_ms = 33;
 
@@ -26,6 +26,7 @@ const kDraw = {
   spectra: () => spectra.draw(state),
   stable: () => stable.draw(state),
   closure: () => showClosure(state),
+  structure: () => showStructure(state),
 };
 
 function apply(data) {

@@ -14,7 +14,7 @@ export class State {
   }
   clear() {
     this.link = null;
-    this.health = this.modes = this.spectra = this.preview = this.closure = null;
+    this.health = this.modes = this.spectra = this.preview = this.closure = this.structure = null;
     this.estimates = [];
     this.clearTraces();
   }
@@ -32,7 +32,7 @@ export class State {
     }
     if (link.boot !== this.boot) this.clearTraces();
     this.boot = link.boot, this.run = link.run, this.link = link;
-    for (const part of ["health", "modes", "spectra", "preview", "closure"]) {
+    for (const part of ["health", "modes", "spectra", "preview", "closure", "structure"]) {
       if (!data[part]) continue;
       this[part] = data[part];
       changed.add(part);

@@ -100,9 +100,8 @@ function bar(name, value, largest, kind, unit) {
   return element("div", [element("b", name), element("div", fill, "bar"), element("span", fixed(value) + " " + unit)], "pair");
 }
 
-export function showClosure(state) {
-  const c = state.closure;
-  if (!c) return;
+// What a report of residual diagnosis found: residual, effects, the rest.
+function finding(c) {
   const out = [];
   if (c.refused) {
     out.push(element("p", "Nothing can be concluded: " + c.refused));
@@ -115,8 +114,21 @@ export function showClosure(state) {
     }
     if (c.left) out.push(element("p", "Left: " + c.left + (c.unexplained === null ? "" : " (" + fixed(100 * c.unexplained, 2) + " % of what is above the noise)"), "note"));
   }
+  return out;
+}
+
+export function showClosure(state) {
+  const c = state.closure;
+  if (!c) return;
+  const out = finding(c);
   out.push(element("p", [element("b", "In force: "), c.in_force.length ? c.in_force.join("; ") : "nothing beyond what was declared"]));
   if (c.changes.length) out.push(element("p", "Changed by this report: " + c.changes.join("; ")));
   out.push(element("p", "Report " + (c.number + 1) + " on frames " + c.frames[0] + " to " + c.frames[1] + ".", "note"));
   byId("closure").replaceChildren(...out);
+}
+
+export function showStructure(state) {
+  const c = state.structure;
+  byId("structure-part").hidden = !c;
+  if (c) byId("structure").replaceChildren(...finding(c), element("p", "Report " + (c.number + 1) + ", modes of " + fixed(c.duration_s, 3) + " s.", "note"));
 }

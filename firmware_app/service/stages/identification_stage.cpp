@@ -3,6 +3,18 @@
 #include <utility>
 
 namespace app {
+namespace {
+
+bool copy(const core::ModalEstimate& from, core::ModalEstimate& to) noexcept {
+  try {
+    to = from;
+    return true;
+  } catch (...) {  // out of memory: the next estimate may be compared
+    return false;
+  }
+}
+
+}  // namespace
 
 IdentificationStage::IdentificationStage(Ends ends, ModeIdentification& modes)
     : ends_(std::move(ends)), modes_(modes) {}
@@ -17,9 +29,15 @@ rt::StepStatus IdentificationStage::step() noexcept {
     return rt::StepStatus::kWorked;
   }
   if (ends_.states != nullptr && modes_.save(ends_.states->back())) ends_.states->publish();
+  if (ends_.newest != nullptr && copy(slot->estimate, ends_.newest->back())) ends_.newest->publish();
   ends_.results.publish();
   rt::StageStats::add(stats().n_out);
   return rt::StepStatus::kWorked;
+}
+
+void IdentificationStage::finish() noexcept {
+  ends_.results.close();
+  if (ends_.newest != nullptr) ends_.newest->close();
 }
 
 bool IdentificationStage::identify(IdentificationResult& out) noexcept {

@@ -15,14 +15,15 @@ class IdentificationStage : public rt::Stage {
   struct Ends {
     rt::TripleBuffer<SpectrumSnapshot>& snapshots;
     rt::RingWriter<IdentificationResult> results;
-    rt::TripleBuffer<StateBytes>* states = nullptr;  // null: no state is kept
+    rt::TripleBuffer<StateBytes>* states = nullptr;           // null: no state is kept
+    rt::TripleBuffer<core::ModalEstimate>* newest = nullptr;  // null: no structure is declared
   };
   // modes: not used by anyone else once the stage runs.
   IdentificationStage(Ends ends, ModeIdentification& modes);
 
   [[nodiscard]] std::string_view name() const noexcept override { return "identification"; }
   [[nodiscard]] rt::StepStatus step() noexcept override;
-  void finish() noexcept override { ends_.results.close(); }
+  void finish() noexcept override;
 
  private:
   [[nodiscard]] bool identify(IdentificationResult& out) noexcept;

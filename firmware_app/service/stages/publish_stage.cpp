@@ -38,6 +38,11 @@ rt::StepStatus PublishStage::step() noexcept {
     ends_.closures->pop();
     return rt::StepStatus::kWorked;
   }
+  if (const core::closure::ClosureReport* comparison = ends_.comparisons ? ends_.comparisons->front() : nullptr) {
+    (void)outlets_.publisher.publish(*comparison);
+    ends_.comparisons->pop();
+    return rt::StepStatus::kWorked;
+  }
   if (ends_.previews.refresh()) {
     (void)outlets_.publisher.publish(ends_.previews.front(), outlets_.regions);
     return rt::StepStatus::kWorked;
@@ -50,7 +55,8 @@ rt::StepStatus PublishStage::step() noexcept {
   }
   const std::uint32_t late = late_.load(std::memory_order_relaxed);
   const bool is_over = ends_.records.finished() && (ends_.results.finished() || (late & kEstimate) != 0) &&
-                       (!ends_.closures || ends_.closures->finished() || (late & kDiagnosis) != 0);
+                       (!ends_.closures || ends_.closures->finished() || (late & kDiagnosis) != 0) &&
+                       (!ends_.comparisons || ends_.comparisons->finished() || (late & kComparison) != 0);
   return is_over ? rt::StepStatus::kFinished : rt::StepStatus::kIdle;
 }
 

@@ -51,6 +51,7 @@ class PublishStage : public rt::Stage {
     rt::RingReader<IdentificationResult> results;
     rt::TripleBuffer<core::Preview>& previews;  // the newest one is sent
     std::optional<rt::RingReader<core::closure::ClosureReport>> closures = {};
+    std::optional<rt::RingReader<core::closure::ClosureReport>> comparisons = {};  // of the declared structure
   };
   PublishStage(Ends ends, Outlets outlets);
 
@@ -59,7 +60,7 @@ class PublishStage : public rt::Stage {
   void finish() noexcept override;
 
   // What of a stopped run is not waited for any more, because it takes too long.
-  enum Late : std::uint32_t { kEstimate = 1, kDiagnosis = 2 };
+  enum Late : std::uint32_t { kEstimate = 1, kDiagnosis = 2, kComparison = 4 };
   // Any thread. The report is then completed without it and says so.
   void go_on_without(Late late) noexcept {
     late_.fetch_or(late, std::memory_order_relaxed);  // independent of other data; partner: step(), finish()

@@ -54,7 +54,7 @@ TEST_F(GroundSnapshot, SaysThatNothingWasHeard) {
   const json out = whole();
   EXPECT_FALSE(out["link"]["heard"].get<bool>());
   EXPECT_TRUE(out["link"]["silent_s"].is_null());
-  for (const char* part : {"health", "modes", "spectra", "preview", "closure", "traces"})
+  for (const char* part : {"health", "modes", "spectra", "preview", "closure", "structure", "traces"})
     EXPECT_FALSE(out.contains(part)) << part;
   EXPECT_EQ(stream_.preview_jpeg(), "");
 }
@@ -66,6 +66,9 @@ TEST_F(GroundSnapshot, HoldsTheNewestOfEverything) {
   for (const auto& m : to_messages(tests::sample_sums(3, 512), tests::sample_channels(3), {"tower", 1}))
     send("SPECTRUM", m, m.channel_index);
   send("CLOSURE", to_message(tests::sample_closure(2), {"tower", 1}), 0);
+  core::closure::ClosureReport structure = tests::sample_closure(1);
+  structure.result.level = "structure", structure.result.unit = "%";
+  send("CLOSURE", to_message(structure, {"tower", 1}), 1);
   const json out = whole();
   EXPECT_EQ(out["link"]["stream"], "tower");
   EXPECT_EQ(out["link"]["topics"]["displacement"]["received"], 5);
@@ -80,6 +83,8 @@ TEST_F(GroundSnapshot, HoldsTheNewestOfEverything) {
   EXPECT_EQ(out["traces"]["t_s"].size(), 5U);
   EXPECT_EQ(out["spectra"]["channels"][0]["log10"].size(), 257U);
   EXPECT_EQ(out["closure"]["in_force"].size(), 1U);
+  EXPECT_EQ(out["closure"]["unit"], "px");
+  EXPECT_EQ(out["structure"]["unit"], "%");
 }
 
 TEST_F(GroundSnapshot, NewsAreToldOnce) {

@@ -9,9 +9,9 @@
 #include <optional>
 #include <stdexcept>
 
-#include "core/planning/hover_time.h"
 #include "drivers/storage/csv.h"
 #include "drivers/storage/text_file.h"
+#include "firmware_app/chain/reference_modes.h"
 #include "firmware_app/report/modal_json.h"
 
 namespace tools {
@@ -25,69 +25,19 @@ using Modes = std::vector<ReferenceMode>;
   throw drivers::FileError(path + ": " + what);
 }
 
-// Scales the largest component to 1, and the sigmas accordingly.
-void normalise(ReferenceMode& mode) {
-  double largest = 0.0;
-  for (const double component : mode.shape) {
-    if (std::abs(component) > std::abs(largest)) largest = component;
+// With the file's name before the words of the one that refuses.
+template <class Make>
+auto of_file(const std::string& path, const Make& make) {
+  try {
+    return make();
+  } catch (const std::invalid_argument& e) {
+    refuse(path, e.what());
   }
-  if (largest == 0.0) {
-    mode.shape.clear();
-    mode.shape_sigma.clear();
-    return;
-  }
-  for (double& component : mode.shape) component /= largest;
-  for (double& sigma : mode.shape_sigma) sigma /= std::abs(largest);
-}
-
-std::vector<std::size_t> floor_channels(const std::string& path, const DeclaredFrame& declared,
-                                        const std::vector<std::string>& names) {
-  std::vector<std::size_t> out;
-  for (const std::string& floor : declared.floors) {
-    const auto found = std::find(names.begin(), names.end(), floor);
-    if (found == names.end()) {
-      refuse(path, fmt::format("no channel `{}` (structure.floors); there are: {}", drivers::printable(floor),
-                               drivers::printable(fmt::format("{}", fmt::join(names, ", ")), 200)));
-    }
-    out.push_back(static_cast<std::size_t>(found - names.begin()));
-  }
-  return out;
-}
-
-// The stated one. Where the record was too short to estimate it: the declared share; undeclared, at least what the
-// duration allows.
-double sigma_hz_of(const core::Mode& mode, double duration_s, const DeclaredFrame& declared) {
-  if (mode.frequency_std_hz.value_or(0.0) > 0.0) return *mode.frequency_std_hz;
-  const bool is_declared = declared.frequency_sigma != DeclaredFrame{}.frequency_sigma;
-  double share = declared.frequency_sigma;
-  if (!is_declared && duration_s > 0.0 && mode.damping_ratio > 0.0) {
-    share =
-        std::max(share, core::planning::relative_frequency_sigma(mode.frequency_hz, mode.damping_ratio, duration_s));
-  }
-  return share * mode.frequency_hz;
 }
 
 Modes from_modal_json(const std::string& path, const DeclaredFrame& declared) {
   const app::ModalReport report = app::read_modal_json(path);
-  const std::vector<std::size_t> channels = floor_channels(path, declared, report.channel_names);
-  Modes out;
-  for (const core::Mode& mode : report.estimate.modes) {
-    ReferenceMode reference;
-    reference.number = static_cast<int>(out.size()) + 1;
-    reference.frequency_hz = mode.frequency_hz;
-    reference.sigma_hz = sigma_hz_of(mode, report.estimate.duration_s, declared);
-    reference.damping_ratio = mode.damping_ratio, reference.damping_sigma = mode.damping_std.value_or(0.0);
-    for (const std::size_t c : channels) {
-      if (c >= mode.shape.size()) break;
-      reference.shape.push_back(mode.shape[c].real());
-      // At least a tenth of the declared sigma: the component that scales the shape has none of its own.
-      const double stated = c < mode.shape_std.size() ? mode.shape_std[c] : declared.shape_sigma;
-      reference.shape_sigma.push_back(std::max(stated, 0.1 * declared.shape_sigma));
-    }
-    normalise(reference);
-    out.push_back(std::move(reference));
-  }
-  return out;
+  return of_file(path, [&] { return app::reference_modes(report.estimate, report.channel_names, declared); });
 }
 
 class Table {
@@ -97,9 +47,10 @@ class Table {
   [[nodiscard]] Modes modes(const DeclaredFrame& declared) const {
     const auto [frequencies, per_hz] = frequency_column();
     const int numbers = file_.column("mode"), sigmas = file_.column("sigma_hz");
-    const std::vector<std::size_t> floors = file_.has_names && has_any_floor(declared)
-                                                ? floor_channels(path_, declared, file_.names)
-                                                : std::vector<std::size_t>{};
+    const std::vector<std::size_t> floors =
+        file_.has_names && has_any_floor(declared)
+            ? of_file(path_, [&] { return app::floor_channels(declared, file_.names); })
+            : std::vector<std::size_t>{};
     Modes out;
     for (std::size_t row = 0; row < file_.columns.front().size(); ++row) {
       ReferenceMode mode;
@@ -113,7 +64,7 @@ class Table {
         mode.shape.push_back(at(static_cast<int>(c), row));
         mode.shape_sigma.push_back(declared.shape_sigma);
       }
-      normalise(mode);
+      app::normalise(mode);
       for (std::size_t i = 0; i < mode.shape.size(); ++i) mode.shape_sigma[i] = declared.shape_sigma;
       out.push_back(std::move(mode));
     }

@@ -15,7 +15,7 @@ namespace tools {
 [[nodiscard]] nlohmann::json modes_json(const drivers::StreamMonitor& monitor);
 [[nodiscard]] nlohmann::json spectra_json(const drivers::StreamMonitor& monitor);
 [[nodiscard]] nlohmann::json preview_json(const drivers::StreamMonitor& monitor);
-[[nodiscard]] nlohmann::json closure_json(const drivers::StreamMonitor& monitor);
+[[nodiscard]] nlohmann::json closure_json(const hovermodal::closure_report_t& c);
 // The samples still kept, starting with number `first`.
 [[nodiscard]] nlohmann::json traces_json(const drivers::StreamMonitor& monitor, std::uint64_t first);
 

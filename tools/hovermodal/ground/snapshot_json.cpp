@@ -23,6 +23,7 @@ Shown newest(const LiveView& view) {
   }
   if (m.preview() && of_run(m.preview()->utc_ns)) out.preview = m.preview()->sequence;
   if (m.closure() && of_run(m.closure()->utc_ns)) out.closure_utc_ns = m.closure()->utc_ns;
+  if (m.structure() && of_run(m.structure()->utc_ns)) out.structure_utc_ns = m.structure()->utc_ns;
   for (const auto& spectrum : m.spectra()) {
     if (spectrum && of_run(spectrum->utc_ns)) out.spectrum_utc_ns = std::max(out.spectrum_utc_ns, spectrum->utc_ns);
   }
@@ -35,7 +36,8 @@ bool has_news(const LiveView& view, const Shown& shown) {
   const Shown now = newest(view);
   return now.run != shown.run || now.health != shown.health || now.estimate_utc_ns != shown.estimate_utc_ns ||
          now.preview != shown.preview || now.closure_utc_ns != shown.closure_utc_ns ||
-         now.spectrum_utc_ns != shown.spectrum_utc_ns || now.n_samples != shown.n_samples;
+         now.structure_utc_ns != shown.structure_utc_ns || now.spectrum_utc_ns != shown.spectrum_utc_ns ||
+         now.n_samples != shown.n_samples;
 }
 
 std::string snapshot_json(const LiveView& view, Shown& shown) {
@@ -48,7 +50,10 @@ std::string snapshot_json(const LiveView& view, Shown& shown) {
   if (now.estimate_utc_ns >= 0 && now.estimate_utc_ns != shown.estimate_utc_ns) out["modes"] = modes_json(monitor);
   if (now.spectrum_utc_ns >= 0 && now.spectrum_utc_ns != shown.spectrum_utc_ns) out["spectra"] = spectra_json(monitor);
   if (now.preview >= 0 && now.preview != shown.preview) out["preview"] = preview_json(monitor);
-  if (now.closure_utc_ns >= 0 && now.closure_utc_ns != shown.closure_utc_ns) out["closure"] = closure_json(monitor);
+  if (now.closure_utc_ns >= 0 && now.closure_utc_ns != shown.closure_utc_ns)
+    out["closure"] = closure_json(*monitor.closure());
+  if (now.structure_utc_ns >= 0 && now.structure_utc_ns != shown.structure_utc_ns)
+    out["structure"] = closure_json(*monitor.structure());
   if (now.n_samples != shown.n_samples) {
     out["traces"] = traces_json(monitor, std::min(shown.n_samples, now.n_samples));
   }
@@ -68,8 +73,7 @@ nlohmann::json rounded(double value, int digits) {
   return exponent < 0.0 ? std::round(value * unit) / unit : std::round(value / unit) * unit;
 }
 
-nlohmann::json closure_json(const StreamMonitor& monitor) {
-  const auto& c = *monitor.closure();
+nlohmann::json closure_json(const hovermodal::closure_report_t& c) {
   nlohmann::json out{{"number", c.number},
                      {"refused", c.refused},
                      {"unit", c.unit},

@@ -25,14 +25,15 @@ struct LiveView {
 
 // What a listener has received so far.
 struct Shown {
-  std::int64_t run = -1, health = -1, estimate_utc_ns = -1, preview = -1, closure_utc_ns = -1, spectrum_utc_ns = -1;
+  std::int64_t run = -1, health = -1, estimate_utc_ns = -1, preview = -1, closure_utc_ns = -1, structure_utc_ns = -1,
+               spectrum_utc_ns = -1;
   std::uint64_t n_samples = 0;
 };
 
 [[nodiscard]] bool has_news(const LiveView& view, const Shown& shown);
 
-// One line of JSON: `link` always; `health`, `modes`, `spectra`, `preview`, `closure`, `traces` if they are newer
-// than `shown`, which is updated. Read by tools/ground/state.js. Unknown values are null.
+// One line of JSON: `link` always; `health`, `modes`, `spectra`, `preview`, `closure`, `structure`, `traces` if they
+// are newer than `shown`, which is updated. Read by tools/ground/state.js. Unknown values are null.
 [[nodiscard]] std::string snapshot_json(const LiveView& view, Shown& shown);
 
 }  // namespace tools

@@ -92,23 +92,32 @@ Lines head_lines(const StreamMonitor& monitor, const ViewOptions& options) {
   return out;
 }
 
-// "LOOP  frames 0 - 1499: residual 0.0433 -> 0.0312 px, noise 0.0312", then a line for each effect.
-Lines closure_lines(const StreamMonitor& monitor) {
+// "<head>residual 0.0433 -> 0.0312 px, noise 0.0312", then a line for each effect.
+Lines finding_lines(const std::string& head, const hovermodal::closure_report_t& c) {
   constexpr std::size_t kMostEffects = 3;
-  const auto& c = monitor.closure();
-  if (!c) return {};
-  const std::string frames = fmt::format("LOOP  frames {} - {}: ", c->first_frame, c->last_frame);
-  if (!c->refused.empty()) return {frames + printable(c->refused)};
-  Lines out{fmt::format("{}residual {} -> {} {}, noise {}{}", frames, number(c->residual_before, 4),
-                        number(c->residual_after, 4), printable(c->unit), number(c->noise_floor, 4),
-                        c->steps.empty() ? "; no effect is missing" : "")};
-  for (std::size_t i = 0; i < std::min(c->steps.size(), kMostEffects); ++i)
-    out.push_back(fmt::format("      {}: {}", printable(c->steps[i].effect), printable(c->steps[i].numbers)));
-  if (c->n_adopted > static_cast<int>(out.size()) - 1)
-    out.back() += fmt::format(" (and {} more)", c->n_adopted - static_cast<int>(out.size()) + 1);
-  for (const std::string& change : c->changes) out.push_back("      " + printable(change));
-  if (c->changes.empty())
-    for (const std::string& effect : c->in_force) out.push_back("      taken out: " + printable(effect));
+  if (!c.refused.empty()) return {head + printable(c.refused)};
+  Lines out{fmt::format("{}residual {} -> {} {}, noise {}{}", head, number(c.residual_before, 4),
+                        number(c.residual_after, 4), printable(c.unit), number(c.noise_floor, 4),
+                        c.steps.empty() ? "; no effect is missing" : "")};
+  for (std::size_t i = 0; i < std::min(c.steps.size(), kMostEffects); ++i)
+    out.push_back(fmt::format("      {}: {}", printable(c.steps[i].effect), printable(c.steps[i].numbers)));
+  if (c.n_adopted > static_cast<int>(out.size()) - 1)
+    out.back() += fmt::format(" (and {} more)", c.n_adopted - static_cast<int>(out.size()) + 1);
+  return out;
+}
+
+Lines closure_lines(const StreamMonitor& monitor) {
+  Lines out;
+  if (const auto& c = monitor.closure()) {
+    out = finding_lines(fmt::format("LOOP  frames {} - {}: ", c->first_frame, c->last_frame), *c);
+    for (const std::string& change : c->changes) out.push_back("      " + printable(change));
+    if (c->changes.empty())
+      for (const std::string& effect : c->in_force) out.push_back("      taken out: " + printable(effect));
+  }
+  if (const auto& c = monitor.structure()) {
+    const Lines more = finding_lines(fmt::format("STRUCTURE  modes of {} s: ", number(c->duration_s, 3)), *c);
+    out.insert(out.end(), more.begin(), more.end());
+  }
   return out;
 }
 
