@@ -2,8 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <ostream>
 
@@ -58,7 +61,7 @@ TEST(Pipeline, FindsTheModesOfASimulatedBuilding) {
 }
 
 TEST(Pipeline, ComparesADeclaredStructureWithItsModes) {
-  const std::filesystem::path folder = own_folder();
+  const std::filesystem::path folder = tests::own_folder();
   const std::string file = (folder / "frame.yaml").string();
   std::ofstream(file) << "structure: {kind: shear_frame, storeys: 6}\n";
   Rig rig(frames(1000), {"closure.structure=" + file, "closure.period_s=20", "closure.window_s=24"});

@@ -92,13 +92,18 @@ Lines head_lines(const StreamMonitor& monitor, const ViewOptions& options) {
   return out;
 }
 
+const char* nothing_found(const hovermodal::closure_report_t& c) {
+  constexpr double kOfNoise = 1.5;
+  return c.residual_after > kOfNoise * c.noise_floor ? "; no known effect explains it" : "; no effect is missing";
+}
+
 // "<head>residual 0.0433 -> 0.0312 px, noise 0.0312", then a line for each effect.
 Lines finding_lines(const std::string& head, const hovermodal::closure_report_t& c) {
   constexpr std::size_t kMostEffects = 3;
   if (!c.refused.empty()) return {head + printable(c.refused)};
   Lines out{fmt::format("{}residual {} -> {} {}, noise {}{}", head, number(c.residual_before, 4),
                         number(c.residual_after, 4), printable(c.unit), number(c.noise_floor, 4),
-                        c.steps.empty() ? "; no effect is missing" : "")};
+                        c.steps.empty() ? nothing_found(c) : "")};
   for (std::size_t i = 0; i < std::min(c.steps.size(), kMostEffects); ++i)
     out.push_back(fmt::format("      {}: {}", printable(c.steps[i].effect), printable(c.steps[i].numbers)));
   if (c.n_adopted > static_cast<int>(out.size()) - 1)
