@@ -89,7 +89,8 @@ void Pipeline::leave_the_late() noexcept {
     flow_->tracking.stop_waiting();
     flow_->publish.go_on_without(PublishStage::kDiagnosis);
   }
-  if (!leaves_comparison_ && is_late(flow_->run_structure, kPatience_ns)) {
+  // Without the estimate that is left, the comparison's input does not end.
+  if (!leaves_comparison_ && (leaves_estimate_ || is_late(flow_->run_structure, kPatience_ns))) {
     leaves_comparison_ = true;
     flow_->publish.go_on_without(PublishStage::kComparison);
   }

@@ -52,8 +52,8 @@ class Pipeline {
 
   // Starts the threads back to front. Throws std::system_error when a real-time priority is refused and rt.required.
   void start();
-  // Takes no further frame; frames already captured are processed. An estimate or a report of residual diagnosis that
-  // does not end in time is not waited for (kPatience...). Any thread.
+  // Takes no further frame; frames already captured are processed. An estimate, a report of residual diagnosis or a
+  // comparison of the declared structure that does not end in time is not waited for (kPatience...). Any thread.
   void request_stop() noexcept;
   // False when every stage has ended. Call it regularly: it also ends the other stages when one fails.
   [[nodiscard]] bool running() noexcept;

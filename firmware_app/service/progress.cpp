@@ -144,7 +144,9 @@ bool Progress::finish(const Pipeline::Outcome& outcome) {
         h.messages_failed, h.messages_sent);
   }
   if (outcome.leaves_threads)
-    spdlog::warn("an estimate or report of residual diagnosis that did not end in time is left out");
+    spdlog::warn(
+        "an estimate, or a report of residual diagnosis or of the declared structure, that did not end in time is left "
+        "out");
   for (const std::string& note : outcome.notes) spdlog::warn("{}", note);
   spdlog::info("{} modes from {:.1f} s ({} segments){}", outcome.estimate.modes.size(), outcome.estimate.duration_s,
                outcome.estimate.n_segments, outcome.estimate.status == "ok" ? "" : ": " + outcome.estimate.status);
