@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <map>
 #include <numbers>
 #include <vector>
 
 #include "core/closure/observation/point_motion_model.h"
+#include "core/closure/observation/row_spectra.h"
 #include "core/linear/dense.h"
 #include "core/linear/median.h"
 #include "core/linear/symmetric_eigen.h"
@@ -19,11 +21,7 @@ using Complex = std::complex<double>;
 using Index = Eigen::Index;
 
 constexpr double kLeastAliasReadout_frames = 0.15;  // with a shorter readout the alias orders cannot be distinguished
-constexpr int kMostOrders = 2;
 constexpr double kStrip_hz = 0.25;
-constexpr double kEvidence = 20.0;   // smallest decrease of the squares for an order other than 0, in noise variances
-constexpr double kOrderError = 0.3;  // largest deviation of the shear from that of its order, in orders
-constexpr std::ptrdiff_t kNeighbours = 4;
 constexpr double kTopOfBand = 0.8;    // share of half the rate above which the level of the tail is estimated
 constexpr double kTailOrder = 3.0;    // slowest decay of the spectrum of hover motion, f^-3
 constexpr double kOverNoise = 1.15;   // factor over the noise that noise alone can reach
@@ -44,81 +42,50 @@ Eigen::VectorXd AliasedMotion::beside(const Eigen::VectorXd& field_px) const {
   return field - q * (q.transpose() * field);
 }
 
-// Decrease of the squares per strip. G is the shear field of a region outside the model's columns, a the region's
-// displacement. The shear of order n is i theta a G with theta = 2 pi n rho; the squares decrease by 2 theta b -
-// theta^2 c.
-std::vector<AliasedMotion::Strip> AliasedMotion::strips(const Eigen::MatrixXd& amplitudes,
-                                                        const Eigen::MatrixXd& residual) const {
+std::vector<AliasStrip> AliasedMotion::strips(const Eigen::MatrixXd& amplitudes,
+                                              const Eigen::MatrixXd& residual) const {
   Eigen::MatrixXd shear(columns_.n_regions, residual.cols()), moved = amplitudes.topRows(columns_.n_regions);
-  Eigen::VectorXd squares(columns_.n_regions);
+  Eigen::MatrixXd fields(residual.rows(), columns_.n_regions);
   for (Index r = 0; r < columns_.n_regions; ++r) {
     Eigen::VectorXd field = columns_.fields_px.col(r);
     for (Index i = 0; i < field.size(); ++i) field(i) *= rows_later(i, r);
-    field = beside(field);
-    squares(r) = field.squaredNorm();
-    shear.row(r) = field.transpose() * residual;
+    fields.col(r) = beside(field);
+    shear.row(r) = fields.col(r).transpose() * residual;
   }
-  // Hann window: leakage from a peak does not have the phase of the peak.
+  // Hann window: leakage from a peak does not have the phase of the peak. Zeros beyond the ends: in a continuation by
+  // reflection time runs backwards, and a quarter of a period before becomes one after.
   for (Index k = 0; k < shear.cols(); ++k) {
     const double w = 1.0 - std::cos(kTwoPi * (static_cast<double>(k) + 0.5) / static_cast<double>(shear.cols()));
     shear.col(k) *= w, moved.col(k) *= w;
   }
-  const Eigen::MatrixXcd seen = shift_.spectra(shear), spectra = shift_.spectra(moved);
+  const Eigen::MatrixXcd seen = row_spectra(shear, shift_.n_fft()), spectra = row_spectra(moved, shift_.n_fft());
   const double scale = 2.0 / shift_.n_fft() / 1.5;  // mean square of the window: 1.5
   const auto width = std::max<Index>(1, static_cast<Index>(std::llround(kStrip_hz * shift_.n_fft() / rate_hz_)));
-  std::vector<Strip> out;
+  std::vector<AliasStrip> out;
   for (Index from = 0; from < seen.cols(); from += width) {
-    Strip strip{from, std::min(width, seen.cols() - from), 0.0, 0.0, 0};
-    for (Index r = 0; r < columns_.n_regions; ++r) {
-      for (Index k = from; k < from + strip.count; ++k) {
-        strip.b += scale * (std::conj(spectra(r, k)) * seen(r, k)).imag();
-        strip.c += scale * squares(r) * std::norm(spectra(r, k));
-      }
-    }
-    out.push_back(strip);
+    const Index count = std::min(width, seen.cols() - from);
+    const Eigen::MatrixXcd a = spectra.middleCols(from, count), y = seen.middleCols(from, count);
+    out.push_back({from, count, scale * (a * a.adjoint()), Complex(0.0, -scale) * (y * a.adjoint())});
   }
+  split_by_order(out, gram(fields.transpose()), kTwoPi * readout_frames_);
   return out;
-}
-
-// A strip needs evidence of its own, or a neighbour of that order and no evidence against it: peaks leak into
-// neighbours.
-void AliasedMotion::decide(std::vector<Strip>& strips) const {
-  const double order = kTwoPi * readout_frames_;
-  const auto drop = [&](const Strip& s, int n) { return 2.0 * n * order * s.b - n * n * order * order * s.c; };
-  std::vector<Strip*> decided;
-  for (Strip& s : strips) {
-    if (!(s.c > 0.0)) continue;
-    const int n = std::clamp(static_cast<int>(std::lround(s.b / s.c / order)), -kMostOrders, kMostOrders);
-    if (n == 0 || std::abs(s.b / s.c / order - n) > kOrderError || !(drop(s, n) > kEvidence)) continue;
-    s.order = n;
-    decided.push_back(&s);
-  }
-  for (const Strip* peak : decided) {
-    for (const std::ptrdiff_t step : {-1, 1}) {
-      for (std::ptrdiff_t i = peak - strips.data() + step, n = 0; n < kNeighbours; i += step, ++n) {
-        if (i < 0 || i >= static_cast<std::ptrdiff_t>(strips.size())) break;
-        Strip& s = strips[static_cast<std::size_t>(i)];
-        if (s.order != 0 || s.c > peak->c || drop(s, peak->order) < -kEvidence) break;
-        s.order = peak->order;
-      }
-    }
-  }
 }
 
 Eigen::MatrixXd AliasedMotion::folded(const Eigen::MatrixXd& amplitudes, const Eigen::MatrixXd& residual) const {
   if (std::abs(readout_frames_) < kLeastAliasReadout_frames || columns_.n_regions == 0) return {};
   const Eigen::MatrixXcd regions = shift_.spectra(amplitudes.topRows(columns_.n_regions));
-  std::vector<Strip> all = strips(amplitudes, residual);
-  decide(all);
-  Eigen::MatrixXd out;
-  for (int n = -kMostOrders; n <= kMostOrders; ++n) {
-    if (n == 0 || std::none_of(all.begin(), all.end(), [n](const Strip& s) { return s.order == n; })) continue;
-    Eigen::MatrixXcd part = Eigen::MatrixXcd::Zero(regions.rows(), regions.cols());
-    for (const Strip& s : all) {
-      if (s.order == n) part.middleCols(s.from, s.count) = regions.middleCols(s.from, s.count);
+  std::map<int, Eigen::MatrixXcd> of_order;
+  for (const AliasStrip& strip : strips(amplitudes, residual)) {
+    for (const AliasPart& part : strip.split) {
+      Eigen::MatrixXcd& spectra =
+          of_order.try_emplace(part.order, Eigen::MatrixXcd::Zero(regions.rows(), regions.cols())).first->second;
+      spectra.middleCols(strip.from, strip.count) = part.share * regions.middleCols(strip.from, strip.count);
     }
-    const Eigen::MatrixXd in_phase = shift_.series(part), later = shift_.series(Complex(0.0, 1.0) * part);
-    if (out.size() == 0) out = Eigen::MatrixXd::Zero(residual.rows(), residual.cols());
+  }
+  if (of_order.empty()) return {};
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(residual.rows(), residual.cols());
+  for (const auto& [n, spectra] : of_order) {
+    const Eigen::MatrixXd in_phase = shift_.series(spectra), later = shift_.series(Complex(0.0, 1.0) * spectra);
     for (Index r = 0; r < columns_.n_regions; ++r) {
       for (Index i = 0; i < out.rows(); ++i) {
         const double x = columns_.fields_px(i, r);
@@ -128,7 +95,6 @@ Eigen::MatrixXd AliasedMotion::folded(const Eigen::MatrixXd& amplitudes, const E
       }
     }
   }
-  if (out.size() == 0) return out;
   return columns_.model.whitened(out);
 }
 

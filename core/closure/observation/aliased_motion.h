@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/closure/observation/alias_orders.h"
 #include "core/closure/observation/frame_shift.h"
 
 namespace core::closure {
@@ -13,9 +14,9 @@ class PointMotionModel;
 // exp(2 pi i f rho s_j / f_s). At the frames' common instants, where motion of alias order 0 has one phase in all rows,
 // the phase exp(2 pi i n rho s_j) remains, which the columns of a model of order 0 cannot represent. Two kinds:
 //
-// - A folded mode of the structure. For each strip of the spectrum the alias order is estimated from the shear of the
-//   regions' points, which is 2 pi n rho times the region's own displacement, a quarter of a period before or
-//   after it. The readout time and the possible orders are known, so that only the order is estimated.
+// - A folded mode of the structure. For each strip of the spectrum the alias orders are estimated from the shear of the
+//   regions' points, which is 2 pi n rho times the region's own displacement, a quarter of a period before or after it
+//   (alias_orders.h). The readout time and the possible orders are known, so that only the order is estimated.
 // - The tail of the camera's motion, whose spectrum decays as a power law. It is noise of known spectral shape:
 //   its power near half the rate is that of the estimated motion; above, it decays at least with the third power of
 //   the frequency. The residual in these directions is divided by its standard deviation (generalised least squares),
@@ -46,13 +47,8 @@ class AliasedMotion {
   [[nodiscard]] double rows_later(Eigen::Index row, Eigen::Index column) const;
   // A field in px, whitened: its part outside the model's columns.
   [[nodiscard]] Eigen::VectorXd beside(const Eigen::VectorXd& field_px) const;
-  struct Strip {  // frequency bins that share one alias order
-    Eigen::Index from, count;
-    double b, c;
-    int order;
-  };
-  [[nodiscard]] std::vector<Strip> strips(const Eigen::MatrixXd& amplitudes, const Eigen::MatrixXd& residual) const;
-  void decide(std::vector<Strip>& strips) const;
+  [[nodiscard]] std::vector<AliasStrip> strips(const Eigen::MatrixXd& amplitudes,
+                                               const Eigen::MatrixXd& residual) const;
 
   const FrameShift& shift_;
   Columns columns_;

@@ -38,8 +38,7 @@ class EffectCandidate {
   virtual double find(const TestedResidual& residual) = 0;
   [[nodiscard]] virtual double material_share() const = 0;         // smallest gain per residual value
   [[nodiscard]] virtual bool is_learned() const { return false; }  // its pattern is taken from the residual
-  // It can take the form of many other effects: refused where one of them, or all constants together, gain half as
-  // much.
+  // It can take the form of many other effects: refused where one of them, or all constants together, gain half of it.
   [[nodiscard]] virtual bool is_unspecific() const { return false; }
   [[nodiscard]] virtual Objection objection(const TestedResidual& /*residual*/) const { return {}; }
   // Gain of the best pattern of any kind in the same place and band, learned from the residual; empty: not comparable.

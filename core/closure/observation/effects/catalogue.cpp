@@ -39,9 +39,8 @@ std::vector<NotObservable> never_observable() {
        "the model turns the structure as a whole only; the tilt of one floor appears as a latent effect",
        "declare larger regions, or several on one floor"},
       {"sway of the background",
-       "translation of the background is free in each frame: what is declared to rest is believed, as its sway cannot "
-       "be "
-       "distinguished from the camera's yaw",
+       "translation of the background is free in each frame: its sway cannot be distinguished from the camera's yaw; "
+       "that it rests is believed as declared",
        "declare a second background at another depth"},
   };
 }

@@ -1,7 +1,6 @@
 #include "core/closure/observation/effects/rotation_patterns.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -122,11 +121,9 @@ RollCourse roll_course(const FitView& fit, RungSet band) {
   }
   const Eigen::VectorXd power = (turn(bins).cwiseAbs2().array() - noise).matrix().transpose();
   if (!(power.sum() > 0.0)) return out;
-  std::array<double, 3> places{};
   const auto reached = power_quantiles(power, kSpreadShares);
-  for (std::size_t i = 0; i < places.size(); ++i)
-    places[i] = bin_hz * static_cast<double>(bins[static_cast<std::size_t>(reached[i])]);
-  out.low_hz = places[0], out.middle_hz = places[1], out.high_hz = places[2];
+  const auto hz_of = [&](Eigen::Index i) { return bin_hz * static_cast<double>(bins[static_cast<std::size_t>(i)]); };
+  out.low_hz = hz_of(reached[0]), out.middle_hz = hz_of(reached[1]), out.high_hz = hz_of(reached[2]);
   const std::optional<BaseMotion> base = base_motion(fit, roll);
   if (!base) return out;
   // Regression of the base's displacement on the turn, over the bins between the outer quantiles.
