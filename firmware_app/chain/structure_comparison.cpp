@@ -1,10 +1,12 @@
 #include "firmware_app/chain/structure_comparison.h"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <utility>
 
 #include "core/structure/mode_numbers.h"
+#include "firmware_app/chain/end_when_stopped.h"
 #include "firmware_app/chain/reference_modes.h"
 #include "rt/clock.h"
 
@@ -13,17 +15,20 @@ namespace {
 constexpr std::size_t kSurrogatesWhenPlain = 32;  // another kind than a shear frame costs more for each
 }  // namespace
 
-StructureFinding compare_structure(const core::structure::DeclaredFrame& declared,
-                                   std::vector<core::structure::ReferenceMode> modes,
-                                   core::closure::ClosureOptions options) {
-  std::vector<core::structure::ReferenceMode> unpaired;
-  if (declared.model) {
-    unpaired = core::structure::pair_with_model(declared, modes);
-    options.n_surrogates_when_plain = kSurrogatesWhenPlain;
-  }
+MeasuredModes paired_with(const core::structure::DeclaredFrame& declared,
+                          std::vector<core::structure::ReferenceMode> modes) {
+  MeasuredModes out{std::move(modes), {}};
+  if (declared.model) out.unpaired = core::structure::pair_with_model(declared, out.paired);
+  return out;
+}
+
+StructureFinding compare_structure(const core::structure::DeclaredFrame& declared, MeasuredModes measured,
+                                   core::closure::ClosureOptions options,
+                                   std::vector<core::structure::ReferenceMode> check) {
+  if (declared.model) options.n_surrogates_when_plain = std::min(options.n_surrogates, kSurrogatesWhenPlain);
   StructureFinding out;
-  out.level = std::make_unique<core::closure::StructureLevel>(
-      declared, std::move(modes), std::vector<core::structure::ReferenceMode>{}, std::move(unpaired));
+  out.level = std::make_unique<core::closure::StructureLevel>(declared, std::move(measured.paired), std::move(check),
+                                                              std::move(measured.unpaired));
   out.result = core::closure::close_loop(*out.level, options);
   return out;
 }
@@ -50,12 +55,11 @@ core::closure::ClosureReport StructureComparison::report(const core::ModalEstima
   out.last_sequence = estimate.n_samples > 0 ? estimate.n_samples - 1 : 0;
   out.duration_s = estimate.duration_s;
   core::closure::ClosureOptions options;
-  options.progress = [&goes_on](const core::closure::LoopProgress&) {
-    if (!goes_on()) throw std::runtime_error("stopped");
-  };
+  options.progress = end_when_stopped(goes_on);
   out.result.level = "structure";
   try {
-    out.result = compare_structure(declared_, reference_modes(estimate, channel_names_, declared_), options).result;
+    MeasuredModes measured = paired_with(declared_, reference_modes(estimate, channel_names_, declared_));
+    out.result = compare_structure(declared_, std::move(measured), options).result;
   } catch (const std::invalid_argument& e) {
     out.refused = e.what();
   }

@@ -15,15 +15,24 @@
 
 namespace app {
 
+// Measured modes beside a declared structure: those that are modes of its model, and others. A shear frame has no
+// model of its own: all are paired, by their numbers.
+struct MeasuredModes {
+  std::vector<core::structure::ReferenceMode> paired, unpaired;
+};
+[[nodiscard]] MeasuredModes paired_with(const core::structure::DeclaredFrame& declared,
+                                        std::vector<core::structure::ReferenceMode> modes);
+
 // A declared structure after comparison with measured modes: which effects it lacks.
 struct StructureFinding {
   std::unique_ptr<core::closure::StructureLevel> level;
   core::closure::ClosureResult result;
 };
-// Throws std::invalid_argument if the modes do not allow a comparison.
-[[nodiscard]] StructureFinding compare_structure(const core::structure::DeclaredFrame& declared,
-                                                 std::vector<core::structure::ReferenceMode> modes,
-                                                 core::closure::ClosureOptions options);
+// `check`: modes that no fit uses, to be predicted. Throws std::invalid_argument if the modes do not allow a
+// comparison.
+[[nodiscard]] StructureFinding compare_structure(const core::structure::DeclaredFrame& declared, MeasuredModes measured,
+                                                 core::closure::ClosureOptions options,
+                                                 std::vector<core::structure::ReferenceMode> check = {});
 
 // Modal estimates of a run -> reports of what the declared structure fails to explain, at most one a period of stream
 // time. Not thread-safe.

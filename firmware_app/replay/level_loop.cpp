@@ -1,5 +1,4 @@
 #include "firmware_app/replay/level_loop.h"
-#include "firmware_app/chain/structure_comparison.h"
 
 #include <fmt/format.h>
 
@@ -15,6 +14,8 @@
 #include "core/closure/observation/observation_level.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/chain/observation.h"
+#include "firmware_app/chain/reference_modes.h"
+#include "firmware_app/chain/structure_comparison.h"
 #include "firmware_app/replay/loop_corrections.h"
 #include "firmware_app/replay/loop_modes.h"
 #include "firmware_app/replay/response_analysis.h"
@@ -80,8 +81,7 @@ class LevelLoop {
     out.levels.push_back(response());
     tell("identifying the modes before and after");
     const LoopModes modes(inputs_.reference_hz, inputs_.max_frequency_hz);
-    modes.compare(as_measured_, series_, out);
-    out.levels.push_back(structure(modes, out));
+    out.levels.push_back(structure(modes.compare(as_measured_, series_, out)));
     return out;
   }
 
@@ -170,7 +170,7 @@ class LevelLoop {
   }
 
   // Compares the declared structure with the present modes.
-  LoopLevel structure(const LoopModes& modes, const LoopResult& so_far) {
+  LoopLevel structure(const LoopModes::Corrected& modes) {
     const std::string name = "structure";
     if (!inputs_.structure) return skipped(name, "no structure is declared (--structure)");
     tell("fitting the declared structure");
@@ -178,8 +178,9 @@ class LevelLoop {
       core::closure::ClosureOptions options;
       options.seed = inputs_.seed;
       options.progress = inputs_.progress;
-      StructureFinding found =
-          compare_structure(*inputs_.structure, modes.for_structure(so_far, *inputs_.structure), options);
+      MeasuredModes measured =
+          paired_with(*inputs_.structure, reference_modes(modes.estimate, modes.channel_names, *inputs_.structure));
+      StructureFinding found = compare_structure(*inputs_.structure, std::move(measured), options);
       LoopLevel out = level_of(name, std::move(found.result));
       for (LoopLevel::Finding& finding : out.findings) finding.repair = "the structural model has it from now on";
       for (StructurePicture& one : structure_level_pictures(*found.level, *out.result, *inputs_.structure))

@@ -45,22 +45,24 @@ std::optional<double> rms(const std::vector<double>& values) {
 LoopModes::LoopModes(std::vector<double> reference_hz, double max_frequency_hz)
     : reference_hz_(std::move(reference_hz)), max_frequency_hz_(max_frequency_hz) {}
 
-std::vector<core::Mode> LoopModes::modes_of(const ChannelSeries& series) const {
+SeriesResult LoopModes::identified(const ChannelSeries& series) const {
   SeriesOptions options;
   options.identifier.max_frequency_hz = max_frequency_hz_;
   try {
-    return identify_series(series, options).estimate.modes;
+    return identify_series(series, options);
   } catch (const std::invalid_argument&) {
     return {};  // too short to identify: no modes are stated
   }
 }
 
-std::vector<LoopModes::Estimate> LoopModes::estimates(const ChannelSeries& series) const {
+std::vector<LoopModes::Estimate> LoopModes::estimates(const ChannelSeries& series,
+                                                      const core::ModalEstimate& of_whole) const {
   const std::size_t n = series.value.front().size();
-  const auto first = modes_of(part_of(series, 0, n / 2)), second = modes_of(part_of(series, n / 2, n));
+  const std::vector<core::Mode> first = identified(part_of(series, 0, n / 2)).estimate.modes,
+                                second = identified(part_of(series, n / 2, n)).estimate.modes;
   const auto hz = [](const core::Mode& mode) { return mode.frequency_hz; };
   std::vector<Estimate> out;
-  for (const core::Mode& mode : modes_of(series)) {
+  for (const core::Mode& mode : of_whole.modes) {
     Estimate one{mode.frequency_hz, mode.damping_ratio, mode.frequency_std_hz, mode.damping_std, {}, {}};
     const auto a = nearest(first, mode.frequency_hz, kNearHalf, hz),
                b = nearest(second, mode.frequency_hz, kNearHalf, hz);
@@ -73,10 +75,12 @@ std::vector<LoopModes::Estimate> LoopModes::estimates(const ChannelSeries& serie
   return out;
 }
 
-void LoopModes::compare(const ChannelSeries& before, const ChannelSeries& after, LoopResult& out) const {
+LoopModes::Corrected LoopModes::compare(const ChannelSeries& before, const ChannelSeries& after,
+                                        LoopResult& out) const {
   const auto hz = [](const Estimate& estimate) { return estimate.frequency_hz; };
-  const std::vector<Estimate> first = estimates(before);
-  std::vector<Estimate> last = estimates(after);
+  const std::vector<Estimate> first = estimates(before, identified(before).estimate);
+  SeriesResult corrected = identified(after);
+  std::vector<Estimate> last = estimates(after, corrected.estimate);
   for (const Estimate& one : first) {
     LoopMode mode;
     mode.before = one;
@@ -102,22 +106,9 @@ void LoopModes::compare(const ChannelSeries& before, const ChannelSeries& after,
     if (a && b) errors_before.push_back(*a), errors_after.push_back(*b);
   }
   out.error_before = rms(errors_before), out.error_after = rms(errors_after);
-}
-
-std::vector<core::structure::ReferenceMode> LoopModes::for_structure(const LoopResult& result,
-                                                                     const core::structure::DeclaredFrame& declared) {
-  std::vector<core::structure::ReferenceMode> out;
-  for (const LoopMode& mode : result.modes) {
-    if (!mode.after) continue;
-    core::structure::ReferenceMode one;
-    one.number = static_cast<int>(out.size()) + 1;
-    one.frequency_hz = mode.after->frequency_hz;
-    const double stated = mode.after->frequency_std_hz.value_or(0.0);
-    one.sigma_hz = stated > 0.0 ? stated : declared.frequency_sigma * one.frequency_hz;
-    one.damping_ratio = mode.after->damping_ratio, one.damping_sigma = mode.after->damping_std.value_or(0.0);
-    out.push_back(one);
-  }
-  return out;
+  Corrected result{std::move(corrected.estimate), {}};
+  for (core::ChannelInfo& channel : corrected.channels) result.channel_names.push_back(std::move(channel.name));
+  return result;
 }
 
 }  // namespace app

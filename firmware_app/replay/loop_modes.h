@@ -1,9 +1,10 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
-#include "core/structure/declared_frame.h"
 #include "core/types/loop_result.h"
+#include "core/types/modal_estimate.h"
 #include "firmware_app/replay/analysis.h"
 
 namespace app {
@@ -14,16 +15,18 @@ class LoopModes {
  public:
   LoopModes(std::vector<double> reference_hz, double max_frequency_hz);
 
-  // Fills modes, errors and has_reference. Records whose halves are too short have no `halves_percent`.
-  void compare(const ChannelSeries& before, const ChannelSeries& after, core::closure::LoopResult& out) const;
-  // The modes after the last correction, numbered from the lowest, for a structural model.
-  [[nodiscard]] static std::vector<core::structure::ReferenceMode> for_structure(
-      const core::closure::LoopResult& result, const core::structure::DeclaredFrame& declared);
+  // Fills modes, errors and has_reference. Records whose halves are too short have no `halves_percent`. Returns the
+  // estimate after the last correction, without modes where the record is too short, and its channels' names.
+  struct Corrected {
+    core::ModalEstimate estimate;
+    std::vector<std::string> channel_names;
+  };
+  Corrected compare(const ChannelSeries& before, const ChannelSeries& after, core::closure::LoopResult& out) const;
 
  private:
   using Estimate = core::closure::LoopMode::Estimate;
-  [[nodiscard]] std::vector<Estimate> estimates(const ChannelSeries& series) const;
-  [[nodiscard]] std::vector<core::Mode> modes_of(const ChannelSeries& series) const;
+  [[nodiscard]] SeriesResult identified(const ChannelSeries& series) const;
+  [[nodiscard]] std::vector<Estimate> estimates(const ChannelSeries& series, const core::ModalEstimate& of_whole) const;
 
   std::vector<double> reference_hz_;
   double max_frequency_hz_ = 0.0;

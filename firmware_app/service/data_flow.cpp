@@ -25,9 +25,11 @@ void nudge(Ring& ring, rt::Stage& writer, rt::Stage& reader) {
 
 }  // namespace
 
-DataFlow::DataFlow(const AppConfig& c, std::unique_ptr<drivers::Camera> camera,
-                   std::unique_ptr<drivers::RunRecorder> record, std::unique_ptr<drivers::Publisher> publisher)
+DataFlow::DataFlow(const AppConfig& c, std::optional<core::structure::DeclaredFrame> declared,
+                   std::unique_ptr<drivers::Camera> camera, std::unique_ptr<drivers::RunRecorder> record,
+                   std::unique_ptr<drivers::Publisher> publisher)
     : config(c),
+      structure(std::move(declared)),
       lock_refused(keep_memory(config)),
       source(std::move(camera), config),
       recorder(std::move(record)),
@@ -75,8 +77,8 @@ void DataFlow::connect() {
   nudge(recent_tracks, tracking, closure);
   nudge(closures, closure, publish);
   nudge(correction_switches, closure, tracking);
-  nudge(comparisons, structure, publish);
-  estimates.set_reader_wakeup(&structure.wakeup());
+  nudge(comparisons, structure_stage, publish);
+  estimates.set_reader_wakeup(&structure_stage.wakeup());
   previews.set_reader_wakeup(&publish.wakeup());
   spectrum_states.set_reader_wakeup(&checkpoint.wakeup());
 }

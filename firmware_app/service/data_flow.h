@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/structure/declared_frame.h"
 #include "core/types/closure_report.h"
 #include "firmware_app/chain/makers.h"
 #include "firmware_app/config/core_config.h"
@@ -15,7 +16,6 @@
 #include "firmware_app/service/kept_state.h"
 #include "firmware_app/service/outlets.h"
 #include "firmware_app/service/real_time.h"
-#include "firmware_app/service/run_diagnosis.h"
 #include "firmware_app/service/source.h"
 #include "firmware_app/service/stages/closure_stage.h"
 #include "firmware_app/service/stages/identification_stage.h"
@@ -27,10 +27,12 @@ namespace app {
 // The data flow, top to bottom. Members are destroyed in reverse: threads first, then stages, rings, devices.
 struct DataFlow {
   // Opens, reads the first frame, connects. Throws as Pipeline does.
-  DataFlow(const AppConfig& c, std::unique_ptr<drivers::Camera> camera, std::unique_ptr<drivers::RunRecorder> record,
+  DataFlow(const AppConfig& c, std::optional<core::structure::DeclaredFrame> declared,
+           std::unique_ptr<drivers::Camera> camera, std::unique_ptr<drivers::RunRecorder> record,
            std::unique_ptr<drivers::Publisher> publisher);
 
   AppConfig config;
+  std::optional<core::structure::DeclaredFrame> structure;  // closure.structure; empty: none is declared
   std::string lock_refused;  // why memory is not locked; empty: it is, or was not requested
   Source source;             // camera, its first frame, the points seeded in it, the channels
   std::unique_ptr<drivers::AttitudeListener> attitude = open_attitude(config);  // null: no live attitude
@@ -48,7 +50,8 @@ struct DataFlow {
                            identifier_maker(config, source.info, source.keyframe, source.displacement.spectra()), book};
   Diagnosis diagnosis{missing_effect_search_config(config, source.info, source.keyframe), book,
                       geometry_maker(config, source.info, source.keyframe)};
-  StructureComparison comparison{declared_structure(config), source.channels(), config.closure.period_s};
+  StructureComparison comparison{structure.value_or(core::structure::DeclaredFrame{}), source.channels(),
+                                 config.closure.period_s};
   core::PreviewMaker preview_maker = preview_maker_for(config, source);
 
   // camera -> [frames] -> tracking -> [samples] -> spectrum -> (snapshots) -> identification -> [results] -> publish
@@ -86,7 +89,7 @@ struct DataFlow {
                                      modes};
   ClosureStage closure{{recent_tracks.reader(), closures.writer(), where(takes_out(), correction_switches.writer())},
                        diagnosis};
-  StructureStage structure{{estimates, comparisons.writer()}, comparison};
+  StructureStage structure_stage{{estimates, comparisons.writer()}, comparison};
   CheckpointStage checkpoint{spectrum_states, mode_states, view_of(config, source), state_path(config)};
   HealthCollector health{source.info.rate_hz, capture, tracking, spectrum};
   PublishStage publish{{records.reader(), results.reader(), previews, where(closes_loop(), closures.reader()),
@@ -99,14 +102,14 @@ struct DataFlow {
   rt::StageRunner run_spectrum{spectrum, frame_thread("hm-spectrum", config.rt, config.rt.spectrum_cpu)};
   rt::StageRunner run_identification{identification, {"hm-identify"}};
   rt::StageRunner run_closure{closure, {"hm-closure"}};
-  rt::StageRunner run_structure{structure, {"hm-structure"}};
+  rt::StageRunner run_structure{structure_stage, {"hm-structure"}};
   rt::StageRunner run_publish{publish, {"hm-publish"}};
   rt::StageRunner run_checkpoint{checkpoint, {"hm-checkpoint"}};
   const std::vector<rt::StageRunner*> runners = list_runners();  // in flow order
 
   [[nodiscard]] bool closes_loop() const noexcept { return config.closure.adopt != ClosureAdopt::kOff; }
   [[nodiscard]] bool takes_out() const noexcept { return config.closure.adopt == ClosureAdopt::kAuto; }
-  [[nodiscard]] bool compares_structure() const noexcept { return !config.closure.structure.empty() && closes_loop(); }
+  [[nodiscard]] bool compares_structure() const noexcept { return structure && closes_loop(); }
   [[nodiscard]] bool keeps_state() const noexcept { return !config.state.directory.empty(); }
   [[nodiscard]] std::string fault();         // what ended the flow; empty: no fault
   [[nodiscard]] core::Health status();       // present counters

@@ -51,7 +51,7 @@ int run(const app::AppConfig& config) {
   const bool is_done = progress.finish(outcome);
   // A flight that was stopped ends at once; a recording that reached its end is analysed once more as a whole.
   const auto goes_on = [&] { return service.tick({}), !signals.stop_requested(); };
-  if (is_done && !was_stopped) app::diagnose_run(pipeline.config(), outcome, goes_on);
+  if (is_done && !was_stopped) app::diagnose_run(pipeline, outcome, goes_on);
   if (outcome.leaves_threads) end_process(is_done ? kDone : kFault);
   return is_done ? kDone : kFault;
 }
@@ -65,8 +65,8 @@ int main(int argc, char** argv) {
     const app::Options options = app::parse_options(argc, argv);
     if (options.exit_code) return *options.exit_code;
     const app::AppConfig config = app::load_config(options.config_path, options.overrides);
-    app::check_structure(config);
     if (options.check_only) {
+      (void)app::declared_structure(config);
       std::fputs(app::check_source(config).c_str(), stdout);
       spdlog::info("{}: configuration and source are fine", options.config_path);
       return kDone;

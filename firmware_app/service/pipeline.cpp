@@ -15,11 +15,13 @@
 #include "firmware_app/service/data_flow.h"
 #include "firmware_app/service/found_axes.h"
 #include "firmware_app/service/preflight.h"
+#include "firmware_app/service/run_diagnosis.h"
 #include "rt/clock.h"
 
 namespace app {
 
 Pipeline::Pipeline(const AppConfig& declared) {
+  std::optional<core::structure::DeclaredFrame> structure = declared_structure(declared);
   std::string unclaimed;
   claims_ = claim_folders(declared, unclaimed);
   const AppConfig config = with_found_axes(declared);
@@ -27,7 +29,8 @@ Pipeline::Pipeline(const AppConfig& declared) {
   std::string warning;
   std::unique_ptr<drivers::RunRecorder> recorder = open_recorder(config);
   std::unique_ptr<drivers::Publisher> publisher = open_publisher(config, recorder.get(), warning);
-  flow_ = std::make_unique<DataFlow>(config, std::move(camera), std::move(recorder), std::move(publisher));
+  flow_ = std::make_unique<DataFlow>(config, std::move(structure), std::move(camera), std::move(recorder),
+                                     std::move(publisher));
   if (!unclaimed.empty()) flow_->health.warn(unclaimed);
   if (!warning.empty()) flow_->health.warn(warning);
   for (const std::string& words : axis_caveats(config)) flow_->health.warn(words);
@@ -38,7 +41,8 @@ Pipeline::Pipeline(AppConfig config, std::unique_ptr<drivers::Camera> camera,
   std::string unclaimed;
   claims_ = claim_folders(config, unclaimed);
   take_u_where_sought(config);
-  flow_ = std::make_unique<DataFlow>(config, std::move(camera), open_recorder(config), std::move(publisher));
+  flow_ = std::make_unique<DataFlow>(config, declared_structure(config), std::move(camera), open_recorder(config),
+                                     std::move(publisher));
   if (!unclaimed.empty()) flow_->health.warn(unclaimed);
 }
 
@@ -61,7 +65,7 @@ void Pipeline::request_stop() noexcept {
   std::int64_t none = 0;
   stop_ns_.compare_exchange_strong(none, rt::monotonic_ns(), std::memory_order_relaxed);
   flow_->capture.request_stop();
-  flow_->structure.request_stop();
+  flow_->structure_stage.request_stop();
 }
 
 bool Pipeline::is_left(const rt::StageRunner& runner) const noexcept {
@@ -159,6 +163,7 @@ std::vector<std::string> Pipeline::take_events() {
 }
 core::Health Pipeline::health() const { return flow_->status(); }
 const AppConfig& Pipeline::config() const noexcept { return flow_->config; }
+const std::optional<core::structure::DeclaredFrame>& Pipeline::structure() const noexcept { return flow_->structure; }
 const core::CameraInfo& Pipeline::camera_info() const noexcept { return flow_->source.info; }
 const std::vector<core::ChannelInfo>& Pipeline::channels() const noexcept { return flow_->source.channels(); }
 std::vector<std::string> Pipeline::warnings() const { return flow_->status().warnings; }

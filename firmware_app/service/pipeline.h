@@ -3,9 +3,11 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/structure/declared_frame.h"
 #include "core/types/displacement.h"
 #include "core/types/frame.h"
 #include "core/types/health.h"
@@ -68,7 +70,8 @@ class Pipeline {
   [[nodiscard]] std::string stall() const;
   // Events of the stages since the last call, one line each.
   [[nodiscard]] std::vector<std::string> take_events();
-  [[nodiscard]] const AppConfig& config() const noexcept;  // with the axes found
+  [[nodiscard]] const AppConfig& config() const noexcept;                                         // with the axes found
+  [[nodiscard]] const std::optional<core::structure::DeclaredFrame>& structure() const noexcept;  // closure.structure
   [[nodiscard]] const core::CameraInfo& camera_info() const noexcept;
   [[nodiscard]] const std::vector<core::ChannelInfo>& channels() const noexcept;
   [[nodiscard]] std::vector<std::string> warnings() const;

@@ -4,32 +4,29 @@
 
 #include <exception>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 
 #include "drivers/storage/structure_file.h"
+#include "firmware_app/chain/end_when_stopped.h"
 #include "firmware_app/replay/level_loop.h"
 #include "firmware_app/report/loop_report.h"
 #include "firmware_app/report/structure_section.h"
 
 namespace app {
 
-core::structure::DeclaredFrame declared_structure(const AppConfig& config) {
-  if (config.closure.structure.empty()) return {};
-  return drivers::read_structure(config.closure.structure);
-}
-
-void check_structure(const AppConfig& config) {
+std::optional<core::structure::DeclaredFrame> declared_structure(const AppConfig& config) {
+  if (config.closure.structure.empty()) return std::nullopt;
   try {
-    (void)declared_structure(config);
+    return drivers::read_structure(config.closure.structure);
   } catch (const std::exception& e) {
     throw ConfigError(std::string("closure.structure: ") + e.what());
   }
 }
 
-void diagnose_run(const AppConfig& config, const Pipeline::Outcome& outcome, const std::function<bool()>& goes_on) {
+void diagnose_run(const Pipeline& pipeline, const Pipeline::Outcome& outcome, const std::function<bool()>& goes_on) {
+  const AppConfig& config = pipeline.config();
   if (outcome.page.empty() || !config.report.tracks || config.closure.adopt == ClosureAdopt::kOff) {
-    if (!config.closure.structure.empty())
+    if (pipeline.structure())
       spdlog::warn("closure.structure was not compared: that needs a report with tracks, and closure.adopt not off");
     return;
   }
@@ -37,10 +34,8 @@ void diagnose_run(const AppConfig& config, const Pipeline::Outcome& outcome, con
     LevelLoopInputs inputs;
     inputs.folder = config.report.directory;
     inputs.config = config;
-    if (!config.closure.structure.empty()) inputs.structure = declared_structure(config);
-    inputs.progress = [&goes_on](const core::closure::LoopProgress&) {
-      if (!goes_on()) throw std::runtime_error("stopped");
-    };
+    inputs.structure = pipeline.structure();
+    inputs.progress = end_when_stopped(goes_on);
     const core::closure::LoopResult result = close_levels(inputs);
     write_loop_report(inputs.folder, result);
     add_structure_to_report(inputs.folder, result);

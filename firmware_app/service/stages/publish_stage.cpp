@@ -19,6 +19,9 @@ std::vector<std::string> late_words(std::uint32_t late) {
         "it; replay the run's record or tracks for the last one");
   if ((late & PublishStage::kDiagnosis) != 0)
     out.emplace_back("the run was stopped during residual diagnosis, whose last report did not end in time");
+  // Where the estimate is left, so is the comparison that waits for it.
+  if ((late & PublishStage::kComparison) != 0 && (late & PublishStage::kEstimate) == 0)
+    out.emplace_back("the run was stopped while the declared structure was compared; that report did not end in time");
   return out;
 }
 

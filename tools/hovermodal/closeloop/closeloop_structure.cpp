@@ -4,21 +4,19 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 #include <stdexcept>
 #include <utility>
 
 #include "core/closure/closure_loop.h"
 #include "core/closure/structure_level.h"
 #include "core/structure/damping_law.h"
-#include "core/structure/mode_numbers.h"
 #include "core/structure/place_profile.h"
 #include "drivers/storage/json.h"
 #include "drivers/storage/structure_file.h"
 #include "drivers/storage/text_file.h"
+#include "firmware_app/chain/structure_comparison.h"
 #include "firmware_app/report/closure_json.h"
 #include "firmware_app/report/closure_modes_svg.h"
 #include "firmware_app/report/structure_level_pictures.h"
@@ -46,22 +44,15 @@ std::string check_text(const StructureLevel& level) {
   return out;
 }
 
-// Modes of a file: those of the model, and others.
-struct Measured {
-  Reference paired, unpaired;
-};
-
 std::string hz_text(const Reference& modes) {
   std::vector<double> hz;
   for (const auto& mode : modes) hz.push_back(mode.frequency_hz);
   return fmt::format("{:.4g} Hz", fmt::join(hz, ", "));
 }
 
-Measured measured(const std::string& path, const DeclaredFrame& declared) {
-  Measured out{read_reference(path, declared), {}};
-  if (!declared.model) return out;
-  out.unpaired = pair_with_model(declared, out.paired);
-  if (out.paired.size() < 2 && !out.unpaired.empty()) {
+app::MeasuredModes measured(const std::string& path, const DeclaredFrame& declared) {
+  app::MeasuredModes out = app::paired_with(declared, read_reference(path, declared));
+  if (declared.model && out.paired.size() < 2 && !out.unpaired.empty()) {
     const Eigen::VectorXd& hz = declared.numbering->frequency_hz;
     throw drivers::FileError(fmt::format(
         "{}: of its modes at {} fewer than two are modes of the model, which has {:.4g} .. {:.4g} Hz; check the "
@@ -88,7 +79,7 @@ std::string places_text(const StructureLevel& level) {
 }
 
 // The mechanism of damping, of all measured modes.
-std::string damping_text(const Measured& reference) {
+std::string damping_text(const app::MeasuredModes& reference) {
   Reference all = reference.paired;
   all.insert(all.end(), reference.unpaired.begin(), reference.unpaired.end());
   return damping_words(core::structure::damping_verdict(all));
@@ -141,25 +132,24 @@ std::string parameters_text(const StructureLevel& level) {
 
 void close_structure(const LoopRequest& request, const std::string& structure, const std::string& check_path) {
   const DeclaredFrame declared = drivers::read_structure(structure);
-  const Measured reference = measured(request.reference, declared);
-  Measured check = check_path.empty() ? Measured{} : measured(check_path, declared);
+  const app::MeasuredModes reference = measured(request.reference, declared);
+  app::MeasuredModes check = check_path.empty() ? app::MeasuredModes{} : measured(check_path, declared);
   if (!check.unpaired.empty())
     request.answer.note("modes of {} that none of the model's is: {}\n", check_path, hz_text(check.unpaired));
-  const auto make_level = [&] {
+  core::closure::ClosureOptions loop;
+  loop.n_surrogates = request.n_surrogates;
+  loop.seed = request.seed;
+  const auto compared = [&] {
+    const ProgressLine line(request.answer);
+    loop.progress = line.teller();
     try {
-      return std::make_unique<StructureLevel>(declared, reference.paired, std::move(check.paired), reference.unpaired);
+      return app::compare_structure(declared, reference, loop, std::move(check.paired));
     } catch (const std::invalid_argument& error) {
       throw drivers::FileError(request.reference + (check_path.empty() ? "" : " or " + check_path) + ": " +
                                error.what());
     }
   };
-  const auto level = make_level();
-  core::closure::ClosureOptions loop;
-  loop.n_surrogates = request.n_surrogates;
-  loop.seed = request.seed;
-  // Another kind costs more for each surrogate.
-  if (declared.model) loop.n_surrogates_when_plain = std::min<std::size_t>(request.n_surrogates, 32);
-  core::closure::ClosureResult result = close_level(request.answer, *level, loop);
+  auto [level, result] = compared();
   std::erase_if(result.not_observable, [](const auto& one) { return one.reason == core::structure::kOtherKind; });
   keep_earlier_closure(request.report);
   if (!request.report.empty()) {
