@@ -37,8 +37,8 @@ check_includes() {
     }
     function tools_rule(name) {
       if (name ~ /^(core|drivers)\//) return ""
-      if (name ~ /^firmware_app\/(service\/pipeline|config\/config|config\/config_table|chain\/observation|chain\/reference_modes|chain\/state\/setup_sums|replay\/[a-z_]*|report\/.*)\.h$/) return ""
-      return "tools may include core, drivers, and of firmware_app only service/pipeline.h, config/config.h, config/config_table.h, chain/observation.h, chain/reference_modes.h, chain/state/setup_sums.h, replay/ and report/"
+      if (name ~ /^firmware_app\/(service\/pipeline|config\/config|config\/config_table|chain\/observation|chain\/reference_modes|chain\/structure_comparison|chain\/state\/setup_sums|replay\/[a-z_]*|report\/.*)\.h$/) return ""
+      return "tools may include core, drivers, and of firmware_app only service/pipeline.h, config/config.h, config/config_table.h, chain/observation.h, chain/reference_modes.h, chain/structure_comparison.h, chain/state/setup_sums.h, replay/ and report/"
     }
     function floor(path) {
       return path ~ /\/config\// ? 1 : path ~ /\/chain\// ? 2 : path ~ /\/report\// ? 3 : path ~ /\/(replay|service)\// ? 4 : 5
