@@ -142,6 +142,22 @@ void StructureLevel::drop() {
   fit_.parameters = fit_.parameters.head(model_.n_parameters()).eval();
 }
 
+std::optional<std::size_t> StructureLevel::drop_needless() {
+  for (std::size_t i = 0; i + 1 < model_.effects.size(); ++i) {
+    FrameModel others = model_;
+    others.effects.erase(others.effects.begin() + static_cast<std::ptrdiff_t>(i));
+    FrameFit fit = fit_frame(others, reference_, {}, Starts::kAll);
+    if (!fit.ok || !implausible(others, fit).empty()) continue;
+    const auto n_parameters =
+        static_cast<double>(std::max<Eigen::Index>(1, fit_.parameters.size() - fit.parameters.size()));
+    if (fit.chi2 - fit_.chi2 > spread() * spread() * structure::chi2_limit(n_parameters)) continue;
+    model_ = std::move(others);
+    fit_ = std::move(fit);
+    return i;
+  }
+  return std::nullopt;
+}
+
 // Birge ratio: a residual larger than the stated noise raises the noise estimate to the residual.
 double StructureLevel::spread() const {
   const double freedom = fit_.degrees_of_freedom();

@@ -34,6 +34,8 @@ class StructureLevel final : public ClosureLevel {
   [[nodiscard]] double surrogate_score(std::uint64_t seed) override;
   void adopt(std::size_t candidate) override;
   void drop() override;
+  // One without which the others explain the reference no worse than chance, and plausibly.
+  std::optional<std::size_t> drop_needless() override;
   [[nodiscard]] std::vector<ParameterValue> parameters(std::size_t adopted) const override;
   [[nodiscard]] std::string meaning(std::size_t adopted) const override;
   [[nodiscard]] std::vector<std::string> rivals(std::size_t adopted, std::uint64_t seed) override;

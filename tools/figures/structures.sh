@@ -45,7 +45,7 @@ figure_2() {
   done < <(grep '^named' "$out/effects.txt")
   while IFS=$'\t' read -r _ effect n alone rival inside before after instead; do
     all=$((all + alone)) held=$((held + inside))
-    judge "2_damping_$effect" "told $alone and nothing else, not told apart with it among those left $rival of $n; 95 % interval holds in $inside of $alone; held out, of the ratio, $before (a constant one) -> $after % (medians); instead:$instead" \
+    judge "2_damping_$effect" "reported $alone and nothing else, not distinguished with it among those left $rival of $n; 95 % interval holds in $inside of $alone; held out, of the ratio, $before (a constant one) -> $after % (medians); instead:$instead" \
       "named and nothing else in >= 90 %, rivals right where the modes cannot tell" "damping $effect in towers and buildings, ratios known to 5 to 20 %, 3 to 6 modes, $(seeds_of "$n")" \
       "$alone + $rival >= 0.9 * $n"
   done < <(grep '^damping' "$out/effects.txt")
@@ -59,11 +59,11 @@ figure_3() {
   local loss n told near exact other share
   while IFS=$'\t' read -r _ loss n told near exact other; do
     if [ "$loss" = 0 ]; then
-      judge 3_none "$told of $n told" "no damage: at most 3 of 300 told" "structures without damage, $(seeds_of "$n")" "$told <= 0.01 * $n"
+      judge 3_none "$told of $n reported" "no damage: at most 3 of 300 told" "structures without damage, $(seeds_of "$n")" "$told <= 0.01 * $n"
       continue
     fi
     share=$(awk -v loss="$loss" 'BEGIN { split("5 10 20 40", l); split("50 80 95 99", s); for (i in l) if (l[i] == loss) print s[i] }')
-    judge "3_$loss" "within one element $near of $n (at the very one $exact, another effect told as well or instead $other)" \
+    judge "3_$loss" "within one element $near of $n (at the very one $exact, another effect reported as well or instead $other)" \
       "one of ten storeys or elements loses 5, 10, 20, 40 %: found within one element in 50, 80, 95, 99 % (frequencies 0.1 %, shapes 1 %)" \
       "loss of $loss % in frames, towers and beams, 6 modes at 10 places, $(seeds_of "$n")" "$near >= 0.01 * $share * $n"
   done < <(grep '^where' "$out/where.txt")
@@ -111,7 +111,7 @@ figure_6() {
   "$bin/hovermodal-validate" structure-tension --first-seed "$first_seed" --seeds "$seeds" --threads "$(nproc)" >"$out/tension.txt"
   local duration n found inside sigma most rms worst scaled least_modes most_modes effects
   while IFS=$'\t' read -r _ duration n found inside sigma most rms worst scaled least_modes most_modes effects; do
-    judge "6_${duration}s" "$inside of the $found stays with a tension (of $n) within 1.96 sigma; error $rms % rms, $worst % at most, $scaled sigma rms; $least_modes to $most_modes modes, an effect told in $effects" \
+    judge "6_${duration}s" "$inside of the $found stays with a tension (of $n) within 1.96 sigma; error $rms % rms, $worst % at most, $scaled sigma rms; $least_modes to $most_modes modes, an effect reported in $effects" \
       "within its 95 % interval in 90-98 %" "tension of a simulated stay cable filmed at 50 fps, $duration s, $(seeds_of "$n")" \
       "$inside >= 0.9 * $found && $inside <= 0.98 * $found"
     judge "6_${duration}s_sigma" "sigma $sigma % in the median, $most % at most, none for $((n - found)) of $n" "sigma <= 1 % from 60 s" \

@@ -106,11 +106,10 @@ double middle(std::vector<double> values) {
 
 void print_structure_damping(int n_seeds, int n_threads, int first_seed) {
   fmt::print(
-      "# one mechanism of damping, in towers and buildings of the simulator: mechanism, records; told and nothing "
-      "else; "
-      "not told apart, the true one among those left; coefficient within the 95 % interval, of the told; held-out "
-      "error "
-      "of the damping ratio with a constant ratio and with the law, %, medians; what was left instead\n");
+      "# one mechanism of damping, in towers and buildings of the simulator: mechanism, records; reported and nothing "
+      "else; not distinguished, the true one among those left; coefficient within the 95 % interval, of the reported; "
+      "held-out error of the damping ratio with a constant ratio and with the law, %, medians; what was left "
+      "instead\n");
   const std::pair<DampingLaw, const char*> laws[] = {{DampingLaw::kMassProportional, "mass_proportional"},
                                                      {DampingLaw::kStiffnessProportional, "stiffness_proportional"},
                                                      {DampingLaw::kConstant, "constant"},

@@ -191,7 +191,7 @@ void print_structure_tension(int n_seeds, int n_threads, int first_seed) {
   fmt::print(
       "# a stay cable filmed at 50 frames/s: record s, stays, with a tension, within its 95 % interval (1.96 sigma), "
       "sigma %: median, largest; error %: rms, largest; error over sigma rms; modes, least and most; stays with an "
-      "effect told\n");
+      "effect reported\n");
   for (const double duration_s : {60.0, 180.0}) {
     const auto all = for_each_seed(
         n_seeds, n_threads, [&](std::uint64_t seed) { return tension_of(duration_s, seed); }, first_seed);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -121,6 +122,37 @@ TEST(StructureLevel, AWrongDeclaredStiffnessIsNamed) {
   ASSERT_EQ(result.steps.size(), 1U);
   EXPECT_EQ(result.steps[0].effect, "stiffness_scale");
   EXPECT_NEAR(result.steps[0].parameters[0].value, 1.1, 1e-4);
+}
+
+TEST(StructureLevel, AnEffectThatALaterOneMakesNeedlessIsRemoved) {
+  DeclaredFrame frame = frame_of(5);
+  frame.stiffness_over_mass_per_s2 = 100.0;
+  StructureLevel level(frame, modes_at(uniform_hz(5, 110.0)));
+  const auto adopt = [&](const std::string& effect) {
+    const std::vector<std::string> names = level.candidates();
+    const auto found = std::find(names.begin(), names.end(), effect);
+    ASSERT_NE(found, names.end());
+    level.adopt(static_cast<std::size_t>(found - names.begin()));
+    (void)level.fit();
+  };
+  (void)level.fit();
+  adopt("ground_storey");
+  EXPECT_FALSE(level.drop_needless());  // the only one
+  adopt("stiffness_scale");
+  EXPECT_EQ(level.drop_needless(), 0U);
+  (void)level.fit();
+  ASSERT_EQ(level.model().effects.size(), 1U);
+  EXPECT_NEAR(level.parameters(0)[0].value, 1.1, 1e-4);
+  EXPECT_FALSE(level.drop_needless());
+}
+
+// Both are needed.
+TEST(StructureLevel, AnEffectThatALaterOneDoesNotExplainStays) {
+  StructureLevel level(frame_of(6), modes_at(kPaper));
+  const ClosureResult result = close_loop(level);
+  ASSERT_EQ(result.steps.size(), 2U);
+  (void)level.fit();
+  EXPECT_FALSE(level.drop_needless());
 }
 
 TEST(StructureLevel, UniformFramesWithNoiseLackNothing) {
