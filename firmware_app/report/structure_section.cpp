@@ -1,5 +1,7 @@
 #include "firmware_app/report/structure_section.h"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <filesystem>
 
@@ -8,6 +10,7 @@
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/closure_modes_svg.h"
 #include "firmware_app/report/page/html_text.h"
+#include "firmware_app/report/plot/svg_document.h"
 
 namespace app {
 namespace {
@@ -17,6 +20,13 @@ constexpr const char* kSectionEnd = "</section>\n";
 constexpr const char* kBefore = "<section id=\"losses\">";
 constexpr const char* kLink = "<a href=\"#structure\">Structure</a>\n";
 constexpr const char* kLinkBefore = "<a href=\"#losses\">";
+
+// As wide as the page; on a narrow screen it scrolls, because it has one form only.
+std::string scrolled_picture(const core::closure::LoopLevel::Picture& picture) {
+  return paragraph_html(picture.title + ".") +
+         fmt::format("<div class=\"plot scrolled\" tabindex=\"0\" role=\"group\" aria-label=\"{}\">{}</div>\n",
+                     svg_escaped(picture.title), picture.svg);
+}
 
 }  // namespace
 
@@ -30,8 +40,7 @@ std::string structure_section(const core::closure::LoopResult& result) {
   for (const core::closure::LoopLevel& level : result.levels) {
     if (level.level != "structure" || !level.result) continue;
     out += modes_figure_html(*level.result, kModelErrorAxis);
-    for (const core::closure::LoopLevel::Picture& one : level.pictures)
-      out += paragraph_html(one.title + ".") + one.svg;
+    for (const core::closure::LoopLevel::Picture& one : level.pictures) out += scrolled_picture(one);
   }
   return out.empty() ? out : section_html("structure", "The declared structure and the modes", out);
 }
