@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
 #include <string>
 
 #include "core/closure/observation/latent_words.h"
@@ -39,20 +41,21 @@ std::string true_words(const ObservationRecord& with, const ObservationRecord& w
 
 // Numbers of latent_words(): shares in percent, Hz.
 struct Description {
-  double along_v = NAN, plane = NAN, quadratic = NAN, hz = NAN;
+  double along_v, plane, quadratic, hz;
 };
 Description read_words(const std::string& words) {
-  Description out;
-  const auto number_after = [&](const std::string& start, double& value) {
-    const std::size_t at = words.find(start);
-    if (at != words.npos) value = std::atof(words.c_str() + at + start.size());
+  const auto number_at = [&](std::size_t at) {
+    if (at == words.npos) throw std::logic_error("not the words of a latent effect: " + words);
+    return std::atof(words.c_str() + at);
   };
-  number_after(", a quadratic one ", out.quadratic);
-  number_after("a plane field over the image holds ", out.plane);
-  number_after("strongest at ", out.hz);
+  const auto number_after = [&](const std::string& start) {
+    const std::size_t at = words.find(start);
+    return number_at(at == words.npos ? at : at + start.size());
+  };
   const std::size_t along = words.find(" % of it along v"), comma = words.rfind(", ", along);
-  if (along != words.npos && comma != words.npos) out.along_v = std::atof(words.c_str() + comma + 2);
-  return out;
+  return {number_at(along == words.npos || comma == words.npos ? words.npos : comma + 2),
+          number_after("a linear field over the image explains "), number_after(", a quadratic one "),
+          number_after("strongest at ")};
 }
 
 // Whether the description of the first latent effect agrees with the truth within a fifth of the whole, and 0.3 Hz.

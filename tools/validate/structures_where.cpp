@@ -161,8 +161,7 @@ Answer answer(double loss, std::uint64_t seed) {
 void print_structure_where(int n_seeds, int n_threads, int first_seed) {
   fmt::print(
       "# one of ten storeys or elements loses stiffness (frame, tower, beam in turn): loss %, records, reported, soft "
-      "part "
-      "within one place, at the place, another effect as well or instead\n");
+      "part within one place, at the place, another effect as well or instead\n");
   for (const double loss : {0.0, 0.05, 0.1, 0.2, 0.4}) {
     const int n = loss == 0.0 ? kUndamaged : n_seeds;
     const auto answers = for_each_seed(

@@ -31,8 +31,9 @@ class OrderSplitter {
     const SymmetricEigen eigen(products);
     const Index n = (eigen.values().array() > kLeastProduct * eigen.values()(0)).count();
     const Eigen::VectorXd root = eigen.values().head(n).cwiseSqrt();
-    to_white_ = root.asDiagonal() * eigen.leading_vectors(n).transpose();
-    from_white_ = eigen.leading_vectors(n) * root.cwiseInverse().asDiagonal();
+    const MatrixXd vectors = eigen.leading_vectors(n);
+    to_white_ = root.asDiagonal() * vectors.transpose();
+    from_white_ = vectors * root.cwiseInverse().asDiagonal();
   }
 
   // Squares of the shear of one order, in noise variances.
@@ -57,11 +58,17 @@ class OrderSplitter {
       if (gain > most) most = gain, best = std::move(*split);
     };
     take(of_one_order(strip), 1);
-    for (Index n = 2; n <= std::min(kMostShapes, to_white_.rows()); ++n) take(of_shapes(strip, n), n);
+    const Index most_shapes = std::min(kMostShapes, to_white_.rows());
+    if (most_shapes < 2) return best;
+    const Shapes shapes(to_white_ * strip.moved * to_white_.transpose());
+    if (shapes.info() != Eigen::Success) return best;
+    for (Index n = 2; n <= most_shapes; ++n) take(of_shapes(strip, shapes, n), n);
     return best;
   }
 
  private:
+  using Shapes = Eigen::SelfAdjointEigenSolver<MatrixXcd>;
+
   [[nodiscard]] static std::optional<int> order_of(std::complex<double> orders) {
     const int n = std::clamp(static_cast<int>(std::lround(orders.real())), -kMostOrders, kMostOrders);
     return std::abs(orders - static_cast<double>(n)) > kOrderError ? std::nullopt : std::optional(n);
@@ -76,9 +83,7 @@ class OrderSplitter {
   }
 
   // In the subspace of the n strongest shapes, each of its own order; empty: they have no orders.
-  [[nodiscard]] std::optional<AliasSplit> of_shapes(const AliasStrip& strip, Index n) const {
-    const Eigen::SelfAdjointEigenSolver<MatrixXcd> shapes(to_white_ * strip.moved * to_white_.transpose());
-    if (shapes.info() != Eigen::Success) return std::nullopt;
+  [[nodiscard]] std::optional<AliasSplit> of_shapes(const AliasStrip& strip, const Shapes& shapes, Index n) const {
     const Eigen::VectorXd power = shapes.eigenvalues().tail(n);  // ascending
     if (!(power(0) * radians_ * radians_ > kEvidence)) return std::nullopt;
     const MatrixXcd basis = shapes.eigenvectors().rightCols(n);
@@ -112,6 +117,7 @@ class OrderSplitter {
 }  // namespace
 
 void split_by_order(std::vector<AliasStrip>& strips, const Eigen::MatrixXd& products, double radians) {
+  if (!(products.trace() > 0.0)) return;  // no region has a shear field of its own
   const OrderSplitter splitter(products, radians);
   std::vector<const AliasStrip*> decided;
   for (AliasStrip& strip : strips) {

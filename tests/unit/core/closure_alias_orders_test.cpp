@@ -73,6 +73,14 @@ TEST(AliasOrders, AWeakShearIsNoEvidence) {
   EXPECT_TRUE(split({strip_of({{{1.0, 0.5, 0.2}, 0.2, 1}})}).front().split.empty());
 }
 
+// Regions without rows of their own: readout 0, or a point for each.
+TEST(AliasOrders, RegionsWithoutAShearFieldAreNotSplit) {
+  std::vector<AliasStrip> strips{strip_of({{{1.0, 0.5, 0.2}, 90.0, 1}})};
+  strips.front().sheared.setZero();
+  split_by_order(strips, Eigen::MatrixXd::Zero(3, 3), kRadians);
+  EXPECT_TRUE(strips.front().split.empty());
+}
+
 TEST(AliasOrders, TheFlankOfAPeakHasItsSplit) {
   const AliasStrip flank = strip_of({{{1.0, 0.5, 0.2}, 0.4, -1}});
   const auto strips =

@@ -40,7 +40,7 @@ std::vector<NotObservable> never_observable() {
        "declare larger regions, or several on one floor"},
       {"sway of the background",
        "translation of the background is free in each frame: its sway cannot be distinguished from the camera's yaw; "
-       "that it rests is believed as declared",
+       "its declared rest is assumed",
        "declare a second background at another depth"},
   };
 }
