@@ -35,6 +35,16 @@ MatrixXd basis_of(const MatrixXd& jacobian) {
   return qr.householderQ() * MatrixXd::Identity(scaled.rows(), qr.rank());
 }
 
+// The same with a row for each finite width, 1 / width, of which the basis keeps the rows of the data.
+MatrixXd limited_basis_of(const MatrixXd& jacobian, const VectorXd& widths) {
+  MatrixXd limited = MatrixXd::Zero(jacobian.rows() + jacobian.cols(), jacobian.cols());
+  limited.topRows(jacobian.rows()) = jacobian;
+  for (Index k = 0; k < jacobian.cols(); ++k) {
+    if (jacobian.col(k).norm() > 0.0) limited(jacobian.rows() + k, k) = 1.0 / widths(k);  // 0 of an infinite one
+  }
+  return basis_of(limited).topRows(jacobian.rows());
+}
+
 // Change of the residuals from the fit on, by a small effect at one place; empty: no modes there.
 std::optional<VectorXd> change_of(const FrameModel& with, const std::vector<ReferenceMode>& reference,
                                   const FrameFit& fit, double place, const EffectParameter& size, double start) {
@@ -60,7 +70,7 @@ std::optional<HeldOutModes> HeldOutModes::about(const FrameModel& model, const s
   for (Index k = 0; k < free.cols(); ++k) {
     if (fit.is_at_bound[static_cast<std::size_t>(k)]) free.col(k).setZero();
   }
-  out.basis_ = basis_of(free);
+  out.basis_ = limited_basis_of(free, model.limits_at(fit.parameters));
   Index row = 0;
   for (const ReferenceMode& mode : reference) {
     const Index n = rows_of(mode);
@@ -89,12 +99,15 @@ double HeldOutModes::chi2(const VectorXd& fitted_residuals) const {
 }
 
 double HeldOutModes::chi2_with(const VectorXd& direction, const VectorXd& fitted_residuals) const {
-  const VectorXd rest = fitted_residuals - direction * direction.dot(fitted_residuals);
+  const double size = direction.dot(fitted_residuals);
+  const double share = size * size / (size * size + 1.0);  // that a fit limited by this size explains
+  if (!(share > 0.0)) return chi2(fitted_residuals);
+  const VectorXd rest = fitted_residuals - direction * share * size;
   double sum = 0.0;
   Index row = 0;
   for (const MatrixXd& inverse : inverse_) {  // Sherman and Morrison: one further column
     const VectorXd lifted = inverse * direction.segment(row, inverse.rows());
-    const double left = 1.0 - lifted.dot(direction.segment(row, inverse.rows()));
+    const double left = 1.0 / share - lifted.dot(direction.segment(row, inverse.rows()));
     if (!(left > kLeastFree)) return std::numeric_limits<double>::infinity();
     const VectorXd plain = inverse * rest.segment(row, inverse.rows());
     sum += (plain + lifted * (lifted.dot(rest.segment(row, inverse.rows())) / left)).squaredNorm();

@@ -10,8 +10,9 @@
 namespace core::structure {
 
 // Cross-validation of a linear least-squares model in closed form [Allen 1974], one reference mode at a time: the
-// residuals of mode i, predicted by a fit to all others, are (I - H_ii)^-1 r_i, H the projection onto the columns of
-// the Jacobian, r = (I - H) d. Data d and residuals are in sigmas, rows as in FrameFit::jacobian.
+// residuals of mode i, predicted by a fit to all others, are (I - H_ii)^-1 r_i, r = (I - H) d, H = J (J^T J + W)^-1 J^T
+// with the Jacobian J and the inverse squares W of FrameModel::limits_at(). Data d and residuals are in sigmas, rows as
+// in FrameFit::jacobian.
 class HeldOutModes {
  public:
   // Parameters that lie at a bound, and places, are held. Empty: too few modes determine the parameters.
@@ -22,11 +23,11 @@ class HeldOutModes {
   [[nodiscard]] Eigen::VectorXd fitted_residuals(const Eigen::VectorXd& data) const;
   // Squares of the predicted residuals of all modes, those of the fit given.
   [[nodiscard]] double chi2(const Eigen::VectorXd& fitted_residuals) const;
-  // The same with one further parameter, whose direction is a unit vector orthogonal to the columns.
+  // The same with one further parameter, whose direction is a unit vector orthogonal to the columns; limited likewise.
   [[nodiscard]] double chi2_with(const Eigen::VectorXd& direction, const Eigen::VectorXd& fitted_residuals) const;
 
  private:
-  Eigen::MatrixXd basis_;                 // of the columns, orthonormal
+  Eigen::MatrixXd basis_;                 // of the columns, with W orthonormal: H = basis basis^T
   std::vector<Eigen::MatrixXd> inverse_;  // (I - H_ii)^-1 of each reference mode
 };
 

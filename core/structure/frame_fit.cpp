@@ -211,8 +211,10 @@ LeaveOneOut leave_one_out(const FrameModel& model, const std::vector<ReferenceMo
   if (!fit.ok || !determines(model, reference, fit)) return out;
   double chi2 = 0.0, squares = 0.0, with_shapes = 0.0;
   std::vector<double> errors;
+  FrameModel limited = model;
+  limited.limits = model.limits_at(fit.parameters);
   for (Index i = 0; i < n; ++i) {
-    const FrameFit others = fit_frame(model, reference, fit.parameters, Starts::kBest, static_cast<int>(i));
+    const FrameFit others = fit_frame(limited, reference, fit.parameters, Starts::kBest, static_cast<int>(i));
     if (!others.ok) return out;
     const ReferenceMode& mode = reference[static_cast<std::size_t>(i)];
     const auto modes = seen_modes(model, others.parameters, !mode.shape.empty());

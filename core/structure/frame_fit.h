@@ -14,6 +14,8 @@ namespace core::structure {
 struct FrameModel {
   const DeclaredFrame* declared = nullptr;
   std::vector<const StructuralEffect*> effects;
+  // Standard deviations of normal distributions of the parameters about no effect; infinite, or empty: none.
+  Eigen::VectorXd limits = {};
 
   [[nodiscard]] bool has_scale() const noexcept { return !declared->stiffness_over_mass_per_s2; }
   // Parameters of the kind that have a prior.
@@ -23,6 +25,11 @@ struct FrameModel {
   [[nodiscard]] Eigen::Index n_parameters() const { return first_of(effects.size()); }
   // Index of an effect's first parameter; of effects.size(): the number of all parameters.
   [[nodiscard]] Eigen::Index first_of(std::size_t i_effect) const;
+  // `limits` for cross-validation about a fit: each effect's size there. Infinite for all other parameters, where "no
+  // effect" is not a number, and for the plain shear frame.
+  [[nodiscard]] Eigen::VectorXd limits_at(const Eigen::VectorXd& parameters) const;
+  // Value of each parameter without the effects.
+  [[nodiscard]] Eigen::VectorXd neutral() const;
   // Parameters of one effect, from the vector of all parameters.
   [[nodiscard]] std::vector<double> of_effect(std::size_t i_effect, const Eigen::VectorXd& parameters) const;
 };
@@ -62,8 +69,10 @@ enum class Starts { kAll, kBest };  // initial values: all of each effect, or th
 [[nodiscard]] FrameFit fit_frame(const FrameModel& model, const std::vector<ReferenceMode>& reference,
                                  const Eigen::VectorXd& before, Starts starts, int without = -1);
 
-// Cross-validation: each reference mode is predicted by a fit to all others. The frequencies of these alone must
-// determine the parameters: shapes help, but their sigmas are often assumed.
+// Cross-validation: each reference mode is predicted by a fit to all others, in which effects are limited to their
+// sizes in `fit` (FrameModel::limits_at): where one mode alone shows an effect, the others predict that mode without
+// it. The frequencies of the others alone must determine the parameters: shapes help, but their sigmas are often
+// assumed.
 struct LeaveOneOut {
   std::vector<double> relative_error;  // of the frequency, per reference mode; empty: too few modes
   double chi2 = 0.0;                   // of frequencies and shapes

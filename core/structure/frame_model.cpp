@@ -1,6 +1,7 @@
 // FrameModel: from its parameters to modes.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/structure/frame_fit.h"
@@ -49,6 +50,29 @@ Index FrameModel::first_of(std::size_t i_effect) const {
   Index at = n_scale();
   for (std::size_t i = 0; i < i_effect; ++i) at += static_cast<Index>(effects[i]->parameters(*declared).size());
   return at;
+}
+
+VectorXd FrameModel::limits_at(const VectorXd& parameters) const {
+  VectorXd out = VectorXd::Constant(n_parameters(), std::numeric_limits<double>::infinity());
+  if (!declared->model) return out;
+  Index at = n_scale();
+  for (const StructuralEffect* effect : effects) {
+    for (const EffectParameter& p : effect->parameters(*declared)) {
+      const double size = std::abs(parameters(at) - p.neutral);
+      if (!p.is_place && size > 0.0 && std::isfinite(size)) out(at) = size;
+      ++at;
+    }
+  }
+  return out;
+}
+
+VectorXd FrameModel::neutral() const {
+  VectorXd out = VectorXd::Zero(n_parameters());
+  Index at = n_scale();
+  for (const StructuralEffect* effect : effects) {
+    for (const EffectParameter& p : effect->parameters(*declared)) out(at++) = p.neutral;
+  }
+  return out;
 }
 
 std::vector<double> FrameModel::of_effect(std::size_t i_effect, const VectorXd& parameters) const {

@@ -70,6 +70,12 @@ bool residuals_of(const FrameModel& model, const std::vector<ReferenceMode>& ref
     if (static_cast<int>(i) != without) append_residuals(*modes, reference[i], values);
   }
   for (Index k = model.has_scale() ? 1 : 0; k < model.n_scale(); ++k) values.push_back(p(k));
+  if (model.limits.size() > 0) {
+    const VectorXd neutral = model.neutral();
+    for (Index k = 0; k < p.size(); ++k) {
+      if (std::isfinite(model.limits(k))) values.push_back((p(k) - neutral(k)) / model.limits(k));
+    }
+  }
   out = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
   return out.allFinite();
 }
@@ -124,6 +130,9 @@ bool analytic_jacobian(const FrameModel& model, const std::vector<ReferenceMode>
     out.topRows(row) += by_value.col(v).head(row) * slopes.row(static_cast<Index>(moved[static_cast<std::size_t>(v)]));
   if (model.has_scale()) out.col(0) = by_scale;
   for (Index k = model.has_scale() ? 1 : 0; k < model.n_scale(); ++k) out(row++, k) = 1.0;
+  for (Index k = 0; k < model.limits.size(); ++k) {
+    if (std::isfinite(model.limits(k))) out(row++, k) = 1.0 / model.limits(k);
+  }
   return out.allFinite();
 }
 

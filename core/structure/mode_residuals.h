@@ -10,7 +10,8 @@ namespace core::structure {
 // Residuals of one reference mode in units of its sigmas: frequency, then the shape's components at the best scale.
 void append_residuals(const FrameModes& modes, const ReferenceMode& mode, std::vector<double>& out);
 
-// Of all modes but `without` (-1: of all), and of the priors. False: there are no modes, or a residual is not finite.
+// Of all modes but `without` (-1: of all), of the priors and of parameters over FrameModel::limits. False: there are no
+// modes, or a residual is not finite.
 [[nodiscard]] bool residuals_of(const FrameModel& model, const std::vector<ReferenceMode>& reference, int without,
                                 const Eigen::VectorXd& parameters, Eigen::VectorXd& out);
 

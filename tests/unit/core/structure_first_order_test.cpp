@@ -65,6 +65,31 @@ TEST(FirstOrder, HeldOutSquaresAreThoseOfFitsWithoutEachMode) {
   EXPECT_NEAR(held->chi2(held->fitted_residuals(fit.residuals)) / leave_one_out(model, reference, fit).chi2, 1.0, 2e-3);
 }
 
+TEST(FirstOrder, HeldOutSquaresWithAnEffectAreThoseOfLimitedFits) {
+  const DeclaredFrame declared = ten_metres();
+  const auto reference = measured(declared, 3, 0.9, 1.0, 7);
+  const FrameModel soft{&declared, one("soft_part")};
+  const FrameFit fit = fit_frame(soft, reference, {}, Starts::kAll);
+  const auto held = HeldOutModes::about(soft, reference, fit);
+  ASSERT_TRUE(held);
+  EXPECT_NEAR(held->chi2(held->fitted_residuals(fit.residuals)) / leave_one_out(soft, reference, fit).chi2, 1.0, 0.05);
+}
+
+// Two modes of three do not show a stiffness that the third alone would change.
+TEST(FirstOrder, AnEffectInAFitWithoutAModeIsNoLargerThanWithAllModes) {
+  const DeclaredFrame declared = ten_metres();
+  const auto reference = measured(declared, 3, 0.9, 1.0, 7);
+  FrameModel soft{&declared, one("soft_part")};
+  const FrameFit fit = fit_frame(soft, reference, {}, Starts::kAll);
+  const Eigen::VectorXd limits = soft.limits_at(fit.parameters);
+  EXPECT_TRUE(std::isinf(limits(soft.n_parameters() - 2)));  // the place
+  EXPECT_DOUBLE_EQ(limits(soft.n_parameters() - 1), std::abs(fit.parameters(soft.n_parameters() - 1) - 1.0));
+  soft.limits = limits;
+  const FrameFit none = fit_frame(soft, {reference[0]}, fit.parameters, Starts::kBest, 0);
+  ASSERT_TRUE(none.ok);
+  EXPECT_NEAR(none.parameters(soft.n_parameters() - 1), 1.0, 1e-6);
+}
+
 TEST(FirstOrder, TheGainOfASmallChangeIsThatOfTheFit) {
   const DeclaredFrame declared = ten_metres();
   const auto reference = measured(declared, 3, 0.98, 0.0, 7);
