@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """An RTSP server on the loopback, by GStreamer, that loses packets: GStreamer's own elements read, code and pack the pictures, all of them key frames.
-  platforms_rtsp_server.py PORT LOSS VIDEO      rtsp://127.0.0.1:PORT/video; LOSS: share of the RTP packets that are not sent
+  platforms_rtsp_server.py PORT LOSS VIDEO QUANTIZER      rtsp://127.0.0.1:PORT/video; LOSS: share of the RTP packets that are not sent
 VIDEO: a file, or "numbered": pictures that carry their number, 25 a second, without end. Prints "ready" once it listens."""
 import sys
 
@@ -23,9 +23,9 @@ def numbered(source, _length, state):
 
 
 def main():
-    port, loss, video = sys.argv[1], float(sys.argv[2]), sys.argv[3]
+    port, loss, video, quantizer = sys.argv[1], float(sys.argv[2]), sys.argv[3], sys.argv[4]
     Gst.init(None)
-    pack = (f"videoconvert ! video/x-raw,format=I420 ! x264enc key-int-max=1 speed-preset=ultrafast tune=zerolatency threads=1 quantizer=18 pass=quant ! "
+    pack = (f"videoconvert ! video/x-raw,format=I420 ! x264enc key-int-max=1 speed-preset=ultrafast tune=zerolatency threads=1 quantizer={quantizer} pass=quant ! "
             f"rtph264pay config-interval=-1 mtu=1400 ! identity drop-probability={loss} name=pay0")
     factory = GstRtspServer.RTSPMediaFactory()
     if video == "numbered":
@@ -38,7 +38,8 @@ def main():
     server.set_address("127.0.0.1")
     server.set_service(port)
     server.get_mount_points().add_factory("/video", factory)
-    server.attach(None)
+    if server.attach(None) == 0:
+        sys.exit(f"port {port} is taken")
     print("ready", flush=True)
     GLib.MainLoop().run()
 
