@@ -11,6 +11,7 @@
 #endif
 #include "drivers/camera/device/v4l2_camera.h"
 #include "drivers/camera/line_timing.h"
+#include "drivers/camera/network/stream_camera.h"
 #include "drivers/camera/recording/file_camera.h"
 #include "drivers/camera/synthetic_camera.h"
 
@@ -50,6 +51,15 @@ std::unique_ptr<Camera> make_v4l2_camera(const CameraOptions& options) {
                        .exposure_ms = options.exposure_ms});
 }
 
+std::unique_ptr<Camera> make_stream_camera(const CameraOptions& options) {
+  return std::make_unique<StreamCamera>(StreamCameraConfig{.source = options.source,
+                                                           .transport = options.transport,
+                                                           .rate_hz = options.rate_hz,
+                                                           .readout_ms = options.readout_ms,
+                                                           .readout_direction = options.readout_direction,
+                                                           .exposure_ms = options.exposure_ms});
+}
+
 std::unique_ptr<Camera> make_libcamera_camera([[maybe_unused]] const CameraOptions& options) {
 #ifdef HOVERMODAL_WITH_LIBCAMERA
   return std::make_unique<LibcameraCamera>(LibcameraCameraConfig{
@@ -75,6 +85,8 @@ std::unique_ptr<Camera> make_camera(const CameraOptions& options) {
       return make_v4l2_camera(options);
     case CameraKind::kLibcamera:
       return make_libcamera_camera(options);
+    case CameraKind::kStream:
+      return make_stream_camera(options);
   }
   throw std::invalid_argument("camera.driver: unknown kind");
 }

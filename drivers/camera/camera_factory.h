@@ -12,10 +12,11 @@ namespace drivers {
 
 struct CameraOptions {
   CameraKind kind = CameraKind::kFile;
-  std::string source{};             // file: video or folder of images; v4l2: a node; empty = the only one
+  std::string source{};             // file: video or folder; v4l2: a node, empty = the only one; stream: an address
   double rate_hz = 0.0;             // 0 = from the source; for a device its highest
   int width_px = 0, height_px = 0;  // devices: 0 = chosen
   std::string format{};             // v4l2: four characters; empty = chosen
+  StreamTransport transport = StreamTransport::kTcp;  // stream
   bool realtime = false;
   double readout_ms = 0.0;                                                   // signed; 0 = global shutter or unknown
   core::ReadoutDirection readout_direction = core::ReadoutDirection::kDown;  // in the image as the sensor stores it

@@ -23,10 +23,11 @@ struct PaperConfig {
 
 struct CameraConfig {
   drivers::CameraKind driver = drivers::CameraKind::kFile;
-  std::string source;            // file: video or image folder; v4l2: a node, empty = the only camera attached
-  double rate_hz = 0.0;          // 0 = the source's own
-  std::array<int, 2> size_px{};  // devices: width, height; 0 = chosen
-  std::string format;            // v4l2: four characters; empty = chosen
+  std::string source;  // file: video or image folder; v4l2: a node, empty = the only one attached; stream: an address
+  drivers::StreamTransport transport = drivers::StreamTransport::kTcp;  // stream driver only
+  double rate_hz = 0.0;                                                 // 0 = the source's own
+  std::array<int, 2> size_px{};                                         // devices: width, height; 0 = chosen
+  std::string format;                                                   // v4l2: four characters; empty = chosen
   Pace pace = Pace::kAsFastAsPossible;
   double readout_ms = 0.0;         // signed
   double readout_sigma_ms = -1.0;  // of readout_ms; 0 = exact, below 0 = chosen (readout_aware_identifier.h)

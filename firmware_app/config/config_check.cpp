@@ -7,9 +7,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "drivers/camera/network/stream_address.h"
 #include "drivers/storage/text_file.h"
 
 namespace app {
@@ -57,7 +59,17 @@ class Checker {
       refuse("camera.source", is_written("camera.source") ? "an empty text" : "nothing", "a video or image folder",
              "set it, or use `driver: synthetic` to try without a camera");
     }
+    if (config_.camera.driver == drivers::CameraKind::kStream) check_stream();
     check_attitude();
+  }
+
+  void check_stream() const {
+    try {
+      (void)drivers::stream_address(config_.camera.source, config_.camera.transport);
+    } catch (const std::invalid_argument& error) {
+      const auto origin = origins_.find("camera.source");
+      throw ConfigError(fmt::format("{}: {}", origin == origins_.end() ? file_name_ : origin->second, error.what()));
+    }
   }
 
   void check_attitude() const {

@@ -109,9 +109,13 @@ void add_camera_keys(std::vector<ConfigKey>& keys) {
   keys.push_back(
       named_key("camera.driver", at(&A::camera, &C::driver), drivers::kCameraKindNames, "source of the frames"));
   keys.push_back(with_default(
-      text_key("camera.source", at(&A::camera, &C::source), {},
-               "file: a video or an image folder; v4l2: a device, e.g. /dev/video0; libcamera: a camera's name"),
-      "none; needed by file; v4l2 and libcamera: the only camera attached"));
+      text_key(
+          "camera.source", at(&A::camera, &C::source), {},
+          "file: a video or an image folder; v4l2: a device, e.g. /dev/video0; libcamera: a camera's name; stream: "
+          "rtsp://HOST/PATH, udp://:PORT or tcp://HOST:PORT (MPEG-TS), or an .sdp file"),
+      "none; needed by file and stream; v4l2 and libcamera: the only camera attached"));
+  keys.push_back(named_key("camera.transport", at(&A::camera, &C::transport), drivers::kStreamTransportNames,
+                           "stream, of rtsp addresses: tcp sends lost packets again; udp does not, and delays less"));
   keys.push_back(with_default(number_key("camera.rate_hz", "Hz", at(&A::camera, &C::rate_hz), {1e-3, 1e6},
                                          "frame rate; set it if the video container states a wrong one"),
                               "the source's own; a device: its highest"));

@@ -112,6 +112,7 @@ std::unique_ptr<drivers::Camera> open_camera(const AppConfig& config) {
   drivers::CameraOptions options;
   options.kind = c.driver;
   options.source = c.source;
+  options.transport = c.transport;
   options.rate_hz = c.rate_hz;
   options.width_px = c.size_px[0];
   options.height_px = c.size_px[1];

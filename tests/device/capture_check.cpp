@@ -13,11 +13,14 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "drivers/camera/camera_factory.h"
+#include "tests/support/numbered_picture.h"
 
 namespace {
 
@@ -25,11 +28,12 @@ using Clock = std::chrono::steady_clock;
 
 struct Arguments {
   drivers::CameraOptions camera;
-  std::string sent;     // raw gray frames; empty = not compared
-  long n_frames = 30;   // per run
-  double limit_s = 20;  // per run
-  int n_runs = 1;       // start ... stop
-  int priority = 0;     // SCHED_FIFO, memory locked; 0 = ordinary
+  std::string sent;       // raw gray frames; empty = not compared
+  long n_frames = 30;     // per run
+  double limit_s = 20;    // per run
+  int n_runs = 1;         // start ... stop
+  int priority = 0;       // SCHED_FIFO, memory locked; 0 = ordinary
+  bool numbered = false;  // pictures carry their numbers (tests/support/numbered_picture.h)
 };
 
 struct Tally {
@@ -40,6 +44,8 @@ struct Tally {
   std::vector<double> ages_ms;                     // from a frame's stamp until its delivery
   long early_kib = 0, early_files = 0;             // used after the first frames
   drivers::CaptureStatus end = drivers::CaptureStatus::kFrame;
+  long n_damaged_pictures = 0, n_wrong_numbers = 0, n_restarts = 0;  // numbered ones: steps unlike the sequence's
+  std::optional<unsigned> number;                                    // of the last one
 };
 
 volatile std::sig_atomic_t stop_asked = 0;
@@ -78,6 +84,18 @@ class Sent {
   std::vector<char> bytes_;
 };
 
+// A smaller number than before is a sender that begins anew.
+void check_number(const core::Frame& frame, long advance, Tally& tally) {
+  const auto number = test_support::number_in(frame);
+  tally.n_damaged_pictures += number ? 0 : 1;
+  if (number && tally.number) {
+    const long step = static_cast<long>(*number) - static_cast<long>(*tally.number);
+    tally.n_restarts += step < 0 ? 1 : 0;
+    tally.n_wrong_numbers += step >= 0 && step != advance ? 1 : 0;
+  }
+  if (number) tally.number = number;
+}
+
 void run(drivers::Camera& camera, const Arguments& arguments, const Sent& sent, Tally& tally) {
   const core::CameraInfo info = camera.info();
   core::Frame frame;
@@ -113,6 +131,7 @@ void run(drivers::Camera& camera, const Arguments& arguments, const Sent& sent, 
       tally.early_kib = anonymous_kib();
       tally.early_files = open_files();
     }
+    if (arguments.numbered) check_number(frame, advance, tally);
     if (sent.count() == 0) continue;
     const long expected = image < 0 ? 0 : (image + advance) % sent.count();
     const long found = sent.find(frame.pixels, expected);
@@ -149,6 +168,8 @@ void print(const drivers::Camera& camera, const Tally& tally) {
                                      : 0.0);
   std::printf("worst_step_frames\t%.3f\nage_p50_ms\t%.3f\nage_p99_ms\t%.3f\nworst_age_ms\t%.3f\n", tally.worst_step,
               percentile(tally.ages_ms, 0.5), percentile(tally.ages_ms, 0.99), percentile(tally.ages_ms, 1.0));
+  std::printf("damaged_pictures\t%ld\nwrong_numbers\t%ld\nrestarts\t%ld\n", tally.n_damaged_pictures,
+              tally.n_wrong_numbers, tally.n_restarts);
   std::printf("unchanged\t%ld\nin_order\t%ld\n", tally.n_unchanged, tally.n_in_order);
   std::printf("lost\t%d\ninterruptions\t%llu\ndamaged\t%llu\nno_clock\t%d\n", trouble.is_lost ? 1 : 0,
               static_cast<unsigned long long>(trouble.n_interruptions),
@@ -163,10 +184,14 @@ void print(const drivers::Camera& camera, const Tally& tally) {
 
 int main(int argc, char** argv) {
   Arguments arguments;
+  const std::map<std::string, drivers::CameraKind> kinds{{"v4l2", drivers::CameraKind::kV4l2},
+                                                         {"libcamera", drivers::CameraKind::kLibcamera},
+                                                         {"stream", drivers::CameraKind::kStream}};
   std::string driver = "v4l2", size;
+  bool is_udp = false;
   CLI::App app("Captures through one of the drivers and prints what came.");
-  app.add_option("--driver", driver, "v4l2 or libcamera")
-      ->check(CLI::IsMember({"v4l2", "libcamera"}))
+  app.add_option("--driver", driver, "v4l2, libcamera or stream")
+      ->check(CLI::IsMember({"v4l2", "libcamera", "stream"}))
       ->capture_default_str();
   app.add_option("--source", arguments.camera.source, "node or name; default: the only camera");
   app.add_option("--size", size, "WIDTHxHEIGHT");
@@ -177,13 +202,16 @@ int main(int argc, char** argv) {
   app.add_option("--limit", arguments.limit_s, "seconds a run may take")->capture_default_str();
   app.add_option("--runs", arguments.n_runs, "start ... stop, so often")->capture_default_str();
   app.add_option("--fifo", arguments.priority, "SCHED_FIFO priority, with memory locked; default: ordinary");
+  app.add_flag("--udp", is_udp, "stream: RTSP's pictures beside its connection");
+  app.add_flag("--numbered", arguments.numbered, "pictures carry their numbers");
   app.add_option("--sent", arguments.sent, "the gray frames that the camera sends, to compare with");
   CLI11_PARSE(app, argc, argv);
+  if (is_udp) arguments.camera.transport = drivers::StreamTransport::kUdp;
   prctl(PR_SET_THP_DISABLE, 1, 0, 0, 0);  // the kernel would merge pages into huge ones at arbitrary times
   struct sigaction action {};
   action.sa_handler = [](int) { stop_asked = 1; };
   sigaction(SIGINT, &action, nullptr);
-  arguments.camera.kind = driver == "v4l2" ? drivers::CameraKind::kV4l2 : drivers::CameraKind::kLibcamera;
+  arguments.camera.kind = kinds.at(driver);
   if (!size.empty() &&
       std::sscanf(size.c_str(), "%dx%d", &arguments.camera.width_px, &arguments.camera.height_px) != 2) {
     std::fprintf(stderr, "--size %s: write WIDTHxHEIGHT\n", size.c_str());

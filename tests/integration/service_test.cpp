@@ -230,6 +230,10 @@ TEST(Service, AMissingDeviceIsExitCode3) {
     EXPECT_EQ(run.code, 3) << run.output;
     EXPECT_THAT(run.output, HasSubstr("not_there"));
   }
+  const ServiceRun run = run_service(
+      clip_arguments({"--set", "camera.driver=stream", "--set", "camera.source=tcp://127.0.0.1:9"}));
+  EXPECT_EQ(run.code, 3) << run.output;
+  EXPECT_THAT(run.output, AllOf(HasSubstr("127.0.0.1:9"), HasSubstr("ffplay")));
 }
 
 // A command that starts a program without the right to real-time priorities; empty if that is impossible here.

@@ -1,18 +1,107 @@
 #!/usr/bin/env bash
 # Where people run it.
-#   tools/figures/platforms.sh [--quick] [--first-seed N] [FIGURE...]     FIGURE: 4 (default: all)
+#   tools/figures/platforms.sh [--quick] [--first-seed N] [FIGURE...]     FIGURE: 3 4 (default: all)
+# 3 receives from GStreamer's RTSP server (Debian: gir1.2-gst-rtsp-server-1.0 python3-gi gstreamer1.0-libav
+# gstreamer1.0-plugins-good gstreamer1.0-plugins-ugly); SKIP where it is absent.
 # 4 speaks with an autopilot made of MAVLink's own C library, of which a checkout or an archive of its files lies in
 # build/beside/c_library_v2 (https://github.com/mavlink/c_library_v2); SKIP where it is absent.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
 take_arguments "tools/figures/platforms.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
-all_or_named 4
-draws 4
+all_or_named 3 4
+draws 3 4
 out=build/figures/platforms
 mkdir -p "$out"
 tools/setup.sh
-quietly tools/build.sh hovermodal
+quietly tools/build.sh hovermodal hovermodald capture_check
+
+# --- 3: streams ------------------------------------------------------------------------------------------------------
+server=""
+serve() { # LOSS VIDEO QUANTIZER
+  rm -f "$out/server.txt"
+  /usr/bin/python3 tools/figures/platforms_rtsp_server.py "$rtsp_port" "$1" "$2" "$3" >"$out/server.txt" 2>&1 &
+  server=$!
+  until grep -qs ready "$out/server.txt"; do
+    kill -0 "$server" || return 1
+    sleep 0.1
+  done
+}
+unserve() {
+  kill "$server" 2>/dev/null || true
+  wait "$server" 2>/dev/null || true
+}
+value_of() { awk -F'\t' -v name="$1" '$1 == name { print $2 }' "$out/received.txt"; }
+rtsp_port=24950
+figure_3() {
+  local bar="frames delivered + counted = sent; modes of the clip within 0.3 %" frames=500 seconds=120
+  [ -z "$quick" ] || frames=150 seconds=60
+  if ! /usr/bin/python3 -c 'import gi; gi.require_version("GstRtspServer", "1.0")' 2>/dev/null; then
+    line 3 SKIP "no GStreamer RTSP server" "$bar" "RTSP on the loopback"
+    return
+  fi
+  local loss transport args
+  for transport in tcp udp; do
+    for loss in 0 0.01 0.05; do
+      [ "$transport" = udp ] || [ "$loss" = 0 ] || continue # inside a connection what is lost is sent again, by the kernel
+      args=()
+      [ "$transport" = tcp ] || args=(--udp)
+      serve "$loss" numbered 18
+      "$bin/capture_check" --driver stream --source "rtsp://127.0.0.1:$rtsp_port/video" "${args[@]}" --numbered --frames "$frames" --limit 60 \
+        >"$out/received.txt" 2>/dev/null || true
+      unserve
+      judge "3.frames_${transport}_$loss" \
+        "$(value_of frames) delivered + $(value_of missing) counted = $(value_of span) sent; steps unlike the pictures' numbers $(value_of wrong_numbers), damaged pictures delivered $(value_of damaged_pictures)" \
+        "frames delivered + counted = sent" "RTSP over $transport, $loss of the packets lost, pictures that carry their numbers" \
+        "$(value_of frames) == $frames && $(value_of frames) + $(value_of missing) == $(value_of span) && $(value_of wrong_numbers) == 0 && $(value_of damaged_pictures) == 0"
+    done
+  done
+  serve 0 numbered 18
+  "$bin/capture_check" --driver stream --source "rtsp://127.0.0.1:$rtsp_port/video" --numbered --frames "$frames" --limit 60 >"$out/received.txt" 2>/dev/null &
+  local receiver=$!
+  sleep 8
+  unserve
+  sleep 2
+  serve 0 numbered 18
+  wait "$receiver" || true
+  unserve
+  judge 3.frames_restart \
+    "$(value_of frames) delivered, sender restarted $(value_of restarts) times, interruptions $(value_of interruptions); steps unlike the pictures' numbers $(value_of wrong_numbers), numbers less time $(value_of span) - $(value_of span_by_time)" \
+    "with the server restarted: frames delivered + counted = sent" "RTSP over tcp, the server killed for 2 s" \
+    "$(value_of frames) == $frames && $(value_of restarts) == 1 && $(value_of interruptions) == 1 && $(value_of wrong_numbers) == 0 && ($(value_of span) - $(value_of span_by_time)) ^ 2 <= 1"
+  figure_3_modes "$seconds"
+}
+
+# The same film from the file and over the network, where every picture is coded by itself into some ten packets.
+figure_3_modes() { # SECONDS
+  local film="$out/film" loss transport
+  "$bin/hovermodal" simulate --scene tools/scenes/facade.yaml --size 360p --duration "$1" --seed "$first_seed" --crf 10 --out "$film" --quiet
+  "$bin/hovermodald" --config "$film/config.yaml" --set telemetry.lcm_url= --report "$out/from_file" >"$out/from_file.txt" 2>&1
+  while read -r transport loss; do
+    serve "$loss" "$film/clip.mp4" 32
+    timeout -s INT "$(($1 + 4))" "$bin/hovermodald" --config "$film/config.yaml" --set camera.driver=stream --set "camera.transport=$transport" \
+      --set "camera.source=rtsp://127.0.0.1:$rtsp_port/video" --set telemetry.lcm_url= --report "$out/from_stream" >"$out/from_stream.txt" 2>&1 || true
+    unserve
+    local found all worst frames missing
+    read -r found all worst frames missing < <(python3 - "$out" <<'PY'
+import json, sys
+def read(name):
+    return json.load(open(f"{sys.argv[1]}/{name}/modal.json"))
+of_file, of_stream = read("from_file"), read("from_stream")
+errors = []
+for mode in of_file["modes"]:
+    near = min((abs(m["frequency_hz"] / mode["frequency_hz"] - 1) for m in of_stream["modes"]), default=1)
+    if near < 0.02:
+        errors.append(100 * near)
+print(len(errors), len(of_file["modes"]), f"{max(errors, default=100):.3f}", of_stream["losses"]["frames_in"], of_stream["losses"]["frames_missing"])
+PY
+    )
+    judge "3.modes_${transport}_$loss" "$found of the $all modes of the file, off by $worst % at most; $frames frames, $missing missing" \
+      "modes of the clip within 0.3 %" "RTSP over $transport, $loss of the packets lost, $1 s, $(seeds_of 1)" "$found == $all && $worst <= 0.3"
+  done <<<"tcp 0
+udp 0.01
+udp 0.05"
+}
 
 # --- 4: MAVLink ------------------------------------------------------------------------------------------------------
 figure_4() {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 #include <tuple>
@@ -26,6 +27,8 @@ constexpr const char* kFormats =
     "asf,ogg,mxf,gxf,dv,nut,yuv4mpegpipe,rm,gif,apng,png_pipe,jpeg_pipe,dirac,cavsvideo,swf,wtv,mpjpeg,film_cpk,nsv,"
     "bmp_pipe,tiff_pipe,webp_pipe,pgm_pipe,ppm_pipe,pgmyuv_pipe,pam_pipe,j2k_pipe,xwd_pipe,dpx_pipe";
 
+constexpr int kMostPictureBytes = 64 << 20;
+
 AvHandle<AVFormatContext> open_format(const std::string& path) {
   AVFormatContext* context = avformat_alloc_context();
   if (context == nullptr) throw std::bad_alloc();
@@ -45,6 +48,22 @@ AvHandle<AVFormatContext> open_format(const std::string& path) {
                     path));
   }
   return format;
+}
+
+AvHandle<AVFormatContext> open_live(const LiveSender& sender) {
+  AVFormatContext* context = avformat_alloc_context();
+  if (context == nullptr) throw std::bad_alloc();
+  context->interrupt_callback = sender.interrupt;
+  if (sender.in_parts) context->flags |= AVFMT_FLAG_NOPARSE;
+  AVDictionary* options = nullptr;
+  av_dict_copy(&options, sender.options, 0);
+  int status = avformat_open_input(&context, sender.url.c_str(), nullptr, &options);  // frees the context on failure
+  av_dict_free(&options);
+  AvHandle<AVFormatContext> format(status < 0 ? nullptr : context);
+  if (format) status = avformat_find_stream_info(format.get(), nullptr);
+  if (status >= 0) return format;
+  throw std::runtime_error(fmt::format("{}: no video from there: {}", sender.shown,
+                                       status == AVERROR_EXIT ? "no answer in time" : av_error_text(status)));
 }
 
 bool is_picture_beside(const AVStream& stream) noexcept {
@@ -73,6 +92,16 @@ std::string av_error_text(int code) {
 }
 
 Container::Container(const std::string& path) : path_(path), format_(open_format(path)) {
+  choose_stream();
+  discard_others();
+}
+
+Container::Container(const LiveSender& sender)
+    : path_(sender.shown),
+      is_live_(true),
+      ahead_(sender.in_parts ? av_packet_alloc() : nullptr),
+      format_(open_live(sender)) {
+  if (sender.in_parts && !ahead_) throw std::bad_alloc();
   choose_stream();
   discard_others();
 }
@@ -110,8 +139,9 @@ void Container::choose_stream() {
     if (!may_be_the_film(stream)) continue;
     const AVCodec* decoder = avcodec_find_decoder(stream.codecpar->codec_id);
     if (decoder == nullptr) {
-      unreadable = fmt::format("{}: no decoder for its video ({}); convert it: ffmpeg -i IN -crf 12 OUT.mp4", path_,
-                               avcodec_get_name(stream.codecpar->codec_id));
+      unreadable =
+          fmt::format("{}: no decoder for its video ({}); {}", path_, avcodec_get_name(stream.codecpar->codec_id),
+                      is_live_ ? "send H.264, HEVC or MJPEG" : "convert it: ffmpeg -i IN -crf 12 OUT.mp4");
       continue;
     }
     const std::tuple<bool, bool, std::int64_t> rank{
@@ -127,7 +157,27 @@ void Container::choose_stream() {
                                        found.empty() ? "no stream at all" : "found: " + found));
 }
 
+// libavformat's parser would do this too, but gives a picture the time of the one before, of which only the headers
+// came.
 bool Container::next(AVPacket& packet) noexcept {
+  if (!ahead_) return read(packet);
+  av_packet_unref(&packet);
+  if (ahead_->size == 0 && !read(*ahead_)) return false;
+  av_packet_move_ref(&packet, ahead_.get());
+  while (read(*ahead_) && ahead_->pts == packet.pts) {
+    if (!append(packet)) return false;
+  }
+  return true;
+}
+
+bool Container::append(AVPacket& packet) noexcept {
+  const auto at = static_cast<std::size_t>(packet.size);
+  if (packet.size > kMostPictureBytes - ahead_->size || av_grow_packet(&packet, ahead_->size) < 0) return false;
+  std::memcpy(packet.data + at, ahead_->data, static_cast<std::size_t>(ahead_->size));
+  return true;
+}
+
+bool Container::read(AVPacket& packet) noexcept {
   for (;;) {
     av_packet_unref(&packet);
     const int status = av_read_frame(format_.get(), &packet);

@@ -4,6 +4,7 @@
 
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 #include "drivers/storage/limits.h"
 
@@ -15,26 +16,30 @@ constexpr int kMostErrorsInARow = 100'000;  // limit for a decoder that only fai
 // A larger size means a damaged header.
 constexpr auto kMostPixels = static_cast<std::int64_t>(Limits::kImagePixels);
 
-AvHandle<AVCodecContext> open_codec(const std::string& path, const Container& container) {
+AvHandle<AVCodecContext> open_codec(const Container& container) {
   AvHandle<AVCodecContext> codec(avcodec_alloc_context3(&container.decoder()));
   if (!codec) throw std::bad_alloc();
   int status = avcodec_parameters_to_context(codec.get(), container.stream().codecpar);
   codec->pkt_timebase = container.stream().time_base;
   codec->thread_count = 0;  // one for each processor
-  codec->thread_type = FF_THREAD_FRAME | FF_THREAD_SLICE;
+  codec->thread_type = container.is_live() ? FF_THREAD_SLICE : FF_THREAD_FRAME | FF_THREAD_SLICE;
   codec->max_pixels = kMostPixels;
   if (status >= 0) status = avcodec_open2(codec.get(), &container.decoder(), nullptr);
   if (status >= 0) return codec;
-  throw std::runtime_error(
-      fmt::format("{}: its video ({}) cannot be decoded: {}; convert it: ffmpeg -i IN -crf 12 "
-                  "OUT.mp4",
-                  path, container.codec_name(), av_error_text(status)));
+  throw std::runtime_error(fmt::format(
+      "{}: its video ({}) cannot be decoded: {}; {}", container.name(), container.codec_name(), av_error_text(status),
+      container.is_live() ? "send H.264, HEVC or MJPEG" : "convert it: ffmpeg -i IN -crf 12 OUT.mp4"));
 }
 
 }  // namespace
 
-VideoDecoder::VideoDecoder(const std::string& path)
-    : container_(path), codec_(open_codec(path, container_)), packet_(av_packet_alloc()), picture_(av_frame_alloc()) {
+VideoDecoder::VideoDecoder(const std::string& path) : VideoDecoder(Container(path)) {}
+
+VideoDecoder::VideoDecoder(Container container)
+    : container_(std::move(container)),
+      codec_(open_codec(container_)),
+      packet_(av_packet_alloc()),
+      picture_(av_frame_alloc()) {
   if (!packet_ || !picture_) throw std::bad_alloc();
 }
 

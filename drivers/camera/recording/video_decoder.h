@@ -10,11 +10,12 @@ namespace drivers {
 enum class DecodeStatus : std::uint8_t { kPicture, kDamaged, kEnd };
 
 // The pictures of a container's video in the order in which they are shown, decoded on as many threads as the machine
-// has processors. Each packet that does not decode, and each picture of which the decoder had to invent a part, is one
-// kDamaged.
+// has processors (of a live sender: only parts of one picture at a time, which delays none). Each packet that does not
+// decode, and each picture of which the decoder had to invent a part, is one kDamaged.
 class VideoDecoder {
  public:
   explicit VideoDecoder(const std::string& path);  // throws std::runtime_error
+  explicit VideoDecoder(Container container);      // likewise
 
   [[nodiscard]] DecodeStatus next() noexcept;
   [[nodiscard]] const AVFrame& picture() const noexcept { return *picture_; }  // after kPicture, until the next call

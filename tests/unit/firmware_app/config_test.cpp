@@ -51,13 +51,26 @@ TEST(Config, CameraDriverIsTheDriversOwnKindByItsName) {
   const std::map<std::string, drivers::CameraKind> kinds{{"file", drivers::CameraKind::kFile},
                                                          {"synthetic", drivers::CameraKind::kSynthetic},
                                                          {"v4l2", drivers::CameraKind::kV4l2},
-                                                         {"libcamera", drivers::CameraKind::kLibcamera}};
+                                                         {"libcamera", drivers::CameraKind::kLibcamera},
+                                                         {"stream", drivers::CameraKind::kStream}};
   ASSERT_EQ(drivers::kCameraKindNames.size(), kinds.size());
   for (const auto& [name, kind] : kinds) {
-    EXPECT_EQ(parse_config(kGood, "a.yaml", {"camera.driver=" + name}).camera.driver, kind) << name;
+    const AppConfig config =
+        parse_config(kGood, "a.yaml", {"camera.driver=" + name, "camera.source=rtsp://camera/main"});
+    EXPECT_EQ(config.camera.driver, kind) << name;
     EXPECT_EQ(drivers::to_string(kind), name);
   }
-  EXPECT_THAT(config_help(), HasSubstr("default: file   allowed: file | synthetic | v4l2 | libcamera"));
+  EXPECT_THAT(config_help(), HasSubstr("default: file   allowed: file | synthetic | v4l2 | libcamera | stream"));
+}
+
+TEST(Config, AStreamNeedsAnAddressThatIsOpened) {
+  const auto refusal = [](const std::string& source) {
+    return refusal_with("driver: file\n  source: clip.mp4", "driver: stream\n  source: " + source);
+  };
+  EXPECT_EQ(refusal("rtsp://user:secret@camera/main\n  transport: udp"), "");
+  EXPECT_THAT(refusal("clip.mp4"), AllOf(StartsWith("a.yaml:"), HasSubstr("rtsp://")));
+  EXPECT_THAT(refusal("http://user:secret@camera/main"), AllOf(HasSubstr("rtsp://"), Not(HasSubstr("secret"))));
+  EXPECT_THAT(refusal_with("driver: file\n  source: clip.mp4", "driver: stream"), HasSubstr("camera.source"));
 }
 
 TEST(Config, PaperTakesTheCamerasVelocityUnlessARegionsIsAskedFor) {
@@ -88,6 +101,7 @@ TEST(Config, EachKeySetsItsOwnMemberOnly) {
       {"paper.velocity", "region"},
       {"camera.driver", "v4l2"},
       {"camera.pace", "realtime"},
+      {"camera.transport", "udp"},
       {"camera.readout_direction", "left"},
       {"camera.size", "[640, 480]"},
       {"camera.mount_rpy_deg", "[1, 2, 3]"},
@@ -235,7 +249,7 @@ TEST(Config, RefusesOtherOutOfRangeValues) {
         "rt: {required: 1}", "report: {tracks: maybe}", "tracking: {min_points: 31}", "tracking: 5", "tracking: [1]"}) {
     EXPECT_THAT(refusal_of_line(line), AllOf(StartsWith("a.yaml:12: "), HasSubstr("is refused: allowed"))) << line;
   }
-  EXPECT_THAT(refusal_with("driver: file", "driver: usb"), HasSubstr("file | synthetic | v4l2 | libcamera"));
+  EXPECT_THAT(refusal_with("driver: file", "driver: usb"), HasSubstr("file | synthetic | v4l2 | libcamera | stream"));
   EXPECT_THAT(refusal_with("  source: clip.mp4\n", ""), HasSubstr("camera.source: nothing is refused"));
   EXPECT_EQ(refusal_with("driver: file\n  source: clip.mp4", "driver: synthetic"), "");
   EXPECT_EQ(refusal_of_line("tracking:"), "");  // all keys commented out
