@@ -13,7 +13,7 @@ import xml.etree.ElementTree as xml
 
 WANTED = ["HEARTBEAT", "ATTITUDE", "ATTITUDE_QUATERNION", "GLOBAL_POSITION_INT", "TIMESYNC", "WIND", "WIND_COV",
           "NAMED_VALUE_FLOAT", "STATUSTEXT", "GIMBAL_DEVICE_ATTITUDE_STATUS", "ESC_STATUS",
-          "ESC_TELEMETRY_1_TO_4", "ESC_TELEMETRY_5_TO_8", "ESC_TELEMETRY_9_TO_12"]
+          "ESC_TELEMETRY_1_TO_4", "ESC_TELEMETRY_5_TO_8", "ESC_TELEMETRY_9_TO_12", "ONBOARD_COMPUTER_STATUS"]
 FILES = ["minimal", "standard", "common", "ardupilotmega"]
 SIZES = {"char": 1, "uint8_t": 1, "int8_t": 1, "uint16_t": 2, "int16_t": 2, "uint32_t": 4, "int32_t": 4, "float": 4,
          "uint64_t": 8, "int64_t": 8, "double": 8}

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <vector>
 
 namespace drivers {
@@ -74,10 +75,10 @@ int throttled(const fs::path& root) {
 }
 
 // "MemAvailable:  123 kB"
-std::int64_t available_bytes(const fs::path& root) {
+std::int64_t memory_bytes(const fs::path& root, const std::string& key) {
   std::ifstream in(root / "proc/meminfo");
   for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("MemAvailable:")) return std::strtoll(line.c_str() + 13, nullptr, 10) * 1024;
+    if (line.starts_with(key)) return std::strtoll(line.c_str() + key.size(), nullptr, 10) * 1024;
   }
   return -1;
 }
@@ -89,10 +90,15 @@ std::int64_t resident_bytes(const fs::path& root) {
   return resident_pages * sysconf(_SC_PAGESIZE);
 }
 
-std::int64_t disk_left_bytes(const std::string& path) {
+struct Disk {
+  std::int64_t left_bytes = -1, bytes = -1;
+};
+Disk disk_of(const std::string& path) {
   struct statvfs disk {};
-  if (statvfs(path.empty() ? "." : path.c_str(), &disk) != 0) return -1;
-  return static_cast<std::int64_t>(disk.f_bavail) * static_cast<std::int64_t>(disk.f_frsize);
+  if (statvfs(path.empty() ? "." : path.c_str(), &disk) != 0) return {};
+  const auto block_bytes = static_cast<std::int64_t>(disk.f_frsize);
+  return {static_cast<std::int64_t>(disk.f_bavail) * block_bytes,
+          static_cast<std::int64_t>(disk.f_blocks) * block_bytes};
 }
 
 }  // namespace
@@ -104,9 +110,33 @@ core::HostHealth read_host_status(const std::string& disk_path, const std::strin
   host.cpu_frequency_mhz = mean_frequency_mhz(root);
   host.throttled = throttled(root);
   host.resident_bytes = resident_bytes(root);
-  host.available_bytes = available_bytes(root);
-  host.disk_left_bytes = disk_left_bytes(disk_path);
+  host.available_bytes = memory_bytes(root, "MemAvailable:");
+  host.disk_left_bytes = disk_of(disk_path).left_bytes;
   return host;
+}
+
+HostCapacity read_host_capacity(const std::string& disk_path, const std::string& root_path) {
+  return {memory_bytes(root_path.empty() ? "/" : root_path, "MemTotal:"), disk_of(disk_path).bytes};
+}
+
+// "cpu  USER NICE SYSTEM IDLE IOWAIT IRQ SOFTIRQ STEAL ..." in ticks since the start.
+double ProcessorLoad::next() {
+  std::istringstream in(first_line(fs::path(root_.empty() ? "/" : root_) / "proc/stat"));
+  std::string name;
+  in >> name;
+  std::int64_t all = 0, idle = 0, ticks = 0;
+  int i = 0;
+  for (; i < 8 && in >> ticks; ++i) {
+    all += ticks;
+    if (i == 3 || i == 4) idle += ticks;
+  }
+  const std::int64_t worked = all - idle;
+  const bool is_known = name == "cpu" && i >= 4;
+  const double share = is_known && all_ >= 0 && all > all_
+                           ? static_cast<double>(worked - worked_) / static_cast<double>(all - all_)
+                           : std::numeric_limits<double>::quiet_NaN();
+  worked_ = worked, all_ = is_known ? all : -1;
+  return share;
 }
 
 }  // namespace drivers

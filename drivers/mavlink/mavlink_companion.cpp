@@ -107,6 +107,12 @@ std::vector<std::uint8_t> MavlinkCompanion::due(std::int64_t now_ns) {
   return out;
 }
 
+std::vector<std::uint8_t> MavlinkCompanion::state(const MavlinkComputer& computer) {
+  std::vector<std::uint8_t> out;
+  append(onboard_computer_status(computer), out);
+  return out;
+}
+
 std::vector<std::uint8_t> MavlinkCompanion::modes(std::span<const Mode> lowest_first, std::int64_t now_ns) {
   std::vector<std::uint8_t> out;
   const auto boot_ms = static_cast<std::uint32_t>(now_ns / 1'000'000);

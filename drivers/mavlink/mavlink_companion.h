@@ -42,6 +42,7 @@ class MavlinkCompanion {
   void take(std::span<const std::uint8_t> bytes, std::int64_t now_ns);
   // Bytes to send now: a heartbeat each second, questions of the time ten times a second.
   [[nodiscard]] std::vector<std::uint8_t> due(std::int64_t now_ns);
+  [[nodiscard]] std::vector<std::uint8_t> state(const MavlinkComputer& computer);
   // The lowest modes as named values (f1_hz, z1_pct, ...) and one line of text.
   struct Mode {
     double frequency_hz = 0.0, damping_ratio = 0.0;

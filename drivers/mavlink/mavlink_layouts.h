@@ -177,6 +177,30 @@ struct MavlinkFields {
     static constexpr std::size_t current = 40;   // float[4]
     static constexpr std::size_t index = 56;     // uint8_t
   };
+  struct OnboardComputerStatus {
+    static constexpr std::uint32_t kId = 390;
+    static constexpr std::size_t time_usec = 0;            // uint64_t
+    static constexpr std::size_t uptime = 8;               // uint32_t
+    static constexpr std::size_t ram_usage = 12;           // uint32_t
+    static constexpr std::size_t ram_total = 16;           // uint32_t
+    static constexpr std::size_t storage_type = 20;        // uint32_t[4]
+    static constexpr std::size_t storage_usage = 36;       // uint32_t[4]
+    static constexpr std::size_t storage_total = 52;       // uint32_t[4]
+    static constexpr std::size_t link_type = 68;           // uint32_t[6]
+    static constexpr std::size_t link_tx_rate = 92;        // uint32_t[6]
+    static constexpr std::size_t link_rx_rate = 116;       // uint32_t[6]
+    static constexpr std::size_t link_tx_max = 140;        // uint32_t[6]
+    static constexpr std::size_t link_rx_max = 164;        // uint32_t[6]
+    static constexpr std::size_t fan_speed = 188;          // int16_t[4]
+    static constexpr std::size_t type = 196;               // uint8_t
+    static constexpr std::size_t cpu_cores = 197;          // uint8_t[8]
+    static constexpr std::size_t cpu_combined = 205;       // uint8_t[10]
+    static constexpr std::size_t gpu_cores = 215;          // uint8_t[4]
+    static constexpr std::size_t gpu_combined = 219;       // uint8_t[10]
+    static constexpr std::size_t temperature_board = 229;  // int8_t
+    static constexpr std::size_t temperature_core = 230;   // int8_t[8]
+    static constexpr std::size_t status_flags = 238;       // uint16_t
+  };
   struct EscTelemetry1To4 {
     static constexpr std::uint32_t kId = 11030;
     static constexpr std::size_t voltage = 0;        // uint16_t[4]

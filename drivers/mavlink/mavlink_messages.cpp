@@ -156,6 +156,35 @@ MavlinkFrame named_value(std::string_view name, double value, std::uint32_t boot
   return out;
 }
 
+MavlinkFrame onboard_computer_status(const MavlinkComputer& computer) noexcept {
+  using At = MavlinkFields::OnboardComputerStatus;
+  MavlinkFrame out{.id = At::kId};
+  // Unused fields hold the largest value of their type.
+  std::fill(out.payload.begin() + At::ram_usage, out.payload.begin() + At::fan_speed, std::uint8_t{0xFF});
+  for (std::size_t i = 0; i < 4; ++i) put(out, At::fan_speed + 2 * i, std::int16_t{0x7FFF});
+  std::fill(out.payload.begin() + At::cpu_cores, out.payload.begin() + At::temperature_board, std::uint8_t{0xFF});
+  std::fill(out.payload.begin() + At::temperature_board, out.payload.begin() + At::status_flags, std::uint8_t{0x7F});
+  put(out, At::time_usec, static_cast<std::uint64_t>(computer.utc_us));
+  put(out, At::uptime, static_cast<std::uint32_t>(computer.up_ms));
+  put(out, At::type, std::uint8_t{0});
+  const auto put_mib = [&](std::size_t at, std::optional<std::int64_t> bytes) {
+    if (bytes) put(out, at, static_cast<std::uint32_t>(std::clamp<std::int64_t>(*bytes >> 20, 0, 0xFFFF'FFFE)));
+  };
+  put_mib(At::ram_usage, computer.memory_used_bytes);
+  put_mib(At::ram_total, computer.memory_bytes);
+  put_mib(At::storage_usage, computer.disk_used_bytes);
+  put_mib(At::storage_total, computer.disk_bytes);
+  if (computer.processor_share) {
+    const double percent = std::clamp(100.0 * *computer.processor_share, 0.0, 100.0);
+    put(out, At::cpu_combined, static_cast<std::uint8_t>(std::lround(percent)));
+  }
+  if (computer.temperature_c) {
+    const double degrees = std::clamp(*computer.temperature_c, -126.0, 126.0);
+    put(out, At::temperature_core, static_cast<std::int8_t>(std::lround(degrees)));
+  }
+  return out;
+}
+
 MavlinkFrame status_text(std::string_view text) noexcept {
   using At = MavlinkFields::Statustext;
   constexpr std::uint8_t kInfo = 6;

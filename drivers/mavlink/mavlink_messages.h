@@ -56,6 +56,13 @@ struct MavlinkTimeSync {
 [[nodiscard]] MavlinkFrame time_sync_question(std::int64_t now_ns) noexcept;
 // name: at most ten characters.
 [[nodiscard]] MavlinkFrame named_value(std::string_view name, double value, std::uint32_t boot_ms) noexcept;
+// State of this computer; what is unknown is sent as such.
+struct MavlinkComputer {
+  std::int64_t utc_us = 0, up_ms = 0;
+  std::optional<double> processor_share, temperature_c;  // 0..1 of all processors together
+  std::optional<std::int64_t> memory_used_bytes, memory_bytes, disk_used_bytes, disk_bytes;
+};
+[[nodiscard]] MavlinkFrame onboard_computer_status(const MavlinkComputer& computer) noexcept;
 // Severity INFO; at most 50 characters.
 [[nodiscard]] MavlinkFrame status_text(std::string_view text) noexcept;
 

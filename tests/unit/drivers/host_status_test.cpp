@@ -57,6 +57,29 @@ TEST(HostStatus, LeavesUnknownWhatIsNotThereOrNoNumber) {
   EXPECT_EQ(host.disk_left_bytes, -1);
 }
 
+TEST(HostStatus, ReadsWhatThereIs) {
+  const fs::path root = test_support::fresh_folder();
+  put(root / "proc/meminfo", "MemTotal: 2000 kB\nMemAvailable:    1000 kB\n");
+  const HostCapacity host = read_host_capacity(root.string(), root.string());
+  EXPECT_EQ(host.memory_bytes, 2'048'000);
+  EXPECT_GT(host.disk_bytes, 0);
+  const HostCapacity none = read_host_capacity((root / "nowhere").string(), (root / "nowhere").string());
+  EXPECT_EQ(none.memory_bytes, -1);
+  EXPECT_EQ(none.disk_bytes, -1);
+}
+
+TEST(ProcessorLoad, IsTheShareOfWorkSinceTheLastCall) {
+  const fs::path root = test_support::fresh_folder();
+  put(root / "proc/stat", "cpu  100 0 50 800 50 0 0 0 0 0\ncpu0 1 1 1 1\n");
+  ProcessorLoad load(root.string());
+  EXPECT_TRUE(std::isnan(load.next()));
+  EXPECT_TRUE(std::isnan(load.next())) << "no time has passed";
+  put(root / "proc/stat", "cpu  130 0 70 820 80 0 0 0 0 0\n");
+  EXPECT_DOUBLE_EQ(load.next(), 0.5);
+  put(root / "proc/stat", "nothing");
+  EXPECT_TRUE(std::isnan(load.next()));
+}
+
 TEST(HostStatus, KnowsThisProcessOnThisComputer) {
   const core::HostHealth host = read_host_status(".");
   EXPECT_GT(host.resident_bytes, 1'000'000);

@@ -151,6 +151,35 @@ TEST(MavlinkCompanion, ModesAreNamedValuesAndALineOfText) {
   EXPECT_EQ(sent[0].component, 191);
 }
 
+TEST(MavlinkCompanion, TheComputersStateIsSentAndWhatIsUnknownMarked) {
+  using At = MavlinkFields::OnboardComputerStatus;
+  MavlinkCompanion companion({}, [](const core::AttitudeSample&) {});
+  MavlinkComputer computer;
+  computer.utc_us = 1'700'000'000'000'000, computer.up_ms = 61'000, computer.processor_share = 0.426;
+  computer.memory_used_bytes = std::int64_t{700} << 20, computer.memory_bytes = std::int64_t{4} << 30;
+  std::vector<MavlinkFrame> sent;
+  MavlinkParser parser;
+  parser.push(companion.state(computer), [&](const MavlinkFrame& frame) { sent.push_back(frame); });
+  ASSERT_EQ(sent.size(), 1U);
+  const auto field = [&]<class T>(std::size_t at, T out) {
+    std::memcpy(&out, sent[0].payload.data() + at, sizeof(T));
+    return out;
+  };
+  EXPECT_EQ(sent[0].id, At::kId);
+  EXPECT_EQ(field(At::time_usec, std::uint64_t{}), 1'700'000'000'000'000U);
+  EXPECT_EQ(field(At::uptime, std::uint32_t{}), 61'000U);
+  EXPECT_EQ(field(At::ram_usage, std::uint32_t{}), 700U);
+  EXPECT_EQ(field(At::ram_total, std::uint32_t{}), 4096U);
+  EXPECT_EQ(field(At::cpu_combined, std::uint8_t{}), 43U);
+  EXPECT_EQ(field(At::cpu_combined + 1, std::uint8_t{}), 0xFFU);
+  EXPECT_EQ(field(At::storage_total, std::uint32_t{}), 0xFFFF'FFFFU);
+  EXPECT_EQ(field(At::link_rx_max + 20, std::uint32_t{}), 0xFFFF'FFFFU);
+  EXPECT_EQ(field(At::fan_speed + 6, std::int16_t{}), 0x7FFF);
+  EXPECT_EQ(field(At::temperature_board, std::int8_t{}), 0x7F);
+  EXPECT_EQ(field(At::temperature_core, std::int8_t{}), 0x7F);
+  EXPECT_EQ(field(At::status_flags, std::uint16_t{}), 0U);
+}
+
 TEST(MavlinkCompanion, MotorsAreStatedInTurnsPerSecond) {
   MavlinkCompanion companion({}, [](const core::AttitudeSample&) {});
   Autopilot autopilot;

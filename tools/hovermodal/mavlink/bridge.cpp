@@ -16,6 +16,7 @@ void tools::run_mavlink(const MavlinkOptions&) {
 #include <fmt/ranges.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -23,6 +24,7 @@ void tools::run_mavlink(const MavlinkOptions&) {
 #include <optional>
 #include <vector>
 
+#include "drivers/host/host_status.h"
 #include "drivers/mavlink/mavlink_companion.h"
 #include "drivers/mavlink/mavlink_link.h"
 #include "drivers/storage/csv_writer.h"
@@ -131,6 +133,32 @@ nlohmann::json document(const drivers::MavlinkCompanion& companion) {
   return out;
 }
 
+// Of this computer and the disk of the folder in which the program was started.
+class ComputerState {
+ public:
+  drivers::MavlinkComputer now(std::int64_t now_ns) {
+    const auto known = [](double value) { return std::isfinite(value) ? std::optional(value) : std::nullopt; };
+    const auto used = [](std::int64_t all, std::int64_t left) {
+      return all >= 0 && left >= 0 ? std::optional(all - left) : std::nullopt;
+    };
+    const auto there = [](std::int64_t bytes) { return bytes >= 0 ? std::optional(bytes) : std::nullopt; };
+    const core::HostHealth host = drivers::read_host_status(".");
+    const drivers::HostCapacity has = drivers::read_host_capacity(".");
+    const auto utc = std::chrono::system_clock::now().time_since_epoch();
+    return {.utc_us = std::chrono::duration_cast<std::chrono::microseconds>(utc).count(),
+            .up_ms = now_ns / 1'000'000,
+            .processor_share = known(load_.next()),
+            .temperature_c = known(host.cpu_temperature_c),
+            .memory_used_bytes = used(has.memory_bytes, host.available_bytes),
+            .memory_bytes = there(has.memory_bytes),
+            .disk_used_bytes = used(has.disk_bytes, host.disk_left_bytes),
+            .disk_bytes = there(has.disk_bytes)};
+  }
+
+ private:
+  drivers::ProcessorLoad load_;
+};
+
 std::vector<drivers::MavlinkCompanion::Mode> lowest_of(const std::vector<drivers::ModesListener::Mode>& modes) {
   std::vector<drivers::MavlinkCompanion::Mode> out;
   out.reserve(modes.size());
@@ -154,6 +182,7 @@ void run_mavlink(const MavlinkOptions& options) {
                                       });
   const std::int64_t start_ns = drivers::LcmListener::now_ns();
   std::int64_t next_status_ns = start_ns + kStatus_ns;
+  ComputerState computer;
   std::array<std::uint8_t, 4096> bytes{};
   while (stop_requested == 0) {
     const std::size_t n = link->receive(bytes, kWait_ms);
@@ -163,6 +192,7 @@ void run_mavlink(const MavlinkOptions& options) {
     if (const auto estimate = modes.take()) (void)link->send(companion.modes(lowest_of(*estimate), now_ns));
     if (now_ns >= next_status_ns) {
       next_status_ns += kStatus_ns;
+      (void)link->send(companion.state(computer.now(now_ns)));
       options.answer.text("{}\n", status_line(companion));
       std::fflush(stdout);
     }
