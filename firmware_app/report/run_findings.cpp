@@ -36,7 +36,8 @@ void compare_with(PictureInputs& inputs, const std::string& path) {
 RunFacts run_facts(const AppConfig& config, const core::CameraInfo& camera, const std::string& source,
                    const core::Health& health, const core::ModalEstimate& estimate, const core::MotionAxes& axes) {
   RunFacts facts;
-  facts.source = std::filesystem::path(source).filename().string();
+  const bool is_address = source.find("://") != std::string::npos;
+  facts.source = is_address ? source : std::filesystem::path(source).filename().string();
   if (facts.source.empty() && config.camera.driver == drivers::CameraKind::kSynthetic)
     facts.source = "synthetic camera";
   facts.method = to_text(config.method);

@@ -16,7 +16,7 @@ namespace app {
 // Reads the result with which the page compares the modes; an empty path is none. A file that cannot be read
 // is stated on the page: a record may be replayed where the file is not.
 void compare_with(PictureInputs& inputs, const std::string& path);
-// `source`: a path, of which only the last component is reported.
+// `source`: an address, or a path, of which only the last component is reported.
 [[nodiscard]] RunFacts run_facts(const AppConfig& config, const core::CameraInfo& camera, const std::string& source,
                                  const core::Health& health, const core::ModalEstimate& estimate,
                                  const core::MotionAxes& axes);

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "drivers/camera/network/stream_address.h"
 #include "drivers/storage/text_file.h"
 #include "drivers/telemetry/publisher_factory.h"
 #include "drivers/telemetry/run_identity.h"
@@ -69,6 +70,12 @@ std::string short_record(const AppConfig& config, const core::CameraInfo& info, 
       estimate.n_samples, segment, static_cast<double>(segment) / info.rate_hz, info.rate_hz);
 }
 
+// Without a password.
+std::string source_name(const CameraConfig& camera) {
+  if (camera.driver != drivers::CameraKind::kStream) return camera.source;
+  return drivers::stream_address(camera.source, camera.transport).shown;
+}
+
 std::function<void(const PublishStage::Findings&, const core::Health&, const std::string&)> picture_drawer(
     const AppConfig& config, const Source& source, const RunReport* report, const core::MotionAxes& axes) {
   if (report == nullptr) return {};
@@ -81,7 +88,7 @@ std::function<void(const PublishStage::Findings&, const core::Health&, const std
     inputs.estimate = &found.estimate;
     inputs.closure = found.closure;
     inputs.history = &report->history();
-    const RunFacts facts = run_facts(config, source.info, config.camera.source, health, found.estimate, axes);
+    const RunFacts facts = run_facts(config, source.info, source_name(config.camera), health, found.estimate, axes);
     inputs.facts = &facts;
     (void)write_pictures(folder, inputs);
   };

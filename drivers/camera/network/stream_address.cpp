@@ -23,11 +23,14 @@ constexpr const char* kProbedMicroseconds = "2000000";
       fmt::format("camera.source = {}: {}; driver: stream accepts {}", printable(shown), why, kForms));
 }
 
-// Without what stands between the scheme and the host.
+// Without user and password, also where they stand in the path, as some cameras want it.
 std::string without_password(const std::string& url) {
-  const std::size_t host = url.find("://") + 3, end = std::min(url.find('/', host), url.size());
-  const std::size_t at = url.rfind('@', end);
-  return at == url.npos || at < host ? url : url.substr(0, host) + url.substr(at + 1);
+  const std::size_t host = url.find("://") + 3, at = url.rfind('@');
+  std::string out = at == std::string::npos || at < host ? url : url.substr(0, host) + url.substr(at + 1);
+  const std::size_t path = out.find('/', host);
+  if (path != std::string::npos && out.find_first_of("?&=", path) != std::string::npos)
+    out.replace(path, std::string::npos, "/...");
+  return out;
 }
 
 struct HostPort {
@@ -36,8 +39,9 @@ struct HostPort {
 };
 HostPort host_and_port(std::string_view text) {
   const std::size_t bracket = text.find(']');  // of an IPv6 address
-  const std::size_t colon = text.find(':', bracket == text.npos ? 0 : bracket);
-  return {std::string(text.substr(0, colon)), colon == text.npos ? std::string() : std::string(text.substr(colon + 1))};
+  const std::size_t colon = text.find(':', bracket == std::string_view::npos ? 0 : bracket);
+  return {std::string(text.substr(0, colon)),
+          colon == std::string_view::npos ? std::string() : std::string(text.substr(colon + 1))};
 }
 
 bool is_port(const std::string& text) {
@@ -96,7 +100,7 @@ StreamAddress address_of(const std::string& source, StreamTransport transport) {
   if (source.starts_with("rtsp://")) return rtsp(source, transport);
   if (source.starts_with("udp://")) return transport_stream(source, "udp");
   if (source.starts_with("tcp://")) return transport_stream(source, "tcp");
-  if (source.find("://") != source.npos) refuse(without_password(source), "this scheme is not opened");
+  if (source.find("://") != std::string::npos) refuse(without_password(source), "this scheme is not opened");
   if (source.ends_with(".sdp")) return session(source);
   refuse(source, "it is no address");
 }

@@ -15,7 +15,7 @@ namespace drivers {
 //   FILE.sdp                                      RTP as a session description names it
 struct StreamAddress {
   std::string url;                                           // for libavformat
-  std::string shown;                                         // without a password
+  std::string shown;                                         // without user, password and query
   const char* format = "";                                   // name of its demuxer
   const char* protocols = "";                                // comma-separated
   std::vector<std::pair<std::string, std::string>> options;  // of demuxer and protocols

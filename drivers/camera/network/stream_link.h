@@ -31,7 +31,7 @@ class StreamLink {
 
  private:
   struct Wait {  // libavformat asks it from inside its calls
-    const std::atomic<bool>* is_cancelled;
+    const std::atomic<bool>* is_cancelled = nullptr;
     std::chrono::steady_clock::time_point until;
   };
   static int is_over(void* wait) noexcept;

@@ -35,9 +35,12 @@ TEST(StreamAddress, RtspIsReliableUnlessUdpIsAskedFor) {
 }
 
 TEST(StreamAddress, APasswordIsUsedAndNotShown) {
-  const StreamAddress one = stream_address("rtsp://user:se@cret@camera/live?x=1", kTcp);
-  EXPECT_EQ(one.url, "rtsp://user:se@cret@camera/live?x=1");
-  EXPECT_EQ(one.shown, "rtsp://camera/live?x=1");
+  const StreamAddress one = stream_address("rtsp://user:se@cret@camera/live", kTcp);
+  EXPECT_EQ(one.url, "rtsp://user:se@cret@camera/live");
+  EXPECT_EQ(one.shown, "rtsp://camera/live");
+  EXPECT_EQ(stream_address("rtsp://camera:554/live?user=admin&password=secret", kTcp).shown, "rtsp://camera:554/...");
+  EXPECT_EQ(stream_address("rtsp://camera/user=admin_password=secret_channel=1", kTcp).shown, "rtsp://camera/...");
+  EXPECT_EQ(stream_address("rtsp://user:se/cret@camera/live", kTcp).shown, "rtsp://camera/live");
   EXPECT_EQ(refusal("rtmp://user:secret@camera/live").find("secret"), std::string::npos);
   EXPECT_EQ(refusal("rtsp://user:secret@camera:99999/live").find("secret"), std::string::npos);
 }
