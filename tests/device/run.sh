@@ -9,7 +9,7 @@ kernel=standard machine=()
 [ "${1:-}" != --kernel ] || { kernel=$2 && shift 2; }
 [ "${1:-}" != --icount ] || { machine=(--icount) && shift; }
 cases=("$@")
-[ $# -gt 0 ] || cases=(formats usb faults replug contract libcamera service)
+[ $# -gt 0 ] || cases=(formats multiplanar usb faults replug contract libcamera service)
 command -v qemu-system-x86_64 >/dev/null || { echo "device tests: skipped, no qemu-system-x86_64 (tools/setup.sh --device)"; exit 77; }
 [ -d "${HOVERMODAL_VM:-build/device}/kernel" ] || { echo "device tests: skipped, no kernel for the virtual machine (tools/setup.sh --device)"; exit 77; }
 export HOVERMODAL_BIN=${HOVERMODAL_BIN:-build/release/bin}

@@ -230,8 +230,8 @@ TEST(Service, AMissingDeviceIsExitCode3) {
     EXPECT_EQ(run.code, 3) << run.output;
     EXPECT_THAT(run.output, HasSubstr("not_there"));
   }
-  const ServiceRun run = run_service(
-      clip_arguments({"--set", "camera.driver=stream", "--set", "camera.source=tcp://127.0.0.1:9"}));
+  const ServiceRun run =
+      run_service(clip_arguments({"--set", "camera.driver=stream", "--set", "camera.source=tcp://127.0.0.1:9"}));
   EXPECT_EQ(run.code, 3) << run.output;
   EXPECT_THAT(run.output, AllOf(HasSubstr("127.0.0.1:9"), HasSubstr("ffplay")));
 }

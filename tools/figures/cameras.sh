@@ -7,6 +7,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
+. tools/figures/device.sh
 take_arguments "tools/figures/cameras.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
 all_or_named 1 2 3 4 5 6
 draws 2 6
@@ -15,20 +16,6 @@ export CLIP_SEED=$first_seed
 quietly tools/build.sh hovermodal hovermodald usb_camera capture_check camera_contract_device firmware_node
 quietly tests/device/kernel.sh standard
 
-# outcomes NUMBER WHERE [VARIABLE=VALUE...] -- run.sh's arguments: a figure's line for each outcome
-outcomes() {
-  local number=$1 where=$2 i=0 verdict what measured bar variables=()
-  shift 2
-  while [ "$1" != -- ]; do variables+=("$1") && shift; done
-  shift
-  while IFS=$'\t' read -r verdict what measured bar; do
-    i=$((i + 1))
-    case $verdict in
-      ok | MISS) line "$number.$i" "$verdict" "$measured" "$bar" "$what$where" ;;
-    esac
-  done < <(env "${variables[@]}" tests/device/run.sh "$@" 2>&1 || true)
-  [ $i -gt 0 ] || line "$number" MISS "nothing" "outcomes" "tests/device/run.sh $*"
-}
 few() { [ -z "$quick" ] || echo "$1"; }
 
 figure_1() { outcomes 1 "" FRAMES="$(few 8)" SIZES="$(few '640x480 1920x1080')" -- formats; }

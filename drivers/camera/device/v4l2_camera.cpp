@@ -84,7 +84,7 @@ void V4l2Camera::settle() {
   const milliseconds adjusting = stream_.adjusts_itself() ? kSettleTime : milliseconds(0);
   Deadline until = Clock::now() + kSettleLimit;
   while (Clock::now() < until && stream_.wait(until, stop_fd_) == Wait::kReady) {
-    v4l2_buffer buffer{};
+    V4l2Filled buffer;
     if (stream_.device().dequeue(buffer) != 0) break;
     if (clock_.kind() == StampClock::Kind::kUndecided) {
       (void)clock_.to_monotonic_ns(stamp_ns(buffer), StampClock::now());
@@ -122,7 +122,7 @@ CaptureStatus V4l2Camera::capture(core::Frame& out, std::chrono::milliseconds ti
 }
 
 CaptureStatus V4l2Camera::take(core::Frame& out) noexcept {
-  v4l2_buffer buffer{};
+  V4l2Filled buffer;
   const int error = stream_.device().dequeue(buffer);
   if (error != 0 && error != EAGAIN) interrupt();
   if (error != 0) return CaptureStatus::kTimeout;
@@ -135,16 +135,13 @@ CaptureStatus V4l2Camera::take(core::Frame& out) noexcept {
   return is_filled ? CaptureStatus::kFrame : CaptureStatus::kTimeout;
 }
 
-bool V4l2Camera::fill(const v4l2_buffer& buffer, core::Frame& out) noexcept {
-  const auto& buffers = stream_.device().buffers();
-  if ((buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 || buffer.index >= buffers.size()) return false;
+bool V4l2Camera::fill(const V4l2Filled& buffer, core::Frame& out) noexcept {
+  if ((buffer.flags & V4L2_BUF_FLAG_ERROR) != 0 || buffer.bytes == nullptr) return false;
   if (out.pixels.size() != static_cast<std::size_t>(info_.width_px) * static_cast<std::size_t>(info_.height_px)) {
     fault_ = "a frame slot of another size than the camera's image";
     return false;
   }
-  const V4l2Device::Mapping& mapped = buffers[buffer.index];
-  const std::size_t n_bytes = std::min<std::size_t>(buffer.bytesused, mapped.n_bytes);
-  if (luma_.read(mapped.bytes, n_bytes, out.pixels.data()) != LumaStatus::kOk) return false;
+  if (luma_.read(buffer.bytes, buffer.n_bytes, out.pixels.data()) != LumaStatus::kOk) return false;
   std::int64_t t_ns = clock_.to_monotonic_ns(stamp_ns(buffer), StampClock::now());
   trouble_.clock(clock_.kind());
   if (!stream_.stamps_the_start() || clock_.kind() == StampClock::Kind::kArrival)

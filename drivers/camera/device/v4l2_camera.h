@@ -50,7 +50,7 @@ class V4l2Camera final : public Camera {
   void settle();
   // kTimeout: there was no buffer, or it held no usable frame.
   [[nodiscard]] CaptureStatus take(core::Frame& out) noexcept;
-  [[nodiscard]] bool fill(const v4l2_buffer& buffer, core::Frame& out) noexcept;
+  [[nodiscard]] bool fill(const V4l2Filled& buffer, core::Frame& out) noexcept;
   [[nodiscard]] bool has_signal() noexcept;
   [[nodiscard]] bool is_silent() const noexcept;
   void mark_lost() noexcept;

@@ -2,6 +2,7 @@
 
 #include <linux/videodev2.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -20,7 +21,22 @@ struct V4l2Identity {
   [[nodiscard]] bool is_same_camera(const V4l2Identity& other) const noexcept;
 };
 
-// An open V4L2 capture node. Calls return 0 or the errno and do not throw, except `open`. One thread at a time.
+// The image format of a node.
+struct V4l2Picture {
+  std::uint32_t width = 0, height = 0, fourcc = 0, field = V4L2_FIELD_NONE;
+  std::uint32_t stride_bytes = 0;  // of the first plane
+};
+
+// A buffer as the driver has filled it.
+struct V4l2Filled {
+  std::uint32_t index = 0, flags = 0, sequence = 0;
+  timeval stamp{};
+  const std::uint8_t* bytes = nullptr;  // of the first plane, which holds the luma where there are several
+  std::size_t n_bytes = 0;
+};
+
+// An open V4L2 capture node, of the single- or the multi-planar interface: a difference that ends here. Calls return 0
+// or the errno and do not throw, except `open`. One thread at a time.
 class V4l2Device {
  public:
   V4l2Device() = default;
@@ -44,25 +60,40 @@ class V4l2Device {
     return call_raw(request, &argument);
   }
 
-  // Buffers of the driver, mapped here. `map` requests `n` and accepts the number it is given (at least two).
+  [[nodiscard]] std::uint32_t buffer_type() const noexcept {  // for requests that name it
+    return is_multiplanar_ ? V4L2_BUF_TYPE_VIDEO_CAPTURE_MPLANE : V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  }
+  [[nodiscard]] int picture(V4l2Picture& out) const noexcept;          // the present one
+  [[nodiscard]] int set_picture(V4l2Picture& picture) const noexcept;  // changed to what the device makes of it
+
+  // Buffers of the driver, their first planes mapped here. `map` requests `n` and accepts the number it is given (at
+  // least two).
   [[nodiscard]] int map_buffers(std::uint32_t n);
   void unmap_buffers() noexcept;
+  [[nodiscard]] std::uint32_t buffer_flags() const noexcept { return buffer_flags_; }  // of the last one, once mapped
+
+  [[nodiscard]] int queue(std::uint32_t index) const noexcept;
+  [[nodiscard]] int dequeue(V4l2Filled& out) const noexcept;  // EAGAIN: no buffer is full
+  [[nodiscard]] int stream_on() const noexcept;               // queue all buffers first
+  void stream_off() const noexcept;
+
+ private:
   struct Mapping {
     const std::uint8_t* bytes = nullptr;
     std::size_t n_bytes = 0;
   };
-  [[nodiscard]] const std::vector<Mapping>& buffers() const noexcept { return buffers_; }
-  [[nodiscard]] std::uint32_t buffer_flags() const noexcept { return buffer_flags_; }  // of the first one, once mapped
-
-  [[nodiscard]] int queue(std::uint32_t index) const noexcept;
-  [[nodiscard]] int dequeue(v4l2_buffer& buffer) const noexcept;  // EAGAIN: no buffer is full
-  [[nodiscard]] int stream_on() const noexcept;                   // queue all buffers first
-  void stream_off() const noexcept;
-
- private:
+  // A buffer's description as the kernel wants it; refers to itself.
+  struct Request {
+    Request(const V4l2Device& device, std::uint32_t index) noexcept;
+    Request(const Request&) = delete;
+    Request& operator=(const Request&) = delete;
+    v4l2_buffer buffer{};
+    std::array<v4l2_plane, VIDEO_MAX_PLANES> planes{};
+  };
   [[nodiscard]] int call_raw(unsigned long request, void* argument) const noexcept;
 
   int fd_ = -1;
+  bool is_multiplanar_ = false;
   std::string path_;
   V4l2Identity identity_;
   std::vector<Mapping> buffers_;

@@ -18,17 +18,23 @@ struct Readable {
   std::uint32_t fourcc;
   PixelLayout layout;
 };
-// In order of increasing cost; the planar formats begin with a luma plane.
+// In order of increasing cost; the planar formats begin with a luma plane, those whose name ends in M in a plane of its
+// own.
 constexpr std::array kReadable = {
-    Readable{V4L2_PIX_FMT_GREY, PixelLayout::kGray8},   Readable{V4L2_PIX_FMT_NV12, PixelLayout::kGray8},
-    Readable{V4L2_PIX_FMT_NV21, PixelLayout::kGray8},   Readable{V4L2_PIX_FMT_YUV420, PixelLayout::kGray8},
-    Readable{V4L2_PIX_FMT_YVU420, PixelLayout::kGray8}, Readable{V4L2_PIX_FMT_YUV422P, PixelLayout::kGray8},
-    Readable{V4L2_PIX_FMT_NV16, PixelLayout::kGray8},   Readable{V4L2_PIX_FMT_YUYV, PixelLayout::kYuyv},
-    Readable{V4L2_PIX_FMT_YVYU, PixelLayout::kYuyv},    Readable{V4L2_PIX_FMT_UYVY, PixelLayout::kUyvy},
-    Readable{V4L2_PIX_FMT_VYUY, PixelLayout::kUyvy},    Readable{V4L2_PIX_FMT_Y10, PixelLayout::kGray10},
-    Readable{V4L2_PIX_FMT_Y12, PixelLayout::kGray12},   Readable{V4L2_PIX_FMT_Y16, PixelLayout::kGray16},
-    Readable{V4L2_PIX_FMT_BGR24, PixelLayout::kBgr24},  Readable{V4L2_PIX_FMT_RGB24, PixelLayout::kRgb24},
-    Readable{V4L2_PIX_FMT_MJPEG, PixelLayout::kMjpeg},  Readable{V4L2_PIX_FMT_JPEG, PixelLayout::kMjpeg},
+    Readable{V4L2_PIX_FMT_GREY, PixelLayout::kGray8},    Readable{V4L2_PIX_FMT_NV12, PixelLayout::kGray8},
+    Readable{V4L2_PIX_FMT_NV12M, PixelLayout::kGray8},   Readable{V4L2_PIX_FMT_NV21, PixelLayout::kGray8},
+    Readable{V4L2_PIX_FMT_NV21M, PixelLayout::kGray8},   Readable{V4L2_PIX_FMT_YUV420, PixelLayout::kGray8},
+    Readable{V4L2_PIX_FMT_YUV420M, PixelLayout::kGray8}, Readable{V4L2_PIX_FMT_YVU420, PixelLayout::kGray8},
+    Readable{V4L2_PIX_FMT_YVU420M, PixelLayout::kGray8}, Readable{V4L2_PIX_FMT_YUV422P, PixelLayout::kGray8},
+    Readable{V4L2_PIX_FMT_YUV422M, PixelLayout::kGray8}, Readable{V4L2_PIX_FMT_YVU422M, PixelLayout::kGray8},
+    Readable{V4L2_PIX_FMT_NV16, PixelLayout::kGray8},    Readable{V4L2_PIX_FMT_NV16M, PixelLayout::kGray8},
+    Readable{V4L2_PIX_FMT_NV61, PixelLayout::kGray8},    Readable{V4L2_PIX_FMT_NV61M, PixelLayout::kGray8},
+    Readable{V4L2_PIX_FMT_YUYV, PixelLayout::kYuyv},     Readable{V4L2_PIX_FMT_YVYU, PixelLayout::kYuyv},
+    Readable{V4L2_PIX_FMT_UYVY, PixelLayout::kUyvy},     Readable{V4L2_PIX_FMT_VYUY, PixelLayout::kUyvy},
+    Readable{V4L2_PIX_FMT_Y10, PixelLayout::kGray10},    Readable{V4L2_PIX_FMT_Y12, PixelLayout::kGray12},
+    Readable{V4L2_PIX_FMT_Y16, PixelLayout::kGray16},    Readable{V4L2_PIX_FMT_BGR24, PixelLayout::kBgr24},
+    Readable{V4L2_PIX_FMT_RGB24, PixelLayout::kRgb24},   Readable{V4L2_PIX_FMT_MJPEG, PixelLayout::kMjpeg},
+    Readable{V4L2_PIX_FMT_JPEG, PixelLayout::kMjpeg},
 };
 struct Size {
   int width_px;
@@ -89,10 +95,8 @@ std::vector<Size> sizes_of(const V4l2Device& device, std::uint32_t fourcc, const
     break;
   }
   if (!sizes.empty()) return sizes;
-  v4l2_format now{};  // for a driver that does not list sizes (HDMI input): its present one
-  now.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-  if (device.call(VIDIOC_G_FMT, now) == 0)
-    sizes.push_back({static_cast<int>(now.fmt.pix.width), static_cast<int>(now.fmt.pix.height)});
+  V4l2Picture now;  // for a driver that does not list sizes (HDMI input): its present one
+  if (device.picture(now) == 0) sizes.push_back({static_cast<int>(now.width), static_cast<int>(now.height)});
   return sizes;
 }
 
@@ -125,7 +129,7 @@ std::optional<PixelLayout> layout_of(std::uint32_t fourcc) noexcept {
 std::vector<V4l2Mode> list_modes(const V4l2Device& device, const WantedMode& wanted) {
   std::vector<V4l2Mode> modes;
   v4l2_fmtdesc format{};
-  format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  format.type = device.buffer_type();
   for (; device.call(VIDIOC_ENUM_FMT, format) == 0; ++format.index) {
     const std::optional<PixelLayout> layout = layout_of(format.pixelformat);
     if (!layout) continue;
@@ -166,24 +170,19 @@ MadeMode make_mode(const V4l2Device& device, const V4l2Mode& mode, double rate_h
     throw std::runtime_error(fmt::format("{}: {} refused {}: {}: is another program using the camera?", device.path(),
                                          what, mode_text(mode), std::strerror(error)));
   };
-  v4l2_format format{};
-  format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-  format.fmt.pix.width = static_cast<std::uint32_t>(mode.width_px);
-  format.fmt.pix.height = static_cast<std::uint32_t>(mode.height_px);
-  format.fmt.pix.pixelformat = mode.fourcc;
-  format.fmt.pix.field = V4L2_FIELD_NONE;  // interlaced fields of different times cannot be used
-  if (const int error = device.call(VIDIOC_S_FMT, format); error != 0) refuse("VIDIOC_S_FMT", error);
-  const v4l2_pix_format& got = format.fmt.pix;
-  if (got.pixelformat != mode.fourcc || got.width != static_cast<std::uint32_t>(mode.width_px) ||
+  V4l2Picture got{static_cast<std::uint32_t>(mode.width_px), static_cast<std::uint32_t>(mode.height_px), mode.fourcc,
+                  V4L2_FIELD_NONE};  // interlaced fields of different times cannot be used
+  if (const int error = device.set_picture(got); error != 0) refuse("VIDIOC_S_FMT", error);
+  if (got.fourcc != mode.fourcc || got.width != static_cast<std::uint32_t>(mode.width_px) ||
       got.height != static_cast<std::uint32_t>(mode.height_px) || got.field != V4L2_FIELD_NONE) {
     throw std::runtime_error(
         fmt::format("{}: asked for {}, the device made {} {} x {}{} of it: set camera.size and camera.format",
-                    device.path(), mode_text(mode), fourcc_text(got.pixelformat), got.width, got.height,
+                    device.path(), mode_text(mode), fourcc_text(got.fourcc), got.width, got.height,
                     got.field == V4L2_FIELD_NONE ? "" : ", interlaced,"));
   }
-  MadeMode made{mode, mode.layout == PixelLayout::kMjpeg ? 0 : got.bytesperline};
+  MadeMode made{mode, mode.layout == PixelLayout::kMjpeg ? 0 : got.stride_bytes};
   v4l2_streamparm parameters{};
-  parameters.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  parameters.type = device.buffer_type();
   if (device.call(VIDIOC_G_PARM, parameters) != 0) return made;
   v4l2_fract& interval = parameters.parm.capture.timeperframe;
   if ((parameters.parm.capture.capability & V4L2_CAP_TIMEPERFRAME) != 0) {

@@ -123,9 +123,9 @@ bool V4l2Stream::adjusts_itself() const noexcept {
   return false;
 }
 
-std::int64_t stamp_ns(const v4l2_buffer& buffer) noexcept {
-  return static_cast<std::int64_t>(buffer.timestamp.tv_sec) * 1'000'000'000 +
-         static_cast<std::int64_t>(buffer.timestamp.tv_usec) * 1'000;
+std::int64_t stamp_ns(const V4l2Filled& buffer) noexcept {
+  return static_cast<std::int64_t>(buffer.stamp.tv_sec) * 1'000'000'000 +
+         static_cast<std::int64_t>(buffer.stamp.tv_usec) * 1'000;
 }
 
 }  // namespace drivers

@@ -51,6 +51,6 @@ class V4l2Stream {
   Deadline closes_at_{};  // for a broken stream
 };
 
-[[nodiscard]] std::int64_t stamp_ns(const v4l2_buffer& buffer) noexcept;
+[[nodiscard]] std::int64_t stamp_ns(const V4l2Filled& buffer) noexcept;
 
 }  // namespace drivers
