@@ -24,7 +24,8 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kPatience{10'000};  // for a connection with its first key frame
-constexpr milliseconds kSilence{3000};     // after so long without a packet the sender is called again
+constexpr milliseconds kSilence{3000};     // after so long without a picture the sender is called again
+constexpr double kSilentPeriods = 10.0;    // and after at least so many frame periods
 constexpr milliseconds kCallPeriod{500};
 constexpr std::size_t kRingSlots = 8;           // evens out bursts: packets of one key frame delay those behind it
 constexpr std::size_t kMeasuredIntervals = 15;  // for the frame rate
@@ -130,8 +131,9 @@ void StreamCamera::wait_for_the_next_call() noexcept {
 void StreamCamera::receive(StreamLink& link) {
   clock_.forget();
   last_sent_ns_.reset(), damaged_at_ns_.reset(), delivers_ = false;
+  const auto silence = std::max(kSilence, milliseconds(std::llround(1e3 * kSilentPeriods / info_.rate_hz)));
   while (!has_changed_.load()) {
-    switch (link.next(kSilence)) {
+    switch (link.next(silence)) {
       case DecodeStatus::kEnd:
         return;
       case DecodeStatus::kDamaged:
