@@ -84,7 +84,7 @@ class Sent {
   std::vector<char> bytes_;
 };
 
-// A smaller number than before is a sender that begins anew.
+// A smaller number than before is a sender that has started again.
 void check_number(const core::Frame& frame, long advance, Tally& tally) {
   const auto number = test_support::number_in(frame);
   tally.n_damaged_pictures += number ? 0 : 1;

@@ -10,8 +10,8 @@ namespace drivers {
 // the delay of that picture, which is constant, and the drift of the sender's clock.
 class SenderClock {
  public:
-  // Empty: within the first second, or after the sender's time has jumped by more than 5 s or backwards, which begins
-  // anew. `sent_ns` empty: the sender states no times, and arrivals are used.
+  // Empty: within the first second, or after the sender's time has jumped by more than 5 s or backwards, which
+  // starts such a second again. `sent_ns` empty: the sender states no times, and arrivals are used.
   [[nodiscard]] std::optional<std::int64_t> to_monotonic_ns(std::optional<std::int64_t> sent_ns,
                                                             std::int64_t arrived_ns) noexcept;
   void forget() noexcept { *this = {}; }  // a new connection

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <exception>
 #include <mutex>
 #include <stdexcept>
 #include <vector>
 
 #include "drivers/camera/device_missing.h"
+#include "drivers/camera/frame_copy.h"
 #include "drivers/camera/line_timing.h"
 #include "drivers/camera/recording/frame_clock.h"
 #include "drivers/camera/recording/frame_source.h"
@@ -199,15 +199,11 @@ CaptureStatus StreamCamera::capture(core::Frame& out, std::chrono::milliseconds 
     if (has_wrong_slot_.load(std::memory_order_relaxed)) return CaptureStatus::kFault;
     auto reader = ring_->reader();
     if (const core::Frame* frame = reader.front(); frame != nullptr) {
-      if (out.pixels.size() != frame->pixels.size()) {
+      if (!copy_frame(*frame, out)) {
         wrong_slot_ = "a frame slot of another size than the camera's image";
         has_wrong_slot_.store(true, std::memory_order_release);
         continue;
       }
-      std::memcpy(out.pixels.data(), frame->pixels.data(), frame->pixels.size());
-      out.sequence = frame->sequence, out.gap_before = frame->gap_before;
-      out.t_start_ns = frame->t_start_ns, out.exposure_ns = frame->exposure_ns;
-      out.width_px = frame->width_px, out.height_px = frame->height_px;
       reader.pop();
       return CaptureStatus::kFrame;
     }

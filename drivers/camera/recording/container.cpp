@@ -139,9 +139,8 @@ void Container::choose_stream() {
     if (!may_be_the_film(stream)) continue;
     const AVCodec* decoder = avcodec_find_decoder(stream.codecpar->codec_id);
     if (decoder == nullptr) {
-      unreadable =
-          fmt::format("{}: no decoder for its video ({}); {}", path_, avcodec_get_name(stream.codecpar->codec_id),
-                      is_live_ ? "send H.264, HEVC or MJPEG" : "convert it: ffmpeg -i IN -crf 12 OUT.mp4");
+      unreadable = fmt::format("{}: no decoder for its video ({}); {}", path_,
+                               avcodec_get_name(stream.codecpar->codec_id), codec_remedy());
       continue;
     }
     const std::tuple<bool, bool, std::int64_t> rank{
@@ -155,6 +154,10 @@ void Container::choose_stream() {
   const std::string found = other_streams();
   throw std::runtime_error(fmt::format("{}: not a video: it has no moving picture ({}): check camera.source", path_,
                                        found.empty() ? "no stream at all" : "found: " + found));
+}
+
+const char* Container::codec_remedy() const noexcept {
+  return is_live_ ? "send H.264, HEVC or MJPEG" : "convert it: ffmpeg -i IN -crf 12 OUT.mp4";
 }
 
 // libavformat's parser would do this too, but gives a picture the time of the one before, of which only the headers

@@ -39,6 +39,8 @@ class Container {
   [[nodiscard]] const AVCodec& decoder() const noexcept { return *decoder_; }
   [[nodiscard]] std::string codec_name() const;
   [[nodiscard]] bool is_live() const noexcept { return is_live_; }
+  // What to do about a codec that is not decoded here.
+  [[nodiscard]] const char* codec_remedy() const noexcept;
   [[nodiscard]] const std::string& name() const noexcept { return path_; }
   // Largest block with one motion vector; 0: every frame is coded by itself.
   [[nodiscard]] int coding_block_px() const noexcept;

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <new>
 #include <stdexcept>
 
+#include "drivers/camera/frame_copy.h"
 #include "drivers/camera/line_timing.h"
 #include "drivers/camera/recording/clip_telemetry.h"
 #include "drivers/camera/recording/repeat_watch.h"
@@ -179,18 +179,11 @@ CaptureStatus FileCamera::capture(core::Frame& out, std::chrono::milliseconds ti
   const core::Frame* frame = queue_->front(deadline, status);
   if (frame == nullptr) return status;
   if (!pacer_.wait(frame->t_start_ns - clock_.place(0).t_ns, deadline)) return CaptureStatus::kTimeout;
-  if (out.pixels.size() != frame->pixels.size()) {
+  if (!copy_frame(*frame, out)) {
     queue_->close(CaptureStatus::kFault, fmt::format("{}: frame slot of {} bytes for images of {} x {} px", path_,
                                                      out.pixels.size(), info_.width_px, info_.height_px));
     return CaptureStatus::kFault;
   }
-  std::memcpy(out.pixels.data(), frame->pixels.data(), frame->pixels.size());
-  out.sequence = frame->sequence;
-  out.t_start_ns = frame->t_start_ns;
-  out.exposure_ns = frame->exposure_ns;
-  out.gap_before = frame->gap_before;
-  out.width_px = frame->width_px;
-  out.height_px = frame->height_px;
   queue_->pop();
   return CaptureStatus::kFrame;
 }

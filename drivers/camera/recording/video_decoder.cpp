@@ -26,9 +26,8 @@ AvHandle<AVCodecContext> open_codec(const Container& container) {
   codec->max_pixels = kMostPixels;
   if (status >= 0) status = avcodec_open2(codec.get(), &container.decoder(), nullptr);
   if (status >= 0) return codec;
-  throw std::runtime_error(fmt::format(
-      "{}: its video ({}) cannot be decoded: {}; {}", container.name(), container.codec_name(), av_error_text(status),
-      container.is_live() ? "send H.264, HEVC or MJPEG" : "convert it: ffmpeg -i IN -crf 12 OUT.mp4"));
+  throw std::runtime_error(fmt::format("{}: its video ({}) cannot be decoded: {}; {}", container.name(),
+                                       container.codec_name(), av_error_text(status), container.codec_remedy()));
 }
 
 }  // namespace
