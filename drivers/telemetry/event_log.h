@@ -33,6 +33,7 @@ class EventLogFile : public EventLog {
   bool flush() noexcept override;
   // The last call: what was written survives a loss of power. False: it may not, or events were lost.
   bool close() noexcept;
+  [[nodiscard]] int descriptor() const noexcept { return descriptor_; }      // -1: closed
   [[nodiscard]] std::uint64_t n_bytes() const noexcept { return n_bytes_; }  // in the file and waiting
   [[nodiscard]] std::uint64_t n_lost() const noexcept { return n_lost_; }
   [[nodiscard]] int error() const noexcept { return error_; }  // errno of the last failure; 0: none

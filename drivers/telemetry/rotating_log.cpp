@@ -43,7 +43,10 @@ bool RotatingLog::open_next() {
   }
   const std::string path = path_of(next_file_);
   file_ = std::make_unique<EventLogFile>(path, EventLogFile::Link::kRefuse);
-  if (write_head_(*file_, next_file_) && file_->flush()) return ++next_file_, true;
+  if (write_head_(*file_, next_file_) && file_->flush()) {
+    sync_.request(file_->descriptor());
+    return ++next_file_, true;
+  }
   error_.store(file_->error(), std::memory_order_relaxed);
   file_.reset();
   std::error_code ignored;
@@ -82,6 +85,7 @@ bool RotatingLog::write(const std::string& channel, std::span<const std::uint8_t
 bool RotatingLog::flush() noexcept {
   try {
     const bool is_flushed = file_ ? file_->flush() : write_head_ && open_next();
+    if (file_) sync_.request(file_->descriptor());
     return count(), is_flushed;
   } catch (...) {  // the file cannot be opened, as before
     return false;
@@ -92,7 +96,7 @@ bool RotatingLog::close() noexcept {
   if (!file_) return n_lost() == 0;
   const bool is_safe = file_->close();
   count();
-  return is_safe;
+  return is_safe && sync_.error() == 0;
 }
 
 }  // namespace drivers

@@ -15,18 +15,18 @@ package=$(apt-cache depends "$meta" | sed -n 's/.*Depends: \(linux-image-[0-9][^
 [ -n "$package" ] || { echo "kernel: $meta is in no package list: run apt-get update" >&2; exit 1; }
 version=${package#linux-image-}
 initramfs=$vm/initramfs-$version
-if [ -s "$initramfs" ] && [ "$initramfs" -nt tests/device/guest_init.sh ]; then
+if [ -s "$initramfs" ] && [ "$initramfs" -nt tests/device/guest_init.sh ] && [ "$initramfs" -nt tests/device/kernel.sh ]; then
   echo "$version"
   exit 0
 fi
 
 mkdir -p "$vm/debs" "$vm/kernel"
-if [ ! -s "$vm/kernel/lib/modules/$version/modules.dep" ]; then
+if [ ! -s "$vm/kernel/lib/modules/$version/modules.dep" ] || [ ! -d "$vm/kernel/lib/modules/$version/kernel/drivers/block" ]; then
   ls "$vm/debs/${package}"_*.deb >/dev/null 2>&1 || (cd "$vm/debs" && apt-get download -q "$package" >/dev/null 2>&1)
   deb=$(ls -t "$vm/debs/${package}"_*.deb | head -n 1)
   dpkg-deb --fsys-tarfile "$deb" | tar -x -C "$vm/kernel" --wildcards './boot/vmlinuz-*' './lib/modules/*/modules.*' \
     './lib/modules/*/kernel/drivers/media/*' './lib/modules/*/kernel/drivers/usb/*' './lib/modules/*/kernel/drivers/virtio/*' \
-    './lib/modules/*/kernel/drivers/char/*' './lib/modules/*/kernel/drivers/gpu/drm/*.ko' './lib/modules/*/kernel/fs/*' \
+    './lib/modules/*/kernel/drivers/char/*' './lib/modules/*/kernel/drivers/block/virtio_blk.ko*' './lib/modules/*/kernel/drivers/gpu/drm/*.ko' './lib/modules/*/kernel/fs/*' \
     './lib/modules/*/kernel/net/9p/*' './lib/modules/*/kernel/lib/*' './lib/modules/*/kernel/crypto/*' './lib/modules/*/kernel/sound/core/*'
   depmod -b "$vm/kernel" "$version" 2>/dev/null
 fi
