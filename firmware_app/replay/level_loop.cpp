@@ -56,6 +56,26 @@ LoopLevel skipped(const std::string& name, const std::string& why) {
   return out;
 }
 
+// Frames that a level goes through.
+std::size_t frames_in(std::size_t most_cells, std::size_t n_columns) {
+  return std::max<std::size_t>(1, most_cells / std::max<std::size_t>(1, n_columns));
+}
+
+// Points that the observation level takes, of those in the first frame.
+std::size_t points_of(const drivers::TracksFile& file, int points_per_region) {
+  std::vector<std::size_t> in_region(file.region_names.size(), 0);
+  for (const core::TrackPoint& point : file.first.points) ++in_region[point.region];
+  std::size_t sum = 0;
+  for (const std::size_t n : in_region) sum += std::min(n, static_cast<std::size_t>(points_per_region));
+  return sum;
+}
+
+std::string last_part(std::size_t n_frames, std::size_t n_all, double rate_hz) {
+  if (n_frames >= n_all) return {};
+  return fmt::format("; the last {:.0f} s of {:.0f} s were gone through, for the sake of memory",
+                     static_cast<double>(n_frames) / rate_hz, static_cast<double>(n_all) / rate_hz);
+}
+
 // The record of a run as it passes through the levels.
 class LevelLoop {
  public:
@@ -69,6 +89,8 @@ class LevelLoop {
       rows_ = rows_of_displacements(series_path_, inputs.bases);
     }
     if (rows_.times.number.empty()) throw drivers::FileError(inputs.folder + ": the record has no frame");
+    n_frames_ = rows_.times.number.size();
+    keep_end();
     times_ = recording_of(inputs.folder);
     as_measured_ = by_numbers(rows_);
     series_ = on_grid(rows_);
@@ -91,6 +113,8 @@ class LevelLoop {
     rows.times.jitter_rms_s = 0.0;
     return on_grid(rows);
   }
+
+  void keep_end() { keep_last(frames_in(inputs_.most_cells, rows_.series.value.size()), rows_); }
 
   // Where times were measured, frames are placed by them; frames missing by these times become gaps.
   LoopLevel clock() {
@@ -117,6 +141,7 @@ class LevelLoop {
     out.left = clock_.times_known
                    ? "the times were measured: nothing of the clock is looked for below"
                    : "the frames are counted: lost, repeated and late ones are looked for in the response";
+    out.left += last_part(times.number.size(), n_frames_, rows_.series.rate_hz);
     return out;
   }
 
@@ -125,7 +150,9 @@ class LevelLoop {
     if (!inputs_.config) return skipped(name, "it needs the run's configuration (--config): regions and camera");
     if (!tracks_) return skipped(name, "there is no " + tracks_path_ + " (report.tracks)");
     tell("fitting the model of the points' places");
-    TracksRecord record = thinned(tracks_record(*tracks_, *inputs_.config), inputs_.config->closure.points_per_region);
+    const int points_per_region = inputs_.config->closure.points_per_region;
+    const std::size_t most_frames = frames_in(inputs_.most_cells, points_of(*tracks_, points_per_region));
+    TracksRecord record = thinned(tracks_record(*tracks_, *inputs_.config, most_frames), points_per_region);
     std::unique_ptr<core::closure::ObservationLevel> level;
     try {
       level = std::make_unique<core::closure::ObservationLevel>(std::move(record.record));
@@ -145,7 +172,12 @@ class LevelLoop {
       if (is_corrected(out.result->steps[i]))
         out.findings[i].repair = "the points are corrected and the displacements measured again";
     }
-    if (!corrections.words.empty()) series_ = on_grid(rows_of_tracks(*inputs_.config, *tracks_, corrections));
+    if (!corrections.words.empty()) {
+      rows_ = rows_of_tracks(*inputs_.config, *tracks_, corrections);
+      keep_end();
+      series_ = on_grid(rows_);
+    }
+    out.left += last_part(most_frames, n_frames_, rows_.series.rate_hz);
     return out;
   }
 
@@ -199,6 +231,7 @@ class LevelLoop {
   std::string tracks_path_, series_path_;
   std::optional<drivers::TracksFile> tracks_;
   MeasuredRows rows_;
+  std::size_t n_frames_ = 0;  // of the whole record
   core::RecordingTimes times_;
   SeriesClock clock_;
   ChannelSeries as_measured_, series_;

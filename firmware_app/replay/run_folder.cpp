@@ -128,6 +128,19 @@ MeasuredRows rows_of_displacements(const std::string& path, const std::vector<st
   return out;
 }
 
+void keep_last(std::size_t n, MeasuredRows& rows) {
+  const std::size_t n_before = rows.times.number.size();
+  if (n_before <= n) return;
+  const auto cut = [&](auto& values) {
+    if (values.size() == n_before) values.erase(values.begin(), values.end() - static_cast<std::ptrdiff_t>(n));
+  };
+  for (auto& channel : rows.series.value) cut(channel);
+  cut(rows.scale_mm_per_px);
+  cut(rows.times.t_s);
+  cut(rows.times.number);
+  rows.times = timed(std::move(rows.times.number), std::move(rows.times.t_s), rows.series.rate_hz);
+}
+
 ChannelSeries on_grid(const MeasuredRows& rows) {
   ChannelSeries out = rows.series;
   const auto n = static_cast<Eigen::Index>(rows.times.number.size());

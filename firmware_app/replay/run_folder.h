@@ -39,6 +39,8 @@ struct MeasuredRows {
                                           const CorrectionSet& corrections = {});
 // displacements.csv of a run. Throws drivers::FileError.
 [[nodiscard]] MeasuredRows rows_of_displacements(const std::string& path, const std::vector<std::string>& bases);
+// Of more than n frames the last ones.
+void keep_last(std::size_t n, MeasuredRows& rows);
 // The camera of a file of tracks, as the configuration declares it.
 [[nodiscard]] core::CameraInfo camera_of_tracks(const drivers::TracksFile& file, const AppConfig& config);
 

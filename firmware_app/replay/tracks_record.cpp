@@ -51,20 +51,21 @@ class Columns {
   std::map<std::uint32_t, std::size_t> column_;
 };
 
-// Positions and sigmas of all frames, and the record made of them.
-void require_memory(const drivers::TracksFile& file, std::size_t n_points) {
+// Of the diagnosis at its peak.
+void require_memory(const drivers::TracksFile& file, std::size_t n_frames, std::size_t n_points) {
   constexpr double kGB = 1e9;
-  const double needed = 5.0 * sizeof(double) * static_cast<double>(n_frames_of(file)) * static_cast<double>(n_points);
+  constexpr double kBytesPerCell = 1200.0;  // measured: 1140 B from 240 000 to 960 000 cells
+  const double needed = kBytesPerCell * static_cast<double>(n_frames) * static_cast<double>(n_points);
   if (const auto left = static_cast<double>(drivers::memory_left()); needed > left)
     throw drivers::FileError(
         fmt::format("{}: {} points in {} frames take {:.2g} GB, and {:.2g} GB of memory are left; track fewer points "
                     "(tracking.points_per_region), or divide the record",
-                    file.path, n_points, n_frames_of(file), needed / kGB, left / kGB));
+                    file.path, n_points, n_frames, needed / kGB, left / kGB));
 }
 
 core::closure::ObservationRecord record_of(const drivers::TracksFile& file, const Columns& columns,
-                                           const DeclaredObservation& declared) {
-  core::closure::RecentTracks tracks(declared.record, declared.camera, columns.region_of_point, n_frames_of(file));
+                                           const DeclaredObservation& declared, std::size_t n_frames) {
+  core::closure::RecentTracks tracks(declared.record, declared.camera, columns.region_of_point, n_frames);
   drivers::TracksPass frames(file);
   for (core::TrackFrame frame; frames.next(frame);) {
     if (!tracks.begin_frame(frame.sequence)) continue;
@@ -83,7 +84,7 @@ TracksRecord read_tracks_record(const std::string& path, const AppConfig& config
   return tracks_record(drivers::read_tracks_csv(file_path), config);
 }
 
-TracksRecord tracks_record(const drivers::TracksFile& file, const AppConfig& given) {
+TracksRecord tracks_record(const drivers::TracksFile& file, const AppConfig& given, std::size_t most_frames) {
   if (n_frames_of(file) > kMostFrames)
     throw drivers::FileError(fmt::format("{}: frame numbers extend over {} frames, at most {} are allowed", file.path,
                                          n_frames_of(file), kMostFrames));
@@ -92,9 +93,10 @@ TracksRecord tracks_record(const drivers::TracksFile& file, const AppConfig& giv
   const Columns columns(file, config);
   if (columns.region_of_point.empty())
     throw drivers::FileError(file.path + ": no point lies in a region of the configuration; is it that of the run?");
-  require_memory(file, columns.region_of_point.size());
+  const std::size_t n_frames = std::min(n_frames_of(file), std::max<std::size_t>(1, most_frames));
+  require_memory(file, n_frames, columns.region_of_point.size());
   DeclaredObservation declared = declared_observation(config, file.camera);
-  out.record = record_of(file, columns, declared);
+  out.record = record_of(file, columns, declared, n_frames);
   out.warnings = std::move(declared.warnings);
   return out;
 }

@@ -24,6 +24,7 @@ namespace {
 using core::closure::LoopLevel;
 using core::closure::LoopResult;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double kRate_hz = 25.0, kFirst_hz = 1.9, kSecond_hz = 5.2;
 constexpr int kFine = 40, kSamples = 3000;
@@ -111,6 +112,19 @@ TEST(LevelLoop, UncountedDropsAreRepairedAndTheModesComeNearerToTheReference) {
   ASSERT_TRUE(result.error_before && result.error_after);
   EXPECT_GT(*result.error_before, 1.5) << "two frames in a hundred";
   EXPECT_LT(*result.error_after, 0.7);
+}
+
+TEST(LevelLoop, OfALongRecordTheEndIsGoneThroughAndSaidSo) {
+  LevelLoopInputs inputs;
+  inputs.folder = folder_with("long", {});
+  inputs.bases = {"base"};
+  inputs.n_surrogates = 16;
+  inputs.most_cells = 3 * 2000;
+  const LoopResult result = close_levels(inputs);
+  EXPECT_THAT(level(result, "clock and frames").left, HasSubstr("the last 80 s of 120 s"));
+  EXPECT_EQ(result.modes.size(), 2U);
+  inputs.most_cells = 3 * kSamples;
+  EXPECT_THAT(level(close_levels(inputs), "clock and frames").left, Not(HasSubstr("the last")));
 }
 
 TEST(LevelLoop, MeasuredTimesAreUsedAndLeaveNoClockEffect) {
