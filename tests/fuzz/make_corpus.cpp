@@ -255,6 +255,7 @@ int main(int argc, char** argv) {
     tests::fuzz::corpus = argv[1];
     tests::fuzz::write_texts();
     tests::fuzz::write_exchange();
+    tests::fuzz::write_programs();
     write_lcm();
     write_mavlink_frames();
     write_datagrams();

@@ -12,5 +12,6 @@ void keep(const std::string& target, const std::string& name, const std::string&
 
 void write_texts();     // configurations, calibrations, scenes, tables
 void write_exchange();  // files of other programs
+void write_programs();  // inputs of commands
 
 }  // namespace tests::fuzz

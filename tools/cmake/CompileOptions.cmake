@@ -31,6 +31,9 @@ option(HOVERMODAL_PRECOMPILE "Precompile the headers of other libraries" ON)
 # library, which the eight then share. So a name in an anonymous namespace occurs once in a folder. A build with
 # HOVERMODAL_UNITY=OFF (the packages', clang-tidy's) compiles each source by itself.
 option(HOVERMODAL_UNITY "Compile several sources of a target together" ON)
+if(HOVERMODAL_UNITY AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  target_compile_options(hovermodal_options INTERFACE -Wno-shadow)  # of another source's names, which GCC tells apart
+endif()
 
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)

@@ -1,21 +1,24 @@
 #!/usr/bin/env bash
 # Nothing lost, whatever happens: reports, folders, hostile files and names, signals.
-#   tools/figures/endurance.sh [--quick] [--first-seed N] [FIGURE...]     FIGURE: 1 2 3 4 5 6 (default: all)
+#   tools/figures/endurance.sh [--quick] [--first-seed N] [FIGURE...]     FIGURE: 1 2 3 4 5 6
+# 7_readers 7_programs (default: all)
 # 1 takes two minutes. Each of its lines is ok only where the behaviour is seen with the programs as delivered.
 # 2 (a failing call in each of some thousand runs) takes an hour, 3 (200 kills) a quarter; --quick: every 25th call, 20 kills.
 # 4 (100 power cuts in a virtual machine) takes six minutes; --quick: 10 cuts.
 # 5 (peak memory of the readers) takes four minutes. 6 (ten hours of stream, twice) takes two hours; --quick: 42 minutes of stream.
+# 7_readers and 7_programs (eight fuzz targets each, ten minutes a target) take an hour each on two processors; --quick: 20 s a target.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
 . tools/figures/endurance_day.sh
 . tools/figures/endurance_faults.sh
+. tools/figures/endurance_fuzz.sh
 . tools/figures/endurance_memory.sh
 . tools/figures/endurance_power.sh
 . tools/figures/endurance_running.sh
 take_arguments "tools/figures/endurance.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
-all_or_named 1 2 3 4 5 6
-draws 2 3 4 6
+all_or_named 1 2 3 4 5 6 7_readers 7_programs
+draws 2 3 4 6 7_readers 7_programs
 bin=$PWD/$bin
 work=$PWD/build/figures/endurance
 mkdir -p "${work%/*}"

@@ -1,18 +1,20 @@
 #!/usr/bin/env bash
 # Where people run it.
-#   tools/figures/platforms.sh [--quick] [--first-seed N] [FIGURE...]     FIGURE: 2 3 4 (default: all)
+#   tools/figures/platforms.sh [--quick] [--first-seed N] [FIGURE...]     FIGURE: 2 3 4 cost (default: all)
 # 2 runs kernel drivers in a virtual machine (tests/device), some minutes without KVM.
 # 3 receives from GStreamer's RTSP server (Debian: gir1.2-gst-rtsp-server-1.0 python3-gi gstreamer1.0-libav
 # gstreamer1.0-plugins-good gstreamer1.0-plugins-ugly); SKIP where it is absent.
 # 4 speaks with an autopilot made of MAVLink's own C library, of which a checkout or an archive of its files lies in
 # build/beside/c_library_v2 (https://github.com/mavlink/c_library_v2); SKIP where it is absent.
+# cost counts the instructions of a frame (Debian: valgrind), a quarter of an hour.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
 . tools/figures/device.sh
+. tools/figures/platforms_cost.sh
 take_arguments "tools/figures/platforms.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
-all_or_named 2 3 4
-draws 3 4
+all_or_named 2 3 4 cost
+draws 3 4 cost
 out=build/figures/platforms
 mkdir -p "$out"
 tools/setup.sh
