@@ -57,16 +57,16 @@ constexpr const char* kConfig =
 }  // namespace
 
 void write_programs() {
-  keep("identify", "table", options(0) + table("t_s,a,b\n", ",", 300));
-  keep("identify", "segments", options(1U << 9U | 1U << 11U | 1U << 2U) + table("t_s;ax [m/s^2];floor\n", ";", 200));
-  keep("identify", "no_names", options(1U << 4U | 1U << 1U | 1U << 7U | 1U << 3U | 1U) + table("", " ", 200));
+  keep("identify", "table", options(0) + table("t_s,a,b\n", ",", 180));
+  keep("identify", "segments", options(1U << 9U | 1U << 11U | 1U << 2U) + table("t_s;ax [m/s^2];floor\n", ";", 120));
+  keep("identify", "no_names", options(1U << 4U | 1U << 1U | 1U << 7U | 1U << 3U | 1U) + table("", " ", 120));
   keep("identify", "merged", options(1U << 16U | 1U << 9U | 1U << 21U) + table("t_s,a,b\n", ",", 150));
   keep("identify", "delays",
        options(1U << 8U | 1U << 14U | 1U << 18U | 1U << 19U | 1U) + table("# rate_hz: 32\nframe\ta\tb\n", "\t", 120));
 
   std::string two, one;
   for (int flight = 0; flight < 2; ++flight) {
-    put_piece(two, 't', tracks(90, 400 * flight));
+    put_piece(two, 't', tracks(48, 400 * flight));
     put_piece(two, 'c', kConfig);
     put_piece(two, 'd', "");
   }
