@@ -39,7 +39,7 @@ struct ModesListener::Inbox {
     ++next_part;
     for (const hovermodal::mode_t& mode : message->modes) {
       if (mode.is_structural && std::isfinite(mode.frequency_hz) && gathered.size() < kMost)
-        gathered.push_back({mode.frequency_hz, mode.damping_ratio});
+        gathered.push_back({mode.frequency_hz, static_cast<double>(mode.damping_ratio)});
     }
     if (next_part != message->n_parts) return;
     std::sort(gathered.begin(), gathered.end(),
