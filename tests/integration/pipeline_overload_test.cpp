@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 #include <thread>
 
 #include "tests/support/pipeline_rig.h"
@@ -33,15 +34,20 @@ TEST(PipelineOverload, KeepsEveryNthFrameAtEqualSpacingAndSaysSo) {
   EXPECT_DOUBLE_EQ(outcome.health.rate_hz, 25.0 / static_cast<double>(stride));
   EXPECT_THAT(outcome.health.warnings, Contains(HasSubstr("overload: only every")));
 
-  // The end of the record is on a grid of that stride, and the estimate uses only that part.
+  // The end of the record is on a grid of one stride, and the estimate uses only such a part. Under load from elsewhere
+  // the stride may change once more behind it.
   const auto& samples = rig.heard->samples;
   ASSERT_GT(samples.size(), 5U);
   const std::uint64_t last = samples.back().sequence;
-  for (std::size_t i = samples.size() - 5; i < samples.size(); ++i) {
-    EXPECT_EQ((last - samples[i].sequence) % stride, 0U) << samples[i].sequence;
+  const std::uint64_t last_stride = samples.back().stride;
+  EXPECT_GT(last_stride, 1U);
+  std::set<double> rates_hz;
+  for (const auto& sample : samples) rates_hz.insert(25.0 / sample.stride);
+  for (std::size_t i = samples.size(); i-- > 0 && samples[i].stride == last_stride;) {
+    EXPECT_EQ((last - samples[i].sequence) % last_stride, 0U) << samples[i].sequence;
   }
-  EXPECT_DOUBLE_EQ(outcome.estimate.rate_hz, outcome.health.rate_hz);
-  EXPECT_LE(outcome.estimate.n_samples * stride, 1500U);
+  EXPECT_TRUE(rates_hz.contains(outcome.estimate.rate_hz)) << outcome.estimate.rate_hz;
+  EXPECT_LE(static_cast<double>(outcome.estimate.n_samples) * 25.0 / outcome.estimate.rate_hz, 1500.0);
   bool told_old_rate = false;
   for (const auto& estimate : rig.heard->estimates) told_old_rate = told_old_rate || estimate.rate_hz == 25.0;
   EXPECT_TRUE(told_old_rate) << "what was seen before the change is not lost";
