@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # Where people run it.
-#   tools/figures/platforms.sh [--quick] [--first-seed N] [FIGURE...]     FIGURE: 2 3 4 cost (default: all)
+#   tools/figures/platforms.sh [--quick] [--first-seed N] [FIGURE...]     FIGURE: 1_debian12 1_debian13 2 3 4 cost
+# (default: all)
+# 1_debian12 and 1_debian13 follow README from nothing in a clean root of that system, an hour each.
 # 2 runs kernel drivers in a virtual machine (tests/device), some minutes without KVM.
 # 3 receives from GStreamer's RTSP server (Debian: gir1.2-gst-rtsp-server-1.0 python3-gi gstreamer1.0-libav
 # gstreamer1.0-plugins-good gstreamer1.0-plugins-ugly); SKIP where it is absent.
@@ -11,10 +13,12 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
 . tools/figures/device.sh
+. tools/figures/clean_root.sh
 . tools/figures/platforms_cost.sh
+. tools/figures/platforms_systems.sh
 take_arguments "tools/figures/platforms.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
-all_or_named 2 3 4 cost
-draws 3 4 cost
+all_or_named 1_debian12 1_debian13 2 3 4 cost
+draws 1_debian12 1_debian13 3 4 cost
 out=build/figures/platforms
 mkdir -p "$out"
 tools/setup.sh

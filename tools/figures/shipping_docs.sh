@@ -16,35 +16,7 @@ parts=("${figures[@]}")
 out=$PWD/build/figures/shipping
 root=$out/clean
 mkdir -p "$out"
-cache=${HOVERMODAL_CCACHE:-}
-with=${cache:+, with a compiler cache}
-
-# Uses this machine's network for apt-get; the programs use only the loopback device.
-inside() { chroot "$root" env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 ${cache:+CCACHE_DIR=/ccache} \
-  bash -c "cd /hovermodal && export PATH=\$PWD/build/release/bin:\$PATH && $1"; }
-leave() { local place; for place in ccache dev/shm dev proc sys; do ! mountpoint -q "$root/$place" || umount "$root/$place" || umount --lazy "$root/$place"; done; }
-
-make_root() {
-  leave
-  # The mounts in it belong to this machine.
-  if grep -q " $root/" /proc/mounts; then echo "shipping_docs: something is still mounted below $root" >&2; exit 1; fi
-  rm -rf --one-file-system "$root"
-  quietly mmdebstrap --variant=minbase --include=ca-certificates,git bookworm "$root"
-  cp /etc/resolv.conf "$root/etc/resolv.conf" 2>/dev/null || true
-  cp /etc/apt/apt.conf.d/*proxy* "$root/etc/apt/apt.conf.d/" 2>/dev/null || true
-  quietly git clone --no-hardlinks . "$root/hovermodal"
-  line 5.root ok "$(du -sm "$root" 2>/dev/null | cut -f1) MB, $(chroot "$root" dpkg-query -f '.' -W | wc -c) packages" "-" "a clean Debian 12 (minbase) with git and a clone"
-}
-enter() {
-  [ -d "$root/hovermodal" ] || { echo "shipping_docs: no $root: begin with the part root" >&2; exit 2; }
-  leave
-  quietly git -C "$root/hovermodal" pull --ff-only "$PWD" HEAD
-  mount --bind /proc "$root/proc"
-  mount --bind /sys "$root/sys"
-  mount --bind /dev "$root/dev"
-  mount -t tmpfs tmpfs "$root/dev/shm"
-  if [ -n "$cache" ]; then mkdir -p "$root/ccache" && mount --bind "$cache" "$root/ccache"; fi
-}
+. tools/figures/clean_root.sh
 
 # follow NUMBER COMMAND [ARGUMENT-OF---quick]: a line for it, with its time.
 follow() {
@@ -83,11 +55,14 @@ readout() {
 
 clean_up() { leave; }
 figure_5() {
-  if [ "$(id -u)" -ne 0 ] || ! command -v mmdebstrap >/dev/null; then
+  if ! can_make_root; then
     line 5 SKIP "not root, or no mmdebstrap" "every command works" "the documents on a clean Debian 12; as root: apt-get install -y mmdebstrap"
     return
   fi
-  [ "${parts[0]}" != root ] || make_root
+  if [ "${parts[0]}" = root ]; then
+    make_root bookworm
+    line 5.root ok "$(du -sm "$root" 2>/dev/null | cut -f1) MB, $(chroot "$root" dpkg-query -f '.' -W | wc -c) packages" "-" "a clean Debian 12 (minbase) with git and a clone"
+  fi
   enter
   local part
   for part in "${parts[@]}"; do

@@ -79,7 +79,7 @@ LoopResult close(const std::string& folder, std::vector<double> reference_hz = {
   return close_levels(inputs);
 }
 
-const LoopLevel& level(const LoopResult& result, const std::string& name) {
+const LoopLevel& level(const LoopResult& result, const char* name) {
   for (const LoopLevel& one : result.levels) {
     if (one.level == name) return one;
   }

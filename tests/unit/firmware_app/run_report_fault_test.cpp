@@ -25,8 +25,8 @@ using ::testing::Not;
 
 TEST_F(RunReportTest, RefusesFoldersThatCannotBe) {
   std::ofstream(path("file")) << "x";
-  EXPECT_THROW(open("file"), drivers::FileError);
-  EXPECT_THROW(open("file/below"), drivers::FileError);
+  EXPECT_THROW((void)open("file"), drivers::FileError);
+  EXPECT_THROW((void)open("file/below"), drivers::FileError);
   EXPECT_THROW(RunReport("", config_, camera_, channels_, {}), drivers::FileError);
   EXPECT_THROW(RunReport("/proc/report", config_, camera_, channels_, {}), drivers::FileError);
 }
