@@ -6,6 +6,9 @@ target_compile_options(hovermodal_options INTERFACE
   -ffp-contract=off)  # the same bits on arm64 (fused multiply-add by default) and x86-64
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(hovermodal_options INTERFACE -Wno-restrict)  # false alarms on std::string (GCC bug 105651)
+elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # False alarms where a function takes a temporary and returns a reference to something else (GCC bug 107532).
+  target_compile_options(hovermodal_options INTERFACE -Wno-dangling-reference)
 endif()
 target_link_options(hovermodal_options INTERFACE -Wl,--as-needed)  # a program loads only libraries that it calls
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
