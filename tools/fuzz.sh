@@ -95,16 +95,14 @@ fuzz() { # TARGET: its line on standard output; 1: it has a finding
 }
 
 failed=0 running=0
+await_one() {
+  wait -n || failed=1
+  running=$((running - 1))
+}
 for target in "${targets[@]}"; do
-  if [ "$running" -ge "$jobs" ]; then
-    wait -n || failed=1
-    running=$((running - 1))
-  fi
+  [ "$running" -lt "$jobs" ] || await_one
   fuzz "$target" &
   running=$((running + 1))
 done
-while [ "$running" -gt 0 ]; do
-  wait -n || failed=1
-  running=$((running - 1))
-done
+while [ "$running" -gt 0 ]; do await_one; done
 exit $failed
