@@ -25,6 +25,7 @@ std::unique_ptr<Camera> make_file_camera(const CameraOptions& options) {
                                                        .realtime = options.realtime,
                                                        .readout_ms = options.readout_ms,
                                                        .readout_direction = options.readout_direction,
+                                                       .decoder_mb = options.decoder_mb,
                                                        .exposure_ms = options.exposure_ms});
 }
 
@@ -57,7 +58,8 @@ std::unique_ptr<Camera> make_stream_camera(const CameraOptions& options) {
                                                            .rate_hz = options.rate_hz,
                                                            .readout_ms = options.readout_ms,
                                                            .readout_direction = options.readout_direction,
-                                                           .exposure_ms = options.exposure_ms});
+                                                           .exposure_ms = options.exposure_ms,
+                                                           .decoder_mb = options.decoder_mb});
 }
 
 std::unique_ptr<Camera> make_libcamera_camera([[maybe_unused]] const CameraOptions& options) {

@@ -21,6 +21,7 @@ struct CameraOptions {
   double readout_ms = 0.0;                                                   // signed; 0 = global shutter or unknown
   core::ReadoutDirection readout_direction = core::ReadoutDirection::kDown;  // in the image as the sensor stores it
   double exposure_ms = 0.0;                                                  // 0 = unknown
+  int decoder_mb = kDecoderMb;                                               // file, stream
   double synthetic_duration_s = 30.0;
   std::uint64_t synthetic_seed = 1;
 };

@@ -29,4 +29,7 @@ enum class StreamTransport : std::uint8_t { kTcp, kUdp };
 inline constexpr std::array<std::pair<StreamTransport, std::string_view>, 2> kStreamTransportNames{
     {{StreamTransport::kTcp, "tcp"}, {StreamTransport::kUdp, "udp"}}};
 
+// Bound on the memory of a video decoder (decoder_memory.h), and what it may be set to.
+constexpr int kDecoderMb = 220, kLeastDecoderMb = 20, kMostDecoderMb = 100'000;
+
 }  // namespace drivers

@@ -33,6 +33,7 @@ struct CameraConfig {
   double readout_sigma_ms = -1.0;  // of readout_ms; 0 = exact, below 0 = chosen (readout_aware_identifier.h)
   core::ReadoutDirection readout_direction = core::ReadoutDirection::kDown;
   double exposure_ms = 0.0;               // 0 = unknown
+  int decoder_mb = drivers::kDecoderMb;   // file and stream
   std::string attitude_file;              // CSV on the frames' clock; empty = none
   std::string attitude_channel;           // LCM channel of attitude_t; empty = none
   double attitude_sigma_deg = 0.1;        // white noise of a sample, per axis

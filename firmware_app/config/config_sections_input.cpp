@@ -143,6 +143,10 @@ void add_camera_keys(std::vector<ConfigKey>& keys) {
       "video rotates it"));
   keys.push_back(number_key("camera.exposure_ms", "ms", at(&A::camera, &C::exposure_ms), {0, 10000},
                             "exposure time; 0 = unknown; devices: automatic exposure, then locked"));
+  keys.push_back(whole_key(
+      "camera.decoder_mb", "MB", at(&A::camera, &C::decoder_mb), {drivers::kLeastDecoderMb, drivers::kMostDecoderMb},
+      "file and stream: memory for decoding; a video that needs more is refused. 4K fits; raise it "
+      "for 8K, and for 5K of 10 bits"));
   add_device_keys(keys);
   add_attitude_keys(keys);
   keys.push_back(number_key("camera.synthetic.duration_s", "s", at(&A::camera, &C::synthetic_duration_s), {0.1, 21600},

@@ -121,6 +121,7 @@ std::unique_ptr<drivers::Camera> open_camera(const AppConfig& config) {
   options.readout_ms = c.readout_ms;
   options.readout_direction = c.readout_direction;
   options.exposure_ms = c.exposure_ms;
+  options.decoder_mb = c.decoder_mb;
   options.synthetic_duration_s = c.synthetic_duration_s;
   options.synthetic_seed = c.synthetic_seed;
   return drivers::make_camera(options);

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "drivers/camera/recording/clip_telemetry.h"
+#include "drivers/camera/recording/frame_source.h"
 #include "drivers/camera/recording/timestamp_file.h"
 #include "drivers/camera/recording/video_decoder.h"
 #include "drivers/images/image_reader.h"
@@ -53,10 +54,12 @@ void image(Path path) {
 }
 
 void video(Path path) {
-  drivers::VideoDecoder decoder(path);
+  drivers::silence_media_libraries();
+  drivers::VideoDecoder decoder(path, drivers::kDecoderMb);
   int n_pictures = 0;
   for (auto status = decoder.next(); status != drivers::DecodeStatus::kEnd; status = decoder.next())
     n_pictures += status == drivers::DecodeStatus::kPicture ? 1 : 0;
+  if (const std::string fault = decoder.fault(); !fault.empty()) throw drivers::FileError(fault);
   if (n_pictures == 0) throw drivers::FileError(path + ": no picture can be decoded");
 }
 

@@ -29,6 +29,8 @@ def read_limits(root):
     LIMITS.update(kKiB=1 << 10, kMiB=1 << 20)
     version = re.search(r"kCheckpointVersion = (\d+)", (root / "drivers/storage/checkpoint_file.h").read_text(encoding="utf-8"))
     LIMITS["kCheckpointVersion"] = int(version.group(1))
+    for name, header in (("kDecoderMb", "camera_kind.h"), ("kBesideOfMotion", "recording/decoder_memory.cpp")):
+        LIMITS[name] = float(re.search(name + r" = ([\d.]+)", (root / "drivers/camera" / header).read_text(encoding="utf-8")).group(1))
     for name, value in re.findall(r"constexpr std::\w+ (k\w+) =\s+([^;,]+);", text):
         value = re.sub(r"\b(\d+)U\b", r"\1", value.replace("'", ""))
         LIMITS[name] = eval(value, {}, LIMITS)  # constants of our own header
@@ -48,6 +50,17 @@ def png(path, width, height, bits, colour):
     pixels = b"".join(packer.compress(row) for _ in range(height)) + packer.flush()
     path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, colour, 0, 0, 0)) +
                      chunk(b"IDAT", pixels) + chunk(b"IEND", b""))
+
+
+def side_of_pictures(n):
+    """Of the largest square pictures of which a decoder may hold n (drivers/camera/recording/decoder_memory.cpp)."""
+    one = LIMITS["kDecoderMb"] * 1e6 / n / 1.5 / (1 + LIMITS["kBesideOfMotion"])
+    return int(one ** 0.5) // 128 * 128
+
+
+def clip(path, side, codec, *options):
+    subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", f"color=gray:s={side}x{side}:r=25", "-frames:v", "20", "-c:v", codec, *options, "-pix_fmt", "yuvj420p" if codec == "mjpeg" else "yuv420p", "-f", "matroska" if codec == "mjpeg" else "mp4", "-y", path], check=True)
+    return "video"
 
 
 def jpeg(path, width, height, progressive):
@@ -157,10 +170,25 @@ class Readers:
         return "image"
 
     def video(self, path, over):
+        """H.264 with as many reference pictures as there can be; beyond: the largest pictures with them."""
+        side = int(LIMITS["kImagePixels"] ** 0.5) if over else side_of_pictures(17)
+        return clip(path, side, "libx264", "-preset", "ultrafast", "-x264-params", "ref=16:keyint=100:bframes=0")
+
+    def video_larger(self, path, over):
+        """The same, and the next size."""
+        return clip(path, side_of_pictures(17) + 128 * over, "libx264", "-preset", "ultrafast", "-x264-params", "ref=16:keyint=100:bframes=0")
+
+    def video_largest(self, path, over):
+        """H.264 with one reference picture, as large as that can be."""
+        return clip(path, side_of_pictures(2) + 128 * over, "libx264", "-preset", "ultrafast", "-x264-params", "ref=1:keyint=100:bframes=0")
+
+    def video_of_jpeg(self, path, over):
         side = int(LIMITS["kImagePixels"] ** 0.5)
-        subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i", f"color=gray:s={side}x{side + 16 * over}:r=25", "-frames:v", "20", "-c:v", "libx264",
-                        "-preset", "ultrafast", "-x264-params", "ref=16:keyint=100:bframes=0", "-pix_fmt", "yuv420p", "-f", "mp4", "-y", path], check=True)
-        return "video"
+        return clip(path, side + 16 * over, "mjpeg", "-q:v", "5")
+
+    def video_hevc(self, path, over):
+        """HEVC announces no number of reference pictures: those held are counted."""
+        return clip(path, side_of_pictures(6 if over else 12), "libx265", "-preset", "ultrafast", "-x265-params", "ref=8:keyint=100:bframes=0:log-level=none")
 
     def event(self, path, over):
         n = LIMITS["kRecordEventBytes"] + over
@@ -233,7 +261,7 @@ def main():
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     suffixes = {"subtitles": ".SRT", "raw_telemetry": ".gpmf", "image_gray": ".png", "image_colour": ".png", "image_jpeg": ".jpg",
-                "image_jpeg_progressive": ".jpg", "video": ".mp4", "record": "_run0001_000.lcm"}
+                "image_jpeg_progressive": ".jpg", "video": ".mp4", "video_larger": ".mp4", "video_largest": ".mp4", "video_of_jpeg": ".mkv", "video_hevc": ".mp4", "record": "_run0001_000.lcm"}
     names = [name for name in vars(Readers) if not name.startswith("_") and name != "table"]
     for name in sys.argv[3:] or names:
         for over in (0, 1):

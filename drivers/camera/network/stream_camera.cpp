@@ -47,13 +47,13 @@ double median_rate_hz(std::vector<std::int64_t> sent_ns) {
 }  // namespace
 
 StreamCamera::StreamCamera(const StreamCameraConfig& config)
-    : address_(stream_address(config.source, config.transport)) {
+    : address_(stream_address(config.source, config.transport)), decoder_mb_(config.decoder_mb) {
   const LineTiming timing = checked_line_timing(config.readout_ms, config.exposure_ms);
   info_.readout_ns = timing.readout_ns;
   info_.readout_direction = config.readout_direction;
   info_.exposure_ns = timing.exposure_ns;
   try {
-    StreamLink link(address_, kPatience, is_stopped_);
+    StreamLink link(address_, decoder_mb_, kPatience, is_stopped_);
     describe(link, config);
   } catch (const std::runtime_error& error) {
     throw DeviceMissing(
@@ -112,7 +112,7 @@ void StreamCamera::start() {
 void StreamCamera::receive_all() noexcept {
   while (!is_stopped_.load() && !has_changed_.load()) {
     try {
-      StreamLink link(address_, kPatience, is_stopped_);
+      StreamLink link(address_, decoder_mb_, kPatience, is_stopped_);
       receive(link);
     } catch (const std::exception&) {  // no answer, or out of memory: the next call may succeed
     }

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "drivers/camera/camera.h"
+#include "drivers/camera/camera_kind.h"
 #include "drivers/camera/device/capture_gate.h"
 #include "drivers/camera/device/live_sequence.h"
 #include "drivers/camera/device/trouble_count.h"
@@ -29,6 +30,7 @@ struct StreamCameraConfig {
   double readout_ms = 0.0;  // signed
   core::ReadoutDirection readout_direction = core::ReadoutDirection::kDown;
   double exposure_ms = 0.0;  // 0 = unknown
+  int decoder_mb = kDecoderMb;
 };
 
 // A camera behind a network, which sends compressed video. A thread of its own receives and decodes into a ring, from
@@ -63,6 +65,7 @@ class StreamCamera final : public Camera {
   void wait_for_the_next_call() noexcept;
 
   StreamAddress address_;
+  int decoder_mb_;
   core::CameraInfo info_;
   bool has_times_ = false;           // the sender states when it sent each picture
   std::optional<PictureLuma> luma_;  // the receiving thread's, like the next five

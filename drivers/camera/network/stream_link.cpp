@@ -42,9 +42,10 @@ Container StreamLink::connect(const StreamAddress& address, Wait& wait) {
       LiveSender{address.url, address.shown, options.get(), address.in_parts, {&StreamLink::is_over, &wait}});
 }
 
-StreamLink::StreamLink(const StreamAddress& address, Patience patience, const std::atomic<bool>& is_cancelled)
+StreamLink::StreamLink(const StreamAddress& address, int decoder_mb, Patience patience,
+                       const std::atomic<bool>& is_cancelled)
     : wait_(std::make_unique<Wait>(Wait{&is_cancelled, std::chrono::steady_clock::now() + patience})),
-      decoder_(connect(address, *wait_)) {}
+      decoder_(connect(address, *wait_), decoder_mb) {}
 
 DecodeStatus StreamLink::next(Patience patience) noexcept {
   wait_->until = std::chrono::steady_clock::now() + patience;

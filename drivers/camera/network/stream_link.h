@@ -18,7 +18,8 @@ class StreamLink {
   using Patience = std::chrono::milliseconds;
 
   // Connects and finds the video. Throws std::runtime_error: what the sender did not do within `patience`.
-  StreamLink(const StreamAddress& address, Patience patience, const std::atomic<bool>& is_cancelled);
+  // decoder_mb: bound on the decoder's memory.
+  StreamLink(const StreamAddress& address, int decoder_mb, Patience patience, const std::atomic<bool>& is_cancelled);
 
   // kEnd: the sender ended, was silent for `patience`, or this was cancelled.
   [[nodiscard]] DecodeStatus next(Patience patience) noexcept;

@@ -29,6 +29,26 @@ constexpr const char* kFormats =
 
 constexpr int kMostPictureBytes = 64 << 20;
 
+// Pictures up to this size are decoded to find what a file leaves out. Larger ones are not: before anything is known of
+// a file, that would take memory without a bound (video_decoder.cpp has one).
+constexpr std::int64_t kMostProbedPixels = 1920 * 1088;
+
+bool has_large_pictures(const AVFormatContext& format) noexcept {
+  const auto is_large = [](const AVStream* stream) {
+    return std::int64_t{stream->codecpar->width} * stream->codecpar->height > kMostProbedPixels;
+  };
+  return std::any_of(format.streams, format.streams + format.nb_streams, is_large);
+}
+
+int find_stream_info(AVFormatContext& format) {
+  if (has_large_pictures(format)) format.codec_whitelist = av_strdup("none");  // opens no decoder at all
+  std::vector<AVDictionary*> options(format.nb_streams);
+  for (AVDictionary*& one : options) av_dict_set_int(&one, "max_pixels", kMostProbedPixels, 0);
+  const int status = avformat_find_stream_info(&format, options.empty() ? nullptr : options.data());
+  for (AVDictionary*& one : options) av_dict_free(&one);
+  return status;
+}
+
 AvHandle<AVFormatContext> open_format(const std::string& path) {
   AVFormatContext* context = avformat_alloc_context();
   if (context == nullptr) throw std::bad_alloc();
@@ -40,7 +60,7 @@ AvHandle<AVFormatContext> open_format(const std::string& path) {
   const int status = avformat_open_input(&context, url.c_str(), nullptr, &options);  // frees the context on failure
   av_dict_free(&options);
   AvHandle<AVFormatContext> format(status < 0 ? nullptr : context);
-  if (!format || avformat_find_stream_info(format.get(), nullptr) < 0) {
+  if (!format || find_stream_info(*format) < 0) {
     throw std::runtime_error(
         fmt::format("{}: not a video that can be opened: an unknown format, or an MP4 whose index is missing because "
                     "the recording was cut off; if ffplay shows it, convert it: ffmpeg -i IN -crf 12 OUT.mp4; else "
@@ -60,7 +80,7 @@ AvHandle<AVFormatContext> open_live(const LiveSender& sender) {
   int status = avformat_open_input(&context, sender.url.c_str(), nullptr, &options);  // frees the context on failure
   av_dict_free(&options);
   AvHandle<AVFormatContext> format(status < 0 ? nullptr : context);
-  if (format) status = avformat_find_stream_info(format.get(), nullptr);
+  if (format) status = find_stream_info(*format);
   if (status >= 0) return format;
   throw std::runtime_error(fmt::format("{}: no video from there: {}", sender.shown,
                                        status == AVERROR_EXIT ? "no answer in time" : av_error_text(status)));

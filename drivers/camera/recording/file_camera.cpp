@@ -38,14 +38,15 @@ std::int64_t usual_exposure_ns(const ClipTelemetry& telemetry) {
 
 }  // namespace
 
-FileCamera::FileCamera(const FileCameraConfig& config) : path_(config.source), pacer_(config.realtime) {
+FileCamera::FileCamera(const FileCameraConfig& config)
+    : path_(config.source), decoder_mb_(config.decoder_mb), pacer_(config.realtime) {
   if (config.rate_hz != 0.0 && !is_usable_rate(config.rate_hz)) {
     throw std::invalid_argument(fmt::format("camera.rate_hz = {}: must be within {} .. {} Hz, or 0 to take it from {}",
                                             config.rate_hz, kMinRate_hz, kMaxRate_hz, path_));
   }
   const LineTiming timing = checked_line_timing(config.readout_ms, config.exposure_ms);
   n_bytes_ = size_of(path_);
-  source_ = open_frame_source(path_);
+  source_ = open_frame_source(path_, config.decoder_mb);
   const SourceInfo& source = source_->info();
   info_.width_px = source.width_px;
   info_.height_px = source.height_px;
@@ -73,7 +74,7 @@ FileCamera::~FileCamera() { stop(); }
 void FileCamera::start() {
   if (decoder_.joinable()) throw std::runtime_error(fmt::format("{}: started twice without a stop", path_));
   if (source_ == nullptr) {  // closed by stop(): start from the beginning
-    source_ = open_frame_source(path_);
+    source_ = open_frame_source(path_, decoder_mb_);
     if (source_->info().width_px != info_.width_px || source_->info().height_px != info_.height_px)
       throw std::runtime_error(fmt::format("{}: has another image size than before", path_));
     queue_ = std::make_unique<FrameQueue>(kQueueSlots, info_.width_px, info_.height_px);

@@ -21,6 +21,7 @@ struct FileCameraConfig {
   bool realtime = false;    // deliver frames at the recorded pace; false: as fast as they decode
   double readout_ms = 0.0;  // signed
   core::ReadoutDirection readout_direction = core::ReadoutDirection::kDown;  // in the image as the sensor stored it
+  int decoder_mb = kDecoderMb;
   double exposure_ms = 0.0;  // 0 = unknown, or from the telemetry if available
 };
 
@@ -50,6 +51,7 @@ class FileCamera final : public Camera {
   [[nodiscard]] std::string shortfall(std::uint64_t n_decoded) const;
 
   std::string path_;
+  int decoder_mb_;
   std::uintmax_t n_bytes_ = 0;           // size of the file when it was opened
   std::unique_ptr<FrameSource> source_;  // after start(): used by the decoding thread
   FrameClock clock_;

@@ -189,7 +189,7 @@ class ClockMaker {
     constexpr std::size_t kLookedAt = 180;
     const std::size_t n = std::min(fit.cells.size(), kLookedAt);
     if (!fit.is_even || fit.cells[n - 1] + 1 != n) return;
-    clock_.cadence_ = find_cadence(path_, *info_.scan);
+    clock_.cadence_ = find_cadence(path_, *info_.scan, info_.decoder_mb);
     if (!clock_.cadence_) return;
     const int shown = clock_.cadence_->shown, of = clock_.cadence_->of;
     double& rate_hz = clock_.times_.rate_hz;

@@ -40,7 +40,7 @@ fs::file_status look_at(const std::string& path) {
 
 }  // namespace
 
-std::unique_ptr<FrameSource> open_frame_source(const std::string& path) {
+std::unique_ptr<FrameSource> open_frame_source(const std::string& path, int decoder_mb) {
   const fs::file_status status = look_at(path);
   const bool is_folder = fs::is_directory(status);
   if (!is_folder && !fs::is_regular_file(status)) {
@@ -51,7 +51,7 @@ std::unique_ptr<FrameSource> open_frame_source(const std::string& path) {
     throw std::runtime_error(fmt::format("{}: no permission to read it: try chmod a+r{}", path, is_folder ? "x" : ""));
   }
   silence_media_libraries();
-  return is_folder ? open_image_folder(path) : open_video(path);
+  return is_folder ? open_image_folder(path) : open_video(path, decoder_mb);
 }
 
 core::ReadoutDirection turn_clockwise(core::ReadoutDirection direction, int degrees) noexcept {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/types/frame.h"
+#include "drivers/camera/camera_kind.h"
 #include "drivers/camera/recording/packet_scan.h"
 
 namespace drivers {
@@ -25,6 +26,7 @@ struct SourceInfo {
   bool holds_gpmf = false;                   // a stream of GoPro's metadata is beside the video
   int turned_clockwise_deg = 0;              // rotation of a delivered image against the sensor's: 0, 90, 180, 270
   int coding_block_px = 0;                   // as in core::CameraInfo
+  int decoder_mb = kDecoderMb;               // bound under which it was opened
   std::string description;
 };
 
@@ -53,7 +55,7 @@ constexpr int kMinImagePx = 32;  // smaller than this no tracking window with a 
 
 // A video file or a folder of images. Throws DeviceMissing when there is nothing at `path`, std::runtime_error when
 // it cannot be used: names the file, what was found and what to do.
-[[nodiscard]] std::unique_ptr<FrameSource> open_frame_source(const std::string& path);
+[[nodiscard]] std::unique_ptr<FrameSource> open_frame_source(const std::string& path, int decoder_mb = kDecoderMb);
 
 // Direction of the sensor's readout in an image rotated clockwise by a multiple of 90 degrees.
 [[nodiscard]] core::ReadoutDirection turn_clockwise(core::ReadoutDirection direction, int degrees) noexcept;

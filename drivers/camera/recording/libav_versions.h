@@ -18,6 +18,16 @@ namespace drivers {
 #endif
 }
 
+// States that the buffers' callbacks may be called from any thread; since libavcodec 60 they must.
+inline void allow_threads_to_call_back([[maybe_unused]] AVCodecContext& codec) noexcept {
+#if LIBAVCODEC_VERSION_MAJOR < 60
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+  codec.thread_safe_callbacks = 1;
+#pragma GCC diagnostic pop
+#endif
+}
+
 // Nine numbers, or null where the stream has none; lives as long as the stream.
 [[nodiscard]] inline const std::int32_t* display_matrix(const AVStream& stream) noexcept {
 #if LIBAVFORMAT_VERSION_INT >= AV_VERSION_INT(60, 15, 100)

@@ -91,9 +91,9 @@ std::optional<Cadence> find_cadence(std::span<const double> changes, std::span<c
   return {};
 }
 
-std::optional<Cadence> find_cadence(const std::string& path, const PacketScan& scan) {
+std::optional<Cadence> find_cadence(const std::string& path, const PacketScan& scan, int decoder_mb) {
   if (!sizes_hint_at_repeats(scan.bytes)) return {};
-  VideoDecoder decoder(path);
+  VideoDecoder decoder(path, decoder_mb);
   std::optional<PictureLuma> luma;
   core::Frame frame;
   FrameChange change;

@@ -29,6 +29,6 @@ struct Cadence {
 
 // The cadence of a video, from its first frames. They are decoded separately from the run, only if the packet sizes
 // show that some frames contain almost nothing new, and no more than necessary: 90 frames, seldom 180.
-[[nodiscard]] std::optional<Cadence> find_cadence(const std::string& path, const PacketScan& scan);
+[[nodiscard]] std::optional<Cadence> find_cadence(const std::string& path, const PacketScan& scan, int decoder_mb);
 
 }  // namespace drivers

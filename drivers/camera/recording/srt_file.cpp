@@ -36,12 +36,6 @@ void require_few_blocks(const std::string& path) {
 
 bool is_word(char c) noexcept { return is_letter(c) || c == '_'; }
 
-std::string_view trimmed(std::string_view text) {
-  const auto begin = text.find_first_not_of(" \t\r");
-  return begin == std::string_view::npos ? std::string_view{}
-                                         : text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
-
 // The number at the beginning of `text`, which is removed from it.
 std::optional<double> take_number(std::string_view& text) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);

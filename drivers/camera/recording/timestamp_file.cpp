@@ -9,6 +9,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "drivers/camera/recording/ascii.h"
 #include "drivers/storage/csv_lines.h"
 #include "drivers/storage/limits.h"
 
@@ -19,12 +20,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kMaxTime_s = 9.0e9;  // int64 nanoseconds end at 9.2e9 s; seconds since 1970 fit
-
-std::string_view trimmed(std::string_view text) {
-  const auto begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
 
 // Part of a line for a message: short, and printable whatever the file contains.
 std::string shown(std::string_view text) {

@@ -39,7 +39,8 @@ bool is_encrypted(const std::string& path) {
 
 class VideoSource final : public FrameSource {
  public:
-  explicit VideoSource(const std::string& path) : path_(path), decoder_(path) {
+  VideoSource(const std::string& path, int decoder_mb) : path_(path), decoder_(path, decoder_mb) {
+    info_.decoder_mb = decoder_mb;
     info_.scan = std::make_shared<const PacketScan>(scan_packets(path));
     info_.turned_clockwise_deg = decoder_.container().clockwise_turn_deg();
     take_first_picture();
@@ -69,7 +70,7 @@ class VideoSource final : public FrameSource {
   }
 
   [[nodiscard]] bool has_more_frames_than(std::uint64_t n) const override {
-    VideoDecoder counting(path_);
+    VideoDecoder counting(path_, info_.decoder_mb);
     for (std::uint64_t i = 0; i <= n;) {
       const DecodeStatus status = counting.next();
       if (status == DecodeStatus::kEnd) return false;
@@ -86,6 +87,7 @@ class VideoSource final : public FrameSource {
     };
     if (is_encrypted(path_)) refuse("it is encrypted: decrypt it first");
     if (!next_picture()) {
+      if (const std::string fault = decoder_.fault(); !fault.empty()) throw std::runtime_error(fault);
       refuse("not one frame decodes: the file is damaged or its codec is not supported; try to play it with ffplay");
     }
     first_is_waiting_ = true;
@@ -147,7 +149,7 @@ class VideoSource final : public FrameSource {
   // A disk that fails is no end.
   ReadStatus end_of_file() noexcept {
     try {
-      error_ = decoder_.container().read_fault();
+      error_ = decoder_.fault();
     } catch (const std::bad_alloc&) {
       return ReadStatus::kFault;
     }
@@ -232,7 +234,7 @@ class VideoSource final : public FrameSource {
 
 }  // namespace
 
-std::unique_ptr<FrameSource> open_video(const std::string& path) {
+std::unique_ptr<FrameSource> open_video(const std::string& path, int decoder_mb) {
   if (fs::file_size(path) == 0) {
     throw std::runtime_error(fmt::format("{}: the file is empty (0 bytes): record or copy it again", path));
   }
@@ -240,7 +242,7 @@ std::unique_ptr<FrameSource> open_video(const std::string& path) {
     throw std::runtime_error(
         fmt::format("{}: a single image: name a video, or the folder that holds the images", path));
   }
-  return std::make_unique<VideoSource>(path);
+  return std::make_unique<VideoSource>(path, decoder_mb);
 }
 
 }  // namespace drivers

@@ -74,6 +74,7 @@ TEST(Config, EachKeySetsItsOwnMemberOnly) {
       {"method", "paper"},
       {"paper.velocity", "region"},
       {"camera.driver", "v4l2"},
+      {"camera.decoder_mb", "300"},
       {"camera.pace", "realtime"},
       {"camera.transport", "udp"},
       {"camera.readout_direction", "left"},

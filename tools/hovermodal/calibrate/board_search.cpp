@@ -14,6 +14,7 @@
 #include "drivers/camera/recording/frame_source.h"
 #include "drivers/camera/recording/image_folder_source.h"
 #include "drivers/images/image_reader.h"
+#include "tools/hovermodal/clip_source.h"
 #include "tools/hovermodal/simulate/progress.h"
 
 namespace tools {
@@ -57,8 +58,8 @@ std::string hint_for(const cv::Mat& gray, const core::ChessBoard& board) {
 
 class BoardSearch {
  public:
-  BoardSearch(const core::ChessBoard& board, int every, bool is_quiet)
-      : board_(board), every_(every), is_quiet_(is_quiet) {}
+  BoardSearch(const core::ChessBoard& board, int every, int decoder_mb, bool is_quiet)
+      : board_(board), every_(every), decoder_mb_(decoder_mb), is_quiet_(is_quiet) {}
 
   void look_through(const std::string& source) {
     if (gives_up()) return;
@@ -67,7 +68,7 @@ class BoardSearch {
       throw std::invalid_argument(source + ": no such file or folder; name a clip, images, or a folder of images");
     }
     if (!std::filesystem::is_directory(source, error) && drivers::is_image_file(source)) return look_at_image(source);
-    const auto frames = drivers::open_frame_source(source);
+    const auto frames = open_clip(source, decoder_mb_);
     require_size(source, frames->info().width_px, frames->info().height_px);
     look_at_frames(source, *frames);
   }
@@ -134,7 +135,7 @@ class BoardSearch {
   }
 
   core::ChessBoard board_;
-  int every_;
+  int every_, decoder_mb_;
   bool is_quiet_;
   FoundBoards found_;
 };
@@ -157,9 +158,9 @@ std::optional<core::BoardView> find_board(const cv::Mat& gray, const core::Chess
 }
 
 FoundBoards find_boards(const std::vector<std::string>& sources, const core::ChessBoard& board, int every,
-                        bool is_quiet) {
+                        int decoder_mb, bool is_quiet) {
   drivers::silence_media_libraries();
-  BoardSearch search(board, every, is_quiet);
+  BoardSearch search(board, every, decoder_mb, is_quiet);
   for (const std::string& source : sources) search.look_through(source);
   return search.take();
 }

@@ -23,9 +23,9 @@ struct FoundBoards {
 
 // Searches clips, folders of images and images, in the given order: every image; of a clip every `every`-th frame,
 // 0 = about 200 of them. All must be of one size. Throws std::invalid_argument (no such file, sizes differ) or
-// std::runtime_error (cannot be read). Progress goes to standard error, unless
+// std::runtime_error (cannot be read). decoder_mb: as camera.decoder_mb. Progress goes to standard error, unless
 // `is_quiet`.
 [[nodiscard]] FoundBoards find_boards(const std::vector<std::string>& sources, const core::ChessBoard& board, int every,
-                                      bool is_quiet);
+                                      int decoder_mb, bool is_quiet);
 
 }  // namespace tools

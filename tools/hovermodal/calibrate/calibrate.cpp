@@ -17,6 +17,7 @@
 #include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/calibrate/board_search.h"
 #include "tools/hovermodal/calibrate/calibration_words.h"
+#include "tools/hovermodal/clip_source.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/named_file.h"
 
@@ -27,7 +28,7 @@ struct Options {
   std::vector<std::string> sources;
   std::string board, model = "radtan", out, report;
   double square_mm = 0.0;
-  int every = 0, views = 40;
+  int every = 0, views = 40, decoder_mb = drivers::kDecoderMb;
   bool force = false;
   Answer answer;
 };
@@ -109,7 +110,7 @@ void leave_out_bad_views(CalibrationRun& run) {
 }
 
 CalibrationRun fit_run(const Options& options, const core::ChessBoard& board) {
-  FoundBoards found = find_boards(options.sources, board, options.every, options.answer.quiet);
+  FoundBoards found = find_boards(options.sources, board, options.every, options.decoder_mb, options.answer.quiet);
   if (found.views.size() < core::kMinViews) throw std::runtime_error(none_found(found, board));
   CalibrationRun run{board, found.width_px,    found.height_px,    found.views, found.places,
                      {},    found.n_looked_at, found.views.size(), {}};
@@ -179,6 +180,7 @@ void add_calibrate(drivers::Command& app) {
   command.option("--views", options->views, "Use at most this many views: time grows with them")
       .range(3, 500)
       .show_default();
+  add_decoder_option(command, options->decoder_mb);
   command.option("--out", options->out, "File to write, YAML").required().type_name("FILE");
   command.option("--report", options->report, "Folder for calibration.svg: coverage and residuals").type_name("DIR");
   add_force_option(command, options->force);

@@ -17,6 +17,7 @@
 #include "drivers/camera/camera_factory.h"
 #include "drivers/storage/clip_writer.h"
 #include "drivers/storage/printable.h"
+#include "tools/hovermodal/clip_source.h"
 #include "tools/hovermodal/magnify/region_places.h"
 #include "tools/hovermodal/simulate/progress.h"
 
@@ -33,13 +34,14 @@ constexpr double kSwingShare = 0.012;  // of the image's longer side: the larges
 // The frames of the clip, in order.
 class ClipFrames {
  public:
-  ClipFrames(const std::string& clip, const ModalMotion& motion) : clip_(clip) {
+  ClipFrames(const std::string& clip, int decoder_mb, const ModalMotion& motion) : clip_(clip) {
     drivers::CameraOptions source;
     source.source = clip;
+    source.decoder_mb = decoder_mb;
     // Images state no rate.
     if (std::filesystem::is_directory(clip) && !std::filesystem::exists(std::filesystem::path(clip) / "timestamps.csv"))
       source.rate_hz = motion.rate_hz;
-    camera_ = drivers::make_camera(source);
+    camera_ = open_clip_camera(source);
     const core::CameraInfo info = camera_->info();
     if (info.width_px != motion.width_px || info.height_px != motion.height_px) {
       throw std::invalid_argument(fmt::format("{}: {}x{}, but the run saw {}x{}", clip, info.width_px, info.height_px,
@@ -191,7 +193,7 @@ void draw_all(const ModalMotion& motion, ClipFrames& frames, const std::string& 
 }  // namespace
 
 MagnifiedClip draw_magnified(const ModalMotion& motion, const MagnifyOptions& options) {
-  ClipFrames frames(options.clip, motion);
+  ClipFrames frames(options.clip, options.decoder_mb, motion);
   if (!frames.next()) throw std::runtime_error(fmt::format("\"{}\": no frame", drivers::printable(options.clip)));
   MagnifiedClip out;
   out.factor = options.factor;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "drivers/camera/camera_kind.h"
 #include "tools/hovermodal/answer.h"
 #include "tools/hovermodal/magnify/modal_motion.h"
 
@@ -16,6 +17,7 @@ struct MagnifyOptions {
   double period_s = 2.0;
   std::optional<double> seconds;  // empty: 6 of the first frame, or the whole clip
   bool all_frames = false;
+  int decoder_mb = drivers::kDecoderMb;
   int crf = 8;
   bool force = false, plain = false;
   Answer answer;

@@ -12,6 +12,7 @@
 #include "drivers/storage/json.h"
 #include "drivers/storage/printable.h"
 #include "tools/hovermodal/answer.h"
+#include "tools/hovermodal/clip_source.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/magnify/magnified_clip.h"
 #include "tools/hovermodal/named_file.h"
@@ -99,6 +100,7 @@ void add_magnify(drivers::Command& app) {
   command.option("run", options->run, "Folder of a run").required().type_name("RUN");
   command.option("--mode", options->mode, "Number of the mode in modal.json, from 1").show_default().type_name("N");
   command.option("--clip", options->clip, "Its video (default: clip.mp4 in the folder)").type_name("FILE");
+  add_decoder_option(command, options->decoder_mb);
   command.option("--out", options->out, "Video to write").required().type_name("FILE.mp4");
   command.option("--factor", options->factor, "Factor of the motion (default: chosen and stated)").positive();
   command.option("--period-s", options->period_s, "Duration of one cycle as shown").range(0.4, 60.0).show_default();

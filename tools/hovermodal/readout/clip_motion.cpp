@@ -11,6 +11,7 @@
 #include "core/tracking/point_seeder.h"
 #include "core/tracking/pyramid_klt.h"
 #include "drivers/camera/recording/frame_source.h"
+#include "tools/hovermodal/clip_source.h"
 #include "tools/hovermodal/simulate/progress.h"
 
 namespace tools {
@@ -93,11 +94,11 @@ bool inside_any(const cv::Point2f& point, const std::vector<std::array<double, 4
 
 }  // namespace
 
-ClipMotion track_clip(const std::string& path, const std::vector<double>& stamps_s, const core::CameraModel& camera,
+ClipMotion track_clip(const ClipFile& file, const std::vector<double>& stamps_s, const core::CameraModel& camera,
                       core::ReadoutDirection direction, int hold_out_every,
                       const std::vector<std::array<double, 4>>& ignored, bool is_quiet) {
   drivers::silence_media_libraries();
-  const auto source = drivers::open_frame_source(path);
+  const auto source = open_clip(file.path, file.decoder_mb);
   ClipMotion clip{source->info().width_px, source->info().height_px, 0, {}};
   const core::ReadoutModel readout{0.0, direction, clip.width_px, clip.height_px};
   core::Frame frame;
@@ -109,7 +110,7 @@ ClipMotion track_clip(const std::string& path, const std::vector<double>& stamps
   std::size_t n = 0;
   for (; source->read(frame) == drivers::ReadStatus::kFrame; ++n) {
     if (n >= stamps_s.size())
-      throw std::invalid_argument(fmt::format("readout: {} stamps for more frames than that in {}", n, path));
+      throw std::invalid_argument(fmt::format("readout: {} stamps for more frames than that in {}", n, file.path));
     const cv::Mat now = cv::Mat(clip.height_px, clip.width_px, CV_8UC1, frame.pixels.data()).clone();
     core::FramePair pair;
     if (n > 0) {

@@ -1,4 +1,5 @@
 #include "tools/hovermodal/readout/gyro_clip.h"
+#include "tools/hovermodal/clip_source.h"
 
 #include <fmt/format.h>
 
@@ -88,8 +89,8 @@ GyroClip read_gyro_clip(const GyroClipOptions& options, bool is_quiet) {
   const core::CameraModel camera = camera_model(options);
   const std::vector<double> stamps_s = read_stamps(options);
   GyroClip out;
-  out.motion =
-      track_clip(options.clip, stamps_s, camera, options.direction, options.hold_out_every, options.ignored, is_quiet);
+  out.motion = track_clip({options.clip, options.decoder_mb}, stamps_s, camera, options.direction,
+                          options.hold_out_every, options.ignored, is_quiet);
   out.gyro = read_gyro(options);
   out.config.focal_px = camera.calibrated() ? 0.5 * (camera.fx + camera.fy) : options.focal_px;
   out.config.cx_px = camera.calibrated() ? camera.cx : 0.5 * (out.motion.width_px - 1);
@@ -102,6 +103,7 @@ GyroClip read_gyro_clip(const GyroClipOptions& options, bool is_quiet) {
 
 void add_gyro_clip_options(drivers::Command& command, GyroClipOptions& options, bool required) {
   command.option("--clip", options.clip, "Video or folder of images").required(required).type_name("PATH");
+  add_decoder_option(command, options.decoder_mb);
   command.option("--stamps", options.stamps, "Start of exposure of the first line of every frame, one per line")
       .required(required)
       .type_name("FILE");

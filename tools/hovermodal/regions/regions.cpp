@@ -16,6 +16,7 @@
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/pictures/parts.h"
 #include "tools/hovermodal/answer.h"
+#include "tools/hovermodal/clip_source.h"
 #include "tools/hovermodal/commands.h"
 #include "tools/hovermodal/named_file.h"
 #include "tools/hovermodal/regions/picker.h"
@@ -29,6 +30,7 @@ namespace {
 struct Options {
   std::string clip, out, picture;
   double rate_hz = 0.0, seconds = 12.0;
+  int decoder_mb = drivers::kDecoderMb;
   bool lowest_is_base = false, serve = false, force = false;
   int port = 0;
   std::size_t most = 12;
@@ -63,30 +65,13 @@ struct Watched {
   std::size_t n_corners = 0;
 };
 
-// The camera's messages name the configuration's keys; here that one is an option.
-std::string with_options(std::string message) {
-  constexpr std::string_view kKey = "camera.rate_hz", kOption = "--rate-hz";
-  for (std::size_t at = message.find(kKey); at != std::string::npos; at = message.find(kKey, at + kOption.size()))
-    message.replace(at, kKey.size(), kOption);
-  return message;
-}
-
-std::unique_ptr<drivers::Camera> open_source(const drivers::CameraOptions& source) {
-  try {
-    return drivers::make_camera(source);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(with_options(error.what()));
-  } catch (const std::runtime_error& error) {
-    throw std::runtime_error(with_options(error.what()));
-  }
-}
-
 // Throws std::runtime_error if the source is shorter than a second.
 Watched watch(const Options& options) {
   drivers::CameraOptions source;
   source.source = options.clip;
   source.rate_hz = options.rate_hz;
-  const auto camera = open_source(source);
+  source.decoder_mb = options.decoder_mb;
+  const auto camera = open_clip_camera(source);
   Watched out;
   out.info = camera->info();
   const auto n_pixels = static_cast<std::size_t>(out.info.width_px) * static_cast<std::size_t>(out.info.height_px);
@@ -195,6 +180,7 @@ void add_regions(drivers::Command& app) {
   command.option("--picture", options->picture, "Draw the regions into the first frame (PNG)");
   command.option("--seconds", options->seconds, "Look at so much of the clip").range(1.0, 600.0).show_default();
   command.option("--rate-hz", options->rate_hz, "Frame rate, where the source states a wrong one").range(0.1, 100000.0);
+  add_decoder_option(command, options->decoder_mb);
   command.option("--most", options->most, "At most so many parts").range(1, 60).show_default();
   command.flag("--lowest-is-base", options->lowest_is_base, "The lowest part moves with the ground: role base");
   command.flag("--serve", options->serve,
