@@ -6,6 +6,7 @@
 #include <memory>
 #include <new>
 
+#include "drivers/camera/recording/hevc_references.h"
 #include "drivers/camera/recording/libav_versions.h"
 
 extern "C" {
@@ -16,7 +17,7 @@ namespace drivers {
 
 namespace {
 
-constexpr int kUsualReferences = 5;      // of cameras, where the decoder announces none
+constexpr int kUsualReferences = 5;      // of cameras, where none are stated
 constexpr int kReferencesOfVp9 = 8;      // and of AV1, in every stream
 constexpr double kBesideOfMotion = 0.4;  // of a picture: motion vectors and block types (H.264 0.3, HEVC 0.42)
 constexpr int kRowAlignment = 64;
@@ -25,8 +26,17 @@ bool is_intra_only(const AVCodecContext& codec) noexcept {
   return codec.codec_descriptor != nullptr && (codec.codec_descriptor->props & AV_CODEC_PROP_INTRA_ONLY) != 0;
 }
 
-bool has_all_its_references(const AVCodecContext& codec) noexcept {
-  return codec.codec_id == AV_CODEC_ID_VP9 || codec.codec_id == AV_CODEC_ID_AV1;
+// As stated before a picture is decoded; 0: not stated.
+int stated_references(const AVCodecContext& codec) noexcept {
+  switch (codec.codec_id) {
+    case AV_CODEC_ID_VP9:
+    case AV_CODEC_ID_AV1:
+      return kReferencesOfVp9;
+    case AV_CODEC_ID_HEVC:  // libavcodec holds one more, which it hands out
+      return hevc_references({codec.extradata, static_cast<std::size_t>(std::max(codec.extradata_size, 0))});
+    default:
+      return 0;
+  }
 }
 
 // Pictures held at a time by one thread, the one decoded among them.
@@ -58,9 +68,10 @@ int DecoderMemory::watch(AVCodecContext& codec, int most_threads, int n_referenc
   if (codec.codec_descriptor == nullptr) codec.codec_descriptor = avcodec_descriptor_get(codec.codec_id);
   const std::int64_t n_bytes = std::max<std::int64_t>(bytes_of(codec, codec.width, codec.height), 1);
   const auto n_fit = static_cast<int>(std::min<std::int64_t>(most_bytes_ / n_bytes, 1'000'000));
-  const int n_least = n_pictures(codec, has_all_its_references(codec) ? kReferencesOfVp9 : 1);
+  const int n_stated = n_references > 0 ? n_references : stated_references(codec);
+  const int n_least = n_pictures(codec, std::max(n_stated, 1));
   if (n_fit < n_least) refuse(n_least * n_bytes);
-  const int n_usual = n_pictures(codec, n_references > 0 ? n_references : kUsualReferences);
+  const int n_usual = n_pictures(codec, n_stated > 0 ? n_stated : kUsualReferences);
   n_threads_ = std::clamp(n_fit - n_usual - 1, 1, std::max(most_threads, 1));
   return n_threads_;
 }
