@@ -61,15 +61,6 @@ std::size_t frames_in(std::size_t most_cells, std::size_t n_columns) {
   return std::max<std::size_t>(1, most_cells / std::max<std::size_t>(1, n_columns));
 }
 
-// Points that the observation level takes, of those in the first frame.
-std::size_t points_of(const drivers::TracksFile& file, int points_per_region) {
-  std::vector<std::size_t> in_region(file.region_names.size(), 0);
-  for (const core::TrackPoint& point : file.first.points) ++in_region[point.region];
-  std::size_t sum = 0;
-  for (const std::size_t n : in_region) sum += std::min(n, static_cast<std::size_t>(points_per_region));
-  return sum;
-}
-
 std::string last_part(std::size_t n_frames, std::size_t n_all, double rate_hz) {
   if (n_frames >= n_all) return {};
   return fmt::format("; the last {:.0f} s of {:.0f} s were gone through, for the sake of memory",
@@ -151,12 +142,14 @@ class LevelLoop {
     if (!tracks_) return skipped(name, "there is no " + tracks_path_ + " (report.tracks)");
     tell("fitting the model of the points' places");
     const int points_per_region = inputs_.config->closure.points_per_region;
-    const std::size_t most_frames = frames_in(inputs_.most_cells, points_of(*tracks_, points_per_region));
-    TracksRecord record = thinned(tracks_record(*tracks_, *inputs_.config, most_frames), points_per_region);
+    const std::size_t most_frames = frames_in(inputs_.most_cells, n_thinned(*tracks_, points_per_region));
     std::unique_ptr<core::closure::ObservationLevel> level;
     try {
+      TracksRecord record = thinned(tracks_record(*tracks_, *inputs_.config, most_frames), points_per_region);
       level = std::make_unique<core::closure::ObservationLevel>(std::move(record.record));
     } catch (const std::invalid_argument& e) {
+      return skipped(name, e.what());
+    } catch (const drivers::FileError& e) {  // too long, or too large for the memory that is left
       return skipped(name, e.what());
     }
     core::closure::ClosureOptions options;

@@ -42,15 +42,30 @@ CorrectionSet corrections_of(const ClosureResult& result, const core::CameraMode
   return out;
 }
 
+namespace {
+
+std::size_t n_kept(std::size_t n_points, int points_per_region) {
+  return std::min(n_points, static_cast<std::size_t>(std::max(points_per_region, 1)));
+}
+
+}  // namespace
+
+std::size_t n_thinned(const drivers::TracksFile& file, int points_per_region) {
+  std::vector<std::size_t> in_region(file.region_names.size(), 0);
+  for (const core::TrackPoint& point : file.first.points) ++in_region[point.region];
+  std::size_t sum = 0;
+  for (const std::size_t n : in_region) sum += n_kept(n, points_per_region);
+  return sum;
+}
+
 TracksRecord thinned(TracksRecord record, int points_per_region) {
   core::closure::ObservationRecord& all = record.record;
   std::vector<std::vector<Eigen::Index>> of_region(all.regions.size());
   for (std::size_t j = 0; j < all.region_of_point.size(); ++j)
     of_region[all.region_of_point[j]].push_back(static_cast<Eigen::Index>(j));
-  const auto most = static_cast<std::size_t>(std::max(points_per_region, 1));
   std::vector<Eigen::Index> kept;
   for (const auto& own : of_region) {
-    const std::size_t n = std::min(own.size(), most);
+    const std::size_t n = n_kept(own.size(), points_per_region);
     for (std::size_t i = 0; i < n; ++i) kept.push_back(own[i * own.size() / n]);
   }
   std::sort(kept.begin(), kept.end());

@@ -16,5 +16,7 @@ namespace app {
 
 // Keeps at most so many points per region, spread evenly over them, as the service does.
 [[nodiscard]] TracksRecord thinned(TracksRecord record, int points_per_region);
+// Points that it keeps, of those in the first frame.
+[[nodiscard]] std::size_t n_thinned(const drivers::TracksFile& file, int points_per_region);
 
 }  // namespace app

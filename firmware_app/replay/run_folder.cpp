@@ -1,5 +1,7 @@
 #include "firmware_app/replay/run_folder.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -109,7 +111,8 @@ MeasuredRows rows_of_displacements(const std::string& path, const std::vector<st
   }
   std::vector<std::uint64_t> number;
   for (const double one : file.columns[static_cast<std::size_t>(frame)]) {
-    if (!(one >= 0.0 && one < 1e15)) throw drivers::FileError(path + ": a frame number is negative or missing");
+    if (!(one >= 0.0 && one < 1e15 && one == std::floor(one)))
+      throw drivers::FileError(fmt::format("{}: frame: {:.12g} is no number of a frame (0, 1, 2 ...)", path, one));
     number.push_back(static_cast<std::uint64_t>(one));
   }
   out.times = timed(std::move(number), file.columns[static_cast<std::size_t>(time)], out.series.rate_hz);

@@ -85,15 +85,16 @@ TracksRecord read_tracks_record(const std::string& path, const AppConfig& config
 }
 
 TracksRecord tracks_record(const drivers::TracksFile& file, const AppConfig& given, std::size_t most_frames) {
-  if (n_frames_of(file) > kMostFrames)
-    throw drivers::FileError(fmt::format("{}: frame numbers extend over {} frames, at most {} are allowed", file.path,
-                                         n_frames_of(file), kMostFrames));
+  const std::size_t n_frames = std::min(n_frames_of(file), std::max<std::size_t>(1, most_frames));
+  if (n_frames > kMostFrames)
+    throw drivers::FileError(
+        fmt::format("{}: frame numbers extend over {} frames, at most {} are allowed; divide the record", file.path,
+                    n_frames, kMostFrames));
   const AppConfig config = with_axes_of(file, given);
   TracksRecord out;
   const Columns columns(file, config);
   if (columns.region_of_point.empty())
     throw drivers::FileError(file.path + ": no point lies in a region of the configuration; is it that of the run?");
-  const std::size_t n_frames = std::min(n_frames_of(file), std::max<std::size_t>(1, most_frames));
   require_memory(file, n_frames, columns.region_of_point.size());
   DeclaredObservation declared = declared_observation(config, file.camera);
   out.record = record_of(file, columns, declared, n_frames);

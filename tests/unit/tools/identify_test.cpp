@@ -249,6 +249,7 @@ TEST_F(Identify, BadInputIsRefusedByNameOrStated) {
   refused("some words\nand more\n1,2\n", "--rate 20", "bad.csv:2:");
   refused("t_s,a\n0,1\n0.05,2\n0.1,3\n0.15,2\n", "--rate 50", "disagrees");
   refused("t_s,a\n0,1\n0.05,2\n0.1,3\n99999,2\n", "", "span");
+  refused("frame,a\n0,1\n1.5,2\n3,1\n", "--rate 20", "frame: 1.5 is no number of a frame");
   refused("a,b\n1,1\n1,1\n1,1\n", "--rate 20", "no channel is left");
   EXPECT_EQ(identify("--series " + (folder_ / "none.csv").string() + " --rate 20").exit_code, 1);
   EXPECT_EQ(identify("--series x --rate -3").exit_code, 2);

@@ -38,6 +38,14 @@ double measured_rate_hz(const Column& t) {
   return cells / (t.back() - t.front());
 }
 
+void require_whole(const Column& frames, const std::string& path) {
+  const auto other = std::find_if(frames.begin(), frames.end(), [](double x) { return x != std::floor(x); });
+  if (other == frames.end()) return;
+  throw std::invalid_argument(
+      fmt::format("{}: frame: {:.12g} is no number of a frame; call the column t_s if it holds seconds, else delete it",
+                  path, *other));
+}
+
 // Assigns rows to cells of `step`; of several rows in one cell the first is used.
 void place(const Column& positions, double cells_per_unit, const std::string& path, SampleGrid& grid) {
   const double span = (positions.back() - positions.front()) * cells_per_unit;
@@ -112,7 +120,9 @@ SampleGrid sample_grid(const drivers::SeriesFile& file, double rate_hz, const st
     throw std::invalid_argument(path + ": no column t_s with times in seconds: say --rate-hz HZ");
   const int i_frame = file.column("frame");
   if (i_frame >= 0) {
-    place(file.columns[static_cast<std::size_t>(i_frame)], 1.0, path, grid);
+    const Column& frames = file.columns[static_cast<std::size_t>(i_frame)];
+    require_whole(frames, path);
+    place(frames, 1.0, path, grid);
     return grid;
   }
   grid.n_cells = file.columns.front().size();
