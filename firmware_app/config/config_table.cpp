@@ -34,7 +34,7 @@ std::vector<ConfigKey> build_keys() {
 
 bool changes_results(const ConfigKey& key) {
   return !key.path.starts_with("telemetry.") && !key.path.starts_with("report.") && !key.path.starts_with("record.") &&
-         !key.path.starts_with("state.") && !key.path.starts_with("rt.");
+         !key.path.starts_with("state.") && !key.path.starts_with("rt.") && key.path != "camera.decoder_mb";
 }
 
 }  // namespace

@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
 # Where people run it.
-#   tools/figures/platforms.sh [--quick] [--first-seed N] [FIGURE...]     FIGURE: 1_debian12 1_debian13 2 3 4 cost
-# (default: all)
+#   tools/figures/platforms.sh [--quick] [--first-seed N] [FIGURE...]     FIGURE: 1_debian12 1_debian13 2 3 4
+# 5_debian12 5_debian13 cost (default: all)
 # 1_debian12 and 1_debian13 follow README from nothing in a clean root of that system, an hour each.
 # 2 runs kernel drivers in a virtual machine (tests/device), some minutes without KVM.
 # 3 receives from GStreamer's RTSP server (Debian: gir1.2-gst-rtsp-server-1.0 python3-gi gstreamer1.0-libav
 # gstreamer1.0-plugins-good gstreamer1.0-plugins-ugly); SKIP where it is absent.
 # 4 speaks with an autopilot made of MAVLink's own C library, of which a checkout or an archive of its files lies in
 # build/beside/c_library_v2 (https://github.com/mavlink/c_library_v2); SKIP where it is absent.
+# 5_debian12 and 5_debian13 build the packages of this commit and of a former one (HOVERMODAL_FORMER=COMMIT) in clean roots, install,
+# upgrade, remove and purge them, half an hour each.
 # cost counts the instructions of a frame (Debian: valgrind), a quarter of an hour.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -16,8 +18,9 @@ cd "$(dirname "$0")/../.."
 . tools/figures/clean_root.sh
 . tools/figures/platforms_cost.sh
 . tools/figures/platforms_systems.sh
+. tools/figures/platforms_packages.sh
 take_arguments "tools/figures/platforms.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
-all_or_named 1_debian12 1_debian13 2 3 4 cost
+all_or_named 1_debian12 1_debian13 2 3 4 5_debian12 5_debian13 cost
 draws 1_debian12 1_debian13 3 4 cost
 out=build/figures/platforms
 mkdir -p "$out"

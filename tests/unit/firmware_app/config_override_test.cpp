@@ -80,7 +80,9 @@ TEST(Config, HashFollowsResultsOnly) {
     return parse_config(kGood, "a.yaml", overrides).hash;
   };
   const std::uint64_t plain = hash({});
-  EXPECT_EQ(hash({"telemetry.lcm_url=", "report.tracks=false", "rt.priority=5", "camera.rate_hz=29.970"}), plain);
+  EXPECT_EQ(hash({"telemetry.lcm_url=", "report.tracks=false", "rt.priority=5", "camera.rate_hz=29.970",
+                  "camera.decoder_mb=99"}),
+            plain);
   EXPECT_EQ(parse_config(std::string(kGood) + "# note\n", "b.yaml").hash, plain);
   EXPECT_NE(hash({"camera.rate_hz=29.98"}), plain);
   EXPECT_NE(hash({"regions.0.axis=v"}), plain);
