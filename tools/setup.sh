@@ -31,7 +31,7 @@ for wanted in "$@"; do
   case $wanted in
     --runtime) packages+=(spin g++-aarch64-linux-gnu qemu-user) ;;
     --lcm) packages+=(default-jdk liblcm-java libjchart2d-java libxmlgraphics-commons-java xvfb python3) ;;
-    --device) packages+=(qemu-system-x86 busybox-static cpio kmod udev v4l-utils libcamera-tools libcamera-ipa rt-tests xz-utils bc libelf1) ;;
+    --device) packages+=(qemu-system-x86 busybox-static cpio kmod udev v4l-utils libcamera-tools libcamera-ipa rt-tests xz-utils bc) ;;
     --ground) packages+=(chromium fonts-dejavu-core python3) ;;
     --package) packages+=(dpkg-dev file gzip lintian man-db python3 binutils) ;;
     --package-arm64) packages+=(g++-aarch64-linux-gnu qemu-user mmdebstrap) ;;

@@ -24,10 +24,12 @@ mkdir -p "$vm/debs" "$vm/kernel"
 if [ ! -s "$vm/kernel/lib/modules/$version/modules.dep" ] || [ ! -d "$vm/kernel/lib/modules/$version/kernel/drivers/block" ]; then
   ls "$vm/debs/${package}"_*.deb >/dev/null 2>&1 || (cd "$vm/debs" && apt-get download -q "$package" >/dev/null 2>&1)
   deb=$(ls -t "$vm/debs/${package}"_*.deb | head -n 1)
-  dpkg-deb --fsys-tarfile "$deb" | tar -x -C "$vm/kernel" --wildcards './boot/vmlinuz-*' './lib/modules/*/modules.*' \
-    './lib/modules/*/kernel/drivers/media/*' './lib/modules/*/kernel/drivers/usb/*' './lib/modules/*/kernel/drivers/virtio/*' \
-    './lib/modules/*/kernel/drivers/char/*' './lib/modules/*/kernel/drivers/block/virtio_blk.ko*' './lib/modules/*/kernel/drivers/gpu/drm/*.ko' './lib/modules/*/kernel/fs/*' \
-    './lib/modules/*/kernel/net/9p/*' './lib/modules/*/kernel/lib/*' './lib/modules/*/kernel/crypto/*' './lib/modules/*/kernel/sound/core/*'
+  # From Debian 13 on modules lie below /usr/lib, compressed.
+  dpkg-deb --fsys-tarfile "$deb" | tar -x -C "$vm/kernel" --transform 's,^\./usr/lib/,./lib/,' --wildcards './boot/vmlinuz-*' '*lib/modules/*/modules.*' \
+    '*lib/modules/*/kernel/drivers/media/*' '*lib/modules/*/kernel/drivers/usb/*' '*lib/modules/*/kernel/drivers/virtio/*' \
+    '*lib/modules/*/kernel/drivers/char/*' '*lib/modules/*/kernel/drivers/block/virtio_blk.ko*' '*lib/modules/*/kernel/drivers/gpu/drm/*.ko*' \
+    '*lib/modules/*/kernel/fs/*' '*lib/modules/*/kernel/net/9p/*' '*lib/modules/*/kernel/lib/*' '*lib/modules/*/kernel/crypto/*' \
+    '*lib/modules/*/kernel/sound/core/*'
   depmod -b "$vm/kernel" "$version" 2>/dev/null
 fi
 
@@ -38,8 +40,12 @@ cp /bin/busybox "$tree/bin/busybox"
 for module in virtio_pci 9pnet_virtio 9p overlay virtio_rng; do
   modprobe -d "$vm/kernel" -S "$version" --show-depends "$module" 2>/dev/null | awk '$1 == "insmod" { print $2 }'
 done | awk '!seen[$0]++' | while read -r file; do
-  cp "$file" "$tree/modules/"
-  basename "$file" >>"$tree/modules/order"
+  name=$(basename "$file" .xz)
+  case $file in
+    *.xz) xz -dc "$file" >"$tree/modules/$name" ;;
+    *) cp "$file" "$tree/modules/" ;;
+  esac
+  echo "$name" >>"$tree/modules/order"
 done
 install -m 755 tests/device/guest_init.sh "$tree/init"
 (cd "$tree" && find . | cpio -o -H newc --quiet | gzip -1) >"$initramfs"

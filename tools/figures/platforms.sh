@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Where people run it.
-#   tools/figures/platforms.sh [--quick] [--first-seed N] [FIGURE...]     FIGURE: 1_debian12 1_debian13 2 3 4
-# 5_debian12 5_debian13 cost (default: all)
+#   tools/figures/platforms.sh [--quick] [--first-seed N] [FIGURE...]     FIGURE: 1_debian12 1_debian13 2 2_debian13
+# 3 4 5_debian12 5_debian13 cost (default: all)
 # 1_debian12 and 1_debian13 follow README from nothing in a clean root of that system, an hour each.
-# 2 runs kernel drivers in a virtual machine (tests/device), some minutes without KVM.
+# 2 runs kernel drivers in a virtual machine (tests/device), some minutes without KVM; 2_debian13 all of cameras.sh in a clean Debian
+# 13, two hours.
 # 3 receives from GStreamer's RTSP server (Debian: gir1.2-gst-rtsp-server-1.0 python3-gi gstreamer1.0-libav
 # gstreamer1.0-plugins-good gstreamer1.0-plugins-ugly); SKIP where it is absent.
 # 4 speaks with an autopilot made of MAVLink's own C library, of which a checkout or an archive of its files lies in
@@ -16,27 +17,17 @@ cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
 . tools/figures/device.sh
 . tools/figures/clean_root.sh
+. tools/figures/platforms_cameras.sh
 . tools/figures/platforms_cost.sh
 . tools/figures/platforms_systems.sh
 . tools/figures/platforms_packages.sh
 take_arguments "tools/figures/platforms.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
-all_or_named 1_debian12 1_debian13 2 3 4 5_debian12 5_debian13 cost
+all_or_named 1_debian12 1_debian13 2 2_debian13 3 4 5_debian12 5_debian13 cost
 draws 1_debian12 1_debian13 3 4 cost
 out=build/figures/platforms
 mkdir -p "$out"
 tools/setup.sh
 quietly tools/build.sh hovermodal hovermodald capture_check
-
-# --- 2: cameras ------------------------------------------------------------------------------------------------------
-figure_2() {
-  set_up --device
-  quietly tools/build.sh capture_check camera_contract_device
-  quietly tests/device/kernel.sh standard
-  local variables=(FRAMES=20)
-  [ -z "$quick" ] || variables+=(SIZES=640x480)
-  outcomes 2 ": multi-planar 10 formats x 3 sizes exact" "${variables[@]}" -- multiplanar
-  line 2.debian13 MISS "not built: Debian 13 is not tried" "camera figures 1-6 on 13's kernel with libcamera 0.4" "cameras on Debian 13"
-}
 
 # --- 3: streams ------------------------------------------------------------------------------------------------------
 server=""
