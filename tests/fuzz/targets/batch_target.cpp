@@ -57,24 +57,14 @@ void run(Bytes bytes) {
   fs::create_directories(flights);
   write_flights(bytes, flights);
   const tools::Inventory found = tools::find_flights(flights, out, "");
-  std::vector<tools::FlightOrder> orders;
-  for (const tools::Flight& flight : found.flights) {
-    // What memory and time grow with.
-    orders.push_back(
-        {flight,
-         {"spectrum.segment=32", "identification.block_rows=4", "camera.driver=file", "camera.source=none"},
-         (fs::path(out) / "flights" / flight.name).string()});
-  }
+  // What memory and time grow with.
+  const std::vector<std::string> small = {"spectrum.segment=32", "identification.block_rows=4", "camera.driver=file",
+                                          "camera.source=none"};
+  const std::vector<tools::FlightOrder> orders = tools::orders_of(found, small, out);
   std::vector<std::unique_ptr<tools::Workers>> workers;
   workers.push_back(std::make_unique<HereAtOnce>());
   const std::vector<std::string> failures = tools::work_on_all(orders, workers, true);
-  std::vector<tools::FlightResult> results;
-  std::vector<std::string> folders;
-  for (std::size_t f = 0; f < orders.size(); ++f) {
-    results.push_back({orders[f].flight.name, orders[f].flight.kind, failures[f], "", 0, {}});
-    folders.push_back(orders[f].into);
-  }
-  const tools::BatchResult result = tools::combine_flights(std::move(results), folders);
+  const tools::BatchResult result = tools::combine_flights(orders, failures);
   require(nlohmann::json::accept(tools::batch_json(result)), "batch.json is JSON");
   require(!tools::batch_text(result).empty(), "a batch has its text");
   (void)tools::batch_svg(result);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "drivers/host/command_line.h"
 #include "drivers/storage/json.h"
@@ -48,14 +49,6 @@ int jobs_of(const Options& options) {
   return options.mpi ? 1 : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
-std::vector<FlightOrder> orders_of(const Inventory& found, const Options& options) {
-  std::vector<FlightOrder> orders;
-  for (const Flight& flight : found.flights) {
-    orders.push_back({flight, options.overrides, (fs::path(options.out) / "flights" / flight.name).string()});
-  }
-  return orders;
-}
-
 // batch.json, batch.txt, batch.svg, and the report of each view of several flights.
 void write_result(const BatchResult& result, const fs::path& out) {
   app::keep_earlier(out.string(), "batch", {"batch.json", "batch.txt", "batch.svg"});
@@ -80,17 +73,11 @@ std::string without_folder(std::string text, const std::string& folder) {
   return text;
 }
 
-void combine(const std::vector<FlightOrder>& orders, const std::vector<std::string>& failures, const Options& options) {
+void combine(const std::vector<FlightOrder>& orders, std::vector<std::string> failures, const Options& options) {
   const std::string& out = options.out;
-  std::vector<FlightResult> flights;
-  std::vector<std::string> folders;
-  for (std::size_t f = 0; f < orders.size(); ++f) {
-    flights.push_back(
-        {orders[f].flight.name, orders[f].flight.kind, without_folder(failures[f], options.folder), "", 0, {}});
-    folders.push_back(orders[f].into);
-  }
-  const BatchResult result = combine_flights(std::move(flights), folders);
-  for (const std::string& folder : folders) fs::remove(fs::path(folder) / kSumsFile);
+  for (std::string& failure : failures) failure = without_folder(std::move(failure), options.folder);
+  const BatchResult result = combine_flights(orders, failures);
+  for (const FlightOrder& order : orders) fs::remove(fs::path(order.into) / kSumsFile);
   write_result(result, out);
   options.answer.document(batch_json(result));
   options.answer.text("{}results: {}\n", batch_text(result), out);
@@ -116,7 +103,7 @@ Worked work(const Options& options, std::vector<std::unique_ptr<Workers>> worker
   }
   if (found.flights.empty())
     throw std::invalid_argument(options.folder + ": no flight in it; hovermodal batch --help explains what one is");
-  Worked worked{orders_of(found, options), {}};
+  Worked worked{orders_of(found, options.overrides, options.out), {}};
   workers.push_back(std::make_unique<LocalWorkers>(this_program(), jobs_of(options)));
   worked.failures = work_on_all(worked.orders, workers, options.answer.quiet);
   return worked;

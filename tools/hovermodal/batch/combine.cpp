@@ -157,7 +157,13 @@ class Combination {
 
 }  // namespace
 
-BatchResult combine_flights(std::vector<FlightResult> flights, const std::vector<std::string>& folders) {
+BatchResult combine_flights(const std::vector<FlightOrder>& orders, const std::vector<std::string>& failures) {
+  std::vector<FlightResult> flights;
+  std::vector<std::string> folders;
+  for (std::size_t f = 0; f < orders.size(); ++f) {
+    flights.push_back({orders[f].flight.name, orders[f].flight.kind, failures[f], "", 0, {}});
+    folders.push_back(orders[f].into);
+  }
   return Combination(std::move(flights), folders).combine();
 }
 

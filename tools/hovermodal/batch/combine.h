@@ -7,6 +7,7 @@
 
 #include "core/identification/combine_estimates.h"
 #include "firmware_app/report/modal_json.h"
+#include "tools/hovermodal/batch/flight_order.h"
 #include "tools/hovermodal/batch/inventory.h"
 
 namespace tools {
@@ -44,11 +45,12 @@ struct BatchResult {
   std::vector<BatchMode> unsettled;  // found in single flights, but not in the sums of their view
 };
 
-// Reads the results of the flights from `folders`, in the order of `flights`, one at a time. Flights of one view are
-// added and identified together; estimates of different views are combined by inverse variance. A flight whose results
-// cannot be read, or whose samples equal those of an earlier one, fails. A flight that contradicts the others
-// (contradicting_flights.h) is left out. Depends only on the flights' results and order.
-[[nodiscard]] BatchResult combine_flights(std::vector<FlightResult> flights, const std::vector<std::string>& folders);
+// Reads the results of the flights from their folders, one at a time and in their order; failures: of each, "" = none.
+// Flights of one view are added and identified together; estimates of different views are combined by inverse variance.
+// A flight whose results cannot be read, or whose samples equal those of an earlier one, fails. A flight that
+// contradicts the others (contradicting_flights.h) is left out. Depends only on the flights' results and order.
+[[nodiscard]] BatchResult combine_flights(const std::vector<FlightOrder>& orders,
+                                          const std::vector<std::string>& failures);
 
 [[nodiscard]] std::string batch_json(const BatchResult& result);
 [[nodiscard]] std::string batch_text(const BatchResult& result);

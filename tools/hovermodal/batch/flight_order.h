@@ -14,6 +14,10 @@ struct FlightOrder {
   std::string into;                    // folder of its results
 };
 
+// Orders for all flights found, in their order; out: folder of the batch.
+[[nodiscard]] std::vector<FlightOrder> orders_of(const Inventory& found, const std::vector<std::string>& overrides,
+                                                 const std::string& out);
+
 // Arguments, without the program's name, of the process of this program that analyses one flight; also sent between
 // machines.
 [[nodiscard]] std::vector<std::string> arguments_of(const FlightOrder& order);
