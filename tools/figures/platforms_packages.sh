@@ -15,24 +15,25 @@ installed() {
     PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive bash -c "$2"' installed "$place" "$1"
 }
 packages_in() { find "$root$1/build/package-amd64/packages" -name '*.deb' 2>/dev/null; } # PATH OF A CLONE
-set_back() { # FOLDER: the packages of a former commit come before this one's, whatever their version
-  local deb
-  for deb in $(packages_in /former); do
+set_back() { # FOLDER PACKAGE...: into it, with a version that comes before this one's
+  local deb into=$1
+  shift
+  for deb in "$@"; do
     rm -rf "$out/deb"
     dpkg-deb -R "$deb" "$out/deb"
     sed -i -E 's/^Version: (.*)/Version: \1~former/; s/\(= ([^)]*)\)/(= \1~former)/' "$out/deb/DEBIAN/control"
-    quietly dpkg-deb --root-owner-group -b "$out/deb" "$1/$(basename "$deb")"
+    quietly dpkg-deb --root-owner-group -b "$out/deb" "$into/$(basename "$deb")"
   done
   rm -rf "$out/deb"
 }
 # A flight of the drawn scene that is cut off: its state stays. Prints what the service says of a state that it found.
 fly_and_fall() {
-  installed "cd /var/lib/hovermodal && { timeout -s KILL 20 setpriv --reuid hovermodal --regid hovermodal --clear-groups hovermodald --config $package_config 2>&1 || true; }" |
+  installed "cd /var/lib/hovermodal && { timeout -s KILL 20 setpriv --reuid hovermodal --regid hovermodal --clear-groups hovermodald --config $package_config 2>&1 || true; }" 2>/dev/null |
     grep -oE 'goes on with the state|the state in [^ ]* is not taken: [^;]*' | head -n 1 || true
 }
 
 packages_of_system() { # VERSION SUITE
-  local name=5.debian$1 place=$PWD/$out/installed$1 log=$out/packages$1.log status=0
+  local name=5.debian$1 place=$PWD/$out/installed$1 log=$out/packages$1.log status=0 debs
   root=$PWD/$out/packages$1
   if ! can_make_root; then
     line "$name" SKIP "not root, or no mmdebstrap" "$packages_bar" "as root: apt-get install -y mmdebstrap"
@@ -50,19 +51,29 @@ packages_of_system() { # VERSION SUITE
   quietly git -C "$root/former" checkout "$before"
   inside "cd /former && tools/package.sh" >>"$log" 2>&1 </dev/null || true # its lintian is not judged
 
-  rm -rf --one-file-system "$place"
-  quietly mmdebstrap --variant=apt --components=main "$2" "$place"
-  cp -L /etc/resolv.conf "$place/etc/resolv.conf"
-  cp /etc/apt/apt.conf.d/*proxy* "$place/etc/apt/apt.conf.d/" 2>/dev/null || true
-  mkdir -p "$place/dev/shm" "$place/former" "$place/present"
-  set_back "$place/former"
+  clean_system "$2"
+  mapfile -t debs < <(packages_in /former)
+  set_back "$place/former" "${debs[@]}"
   packages_in /hovermodal | xargs -r -I{} cp {} "$place/present/"
   leave
   rm -rf --one-file-system "$root"
+  use_packages "$name" "$before" "$1"
+  rm -rf --one-file-system "$place"
+}
 
-  status=0
+clean_system() { # SUITE
+  rm -rf --one-file-system "$place"
+  quietly mmdebstrap --variant=apt --components=main "$1" "$place"
+  cp -L /etc/resolv.conf "$place/etc/resolv.conf"
+  cp /etc/apt/apt.conf.d/*proxy* "$place/etc/apt/apt.conf.d/" 2>/dev/null || true
+  mkdir -p "$place/dev/shm" "$place/former" "$place/present"
+}
+
+# Installs, upgrades, removes and purges what lies in $place/former and $place/present.
+use_packages() { # NAME FORMER-COMMIT VERSION
+  local name=$1 before=$2 status=0
   installed "apt-get update -qq && apt-get install -y -qq --no-install-recommends /former/*.deb systemd" >>"$log" 2>&1 || status=$?
-  judge "$name.installed" "$(versions)" "$packages_bar" "apt-get install of the former packages ($before) in a clean Debian $1" \
+  judge "$name.installed" "$(versions)" "$packages_bar" "apt-get install of the former packages ($before) in a clean Debian $3" \
     "$status == 0 && \"$(versions)\" ~ /hovermodal [^ ]*former.*hovermodal-tools [^ ]*former/"
 
   # The user's own lines; no camera, no privileges of real time and no radio are here.
@@ -86,7 +97,6 @@ packages_of_system() { # VERSION SUITE
   installed "apt-get purge -y -qq hovermodal hovermodal-tools" >>"$log" 2>&1 || status=$?
   judge "$name.purged" "configuration and state: $(present "${package_config#/}" "${package_state#/}"); a report: $(present var/lib/hovermodal/report/modal.json)" "$packages_bar" \
     "apt-get purge: both go, reports stay" "$status == 0 && \"$(present "${package_config#/}" "${package_state#/}")\" == \"none\" && \"$(present var/lib/hovermodal/report/modal.json)\" == \"all\""
-  rm -rf --one-file-system "$place"
 }
 versions() { installed "dpkg-query -W -f '\${Package} \${Version} \${Status}; ' hovermodal hovermodal-tools" 2>/dev/null || echo "not installed"; }
 present() { # PATH...: of these, in the clean Debian: none, some or all
