@@ -12,9 +12,10 @@ module=$vm/kernel/lib/modules/$version/extra/vimc.ko
 common=linux-headers-${version%-amd64}-common
 [[ $version != *-rt-amd64 ]] || common=linux-headers-${version%-rt-amd64}-common-rt
 series=$(echo "$version" | cut -d. -f1,2)
+kbuild=$(apt-cache depends "linux-headers-$version" | sed -n 's/.*Depends: \(linux-kbuild-[^ ]*\)/\1/p' | head -n 1)
 headers=$vm/headers
 mkdir -p "$headers" "$vm/debs"
-for package in "linux-headers-$version" "$common" "linux-kbuild-$series" "linux-source-$series"; do
+for package in "linux-headers-$version" "$common" "$kbuild" "linux-source-$series"; do
   ls "$vm/debs/${package}"_*.deb >/dev/null 2>&1 || (cd "$vm/debs" && apt-get download -q "$package" >/dev/null 2>&1)
   dpkg-deb -x "$(ls -t "$vm/debs/${package}"_*.deb | head -n 1)" "$headers"
 done
@@ -24,7 +25,7 @@ source=$vm/vimc-$version
 rm -rf "$source" && mkdir -p "$source"
 tar -C "$source" -xf "$headers/usr/src/linux-source-$series.tar.xz" --strip-components=5 \
   "linux-source-$series/drivers/media/test-drivers/vimc"
-make -s -C "$tree" M="$source" CONFIG_VIDEO_VIMC=m modules >"$vm/vimc.log" 2>&1 || { tail -n 20 "$vm/vimc.log" >&2 && exit 1; }
+make -s -C "$tree" M="$source" CONFIG_VIDEO_VIMC=m CONFIG_DEBUG_INFO_BTF_MODULES= modules >"$vm/vimc.log" 2>&1 || { tail -n 20 "$vm/vimc.log" >&2 && exit 1; }
 mkdir -p "$(dirname "$module")"
 cp "$source/vimc.ko" "$module"
 depmod -b "$vm/kernel" "$version" 2>/dev/null

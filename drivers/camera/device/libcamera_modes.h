@@ -14,8 +14,8 @@ struct LibcameraMode {
   libcamera::Size size;
 };
 
-// The format that is cheapest to read among those offered, in that size; null size: the largest up to 1920 x 1080.
-// Empty: no format that can be read here.
+// The format that is cheapest to read among those offered, of several the one that libcamera has chosen in `stream`, in
+// that size; null size: the largest up to 1920 x 1080. Empty: no format that can be read here.
 [[nodiscard]] std::optional<LibcameraMode> choose_mode(const libcamera::StreamConfiguration& stream,
                                                        libcamera::Size wanted);
 

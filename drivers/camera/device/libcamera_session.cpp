@@ -59,11 +59,11 @@ class LibcameraSession::Impl {
   void halt() noexcept {
     if (!is_running_) return;
     is_running_ = false;
-    const std::vector<int> gone = open_nodes_that_are_gone();
-    if (is_gone() || gone.empty()) {
+    const bool reported = is_gone(), shown = !open_nodes_that_are_gone().empty();
+    if (reported == shown) {
       camera_->stop();
-    } else {
-      abandon(gone);
+    } else {  // only one of libcamera and the nodes says that it was unplugged
+      abandon();
     }
     while (reader_.front() != nullptr) reader_.pop();
   }
@@ -127,11 +127,12 @@ class LibcameraSession::Impl {
     unsigned offset = 0;  // of the image in the buffer
   };
 
-  // libcamera 0.0.3 detects only the removal of USB cameras. If another kind of camera is gone, libcamera terminates
-  // the process when that camera is stopped, and again when it comes back while its manager runs. So the manager is
-  // ended here, and the camera's objects are neither stopped nor destroyed: some memory and descriptors are lost each
-  // time.
-  void abandon(const std::vector<int>& nodes) {
+  // libcamera detects only the removal of USB cameras (0.0.3, 0.4). If another kind of camera is gone, libcamera
+  // terminates the process when that camera is stopped, and again when it comes back while its manager runs. So the
+  // manager is ended here, and the camera's objects are neither stopped nor destroyed: some memory and descriptors are
+  // lost each time. All nodes are let go: those that are not gone yet will be, and a device that was not unplugged
+  // would stream for ever.
+  void abandon() {
     camera_->requestCompleted.disconnect(this);
     camera_->disconnected.disconnect(this);
     unmap();
@@ -145,7 +146,7 @@ class LibcameraSession::Impl {
     static auto* const for_ever = new std::vector<Abandoned>;
     for_ever->push_back({std::move(camera_), std::move(camera_config_), std::move(allocator_), std::move(requests_)});
     requests_.clear();
-    let_go(nodes);
+    let_go(open_camera_nodes());
   }
   void unmap() noexcept {
     for (const Mapping& mapped : mappings_) munmap(mapped.bytes, mapped.n_bytes);

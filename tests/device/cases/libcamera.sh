@@ -5,7 +5,7 @@ vimc
 listed=$(LIBCAMERA_LOG_LEVELS='*:FATAL' cam -l 2>/dev/null | grep -c vimc)
 sensor=(--driver libcamera --source "Sensor B")
 capture odd "${sensor[@]}" --size 640x480 --frames 5 --limit 60
-judge "vimc, 640 x 480 asked for" "$(fact odd error)" "told what becomes of it (a multiple of 3)" "\"$(fact odd error)\" ~ /636x480/"
+judge "vimc, 640 x 480 asked for" "$(fact odd error)$(fact odd camera), $(fact odd frames) frames" "told what becomes of it (a multiple of 3), or delivered (libcamera 0.4)" "\"$(fact odd error)\" ~ /636x480/ || (\"$(fact odd camera)\" ~ / 640 x 480$/ && $(fact odd frames)+0 == 5)"
 capture vimc "${sensor[@]}" --size 636x480 --frames 30 --limit 60
 judge "vimc, 636 x 480" "$listed cameras listed; $(fact vimc frames) frames, $(fact vimc missing) missing, $(fact vimc rate_hz) Hz; a step is off by at most $(fact vimc worst_step_frames) frames; no clock: $(fact vimc no_clock)" "30 frames, stamps on a known clock" \
   "$(fact vimc frames) == 30 && $(fact vimc no_clock) == 0 && $listed > 0"
@@ -20,7 +20,7 @@ sleep 2
 echo vimc.0 >/sys/bus/platform/drivers/vimc/unbind
 sleep 2
 echo vimc.0 >/sys/bus/platform/drivers/vimc/bind
-sleep 8
+sleep 30
 pkill -INT capture_check
 wait $capture_pid
 judge "vimc unbound and bound while it streams" "$(fact back frames) frames, lost $(fact back interruptions) times, lost now: $(fact back lost)" "goes on by itself" \
