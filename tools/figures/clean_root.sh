@@ -6,6 +6,11 @@ with=${cache:+, with a compiler cache}
 
 can_make_root() { [ "$(id -u)" -eq 0 ] && command -v mmdebstrap >/dev/null; }
 
+# A SKIP for that line, and false, where no root can be made.
+can_show() { # LINE BAR
+  can_make_root || { line "$1" SKIP "not root, or no mmdebstrap" "$2" "as root: apt-get install -y mmdebstrap" && return 1; }
+}
+
 # Uses this machine's network for apt-get; the programs use only the loopback device.
 inside() { chroot "$root" env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 ${cache:+CCACHE_DIR=/ccache} \
   bash -c "cd /hovermodal && export PATH=\$PWD/build/release/bin:\$PATH && $1"; }
