@@ -82,9 +82,9 @@ use_packages() { # NAME FORMER-COMMIT VERSION
   status=0
   installed "apt-get install -y -qq --no-install-recommends /present/*.deb" >>"$log" 2>&1 || status=$?
   third=$(fly_and_fall)
-  judge "$name.upgraded" "$(versions); the configuration is $([ "$(sha256sum <"$place$package_config")" = "$own" ] && echo "as the user left it" || echo changed); a second flight before: \"$second\", the first after: \"$third\"" \
+  judge "$name.upgraded" "$(versions); the configuration is $([ "$(sha256sum <"$place$package_config")" = "$own" ] && echo "as the user left it" || echo changed); a second flight before: \"$second\", the first after: \"$third\"; unit and rules: $(present usr/lib/systemd/system/hovermodald.service usr/lib/udev/rules.d/60-hovermodal.rules)" \
     "$packages_bar" "apt-get install of this version over the former" \
-    "$status == 0 && \"$(versions)\" !~ /former/ && \"$(sha256sum <"$place$package_config")\" == \"$own\" && \"$first\" == \"\" && \"$second\" ~ /goes on/ && \"$third\" ~ /goes on/"
+    "$status == 0 && \"$(versions)\" !~ /former/ && \"$(sha256sum <"$place$package_config")\" == \"$own\" && \"$first\" == \"\" && \"$second\" ~ /goes on/ && \"$third\" ~ /goes on/ && \"$(present usr/lib/systemd/system/hovermodald.service usr/lib/udev/rules.d/60-hovermodal.rules)\" == \"all\""
 
   status=0
   installed "apt-get remove -y -qq hovermodal hovermodal-tools" >>"$log" 2>&1 || status=$?
