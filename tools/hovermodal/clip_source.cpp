@@ -34,7 +34,7 @@ auto made(Make make) {
 }  // namespace
 
 void add_decoder_option(drivers::Command& command, int& decoder_mb) {
-  command.option("--decoder-mb", decoder_mb, "Memory for decoding: more for 8K, and for 5K of 10 bits")
+  command.option("--decoder-mb", decoder_mb, "Memory for decoding, in MB; 8K, and 5K of 10 bits, take more")
       .range(drivers::kLeastDecoderMb, drivers::kMostDecoderMb)
       .show_default();
 }
