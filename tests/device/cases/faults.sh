@@ -2,7 +2,7 @@
 # vivid misbehaves in each way it can; the driver must go on, and say what it lost.
 . tests/device/cases/lib.sh
 vivid
-usual=(--source /dev/video0 --size 640x480 --format GREY --limit 60)
+usual=(--source /dev/video0 --size 640x480 --format GREY --rate 25 --limit 60)
 n=${FRAMES:-60}
 
 # meanwhile NAME COMMAND...: COMMAND while the capture NAME runs
