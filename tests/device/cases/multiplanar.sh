@@ -12,7 +12,7 @@ for size in ${SIZES:-640x480 1280x720 1920x1080}; do
     v4l2-ctl -d /dev/video0 --set-fmt-video="width=${size%x*},height=${size#*x},pixelformat=$format" --stream-mmap --stream-count=1 \
       --stream-to=/out/still.raw >/dev/null 2>&1
     head -c $((${size%x*} * ${size#*x})) /out/still.raw >/out/still.gray # luma comes first, whatever the planes
-    capture "$format" --source /dev/video0 --size "$size" --format "$format" --rate 25 --frames "$n" --limit 60 --sent /out/still.gray
+    capture "$format" --source /dev/video0 --size "$size" --format "$format" --rate "$(vivid_rate "$size")" --frames "$n" --limit 60 --sent /out/still.gray
     judge "vivid multi-planar $format $size" "$(fact "$format" frames) frames + $(fact "$format" missing) missing = $(fact "$format" span) numbers, $(fact "$format" span_by_time) by the clock; luma unchanged in $(fact "$format" unchanged)$(fact "$format" error)" \
       "exactly, $n frames" "$(fact "$format" frames)+0 == $n && $(fact "$format" frames) + $(fact "$format" missing) == $(fact "$format" span) && $(fact "$format" span_by_time) == $(fact "$format" span) && $(fact "$format" unchanged) == $n"
   done
