@@ -9,6 +9,7 @@
 #include "drivers/camera/device_missing.h"
 #include "drivers/camera/recording/file_camera.h"
 #include "tests/support/camera_drain.h"
+#include "tests/support/refused_clip.h"
 #include "tests/support/test_clip.h"
 
 namespace drivers {
@@ -18,6 +19,7 @@ using test_support::clip_image;
 using test_support::drain;
 using test_support::Drained;
 using test_support::fresh_folder;
+using test_support::refusal;
 using test_support::write_clip;
 using test_support::write_image;
 using test_support::write_image_folder;
@@ -28,15 +30,6 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 // The camera's error for `source`, "accepted" if there is none.
-std::string refusal(const std::filesystem::path& source, double rate_hz = 0.0) {
-  try {
-    FileCamera camera({.source = source.string(), .rate_hz = rate_hz});
-  } catch (const std::exception& thrown) {
-    return thrown.what();
-  }
-  return "accepted";
-}
-
 Drained run_through(const std::filesystem::path& source, double rate_hz = 0.0) {
   FileCamera camera({.source = source.string(), .rate_hz = rate_hz});
   camera.start();
@@ -62,7 +55,7 @@ TEST(FileCameraBadInput, UnreadableFileAndFolder) {
     ASSERT_EQ(seteuid(65534), 0);
   }  // root reads everything
   const std::string of_file = refusal(folder / "clip.avi");
-  const std::string of_folder = refusal(folder / "images", 10.0);
+  const std::string of_folder = refusal(folder / "images", {.rate_hz = 10.0});
   if (is_root) {
     ASSERT_EQ(seteuid(0), 0);
   }
@@ -133,8 +126,8 @@ TEST(FileCameraBadInput, ImagesTooSmallToTrack) {
   write_image_folder(folder / "dot", {.n_frames = 2, .width_px = 1, .height_px = 1});
   write_image_folder(folder / "strip", {.n_frames = 2, .width_px = 640, .height_px = 31});
   write_clip(folder / "tiny.avi", {.n_frames = 2, .width_px = 16, .height_px = 16});
-  EXPECT_THAT(refusal(folder / "dot", 10.0), AllOf(HasSubstr("1 x 1"), HasSubstr("32 x 32")));
-  EXPECT_THAT(refusal(folder / "strip", 10.0), HasSubstr("640 x 31"));
+  EXPECT_THAT(refusal(folder / "dot", {.rate_hz = 10.0}), AllOf(HasSubstr("1 x 1"), HasSubstr("32 x 32")));
+  EXPECT_THAT(refusal(folder / "strip", {.rate_hz = 10.0}), HasSubstr("640 x 31"));
   EXPECT_THAT(refusal(folder / "tiny.avi"), AllOf(HasSubstr("tiny.avi"), HasSubstr("16 x 16")));
 }
 
@@ -143,7 +136,7 @@ TEST(FileCameraBadInput, ImagesOf16BitFloatOrWithAlpha) {
   const auto make = [&](const char* name, int type, const char* extension) {
     std::filesystem::create_directories(folder / name);
     write_image(folder / name / (std::string("frame_0") + extension), cv::Mat(48, 64, type, cv::Scalar::all(100)));
-    return refusal(folder / name, 10.0);
+    return refusal(folder / name, {.rate_hz = 10.0});
   };
   EXPECT_THAT(make("deep", CV_16UC1, ".png"), AllOf(HasSubstr("frame_0.png"), HasSubstr("16 bits")));
   EXPECT_THAT(make("deep_colour", CV_16UC3, ".png"), HasSubstr("16 bits"));
@@ -169,18 +162,18 @@ TEST(FileCameraBadInput, VideoOf16BitOrWithAlpha) {
 TEST(FileCameraBadInput, FolderWithoutUsableImages) {
   const auto folder = fresh_folder();
   write_text(folder / "readme.txt", "nothing here");
-  EXPECT_THAT(refusal(folder, 10.0), HasSubstr("no image"));
+  EXPECT_THAT(refusal(folder, {.rate_hz = 10.0}), HasSubstr("no image"));
   write_text(folder / "frame_0.png", "");
-  EXPECT_THAT(refusal(folder, 10.0), AllOf(HasSubstr("frame_0.png"), HasSubstr("0 bytes")));
+  EXPECT_THAT(refusal(folder, {.rate_hz = 10.0}), AllOf(HasSubstr("frame_0.png"), HasSubstr("0 bytes")));
   write_text(folder / "frame_0.png", "not a picture");
-  EXPECT_THAT(refusal(folder, 10.0), AllOf(HasSubstr("frame_0.png"), HasSubstr("cannot be decoded")));
+  EXPECT_THAT(refusal(folder, {.rate_hz = 10.0}), AllOf(HasSubstr("frame_0.png"), HasSubstr("cannot be decoded")));
 }
 
 TEST(FileCameraBadInput, FolderOfMixedSizes) {
   const auto folder = fresh_folder();
   write_image_folder(folder / "ends", {.n_frames = 4});
   write_image(folder / "ends" / "frame_9.png", clip_image(9, 80, 48));
-  EXPECT_THAT(refusal(folder / "ends", 10.0), AllOf(HasSubstr("frame_9.png"), HasSubstr("80 x 48")));
+  EXPECT_THAT(refusal(folder / "ends", {.rate_hz = 10.0}), AllOf(HasSubstr("frame_9.png"), HasSubstr("80 x 48")));
 
   write_image_folder(folder / "middle", {.n_frames = 6});
   write_image(folder / "middle" / "frame_3.png", clip_image(3, 48, 64));  // as many pixels
@@ -279,7 +272,7 @@ TEST(FileCameraBadInput, TimeStampsThatGiveNoRate) {
   write_clip(folder / "clip.avi", {.n_frames = 1});
   write_timestamps(folder / "clip.timestamps.csv", {0.5});
   EXPECT_THAT(refusal(folder / "clip.avi"), HasSubstr("camera.rate_hz"));
-  EXPECT_EQ(refusal(folder / "clip.avi", 25.0), "accepted");
+  EXPECT_EQ(refusal(folder / "clip.avi", {.rate_hz = 25.0}), "accepted");
 }
 
 TEST(FileCameraBadInput, BlackAndSaturatedImagesAreLegalHere) {

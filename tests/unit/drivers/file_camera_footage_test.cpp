@@ -7,6 +7,7 @@
 #include "drivers/camera/recording/file_camera.h"
 #include "tests/support/camera_drain.h"
 #include "tests/support/ffmpeg_clip.h"
+#include "tests/support/refused_clip.h"
 #include "tests/support/test_clip.h"
 
 namespace drivers {
@@ -19,6 +20,7 @@ using test_support::fresh_folder;
 using test_support::kH264;
 using test_support::noisy_film;
 using test_support::quoted;
+using test_support::refusal;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -47,15 +49,6 @@ void expect_times_on_the_grid(const Played& played) {
     EXPECT_NEAR(static_cast<double>(frame.t_start_ns) * 1e-9 * played.info.rate_hz, static_cast<double>(frame.sequence),
                 1e-3);
   }
-}
-
-std::string refusal(const std::filesystem::path& clip) {
-  try {
-    FileCamera camera({.source = clip.string()});
-  } catch (const std::exception& thrown) {
-    return thrown.what();
-  }
-  return "accepted";
 }
 
 TEST(FileCameraFootage, DroppedFramesLeaveHolesInTheGrid) {

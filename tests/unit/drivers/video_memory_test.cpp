@@ -6,6 +6,7 @@
 #include "drivers/camera/recording/video_decoder.h"
 #include "tests/support/camera_drain.h"
 #include "tests/support/ffmpeg_clip.h"
+#include "tests/support/refused_clip.h"
 #include "tests/support/test_clip.h"
 
 namespace drivers {
@@ -16,17 +17,9 @@ using test_support::ffmpeg;
 using test_support::fresh_folder;
 using test_support::noisy_film;
 using test_support::quoted;
+using test_support::refusal;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-std::string refusal(const std::filesystem::path& clip, int decoder_mb) {
-  try {
-    FileCamera camera({.source = clip.string(), .decoder_mb = decoder_mb});
-  } catch (const std::exception& thrown) {
-    return thrown.what();
-  }
-  return "accepted";
-}
 
 std::vector<std::vector<std::uint8_t>> pictures(const std::filesystem::path& clip, int most_mb) {
   std::vector<std::vector<std::uint8_t>> out;
@@ -49,15 +42,15 @@ TEST(VideoMemory, RefusesReferencePicturesThatDoNotFit) {
   const auto clip = fresh_folder() / "references.mp4";
   ffmpeg(fmt::format("{} -c:v libx264 -preset ultrafast -x264-params ref=16:bframes=0 {}",
                      noisy_film(30, 25.0, "1280x720"), quoted(clip)));
-  EXPECT_THAT(refusal(clip, 20), AllOf(HasSubstr("references.mp4"), HasSubstr("1280 x 720"),
-                                       HasSubstr("camera.decoder_mb: 20"), HasSubstr("ffmpeg -i IN")));
-  EXPECT_EQ(refusal(clip, 36), "accepted");
+  EXPECT_THAT(refusal(clip, {.decoder_mb = 20}), AllOf(HasSubstr("references.mp4"), HasSubstr("1280 x 720"),
+                                                       HasSubstr("camera.decoder_mb: 20"), HasSubstr("ffmpeg -i IN")));
+  EXPECT_EQ(refusal(clip, {.decoder_mb = 36}), "accepted");
 }
 
 TEST(VideoMemory, RefusesAPictureThatDoesNotFit) {
   const auto clip = fresh_folder() / "large.mp4";
   ffmpeg(fmt::format("{} -c:v libx264 -preset ultrafast {}", noisy_film(3, 25.0, "2560x2048"), quoted(clip)));
-  EXPECT_THAT(refusal(clip, 20), AllOf(HasSubstr("2560 x 2048"), HasSubstr("23 MB or more")));
+  EXPECT_THAT(refusal(clip, {.decoder_mb = 20}), AllOf(HasSubstr("2560 x 2048"), HasSubstr("23 MB or more")));
 }
 
 TEST(VideoMemory, RefusesReferencePicturesOfHevcThatDoNotFit) {
@@ -65,8 +58,9 @@ TEST(VideoMemory, RefusesReferencePicturesOfHevcThatDoNotFit) {
     const auto clip = fresh_folder() / name;
     ffmpeg(fmt::format("{} -c:v libx265 -preset ultrafast -x265-params ref=8:bframes=0:log-level=none {}",
                        noisy_film(12, 25.0, "1600x912"), quoted(clip)));
-    EXPECT_THAT(refusal(clip, 20), AllOf(HasSubstr(name), HasSubstr("1600 x 9"), HasSubstr("camera.decoder_mb: 20")));
-    EXPECT_EQ(refusal(clip, 60), "accepted");
+    EXPECT_THAT(refusal(clip, {.decoder_mb = 20}),
+                AllOf(HasSubstr(name), HasSubstr("1600 x 9"), HasSubstr("camera.decoder_mb: 20")));
+    EXPECT_EQ(refusal(clip, {.decoder_mb = 60}), "accepted");
   }
 }
 
