@@ -4,7 +4,7 @@
 #   tools/fuzz.sh [TARGET...] [--seconds S] [--seed N] [--jobs N] [--coverage] [--keep]
 #     TARGET       config calibration timestamps clip_telemetry series matrix_market lcm datagrams mavlink checkpoint http record (default: all of
 #                  these); or replay (the whole way from a record to its modes), scene (of the simulator; the structures of
-#                  closeloop), identify and batch (these commands as a whole), for which all of core is built
+#                  closeloop), identify and batch (these commands as a whole)
 #     --seconds    of each target; default 60
 #     --jobs       targets at a time; default 1
 #     --seed       of libFuzzer's draws; default: another one each time

@@ -10,17 +10,12 @@
 #include <string_view>
 
 #include "drivers/exchange/series_file.h"
+#include "drivers/storage/ascii.h"
 #include "drivers/storage/limits.h"
 #include "drivers/storage/text_file.h"
 
 namespace drivers {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 std::string stated(std::string_view text) {
   text = trimmed(text);

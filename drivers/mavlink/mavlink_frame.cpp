@@ -68,7 +68,8 @@ bool MavlinkParser::take(MavlinkFrame& frame) noexcept {
       continue;
     }
     if (n_ < kHeader) return false;
-    const std::uint32_t id = buffer_[7] | buffer_[8] << 8U | buffer_[9] << 16U;
+    const auto byte = [&](std::size_t at) { return static_cast<std::uint32_t>(buffer_[at]); };
+    const std::uint32_t id = byte(7) | byte(8) << 8U | byte(9) << 16U;
     const MavlinkLayout* layout = layout_of(id);
     if (layout == nullptr) {
       no_frame();

@@ -21,6 +21,7 @@ T field(const MavlinkFrame& frame, std::size_t at) noexcept {
   std::memcpy(&out, frame.payload.data() + at, sizeof(T));
   return out;
 }
+double real(const MavlinkFrame& frame, std::size_t at) noexcept { return static_cast<double>(field<float>(frame, at)); }
 template <class T>
 void put(MavlinkFrame& frame, std::size_t at, T value) noexcept {
   std::memcpy(frame.payload.data() + at, &value, sizeof(T));
@@ -31,7 +32,7 @@ void put_text(MavlinkFrame& frame, std::size_t at, std::string_view text, std::s
 
 std::array<double, 4> quaternion_at(const MavlinkFrame& frame, std::size_t at) noexcept {
   std::array<double, 4> out{};
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = field<float>(frame, at + sizeof(float) * i);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = real(frame, at + sizeof(float) * i);
   return out;
 }
 
@@ -46,8 +47,7 @@ std::optional<MavlinkAttitude> mavlink_attitude(const MavlinkFrame& frame) noexc
   if (frame.id == MavlinkFields::Attitude::kId) {
     using At = MavlinkFields::Attitude;
     boot_ms = field<std::uint32_t>(frame, At::time_boot_ms);
-    out.wxyz =
-        core::attitude_of(field<float>(frame, At::roll), field<float>(frame, At::pitch), field<float>(frame, At::yaw));
+    out.wxyz = core::attitude_of(real(frame, At::roll), real(frame, At::pitch), real(frame, At::yaw));
   } else if (frame.id == MavlinkFields::AttitudeQuaternion::kId) {
     using At = MavlinkFields::AttitudeQuaternion;
     boot_ms = field<std::uint32_t>(frame, At::time_boot_ms);
@@ -110,10 +110,10 @@ std::optional<MavlinkPosition> mavlink_position(const MavlinkFrame& frame) noexc
 std::optional<MavlinkWind> mavlink_wind(const MavlinkFrame& frame) noexcept {
   MavlinkWind out;
   if (frame.id == MavlinkFields::Wind::kId) {
-    out = {field<float>(frame, MavlinkFields::Wind::speed), field<float>(frame, MavlinkFields::Wind::direction)};
+    out = {real(frame, MavlinkFields::Wind::speed), real(frame, MavlinkFields::Wind::direction)};
   } else if (frame.id == MavlinkFields::WindCov::kId) {
-    const double north = field<float>(frame, MavlinkFields::WindCov::wind_x),
-                 east = field<float>(frame, MavlinkFields::WindCov::wind_y);
+    const double north = real(frame, MavlinkFields::WindCov::wind_x),
+                 east = real(frame, MavlinkFields::WindCov::wind_y);
     out = {std::hypot(north, east), core::kDegPerRad * std::atan2(-east, -north)};
   } else {
     return std::nullopt;

@@ -6,18 +6,10 @@
 #include <charconv>
 #include <cstring>
 
+#include "drivers/storage/ascii.h"
 #include "drivers/storage/text_file.h"
 
 namespace drivers {
-namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
-}  // namespace
 
 CsvLines::CsvLines(const std::string& path)
     : path_(path), file_(open_regular_file(path, "name a CSV file")), block_(4 * kMaxLineBytes) {}

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "drivers/storage/ascii.h"
 #include "drivers/storage/limits.h"
 #include "drivers/storage/regular_file.h"
 #include "drivers/storage/text_file.h"
@@ -73,13 +74,6 @@ std::vector<std::string_view> words_of(std::string_view line) {
   return out;
 }
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return out;
-}
-
 struct Head {
   bool coordinate = true, symmetric = false;
 };
@@ -87,10 +81,10 @@ struct Head {
 Head head_of(Lines& lines) {
   std::string_view line;
   const auto words = lines.next(line) ? words_of(line) : std::vector<std::string_view>{};
-  if (words.size() != 5 || lower(words[0]) != "%%matrixmarket" || lower(words[1]) != "matrix")
+  if (words.size() != 5 || lower_ascii(words[0]) != "%%matrixmarket" || lower_ascii(words[1]) != "matrix")
     lines.refuse("does not begin with %%MatrixMarket matrix ...; export K and M in MatrixMarket format");
   Head out;
-  const std::string format = lower(words[2]), field = lower(words[3]), symmetry = lower(words[4]);
+  const std::string format = lower_ascii(words[2]), field = lower_ascii(words[3]), symmetry = lower_ascii(words[4]);
   if (format != "coordinate" && format != "array")
     lines.refuse(fmt::format("format `{}`: write coordinate or array", printable(format)));
   if (field != "real" && field != "integer" && field != "double")

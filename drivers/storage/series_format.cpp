@@ -2,29 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <utility>
 
 #include "core/types/constants.h"
+#include "drivers/storage/ascii.h"
 #include "drivers/storage/text_file.h"
 
 namespace drivers {
 namespace {
 
 constexpr std::string_view kBlank = " \t\r";
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return out;
-}
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
   for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
@@ -138,7 +125,7 @@ std::string_view without_unit(std::string_view name) {
 }
 
 std::optional<MotionUnit> motion_unit(std::string_view unit) {
-  std::string name = lower(trimmed(unit));
+  std::string name = lower_ascii(trimmed(unit));
   replace_all(name, "\xC2\xB5", "u");  // micro sign
   replace_all(name, "\xCE\xBC", "u");  // Greek mu
   replace_all(name, "\xC2\xB2", "2");  // superscript two

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 
+#include "drivers/storage/ascii.h"
 #include "drivers/storage/csv_lines.h"
 #include "drivers/storage/limits.h"
 #include "drivers/storage/text_file.h"
@@ -28,11 +28,7 @@ std::string_view bare(std::string_view cell) {
 }
 
 // Lower case, without the unit in brackets.
-std::string plain_name(std::string_view cell) {
-  std::string out(bare(cell.substr(0, cell.find('('))));
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
+std::string plain_name(std::string_view cell) { return lower_ascii(bare(cell.substr(0, cell.find('(')))); }
 
 class TimedReader {
  public:

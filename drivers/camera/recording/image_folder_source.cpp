@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
 
-#include "drivers/camera/recording/ascii.h"
 #include "drivers/camera/recording/gray_convert.h"
 #include "drivers/images/image_reader.h"
+#include "drivers/storage/ascii.h"
 
 namespace drivers {
 
@@ -134,9 +133,7 @@ class ImageFolderSource final : public FrameSource {
 bool is_image_file(const std::string& path) {
   static constexpr std::array kExtensions = {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".webp",
                                              ".pgm", ".ppm", ".pnm",  ".pfm", ".exr", ".hdr"};
-  std::string extension = fs::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_ascii(fs::path(path).extension().string());
   return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }
 

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "drivers/camera/recording/ascii.h"
+#include "drivers/storage/ascii.h"
 #include "drivers/storage/csv_lines.h"
 #include "drivers/storage/limits.h"
 #include "drivers/storage/regular_file.h"

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "drivers/camera/recording/ascii.h"
+#include "drivers/storage/ascii.h"
 #include "drivers/storage/csv_lines.h"
 #include "drivers/storage/limits.h"
 

@@ -10,6 +10,8 @@
 #include <cerrno>
 #include <system_error>
 
+#include "drivers/storage/ascii.h"
+
 namespace tools {
 namespace {
 
@@ -24,17 +26,11 @@ bool is_address(const std::string& text) {
   return inet_pton(AF_INET, text.c_str(), bytes.data()) == 1 || inet_pton(AF_INET6, text.c_str(), bytes.data()) == 1;
 }
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return out;
-}
-
 bool is_known(const WebGuard& guard, const std::string& name) {
   if (name == "localhost" || is_loopback(name)) return true;
   if (!guard.loopback_only && is_address(name)) return true;
   return std::any_of(guard.known_names.begin(), guard.known_names.end(),
-                     [&](const std::string& known) { return lower(known) == name; });
+                     [&](const std::string& known) { return drivers::lower_ascii(known) == name; });
 }
 
 // The value of one cookie in "a=1; b=2"; the first if it occurs twice.
@@ -75,7 +71,7 @@ std::optional<std::string> host_name(std::string_view host) {
       port.empty() || (port.size() >= 2 && port.size() <= 6 && port[0] == ':' &&
                        std::all_of(port.begin() + 1, port.end(), [](char c) { return c >= '0' && c <= '9'; }));
   if (name.empty() || !is_port) return std::nullopt;
-  return lower(name);
+  return drivers::lower_ascii(name);
 }
 
 std::string refused_origin(const WebGuard& guard, const WebOrigin& request) {
@@ -84,7 +80,8 @@ std::string refused_origin(const WebGuard& guard, const WebOrigin& request) {
   if (!is_known(guard, *name)) {
     return "the request is for a host of another name; open the page by its address, or start it with --name";
   }
-  if (!request.origin.empty() && lower(request.origin) != "http://" + lower(request.host)) {
+  if (!request.origin.empty() &&
+      drivers::lower_ascii(request.origin) != "http://" + drivers::lower_ascii(request.host)) {
     return "the request comes from a page of another origin";
   }
   const std::string_view site = request.fetch_site;
