@@ -16,14 +16,23 @@ using Eigen::Index;
 
 constexpr std::array kEdges_hz{0.0, 0.25, 0.5, 1.0, 2.0};  // a lens is focused slowly
 constexpr double kFirstBins = 3.0;                         // of the window's main lobe: what drifts over the record
+constexpr double kLeastSeen = 0.05;  // of a breathing, in the zoom of a background hardly behind the structure
+constexpr double kApart_s = 1.0;     // of independent values
 constexpr double kNoiseFrom_hz = 4.0;
 constexpr double kLeastGain = 150.0;
-constexpr double kNoiseScatter = 1.3;  // of the strongest pattern of noise
-constexpr double kOverResidual = 3.0;  // times what the residual's strongest pattern holds in the same band
+constexpr double kOfWindow = 2.0 / 3.0;  // of independent values that a Hann window leaves to a band
+constexpr double kNoiseScatter = 1.3;    // of the strongest pattern of noise
+constexpr double kOverResidual = 3.0;    // times what the residual's strongest pattern holds in the same band
 
 struct Band {
   Index first = 0, last = 0;  // bins
   double n = 0.0;             // independent values
+};
+
+// The background's zoom beyond its causes.
+struct Beyond {
+  double gain = 0.0;
+  double variance = 0.0, sigma = 0.0;  // relative, without noise; of the variance
 };
 
 std::vector<Band> bands_of(const TaperedSpectra& spectra) {
@@ -42,7 +51,7 @@ double strongest_pattern(const TaperedSpectra& residual, const Band& band) {
   const auto bins = residual.bins.middleCols(band.first, band.last - band.first + 1);
   const Eigen::MatrixXcd moments = bins * bins.adjoint() / static_cast<double>(bins.cols());
   const Eigen::VectorXcd pattern = leading_pattern(moments);
-  const double of_noise = std::pow(1.0 + std::sqrt(static_cast<double>(bins.rows()) / band.n), 2);
+  const double of_noise = std::pow(1.0 + std::sqrt(static_cast<double>(bins.rows()) / (kOfWindow * band.n)), 2);
   return std::max(std::real(pattern.dot(moments * pattern)) - kNoiseScatter * of_noise, 0.0);
 }
 
@@ -80,16 +89,17 @@ class FocusBreathing final : public AbsorbedEffect {
     const TaperedSpectra residual = tapered_spectra(fit.model.residual(), motions->rate_hz);
     const Eigen::VectorXd power = zoom.bins.row(0).cwiseAbs2().transpose();
     const double noise = noise_level(zoom, power);
-    double gain = 0.0, excess = 0.0;
+    Beyond of;
     for (const Band& band : bands_of(zoom)) {
       const double mean = power.segment(band.first, band.last - band.first + 1).mean();
       const double level = std::max(noise, kOverResidual * strongest_pattern(residual, band));
-      gain += power_gain(mean, level, band.n);
-      excess += std::max(mean - noise, 0.0) * 2.0 * static_cast<double>(band.last - band.first + 1) * zoom.bin_hz /
-                motions->rate_hz;
+      of.gain += power_gain(mean, level, band.n);
+      const double share = 2.0 * static_cast<double>(band.last - band.first + 1) * zoom.bin_hz / motions->rate_hz;
+      of.variance += std::max(mean - noise, 0.0) * share * sigma * sigma;
+      of.sigma = std::hypot(of.sigma, mean * share * sigma * sigma / std::sqrt(band.n));
     }
-    if (!(gain > kLeastGain)) return std::nullopt;
-    return finding(*motions, beyond, std::sqrt(excess) * sigma, gain, fit);
+    if (!(of.gain > kLeastGain)) return std::nullopt;
+    return finding(*motions, beyond, of);
   }
 
  private:
@@ -110,29 +120,27 @@ class FocusBreathing final : public AbsorbedEffect {
   }
   // Beyond its causes, the background's zoom is (1 - r) of the breathing (r: the structure's depth over the
   // background's), and its translation beyond r of the structure's is -(1 - r) of the breathing times the centre.
-  [[nodiscard]] static AbsorbedFinding finding(const FreeMotions& motions, const Eigen::RowVectorXd& beyond, double rms,
-                                               double gain, const FitView& fit) {
+  [[nodiscard]] static AbsorbedFinding finding(const FreeMotions& motions, const Eigen::RowVectorXd& beyond,
+                                               const Beyond& of) {
     const Eigen::RowVectorXd structure = motions.structure_zoom.array() - motions.structure_zoom.mean();
     const Eigen::RowVectorXd background = motions.background_zoom.array() - motions.background_zoom.mean();
     const double depths = structure.dot(background - beyond) / structure.squaredNorm();
-    const double seen = std::max(std::abs(1.0 - depths), 0.05);
+    const double seen = std::max(std::abs(1.0 - depths), kLeastSeen), rms = std::sqrt(of.variance);
     AbsorbedFinding out;
-    const double n =
-        std::max(beyond.squaredNorm() / (motions.background_zoom_sigma * motions.background_zoom_sigma), 1.0);
-    out.parameters = {{"rms of the focal length", "%", 100.0 * rms / seen, 100.0 * rms / seen / std::sqrt(n)}};
+    out.parameters = {{"rms of the focal length", "%", 100.0 * rms / seen, 50.0 * of.sigma / rms / seen}};
+    const auto n = static_cast<double>(beyond.size());
     for (const int axis : {0, 1}) {
       const Eigen::RowVectorXd shift = beyond_causes(motions.background.row(axis), motions.rest);
-      const double slope = shift.dot(beyond) / beyond.squaredNorm();
-      const double left = (shift - slope * beyond).norm() / beyond.norm();
-      out.parameters.push_back({axis == 0 ? "centre along u" : "centre along v", "px", -slope,
-                                left / std::sqrt(static_cast<double>(beyond.size())) * fewer_values(fit)});
+      const double centre = -shift.dot(beyond) / n / of.variance;
+      const double left = (shift + centre * beyond).norm() / std::sqrt(n) / rms;
+      const double n_independent = std::max(n / (kApart_s * motions.rate_hz), 1.0);
+      out.parameters.push_back(
+          {axis == 0 ? "centre along u" : "centre along v", "px", centre, left / std::sqrt(n_independent)});
     }
     out.meaning = "the focal length changes as the lens is focused; lock the focus";
-    out.score = gain, out.threshold = kLeastGain;
+    out.score = of.gain, out.threshold = kLeastGain;
     return out;
   }
-  // Standard deviation of a mean over frames, where values closer than a second agree.
-  [[nodiscard]] static double fewer_values(const FitView& fit) { return std::sqrt(fit.record.rate_hz); }
 };
 
 }  // namespace

@@ -83,10 +83,9 @@ class MovingBackground final : public AbsorbedEffect {
       if (peak.own >= kLeastOwn && peak.gain > best.gain) best = peak;
     }
     if (!(best.gain > kLeastGain)) return std::nullopt;
-    // One-sided power over the band, with the window's loss of independent values.
     const double duration_s = static_cast<double>(fit.record.n_frames()) / fit.record.rate_hz;
-    const double squares = best.excess * 2.0 * 2.0 * best.half_hz / fit.record.rate_hz;
-    const double rms = std::sqrt(std::max(squares, 0.0)) * motions->background_sigma(best.axis);
+    const double of_rate = 2.0 * best.half_hz / (0.5 * fit.record.rate_hz);  // width of the band
+    const double rms = std::sqrt(std::max(best.excess * of_rate, 0.0)) * motions->background_sigma(best.axis);
     AbsorbedFinding out;
     out.parameters = {{"frequency", "Hz", best.hz, std::max(best.half_hz / std::sqrt(best.n), 0.5 / duration_s)},
                       {best.axis == 0 ? "rms along u" : "rms along v", "px", rms, rms / std::sqrt(best.n)},
