@@ -22,7 +22,7 @@ packages=(
   libsystemd-dev
   libavformat-dev libavcodec-dev libavutil-dev
   libcamera-dev libjpeg-dev libpng-dev
-  libmatio-dev
+  libmatio-dev zlib1g-dev
   libgtest-dev libgmock-dev librapidcheck-dev
 )
 

@@ -65,6 +65,10 @@ class ClosureLevel {
   // within their uncertainty. `seed`: for levels that estimate that uncertainty from surrogates.
   [[nodiscard]] virtual std::vector<std::string> rivals(std::size_t adopted, std::uint64_t seed) = 0;
 
+  // Effects that the free quantities of the last fit() absorb: they leave no residual and are found in those
+  // quantities. Named, with parameters and meaning, score and threshold; without errors.
+  [[nodiscard]] virtual std::vector<ClosureStep> absorbed() const { return {}; }
+
   // Results of the last fit().
   [[nodiscard]] virtual std::vector<ClosureMode> modes() const = 0;
   [[nodiscard]] virtual std::optional<double> reference_error() const = 0;

@@ -199,6 +199,11 @@ class Loop {
       result_.steps[i].meaning = level_.meaning(i);
       result_.steps[i].rivals = level_.rivals(i, next_seed());
     }
+    for (ClosureStep& step : level_.absorbed()) {
+      step.is_absorbed = true;
+      step.heldout_before = step.heldout_after = fit_.heldout;
+      result_.steps.push_back(std::move(step));
+    }
     result_.residual_rms = fit_.residual_rms;
     result_.modes_after = level_.modes();
     result_.reference_error_after = level_.reference_error();

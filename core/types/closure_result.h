@@ -40,6 +40,8 @@ struct ClosureStep {
   EffectKind kind = EffectKind::kNamed;
   std::vector<ParameterValue> parameters;  // of the last joint fit
   std::string meaning;                     // implications of the parameters; of a latent effect, its description
+  // True: quantities that are free in the model absorb the effect, so that the held-out error stays as it is.
+  bool is_absorbed = false;
   double heldout_before = 0.0, heldout_after = 0.0;
   double score = 0.0, threshold = 0.0;
   std::vector<std::string> rivals;     // effects that explain the data as well: the cause is not determined

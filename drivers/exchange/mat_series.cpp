@@ -6,9 +6,9 @@
 
 #include "core/types/constants.h"
 #include "drivers/exchange/mat_handle.h"
+#include "drivers/exchange/mat_layout.h"
 #include "drivers/exchange/series_file.h"
 #include "drivers/storage/limits.h"
-#include "drivers/storage/regular_file.h"
 #include "drivers/storage/series_format.h"
 #include "drivers/storage/text_file.h"
 
@@ -87,7 +87,7 @@ std::optional<std::string> text_of(const matvar_t& variable) {
 class MatSeries {
  public:
   explicit MatSeries(const std::string& path) : path_(path) {
-    (void)open_regular_file(path, "name a MAT file", Limits::kExchangeBytes);
+    check_mat_layout(path);
     file_.reset(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
     if (!file_) refuse("no MAT file that can be read; save it with -v7 or -v6");
     if (Mat_GetVersion(file_.get()) == MAT_FT_MAT73) refuse("version 7.3 (HDF5) is not read; save it with -v7");

@@ -37,6 +37,7 @@ Json step_json(const core::closure::ClosureStep& step) {
           {"kind", step.kind == core::closure::EffectKind::kNamed ? "named" : "latent"},
           {"parameters", parameters},
           {"meaning", step.meaning},
+          {"absorbed", step.is_absorbed},
           {"heldout_before", step.heldout_before},
           {"heldout_after", step.heldout_after},
           {"score", step.score},

@@ -85,6 +85,9 @@ class EffectInModel {
   [[nodiscard]] virtual double freedom() const { return 0.0; }  // taken in addition to the model's columns
   // Takes so much of the noise from the residual that the noise cannot be measured again.
   [[nodiscard]] virtual bool hides_noise() const { return false; }
+  // It moves each point by itself: what the points have in common of it remains in the model's free motions, of which
+  // nothing else can then be said.
+  [[nodiscard]] virtual bool fills_free_motions() const { return hides_noise(); }
 
  protected:
   EffectInModel(const EffectInModel&) = default;

@@ -33,19 +33,24 @@ ObservationRecord checked(const ObservationRecord& record, std::vector<std::stri
   return usable;
 }
 
-std::vector<const ObservationEffect*> whole_catalogue() {
-  std::vector<const ObservationEffect*> out;
-  for (const auto& effect : observation_effects()) out.push_back(effect.get());
+template <class Effect>
+std::vector<const Effect*> all_of(const EffectList<Effect>& effects) {
+  std::vector<const Effect*> out;
+  for (const auto& effect : effects) out.push_back(effect.get());
   return out;
 }
 
 }  // namespace
 
 ObservationLevel::ObservationLevel(const ObservationRecord& record)
-    : fit_(checked(record, warnings_)), catalogue_(whole_catalogue()), scores_(fit_, catalogue_) {}
+    : fit_(checked(record, warnings_)),
+      catalogue_(all_of(observation_effects())),
+      absorbed_(all_of(absorbed_effects())),
+      scores_(fit_, catalogue_) {}
 
 void ObservationLevel::forget(const std::string& effect) {
   std::erase_if(catalogue_, [&](const ObservationEffect* e) { return e->name() == effect; });
+  std::erase_if(absorbed_, [&](const AbsorbedEffect* e) { return e->name() == effect; });
 }
 
 LevelFit ObservationLevel::fit() {
@@ -89,7 +94,11 @@ std::optional<std::size_t> ObservationLevel::drop_needless() {
 }
 
 std::vector<NotObservable> ObservationLevel::not_observable() const {
-  return core::closure::not_observable(fit_, catalogue_);
+  std::vector<NotObservable> out = core::closure::not_observable(fit_, catalogue_);
+  for (const AbsorbedEffect* effect : absorbed_) {
+    if (std::optional<NotObservable> obstacle = effect->obstacle(fit_.view())) out.push_back(std::move(*obstacle));
+  }
+  return out;
 }
 
 std::vector<ParameterValue> ObservationLevel::parameters(std::size_t adopted) const {
@@ -107,6 +116,22 @@ std::vector<std::string> ObservationLevel::rivals(std::size_t adopted, std::uint
   std::vector<std::string> out = scores_.as_good_as(own);
   fit_.set_effects(std::move(kept));
   (void)fit();
+  return out;
+}
+
+std::vector<ClosureStep> ObservationLevel::absorbed() const {
+  std::vector<ClosureStep> out;
+  const auto& adopted = fit_.effects();
+  if (std::any_of(adopted.begin(), adopted.end(), [](const auto& effect) { return effect->fills_free_motions(); }))
+    return out;
+  for (const AbsorbedEffect* effect : absorbed_) {
+    std::optional<AbsorbedFinding> found = effect->find(fit_.view());
+    if (!found) continue;
+    ClosureStep& step = out.emplace_back();
+    step.id = effect->id(), step.effect = effect->name();
+    step.parameters = std::move(found->parameters), step.meaning = std::move(found->meaning);
+    step.score = found->score, step.threshold = found->threshold;
+  }
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/closure/closure_level.h"
+#include "core/closure/observation/kinds/absorbed_effect.h"
 #include "core/closure/observation/observation_fit.h"
 #include "core/closure/observation/observation_record.h"
 #include "core/closure/observation/observation_scores.h"
@@ -47,6 +48,7 @@ class ObservationLevel final : public ClosureLevel {
   [[nodiscard]] std::vector<ParameterValue> parameters(std::size_t adopted) const override;
   [[nodiscard]] std::string meaning(std::size_t adopted) const override;
   [[nodiscard]] std::vector<std::string> rivals(std::size_t adopted, std::uint64_t seed) override;
+  [[nodiscard]] std::vector<ClosureStep> absorbed() const override;
   [[nodiscard]] std::vector<ClosureMode> modes() const override;
   [[nodiscard]] std::optional<double> reference_error() const override;
   [[nodiscard]] std::string reference_unit() const override { return "%"; }
@@ -65,6 +67,7 @@ class ObservationLevel final : public ClosureLevel {
   std::vector<std::string> warnings_;  // before fit_, whose making fills it
   ObservationFit fit_;
   std::vector<const ObservationEffect*> catalogue_;
+  std::vector<const AbsorbedEffect*> absorbed_;
   ObservationScores scores_;
   std::vector<core::Mode> reference_;
   mutable std::optional<core::ModalEstimate> modes_;  // of the last fit(), computed on request

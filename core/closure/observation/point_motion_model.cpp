@@ -1,6 +1,7 @@
 #include "core/closure/observation/point_motion_model.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/linear/dense.h"
@@ -244,6 +245,24 @@ Eigen::MatrixXd PointMotionModel::residual_px() const {
 Eigen::RowVectorXd PointMotionModel::zoom_of_point(Eigen::Index point) const {
   const Eigen::Index row = zoom_row_of(point);
   return row < 0 ? Eigen::RowVectorXd::Zero(amplitude_.cols()).eval() : amplitude_.row(row).eval();
+}
+
+double PointMotionModel::sigma_of_column(Eigen::Index column) const {
+  const auto at = std::find(kept_.begin(), kept_.end(), column) - kept_.begin();
+  if (at >= solve_high_.rows()) return std::numeric_limits<double>::infinity();
+  Eigen::RowVectorXd taken = solve_high_.row(at);
+  if (extra_.cols() > 0) taken -= give_back_.row(at) * solve_extra_;
+  return taken.norm();
+}
+
+Eigen::MatrixXd PointMotionModel::translation_of_point(Eigen::Index point) const {
+  const Eigen::Index zoom = zoom_row_of(point);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(2, common_.cols());
+  for (Eigen::Index c = 0; c < n_own_; ++c) {
+    const Eigen::Vector2d field = x_px_.col(c).segment<2>(2 * point);
+    if (c != zoom && !field.isZero()) out += field * common_.row(c);
+  }
+  return out;
 }
 
 Eigen::MatrixXd PointMotionModel::readout_field() const {

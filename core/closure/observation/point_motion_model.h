@@ -44,8 +44,9 @@ struct PointGeometry {
 // elsewhere they are zero. Cosines make this exact. All such columns share one band.
 class PointMotionModel {
  public:
-  static constexpr double kLowBand_hz = 3.0;   // slow: where cameras drift; the band as long as no column needs another
-  static constexpr double kCommonShare = 0.5;  // place in the readout of the frames' common instant
+  static constexpr double kLowBand_hz = 3.0;  // slow: where cameras drift; the band as long as no column needs another
+  static constexpr Eigen::Index kPlaneColumns = 3;  // of a plane: translation along u, along v, zoom
+  static constexpr double kCommonShare = 0.5;       // place in the readout of the frames' common instant
 
   explicit PointMotionModel(const ObservationRecord& record);  // record: checked
   // Moves the points to these mean positions (2 points long, px): after a lens correction, zoom acts on the
@@ -76,6 +77,12 @@ class PointMotionModel {
   // Series over frames, px (added columns: their unit), one row per column, at the mean instant of the column's points;
   // zero for dropped columns.
   [[nodiscard]] const Eigen::MatrixXd& amplitudes() const noexcept { return amplitude_; }
+  [[nodiscard]] const Eigen::MatrixXd& common_amplitudes() const noexcept { return common_; }  // at the common instants
+  // Standard deviation of a column's amplitude by noise, in the band of the added columns; infinite for dropped
+  // columns.
+  [[nodiscard]] double sigma_of_column(Eigen::Index column) const;
+  // At the common instants: motion of this point by the own columns other than zoom, along u and v; 2 x frames, px.
+  [[nodiscard]] Eigen::MatrixXd translation_of_point(Eigen::Index point) const;
   [[nodiscard]] const Eigen::MatrixXd& rates() const noexcept { return rate_; }  // change of their signal per frame
   [[nodiscard]] Eigen::Index row_of_region(std::size_t region) const noexcept {
     return region_row_[region];
@@ -83,6 +90,10 @@ class PointMotionModel {
   [[nodiscard]] Eigen::Index n_own() const noexcept { return n_own_; }  // columns before the added ones
   // Rows of the structure's plane among the own columns: translation along u, along v, zoom.
   [[nodiscard]] Eigen::Index first_plane_row() const noexcept { return n_region_; }
+  // The same of the background's plane; -1: no background.
+  [[nodiscard]] Eigen::Index first_background_row() const noexcept {
+    return n_own_ - n_region_ > kPlaneColumns ? n_region_ + kPlaneColumns : -1;
+  }
   // Row of the zoom that moves this point (of the structure's plane or of the background) among the own columns; -1:
   // none. Its series is relative.
   [[nodiscard]] Eigen::Index zoom_row_of(Eigen::Index point) const noexcept {

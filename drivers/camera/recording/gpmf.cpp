@@ -73,6 +73,12 @@ double number_of(char type, Bytes bytes) noexcept {
   }
 }
 
+// 0 where the number is no count: negative, not finite, or beyond what a double counts.
+std::uint64_t count_of(double number) {
+  constexpr double kMost = 9007199254740992.0;
+  return number > 0.0 && number <= kMost ? static_cast<std::uint64_t>(number) : 0;
+}
+
 struct Item {
   std::string key;
   char type = 0;
@@ -166,7 +172,7 @@ class Walker {
     const std::vector<double> values = item.numbers();
     if (values.empty()) return;
     if (item.key == "STMP") return void(found.first_s = values.front() * 1e-6);
-    if (item.key == "TSMP") return void(found.n_so_far = static_cast<std::uint64_t>(std::max(values.front(), 0.0)));
+    if (item.key == "TSMP") return void(found.n_so_far = count_of(values.front()));
     if (item.key == "SCAL") return void(stream.scale = values);
     constexpr const char* kBeside[] = {"TICK", "TOCK", "TMPC", "EMPT", "TIMO", "MTRX", "VPTS", "GPSF", "GPSP"};
     for (const char* key : kBeside) {

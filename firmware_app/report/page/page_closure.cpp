@@ -19,10 +19,17 @@ std::string step_html(const ClosureStep& step, const std::string& unit) {
   if (!step.meaning.empty()) words += "; " + step.meaning;
   for (std::size_t at = 0; (at = words.find("+-", at)) != std::string::npos;) words.replace(at, 2, "±");
   std::string out = paragraph_html(fmt::format("{}: {}.", step.effect, words), "effect");
-  out += paragraph_html(fmt::format(
-      "With it the error on points and frames kept out of its fit falls from {:.4f} to {:.4f} {}. Its score "
-      "is {:.4g}; chance alone reaches {:.3g}.",
-      step.heldout_before, step.heldout_after, unit, step.score, step.threshold));
+  if (step.is_absorbed) {
+    out += paragraph_html(fmt::format(
+        "It leaves no residual: motions that the model leaves free in every frame hold it, and the error on points and "
+        "frames kept out of the fit stays {:.4f} {}. Its score is {:.4g}; {:.3g} are asked for.",
+        step.heldout_after, unit, step.score, step.threshold));
+  } else {
+    out += paragraph_html(fmt::format(
+        "With it the error on points and frames kept out of its fit falls from {:.4f} to {:.4f} {}. Its score "
+        "is {:.4g}; chance alone reaches {:.3g}.",
+        step.heldout_before, step.heldout_after, unit, step.score, step.threshold));
+  }
   std::string rivals;
   for (const std::string& rival : step.rivals) rivals += (rivals.empty() ? "" : ", ") + rival;
   if (!rivals.empty()) {

@@ -26,7 +26,7 @@ BOUNDS = {
     "drivers/camera/recording/image_folder_source.cpp": [LIST],
     "drivers/camera/recording/srt_file.cpp": ["kSubtitleBytes", "kSubtitleBlocks", "kSubtitleBytes"],
     "drivers/camera/recording/timestamp_file.cpp": ["kTimestamps"],
-    "drivers/exchange/mat_series.cpp": ["kExchangeBytes"],
+    "drivers/exchange/mat_layout.cpp": ["kExchangeBytes"],
     "drivers/exchange/mat_writer.cpp": [OUT],
     "drivers/exchange/series_file.cpp": ["128 BYTES OF ITS HEAD"],
     "drivers/exchange/uff_functions.cpp": ["kExchangeBytes"],

@@ -26,8 +26,14 @@ std::string others_text(const std::vector<CandidateScore>& others, const std::st
 std::string step_text(const ClosureStep& step, std::size_t i, const std::string& unit) {
   std::string out = fmt::format("step {}: {}{}\n", i + 1, step.effect,
                                 step.kind == core::closure::EffectKind::kLatent ? " (latent)" : "");
-  out += fmt::format("    held-out error {:.3g} -> {:.3g} {}; score {:.4g}, chance threshold {:.3g}\n",
-                     step.heldout_before, step.heldout_after, unit, step.score, step.threshold);
+  if (step.is_absorbed) {
+    out += fmt::format(
+        "    in the model's free motions: the held-out error stays {:.3g} {}; score {:.4g}, threshold {:.3g}\n",
+        step.heldout_after, unit, step.score, step.threshold);
+  } else {
+    out += fmt::format("    held-out error {:.3g} -> {:.3g} {}; score {:.4g}, chance threshold {:.3g}\n",
+                       step.heldout_before, step.heldout_after, unit, step.score, step.threshold);
+  }
   out += fmt::format("    {}{}\n", parameters_text(step), step.meaning.empty() ? "" : "; " + step.meaning);
   if (!step.rivals.empty())
     out +=

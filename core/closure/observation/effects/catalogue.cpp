@@ -13,6 +13,17 @@ const EffectList<ObservationEffect>& observation_effects() {
   return kAll;
 }
 
+const EffectList<AbsorbedEffect>& absorbed_effects() {
+  static const EffectList<AbsorbedEffect> kAll = [] {
+    EffectList<AbsorbedEffect> all;
+#define HOVERMODAL_MAKE(name) all.push_back(make_##name());
+    HOVERMODAL_ABSORBED_EFFECTS(HOVERMODAL_MAKE)
+#undef HOVERMODAL_MAKE
+    return all;
+  }();
+  return kAll;
+}
+
 const ObservationEffect* observation_effect(const EffectId& id) {
   return find_effect(observation_effects(), id.key, [](const ObservationEffect& effect) { return effect.id().key; });
 }
@@ -27,8 +38,6 @@ std::vector<NotObservable> never_observable() {
        "film a clock, or give reference frequencies"},
       {"scale, and its slow change", "zoom of the structure's plane is free in each frame",
        "declare a known length per region"},
-      {"zoom about a displaced centre", "it is zoom about the principal point and a translation, both free",
-       "film points at several known depths"},
       {"constant part of yaw and pitch", "it is a translation of the whole image, which is free in each frame",
        "modes are unaffected: displacement relative to the base remains"},
       {"stabilisation warp",
@@ -38,10 +47,6 @@ std::vector<NotObservable> never_observable() {
       {"tilt of single floors",
        "the model turns the structure as a whole only; the tilt of one floor appears as a latent effect",
        "declare larger regions, or several on one floor"},
-      {"sway of the background",
-       "translation of the background is free in each frame: its sway cannot be distinguished from the camera's yaw; "
-       "its declared rest is assumed",
-       "declare a second background at another depth"},
   };
 }
 

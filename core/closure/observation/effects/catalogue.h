@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/closure/observation/effect.h"
+#include "core/closure/observation/kinds/absorbed_effect.h"
 #include "core/types/effect_catalogue.h"
 
 // The named effects of the observation level, one line each, in the order in which they are tested. The file
@@ -27,12 +28,21 @@
   EFFECT(rotor_line)                           \
   EFFECT(camera_vibration)
 
+// Those that the model's free motions absorb.
+#define HOVERMODAL_ABSORBED_EFFECTS(EFFECT) \
+  EFFECT(focus_breathing)                   \
+  EFFECT(moving_background)
+
 namespace core::closure {
 
 #define HOVERMODAL_DECLARE(name) [[nodiscard]] std::unique_ptr<ObservationEffect> make_##name();
 HOVERMODAL_OBSERVATION_EFFECTS(HOVERMODAL_DECLARE)
 #undef HOVERMODAL_DECLARE
+#define HOVERMODAL_DECLARE(name) [[nodiscard]] std::unique_ptr<AbsorbedEffect> make_##name();
+HOVERMODAL_ABSORBED_EFFECTS(HOVERMODAL_DECLARE)
+#undef HOVERMODAL_DECLARE
 
+[[nodiscard]] const EffectList<AbsorbedEffect>& absorbed_effects();
 [[nodiscard]] const EffectList<ObservationEffect>& observation_effects();
 // nullptr: the catalogue has no such effect.
 [[nodiscard]] const ObservationEffect* observation_effect(const EffectId& id);

@@ -17,6 +17,7 @@ class TemplateZoom final : public CourseEffect {
   [[nodiscard]] std::optional<NotObservable> obstacle(const FitView& /*fit*/, bool /*is_adopted*/) const override {
     return std::nullopt;
   }
+  [[nodiscard]] bool has_course_of_its_own() const override { return false; }
   [[nodiscard]] std::optional<PointCourses> courses(const FitView& fit,
                                                     const TestedResidual& /*residual*/) const override {
     PointCourses out;

@@ -40,6 +40,7 @@ class CoursesInModel final : public EffectInModel {
       freedom_ += 2.0 * beside * static_cast<double>(courses_.sets[set].rows());
   }
   [[nodiscard]] double freedom() const override { return freedom_; }
+  [[nodiscard]] bool fills_free_motions() const override { return effect_.has_course_of_its_own(); }
 
  private:
   const CourseEffect& effect_;

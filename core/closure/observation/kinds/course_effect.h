@@ -20,6 +20,9 @@ class CourseEffect : public ObservationEffect {
   [[nodiscard]] virtual std::vector<ParameterValue> parameters(const FitView& fit, const Eigen::MatrixXd& motion_px,
                                                                const PointCourses& courses) const = 0;
 
+  // False: the courses are motions of the model itself.
+  [[nodiscard]] virtual bool has_course_of_its_own() const { return true; }
+
   [[nodiscard]] std::size_t n_parameters() const override { return 2; }
   [[nodiscard]] std::unique_ptr<EffectCandidate> candidate(const FitView& fit) const final;
 };

@@ -1,0 +1,136 @@
+#include "drivers/exchange/mat_layout.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "drivers/storage/limits.h"
+#include "drivers/storage/regular_file.h"
+#include "drivers/storage/text_file.h"
+
+namespace drivers {
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+
+constexpr std::size_t kMatHeader = 128, kMatTag = 8, kMatPadding = 8;
+constexpr std::uint32_t kMatrix = 14, kCompressed = 15;       // types of elements
+constexpr std::uint32_t kCell = 1, kStruct = 2, kObject = 3;  // classes of arrays
+constexpr int kDeepest = 16;
+
+struct MatElement {
+  std::uint32_t type = 0;
+  Bytes data;
+};
+
+class MatLayout {
+ public:
+  explicit MatLayout(const std::string& path) : path_(path) {}
+
+  void check() {
+    const FileHandle file = open_regular_file(path_, "name a MAT file", Limits::kExchangeBytes);
+    std::vector<std::uint8_t> all(bytes_of(file.get()));
+    all.resize(read_bytes(file.get(), all.data(), all.size(), path_));
+    if (all.size() < kMatHeader) return;
+    const bool is_little = all[126] == 'I' && all[127] == 'M', is_big = all[126] == 'M' && all[127] == 'I';
+    if (!is_little && !is_big) return;
+    is_swapped_ = is_little != (std::endian::native == std::endian::little);
+    Bytes rest = Bytes(all).subspan(kMatHeader);
+    while (const auto element = next(rest)) {
+      if (element->type == kMatrix) check_array(element->data, 0);
+      if (element->type == kCompressed) check_compressed(element->data);
+    }
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& what) const { throw FileError(path_ + ": " + what); }
+
+  [[nodiscard]] std::uint32_t number(Bytes at) const {
+    std::uint32_t out = 0;
+    std::memcpy(&out, at.data(), sizeof(out));
+    return is_swapped_ ? __builtin_bswap32(out) : out;
+  }
+
+  // The first element of the bytes, which it takes from them; empty: none. One that is cut off ends with the bytes.
+  [[nodiscard]] std::optional<MatElement> next(Bytes& rest) const {
+    if (rest.size() < kMatTag) return std::nullopt;
+    const std::uint32_t first = number(rest);
+    if (first >> 16U != 0) {  // small: at most four bytes beside their type and number
+      const MatElement out{first & 0xFFFFU, rest.subspan(4, std::min<std::size_t>(first >> 16U, 4))};
+      rest = rest.subspan(kMatTag);
+      return out;
+    }
+    const std::size_t n = number(rest.subspan(4)), left = rest.size() - kMatTag;
+    const MatElement out{first, rest.subspan(kMatTag, std::min(n, left))};
+    const std::size_t padded = out.type == kCompressed ? n : (n + kMatPadding - 1) / kMatPadding * kMatPadding;
+    rest = rest.subspan(kMatTag + std::min(padded, left));
+    return out;
+  }
+
+  void check_compressed(Bytes data) {
+    std::vector<std::uint8_t> out(std::min<std::size_t>(8 * data.size() + 4096, Limits::kExchangeBytes));
+    z_stream stream{};
+    if (inflateInit(&stream) != Z_OK) refuse("no memory to inflate it");
+    stream.next_in = const_cast<Bytef*>(data.data());  // zlib's signature; it does not write there
+    stream.avail_in = static_cast<uInt>(data.size());
+    std::size_t n = 0;
+    int state = Z_OK;
+    while (state == Z_OK) {
+      if (n == out.size()) {
+        if (n >= Limits::kExchangeBytes) break;
+        out.resize(std::min<std::size_t>(2 * n, Limits::kExchangeBytes));
+      }
+      stream.next_out = out.data() + n;
+      stream.avail_out = static_cast<uInt>(out.size() - n);
+      state = inflate(&stream, Z_NO_FLUSH);
+      n = out.size() - stream.avail_out;
+    }
+    inflateEnd(&stream);
+    if (state == Z_OK) refuse("its variables are larger than 96 MiB; save only the series");
+    Bytes rest(out.data(), n);
+    if (const auto element = next(rest); element && element->type == kMatrix) check_array(element->data, 0);
+  }
+
+  // Flags, dimensions, name; of a struct the length and the names of its fields; then an array per cell or field.
+  void check_array(Bytes rest, int depth) const {
+    if (depth > kDeepest) refuse(fmt::format("arrays nested deeper than {}", kDeepest));
+    const auto flags = next(rest);
+    if (!flags || flags->data.size() < 4) return;
+    const std::uint32_t array_class = number(flags->data) & 0xFFU;
+    if (array_class != kCell && array_class != kStruct && array_class != kObject) return;
+    const auto dimensions = next(rest);
+    if (!dimensions) return;
+    double n = 1.0;
+    for (std::size_t at = 0; at + 4 <= dimensions->data.size(); at += 4) n *= number(dimensions->data.subspan(at));
+    (void)next(rest);  // name
+    if (array_class == kObject) (void)next(rest);
+    if (array_class != kCell) n *= n_fields(rest);
+    if (n > static_cast<double>(rest.size() / kMatTag + 1))
+      refuse(fmt::format("a cell or struct announces {:.0f} arrays in {} bytes: damaged", n, rest.size()));
+    while (const auto inner = next(rest)) {
+      if (inner->type == kMatrix) check_array(inner->data, depth + 1);
+    }
+  }
+  [[nodiscard]] double n_fields(Bytes& rest) const {
+    const auto length = next(rest), names = next(rest);
+    if (!length || !names || length->data.size() < 4) return 0.0;
+    const std::uint32_t each = number(length->data);
+    return each == 0 ? 0.0 : static_cast<double>(names->data.size() / each);
+  }
+
+  const std::string& path_;
+  bool is_swapped_ = false;
+};
+
+}  // namespace
+
+void check_mat_layout(const std::string& path) { MatLayout(path).check(); }
+
+}  // namespace drivers

@@ -1,0 +1,55 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "drivers/exchange/series_file.h"
+#include "drivers/storage/text_file.h"
+
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// A MAT file of version 5, little-endian, with one array in these bytes after its flags and dimensions.
+std::string mat_of(std::uint32_t array_class, std::vector<std::uint32_t> dimensions, const std::string& rest) {
+  const auto number = [](std::uint32_t value) {
+    std::string out;
+    for (int byte = 0; byte < 4; ++byte) out += static_cast<char>(value >> (8 * byte) & 0xFFU);
+    return out;
+  };
+  std::string array = number(6) + number(8) + number(array_class) + number(0);
+  array += number(5) + number(static_cast<std::uint32_t>(4 * dimensions.size()));
+  for (const std::uint32_t dimension : dimensions) array += number(dimension);
+  array += number(1) + number(0) + rest;
+  std::string head = "MATLAB 5.0 MAT-file";
+  head.resize(124, ' ');
+  return head + std::string("\0\1IM", 4) + number(14) + number(static_cast<std::uint32_t>(array.size())) + array;
+}
+std::string refusal_of_mat(const std::string& bytes) {
+  const std::string path = (std::filesystem::path(testing::TempDir()) / "hovermodal_hostile.mat").string();
+  std::ofstream(path, std::ios::binary) << bytes;
+  try {
+    (void)drivers::read_mat_series(path);
+  } catch (const drivers::FileError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(MatLayout, ACellThatAnnouncesMoreArraysThanItsBytesHoldIsRefused) {
+  EXPECT_THAT(refusal_of_mat(mat_of(1, {40000, 50000}, "")), HasSubstr("announces 2000000000 arrays in 0 bytes"));
+  // Two arrays fit into sixteen bytes: this one holds no series, but it is no hostile one.
+  EXPECT_THAT(refusal_of_mat(mat_of(1, {2, 1}, std::string(16, '\0'))), Not(HasSubstr("announces")));
+}
+
+TEST(MatLayout, ANestedCellIsCheckedLikeTheOuterOne) {
+  const std::string inner = mat_of(1, {40000, 50000}, "").substr(128);
+  EXPECT_THAT(refusal_of_mat(mat_of(1, {1, 1}, inner)), HasSubstr("announces 2000000000 arrays"));
+}
+
+}  // namespace
