@@ -23,6 +23,7 @@ using Bytes = std::span<const std::uint8_t>;
 constexpr std::size_t kMatHeader = 128, kMatTag = 8, kMatPadding = 8;
 constexpr std::uint32_t kMatrix = 14, kCompressed = 15;       // types of elements
 constexpr std::uint32_t kCell = 1, kStruct = 2, kObject = 3;  // classes of arrays
+constexpr std::uint32_t kLastClass = 15;  // beyond: function handles and opaque ones, of another layout
 constexpr int kDeepest = 16;
 
 struct MatElement {
@@ -58,7 +59,7 @@ class MatLayout {
     return is_swapped_ ? __builtin_bswap32(out) : out;
   }
 
-  // The first element of the bytes, which it takes from them; empty: none. One that is cut off ends with the bytes.
+  // The first element of the bytes, which it takes from them; empty: none.
   [[nodiscard]] std::optional<MatElement> next(Bytes& rest) const {
     if (rest.size() < kMatTag) return std::nullopt;
     const std::uint32_t first = number(rest);
@@ -68,7 +69,8 @@ class MatLayout {
       return out;
     }
     const std::size_t n = number(rest.subspan(4)), left = rest.size() - kMatTag;
-    const MatElement out{first, rest.subspan(kMatTag, std::min(n, left))};
+    if (n > left) refuse(fmt::format("an element announces {} bytes, {} are left: cut off or damaged", n, left));
+    const MatElement out{first, rest.subspan(kMatTag, n)};
     const std::size_t padded = out.type == kCompressed ? n : (n + kMatPadding - 1) / kMatPadding * kMatPadding;
     rest = rest.subspan(kMatTag + std::min(padded, left));
     return out;
@@ -98,26 +100,28 @@ class MatLayout {
     if (const auto element = next(rest); element && element->type == kMatrix) check_array(element->data, 0);
   }
 
-  // Flags, dimensions, name; of a struct the length and the names of its fields; then an array per cell or field.
+  // Flags, dimensions, name; then values, or an array per cell or field.
   void check_array(Bytes rest, int depth) const {
     if (depth > kDeepest) refuse(fmt::format("arrays nested deeper than {}", kDeepest));
     const auto flags = next(rest);
     if (!flags || flags->data.size() < 4) return;
     const std::uint32_t array_class = number(flags->data) & 0xFFU;
-    if (array_class != kCell && array_class != kStruct && array_class != kObject) return;
-    const auto dimensions = next(rest);
-    if (!dimensions) return;
-    double n = 1.0;
-    for (std::size_t at = 0; at + 4 <= dimensions->data.size(); at += 4) n *= number(dimensions->data.subspan(at));
-    (void)next(rest);  // name
-    if (array_class == kObject) (void)next(rest);
-    if (array_class != kCell) n *= n_fields(rest);
-    if (n > static_cast<double>(rest.size() / kMatTag + 1))
-      refuse(fmt::format("a cell or struct announces {:.0f} arrays in {} bytes: damaged", n, rest.size()));
+    if (array_class > kLastClass) return;
+    const auto dimensions = next(rest), name = next(rest);
+    if (!dimensions || !name) return;
+    if (array_class == kCell || array_class == kStruct || array_class == kObject) {
+      double n = 1.0;
+      for (std::size_t at = 0; at + 4 <= dimensions->data.size(); at += 4) n *= number(dimensions->data.subspan(at));
+      if (array_class == kObject) (void)next(rest);  // the name of its class
+      if (array_class != kCell) n *= n_fields(rest);
+      if (n > static_cast<double>(rest.size() / kMatTag + 1))
+        refuse(fmt::format("a cell or struct announces {:.0f} arrays in {} bytes: damaged", n, rest.size()));
+    }
     while (const auto inner = next(rest)) {
       if (inner->type == kMatrix) check_array(inner->data, depth + 1);
     }
   }
+  // From the length and the names of the fields.
   [[nodiscard]] double n_fields(Bytes& rest) const {
     const auto length = next(rest), names = next(rest);
     if (!length || !names || length->data.size() < 4) return 0.0;

@@ -4,10 +4,10 @@
 
 namespace drivers {
 
-// Walks through the arrays of a MAT file of version 5 before libmatio reads it: libmatio takes memory for as many cells
-// or fields as an array announces, whatever the file holds. Throws FileError: a cell or struct announces more than its
-// bytes can hold, arrays nested deeper than 16, compressed arrays that inflate beyond Limits::kExchangeBytes. Any other
-// fault, and a file of another version, is left to libmatio.
+// Walks through the arrays of a MAT file of version 5 before libmatio reads it: libmatio takes as much memory as an
+// array announces, whatever the file holds. Throws FileError: an element, a cell or a struct announces more than there
+// are bytes, arrays are nested deeper than 16, compressed ones inflate beyond Limits::kExchangeBytes. Files of another
+// version are left to libmatio.
 void check_mat_layout(const std::string& path);
 
 }  // namespace drivers

@@ -52,4 +52,12 @@ TEST(MatLayout, ANestedCellIsCheckedLikeTheOuterOne) {
   EXPECT_THAT(refusal_of_mat(mat_of(1, {1, 1}, inner)), HasSubstr("announces 2000000000 arrays"));
 }
 
+TEST(MatLayout, AnElementThatEndsBeyondTheFileIsRefused) {
+  std::string whole = mat_of(6, {1, 1}, std::string("\x09\0\0\0\x08\0\0\0\0\0\0\0\0\0\xF0\x3F", 16));
+  EXPECT_THAT(refusal_of_mat(whole), HasSubstr("no real numeric array"));  // one number is no series
+  EXPECT_THAT(refusal_of_mat(whole.substr(0, whole.size() - 8)), HasSubstr("cut off or damaged"));
+  whole[128 + 8 + 16 + 4] = '\x7F';  // bytes of the dimensions
+  EXPECT_THAT(refusal_of_mat(whole), HasSubstr("an element announces 127 bytes"));
+}
+
 }  // namespace
