@@ -18,7 +18,7 @@ constexpr std::array kHalfWidths_hz{0.025, 0.05, 0.1, 0.2, 0.4};
 constexpr double kSlowest_hz = 0.5;  // below, the camera's own motion hides it
 constexpr double kFastest = 0.45;    // of the frame rate
 constexpr double kLeastLevel = 0.3;  // of the noise's: where the spectrum has a hole
-constexpr double kLeastGain = 500.0;
+constexpr double kLeastScore = 150.0;
 constexpr double kLeastOwn = 0.15;  // of its power that neither the camera nor the structure explains
 constexpr double kMedian = std::numbers::ln2;
 
@@ -29,6 +29,7 @@ struct Peak {
   double excess = 0.0;  // of its mean power over its neighbourhood, in noise variances
   double n = 0.0;       // independent values in it
   double own = 0.0;     // share of its power that no other motion explains
+  [[nodiscard]] double score() const noexcept { return own * gain; }
 };
 
 double median_level(const Eigen::VectorXd& power, Index first, Index last) {
@@ -56,7 +57,7 @@ Peak highest_peak(const TaperedSpectra& spectra, const Eigen::VectorXd& left, do
       const auto places = Eigen::VectorXd::LinSpaced(2 * half + 1, static_cast<double>(centre - half),
                                                      static_cast<double>(centre + half));
       best.hz = spectra.bin_hz * inside.dot(places) / inside.sum();
-      best.own = mean / std::max(all.segment(centre - half, 2 * half + 1).mean(), 1e-300);
+      best.own = std::min(mean / std::max(all.segment(centre - half, 2 * half + 1).mean(), 1e-300), 1.0);
     }
   }
   return best;
@@ -80,18 +81,19 @@ class MovingBackground final : public AbsorbedEffect {
     for (const int axis : {0, 1}) {
       Peak peak = peak_along(*motions, axis);
       peak.axis = axis;
-      if (peak.own >= kLeastOwn && peak.gain > best.gain) best = peak;
+      if (peak.own >= kLeastOwn && peak.score() > best.score()) best = peak;
     }
-    if (!(best.gain > kLeastGain)) return std::nullopt;
+    if (!(best.score() > kLeastScore)) return std::nullopt;
     const double duration_s = static_cast<double>(fit.record.n_frames()) / fit.record.rate_hz;
     const double of_rate = 2.0 * best.half_hz / (0.5 * fit.record.rate_hz);  // width of the band
     const double rms = std::sqrt(std::max(best.excess * of_rate, 0.0)) * motions->background_sigma(best.axis);
     AbsorbedFinding out;
     out.parameters = {{"frequency", "Hz", best.hz, std::max(best.half_hz / std::sqrt(best.n), 0.5 / duration_s)},
                       {best.axis == 0 ? "rms along u" : "rms along v", "px", rms, rms / std::sqrt(best.n)},
-                      {"of the background's motion in that band", "%", 100.0 * std::min(best.own, 1.0), {}}};
+                      {"of the background's motion in that band", "%", 100.0 * best.own,
+                       100.0 * std::max(std::sqrt(best.own * (1.0 - best.own) / best.n), 1.0 / best.n)}};
     out.meaning = "what is declared to rest moves by itself; declare another background, or none";
-    out.score = best.gain, out.threshold = kLeastGain;
+    out.score = best.score(), out.threshold = kLeastScore;
     return out;
   }
 
