@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,15 @@ namespace core {
 // each; from this list it declares the makers and builds the catalogue.
 template <class Effect>
 using EffectList = std::vector<std::unique_ptr<Effect>>;
+
+// Of the makers in a level's list: effect_list<Effect>({LIST(HOVERMODAL_MAKER)}).
+#define HOVERMODAL_MAKER(name) make_##name,
+template <class Effect>
+[[nodiscard]] EffectList<Effect> effect_list(std::initializer_list<std::unique_ptr<Effect> (*)()> makers) {
+  EffectList<Effect> all;
+  for (const auto make : makers) all.push_back(make());
+  return all;
+}
 
 // nullptr: no effect has that id. id_of: function that returns the id of an effect.
 template <class Effect, class IdOf>

@@ -26,7 +26,7 @@ Eigen::MatrixXd without_zero_rows(const Eigen::MatrixXd& rows) {
 }
 
 // Of the base; without one, of the structure's plane.
-Eigen::MatrixXd translation_of_rest(const FitView& fit) {
+Eigen::MatrixXd translation_of_base(const FitView& fit) {
   Index point = -1;
   for (Index j = fit.record.n_points() - 1; j >= 0; --j) {
     const RegionRole role = fit.record.regions[fit.record.region_of_point[static_cast<std::size_t>(j)]].role;
@@ -59,7 +59,7 @@ std::optional<FreeMotions> free_motions(const FitView& fit) {
   FreeMotions out;
   out.rate_hz = fit.record.rate_hz;
   out.structure = without_zero_rows(rows.topRows(plane + 2));
-  out.rest = translation_of_rest(fit);
+  out.base = translation_of_base(fit);
   out.structure_zoom = rows.row(plane + 2);
   out.background = rows.middleRows(background, 2);
   out.background_zoom = rows.row(background + 2);

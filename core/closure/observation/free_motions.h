@@ -12,7 +12,7 @@ namespace core::closure {
 struct FreeMotions {
   double rate_hz = 0.0;
   Eigen::MatrixXd structure;           // regions along their axes, translations of the structure's plane; px
-  Eigen::MatrixXd rest;                // 2 rows: translation of what rests on the structure's side, along u and v; px
+  Eigen::MatrixXd base;                // 2 rows: translation of the base (without one: of the plane), along u, v; px
   Eigen::RowVectorXd structure_zoom;   // relative
   Eigen::MatrixXd background;          // 2 rows: translation along u and v; px
   Eigen::RowVectorXd background_zoom;  // relative

@@ -95,9 +95,8 @@ std::optional<std::size_t> ObservationLevel::drop_needless() {
 
 std::vector<NotObservable> ObservationLevel::not_observable() const {
   std::vector<NotObservable> out = core::closure::not_observable(fit_, catalogue_);
-  for (const AbsorbedEffect* effect : absorbed_) {
-    if (std::optional<NotObservable> obstacle = effect->obstacle(fit_.view())) out.push_back(std::move(*obstacle));
-  }
+  if (fit_.view().model.first_background_row() >= 0) return out;
+  for (const AbsorbedEffect* effect : absorbed_) out.push_back(effect->without_background());
   return out;
 }
 
@@ -124,8 +123,11 @@ std::vector<ClosureStep> ObservationLevel::absorbed() const {
   const auto& adopted = fit_.effects();
   if (std::any_of(adopted.begin(), adopted.end(), [](const auto& effect) { return effect->fills_free_motions(); }))
     return out;
+  const FitView fit = fit_.view();
+  const std::optional<FreeMotions> motions = free_motions(fit);
+  if (!motions) return out;
   for (const AbsorbedEffect* effect : absorbed_) {
-    std::optional<AbsorbedFinding> found = effect->find(fit_.view());
+    std::optional<AbsorbedFinding> found = effect->find(fit, *motions);
     if (!found) continue;
     ClosureStep& step = out.emplace_back();
     step.id = effect->id(), step.effect = effect->name();

@@ -119,7 +119,7 @@ TEST(AbsorbedEffects, FocusBreathingIsNamedWithItsSizeAndCentre) {
   EXPECT_LT(values[1].sigma.value_or(1e9), 60.0);
 }
 
-TEST(AbsorbedEffects, WithoutABackgroundBothAreToldAsNotObservable) {
+TEST(AbsorbedEffects, WithoutABackgroundBothAreReportedAsNotObservable) {
   const auto told = [](bool has_background) {
     ObservationLevel level(hovering_record({.background_mm = 0.2, .has_background = has_background}));
     (void)level.fit();

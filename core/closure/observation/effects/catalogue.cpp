@@ -3,24 +3,12 @@
 namespace core::closure {
 
 const EffectList<ObservationEffect>& observation_effects() {
-  static const EffectList<ObservationEffect> kAll = [] {
-    EffectList<ObservationEffect> all;
-#define HOVERMODAL_MAKE(name) all.push_back(make_##name());
-    HOVERMODAL_OBSERVATION_EFFECTS(HOVERMODAL_MAKE)
-#undef HOVERMODAL_MAKE
-    return all;
-  }();
+  static const auto kAll = effect_list<ObservationEffect>({HOVERMODAL_OBSERVATION_EFFECTS(HOVERMODAL_MAKER)});
   return kAll;
 }
 
 const EffectList<AbsorbedEffect>& absorbed_effects() {
-  static const EffectList<AbsorbedEffect> kAll = [] {
-    EffectList<AbsorbedEffect> all;
-#define HOVERMODAL_MAKE(name) all.push_back(make_##name());
-    HOVERMODAL_ABSORBED_EFFECTS(HOVERMODAL_MAKE)
-#undef HOVERMODAL_MAKE
-    return all;
-  }();
+  static const auto kAll = effect_list<AbsorbedEffect>({HOVERMODAL_ABSORBED_EFFECTS(HOVERMODAL_MAKER)});
   return kAll;
 }
 

@@ -74,19 +74,16 @@ class FocusBreathing final : public AbsorbedEffect {
  public:
   [[nodiscard]] EffectId id() const override { return {"focus_breathing"}; }
   [[nodiscard]] std::string name() const override { return "focus breathing"; }
-  [[nodiscard]] std::optional<NotObservable> obstacle(const FitView& fit) const override {
-    if (fit.model.first_background_row() >= 0) return std::nullopt;
-    return NotObservable{name(), "the zoom of a single plane is also the camera's approach",
-                         "film a background at another depth, or lock the focus"};
+  [[nodiscard]] NotObservable without_background() const override {
+    return {name(), "the zoom of a single plane is also the camera's approach",
+            "film a background at another depth, or lock the focus"};
   }
-  [[nodiscard]] std::optional<AbsorbedFinding> find(const FitView& fit) const override {
-    const std::optional<FreeMotions> motions = free_motions(fit);
-    if (!motions) return std::nullopt;
-    const Eigen::MatrixXd causes = causes_of(*motions);
-    const Eigen::RowVectorXd beyond = beyond_causes(motions->background_zoom, causes);
-    const double sigma = motions->background_zoom_sigma;
-    const TaperedSpectra zoom = tapered_spectra(beyond / sigma, motions->rate_hz);
-    const TaperedSpectra residual = tapered_spectra(fit.model.residual(), motions->rate_hz);
+  [[nodiscard]] std::optional<AbsorbedFinding> find(const FitView& fit, const FreeMotions& motions) const override {
+    const Eigen::MatrixXd causes = causes_of(motions);
+    const Eigen::RowVectorXd beyond = beyond_causes(motions.background_zoom, causes);
+    const double sigma = motions.background_zoom_sigma;
+    const TaperedSpectra zoom = tapered_spectra(beyond / sigma, motions.rate_hz);
+    const TaperedSpectra residual = tapered_spectra(fit.model.residual(), motions.rate_hz);
     const Eigen::VectorXd power = zoom.bins.row(0).cwiseAbs2().transpose();
     const double noise = noise_level(zoom, power);
     Beyond of;
@@ -94,12 +91,12 @@ class FocusBreathing final : public AbsorbedEffect {
       const double mean = power.segment(band.first, band.last - band.first + 1).mean();
       const double level = std::max(noise, kOverResidual * strongest_pattern(residual, band));
       of.gain += power_gain(mean, level, band.n);
-      const double share = 2.0 * static_cast<double>(band.last - band.first + 1) * zoom.bin_hz / motions->rate_hz;
+      const double share = 2.0 * static_cast<double>(band.last - band.first + 1) * zoom.bin_hz / motions.rate_hz;
       of.variance += std::max(mean - noise, 0.0) * share * sigma * sigma;
       of.sigma = std::hypot(of.sigma, mean * share * sigma * sigma / std::sqrt(band.n));
     }
     if (!(of.gain > kLeastGain)) return std::nullopt;
-    return finding(*motions, beyond, of);
+    return finding(motions, beyond, of);
   }
 
  private:
@@ -130,7 +127,7 @@ class FocusBreathing final : public AbsorbedEffect {
     out.parameters = {{"rms of the focal length", "%", 100.0 * rms / seen, 50.0 * of.sigma / rms / seen}};
     const auto n = static_cast<double>(beyond.size());
     for (const int axis : {0, 1}) {
-      const Eigen::RowVectorXd shift = beyond_causes(motions.background.row(axis), motions.rest);
+      const Eigen::RowVectorXd shift = beyond_causes(motions.background.row(axis), motions.base);
       const double centre = -shift.dot(beyond) / n / of.variance;
       const double left = (shift + centre * beyond).norm() / std::sqrt(n) / rms;
       const double n_independent = std::max(n / (kApart_s * motions.rate_hz), 1.0);

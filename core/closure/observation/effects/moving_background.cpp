@@ -63,36 +63,33 @@ Peak highest_peak(const TaperedSpectra& spectra, const Eigen::VectorXd& left, do
   return best;
 }
 
-// What is declared to rest moves. Its motion is a resonance of the background that neither the camera nor the structure
+// A background that is declared static moves. Its motion is a resonance that neither the camera nor the structure
 // shows: a camera moves both, in proportion to their distances, and a ground that shakes moves the structure's base.
 // Confused with a second object in the background's region (a branch, a banner), which is the same to the user.
 class MovingBackground final : public AbsorbedEffect {
  public:
   [[nodiscard]] EffectId id() const override { return {"moving_background"}; }
   [[nodiscard]] std::string name() const override { return "moving background"; }
-  [[nodiscard]] std::optional<NotObservable> obstacle(const FitView& fit) const override {
-    if (fit.model.first_background_row() >= 0) return std::nullopt;
-    return NotObservable{name(), "no region is declared as background", "declare one that should rest"};
+  [[nodiscard]] NotObservable without_background() const override {
+    return {name(), "no region is declared as background", "declare a static region behind the structure"};
   }
-  [[nodiscard]] std::optional<AbsorbedFinding> find(const FitView& fit) const override {
-    const std::optional<FreeMotions> motions = free_motions(fit);
-    if (!motions) return std::nullopt;
+  [[nodiscard]] std::optional<AbsorbedFinding> find(const FitView& fit, const FreeMotions& motions) const override {
     Peak best;
     for (const int axis : {0, 1}) {
-      Peak peak = peak_along(*motions, axis);
+      Peak peak = peak_along(motions, axis);
       peak.axis = axis;
       if (peak.own >= kLeastOwn && peak.score() > best.score()) best = peak;
     }
     if (!(best.score() > kLeastScore)) return std::nullopt;
     const double duration_s = static_cast<double>(fit.record.n_frames()) / fit.record.rate_hz;
     const double of_rate = 2.0 * best.half_hz / (0.5 * fit.record.rate_hz);  // width of the band
-    const double rms = std::sqrt(std::max(best.excess * of_rate, 0.0)) * motions->background_sigma(best.axis);
+    const double rms = std::sqrt(std::max(best.excess * of_rate, 0.0)) * motions.background_sigma(best.axis);
     AbsorbedFinding out;
     out.parameters = {{"frequency", "Hz", best.hz, std::max(best.half_hz / std::sqrt(best.n), 0.5 / duration_s)},
                       {best.axis == 0 ? "rms along u" : "rms along v", "px", rms, rms / std::sqrt(best.n)},
                       {"of the background's motion in that band", "%", 100.0 * best.own,
                        100.0 * std::max(std::sqrt(best.own * (1.0 - best.own) / best.n), 1.0 / best.n)}};
-    out.meaning = "what is declared to rest moves by itself; declare another background, or none";
+    out.meaning = "the region declared as background moves by itself; declare another one, or none";
     out.score = best.score(), out.threshold = kLeastScore;
     return out;
   }
@@ -101,7 +98,7 @@ class MovingBackground final : public AbsorbedEffect {
   [[nodiscard]] static Peak peak_along(const FreeMotions& motions, int axis) {
     const Eigen::RowVectorXd zoom = motions.structure_zoom.array() - motions.structure_zoom.mean();
     Eigen::MatrixXd causes(motions.structure.rows() + 3 + motions.added.rows(), zoom.size());
-    causes << motions.structure, zoom, motions.rest.row(0).cwiseProduct(zoom), motions.rest.row(1).cwiseProduct(zoom),
+    causes << motions.structure, zoom, motions.base.row(0).cwiseProduct(zoom), motions.base.row(1).cwiseProduct(zoom),
         motions.added;
     Eigen::MatrixXd series(1 + causes.rows(), causes.cols());
     series << beyond_causes(motions.background.row(axis), causes), causes;

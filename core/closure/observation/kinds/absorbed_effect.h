@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/closure/observation/fit_view.h"
+#include "core/closure/observation/free_motions.h"
 #include "core/types/closure_result.h"
 
 namespace core::closure {
@@ -28,10 +29,10 @@ class AbsorbedEffect {
 
   [[nodiscard]] virtual EffectId id() const = 0;
   [[nodiscard]] virtual std::string name() const = 0;  // for readers
-  // Empty: observable in this record.
-  [[nodiscard]] virtual std::optional<NotObservable> obstacle(const FitView& fit) const = 0;
+  // What a record without a background leaves open.
+  [[nodiscard]] virtual NotObservable without_background() const = 0;
   // Empty: the record does not show it.
-  [[nodiscard]] virtual std::optional<AbsorbedFinding> find(const FitView& fit) const = 0;
+  [[nodiscard]] virtual std::optional<AbsorbedFinding> find(const FitView& fit, const FreeMotions& motions) const = 0;
 };
 
 }  // namespace core::closure

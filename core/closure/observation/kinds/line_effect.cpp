@@ -14,11 +14,11 @@
 namespace core::closure {
 namespace {
 
-constexpr double kWidest_hz = 1.2;  // half width; a wider band is a broad-band rotation
-constexpr double kToldOrder = 0.8;  // of a line's gain: the most that another alias order may reach
-constexpr double kOfTails = 0.3;    // of the rms of a resonance: the most that lies outside its band
-constexpr double kTails = 2.0;      // half widths beside its band in which they lie
-constexpr double kOfPattern = 0.7;  // smallest share of the gain of the best pattern learned in its band
+constexpr double kWidest_hz = 1.2;   // half width; a wider band is a broad-band rotation
+constexpr double kOtherOrder = 0.8;  // of a line's gain: the most that another alias order may reach
+constexpr double kOfTails = 0.3;     // of the rms of a resonance: the most that lies outside its band
+constexpr double kTails = 2.0;       // half widths beside its band in which they lie
+constexpr double kOfPattern = 0.7;   // smallest share of the gain of the best pattern learned in its band
 
 LineSearch search_in(const LineEffect& effect, const FitView& fit) {
   return {fit.model, fit.record.rate_hz, fit.readout_frames, effect.patterns(fit.model.geometry(), fit.readout_frames),
@@ -107,8 +107,8 @@ class LineCandidate final : public EffectCandidate {
   // At order 0, or where the rows do not determine the order, only roll is seen of a rotation, and a rocking structure
   // leaves the same.
   [[nodiscard]] std::string of_structure() const {
-    const bool order_is_told = found_.next_gain < kToldOrder * found_.gain;
-    if (found_.fold != 0 && order_is_told) return {};
+    const bool order_is_known = found_.next_gain < kOtherOrder * found_.gain;
+    if (found_.fold != 0 && order_is_known) return {};
     RungSet band = 0;
     const Rungs& rungs = fit_.held_out.rungs();
     for (std::size_t i = 0; i < rungs.size(); ++i) {

@@ -14,36 +14,20 @@ const Effect& by_name(const EffectList<Effect>& all, const std::string& name) {
 
 }  // namespace
 
-#define HOVERMODAL_MAKE(name) all.push_back(make_##name());
-
 const EffectList<ClockEffect>& clock_effects() {
-  static const EffectList<ClockEffect> kAll = [] {
-    EffectList<ClockEffect> all;
-    HOVERMODAL_CLOCK_EFFECTS(HOVERMODAL_MAKE)
-    return all;
-  }();
+  static const auto kAll = effect_list<ClockEffect>({HOVERMODAL_CLOCK_EFFECTS(HOVERMODAL_MAKER)});
   return kAll;
 }
 
 const EffectList<DecayEffect>& decay_effects() {
-  static const EffectList<DecayEffect> kAll = [] {
-    EffectList<DecayEffect> all;
-    HOVERMODAL_DECAY_EFFECTS(HOVERMODAL_MAKE)
-    return all;
-  }();
+  static const auto kAll = effect_list<DecayEffect>({HOVERMODAL_DECAY_EFFECTS(HOVERMODAL_MAKER)});
   return kAll;
 }
 
 const EffectList<ChannelEffect>& channel_effects() {
-  static const EffectList<ChannelEffect> kAll = [] {
-    EffectList<ChannelEffect> all;
-    HOVERMODAL_CHANNEL_EFFECTS(HOVERMODAL_MAKE)
-    return all;
-  }();
+  static const auto kAll = effect_list<ChannelEffect>({HOVERMODAL_CHANNEL_EFFECTS(HOVERMODAL_MAKER)});
   return kAll;
 }
-
-#undef HOVERMODAL_MAKE
 
 const ClockEffect& clock_effect(const std::string& name) { return by_name(clock_effects(), name); }
 const DecayEffect& decay_effect(const std::string& name) { return by_name(decay_effects(), name); }
