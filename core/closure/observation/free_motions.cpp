@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "core/closure/observation/row_spectra.h"
+#include "core/linear/dense.h"
+#include "core/linear/symmetric_eigen.h"
 
 namespace core::closure {
 namespace {
@@ -14,6 +16,7 @@ namespace {
 using Eigen::Index;
 
 constexpr double kRankTolerance = 1e-9;  // of the largest column
+constexpr Index kCourses = 3;            // of a motion: a rotation has three axes
 constexpr double kReach_hz = 0.5, kStep_hz = 0.25;
 constexpr double kValuesPerCoefficient = 4.0;
 
@@ -36,6 +39,11 @@ Eigen::MatrixXd translation_of_base(const FitView& fit) {
   return fit.model.translation_of_point(point);
 }
 
+// Courses of a motion's strongest patterns.
+Eigen::MatrixXd courses_of(const Eigen::MatrixXd& motion) {
+  return SymmetricEigen(gram(motion)).leading_vectors(std::min(kCourses, motion.rows())).transpose() * motion;
+}
+
 // Central first and second difference; zero at the ends.
 void append_with_differences(const Eigen::RowVectorXd& cause, Eigen::MatrixXd& columns, Index& at) {
   const Index n = cause.size();
@@ -51,7 +59,7 @@ void append_with_differences(const Eigen::RowVectorXd& cause, Eigen::MatrixXd& c
 
 }  // namespace
 
-std::optional<FreeMotions> free_motions(const FitView& fit) {
+std::optional<FreeMotions> free_motions(const FitView& fit, const std::vector<Eigen::MatrixXd>& adopted_px) {
   const PointMotionModel& model = fit.model;
   const Index plane = model.first_plane_row(), background = model.first_background_row();
   if (background < 0) return std::nullopt;
@@ -65,7 +73,13 @@ std::optional<FreeMotions> free_motions(const FitView& fit) {
   out.background_zoom = rows.row(background + 2);
   out.background_sigma = {model.sigma_of_column(background), model.sigma_of_column(background + 1)};
   out.background_zoom_sigma = model.sigma_of_column(background + 2);
-  out.added = without_zero_rows(rows.bottomRows(rows.rows() - model.n_own()));
+  out.added = rows.bottomRows(rows.rows() - model.n_own());
+  for (const Eigen::MatrixXd& motion : adopted_px) {
+    const Eigen::MatrixXd courses = courses_of(model.at_common_instants(motion));
+    out.added.conservativeResize(out.added.rows() + courses.rows(), rows.cols());
+    out.added.bottomRows(courses.rows()) = courses;
+  }
+  out.added = without_zero_rows(out.added);
   if (!out.background_sigma.allFinite() || !std::isfinite(out.background_zoom_sigma)) return std::nullopt;
   return out;
 }

@@ -123,8 +123,13 @@ std::vector<ClosureStep> ObservationLevel::absorbed() const {
   const auto& adopted = fit_.effects();
   if (std::any_of(adopted.begin(), adopted.end(), [](const auto& effect) { return effect->fills_free_motions(); }))
     return out;
+  std::vector<Eigen::MatrixXd> motions_px;
+  for (std::size_t i = 0; i < adopted.size(); ++i) {
+    Eigen::MatrixXd motion = adopted[i]->pattern() == nullptr ? adopted[i]->motion_px({}) : Eigen::MatrixXd();
+    if (motion.size() > 0) motions_px.push_back(std::move(motion));
+  }
   const FitView fit = fit_.view();
-  const std::optional<FreeMotions> motions = free_motions(fit);
+  const std::optional<FreeMotions> motions = free_motions(fit, motions_px);
   if (!motions) return out;
   for (const AbsorbedEffect* effect : absorbed_) {
     std::optional<AbsorbedFinding> found = effect->find(fit, *motions);
