@@ -20,9 +20,9 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-constexpr std::size_t kMatHeader = 128, kMatTag = 8, kMatPadding = 8;
-constexpr std::uint32_t kMatrix = 14, kCompressed = 15;       // types of elements
-constexpr std::uint32_t kCell = 1, kStruct = 2, kObject = 3;  // classes of arrays
+constexpr std::size_t kMatHeader = 128, kMatTag = 8, kMatPadding = 8, kFlagBytes = 8;
+constexpr std::uint32_t kInt32 = 5, kUint32 = 6, kMatrix = 14, kCompressed = 15;  // types of elements
+constexpr std::uint32_t kCell = 1, kStruct = 2, kObject = 3, kSparse = 5;         // classes of arrays
 constexpr std::uint32_t kLastClass = 15;  // beyond: function handles and opaque ones, of another layout
 constexpr int kDeepest = 16;
 
@@ -103,15 +103,20 @@ class MatLayout {
   // Flags, dimensions, name; then values, or an array per cell or field.
   void check_array(Bytes rest, int depth) const {
     if (depth > kDeepest) refuse(fmt::format("arrays nested deeper than {}", kDeepest));
+    if (rest.empty()) return;  // an empty array
     const auto flags = next(rest);
-    if (!flags || flags->data.size() < 4) return;
+    if (!flags || flags->type != kUint32 || flags->data.size() != kFlagBytes)
+      refuse("an array does not begin with its flags: damaged");
     const std::uint32_t array_class = number(flags->data) & 0xFFU;
-    if (array_class > kLastClass) return;
+    if (array_class == 0 || array_class > kLastClass) return;
     const auto dimensions = next(rest), name = next(rest);
     if (!dimensions || !name) return;
-    if (array_class == kCell || array_class == kStruct || array_class == kObject) {
-      double n = 1.0;
-      for (std::size_t at = 0; at + 4 <= dimensions->data.size(); at += 4) n *= number(dimensions->data.subspan(at));
+    if (dimensions->type != kInt32) refuse("an array's second element is not its dimensions: damaged");
+    double n = 1.0;
+    for (std::size_t at = 0; at + 4 <= dimensions->data.size(); at += 4) n *= number(dimensions->data.subspan(at));
+    if (array_class > kObject && array_class != kSparse && n > static_cast<double>(rest.size()))
+      refuse(fmt::format("an array announces {:.0f} values in {} bytes: damaged", n, rest.size()));
+    if (array_class <= kObject) {
       if (array_class == kObject) (void)next(rest);  // the name of its class
       if (array_class != kCell) n *= n_fields(rest);
       if (n > static_cast<double>(rest.size() / kMatTag + 1))

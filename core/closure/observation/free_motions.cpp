@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/closure/observation/effects/rotation_patterns.h"
 #include "core/closure/observation/row_spectra.h"
 #include "core/linear/dense.h"
 #include "core/linear/symmetric_eigen.h"
@@ -28,6 +29,11 @@ Eigen::MatrixXd without_zero_rows(const Eigen::MatrixXd& rows) {
   return rows(kept, Eigen::all);
 }
 
+void append_rows(const Eigen::MatrixXd& rows, Eigen::MatrixXd& to) {
+  to.conservativeResize(to.rows() + rows.rows(), rows.cols());
+  to.bottomRows(rows.rows()) = rows;
+}
+
 // Of the base; without one, of the structure's plane.
 Eigen::MatrixXd translation_of_base(const FitView& fit) {
   Index point = -1;
@@ -42,6 +48,13 @@ Eigen::MatrixXd translation_of_base(const FitView& fit) {
 // Courses of a motion's strongest patterns.
 Eigen::MatrixXd courses_of(const Eigen::MatrixXd& motion) {
   return SymmetricEigen(gram(motion)).leading_vectors(std::min(kCourses, motion.rows())).transpose() * motion;
+}
+
+// Turns of the camera as the residual shows them: what an adopted vibration leaves, or one too small to adopt.
+Eigen::MatrixXd turns_left(const PointMotionModel& model) {
+  const Eigen::MatrixXd turns = model.whitened(rotation_patterns(model.geometry(), false));
+  const Eigen::MatrixXd left = turns - model.q_high() * (model.q_high().transpose() * turns);
+  return left.colPivHouseholderQr().solve(model.residual());
 }
 
 // Central first and second difference; zero at the ends.
@@ -74,11 +87,8 @@ std::optional<FreeMotions> free_motions(const FitView& fit, const std::vector<Ei
   out.background_sigma = {model.sigma_of_column(background), model.sigma_of_column(background + 1)};
   out.background_zoom_sigma = model.sigma_of_column(background + 2);
   out.added = rows.bottomRows(rows.rows() - model.n_own());
-  for (const Eigen::MatrixXd& motion : adopted_px) {
-    const Eigen::MatrixXd courses = courses_of(model.at_common_instants(motion));
-    out.added.conservativeResize(out.added.rows() + courses.rows(), rows.cols());
-    out.added.bottomRows(courses.rows()) = courses;
-  }
+  append_rows(turns_left(model), out.added);
+  for (const Eigen::MatrixXd& motion : adopted_px) append_rows(courses_of(model.at_common_instants(motion)), out.added);
   out.added = without_zero_rows(out.added);
   if (!out.background_sigma.allFinite() || !std::isfinite(out.background_zoom_sigma)) return std::nullopt;
   return out;

@@ -19,7 +19,7 @@ struct FreeMotions {
   Eigen::RowVectorXd background_zoom;  // relative
   Eigen::Vector2d background_sigma;    // of each of its values by noise, px
   double background_zoom_sigma = 0.0;
-  Eigen::MatrixXd added;  // courses of adopted effects
+  Eigen::MatrixXd added;  // courses of adopted effects; the camera's turns that the residual shows, rad
 };
 // adopted_px: motions of adopted effects that have no amplitude among the model's columns, 2 points x frames each, at
 // the instants of the points' own rows. Empty: the record has no background, or too few points on it.

@@ -52,6 +52,20 @@ TEST(MatLayout, ANestedCellIsCheckedLikeTheOuterOne) {
   EXPECT_THAT(refusal_of_mat(mat_of(1, {1, 1}, inner)), HasSubstr("announces 2000000000 arrays"));
 }
 
+TEST(MatLayout, ATextOfMoreValuesThanItsBytesIsRefused) {
+  EXPECT_THAT(refusal_of_mat(mat_of(4, {1, 4000000000U}, "")), HasSubstr("announces 4000000000 values in 0 bytes"));
+}
+
+TEST(MatLayout, AnArrayWithoutFlagsOrDimensionsIsRefused) {
+  std::string whole = mat_of(4, {1, 2}, "");
+  std::string damaged = whole;
+  damaged[128 + 8] = '\x7F';  // type of the flags
+  EXPECT_THAT(refusal_of_mat(damaged), HasSubstr("does not begin with its flags"));
+  damaged = whole;
+  damaged[128 + 8 + 16] = '\x7F';  // type of the dimensions
+  EXPECT_THAT(refusal_of_mat(damaged), HasSubstr("is not its dimensions"));
+}
+
 TEST(MatLayout, AnElementThatEndsBeyondTheFileIsRefused) {
   std::string whole = mat_of(6, {1, 1}, std::string("\x09\0\0\0\x08\0\0\0\0\0\0\0\0\0\xF0\x3F", 16));
   EXPECT_THAT(refusal_of_mat(whole), HasSubstr("no real numeric array"));  // one number is no series
