@@ -23,7 +23,7 @@ using Bytes = std::span<const std::uint8_t>;
 constexpr std::size_t kMatHeader = 128, kMatTag = 8, kMatPadding = 8, kFlagBytes = 8;
 constexpr std::uint32_t kInt32 = 5, kUint32 = 6, kMatrix = 14, kCompressed = 15;  // types of elements
 constexpr std::uint32_t kCell = 1, kStruct = 2, kObject = 3, kSparse = 5;         // classes of arrays
-constexpr std::uint32_t kLastClass = 15;  // beyond: function handles and opaque ones, of another layout
+constexpr std::uint32_t kLastClass = 15, kOpaque = 17;  // between: function handles; another layout
 constexpr int kDeepest = 16;
 
 struct MatElement {
@@ -45,8 +45,13 @@ class MatLayout {
     is_swapped_ = is_little != (std::endian::native == std::endian::little);
     Bytes rest = Bytes(all).subspan(kMatHeader);
     while (const auto element = next(rest)) {
-      if (element->type == kMatrix) check_array(element->data, 0);
-      if (element->type == kCompressed) check_compressed(element->data);
+      if (element->type == kCompressed)
+        check_compressed(element->data);
+      else if (element->type == kMatrix && element->data.size() % kMatPadding == 0)
+        check_array(element->data, 0);
+      else
+        refuse(fmt::format("an element of type {} and {} bytes where a variable should begin: damaged", element->type,
+                           element->data.size()));
     }
   }
 
@@ -108,7 +113,8 @@ class MatLayout {
     if (!flags || flags->type != kUint32 || flags->data.size() != kFlagBytes)
       refuse("an array does not begin with its flags: damaged");
     const std::uint32_t array_class = number(flags->data) & 0xFFU;
-    if (array_class == 0 || array_class > kLastClass) return;
+    if (array_class == 0 || array_class > kOpaque) refuse(fmt::format("an array of class {}: damaged", array_class));
+    if (array_class > kLastClass) return;
     const auto dimensions = next(rest), name = next(rest);
     if (!dimensions || !name) return;
     if (dimensions->type != kInt32) refuse("an array's second element is not its dimensions: damaged");

@@ -6,10 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/closure/observation/effects/rotation_patterns.h"
 #include "core/closure/observation/row_spectra.h"
-#include "core/linear/dense.h"
-#include "core/linear/symmetric_eigen.h"
 
 namespace core::closure {
 namespace {
@@ -17,7 +14,6 @@ namespace {
 using Eigen::Index;
 
 constexpr double kRankTolerance = 1e-9;  // of the largest column
-constexpr Index kCourses = 3;            // of a motion: a rotation has three axes
 constexpr double kReach_hz = 0.5, kStep_hz = 0.25;
 constexpr double kValuesPerCoefficient = 4.0;
 
@@ -29,11 +25,6 @@ Eigen::MatrixXd without_zero_rows(const Eigen::MatrixXd& rows) {
   return rows(kept, Eigen::all);
 }
 
-void append_rows(const Eigen::MatrixXd& rows, Eigen::MatrixXd& to) {
-  to.conservativeResize(to.rows() + rows.rows(), rows.cols());
-  to.bottomRows(rows.rows()) = rows;
-}
-
 // Of the base; without one, of the structure's plane.
 Eigen::MatrixXd translation_of_base(const FitView& fit) {
   Index point = -1;
@@ -43,18 +34,6 @@ Eigen::MatrixXd translation_of_base(const FitView& fit) {
     if (makes_channel(role)) point = j;
   }
   return fit.model.translation_of_point(point);
-}
-
-// Courses of a motion's strongest patterns.
-Eigen::MatrixXd courses_of(const Eigen::MatrixXd& motion) {
-  return SymmetricEigen(gram(motion)).leading_vectors(std::min(kCourses, motion.rows())).transpose() * motion;
-}
-
-// Turns of the camera as the residual shows them: what an adopted vibration leaves, or one too small to adopt.
-Eigen::MatrixXd turns_left(const PointMotionModel& model) {
-  const Eigen::MatrixXd turns = model.whitened(rotation_patterns(model.geometry(), false));
-  const Eigen::MatrixXd left = turns - model.q_high() * (model.q_high().transpose() * turns);
-  return left.colPivHouseholderQr().solve(model.residual());
 }
 
 // Central first and second difference; zero at the ends.
@@ -72,7 +51,7 @@ void append_with_differences(const Eigen::RowVectorXd& cause, Eigen::MatrixXd& c
 
 }  // namespace
 
-std::optional<FreeMotions> free_motions(const FitView& fit, const std::vector<Eigen::MatrixXd>& adopted_px) {
+std::optional<FreeMotions> free_motions(const FitView& fit) {
   const PointMotionModel& model = fit.model;
   const Index plane = model.first_plane_row(), background = model.first_background_row();
   if (background < 0) return std::nullopt;
@@ -86,10 +65,7 @@ std::optional<FreeMotions> free_motions(const FitView& fit, const std::vector<Ei
   out.background_zoom = rows.row(background + 2);
   out.background_sigma = {model.sigma_of_column(background), model.sigma_of_column(background + 1)};
   out.background_zoom_sigma = model.sigma_of_column(background + 2);
-  out.added = rows.bottomRows(rows.rows() - model.n_own());
-  append_rows(turns_left(model), out.added);
-  for (const Eigen::MatrixXd& motion : adopted_px) append_rows(courses_of(model.at_common_instants(motion)), out.added);
-  out.added = without_zero_rows(out.added);
+  out.added = without_zero_rows(rows.bottomRows(rows.rows() - model.n_own()));
   if (!out.background_sigma.allFinite() || !std::isfinite(out.background_zoom_sigma)) return std::nullopt;
   return out;
 }

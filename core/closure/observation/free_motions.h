@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <vector>
 
 #include "core/closure/observation/fit_view.h"
 
@@ -19,12 +18,10 @@ struct FreeMotions {
   Eigen::RowVectorXd background_zoom;  // relative
   Eigen::Vector2d background_sigma;    // of each of its values by noise, px
   double background_zoom_sigma = 0.0;
-  Eigen::MatrixXd added;  // courses of adopted effects; the camera's turns that the residual shows, rad
+  Eigen::MatrixXd added;  // amplitudes of adopted patterns
 };
-// adopted_px: motions of adopted effects that have no amplitude among the model's columns, 2 points x frames each, at
-// the instants of the points' own rows. Empty: the record has no background, or too few points on it.
-[[nodiscard]] std::optional<FreeMotions> free_motions(const FitView& fit,
-                                                      const std::vector<Eigen::MatrixXd>& adopted_px);
+// Empty: the record has no background, or too few points on it.
+[[nodiscard]] std::optional<FreeMotions> free_motions(const FitView& fit);
 
 // What a series does beyond its causes (rows of the same length): least squares on each cause, its first and its second
 // difference, so that a cause may act with the gain and lag of a mechanical system.

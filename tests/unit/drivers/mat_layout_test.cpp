@@ -66,6 +66,12 @@ TEST(MatLayout, AnArrayWithoutFlagsOrDimensionsIsRefused) {
   EXPECT_THAT(refusal_of_mat(damaged), HasSubstr("is not its dimensions"));
 }
 
+TEST(MatLayout, AnythingElseBetweenTheVariablesIsRefused) {
+  const std::string whole = mat_of(4, {1, 0}, "");
+  EXPECT_THAT(refusal_of_mat(whole + "a text in between, "), HasSubstr("where a variable should begin"));
+  EXPECT_THAT(refusal_of_mat(mat_of(38, {1, 0}, "")), HasSubstr("an array of class 38"));
+}
+
 TEST(MatLayout, AnElementThatEndsBeyondTheFileIsRefused) {
   std::string whole = mat_of(6, {1, 1}, std::string("\x09\0\0\0\x08\0\0\0\0\0\0\0\0\0\xF0\x3F", 16));
   EXPECT_THAT(refusal_of_mat(whole), HasSubstr("no real numeric array"));  // one number is no series

@@ -37,7 +37,6 @@ double median_level(const Eigen::VectorXd& power, Index first, Index last) {
   return median_in_place(values) / kMedian;
 }
 
-// spectra: of the whole motion.
 Peak highest_peak(const TaperedSpectra& spectra, const Eigen::VectorXd& left, double rate_hz, double noise) {
   Peak best;
   const Eigen::VectorXd all = spectra.bins.row(0).cwiseAbs2().transpose();
@@ -91,7 +90,7 @@ class MovingBackground final : public AbsorbedEffect {
                       {"of the background's motion in that band", "%", 100.0 * best.own,
                        100.0 * std::max(std::sqrt(best.own * (1.0 - best.own) / best.n), 1.0 / best.n)}};
     out.meaning = "the region declared as background moves by itself; declare another one, or none";
-    out.score = best.score(), out.threshold = kLeastScore;
+    out.score = best.score(), out.threshold = kLeastScore, out.hz = best.hz;
     return out;
   }
 
@@ -103,10 +102,10 @@ class MovingBackground final : public AbsorbedEffect {
         motions.added;
     Eigen::MatrixXd series(1 + causes.rows(), causes.cols());
     series << beyond_causes(motions.background.row(axis), causes), causes;
-    const Eigen::VectorXd left = beyond_neighbours(tapered_spectra(series, motions.rate_hz)).cwiseAbs2();
-    const TaperedSpectra whole = tapered_spectra(motions.background.row(axis), motions.rate_hz);
+    const TaperedSpectra spectra = tapered_spectra(series, motions.rate_hz);
+    const Eigen::VectorXd left = beyond_neighbours(spectra).cwiseAbs2();
     const double sigma = motions.background_sigma(axis);
-    Peak peak = highest_peak(whole, left, motions.rate_hz, sigma * sigma);
+    Peak peak = highest_peak(spectra, left, motions.rate_hz, sigma * sigma);
     peak.excess /= sigma * sigma;
     return peak;
   }
