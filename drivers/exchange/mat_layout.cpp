@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -24,6 +25,7 @@ constexpr std::size_t kMatHeader = 128, kMatTag = 8, kMatPadding = 8, kFlagBytes
 constexpr std::uint32_t kInt32 = 5, kUint32 = 6, kMatrix = 14, kCompressed = 15;  // types of elements
 constexpr std::uint32_t kCell = 1, kStruct = 2, kObject = 3, kSparse = 5;         // classes of arrays
 constexpr std::uint32_t kLastClass = 15, kOpaque = 17;  // between: function handles; another layout
+constexpr std::uint8_t kVersion73 = 2;                  // the higher byte of the version
 constexpr int kDeepest = 16;
 
 struct MatElement {
@@ -39,9 +41,11 @@ class MatLayout {
     const FileHandle file = open_regular_file(path_, "name a MAT file", Limits::kExchangeBytes);
     std::vector<std::uint8_t> all(bytes_of(file.get()));
     all.resize(read_bytes(file.get(), all.data(), all.size(), path_));
-    if (all.size() < kMatHeader) return;
-    const bool is_little = all[126] == 'I' && all[127] == 'M', is_big = all[126] == 'M' && all[127] == 'I';
-    if (!is_little && !is_big) return;
+    const bool is_whole = all.size() >= kMatHeader;
+    const bool is_little = is_whole && all[126] == 'I' && all[127] == 'M';
+    const bool is_big = is_whole && all[126] == 'M' && all[127] == 'I';
+    if (!is_little && !is_big) return check_version_4(all);
+    if (all[is_little ? 125 : 124] == kVersion73) refuse("version 7.3 (HDF5) is not read; save it with -v7");
     is_swapped_ = is_little != (std::endian::native == std::endian::little);
     Bytes rest = Bytes(all).subspan(kMatHeader);
     while (const auto element = next(rest)) {
@@ -79,6 +83,27 @@ class MatLayout {
     const std::size_t padded = out.type == kCompressed ? n : (n + kMatPadding - 1) / kMatPadding * kMatPadding;
     rest = rest.subspan(kMatTag + std::min(padded, left));
     return out;
+  }
+
+  // Variables one after another: type, rows, columns, is it complex, length of the name; the name; the values.
+  void check_version_4(Bytes rest) {
+    constexpr std::array<double, 6> kSizes{8, 4, 4, 2, 2, 1};  // of a value, by the tens of the type
+    constexpr std::size_t kHead = 20;
+    constexpr std::uint32_t kLargestType = 4052;
+    is_swapped_ = rest.size() >= kHead && number(rest) > kLargestType;
+    while (rest.size() >= kHead) {
+      std::array<std::uint32_t, 5> head{};
+      for (std::size_t i = 0; i < head.size(); ++i) head[i] = number(rest.subspan(4 * i));
+      const auto [type, n_rows, n_columns, is_complex, name_bytes] = head;
+      const std::size_t of_size = type / 10 % 10;
+      if (type > kLargestType || of_size >= kSizes.size())
+        refuse("no MAT file that can be read; save it with -v7 or -v6");
+      const double n = name_bytes + kSizes[of_size] * n_rows * n_columns * (is_complex != 0 ? 2.0 : 1.0);
+      rest = rest.subspan(kHead);
+      if (n > static_cast<double>(rest.size()))
+        refuse(fmt::format("a variable announces {:.0f} bytes, {} are left: cut off or damaged", n, rest.size()));
+      rest = rest.subspan(static_cast<std::size_t>(n));
+    }
   }
 
   void check_compressed(Bytes data) {
