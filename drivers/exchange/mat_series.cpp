@@ -90,7 +90,6 @@ class MatSeries {
     check_mat_layout(path);
     file_.reset(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
     if (!file_) refuse("no MAT file that can be read; save it with -v7 or -v6");
-    if (Mat_GetVersion(file_.get()) == MAT_FT_MAT73) refuse("version 7.3 (HDF5) is not read; save it with -v7");
   }
 
   [[nodiscard]] SeriesFile read() {

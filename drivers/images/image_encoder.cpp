@@ -5,13 +5,15 @@
 #include <array>
 #include <csetjmp>
 #include <cstdio>
-#include <cstdlib>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 // After <cstdio>: jpeglib.h uses FILE without including it.
 #include <jpeglib.h>
+// After jpeglib.h.
+#include <jerror.h>
 
 namespace drivers {
 namespace {
@@ -26,9 +28,9 @@ struct JpegWriter {
   jpeg_compress_struct encoder{};
   jpeg_error_mgr errors{};
   std::jmp_buf failed{};
+  jpeg_destination_mgr to{};
   std::array<char, JMSG_LENGTH_MAX> message{};
-  unsigned char* bytes = nullptr;  // malloc'd by libjpeg
-  unsigned long n_bytes = 0;
+  std::vector<std::uint8_t> bytes;
 
   JpegWriter() {
     encoder.err = jpeg_std_error(&errors);
@@ -42,17 +44,41 @@ struct JpegWriter {
     errors.output_message = [](j_common_ptr) {};
     if (setjmp(failed) != 0) throw std::bad_alloc();  // nothing else fails in it
     jpeg_create_compress(&encoder);
+    // Not jpeg_mem_dest(): where the memory for a larger buffer is refused, it leaves a pointer to the freed one.
+    to.init_destination = [](j_compress_ptr started) { grow(started, kFirstBytes); };
+    to.empty_output_buffer = [](j_compress_ptr full) -> boolean {
+      grow(full, of(full).bytes.size());
+      return TRUE;
+    };
+    to.term_destination = [](j_compress_ptr done) {
+      of(done).bytes.resize(of(done).bytes.size() - of(done).to.free_in_buffer);
+    };
+    encoder.dest = &to;
   }
-  ~JpegWriter() {
-    jpeg_destroy_compress(&encoder);
-    std::free(bytes);
-  }
+  ~JpegWriter() { jpeg_destroy_compress(&encoder); }
   JpegWriter(const JpegWriter&) = delete;
   JpegWriter& operator=(const JpegWriter&) = delete;
 
+  static constexpr std::size_t kFirstBytes = 1 << 14;
+  [[nodiscard]] static JpegWriter& of(j_compress_ptr encoder) {
+    return *static_cast<JpegWriter*>(encoder->client_data);
+  }
+  static void grow(j_compress_ptr encoder, std::size_t more) {
+    JpegWriter& self = of(encoder);
+    const std::size_t n = self.bytes.size();
+    bool full = false;
+    try {
+      self.bytes.resize(n + more);
+    } catch (const std::bad_alloc&) {
+      full = true;
+    }
+    if (full) ERREXIT1(encoder, JERR_OUT_OF_MEMORY, 0);
+    self.to.next_output_byte = self.bytes.data() + n;
+    self.to.free_in_buffer = more;
+  }
+
   [[nodiscard]] bool write(const cv::Mat& gray, int quality, bool optimize) noexcept {
     if (setjmp(failed) != 0) return false;
-    jpeg_mem_dest(&encoder, &bytes, &n_bytes);
     encoder.image_width = static_cast<JDIMENSION>(gray.cols);
     encoder.image_height = static_cast<JDIMENSION>(gray.rows);
     encoder.input_components = 1;
@@ -126,7 +152,7 @@ std::vector<std::uint8_t> encode_jpeg(const cv::Mat& gray, int quality, bool opt
   if (!writer.write(gray, quality, optimize)) {
     throw std::runtime_error(std::string("the image cannot be written as JPEG: ") + writer.message.data());
   }
-  return {writer.bytes, writer.bytes + writer.n_bytes};
+  return std::move(writer.bytes);
 }
 
 std::vector<std::uint8_t> encode_png(const cv::Mat& bgr, int level) {

@@ -141,17 +141,23 @@ void AliasedMotion::learn_tail(const Eigen::MatrixXd& amplitudes, const Eigen::V
   power_ *= n_free * static_cast<double>(residual.cols()) / std::max(residual.squaredNorm() - inside, 1e-300);
 }
 
+// Alias order -1 comes from 2 - of_half, +1 from 2 + of_half.
+Eigen::VectorXd AliasedMotion::change_at(double of_half) const {
+  const double shape = std::pow(2.0 - of_half, -kTailOrder) + std::pow(2.0 + of_half, -kTailOrder);
+  return (1.0 + shape * power_.array()).rsqrt() - 1.0;
+}
+
 void AliasedMotion::weigh(Eigen::MatrixXd& series) const {
   if (directions_.size() == 0) return;
   Eigen::MatrixXcd bins = shift_.spectra(directions_.transpose() * series);
   const auto half = static_cast<double>(bins.cols() - 1);
-  for (Index k = 0; k < bins.cols(); ++k) {
-    const double place =
-        static_cast<double>(k) / half;  // of half the rate; alias order -1 comes from 2 - place, +1 from 2 + place
-    const double shape = std::pow(2.0 - place, -kTailOrder) + std::pow(2.0 + place, -kTailOrder);
-    for (Index i = 0; i < bins.rows(); ++i) bins(i, k) *= 1.0 / std::sqrt(1.0 + shape * power_(i)) - 1.0;
-  }
+  for (Index k = 0; k < bins.cols(); ++k) bins.col(k).array() *= change_at(static_cast<double>(k) / half).array();
   series += directions_ * shift_.series(bins);
+}
+
+void AliasedMotion::weigh_at(double of_half, Eigen::MatrixXcd& fields) const {
+  if (directions_.size() == 0) return;
+  fields += directions_ * (change_at(of_half).asDiagonal() * (directions_.transpose() * fields)).eval();
 }
 
 }  // namespace core::closure

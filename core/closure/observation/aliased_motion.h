@@ -41,8 +41,12 @@ class AliasedMotion {
   void learn_tail(const Eigen::MatrixXd& amplitudes, const Eigen::VectorXd& noise, const Eigen::MatrixXd& residual);
   // Weights series at the common instants by the inverse standard deviation of the tail plus noise; in place.
   void weigh(Eigen::MatrixXd& series) const;
+  // The same of fields of a motion at one frequency; of_half: apparent frequency over half the rate.
+  void weigh_at(double of_half, Eigen::MatrixXcd& fields) const;
 
  private:
+  // Change of the weight of each direction at an apparent frequency: -1 (no weight) .. 0.
+  [[nodiscard]] Eigen::VectorXd change_at(double of_half) const;
   // Readout fraction of a point (row 2 j or 2 j + 1) after the mean of a column's.
   [[nodiscard]] double rows_later(Eigen::Index row, Eigen::Index column) const;
   // A field in px, whitened: its part outside the model's columns.

@@ -42,12 +42,14 @@ Eigen::RowVectorXcd LineSearch::analytic(const Eigen::RowVectorXcd& bins, const 
 LineSearch::Turns LineSearch::turns(const Eigen::MatrixXcd& bins, const std::vector<Side>& both) const {
   const Band b = both.front().band;
   const Eigen::Index n_axes = fields_.cols();
+  const double bin_hz = rate_hz_ / n_fft_;
   const double per_bin = 2.0 * static_cast<double>(n_frames_) / n_fft_;  // squares of noise of unit variance
   const auto part = std::max<Eigen::Index>(1, std::lround(kPart_hz * n_fft_ / rate_hz_));
   Turns out{std::vector<Eigen::MatrixXcd>(both.size(), Eigen::MatrixXcd::Zero(n_axes, b.count)), 0.0};
   std::vector<Eigen::MatrixXd> noise(both.size(), Eigen::MatrixXd::Zero(n_axes, b.count));
   for (Eigen::Index c = 0; c < b.count; ++c) {
-    const Eigen::MatrixXcd w = left_of(fields_at(b.first + c, both)), squares = w.adjoint() * w;
+    const Eigen::MatrixXcd w = left_of(fields_at(b.first + c, both), bin_hz * static_cast<double>(b.first + c)),
+                           squares = w.adjoint() * w;
     const Eigen::MatrixXcd inverse = squares.ldlt().solve(Eigen::MatrixXcd::Identity(w.cols(), w.cols()));
     const Eigen::VectorXcd turn = inverse * (w.adjoint() * bins.col(c));
     Eigen::Index first = 0;
@@ -106,7 +108,7 @@ LineAngles LineSearch::angles(const Eigen::MatrixXd& motion_px, const Eigen::Mat
   const Eigen::MatrixXcd bins =
       spectrum(model_.whitened(model_.at_common_instants(motion_px))).middleCols(b.first, b.count);
   const Eigen::MatrixXcd seen = fields_of(finding.fold);
-  const Eigen::MatrixXcd left = left_of(seen), fields = model_.whitened(seen);
+  const Eigen::MatrixXcd left = left_of(seen, finding.apparent_hz), fields = model_.whitened(seen);
   Eigen::MatrixXcd amplitude = (fields.adjoint() * fields).ldlt().solve(fields.adjoint() * bins);
   amplitude += (left.adjoint() * left).ldlt().solve(left.adjoint() * spectrum(residual).middleCols(b.first, b.count));
   const Eigen::MatrixXcd covariance =

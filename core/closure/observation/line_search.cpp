@@ -126,15 +126,13 @@ Eigen::MatrixXcd LineSearch::fields_at(Eigen::Index bin, const std::vector<Side>
   return fields;
 }
 
-Eigen::MatrixXcd LineSearch::left_of(const Eigen::MatrixXcd& fields) const {
-  Eigen::MatrixXcd w = model_.whitened(fields);
-  w -= (model_.q_high() * (model_.q_high().transpose() * w)).eval();
-  return w;
+Eigen::MatrixXcd LineSearch::left_of(const Eigen::MatrixXcd& fields, double hz) const {
+  return model_.left_at(hz, model_.whitened(fields));
 }
 
-double LineSearch::gain(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& fields) const {
-  const Eigen::VectorXd norms = model_.whitened(fields).colwise().norm();
-  return gain_of_columns(moments, orthonormal(left_of(fields), norms));
+Eigen::MatrixXcd LineSearch::columns_of(int fold, double hz) const {
+  const Eigen::MatrixXcd whitened = model_.whitened(fields_of(fold));
+  return orthonormal(model_.left_at(hz, whitened), whitened.colwise().norm());
 }
 
 // g: orthonormal, outside the model's own columns.
@@ -181,14 +179,14 @@ double LineSearch::pattern_gain(const Eigen::MatrixXd& residual, const LineFindi
 // Excludes the mirror image: a line must reach the threshold without it.
 double LineSearch::band_gain(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const {
   const Band b = band(finding.apparent_hz, finding.half_width_hz);
-  return b.count < 1 ? 0.0 : gain(moments_of(spectrum.middleCols(b.first, b.count)), fields_of(finding.fold));
+  return b.count < 1 ? 0.0
+                     : gain_of_columns(moments_of(spectrum.middleCols(b.first, b.count)),
+                                       columns_of(finding.fold, finding.apparent_hz));
 }
 
 std::array<double, 3> LineSearch::quantiles_hz(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const {
   const Band b = band(finding.apparent_hz, finding.half_width_hz);
-  const Eigen::MatrixXcd fields = fields_of(finding.fold);
-  const Eigen::VectorXd norms = model_.whitened(fields).colwise().norm();
-  const Eigen::MatrixXcd g = orthonormal(left_of(fields), norms);
+  const Eigen::MatrixXcd g = columns_of(finding.fold, finding.apparent_hz);
   const Eigen::MatrixXcd seen = g.adjoint() * spectrum.middleCols(b.first, b.count);
   const double noise = 2.0 * static_cast<double>(g.cols() * n_frames_) / n_fft_;
   const Eigen::VectorXd excess = seen.colwise().squaredNorm().transpose().array() - noise;
@@ -225,7 +223,7 @@ void LineSearch::try_folds(const Eigen::MatrixXcd& spectrum, double apparent_hz,
   own.gain = own.next_gain = -1e300;
   double at_rest = 0.0;
   for (int fold = -most; fold <= most; ++fold) {
-    const double g = gain(moments, fields_of(fold));
+    const double g = gain_of_columns(moments, columns_of(fold, apparent_hz));
     if (fold == 0) at_rest = g;
     if (g > own.gain)
       own.next_gain = own.gain, own.gain = g, own.fold = fold;

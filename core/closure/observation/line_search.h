@@ -100,9 +100,10 @@ class LineSearch {
     double freedom = 0.0;
   };
   [[nodiscard]] Turns turns(const Eigen::MatrixXcd& bins, const std::vector<Side>& both) const;
-  // Part of the fields outside the model's own columns, whitened.
-  [[nodiscard]] Eigen::MatrixXcd left_of(const Eigen::MatrixXcd& fields) const;
-  [[nodiscard]] double gain(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& fields) const;
+  // What the model leaves of the fields of a motion at this apparent frequency.
+  [[nodiscard]] Eigen::MatrixXcd left_of(const Eigen::MatrixXcd& fields, double hz) const;
+  // The same of an alias order, orthonormal.
+  [[nodiscard]] Eigen::MatrixXcd columns_of(int fold, double hz) const;
   [[nodiscard]] double gain_of_columns(const Eigen::MatrixXcd& moments, const Eigen::MatrixXcd& g) const;
   [[nodiscard]] double band_gain(const Eigen::MatrixXcd& spectrum, const LineFinding& finding) const;
   void recentre(const Eigen::MatrixXcd& spectrum, LineFinding& finding) const;

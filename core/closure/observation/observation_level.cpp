@@ -9,6 +9,7 @@
 #include "core/closure/observation/observation_report.h"
 #include "core/closure/observation/point_screening.h"
 #include "core/closure/observation/region_modes.h"
+#include "core/closure/observation/remainder.h"
 
 namespace core::closure {
 namespace {
@@ -118,6 +119,18 @@ std::vector<std::string> ObservationLevel::rivals(std::size_t adopted, std::uint
   return out;
 }
 
+// A camera that turns and shifts in one band moves structure and background in a ratio that one frame does not show: of
+// the background's own motion there nothing can be said.
+bool ObservationLevel::camera_vibrates_at(double hz) const {
+  for (const auto& effect : fit_.effects()) {
+    const Eigen::MatrixXd motion = effect->pattern() == nullptr ? effect->motion_px({}) : Eigen::MatrixXd();
+    if (motion.size() == 0) continue;
+    const BandHz band = band_of(motion, fit_.view().record.rate_hz, effect->leaves().beside_hz);
+    if (hz >= band.low && hz <= band.high) return true;
+  }
+  return false;
+}
+
 std::vector<ClosureStep> ObservationLevel::absorbed() const {
   std::vector<ClosureStep> out;
   const auto& adopted = fit_.effects();
@@ -128,7 +141,7 @@ std::vector<ClosureStep> ObservationLevel::absorbed() const {
   if (!motions) return out;
   for (const AbsorbedEffect* effect : absorbed_) {
     std::optional<AbsorbedFinding> found = effect->find(fit, *motions);
-    if (!found) continue;
+    if (!found || (found->hz && camera_vibrates_at(*found->hz))) continue;
     ClosureStep& step = out.emplace_back();
     step.id = effect->id(), step.effect = effect->name();
     step.parameters = std::move(found->parameters), step.meaning = std::move(found->meaning);

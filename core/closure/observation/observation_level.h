@@ -63,6 +63,7 @@ class ObservationLevel final : public ClosureLevel {
  private:
   [[nodiscard]] bool is_zero(std::size_t adopted) const;  // of constants: each within three sigmas of it
   [[nodiscard]] bool is_idle(std::size_t adopted);        // of a latent pattern; refits
+  [[nodiscard]] bool camera_vibrates_at(double hz) const;
 
   std::vector<std::string> warnings_;  // before fit_, whose making fills it
   ObservationFit fit_;

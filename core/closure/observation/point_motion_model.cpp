@@ -283,6 +283,12 @@ Eigen::MatrixXd PointMotionModel::left_at_common_instants(Eigen::MatrixXd series
   return left;
 }
 
+Eigen::MatrixXcd PointMotionModel::left_at(double hz, const Eigen::MatrixXcd& fields) const {
+  Eigen::MatrixXcd left = fields - q_high_ * (q_high_.transpose() * fields);
+  if (aliased_) aliased_->weigh_at(2.0 * hz / rate_hz_, left);
+  return left;
+}
+
 Eigen::MatrixXd PointMotionModel::left_of(const Eigen::MatrixXd& values) const {
   Eigen::MatrixXd left = values;
   add_product(left, -1.0, q_high_, product(q_high_.transpose(), values));

@@ -109,6 +109,9 @@ class PointMotionModel {
   // Residual of a field or record at the frames' common instants after the fit, 2 points x frames in sigmas, without
   // its mean over time.
   [[nodiscard]] Eigen::MatrixXd left_of(const Eigen::MatrixXd& values) const;
+  // Residual of fields of a motion at one apparent frequency (whitened), outside the added columns' band; weighted like
+  // the residual's.
+  [[nodiscard]] Eigen::MatrixXcd left_at(double hz, const Eigen::MatrixXcd& fields) const;
   // Amplitudes that the columns outside the band take of a whitened field, beside which the field leaves its residual.
   [[nodiscard]] Eigen::VectorXd amplitudes_of(const Eigen::VectorXd& whitened) const;
   // Orthonormal columns outside and within the band of the added columns.

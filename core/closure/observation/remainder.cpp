@@ -15,15 +15,6 @@ constexpr double kInside = 0.8;      // of the pattern's squares: at the effect'
 constexpr double kTail = 0.025;      // of the effect's squares, left out at either end of its band
 constexpr double kMovesPoint = 0.1;  // of the effect's rms: a point that it moves
 
-// Frequencies that hold an effect's squares but their tails.
-BandHz band_of(const Eigen::MatrixXd& motion_px, double rate_hz, double beside_hz) {
-  const int n_fft = row_fft_size(motion_px);
-  const Eigen::VectorXd power = row_spectra(motion_px, n_fft).cwiseAbs2().colwise().sum().transpose();
-  const auto [low, high] = power_quantiles(power, std::array{kTail, 1.0 - kTail});
-  const double bin_hz = rate_hz / n_fft;
-  return {bin_hz * static_cast<double>(low) - beside_hz, bin_hz * static_cast<double>(high) + beside_hz};
-}
-
 // Squares of a pattern's amplitude above the noise, in each bin of the residual's spectrum.
 struct PatternPower {
   Eigen::RowVectorXd of_bin;
@@ -73,6 +64,14 @@ double share_on_points(const Eigen::VectorXd& pattern_px, const Eigen::VectorXd&
 }
 
 }  // namespace
+
+BandHz band_of(const Eigen::MatrixXd& motion_px, double rate_hz, double beside_hz) {
+  const int n_fft = row_fft_size(motion_px);
+  const Eigen::VectorXd power = row_spectra(motion_px, n_fft).cwiseAbs2().colwise().sum().transpose();
+  const auto [low, high] = power_quantiles(power, std::array{kTail, 1.0 - kTail});
+  const double bin_hz = rate_hz / n_fft;
+  return {bin_hz * static_cast<double>(low) - beside_hz, bin_hz * static_cast<double>(high) + beside_hz};
+}
 
 Remainders::Remainders(const ObservationFit& fit, const ResidualMoments& residual)
     : view_(fit.view()), residual_(residual) {

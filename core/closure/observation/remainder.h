@@ -19,6 +19,9 @@ struct BandHz {
   double low = 0.0, high = 0.0;
 };
 
+// Frequencies that hold the squares of a motion (px, 2 points x frames) but its tails, and so much beside them.
+[[nodiscard]] BandHz band_of(const Eigen::MatrixXd& motion_px, double rate_hz, double beside_hz);
+
 // Of the named effects in a fit. Both arguments must outlive it.
 class Remainders {
  public:

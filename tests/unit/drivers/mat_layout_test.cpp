@@ -15,13 +15,14 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
+std::string number(std::uint32_t value) {
+  std::string out;
+  for (int byte = 0; byte < 4; ++byte) out += static_cast<char>(value >> (8 * byte) & 0xFFU);
+  return out;
+}
+
 // A MAT file of version 5, little-endian, with one array in these bytes after its flags and dimensions.
 std::string mat_of(std::uint32_t array_class, std::vector<std::uint32_t> dimensions, const std::string& rest) {
-  const auto number = [](std::uint32_t value) {
-    std::string out;
-    for (int byte = 0; byte < 4; ++byte) out += static_cast<char>(value >> (8 * byte) & 0xFFU);
-    return out;
-  };
   std::string array = number(6) + number(8) + number(array_class) + number(0);
   array += number(5) + number(static_cast<std::uint32_t>(4 * dimensions.size()));
   for (const std::uint32_t dimension : dimensions) array += number(dimension);
@@ -50,6 +51,37 @@ TEST(MatLayout, ACellThatAnnouncesMoreArraysThanItsBytesHoldIsRefused) {
 TEST(MatLayout, ANestedCellIsCheckedLikeTheOuterOne) {
   const std::string inner = mat_of(1, {40000, 50000}, "").substr(128);
   EXPECT_THAT(refusal_of_mat(mat_of(1, {1, 1}, inner)), HasSubstr("announces 2000000000 arrays"));
+}
+
+TEST(MatLayout, ATextOfMoreValuesThanItsBytesIsRefused) {
+  EXPECT_THAT(refusal_of_mat(mat_of(4, {1, 4000000000U}, "")), HasSubstr("announces 4000000000 values in 0 bytes"));
+}
+
+TEST(MatLayout, AnArrayWithoutFlagsOrDimensionsIsRefused) {
+  std::string whole = mat_of(4, {1, 2}, "");
+  std::string damaged = whole;
+  damaged[128 + 8] = '\x7F';  // type of the flags
+  EXPECT_THAT(refusal_of_mat(damaged), HasSubstr("does not begin with its flags"));
+  damaged = whole;
+  damaged[128 + 8 + 16] = '\x7F';  // type of the dimensions
+  EXPECT_THAT(refusal_of_mat(damaged), HasSubstr("is not its dimensions"));
+}
+
+TEST(MatLayout, AnythingElseBetweenTheVariablesIsRefused) {
+  const std::string whole = mat_of(4, {1, 0}, "");
+  EXPECT_THAT(refusal_of_mat(whole + "a text in between, "), HasSubstr("where a variable should begin"));
+  EXPECT_THAT(refusal_of_mat(mat_of(38, {1, 0}, "")), HasSubstr("an array of class 38"));
+}
+
+TEST(MatLayout, AVariableOfVersion4IsCheckedToo) {
+  const std::string name("t_s\0", 4), values(16, '\1');
+  EXPECT_THAT(refusal_of_mat(number(0) + number(2) + number(1) + number(0) + number(4) + name + values),
+              Not(HasSubstr("announces")));
+  EXPECT_THAT(refusal_of_mat(number(0) + number(2) + number(1) + number(1) + number(4) + name + values),
+              HasSubstr("a variable announces 36 bytes, 20 are left"));
+  EXPECT_THAT(refusal_of_mat(number(0) + number(2) + number(1) + number(0) + number(2000000000) + name + values),
+              HasSubstr("a variable announces 2000000016 bytes"));
+  EXPECT_THAT(refusal_of_mat(std::string(40, 'x')), HasSubstr("no MAT file that can be read"));
 }
 
 TEST(MatLayout, AnElementThatEndsBeyondTheFileIsRefused) {

@@ -90,7 +90,7 @@ class MovingBackground final : public AbsorbedEffect {
                       {"of the background's motion in that band", "%", 100.0 * best.own,
                        100.0 * std::max(std::sqrt(best.own * (1.0 - best.own) / best.n), 1.0 / best.n)}};
     out.meaning = "the region declared as background moves by itself; declare another one, or none";
-    out.score = best.score(), out.threshold = kLeastScore;
+    out.score = best.score(), out.threshold = kLeastScore, out.hz = best.hz;
     return out;
   }
 

@@ -15,6 +15,7 @@ struct AbsorbedFinding {
   std::vector<ParameterValue> parameters;
   std::string meaning;
   double score = 0.0, threshold = 0.0;  // chi-square / 2, of the motion beyond its known causes
+  std::optional<double> hz = {};        // of a resonance
 };
 
 // An effect that the model's free motions absorb: it leaves no residual, and adopting it cannot lower the held-out

@@ -13,12 +13,11 @@ namespace {
 
 constexpr double kLeastSigmas = 3.0;
 
-// Attenuation of a wave over the image by the model's position uncertainty: exp(-(2 pi waves sigma)^2 / 2).
+// Attenuation of a wave over the image by the uncertainty of the model's positions: exp(-(2 pi waves sigma)^2 / 2), in
+// the weighted mean of the points. A point of weight w has the variance h / w there; the sum of h is the rank.
 double blur(const FitView& fit, double waves_per_px) {
-  const Eigen::MatrixXd& q = fit.model.q_high();
-  const double share = static_cast<double>(q.cols()) / static_cast<double>(q.rows());
-  const double phase = 2.0 * std::numbers::pi * waves_per_px * fit.sigma_px * std::sqrt(share);
-  return std::exp(-0.5 * phase * phase);
+  const double variance_px2 = static_cast<double>(fit.model.q_high().cols()) / fit.model.weight().squaredNorm();
+  return std::exp(-0.5 * std::pow(2.0 * std::numbers::pi * waves_per_px, 2) * variance_px2);
 }
 
 class ConstantsInModel final : public EffectInModel {
