@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
+#include <memory>
 #include <vector>
 
 #include "core/closure/noise_stream.h"
@@ -65,7 +67,8 @@ struct Solved {
   Eigen::MatrixXd amplitudes;
 };
 
-Solved solve(const ObservationRecord& record) {
+// In one place: parts of the model refer to it.
+std::unique_ptr<PointMotionModel> solved_model(const ObservationRecord& record) {
   const Eigen::Index n = record.n_frames();
   Eigen::MatrixXd positions(2 * record.n_points(), n), later(record.n_points(), n);
   for (Eigen::Index j = 0; j < record.n_points(); ++j) {
@@ -73,13 +76,19 @@ Solved solve(const ObservationRecord& record) {
     positions.row(2 * j + 1) = record.v_px.col(j).transpose();
     later.row(j) = (record.v_px.col(j).array() - record.v_px.col(j).mean()).transpose() / record.height_px;
   }
-  PointMotionModel model(record);
-  model.set_drift(later);
-  model.solve(positions, record.readout_frames, 1);
+  auto model = std::make_unique<PointMotionModel>(record);
+  model->set_drift(later);
+  model->solve(positions, record.readout_frames, 1);
+  return model;
+}
+
+Solved solve(const ObservationRecord& record) {
+  const auto solved = solved_model(record);
+  const PointMotionModel& model = *solved;
+  const Eigen::Index n = record.n_frames();
   constexpr Eigen::Index kEnds = 30;  // frames that are continued by reflection
   const Eigen::MatrixXd inner = model.residual().middleCols(kEnds, n - 2 * kEnds);
-  const double freedom =
-      static_cast<double>(positions.rows() - model.q_high().cols()) / static_cast<double>(positions.rows());
+  const double freedom = 1.0 - static_cast<double>(model.q_high().cols()) / static_cast<double>(model.q_high().rows());
   return {std::sqrt(inner.squaredNorm() / static_cast<double>(inner.size()) / freedom), model.amplitudes()};
 }
 
@@ -140,7 +149,7 @@ TEST(PointMotionModel, AModeThatFoldsBesideOneThatDoesNotLeavesNoiseOnly) {
 
 // The power-law tail of a hover on both sides of half the rate, f^-4: a spectral line in every bin of the record's
 // spectrum from 6 to 22 Hz, 0.05 px together above 12.5 Hz.
-TEST(PointMotionModel, TheTailOfTheCamerasMotionIsNotLeftInTheResidual) {
+View view_with_tail() {
   constexpr double kStep_hz = kRate_hz / static_cast<double>(kFrames);
   View view;
   for (int i = 0; i < 512; ++i) {
@@ -148,9 +157,36 @@ TEST(PointMotionModel, TheTailOfTheCamerasMotionIsNotLeftInTheResidual) {
     view.along_u.push_back({px, hz, 2.4 * i * i});
     view.along_v.push_back({px, hz, 3.9 * i * i});
   }
-  const double residual = solve(view.record()).residual;
+  return view;
+}
+
+TEST(PointMotionModel, TheTailOfTheCamerasMotionIsNotLeftInTheResidual) {
+  const double residual = solve(view_with_tail().record()).residual;
   EXPECT_LT(residual, 1.06);
   EXPECT_GT(residual, 0.8);
+}
+
+// What a motion at one frequency leaves: as a series, which is weighted over its whole spectrum, and as a field.
+TEST(PointMotionModel, AFieldIsWeightedLikeTheSeriesOfItsMotion) {
+  constexpr double kField_hz = 9.0;
+  constexpr Eigen::Index kEnds = 100;
+  const ObservationRecord record = view_with_tail().record();
+  const auto solved = solved_model(record);
+  const PointMotionModel& model = *solved;
+  Eigen::VectorXd field(2 * record.n_points());  // a translation whose phase differs between the rows: the tail's
+  for (Eigen::Index i = 0; i < field.size(); ++i)
+    field(i) = i % 2 == 0 ? std::sin(2.0 * kPi * record.readout_frames * model.geometry().share(i / 2)) : 0.0;
+  Eigen::RowVectorXd course(kFrames);
+  for (Eigen::Index k = 0; k < kFrames; ++k)
+    course(k) = std::cos(2.0 * kPi * kField_hz / kRate_hz * static_cast<double>(k));
+  const Eigen::MatrixXd series = model.left_at_common_instants(model.at_own_instants(field * course));
+  const Eigen::VectorXd whitened = model.whitened(field);
+  const Eigen::VectorXd left = model.left_at(kField_hz, whitened.cast<std::complex<double>>()).real();
+  const Eigen::VectorXd unweighted = whitened - model.q_high() * (model.q_high().transpose() * whitened);
+  const Eigen::MatrixXd expected = left * course;
+  const Eigen::Index n_inner = kFrames - 2 * kEnds;
+  EXPECT_LT((series - expected).middleCols(kEnds, n_inner).norm(), 0.05 * expected.middleCols(kEnds, n_inner).norm());
+  EXPECT_LT(left.norm(), 0.8 * unweighted.norm());
 }
 
 }  // namespace
