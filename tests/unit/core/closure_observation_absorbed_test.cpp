@@ -120,7 +120,7 @@ TEST(AbsorbedEffects, FocusBreathingIsNamedWithItsSizeAndCentre) {
 }
 
 TEST(AbsorbedEffects, WithoutABackgroundBothAreReportedAsNotObservable) {
-  const auto told = [](bool has_background) {
+  const auto reported = [](bool has_background) {
     ObservationLevel level(hovering_record({.background_mm = 0.2, .has_background = has_background}));
     (void)level.fit();
     EXPECT_EQ(level.absorbed().empty(), !has_background);
@@ -128,9 +128,9 @@ TEST(AbsorbedEffects, WithoutABackgroundBothAreReportedAsNotObservable) {
     for (const NotObservable& one : level.not_observable()) out.push_back(one.effect);
     return out;
   };
-  EXPECT_THAT(told(false), Contains("moving background"));
-  EXPECT_THAT(told(false), Contains("focus breathing"));
-  EXPECT_THAT(told(true), Not(Contains("moving background")));
+  EXPECT_THAT(reported(false), Contains("moving background"));
+  EXPECT_THAT(reported(false), Contains("focus breathing"));
+  EXPECT_THAT(reported(true), Not(Contains("moving background")));
 }
 
 TEST(AbsorbedEffects, AnEffectTakenOutOfTheCatalogueIsNotNamed) {
