@@ -2,6 +2,7 @@
 
 #include <png.h>
 
+#include <algorithm>
 #include <array>
 #include <csetjmp>
 #include <cstdio>
@@ -20,6 +21,16 @@ namespace {
 
 void require_type(const cv::Mat& image, int type, const char* what) {
   if (image.empty() || image.type() != type) throw std::invalid_argument(std::string(what) + ": wrong type of pixels");
+}
+
+// False: no memory is left.
+[[nodiscard]] bool lengthen(std::vector<std::uint8_t>& bytes, std::size_t more) noexcept {
+  try {
+    bytes.resize(bytes.size() + more);
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
 }
 
 // libjpeg and libpng report errors by callbacks that must not return: longjmp, across their C frames only. No object
@@ -66,13 +77,7 @@ struct JpegWriter {
   static void grow(j_compress_ptr encoder, std::size_t more) {
     JpegWriter& self = of(encoder);
     const std::size_t n = self.bytes.size();
-    bool full = false;
-    try {
-      self.bytes.resize(n + more);
-    } catch (const std::bad_alloc&) {
-      full = true;
-    }
-    if (full) ERREXIT1(encoder, JERR_OUT_OF_MEMORY, 0);
+    if (!lengthen(self.bytes, more)) ERREXIT1(encoder, JERR_OUT_OF_MEMORY, 0);
     self.to.next_output_byte = self.bytes.data() + n;
     self.to.free_in_buffer = more;
   }
@@ -118,14 +123,9 @@ struct PngWriter {
   PngWriter& operator=(const PngWriter&) = delete;
 
   static void append(png_structp png, png_bytep data, std::size_t n) {
-    auto* self = static_cast<PngWriter*>(png_get_io_ptr(png));
-    bool full = false;
-    try {
-      self->bytes.insert(self->bytes.end(), data, data + n);
-    } catch (const std::bad_alloc&) {
-      full = true;
-    }
-    if (full) png_error(png, "out of memory");
+    std::vector<std::uint8_t>& bytes = static_cast<PngWriter*>(png_get_io_ptr(png))->bytes;
+    if (!lengthen(bytes, n)) png_error(png, "out of memory");
+    std::copy_n(data, n, bytes.end() - static_cast<std::ptrdiff_t>(n));
   }
 
   [[nodiscard]] bool write(const cv::Mat& bgr, int level) {

@@ -90,11 +90,17 @@ void EventLogFile::keep_whole_events(std::size_t n_written) noexcept {
   n_kept_ += is_cut ? n_whole : n_written;
 }
 
+bool EventLogFile::sync() noexcept {
+  if (!flush()) return false;
+  // EINVAL: not a file that can be synchronised (a pipe, a device).
+  if (::fsync(descriptor_) == 0 || errno == EINVAL || errno == EINTR) return true;
+  error_ = errno;
+  return false;
+}
+
 bool EventLogFile::close() noexcept {
   if (descriptor_ < 0) return error_ == 0;
-  (void)flush();
-  // EINVAL: not a file that can be synchronised (a pipe, a device).
-  if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EINTR) error_ = errno;
+  (void)sync();
   if (::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) error_ = errno;
   return error_ == 0;
 }

@@ -31,7 +31,9 @@ class EventLogFile : public EventLog {
 
   bool write(const std::string& channel, std::span<const std::uint8_t> bytes, std::int64_t utc_ns) noexcept override;
   bool flush() noexcept override;
-  // The last call: what was written survives a loss of power. False: it may not, or events were lost.
+  // What was written survives a loss of power; waits for the disk. False: it may not.
+  bool sync() noexcept;
+  // The last call, after sync(). False: what was written may not survive, or events were lost.
   bool close() noexcept;
   [[nodiscard]] int descriptor() const noexcept { return descriptor_; }      // -1: closed
   [[nodiscard]] std::uint64_t n_bytes() const noexcept { return n_bytes_; }  // in the file and waiting

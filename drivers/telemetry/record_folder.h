@@ -18,6 +18,10 @@ struct RecordPart {
 
 [[nodiscard]] std::string record_name(std::string_view stream_id, int run, int file);
 
+// The name of a file until its head is on the disk, and the files that a run left under such a name: removed.
+[[nodiscard]] std::string partial_record(const std::string& path);
+void remove_partial_records(const std::string& folder);
+
 // Oldest first. Other files in the folder are ignored. Throws std::runtime_error when it cannot be read.
 [[nodiscard]] std::vector<RecordPart> record_parts(const std::string& folder);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
@@ -19,6 +20,7 @@ RotatingLog::RotatingLog(const RecordOptions& options) : options_(options) {
   if (refused)
     throw std::runtime_error(
         fmt::format("record.directory: \"{}\" cannot be made: {}", options.directory, refused.message()));
+  remove_partial_records(options.directory);
   run_ = next_run(record_parts(options.directory));
 }
 
@@ -41,16 +43,20 @@ bool RotatingLog::open_next() {
     error_.store(0, std::memory_order_relaxed);
     return false;
   }
-  const std::string path = path_of(next_file_);
-  file_ = std::make_unique<EventLogFile>(path, EventLogFile::Link::kRefuse);
-  if (write_head_(*file_, next_file_) && file_->flush()) {
-    sync_.request(file_->descriptor());
+  // A file without its head cannot be replayed: it has its name when its head is on the disk.
+  const std::string path = path_of(next_file_), partial = partial_record(path);
+  file_ = std::make_unique<EventLogFile>(partial, EventLogFile::Link::kRefuse);
+  int error = 0;
+  if (!write_head_(*file_, next_file_) || !file_->sync())
+    error = file_->error();
+  else if (std::rename(partial.c_str(), path.c_str()) != 0)
+    error = errno;
+  else
     return ++next_file_, true;
-  }
-  error_.store(file_->error(), std::memory_order_relaxed);
+  error_.store(error, std::memory_order_relaxed);
   file_.reset();
   std::error_code ignored;
-  std::filesystem::remove(path, ignored);  // a file without its head cannot be replayed
+  std::filesystem::remove(partial, ignored);
   return false;
 }
 

@@ -49,6 +49,8 @@ class PointMotionModel {
   static constexpr double kCommonShare = 0.5;       // place in the readout of the frames' common instant
 
   explicit PointMotionModel(const ObservationRecord& record);  // record: checked
+  PointMotionModel(const PointMotionModel&) = delete;          // a part of it refers to it
+  PointMotionModel& operator=(const PointMotionModel&) = delete;
   // Moves the points to these mean positions (2 points long, px): after a lens correction, zoom acts on the
   // undistorted image. Added columns are dropped; readout instants are unchanged. magnification: factor of each
   // point's noise.

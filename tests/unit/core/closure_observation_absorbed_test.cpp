@@ -44,8 +44,8 @@ ObservationRecord hovering_record(const Moves& moves) {
   constexpr double kCentre_u = 120.0, kCentre_v = -60.0;
   ObservationRecord r;
   r.rate_hz = 30.0, r.alpha_px = 1800.0, r.cx_px = 960.0, r.cy_px = 540.0, r.width_px = 1920, r.height_px = 1080;
-  const int n_regions = moves.has_background ? 5 : 4;
-  for (int i = 0; i < n_regions; ++i) {
+  const Eigen::Index n_regions = moves.has_background ? 5 : 4, n_points = 10 * n_regions;
+  for (Eigen::Index i = 0; i < n_regions; ++i) {
     Region region;
     region.name = "region" + std::to_string(i);
     region.role = i == 4 ? RegionRole::kBackground : i == 0 ? RegionRole::kBase : RegionRole::kStructure;
@@ -53,11 +53,11 @@ ObservationRecord hovering_record(const Moves& moves) {
   }
   const auto own = resonance(2.3, r.rate_hz, kFrames, 11), floors = resonance(1.4, r.rate_hz, kFrames, 12),
              focus = resonance(0.6, r.rate_hz, kFrames, 13), tail = resonance(0.9, r.rate_hz, kFrames, 14);
-  r.u_px.resize(kFrames, 10 * n_regions), r.v_px.resize(kFrames, 10 * n_regions);
+  r.u_px.resize(kFrames, n_points), r.v_px.resize(kFrames, n_points);
   NoiseStream noise(5);
-  for (int j = 0; j < 10 * n_regions; ++j) {
-    const int region = j / 10, i = j % 10;
-    r.region_of_point.push_back(static_cast<std::size_t>(region));
+  for (Eigen::Index j = 0; j < n_points; ++j) {
+    const auto region = static_cast<int>(j / 10), i = static_cast<int>(j % 10);
+    r.region_of_point.push_back(static_cast<std::size_t>(j / 10));
     r.sigma_px.push_back(0.03);
     const bool behind = region == 4;
     const double depth_mm = behind ? 4000.0 : 2000.0;

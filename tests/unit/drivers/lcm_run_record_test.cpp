@@ -7,6 +7,7 @@
 
 #include "drivers/storage/text_file.h"
 #include "drivers/telemetry/record_folder.h"
+#include "drivers/telemetry/rotating_log.h"
 #include "drivers/telemetry/run_record_reader.h"
 #include "drivers/telemetry/run_recorder.h"
 #include "tests/support/folder_test.h"
@@ -246,6 +247,30 @@ TEST(RecordFolder, AFileWithTheLastNumberDoesNotStopTheCount) {
   EXPECT_EQ(next_run({{"", 7, 0, 0}, {"", 3, 0, 0}}), 8);
   EXPECT_EQ(next_run({{"", 2, 0, 0}, {"", 99'999'999, 0, 0}}), 3);
   EXPECT_EQ(next_run({{"", 99'999'999, 0, 0}}), 1);
+}
+
+// A loss of power while the head is written leaves no file that looks like a record.
+TEST_F(RunRecord, AFileHasItsNameWhenItsHeadIsOnTheDisk) {
+  RotatingLog log(options());
+  const auto names_in_folder = [this] {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_)) names.push_back(entry.path().filename().string());
+    return names;
+  };
+  log.begin([&](EventLog& part, int /*number*/) {
+    EXPECT_THAT(names_in_folder(), ElementsAre("bridge_run0001_000.lcm.partial"));
+    return part.write("HEAD", {}, 0);
+  });
+  EXPECT_THAT(names_in_folder(), ElementsAre("bridge_run0001_000.lcm"));
+  EXPECT_GT(fs::file_size(log.path()), 0U);
+}
+
+TEST_F(RunRecord, WhatARunLeftWithoutAHeadIsRemoved) {
+  const std::string left = "x_run0001_003.lcm.partial", of_others = "notes.partial";
+  for (const std::string& name : {left, of_others}) std::ofstream(folder_ / name) << "begun";
+  EXPECT_EQ(fs::path(record(3, options())).filename(), "bridge_run0001_000.lcm");
+  EXPECT_FALSE(fs::exists(folder_ / left));
+  EXPECT_TRUE(fs::exists(folder_ / of_others));
 }
 
 TEST(RecordFolder, NamesAreReadBack) { EXPECT_EQ(record_name("a_run0001_000", 7, 2), "a_run0001_000_run0007_002.lcm"); }
