@@ -10,7 +10,7 @@ A table stands between `<!-- figures: ... -->` and `<!-- figures end -->` in REA
   part NAME...       every line of these parts (a name may end in *)
   pick NAME:N ...    these lines only
   own NAME...        the table that the parts' scripts print themselves
-  misses             every line that misses its bar, and the parts that were not run
+  misses             every line that misses its bar, by part and bar, and the parts that were not run
   count              the numbers of --count
 """
 import argparse
@@ -123,13 +123,25 @@ def absent_parts(book):
     return text
 
 
+def missing(lines):
+    """Lines that miss, those with one bar below it."""
+    of_bar = {}
+    for line in lines:
+        of_bar.setdefault(line.bar, []).append(line)
+    text = ""
+    for bar, group in of_bar.items():
+        text += f"  - asked: {bar}\n"
+        text += "".join(f"    - {line.what or 'measured'}: {line.measured} ({line.number})\n" for line in group)
+    return text
+
+
 def misses(book, _):
     text = ""
     for name, result in book.results.items():
-        for line in [] if result is None else result.lines:
-            if line.verdict == "MISS":
-                what = f"{book.parts[name].title}, {line.what}"
-                text += f"- {what}: {line.measured} (asked: {line.bar}; `{name}` {line.number})\n"
+        lines = [line for line in (result.lines if result else []) if line.verdict == "MISS"]
+        if lines:
+            head = f"`{name}`, {len(lines)} of {len(result.lines)} lines, on {book.commit(name, NAMED_ROOMS)}"
+            text += f"- **{book.parts[name].title}** ({head})\n{missing(lines)}"
     absent = absent_parts(book)
     if absent:
         text += f"- not run on the delivered program: {', '.join(absent)}\n"

@@ -75,7 +75,7 @@ class Tables(unittest.TestCase):
     def test_misses_are_listed(self):
         project = Project("misses")
         project.run(write=True)
-        self.assertIn("- speed, a frame at 1080p: 1/5.5 (asked: 1/8; `speed` 1b)", project.readme())
+        self.assertIn("- **speed** (`speed`, 1 of 2 lines, on 0123456)\n  - asked: 1/8\n    - a frame at 1080p: 1/5.5 (1b)\n", project.readme())
         self.assertIn("not run on the delivered program: `other`", project.readme())
         self.assertNotIn("a point", project.readme())
 
