@@ -55,7 +55,7 @@ BOUNDS = {
     "drivers/telemetry/event_log_reader.cpp": ["kRecordEventBytes"],
     "drivers/telemetry/lcm_diagnosis.cpp": [PROC],
     "drivers/telemetry/log_player.h": ["kRecordEventBytes drivers/telemetry/event_log_reader.cpp"],
-    "drivers/telemetry/record_folder.cpp": [LIST],
+    "drivers/telemetry/record_folder.cpp": [LIST, LIST],
     "drivers/telemetry/run_record_reader.cpp": ["kRecordEventBytes drivers/telemetry/event_log_reader.cpp"],
     "firmware_app/chain/state/run_head.cpp": ["NAMEDFILE::KMOSTBYTES OF THE RECORD'S FORMAT"],
     "firmware_app/config/config.cpp": ["kYamlBytes drivers/storage/yaml.h"],
