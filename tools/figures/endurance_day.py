@@ -6,6 +6,7 @@ A rendered clip of two minutes is repeated without being encoded again. Resident
 frame. Residual diagnosis takes memory for some seconds of every minute and gives it back, so the slope is that of the line through the
 least of every ten minutes of stream, without the first ten: what is not given back. In kB a minute of stream; the slope of the means is
 printed beside. Needs a network of its own (unshare). FOLDER: is emptied; it needs 0.6 GB an hour. Prints "name<TAB>value"."""
+import collections
 import hashlib
 import json
 import os
@@ -40,7 +41,14 @@ def kilobytes(pid):
 
 
 def descriptors(pid):
-    return len(os.listdir(f"/proc/{pid}/fd"))
+    """What each of them is."""
+    folder, out = f"/proc/{pid}/fd", []
+    for name in os.listdir(folder):
+        try:
+            out.append(os.readlink(f"{folder}/{name}"))
+        except OSError:  # closed meanwhile
+            out.append("closed")
+    return collections.Counter(out)
 
 
 def slope(parts, of):
@@ -57,13 +65,19 @@ class Sampler(threading.Thread):
     def __init__(self, programs):
         super().__init__(daemon=True)
         self.programs, self.samples, self.stream_s, self.over = programs, [], 0.0, threading.Event()
+        self.held, self.for_a_moment = {}, collections.Counter()  # the fewest of each program; what the service had open beyond them
 
     def run(self):
         while not self.over.wait(0.25):
             try:
                 sample = {"t": self.stream_s}
                 for name, process in self.programs.items():
-                    sample[name], sample[name + "_fd"] = kilobytes(process.pid), descriptors(process.pid)
+                    open_now = descriptors(process.pid)
+                    sample[name], sample[name + "_fd"] = kilobytes(process.pid), open_now.total()
+                    if self.stream_s < PART_S or open_now.total() < self.held[name].total():
+                        self.held[name] = open_now
+                    elif name == "service":
+                        self.for_a_moment.update(os.path.basename(what) for what in open_now - self.held[name])
                 self.samples.append(sample)
             except (OSError, TypeError):  # it has just ended
                 return
@@ -157,6 +171,9 @@ def main():
         print(f"{name}_slope\t{least:.3f}\n{name}_mean_slope\t{mean:.3f}\n{name}_first\t{min(s[name] for s in parts[0])}")
         print(f"{name}_last\t{min(s[name] for s in parts[-1])}\n{name}_most\t{max(s[name] for s in settled)}")
         print(f"{name}_fd\t{min(s[name + '_fd'] for s in settled)} {max(s[name + '_fd'] for s in settled)}")
+        held = [min(s[name + "_fd"] for s in part) for part in parts]
+        print(f"{name}_held\t{min(held)} {max(held)}")
+    print(f"samples\t{len(settled)}\nfor_a_moment\t{', '.join(f'{what} {n}' for what, n in sampler.for_a_moment.most_common(8)) or 'nothing'}")
     different = sorted(name for name in first.keys() | second.keys() if first.get(name) != second.get(name))
     print(f"files\t{len(first)}\ndifferent\t{len(different)} {' '.join(different)}\nwords\t{next((w for w in words if 'frames in' in w), 'none')}")
 
