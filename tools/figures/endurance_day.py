@@ -41,14 +41,20 @@ def kilobytes(pid):
 
 
 def descriptors(pid):
-    """What each of them is."""
+    """What each of them is; a number in a name, such as that of a record's file, is no difference."""
     folder, out = f"/proc/{pid}/fd", []
     for name in os.listdir(folder):
         try:
-            out.append(os.readlink(f"{folder}/{name}"))
+            out.append(re.sub(r"\d+", "#", os.path.basename(os.readlink(f"{folder}/{name}"))))
         except OSError:  # closed meanwhile
             out.append("closed")
     return collections.Counter(out)
+
+
+def open_for_a_moment(samples, name):
+    """What a program had open beyond its fewest descriptors, with the number of samples."""
+    fewest = min((s[name + "_open"] for s in samples), key=collections.Counter.total)
+    return sum((s[name + "_open"] - fewest for s in samples), collections.Counter())
 
 
 def slope(parts, of):
@@ -65,19 +71,14 @@ class Sampler(threading.Thread):
     def __init__(self, programs):
         super().__init__(daemon=True)
         self.programs, self.samples, self.stream_s, self.over = programs, [], 0.0, threading.Event()
-        self.held, self.for_a_moment = {}, collections.Counter()  # the fewest of each program; what the service had open beyond them
 
     def run(self):
         while not self.over.wait(0.25):
             try:
                 sample = {"t": self.stream_s}
                 for name, process in self.programs.items():
-                    open_now = descriptors(process.pid)
-                    sample[name], sample[name + "_fd"] = kilobytes(process.pid), open_now.total()
-                    if self.stream_s < PART_S or open_now.total() < self.held[name].total():
-                        self.held[name] = open_now
-                    elif name == "service":
-                        self.for_a_moment.update(os.path.basename(what) for what in open_now - self.held[name])
+                    sample[name], sample[name + "_open"] = kilobytes(process.pid), descriptors(process.pid)
+                    sample[name + "_fd"] = sample[name + "_open"].total()
                 self.samples.append(sample)
             except (OSError, TypeError):  # it has just ended
                 return
@@ -173,7 +174,8 @@ def main():
         print(f"{name}_fd\t{min(s[name + '_fd'] for s in settled)} {max(s[name + '_fd'] for s in settled)}")
         held = [min(s[name + "_fd"] for s in part) for part in parts]
         print(f"{name}_held\t{min(held)} {max(held)}")
-    print(f"samples\t{len(settled)}\nfor_a_moment\t{', '.join(f'{what} {n}' for what, n in sampler.for_a_moment.most_common(8)) or 'nothing'}")
+    momentary = ", ".join(f"{what} {n}" for what, n in open_for_a_moment(settled, "service").most_common(8))
+    print(f"samples\t{len(settled)}\nfor_a_moment\t{momentary or 'nothing'}")
     different = sorted(name for name in first.keys() | second.keys() if first.get(name) != second.get(name))
     print(f"files\t{len(first)}\ndifferent\t{len(different)} {' '.join(different)}\nwords\t{next((w for w in words if 'frames in' in w), 'none')}")
 
