@@ -138,9 +138,10 @@ def missing(lines):
 def misses(book, _):
     text = ""
     for name, result in book.results.items():
-        lines = [line for line in (result.lines if result else []) if line.verdict == "MISS"]
+        judged = [line for line in (result.lines if result else []) if line.verdict != "beside"]
+        lines = [line for line in judged if line.verdict == "MISS"]
         if lines:
-            head = f"`{name}`, {len(lines)} of {len(result.lines)} lines, on {book.commit(name, NAMED_ROOMS)}"
+            head = f"`{name}`, {len(lines)} of {len(judged)} lines, on {book.commit(name, NAMED_ROOMS)}"
             text += f"- **{book.parts[name].title}** ({head})\n{missing(lines)}"
     absent = absent_parts(book)
     if absent:

@@ -23,6 +23,7 @@ RESULT = """# part: speed
 # a remark of the script
 1a ok 12 us (bar: <= 20 us (median)) a point beside its neighbours (180 of them)
 1b MISS 1/5.5 (bar: 1/8) a frame at 1080p
+1c beside 3 us (bar: none) the same on another machine
 """
 DOCUMENT = "Text\n<!-- figures: {what} -->\n<!-- figures end -->\nmore\n"
 
