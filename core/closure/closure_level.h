@@ -55,6 +55,9 @@ class ClosureLevel {
   // next one is due if a number is returned.
   virtual std::optional<std::size_t> drop_needless() { return std::nullopt; }
 
+  // The same for an effect that is due to one of absorbed().
+  virtual std::optional<std::size_t> drop_pretended() { return std::nullopt; }
+
   // Parameters of an adopted effect, after the last fit().
   [[nodiscard]] virtual std::vector<ParameterValue> parameters(std::size_t adopted) const = 0;
 

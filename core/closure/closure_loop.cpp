@@ -107,11 +107,15 @@ class Loop {
   }
 
   void remove_needless() {
-    while (const std::optional<std::size_t> needless = level_.drop_needless()) {
-      tell(result_.steps.at(*needless).effect + " is removed: those after it explain what it explained");
-      result_.steps.erase(result_.steps.begin() + static_cast<std::ptrdiff_t>(*needless));
-      fit_ = level_.fit();
-    }
+    while (const std::optional<std::size_t> needless = level_.drop_needless())
+      remove(*needless, "those after it explain what it explained");
+  }
+
+  // The level has dropped it.
+  void remove(std::size_t step, const std::string& reason) {
+    tell(result_.steps.at(step).effect + " is removed: " + reason);
+    result_.steps.erase(result_.steps.begin() + static_cast<std::ptrdiff_t>(step));
+    fit_ = level_.fit();
   }
 
   [[nodiscard]] double threshold_of_step(double best) {
@@ -193,6 +197,8 @@ class Loop {
   }
 
   void finish() {
+    while (const std::optional<std::size_t> pretended = level_.drop_pretended())
+      remove(*pretended, "a motion that the model leaves free explains what it explained");
     for (std::size_t i = 0; i < result_.steps.size(); ++i) {
       tell("looking for rivals of " + result_.steps[i].effect);
       result_.steps[i].parameters = level_.parameters(i);

@@ -79,9 +79,9 @@ class EffectInModel {
   virtual void correct(CorrectionStage /*stage*/, const CorrectionView& /*view*/,
                        Eigen::MatrixXd& /*positions*/) const {}
 
-  // True if the effect estimates a motion or constants itself, refined between two solutions of the model.
+  // True if the effect estimates a motion, a form or constants itself, refined between two solutions of the model.
   [[nodiscard]] virtual bool is_refined() const { return n_constants() > 0; }
-  virtual void refine(const FitView& /*fit*/) {}
+  virtual void refine(const FitView& /*fit*/, const Eigen::RowVectorXd& /*amplitude*/) {}  // amplitude: as above
   [[nodiscard]] virtual double freedom() const { return 0.0; }  // taken in addition to the model's columns
   // Takes so much of the noise from the residual that the noise cannot be measured again.
   [[nodiscard]] virtual bool hides_noise() const { return false; }

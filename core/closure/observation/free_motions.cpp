@@ -25,15 +25,22 @@ Eigen::MatrixXd without_zero_rows(const Eigen::MatrixXd& rows) {
   return rows(kept, Eigen::all);
 }
 
-// Of the base; without one, of the structure's plane.
-Eigen::MatrixXd translation_of_base(const FitView& fit) {
+// A point of the base; without one, of the structure.
+Index point_of_base(const FitView& fit) {
   Index point = -1;
   for (Index j = fit.record.n_points() - 1; j >= 0; --j) {
     const RegionRole role = fit.record.regions[fit.record.region_of_point[static_cast<std::size_t>(j)]].role;
-    if (role == RegionRole::kBase) return fit.model.translation_of_point(j);
+    if (role == RegionRole::kBase) return j;
     if (makes_channel(role)) point = j;
   }
-  return fit.model.translation_of_point(point);
+  return point;
+}
+
+// Across the axis along which its region is declared to move.
+Eigen::Vector2d still_direction(const FitView& fit, Index point) {
+  const Region& region = fit.record.regions[fit.record.region_of_point[static_cast<std::size_t>(point)]];
+  const double axis = region.axis_deg * std::numbers::pi / 180.0;
+  return region.both_axes ? Eigen::Vector2d::Zero() : Eigen::Vector2d(-std::sin(axis), std::cos(axis));
 }
 
 // Central first and second difference; zero at the ends.
@@ -59,7 +66,9 @@ std::optional<FreeMotions> free_motions(const FitView& fit) {
   FreeMotions out;
   out.rate_hz = fit.record.rate_hz;
   out.structure = without_zero_rows(rows.topRows(plane + 2));
-  out.base = translation_of_base(fit);
+  const Index of_base = point_of_base(fit);
+  out.base = model.translation_of_point(of_base);
+  out.still = still_direction(fit, of_base);
   out.structure_zoom = rows.row(plane + 2);
   out.background = rows.middleRows(background, 2);
   out.background_zoom = rows.row(background + 2);

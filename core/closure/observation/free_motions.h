@@ -13,6 +13,7 @@ struct FreeMotions {
   double rate_hz = 0.0;
   Eigen::MatrixXd structure;           // regions along their axes, translations of the structure's plane; px
   Eigen::MatrixXd base;                // 2 rows: translation of the base (without one: of the plane), along u, v; px
+  Eigen::Vector2d still;               // direction in which the base does not move by itself; zero: there is none
   Eigen::RowVectorXd structure_zoom;   // relative
   Eigen::MatrixXd background;          // 2 rows: translation along u and v; px
   Eigen::RowVectorXd background_zoom;  // relative
@@ -28,6 +29,7 @@ struct FreeMotions {
 [[nodiscard]] Eigen::RowVectorXd beyond_causes(const Eigen::RowVectorXd& series, const Eigen::MatrixXd& causes);
 
 // Spectra of series with a Hann window: white noise of unit variance has mean square 1 in every bin.
+inline constexpr double kOfHannWindow = 2.0 / 3.0;  // of independent values, that the window leaves to a band
 struct TaperedSpectra {
   Eigen::MatrixXcd bins;  // series x bins
   double bin_hz = 0.0;

@@ -239,7 +239,7 @@ void ObservationFit::solve_once() {
     predicted_px_ = measured_ - model_.residual_px() - tracker_error_px_;
     if (round == rounds) break;
     fill_missing();
-    for (const auto& effect : effects_) effect->refine(view());
+    for (std::size_t i = 0; i < effects_.size(); ++i) effects_[i]->refine(view(), amplitude(i));
     if (!refine_constants() && round >= kFillRounds) rounds = round + 1;
   }
   if (!model_.residual().allFinite()) throw std::runtime_error("observation level: the fit did not stay finite");

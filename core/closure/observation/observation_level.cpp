@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/closure/observation/block_estimates.h"
 #include "core/closure/observation/effects/catalogue.h"
 #include "core/closure/observation/kinds/materiality.h"
 #include "core/closure/observation/observation_report.h"
@@ -34,6 +35,8 @@ ObservationRecord checked(const ObservationRecord& record, std::vector<std::stri
   return usable;
 }
 
+constexpr double kSameSigmas = 3.0, kSameShare = 0.3;  // two constants are equal within either limit
+
 template <class Effect>
 std::vector<const Effect*> all_of(const EffectList<Effect>& effects) {
   std::vector<const Effect*> out;
@@ -58,6 +61,7 @@ LevelFit ObservationLevel::fit() {
   fit_.solve();
   scores_.begin();
   modes_.reset();
+  found_.reset();
   return scores_.quality();
 }
 
@@ -131,8 +135,8 @@ bool ObservationLevel::camera_vibrates_at(double hz) const {
   return false;
 }
 
-std::vector<ClosureStep> ObservationLevel::absorbed() const {
-  std::vector<ClosureStep> out;
+std::vector<ObservationLevel::Found> ObservationLevel::find_absorbed() const {
+  std::vector<Found> out;
   const auto& adopted = fit_.effects();
   if (std::any_of(adopted.begin(), adopted.end(), [](const auto& effect) { return effect->fills_free_motions(); }))
     return out;
@@ -141,11 +145,47 @@ std::vector<ClosureStep> ObservationLevel::absorbed() const {
   if (!motions) return out;
   for (const AbsorbedEffect* effect : absorbed_) {
     std::optional<AbsorbedFinding> found = effect->find(fit, *motions);
-    if (!found || (found->hz && camera_vibrates_at(*found->hz))) continue;
+    if (found && !(found->hz && camera_vibrates_at(*found->hz))) out.push_back({effect, std::move(*found)});
+  }
+  return out;
+}
+
+const std::vector<ObservationLevel::Found>& ObservationLevel::found() const {
+  return found_ ? *found_ : found_.emplace(find_absorbed());
+}
+
+// Its constants are those that fit what the model takes wrongly.
+bool ObservationLevel::is_pretended(std::size_t adopted, const Eigen::MatrixXd& left) const {
+  const EffectInModel& effect = *fit_.effects()[adopted];
+  if (effect.n_constants() == 0 || left.size() == 0) return false;
+  const Eigen::VectorXd instead = BlockEstimates(effect.derivatives(fit_.view()), left).values();
+  const std::vector<ParameterValue> values = parameters(adopted);
+  for (Eigen::Index i = 0; i < instead.size(); ++i) {
+    const ParameterValue& value = values.at(static_cast<std::size_t>(i));
+    const double within = std::max(kSameSigmas * value.sigma.value_or(0.0), kSameShare * std::abs(instead(i)));
+    if (!(std::abs(value.value - instead(i)) <= within)) return false;
+  }
+  return true;
+}
+
+std::optional<std::size_t> ObservationLevel::drop_pretended() {
+  for (const Found& found : this->found()) {
+    for (std::size_t i = 0; i < fit_.effects().size(); ++i) {
+      if (!is_pretended(i, found.finding.left)) continue;
+      fit_.remove(i);
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<ClosureStep> ObservationLevel::absorbed() const {
+  std::vector<ClosureStep> out;
+  for (const auto& [effect, finding] : found()) {
     ClosureStep& step = out.emplace_back();
     step.id = effect->id(), step.effect = effect->name();
-    step.parameters = std::move(found->parameters), step.meaning = std::move(found->meaning);
-    step.score = found->score, step.threshold = found->threshold;
+    step.parameters = finding.parameters, step.meaning = finding.meaning;
+    step.score = finding.score, step.threshold = finding.threshold;
   }
   return out;
 }

@@ -45,6 +45,7 @@ class ObservationLevel final : public ClosureLevel {
   void drop() override;
   // A latent pattern without which the held-out error is no larger; constants of which none differs from zero.
   std::optional<std::size_t> drop_needless() override;
+  std::optional<std::size_t> drop_pretended() override;
   [[nodiscard]] std::vector<ParameterValue> parameters(std::size_t adopted) const override;
   [[nodiscard]] std::string meaning(std::size_t adopted) const override;
   [[nodiscard]] std::vector<std::string> rivals(std::size_t adopted, std::uint64_t seed) override;
@@ -64,6 +65,14 @@ class ObservationLevel final : public ClosureLevel {
   [[nodiscard]] bool is_zero(std::size_t adopted) const;  // of constants: each within three sigmas of it
   [[nodiscard]] bool is_idle(std::size_t adopted);        // of a latent pattern; refits
   [[nodiscard]] bool camera_vibrates_at(double hz) const;
+  [[nodiscard]] bool is_pretended(std::size_t adopted, const Eigen::MatrixXd& left) const;
+  // In the free motions of the last fit().
+  struct Found {
+    const AbsorbedEffect* effect = nullptr;
+    AbsorbedFinding finding;
+  };
+  [[nodiscard]] const std::vector<Found>& found() const;
+  [[nodiscard]] std::vector<Found> find_absorbed() const;
 
   std::vector<std::string> warnings_;  // before fit_, whose making fills it
   ObservationFit fit_;
@@ -71,7 +80,9 @@ class ObservationLevel final : public ClosureLevel {
   std::vector<const AbsorbedEffect*> absorbed_;
   ObservationScores scores_;
   std::vector<core::Mode> reference_;
-  mutable std::optional<core::ModalEstimate> modes_;  // of the last fit(), computed on request
+  // Of the last fit(), computed on request.
+  mutable std::optional<core::ModalEstimate> modes_;
+  mutable std::optional<std::vector<Found>> found_;
 };
 
 }  // namespace core::closure

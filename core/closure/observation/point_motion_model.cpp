@@ -133,9 +133,9 @@ void PointMotionModel::place_rows(const Eigen::MatrixXd& rows, Eigen::Index firs
   for (Eigen::Index i = 0; i < rows.rows(); ++i) all.row(kept_[static_cast<std::size_t>(first + i)]) = rows.row(i);
 }
 
-Eigen::VectorXd PointMotionModel::amplitudes_of(const Eigen::VectorXd& whitened) const {
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(x_.cols(), 1);
-  place_rows(solve_high_ * whitened, 0, out);
+Eigen::MatrixXd PointMotionModel::amplitudes_of(const Eigen::MatrixXd& whitened) const {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(x_.cols(), whitened.cols());
+  place_rows(product(solve_high_, whitened), 0, out);
   return out;
 }
 

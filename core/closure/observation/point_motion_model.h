@@ -114,8 +114,8 @@ class PointMotionModel {
   // Residual of fields of a motion at one apparent frequency (whitened), outside the added columns' band; weighted like
   // the residual's.
   [[nodiscard]] Eigen::MatrixXcd left_at(double hz, const Eigen::MatrixXcd& fields) const;
-  // Amplitudes that the columns outside the band take of a whitened field, beside which the field leaves its residual.
-  [[nodiscard]] Eigen::VectorXd amplitudes_of(const Eigen::VectorXd& whitened) const;
+  // Amplitudes that the columns outside the band take of whitened fields, beside which these leave their residual.
+  [[nodiscard]] Eigen::MatrixXd amplitudes_of(const Eigen::MatrixXd& whitened) const;
   // Orthonormal columns outside and within the band of the added columns.
   [[nodiscard]] const Eigen::MatrixXd& q_high() const noexcept { return q_high_; }
   [[nodiscard]] const Eigen::MatrixXd& q_low() const noexcept { return q_low_; }

@@ -33,12 +33,13 @@ std::vector<double> resonance(double hz, double rate_hz, Eigen::Index n, std::ui
 }
 
 struct Moves {
-  double background_mm = 0.0, ground_mm = 0.0, breathing = 0.0;
+  double background_mm = 0.0, ground_mm = 0.0, breathing = 0.0, yaw_rad = 0.0;
+  double background_x_mm = 0.0;  // of the background's middle
   bool has_background = true;
 };
 
 // A base and three storeys at 2 m, a background at 4 m, ten points each, seen by a hovering camera; noise of 0.03 px.
-// The storeys answer to the ground with twice its motion. The focus breathes about (120, -60) px.
+// The storeys answer to the ground with twice its motion. The focus breathes about (120, -60) px, the camera yaws.
 ObservationRecord hovering_record(const Moves& moves) {
   constexpr Eigen::Index kFrames = 1800;
   constexpr double kCentre_u = 120.0, kCentre_v = -60.0;
@@ -52,7 +53,8 @@ ObservationRecord hovering_record(const Moves& moves) {
     r.regions.push_back(region);
   }
   const auto own = resonance(2.3, r.rate_hz, kFrames, 11), floors = resonance(1.4, r.rate_hz, kFrames, 12),
-             focus = resonance(0.6, r.rate_hz, kFrames, 13), tail = resonance(0.9, r.rate_hz, kFrames, 14);
+             focus = resonance(0.6, r.rate_hz, kFrames, 13), tail = resonance(0.9, r.rate_hz, kFrames, 14),
+             yaws = resonance(0.8, r.rate_hz, kFrames, 15);
   r.u_px.resize(kFrames, n_points), r.v_px.resize(kFrames, n_points);
   NoiseStream noise(5);
   for (Eigen::Index j = 0; j < n_points; ++j) {
@@ -61,7 +63,8 @@ ObservationRecord hovering_record(const Moves& moves) {
     r.sigma_px.push_back(0.03);
     const bool behind = region == 4;
     const double depth_mm = behind ? 4000.0 : 2000.0;
-    const double x_mm = (behind ? 140.0 : 40.0) * (static_cast<double>((7 * i) % 10) - 4.5);
+    const double x_mm =
+        (behind ? moves.background_x_mm : 0.0) + (behind ? 140.0 : 40.0) * (static_cast<double>((7 * i) % 10) - 4.5);
     const double y_mm = behind ? 110.0 * (i - 4.5) : 250.0 - 160.0 * region + 11.0 * (i - 4.5);
     for (Eigen::Index k = 0; k < kFrames; ++k) {
       const auto at = static_cast<std::size_t>(k);
@@ -75,7 +78,9 @@ ObservationRecord hovering_record(const Moves& moves) {
       const double scale = r.alpha_px / (depth_mm - camera_z), grown = 1.0 + moves.breathing * focus[at];
       const double u = kCentre_u + grown * (scale * (x_mm + moved_mm - camera_x) - kCentre_u),
                    v = kCentre_v + grown * (scale * (y_mm - camera_y) - kCentre_v);
-      r.u_px(k, j) = r.cx_px + u + 0.03 * noise.gaussian(), r.v_px(k, j) = r.cy_px + v + 0.03 * noise.gaussian();
+      const double yaw = moves.yaw_rad * yaws[at], ahead = std::cos(yaw) - u / r.alpha_px * std::sin(yaw);
+      r.u_px(k, j) = r.cx_px + (u * std::cos(yaw) + r.alpha_px * std::sin(yaw)) / ahead + 0.03 * noise.gaussian();
+      r.v_px(k, j) = r.cy_px + v / ahead + 0.03 * noise.gaussian();
     }
   }
   return r;
@@ -117,6 +122,12 @@ TEST(AbsorbedEffects, FocusBreathingIsNamedWithItsSizeAndCentre) {
   EXPECT_NEAR(values[1].value, 120.0, 3.0 * values[1].sigma.value_or(0.0));
   EXPECT_NEAR(values[2].value, -60.0, 3.0 * values[2].sigma.value_or(0.0));
   EXPECT_LT(values[1].sigma.value_or(1e9), 60.0);
+}
+
+// It zooms what it sees beside the optical axis: the background here, and not the structure.
+TEST(AbsorbedEffects, ACameraThatTurnsIsNoFocusBreathing) {
+  EXPECT_EQ(names(found_in({.yaw_rad = 5e-4, .background_x_mm = 900.0})), "");
+  EXPECT_EQ(names(found_in({.breathing = 4e-4, .background_x_mm = 900.0})), "focus breathing");
 }
 
 TEST(AbsorbedEffects, WithoutABackgroundBothAreReportedAsNotObservable) {

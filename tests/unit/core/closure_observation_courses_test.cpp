@@ -67,6 +67,17 @@ TEST(ObservationCourses, LampsThatBeatWithTheFramesAreNamedWithTheirFrequency) {
   EXPECT_LT(result.steps[0].heldout_after, 1.05 * result.noise_floor);
 }
 
+TEST(ObservationCourses, LampsWhosePhaseSwingsFasterThanTheirBeatIsSoughtLeaveNothing) {
+  ObservationRecord record = swaying_record(1000, {});
+  add_error(record, 0.3, [](double v, double t) {
+    return std::cos(2.0 * kPi * 119.9 * (t + 0.03 * v / 1080.0) + 0.3 * std::cos(2.0 * kPi * 0.3 * t));
+  });
+  const ClosureResult result = result_of(record);
+  ASSERT_EQ(result.steps.size(), 1U);
+  EXPECT_EQ(result.steps[0].effect, "flicker");
+  EXPECT_LT(result.steps[0].heldout_after, 1.05 * result.noise_floor);
+}
+
 TEST(ObservationCourses, ALineAtAnotherFrequencyIsNoFlicker) {
   ObservationRecord record = swaying_record(1000, {});
   add_error(record, 0.1, [](double, double t) { return std::cos(2.0 * kPi * 7.3 * t); });

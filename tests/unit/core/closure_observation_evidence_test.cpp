@@ -125,12 +125,14 @@ TEST(ObservationLevel, APartThatMovesByItselfIsNamedWithItsFrequency) {
   EXPECT_NEAR(result.steps[0].parameters.at(1).value, 3.6, 0.05);
 }
 
-// Floors turned exactly, with the camera's own motion: a point goes away by its distance from the middle line times the
-// angle, and comes nearer to that line.
-TEST(ObservationLevel, FloorsThatTurnFarAreNamedAndLeaveNothing) {
+// Floors turned exactly about an upright axis so many px from the middle of the points, with the camera's own motion: a
+// point goes away by its distance from the axis times the angle, and comes nearer to it.
+class FloorsThatTurnFar : public ::testing::TestWithParam<double> {};
+
+TEST_P(FloorsThatTurnFar, AreNamedAndLeaveNothing) {
   ObservationRecord record = swaying_record(1500, {});
   for (Eigen::Index j = 8; j < record.n_points(); ++j) {
-    const double across = -150.0 + 43.3 * static_cast<double>(j % 8) - 1.55;
+    const double across = -150.0 + 43.3 * static_cast<double>(j % 8) - 1.55 - GetParam();
     const double share = static_cast<double>(j / 8) / 3.0;
     for (Eigen::Index k = 0; k < record.n_frames(); ++k) {
       const double turn = share * 0.1 * std::sin(2.0 * kPi * 3.3 * seconds(k));
@@ -145,6 +147,8 @@ TEST(ObservationLevel, FloorsThatTurnFarAreNamedAndLeaveNothing) {
   EXPECT_NEAR(result.steps[0].parameters.at(1).value, 3.3, 0.05);
   EXPECT_LT(result.residual_rms, 1.02 * result.noise_floor);
 }
+
+INSTANTIATE_TEST_SUITE_P(ObservationLevel, FloorsThatTurnFar, ::testing::Values(0.0, 10.0));
 
 TEST(ObservationLevel, RockingIsNoRollWhereTheBackgroundStandsStill) {
   ObservationRecord record = swaying_record(1500, {});

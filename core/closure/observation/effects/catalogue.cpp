@@ -28,9 +28,7 @@ std::vector<NotObservable> never_observable() {
        "declare a known length per region"},
       {"constant part of yaw and pitch", "it is a translation of the whole image, which is free in each frame",
        "modes are unaffected: displacement relative to the base remains"},
-      {"stabilisation warp",
-       "its translation and zoom are free in each frame; any remaining warp appears as a latent "
-       "effect",
+      {"a stabiliser's zoom and warp", "its zoom is free in each frame; any remaining warp appears as a latent effect",
        "switch the camera's stabilisation off"},
       {"tilt of single floors",
        "the model turns the structure as a whole only; the tilt of one floor appears as a latent effect",

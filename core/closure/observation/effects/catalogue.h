@@ -31,6 +31,7 @@
 // Those that the model's free motions absorb.
 #define HOVERMODAL_ABSORBED_EFFECTS(EFFECT) \
   EFFECT(focus_breathing)                   \
+  EFFECT(stabiliser)                        \
   EFFECT(moving_background)
 
 namespace core::closure {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/closure/observation/effects/catalogue.h"
+#include "core/closure/observation/gaussian_mean.h"
 #include "core/closure/observation/held_out.h"
 #include "core/closure/observation/kinds/course_effect.h"
 #include "core/types/constants.h"
@@ -19,6 +20,7 @@ constexpr double kLeastCycles = 4.0;           // of the beat in the record: slo
 constexpr double kWander_hz = 0.15;            // of the mains within a record, to either side
 constexpr double kOfBeat = 0.5;                // ... but at most this share of the beat
 constexpr double kMostFluctuation = 0.3;       // of the amplitude: lamps are steady
+constexpr double kSlow_s = 0.7;                // sigma of a mean over time that holds what is slower than the wander
 constexpr double kHighest = 0.49;              // of the frame rate: both phases must be seen
 
 struct Lamps {
@@ -38,7 +40,7 @@ std::optional<Lamps> lamps(double apparent_hz, double rate_hz) {
 }
 
 // Mean over the points of each region of how much later than on average they are read: regions x frames, in frames;
-// less the mean of all regions.
+// less what of the mean of all regions changes slowly, which the motion in the beat's band holds already.
 Eigen::MatrixXd later_of_regions(const FitView& fit) {
   const Eigen::MatrixXd later = fit.readout_frames * later_in_readout(fit.record, fit.predicted_px);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(fit.record.regions.size()), later.cols());
@@ -48,8 +50,9 @@ Eigen::MatrixXd later_of_regions(const FitView& fit) {
     out.row(region) += later.row(j);
     n(region) += 1.0;
   }
-  const Eigen::RowVectorXd mean = out.colwise().sum() / n.sum();
-  for (Eigen::Index r = 0; r < out.rows(); ++r) out.row(r) = n(r) > 0.0 ? (out.row(r) / n(r) - mean).eval() : mean;
+  const Eigen::RowVectorXd mean = out.colwise().sum() / n.sum(),
+                           slow = gaussian_mean(mean, kSlow_s * fit.record.rate_hz);
+  for (Eigen::Index r = 0; r < out.rows(); ++r) out.row(r) = (n(r) > 0.0 ? (out.row(r) / n(r)).eval() : mean) - slow;
   return out;
 }
 
@@ -108,6 +111,7 @@ class Flicker final : public CourseEffect {
     return NotObservable{"flicker of lamps", "their beat with the frame rate is slower than the record shows",
                          "film at another frame rate, or for longer"};
   }
+  [[nodiscard]] bool wanders() const override { return true; }
   [[nodiscard]] std::optional<PointCourses> courses(const FitView& fit, const TestedResidual& residual) const override {
     const double rate = fit.record.rate_hz;
     const Eigen::MatrixXcd& spectrum = residual.moments.spectrum;

@@ -7,6 +7,7 @@
 
 #include "core/closure/observation/effects/catalogue.h"
 #include "core/closure/observation/free_motions.h"
+#include "core/closure/observation/in_step.h"
 #include "core/linear/median.h"
 
 namespace core::closure {
@@ -20,9 +21,9 @@ constexpr double kLeastSeen = 0.05;  // of a breathing, in the zoom of a backgro
 constexpr double kApart_s = 1.0;     // of independent values
 constexpr double kNoiseFrom_hz = 4.0;
 constexpr double kLeastGain = 150.0;
-constexpr double kOfWindow = 2.0 / 3.0;  // of independent values that a Hann window leaves to a band
-constexpr double kNoiseScatter = 1.3;    // of the strongest pattern of noise
-constexpr double kOverResidual = 3.0;    // times what the residual's strongest pattern holds in the same band
+constexpr Index kZoom = 2;             // of the background's motions
+constexpr double kNoiseScatter = 1.3;  // of the strongest pattern of noise
+constexpr double kOverResidual = 3.0;  // times what the residual's strongest pattern holds in the same band
 
 struct Band {
   Index first = 0, last = 0;  // bins
@@ -51,7 +52,7 @@ double strongest_pattern(const TaperedSpectra& residual, const Band& band) {
   const auto bins = residual.bins.middleCols(band.first, band.last - band.first + 1);
   const Eigen::MatrixXcd moments = bins * bins.adjoint() / static_cast<double>(bins.cols());
   const Eigen::VectorXcd pattern = leading_pattern(moments);
-  const double of_noise = std::pow(1.0 + std::sqrt(static_cast<double>(bins.rows()) / (kOfWindow * band.n)), 2);
+  const double of_noise = std::pow(1.0 + std::sqrt(static_cast<double>(bins.rows()) / (kOfHannWindow * band.n)), 2);
   return std::max(std::real(pattern.dot(moments * pattern)) - kNoiseScatter * of_noise, 0.0);
 }
 
@@ -87,15 +88,18 @@ class FocusBreathing final : public AbsorbedEffect {
     const Eigen::VectorXd power = zoom.bins.row(0).cwiseAbs2().transpose();
     const double noise = noise_level(zoom, power);
     Beyond of;
+    std::vector<NoisyBand> noisy;
     for (const Band& band : bands_of(zoom)) {
       const double mean = power.segment(band.first, band.last - band.first + 1).mean();
       const double level = std::max(noise, kOverResidual * strongest_pattern(residual, band));
       of.gain += power_gain(mean, level, band.n);
+      noisy.push_back({band.first, band.last, noise * sigma * sigma});
       const double share = 2.0 * static_cast<double>(band.last - band.first + 1) * zoom.bin_hz / motions.rate_hz;
       of.variance += std::max(mean - noise, 0.0) * share * sigma * sigma;
       of.sigma = std::hypot(of.sigma, mean * share * sigma * sigma / std::sqrt(band.n));
     }
     if (!(of.gain > kLeastGain)) return std::nullopt;
+    if (!in_step(fit, kZoom, sigma * zoom.bins.row(0).transpose(), zoom, noisy).is_nothing()) return std::nullopt;
     return finding(motions, beyond, of);
   }
 

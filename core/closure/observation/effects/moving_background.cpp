@@ -7,6 +7,7 @@
 
 #include "core/closure/observation/effects/catalogue.h"
 #include "core/closure/observation/free_motions.h"
+#include "core/closure/observation/in_step.h"
 #include "core/linear/median.h"
 
 namespace core::closure {
@@ -29,6 +30,7 @@ struct Peak {
   double excess = 0.0;  // of its mean power over its neighbourhood, in noise variances
   double n = 0.0;       // independent values in it
   double own = 0.0;     // share of its power that no other motion explains
+  InStep in_step;
   [[nodiscard]] double score() const noexcept { return own * gain; }
 };
 
@@ -76,11 +78,11 @@ class MovingBackground final : public AbsorbedEffect {
   [[nodiscard]] std::optional<AbsorbedFinding> find(const FitView& fit, const FreeMotions& motions) const override {
     Peak best;
     for (const int axis : {0, 1}) {
-      Peak peak = peak_along(motions, axis);
-      peak.axis = axis;
-      if (peak.own >= kLeastOwn && peak.score() > best.score()) best = peak;
+      const Peak peak = peak_along(fit, motions, axis);
+      if (peak.score() > std::max(kLeastScore, best.score()) && peak.own >= kLeastOwn && peak.in_step.is_nothing())
+        best = peak;
     }
-    if (!(best.score() > kLeastScore)) return std::nullopt;
+    if (!(best.gain > 0.0)) return std::nullopt;
     const double duration_s = static_cast<double>(fit.record.n_frames()) / fit.record.rate_hz;
     const double of_rate = 2.0 * best.half_hz / (0.5 * fit.record.rate_hz);  // width of the band
     const double rms = std::sqrt(std::max(best.excess * of_rate, 0.0)) * motions.background_sigma(best.axis);
@@ -95,7 +97,7 @@ class MovingBackground final : public AbsorbedEffect {
   }
 
  private:
-  [[nodiscard]] static Peak peak_along(const FreeMotions& motions, int axis) {
+  [[nodiscard]] static Peak peak_along(const FitView& fit, const FreeMotions& motions, int axis) {
     const Eigen::RowVectorXd zoom = motions.structure_zoom.array() - motions.structure_zoom.mean();
     Eigen::MatrixXd causes(motions.structure.rows() + 3 + motions.added.rows(), zoom.size());
     causes << motions.structure, zoom, motions.base.row(0).cwiseProduct(zoom), motions.base.row(1).cwiseProduct(zoom),
@@ -103,10 +105,13 @@ class MovingBackground final : public AbsorbedEffect {
     Eigen::MatrixXd series(1 + causes.rows(), causes.cols());
     series << beyond_causes(motions.background.row(axis), causes), causes;
     const TaperedSpectra spectra = tapered_spectra(series, motions.rate_hz);
-    const Eigen::VectorXd left = beyond_neighbours(spectra).cwiseAbs2();
-    const double sigma = motions.background_sigma(axis);
-    Peak peak = highest_peak(spectra, left, motions.rate_hz, sigma * sigma);
-    peak.excess /= sigma * sigma;
+    const Eigen::VectorXcd left = beyond_neighbours(spectra);
+    const double noise = motions.background_sigma(axis) * motions.background_sigma(axis);
+    Peak peak = highest_peak(spectra, left.cwiseAbs2(), motions.rate_hz, noise);
+    if (!(peak.gain > 0.0)) return peak;
+    peak.axis = axis, peak.excess /= noise;
+    const Index first = spectra.bin_of(peak.hz - peak.half_hz), last = spectra.bin_of(peak.hz + peak.half_hz);
+    peak.in_step = in_step(fit, axis, left, spectra, {{first, last, noise}});
     return peak;
   }
 };

@@ -38,7 +38,7 @@ class RefractionInModel final : public EffectInModel {
     if (stage == CorrectionStage::kTracker && field_px_.size() > 0) positions -= field_px_;
   }
   [[nodiscard]] bool is_refined() const override { return true; }
-  void refine(const FitView& fit) override {
+  void refine(const FitView& fit, const Eigen::RowVectorXd& /*amplitude*/) override {
     Eigen::MatrixXd series = fit.model.residual();
     if (field_px_.size() > 0) series += fit.model.whitened(fit.model.at_common_instants(field_px_));
     const RandomField field(fit);

@@ -15,7 +15,7 @@
 namespace core::closure {
 namespace {
 
-constexpr double kAboveDrift_hz = 1.0, kNarrow_hz = 1.2;
+constexpr double kAboveDrift_hz = 1.0, kNarrow_hz = 1.2, kWidestVibration_hz = 2.0;
 constexpr double kToldSigmas = 4.0;
 constexpr double kLeastLever = 0.02;  // of the focal length, between the base and the optical axis
 
@@ -96,7 +96,10 @@ bool has_background(const ObservationRecord& record) {
 bool RollCourse::is_resonance() const noexcept {
   return low_hz > kAboveDrift_hz && 0.5 * (high_hz - low_hz) <= kNarrow_hz;
 }
-bool RollCourse::is_vibration() const noexcept { return is_resonance() && middle_hz > LineSearch::kSlowest_hz; }
+bool RollCourse::is_vibration() const noexcept {
+  return low_hz > kAboveDrift_hz && 0.5 * (high_hz - low_hz) <= kWidestVibration_hz &&
+         middle_hz > LineSearch::kSlowest_hz;
+}
 bool RollCourse::is_about_axis() const noexcept {
   return about_axis > kToldSigmas * sigma && std::abs(about_axis - 1.0) < 0.5;
 }

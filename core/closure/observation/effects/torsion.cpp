@@ -1,3 +1,4 @@
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -6,12 +7,14 @@
 #include "core/closure/observation/effects/catalogue.h"
 #include "core/closure/observation/kinds/family_effect.h"
 #include "core/closure/observation/kinds/learned_pattern.h"
+#include "core/closure/observation/kinds/materiality.h"
 
 namespace core::closure {
 namespace {
 
-// Distances of the structure's points from its upright middle line, in units of the focal length; zero for all others.
-Eigen::VectorXd from_middle(const ObservationRecord& record, const PointGeometry& geometry) {
+// Distances of the structure's points from an upright axis, in units of the focal length; zero for all others. aside:
+// of the axis from the structure's middle.
+Eigen::VectorXd from_axis(const ObservationRecord& record, const PointGeometry& geometry, double aside) {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(geometry.x.size());
   double low = 0.0, high = 0.0;
   bool any = false;
@@ -23,15 +26,15 @@ Eigen::VectorXd from_middle(const ObservationRecord& record, const PointGeometry
   }
   for (Eigen::Index j = 0; j < out.size(); ++j) {
     if (makes_channel(record.regions[record.region_of_point[static_cast<std::size_t>(j)]].role))
-      out(j) = geometry.x(j) - 0.5 * (low + high);
+      out(j) = geometry.x(j) - 0.5 * (low + high) - aside;
   }
   return out;
 }
 
-// px per rad, 2 points x regions: each region turned about the middle line. A point at a distance d from it goes away
-// by d times the angle, and its image moves towards the principal point by the same share.
-Eigen::MatrixXd turned_regions(const ObservationRecord& record, const PointGeometry& geometry) {
-  const Eigen::VectorXd distance = from_middle(record, geometry);
+// px per rad, 2 points x regions: each region turned about the axis. A point at a distance d from it goes away by d
+// times the angle, and its image moves towards the principal point by the same share.
+Eigen::MatrixXd turned_regions(const ObservationRecord& record, const PointGeometry& geometry, double aside) {
+  const Eigen::VectorXd distance = from_axis(record, geometry, aside);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(2 * distance.size(), static_cast<Eigen::Index>(record.regions.size()));
   for (Eigen::Index j = 0; j < distance.size(); ++j) {
     const auto region = static_cast<Eigen::Index>(record.region_of_point[static_cast<std::size_t>(j)]);
@@ -50,14 +53,36 @@ class TorsionInModel final : public LearnedPattern {
   }
   void set_places(const ObservationRecord& record, const PointGeometry& geometry) override {
     geometry_ = geometry;
-    distance_ = from_middle(record, geometry);
-    turn_ = Eigen::VectorXd::Zero(distance_.size());
-    const Eigen::MatrixXd fields = turned_regions(record, geometry);
-    for (Eigen::Index j = 0; j < turn_.size(); ++j) {
-      const auto region = static_cast<Eigen::Index>(record.region_of_point[static_cast<std::size_t>(j)]);
-      const double squares = fields.col(region).squaredNorm();
-      if (squares > 0.0) turn_(j) = fields.col(region).dot(*pattern()) / squares;
-    }
+    distance_ = from_axis(record, geometry, aside_);
+    const Eigen::MatrixXd fields = turned_regions(record, geometry, aside_);
+    if (turn_of_region_.size() == 0)
+      learn_turns(fields);
+    else
+      form(fields);
+    turn_.resize(distance_.size());
+    for (Eigen::Index j = 0; j < turn_.size(); ++j)
+      turn_(j) = turn_of_region_(static_cast<Eigen::Index>(record.region_of_point[static_cast<std::size_t>(j)]));
+  }
+  [[nodiscard]] bool is_refined() const override { return true; }
+  // The pattern was learned where the points are on average. One step of Gauss and Newton for the turn of each region
+  // and the place of the axis, without what the model's columns take.
+  void refine(const FitView& fit, const Eigen::RowVectorXd& amplitude) override {
+    const double squares = amplitude.squaredNorm();
+    if (!(squares > 0.0)) return;
+    const Eigen::MatrixXd turned = turned_regions(fit.record, fit.model.geometry(), aside_);
+    Eigen::MatrixXd columns(turned.rows(), turned.cols() + 1);
+    for (Eigen::Index j = 0; j < turn_.size(); ++j)
+      columns.block<2, 1>(2 * j, turned.cols()) =
+          geometry_.alpha_px * turn_(j) * Eigen::Vector2d(geometry_.x(j), geometry_.y(j));
+    columns.leftCols(turned.cols()) = turned;
+    const Eigen::MatrixXd whitened = fit.model.whitened(columns), &q = fit.model.q_low();
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver;
+    solver.setThreshold(kLeastBeside);
+    solver.compute(whitened - q * (q.transpose() * whitened));
+    const Eigen::VectorXd change = solver.solve(fit.model.residual() * amplitude.transpose() / squares);
+    turn_of_region_ += change.head(turned.cols());
+    aside_ += change(turned.cols());
+    form(turned_regions(fit.record, fit.model.geometry(), aside_));
   }
   [[nodiscard]] bool has_second_order() const override { return true; }
   void remove_second_order(const PatternCourse& course, const ObservationRecord& record,
@@ -78,9 +103,24 @@ class TorsionInModel final : public LearnedPattern {
   }
 
  private:
+  void learn_turns(const Eigen::MatrixXd& fields) {
+    turn_of_region_ = Eigen::VectorXd::Zero(fields.cols());
+    for (Eigen::Index r = 0; r < fields.cols(); ++r) {
+      const double squares = fields.col(r).squaredNorm();
+      if (squares > 0.0) turn_of_region_(r) = fields.col(r).dot(*pattern()) / squares;
+    }
+  }
+  void form(const Eigen::MatrixXd& fields) {
+    Eigen::VectorXd pattern = fields * turn_of_region_;
+    turn_of_region_ *= std::sqrt(static_cast<double>(pattern.size())) / pattern.norm();
+    set_pattern(std::move(pattern));
+  }
+
   PointGeometry geometry_;
-  Eigen::VectorXd distance_;  // as from_middle()
-  Eigen::VectorXd turn_;      // of each point's region, rad per unit of the amplitude
+  double aside_ = 0.0;              // of the axis from the structure's middle
+  Eigen::VectorXd distance_;        // as from_axis()
+  Eigen::VectorXd turn_of_region_;  // rad per unit of the amplitude
+  Eigen::VectorXd turn_;            // of each point's region
 };
 
 // Regions turn about the upright axis, each by its own share: one side comes nearer, the other goes away. Observable by
@@ -91,7 +131,7 @@ class Torsion final : public FamilyEffect {
   [[nodiscard]] std::string name() const override { return "torsion"; }
   // Of each region of the structure.
   [[nodiscard]] Eigen::MatrixXd fields(const ObservationRecord& record, const PointGeometry& geometry) const override {
-    const Eigen::MatrixXd all = turned_regions(record, geometry);
+    const Eigen::MatrixXd all = turned_regions(record, geometry, 0.0);
     std::vector<Eigen::Index> used;
     for (Eigen::Index c = 0; c < all.cols(); ++c) {
       if (!all.col(c).isZero(0.0)) used.push_back(c);

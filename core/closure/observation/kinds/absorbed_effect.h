@@ -16,6 +16,9 @@ struct AbsorbedFinding {
   std::string meaning;
   double score = 0.0, threshold = 0.0;  // chi-square / 2, of the motion beyond its known causes
   std::optional<double> hz = {};        // of a resonance
+  // What the model takes wrongly because of it, without the model's columns: 2 points x frames in sigmas at the frames'
+  // common instants. Empty: nothing.
+  Eigen::MatrixXd left = {};
 };
 
 // An effect that the model's free motions absorb: it leaves no residual, and adopting it cannot lower the held-out

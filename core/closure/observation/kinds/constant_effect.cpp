@@ -32,12 +32,14 @@ class ConstantsInModel final : public EffectInModel {
   [[nodiscard]] std::vector<ParameterValue> parameters(const FitView& fit,
                                                        const Eigen::RowVectorXd& /*amplitude*/) const override {
     const std::vector<ConstantEffect::Parameter> constants = effect_.constants();
+    const Eigen::VectorXd left_out = effect_.left_out(values_, fit);
     std::vector<ParameterValue> out;
     for (Eigen::Index p = 0; p < values_.size(); ++p) {
       const ConstantEffect::Parameter& constant = constants[static_cast<std::size_t>(p)];
       const double factor = 1.0 / blur(fit, constant.waves_per_px);
       ParameterValue value{constant.name, effect_.unit(), values_(p) * factor, std::nullopt};
-      if (covariance_.size() > 0) value.sigma = std::sqrt(covariance_(p, p)) * std::abs(factor);
+      if (covariance_.size() > 0)
+        value.sigma = std::hypot(std::sqrt(covariance_(p, p)), left_out(p)) * std::abs(factor);
       out.push_back(std::move(value));
     }
     return out;

@@ -19,6 +19,10 @@ class ConstantEffect : public ObservationEffect {
   // sigmas).
   [[nodiscard]] virtual std::vector<Eigen::MatrixXd> derivatives(const Eigen::VectorXd& values,
                                                                  const FitView& fit) const = 0;
+  // Standard deviations of the constants by terms of the same cause that the record hardly shows and that are left out.
+  [[nodiscard]] virtual Eigen::VectorXd left_out(const Eigen::VectorXd& values, const FitView& /*fit*/) const {
+    return Eigen::VectorXd::Zero(values.size());
+  }
   [[nodiscard]] virtual double added_readout_frames(const Eigen::VectorXd& /*values*/) const { return 0.0; }
   [[nodiscard]] virtual LensCoefficients lens(const Eigen::VectorXd& /*values*/) const { return {}; }
   virtual void correct(CorrectionStage /*stage*/, const Eigen::VectorXd& /*values*/, const CorrectionView& /*view*/,

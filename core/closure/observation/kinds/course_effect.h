@@ -20,6 +20,8 @@ class CourseEffect : public ObservationEffect {
   [[nodiscard]] virtual std::vector<ParameterValue> parameters(const FitView& fit, const Eigen::MatrixXd& motion_px,
                                                                const PointCourses& courses) const = 0;
 
+  // Cosine and sine of a phase that is known but for a slow wander, which is refined with the constants.
+  [[nodiscard]] virtual bool wanders() const { return false; }
   // False: the courses are motions of the model itself.
   [[nodiscard]] virtual bool has_course_of_its_own() const { return true; }
 

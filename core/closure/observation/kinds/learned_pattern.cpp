@@ -9,10 +9,12 @@
 namespace core::closure {
 
 LearnedPattern::LearnedPattern(LearnedName called, RungSet band, Eigen::VectorXd pattern)
-    : EffectInModel(std::move(called.id), std::move(called.name)),
-      kind_(called.kind),
-      band_(band),
-      pattern_(std::move(pattern)) {
+    : EffectInModel(std::move(called.id), std::move(called.name)), kind_(called.kind), band_(band) {
+  set_pattern(std::move(pattern));
+}
+
+void LearnedPattern::set_pattern(Eigen::VectorXd pattern) {
+  pattern_ = std::move(pattern);
   pattern_ *= std::sqrt(static_cast<double>(pattern_.size())) / pattern_.norm();
 }
 

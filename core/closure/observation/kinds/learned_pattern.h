@@ -29,6 +29,9 @@ class LearnedPattern : public EffectInModel {
   [[nodiscard]] const Eigen::VectorXd* pattern() const override { return &pattern_; }
   [[nodiscard]] RungSet band() const override { return band_; }
 
+ protected:
+  void set_pattern(Eigen::VectorXd pattern);  // of any size
+
  private:
   EffectKind kind_;
   RungSet band_;

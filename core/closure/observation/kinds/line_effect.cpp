@@ -14,7 +14,7 @@
 namespace core::closure {
 namespace {
 
-constexpr double kWidest_hz = 1.2;   // half width; a wider band is a broad-band rotation
+constexpr double kWidest_hz = 2.0;   // half width; a wider band is a broad-band rotation
 constexpr double kOtherOrder = 0.8;  // of a line's gain: the most that another alias order may reach
 constexpr double kOfTails = 0.3;     // of the rms of a resonance: the most that lies outside its band
 constexpr double kTails = 2.0;       // half widths beside its band in which they lie
@@ -47,7 +47,7 @@ class LineInModel final : public EffectInModel {
     return effect_.is_steady() ? Leaves{} : Leaves{kOfTails, kTails * line_.half_width_hz};
   }
   [[nodiscard]] bool is_refined() const override { return true; }
-  void refine(const FitView& fit) override {
+  void refine(const FitView& fit, const Eigen::RowVectorXd& /*amplitude*/) override {
     const LineSearch search = search_in(effect_, fit);
     const LineMotion more = search.motion(fit.model.residual(), line_, later_in_readout(fit.record, fit.predicted_px));
     const Eigen::MatrixXd before =
