@@ -55,13 +55,15 @@ class TorsionInModel final : public LearnedPattern {
     geometry_ = geometry;
     distance_ = from_axis(record, geometry, aside_);
     const Eigen::MatrixXd fields = turned_regions(record, geometry, aside_);
-    if (turn_of_region_.size() == 0)
+    if (turn_of_region_.size() == 0) {
       learn_turns(fields);
-    else
+    } else {
       form(fields);
+    }
     turn_.resize(distance_.size());
-    for (Eigen::Index j = 0; j < turn_.size(); ++j)
+    for (Eigen::Index j = 0; j < turn_.size(); ++j) {
       turn_(j) = turn_of_region_(static_cast<Eigen::Index>(record.region_of_point[static_cast<std::size_t>(j)]));
+    }
   }
   [[nodiscard]] bool is_refined() const override { return true; }
   // The pattern was learned where the points are on average. One step of Gauss and Newton for the turn of each region
@@ -71,9 +73,10 @@ class TorsionInModel final : public LearnedPattern {
     if (!(squares > 0.0)) return;
     const Eigen::MatrixXd turned = turned_regions(fit.record, fit.model.geometry(), aside_);
     Eigen::MatrixXd columns(turned.rows(), turned.cols() + 1);
-    for (Eigen::Index j = 0; j < turn_.size(); ++j)
+    for (Eigen::Index j = 0; j < turn_.size(); ++j) {
       columns.block<2, 1>(2 * j, turned.cols()) =
           geometry_.alpha_px * turn_(j) * Eigen::Vector2d(geometry_.x(j), geometry_.y(j));
+    }
     columns.leftCols(turned.cols()) = turned;
     const Eigen::MatrixXd whitened = fit.model.whitened(columns), &q = fit.model.q_low();
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver;
