@@ -269,10 +269,11 @@ Eigen::MatrixXd PointMotionModel::readout_field() const {
   Eigen::MatrixXd out = velocities();
   for (Eigen::Index i = 0; i < out.rows(); ++i) {
     const double share = geometry_.share(i / 2) - kCommonShare;
-    if (later_.size() > 0)
+    if (later_.size() > 0) {
       out.row(i).array() *= later_.row(i / 2).array() + share;
-    else
+    } else {
       out.row(i) *= share;
+    }
   }
   return out;
 }

@@ -16,7 +16,8 @@ constexpr std::array kEdges_hz{0.0, 0.25, 0.5, 1.0, 2.0, 4.0};  // a hovering ca
 constexpr double kFirstBins = 3.0;                              // of the window's main lobe: drift over the record
 constexpr double kSlowest_hz = 0.05, kFastest_hz = 5.0;         // corners that are tried
 constexpr int kCorners = 16;
-constexpr double kMostLag_s = 0.2, kLagStep_s = 0.02;
+constexpr int kLags = 10;
+constexpr double kLagStep_s = 0.02;
 constexpr std::array kGains{0.0, 0.35, 0.7};  // from which the search starts
 constexpr double kMostGain = 0.95;
 constexpr double kLeastApart = 0.05;  // 1 less the ratio of the depths
@@ -119,7 +120,8 @@ FittedShift ShiftRegression::best_of_grid(double gain) const {
   FittedShift best;
   for (int c = 0; c < kCorners; ++c) {
     const double corner_hz = kSlowest_hz * std::pow(kFastest_hz / kSlowest_hz, static_cast<double>(c) / (kCorners - 1));
-    for (double lag_s = 0.0; lag_s <= kMostLag_s; lag_s += kLagStep_s) {
+    for (int lag = 0; lag <= kLags; ++lag) {
+      const double lag_s = lag * kLagStep_s;
       const Solution solution = solve(shift({gain, corner_hz, lag_s}));
       const double rise = rise_to(solution.left);
       if (rise > best.rise) best.response = {gain_of(solution.values, 0), corner_hz, lag_s}, best.rise = rise;
