@@ -94,7 +94,8 @@ TEST(ObservationCourses, AVibrationAtTheFrequencyOfLampsIsNoFlicker) {
     speed += 0.1 * w * noise.gaussian() - w * w * position - 0.01 * w * speed;
     position += speed, course.push_back(position);
   }
-  add_error(record, 0.3, [&](double, double t) { return course[static_cast<std::size_t>(t * record.rate_hz + 0.5)]; });
+  add_error(record, 0.3,
+            [&](double, double t) { return course[static_cast<std::size_t>(std::lround(t * record.rate_hz))]; });
   for (const ClosureStep& step : result_of(record).steps) EXPECT_NE(step.effect, "flicker");
 }
 

@@ -133,7 +133,8 @@ TEST_P(FloorsThatTurnFar, AreNamedAndLeaveNothing) {
   ObservationRecord record = swaying_record(1500, {});
   for (Eigen::Index j = 8; j < record.n_points(); ++j) {
     const double across = -150.0 + 43.3 * static_cast<double>(j % 8) - 1.55 - GetParam();
-    const double share = static_cast<double>(j / 8) / 3.0;
+    const Eigen::Index region = j / 8;
+    const double share = static_cast<double>(region) / 3.0;
     for (Eigen::Index k = 0; k < record.n_frames(); ++k) {
       const double turn = share * 0.1 * std::sin(2.0 * kPi * 3.3 * seconds(k));
       const double away = std::sin(turn) * across / record.alpha_px, nearer = across * (std::cos(turn) - 1.0);

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <complex>
 #include <string>
@@ -20,7 +21,8 @@ class Gusts {
   explicit Gusts(std::uint64_t seed) {
     NoiseStream noise(seed);
     double squares = 0.0;
-    for (double hz = 0.07; hz < 4.0; hz *= 1.13) {
+    for (int i = 0; i < 34; ++i) {
+      const double hz = 0.07 * std::pow(1.13, i);
       lines_.push_back({hz, std::polar(1.0 / (0.02 + hz * hz), kTwoPi * noise.gaussian())});
       squares += 0.5 * std::norm(lines_.back().value);
     }
@@ -30,9 +32,10 @@ class Gusts {
   // Above a corner frequency, later by a lag.
   [[nodiscard]] double followed(double t_s, double corner_hz, double lag_s) const {
     std::complex<double> sum = 0.0;
-    for (const Line& line : lines_)
+    for (const Line& line : lines_) {
       sum += line.value * std::complex<double>(0.0, line.hz) / std::complex<double>(corner_hz, line.hz) *
              std::polar(1.0, kTwoPi * line.hz * (t_s - lag_s));
+    }
     return sum.real();
   }
 
@@ -108,7 +111,7 @@ TEST(Stabiliser, FramesThatFollowTheCameraAreNamedWithGainCornerAndLag) {
     ASSERT_EQ(found.size(), 1U) << gain;
     EXPECT_EQ(found[0].effect, "stabiliser");
     SCOPED_TRACE(parameters_text(found[0]));
-    const double truth[] = {100.0 * gain, kCorner_hz, kLag_s};
+    const std::array truth{100.0 * gain, kCorner_hz, kLag_s};
     for (std::size_t i = 0; i < 3; ++i) {
       const ParameterValue& value = found[0].parameters.at(i);
       EXPECT_NEAR(value.value, truth[i], 4.0 * value.sigma.value_or(0.0)) << value.name;
