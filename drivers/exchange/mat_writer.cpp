@@ -10,6 +10,7 @@
 
 #include "core/types/constants.h"
 #include "drivers/exchange/mat_handle.h"
+#include "drivers/storage/partial_file.h"
 #include "drivers/storage/text_file.h"
 
 namespace drivers {
@@ -31,7 +32,7 @@ std::vector<double> values(const std::vector<ExchangeMode>& modes, double Exchan
 class MatWriter {
  public:
   MatWriter(const ExchangeRun& run, const std::string& path)
-      : run_(run), path_(path), partial_path_(path + ".partial") {
+      : run_(run), path_(path), partial_path_(drivers::partial_path(path)) {
     (void)::unlink(partial_path_.c_str());  // a new file, never what a link of that name points to
     file_.reset(Mat_CreateVer(partial_path_.c_str(), "MATLAB 5.0 MAT-file, hovermodal export", MAT_FT_MAT5));
     if (!file_) throw FileError(partial_path_ + ": cannot be written; check the folder and its permissions");
@@ -158,7 +159,7 @@ class MatWriter {
   // libmatio does not report a full disk when it closes a file: synchronise, then rename.
   void commit() {
     const int descriptor = ::open(partial_path_.c_str(), O_RDONLY | O_CLOEXEC);
-    const bool is_safe = descriptor >= 0 && ::fsync(descriptor) == 0;
+    const bool is_safe = descriptor >= 0 && sync_to_disk(descriptor);
     if (descriptor >= 0) ::close(descriptor);
     std::error_code error;
     if (is_safe) std::filesystem::rename(partial_path_, path_, error);

@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "drivers/storage/limits.h"
+#include "drivers/storage/partial_file.h"
 #include "drivers/storage/regular_file.h"
 #include "drivers/storage/text_file.h"
 
@@ -48,7 +49,7 @@ std::uint64_t checksum(std::span<const std::uint8_t> bytes) noexcept {
 // A descriptor that closes itself.
 class File {
  public:
-  File(const char* path, int flags) noexcept : descriptor_(::open(path, flags | O_CLOEXEC, 0644)) {}
+  explicit File(int descriptor) noexcept : descriptor_(descriptor) {}
   ~File() {
     if (descriptor_ >= 0) ::close(descriptor_);
   }
@@ -59,8 +60,7 @@ class File {
   [[nodiscard]] bool write(const void* data, std::size_t n_bytes) const noexcept {
     return write_bytes(descriptor_, data, n_bytes) == n_bytes;
   }
-  // File systems without fsync (EINVAL) are accepted.
-  [[nodiscard]] bool sync() const noexcept { return ::fsync(descriptor_) == 0 || errno == EINVAL; }
+  [[nodiscard]] bool sync() const noexcept { return sync_to_disk(descriptor_); }
 
  private:
   int descriptor_;
@@ -73,14 +73,13 @@ std::string write_or_why(const std::string& path, const std::string& partial, st
   head.n_bytes = bytes.size();
   head.checksum = checksum(bytes);
   {
-    (void)::unlink(partial.c_str());  // a new file, never what a link of that name points to
-    const File file(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW);
+    const File file(open_new_file(partial.c_str()));
     if (!file.is_open()) return why(partial);
     if (!file.write(&head, sizeof head) || !file.write(bytes.data(), bytes.size()) || !file.sync()) return why(partial);
   }
   if (std::rename(partial.c_str(), path.c_str()) != 0) return why(path);
   const std::string folder = std::filesystem::path(path).parent_path().string();
-  const File directory(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
+  const File directory(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (directory.is_open()) (void)directory.sync();
   return {};
 }
@@ -89,7 +88,7 @@ std::string write_or_why(const std::string& path, const std::string& partial, st
 
 std::string write_checkpoint(const std::string& path, std::span<const std::uint8_t> bytes) noexcept {
   try {
-    const std::string partial = path + ".partial";
+    const std::string partial = partial_path(path);
     std::string refused = write_or_why(path, partial, bytes);
     if (!refused.empty()) (void)::unlink(partial.c_str());  // frees the space on a full disk
     return refused;

@@ -18,6 +18,8 @@
 #include <utility>
 #include <vector>
 
+#include "drivers/storage/partial_file.h"
+
 extern char** environ;
 
 namespace drivers {
@@ -104,7 +106,7 @@ std::runtime_error not_started(const std::string& path, const std::string& why) 
 
 ClipWriter::ClipWriter(std::string path, int width_px, int height_px, double rate_hz, int crf)
     : path_(std::move(path)),
-      part_path_(path_ + ".partial"),
+      part_path_(partial_path(path_)),
       frame_bytes_(checked_frame_bytes(width_px, height_px, rate_hz, crf)) {
   start(fmt::format("{}x{}", width_px, height_px), rate_hz, crf);
 }

@@ -1,6 +1,5 @@
 #include "drivers/storage/csv_writer.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <array>
@@ -10,6 +9,7 @@
 #include <cstring>
 #include <utility>
 
+#include "drivers/storage/partial_file.h"
 #include "drivers/storage/regular_file.h"
 #include "drivers/storage/text_file.h"
 
@@ -39,13 +39,11 @@ void append_scaled(fmt::memory_buffer& out, std::int64_t value, int n_decimals) 
 
 }  // namespace
 
-CsvWriter::CsvWriter(std::string path, OldFile old) : path_(std::move(path)), partial_path_(path_ + ".partial") {
+CsvWriter::CsvWriter(std::string path, OldFile old) : path_(std::move(path)), partial_path_(partial_path(path_)) {
   if (old == OldFile::kRemove && ::unlink(path_.c_str()) != 0 && errno != ENOENT) {
     throw FileError(fmt::format("{}: cannot be replaced: {}; name another folder", path_, std::strerror(errno)));
   }
-  // A new file, never what a link of that name points to.
-  (void)::unlink(partial_path_.c_str());
-  descriptor_ = ::open(partial_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
+  descriptor_ = open_new_file(partial_path_.c_str());
   if (descriptor_ < 0) {
     throw FileError(fmt::format("{}: cannot be written: {}; check the folder and its permissions", partial_path_,
                                 std::strerror(errno)));
@@ -72,8 +70,7 @@ bool CsvWriter::flush() noexcept {
 
 void CsvWriter::commit() {
   flush();
-  // EINVAL: not a file that can be synchronised (a pipe, a device).
-  if (error_ == 0 && ::fsync(descriptor_) != 0 && errno != EINVAL) error_ = errno;
+  if (error_ == 0 && !sync_to_disk(descriptor_)) error_ = errno;
   close_file();
   if (error_ == 0 && std::rename(partial_path_.c_str(), path_.c_str()) != 0) error_ = errno;
   if (error_ == 0) return;

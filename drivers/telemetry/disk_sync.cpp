@@ -5,6 +5,8 @@
 
 #include <cerrno>
 
+#include "drivers/storage/partial_file.h"
+
 namespace drivers {
 
 DiskSync::DiskSync(std::chrono::milliseconds period) : period_(period), thread_([this] { run(); }) {}
@@ -39,9 +41,7 @@ void DiskSync::run() {
     if (is_over_) return;
     const int descriptor = descriptor_;
     lock.unlock();
-    // EINVAL: not a file that can be synchronised (a pipe, a device).
-    const bool is_done = ::fdatasync(descriptor) == 0 || errno == EINVAL || errno == EINTR;
-    if (!is_done) error_.store(errno, std::memory_order_relaxed);
+    if (!sync_to_disk(descriptor)) error_.store(errno, std::memory_order_relaxed);
     ::close(descriptor);
     lock.lock();
     descriptor_ = -1;

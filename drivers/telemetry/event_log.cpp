@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "drivers/storage/partial_file.h"
 #include "drivers/storage/regular_file.h"
 #include "drivers/telemetry/event_log_format.h"
 
@@ -91,9 +92,9 @@ void EventLogFile::keep_whole_events(std::size_t n_written) noexcept {
 }
 
 bool EventLogFile::sync() noexcept {
-  if (!flush()) return false;
-  // EINVAL: not a file that can be synchronised (a pipe, a device).
-  if (::fsync(descriptor_) == 0 || errno == EINVAL || errno == EINTR) return true;
+  const bool is_flushed = flush();
+  if (descriptor_ < 0) return false;
+  if (sync_to_disk(descriptor_)) return is_flushed;
   error_ = errno;
   return false;
 }

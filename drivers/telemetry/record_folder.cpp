@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "drivers/storage/partial_file.h"
+
 namespace drivers {
 
 namespace fs = std::filesystem;
@@ -17,7 +19,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kLastRun = 99'999'999;  // the names have at most eight digits
-constexpr std::string_view kPartial = ".partial";
 
 std::optional<RecordPart> parse_name(const fs::path& path) {
   static const std::regex form("[A-Za-z0-9_.-]+_run([0-9]{4,8})_([0-9]{3,6})[.]lcm");
@@ -33,12 +34,11 @@ std::string record_name(std::string_view stream_id, int run, int file) {
   return fmt::format("{}_run{:04}_{:03}.lcm", stream_id, run, file);
 }
 
-std::string partial_record(const std::string& path) { return path + std::string(kPartial); }
-
 void remove_partial_records(const std::string& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     std::error_code refused;
-    if (entry.path().extension() == kPartial && parse_name(entry.path().stem())) fs::remove(entry.path(), refused);
+    if (entry.path().extension() == kPartialExtension && parse_name(entry.path().stem()))
+      fs::remove(entry.path(), refused);
   }
 }
 

@@ -18,8 +18,7 @@ struct RecordPart {
 
 [[nodiscard]] std::string record_name(std::string_view stream_id, int run, int file);
 
-// The name of a file until its head is on the disk, and the files that a run left under such a name: removed.
-[[nodiscard]] std::string partial_record(const std::string& path);
+// Files that a run left without their heads, under the name that they have until then (partial_path()).
 void remove_partial_records(const std::string& folder);
 
 // Oldest first. Other files in the folder are ignored. Throws std::runtime_error when it cannot be read.

@@ -4,12 +4,12 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
+#include "drivers/storage/partial_file.h"
 #include "drivers/telemetry/record_folder.h"
 
 namespace drivers {
@@ -33,7 +33,7 @@ void RotatingLog::begin(WriteHead write_head) {
   if (!open_next())
     throw std::runtime_error(
         fmt::format("record.directory: \"{}\": the first file of the record cannot be written: {}", options_.directory,
-                    error() != 0 ? std::strerror(error()) + std::string("; free space on that disk")
+                    error() != 0 ? std::generic_category().message(error()) + "; free space on that disk"
                                  : "record.quota_mb is smaller than record.file_mb, or than what other files need"));
 }
 
@@ -44,15 +44,17 @@ bool RotatingLog::open_next() {
     return false;
   }
   // A file without its head cannot be replayed: it has its name when its head is on the disk.
-  const std::string path = path_of(next_file_), partial = partial_record(path);
+  const std::string path = path_of(next_file_), partial = partial_path(path);
   file_ = std::make_unique<EventLogFile>(partial, EventLogFile::Link::kRefuse);
   int error = 0;
-  if (!write_head_(*file_, next_file_) || !file_->sync())
+  if (!write_head_(*file_, next_file_) || !file_->sync()) {
     error = file_->error();
-  else if (std::rename(partial.c_str(), path.c_str()) != 0)
+  } else if (std::rename(partial.c_str(), path.c_str()) != 0) {
     error = errno;
-  else
-    return ++next_file_, true;
+  } else {
+    ++next_file_;
+    return true;
+  }
   error_.store(error, std::memory_order_relaxed);
   file_.reset();
   std::error_code ignored;

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <vector>
 
+#include "drivers/storage/partial_file.h"
 #include "drivers/storage/text_file.h"
 #include "firmware_app/report/earlier_files.h"
 
@@ -59,7 +60,7 @@ void sync_folder(const fs::path& folder) noexcept {
 
 void set_last_aside(const fs::path& folder) {
   for (const char* name : kReportFiles) {
-    for (const std::string& file : {std::string(name), name + std::string(".partial")}) {
+    for (const std::string& file : {std::string(name), drivers::partial_path(name)}) {
       const fs::file_status status = fs::symlink_status(folder / file);  // throws where the disk cannot say
       if (fs::is_regular_file(status)) {
         fs::create_directory(folder / kReplaced);
