@@ -13,6 +13,8 @@ constexpr std::int64_t kHeartbeat_ns = 1'000'000'000, kQuestion_ns = 100'000'000
 constexpr std::uint8_t kAutopilotComponent = 1, kOnboardComputerComponent = 191;
 constexpr std::size_t kMostModes = 6;
 
+constexpr double kTurns_rpm = 60.0;  // slower: it stands
+
 }  // namespace
 
 MavlinkCompanion::MavlinkCompanion(const Options& options, OnAttitude on_attitude)
@@ -49,10 +51,18 @@ void MavlinkCompanion::take(const MavlinkFrame& frame, std::int64_t now_ns) {
   } else if (const auto wind = mavlink_wind(frame)) {
     wind_ = wind;
   } else if (const auto speeds = mavlink_esc_speeds(frame)) {
-    for (std::size_t i = 0; i < speeds->rpm.size() && speeds->first + i < kMotors; ++i)
-      rpm_[speeds->first + i] = speeds->rpm[i];
+    take_speeds(*speeds, now_ns);
   } else if (frame.id != MavlinkFields::Heartbeat::kId) {
     ++counts_.not_ours;
+  }
+}
+
+// A message states four motors, whether they are there or not.
+void MavlinkCompanion::take_speeds(const MavlinkEscSpeeds& speeds, std::int64_t now_ns) {
+  for (std::size_t i = 0; i < speeds.rpm.size() && speeds.first + i < kMotors; ++i) {
+    const std::size_t motor = speeds.first + i;
+    rpm_[motor] = speeds.rpm[i];
+    if (on_motor_ && rpm_[motor] >= kTurns_rpm) on_motor_({static_cast<int>(motor) + 1, rpm_[motor] / 60.0}, now_ns);
   }
 }
 
@@ -130,7 +140,6 @@ std::vector<std::uint8_t> MavlinkCompanion::modes(std::span<const Mode> lowest_f
 }
 
 std::vector<double> MavlinkCompanion::motors_hz() const {
-  constexpr double kTurns_rpm = 60.0;
   std::vector<double> out;
   for (const double rpm : rpm_) {
     if (rpm >= kTurns_rpm) out.push_back(rpm / 60.0);

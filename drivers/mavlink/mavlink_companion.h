@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/types/attitude.h"
@@ -34,9 +35,16 @@ class MavlinkCompanion {
     bool of_gimbal = false;  // which attitude is handed on: the gimbal's or the aircraft's
     bool datagrams = true;   // how bytes come in
   };
+  struct Motor {
+    int number = 0;   // from 1
+    double hz = 0.0;  // turns per second
+  };
+  using OnMotor = std::function<void(const Motor&, std::int64_t now_ns)>;
   using OnAttitude = std::function<void(const core::AttitudeSample&)>;  // t_s on this computer's CLOCK_MONOTONIC
 
   MavlinkCompanion(const Options& options, OnAttitude on_attitude);
+
+  void on_motor(OnMotor call) { on_motor_ = std::move(call); }
 
   // Bytes as received, at most one datagram. now_ns: CLOCK_MONOTONIC.
   void take(std::span<const std::uint8_t> bytes, std::int64_t now_ns);
@@ -63,10 +71,12 @@ class MavlinkCompanion {
   [[nodiscard]] bool is_of_autopilot(const MavlinkFrame& frame);
   void take_time(const MavlinkTimeSync& answer, std::int64_t now_ns);
   void take_attitude(MavlinkAttitude attitude);
+  void take_speeds(const MavlinkEscSpeeds& speeds, std::int64_t now_ns);
   void append(MavlinkFrame frame, std::vector<std::uint8_t>& out);
 
   Options options_;
   OnAttitude on_attitude_;
+  OnMotor on_motor_;  // may be empty
   MavlinkParser parser_;
   MavlinkClock clock_;
   Counts counts_;

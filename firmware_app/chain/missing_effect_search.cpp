@@ -10,6 +10,7 @@
 #include "core/closure/observation/observation_level.h"
 #include "core/tracking/similarity.h"
 #include "firmware_app/chain/observation.h"
+#include "firmware_app/config/core_config.h"
 #include "rt/clock.h"
 
 namespace app {
@@ -35,6 +36,7 @@ MissingEffectSearchConfig missing_effect_search_config(const AppConfig& config, 
           std::min(config.closure.delay_s, config.closure.period_s),
           config.closure.adopt == ClosureAdopt::kAuto,
           config.closure.least_px,
+          motor_lines(config),
           camera.frame_count};
 }
 
@@ -136,11 +138,14 @@ bool MissingEffectSearch::lens_in_keyframe(const core::CameraModel& lens) const 
 void MissingEffectSearch::conclude(core::closure::ClosureReport& out) const {
   const std::int64_t begin_ns = rt::monotonic_ns();
   try {
-    core::closure::ObservationLevel level(config_.recent.record());
+    core::closure::ObservationRecord record = config_.recent.record();
+    const double duration_s = static_cast<double>(record.n_frames()) / record.rate_hz;
+    core::closure::ObservationLevel level(std::move(record));
     core::closure::ClosureOptions options;
     options.n_surrogates = core::closure::ObservationLevel::kSurrogates;
     options.least_gain = config_.least_px;
     out.result = core::closure::close_loop(level, options);
+    config_.motors.name(out.result, config_.rate_hz, duration_s);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {  // the record cannot be analysed: the report states why

@@ -6,6 +6,7 @@
 
 #include "core/closure/observation/adoption.h"
 #include "core/closure/observation/recent_tracks.h"
+#include "core/rotors/motor_lines.h"
 #include "core/types/closure_report.h"
 #include "core/types/frame.h"
 #include "core/types/track.h"
@@ -23,7 +24,8 @@ struct MissingEffectSearchConfig {
   double period_s = 60.0;  // stream time between two reports
   double delay_s = 30.0;   // from the last frame of a report to the first frame that it changes
   bool adopts = false;
-  double least_px = 0.0;       // smallest effect reported: rms point displacement
+  double least_px = 0.0;  // smallest effect reported: rms point displacement
+  core::MotorLines motors = {};
   std::uint64_t n_frames = 0;  // of a recording: no correction begins after its last frame; 0 = unknown
 };
 // With closure.adopt: off the window is one frame.

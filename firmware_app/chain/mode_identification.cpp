@@ -4,9 +4,11 @@
 
 namespace app {
 
-ModeIdentification::ModeIdentification(double rate_hz, MakeIdentifier make_identifier, const CorrectionLog& book)
+ModeIdentification::ModeIdentification(double rate_hz, MakeIdentifier make_identifier, const CorrectionLog& book,
+                                       core::MotorLines motors)
     : make_identifier_(std::move(make_identifier)),
       book_(book),
+      motors_(std::move(motors)),
       rate_hz_(rate_hz),
       identifier_(make_identifier_(rate_hz, book.at(0))),
       tracker_({.row_delay_s = identifier_->declared_delay_s()}) {}
@@ -14,6 +16,7 @@ ModeIdentification::ModeIdentification(double rate_hz, MakeIdentifier make_ident
 void ModeIdentification::identify(const SpectrumSnapshot& snapshot, IdentificationResult& out) {
   follow(snapshot);
   out.estimate = identifier_->identify(snapshot.sums, snapshot.readout);
+  motors_.judge(out.estimate, identifier_->delay_s(out.estimate));
   out.estimate.amendments = book_.at(correction_set_).words;
   tracker_.set_row_delays(identifier_->delay_s(out.estimate));
   out.sums.copy_totals(snapshot.sums, identifier_->n_outputs());

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/identification/mode_tracker.h"
+#include "core/rotors/motor_lines.h"
 #include "firmware_app/chain/correction_set.h"
 #include "firmware_app/chain/items.h"
 #include "firmware_app/chain/readout_aware_identifier.h"
@@ -21,7 +22,8 @@ class ModeIdentification {
   using MakeIdentifier =
       std::function<std::unique_ptr<const ReadoutAwareIdentifier>(double rate_hz, const CorrectionSet& correction_set)>;
 
-  ModeIdentification(double rate_hz, MakeIdentifier make_identifier, const CorrectionLog& book);
+  ModeIdentification(double rate_hz, MakeIdentifier make_identifier, const CorrectionLog& book,
+                     core::MotorLines motors);
 
   // Throws std::bad_alloc: this estimate is lost, the next may succeed.
   void identify(const SpectrumSnapshot& snapshot, IdentificationResult& out);
@@ -43,6 +45,7 @@ class ModeIdentification {
 
   MakeIdentifier make_identifier_;
   const CorrectionLog& book_;
+  core::MotorLines motors_;
   double rate_hz_;
   std::uint32_t correction_set_ = 0, record_ = 0;
   std::unique_ptr<const ReadoutAwareIdentifier> identifier_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "drivers/storage/calibration_file.h"
+#include "firmware_app/config/core_config.h"
 
 namespace app {
 namespace {
@@ -52,6 +53,11 @@ DeclaredObservation declared_observation(const AppConfig& config, const core::Ca
   record.regions = config.regions;
   record.alpha_px = out.camera.fx, record.cx_px = out.camera.cx, record.cy_px = out.camera.cy;
   return out;
+}
+
+void name_motors(const AppConfig& config, const core::closure::ObservationRecord& record,
+                 core::closure::ClosureResult& result) {
+  motor_lines(config).name(result, record.rate_hz, static_cast<double>(record.n_frames()) / record.rate_hz);
 }
 
 }  // namespace app

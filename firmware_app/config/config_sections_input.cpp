@@ -85,6 +85,11 @@ void add_attitude_keys(std::vector<ConfigKey>& keys) {
                             "the attitude, received live: LCM channel of attitude_t messages, at telemetry.lcm_url"),
                    "none"));
   keys.push_back(
+      with_default(text_key("camera.motors_file", at(&A::camera, &C::motors_file), {},
+                            "CSV file with the speeds of the aircraft's motors (t_s, motor, hz; written by `hovermodal "
+                            "mavlink --motors`): poles and rotor lines at a multiple of a motor's rate name it"),
+                   "none"));
+  keys.push_back(
       number_key("camera.attitude_sigma_deg", "deg", at(&A::camera, &C::attitude_sigma_deg), {1e-4, 45},
                  "standard deviation of the white noise of one attitude sample about each axis, without slow "
                  "drift"));

@@ -12,6 +12,7 @@
 #include "core/types/constants.h"
 #include "drivers/host/memory_left.h"
 #include "drivers/storage/attitude_file.h"
+#include "drivers/storage/motors_file.h"
 #include "firmware_app/config/calibration.h"
 #include "firmware_app/config/region_axis.h"
 #include "firmware_app/config/structure_scale.h"
@@ -103,6 +104,11 @@ core::ChannelDisplacementConfig displacement_config(const AppConfig& config, con
   out.inlier_sigma_px = config.tracking.inlier_sigma_px;
   out.min_points = config.tracking.min_points;
   return out;
+}
+
+core::MotorLines motor_lines(const AppConfig& config) {
+  if (config.camera.motors_file.empty()) return {};
+  return core::MotorLines(drivers::read_motors_csv(config.camera.motors_file));
 }
 
 core::WelchConfig welch_config(const SpectrumConfig& spectrum, std::size_t n_channels, double rate_hz,

@@ -5,6 +5,7 @@
 
 #include "core/geometry/channel_displacement.h"
 #include "core/identification/identifier.h"
+#include "core/rotors/motor_lines.h"
 #include "core/spectrum/welch_cpsd.h"
 #include "core/tracking/structure_tracker.h"
 #include "core/types/frame.h"
@@ -31,6 +32,8 @@ void require_searchable(double max_frequency_hz, double rate_hz);
 // Throws ConfigError when identification.references names no channel, and as require_searchable().
 [[nodiscard]] core::IdentifierConfig identifier_config(const AppConfig& config,
                                                        const std::vector<core::ChannelInfo>& channels, double rate_hz);
+// Reads camera.motors_file when given; throws FileError.
+[[nodiscard]] core::MotorLines motor_lines(const AppConfig& config);
 [[nodiscard]] std::vector<std::string> region_names(const AppConfig& config);
 // The corrections in force, described for modal.json.
 [[nodiscard]] std::vector<std::string> corrections(const AppConfig& config, const core::CameraInfo& camera);

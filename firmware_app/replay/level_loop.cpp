@@ -157,7 +157,9 @@ class LevelLoop {
     options.seed = inputs_.seed;
     options.least_gain = inputs_.config->closure.least_px;
     options.progress = inputs_.progress;
-    LoopLevel out = level_of(name, core::closure::close_loop(*level, options));
+    ClosureResult result = core::closure::close_loop(*level, options);
+    name_motors(*inputs_.config, level->state().record(), result);
+    LoopLevel out = level_of(name, std::move(result));
     const DeclaredObservation declared =
         declared_observation(*inputs_.config, camera_of_tracks(*tracks_, *inputs_.config));
     const CorrectionSet corrections = corrections_of(*out.result, declared.camera);

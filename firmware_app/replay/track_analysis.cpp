@@ -37,7 +37,7 @@ ChannelAnalysis::ChannelAnalysis(const AppConfig& config, const std::vector<core
                                  const CorrectionLog& book)
     : config_(identifier_config(config, channels, rate_hz)),
       channels_(channels),
-      modes_(rate_hz, std::move(make_identifier), book),
+      modes_(rate_hz, std::move(make_identifier), book, motor_lines(config)),
       spectra_(welch_of(config, channels, rate_hz, modes_), config.identification.period_hops),
       snapshot_{spectra_.sums()} {}
 

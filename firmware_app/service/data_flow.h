@@ -47,7 +47,8 @@ struct DataFlow {
                                          source.displacement.n_witnesses());
   SpectrumAccumulator spectra{welch, config.identification.period_hops};
   ModeIdentification modes{source.info.rate_hz,
-                           identifier_maker(config, source.info, source.keyframe, source.displacement.spectra()), book};
+                           identifier_maker(config, source.info, source.keyframe, source.displacement.spectra()), book,
+                           motor_lines(config)};
   Diagnosis diagnosis{missing_effect_search_config(config, source.info, source.keyframe), book,
                       geometry_maker(config, source.info, source.keyframe)};
   StructureComparison comparison{structure.value_or(core::structure::DeclaredFrame{}), source.channels(),

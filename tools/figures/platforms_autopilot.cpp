@@ -2,6 +2,7 @@
 // which compiles it beside the project. What it was and sent is its standard output.
 //   platforms_autopilot stream PORT SEED PACKETS NOISE_BYTES   one TCP client is sent packets of many kinds between
 //   noise platforms_autopilot clock PORT SEED SECONDS DELAY_MS JITTER_MS   UDP: answers TIMESYNC late, its clock drifts
+//   platforms_autopilot motors PORT SEED SECONDS HZ SPREAD_HZ   UDP: four motors, of which the third turns at HZ
 #include <ardupilotmega/mavlink.h>
 #include <arpa/inet.h>
 #include <poll.h>
@@ -187,6 +188,36 @@ int clock_link(int port, std::uint32_t seed, double seconds, double delay_ms, do
   return 0;
 }
 
+// Motor speeds ten times a second, about the given rate of the third motor; the others turn 2 to 9 Hz faster or slower.
+int motors(int port, std::uint32_t seed, double seconds, double hz, double spread_hz) {
+  std::mt19937 engine(seed);
+  std::uniform_real_distribution<double> apart(2.0, 9.0);
+  std::normal_distribution<double> varies(0.0, spread_hz);
+  double mean_hz[4];
+  for (double& mean : mean_hz) mean = hz + (engine() % 2 == 0 ? 1.0 : -1.0) * apart(engine);
+  mean_hz[2] = hz;
+  const int fd = socket(AF_INET, SOCK_DGRAM, 0);
+  const sockaddr_in there = loopback(port);
+  if (connect(fd, reinterpret_cast<const sockaddr*>(&there), sizeof there) != 0) return 1;
+  const std::int64_t start = now_ns();
+  for (int i = 0; static_cast<double>(now_ns() - start) < 1e9 * seconds; ++i) {
+    mavlink_message_t m{};
+    if (i % 10 == 0) {
+      mavlink_msg_heartbeat_pack(1, 1, &m, MAV_TYPE_QUADROTOR, MAV_AUTOPILOT_PX4, 81, 0, MAV_STATE_ACTIVE);
+      const Bytes beat = bytes_of(m);
+      (void)!send(fd, beat.data(), beat.size(), 0);
+    }
+    std::int32_t rpm[4];
+    for (int k = 0; k < 4; ++k) rpm[k] = static_cast<std::int32_t>(60.0 * (mean_hz[k] + varies(engine)));
+    const float none[4] = {};
+    mavlink_msg_esc_status_pack(1, 1, &m, 0, static_cast<std::uint64_t>(remote_ns() / 1000), rpm, none, none);
+    const Bytes speeds = bytes_of(m);
+    (void)!send(fd, speeds.data(), speeds.size(), 0);
+    usleep(100'000);
+  }
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -197,6 +228,7 @@ int main(int argc, char** argv) {
   if (what == "stream" && argc == 6)
     return stream(port, seed, static_cast<long>(number(4)), static_cast<long>(number(5)));
   if (what == "clock" && argc == 7) return clock_link(port, seed, number(4), number(5), number(6));
+  if (what == "motors" && argc == 7) return motors(port, seed, number(4), number(5), number(6));
   std::fprintf(stderr, "usage: see the head of tools/figures/platforms_autopilot.cpp\n");
   return 2;
 }

@@ -42,6 +42,7 @@ core::RunHead run_head(const AppConfig& config, const core::CameraInfo& camera, 
   };
   take("calibration.file", config.calibration.file);
   take("camera.attitude_file", config.camera.attitude_file);
+  take("camera.motors_file", config.camera.motors_file);
   if (std::string jpeg = keyframe_jpeg(image); !jpeg.empty())
     head.files.push_back({kKeyframeKey, "keyframe.jpg", std::move(jpeg)});
   if (resumed != nullptr) {

@@ -185,9 +185,17 @@ TEST(MavlinkCompanion, MotorsAreStatedInTurnsPerSecond) {
   Autopilot autopilot;
   MavlinkFrame frame{.id = MavlinkFields::EscTelemetry5To8::kId};
   put(frame, MavlinkFields::EscTelemetry5To8::rpm + 2, std::uint16_t{5400});
+  std::vector<MavlinkCompanion::Motor> heard;
+  companion.on_motor([&](const MavlinkCompanion::Motor& motor, std::int64_t now_ns) {
+    EXPECT_EQ(now_ns, kSecond);
+    heard.push_back(motor);
+  });
   companion.take(autopilot.bytes(frame), kSecond);
   ASSERT_EQ(companion.motors_hz().size(), 1U);
   EXPECT_DOUBLE_EQ(companion.motors_hz()[0], 90.0);
+  ASSERT_EQ(heard.size(), 1U) << "of four motors three stand";
+  EXPECT_EQ(heard[0].number, 6);
+  EXPECT_DOUBLE_EQ(heard[0].hz, 90.0);
 }
 
 // 50 ms each way with 20 ms of jitter; the clocks drift by 40 ppm.

@@ -14,6 +14,7 @@
 #include "drivers/storage/csv_lines.h"
 #include "drivers/storage/json.h"
 #include "drivers/storage/text_file.h"
+#include "firmware_app/chain/observation.h"
 #include "firmware_app/replay/tracks_record.h"
 #include "firmware_app/report/closure_json.h"
 #include "firmware_app/report/closure_modes_svg.h"
@@ -80,7 +81,8 @@ void close_tracks(const TracksLoop& request) {
   loop.seed = request.seed;
   (void)level.fit();
   const ResidualView before = view_of(level);
-  const ClosureResult result = close_level(request.answer, level, loop);
+  ClosureResult result = close_level(request.answer, level, loop);
+  app::name_motors(config, input.record, result);
   keep_earlier_closure(request.report);
   if (!request.report.empty()) write_pictures_of(request, level, result, before);
   show_closure(request.answer, result, "", request.report);

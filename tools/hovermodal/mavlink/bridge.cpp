@@ -71,6 +71,27 @@ class AttitudeCsv {
   std::uint64_t n_left_out_ = 0;
 };
 
+class MotorsCsv {
+ public:
+  explicit MotorsCsv(const std::string& path) {
+    if (path.empty()) return;
+    out_.emplace(path);
+    fmt::format_to(std::back_inserter(out_->buffer()), "t_s,motor,hz\n");
+  }
+  void write(const drivers::MavlinkCompanion::Motor& motor, std::int64_t now_ns) {
+    if (!out_) return;
+    fmt::format_to(std::back_inserter(out_->buffer()), "{:.3f},{},{:.4f}\n", 1e-9 * static_cast<double>(now_ns),
+                   motor.number, motor.hz);
+    (void)out_->end_line();  // commit() reports a failure
+  }
+  void commit() {
+    if (out_) out_->commit();
+  }
+
+ private:
+  std::optional<drivers::CsvWriter> out_;
+};
+
 std::string clock_text(const drivers::MavlinkCompanion& companion) {
   const auto fit = companion.clock().fit();
   if (!fit) return "clock not known yet";
@@ -175,11 +196,13 @@ void run_mavlink(const MavlinkOptions& options) {
   drivers::ModesListener modes(options.url, options.prefix);  // first: its error names what the network lacks
   drivers::AttitudeSender sender(options.url, options.channel);
   AttitudeCsv csv(options.csv);
+  MotorsCsv motors(options.motors);
   drivers::MavlinkCompanion companion({.of_gimbal = options.of_gimbal, .datagrams = link->is_datagrams()},
                                       [&](const core::AttitudeSample& sample) {
                                         (void)sender.send(sample);
                                         csv.write(sample);
                                       });
+  companion.on_motor([&](const auto& motor, std::int64_t now_ns) { motors.write(motor, now_ns); });
   const std::int64_t start_ns = drivers::LcmListener::now_ns();
   std::int64_t next_status_ns = start_ns + kStatus_ns;
   ComputerState computer;
@@ -199,6 +222,7 @@ void run_mavlink(const MavlinkOptions& options) {
     if (options.seconds > 0.0 && static_cast<double>(now_ns - start_ns) > 1e9 * options.seconds) break;
   }
   csv.commit();
+  motors.commit();
   options.answer.text("{}", summary(companion));
   if (csv.n_left_out() > 0) {
     options.answer.note("attitudes left out of {}, because their times do not increase: {}\n", options.csv,

@@ -12,6 +12,7 @@ struct MavlinkOptions {
   bool of_gimbal = false;
   double seconds = 0.0;  // 0: until stopped
   std::string csv;       // attitudes, as camera.attitude_file reads them
+  std::string motors;    // their speeds, as camera.motors_file reads them
   Answer answer;
 };
 

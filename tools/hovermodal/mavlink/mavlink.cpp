@@ -14,7 +14,9 @@ void add_mavlink(drivers::Command& app) {
       "on an "
       "LCM channel; a service with camera.attitude_channel uses it. Sends a heartbeat, and the lowest modes of each "
       "estimate as NAMED_VALUE_FLOAT (f1_hz, z1_pct, ...) and STATUSTEXT, which ground stations show. It commands "
-      "nothing. Motor speeds, position and wind are stated at the end.\n\n"
+      "nothing. Motor speeds, position and wind are stated at the end; with --motors the speeds are kept, so that a "
+      "later "
+      "`identify` or `closeloop` with camera.motors_file names the motor of each rotor line.\n\n"
       "  hovermodal mavlink --link udpin:127.0.0.1:14540          a simulator, or mavlink-router on this computer\n"
       "  hovermodal mavlink --link serial:/dev/ttyAMA0:921600     a flight controller's TELEM port");
   const auto options = std::make_shared<MavlinkOptions>();
@@ -28,6 +30,7 @@ void add_mavlink(drivers::Command& app) {
   mavlink.option("--channel", options->channel, "LCM channel of the attitude (camera.attitude_channel)").show_default();
   mavlink.flag("--gimbal", options->of_gimbal, "The gimbal's attitude in place of the aircraft's");
   mavlink.option("--csv", options->csv, "Write the attitudes to this file as well (camera.attitude_file)");
+  mavlink.option("--motors", options->motors, "Write the motors' speeds to this file (camera.motors_file)");
   mavlink.option("--seconds", options->seconds, "End after this many seconds").range(0.1, 1e6);
   add_answer_options(mavlink, options->answer, "the counts at the end");
   mavlink.on_run([options] { run_mavlink(*options); });
