@@ -28,9 +28,9 @@ double apparent(double hz, double rate_hz) { return std::abs(std::remainder(hz, 
 
 template <class... Args>
 std::string text(const char* format, Args... args) {
-  char buffer[200];
-  std::snprintf(buffer, sizeof buffer, format, args...);
-  return buffer;
+  std::array<char, 200> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), format, args...);
+  return buffer.data();
 }
 
 const closure::ParameterValue* parameter(const closure::ClosureStep& step, const char* name) {

@@ -66,7 +66,7 @@ class File {
   int descriptor_;
 };
 
-std::string why(const std::string& path) { return path + ": " + std::strerror(errno); }
+std::string why(const std::string& path) { return path + ": " + std::generic_category().message(errno); }
 
 std::string write_or_why(const std::string& path, const std::string& partial, std::span<const std::uint8_t> bytes) {
   Head head;
@@ -129,9 +129,10 @@ CheckpointRead read_checkpoint(const std::string& path, std::uint64_t max_bytes)
     return refuse("its version is " + std::to_string(head.version) + ", ours is " + std::to_string(kCheckpointVersion));
   }
   const std::uint64_t size = bytes_of(in.get());
-  if (head.n_bytes > max_bytes)
+  if (head.n_bytes > max_bytes) {
     return refuse(std::to_string(head.n_bytes) + " bytes are more than the " + std::to_string(max_bytes) +
                   " that this configuration needs at most");
+  }
   if (size != sizeof head + head.n_bytes) {
     return refuse("it is " + std::to_string(size) + " bytes long and should be " +
                   std::to_string(sizeof head + head.n_bytes));

@@ -268,12 +268,9 @@ Eigen::MatrixXd PointMotionModel::translation_of_point(Eigen::Index point) const
 Eigen::MatrixXd PointMotionModel::readout_field() const {
   Eigen::MatrixXd out = velocities();
   for (Eigen::Index i = 0; i < out.rows(); ++i) {
-    const double share = geometry_.share(i / 2) - kCommonShare;
-    if (later_.size() > 0) {
-      out.row(i).array() *= later_.row(i / 2).array() + share;
-    } else {
-      out.row(i) *= share;
-    }
+    Eigen::RowVectorXd share = Eigen::RowVectorXd::Constant(out.cols(), geometry_.share(i / 2) - kCommonShare);
+    if (later_.size() > 0) share += later_.row(i / 2);
+    out.row(i).array() *= share.array();
   }
   return out;
 }
