@@ -19,7 +19,7 @@ constexpr std::array kHalfWidths_hz{0.025, 0.05, 0.1, 0.2, 0.4};
 constexpr double kSlowest_hz = 0.5;  // below, the camera's own motion hides it
 constexpr double kFastest = 0.45;    // of the frame rate
 constexpr double kLeastLevel = 0.3;  // of the noise's: where the spectrum has a hole
-constexpr double kLeastScore = 150.0;
+constexpr double kLeastScore = 300.0;
 constexpr double kLeastOwn = 0.15;  // of its power that neither the camera nor the structure explains
 constexpr double kMedian = std::numbers::ln2;
 
