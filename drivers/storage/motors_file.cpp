@@ -25,9 +25,10 @@ constexpr int kMostMotors = 64;
 
 std::size_t column(const CsvLines& lines, const Cells& names, std::string_view name) {
   const auto at = std::find(names.begin(), names.end(), name);
-  if (at == names.end())
+  if (at == names.end()) {
     lines.fail(fmt::format("no column {}: name the columns t_s, motor, hz (there are: {})", name,
                            printable(fmt::format("{}", fmt::join(names, ", ")))));
+  }
   return static_cast<std::size_t>(at - names.begin());
 }
 
@@ -35,9 +36,10 @@ double number_at(const CsvLines& lines, const Cells& cells, std::size_t place, c
                  double most) {
   if (place >= cells.size()) lines.fail(fmt::format("column {} ({}) is missing", place + 1, name));
   const auto number = parse_number(cells[place]);
-  if (!number || !(*number >= least && *number <= most))
+  if (!number || !(*number >= least && *number <= most)) {
     lines.fail(fmt::format("column {} ({}): \"{}\" is no number from {:g} to {:g}", place + 1, name,
                            printable(cells[place]), least, most));
+  }
   return *number;
 }
 

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "drivers/storage/partial_file.h"
@@ -28,11 +28,12 @@ void append_big_endian(std::vector<std::uint8_t>& out, std::uint64_t value, int 
 EventLogFile::EventLogFile(const std::string& path, Link link)
     : descriptor_(::open(path.c_str(),
                          O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | (link == Link::kRefuse ? O_NOFOLLOW : 0), 0644)) {
-  if (descriptor_ < 0)
+  if (descriptor_ < 0) {
     throw std::runtime_error(fmt::format(
         "LCM event log \"{}\": cannot be written: {}. Check telemetry.log_file or record.directory, the folder and its "
         "permissions.",
-        path, std::strerror(errno)));
+        path, std::generic_category().message(errno)));
+  }
 }
 
 EventLogFile::~EventLogFile() { (void)close(); }

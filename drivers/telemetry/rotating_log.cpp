@@ -17,9 +17,10 @@ namespace drivers {
 RotatingLog::RotatingLog(const RecordOptions& options) : options_(options) {
   std::error_code refused;
   std::filesystem::create_directories(options.directory, refused);
-  if (refused)
+  if (refused) {
     throw std::runtime_error(
         fmt::format("record.directory: \"{}\" cannot be made: {}", options.directory, refused.message()));
+  }
   remove_partial_records(options.directory);
   run_ = next_run(record_parts(options.directory));
 }
@@ -30,11 +31,12 @@ std::string RotatingLog::path_of(int file) const {
 
 void RotatingLog::begin(WriteHead write_head) {
   write_head_ = std::move(write_head);
-  if (!open_next())
+  if (!open_next()) {
     throw std::runtime_error(
         fmt::format("record.directory: \"{}\": the first file of the record cannot be written: {}", options_.directory,
                     error() != 0 ? std::generic_category().message(error()) + "; free space on that disk"
                                  : "record.quota_mb is smaller than record.file_mb, or than what other files need"));
+  }
 }
 
 bool RotatingLog::open_next() {

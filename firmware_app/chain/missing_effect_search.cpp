@@ -138,9 +138,9 @@ bool MissingEffectSearch::lens_in_keyframe(const core::CameraModel& lens) const 
 void MissingEffectSearch::conclude(core::closure::ClosureReport& out) const {
   const std::int64_t begin_ns = rt::monotonic_ns();
   try {
-    core::closure::ObservationRecord record = config_.recent.record();
+    const core::closure::ObservationRecord record = config_.recent.record();
     const double duration_s = static_cast<double>(record.n_frames()) / record.rate_hz;
-    core::closure::ObservationLevel level(std::move(record));
+    core::closure::ObservationLevel level(record);
     core::closure::ClosureOptions options;
     options.n_surrogates = core::closure::ObservationLevel::kSurrogates;
     options.least_gain = config_.least_px;

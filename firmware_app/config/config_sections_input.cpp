@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "core/types/role_names.h"
@@ -166,8 +167,8 @@ void add_calibration_keys(std::vector<ConfigKey>& keys) {
       with_default(text_key("calibration.file", at(&A::calibration, &C::file), {},
                             "calibration file of Kalibr, OpenCV or ROS (YAML), in place of the values below"),
                    "none"));
-  const std::pair<const char*, double C::*> intrinsics[] = {
-      {"fx", &C::fx}, {"fy", &C::fy}, {"cx", &C::cx}, {"cy", &C::cy}};
+  const std::array<std::pair<const char*, double C::*>, 4> intrinsics{
+      {{"fx", &C::fx}, {"fy", &C::fy}, {"cx", &C::cx}, {"cy", &C::cy}}};
   for (const auto& [name, member] : intrinsics) {
     const bool is_focal = name[0] == 'f';
     keys.push_back(

@@ -53,9 +53,10 @@ std::string camera_correction(const AppConfig& config, const core::CameraModel& 
                : scale;
   }
   const bool told = !config.camera.attitude_file.empty() || !config.camera.attitude_channel.empty();
-  if (told && !core::tells_camera_motion(config.regions, camera))
+  if (told && !core::tells_camera_motion(config.regions, camera)) {
     return "camera motion per frame from all points and a measured attitude: distance, rotation; "
            "translation along the channels' axes remains";
+  }
   if (!core::tells_camera_motion(config.regions, camera)) {
     return scale + (camera.calibrated()
                         ? "; no static region (role background or ground): the camera's rotation remains"

@@ -98,9 +98,10 @@ TrackAnalysis::TrackAnalysis(const AppConfig& config, const core::CameraInfo& ca
       sample_(declared_->displacement.sample_prototype()),
       analysis_(config, declared_->displacement.spectra(), camera.rate_hz,
                 identifier_maker(config_, camera_, keyframe_, declared_->displacement.spectra()), book_) {
-  if (config.closure.adopt != ClosureAdopt::kOff)
+  if (config.closure.adopt != ClosureAdopt::kOff) {
     diagnosis_.emplace(missing_effect_search_config(config, camera, keyframe), book_,
                        geometry_maker(config_, camera_, keyframe_));
+  }
 }
 
 bool TrackAnalysis::push(core::TrackFrame& tracks, std::uint32_t stride) {

@@ -60,9 +60,10 @@ RecordedConfig::RecordedConfig(const core::RunHead& head, const std::string& nam
   for (std::size_t i = 0; i < head.files.size(); ++i) {
     if (head.files[i].key == kKeyframeKey) {
       image_ = keyframe_of(head.files[i].bytes, head.camera);
-      if (!image_)
+      if (!image_) {
         spdlog::warn("{}: the keyframe's image cannot be read (damaged, or no memory): the report shows no scene",
                      name);
+      }
       continue;
     }
     if (head.files[i].key == kStateKey) {

@@ -55,7 +55,7 @@ class Autopilot {
 
 // The autopilot's clock is ahead by 5 s and is answered without delay.
 void set_clock(MavlinkCompanion& companion, Autopilot& autopilot, std::int64_t from_ns) {
-  for (int i = 0; i < 12; ++i) {
+  for (std::int64_t i = 0; i < 12; ++i) {
     const std::int64_t now = from_ns + i * 100 * kMs;
     MavlinkParser parser;
     parser.push(companion.due(now), [&](const MavlinkFrame& question) {
@@ -222,7 +222,8 @@ TEST(MavlinkClock, DelayAndJitterAreSeenThrough) {
 
 TEST(MavlinkClock, ARestartedAutopilotBeginsAnew) {
   MavlinkClock clock;
-  for (int i = 0; i < 20; ++i) (void)clock.add(i * 100 * kMs, 500 * kSecond + i * 100 * kMs, i * 100 * kMs + 4 * kMs);
+  for (std::int64_t i = 0; i < 20; ++i)
+    (void)clock.add(i * 100 * kMs, 500 * kSecond + i * 100 * kMs, i * 100 * kMs + 4 * kMs);
   (void)clock.add(3 * kSecond, kSecond, 3 * kSecond + 4 * kMs);
   EXPECT_EQ(clock.restarts(), 1U);
   EXPECT_FALSE(clock.fit());
