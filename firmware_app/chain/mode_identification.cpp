@@ -1,6 +1,7 @@
 #include "firmware_app/chain/mode_identification.h"
 
 #include <utility>
+#include <vector>
 
 namespace app {
 
@@ -16,9 +17,10 @@ ModeIdentification::ModeIdentification(double rate_hz, MakeIdentifier make_ident
 void ModeIdentification::identify(const SpectrumSnapshot& snapshot, IdentificationResult& out) {
   follow(snapshot);
   out.estimate = identifier_->identify(snapshot.sums, snapshot.readout);
-  motors_.judge(out.estimate, identifier_->delay_s(out.estimate));
+  const std::vector<double> delay_s = identifier_->delay_s(out.estimate);
+  motors_.judge(out.estimate, delay_s);
   out.estimate.amendments = book_.at(correction_set_).words;
-  tracker_.set_row_delays(identifier_->delay_s(out.estimate));
+  tracker_.set_row_delays(delay_s);
   out.sums.copy_totals(snapshot.sums, identifier_->n_outputs());
   out.estimate.number = n_estimates_++;
   out.estimate.t_stream_ns = snapshot.t_last_ns;
