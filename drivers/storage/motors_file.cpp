@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/linear/median.h"
 #include "drivers/storage/csv_lines.h"
 #include "drivers/storage/limits.h"
 #include "drivers/storage/text_file.h"
@@ -45,12 +46,6 @@ double number_at(const CsvLines& lines, const Cells& cells, std::size_t place, c
 
 constexpr double kOfDeviation = 1.4826;  // standard deviation of normal values over their median deviation
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 std::vector<core::MotorRate> read_motors_csv(const std::string& path) {
@@ -76,9 +71,9 @@ std::vector<core::MotorRate> read_motors_csv(const std::string& path) {
   if (turns.empty()) lines.fail("no motor turns at 1 Hz or more");
   std::vector<core::MotorRate> out;
   for (auto& [motor, hz] : turns) {
-    const double middle = median(hz);
+    const double middle = core::median(hz);
     for (double& value : hz) value = std::abs(value - middle);
-    out.push_back({motor, middle, kOfDeviation * median(std::move(hz))});
+    out.push_back({motor, middle, kOfDeviation * core::median(std::move(hz))});
   }
   return out;
 }
