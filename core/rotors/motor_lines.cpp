@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/identification/readout_from_shapes.h"
+#include "core/linear/median.h"
 #include "core/types/constants.h"
 #include "core/types/displacement.h"
 
@@ -113,6 +114,12 @@ std::vector<MotorLine> MotorLines::lines(double rate_hz, double resolution_hz) c
     }
   }
   return out;
+}
+
+MotorRate motor_rate(int number, std::vector<double> hz) {
+  const double middle = median(hz);
+  for (double& value : hz) value = std::abs(value - middle);
+  return {number, middle, kSigmaPerMad * median_in_place(hz)};
 }
 
 std::optional<MotorLine> MotorLines::at(double apparent_hz, double rate_hz, double resolution_hz) const {

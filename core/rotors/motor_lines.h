@@ -16,6 +16,13 @@ struct MotorRate {
   double spread_hz = 0.0;  // standard deviation
 };
 
+// Speeds outside these are none of a flying motor's.
+inline constexpr double kLeastTurns_hz = 1.0, kMostTurns_hz = 2000.0;
+
+// Median of the speeds, and the standard deviation from their median deviation, so that take-off and landing count
+// little. hz: not empty.
+[[nodiscard]] MotorRate motor_rate(int number, std::vector<double> hz);
+
 // A vibration at a multiple of a motor's rate, as the samples show it.
 struct MotorLine {
   MotorRate motor;

@@ -5,13 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <map>
 #include <string_view>
 #include <utility>
 
-#include "core/linear/median.h"
 #include "drivers/storage/csv_lines.h"
 #include "drivers/storage/limits.h"
 #include "drivers/storage/text_file.h"
@@ -21,7 +19,6 @@ namespace {
 
 using Cells = std::vector<std::string_view>;
 
-constexpr double kLeastTurns_hz = 1.0, kMostTurns_hz = 2000.0;
 constexpr int kMostMotors = 64;
 
 std::size_t column(const CsvLines& lines, const Cells& names, std::string_view name) {
@@ -44,8 +41,6 @@ double number_at(const CsvLines& lines, const Cells& cells, std::size_t place, c
   return *number;
 }
 
-constexpr double kOfDeviation = 1.4826;  // standard deviation of normal values over their median deviation
-
 }  // namespace
 
 std::vector<core::MotorRate> read_motors_csv(const std::string& path) {
@@ -65,16 +60,12 @@ std::vector<core::MotorRate> read_motors_csv(const std::string& path) {
       continue;
     }
     const double motor = number_at(lines, cells, places[0], "motor", 1.0, kMostMotors);
-    const double hz = number_at(lines, cells, places[1], "hz", 0.0, kMostTurns_hz);
-    if (hz >= kLeastTurns_hz) turns[static_cast<int>(motor)].push_back(hz);
+    const double hz = number_at(lines, cells, places[1], "hz", 0.0, core::kMostTurns_hz);
+    if (hz >= core::kLeastTurns_hz) turns[static_cast<int>(motor)].push_back(hz);
   }
   if (turns.empty()) lines.fail("no motor turns at 1 Hz or more");
   std::vector<core::MotorRate> out;
-  for (auto& [motor, hz] : turns) {
-    const double middle = core::median(hz);
-    for (double& value : hz) value = std::abs(value - middle);
-    out.push_back({motor, middle, kOfDeviation * core::median(std::move(hz))});
-  }
+  for (auto& [motor, hz] : turns) out.push_back(core::motor_rate(motor, std::move(hz)));
   return out;
 }
 

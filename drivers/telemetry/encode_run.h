@@ -17,6 +17,7 @@ namespace drivers {
 // A recorded run to messages and back: every number is exact to the last bit.
 
 inline constexpr const char* kRunSuffix = "_RUN";
+inline constexpr const char* kRunAircraftSuffix = "_RUN_AIRCRAFT";
 inline constexpr const char* kRunFileSuffix = "_RUN_FILE";
 inline constexpr const char* kRunFrameSuffix = "_RUN_FRAME";
 inline constexpr const char* kRunRecordingSuffix = "_RUN_RECORDING";

@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
-#include "drivers/telemetry/attitude_listener.h"
 #include "drivers/telemetry/run_recorder.h"
+#include "drivers/telemetry/sample_listener.h"
 
 #ifdef HOVERMODAL_WITH_LCM
 #include "drivers/telemetry/lcm_publisher.h"
@@ -34,6 +34,11 @@ std::unique_ptr<RunRecorder> make_run_recorder(const RecordOptions& options) {
 std::unique_ptr<AttitudeListener> listen_for_attitude(const std::string& url, const std::string& channel) {
   throw std::runtime_error("camera.attitude_channel: \"" + channel + "\" at \"" + url +
                            "\": this build has no LCM; use camera.attitude_file");
+}
+
+std::unique_ptr<AircraftListener> listen_for_aircraft(const std::string& url, const std::string& channel) {
+  throw std::runtime_error("camera.aircraft_channel: \"" + channel + "\" at \"" + url +
+                           "\": this build has no LCM; use camera.motors_file");
 }
 #endif
 

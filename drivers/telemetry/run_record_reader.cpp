@@ -9,6 +9,7 @@
 
 #include "drivers/storage/text_file.h"
 #include "drivers/telemetry/decode.h"
+#include "drivers/telemetry/encode_flight.h"
 #include "drivers/telemetry/encode_run.h"
 #include "drivers/telemetry/event_log_format.h"
 #include "drivers/telemetry/event_log_reader.h"
@@ -39,9 +40,11 @@ class RunRecordReader::Impl {
 
   [[nodiscard]] bool next(core::RecordedFrame& out) {
     if (out.tracks.points.size() != head_->keyframe.points.size()) out.tracks = head_->keyframe;
+    aircraft = {};
     while (next_event()) {
       const std::string_view channel = event_.channel;
       if (channel.ends_with(kTopicSuffixes[kHealth])) hear();
+      if (channel.ends_with(kRunAircraftSuffix)) hear_aircraft();
       if (channel.ends_with(kRunRecordingSuffix)) hear_times();
       const bool is_frame = (channel.ends_with(kRunFrameSuffix) && take<hovermodal::run_frame_t>(out)) ||
                             (channel.ends_with(kRunThinnedFrameSuffix) && take<hovermodal::run_thinned_frame_t>(out));
@@ -59,6 +62,7 @@ class RunRecordReader::Impl {
   std::string end;
   std::optional<core::RunCounts> counts;
   core::RecordingTimes times;
+  core::AircraftBatch aircraft;
 
  private:
   template <class Message>
@@ -134,6 +138,18 @@ class RunRecordReader::Impl {
               count(health->frames_missing), count(health->snapshots_skipped)};
   }
 
+  void hear_aircraft() {
+    const auto message = decode<hovermodal::aircraft_t>();
+    if (!message) return;
+    core::AircraftState state;
+    const bool has_room = aircraft.n < core::AircraftBatch::kMost;
+    if (has_room && take_sample(*message, state)) {
+      aircraft.states[aircraft.n++] = state;
+    } else {
+      ++n_damaged;
+    }
+  }
+
   void hear_times() {
     const auto message = decode<hovermodal::run_recording_t>();
     if (!message) return;
@@ -162,6 +178,7 @@ std::uint64_t RunRecordReader::n_attitudes_left_out() const noexcept { return im
 bool RunRecordReader::starts_late() const noexcept { return impl_->starts_late; }
 const std::string& RunRecordReader::end() const noexcept { return impl_->end; }
 const std::optional<core::RunCounts>& RunRecordReader::counts() const noexcept { return impl_->counts; }
+const core::AircraftBatch& RunRecordReader::aircraft() const noexcept { return impl_->aircraft; }
 const core::RecordingTimes& RunRecordReader::times() const noexcept { return impl_->times; }
 
 }  // namespace drivers

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/rotors/aircraft.h"
 #include "core/types/recording_times.h"
 #include "core/types/run_record.h"
 
@@ -22,6 +23,8 @@ class RunRecordReader {
   [[nodiscard]] const core::RunHead& head() const noexcept;
   // The next frame, sized as the keyframe; false: the end.
   [[nodiscard]] bool next(core::RecordedFrame& out);
+  // The states of the aircraft that the run received since the frame before it.
+  [[nodiscard]] const core::AircraftBatch& aircraft() const noexcept;
 
   [[nodiscard]] const std::vector<std::string>& files() const noexcept;
   [[nodiscard]] std::uint64_t bytes() const noexcept;                 // of its files, as they were at the start

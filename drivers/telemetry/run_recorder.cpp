@@ -6,6 +6,7 @@
 #include <cstring>
 #include <vector>
 
+#include "drivers/telemetry/encode_flight.h"
 #include "drivers/telemetry/encode_run.h"
 #include "drivers/telemetry/rotating_log.h"
 #include "rt/clock.h"
@@ -26,6 +27,7 @@ class LcmRunRecorder : public RunRecorder {
       : prefix_(options.channel_prefix),
         frame_channel_(options.channel_prefix + kRunFrameSuffix),
         thinned_channel_(options.channel_prefix + kRunThinnedFrameSuffix),
+        aircraft_channel_(options.channel_prefix + kRunAircraftSuffix),
         identity_(options.identity),
         log_(std::make_shared<RotatingLog>(options)) {}
 
@@ -43,6 +45,19 @@ class LcmRunRecorder : public RunRecorder {
       n_lost_.fetch_add(1, std::memory_order_relaxed);
       return false;
     }
+  }
+
+  bool add(const core::AircraftBatch& aircraft) noexcept override {
+    bool all = true;
+    for (std::size_t i = 0; i < aircraft.n; ++i) {
+      try {
+        all = log_->write(aircraft_channel_, encoded(to_message(aircraft.states[i])), rt::utc_ns()) && all;
+      } catch (...) {  // out of memory
+        n_lost_.fetch_add(1, std::memory_order_relaxed);
+        all = false;
+      }
+    }
+    return all;
   }
 
   bool end(const core::RecordingTimes& times) noexcept override {
@@ -96,7 +111,7 @@ class LcmRunRecorder : public RunRecorder {
     return file.write(prefix_ + kRunSuffix, encoded(message), now_ns);
   }
 
-  std::string prefix_, frame_channel_, thinned_channel_;
+  std::string prefix_, frame_channel_, thinned_channel_, aircraft_channel_;
   StreamIdentity identity_;
   std::shared_ptr<RotatingLog> log_;
   // Relaxed: independent of other data.

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "core/rotors/aircraft.h"
 #include "core/types/recording_times.h"
 #include "core/types/run_record.h"
 #include "drivers/telemetry/publisher.h"
@@ -30,6 +31,8 @@ class RunRecorder {
   // stride: as DisplacementSample::stride. False: not recorded (disk or quota full), and counted.
   virtual bool add(const core::TrackFrame& tracks, const core::AttitudeBatch& attitude,
                    std::uint32_t stride) noexcept = 0;
+  // The states of the aircraft received before the next frame. False: one is not recorded, and counted.
+  virtual bool add(const core::AircraftBatch& aircraft) noexcept = 0;
   // After the last frame: how the frames of a recording lay in time. False: not recorded.
   virtual bool end(const core::RecordingTimes& times) noexcept = 0;
   // The last call: what was recorded survives a loss of power. False: it may not; failure() says why.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/rotors/aircraft.h"
 #include "core/types/cpsd.h"
 #include "core/types/modal_estimate.h"
 #include "core/types/readout.h"
@@ -30,12 +31,14 @@ struct SpectrumSnapshot {
   bool final = false;                            // the record has ended
   std::uint32_t correction_set = 0, record = 0;  // of the newest sample; all samples in the sums share `record`
   core::ReadoutEstimate readout = {};
+  core::AircraftLog aircraft = {};  // up to the newest sample
 };
 
 // modes -> reports and telemetry.
 struct IdentificationResult {
   core::ModalEstimate estimate;
   core::CpsdSums sums;
+  core::AircraftSummary aircraft = {};  // as received live; empty: nothing was
 };
 
 // State of an object of the chain, kept for a later run. Sized once.

@@ -18,7 +18,9 @@ void ModeIdentification::identify(const SpectrumSnapshot& snapshot, Identificati
   follow(snapshot);
   out.estimate = identifier_->identify(snapshot.sums, snapshot.readout);
   const std::vector<double> delay_s = identifier_->delay_s(out.estimate);
-  motors_.judge(out.estimate, delay_s);
+  out.aircraft = snapshot.aircraft.summary();
+  const core::MotorLines heard(out.aircraft.motors);
+  (heard.empty() ? motors_ : heard).judge(out.estimate, delay_s);
   out.estimate.amendments = book_.at(correction_set_).words;
   tracker_.set_row_delays(delay_s);
   out.sums.copy_totals(snapshot.sums, identifier_->n_outputs());

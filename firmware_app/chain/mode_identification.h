@@ -22,6 +22,7 @@ class ModeIdentification {
   using MakeIdentifier =
       std::function<std::unique_ptr<const ReadoutAwareIdentifier>(double rate_hz, const CorrectionSet& correction_set)>;
 
+  // motors: those known before; what the aircraft states during the run takes their place.
   ModeIdentification(double rate_hz, MakeIdentifier make_identifier, const CorrectionLog& book,
                      core::MotorLines motors);
 

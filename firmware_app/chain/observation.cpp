@@ -55,9 +55,10 @@ DeclaredObservation declared_observation(const AppConfig& config, const core::Ca
   return out;
 }
 
-void name_motors(const AppConfig& config, const core::closure::ObservationRecord& record,
-                 core::closure::ClosureResult& result) {
-  motor_lines(config).name(result, record.rate_hz, static_cast<double>(record.n_frames()) / record.rate_hz);
+void name_motors(const AppConfig& config, const core::MotorLines& stated,
+                 const core::closure::ObservationRecord& record, core::closure::ClosureResult& result) {
+  const core::MotorLines motors = stated.empty() ? motor_lines(config) : stated;
+  motors.name(result, record.rate_hz, static_cast<double>(record.n_frames()) / record.rate_hz);
 }
 
 }  // namespace app

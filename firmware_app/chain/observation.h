@@ -6,6 +6,7 @@
 
 #include "core/closure/observation/observation_record.h"
 #include "core/geometry/camera_model.h"
+#include "core/rotors/motor_lines.h"
 #include "core/types/closure_result.h"
 #include "core/types/frame.h"
 #include "core/types/track.h"
@@ -31,8 +32,9 @@ struct ObservedPoints {
 // The configuration takes precedence over the camera. Throws drivers::FileError if a calibration file is refused.
 [[nodiscard]] DeclaredObservation declared_observation(const AppConfig& config, const core::CameraInfo& camera);
 
-// Adds the motors of camera.motors_file to the rotor lines that were found in this record. Throws drivers::FileError.
-void name_motors(const AppConfig& config, const core::closure::ObservationRecord& record,
-                 core::closure::ClosureResult& result);
+// Adds the motors to the rotor lines that were found in this record: those stated during the run, else those of
+// camera.motors_file. Throws drivers::FileError.
+void name_motors(const AppConfig& config, const core::MotorLines& stated,
+                 const core::closure::ObservationRecord& record, core::closure::ClosureResult& result);
 
 }  // namespace app

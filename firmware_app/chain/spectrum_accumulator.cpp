@@ -76,6 +76,7 @@ void SpectrumAccumulator::take_snapshot(SpectrumSnapshot& out) noexcept {
   out.readout = readout_;
   out.readout.frames /= stride_;  // the kept frames are longer
   out.readout.std_frames /= stride_;
+  out.aircraft = aircraft_;
   is_due_ = false;
 }
 
@@ -122,6 +123,7 @@ void SpectrumAccumulator::go_on_from(SpectrumAccumulator& earlier) noexcept {
   n_masked_before_ = earlier.n_masked_before_;
   n_missing_ = earlier.n_missing_;
   n_masked_on_resume_ = segment();
+  aircraft_ = earlier.aircraft_;
 }
 
 }  // namespace app

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/rotors/aircraft.h"
 #include "core/spectrum/time_grid.h"
 #include "core/spectrum/welch_cpsd.h"
 #include "core/types/displacement.h"
@@ -22,6 +23,8 @@ class SpectrumAccumulator {
   // One bounded step: a masked cell before the sample, or the sample itself. False: call again with the same sample.
   // Do not call while a snapshot is due.
   [[nodiscard]] bool step(const core::DisplacementSample& sample) noexcept;
+  // A state of the aircraft received before the next sample; snapshots hold all of the run.
+  void take(const core::AircraftState& state) noexcept { aircraft_.add(state); }
   // The sample of the last completed step() has no cell of its own (repeated or backward stamp) and was left out.
   [[nodiscard]] bool refused() const noexcept { return is_refused_; }
   // Ends the record: a last snapshot is due.
@@ -75,6 +78,7 @@ class SpectrumAccumulator {
   bool is_due_ = false, is_finished_ = false;
   std::int64_t t_stream_ns_ = 0;
   core::ReadoutEstimate readout_;
+  core::AircraftLog aircraft_;
   std::uint64_t n_snapshots_ = 0;
 };
 

@@ -36,6 +36,7 @@ struct CameraConfig {
   int decoder_mb = drivers::kDecoderMb;   // file and stream
   std::string attitude_file;              // CSV on the frames' clock; empty = none
   std::string attitude_channel;           // LCM channel of attitude_t; empty = none
+  std::string aircraft_channel;           // LCM channel of aircraft_t; empty = none
   std::string motors_file;                // CSV of the motors' speeds; empty = none
   double attitude_sigma_deg = 0.1;        // white noise of a sample, per axis
   std::array<double, 3> mount_rpy_deg{};  // of the camera relative to the body whose attitude is given

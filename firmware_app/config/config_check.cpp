@@ -61,6 +61,7 @@ class Checker {
     }
     if (config_.camera.driver == drivers::CameraKind::kStream) check_stream();
     check_attitude();
+    check_aircraft();
   }
 
   void check_stream() const {
@@ -86,6 +87,19 @@ class Checker {
       refuse(key, value, "if a focal length is known", "add a calibration, which converts angles to pixels");
     if (config_.camera.attitude_file.empty() && config_.telemetry.lcm_url.empty())
       refuse(key, value, "if telemetry.lcm_url names a network", "set telemetry.lcm_url");
+  }
+
+  void check_aircraft() const {
+    const CameraConfig& camera = config_.camera;
+    if (camera.aircraft_channel.empty()) return;
+    const auto refuse_it = [&](const std::string& limit, const std::string& remedy) {
+      refuse("camera.aircraft_channel", camera.aircraft_channel, limit, remedy);
+    };
+    if (!camera.motors_file.empty()) refuse_it("a channel or camera.motors_file, not both", "remove one");
+    if (config_.telemetry.lcm_url.empty())
+      refuse_it("only if telemetry.lcm_url names a network", "set telemetry.lcm_url");
+    if (camera.aircraft_channel == camera.attitude_channel)
+      refuse_it("a channel other than camera.attitude_channel", "name each as `hovermodal mavlink` does");
   }
 
   void check_record() const {

@@ -86,6 +86,11 @@ void add_attitude_keys(std::vector<ConfigKey>& keys) {
                             "the attitude, received live: LCM channel of attitude_t messages, at telemetry.lcm_url"),
                    "none"));
   keys.push_back(
+      with_default(text_key("camera.aircraft_channel", at(&A::camera, &C::aircraft_channel), {0, 63, true},
+                            "motor speeds, position and wind, received live: LCM channel of aircraft_t messages, at "
+                            "telemetry.lcm_url (sent by `hovermodal mavlink`); the report states them"),
+                   "none"));
+  keys.push_back(
       with_default(text_key("camera.motors_file", at(&A::camera, &C::motors_file), {},
                             "CSV file with the speeds of the aircraft's motors (t_s, motor, hz; written by `hovermodal "
                             "mavlink --motors`): poles and rotor lines at a multiple of a motor's rate name it"),

@@ -158,7 +158,7 @@ class LevelLoop {
     options.least_gain = inputs_.config->closure.least_px;
     options.progress = inputs_.progress;
     ClosureResult result = core::closure::close_loop(*level, options);
-    name_motors(*inputs_.config, level->state().record(), result);
+    name_motors(*inputs_.config, motors_of(inputs_.folder), level->state().record(), result);
     LoopLevel out = level_of(name, std::move(result));
     const DeclaredObservation declared =
         declared_observation(*inputs_.config, camera_of_tracks(*tracks_, *inputs_.config));

@@ -41,6 +41,7 @@ class Record {
               if (read) read();
               return true;
             },
+            [this]() -> const core::AircraftBatch& { return reader_.aircraft(); },
             recorded_.image() ? &*recorded_.image() : nullptr,
             resumed(),
             [this] {

@@ -65,7 +65,7 @@ void ChannelAnalysis::identify_when_due() {
   if (!spectra_.is_due()) return;
   spectra_.take_snapshot(snapshot_);
   modes_.identify(snapshot_, result_);
-  if (report_ != nullptr) report_->add(result_.estimate);
+  if (report_ != nullptr) report_->add(result_.estimate, result_.aircraft);
 }
 
 core::ModalEstimate ChannelAnalysis::finish() {

@@ -8,6 +8,7 @@
 
 #include "core/identification/identifier.h"
 #include "core/identification/prewhitening.h"
+#include "core/rotors/aircraft.h"
 #include "core/types/attitude.h"
 #include "core/types/displacement.h"
 #include "core/types/health.h"
@@ -44,6 +45,8 @@ class ChannelAnalysis {
   [[nodiscard]] bool resume(const RunState& state) noexcept;
   void report_to(RunReport* report) noexcept { report_ = report; }  // called with every estimate; null = none
 
+  // A state of the aircraft received before the next sample.
+  void take(const core::AircraftState& state) noexcept { spectra_.take(state); }
   // False: the frame has no cell of its own on the grid, and is left out.
   bool push(const core::DisplacementSample& sample);
   // Call once, after the last sample.
@@ -85,6 +88,7 @@ class TrackAnalysis {
 
   // Takes an attitude received since the last (camera.attitude_channel); call before the frames to which it applies.
   void take(const core::AttitudeSample& sample) noexcept { meter_.take(sample); }
+  void take(const core::AircraftState& state) noexcept { analysis_.take(state); }
   // Before the first frame: continues the spectra and modes of an earlier run of the same view.
   void go_on_from(TrackAnalysis& earlier) { analysis_.go_on_from(earlier.analysis_); }
   [[nodiscard]] bool resume(const RunState& state) noexcept { return analysis_.resume(state); }

@@ -43,6 +43,7 @@ class Replay {
     frame.tracks = source.keyframe;
     while (source.next(frame)) {
       for (std::size_t i = 0; i < frame.attitude.n; ++i) analysis_->take(frame.attitude.samples[i]);
+      if (source.aircraft) take_aircraft(source.aircraft());
       const bool accepted = analysis_->push(frame.tracks, frame.stride);
       if (accepted && report_ && is_alone) (void)(report_->add(frame.tracks) && report_->add(analysis_->sample()));
     }
@@ -62,6 +63,10 @@ class Replay {
   }
 
  private:
+  void take_aircraft(const core::AircraftBatch& batch) {
+    for (std::size_t i = 0; i < batch.n; ++i) analysis_->take(batch.states[i]);
+  }
+
   void begin(const TrackSource& source) {
     require_regions(source);
     auto next = std::make_unique<TrackAnalysis>(source.config, source.camera, source.keyframe);

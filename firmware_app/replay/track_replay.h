@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/rotors/aircraft.h"
 #include "core/types/recording_times.h"
 #include "core/types/run_record.h"
 #include "firmware_app/chain/state/run_state.h"
@@ -26,8 +27,10 @@ struct TrackSource {
   core::TrackFrame keyframe;                           // contains every later point, all seen
   std::string name;                                    // only its last path component is reported
   std::function<bool(core::RecordedFrame& out)> next;  // points as in the keyframe; false: the end
-  const core::Frame* image = nullptr;                  // of the keyframe, for pictures; null: none
-  const RunState* resumed = nullptr;  // state from which the run resumed; null: none, or an earlier run precedes it
+  // States of the aircraft that the run received before that frame; empty: it had none.
+  std::function<const core::AircraftBatch&()> aircraft = {};
+  const core::Frame* image = nullptr;  // of the keyframe, for pictures; null: none
+  const RunState* resumed = nullptr;   // state from which the run resumed; null: none, or an earlier run precedes it
   // After the last frame: the run's own account; empty: unknown.
   std::function<RunAccount()> account = {};
 };

@@ -12,6 +12,7 @@
 #include "drivers/storage/json.h"
 #include "drivers/storage/json_values.h"
 #include "firmware_app/config/region_axis.h"
+#include "firmware_app/report/aircraft_facts.h"
 
 namespace app {
 namespace {
@@ -225,6 +226,7 @@ std::string modal_json(const ModalReport& report, std::size_t* n_not_finite) {
   out["readout"] = readout_json(estimate.readout);
   out["corrections"] = report.corrections;
   out["caveats"] = report.caveats;
+  if (!report.aircraft.empty()) out["aircraft"] = aircraft_json(report.aircraft);
   if (report.recovered) out["recovered"] = true;
   out["losses"] = losses_json(report.losses);
   if (report.losses.times.known()) out["recording"] = recording_json(report.losses.times);

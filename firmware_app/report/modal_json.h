@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/rotors/aircraft.h"
 #include "core/types/health.h"
 #include "core/types/modal_estimate.h"
 #include "core/types/region.h"
@@ -21,6 +22,7 @@ struct ModalReport {
   core::Health losses;
   std::vector<std::string> caveats = {};   // what the result leaves open, for a reader
   std::vector<core::Region> regions = {};  // of a run from pictures: name and axis are written
+  core::AircraftSummary aircraft = {};     // as its autopilot stated it; written only if known
   bool recovered = false;  // the record includes that of a run that did not come to its end; written only if true
 };
 

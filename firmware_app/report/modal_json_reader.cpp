@@ -7,8 +7,10 @@
 #include <optional>
 
 #include "drivers/storage/json.h"
-#include "drivers/storage/text_file.h"
+#include "drivers/storage/printable.h"
 #include "firmware_app/config/region_axis.h"
+#include "firmware_app/report/aircraft_facts.h"
+#include "firmware_app/report/json_fields.h"
 #include "firmware_app/report/modal_json.h"
 
 namespace app {
@@ -16,12 +18,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-class ModalReader {
+class ModalReader : JsonFields {
  public:
-  explicit ModalReader(const std::string& path) : path_(path) {}
+  explicit ModalReader(const std::string& path) : JsonFields(path) {}
 
   [[nodiscard]] ModalReport read() {
-    const Json root = drivers::read_json_file(path_);
+    const Json root = drivers::read_json_file(path());
     if (!root.is_object() || !root.contains("modes")) refuse("modes", "is missing; is this a modal.json?");
     if (count(root, "version") != 1) refuse("version", "is not 1; read it with the program that wrote it");
     report_.method = text(root, "method");
@@ -41,6 +43,7 @@ class ModalReader {
     if (const Json* readout = find(root, "readout")) estimate.readout = readout_of(*readout);
     report_.corrections = texts(root, "corrections");
     report_.caveats = texts(root, "caveats");
+    if (const Json* aircraft = find(root, "aircraft")) report_.aircraft = aircraft_of(*aircraft, *this);
     const Json* recovered = find(root, "recovered");
     report_.recovered = recovered != nullptr && recovered->is_boolean() && recovered->get<bool>();
     if (const Json* losses = find(root, "losses")) read_losses(*losses);
@@ -49,51 +52,6 @@ class ModalReader {
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& key, const std::string& what) const {
-    throw drivers::FileError(fmt::format("{}: {}: {}", path_, key, what));
-  }
-
-  // nullptr = missing or null.
-  [[nodiscard]] static const Json* find(const Json& object, const char* key) {
-    if (!object.is_object()) return nullptr;
-    const auto found = object.find(key);
-    return found == object.end() || found->is_null() ? nullptr : &*found;
-  }
-
-  [[nodiscard]] double finite(const Json& value, const std::string& key) const {
-    if (!value.is_number()) refuse(key, "is no number");
-    const double number = value.get<double>();
-    if (!std::isfinite(number)) refuse(key, "is not finite");
-    return number;
-  }
-
-  [[nodiscard]] std::optional<double> optional_number(const Json& object, const char* key) const {
-    const Json* value = find(object, key);
-    return value == nullptr ? std::nullopt : std::optional<double>(finite(*value, key));
-  }
-
-  [[nodiscard]] std::uint64_t count(const Json& object, const char* key) const {
-    const Json* value = find(object, key);
-    if (value == nullptr) return 0;
-    if (!value->is_number_unsigned()) refuse(key, "is no whole number, 0 or more");
-    return value->get<std::uint64_t>();
-  }
-
-  [[nodiscard]] std::string text(const Json& object, const char* key) const {
-    const Json* value = find(object, key);
-    if (value == nullptr) return {};
-    if (!value->is_string()) refuse(key, "is no text");
-    return value->get<std::string>();
-  }
-
-  [[nodiscard]] std::vector<std::string> texts(const Json& root, const char* key) const {
-    std::vector<std::string> out;
-    const Json* list = find(root, key);
-    if (list == nullptr) return out;
-    for (const Json& item : *list) out.push_back(item.is_string() ? item.get<std::string>() : "");
-    return out;
-  }
-
   void read_axes(const Json& root) {
     const Json* list = find(root, "axes");
     if (list == nullptr) return;
@@ -288,7 +246,6 @@ class ModalReader {
     if (find(recording, "remark") != nullptr) out.remark = text(recording, "remark");
   }
 
-  std::string path_;
   ModalReport report_;
 };
 

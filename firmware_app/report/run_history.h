@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/rotors/aircraft.h"
 #include "core/types/displacement.h"
 #include "core/types/modal_estimate.h"
 #include "core/types/track.h"
@@ -36,6 +37,7 @@ class RunHistory {
   void add(const core::TrackFrame& frame) noexcept;
   void add(const core::DisplacementSample& sample) noexcept;
   void add(const core::ModalEstimate& estimate) noexcept;
+  void set_aircraft(const core::AircraftSummary& aircraft) { aircraft_ = aircraft; }
   // A row of a time series: NaN = missing.
   void add(std::uint64_t i_cell, std::span<const double> values) noexcept;
 
@@ -48,6 +50,7 @@ class RunHistory {
   // nullptr: not kept.
   [[nodiscard]] const FollowedMode* followed(std::uint32_t id) const noexcept;
   [[nodiscard]] std::uint64_t n_estimates() const noexcept { return n_estimates_; }
+  [[nodiscard]] const core::AircraftSummary& aircraft() const noexcept { return aircraft_; }  // so far
   [[nodiscard]] bool has_tracks() const noexcept { return has_tracks_; }
 
  private:
@@ -58,6 +61,7 @@ class RunHistory {
   std::optional<std::int64_t> first_ns_;
   std::uint64_t n_cells_ = 0, n_samples_ = 0, n_estimates_ = 0;
   bool has_tracks_ = false;
+  core::AircraftSummary aircraft_;
   std::vector<BinnedSeries> displacements_;
   BinnedSeries scale_;
   std::vector<Region> regions_;

@@ -166,8 +166,9 @@ void RunReport::finish(const core::ModalEstimate& last, const core::Health& loss
     std::size_t n_not_finite = 0;
     std::vector<std::string> in_force = corrections;
     in_force.insert(in_force.end(), last.amendments.begin(), last.amendments.end());
-    const std::string text =
-        modal_json({method_, channel_names_, last, in_force, losses, caveats, regions_, recovered_}, &n_not_finite);
+    const std::string text = modal_json(
+        {method_, channel_names_, last, in_force, losses, caveats, regions_, history_.aircraft(), recovered_},
+        &n_not_finite);
     n_not_finite_ += n_not_finite;
     drivers::write_file_atomically(folder_.in_working("modal.json"), text);
   });

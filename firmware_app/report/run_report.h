@@ -35,8 +35,11 @@ class RunReport {
   // One frame, one sample. False: a file failed (disk full); its remainder is lost, counted, and reported by finish().
   bool add(const core::TrackFrame& frame) noexcept;
   bool add(const core::DisplacementSample& sample) noexcept;
-  // One estimate, for the pictures of convergence.
-  void add(const core::ModalEstimate& estimate) noexcept { history_.add(estimate); }
+  // One estimate, for the pictures of convergence, and what the aircraft has stated up to it.
+  void add(const core::ModalEstimate& estimate, const core::AircraftSummary& aircraft) {
+    history_.add(estimate);
+    history_.set_aircraft(aircraft);
+  }
 
   // corrections: the declared ones; those found during the run are part of the estimate.
   // Writes modal.json, and closure.json from the last report that has a conclusion, draws, completes the CSV files, and

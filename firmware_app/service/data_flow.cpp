@@ -71,6 +71,7 @@ PublishStage::Outlets DataFlow::outlets() {
 void DataFlow::connect() {
   nudge(frames, capture, tracking);
   nudge(samples, tracking, spectrum);
+  nudge(aircraft_updates, tracking, spectrum);
   nudge(records, tracking, publish);
   nudge(snapshots, spectrum, identification);
   nudge(results, identification, publish);
@@ -95,6 +96,7 @@ void DataFlow::watch() {
   health.name_regions(region_names(config));
   health.watch_camera(*source.camera);
   if (attitude) health.watch_attitude(*attitude);
+  if (aircraft) health.watch_aircraft(*aircraft);
   if (recorder) health.watch_record(*recorder);
   health.watch({&run_capture, {}, 0});
   health.watch({&run_tracking, [this] { return frames.depth(); }, frames.n_slots()});

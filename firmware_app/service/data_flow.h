@@ -36,6 +36,7 @@ struct DataFlow {
   std::string lock_refused;  // why memory is not locked; empty: it is, or was not requested
   Source source;             // camera, its first frame, the points seeded in it, the channels
   std::unique_ptr<drivers::AttitudeListener> attitude = open_attitude(config);  // null: no live attitude
+  std::unique_ptr<drivers::AircraftListener> aircraft = open_aircraft(config);  // null: none wanted
   std::unique_ptr<drivers::RunRecorder> recorder;                               // null: the run is not recorded
   std::unique_ptr<drivers::Publisher> out;
   std::unique_ptr<RunReport> report = open_report(config, source);
@@ -60,6 +61,7 @@ struct DataFlow {
   //                                -> [recent_tracks] -> closure -> [closures] -> publish; [correction_switches] ->
   //                                tracking
   // identification -> (estimates) -> structure -> [comparisons] -> publish
+  // tracking -> [aircraft_updates] -> spectrum
   // spectrum, identification -> (spectrum_states, mode_states) -> checkpoint -> the state file
   rt::SpscRing<core::Frame> frames{slots(config.rt.frame_slots), source.first_frame};
   rt::SpscRing<core::DisplacementSample> samples{slots(config.rt.sample_slots), source.displacement.sample_prototype()};
@@ -71,6 +73,7 @@ struct DataFlow {
   rt::SpscRing<core::closure::ClosureReport> closures{slots(kResultSlots), core::closure::ClosureReport{}};
   rt::TripleBuffer<core::ModalEstimate> estimates{core::ModalEstimate{}};
   rt::SpscRing<core::closure::ClosureReport> comparisons{slots(kResultSlots), core::closure::ClosureReport{}};
+  rt::SpscRing<AircraftUpdate> aircraft_updates{slots(aircraft ? kAircraftSlots : 1), AircraftUpdate{}};
   rt::SpscRing<CorrectionSwitch> correction_switches{slots(kResultSlots), CorrectionSwitch{}};
   rt::TripleBuffer<StateBytes> spectrum_states{state_room(spectra.state_bytes())};
   rt::TripleBuffer<StateBytes> mode_states{state_room(modes.state_bytes())};
@@ -78,13 +81,17 @@ struct DataFlow {
   CaptureStage capture{*source.camera, frames.writer(), source.first_frame, config.rt.thin_overload};
   TrackingStage tracking{
       {frames.reader(), samples.writer(), records.writer(), previews,
-       attitude ? std::optional(attitude->samples()) : std::nullopt, where(closes_loop(), recent_tracks.writer()),
+       attitude ? std::optional(attitude->samples()) : std::nullopt,
+       aircraft ? std::optional(aircraft->samples()) : std::nullopt,
+       where(aircraft != nullptr, aircraft_updates.writer()), where(closes_loop(), recent_tracks.writer()),
        where(takes_out(), correction_switches.reader())},
       {source.tracker, meter, preview_maker, capture.thinning()},
       source.info.lossless,
       diagnosis.change()};
-  SpectrumStage spectrum{
-      {samples.reader(), snapshots, keeps_state() ? &spectrum_states : nullptr}, spectra, source.info.lossless};
+  SpectrumStage spectrum{{samples.reader(), snapshots, keeps_state() ? &spectrum_states : nullptr,
+                          where(aircraft != nullptr, aircraft_updates.reader())},
+                         spectra,
+                         source.info.lossless};
   IdentificationStage identification{{snapshots, results.writer(), keeps_state() ? &mode_states : nullptr,
                                       compares_structure() ? &estimates : nullptr},
                                      modes};
@@ -117,7 +124,7 @@ struct DataFlow {
   [[nodiscard]] core::Health host_status();  // and those of the computer; reads files
 
  private:
-  static constexpr int kResultSlots = 8, kRecentSlots = 1024;
+  static constexpr int kResultSlots = 8, kRecentSlots = 1024, kAircraftSlots = 64;
   static std::size_t slots(int n) { return static_cast<std::size_t>(n); }
   template <class End>
   static std::optional<End> where(bool is_wanted, End end) {

@@ -83,7 +83,7 @@ void warn_of_record(const drivers::RunRecorder* recorder, const TrackingStage& t
 }
 
 void warn_of_attitude(const drivers::AttitudeListener* listener, const TrackingStage& tracking, core::Health& health) {
-  const auto counts = listener != nullptr ? listener->counts() : drivers::AttitudeListener::Counts{};
+  const auto counts = listener != nullptr ? listener->counts() : drivers::ListenerCounts{};
   if (counts.undecodable + counts.dropped > 0) {
     health.warnings.push_back(
         fmt::format("camera.attitude_channel: {} messages are not an attitude, {} were dropped because they "
@@ -98,6 +98,22 @@ void warn_of_attitude(const drivers::AttitudeListener* listener, const TrackingS
   if (const std::uint64_t n = tracking.n_without_attitude(); n > 0) {
     health.warnings.push_back(
         fmt::format("{} frames have no attitude within 0.25 s ({} frames have one)", n, tracking.n_with_attitude()));
+  }
+}
+
+void warn_of_aircraft(const drivers::AircraftListener* listener, core::Health& health) {
+  if (listener == nullptr) return;
+  const drivers::ListenerCounts counts = listener->counts();
+  if (counts.received == 0) {
+    health.warnings.emplace_back(
+        "camera.aircraft_channel: nothing has been received yet; does `hovermodal mavlink` run, with the same LCM URL "
+        "and --aircraft-channel?");
+  }
+  if (counts.undecodable + counts.dropped > 0) {
+    health.warnings.push_back(
+        fmt::format("camera.aircraft_channel: {} messages are not a state of an aircraft, {} were dropped because they "
+                    "arrived faster than they were used, {} were accepted",
+                    counts.undecodable, counts.dropped, counts.received));
   }
 }
 
@@ -160,6 +176,7 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
   if (drivers::memory_reserve_is_used()) health.warnings.emplace_back(drivers::kMemoryReserveUsed);
   warn_of_record(recorder_, tracking_, health);
   warn_of_attitude(listener_, tracking_, health);
+  warn_of_aircraft(aircraft_, health);
   if (const std::uint64_t n = tracking_.n_previews_lost(); n > 0) {
     health.warnings.push_back(fmt::format("{} preview images were not sent: newer ones replaced them", n));
   }

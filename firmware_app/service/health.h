@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/types/health.h"
-#include "drivers/telemetry/attitude_listener.h"
+#include "drivers/telemetry/sample_listener.h"
 #include "firmware_app/service/stages/capture_stage.h"
 #include "firmware_app/service/stages/checkpoint_stage.h"
 #include "firmware_app/service/stages/publish_stage.h"
@@ -35,6 +35,7 @@ class HealthCollector {
   void watch_camera(const drivers::Camera& camera) { camera_ = &camera; }
   void watch_record(const drivers::RunRecorder& recorder) { recorder_ = &recorder; }
   void watch_attitude(const drivers::AttitudeListener& listener) { listener_ = &listener; }
+  void watch_aircraft(const drivers::AircraftListener& listener) { aircraft_ = &listener; }
   void watch_state(const CheckpointStage& checkpoint) { checkpoint_ = &checkpoint; }
 
   // Any thread.
@@ -52,6 +53,7 @@ class HealthCollector {
   const drivers::Camera* camera_ = nullptr;
   const drivers::RunRecorder* recorder_ = nullptr;       // null: the run is not recorded
   const drivers::AttitudeListener* listener_ = nullptr;  // null: no live attitude
+  const drivers::AircraftListener* aircraft_ = nullptr;  // null: not listened for
   const CheckpointStage* checkpoint_ = nullptr;          // null: no checkpoints
   std::vector<Queue> queues_;
   std::vector<std::string> region_names_;

@@ -132,4 +132,9 @@ std::unique_ptr<drivers::AttitudeListener> open_attitude(const AppConfig& config
   return drivers::listen_for_attitude(config.telemetry.lcm_url, config.camera.attitude_channel);
 }
 
+std::unique_ptr<drivers::AircraftListener> open_aircraft(const AppConfig& config) {
+  if (config.camera.aircraft_channel.empty()) return nullptr;
+  return drivers::listen_for_aircraft(config.telemetry.lcm_url, config.camera.aircraft_channel);
+}
+
 }  // namespace app

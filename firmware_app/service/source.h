@@ -11,7 +11,7 @@
 #include "core/tracking/structure_tracker.h"
 #include "core/types/frame.h"
 #include "drivers/camera/camera.h"
-#include "drivers/telemetry/attitude_listener.h"
+#include "drivers/telemetry/sample_listener.h"
 #include "firmware_app/config/config.h"
 #include "firmware_app/service/kept_keyframe.h"
 
@@ -43,6 +43,8 @@ struct Source {
 
 // Throws drivers::DeviceMissing, ConfigError, std::runtime_error.
 [[nodiscard]] std::unique_ptr<drivers::Camera> open_camera(const AppConfig& config);
-[[nodiscard]] std::unique_ptr<drivers::AttitudeListener> open_attitude(const AppConfig& config);  // null: not requested
+// Null: not requested.
+[[nodiscard]] std::unique_ptr<drivers::AttitudeListener> open_attitude(const AppConfig& config);
+[[nodiscard]] std::unique_ptr<drivers::AircraftListener> open_aircraft(const AppConfig& config);
 
 }  // namespace app

@@ -17,8 +17,8 @@
 #include <string_view>
 #include <thread>
 
-#include "drivers/telemetry/attitude_inbox.h"
 #include "drivers/telemetry/lcm_url.h"
+#include "drivers/telemetry/sample_inbox.h"
 #include "drivers/telemetry/stream_monitor.h"
 #include "tests/support/hostile_messages.h"
 
@@ -35,12 +35,15 @@ struct Tally {
 Tally decode(std::uint32_t seed, std::uint64_t n) {
   HostileMessages hostile(seed);
   drivers::StreamMonitor monitor("HOVERMODAL");
-  drivers::AttitudeInbox inbox;
+  drivers::AttitudeInbox attitudes;
+  drivers::AircraftInbox states;
   Tally tally;
   for (std::uint64_t i = 0; i < n; ++i) {
     const auto message = hostile.next();
     if (message.channel == "ATTITUDE") {
-      inbox.receive(message.bytes.data(), message.bytes.size());
+      attitudes.receive(message.bytes.data(), message.bytes.size());
+    } else if (message.channel == "AIRCRAFT") {
+      states.receive(message.bytes.data(), message.bytes.size());
     } else {
       monitor.receive(message.channel, message.bytes.data(), message.bytes.size(), static_cast<std::int64_t>(i));
     }
@@ -50,9 +53,10 @@ Tally decode(std::uint32_t seed, std::uint64_t n) {
     tally.taken += count.received + count.foreign;
     tally.refused += count.undecodable;
   }
-  const auto attitudes = inbox.counts();
-  tally.taken += attitudes.received + attitudes.dropped;
-  tally.refused += attitudes.undecodable;
+  for (const drivers::ListenerCounts& counts : {attitudes.counts(), states.counts()}) {
+    tally.taken += counts.received + counts.dropped;
+    tally.refused += counts.undecodable;
+  }
   tally.n = n;
   return tally;
 }

@@ -15,8 +15,8 @@
 #include "drivers/mavlink/mavlink_layouts.h"
 #include "drivers/mavlink/mavlink_link.h"
 #include "drivers/storage/attitude_file.h"
-#include "drivers/telemetry/attitude_listener.h"
 #include "drivers/telemetry/lcm_publisher.h"
+#include "drivers/telemetry/sample_listener.h"
 #include "rt/clock.h"
 #include "tests/support/child_process.h"
 #include "tests/support/loopback_network.h"
@@ -42,6 +42,7 @@ class Autopilot {
     put(frame, drivers::MavlinkFields::Attitude::yaw,
         static_cast<float>(0.1 * 1e-9 * static_cast<double>(remote - kAhead_ns)) - static_cast<float>(0.1 * start_s_));
     send(frame);
+    send_aircraft();
     std::array<std::uint8_t, 2048> bytes{};
     if (const std::size_t n = link_->receive(bytes, 10); n > 0) {
       parser_.push(std::span(bytes).first(n), [&](const drivers::MavlinkFrame& got) { take(got); });
@@ -55,6 +56,19 @@ class Autopilot {
   template <class T>
   static void put(drivers::MavlinkFrame& frame, std::size_t at, T value) {
     std::memcpy(frame.payload.data() + at, &value, sizeof(T));
+  }
+  // Four motors at 95, 96, 97 and 98 turns a second, and where it hovers.
+  void send_aircraft() {
+    using drivers::MavlinkFields;
+    drivers::MavlinkFrame speeds{.id = MavlinkFields::EscStatus::kId};
+    for (std::size_t i = 0; i < 4; ++i)
+      put(speeds, MavlinkFields::EscStatus::rpm + 4 * i, static_cast<std::int32_t>(60 * (95 + i)));
+    send(speeds);
+    drivers::MavlinkFrame at{.id = MavlinkFields::GlobalPositionInt::kId};
+    put(at, MavlinkFields::GlobalPositionInt::lat, std::int32_t{475'000'000});
+    put(at, MavlinkFields::GlobalPositionInt::lon, std::int32_t{82'500'000});
+    put(at, MavlinkFields::GlobalPositionInt::relative_alt, std::int32_t{24'500});
+    send(at);
   }
   void take(const drivers::MavlinkFrame& got) {
     if (got.id == drivers::MavlinkFields::Heartbeat::kId) ++heartbeats_;
@@ -115,6 +129,29 @@ TEST(LcmMavlink, AttitudeReachesTheServicesChannelAndModesTheGroundStation) {
   EXPECT_EQ(bridge.wait_for_exit(), 0) << bridge.output();
   EXPECT_NE(bridge.output().find("system 1: "), std::string::npos) << bridge.output();
   EXPECT_GE(drivers::read_attitude_csv(csv.string()).size(), n / 2) << "times that increase only";
+}
+
+TEST(LcmMavlink, MotorsAndPlaceReachTheServicesChannelOnceASecond) {
+  SKIP_WITHOUT_PRIVATE_LOOPBACK();
+  const auto listener = drivers::listen_for_aircraft(kUrl, "AIRCRAFT");
+  auto states = listener->samples();
+  tests::ChildProcess bridge(
+      {tests::program("hovermodal"), "mavlink", "--link", std::string("udpin:") + kLink, "--seconds", "20"});
+  ASSERT_TRUE(bridge.wait_for("waiting for an autopilot")) << bridge.output();
+  Autopilot autopilot(std::string("udpout:") + kLink);
+  const core::AircraftState* state = nullptr;
+  for (int i = 0; i < 1000 && state == nullptr; ++i) {
+    autopilot.step();
+    state = states.front();
+  }
+  ASSERT_NE(state, nullptr) << bridge.output();
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(state->motor_hz[i], 95.0 + static_cast<double>(i), 1e-9);
+  EXPECT_NEAR(state->latitude_deg, 47.5, 1e-6);
+  EXPECT_NEAR(state->longitude_deg, 8.25, 1e-6);
+  EXPECT_NEAR(state->above_home_m, 24.5, 1e-6);
+  EXPECT_TRUE(std::isnan(state->wind_m_s));
+  bridge.signal(SIGTERM);
+  EXPECT_EQ(bridge.wait_for_exit(), 0) << bridge.output();
 }
 
 }  // namespace

@@ -3,11 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
 #include <stdexcept>
+#include <stop_token>
+#include <thread>
 
 #include "drivers/telemetry/record_folder.h"
+#include "drivers/telemetry/sample_sender.h"
 #include "firmware_app/replay/analysis.h"
+#include "firmware_app/report/modal_json.h"
+#include "tests/support/loopback_network.h"
 #include "tests/support/pipeline_rig.h"
 
 namespace {
@@ -65,6 +71,38 @@ TEST_F(PipelineRecord, ARunWithLostFramesToo) {
   const std::string record = run(script, "gaps");
   (void)replayed({record}, "gaps");
   expect_same_report("gaps");
+}
+
+// The states that the service received live are in the record, before the same frames.
+TEST_F(PipelineRecord, ARunThatHearsTheAircraftToo) {
+  SKIP_WITHOUT_PRIVATE_LOOPBACK();
+  constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=0";
+  std::jthread sender([&](const std::stop_token& stop) {
+    drivers::SampleSender out(kUrl, "AIRCRAFT");
+    core::AircraftState state;
+    for (int k = 0; !stop.stop_requested(); ++k) {
+      state.motor_hz[0] = 95.0 + 0.01 * (k % 7), state.motor_hz[1] = 97.0;
+      state.latitude_deg = 47.5 + 1e-7 * k, state.longitude_deg = 8.25, state.wind_m_s = 4.0,
+      state.wind_from_deg = 310.0;
+      (void)out.send(state);
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  });
+  CameraScript script = frames(400);
+  script.frame_time = std::chrono::microseconds(1000);
+  const std::string record =
+      run(script, "aircraft", {"camera.aircraft_channel=AIRCRAFT", std::string("telemetry.lcm_url=") + kUrl});
+  sender.request_stop();
+  (void)replayed({record}, "aircraft");
+  expect_same_report("aircraft");
+  const app::ModalReport report = app::read_modal_json((folder / "aircraft_live" / "modal.json").string());
+  EXPECT_GE(report.aircraft.n_states, 20U);
+  ASSERT_EQ(report.aircraft.motors.size(), 2U);
+  EXPECT_NEAR(report.aircraft.motors[0].hz, 95.03, 0.02);
+  ASSERT_TRUE(report.aircraft.place && report.aircraft.wind);
+  EXPECT_NEAR(report.aircraft.place->longitude_deg, 8.25, 1e-9);
+  EXPECT_THAT(text_of("aircraft_live", "report.html"),
+              HasSubstr("8.250000 E; wind 4.0 m/s from 310 degrees; motors at 95."));
 }
 
 // Includes reports of residual diagnosis, with and without corrections. A lens is declared that does not exist.

@@ -9,6 +9,7 @@
 
 #include "drivers/telemetry/encode.h"
 #include "drivers/telemetry/topics.h"
+#include "hovermodal/aircraft_t.hpp"
 #include "hovermodal/attitude_t.hpp"
 #include "tests/support/telemetry_samples.h"
 
@@ -35,14 +36,15 @@ class HostileMessages {
  public:
   static constexpr std::array<const char*, 7> kKinds{
       "wrong fingerprint", "truncated", "oversized length", "flipped bits", "random", "lengthened", "empty"};
-  static constexpr std::size_t kAttitude = drivers::kTopics;
+  static constexpr std::size_t kAttitude = drivers::kTopics, kAircraft = kAttitude + 1;
 
   explicit HostileMessages(std::uint32_t seed, const std::string& prefix = "HOVERMODAL",
-                           const std::string& attitude_channel = "ATTITUDE")
+                           const std::string& attitude_channel = "ATTITUDE",
+                           const std::string& aircraft_channel = "AIRCRAFT")
       : random_(seed) {
     const drivers::StreamIdentity identity{"hostile", 1};
     const auto channels = sample_channels(4);
-    const std::array<Bytes, kAttitude + 1> good{
+    const std::array<Bytes, kAircraft + 1> good{
         encoded_bytes(drivers::to_messages(sample_estimate(4, 3), channels, identity).at(0)),
         encoded_bytes(drivers::to_message(sample_displacement(4, 1), identity)),
         encoded_bytes(drivers::to_messages(sample_sums(2, 16), channels, identity).at(0)),
@@ -50,12 +52,12 @@ class HostileMessages {
         encoded_bytes(drivers::to_message(sample_closure(2, 1), identity)),
         encoded_bytes(drivers::to_message(sample_health("running", 1), channels, identity)),
         encoded_bytes(drivers::to_message(sample_preview(1), {}, identity)),
-        encoded_bytes(hovermodal::attitude_t{1, {1.0, 0.0, 0.0, 0.0}})};
-    for (std::size_t i = 0; i <= kAttitude; ++i) {
-      const bool is_attitude = i == kAttitude;
-      good_.emplace_back(
-          is_attitude ? attitude_channel : drivers::topic_channel(prefix, static_cast<drivers::Topic>(i)), good[i]);
-    }
+        encoded_bytes(hovermodal::attitude_t{1, {1.0, 0.0, 0.0, 0.0}}),
+        encoded_bytes(hovermodal::aircraft_t{1, 47.5, 8.5, 24.0, 4.0, 310.0, 2, {95.0, 96.0}})};
+    for (std::size_t i = 0; i < kAttitude; ++i)
+      good_.emplace_back(drivers::topic_channel(prefix, static_cast<drivers::Topic>(i)), good[i]);
+    good_.emplace_back(attitude_channel, good[kAttitude]);
+    good_.emplace_back(aircraft_channel, good[kAircraft]);
   }
 
   // A valid message of each type with its channel.

@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "firmware_app/report/aircraft_facts.h"
 #include "firmware_app/report/estimate_words.h"
 #include "firmware_app/report/page/page_parts.h"
 #include "firmware_app/report/plot/verdict_marks.h"
 #include "firmware_app/report/recording_words.h"
+#include "firmware_app/report/run_history.h"
 
 namespace app {
 namespace {
@@ -69,6 +71,8 @@ std::string facts_html(const PictureInputs& inputs, const core::ModalEstimate& e
   out += fact_html("Corrections",
                    facts.corrections.empty() ? "none" : fmt::format("{}", fmt::join(facts.corrections, "; ")));
   if (estimate.readout) out += fact_html("Readout time", readout_text(*estimate.readout));
+  if (inputs.history != nullptr && !inputs.history->aircraft().empty())
+    out += fact_html("Aircraft", aircraft_words(inputs.history->aircraft()));
   if (!facts.caveats.empty()) out += fact_html("Left open", fmt::format("{}", fmt::join(facts.caveats, "; ")));
   return out + "</dl>\n";
 }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+
+#include "core/rotors/aircraft.h"
 #include "core/types/displacement.h"
 #include "core/types/run_record.h"
 #include "core/types/track.h"
@@ -12,6 +15,13 @@ struct FrameRecord {
   core::TrackFrame tracks;
   core::DisplacementSample sample;
   core::AttitudeBatch attitude = {};  // received before it
+  core::AircraftBatch aircraft = {};
+};
+
+// tracking -> spectrum: a state of the aircraft received before the sample of that number.
+struct AircraftUpdate {
+  std::uint64_t before_sequence = 0;
+  core::AircraftState state;
 };
 
 }  // namespace app

@@ -67,6 +67,7 @@ void PublishStage::publish_record(const FrameRecord& record) noexcept {
   const auto due = [this](int every) { return every > 0 && n_records_ % static_cast<std::uint64_t>(every) == 0; };
   if (due(outlets_.telemetry.displacement_every)) (void)outlets_.publisher.publish(record.sample, outlets_.channels);
   if (due(outlets_.telemetry.tracks_every)) (void)outlets_.publisher.publish(record.tracks);
+  if (outlets_.recorder != nullptr && record.aircraft.n > 0) (void)outlets_.recorder->add(record.aircraft);
   if (outlets_.recorder != nullptr) (void)outlets_.recorder->add(record.tracks, record.attitude, record.sample.stride);
   if (outlets_.report != nullptr) {
     // The report counts a file that failed, and its finish() reports it.
@@ -79,8 +80,8 @@ void PublishStage::publish_record(const FrameRecord& record) noexcept {
 void PublishStage::publish_result(const IdentificationResult& result) noexcept {
   (void)outlets_.publisher.publish(result.estimate, outlets_.channels);
   (void)outlets_.publisher.publish(result.sums, outlets_.channels);
-  if (outlets_.report != nullptr) outlets_.report->add(result.estimate);
   try {
+    if (outlets_.report != nullptr) outlets_.report->add(result.estimate, result.aircraft);
     last_estimate_ = result.estimate;
     last_sums_ = result.sums;
   } catch (...) {

@@ -12,6 +12,7 @@ rt::StepStatus SpectrumStage::step() noexcept {
   if (ends_.states != nullptr && spectra_.state_is_due()) hand_over_state();
   const core::DisplacementSample* sample = ends_.samples.front();
   if (sample == nullptr) return ends_.samples.finished() ? end_record() : rt::StepStatus::kIdle;
+  take_aircraft(sample->sequence);
   const bool is_done = spectra_.step(*sample);
   note();
   if (!is_done) return rt::StepStatus::kWorked;
@@ -41,6 +42,16 @@ rt::StepStatus SpectrumStage::hand_over() noexcept {
 
 void SpectrumStage::hand_over_state() noexcept {
   if (spectra_.save(ends_.states->back())) ends_.states->publish();
+}
+
+// Those received before the frame of that number, whenever this thread runs: a replay does the same.
+void SpectrumStage::take_aircraft(std::uint64_t sequence) noexcept {
+  if (!ends_.aircraft) return;
+  for (const AircraftUpdate* update = ends_.aircraft->front(); update != nullptr && update->before_sequence <= sequence;
+       update = ends_.aircraft->front()) {
+    spectra_.take(update->state);
+    ends_.aircraft->pop();
+  }
 }
 
 void SpectrumStage::note() noexcept {

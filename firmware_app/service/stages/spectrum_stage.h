@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 
 #include "core/types/displacement.h"
 #include "firmware_app/chain/spectrum_accumulator.h"
@@ -20,6 +21,7 @@ class SpectrumStage : public rt::Stage {
     rt::RingReader<core::DisplacementSample> samples;
     rt::TripleBuffer<SpectrumSnapshot>& snapshots;
     rt::TripleBuffer<StateBytes>* states = nullptr;  // null: no state is kept
+    std::optional<rt::RingReader<AircraftUpdate>> aircraft = {};
   };
   // spectra: not used by anyone else once the stage runs.
   SpectrumStage(Ends ends, SpectrumAccumulator& spectra, bool lossless);
@@ -45,6 +47,7 @@ class SpectrumStage : public rt::Stage {
   [[nodiscard]] rt::StepStatus hand_over() noexcept;
   [[nodiscard]] rt::StepStatus end_record() noexcept;
   void hand_over_state() noexcept;
+  void take_aircraft(std::uint64_t sequence) noexcept;
   void note() noexcept;
 
   Ends ends_;

@@ -89,6 +89,7 @@ void TrackingStage::measure(const core::Frame& frame) noexcept {
                    static_cast<std::int64_t>(frame.sequence));
   if (!calls_.tracker.track(frame, scratch_.tracks)) add(n_failed_);
   take_attitude();
+  take_aircraft(frame.sequence);
   calls_.meter.measure(scratch_.tracks, calls_.thinning.at(frame.sequence).stride, scratch_.sample);
   calls_.tracker.learn(scratch_.tracks);
   count_frame();
@@ -107,6 +108,22 @@ void TrackingStage::take_attitude() noexcept {
     calls_.meter.take(*sample);
     scratch_.attitude.add(*sample);
     ends_.attitude->pop();
+  }
+}
+
+// What does not fit waits in the listener's ring, which counts what it drops: spectrum and the record get the same.
+void TrackingStage::take_aircraft(std::uint64_t sequence) noexcept {
+  scratch_.aircraft.n = 0;
+  if (!ends_.aircraft || !ends_.aircraft_updates) return;
+  while (scratch_.aircraft.n < core::AircraftBatch::kMost) {
+    const core::AircraftState* state = ends_.aircraft->front();
+    if (state == nullptr) return;
+    AircraftUpdate* update = ends_.aircraft_updates->try_claim();
+    if (update == nullptr) return;
+    *update = {sequence, *state};
+    ends_.aircraft_updates->publish();
+    scratch_.aircraft.states[scratch_.aircraft.n++] = *state;
+    ends_.aircraft->pop();
   }
 }
 
@@ -151,6 +168,7 @@ std::vector<core::RegionHealth> TrackingStage::regions() const {
 void TrackingStage::finish() noexcept {
   ends_.samples.close();
   ends_.records.close();
+  if (ends_.aircraft_updates) ends_.aircraft_updates->close();
   if (ends_.tracks) ends_.tracks->close();
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/rotors/aircraft.h"
 #include "core/tracking/preview_maker.h"
 #include "core/tracking/structure_tracker.h"
 #include "core/types/attitude.h"
@@ -30,7 +31,9 @@ class TrackingStage : public rt::Stage {
     rt::RingWriter<FrameRecord> records;
     rt::TripleBuffer<core::Preview>& previews;
     std::optional<rt::RingReader<core::AttitudeSample>> attitude = {};  // read before each frame; empty: no attitudes
-    std::optional<rt::RingWriter<core::TrackFrame>> tracks = {};        // frames that find no room there are counted
+    std::optional<rt::RingReader<core::AircraftState>> aircraft = {};   // likewise, and handed to spectrum
+    std::optional<rt::RingWriter<AircraftUpdate>> aircraft_updates = {};
+    std::optional<rt::RingWriter<core::TrackFrame>> tracks = {};  // frames that find no room there are counted
     // Corrected geometry by the diagnosis and its first frame. A lossless source waits for each decision.
     std::optional<rt::RingReader<CorrectionSwitch>> changes = {};
   };
@@ -99,6 +102,7 @@ class TrackingStage : public rt::Stage {
   void show(core::TrackFrame* slot) noexcept;                                      // null: no room
   void show_preview(const core::Frame& frame) noexcept;
   void take_attitude() noexcept;
+  void take_aircraft(std::uint64_t sequence) noexcept;
   void count_frame() noexcept;
   void count_attitude() noexcept;
   void count_regions() noexcept;

@@ -2,6 +2,7 @@
 
 #include "drivers/telemetry/decode.h"
 #include "drivers/telemetry/stream_monitor.h"
+#include "hovermodal/aircraft_t.hpp"
 #include "hovermodal/attitude_t.hpp"
 #include "hovermodal/run_file_t.hpp"
 #include "hovermodal/run_frame_t.hpp"
@@ -88,6 +89,7 @@ const std::vector<Kind>& kinds() {
                                      kind<health_t>(kTopicSuffixes[kHealth]),
                                      kind<preview_t>(kTopicSuffixes[kPreview]),
                                      kind<attitude_t>("_ATTITUDE"),
+                                     kind<aircraft_t>("_AIRCRAFT"),
                                      kind<run_t>("_RUN"),
                                      kind<run_file_t>("_RUN_FILE"),
                                      kind<run_frame_t>("_RUN_FRAME"),

@@ -7,7 +7,6 @@
 
 #include "drivers/storage/text_file.h"
 #include "drivers/telemetry/record_folder.h"
-#include "drivers/telemetry/rotating_log.h"
 #include "drivers/telemetry/run_record_reader.h"
 #include "drivers/telemetry/run_recorder.h"
 #include "tests/support/folder_test.h"
@@ -16,7 +15,6 @@ namespace drivers {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 constexpr std::size_t kPoints = 12;
@@ -120,6 +118,29 @@ TEST_F(RunRecord, ComesBackToTheLastBit) {
   EXPECT_EQ(reader.n_attitudes_left_out(), 6U);
   EXPECT_FALSE(reader.starts_late());
   EXPECT_EQ(reader.end(), "") << "no last word: cut off";
+}
+
+TEST_F(RunRecord, StatesOfTheAircraftComeBackBeforeTheFrameThatTheyPreceded) {
+  auto recorder = make_run_recorder(options());
+  recorder->begin(head());
+  core::AircraftBatch two;
+  two.n = 2;
+  two.states[0].motor_hz[1] = 95.125, two.states[1].wind_m_s = 4.0 / 3.0, two.states[1].latitude_deg = 47.1;
+  for (std::uint64_t k = 0; k < 3; ++k) {
+    if (k == 1) (void)recorder->add(two);
+    (void)recorder->add(frame_of(k), attitude_of(k), stride_of(k));
+  }
+  ASSERT_TRUE(recorder->close());
+  RunRecordReader reader(recorder->path());
+  core::RecordedFrame frame;
+  for (std::uint64_t k = 0; k < 3; ++k) {
+    ASSERT_TRUE(reader.next(frame));
+    ASSERT_EQ(reader.aircraft().n, k == 1 ? 2U : 0U) << k;
+    if (k != 1) continue;
+    EXPECT_EQ(reader.aircraft().states[0].motor_hz, two.states[0].motor_hz);
+    EXPECT_EQ(reader.aircraft().states[1].wind_m_s, 4.0 / 3.0);
+  }
+  EXPECT_EQ(reader.n_damaged(), 0U);
 }
 
 core::RecordingTimes uneven_times() {
@@ -242,29 +263,6 @@ TEST_F(RunRecord, SaysWhatIsNoRecord) {
   EXPECT_THROW((void)make_run_recorder({"/proc/none", 1000, 10000, "HOVERMODAL", {"bridge", 1}}), std::runtime_error);
 }
 
-TEST(RecordFolder, AFileWithTheLastNumberDoesNotStopTheCount) {
-  EXPECT_EQ(next_run({}), 1);
-  EXPECT_EQ(next_run({{"", 7, 0, 0}, {"", 3, 0, 0}}), 8);
-  EXPECT_EQ(next_run({{"", 2, 0, 0}, {"", 99'999'999, 0, 0}}), 3);
-  EXPECT_EQ(next_run({{"", 99'999'999, 0, 0}}), 1);
-}
-
-// A loss of power while the head is written leaves no file that looks like a record.
-TEST_F(RunRecord, AFileHasItsNameWhenItsHeadIsOnTheDisk) {
-  RotatingLog log(options());
-  const auto names_in_folder = [this] {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_)) names.push_back(entry.path().filename().string());
-    return names;
-  };
-  log.begin([&](EventLog& part, int /*number*/) {
-    EXPECT_THAT(names_in_folder(), ElementsAre("bridge_run0001_000.lcm.partial"));
-    return part.write("HEAD", {}, 0);
-  });
-  EXPECT_THAT(names_in_folder(), ElementsAre("bridge_run0001_000.lcm"));
-  EXPECT_GT(fs::file_size(log.path()), 0U);
-}
-
 TEST_F(RunRecord, WhatARunLeftWithoutAHeadIsRemoved) {
   const std::string left = "x_run0001_003.lcm.partial", of_others = "notes.partial";
   for (const std::string& name : {left, of_others}) std::ofstream(folder_ / name) << "begun";
@@ -272,8 +270,6 @@ TEST_F(RunRecord, WhatARunLeftWithoutAHeadIsRemoved) {
   EXPECT_FALSE(fs::exists(folder_ / left));
   EXPECT_TRUE(fs::exists(folder_ / of_others));
 }
-
-TEST(RecordFolder, NamesAreReadBack) { EXPECT_EQ(record_name("a_run0001_000", 7, 2), "a_run0001_000_run0007_002.lcm"); }
 
 }  // namespace
 }  // namespace drivers

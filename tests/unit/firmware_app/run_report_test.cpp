@@ -71,6 +71,37 @@ TEST_F(RunReportTest, DisplacementsLeaveMissingCellsEmpty) {
   EXPECT_EQ(back.comments.at("row_delay_s.roof"), "0.0125");
 }
 
+TEST_F(RunReportTest, WhatTheAircraftStatedComesBackFromModalJson) {
+  app::ModalReport report{"hovermodal", {"base", "roof"}, estimate(), {}, {}};
+  EXPECT_THAT(modal_json(report), Not(HasSubstr("aircraft")));
+  report.aircraft.n_states = 118;
+  report.aircraft.motors = {{1, 95.25, 0.04}, {3, 97.5, 0.0}};
+  report.aircraft.place = core::AircraftSummary::Place{-33.25, 151.5, std::nullopt};
+  report.aircraft.wind = core::AircraftSummary::Wind{4.5, 310.0};
+  const std::string text = modal_json(report);
+  std::ofstream(path("modal.json")) << text;
+  const core::AircraftSummary back = app::read_modal_json(path("modal.json")).aircraft;
+  EXPECT_EQ(back.n_states, 118U);
+  ASSERT_EQ(back.motors.size(), 2U);
+  EXPECT_EQ(back.motors[1].number, 3);
+  EXPECT_EQ(back.motors[0].hz, 95.25);
+  EXPECT_EQ(back.motors[0].spread_hz, 0.04);
+  ASSERT_TRUE(back.place && back.wind);
+  EXPECT_EQ(back.place->latitude_deg, -33.25);
+  EXPECT_FALSE(back.place->above_home_m);
+  EXPECT_EQ(back.wind->from_deg, 310.0);
+
+  std::string wrong = text;
+  wrong.replace(wrong.find("97.5"), 4, "-7.5");
+  std::ofstream(path("modal.json")) << wrong;
+  try {
+    (void)app::read_modal_json(path("modal.json"));
+    FAIL() << "taken";
+  } catch (const drivers::FileError& refused) {
+    EXPECT_THAT(refused.what(), HasSubstr("aircraft.hz: is no number from 1 to 2000"));
+  }
+}
+
 TEST_F(RunReportTest, ModalJsonHasExactlyTheAgreedLayout) {
   core::Health losses;
   losses.frames_in = 10, losses.frames_processed = 9, losses.frames_dropped = 1;

@@ -82,7 +82,7 @@ void close_tracks(const TracksLoop& request) {
   (void)level.fit();
   const ResidualView before = view_of(level);
   ClosureResult result = close_level(request.answer, level, loop);
-  app::name_motors(config, input.record, result);
+  app::name_motors(config, {}, input.record, result);
   keep_earlier_closure(request.report);
   if (!request.report.empty()) write_pictures_of(request, level, result, before);
   show_closure(request.answer, result, "", request.report);

@@ -28,9 +28,9 @@ void tools::run_mavlink(const MavlinkOptions&) {
 #include "drivers/mavlink/mavlink_companion.h"
 #include "drivers/mavlink/mavlink_link.h"
 #include "drivers/storage/csv_writer.h"
-#include "drivers/telemetry/attitude_sender.h"
 #include "drivers/telemetry/lcm_listener.h"
 #include "drivers/telemetry/modes_listener.h"
+#include "drivers/telemetry/sample_sender.h"
 #include "tools/hovermodal/stop_signal.h"
 
 namespace tools {
@@ -90,6 +90,40 @@ class MotorsCsv {
 
  private:
   std::optional<drivers::CsvWriter> out_;
+};
+
+// What the autopilot has stated since the last second, for the service.
+class AircraftSecond {
+ public:
+  void add(const drivers::MavlinkCompanion::Motor& motor) {
+    const auto i = static_cast<std::size_t>(motor.number - 1);
+    if (motor.number < 1 || i >= sum_hz_.size()) return;
+    sum_hz_[i] += motor.hz;
+    ++n_[i];
+  }
+  // Begins the next second. Empty: nothing is known of the aircraft.
+  [[nodiscard]] std::optional<core::AircraftState> next(const drivers::MavlinkCompanion& companion,
+                                                        std::int64_t now_ns) {
+    core::AircraftState out;
+    out.t_s = 1e-9 * static_cast<double>(now_ns);
+    bool turns = false;
+    for (std::size_t i = 0; i < sum_hz_.size(); ++i) {
+      if (n_[i] > 0) out.motor_hz[i] = sum_hz_[i] / n_[i];
+      turns = turns || out.motor_hz[i] > 0.0;
+    }
+    sum_hz_.fill(0.0), n_.fill(0);
+    if (const auto& at = companion.position()) {
+      out.latitude_deg = at->latitude_deg, out.longitude_deg = at->longitude_deg;
+      out.above_home_m = at->above_home_m;
+    }
+    if (const auto& wind = companion.wind()) out.wind_m_s = wind->speed_m_s, out.wind_from_deg = wind->from_deg;
+    if (!turns && !companion.position() && !companion.wind()) return std::nullopt;
+    return out;
+  }
+
+ private:
+  std::array<double, core::AircraftState::kMotors> sum_hz_{};
+  std::array<int, core::AircraftState::kMotors> n_{};
 };
 
 std::string clock_text(const drivers::MavlinkCompanion& companion) {
@@ -194,7 +228,7 @@ void run_mavlink(const MavlinkOptions& options) {
   const auto link = drivers::MavlinkLink::open(options.link);
   // Its own thread: the time of an answer of the autopilot must not wait for LCM.
   drivers::ModesListener modes(options.url, options.prefix);  // first: its error names what the network lacks
-  drivers::AttitudeSender sender(options.url, options.channel);
+  drivers::SampleSender sender(options.url, options.channel), aircraft_sender(options.url, options.aircraft_channel);
   AttitudeCsv csv(options.csv);
   MotorsCsv motors(options.motors);
   drivers::MavlinkCompanion companion({.of_gimbal = options.of_gimbal, .datagrams = link->is_datagrams()},
@@ -202,7 +236,11 @@ void run_mavlink(const MavlinkOptions& options) {
                                         (void)sender.send(sample);
                                         csv.write(sample);
                                       });
-  companion.on_motor([&](const auto& motor, std::int64_t now_ns) { motors.write(motor, now_ns); });
+  AircraftSecond aircraft;
+  companion.on_motor([&](const auto& motor, std::int64_t now_ns) {
+    motors.write(motor, now_ns);
+    aircraft.add(motor);
+  });
   const std::int64_t start_ns = drivers::LcmListener::now_ns();
   std::int64_t next_status_ns = start_ns + kStatus_ns;
   ComputerState computer;
@@ -216,6 +254,7 @@ void run_mavlink(const MavlinkOptions& options) {
     if (now_ns >= next_status_ns) {
       next_status_ns += kStatus_ns;
       (void)link->send(companion.state(computer.now(now_ns)));
+      if (const auto state = aircraft.next(companion, now_ns)) (void)aircraft_sender.send(*state);
       options.answer.text("{}\n", status_line(companion));
       std::fflush(stdout);
     }
@@ -228,7 +267,8 @@ void run_mavlink(const MavlinkOptions& options) {
     options.answer.note("attitudes left out of {}, because their times do not increase: {}\n", options.csv,
                         csv.n_left_out());
   }
-  if (sender.n_failed() > 0) options.answer.note("attitudes that LCM did not send: {}\n", sender.n_failed());
+  if (const std::uint64_t n = sender.n_failed() + aircraft_sender.n_failed(); n > 0)
+    options.answer.note("messages that LCM did not send: {}\n", n);
   if (link->from_others() > 0) options.answer.note("datagrams of other senders, not read: {}\n", link->from_others());
   options.answer.document(document(companion).dump(2) + "\n");
 }

@@ -9,14 +9,14 @@ namespace tools {
 void add_mavlink(drivers::Command& app) {
   drivers::Command mavlink = app.subcommand(
       "mavlink",
-      "Connect an autopilot and the service: attitude to LCM, modes to the ground station (MAVLink 2)\n\n"
+      "Connect an autopilot and the service: attitude, motors and wind to LCM, modes to the ground station (MAVLink "
+      "2)\n\n"
       "Takes the attitude of the aircraft or of its gimbal, puts it on this computer's clock (TIMESYNC) and sends it "
-      "on an "
-      "LCM channel; a service with camera.attitude_channel uses it. Sends a heartbeat, and the lowest modes of each "
-      "estimate as NAMED_VALUE_FLOAT (f1_hz, z1_pct, ...) and STATUSTEXT, which ground stations show. It commands "
-      "nothing. Motor speeds, position and wind are stated at the end; with --motors the speeds are kept, so that a "
-      "later "
-      "`identify` or `closeloop` with camera.motors_file names the motor of each rotor line.\n\n"
+      "on an LCM channel; a service with camera.attitude_channel uses it. Once a second it sends the motors' speeds, "
+      "position and wind on another; a service with camera.aircraft_channel states them in its report and names the "
+      "motor of each rotor line. Sends a heartbeat, and the lowest modes of each estimate as NAMED_VALUE_FLOAT (f1_hz, "
+      "z1_pct, ...) and STATUSTEXT, which ground stations show. It commands nothing. With --motors the speeds are kept "
+      "for a later `replay` or `closeloop` with camera.motors_file.\n\n"
       "  hovermodal mavlink --link udpin:127.0.0.1:14540          a simulator, or mavlink-router on this computer\n"
       "  hovermodal mavlink --link serial:/dev/ttyAMA0:921600     a flight controller's TELEM port");
   const auto options = std::make_shared<MavlinkOptions>();
@@ -28,6 +28,10 @@ void add_mavlink(drivers::Command& app) {
   mavlink.option("--prefix", options->prefix, "Prefix of the service's LCM channels (telemetry.channel_prefix)")
       .show_default();
   mavlink.option("--channel", options->channel, "LCM channel of the attitude (camera.attitude_channel)").show_default();
+  mavlink
+      .option("--aircraft-channel", options->aircraft_channel,
+              "LCM channel of motors, position and wind (camera.aircraft_channel)")
+      .show_default();
   mavlink.flag("--gimbal", options->of_gimbal, "The gimbal's attitude in place of the aircraft's");
   mavlink.option("--csv", options->csv, "Write the attitudes to this file as well (camera.attitude_file)");
   mavlink.option("--motors", options->motors, "Write the motors' speeds to this file (camera.motors_file)");
