@@ -20,7 +20,8 @@ namespace app {
 // Corrections of the run's own camera and tracker, in force from one frame on. Number 0: only what was declared.
 struct CorrectionSet {
   std::uint32_t number = 0;
-  std::uint64_t from_sequence = 0;
+  std::uint64_t from_sequence = 0;   // first frame that is measured so as it comes
+  std::uint64_t since_sequence = 0;  // first frame that is so where the run is measured again
   bool begins_record = false;  // rows are seen at other times than before: spectra from both sides must not be added
   std::uint32_t record = 0;    // epoch: number of the correction_set since which spectra may be added
   core::PointCorrection places;

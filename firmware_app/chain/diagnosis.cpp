@@ -8,8 +8,19 @@
 
 namespace app {
 
-Diagnosis::Diagnosis(MissingEffectSearchConfig config, CorrectionLog& book, MakeGeometry make)
-    : loop_(std::move(config)), book_(book), make_(std::move(make)) {}
+Diagnosis::Diagnosis(MissingEffectSearchConfig config, CorrectionLog& book, MakeGeometry make,
+                     std::unique_ptr<Past> past)
+    : loop_(std::move(config)), book_(book), make_(std::move(make)), past_(std::move(past)) {}
+
+void Diagnosis::take(const core::TrackFrame& frame, std::uint32_t stride) noexcept {
+  loop_.take(frame);
+  if (!past_) return;
+  past_->tracks.add(frame, stride);
+  if (rebuilt_.empty() || rebuilt_.back()->offered()) return;
+  past_->frame = frame;
+  rebuilt_.back()->take(past_->frame, stride);
+  (void)rebuilt_.back()->offer();
+}
 
 core::closure::ClosureReport Diagnosis::report(bool final) {
   change_ = {};
@@ -22,7 +33,12 @@ core::closure::ClosureReport Diagnosis::report(bool final) {
 void Diagnosis::amend(core::closure::ClosureReport& report) {
   if (const std::optional<CorrectionSet> correction_set = loop_.correction_set()) {
     const std::string refused = begin(*correction_set);
-    if (!refused.empty()) report.changes.push_back("none of this is done: " + refused);
+    if (!refused.empty()) {
+      report.changes.push_back("none of this is done: " + refused);
+    } else if (past_) {
+      report.changes.push_back("the run is measured again, so from frame " +
+                               std::to_string(stretches_.back().from_sequence) + " on");
+    }
   }
   report.in_force = book_.newest().words;
   // At the end of the run: corrections that were due to begin later never did.
@@ -36,18 +52,43 @@ bool Diagnosis::begins_after(std::uint32_t number, std::uint64_t last_sequence) 
 
 std::string Diagnosis::begin(const CorrectionSet& correction_set) {
   if (book_.full()) return "too many changes in one run";
+  std::unique_ptr<Geometry> geometry;
   try {
-    made_.push_back(make_(correction_set));
+    geometry = make_(correction_set);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
     return e.what();
   }
   const CorrectionSet& added = book_.add(correction_set);
-  change_.geometry = made_.back().get();
-  change_.correction_set = added.number, change_.record = added.record;
-  change_.from_sequence = added.from_sequence;
+  CorrectionSwitch change;
+  change.geometry = geometry.get();
+  if (past_) {
+    rebuild(added, std::move(geometry));
+    change.rebuilt = rebuilt_.back().get();
+  } else {
+    made_.push_back(std::move(geometry));
+  }
+  change.correction_set = added.number, change.record = added.record;
+  change.from_sequence = added.from_sequence;
+  change_ = change;
   return {};
+}
+
+// Earlier stretches keep their corrections, with a geometry that begins anew.
+void Diagnosis::rebuild(const CorrectionSet& added, std::unique_ptr<Geometry> geometry) {
+  std::erase_if(stretches_, [&](const Stretch& s) { return s.from_sequence >= added.since_sequence; });
+  std::vector<Rebuild::Stretch> stretches;
+  for (const Stretch& s : stretches_)
+    stretches.push_back(
+        {s.from_sequence, s.correction_set, book_.at(s.correction_set).record, make_(book_.at(s.correction_set))});
+  stretches.push_back({added.since_sequence, added.number, added.record, std::move(geometry)});
+  stretches_.push_back({added.since_sequence, added.number});
+  rebuilt_.push_back(std::make_unique<Rebuild>(past_->chain, book_, std::move(stretches)));
+  for (std::size_t i = 0; i < past_->tracks.n_frames(); ++i) {
+    const std::uint32_t stride = past_->tracks.read(i, past_->frame);
+    rebuilt_.back()->take(past_->frame, stride);
+  }
 }
 
 CorrectionSwitch Diagnosis::change() const noexcept {

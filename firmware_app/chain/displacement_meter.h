@@ -9,6 +9,7 @@
 #include "core/types/displacement.h"
 #include "core/types/track.h"
 #include "firmware_app/chain/items.h"
+#include "firmware_app/chain/track_store.h"
 
 namespace app {
 
@@ -16,9 +17,10 @@ namespace app {
 // geometry changes at the frames that the diagnosis names. One thread; nothing allocates.
 class DisplacementMeter {
  public:
-  // As declared; both outlive this.
-  DisplacementMeter(core::ChannelDisplacement& channels, core::ReadoutEstimator& readout)
-      : channels_(&channels), readout_(&readout), axes_(channels.regions(), channels.n_points()) {}
+  // As declared; all outlive this. lattice: points are rounded to it first; null: they are not.
+  DisplacementMeter(core::ChannelDisplacement& channels, core::ReadoutEstimator& readout,
+                    const TrackLattice* lattice = nullptr)
+      : channels_(&channels), readout_(&readout), lattice_(lattice), axes_(channels.regions(), channels.n_points()) {}
 
   // Takes an attitude received since the last frame.
   void take(const core::AttitudeSample& sample) noexcept { channels_->take(sample); }
@@ -32,6 +34,8 @@ class DisplacementMeter {
   void measure(core::TrackFrame& tracks, std::uint32_t stride, core::DisplacementSample& out) noexcept;
 
   [[nodiscard]] std::uint32_t correction_set() const noexcept { return correction_set_; }  // in force
+  [[nodiscard]] Rebuild* rebuilt() const noexcept { return rebuilt_; }                     // of it; null: none
+  [[nodiscard]] Rebuild* coming() const noexcept { return pending_.rebuilt; }              // not in force yet
   [[nodiscard]] const core::ChannelDisplacement& channels() const noexcept { return *channels_; }
   // In which direction the regions have moved so far, whatever their axes.
   [[nodiscard]] const core::MotionAxes& axes() const noexcept { return axes_; }
@@ -39,8 +43,10 @@ class DisplacementMeter {
  private:
   core::ChannelDisplacement* channels_;
   core::ReadoutEstimator* readout_;
+  const TrackLattice* lattice_;
   core::MotionAxes axes_;
   CorrectionSwitch pending_;  // geometry null: none
+  Rebuild* rebuilt_ = nullptr;
   std::uint32_t correction_set_ = 0, record_ = 0;
 };
 

@@ -12,6 +12,9 @@
 
 namespace app {
 
+class ModeIdentification;
+class Rebuild;
+
 // Data passed from one object of the chain to the next, where it is more than one core type.
 
 // diagnosis -> displacement, one per report: the geometry to use from a frame on, and when the next report is due. That
@@ -19,6 +22,7 @@ namespace app {
 struct CorrectionSwitch {
   std::uint64_t next_report_at = 0, n_delay_frames = 0;
   Geometry* geometry = nullptr;  // null: nothing changes; owned by the diagnosis, lives to the run's end
+  Rebuild* rebuilt = nullptr;    // whose geometry it is; null: it begins without a past
   std::uint64_t from_sequence = 0;
   std::uint32_t correction_set = 0, record = 0;  // numbers in the CorrectionLog
 };
@@ -31,7 +35,8 @@ struct SpectrumSnapshot {
   bool final = false;                            // the record has ended
   std::uint32_t correction_set = 0, record = 0;  // of the newest sample; all samples in the sums share `record`
   core::ReadoutEstimate readout = {};
-  core::AircraftLog aircraft = {};  // up to the newest sample
+  core::AircraftLog aircraft = {};        // up to the newest sample
+  ModeIdentification* rebuilt = nullptr;  // whose modes belong to these sums; null: those followed so far
 };
 
 // modes -> reports and telemetry.

@@ -2,6 +2,9 @@
 
 #include <vector>
 
+#include <memory>
+
+#include "core/geometry/channel_displacement.h"
 #include "core/types/displacement.h"
 #include "core/types/frame.h"
 #include "core/types/track.h"
@@ -18,5 +21,11 @@ namespace app {
                                                                   std::vector<core::ChannelInfo> spectra);
 [[nodiscard]] Diagnosis::MakeGeometry geometry_maker(const AppConfig& config, const core::CameraInfo& camera,
                                                      const core::TrackFrame& keyframe);
+
+// What a run with closure.adopt: auto is measured again from; null: it is not (other values, and where attitudes are
+// used, which the store does not keep). Throws std::bad_alloc.
+[[nodiscard]] std::unique_ptr<Diagnosis::Past> past_of(const AppConfig& config, const core::CameraInfo& camera,
+                                                       const core::TrackFrame& keyframe,
+                                                       const core::ChannelDisplacement& displacement);
 
 }  // namespace app

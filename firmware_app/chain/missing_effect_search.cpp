@@ -84,16 +84,50 @@ core::closure::ClosureReport MissingEffectSearch::report(bool final) {
   if (!config_.adopts) return out;
   changes_from_ = first_unreported_ + n_delay_frames();
   const bool ends_before = config_.n_frames > 0 && changes_from_ >= config_.n_frames;
+  const std::size_t n_in_force_before = adoption_.in_force().size();
+  note_absent(out);
   if (!final && !ends_before) out.changes = adoption_.update(out, changes_from_);
+  applies_since_ = since(out, n_in_force_before);
   out.in_force = adoption_.words();
   has_changed_ = !out.changes.empty();
   return out;
 }
 
+void MissingEffectSearch::note_absent(const core::closure::ClosureReport& report) {
+  if (!report.refused.empty()) return;
+  const auto has = [](const auto& list, const core::closure::EffectId& id) {
+    return std::any_of(list.begin(), list.end(), [&](const auto& one) { return one.id == id; });
+  };
+  for (const core::closure::ClosureStep& step : report.result.steps) {
+    if (!has(absences_, step.id)) absences_.push_back({step.id, reported_through_});
+  }
+  reported_through_ = report.last_sequence + 1;
+  for (Absence& absence : absences_) {
+    if (!has(report.result.steps, absence.id)) absence.through = reported_through_;
+  }
+}
+
+// The first frame that every change of the last report concerns: an effect began after the last report without it; one
+// that is withdrawn was gone when this report's frames began.
+std::uint64_t MissingEffectSearch::since(const core::closure::ClosureReport& report,
+                                         std::size_t n_in_force_before) const {
+  std::uint64_t out = 0;
+  std::size_t n_new = 0;
+  for (const core::closure::EffectInForce& effect : adoption_.in_force()) {
+    if (effect.from_sequence != changes_from_) continue;
+    ++n_new;
+    for (const Absence& absence : absences_) {
+      if (absence.id == effect.id) out = std::max(out, absence.through);
+    }
+  }
+  const bool withdraws = adoption_.in_force().size() < n_in_force_before + n_new;
+  return withdraws ? std::max(out, report.first_sequence) : out;
+}
+
 std::optional<CorrectionSet> MissingEffectSearch::correction_set() const {
   if (!has_changed_) return std::nullopt;
   CorrectionSet out;
-  out.from_sequence = changes_from_;
+  out.from_sequence = changes_from_, out.since_sequence = applies_since_;
   const core::closure::RunCorrection correction = adoption_.correction(config_.camera);
   out.places = correction.places;
   if (out.places.lens.calibrated()) out.places.in_keyframe = lens_in_keyframe(out.places.lens);

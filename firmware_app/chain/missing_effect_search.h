@@ -57,12 +57,20 @@ class MissingEffectSearch {
   static constexpr double kLeastOfLast = 0.5;  // periods: a shorter remainder of the run has no report of its own
   [[nodiscard]] bool reaches(double periods) const noexcept;
   void conclude(core::closure::ClosureReport& out) const;
+  void note_absent(const core::closure::ClosureReport& report);
+  [[nodiscard]] std::uint64_t since(const core::closure::ClosureReport& report, std::size_t n_in_force_before) const;
   [[nodiscard]] bool lens_in_keyframe(const core::CameraModel& lens) const;
 
   MissingEffectSearchConfig config_;
   core::closure::Adoption adoption_;
+  struct Absence {
+    core::closure::EffectId id;
+    std::uint64_t through = 0;  // the number after the last frame of the last report without it; 0: all had it
+  };
+  std::vector<Absence> absences_;       // of every effect that was named so far
+  std::uint64_t reported_through_ = 0;  // the number after the last frame of the last report
   bool has_changed_ = false;
-  std::uint64_t changes_from_ = 0;
+  std::uint64_t changes_from_ = 0, applies_since_ = 0;
   std::uint64_t first_unreported_ = 0;  // frame
   bool has_frames_ = false, is_reported_ = false;
   std::int64_t t_last_ns_ = 0;

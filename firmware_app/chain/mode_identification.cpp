@@ -32,6 +32,7 @@ void ModeIdentification::identify(const SpectrumSnapshot& snapshot, Identificati
 
 // At another rate a mode has another apparent frequency. A new epoch shares no data with the old one.
 void ModeIdentification::follow(const SpectrumSnapshot& snapshot) {
+  if (snapshot.rebuilt != nullptr && snapshot.rebuilt != taken_over_) take_over(*snapshot.rebuilt);
   const bool begins = snapshot.sums.rate_hz != rate_hz_ || snapshot.record != record_;
   if (!begins && snapshot.correction_set == correction_set_) return;
   identifier_ = make_identifier_(snapshot.sums.rate_hz, book_.at(snapshot.correction_set));
@@ -50,6 +51,16 @@ bool ModeIdentification::save(StateBytes& state) const noexcept {
 bool ModeIdentification::resume(std::span<const std::uint8_t> bytes) noexcept {
   core::StateReader in(bytes);
   return tracker_.restore(in);
+}
+
+void ModeIdentification::take_over(ModeIdentification& rebuilt) noexcept {
+  std::swap(rate_hz_, rebuilt.rate_hz_);
+  std::swap(correction_set_, rebuilt.correction_set_);
+  std::swap(record_, rebuilt.record_);
+  std::swap(identifier_, rebuilt.identifier_);
+  std::swap(tracker_, rebuilt.tracker_);
+  std::swap(n_estimates_, rebuilt.n_estimates_);
+  taken_over_ = &rebuilt;
 }
 
 void ModeIdentification::go_on_from(ModeIdentification& earlier) noexcept {

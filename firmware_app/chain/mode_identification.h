@@ -34,6 +34,8 @@ class ModeIdentification {
   [[nodiscard]] std::size_t state_bytes() const noexcept { return tracker_.state_bytes(); }
   // Call before the first snapshot. False: the bytes do not fit, and no mode is followed.
   [[nodiscard]] bool resume(std::span<const std::uint8_t> bytes) noexcept;
+  // Goes on as `rebuilt`, which is left as this one was.
+  void take_over(ModeIdentification& rebuilt) noexcept;
   // Takes over the modes and the count of estimates from another object, which loses them.
   void go_on_from(ModeIdentification& earlier) noexcept;
 
@@ -52,6 +54,7 @@ class ModeIdentification {
   std::unique_ptr<const ReadoutAwareIdentifier> identifier_;
   core::ModeTracker tracker_;
   std::uint64_t n_estimates_ = 0;
+  const ModeIdentification* taken_over_ = nullptr;
 };
 
 }  // namespace app

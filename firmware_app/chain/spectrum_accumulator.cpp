@@ -77,6 +77,7 @@ void SpectrumAccumulator::take_snapshot(SpectrumSnapshot& out) noexcept {
   out.readout.frames /= stride_;  // the kept frames are longer
   out.readout.std_frames /= stride_;
   out.aircraft = aircraft_;
+  out.rebuilt = rebuilt_modes_;
   is_due_ = false;
 }
 
@@ -124,6 +125,12 @@ void SpectrumAccumulator::go_on_from(SpectrumAccumulator& earlier) noexcept {
   n_missing_ = earlier.n_missing_;
   n_masked_on_resume_ = segment();
   aircraft_ = earlier.aircraft_;
+}
+
+void SpectrumAccumulator::take_over(SpectrumAccumulator& rebuilt, ModeIdentification& modes) noexcept {
+  rebuilt.aircraft_ = aircraft_;
+  std::swap(*this, rebuilt);
+  rebuilt_modes_ = &modes;
 }
 
 }  // namespace app

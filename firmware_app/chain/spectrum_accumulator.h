@@ -47,6 +47,13 @@ class SpectrumAccumulator {
   [[nodiscard]] bool resume(std::span<const std::uint8_t> bytes, bool clock_goes_on) noexcept;
   // Takes over the sums of an accumulator of the same configuration, which loses them.
   void go_on_from(SpectrumAccumulator& earlier) noexcept;
+  // Before the first sample: it comes under this correction set.
+  void begin_as(std::uint32_t correction_set, std::uint32_t record) noexcept {
+    correction_set_ = correction_set, record_ = record;
+  }
+  // Between two samples: goes on as `rebuilt`, of the same configuration, which has had all samples before the next
+  // one. modes: what identification is to go on with, named in every snapshot from now on.
+  void take_over(SpectrumAccumulator& rebuilt, ModeIdentification& modes) noexcept;
 
   [[nodiscard]] const core::CpsdSums& sums() const noexcept { return welch_.sums(); }
   [[nodiscard]] std::uint64_t n_masked() const noexcept { return n_masked_before_ + welch_.sums().n_missing; }
@@ -80,6 +87,7 @@ class SpectrumAccumulator {
   core::ReadoutEstimate readout_;
   core::AircraftLog aircraft_;
   std::uint64_t n_snapshots_ = 0;
+  ModeIdentification* rebuilt_modes_ = nullptr;
 };
 
 }  // namespace app

@@ -94,30 +94,40 @@ TrackAnalysis::TrackAnalysis(const AppConfig& config, const core::CameraInfo& ca
       camera_(camera),
       keyframe_(keyframe),
       declared_(make_geometry(config, camera, keyframe, {})),
-      meter_(declared_->displacement, declared_->readout),
+      lattice_(keyframe_),
+      meter_(declared_->displacement, declared_->readout,
+             config.closure.adopt == ClosureAdopt::kAuto ? &lattice_ : nullptr),
       sample_(declared_->displacement.sample_prototype()),
       analysis_(config, declared_->displacement.spectra(), camera.rate_hz,
                 identifier_maker(config_, camera_, keyframe_, declared_->displacement.spectra()), book_) {
   if (config.closure.adopt != ClosureAdopt::kOff) {
     diagnosis_.emplace(missing_effect_search_config(config, camera, keyframe), book_,
-                       geometry_maker(config_, camera_, keyframe_));
+                       geometry_maker(config_, camera_, keyframe_),
+                       past_of(config_, camera_, keyframe_, declared_->displacement));
   }
 }
 
 bool TrackAnalysis::push(core::TrackFrame& tracks, std::uint32_t stride) {
-  (void)meter_.begin_frame(tracks.sequence);
+  begin_frame(tracks.sequence);
   meter_.measure(tracks, stride, sample_);
   const bool accepted = analysis_.push(sample_);
   if (diagnosis_) {
-    diagnosis_->take(tracks);
+    diagnosis_->take(tracks, stride);
     if (diagnosis_->is_due()) report(false);
   }
   return accepted;
 }
 
+void TrackAnalysis::begin_frame(std::uint64_t sequence) {
+  if (Rebuild* coming = meter_.coming(); coming != nullptr && coming->is_due(sequence)) (void)coming->offer(true);
+  if (meter_.begin_frame(sequence) && meter_.rebuilt() != nullptr) analysis_.take_over(*meter_.rebuilt());
+}
+
 void TrackAnalysis::report(bool final) {
   const core::closure::ClosureReport report = diagnosis_->report(final);
-  meter_.take(diagnosis_->change());
+  const CorrectionSwitch change = diagnosis_->change();
+  if (change.rebuilt != nullptr) change.rebuilt->announce(change.from_sequence);
+  meter_.take(change);
   if (hear_closure_) hear_closure_(report);
 }
 

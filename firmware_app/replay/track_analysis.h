@@ -17,8 +17,10 @@
 #include "firmware_app/chain/diagnosis.h"
 #include "firmware_app/chain/displacement_meter.h"
 #include "firmware_app/chain/mode_identification.h"
+#include "firmware_app/chain/rebuild.h"
 #include "firmware_app/chain/spectrum_accumulator.h"
 #include "firmware_app/chain/state/setup_sums.h"
+#include "firmware_app/chain/track_store.h"
 #include "firmware_app/config/config.h"
 
 namespace app {
@@ -47,6 +49,8 @@ class ChannelAnalysis {
 
   // A state of the aircraft received before the next sample.
   void take(const core::AircraftState& state) noexcept { spectra_.take(state); }
+  // Before the next sample: goes on as a run that was measured again.
+  void take_over(Rebuild& rebuilt) noexcept { spectra_.take_over(rebuilt.spectra(), rebuilt.modes()); }
   // False: the frame has no cell of its own on the grid, and is left out.
   bool push(const core::DisplacementSample& sample);
   // Call once, after the last sample.
@@ -90,8 +94,14 @@ class TrackAnalysis {
   void take(const core::AttitudeSample& sample) noexcept { meter_.take(sample); }
   void take(const core::AircraftState& state) noexcept { analysis_.take(state); }
   // Before the first frame: continues the spectra and modes of an earlier run of the same view.
-  void go_on_from(TrackAnalysis& earlier) { analysis_.go_on_from(earlier.analysis_); }
-  [[nodiscard]] bool resume(const RunState& state) noexcept { return analysis_.resume(state); }
+  void go_on_from(TrackAnalysis& earlier) {
+    if (diagnosis_) diagnosis_->forget_past();
+    analysis_.go_on_from(earlier.analysis_);
+  }
+  [[nodiscard]] bool resume(const RunState& state) noexcept {
+    if (diagnosis_) diagnosis_->forget_past();
+    return analysis_.resume(state);
+  }
   // `hear` receives each report of residual diagnosis; with closure.adopt: off there are none.
   void hear_closure(std::function<void(const core::closure::ClosureReport&)> hear) { hear_closure_ = std::move(hear); }
   // Ends the record: a last report, and the estimate.
@@ -104,8 +114,10 @@ class TrackAnalysis {
   [[nodiscard]] const core::MotionAxes& axes() const noexcept { return meter_.axes(); }
   [[nodiscard]] const core::DisplacementSample& sample() const noexcept { return sample_; }  // of the last frame
   [[nodiscard]] ChannelAnalysis& analysis() noexcept { return analysis_; }
+  [[nodiscard]] const CorrectionLog& corrections() const noexcept { return book_; }  // adopted so far
 
  private:
+  void begin_frame(std::uint64_t sequence);
   void report(bool final);
 
   AppConfig config_;
@@ -113,6 +125,7 @@ class TrackAnalysis {
   core::TrackFrame keyframe_;
   std::unique_ptr<Geometry> declared_;
   CorrectionLog book_;
+  TrackLattice lattice_;
   DisplacementMeter meter_;
   std::optional<Diagnosis> diagnosis_;  // empty: not requested
   std::function<void(const core::closure::ClosureReport&)> hear_closure_;

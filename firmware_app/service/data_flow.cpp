@@ -39,6 +39,7 @@ DataFlow::DataFlow(const AppConfig& c, std::optional<core::structure::DeclaredFr
   if (report && !report->remark().empty()) health.warn(report->remark());
   const std::optional<RunState> resumed = keeps_state() ? keep_state() : std::nullopt;
   if (resumed) checkpoint.go_on_with(resumed->modes);
+  if (resumed) diagnosis.forget_past();
   if (resumed && report) report->set_recovered();
   if (recorder)
     recorder->begin(
@@ -72,6 +73,7 @@ void DataFlow::connect() {
   nudge(frames, capture, tracking);
   nudge(samples, tracking, spectrum);
   nudge(aircraft_updates, tracking, spectrum);
+  nudge(takeovers, tracking, spectrum);
   nudge(records, tracking, publish);
   nudge(snapshots, spectrum, identification);
   nudge(results, identification, publish);

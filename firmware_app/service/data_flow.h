@@ -43,7 +43,8 @@ struct DataFlow {
 
   // What the stages call: the chain, which a replay runs in one loop (TrackAnalysis).
   CorrectionLog book;  // corrections by the diagnosis beyond what was declared
-  DisplacementMeter meter{source.displacement, source.readout};
+  TrackLattice lattice{source.keyframe};
+  DisplacementMeter meter{source.displacement, source.readout, takes_out() ? &lattice : nullptr};
   core::WelchConfig welch = welch_config(config.spectrum, source.displacement.spectra().size(), source.info.rate_hz,
                                          source.displacement.n_witnesses());
   SpectrumAccumulator spectra{welch, config.identification.period_hops};
@@ -51,7 +52,8 @@ struct DataFlow {
                            identifier_maker(config, source.info, source.keyframe, source.displacement.spectra()), book,
                            motor_lines(config)};
   Diagnosis diagnosis{missing_effect_search_config(config, source.info, source.keyframe), book,
-                      geometry_maker(config, source.info, source.keyframe)};
+                      geometry_maker(config, source.info, source.keyframe),
+                      past_of(config, source.info, source.keyframe, source.displacement)};
   StructureComparison comparison{structure.value_or(core::structure::DeclaredFrame{}), source.channels(),
                                  config.closure.period_s};
   core::PreviewMaker preview_maker = preview_maker_for(config, source);
@@ -69,12 +71,13 @@ struct DataFlow {
   rt::TripleBuffer<core::Preview> previews{preview_maker.prototype()};
   rt::TripleBuffer<SpectrumSnapshot> snapshots{SpectrumSnapshot{core::WelchCpsd::empty_sums(welch)}};
   rt::SpscRing<IdentificationResult> results{slots(kResultSlots), IdentificationResult{}};
-  rt::SpscRing<core::TrackFrame> recent_tracks{closes_loop() ? slots(kRecentSlots) : 1, source.keyframe};
+  rt::SpscRing<ShownFrame> recent_tracks{closes_loop() ? slots(kRecentSlots) : 1, ShownFrame{source.keyframe}};
   rt::SpscRing<core::closure::ClosureReport> closures{slots(kResultSlots), core::closure::ClosureReport{}};
   rt::TripleBuffer<core::ModalEstimate> estimates{core::ModalEstimate{}};
   rt::SpscRing<core::closure::ClosureReport> comparisons{slots(kResultSlots), core::closure::ClosureReport{}};
   rt::SpscRing<AircraftUpdate> aircraft_updates{slots(aircraft ? kAircraftSlots : 1), AircraftUpdate{}};
   rt::SpscRing<CorrectionSwitch> correction_switches{slots(kResultSlots), CorrectionSwitch{}};
+  rt::SpscRing<Takeover> takeovers{slots(kResultSlots), Takeover{}};
   rt::TripleBuffer<StateBytes> spectrum_states{state_room(spectra.state_bytes())};
   rt::TripleBuffer<StateBytes> mode_states{state_room(modes.state_bytes())};
 
@@ -84,14 +87,15 @@ struct DataFlow {
        attitude ? std::optional(attitude->samples()) : std::nullopt,
        aircraft ? std::optional(aircraft->samples()) : std::nullopt,
        where(aircraft != nullptr, aircraft_updates.writer()), where(closes_loop(), recent_tracks.writer()),
-       where(takes_out(), correction_switches.reader())},
+       where(takes_out(), correction_switches.reader()), where(takes_out(), takeovers.writer())},
       {source.tracker, meter, preview_maker, capture.thinning()},
       source.info.lossless,
       diagnosis.change()};
-  SpectrumStage spectrum{{samples.reader(), snapshots, keeps_state() ? &spectrum_states : nullptr,
-                          where(aircraft != nullptr, aircraft_updates.reader())},
-                         spectra,
-                         source.info.lossless};
+  SpectrumStage spectrum{
+      {samples.reader(), snapshots, keeps_state() ? &spectrum_states : nullptr,
+       where(aircraft != nullptr, aircraft_updates.reader()), where(takes_out(), takeovers.reader())},
+      spectra,
+      source.info.lossless};
   IdentificationStage identification{{snapshots, results.writer(), keeps_state() ? &mode_states : nullptr,
                                       compares_structure() ? &estimates : nullptr},
                                      modes};

@@ -73,6 +73,32 @@ void warn_of_recording(const core::RecordingTimes& times, core::Health& health) 
   }
 }
 
+void warn_of_overload(const ThinningSchedule::Change& thinning, core::Health& health) {
+  if (thinning.stride <= 1) return;
+  health.warnings.push_back(
+      fmt::format("overload: only every {}th frame is kept since frame {}, {:.4g} frames/s; spectra and alias "
+                  "orders were restarted there",
+                  thinning.stride, thinning.first_sequence, health.rate_hz));
+}
+
+void warn_of_tracking(const TrackingStage& tracking, core::Health& health) {
+  if (const std::uint64_t n = tracking.n_failed_frames(); n > 0) {
+    health.warnings.push_back(fmt::format("the tracker failed on {} frames: they have no points", n));
+  }
+  if (const std::uint32_t n = tracking.n_reseeded(); n > 0) {
+    health.warnings.push_back(fmt::format(
+        "{} lost points were re-seeded at their original positions; the reference position is unchanged", n));
+  }
+  if (tracking.camera_given_up()) {
+    health.warnings.emplace_back(
+        "most points contradict the estimated camera motion: does a region declared static (role "
+        "background or ground) move? Only the scale is estimated since then");
+  }
+  if (const std::uint64_t n = tracking.n_previews_lost(); n > 0) {
+    health.warnings.push_back(fmt::format("{} preview images were not sent: newer ones replaced them", n));
+  }
+}
+
 void warn_of_record(const drivers::RunRecorder* recorder, const TrackingStage& tracking, core::Health& health) {
   if (recorder == nullptr) return;
   if (std::string words = recorder->failure(); !words.empty()) health.warnings.push_back(std::move(words));
@@ -146,61 +172,44 @@ core::Health HealthCollector::collect(const drivers::Publisher& publisher) const
     warn_of_recording(health.times, health);
     warn_of_camera(camera_->trouble(), health);
   }
-  if (thinning.stride > 1) {
-    health.warnings.push_back(
-        fmt::format("overload: only every {}th frame is kept since frame {}, {:.4g} frames/s; spectra and alias "
-                    "orders were restarted there",
-                    thinning.stride, thinning.first_sequence, health.rate_hz));
-  }
-  if (const std::uint64_t n = tracking_.n_failed_frames(); n > 0) {
-    health.warnings.push_back(fmt::format("the tracker failed on {} frames: they have no points", n));
-  }
-  if (const std::uint32_t n = tracking_.n_reseeded(); n > 0) {
-    health.warnings.push_back(
-        fmt::format("{} lost points were re-seeded at their original positions; the reference position is "
-                    "unchanged",
-                    n));
-  }
+  warn_of_overload(thinning, health);
+  warn_of_tracking(tracking_, health);
   health.regions = tracking_.regions();
   for (std::size_t r = 0; r < health.regions.size() && r < region_names_.size(); ++r) {
     health.regions[r].name = region_names_[r];
   }
   warn_of_regions(health);
-  if (tracking_.camera_given_up()) {
-    health.warnings.emplace_back(
-        "most points contradict the estimated camera motion: does a region declared static (role "
-        "background or ground) move? Only the scale is estimated since then");
-  }
-  if (const std::string failure = checkpoint_ != nullptr ? checkpoint_->failure() : ""; !failure.empty())
+  if (const std::string failure = checkpoint_ != nullptr ? checkpoint_->failure() : ""; !failure.empty()) {
     health.warnings.push_back("the checkpoint could not be kept: " + failure);
+  }
   if (drivers::memory_reserve_is_used()) health.warnings.emplace_back(drivers::kMemoryReserveUsed);
   warn_of_record(recorder_, tracking_, health);
   warn_of_attitude(listener_, tracking_, health);
   warn_of_aircraft(aircraft_, health);
-  if (const std::uint64_t n = tracking_.n_previews_lost(); n > 0) {
-    health.warnings.push_back(fmt::format("{} preview images were not sent: newer ones replaced them", n));
-  }
   if (const double jitter = spectrum_.worst_jitter_cells(); jitter > kJitterWorthAWord) {
     health.warnings.push_back(
         fmt::format("time stamps deviate by up to {:.2f} of a frame from even spacing; spectra assume even "
                     "spacing",
                     jitter));
   }
+  add_stages(health);
+  return health;
+}
+
+void HealthCollector::add_stages(core::Health& health) const {
   for (const Queue& queue : queues_) {
     health.stages.push_back(stage_health(queue, rt::monotonic_ns()));
     core::StageHealth& stage = health.stages.back();
     if (stage.name == "identification") {
       health.estimates = stage.n_out;
-      if (stage.n_dropped > 0)
-        health.warnings.push_back(
-            fmt::format("{} estimates failed for lack of memory; the last one that succeeded is "
-                        "reported",
-                        stage.n_dropped));
+      if (stage.n_dropped > 0) {
+        health.warnings.push_back(fmt::format(
+            "{} estimates failed for lack of memory; the last one that succeeded is reported", stage.n_dropped));
+      }
     }
     if (stage.name == "publish") stage.n_dropped += tracking_.n_records_lost();
     if (stage.name == "closure") stage.n_dropped += tracking_.n_shown_lost();
   }
-  return health;
 }
 
 void HealthCollector::warn(std::string warning) {

@@ -46,6 +46,8 @@ class HealthCollector {
   [[nodiscard]] std::string stall() const;
 
  private:
+  void add_stages(core::Health& health) const;
+
   double rate_hz_;
   const CaptureStage& capture_;
   const TrackingStage& tracking_;

@@ -119,6 +119,31 @@ TEST_F(PipelineRecord, ARunThatClosesTheLoopToo) {
   }
 }
 
+// A live source does not wait for the report: the correction begins late. The modes do not depend on when, because the
+// run is measured again from its start.
+TEST_F(PipelineRecord, ALiveRunThatClosesTheLoopHasTheModesOfItsReplay) {
+  CameraScript script = frames(1500);
+  script.lossless = false;
+  script.frame_time = std::chrono::microseconds(2000);
+  script.is_dark = [](std::uint64_t k) {
+    if (k > 1000) std::this_thread::sleep_for(std::chrono::milliseconds(25));
+    return false;
+  };
+  const std::string record =
+      run(script, "live",
+          {"closure.adopt=auto", "closure.period_s=20", "closure.window_s=24", "closure.delay_s=1",
+           "calibration.distortion=[0.2, 0, 0, 0]", "closure.points_per_region=5", "rt.thin_overload=false"});
+  ASSERT_EQ(outcome.estimate.amendments.size(), 1U) << "the report came before the end";
+  const auto result = replayed({record}, "live");
+  const core::ModalEstimate &live = outcome.estimate, &again = result.tracks.estimate;
+  EXPECT_EQ(live.n_samples, again.n_samples);
+  ASSERT_EQ(live.modes.size(), again.modes.size());
+  for (std::size_t m = 0; m < live.modes.size(); ++m) {
+    EXPECT_EQ(live.modes[m].frequency_hz, again.modes[m].frequency_hz);
+    EXPECT_EQ(live.modes[m].shape, again.modes[m].shape);
+  }
+}
+
 // The service masks at most two segments of the gap; so does the replay, whatever times the record states.
 TEST_F(PipelineRecord, ARunWithAGapOfManySegmentsToo) {
   CameraScript script = frames(900);

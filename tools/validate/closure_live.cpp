@@ -1,9 +1,12 @@
-// Residual diagnosis during a run: effects that begin in mid-flight, and records without any.
+// Residual diagnosis during a run: effects that are there from the start, begin in mid-flight or go away, and records
+// without any.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <memory>
@@ -25,7 +28,15 @@ namespace {
 using core::simulation::Scene;
 using core::simulation::TrackGenerator;
 
-constexpr double kOnset_s = 90.0, kDuration_s = 480.0, kNullDuration_s = 300.0;
+constexpr double kDuration_s = 480.0, kNullDuration_s = 300.0;
+
+// When an effect is there.
+struct Presence {
+  const char* name;
+  double from_s, to_s;
+};
+constexpr std::array<Presence, 4> kPresences{
+    {{"from 0 s", 0.0, 1e9}, {"from 60 s", 60.0, 1e9}, {"from 240 s", 240.0, 1e9}, {"until 300 s", 0.0, 300.0}}};
 
 struct Change {
   std::uint64_t from_sequence = 0;
@@ -49,11 +60,11 @@ std::uint64_t from_of(const std::string& words) {  // "from frame N on ..."
   return words.starts_with(start) ? std::stoull(words.substr(start.size())) : 0;
 }
 
-// The tracks are those of `before`, and from the onset on those of `after`; the operator declares `before`.
-LiveRun run_live(const Scene& before, const Scene& after, const std::string& adopt) {
-  const TrackGenerator first(before), second(after);
+// The tracks are those of `plain`, and while the effect is there those of `with`; the operator declares `plain`.
+LiveRun run_live(const Scene& plain, const Scene& with, const Presence& presence, const std::string& adopt) {
+  const TrackGenerator first(plain), second(with);
   SimulateJob job;
-  job.file.scene = before;
+  job.file.scene = plain;
   job.depth = Depth::kTracks;
   const DeclaredRun declared =
       declared_run(job, {}, {.overrides = {"closure.adopt=" + adopt, "telemetry.lcm_url="}}, first.motion());
@@ -62,7 +73,8 @@ LiveRun run_live(const Scene& before, const Scene& after, const std::string& ado
   core::TrackFrame frame;
   auto timing = first.timing();
   for (core::simulation::DeliveredFrame delivered; timing.next(delivered);) {
-    (delivered.t_s < kOnset_s ? first : second).generate(delivered, frame);
+    const bool is_there = delivered.t_s >= presence.from_s && delivered.t_s < presence.to_s;
+    (is_there ? second : first).generate(delivered, frame);
     if (!analysis) {
       analysis = std::make_unique<app::TrackAnalysis>(declared.config, declared.camera, frame);
       analysis->hear_closure([&](const core::closure::ClosureReport& report) {
@@ -108,26 +120,48 @@ std::string error_text(const ModalError& e) {
   return fmt::format("{}/{}\t{:.3f}\t{:.3f}", e.n_found, e.n_true, e.rms_percent, e.sigma_percent);
 }
 
+bool withdraws(const Change& change) { return change.words.find("withdrawn") != change.words.npos; }
+
 // Time from the onset until all of these effects are corrected; NaN if one never is.
-double time_to_adoption(const LiveRun& run, const std::vector<std::string>& effects, double rate_hz) {
+double time_to_adoption(const LiveRun& run, const std::vector<std::string>& effects, const Presence& presence,
+                        double rate_hz) {
   double latest = 0.0;
   for (const std::string& effect : effects) {
     const auto found = std::find_if(run.changes.begin(), run.changes.end(), [&](const Change& change) {
       return change.words.find("taken out, " + effect) != change.words.npos;
     });
     if (found == run.changes.end()) return std::numeric_limits<double>::quiet_NaN();
-    latest = std::max(latest, static_cast<double>(found->from_sequence) / rate_hz - kOnset_s);
+    latest = std::max(latest, static_cast<double>(found->from_sequence) / rate_hz - presence.from_s);
   }
   return latest;
 }
 
-// Number of changes that name none of these effects, and of withdrawals of one of them.
-long n_wrong(const LiveRun& run, const std::vector<std::string>& effects) {
+bool names_one(const Change& change, const std::vector<std::string>& effects) {
+  return std::any_of(effects.begin(), effects.end(),
+                     [&](const std::string& effect) { return change.words.find(effect) != change.words.npos; });
+}
+
+// Number of changes that name none of these effects, and of withdrawals of one that is there.
+long n_wrong(const LiveRun& run, const std::vector<std::string>& effects, const Presence& presence, double rate_hz) {
   return std::count_if(run.changes.begin(), run.changes.end(), [&](const Change& change) {
-    return change.words.find("withdrawn") != change.words.npos ||
-           std::none_of(effects.begin(), effects.end(),
-                        [&](const std::string& effect) { return change.words.find(effect) != change.words.npos; });
+    if (change.from_sequence == 0) return false;  // what is measured again, not what is taken out
+    const double t_s = static_cast<double>(change.from_sequence) / rate_hz;
+    return !names_one(change, effects) || (withdraws(change) && t_s < presence.to_s);
   });
+}
+
+// Time from the end of the effects until all are withdrawn; NaN if one never is, or they do not end.
+double time_to_withdrawal(const LiveRun& run, const std::vector<std::string>& effects, const Presence& presence,
+                          double rate_hz) {
+  double latest = 0.0;
+  for (const std::string& effect : effects) {
+    const auto found = std::find_if(run.changes.begin(), run.changes.end(), [&](const Change& change) {
+      return withdraws(change) && change.words.find(effect) != change.words.npos;
+    });
+    if (found == run.changes.end()) return std::numeric_limits<double>::quiet_NaN();
+    latest = std::max(latest, static_cast<double>(found->from_sequence) / rate_hz - presence.to_s);
+  }
+  return latest;
 }
 
 const std::vector<std::vector<std::string>>& live_cases() {
@@ -146,34 +180,46 @@ const std::vector<std::vector<std::string>>& live_cases() {
 
 }  // namespace
 
+namespace {
+
+// One record: with the loop, without it, and without the effects.
+std::string live_line(const ClosureTracksOptions& options, const std::vector<std::string>& effects,
+                      const Presence& presence, std::uint64_t seed) {
+  RecordSetup setup;
+  setup.duration_s = options.duration_s > 0.0 ? options.duration_s : kDuration_s;
+  std::vector<const HiddenEffect*> hidden;
+  for (const std::string& effect : effects) hidden.push_back(&effect_named(effect));
+  const Scene plain = closure_scene(setup, seed);
+  const Scene scene =
+      with_effects(hidden, plain, options.strength > 0.0 ? options.strength : 1.0, setup.background).scene;
+  const LiveRun with = run_live(plain, scene, presence, "auto"), without = run_live(plain, scene, presence, "off");
+  const LiveRun twin = run_live(plain, plain, presence, "off");
+  const double rate_hz = plain.camera.rate_hz;
+  return fmt::format("closure-live\t{}\t{}\t{}\t{:.0f}\t{:.0f}\t{}\t{}\t{}\t{}\t{}\t{}\n", fmt::join(effects, " + "),
+                     presence.name, seed, time_to_adoption(with, effects, presence, rate_hz),
+                     time_to_withdrawal(with, effects, presence, rate_hz), n_wrong(with, effects, presence, rate_hz),
+                     with.in_force.size(), error_text(modal_error(with.estimate, plain)),
+                     error_text(modal_error(without.estimate, plain)), error_text(modal_error(twin.estimate, plain)),
+                     changes_text(with));
+}
+
+}  // namespace
+
 void print_closure_live(const ClosureTracksOptions& options) {
   fmt::print(
-      "# closure-live: effects from {:g} s of {:g} s on, seed, taken out after (s), wrong changes, in force at the "
-      "end; "
-      "modes found, error, sigma (% rms) with the loop, without it, and without the effects; changes\n",
-      kOnset_s, kDuration_s);
+      "# closure-live: effects, when they are there in {:g} s, seed, taken out after (s), withdrawn after (s), wrong "
+      "changes, in force at the end; modes found, error, sigma (% rms) with the loop, without it, and without the "
+      "effects; changes\n",
+      kDuration_s);
   for (const std::vector<std::string>& effects : live_cases()) {
-    const std::string name = fmt::format("{}", fmt::join(effects, " + "));
-    if (!options.effect.empty() && options.effect != name) continue;
-    RecordSetup setup;
-    setup.duration_s = options.duration_s > 0.0 ? options.duration_s : kDuration_s;
-    std::vector<const HiddenEffect*> hidden;
-    for (const std::string& effect : effects) hidden.push_back(&effect_named(effect));
-    const auto lines = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t index) {
-      const std::uint64_t seed = seed_of(options, index);
-      const Scene declared = closure_scene(setup, seed);
-      const Scene scene =
-          with_effects(hidden, declared, options.strength > 0.0 ? options.strength : 1.0, setup.background).scene;
-      const LiveRun with = run_live(declared, scene, "auto"), without = run_live(declared, scene, "off");
-      const LiveRun twin = run_live(declared, declared, "off");
-      return fmt::format("closure-live\t{}\t{}\t{:.0f}\t{}\t{}\t{}\t{}\t{}\t{}\n", name, seed,
-                         time_to_adoption(with, effects, declared.camera.rate_hz), n_wrong(with, effects),
-                         with.in_force.size(), error_text(modal_error(with.estimate, declared)),
-                         error_text(modal_error(without.estimate, declared)),
-                         error_text(modal_error(twin.estimate, declared)), changes_text(with));
-    });
-    for (const std::string& line : lines) fmt::print("{}", line);
-    std::fflush(stdout);
+    if (!options.effect.empty() && options.effect != fmt::format("{}", fmt::join(effects, " + "))) continue;
+    for (const Presence& presence : kPresences) {
+      const auto lines = for_each_seed(options.n_seeds, options.n_threads, [&](std::uint64_t index) {
+        return live_line(options, effects, presence, seed_of(options, index));
+      });
+      for (const std::string& line : lines) fmt::print("{}", line);
+      std::fflush(stdout);
+    }
   }
 }
 
@@ -186,7 +232,8 @@ void print_closure_live_null(const ClosureTracksOptions& options) {
     setup.shaking = index % 2 == 0 ? Shaking::kWind : Shaking::kGround;
     setup.duration_s = options.duration_s > 0.0 ? options.duration_s : kNullDuration_s;
     const Scene scene = closure_scene(setup, seed_of(options, index));
-    const LiveRun with = run_live(scene, scene, "auto"), without = run_live(scene, scene, "off");
+    const LiveRun with = run_live(scene, scene, kPresences[0], "auto"),
+                  without = run_live(scene, scene, kPresences[0], "off");
     double worst = with.estimate.modes.size() == without.estimate.modes.size() ? 0.0 : 1e9;
     for (std::size_t m = 0; m < with.estimate.modes.size() && worst < 1e9; ++m) {
       const core::Mode &a = with.estimate.modes[m], &b = without.estimate.modes[m];

@@ -9,12 +9,13 @@ ClosureStage::ClosureStage(Ends ends, Diagnosis& diagnosis) : ends_(std::move(en
 
 rt::StepStatus ClosureStage::step() noexcept {
   if (diagnosis_.is_due()) return report(false);
-  if (const core::TrackFrame* frame = ends_.tracks.front()) {
-    diagnosis_.take(*frame);
+  if (const ShownFrame* frame = ends_.tracks.front()) {
+    diagnosis_.take(frame->tracks, frame->stride);
     ends_.tracks.pop();
     rt::StageStats::add(stats().n_in);
     return rt::StepStatus::kWorked;
   }
+  diagnosis_.offer();
   if (!ends_.tracks.finished()) return rt::StepStatus::kIdle;
   return diagnosis_.is_left() ? report(true) : rt::StepStatus::kFinished;
 }

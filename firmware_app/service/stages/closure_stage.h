@@ -18,7 +18,7 @@ namespace app {
 class ClosureStage : public rt::Stage {
  public:
   struct Ends {
-    rt::RingReader<core::TrackFrame> tracks;
+    rt::RingReader<ShownFrame> tracks;
     rt::RingWriter<core::closure::ClosureReport> reports;
     std::optional<rt::RingWriter<CorrectionSwitch>> changes = {};  // empty: no corrections
   };

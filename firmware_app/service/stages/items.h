@@ -18,6 +18,18 @@ struct FrameRecord {
   core::AircraftBatch aircraft = {};
 };
 
+// tracking -> closure.
+struct ShownFrame {
+  core::TrackFrame tracks;
+  std::uint32_t stride = 1;  // as DisplacementSample::stride
+};
+
+// tracking -> spectrum: from the sample of that number on, the run goes on as it was measured again.
+struct Takeover {
+  std::uint64_t from_sequence = 0;
+  Rebuild* rebuilt = nullptr;
+};
+
 // tracking -> spectrum: a state of the aircraft received before the sample of that number.
 struct AircraftUpdate {
   std::uint64_t before_sequence = 0;

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "firmware_app/chain/rebuild.h"
+
 namespace app {
 
 SpectrumStage::SpectrumStage(Ends ends, SpectrumAccumulator& spectra, bool lossless)
@@ -12,6 +14,7 @@ rt::StepStatus SpectrumStage::step() noexcept {
   if (ends_.states != nullptr && spectra_.state_is_due()) hand_over_state();
   const core::DisplacementSample* sample = ends_.samples.front();
   if (sample == nullptr) return ends_.samples.finished() ? end_record() : rt::StepStatus::kIdle;
+  take_over(sample->sequence);
   take_aircraft(sample->sequence);
   const bool is_done = spectra_.step(*sample);
   note();
@@ -51,6 +54,15 @@ void SpectrumStage::take_aircraft(std::uint64_t sequence) noexcept {
        update = ends_.aircraft->front()) {
     spectra_.take(update->state);
     ends_.aircraft->pop();
+  }
+}
+
+void SpectrumStage::take_over(std::uint64_t sequence) noexcept {
+  if (!ends_.takeovers) return;
+  for (const Takeover* next = ends_.takeovers->front(); next != nullptr && next->from_sequence <= sequence;
+       next = ends_.takeovers->front()) {
+    spectra_.take_over(next->rebuilt->spectra(), next->rebuilt->modes());
+    ends_.takeovers->pop();
   }
 }
 

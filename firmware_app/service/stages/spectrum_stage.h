@@ -22,6 +22,7 @@ class SpectrumStage : public rt::Stage {
     rt::TripleBuffer<SpectrumSnapshot>& snapshots;
     rt::TripleBuffer<StateBytes>* states = nullptr;  // null: no state is kept
     std::optional<rt::RingReader<AircraftUpdate>> aircraft = {};
+    std::optional<rt::RingReader<Takeover>> takeovers = {};
   };
   // spectra: not used by anyone else once the stage runs.
   SpectrumStage(Ends ends, SpectrumAccumulator& spectra, bool lossless);
@@ -48,6 +49,7 @@ class SpectrumStage : public rt::Stage {
   [[nodiscard]] rt::StepStatus end_record() noexcept;
   void hand_over_state() noexcept;
   void take_aircraft(std::uint64_t sequence) noexcept;
+  void take_over(std::uint64_t sequence) noexcept;
   void note() noexcept;
 
   Ends ends_;

@@ -2,11 +2,14 @@
 
 #include <utility>
 
+#include "firmware_app/chain/rebuild.h"
 #include "rt/clock.h"
 
 namespace app {
 
 namespace {
+constexpr std::uint64_t kPostponed = 32;  // frames, about a second
+
 void add(std::atomic<std::uint64_t>& count) noexcept {
   count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
 }
@@ -30,9 +33,10 @@ rt::StepStatus TrackingStage::step() noexcept {
   if (ends_.changes && !is_decided(frame->sequence) && waits) return rt::StepStatus::kIdle;
   core::DisplacementSample* sample = ends_.samples.try_claim();
   FrameRecord* record = ends_.records.try_claim();
-  core::TrackFrame* shown = ends_.tracks ? ends_.tracks->try_claim() : nullptr;
+  ShownFrame* shown = ends_.tracks ? ends_.tracks->try_claim() : nullptr;
   const bool is_full = sample == nullptr || record == nullptr || (ends_.tracks && shown == nullptr && waits);
   if (lossless_ && is_full) return rt::StepStatus::kIdle;
+  if (!is_rebuilt(frame->sequence)) return rt::StepStatus::kIdle;
 
   const std::int64_t t_taken_ns = frame->t_taken_ns;
   measure(*frame);
@@ -61,6 +65,10 @@ void TrackingStage::hand_over(core::DisplacementSample* sample, FrameRecord* rec
 bool TrackingStage::is_decided(std::uint64_t sequence) noexcept {
   while (const CorrectionSwitch* change = ends_.changes->front()) {
     decision_ = *change;
+    // A live source may have passed the frame.
+    if (decision_.rebuilt != nullptr)
+      decision_.rebuilt->announce(decision_.from_sequence >= sequence ? decision_.from_sequence
+                                                                      : sequence + kPostponed);
     calls_.meter.take(decision_);
     ends_.changes->pop();
   }
@@ -69,9 +77,32 @@ bool TrackingStage::is_decided(std::uint64_t sequence) noexcept {
   return !lossless_ || is_decided || ends_.changes->finished();
 }
 
-void TrackingStage::show(core::TrackFrame* slot) noexcept {
+// A run measured again is begun where it has all frames before this one. A live source does not wait for it, but names
+// a later frame.
+bool TrackingStage::is_rebuilt(std::uint64_t sequence) noexcept {
+  Rebuild* coming = calls_.meter.coming();
+  if (coming == nullptr || !coming->is_due(sequence) || coming->begins_with(sequence)) return true;
+  const bool can_wait = lossless_ && waits_.load(std::memory_order_relaxed) && !ends_.changes->finished();
+  if (can_wait) {
+    coming->wait_for(n_shown_through_);
+  } else {
+    coming->announce(sequence + kPostponed);
+  }
+  return !can_wait;
+}
+
+void TrackingStage::begin_frame(std::uint64_t sequence) noexcept {
+  if (!calls_.meter.begin_frame(sequence)) return;
+  events().write("correction {} from frame {} on", calls_.meter.correction_set(), static_cast<std::int64_t>(sequence));
+  Takeover* takeover = calls_.meter.rebuilt() != nullptr && ends_.takeovers ? ends_.takeovers->try_claim() : nullptr;
+  if (takeover == nullptr) return;  // without one new sums begin
+  *takeover = {sequence, calls_.meter.rebuilt()};
+  ends_.takeovers->publish();
+}
+
+void TrackingStage::show(ShownFrame* slot) noexcept {
   if (slot == nullptr) return add(n_shown_lost_);
-  *slot = scratch_.tracks;
+  slot->tracks = scratch_.tracks, slot->stride = scratch_.sample.stride;
   if (n_shown_through_ == 0) decision_.next_report_at += scratch_.tracks.sequence;  // the stream's first number
   n_shown_through_ = scratch_.tracks.sequence + 1;
   ends_.tracks->publish();
@@ -84,9 +115,7 @@ void TrackingStage::show_preview(const core::Frame& frame) noexcept {
 }
 
 void TrackingStage::measure(const core::Frame& frame) noexcept {
-  if (calls_.meter.begin_frame(frame.sequence))
-    events().write("correction {} from frame {} on", calls_.meter.correction_set(),
-                   static_cast<std::int64_t>(frame.sequence));
+  begin_frame(frame.sequence);
   if (!calls_.tracker.track(frame, scratch_.tracks)) add(n_failed_);
   take_attitude();
   take_aircraft(frame.sequence);
@@ -169,6 +198,7 @@ void TrackingStage::finish() noexcept {
   ends_.samples.close();
   ends_.records.close();
   if (ends_.aircraft_updates) ends_.aircraft_updates->close();
+  if (ends_.takeovers) ends_.takeovers->close();
   if (ends_.tracks) ends_.tracks->close();
 }
 

@@ -33,9 +33,10 @@ class TrackingStage : public rt::Stage {
     std::optional<rt::RingReader<core::AttitudeSample>> attitude = {};  // read before each frame; empty: no attitudes
     std::optional<rt::RingReader<core::AircraftState>> aircraft = {};   // likewise, and handed to spectrum
     std::optional<rt::RingWriter<AircraftUpdate>> aircraft_updates = {};
-    std::optional<rt::RingWriter<core::TrackFrame>> tracks = {};  // frames that find no room there are counted
+    std::optional<rt::RingWriter<ShownFrame>> tracks = {};  // frames that find no room there are counted
     // Corrected geometry by the diagnosis and its first frame. A lossless source waits for each decision.
     std::optional<rt::RingReader<CorrectionSwitch>> changes = {};
+    std::optional<rt::RingWriter<Takeover>> takeovers = {};
   };
   // Objects called for each frame; not used by anyone else once the stage runs.
   struct Calls {
@@ -97,9 +98,11 @@ class TrackingStage : public rt::Stage {
   };
 
   [[nodiscard]] bool is_decided(std::uint64_t sequence) noexcept;  // whether the geometry for this frame is decided
+  [[nodiscard]] bool is_rebuilt(std::uint64_t sequence) noexcept;  // whether this frame need not wait for a rebuild
+  void begin_frame(std::uint64_t sequence) noexcept;
   void measure(const core::Frame& frame) noexcept;
   void hand_over(core::DisplacementSample* sample, FrameRecord* record) noexcept;  // null: no room
-  void show(core::TrackFrame* slot) noexcept;                                      // null: no room
+  void show(ShownFrame* slot) noexcept;                                            // null: no room
   void show_preview(const core::Frame& frame) noexcept;
   void take_attitude() noexcept;
   void take_aircraft(std::uint64_t sequence) noexcept;

@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 // closure.adopt: auto.
 std::vector<ClosureReport> reports_of(const ObservationRecord& record, std::vector<CorrectionSwitch>* changes = nullptr,
                                       CorrectionLog* book = nullptr) {
-  rt::SpscRing<core::TrackFrame> tracks(16, track_frame(record, 0));
+  rt::SpscRing<ShownFrame> tracks(16, ShownFrame{track_frame(record, 0)});
   rt::SpscRing<ClosureReport> reports(8, ClosureReport{});
   rt::SpscRing<CorrectionSwitch> correction_switches(8, CorrectionSwitch{});
   const bool adopts = changes != nullptr;
@@ -39,7 +39,7 @@ std::vector<ClosureReport> reports_of(const ObservationRecord& record, std::vect
   ClosureStage stage(std::move(ends), diagnosis);
   auto writer = tracks.writer();
   for (Eigen::Index k = 0; k < record.n_frames(); ++k) {
-    *writer.try_claim() = track_frame(record, k);
+    *writer.try_claim() = {track_frame(record, k)};
     writer.publish();
     while (stage.step() == rt::StepStatus::kWorked) {
     }

@@ -37,7 +37,7 @@ std::vector<Told> told_by(CorrectionLog& book, const Diagnosis::MakeGeometry& ma
   Diagnosis diagnosis(std::move(config), book, make);
   std::vector<Told> out;
   for (Eigen::Index k = 0; k < record.n_frames(); ++k) {
-    diagnosis.take(track_frame(record, k));
+    diagnosis.take(track_frame(record, k), 1);
     if (!diagnosis.is_due()) continue;
     ClosureReport report = diagnosis.report(false);
     out.push_back({std::move(report), diagnosis.change()});
@@ -73,7 +73,7 @@ TEST(Diagnosis, TheLastReportOfARunOmitsWhatNeverBegan) {
   const auto& record = bent_record();
   Diagnosis diagnosis(loop_over(record, true), book, [](const CorrectionSet&) { return no_geometry(bent_record()); });
   for (Eigen::Index k = 0; k < record.n_frames(); ++k) {
-    diagnosis.take(track_frame(record, k));
+    diagnosis.take(track_frame(record, k), 1);
     if (diagnosis.is_due()) (void)diagnosis.report(false);
   }
   EXPECT_EQ(book.newest().number, 1U);
