@@ -79,9 +79,10 @@ std::string Diagnosis::begin(const CorrectionSet& correction_set) {
 void Diagnosis::rebuild(const CorrectionSet& added, std::unique_ptr<Geometry> geometry) {
   std::erase_if(stretches_, [&](const Stretch& s) { return s.from_sequence >= added.since_sequence; });
   std::vector<Rebuild::Stretch> stretches;
-  for (const Stretch& s : stretches_)
-    stretches.push_back(
-        {s.from_sequence, s.correction_set, book_.at(s.correction_set).record, make_(book_.at(s.correction_set))});
+  for (const Stretch& s : stretches_) {
+    const CorrectionSet& earlier = book_.at(s.correction_set);
+    stretches.push_back({s.from_sequence, s.correction_set, earlier.record, make_(earlier)});
+  }
   stretches.push_back({added.since_sequence, added.number, added.record, std::move(geometry)});
   stretches_.push_back({added.since_sequence, added.number});
   rebuilt_.push_back(std::make_unique<Rebuild>(past_->chain, book_, std::move(stretches)));

@@ -34,7 +34,6 @@ class Diagnosis {
   Diagnosis(MissingEffectSearchConfig config, CorrectionLog& book, MakeGeometry make,
             std::unique_ptr<Past> past = nullptr);
 
-  // Allocates nothing while the run is not measured again.
   void take(const core::TrackFrame& frame, std::uint32_t stride) noexcept;
   // A run that goes on with the sums of an earlier one cannot be measured again: these would be lost.
   void forget_past() noexcept { past_.reset(); }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPerPixel = 8192.0;
 constexpr double kFarthest_px = 1023.0;
-constexpr std::size_t kPointBytes = 8;
+constexpr std::size_t kPointBytes = 8, kChunkBytes = std::size_t{1} << 20U;
 
 // A float without its sign and without 13 of its 23 bits after the point; the exponent begins at 2^-32. 0: not seen.
 constexpr std::uint32_t kDroppedBits = 13, kFirstExponent = (127U - 32U) << 10U, kLargestCode = 0xFFFFU;
@@ -66,9 +66,29 @@ TrackStore::TrackStore(const core::TrackFrame& keyframe, std::size_t most_bytes,
     : lattice_(keyframe),
       keyframe_(keyframe),
       frame_bytes_(sizeof(Head) + kPointBytes * keyframe.points.size()),
-      n_slots_(std::max<std::size_t>(1, most_bytes / frame_bytes_)) {
+      n_slots_(std::max<std::size_t>(1, most_bytes / frame_bytes_)),
+      n_per_chunk_(std::max<std::size_t>(1, kChunkBytes / frame_bytes_)) {
   if (most_frames > 0) n_slots_ = static_cast<std::size_t>(std::min<std::uint64_t>(n_slots_, most_frames));
-  bytes_ = std::make_unique_for_overwrite<std::byte[]>(n_slots_ * frame_bytes_);
+}
+
+std::byte* TrackStore::slot(std::uint64_t i) noexcept {
+  const auto k = static_cast<std::size_t>(i % n_slots_);
+  return chunks_[k / n_per_chunk_].data() + k % n_per_chunk_ * frame_bytes_;
+}
+const std::byte* TrackStore::slot(std::uint64_t i) const noexcept {
+  const auto k = static_cast<std::size_t>(i % n_slots_);
+  return chunks_[k / n_per_chunk_].data() + k % n_per_chunk_ * frame_bytes_;
+}
+
+// For the next frame; without memory the slots that there are become all.
+void TrackStore::make_room() noexcept {
+  const std::size_t n_made = chunks_.size() * n_per_chunk_;
+  if (n_slots_ == 0 || n_added_ % n_slots_ < n_made) return;
+  try {
+    chunks_.emplace_back(std::min(n_per_chunk_, n_slots_ - n_made) * frame_bytes_);
+  } catch (...) {  // no memory
+    n_slots_ = n_made;
+  }
 }
 
 std::size_t TrackStore::n_frames() const noexcept {
@@ -76,7 +96,9 @@ std::size_t TrackStore::n_frames() const noexcept {
 }
 
 void TrackStore::add(const core::TrackFrame& frame, std::uint32_t stride) noexcept {
-  std::byte* at = bytes_.get() + static_cast<std::size_t>(n_added_++ % n_slots_) * frame_bytes_;
+  make_room();
+  if (n_slots_ == 0) return;
+  std::byte* at = slot(n_added_++);
   const Head head{frame.sequence, frame.t_start_ns, stride, frame.gap_before ? 1U : 0U};
   std::memcpy(at, &head, sizeof head);
   at += sizeof head;
@@ -92,8 +114,7 @@ void TrackStore::add(const core::TrackFrame& frame, std::uint32_t stride) noexce
 }
 
 std::uint32_t TrackStore::read(std::size_t i, core::TrackFrame& out) const noexcept {
-  const std::uint64_t oldest = n_added_ - n_frames();
-  const std::byte* at = bytes_.get() + static_cast<std::size_t>((oldest + i) % n_slots_) * frame_bytes_;
+  const std::byte* at = slot(n_added_ - n_frames() + i);
   Head head;
   std::memcpy(&head, at, sizeof head);
   at += sizeof head;

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "core/types/track.h"
@@ -30,10 +29,11 @@ class TrackLattice {
 // 58 MB. Of a longer run the newest frames are kept. One thread.
 class TrackStore {
  public:
-  // most_frames: of the run, 0 = unknown. Throws std::bad_alloc.
+  // most_frames: of the run, 0 = unknown.
   TrackStore(const core::TrackFrame& keyframe, std::size_t most_bytes, std::uint64_t most_frames);
 
-  // A frame on the lattice, later than those before. Allocates nothing.
+  // A frame on the lattice, later than those before. Allocates once a megabyte; where there is no more memory, the
+  // newest frames that fit are kept.
   void add(const core::TrackFrame& frame, std::uint32_t stride) noexcept;
   [[nodiscard]] std::size_t n_frames() const noexcept;
   // Frame i of those that are kept, into a frame of the keyframe's size. Returns its stride.
@@ -49,8 +49,12 @@ class TrackStore {
 
   TrackLattice lattice_;
   core::TrackFrame keyframe_;  // identity and region of each point
-  std::size_t frame_bytes_, n_slots_;
-  std::unique_ptr<std::byte[]> bytes_;  // not touched before it is used: no memory is taken
+  [[nodiscard]] std::byte* slot(std::uint64_t i) noexcept;
+  [[nodiscard]] const std::byte* slot(std::uint64_t i) const noexcept;
+  void make_room() noexcept;
+
+  std::size_t frame_bytes_, n_slots_, n_per_chunk_;
+  std::vector<std::vector<std::byte>> chunks_;  // made as they are needed
   std::uint64_t n_added_ = 0;
 };
 

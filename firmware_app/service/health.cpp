@@ -52,15 +52,17 @@ void warn_of_regions(core::Health& health) {
 
 void warn_of_camera(const drivers::DeviceTrouble& trouble, core::Health& health) {
   if (trouble.is_lost) health.state = "camera lost: searching for it";
-  if (trouble.n_interruptions > 0)
+  if (trouble.n_interruptions > 0) {
     health.warnings.push_back(
         fmt::format("the camera was lost {} times (unplugged, disconnected or silent)", trouble.n_interruptions));
+  }
   if (trouble.n_damaged > 0 && !health.times.known())
     health.warnings.push_back(fmt::format("{} frames from the camera were damaged and not used", trouble.n_damaged));
-  if (trouble.has_no_clock)
+  if (trouble.has_no_clock) {
     health.warnings.emplace_back(
         "the camera's time stamps do not match any clock of this computer: frames are stamped on "
         "arrival, with a few ms of jitter");
+  }
 }
 
 void warn_of_recording(const core::RecordingTimes& times, core::Health& health) {

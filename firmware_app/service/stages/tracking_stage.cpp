@@ -65,10 +65,9 @@ void TrackingStage::hand_over(core::DisplacementSample* sample, FrameRecord* rec
 bool TrackingStage::is_decided(std::uint64_t sequence) noexcept {
   while (const CorrectionSwitch* change = ends_.changes->front()) {
     decision_ = *change;
-    // A live source may have passed the frame.
+    const bool is_in_time = decision_.from_sequence >= sequence;  // a live source may have passed the frame
     if (decision_.rebuilt != nullptr)
-      decision_.rebuilt->announce(decision_.from_sequence >= sequence ? decision_.from_sequence
-                                                                      : sequence + kPostponed);
+      decision_.rebuilt->announce(is_in_time ? decision_.from_sequence : sequence + kPostponed);
     calls_.meter.take(decision_);
     ends_.changes->pop();
   }
