@@ -87,8 +87,8 @@ void add_closure_keys(std::vector<ConfigKey>& keys) {
       {{"off", ClosureAdopt::kOff}, {"report", ClosureAdopt::kReport}, {"auto", ClosureAdopt::kAuto}},
       "diagnosis of effects that the model of camera, lens and tracker does not explain in the "
       "tracks. off: disabled; report: name the effect; auto: also correct constant effects "
-      "(readout time, lens, pixel locking) in all later frames once two consecutive reports agree, "
-      "and withdraw a correction that no longer helps"));
+      "(readout time, lens, pixel locking) once two consecutive reports agree, by measuring the run "
+      "again (up to 64 MB of points), and withdraw a correction that no longer helps"));
   keys.push_back(number_key("closure.window_s", "s", at(&A::closure, &C::window_s), {20, 3600},
                             "length of the window of newest tracks that each report analyses"));
   keys.push_back(
@@ -100,9 +100,9 @@ void add_closure_keys(std::vector<ConfigKey>& keys) {
   keys.push_back(number_key("closure.least_px", "px", at(&A::closure, &C::least_px), {0, 10},
                             "smallest effect that is reported: rms displacement over the analysed points and frames"));
   keys.push_back(number_key("closure.delay_s", "s", at(&A::closure, &C::delay_s), {0, 3600},
-                            "delay from the last frame of a report to the first frame that it corrects; must be longer "
-                            "than a report takes, so that a replay corrects from the same frame on; at most "
-                            "closure.period_s"));
+                            "delay from the last frame of a report to the first frame that it corrects, at most "
+                            "closure.period_s; if it is longer than a report takes, a replay corrects from the same "
+                            "frame on"));
   keys.push_back(
       text_key("closure.structure", at(&A::closure, &C::structure), {},
                "file of a declared structure (tower, beam, cable, frame, matrices; tools/guide/structures.md), "
