@@ -1,5 +1,7 @@
 #include "firmware_app/chain/displacement_meter.h"
 
+#include <utility>
+
 #include "firmware_app/chain/rebuild.h"
 
 namespace app {
@@ -12,6 +14,7 @@ bool DisplacementMeter::begin_frame(std::uint64_t sequence) noexcept {
   channels_ = &pending_.geometry->displacement;
   readout_ = &pending_.geometry->readout;
   rebuilt_ = pending_.rebuilt;
+  if (rebuilt_ != nullptr) std::swap(offset_, rebuilt_->offset());
   correction_set_ = pending_.correction_set, record_ = pending_.record;
   pending_ = {};
   return true;
@@ -21,6 +24,7 @@ void DisplacementMeter::measure(core::TrackFrame& tracks, std::uint32_t stride,
                                 core::DisplacementSample& out) noexcept {
   if (lattice_ != nullptr) lattice_->round(tracks);
   channels_->update(tracks, out);
+  offset_.subtract_from(out);
   axes_.add(tracks);
   // Its filters are made for the camera's own rate; the readout is the same at any.
   if (stride == 1) readout_->update(tracks);

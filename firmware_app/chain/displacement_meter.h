@@ -9,6 +9,7 @@
 #include "core/types/displacement.h"
 #include "core/types/track.h"
 #include "firmware_app/chain/items.h"
+#include "firmware_app/chain/sample_offset.h"
 #include "firmware_app/chain/track_store.h"
 
 namespace app {
@@ -33,6 +34,10 @@ class DisplacementMeter {
   // Marks the inliers among the points. stride: one of so many frames of the source is kept.
   void measure(core::TrackFrame& tracks, std::uint32_t stride, core::DisplacementSample& out) noexcept;
 
+  // From the next frame on subtracted from every sample.
+  void set_offset(const SampleOffset& offset) { offset_ = offset; }
+  [[nodiscard]] const SampleOffset& offset() const noexcept { return offset_; }
+
   [[nodiscard]] std::uint32_t correction_set() const noexcept { return correction_set_; }  // in force
   [[nodiscard]] Rebuild* rebuilt() const noexcept { return rebuilt_; }                     // of it; null: none
   [[nodiscard]] Rebuild* coming() const noexcept { return pending_.rebuilt; }              // not in force yet
@@ -46,6 +51,7 @@ class DisplacementMeter {
   const TrackLattice* lattice_;
   core::MotionAxes axes_;
   CorrectionSwitch pending_;  // geometry null: none
+  SampleOffset offset_;
   Rebuild* rebuilt_ = nullptr;
   std::uint32_t correction_set_ = 0, record_ = 0;
 };

@@ -11,6 +11,7 @@
 #include "firmware_app/chain/displacement_meter.h"
 #include "firmware_app/chain/items.h"
 #include "firmware_app/chain/mode_identification.h"
+#include "firmware_app/chain/sample_offset.h"
 #include "firmware_app/chain/spectrum_accumulator.h"
 
 namespace app {
@@ -58,11 +59,13 @@ class Rebuild {
 
   // After the offer: each is taken over by the one thread that uses its counterpart.
   [[nodiscard]] Geometry& geometry() noexcept { return *stretches_.back().geometry; }
+  [[nodiscard]] SampleOffset& offset() noexcept { return offset_; }
   [[nodiscard]] SpectrumAccumulator& spectra() noexcept { return spectra_; }
   [[nodiscard]] ModeIdentification& modes() noexcept { return modes_; }
 
  private:
   void begin(const Stretch& stretch) noexcept;
+  void compare_with_next(const core::TrackFrame& frame, std::uint32_t stride) noexcept;
   void identify_when_due() noexcept;
 
   // Frame number + 1; 0: none announced. The highest bit: offered.
@@ -70,8 +73,11 @@ class Rebuild {
 
   std::vector<Stretch> stretches_;
   std::size_t n_begun_ = 0;
+  std::uint64_t n_lead_frames_;  // before a stretch, measured under both corrections
   DisplacementMeter meter_;
-  core::DisplacementSample sample_;
+  core::DisplacementSample sample_, next_sample_;
+  core::TrackFrame next_frame_;
+  SampleOffset offset_, next_offset_;
   SpectrumAccumulator spectra_;
   ModeIdentification modes_;
   SpectrumSnapshot snapshot_;

@@ -47,7 +47,7 @@ class SpectrumAccumulator {
   [[nodiscard]] bool resume(std::span<const std::uint8_t> bytes, bool clock_goes_on) noexcept;
   // Takes over the sums of an accumulator of the same configuration, which loses them.
   void go_on_from(SpectrumAccumulator& earlier) noexcept;
-  // Before the first sample: it comes under this correction set.
+  // Before the first sample, or where displacements do not jump: the next one comes under this correction set.
   void begin_as(std::uint32_t correction_set, std::uint32_t record) noexcept {
     correction_set_ = correction_set, record_ = record;
   }

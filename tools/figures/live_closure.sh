@@ -22,9 +22,22 @@ brief=(--set closure.adopt=auto --set closure.window_s=60 --set closure.period_s
 # --- 1: effects that can be corrected ---------------------------------------------------------------------------------
 figure_1() {
   local effect bar what
+  # The records of every two seeds are kept: a run that was cut off goes on, a change of what is measured begins anew.
+  local kept first last
+  kept=$out/tracks-$(python3 tools/figures/tables.py --rooms live_closure_1 | sha256sum | cut -c1-16)
+  mkdir -p "$kept"
   : >"$out/tracks.txt"
   for effect in "readout time" "radial distortion" "tangential distortion" "pixel locking"; do
-    "$bin/hovermodal-validate" closure-live --effect "$effect" --first-seed "$first_seed" --seeds "$seeds" --threads "$(nproc)" >>"$out/tracks.txt"
+    for ((first = first_seed; first < first_seed + seeds; first += 2)); do
+      last=$((first + 1 < first_seed + seeds ? first + 1 : first_seed + seeds - 1))
+      what=$kept/${effect// /_}-$first-$last
+      if [ ! -e "$what" ]; then
+        echo "closure-live: $effect, seeds $first-$last" >&2
+        "$bin/hovermodal-validate" closure-live --effect "$effect" --first-seed "$first" --seeds "$((last - first + 1))" --threads "$(nproc)" >"$kept/new"
+        mv "$kept/new" "$what"
+      fi
+      cat "$what" >>"$out/tracks.txt"
+    done
   done
   bar="every effect that can be corrected, onset at 0, 60 s, in mid-flight, going away at 300 s; 20 records of tracks each: "
   local name words verdict measured

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/simulation/presets.h"
@@ -92,16 +94,24 @@ TEST(Rebuild, TheResultDoesNotDependOnWhenTheCorrectionBegan) {
   expect_same_modes(early.estimate, late.estimate);
 }
 
-TEST(Rebuild, IsTheRunThatKnewTheCorrectionFromTheStart) {
+struct Again {
+  core::ModalEstimate estimate;
+  std::uint64_t n_samples = 0, n_masked = 0;
+};
+
+// The whole run, measured with the adopted correction from a frame on; before it as declared.
+Again measured_again(std::uint64_t from_sequence) {
   const Flight run = run_with(2.0);
-  // The same correction, this time from the first frame on.
+  const auto geometry = [&](const CorrectionSet& set) {
+    return make_geometry(run.config, run.camera, run.frames.front(), set);
+  };
   CorrectionLog book;
-  const CorrectionSet& known = adopted().correction;
-  book.add(known);
-  const auto declared = make_geometry(run.config, run.camera, run.frames.front(), {});
+  const CorrectionSet& known = book.add(adopted().correction);
+  const auto declared = geometry({});
   const auto past = past_of(run.config, run.camera, run.frames.front(), declared->displacement);
   std::vector<Rebuild::Stretch> stretches;
-  stretches.push_back({0, 1, book.at(1).record, make_geometry(run.config, run.camera, run.frames.front(), known)});
+  if (from_sequence > 0) stretches.push_back({0, 0, 0, geometry({})});
+  stretches.push_back({from_sequence, known.number, known.record, geometry(known)});
   Rebuild rebuilt(past->chain, book, std::move(stretches));
   const TrackLattice lattice(run.frames.front());
   for (core::TrackFrame frame : run.frames) {
@@ -113,7 +123,11 @@ TEST(Rebuild, IsTheRunThatKnewTheCorrectionFromTheStart) {
   rebuilt.spectra().take_snapshot(last);
   IdentificationResult result;
   rebuilt.modes().identify(last, result);
-  expect_same_modes(adopted().estimate, result.estimate);
+  return {std::move(result.estimate), last.sums.n_samples, rebuilt.spectra().n_masked()};
+}
+
+TEST(Rebuild, IsTheRunThatKnewTheCorrectionFromTheStart) {
+  expect_same_modes(adopted().estimate, measured_again(0).estimate);
 }
 
 // Without the wrong lens nothing is adopted; with it the modes are found as well.
@@ -124,6 +138,18 @@ TEST(Rebuild, TheModesAreThoseOfARunWithoutTheError) {
   ASSERT_EQ(right.estimate.modes.size(), corrected.estimate.modes.size());
   for (std::size_t m = 0; m < right.estimate.modes.size(); ++m)
     EXPECT_NEAR(corrected.estimate.modes[m].frequency_hz / right.estimate.modes[m].frequency_hz, 1.0, 5e-4);
+}
+
+// The correction applies from frame 700 on only: nothing jumps there, and nothing is masked.
+TEST(Rebuild, DisplacementsGoOnWhereACorrectionBeginsInTheMiddle) {
+  const Again again = measured_again(700);
+  EXPECT_EQ(again.n_samples, 1750U);
+  EXPECT_EQ(again.n_masked, 0U);
+  const core::ModalEstimate& whole = adopted().estimate;
+  ASSERT_EQ(again.estimate.modes.size(), whole.modes.size());
+  for (std::size_t m = 0; m < whole.modes.size(); ++m)
+    EXPECT_NEAR(again.estimate.modes[m].frequency_hz / whole.modes[m].frequency_hz, 1.0, 1e-2)
+        << "the wrong lens was there until then";
 }
 
 // --- tracking and the diagnosis agree on a frame
