@@ -4,6 +4,14 @@ target_compile_options(hovermodal_options INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wold-style-cast -Wdouble-promotion
   -pthread            # for all, because it defines a macro that the precompiled headers read
   -ffp-contract=off)  # the same bits on arm64 (fused multiply-add by default) and x86-64
+# Eigen's products and decompositions give the same bits on every machine: their blocks have fixed sizes (by default those of the
+# processor's caches, which decide how a sum over more than some 500 terms is divided), and arm64 rounds where SSE2 does.
+target_compile_definitions(hovermodal_options INTERFACE EIGEN_NO_CPUID EIGEN_DEFAULT_L1_CACHE_SIZE=32768
+  EIGEN_DEFAULT_L2_CACHE_SIZE=262144 EIGEN_DEFAULT_L3_CACHE_SIZE=2097152)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+  target_compile_options(hovermodal_options INTERFACE -U__ARM_FEATURE_FMA)
+  target_compile_definitions(hovermodal_options INTERFACE EIGEN_DENSEBASE_PLUGIN="${CMAKE_CURRENT_LIST_DIR}/eigen_two_steps.h")
+endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(hovermodal_options INTERFACE -Wno-restrict)  # false alarms on std::string (GCC bug 105651)
 elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
