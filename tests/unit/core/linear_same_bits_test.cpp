@@ -17,7 +17,8 @@ using Eigen::MatrixXd;
 template <class Matrix>
 std::uint64_t hash_of(const Matrix& matrix) {
   const auto* values = reinterpret_cast<const double*>(matrix.data());
-  const auto n = static_cast<std::size_t>(matrix.size()) * (sizeof(typename Matrix::Scalar) / sizeof(double));
+  constexpr std::size_t kParts = Eigen::NumTraits<typename Matrix::Scalar>::IsComplex ? 2 : 1;
+  const std::size_t n = kParts * static_cast<std::size_t>(matrix.size());
   std::uint64_t hash = 1469598103934665603U;
   for (std::size_t i = 0; i < n; ++i) {
     std::uint64_t bits = 0;

@@ -147,13 +147,13 @@ TEST(Rebuild, DisplacementsGoOnWhereACorrectionBeginsInTheMiddle) {
   EXPECT_EQ(again.n_masked, 0U);
   const core::ModalEstimate& whole = adopted().estimate;
   ASSERT_EQ(again.estimate.modes.size(), whole.modes.size());
-  for (std::size_t m = 0; m < whole.modes.size(); ++m)
+  for (std::size_t m = 0; m < whole.modes.size(); ++m) {
     EXPECT_NEAR(again.estimate.modes[m].frequency_hz / whole.modes[m].frequency_hz, 1.0, 1e-2)
         << "the wrong lens was there until then";
+  }
 }
 
-// --- tracking and the diagnosis agree on a frame
-// ----------------------------------------------------------------------
+// --- tracking and the diagnosis agree on a frame --------------------------------------------------------------------
 
 class RebuildHandover : public ::testing::Test {
  protected:
