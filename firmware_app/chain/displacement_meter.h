@@ -36,7 +36,6 @@ class DisplacementMeter {
 
   // From the next frame on subtracted from every sample.
   void set_offset(const SampleOffset& offset) { offset_ = offset; }
-  [[nodiscard]] const SampleOffset& offset() const noexcept { return offset_; }
 
   [[nodiscard]] std::uint32_t correction_set() const noexcept { return correction_set_; }  // in force
   [[nodiscard]] Rebuild* rebuilt() const noexcept { return rebuilt_; }                     // of it; null: none

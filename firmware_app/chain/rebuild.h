@@ -58,7 +58,6 @@ class Rebuild {
   }
 
   // After the offer: each is taken over by the one thread that uses its counterpart.
-  [[nodiscard]] Geometry& geometry() noexcept { return *stretches_.back().geometry; }
   [[nodiscard]] SampleOffset& offset() noexcept { return offset_; }
   [[nodiscard]] SpectrumAccumulator& spectra() noexcept { return spectra_; }
   [[nodiscard]] ModeIdentification& modes() noexcept { return modes_; }

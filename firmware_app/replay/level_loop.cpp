@@ -82,7 +82,9 @@ class LevelLoop {
     if (rows_.times.number.empty()) throw drivers::FileError(inputs.folder + ": the record has no frame");
     n_frames_ = rows_.times.number.size();
     keep_end();
-    times_ = recording_of(inputs.folder);
+    const ModalReport report = report_of(inputs.folder);
+    times_ = report.losses.times;
+    motors_ = core::MotorLines(report.aircraft.motors);
     as_measured_ = by_numbers(rows_);
     series_ = on_grid(rows_);
   }
@@ -158,7 +160,7 @@ class LevelLoop {
     options.least_gain = inputs_.config->closure.least_px;
     options.progress = inputs_.progress;
     ClosureResult result = core::closure::close_loop(*level, options);
-    name_motors(*inputs_.config, motors_of(inputs_.folder), level->state().record(), result);
+    name_motors(*inputs_.config, motors_, level->state().record(), result);
     LoopLevel out = level_of(name, std::move(result));
     const DeclaredObservation declared =
         declared_observation(*inputs_.config, camera_of_tracks(*tracks_, *inputs_.config));
@@ -229,6 +231,7 @@ class LevelLoop {
   std::size_t n_frames_ = 0;  // of the whole record
   core::RecordingTimes times_;
   SeriesClock clock_;
+  core::MotorLines motors_;  // as the aircraft stated them
   ChannelSeries as_measured_, series_;
 };
 

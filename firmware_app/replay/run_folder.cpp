@@ -191,21 +191,9 @@ bool use_measured_times(const std::string& path, ChannelSeries& series) {
   return true;
 }
 
-namespace {
-std::optional<ModalReport> modal_report_of(const std::string& folder) {
+ModalReport report_of(const std::string& folder) {
   const std::filesystem::path path = std::filesystem::path(folder) / "modal.json";
-  return std::filesystem::exists(path) ? std::optional(read_modal_json(path.string())) : std::nullopt;
-}
-}  // namespace
-
-core::RecordingTimes recording_of(const std::string& folder) {
-  const auto report = modal_report_of(folder);
-  return report ? report->losses.times : core::RecordingTimes{};
-}
-
-core::MotorLines motors_of(const std::string& folder) {
-  const auto report = modal_report_of(folder);
-  return report ? core::MotorLines(report->aircraft.motors) : core::MotorLines();
+  return std::filesystem::exists(path) ? read_modal_json(path.string()) : ModalReport{};
 }
 
 }  // namespace app

@@ -5,12 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "core/rotors/motor_lines.h"
-#include "core/types/recording_times.h"
 #include "drivers/storage/tracks_file.h"
 #include "firmware_app/chain/correction_set.h"
 #include "firmware_app/config/config.h"
 #include "firmware_app/replay/analysis.h"
+#include "firmware_app/report/modal_json.h"
 
 namespace app {
 
@@ -53,9 +52,7 @@ void keep_last(std::size_t n, MeasuredRows& rows);
 // unchanged, where the times were not measured or the file does not come from a run.
 bool use_measured_times(const std::string& path, ChannelSeries& series);
 
-// The motors that the aircraft stated during the run, according to modal.json; empty: none, or no such file.
-[[nodiscard]] core::MotorLines motors_of(const std::string& folder);
-// Source of the frames' times according to the run's modal.json; empty: not stated, or no such file.
-[[nodiscard]] core::RecordingTimes recording_of(const std::string& folder);
+// The run's modal.json: the source of its frames' times, the motors of its aircraft. No such file: nothing is stated.
+[[nodiscard]] ModalReport report_of(const std::string& folder);
 
 }  // namespace app

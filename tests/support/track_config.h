@@ -19,9 +19,10 @@ inline core::CameraInfo track_camera(const core::simulation::TrackGenerator& tra
   return info;
 }
 
-// The scene as its user would declare it, with a radial distortion. more: further YAML.
+// The scene as its user would declare it, with a radial distortion. more: further YAML; scale: further keys of that
+// map.
 inline app::AppConfig track_config(const core::simulation::TrackGenerator& tracks, const std::string& more,
-                                   double distortion) {
+                                   double distortion = 0.0, const std::string& scale = "") {
   const auto& camera = tracks.motion().scene().camera;
   std::string text = "camera: {source: a.mp4}\n";
   text += fmt::format("calibration: {{fx: {0}, fy: {0}, cx: {1}, cy: {2}, distortion: [{3}, 0, 0, 0]}}\nregions:\n",
@@ -33,9 +34,9 @@ inline app::AppConfig track_config(const core::simulation::TrackGenerator& track
     text += fmt::format("  - {{name: {}, rect: [{}, {}, {}, {}], role: {}}}\n", region.name, region.u_px, region.v_px,
                         region.width_px, region.height_px, role);
   }
-  text += fmt::format("scale: {{known_length_mm: 300, from: [600, 500], to: [{}, 500]}}\n",
-                      600.0 + 300.0 * camera.alpha_px / tracks.motion().scene().plates[0].z_mm);
-  return app::parse_config(text + "spectrum: {segment: 256}\n" + more, "a.yaml");
+  text += fmt::format("scale: {{known_length_mm: 300, from: [600, 500], to: [{}, 500]{}}}\n",
+                      600.0 + 300.0 * camera.alpha_px / tracks.motion().scene().plates[0].z_mm, scale);
+  return app::parse_config(text + more, "a.yaml");
 }
 
 }  // namespace tests

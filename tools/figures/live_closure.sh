@@ -2,17 +2,17 @@
 # The loop closed in flight (closure.adopt: auto): effects that are there from the start, begin in mid-flight or go away,
 # records without one, replays, and what it costs. One line a figure. About five hours on two processors; --quick takes a fifth of the seeds.
 #   tools/figures/live_closure.sh [--quick] [--seeds N] [--first-seed N] [FIGURE...]
-# FIGURE: some of 1, 1c (the clips; one alone: 1c_readout 1c_radial 1c_radial_2 1c_tangential 1c_both), 2 ... 5 (default:
-# all). Seeds begin with --first-seed (1001: those that nobody looked at while the loop was made).
+# FIGURE: some of 1, 1m (one or two effects from mid-flight on), 1c (the clips; one alone: 1c_readout 1c_radial 1c_radial_2
+# 1c_tangential 1c_both), 2 ... 5 (default: all). Seeds begin with --first-seed (1001: those that nobody looked at while the loop was made).
 # Figure 4 measures time: leave the machine alone meanwhile. SKIP where measured data (HOVERMODAL_DATA) are absent.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
 take_arguments "tools/figures/live_closure.sh [--quick] [--seeds N] [--first-seed N] [FIGURE...]" "$@"
-seeds=20 nulls=100 clip_s=300 latency_s=60
-[ -z "$quick" ] || seeds=2 nulls=20 clip_s=240 latency_s=25
-[ -z "$n_seeds" ] || seeds=$n_seeds nulls=$n_seeds
-[ ${#figures[@]} -gt 0 ] || figures=(1 1c 2 3 4 5)
+seeds=20 onset_seeds=5 nulls=100 clip_s=300 latency_s=60
+[ -z "$quick" ] || seeds=4 onset_seeds=1 nulls=20 clip_s=240 latency_s=25
+[ -z "$n_seeds" ] || seeds=$n_seeds onset_seeds=$n_seeds nulls=$n_seeds
+[ ${#figures[@]} -gt 0 ] || figures=(1 1m 1c 2 3 4 5)
 out=$PWD/build/figures/live_closure
 mkdir -p "$out"
 tools/setup.sh
@@ -39,13 +39,35 @@ figure_1() {
       cat "$what" >>"$out/tracks.txt"
     done
   done
-  bar="every effect that can be corrected, onset at 0, 60 s, in mid-flight, going away at 300 s; 20 records of tracks each: "
+  bar="Every effect that can be corrected, onset at 0, 60 s, in mid-flight, going away at 300 s; 20 records of tracks each and 10 rendered clips (half on the recorded hover): "
   local name words verdict measured
   while IFS=$'\t' read -r name verdict measured words; do
     what="tracks, effects of strength 1, 480 s"
     if [ "$verdict" = beside ]; then line "1.$name" beside "$measured" "-" "$what"; continue; fi
     judge "1.$name" "$measured" "$bar$words" "$what" "$verdict"
   done < <(live_cells)
+  line 1.clips MISS "not built: 1c has five clips, none on the recorded hover, each with its effect from 60 s on" \
+    "${bar}taken out and nothing else in 95 %" "rendered clips"
+}
+figure_1m() {
+  "$bin/hovermodal-validate" closure-live --first-seed "$first_seed" --seeds "$onset_seeds" --threads "$(nproc)" >"$out/onset.txt"
+  local name n alone after with with_error without without_error twin twin_error total=0 right=0
+  while IFS=$'\t' read -r name n alone after with with_error without without_error twin twin_error; do
+    line "1m.${name// /_}" beside "taken out and nothing else in $alone of $n, $after s after the onset; modes found $with with the loop, $without without it, $twin without the effect; error and sigma $with_error, $without_error, $twin_error % rms" \
+      "-" "tracks, effect of strength 1 from 90 s of 480 s on"
+    total=$((total + n)) right=$((right + alone))
+  done < <(onset_cells)
+  judge 1m "$right of $total" "one or two effects from mid-flight on: all taken out, nothing else, in 0.95" "track records, effects of strength 1" "$right >= 0.95 * $total"
+}
+onset_cells() { # a line per case, from the lines of the records
+  cells "$out/onset.txt" closure-live 1 <<'PY'
+alone = [r for r in rows if not math.isnan(float(r[4])) and r[6] == "0"]
+found = [f"{sum(int(r[i].split('/')[0]) for r in rows)}/{sum(int(r[i].split('/')[1]) for r in rows)}" for i in (8, 11, 14)]
+def median(i):
+    return f"{statistics.median(float(r[i]) for r in rows):.3f}"
+errors = [f"{median(i)} +- {median(i + 1)}" for i in (9, 12, 15)]
+put(*key, len(rows), len(alone), f"{middle(4):.0f}" if column(4) else "-", *(word for pair in zip(found, errors) for word in pair))
+PY
 }
 live_cells() { # a line of each effect and presence, then the figures
   python3 - "$out/tracks.txt" <<'PY'

@@ -30,7 +30,8 @@ struct Flight {
 Flight run_with(double delay_s, double distortion = 0.2) {
   const TrackGenerator tracks(core::simulation::make_paper_scene(1, 70.0));
   Flight out{tests::track_config(tracks,
-                                 "closure: {adopt: auto, period_s: 20, window_s: 24, points_per_region: 5, delay_s: " +
+                                 "spectrum: {segment: 256}\nclosure: {adopt: auto, period_s: 20, window_s: 24, "
+                                 "points_per_region: 5, delay_s: " +
                                      std::to_string(delay_s) + "}\n",
                                  distortion),
              tests::track_camera(tracks),

@@ -1,6 +1,5 @@
 #include "firmware_app/replay/track_analysis.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,44 +9,17 @@
 
 #include "core/simulation/presets.h"
 #include "core/simulation/track_generator.h"
+#include "tests/support/track_config.h"
 
 namespace app {
 namespace {
 
-using core::simulation::Scene;
 using core::simulation::TrackGenerator;
-
-const char* role_of(core::RegionRole role) {
-  if (role == core::RegionRole::kBackground) return "background";
-  return role == core::RegionRole::kBase ? "base" : "structure";
-}
-
-AppConfig config_of(const TrackGenerator& tracks, const std::string& more) {
-  const auto& camera = tracks.motion().scene().camera;
-  std::string text = "camera: {source: a.mp4}\n";
-  text += fmt::format("calibration: {{fx: {0}, fy: {0}, cx: {1}, cy: {2}}}\nregions:\n", camera.alpha_px, camera.cx_px,
-                      camera.cy_px);
-  for (const auto& [body, region] : tracks.regions()) {
-    text += fmt::format("  - {{name: {}, rect: [{}, {}, {}, {}], role: {}{}}}\n", region.name, region.u_px, region.v_px,
-                        region.width_px, region.height_px, role_of(region.role),
-                        region.role == core::RegionRole::kBackground ? ", depth_m: 4" : "");
-  }
-  text += fmt::format("scale: {{known_length_mm: 300, from: [600, 500], to: [{}, 500]{}}}\n",
-                      600.0 + 300.0 * camera.alpha_px / tracks.motion().scene().plates[0].z_mm, more);
-  return parse_config(text + "spectrum: {segment: 512}\nclosure: {adopt: off}\n", "a.yaml");
-}
-
-core::CameraInfo info_of(const Scene& scene) {
-  core::CameraInfo info;
-  info.width_px = scene.camera.width_px, info.height_px = scene.camera.height_px, info.rate_hz = scene.camera.rate_hz;
-  info.readout_ns = std::llround(1e9 * scene.camera.readout_s);
-  return info;
-}
 
 // The region declared static sways at 0.9 Hz by `sway_px`.
 core::ModalEstimate estimate_with(double sway_px, const std::string& more) {
   const TrackGenerator tracks(core::simulation::make_paper_scene(1, 90.0));
-  const AppConfig config = config_of(tracks, more);
+  const AppConfig config = tests::track_config(tracks, "spectrum: {segment: 512}\nclosure: {adopt: off}\n", 0.0, more);
   std::unique_ptr<TrackAnalysis> analysis;
   core::TrackFrame frame;
   auto timing = tracks.timing();
@@ -57,7 +29,7 @@ core::ModalEstimate estimate_with(double sway_px, const std::string& more) {
     for (core::TrackPoint& point : frame.points) {
       if (config.regions[point.region].role == core::RegionRole::kBackground) point.u_px += u_px;
     }
-    if (!analysis) analysis = std::make_unique<TrackAnalysis>(config, info_of(tracks.motion().scene()), frame);
+    if (!analysis) analysis = std::make_unique<TrackAnalysis>(config, tests::track_camera(tracks), frame);
     (void)analysis->push(frame);
   }
   return analysis->analysis().finish();
