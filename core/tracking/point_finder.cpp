@@ -15,6 +15,7 @@ constexpr double kUnusual = 5.0;        // limit in multiples of the usual resid
 constexpr double kDisturbed = 1.5;      // the same, relative to the region's other points in this frame
 constexpr double kUnmodelled = 0.5;     // share of the deformation's effect that is second order, not modelled
 constexpr double kLearning = 0.05;      // learning rate of the usual residual, per frame
+constexpr std::size_t kAhead = 4;       // points whose pixels and template are fetched while one is compared
 constexpr int kSearchesPerFrame = 3;    // searches of whole regions: about a millisecond each
 
 // Residual not explained by the template, in px: sigma_px without the effect of a lower brightness gain.
@@ -120,9 +121,14 @@ void PointFinder::leave_out_disturbed(const Region& region) noexcept {
 
 void PointFinder::look(const GrayView& gray, const Region& region, const RegionFollower& expected,
                        const Vector2& shift) noexcept {
-  for (std::size_t i = region.first; i < region.first + region.n; ++i) {
+  const std::size_t end = region.first + region.n;
+  const auto place = [&](std::size_t i) {
     const Vector2& at = expected.expected(i);
-    found_[i] = klt_.find(gray, i, {at.u + shift.u, at.v + shift.v});
+    return Vector2{at.u + shift.u, at.v + shift.v};
+  };
+  for (std::size_t i = region.first; i < end; ++i) {
+    if (i + kAhead < found_.size()) klt_.prefetch(gray, i + kAhead, place(i + kAhead));
+    found_[i] = klt_.find(gray, i, place(i));
   }
 }
 

@@ -68,7 +68,6 @@ struct TrackingConfig {
   double corner_quality = 0.01;  // Harris response relative to the region's strongest
   int window_px = 21;
   int max_iterations = 12;
-  double epsilon_px = 0.01;
   double reach_px = 8.0;
   double search_px = 200.0;
   double least_correlation = 0.75;

@@ -24,7 +24,6 @@ void add_tracking_keys(std::vector<ConfigKey>& keys) {
          "smallest Harris response of a corner, relative to the region's strongest corner");
   whole("window_px", "px", &C::window_px, {5, 21}, "side of the square patch that is tracked");
   whole("max_iterations", "", &C::max_iterations, {2, 1000}, "largest number of iterations of the tracker per point");
-  number("epsilon_px", "px", &C::epsilon_px, {1e-6, 1}, "the tracker stops when a step is smaller than this");
   number("reach_px", "px", &C::reach_px, {0.5, 16}, "search radius of a point around its predicted position");
   number("search_px", "px", &C::search_px, {16, 1000},
          "search radius of a whole region when most of its points are not found at their predicted "

@@ -77,7 +77,7 @@ core::StructureTrackerConfig tracker_config(const AppConfig& config) {
   tracker.regions = config.regions;
   tracker.min_points = t.min_points;
   tracker.seed = {t.points_per_region, t.min_distance_px, t.corner_quality, t.window_px};
-  tracker.klt = {t.window_px, t.max_iterations, t.epsilon_px, t.reach_px, t.least_correlation};
+  tracker.klt = {t.window_px, t.max_iterations, t.reach_px, t.least_correlation};
   tracker.search_px = t.search_px;
   tracker.reseed_after = t.reseed_after;
   return tracker;

@@ -2,7 +2,8 @@
 // compiled: six regions that sway, drift, jump, are hidden, and change brightness, with noise. Without OpenCV, so that
 // it also runs where that is not installed. Prints a line per ten frames: frame, points seen, hash of the bits of
 // all positions, sigmas and gains so far.
-//   tracking_bits [FRAMES] [SEED]
+//   tracking_bits [FRAMES] [SEED] [FINDS]     FINDS: finds the points so many times more in the last frame, to count
+//   instructions
 #include <bit>
 #include <cstdint>
 #include <cstdio>
@@ -150,8 +151,9 @@ int main(int argc, char** argv) {
   core::PointFinder finder({}, view(keyframe), points.keyframe, points.region, kRegions);
   core::RegionFollower follower(core::RegionFollowerConfig{kWidth, kHeight}, points.keyframe, points.region, kRegions);
   Hash hash;
+  std::vector<std::uint8_t> pixels;
   for (int frame = 0; frame < n_frames; ++frame) {
-    const std::vector<std::uint8_t> pixels = image(texture, frame, seed);
+    pixels = image(texture, frame, seed);
     finder.find(view(pixels), follower);
     std::size_t n_seen = 0;
     for (const core::KltPoint& point : finder.points()) {
@@ -165,4 +167,5 @@ int main(int argc, char** argv) {
       std::printf("%d\t%zu of %zu\t%016llx\n", frame, n_seen, points.keyframe.size(),
                   static_cast<unsigned long long>(hash.value()));
   }
+  for (int k = argc > 3 ? std::atoi(argv[3]) : 0; k > 0; --k) finder.find(view(pixels), follower);
 }

@@ -25,29 +25,27 @@ struct Deformation {
   return {factor * a.uu, factor * a.uv, factor * a.vu, factor * a.vv};
 }
 
-// Effect of an image deformation on the match with a template that is only shifted, computed from the template alone.
-struct DeformationResponse {
-  static constexpr std::size_t kPairs = 10;  // k <= l of four elements
+// Effect of an image deformation on the match with a template that is only shifted, from the template alone
+// (METHOD.md).
 
-  // Offset at which the template is found, px per unit of each element: sum_x S(x) g(x) x^T (METHOD.md). It is not
-  // zero, because texture is not symmetric about the point.
-  std::array<Vector2, 4> pull{};
-  // Quadratic form of the residual caused by deformation, grey^2 summed over the window: rows of its upper triangle,
-  // off-diagonal elements doubled.
-  std::array<double, kPairs> energy{};
+// Offset at which the template is found, px per unit of each element: it is not zero, because texture is not symmetric
+// about the point.
+using DeformationPull = std::array<Vector2, 4>;
+[[nodiscard]] inline Vector2 offset_by(const DeformationPull& pull, const Deformation& a) noexcept {
+  const auto e = a.elements();
+  return {(e[0] * pull[0].u + e[1] * pull[1].u) + (e[2] * pull[2].u + e[3] * pull[3].u),
+          (e[0] * pull[0].v + e[1] * pull[1].v) + (e[2] * pull[2].v + e[3] * pull[3].v)};
+}
 
-  [[nodiscard]] Vector2 pull_of(const Deformation& a) const noexcept {
-    const auto e = a.elements();
-    return {(e[0] * pull[0].u + e[1] * pull[1].u) + (e[2] * pull[2].u + e[3] * pull[3].u),
-            (e[0] * pull[0].v + e[1] * pull[1].v) + (e[2] * pull[2].v + e[3] * pull[3].v)};
-  }
-  [[nodiscard]] double energy_of(const Deformation& a) const noexcept {
-    const auto e = a.elements();
-    double sum = 0.0;
-    for (std::size_t k = 0, at = 0; k < 4; ++k)
-      for (std::size_t l = k; l < 4; ++l) sum += energy[at++] * e[k] * e[l];
-    return sum;
-  }
-};
+// Quadratic form of the residual caused by deformation, grey^2 summed over the window: rows of its upper triangle,
+// off-diagonal elements doubled.
+using DeformationEnergy = std::array<double, 10>;
+[[nodiscard]] inline double energy_of(const DeformationEnergy& energy, const Deformation& a) noexcept {
+  const auto e = a.elements();
+  double sum = 0.0;
+  for (std::size_t k = 0, at = 0; k < 4; ++k)
+    for (std::size_t l = k; l < 4; ++l) sum += energy[at++] * e[k] * e[l];
+  return sum;
+}
 
 }  // namespace core

@@ -9,16 +9,18 @@ namespace core {
 namespace {
 
 constexpr double kFarthest_px = 1e6;
-constexpr double kLongestStep_px = 3.0;
 constexpr double kLeastGain = 0.2, kMostGain = 5.0;
 constexpr double kLeastCorrelation = 0.5;
 constexpr int kStepsOfOldGain = 3;
 constexpr double kRounding = 1.0 / 12.0;
-constexpr double kOfRounding = 0.5;  // smaller steps are below this share of the error of rounding to 8 bits
+constexpr double kNear_px = 0.25;  // from a phase: more than to the middle between two, where neither is better
 
 bool window_lies_in(const GrayView& gray, int u, int v, int radius) noexcept {
-  return u >= radius && v >= radius && u + radius < gray.width && v + radius < gray.height;
+  return u >= radius && v >= radius && u + radius + 1 < gray.width && v + radius + 1 < gray.height;
 }
+
+// Thirds of a pixel. Left of or above the image: 0, where no window lies in it.
+int nearest_phase(double place) noexcept { return place > 0.0 ? static_cast<int>(kPhasesPerPixel * place + 0.5) : 0; }
 
 // Cuts the patch about the pixel nearest to a point. False: the point is not finite.
 bool cut_about(const GrayView& gray, const Vector2& point, Patch& patch) noexcept {
@@ -60,7 +62,7 @@ void KltTracker::replace_template(std::size_t i, const Patch& mean, int n_averag
   point.pattern = averaged;
   point.reference = deformation;
   judge_texture(point);
-  correct(point);
+  note_deformation(point, point.deformation);
 }
 
 bool KltTracker::renew(std::size_t i, const GrayView& gray, const Vector2& place, const Vector2& beside,
@@ -74,7 +76,11 @@ bool KltTracker::renew(std::size_t i, const GrayView& gray, const Vector2& place
   PointTemplate pattern;
   build_template(patch, config_.window_px / 2, 1, pattern);
   if (!pattern.is_trackable || !(place_variance(pattern) <= most_variance_px2)) return false;
-  point = {pattern, place, middle.u, middle.v, 1.0, 0.0, point.deformation, point.deformation, {}};
+  const Deformation now = point.deformation;
+  point = {};
+  point.pattern = pattern;
+  point.datum = place, point.u0 = middle.u, point.v0 = middle.v;
+  point.reference = point.deformation = now;
   judge_texture(point);
   return true;
 }
@@ -86,28 +92,37 @@ void KltTracker::shift_datum(std::size_t i, const Vector2& less) noexcept {
 
 void KltTracker::set_deformation(std::size_t i, const Deformation& now, KltPoint& found) noexcept {
   Point& point = points_[i];
-  const Vector2 before = point.correction;
-  point.deformation = now;
-  correct(point);
+  if (found.seen) point.phase = found.phase;
+  note_deformation(point, now);
   if (!found.seen) return;
-  found.position = {found.position.u + (point.correction.u - before.u),
-                    found.position.v + (point.correction.v - before.v)};
+  found.position = {found.position.u + (point.correction.u - found.correction.u),
+                    found.position.v + (point.correction.v - found.correction.v)};
+  found.correction = point.correction;
   state_sigma(point, found);
 }
 
-// The template is found at an offset caused by deformation. The point lies off the window's centre, and this offset is
-// deformed as well.
-void KltTracker::correct(Point& point) noexcept {
+void KltTracker::note_deformation(Point& point, const Deformation& now) noexcept {
+  point.deformation = now;
+  point.deformed_energy = std::max(0.0, energy_of(point.pattern.deformed, now - point.reference));
+  point.correction = correction(point);
+}
+
+// The template is found at an offset caused by deformation: that of its phase, less what the window has moved with the
+// texture. The point lies off the window's centre, and this offset is deformed as well.
+Vector2 KltTracker::correction(const Point& point) noexcept {
+  const PhasePlace& phase = point.phase;
   const Deformation since = point.deformation - point.reference;
-  const Vector2 pull = point.pattern.deformed.pull_of(since), beside = since.of(point.beside());
-  point.correction = {beside.u - pull.u, beside.v - pull.v};
+  const Vector2 pull = offset_by(point.pattern.phases[phase.v][phase.u].pull, since), moved = since.of(phase.off);
+  const Vector2 beside = since.of(point.beside());
+  return {beside.u - pull.u + moved.u, beside.v - pull.v + moved.v};
 }
 
 void KltTracker::state_sigma(const Point& point, KltPoint& found) noexcept {
   const PointTemplate& pattern = point.pattern;
-  const double energy = pattern.deformed.energy_of(point.deformation - point.reference);
-  const double deformed = found.residual_unit * std::max(0.0, found.gain * found.gain * energy);
-  const double noise = std::max(kRounding, (found.residual - deformed) / (1.0 + 1.0 / pattern.n_averaged));
+  const Phase& phase = pattern.phases[found.phase.v][found.phase.u];
+  const double deformed = found.residual_unit * (found.gain * found.gain) * point.deformed_energy;
+  const double noise =
+      std::max(kRounding, (found.residual - deformed) / (1.0 + phase.passed_noise / pattern.n_averaged));
   const double per_noise = 0.5 * (pattern.variance_u + pattern.variance_v);
   found.sigma_px = std::sqrt(noise * per_noise) / found.gain;
   found.deformed_px = std::sqrt(deformed * per_noise) / found.gain;
@@ -126,56 +141,73 @@ void KltTracker::judge_texture(Point& point) const noexcept {
   point.least_correlation = std::max(kLeastCorrelation, config_.least_correlation * expected);
 }
 
-// If steps do not converge, their length is wrong because the gain of the light has changed; this estimates it.
-double KltTracker::gain_here(double otherwise) const noexcept {
-  const TemplateMatch match = window_.match();
-  if (!(match.correlation > kLeastCorrelation)) return otherwise;
-  return std::clamp(match.gain / match.correlation, kLeastGain, kMostGain);  // contrast gain, robust to offsets
+void KltTracker::prefetch(const GrayView& gray, std::size_t i, const Vector2& predicted) const noexcept {
+  const Point& point = points_[i];
+  const Vector2 at = centre_at(point, predicted);
+  if (!(at.u < kFarthest_px) || !(at.v < kFarthest_px)) return;
+  const int thirds_u = nearest_phase(at.u), thirds_v = nearest_phase(at.v);
+  const int cell_u = thirds_u / kPhasesPerPixel, cell_v = thirds_v / kPhasesPerPixel, radius = point.pattern.radius;
+  if (!window_lies_in(gray, cell_u, cell_v, radius)) return;
+  prefetch_window(gray, cell_u, cell_v, radius);
+  prefetch_phase(point.pattern.phases[static_cast<std::size_t>(thirds_v % kPhasesPerPixel)]
+                                     [static_cast<std::size_t>(thirds_u % kPhasesPerPixel)]);
 }
 
 KltPoint KltTracker::find(const GrayView& gray, std::size_t i, const Vector2& predicted) noexcept {
   Point& point = points_[i];
-  KltPoint out{predicted, 0.0, point.gain};
+  const PointTemplate& pattern = point.pattern;
+  KltPoint out;
+  out.position = predicted, out.gain = point.gain;
   out.loss = PointLoss::kUnlike;
-  if (!point.pattern.is_trackable) return out;
-  const double start_u = predicted.u - point.datum.u + point.u0 - point.correction.u;
-  const double start_v = predicted.v - point.datum.v + point.v0 - point.correction.v;
+  if (!pattern.is_trackable) return out;
+  const Vector2 start = centre_at(point, predicted);
   // Also rejects a NaN prediction.
-  if (!(std::abs(start_u) < kFarthest_px) || !(std::abs(start_v) < kFarthest_px)) return out;
-  double u = start_u, v = start_v;
-  int cell_u = 0, cell_v = 0;
-  const double enough_px =
-      std::max(config_.epsilon_px,
-               kOfRounding * std::sqrt(kRounding * std::max(point.pattern.variance_u, point.pattern.variance_v)));
-  bool is_settled = false;
-  Vector2 step;
+  if (!(std::abs(start.u) < kFarthest_px) || !(std::abs(start.v) < kFarthest_px)) return out;
+  Vector2 at = start;
   double gain = point.gain;
-  window_.begin(gray, point.pattern);
-  const auto advance = [&] {
-    const double way = length(step) / gain;
-    const double share = (way > kLongestStep_px ? kLongestStep_px / way : 1.0) / gain;
-    u -= share * step.u, v -= share * step.v;
-    return way;
-  };
-  for (int k = 0; k < config_.max_iterations && !is_settled; ++k) {
-    cell_u = static_cast<int>(std::floor(u)), cell_v = static_cast<int>(std::floor(v));
-    if (!window_lies_in(gray, cell_u, cell_v, point.pattern.radius)) return out.loss = PointLoss::kLeftImage, out;
-    window_.move_to(cell_u, cell_v, u - cell_u, v - cell_v);
-    step = window_.step();
-    if (k == kStepsOfOldGain) gain = gain_here(gain);
-    is_settled = advance() < enough_px;
-    if (!(length(u - start_u, v - start_v) <= config_.reach_px)) return out;
+  for (int k = 0; k < config_.max_iterations; ++k) {
+    const int thirds_u = nearest_phase(at.u), thirds_v = nearest_phase(at.v);
+    const int cell_u = thirds_u / kPhasesPerPixel, cell_v = thirds_v / kPhasesPerPixel;
+    if (!window_lies_in(gray, cell_u, cell_v, pattern.radius)) return out.loss = PointLoss::kLeftImage, out;
+    out.phase.u = static_cast<std::uint8_t>(thirds_u % kPhasesPerPixel);
+    out.phase.v = static_cast<std::uint8_t>(thirds_v % kPhasesPerPixel);
+    const Phase& phase = pattern.phases[out.phase.v][out.phase.u];
+    copy_window(gray, cell_u, cell_v, pattern.radius, window_);
+    PhaseMatch match(phase, sums_over(window_, phase), pattern.radius);
+    // Steps that do not converge have the wrong length, because the gain of the light has changed.
+    if (k == kStepsOfOldGain && match.contrast() > 0.0) gain = std::clamp(match.contrast(), kLeastGain, kMostGain);
+    const bool is_close = match.locate(gain);
+    at = {static_cast<double>(thirds_u) / kPhasesPerPixel + match.place().u,
+          static_cast<double>(thirds_v) / kPhasesPerPixel + match.place().v};
+    if (!(length(at.u - start.u, at.v - start.v) <= config_.reach_px)) return out;
+    if (!is_close) continue;
+    gain = match.gain();
+    if (std::abs(match.place().u) > kNear_px || std::abs(match.place().v) > kNear_px) continue;
+    accept(point, match, at, out);
+    return out;
   }
-  out.position = {u - point.u0 + point.datum.u + point.correction.u, v - point.v0 + point.datum.v + point.correction.v};
-  if (!is_settled) return out;
-  const TemplateMatch match = window_.match(step);
-  if (!(match.correlation >= point.least_correlation)) return out;
-  if (match.gain < kLeastGain || match.gain > kMostGain) return out.loss = PointLoss::kLight, out;
-  out.gain = point.gain = match.gain;
-  out.residual = match.residual, out.residual_unit = match.residual_unit;
+  out.position = {at.u - point.u0 + point.datum.u + point.correction.u,
+                  at.v - point.v0 + point.datum.v + point.correction.v};
+  return out;
+}
+
+// A place near the phase with which the window was compared.
+void KltTracker::accept(Point& point, const PhaseMatch& match, const Vector2& place, KltPoint& out) const noexcept {
+  out.phase.off = match.place();
+  point.phase = out.phase;
+  point.correction = out.correction = correction(point);
+  out.position = {place.u - point.u0 + point.datum.u + point.correction.u,
+                  place.v - point.v0 + point.datum.v + point.correction.v};
+  const TemplateMatch found = match.judge();
+  if (!(found.correlation >= point.least_correlation)) return;
+  if (match.gain() < kLeastGain || match.gain() > kMostGain) {
+    out.loss = PointLoss::kLight;
+    return;
+  }
+  out.gain = point.gain = match.gain();
+  out.residual = found.residual, out.residual_unit = found.residual_unit;
   state_sigma(point, out);
   out.seen = true, out.loss = PointLoss::kNone;
-  return out;
 }
 
 }  // namespace core

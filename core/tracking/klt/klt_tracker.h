@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/tracking/klt/interpolated_window.h"
+#include "core/tracking/klt/phase_match.h"
+#include "core/tracking/klt/point_template.h"
+#include "core/tracking/klt/window_sums.h"
 #include "core/types/vector2.h"
 
 namespace core {
@@ -11,7 +13,6 @@ namespace core {
 struct KltConfig {
   int window_px = 21;  // side of the compared window, 5 ... 21
   int max_iterations = 12;
-  double epsilon_px = 0.01;         // stop below this step length, or below half the effect of 8-bit rounding
   double reach_px = 8.0;            // largest distance from the prediction at which a point is found
   double least_correlation = 0.75;  // with the template, relative to the value expected from its noise
 };
@@ -20,6 +21,12 @@ struct KltConfig {
 // something else (covered, or another surface in part of it), so that it is not found within reach or matches badly.
 enum class PointLoss : std::uint8_t { kNone, kLeftImage, kLight, kUnlike };
 
+// Where a template was found: displaced from one of its phases, which are thirds of a pixel.
+struct PhasePlace {
+  std::uint8_t u = 0, v = 0;
+  Vector2 off;  // px
+};
+
 // One point in one image.
 struct KltPoint {
   Vector2 position;            // px
@@ -27,7 +34,9 @@ struct KltPoint {
   double gain = 1.0;           // brightness gain relative to the template
   double deformed_px = 0.0;    // contribution to sigma_px if the deformation were not corrected
   double residual = 0.0;       // variance per pixel after gain and offset, grey^2, including the effect of deformation
-  double residual_unit = 0.0;  // residual per unit of DeformationResponse::energy
+  double residual_unit = 0.0;  // residual per unit of DeformationEnergy
+  PhasePlace phase;
+  Vector2 correction;  // for deformation, in the position, px
   bool seen = false;
   PointLoss loss = PointLoss::kNone;
 };
@@ -64,6 +73,8 @@ class KltTracker {
   // Position of the template's centre when the point is at `position`.
   [[nodiscard]] Vector2 middle_of(std::size_t i, const Vector2& position) const noexcept;
 
+  // Fetches into the cache what find() of this point will read.
+  void prefetch(const GrayView& gray, std::size_t i, const Vector2& predicted) const noexcept;
   // gray: 8-bit, any size. Not seen: no texture, window leaves the image, too far away, or correlation too low.
   [[nodiscard]] KltPoint find(const GrayView& gray, std::size_t i, const Vector2& predicted) noexcept;
 
@@ -76,18 +87,26 @@ class KltTracker {
     double least_correlation = 0.0;
     Deformation reference, deformation;  // of the template and of the image, relative to the keyframe
     Vector2 correction;                  // offset from the found template to the point, in addition to the datum
+    double deformed_energy = 0.0;        // of the deformation, grey^2
+    PhasePlace phase;                    // at the last detection
 
     [[nodiscard]] Vector2 beside() const noexcept { return {datum.u - u0, datum.v - v0}; }
   };
 
+  // Where the template's centre would be with the point at `position`, px.
+  [[nodiscard]] static Vector2 centre_at(const Point& point, const Vector2& position) noexcept {
+    return {position.u - point.datum.u + point.u0 - point.correction.u,
+            position.v - point.datum.v + point.v0 - point.correction.v};
+  }
   void judge_texture(Point& point) const noexcept;
-  static void correct(Point& point) noexcept;
+  static void note_deformation(Point& point, const Deformation& now) noexcept;
+  [[nodiscard]] static Vector2 correction(const Point& point) noexcept;
   static void state_sigma(const Point& point, KltPoint& found) noexcept;
-  [[nodiscard]] double gain_here(double otherwise) const noexcept;
+  void accept(Point& point, const PhaseMatch& match, const Vector2& place, KltPoint& out) const noexcept;
 
   KltConfig config_;
   std::vector<Point> points_;
-  InterpolatedWindow window_;
+  RawWindow window_{};
 };
 
 }  // namespace core

@@ -3,26 +3,30 @@
 #include <array>
 #include <cstdint>
 
-#include "core/tracking/klt/quintic_spline.h"
 #include "core/types/gray_view.h"
 
 namespace core {
 
-// Sizes of the patches about a tracked point, px. Window: largest compared part. Folded: the window plus the
-// support of the interpolation's prefilter. Patch: the pixels that interpolation needs for every position within
-// one pixel.
+// Sizes of the patches about a tracked point, px. Window: largest compared part. Patch: the pixels from which a
+// template is interpolated at every place within a pixel, and its gradients.
 inline constexpr int kWindowRadius = 10;
 inline constexpr int kWindow = 2 * kWindowRadius + 1;
-inline constexpr int kFoldedRadius = kWindowRadius + kPrefilterMargin;
-inline constexpr int kFolded = 2 * kFoldedRadius + 1;
-inline constexpr int kPatchRadius = kFoldedRadius + kSplineBefore + 1;
+inline constexpr int kGradientRadius = 3;  // of the Gaussian derivative
+inline constexpr int kShiftTaps = 20;      // of an interpolation (fractional_shift.h)
+inline constexpr int kPatchRadius = kWindowRadius + 1 + kGradientRadius + kShiftTaps / 2;
 inline constexpr int kPatch = 2 * kPatchRadius + 1;
-inline constexpr int kImageRows = kFolded + kSplineTaps - 1;  // of the image about a cell, and as many columns: 37 are
-inline constexpr int kImageColumns = 40;                      // needed, whole vectors are read
-inline constexpr int kRow = 32;                               // row length of folded windows in memory: whole vectors
+
+// A template's window keeps its place in the template: where that lies between pixels, its outer ones count in part,
+// and it covers one row and column more, which all windows have.
+inline constexpr int kSide = kWindow + 1;
+[[nodiscard]] constexpr int side_of(int radius) noexcept { return 2 * radius + 2; }
+
+// Windows in memory: kSide rows of kRow elements, the window's pixels first, zeros after them.
+inline constexpr int kRow = 24;
+inline constexpr int kWindowSize = kSide * kRow;
 
 // Grey values, centred on the point.
-using Patch = std::array<std::array<double, kPatch>, kPatch>;
+using Patch = std::array<std::array<float, kPatch>, kPatch>;
 
 // Index of the pixel at index `i` of a line of `n`; mirrored beyond the border.
 [[nodiscard]] inline int mirrored(int i, int n) noexcept {

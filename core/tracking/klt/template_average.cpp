@@ -4,27 +4,19 @@
 #include <array>
 #include <cmath>
 
+#include "core/tracking/klt/fractional_shift.h"
+
 namespace core {
 
 namespace {
 
-constexpr double kFaint = 2.0;  // gradient over noise below which averaging helps
+constexpr double kFaint = 6.0;  // gradient over noise below which averaging helps
 constexpr int kImages = 16;     // images per average
-constexpr int kMargin = 12;     // of the prefilter: the averaged values become the template
-constexpr int kTaps = kSplineTaps + 2 * kMargin;
-constexpr int kTapsBefore = kSplineBefore + kMargin;
-
-// Filter from samples to the spline's value at a fraction: prefilter and weights combined.
-std::array<double, kTaps> taps_at(double fraction) noexcept {
-  constexpr auto kWidePrefilter = spline_prefilter<kMargin>();
-  return joined(kWidePrefilter, spline_weights(fraction));
-}
-
 double mean_of_window(const Patch& patch, int radius) noexcept {
   double sum = 0.0;
   for (int y = kPatchRadius - radius; y <= kPatchRadius + radius; ++y)
     for (int x = kPatchRadius - radius; x <= kPatchRadius + radius; ++x)
-      sum += patch[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
+      sum += static_cast<double>(patch[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)]);
   return sum / ((2.0 * radius + 1.0) * (2.0 * radius + 1.0));
 }
 
@@ -32,24 +24,23 @@ double mean_of_window(const Patch& patch, int radius) noexcept {
 
 void cut_patch_between(const GrayView& gray, double u, double v, Patch& out) noexcept {
   const int cell_u = static_cast<int>(std::floor(u)), cell_v = static_cast<int>(std::floor(v));
-  const auto across = taps_at(u - cell_u), down = taps_at(v - cell_v);
-  constexpr int kRows = kPatch + kTaps - 1;
-  std::array<std::array<double, kPatch>, kRows> rows;
-  std::array<double, kRows> line;
+  const FractionalShift across = fractional_shift(cell_u - u), down = fractional_shift(cell_v - v);
+  constexpr int kRows = kPatch + kShiftTaps - 1;
+  std::array<std::array<float, kPatch>, kRows> rows;
+  std::array<float, kRows> line;
   for (int y = 0; y < kRows; ++y) {
-    const std::uint8_t* from = gray.row(mirrored(cell_v - kPatchRadius - kTapsBefore + y, gray.height));
+    const std::uint8_t* from = gray.row(mirrored(cell_v - kPatchRadius + down.first + y, gray.height));
     for (int x = 0; x < kRows; ++x)
-      line[static_cast<std::size_t>(x)] = from[mirrored(cell_u - kPatchRadius - kTapsBefore + x, gray.width)];
-    for (std::size_t x = 0; x < kPatch; ++x) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < kTaps; ++k) sum += across[k] * line[x + k];
-      rows[static_cast<std::size_t>(y)][x] = sum;
-    }
+      line[static_cast<std::size_t>(x)] = from[mirrored(cell_u - kPatchRadius + across.first + x, gray.width)];
+    auto& row = rows[static_cast<std::size_t>(y)];
+    row.fill(0.0F);
+    for (std::size_t k = 0; k < kShiftTaps; ++k)
+      for (std::size_t x = 0; x < kPatch; ++x) row[x] += static_cast<float>(across.taps[k]) * line[x + k];
   }
   for (std::size_t y = 0; y < kPatch; ++y) {
-    out[y].fill(0.0);
-    for (std::size_t k = 0; k < kTaps; ++k)
-      for (std::size_t x = 0; x < kPatch; ++x) out[y][x] += down[k] * rows[y + k][x];
+    out[y].fill(0.0F);
+    for (std::size_t k = 0; k < kShiftTaps; ++k)
+      for (std::size_t x = 0; x < kPatch; ++x) out[y][x] += static_cast<float>(down.taps[k]) * rows[y + k][x];
   }
 }
 
@@ -72,10 +63,19 @@ void TemplateAverage::add(const GrayView& gray, const std::vector<KltPoint>& fou
     add_to(work, gray, found[work.point], tracker);
     if (work.n < kImages) continue;
     for (auto& row : work.sum)
-      for (double& value : row) value /= work.n;
-    tracker.replace_template(work.point, work.sum, work.n, (1.0 / work.n) * work.deformation);
+      for (float& value : row) value /= static_cast<float>(work.n);
+    replace(work, gray, found[work.point], tracker);
   }
   std::erase_if(work_, [](const Work& work) { return work.n >= kImages; });
+}
+
+// The noise of the first template has displaced the point by a constant, which stays: without it, its track would step.
+void TemplateAverage::replace(const Work& work, const GrayView& gray, const KltPoint& found,
+                              KltTracker& tracker) noexcept {
+  tracker.replace_template(work.point, work.sum, work.n, (1.0 / work.n) * work.deformation);
+  const KltPoint again = tracker.find(gray, work.point, found.position);
+  if (!again.seen) return;
+  tracker.shift_datum(work.point, {again.position.u - found.position.u, again.position.v - found.position.v});
 }
 
 void TemplateAverage::forget(std::size_t point) noexcept {
@@ -90,9 +90,10 @@ void TemplateAverage::add_to(Work& work, const GrayView& gray, const KltPoint& f
   const Vector2 middle = tracker.middle_of(work.point, found.position);
   if (!(found.gain > 0.0)) return;
   cut_patch_between(gray, middle.u, middle.v, now_);
-  const double mean = mean_of_window(now_, pattern.radius);
+  const auto mean = static_cast<float>(mean_of_window(now_, pattern.radius)), old = static_cast<float>(pattern.mean);
+  const auto darker = static_cast<float>(1.0 / found.gain);
   for (std::size_t y = 0; y < kPatch; ++y)
-    for (std::size_t x = 0; x < kPatch; ++x) work.sum[y][x] += (now_[y][x] - mean) / found.gain + pattern.mean;
+    for (std::size_t x = 0; x < kPatch; ++x) work.sum[y][x] += darker * (now_[y][x] - mean) + old;
   work.deformation = work.deformation + tracker.deformation(work.point);
   ++work.n;
 }

@@ -7,7 +7,7 @@
 
 namespace core {
 
-// The image about (u, v), interpolated between pixels by quintic splines. Deterministic; no allocation.
+// The image about (u, v), interpolated between pixels. Deterministic; no allocation.
 void cut_patch_between(const GrayView& gray, double u, double v, Patch& out) noexcept;
 
 // Renews templates of faint texture from the mean of several images, because the noise of a single image also affects
@@ -31,6 +31,7 @@ class TemplateAverage {
     Deformation deformation;  // sum over these images
     Patch sum{};
   };
+  static void replace(const Work& work, const GrayView& gray, const KltPoint& found, KltTracker& tracker) noexcept;
   void add_to(Work& work, const GrayView& gray, const KltPoint& found, const KltTracker& tracker) noexcept;
 
   std::vector<std::size_t> faint_;  // indices of faint points, in order

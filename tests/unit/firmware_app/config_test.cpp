@@ -96,7 +96,6 @@ TEST(Config, EachKeySetsItsOwnMemberOnly) {
       {"identification.references", "[a, b]"},
       {"identification.min_mpc", "0.5"},
       {"identification.max_damping", "0.5"},
-      {"tracking.epsilon_px", "0.5"},
       {"tracking.search_px", "70"},
       {"tracking.least_correlation", "0.5"},
       {"tracking.corner_quality", "0.5"},
