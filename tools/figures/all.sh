@@ -54,7 +54,7 @@ run_part() {
     printf '# part: %s\n# command: %s\n# commit: %s\n# date: %s\n' "$name" "$command" "$commit" "$(date -u +%Y-%m-%d)"
     printf '# processor: %s, %s processors\n# load: %s before, %s after\n' "$(processor)" "$(nproc)" "$start_load" "$(load)"
     printf '# seconds: %s\n# measured data: %s\n%s\n# whole: yes\n' "$((SECONDS - started))" "$(data_there)" "$before"
-    grep -E '^(\S+ (ok|MISS|SKIP|beside) |\||#)' "$log" | grep -v '^# whole: '
+    grep -E '^(\S+ (ok|MISS|SKIP|beside) |\||#)' "$log" | grep -v '^# whole: ' | sed "s|$PWD/||g"
   } >"$results/$name.txt.new"
   mv "$results/$name.txt.new" "$results/$name.txt"
   grep -E '^\S+ MISS ' "$log" | sed 's/^/  /' || true
