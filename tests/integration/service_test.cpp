@@ -129,8 +129,6 @@ TEST(Service, TheSameClipTwiceGivesTheSameBytes) {
   EXPECT_TRUE(page("first") == page("second"));
 }
 
-// Not to the last bit: tracks are rounded, and a point that the tracker found only later is not in the first frame, by
-// which a replay knows its points. A weak mode may then be followed in one of the two only.
 TEST(Service, AReplayOfItsTracksFollowsTheSameModes) {
   const auto folder = own_folder();
   EXPECT_EQ(run_service(clip_arguments({"--set", "spectrum.segment=256", "--set", "identification.period=1", "--report",
@@ -146,15 +144,15 @@ TEST(Service, AReplayOfItsTracksFollowsTheSameModes) {
   ASSERT_EQ(first.size(), again.size());
   int n_followed = 0;
   for (std::size_t i = 0; i < first.size(); ++i) {
-    EXPECT_NEAR(first[i]["frequency_hz"].get<double>(), again[i]["frequency_hz"].get<double>(),
-                0.2 * first[i]["frequency_std_hz"].get<double>());
-    if (first[i]["history"].is_null() || again[i]["history"].is_null()) continue;
+    EXPECT_NEAR(first[i]["frequency_hz"].get<double>(), again[i]["frequency_hz"].get<double>(), 1e-3);
+    ASSERT_EQ(first[i]["history"].is_null(), again[i]["history"].is_null());
+    if (first[i]["history"].is_null()) continue;
     ++n_followed;
     for (const char* key : {"id", "estimates", "first_estimate"}) {
       EXPECT_EQ(first[i]["history"][key], again[i]["history"][key]) << key;
     }
   }
-  EXPECT_GE(n_followed, 3);
+  EXPECT_GT(n_followed, 0);
 }
 
 TEST(Service, LaterSettingsOverrideEarlierOnes) {

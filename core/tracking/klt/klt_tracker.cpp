@@ -20,7 +20,10 @@ bool window_lies_in(const GrayView& gray, int u, int v, int radius) noexcept {
 }
 
 // Thirds of a pixel. Left of or above the image: 0, where no window lies in it.
-int nearest_phase(double place) noexcept { return place > 0.0 ? static_cast<int>(kPhasesPerPixel * place + 0.5) : 0; }
+int nearest_phase(double place) noexcept {
+  constexpr double kHalf = 0.5 / kPhasesPerPixel;
+  return place > 0.0 ? static_cast<int>(kPhasesPerPixel * (place + kHalf)) : 0;
+}
 
 // Cuts the patch about the pixel nearest to a point. False: the point is not finite.
 bool cut_about(const GrayView& gray, const Vector2& point, Patch& patch) noexcept {

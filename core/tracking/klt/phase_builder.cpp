@@ -11,8 +11,9 @@ namespace core {
 
 namespace {
 
-constexpr NoiseOfPhase kNoise[kPhasesPerPixel] = {noise_of_phase(0), noise_of_phase(kShiftsPerPhase),
-                                                  noise_of_phase(2 * kShiftsPerPhase)};
+constexpr std::array<NoiseOfPhase, kPhasesPerPixel> kNoise{noise_of_phase(0), noise_of_phase(kShiftsPerPhase),
+                                                           noise_of_phase(2 * kShiftsPerPhase)};
+const NoiseOfPhase& noise_at(int sixths) { return kNoise[static_cast<std::size_t>(sixths / kShiftsPerPhase)]; }
 
 // Sums over a window of factors times grey values of 8 bits fit in 32 bits.
 constexpr double kMostFactor = 2.1e9 / (255.0 * kSide * kSide);
@@ -68,9 +69,9 @@ double spread_by_slope(const std::array<double, kNodes>& f) {
 
 template <class Function>
 void for_window(int radius, const Function& function) {
-  const int n = side_of(radius);
-  for (int y = 0; y < n; ++y)
-    for (int x = 0; x < n; ++x) function(static_cast<std::size_t>(y * kRow + x), x, y);
+  const auto n = static_cast<std::size_t>(side_of(radius));
+  for (std::size_t y = 0; y < n; ++y)
+    for (std::size_t x = 0; x < n; ++x) function(y * kRow + x, static_cast<int>(x), static_cast<int>(y));
 }
 
 void subtract_mean(FloatWindow& window, int radius, double n_pixels) {
@@ -90,18 +91,20 @@ constexpr FloatTaps kSmooth = to_float(gaussian()), kSlope = to_float(gaussian_s
 HOVERMODAL_VECTOR_CLONES
 void filter(const float* __restrict in, const float* __restrict along, const float* __restrict across,
             float* __restrict out) {
-  float rows[kWide][kRow];
-  for (int y = 0; y < kWide; ++y, in += kWideRow) {
-    float sum[kRow] = {};
-    for (int k = 0; k <= 2 * kGradientRadius; ++k)
-      for (int x = 0; x < kSide; ++x) sum[x] += along[k] * in[x + k];
-    for (int x = 0; x < kRow; ++x) rows[y][x] = sum[x];
+  using Row = std::array<float, kRow>;
+  constexpr std::size_t kTaps = 2 * kGradientRadius + 1;
+  std::array<Row, kWide> rows{};
+  for (std::size_t y = 0; y < kWide; ++y, in += kWideRow) {
+    Row sum{};
+    for (std::size_t k = 0; k < kTaps; ++k)
+      for (std::size_t x = 0; x < kSide; ++x) sum[x] += along[k] * in[x + k];
+    rows[y] = sum;
   }
-  for (int y = 0; y < kSide; ++y, out += kRow) {
-    float sum[kRow] = {};
-    for (int k = 0; k <= 2 * kGradientRadius; ++k)
-      for (int x = 0; x < kRow; ++x) sum[x] += across[k] * rows[y + k][x];
-    for (int x = 0; x < kRow; ++x) out[x] = sum[x];
+  for (std::size_t y = 0; y < kSide; ++y, out += kRow) {
+    Row sum{};
+    for (std::size_t k = 0; k < kTaps; ++k)
+      for (std::size_t x = 0; x < kRow; ++x) sum[x] += across[k] * rows[y + k][x];
+    for (std::size_t x = 0; x < kRow; ++x) out[x] = sum[x];
   }
 }
 
@@ -116,7 +119,8 @@ double round_factors(const FloatWindow& from, double scale, Phase::Factors& out)
 
 bool PhaseBuilder::begin(const WideWindow& window, int radius, int phase_u, int phase_v) noexcept {
   radius_ = radius, phase_u_ = phase_u, phase_v_ = phase_v;
-  n_pixels_ = side_of(radius) * side_of(radius);
+  const double side = side_of(radius);
+  n_pixels_ = side * side;
   for (FloatWindow* cleared : {&texture_, &smooth_u_, &smooth_v_, &slope_u_, &slope_v_}) cleared->fill(0.0F);
   const auto margin = static_cast<std::size_t>(kWindowRadius - radius);
   FloatWindow filtered_u, filtered_v;
@@ -169,7 +173,7 @@ PhaseBuilder::Response PhaseBuilder::response_of(const Nodes& nodes) noexcept {
 
 // The template's noise moves with it, the image's does not.
 PhaseBuilder::Nodes PhaseBuilder::without_noise(double own) const noexcept {
-  const NoiseOfPhase &u = kNoise[phase_u_ / kShiftsPerPhase], &v = kNoise[phase_v_ / kShiftsPerPhase];
+  const NoiseOfPhase &u = noise_at(phase_u_), &v = noise_at(phase_v_);
   const double n = 2.0 * radius_ + 1.0, of_all = own * n_pixels_ / (n * n);
   Nodes nodes = nodes_;
   for (std::size_t j = 0, p = 0; j < kNodes; ++j) {
@@ -203,7 +207,7 @@ bool PhaseBuilder::finish(double own, Phase& out) const noexcept {
   out.place_u = over_steps.to(kPlaces.u), out.place_v = over_steps.to(kPlaces.v);
   out.similarity = kOverPlaces.to(same), out.aside = kOverPlaces.to(aside);
   out.square = square_;
-  const NoiseOfPhase &noise_u = kNoise[phase_u_ / kShiftsPerPhase], &noise_v = kNoise[phase_v_ / kShiftsPerPhase];
+  const NoiseOfPhase &noise_u = noise_at(phase_u_), &noise_v = noise_at(phase_v_);
   out.passed_noise = noise_u.square[kReach] * noise_v.square[kReach];
 
   FloatWindow factors_u, factors_v;
@@ -211,9 +215,9 @@ bool PhaseBuilder::finish(double own, Phase& out) const noexcept {
   combine(static_cast<float>(vu), smooth_u_, static_cast<float>(vv), smooth_v_, factors_v);
   keep_factors(factors_u, factors_v, out);
   std::array<double, kNodes> along_u{}, along_v{};
-  for (int d = -kReach; d <= kReach; ++d) {
-    along_u[static_cast<std::size_t>(d + kReach)] = step_u[at(d, 0)] / kPlaceScale;
-    along_v[static_cast<std::size_t>(d + kReach)] = step_v[at(0, d)] / kPlaceScale;
+  for (std::size_t k = 0; k < kNodes; ++k) {
+    const int node = static_cast<int>(k) - kReach;
+    along_u[k] = step_u[at(node, 0)] / kPlaceScale, along_v[k] = step_v[at(0, node)] / kPlaceScale;
   }
   out.variance_u = product(factors_u, factors_u) * spread_by_slope(along_u);
   out.variance_v = product(factors_v, factors_v) * spread_by_slope(along_v);
@@ -235,7 +239,7 @@ void PhaseBuilder::keep_factors(const FloatWindow& step_u, const FloatWindow& st
 // Slopes times column and row: decrease of a window's grey values per unit of each element of a deformation about the
 // window's first pixel.
 std::array<FloatWindow, 4> PhaseBuilder::changes() const noexcept {
-  std::array<FloatWindow, 4> out;
+  std::array<FloatWindow, 4> out{};
   times_column(slope_u_, out[0]), times_row(slope_u_, out[1]);
   times_column(slope_v_, out[2]), times_row(slope_v_, out[3]);
   return out;

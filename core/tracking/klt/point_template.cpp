@@ -23,26 +23,28 @@ constexpr double kMostOfResponse = 0.4;
 constexpr double kNoiseInResponse = 0.44;  // response of white noise of variance 1 per pixel (phase_noise.h)
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
-double area(int radius) { return static_cast<double>((2 * radius + 1) * (2 * radius + 1)); }
+double area(int radius) { return (2.0 * radius + 1.0) * (2.0 * radius + 1.0); }
 
 // Squares over the window of the differences of an order along both axes, per unit of white noise's variance. They
 // cancel for smooth texture; the higher the order, the finer the texture that is not taken for noise.
 struct Differences {
-  std::array<double, std::size_t{kWindow} * kWindow> squares;
+  std::array<double, std::size_t{kWindow} * kWindow> squares{};
   std::size_t n = 0;
 };
 template <std::size_t kTaps>
 void take_differences(const Patch& patch, int radius, const std::array<float, kTaps>& taps, Differences& out) {
   const std::size_t n = index(2 * radius + 1), first = index(kPatchRadius - radius) - kTaps / 2;
-  float rows[kWindow + kTaps - 1][kRow] = {};
-  for (std::size_t y = 0; y < n + kTaps - 1; ++y)
+  using Row = std::array<float, kRow>;
+  std::array<Row, kWindow + kTaps - 1> rows{};
+  for (std::size_t y = 0; y < n + kTaps - 1; ++y) {
     for (std::size_t k = 0; k < kTaps; ++k)
       for (std::size_t x = 0; x < n; ++x) rows[y][x] += taps[k] * patch[first + y][first + x + k];
+  }
   double of_taps = 0.0;
   for (const float tap : taps) of_taps += static_cast<double>(tap * tap);
   out.n = 0;
   for (std::size_t y = 0; y < n; ++y) {
-    float line[kRow] = {};
+    Row line{};
     for (std::size_t k = 0; k < kTaps; ++k)
       for (std::size_t x = 0; x < n; ++x) line[x] += taps[k] * rows[y + k][x];
     for (std::size_t x = 0; x < n; ++x)
@@ -146,10 +148,14 @@ void build_template(const Patch& patch, int radius, int n_averaged, PointTemplat
   for (int v = kFirstShift; v <= kLastShift; ++v) {
     for (int u = kFirstShift; u <= kLastShift; ++u) {
       windows.window(u, v, window);
-      for (int q = 0; q < kPhasesPerPixel; ++q)
-        for (int p = 0; p < kPhasesPerPixel; ++p)
-          if (std::abs(u - p * kShiftsPerPhase) <= kReach && std::abs(v - q * kShiftsPerPhase) <= kReach)
-            builders[index(q)][index(p)].add(u - p * kShiftsPerPhase, v - q * kShiftsPerPhase, window);
+      for (int q = 0; q < kPhasesPerPixel; ++q) {
+        const int node_v = v - q * kShiftsPerPhase;
+        if (std::abs(node_v) > kReach) continue;
+        for (int p = 0; p < kPhasesPerPixel; ++p) {
+          const int node_u = u - p * kShiftsPerPhase;
+          if (std::abs(node_u) <= kReach) builders[index(q)][index(p)].add(node_u, node_v, window);
+        }
+      }
     }
   }
   const PhaseBuilder::Response response = builders[0][0].response();

@@ -30,10 +30,10 @@ constexpr int kPatchRow = 52;
 HOVERMODAL_VECTOR_CLONES
 void filter_along(const float* __restrict in, const float* __restrict taps, float* __restrict out) {
   for (int y = 0; y < kPatch; ++y, in += kPatchRow, out += kWideRow) {
-    float sum[kWideRow] = {};
-    for (int k = 0; k < kShiftTaps; ++k)
-      for (int x = 0; x < kWideRow; ++x) sum[x] += taps[k] * in[x + k];
-    for (int x = 0; x < kWideRow; ++x) out[x] = sum[x];
+    std::array<float, kWideRow> sum{};
+    for (std::size_t k = 0; k < kShiftTaps; ++k)
+      for (std::size_t x = 0; x < kWideRow; ++x) sum[x] += taps[k] * in[x + k];
+    for (std::size_t x = 0; x < kWideRow; ++x) out[x] = sum[x];
   }
 }
 
@@ -42,9 +42,9 @@ template <std::size_t kColumns>
 inline void filter_across(const float* __restrict in, const float* __restrict taps, int n_rows, int row,
                           float* __restrict out) {
   for (int y = 0; y < n_rows; ++y, in += kWideRow, out += row) {
-    float sum[kColumns] = {};
-    for (int k = 0; k < kShiftTaps; ++k)
-      for (std::size_t x = 0; x < kColumns; ++x) sum[x] += taps[k] * in[static_cast<std::size_t>(k * kWideRow) + x];
+    std::array<float, kColumns> sum{};
+    for (std::size_t k = 0; k < kShiftTaps; ++k)
+      for (std::size_t x = 0; x < kColumns; ++x) sum[x] += taps[k] * in[k * kWideRow + x];
     for (std::size_t x = 0; x < kColumns; ++x) out[x] = sum[x];
   }
 }
@@ -61,13 +61,14 @@ std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-ShiftedWindows::ShiftedWindows(const Patch& patch, int radius, float level) noexcept : radius_(radius) {
+ShiftedWindows::ShiftedWindows(const Patch& patch, int radius, float level) noexcept : radius_(radius), across_{} {
   alignas(64) std::array<std::array<float, kPatchRow>, kPatch> rows{};
   for (std::size_t y = 0; y < kPatch; ++y)
     for (std::size_t x = 0; x < kPatch; ++x) rows[y][x] = patch[y][x] - level;
-  for (std::size_t i = 0; i < kShifts; ++i)
+  for (std::size_t i = 0; i < kShifts; ++i) {
     filter_along(&rows[0][index(kPatchRadius - kWideRadius + kTaps[i].first)], kTaps[i].taps.data(),
                  across_[i][0].data());
+  }
 }
 
 void ShiftedWindows::window(int shift_u, int shift_v, FloatWindow& out) const noexcept {

@@ -44,15 +44,16 @@ void copy_rows(const std::uint8_t* __restrict from, std::size_t stride, std::int
 void copy_window(const GrayView& gray, int u, int v, int radius, RawWindow& out) noexcept {
   const std::uint8_t* from = gray.row(v - radius) + (u - radius);
   if (radius == kWindowRadius) return copy_rows(from, gray.stride, out.data());
-  const int n = side_of(radius);
-  for (int y = 0; y < n; ++y, from += gray.stride)
-    for (int x = 0; x < n; ++x) out[static_cast<std::size_t>(y * kRow + x)] = from[x];
+  const auto n = static_cast<std::size_t>(side_of(radius));
+  for (std::size_t y = 0; y < n; ++y, from += gray.stride)
+    for (std::size_t x = 0; x < n; ++x) out[y * kRow + x] = from[x];
 }
 
 void prefetch_window(const GrayView& gray, int u, int v, int radius) noexcept {
   const std::uint8_t* from = gray.row(v - radius) + (u - radius);
   const int last = side_of(radius) - 1;
-  for (int y = 0; y < last; y += 2, from += 2 * gray.stride) {  // an even number of rows
+  const std::size_t two_rows = 2 * gray.stride;
+  for (int y = 0; y < last; y += 2, from += two_rows) {  // an even number of rows
     for (const std::uint8_t* row : {from, from + gray.stride}) {
       __builtin_prefetch(row);
       __builtin_prefetch(row + last);  // a row may lie in two lines of the cache
@@ -68,8 +69,9 @@ void prefetch_phase(const Phase& phase) noexcept {
 }
 
 WindowSums sums_over(const RawWindow& window, const Phase& phase) noexcept {
-  std::int32_t sums[5];
-  add_products(window.data(), phase.step_u.data(), phase.step_v.data(), phase.texture.data(), kOnes.data(), sums);
+  std::array<std::int32_t, 5> sums{};
+  add_products(window.data(), phase.step_u.data(), phase.step_v.data(), phase.texture.data(), kOnes.data(),
+               sums.data());
   return {sums[0], sums[1], sums[2], sums[3], sums[4]};
 }
 
