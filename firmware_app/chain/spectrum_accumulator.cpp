@@ -1,6 +1,7 @@
 #include "firmware_app/chain/spectrum_accumulator.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <utility>
@@ -37,6 +38,13 @@ bool SpectrumAccumulator::step(const core::DisplacementSample& sample) noexcept 
   return true;
 }
 
+// Sums that begin again in mid-run follow estimates from more data than their first segments hold.
+void SpectrumAccumulator::note_hop(bool hop) noexcept {
+  const std::uint64_t n = welch_.n_hops();
+  const bool is_early = !has_begun_again_ && n < period_hops_ && std::has_single_bit(n);
+  is_due_ = hop && (is_early || n % period_hops_ == 0);
+}
+
 void SpectrumAccumulator::place(const core::DisplacementSample& sample) noexcept {
   const core::TimeGrid::Placement placement = grid_.place(sample.t_start_ns);
   is_placed_ = true;
@@ -54,6 +62,7 @@ bool SpectrumAccumulator::begin_other_sums(const core::DisplacementSample& sampl
     old_sums_ended_ = is_due_ = true;
     return false;
   }
+  has_begun_again_ = has_begun_again_ || welch_.sums().n_segments > 0;
   n_masked_before_ += welch_.sums().n_missing;
   welch_.restart(camera_rate_hz_ / sample.stride);
   if (sample.stride != stride_) grid_ = core::TimeGrid(camera_rate_hz_ / sample.stride);

@@ -13,9 +13,10 @@
 namespace app {
 
 // Samples of all channels -> grid of the frames -> Welch sums, and a snapshot of them every `period_hops` hops, in
-// stream time. Where overload reduces the rate to every n-th frame, or the row delays change, a snapshot of the sums so
-// far is due and new sums begin. Where only point positions are corrected, one segment is masked, so that none spans
-// the jump. One thread; nothing allocates after construction except the first take_snapshot() into an unsized snapshot.
+// stream time; at the start of a run also after 1, 2, 4 ... segments, until the period is reached. Where overload
+// reduces the rate to every n-th frame, or the row delays change, a snapshot of the sums so far is due and new sums
+// begin. Where only point positions are corrected, one segment is masked, so that none spans the jump. One thread;
+// nothing allocates after construction except the first take_snapshot() into an unsized snapshot.
 class SpectrumAccumulator {
  public:
   SpectrumAccumulator(const core::WelchConfig& config, int period_hops);
@@ -65,7 +66,7 @@ class SpectrumAccumulator {
  private:
   [[nodiscard]] bool begin_other_sums(const core::DisplacementSample& sample) noexcept;
   void place(const core::DisplacementSample& sample) noexcept;
-  void note_hop(bool hop) noexcept { is_due_ = hop && welch_.n_hops() % period_hops_ == 0; }
+  void note_hop(bool hop) noexcept;
   [[nodiscard]] std::uint64_t segment() const noexcept { return static_cast<std::uint64_t>(welch_.sums().n_fft / 2); }
 
   double camera_rate_hz_;
@@ -83,6 +84,7 @@ class SpectrumAccumulator {
   bool is_refused_ = false;                                     // ... and that cell is already taken
   bool old_sums_ended_ = false;  // the last snapshot before the change of rate or row delays has been made due
   bool is_due_ = false, is_finished_ = false;
+  bool has_begun_again_ = false;  // the sums are not the first of this run
   std::int64_t t_stream_ns_ = 0;
   core::ReadoutEstimate readout_;
   core::AircraftLog aircraft_;

@@ -85,7 +85,7 @@ struct SpectrumConfig {
 };
 
 struct IdentificationConfig {
-  int period_hops = 4;                  // hops between estimates; one more at the end
+  int period_hops = 4;                  // hops between estimates; more at the start and at the end
   std::vector<std::string> references;  // channel names; empty = automatic
   int block_rows = 0;                   // 0 = automatic
   int max_order = 0;                    // 0 = automatic

@@ -60,8 +60,8 @@ void add_analysis_keys(std::vector<ConfigKey>& keys) {
                  "motion and remove it from the mode shapes"));
   using I = IdentificationConfig;
   keys.push_back(whole_key("identification.period", "hops", at(&A::identification, &I::period_hops), {1, 1000000},
-                           "number of hops between two estimates (one hop = segment * (1 - overlap) samples); one more "
-                           "estimate is made at the end"));
+                           "number of hops between two estimates (one hop = segment * (1 - overlap) samples). A run "
+                           "begins with estimates after 1, 2, 4 ... segments; one more is made at its end"));
   keys.push_back(texts_key("identification.references", at(&A::identification, &I::references), {1, 40, true},
                            "reference channels of the correlations; [] = automatic"));
   keys.push_back(whole_key("identification.block_rows", "", at(&A::identification, &I::block_rows), {2, 1000, true},

@@ -149,7 +149,15 @@ std::ostream& operator<<(std::ostream& out, const PeriodCase& c) {
 
 class PipelinePeriod : public ::testing::TestWithParam<PeriodCase> {};
 
-// One estimate every `period` hops and one at the end; each states the sample at which it was made.
+// Hops after which there is an estimate: 1, 2, 4 ... until the period is reached, then every `period` of them.
+std::vector<int> hops_with_estimate(int n_hops, int period) {
+  std::vector<int> out;
+  for (int hop = 1; hop < period && hop <= n_hops; hop *= 2) out.push_back(hop);
+  for (int hop = period; hop <= n_hops; hop += period) out.push_back(hop);
+  return out;
+}
+
+// These and one at the end; each states the sample at which it was made.
 TEST_P(PipelinePeriod, GivesAnEstimateEverySoManyHops) {
   const PeriodCase& p = GetParam();
   CameraScript script = frames(static_cast<std::uint64_t>(p.n_frames));
@@ -157,18 +165,17 @@ TEST_P(PipelinePeriod, GivesAnEstimateEverySoManyHops) {
                    "identification.period=" + std::to_string(p.period)});
   const auto outcome = rig.run();
   const int hop = p.segment - static_cast<int>(p.segment * p.overlap);
-  const int n_hops = 1 + (p.n_frames - p.segment) / hop;
-  const auto n_periodic = static_cast<std::size_t>(n_hops / p.period);
-  ASSERT_EQ(rig.heard->estimates.size(), n_periodic + 1);
+  const std::vector<int> hops = hops_with_estimate(1 + (p.n_frames - p.segment) / hop, p.period);
+  ASSERT_EQ(rig.heard->estimates.size(), hops.size() + 1);
   for (std::size_t k = 0; k < rig.heard->estimates.size(); ++k) {
     const core::ModalEstimate& estimate = rig.heard->estimates[k];
-    const bool last = k == n_periodic;
+    const bool last = k == hops.size();
     EXPECT_EQ(estimate.number, k);
     EXPECT_EQ(estimate.final, last);
-    const int n_samples = last ? p.n_frames : p.segment + hop * (p.period * (static_cast<int>(k) + 1) - 1);
+    const int n_samples = last ? p.n_frames : p.segment + hop * (hops[k] - 1);
     EXPECT_EQ(estimate.n_samples, static_cast<std::uint64_t>(n_samples));
   }
-  EXPECT_EQ(outcome.estimate.number, n_periodic);
+  EXPECT_EQ(outcome.estimate.number, hops.size());
 }
 
 INSTANTIATE_TEST_SUITE_P(Rules, PipelinePeriod,

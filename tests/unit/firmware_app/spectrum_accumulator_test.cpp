@@ -51,14 +51,19 @@ std::vector<SpectrumSnapshot> push(SpectrumAccumulator& spectra, std::uint64_t f
   return out;
 }
 
+std::vector<std::uint64_t> segments_of(const std::vector<SpectrumSnapshot>& snapshots) {
+  std::vector<std::uint64_t> out;
+  for (const SpectrumSnapshot& snapshot : snapshots) out.push_back(snapshot.sums.n_segments);
+  return out;
+}
+
 TEST(SpectrumAccumulator, GivesASnapshotEverySoManyHopsAndOneAtTheEnd) {
   SpectrumAccumulator spectra(config(), 2);
-  const auto snapshots = push(spectra, 0, 100);
-  ASSERT_EQ(snapshots.size(), 2U);  // hops at 32, 48, 64, 80, 96 samples
-  EXPECT_EQ(snapshots[1].number, 1U);
-  EXPECT_EQ(snapshots[1].sums.n_segments, 4U);
-  EXPECT_EQ(snapshots[1].t_last_ns, sample_at(79).t_start_ns);
-  EXPECT_FALSE(snapshots[1].final);
+  const auto snapshots = push(spectra, 0, 100);  // hops at 32, 48, 64, 80, 96 samples
+  EXPECT_EQ(segments_of(snapshots), (std::vector<std::uint64_t>{1, 2, 4}));
+  EXPECT_EQ(snapshots.back().number, 2U);
+  EXPECT_EQ(snapshots.back().t_last_ns, sample_at(79).t_start_ns);
+  EXPECT_FALSE(snapshots.back().final);
   spectra.finish();
   ASSERT_TRUE(spectra.is_due());
   SpectrumSnapshot last;
@@ -66,6 +71,20 @@ TEST(SpectrumAccumulator, GivesASnapshotEverySoManyHopsAndOneAtTheEnd) {
   EXPECT_TRUE(last.final);
   EXPECT_EQ(last.sums.n_samples, 100U);
   EXPECT_FALSE(spectra.is_due());
+}
+
+TEST(SpectrumAccumulator, ARunBeginsWithASnapshotOfItsFirstSegment) {
+  SpectrumAccumulator spectra(config(), 6);
+  const auto snapshots = push(spectra, 0, 32 + 12 * 16);
+  EXPECT_EQ(segments_of(snapshots), (std::vector<std::uint64_t>{1, 2, 4, 6, 12}));
+  EXPECT_EQ(snapshots.front().t_last_ns, sample_at(kSegment - 1).t_start_ns);
+}
+
+TEST(SpectrumAccumulator, SumsThatBeginAgainWaitForThePeriod) {
+  SpectrumAccumulator spectra(config(), 4);
+  (void)push(spectra, 0, 100);
+  const auto snapshots = push(spectra, 102, 3 * 96, 3);  // the end of the old sums, then hops 1 ... 5
+  EXPECT_EQ(segments_of(snapshots), (std::vector<std::uint64_t>{5, 4}));
 }
 
 TEST(SpectrumAccumulator, MasksALostSampleAndRefusesARepeatedOne) {
@@ -90,7 +109,7 @@ TEST(SpectrumAccumulator, AYearWithoutASampleCostsTwoSegments) {
 
 TEST(SpectrumAccumulator, WhereEveryThirdFrameIsKeptTheOldSumsComeFirstAndNewOnesBegin) {
   SpectrumAccumulator spectra(config(), 1000);
-  EXPECT_TRUE(push(spectra, 0, 100).empty());
+  (void)push(spectra, 0, 100);
   const auto snapshots = push(spectra, 100, 120, 3);
   ASSERT_EQ(snapshots.size(), 1U);
   EXPECT_DOUBLE_EQ(snapshots[0].sums.rate_hz, kRate_hz);
