@@ -9,9 +9,9 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <optional>
 #include <sstream>
-#include <vector>
+
+#include "drivers/host/system_value.h"
 
 namespace drivers {
 
@@ -19,35 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string first_line(const fs::path& path) {
-  std::ifstream in(path);
-  std::string line;
-  std::getline(in, line);
-  return line;
-}
-
-std::optional<double> number_in(const fs::path& path) {
-  const std::string line = first_line(path);
-  char* end = nullptr;
-  const double value = std::strtod(line.c_str(), &end);
-  if (end == line.c_str() || !std::isfinite(value)) return {};
-  return value;
-}
-
-// Entries of a folder whose name begins with `prefix`; empty if it cannot be read.
-std::vector<fs::path> entries(const fs::path& folder, const std::string& prefix) {
-  std::vector<fs::path> out;
-  std::error_code error;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    if (it->path().filename().string().starts_with(prefix)) out.push_back(it->path());
-  }
-  return out;
-}
-
 double hottest_c(const fs::path& root) {
   double hottest = std::numeric_limits<double>::quiet_NaN();
-  for (const fs::path& zone : entries(root / "sys/class/thermal", "thermal_zone")) {
-    const auto milli = number_in(zone / "temp");
+  for (const fs::path& zone : system_entries(root / "sys/class/thermal", "thermal_zone")) {
+    const auto milli = system_number(zone / "temp");
     if (milli) hottest = std::fmax(hottest, *milli * 1e-3);  // fmax prefers a number to NaN
   }
   return hottest;
@@ -56,20 +31,20 @@ double hottest_c(const fs::path& root) {
 double mean_frequency_mhz(const fs::path& root) {
   double sum = 0.0;
   int n = 0;
-  for (const fs::path& cpu : entries(root / "sys/devices/system/cpu", "cpu")) {
-    if (const auto khz = number_in(cpu / "cpufreq/scaling_cur_freq")) sum += *khz * 1e-3, ++n;
+  for (const fs::path& cpu : system_entries(root / "sys/devices/system/cpu", "cpu")) {
+    if (const auto khz = system_number(cpu / "cpufreq/scaling_cur_freq")) sum += *khz * 1e-3, ++n;
   }
   return n > 0 ? sum / n : std::numeric_limits<double>::quiet_NaN();
 }
 
 int throttled(const fs::path& root) {
-  const std::string firmware = first_line(root / "sys/devices/platform/soc/soc:firmware/get_throttled");
+  const std::string firmware = system_line(root / "sys/devices/platform/soc/soc:firmware/get_throttled");
   if (!firmware.empty()) return (std::strtoul(firmware.c_str(), nullptr, 16) & 0xFU) != 0 ? 1 : 0;
   int known = -1;
-  for (const fs::path& device : entries(root / "sys/class/thermal", "cooling_device")) {
-    const std::string type = first_line(device / "type");
+  for (const fs::path& device : system_entries(root / "sys/class/thermal", "cooling_device")) {
+    const std::string type = system_line(device / "type");
     if (type.find("cpufreq") == type.npos && type != "Processor") continue;
-    if (const auto state = number_in(device / "cur_state")) known = std::max(known, *state > 0.0 ? 1 : 0);
+    if (const auto state = system_number(device / "cur_state")) known = std::max(known, *state > 0.0 ? 1 : 0);
   }
   return known;
 }
@@ -121,7 +96,7 @@ HostCapacity read_host_capacity(const std::string& disk_path, const std::string&
 
 // "cpu  USER NICE SYSTEM IDLE IOWAIT IRQ SOFTIRQ STEAL ..." in ticks since the start.
 double ProcessorLoad::next() {
-  std::istringstream in(first_line(fs::path(root_.empty() ? "/" : root_) / "proc/stat"));
+  std::istringstream in(system_line(fs::path(root_.empty() ? "/" : root_) / "proc/stat"));
   std::string name;
   in >> name;
   std::int64_t all = 0, idle = 0, ticks = 0;

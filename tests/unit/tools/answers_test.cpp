@@ -91,6 +91,27 @@ TEST_F(Answers, InspectListsWhatItFinds) {
   }
 }
 
+TEST_F(Answers, InspectCostDividesWhatARunTookByItsFrames) {
+  ASSERT_EQ(
+      tests::run("hovermodal", "simulate --preset paper --size 270p --duration 4 --out " + path("made")).exit_code, 0);
+  const std::string cost = "inspect cost --config " + path("made/config.yaml") +
+                           " --set spectrum.segment=64 --set report.directory=" + path("none");
+  EXPECT_THAT(tests::run_apart(cost).out, HasSubstr("us a frame"));
+  const auto told = nlohmann::json::parse(tests::run_apart(cost + " --json").out);
+  EXPECT_EQ(told["frames"], 100);
+  EXPECT_GT(told["points"].get<int>(), 20);
+  double stages_us = 0.0;
+  for (const auto& stage : told["stages"]) {
+    if (stage["name"] != "all") stages_us += stage["cpu_us_per_frame"].get<double>();
+  }
+  EXPECT_EQ(told["stages"].back()["name"], "all");
+  EXPECT_NEAR(stages_us, told["stages"].back()["cpu_us_per_frame"].get<double>(), 1e-3 * stages_us);
+  EXPECT_GT(told["peak_mb"].get<double>(), 10.0);
+  for (const char* unknown_somewhere : {"instructions_per_frame", "joules_per_frame"})
+    EXPECT_TRUE(told[unknown_somewhere].is_null() || told[unknown_somewhere].get<double>() > 0.0) << unknown_somewhere;
+  EXPECT_FALSE(std::filesystem::exists(path("none"))) << "nothing is written";
+}
+
 TEST_F(Answers, GroundDoesNotKeepAnAccessTokenToItself) {
   const tests::Streams quiet = tests::run_apart("ground --bind 0.0.0.0 --port 0 --seconds 0.1 --quiet");
   EXPECT_NE(quiet.exit_code, 0);

@@ -4,6 +4,7 @@
 
 #include "drivers/host/command_line.h"
 #include "tools/hovermodal/commands.h"
+#include "tools/hovermodal/inspect/cost.h"
 #include "tools/hovermodal/inspect/telemetry.h"
 #include "tools/hovermodal/spy/session.h"
 
@@ -39,6 +40,7 @@ void add_inspect(drivers::Command& app) {
       app.subcommand("inspect", "Show every stage live, like top: rate, ring, losses, latencies, CPU; from LCM alone");
   add_listener(inspect)->view = SpyView::kStages;
   add_inspect_cameras(inspect);
+  add_inspect_cost(inspect);
   add_inspect_telemetry(inspect);
   add_inspect_lcm(inspect);
 }
