@@ -6,10 +6,12 @@ import { SpectraView, StableView, TracesView } from "./pictures.js";
 import { State } from "./state.js";
 import { showClosure, showStructure, showHead, showHealth, showLink, showNotice, showRegions } from "./tables.js";
 
-const kRetry_ms = 3000, kSwing_ms = 2400, kShapeFrame_ms = 33;
+const kRetry_ms = 3000, kPatience_ms = 10000, kSwing_ms = 2400, kShapeFrame_ms = 33;
 
 const state = new State();
 const wanted = new Set();  // parts to draw
+const waiting = [];        // events that came while a snapshot is fetched
+let nFetching = 0;
 let isPaused = false, heard_ms = 0, source = null, noticeOfRun = "", noticeUntil_ms = 0;
 const stillness = window.matchMedia("(prefers-reduced-motion: reduce)");
 
@@ -42,20 +44,29 @@ function apply(data) {
   if (changed.has("preview")) camera.load(state.preview);
 }
 
+// What happened before comes with the snapshot, so events that overtake it wait: a snapshot that is taken after the
+// event source has opened and the events since then hold every sample between them.
 async function fetchAll() {
+  ++nFetching;
   try {
-    const answer = await fetch("snapshot.json", { cache: "no-store" });
+    const answer = await fetch("snapshot.json", { cache: "no-store", signal: AbortSignal.timeout(kPatience_ms) });
     if (answer.ok) apply(await answer.json());
   } catch (error) {
     // The event source tells that the station is gone, and comes back by itself.
   }
+  if (--nFetching > 0) return;
+  for (const event of waiting.splice(0)) apply(event);
+}
+function take(event) {
+  if (nFetching > 0) waiting.push(event);
+  else apply(event);
 }
 
 function connect() {
   source = new EventSource("events");
   source.addEventListener("open", fetchAll);
   source.addEventListener("resync", fetchAll);
-  source.addEventListener("message", (event) => apply(JSON.parse(event.data)));
+  source.addEventListener("message", (event) => take(JSON.parse(event.data)));
   source.addEventListener("error", () => {
     wanted.add("link");
     if (source.readyState !== EventSource.CLOSED) return;  // else it tries again by itself

@@ -80,7 +80,7 @@ export class State {
   addTraces(part) {
     let t = this.traces;
     const names = part.channels.slice(0, kMostChannels);
-    if (names.join("\n") !== t.names.join("\n") || part.stride !== t.stride || part.next < t.next) {
+    if (names.join("\n") !== t.names.join("\n") || part.stride !== t.stride) {
       this.clearTraces();
       t = this.traces;
       t.names = names;

@@ -55,7 +55,7 @@ std::string snapshot_json(const LiveView& view, Shown& shown) {
   if (now.structure_utc_ns >= 0 && now.structure_utc_ns != shown.structure_utc_ns)
     out["structure"] = closure_json(*monitor.structure());
   if (now.n_samples != shown.n_samples) {
-    out["traces"] = traces_json(monitor, std::min(shown.n_samples, now.n_samples));
+    out["traces"] = traces_json(monitor, shown.n_samples < now.n_samples ? shown.n_samples : 0);  // fewer: another stream
   }
   shown = now;
   // Strings come from the network: invalid UTF-8 is replaced.
