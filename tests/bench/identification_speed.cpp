@@ -1,8 +1,9 @@
 // One update of the identification, timed in process CPU time, on data that tests/bench/identification_speed.py reads
 // too: a new segment of 1024 samples into the sums, correlations, ERA, poles and shapes of orders 2-60, their clusters.
-//   identification_speed make DATA SEED                        writes 12 channels, 300 s at 30 Hz, as doubles by sample
-//   identification_speed run DATA plain|cva BLOCK_ROWS REPEATS POLES    prints the least milliseconds of an update
-//   identification_speed service CHANNELS UPDATES SEED         the service's defaults, to count instructions
+//   identification_speed make DATA CHANNELS SEED: writes 300 s at 30 Hz, as doubles by sample
+//   identification_speed run DATA CHANNELS plain|cva BLOCK_ROWS REPEATS POLES: the least milliseconds of an update
+//   identification_speed service CHANNELS UPDATES SEED: the service's defaults, with standard deviations; the least
+//     milliseconds of an identification
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -26,7 +27,10 @@ using bench::push;
 
 constexpr int kSegment = 1024;
 constexpr int kMaxOrder = 60;
-const std::vector<int> kReferences{0, 5, 11};
+constexpr int kSamples = 9000;
+
+// First, middle and last channel.
+std::vector<int> references_of(int n_channels) { return {0, (n_channels - 1) / 2, n_channels - 1}; }
 
 struct Update {
   std::vector<core::OrderPole> poles;
@@ -38,7 +42,8 @@ Update identify(const core::CpsdSums& sums, const core::EraConfig& config) {
   core::Correlations correlations;
   core::Realisation realisation;
   Update out;
-  const std::span<const int> pairs_with = config.canonical_variates ? std::span<const int>{} : kReferences;
+  const std::span<const int> pairs_with =
+      config.canonical_variates ? std::span<const int>{} : std::span<const int>(config.references);
   if (core::compute_correlations(sums, 2 * config.block_rows + config.first_lag, 0, correlations, pairs_with) !=
           core::CorrelationStatus::kOk ||
       core::realise(correlations, config, realisation) != core::EraStatus::kOk) {
@@ -66,23 +71,24 @@ void write_poles(const Update& update, const std::string& path) {
   std::fclose(file);
 }
 
-int run(const std::string& path, bool weighted, int block_rows, int repeats, const std::string& poles) {
-  constexpr std::size_t kChannels = 12;
+int run(const std::string& path, int n_channels, bool weighted, int block_rows, int repeats, const std::string& poles) {
+  const auto n = static_cast<std::size_t>(n_channels);
   std::ifstream file(path, std::ios::binary);
-  std::vector<double> motion(kChannels * 9000);
+  std::vector<double> motion(n * kSamples);
   file.read(reinterpret_cast<char*>(motion.data()), static_cast<std::streamsize>(motion.size() * sizeof(double)));
   if (!file) {
-    std::fprintf(stderr, "identification_speed: %s does not hold 9000 samples of 12 channels\n", path.c_str());
+    std::fprintf(stderr, "identification_speed: %s does not hold %d samples of %d channels\n", path.c_str(), kSamples,
+                 n_channels);
     return 1;
   }
   // 16 segments, the last of them in the timed part.
   const std::size_t hop = kSegment / 2, begin = kSegment + 14 * hop;
-  core::WelchCpsd start({.n_channels = static_cast<int>(kChannels), .segment = kSegment, .rate_hz = kRateHz});
-  push(start, motion, kChannels, 0, begin);
+  core::WelchCpsd start({.n_channels = n_channels, .segment = kSegment, .rate_hz = kRateHz});
+  push(start, motion, n, 0, begin);
   core::EraConfig config;
   config.block_rows = block_rows;
   config.max_order = kMaxOrder;
-  config.references = kReferences;
+  config.references = references_of(n_channels);
   config.canonical_variates = weighted;
   config.with_maps = false;  // the comparator computes no standard deviations either
   double least_ms = 1e300;
@@ -90,7 +96,7 @@ int run(const std::string& path, bool weighted, int block_rows, int repeats, con
   for (int k = 0; k < repeats; ++k) {
     core::WelchCpsd welch = start;
     const double t0 = cpu_ms();
-    push(welch, motion, kChannels, begin, begin + hop);
+    push(welch, motion, n, begin, begin + hop);
     update = identify(welch.sums(), config);
     least_ms = std::min(least_ms, cpu_ms() - t0);
   }
@@ -101,16 +107,20 @@ int run(const std::string& path, bool weighted, int block_rows, int repeats, con
 }
 
 int service(int n_channels, int n_updates, std::uint64_t seed) {
-  const std::vector<double> motion = make_motion(n_channels, 9000, seed);
+  const std::vector<double> motion = make_motion(n_channels, kSamples, seed);
   core::WelchCpsd welch({.n_channels = n_channels, .segment = 512, .rate_hz = kRateHz});
-  push(welch, motion, static_cast<std::size_t>(n_channels), 0, 9000);
+  push(welch, motion, static_cast<std::size_t>(n_channels), 0, kSamples);
   std::vector<core::ChannelInfo> channels(static_cast<std::size_t>(n_channels));
   const core::Identifier identifier({}, channels);
+  double least_ms = 1e300;
   for (int k = 0; k < n_updates; ++k) {
+    const double t0 = cpu_ms();
     const core::ModalEstimate estimate = identifier.identify(welch.sums());
+    least_ms = std::min(least_ms, cpu_ms() - t0);
     std::printf("%s: order %d, %zu modes, %zu rejected\n", estimate.status.c_str(), estimate.model_order,
                 estimate.modes.size(), estimate.rejected.size());
   }
+  std::printf("least %.3f ms\n", least_ms);
   return 0;
 }
 
@@ -118,20 +128,22 @@ int service(int n_channels, int n_updates, std::uint64_t seed) {
 
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
-  if (arguments.size() == 3 && arguments[0] == "make") {
-    const std::vector<double> motion = make_motion(12, 9000, std::stoull(arguments[2]));
+  if (arguments.size() == 4 && arguments[0] == "make") {
+    const std::vector<double> motion = make_motion(std::stoi(arguments[2]), kSamples, std::stoull(arguments[3]));
     std::ofstream(arguments[1], std::ios::binary)
         .write(reinterpret_cast<const char*>(motion.data()),
                static_cast<std::streamsize>(motion.size() * sizeof(double)));
     return 0;
   }
-  if (arguments.size() == 6 && arguments[0] == "run") {
-    return run(arguments[1], arguments[2] == "cva", std::stoi(arguments[3]), std::stoi(arguments[4]), arguments[5]);
+  if (arguments.size() == 7 && arguments[0] == "run") {
+    return run(arguments[1], std::stoi(arguments[2]), arguments[3] == "cva", std::stoi(arguments[4]),
+               std::stoi(arguments[5]), arguments[6]);
   }
   if (arguments.size() == 4 && arguments[0] == "service")
     return service(std::stoi(arguments[1]), std::stoi(arguments[2]), std::stoull(arguments[3]));
-  std::fprintf(stderr,
-               "usage: identification_speed make DATA SEED | run DATA plain|cva BLOCK_ROWS REPEATS POLES | service "
-               "CHANNELS UPDATES SEED\n");
+  std::fprintf(
+      stderr,
+      "usage: identification_speed make DATA CHANNELS SEED | run DATA CHANNELS plain|cva BLOCK_ROWS REPEATS POLES "
+      "| service CHANNELS UPDATES SEED\n");
   return 2;
 }

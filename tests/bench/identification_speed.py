@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The same update as `identification_speed run`, with NumPy and SciPy as one would write it: whole arrays, LAPACK.
 
-    identification_speed.py DATA plain|cva BLOCK_ROWS REPEATS POLES [svd|gram]
+    identification_speed.py DATA CHANNELS plain|cva BLOCK_ROWS REPEATS POLES [svd|gram]
     identification_speed.py compare POLES POLES         the worst relative difference of two lists of poles
 
 `svd` (default) factorises the Hankel matrix by LAPACK's gesdd, `gram` takes the eigenvectors of its Gram matrix.
@@ -16,8 +16,7 @@ import scipy.cluster.hierarchy
 import scipy.linalg
 import scipy.signal
 
-CHANNELS, SEGMENT, ORDERS, RATE_HZ, RIDGE = 12, 1024, range(2, 61, 2), 30.0, 1e-6
-REFERENCES = np.array([0, 5, 11])
+SEGMENT, ORDERS, RATE_HZ, RIDGE = 1024, range(2, 61, 2), 30.0, 1e-6
 N_FFT = 2 * SEGMENT
 WINDOW = scipy.signal.get_window("hann", SEGMENT)
 FAST = {"check_finite": False}
@@ -26,10 +25,11 @@ FAST = {"check_finite": False}
 class Sums:
     """Cross-spectra of all pairs i <= j (plain ERA needs only those with a reference)."""
 
-    def __init__(self, weighted):
-        first, second = np.triu_indices(CHANNELS)
+    def __init__(self, channels, references, weighted):
+        self.channels = channels
+        first, second = np.triu_indices(channels)
         if not weighted:
-            wanted = np.isin(first, REFERENCES) | np.isin(second, REFERENCES) | (first == second)
+            wanted = np.isin(first, references) | np.isin(second, references) | (first == second)
             first, second = first[wanted], second[wanted]
         self.first, self.second = first, second
         self.sum = np.zeros((len(first), N_FFT // 2 + 1), complex)
@@ -49,7 +49,7 @@ class Sums:
         at_zero = undivided[self.first == self.second][:, max_lag]
         scale = np.sqrt(at_zero)
         undivided /= (scale[self.first] * scale[self.second])[:, None]
-        full = np.zeros((CHANNELS, CHANNELS, len(lags)))
+        full = np.zeros((self.channels, self.channels, len(lags)))
         full[self.first, self.second] = undivided
         full[self.second, self.first] = undivided[:, ::-1]
         full = np.ascontiguousarray(full.transpose(2, 0, 1))
@@ -73,15 +73,17 @@ def left_vectors(h, order, factoriser):
     return h @ v / s, s, v
 
 
-def realise(divided, undivided, scale, max_lag, rows, weighted, factoriser):
+def realise(correlations, references, max_lag, rows, weighted, factoriser):
+    divided, undivided, scale = correlations
+    channels = len(scale)
     a, b = np.indices((rows, rows))
-    to_reference = divided[:, :, REFERENCES]
+    to_reference = divided[:, :, references]
     h0 = blocks(to_reference, max_lag + 1 + a + b)
     h1 = blocks(to_reference, max_lag + 2 + a + b)
-    top = np.eye(CHANNELS)
+    top = np.eye(channels)
     if weighted:
         future = blocks(undivided, max_lag + a - b)
-        past = blocks(undivided[:, REFERENCES][:, :, REFERENCES], max_lag + b - a)
+        past = blocks(undivided[:, references][:, :, references], max_lag + b - a)
         lower = [scipy.linalg.cholesky(t + RIDGE * np.eye(len(t)), lower=True, overwrite_a=True, **FAST)
                  for t in (future, past)]
 
@@ -89,11 +91,11 @@ def realise(divided, undivided, scale, max_lag, rows, weighted, factoriser):
             half = scipy.linalg.solve_triangular(lower[0], h, lower=True, overwrite_b=True, **FAST)
             return scipy.linalg.solve_triangular(lower[1], half.T, lower=True, **FAST).T
 
-        h0, h1, top = whiten(h0), whiten(h1), lower[0][:CHANNELS, :CHANNELS]
+        h0, h1, top = whiten(h0), whiten(h1), lower[0][:channels, :channels]
     order = max(ORDERS)
     u, s, v = left_vectors(h0, order, factoriser)
     root = np.sqrt(s)
-    return (u.T @ h1 @ v) / root[:, None] / root, scale[:, None] * (top @ u[:CHANNELS]) * root, s
+    return (u.T @ h1 @ v) / root[:, None] / root, scale[:, None] * (top @ u[:channels]) * root, s
 
 
 def poles_of(a, c):
@@ -122,10 +124,10 @@ def clusters_of(lambdas, shapes):
     return scipy.cluster.hierarchy.fcluster(scipy.cluster.hierarchy.linkage(condensed, "average"), 1.0, "distance")
 
 
-def update(sums, segment, rows, weighted, factoriser):
+def update(sums, segment, references, rows, weighted, factoriser):
     sums.add(segment)
     max_lag = 2 * rows + 1
-    a, c, s = realise(*sums.correlations(max_lag), max_lag, rows, weighted, factoriser)
+    a, c, s = realise(sums.correlations(max_lag), references, max_lag, rows, weighted, factoriser)
     lambdas, shapes, orders = poles_of(a, c)
     return lambdas, orders, collinearity(shapes), clusters_of(lambdas, shapes), s
 
@@ -151,11 +153,13 @@ def main():
     if sys.argv[1] == "compare":
         compare(sys.argv[2:4])
         return
-    path, method, rows, repeats, poles = sys.argv[1], sys.argv[2], int(sys.argv[3]), int(sys.argv[4]), sys.argv[5]
-    factoriser = sys.argv[6] if len(sys.argv) > 6 else "svd"
-    motion = np.fromfile(path).reshape(-1, CHANNELS)
+    path, method, poles = sys.argv[1], sys.argv[3], sys.argv[6]
+    channels, rows, repeats = int(sys.argv[2]), int(sys.argv[4]), int(sys.argv[5])
+    factoriser = sys.argv[7] if len(sys.argv) > 7 else "svd"
+    motion = np.fromfile(path).reshape(-1, channels)
+    references = np.array([0, (channels - 1) // 2, channels - 1])
     weighted, hop = method == "cva", SEGMENT // 2
-    start = Sums(weighted)
+    start = Sums(channels, references, weighted)
     for k in range(15):
         start.add(motion[k * hop:k * hop + SEGMENT])
     kept = start.sum.copy()
@@ -163,7 +167,8 @@ def main():
     for _ in range(repeats):
         start.sum[:], start.segments = kept, 15
         t0 = time.process_time()
-        lambdas, orders, mpc, clusters, s = update(start, motion[15 * hop:15 * hop + SEGMENT], rows, weighted, factoriser)
+        segment = motion[15 * hop:15 * hop + SEGMENT]
+        lambdas, orders, mpc, clusters, s = update(start, segment, references, rows, weighted, factoriser)
         least = min(least, time.process_time() - t0)
     np.savetxt(poles, np.column_stack([orders, lambdas.real, lambdas.imag, mpc]), fmt="%d %.17g %.17g %.17g")
     print(f"{1e3 * least:.3f} ms\t{len(lambdas)} poles\t{clusters.max()} clusters\t"

@@ -1,8 +1,8 @@
-// The whole service on one processor, as fast as possible, over 1920 x 1080 frames in memory, without
-// decoding. Lines of "name<TAB>value": frames per second; of each stage the processor time per frame (us) and its
-// share; the same frames and points with OpenCV's tracker, which the service used before (pyramid_klt.h), and the
+// The whole service on one processor, as fast as possible, over frames in memory (1920 x 1080, or of the given height),
+// without decoding. Lines of "name<TAB>value": frames per second; of each stage the processor time per frame (us) and
+// its share; the same frames and points with OpenCV's tracker, which the service used before (pyramid_klt.h), and the
 // resulting frames per second.
-//   service_speed [FRAMES] [SEED]
+//   service_speed [FRAMES] [SEED] [HEIGHT]
 #include <sched.h>
 
 #include <algorithm>
@@ -18,8 +18,8 @@
 
 namespace {
 
-constexpr std::size_t kDrawn = 100;    // frames: 200 MB
-constexpr std::uint64_t kFewest = 60;  // for the median of OpenCV's times
+constexpr std::size_t kDrawnBytes = 200'000'000;  // of frames
+constexpr std::uint64_t kFewest = 60;             // for the median of OpenCV's times
 constexpr std::uint64_t kMostOfTheirs = 400;
 
 // All threads of this process, including later ones.
@@ -59,9 +59,12 @@ int main(int argc, char** argv) {
   const std::uint64_t n_frames = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 3000;
   stay_on_one_cpu();
   cv::setNumThreads(1);
-  const core::simulation::Scene scene =
+  core::simulation::Scene scene =
       core::simulation::make_paper_scene(argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1, 10.0);
-  const auto clip = std::make_shared<const tests::SceneClip>(scene, kDrawn);
+  const int height_px = argc > 3 ? std::atoi(argv[3]) : 1080;
+  core::simulation::set_image_size(scene, height_px * 16 / 9, height_px);
+  const std::size_t n_drawn = kDrawnBytes / static_cast<std::size_t>(scene.camera.width_px * scene.camera.height_px);
+  const auto clip = std::make_shared<const tests::SceneClip>(scene, n_drawn);
   const app::AppConfig config = app::parse_config(tests::scene_config(clip->motion), "scene",
                                                   {"tracking.points_per_region=30", "tracking.window_px=21",
                                                    "tracking.min_distance_px=8", "telemetry.tracks_every=1"});

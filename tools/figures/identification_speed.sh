@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
 # The figures of Welch's estimate and of the identification's cost. One line a figure.
-#   tools/figures/identification_speed.sh [--quick] [--first-seed N] [FIGURE...]      FIGURE: some of 1 9 10 (default: all)
+#   tools/figures/identification_speed.sh [--quick] [--first-seed N] [FIGURE...]      FIGURE: some of 1 5 9 10 (default: all)
 # --quick takes 2 rounds of the clock instead of 8, 10^6 samples. Needs, beside tools/setup.sh, Debian's python3-scipy and
 # valgrind (or perf with hardware counters). The comparator runs with the reference BLAS and with OpenBLAS, each chosen by
-# LD_LIBRARY_PATH; a missing OpenBLAS is unpacked into the build folder, not installed. The golden files of figure 1 and what
+# LD_LIBRARY_PATH; a missing OpenBLAS is unpacked into the build folder, not installed. Figure 5 also runs pyOMA2, where
+# build/beside/pyOMA2 holds it (https://github.com/dagghe/pyOMA2). The golden files of figure 1 and what
 # they were made from are fixed: its numbers know no seed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
 take_arguments "tools/figures/identification_speed.sh [--quick] [--first-seed N] [FIGURE...]" "$@"
-all_or_named 1 9 10
+all_or_named 1 5 9 10
 rounds=8 samples=10000000
 [ -z "$quick" ] || rounds=2 samples=1000000
 out=build/figures/identification_speed
@@ -43,7 +44,7 @@ figure_9() {
   line 9 $verdict "$(tr '\t\n' ' ;' <"$out/memory.txt")" "no allocation, no byte more" "12 channels, segments of 1024, hops of 512"
 }
 
-# --- 10: one update ---------------------------------------------------------------------------------------------------
+# --- 5, 10: one update ------------------------------------------------------------------------------------------------
 find_openblas() { # sets openblas, empty if there is none
   openblas=$libraries/openblas-pthread
   if [ ! -e "$openblas/libblas.so.3" ]; then
@@ -54,12 +55,19 @@ find_openblas() { # sets openblas, empty if there is none
   fi
   [ -e "$openblas/libblas.so.3" ] || openblas=""
 }
-ours() { # METHOD BLOCK_ROWS
-  "$speed" run "$out/motion.bin" "$1" "$2" 5 "$out/poles_ours_$1.txt"
+motion() { "$speed" make "$out/motion_$1.bin" "$1" "$first_seed"; } # CHANNELS: 300 s of so many
+ours() { # CHANNELS METHOD BLOCK_ROWS
+  "$speed" run "$out/motion_$1.bin" "$1" "$2" "$3" 5 "$out/poles_ours_$1_$2.txt"
 }
-theirs() { # LIBRARIES NAME METHOD BLOCK_ROWS FACTORISER
-  OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 LD_LIBRARY_PATH=$1 "$python" tests/bench/identification_speed.py \
-    "$out/motion.bin" "$3" "$4" 3 "$out/poles_$2_$3.txt" "$5"
+with_blas() { # LIBRARIES COMMAND...: one thread
+  local libraries=$1
+  shift
+  OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 LD_LIBRARY_PATH=$libraries "$python" "$@"
+}
+theirs() { # BLAS FACTORISER CHANNELS METHOD BLOCK_ROWS
+  local blas=$openblas
+  [ "$1" = openblas ] || blas=$libraries/blas:$libraries/lapack
+  with_blas "$blas" tests/bench/identification_speed.py "$out/motion_$3.bin" "$3" "$4" "$5" 3 "$out/poles_$1_$2_$3_$4.txt" "$2"
 }
 least() { # FILE: milliseconds
   awk '{ if (m == "" || $1 + 0 < m) m = $1 + 0 } END { if (m == "") print "nan"; else printf "%.2f", m }' "$1"
@@ -67,38 +75,62 @@ least() { # FILE: milliseconds
 
 # The comparator factorises like this project, by the eigenvectors of the Gram matrix, with the same weights; the singular
 # value decomposition of the matrix itself, as in most programs, is printed for comparison.
-compare_update() { # METHOD BLOCK_ROWS REFERENCE_BAR OPENBLAS_BAR
-  local name=$out/ms_$1 r factoriser
-  rm -f "$name"_*.txt
+compare_update() { # FIGURE CHANNELS METHOD BLOCK_ROWS BLAS:BAR...
+  local figure=$1 channels=$2 method=$3 rows=$4 name=$out/ms_$2_$3 r blas factoriser
+  shift 4
+  rm -f "${name}"_*.txt
   for ((r = 0; r < rounds; ++r)); do # alternately, so that other load of the machine affects all
-    ours "$1" "$2" >>"${name}_ours.txt"
-    for factoriser in gram svd; do
-      theirs "$libraries/blas:$libraries/lapack" "reference_$factoriser" "$1" "$2" $factoriser >>"${name}_reference_$factoriser.txt"
-      [ -z "$openblas" ] || theirs "$openblas" "openblas_$factoriser" "$1" "$2" $factoriser >>"${name}_openblas_$factoriser.txt"
+    ours "$channels" "$method" "$rows" >>"${name}_ours.txt"
+    for blas in "$@"; do
+      for factoriser in gram svd; do
+        theirs "${blas%:*}" $factoriser "$channels" "$method" "$rows" >>"${name}_${blas%:*}_$factoriser.txt"
+      done
     done
   done
-  local blas bar mine
-  mine=$(least "${name}_ours.txt")
-  for blas in reference openblas; do
-    bar=$3
-    [ $blas = reference ] || bar=$4
-    [ -e "${name}_${blas}_gram.txt" ] || { line 10 SKIP "no OpenBLAS" ">= $bar times, poles equal to 1e-6" "$1 ERA"; continue; }
-    for factoriser in gram svd; do update_line "$1" "$2" ${blas}_$factoriser "$bar" "$mine"; done
+  for blas in "$@"; do
+    for factoriser in gram svd; do update_line "$figure" "$channels" "$method" "$rows" "${blas%:*}" $factoriser "${blas#*:}"; done
   done
 }
-update_line() { # METHOD BLOCK_ROWS COMPARATOR BAR OUR_MS
-  local other worst words what times file=$out/ms_$1_$3.txt
-  other=$(least "$file")
-  worst=$("$python" tests/bench/identification_speed.py compare "$out/poles_$3_$1.txt" "$out/poles_ours_$1.txt" || echo none)
+update_line() { # FIGURE CHANNELS METHOD BLOCK_ROWS BLAS FACTORISER BAR
+  local mine other worst words what times file=$out/ms_$2_$3_$5_$6.txt
+  mine=$(least "$out/ms_$2_$3_ours.txt") other=$(least "$file")
+  worst=$("$python" tests/bench/identification_speed.py compare "$out/poles_$5_$6_$2_$3.txt" "$out/poles_ours_$2_$3.txt" || echo none)
   worst=${worst%%$'\t'*}
-  times=$(awk "BEGIN { printf \"%.2f\", $other / $5 }")
-  words="$times times ($5 ms against $other ms), poles equal to $worst"
-  what="$1 ERA, $2 block rows, 30 orders; NumPy with $(awk -F'\t' 'NR == 1 { print $NF }' "$file"), $3"
-  case $3 in
-  *gram) judge 10 "$words" ">= $4 times, poles equal to 1e-6" "$what, as ours" "$other >= $4 * $5 && $worst <= 1e-6" ;;
-  *) line 10 beside "$words" "none" "$what of the matrix itself" ;;
+  times=$(awk "BEGIN { printf \"%.2f\", $other / $mine }")
+  words="$times times ($mine ms against $other ms), poles equal to $worst"
+  what="$2 channels, $3 ERA, $4 block rows, 30 orders; NumPy with $(awk -F'\t' 'NR == 1 { print $NF }' "$file"), $5"
+  case $6 in
+  gram) judge "$1" "$words" ">= $7 times, poles equal to 1e-6" "$what, factorised as ours" "$other >= $7 * $mine && $worst <= 1e-6" ;;
+  *) line "$1" beside "$words" "none" "$what, singular values of the matrix itself" ;;
   esac
 }
+can_compare() { # FIGURE BAR
+  find_openblas
+  "$python" -c 'import scipy.linalg' 2>/dev/null || { line "$1" SKIP "no python3-scipy" "$2" "one update against NumPy" && return 1; }
+  [ -n "$openblas" ] || { line "$1" SKIP "no OpenBLAS" "$2" "one update against NumPy" && return 1; }
+}
+figure_5() {
+  local openblas channels what
+  can_compare 5 ">= 5" || return 0
+  for channels in 7 12 30; do
+    motion $channels
+    compare_update 5 $channels plain 100 openblas:5
+    compare_update 5 $channels cva 20 openblas:5
+    what="$channels channels, an identification with standard deviations, against pyOMA2's covariance-driven SSI, 20 block rows, 30 orders, 10 blocks"
+    if [ -d build/beside/pyOMA2 ]; then
+      pyoma_line $channels "$what"
+    else
+      line 5 SKIP "no build/beside/pyOMA2 (git clone https://github.com/dagghe/pyOMA2 there)" "printed" "$what"
+    fi
+  done
+}
+pyoma_line() { # CHANNELS WHAT
+  local mine other
+  mine=$("$speed" service "$1" 5 "$first_seed" | awk '/^least/ { print $2 }')
+  other=$(with_blas "$openblas" tests/bench/identification_pyoma.py build/beside/pyOMA2 "$out/motion_$1.bin" "$1" 20)
+  line 5 beside "$(awk -v o="$other" -v m="$mine" 'BEGIN { printf "%.0f", o / m }') times ($mine ms against ${other//$'\t'/, })" "printed" "$2"
+}
+
 # Instructions of one update: five runs minus one run, so that making the data does not count.
 instructions() { # CHANNELS UPDATES
   local count
@@ -108,13 +140,10 @@ instructions() { # CHANNELS UPDATES
 }
 figure_10() {
   local openblas channels one five each
-  find_openblas
-  "$speed" make "$out/motion.bin" "$first_seed"
-  if "$python" -c 'import scipy.linalg' 2>/dev/null; then
-    compare_update plain 100 10 5
-    compare_update cva 20 10 5
-  else
-    line 10 SKIP "no python3-scipy" ">= 10 and 5 times" "one update against NumPy"
+  if can_compare 10 ">= 10 and 5 times"; then
+    motion 12
+    compare_update 10 12 plain 100 reference:10 openblas:5
+    compare_update 10 12 cva 20 reference:10 openblas:5
   fi
   for channels in 7 12; do
     one=$(instructions $channels 1) five=$(instructions $channels 5)

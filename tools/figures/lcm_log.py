@@ -2,9 +2,12 @@
 """What LCM event logs hold, message by message, apart from the project's own reader.
     lcm_log.py count LOG             per channel: messages, missing between the first and the last by sequence, bytes
     lcm_log.py final LOG TYPES       the last status: state, frames_dropped, warnings, and n_sent / n_held_back per channel
+    lcm_log.py estimates LOG TYPES   a line per estimate: stream time of its last frame (s), structural modes, those with a sigma
+    lcm_log.py changes LOG TYPES     a line per change that residual diagnosis told
     lcm_log.py all-types LOG RECORD OUT TYPES   the log with what a record has besides, and twenty messages of type attitude_t
-Prints JSON. TYPES: the folder of the Python types (build/release/python)."""
+Prints JSON, `estimates` and `changes` text. TYPES: the folder of the Python types (build/release/python)."""
 import json
+import math
 import struct
 import sys
 
@@ -57,6 +60,29 @@ def final(path, types):
             "channels": {c.lcm_channel: {"n_sent": c.n_sent, "n_held_back": c.n_held_back} for c in health.counts}}
 
 
+def estimates(path, types):
+    sys.path.insert(0, types)
+    import hovermodal
+    found = {}
+    for _, _, channel, data in events(path):
+        if "_MODAL" not in channel:
+            continue
+        part = hovermodal.modal_estimate_t.decode(data)
+        time_s, modes = found.setdefault(part.number, (part.stream_time_ns * 1e-9, []))
+        modes += [mode for mode in part.modes if mode.is_structural]
+    for _, (time_s, modes) in sorted(found.items()):
+        print(f"{time_s:.2f} {len(modes)} {sum(math.isfinite(mode.frequency_std_hz) for mode in modes)}")
+
+
+def changes(path, types):
+    sys.path.insert(0, types)
+    import hovermodal
+    for _, _, channel, data in events(path):
+        if "_CLOSURE" in channel:
+            for words in hovermodal.closure_report_t.decode(data).changes:
+                print(words)
+
+
 def all_types(path, record, out, types):
     sys.path.insert(0, types)
     import hovermodal
@@ -83,4 +109,7 @@ def all_types(path, record, out, types):
 
 
 if __name__ == "__main__":
-    print(json.dumps({"count": count, "final": final, "all-types": all_types}[sys.argv[1]](*sys.argv[2:]), indent=1))
+    if sys.argv[1] in ("estimates", "changes"):
+        {"estimates": estimates, "changes": changes}[sys.argv[1]](*sys.argv[2:])
+    else:
+        print(json.dumps({"count": count, "final": final, "all-types": all_types}[sys.argv[1]](*sys.argv[2:]), indent=1))

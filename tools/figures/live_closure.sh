@@ -2,17 +2,17 @@
 # The loop closed in flight (closure.adopt: auto): effects that are there from the start, begin in mid-flight or go away,
 # records without one, replays, and what it costs. One line a figure. About five hours on two processors; --quick takes a fifth of the seeds.
 #   tools/figures/live_closure.sh [--quick] [--seeds N] [--first-seed N] [FIGURE...]
-# FIGURE: some of 1, 1m (one or two effects from mid-flight on), 1c (the clips; one alone: 1c_readout 1c_radial 1c_radial_2
-# 1c_tangential 1c_both), 2 ... 5 (default: all). Seeds begin with --first-seed (1001: those that nobody looked at while the loop was made).
+# FIGURE: some of 1, 1m (one or two effects from mid-flight on), 1c (five clips; one alone: 1c_readout 1c_radial 1c_radial_2
+# 1c_tangential 1c_both), 1c_clips (ten foreign clips), 2, 2c (clean clips), 2f (as asked formerly), 3 ... 5, 5p (the ground page, needs multicast and chromium) (default: all). Seeds begin with --first-seed (1001: those that nobody looked at while the loop was made).
 # Figure 4 measures time: leave the machine alone meanwhile. SKIP where measured data (HOVERMODAL_DATA) are absent.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tools/figures/lib.sh
 take_arguments "tools/figures/live_closure.sh [--quick] [--seeds N] [--first-seed N] [FIGURE...]" "$@"
-seeds=20 onset_seeds=5 nulls=100 clip_s=300 latency_s=60
-[ -z "$quick" ] || seeds=4 onset_seeds=1 nulls=20 clip_s=240 latency_s=25
+seeds=20 onset_seeds=5 nulls=100 clip_s=300 latency_s=60 foreign_clips=10 clean_clips=20 foreign_s=420
+[ -z "$quick" ] || seeds=4 onset_seeds=1 nulls=20 clip_s=240 latency_s=25 foreign_clips=4 clean_clips=4
 [ -z "$n_seeds" ] || seeds=$n_seeds onset_seeds=$n_seeds nulls=$n_seeds
-[ ${#figures[@]} -gt 0 ] || figures=(1 1m 1c 2 3 4 5)
+[ ${#figures[@]} -gt 0 ] || figures=(1 1m 1c 1c_clips 2 2c 2f 3 4 5 5p)
 out=$PWD/build/figures/live_closure
 mkdir -p "$out"
 tools/setup.sh
@@ -46,8 +46,6 @@ figure_1() {
     if [ "$verdict" = beside ]; then line "1.$name" beside "$measured" "-" "$what"; continue; fi
     judge "1.$name" "$measured" "$bar$words" "$what" "$verdict"
   done < <(live_cells)
-  line 1.clips MISS "not built: 1c has five clips, none on the recorded hover, each with its effect from 60 s on" \
-    "${bar}taken out and nothing else in 95 %" "rendered clips"
 }
 figure_1m() {
   "$bin/hovermodal-validate" closure-live --first-seed "$first_seed" --seeds "$onset_seeds" --threads "$(nproc)" >"$out/onset.txt"
@@ -113,68 +111,38 @@ bad = [f"error of {w}" for w in worse(9, 15, 1.1)] + [f"sigma of {w}" for w in w
 put("twin", int(not bad), "; ".join(bad) or "in every effect", "within 1.1 times those of the record without the effect")
 PY
 }
-# clip NAME EFFECTS SEED: a drawn scene as declared until 60 s, with these effects from there on; both through the service.
-clip() {
-  local folder=$out/$1 half effects
-  rm -rf "$folder" && mkdir -p "$folder"
-  for half in before after; do
-    effects=$2
-    [ $half = after ] || effects=
-    "$bin/hovermodal-validate" closure-clip --first-seed "$3" --duration "$clip_s" --effect "$effects" >"$folder/$half.yaml"
-    quietly "$bin/hovermodal" simulate --scene "$folder/$half.yaml" --size 960x540 --out "$folder/$half" --threads "$(nproc)"
-  done
-  quietly ffmpeg -nostdin -y -t 60 -i "$folder/before/clip.mp4" -ss 60 -i "$folder/after/clip.mp4" \
-    -filter_complex '[0:v][1:v]concat=n=2:v=1' -c:v libx264 -crf 12 -preset veryfast -pix_fmt yuv420p "$folder/clip.mp4"
-  rm -f "$folder"/before/clip.mp4 "$folder"/after/clip.mp4
-  quietly "$bin/hovermodal" identify --series "$folder/before/truth_displacements.csv" --base base --report "$folder/truth"
-  local how=("$bin/hovermodald" --config "$folder/before/config.yaml" --set "camera.source=$folder/clip.mp4" --set telemetry.lcm_url= \
-    --set tracking.points_per_region=12)
-  quietly "${how[@]}" "${brief[@]}" --set "telemetry.log_file=$folder/log.lcm" --report "$folder/auto"
-  quietly "${how[@]}" --set closure.adopt=off --report "$folder/off"
-}
-pixels() { # NAME EFFECTS SEED
-  clip "$@"
-  local found effect all=1
-  found=$(corrections "$1/auto")
-  while read -r effect; do [[ $found == *"$effect"* ]] || all=0; done <<<"${2// + /$'\n'}"
-  judge "1c.$1" "in force at the end: ${found:-nothing}; modes, error and sigma $(errors_of "$1" auto) with the loop, $(errors_of "$1" off) without it" \
-    "$2 taken out" "drawn clip of $clip_s s, the effect from 60 s on" "$all"
-}
-figure_1c_readout() { pixels readout "readout time" "$first_seed"; }
-figure_1c_radial() { pixels radial "radial distortion" "$((first_seed + 1))"; }
-figure_1c_radial_2() { pixels radial_2 "radial distortion" "$((first_seed + 2))"; }
-figure_1c_tangential() { pixels tangential "tangential distortion" "$((first_seed + 3))"; }
-figure_1c_both() { pixels both "readout time + radial distortion" "$((first_seed + 4))"; }
-figure_1c() {
-  local name
-  for name in readout radial radial_2 tangential both; do "figure_1c_$name"; done
-}
-corrections() { # effects found and corrected by the run, from modal.json
-  python3 -c 'import json, sys; print("; ".join(c for c in json.load(open(sys.argv[1]))["corrections"] if "from frame" in c))' "$out/$1/modal.json"
-}
-errors_of() { # NAME RUN: modes found of those in the truth, rms error and sigma in percent
-  python3 - "$out/$1/truth/modal.json" "$out/$1/$2/modal.json" <<'PY'
-import json, math, sys
-truth, found = (json.load(open(p))["modes"] for p in sys.argv[1:])
-pairs = []
-for t in truth:
-    near = [m for m in found if abs(m["frequency_hz"] / t["frequency_hz"] - 1) < 0.05]
-    if near:
-        pairs.append((t, min(near, key=lambda m: abs(m["frequency_hz"] - t["frequency_hz"]))))
-rms = lambda v: math.sqrt(sum(x * x for x in v) / len(v)) if v else float("nan")
-error = rms([100 * (m["frequency_hz"] / t["frequency_hz"] - 1) for t, m in pairs])
-sigma = rms([100 * (m.get("frequency_std_hz") or 0) / t["frequency_hz"] for t, m in pairs])
-print(f"{len(pairs)}/{len(truth)}, {error:.3f} +- {sigma:.3f} %")
-PY
-}
+. tools/figures/live_closure_clips.sh
 
 # --- 2: nothing to find -----------------------------------------------------------------------------------------------
 figure_2() {
-  "$bin/hovermodal-validate" closure-live-null --first-seed "$first_seed" --seeds "$nulls" --threads "$(nproc)" >"$out/null.txt"
+  local bar="100 clean records with hover tails and 20 clean clips: 0 change anything" changed hovers
+  [ -f "$flight" ] || { line 2 SKIP "no $flight" "$bar" "clean records"; return; }
+  kept_null "$(kept_name null)" --flight "$flight"
+  changed=$(awk -F'\t' '$1 == "closure-live-null" && $3 > 0 { n++ } END { print n + 0 }' "$out/null.txt")
+  hovers=$(awk -F'\t' '$1 == "closure-live-null" { n[$6]++ } END { for (h in n) printf "%s%d %s", (k++ ? ", " : ""), n[h], h }' "$out/null.txt")
+  judge 2 "$changed of $nulls:$(awk -F'\t' '$1 == "closure-live-null" && $3 > 0 { printf " %s %s;", $2, $5 }' "$out/null.txt")" "$bar" \
+    "clean track records of 300 s, shaken and wind-driven; hover $hovers" "$changed == 0"
+}
+figure_2f() { # as asked formerly
   local changed worst
+  kept_null "$(kept_name null_former)"
   read -r changed worst < <(awk -F'\t' '$1 == "closure-live-null" { if ($3 > 0) c++; if ($4 > w) w = $4 } END { print c + 0, w + 0 }' "$out/null.txt")
-  judge 2 "$changed of $nulls adopt something; frequencies and damping within $worst sigma of those with the loop off" "at most 1 adoption of 100; modal results within 0.05 sigma" \
-    "clean track records of 300 s, shaken and wind-driven" "$changed <= 0.01 * $nulls && $worst <= 0.05"
+  judge 2f "$changed of $nulls adopt something; frequencies and damping within $worst sigma of those with the loop off" "at most 1 adoption of 100; modal results within 0.05 sigma" \
+    "clean track records of 300 s, shaken and wind-driven, hover as the model's" "$changed <= 0.01 * $nulls && $worst <= 0.05"
+}
+kept_null() { # NAME [OPTION...]: the records of every ten seeds stay for a run that was cut off; all of them in null.txt
+  local name=$out/$1 first last
+  shift
+  mkdir -p "$name"
+  : >"$out/null.txt"
+  for ((first = first_seed; first < first_seed + nulls; first += 10)); do
+    last=$((first + 9 < first_seed + nulls ? first + 9 : first_seed + nulls - 1))
+    if [ ! -e "$name/$first-$last" ]; then
+      "$bin/hovermodal-validate" closure-live-null --first-seed "$first" --seeds "$((last - first + 1))" --threads "$(nproc)" "$@" >"$name/new"
+      mv "$name/new" "$name/$first-$last"
+    fi
+    cat "$name/$first-$last" >>"$out/null.txt"
+  done
 }
 
 # --- 3: again ---------------------------------------------------------------------------------------------------------
@@ -264,5 +232,20 @@ Y
   done
 }
 modes_of() { python3 -c 'import json, sys; print(" ".join("%.2f" % m["frequency_hz"] for m in json.load(open(sys.argv[1]))["modes"]) or "no")' "$out/$1/modal.json" || echo unknown; }
+
+# --- 5p: the ground page, loaded again and again -----------------------------------------------------------------------
+figure_5p() {
+  local bar="The page: 20 reloads in Chromium during a live run: no sample lost or doubled" what="displacements that each load shows, against those that the service sent"
+  local url="udpm://239.255.76.71:7671?ttl=0" clip=$out/page_clip
+  ip route get 239.255.76.71 >/dev/null 2>&1 || { line 5p SKIP "no multicast route (ip route add 224.0.0.0/4 dev lo, as root)" "$bar" "$what"; return; }
+  quietly tools/setup.sh --ground
+  quietly tools/build.sh hovermodal_python_messages
+  [ -e "$clip/config.yaml" ] || quietly "$bin/hovermodal" simulate --preset paper --duration 180 --seed "$first_seed" --size 640x360 --out "$clip" --threads "$(nproc)"
+  python3 -B tests/ground/page_reloads.py "$bin" "$clip" "$out" "$url" 20 "$first_seed" >"$out/page.txt" 2>"$out/page.err" ||
+    { line 5p MISS "the check ended early: $(tail -n 1 "$out/page.err")" "$bar" "$what"; return; }
+  v() { awk -F'\t' -v name="$1" '$1 == name { print $2 }' "$out/page.txt"; }
+  judge 5p "$(v lost) lost, $(v doubled) doubled, $(v foreign) that were not sent; $(v reloads) reloads, $(v least_shown) samples or more each" "$bar" "$what" \
+    "$(v reloads) == 20 && $(v lost) == 0 && $(v doubled) == 0 && $(v foreign) == 0"
+}
 
 run_figures "${figures[@]}"
