@@ -34,9 +34,9 @@ void EnergyMeter::find_sensors() {
     if (system_number(chip / "power1_input")) {
       sensors_.push_back({(chip / "power1_input").string(), "", "", name});
     } else if (system_number(chip / "in1_input") && system_number(chip / "curr1_input")) {
-      const std::string label = system_line(chip / "in1_label");
-      sensors_.push_back({"", (chip / "in1_input").string(), (chip / "curr1_input").string(),
-                          label.empty() ? name : name + " " + label});
+      std::string named = name;
+      if (const std::string label = system_line(chip / "in1_label"); !label.empty()) (named += ' ') += label;
+      sensors_.push_back({"", (chip / "in1_input").string(), (chip / "curr1_input").string(), named});
     }
   }
 }

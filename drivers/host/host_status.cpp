@@ -43,7 +43,7 @@ int throttled(const fs::path& root) {
   int known = -1;
   for (const fs::path& device : system_entries(root / "sys/class/thermal", "cooling_device")) {
     const std::string type = system_line(device / "type");
-    if (type.find("cpufreq") == type.npos && type != "Processor") continue;
+    if (type.find("cpufreq") == std::string::npos && type != "Processor") continue;
     if (const auto state = system_number(device / "cur_state")) known = std::max(known, *state > 0.0 ? 1 : 0);
   }
   return known;

@@ -179,8 +179,9 @@ int latency(double seconds, std::uint64_t seed, int n_busy, const std::string& p
   for (std::thread& thread : busy) thread.join();
   const core::LatencyHealth& l = result.outcome.health.frame_latency;
   const auto ms = [](std::uint64_t ns) { return static_cast<double>(ns) * 1e-6; };
-  std::printf("p50\t%.1f ms\np99\t%.1f ms\np99.9\t%.1f ms\nworst\t%.1f ms\n", ms(l.p50_ns), ms(l.p99_ns), ms(l.p999_ns),
+  std::printf("p50\t%.2f ms\np99\t%.2f ms\np99.9\t%.2f ms\nworst\t%.2f ms\n", ms(l.p50_ns), ms(l.p99_ns), ms(l.p999_ns),
               ms(l.max_ns));
+  for (const std::string& words : result.outcome.estimate.amendments) std::printf("corrected\t%s\n", words.c_str());
   for (const std::string& warning : result.outcome.health.warnings) std::fprintf(stderr, "%s\n", warning.c_str());
   const bool counted = tell(result);
   return counted && (n_busy > 0 || result.outcome.health.frames_dropped == 0) ? 0 : 1;

@@ -4,8 +4,9 @@
     lcm_log.py final LOG TYPES       the last status: state, frames_dropped, warnings, and n_sent / n_held_back per channel
     lcm_log.py estimates LOG TYPES   a line per estimate: stream time of its last frame (s), structural modes, those with a sigma
     lcm_log.py changes LOG TYPES     a line per change that residual diagnosis told
+    lcm_log.py swap LOG TYPES        seconds from the first report with a correction to the first estimate that names one
     lcm_log.py all-types LOG RECORD OUT TYPES   the log with what a record has besides, and twenty messages of type attitude_t
-Prints JSON, `estimates` and `changes` text. TYPES: the folder of the Python types (build/release/python)."""
+Prints JSON, `estimates`, `changes` and `swap` text. TYPES: the folder of the Python types (build/release/python)."""
 import json
 import math
 import struct
@@ -83,6 +84,23 @@ def changes(path, types):
                 print(words)
 
 
+def swap(path, types):
+    sys.path.insert(0, types)
+    import hovermodal
+    told_ns = None
+    for _, _, channel, data in events(path):
+        if "_CLOSURE" in channel and told_ns is None:
+            report = hovermodal.closure_report_t.decode(data)
+            if any("taken out" in words for words in report.changes):
+                told_ns = report.utc_ns
+                print("; ".join(report.changes))
+        elif "_MODAL" in channel and told_ns is not None:
+            part = hovermodal.modal_estimate_t.decode(data)
+            if part.n_amendments > 0:
+                print(f"seconds {(part.utc_ns - told_ns) * 1e-9:.2f}")
+                return
+
+
 def all_types(path, record, out, types):
     sys.path.insert(0, types)
     import hovermodal
@@ -109,7 +127,8 @@ def all_types(path, record, out, types):
 
 
 if __name__ == "__main__":
-    if sys.argv[1] in ("estimates", "changes"):
-        {"estimates": estimates, "changes": changes}[sys.argv[1]](*sys.argv[2:])
+    texts = {"estimates": estimates, "changes": changes, "swap": swap}
+    if sys.argv[1] in texts:
+        texts[sys.argv[1]](*sys.argv[2:])
     else:
         print(json.dumps({"count": count, "final": final, "all-types": all_types}[sys.argv[1]](*sys.argv[2:]), indent=1))

@@ -3,7 +3,8 @@
 # records without one, replays, and what it costs. One line a figure. About five hours on two processors; --quick takes a fifth of the seeds.
 #   tools/figures/live_closure.sh [--quick] [--seeds N] [--first-seed N] [FIGURE...]
 # FIGURE: some of 1, 1m (one or two effects from mid-flight on), 1c (five clips; one alone: 1c_readout 1c_radial 1c_radial_2
-# 1c_tangential 1c_both), 1c_clips (ten foreign clips), 2, 2c (clean clips), 2f (as asked formerly), 3 ... 5, 5p (the ground page, needs multicast and chromium) (default: all). Seeds begin with --first-seed (1001: those that nobody looked at while the loop was made).
+# 1c_tangential 1c_both), 1c_clips (ten foreign clips), 2, 2c (clean clips), 2f (as asked formerly), 3, 4 (latency), 4f (as asked
+# formerly), 4s (seconds to the swap), 4m (memory), 5, 5p (the ground page, needs multicast and chromium) (default: all). Seeds begin with --first-seed (1001: those that nobody looked at while the loop was made).
 # Figure 4 measures time: leave the machine alone meanwhile. SKIP where measured data (HOVERMODAL_DATA) are absent.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -12,7 +13,7 @@ take_arguments "tools/figures/live_closure.sh [--quick] [--seeds N] [--first-see
 seeds=20 onset_seeds=5 nulls=100 clip_s=300 latency_s=60 foreign_clips=10 clean_clips=20 foreign_s=420
 [ -z "$quick" ] || seeds=4 onset_seeds=1 nulls=20 clip_s=240 latency_s=25 foreign_clips=4 clean_clips=4
 [ -z "$n_seeds" ] || seeds=$n_seeds onset_seeds=$n_seeds nulls=$n_seeds
-[ ${#figures[@]} -gt 0 ] || figures=(1 1m 1c 1c_clips 2 2c 2f 3 4 5 5p)
+[ ${#figures[@]} -gt 0 ] || figures=(1 1m 1c 1c_clips 2 2c 2f 3 4 4f 4s 4m 5 5p)
 out=$PWD/build/figures/live_closure
 mkdir -p "$out"
 tools/setup.sh
@@ -168,37 +169,7 @@ figure_3() {
 }
 frames_of() { corrections "radial/$1" | grep -o 'from frame [0-9]*' | tr '\n' ' ' || true; }
 
-# --- 4: what it costs the frames --------------------------------------------------------------------------------------
-figure_4() {
-  local repeat adopt
-  for repeat in 1 2 3; do
-    for adopt in off auto; do
-      "$bin/overload_run" latency "$latency_s" 1 80 closure.adopt=$adopt closure.window_s=20 closure.period_s=20 closure.delay_s=10 \
-        >"$out/latency_${adopt}_$repeat.txt" 2>/dev/null || true
-    done
-  done
-  python3 - "$out" >"$out/latency.txt" <<'PY'
-import sys
-out = sys.argv[1]
-def read(adopt, name):
-    values = []
-    for repeat in (1, 2, 3):
-        for row in open(f"{out}/latency_{adopt}_{repeat}.txt"):
-            f = row.split("\t")
-            if f[0] == name:
-                values.append(float(f[1].split()[0]))
-    return sorted(values)
-for name in ("p50", "p99", "p99.9"):
-    off, on = read("off", name), read("auto", name)
-    scatter = max(off[-1] - off[0], on[-1] - on[0])
-    print(name, off[1], on[1], f"{scatter:.1f}", int(abs(on[1] - off[1]) <= scatter + 1e-9), sep="\t")
-PY
-  local name off on scatter within
-  while IFS=$'\t' read -r name off on scatter within; do
-    judge "4.$name" "$off -> $on ms, medians of three; they scatter by $scatter ms" "no difference beyond the scatter of three repeats" \
-      "frame to displacement, 1920 x 1080 at 60 frames a second under load, closure off and auto" "$within == 1"
-  done <"$out/latency.txt"
-}
+. tools/figures/live_closure_cost.sh
 
 # --- 5: measured clips, wrongly declared ------------------------------------------------------------------------------
 reported() { # NAME: the messages to the operator, report by report

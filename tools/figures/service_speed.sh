@@ -88,16 +88,17 @@ minutes_of() { # FOLDER COMMAND: minutes
   awk -v s=$((SECONDS - begin)) 'BEGIN { printf "%.1f", s / 60 }'
 }
 figure_6() {
-  local what="fresh clone, no compiler cache, $(nproc) processors" command now then
+  local what command ours theirs
+  what="fresh clone, no compiler cache, $(nproc) processors"
   if [ -n "$quick" ]; then line 6 SKIP "--quick" "minutes and ratio to $former in one run" "cold demo, cold tests" && return; fi
   for command in demo test; do
     rm -rf "$out/now" "$out/then"
     clone_of HEAD "$out/now" && clone_of $former "$out/then"
-    now=$(minutes_of "$out/now" "tools/$command.sh") then=$(minutes_of "$out/then" "tools/$command.sh")
+    ours=$(minutes_of "$out/now" "tools/$command.sh") theirs=$(minutes_of "$out/then" "tools/$command.sh")
     if [ $command = demo ]; then
-      judge 6a "$now min; $former: $then min, ratio $(ratio "$now" "$then")" "Demo from nothing on two cores within eight minutes; minutes and ratio to 02909f7 in one run" "cold demo, $what" "$now <= 8"
+      judge 6a "$ours min; $former: $theirs min, ratio $(ratio "$ours" "$theirs")" "Demo from nothing on two cores within eight minutes; minutes and ratio to 02909f7 in one run" "cold demo, $what" "$ours <= 8"
     else
-      line 6b beside "$now min; $former: $then min, ratio $(ratio "$now" "$then")" "minutes and ratio to 02909f7 in one run" "cold tests, $what"
+      line 6b beside "$ours min; $former: $theirs min, ratio $(ratio "$ours" "$theirs")" "minutes and ratio to 02909f7 in one run" "cold tests, $what"
     fi
   done
   rm -rf "$out/now" "$out/then"

@@ -103,9 +103,10 @@ void tell(const Options& options, const Cost& cost, const core::CameraInfo& came
   nlohmann::ordered_json stages = nlohmann::ordered_json::array();
   const auto row = [&](const std::string& name, double cpu_s, const core::LatencyHealth* step) {
     answer.text("{:<16} {:>12.1f} {:>6.1f} %", name, 1e6 * cpu_s / n, 100.0 * cpu_s / cost.cpu_s);
-    if (step != nullptr)
+    if (step != nullptr) {
       answer.text(" {:>10.1f} {:>10.1f}", 1e-3 * static_cast<double>(step->p50_ns),
                   1e-3 * static_cast<double>(step->p99_ns));
+    }
     answer.text("\n");
     stages.push_back({{"name", name}, {"cpu_us_per_frame", 1e6 * cpu_s / n}});
   };
