@@ -84,7 +84,7 @@ figure_4() {
 # --- 6: a fresh machine -------------------------------------------------------------------------------------------------------
 minutes_of() { # FOLDER COMMAND: minutes
   local begin=$SECONDS
-  (cd "$1" && CCACHE_DISABLE=1 quietly "$2")
+  (cd "$1" && CCACHE_DISABLE=1 quietly "$2") || echo "$2 failed in $1" >&2
   awk -v s=$((SECONDS - begin)) 'BEGIN { printf "%.1f", s / 60 }'
 }
 figure_6() {

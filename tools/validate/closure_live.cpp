@@ -193,6 +193,7 @@ std::string live_line(const ClosureTracksOptions& options, const std::vector<std
   RecordSetup setup;
   setup.duration_s = options.duration_s > 0.0 ? options.duration_s : kDuration_s;
   std::vector<const HiddenEffect*> hidden;
+  hidden.reserve(effects.size());
   for (const std::string& effect : effects) hidden.push_back(&effect_named(effect));
   const Scene plain = closure_scene(setup, seed);
   const Scene scene =
