@@ -76,7 +76,7 @@ std::string EnergyMeter::source() const {
 std::string EnergyMeter::why_not() const {
   if (!counters_.empty() || !sensors_.empty()) return "";
   return is_locked_ ? "the processor's energy counter may be read by root alone; run this command as root"
-                    : "this board tells no energy: neither RAPL nor an INA sensor in /sys";
+                    : "this board measures no energy: neither RAPL nor an INA sensor in /sys";
 }
 
 }  // namespace drivers

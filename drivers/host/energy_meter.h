@@ -6,7 +6,7 @@
 
 namespace drivers {
 
-// Energy that the board tells of itself, from /sys below `root`: the processor packages' counters (RAPL), else the
+// Energy that the board measures of itself, from /sys below `root`: the processor packages' counters (RAPL), else the
 // power sensors (INA219, INA226, INA260, INA3221 ...), of which an INA3221 states its first input, the board's.
 // Counters are exact; power is integrated between calls of sample(). Reads a few small files: not for a real-time
 // thread.
@@ -16,11 +16,11 @@ class EnergyMeter {
 
   // Call it at least once a second; a counter of a busy processor wraps within a minute. now_ns: any monotonic clock.
   void sample(std::int64_t now_ns);
-  // Since the first sample. 0 where nothing tells it.
+  // Since the first sample. 0 where nothing measures it.
   [[nodiscard]] double joules() const noexcept { return joules_; }
-  // What tells it, e.g. "RAPL package-0"; empty: nothing.
+  // What measures it, e.g. "RAPL package-0"; empty: nothing.
   [[nodiscard]] std::string source() const;
-  // Why nothing tells it, with the remedy where there is one; empty: source() is not.
+  // Why nothing measures it, with the remedy where there is one; empty: source() is not.
   [[nodiscard]] std::string why_not() const;
 
  private:

@@ -3,7 +3,7 @@
     lcm_log.py count LOG             per channel: messages, missing between the first and the last by sequence, bytes
     lcm_log.py final LOG TYPES       the last status: state, frames_dropped, warnings, and n_sent / n_held_back per channel
     lcm_log.py estimates LOG TYPES   a line per estimate: stream time of its last frame (s), structural modes, those with a sigma
-    lcm_log.py changes LOG TYPES     a line per change that residual diagnosis told
+    lcm_log.py changes LOG TYPES     a line per change that residual diagnosis reported
     lcm_log.py swap LOG TYPES        seconds from the first report with a correction to the first estimate that names one
     lcm_log.py all-types LOG RECORD OUT TYPES   the log with what a record has besides, and twenty messages of type attitude_t
 Prints JSON, `estimates`, `changes` and `swap` text. TYPES: the folder of the Python types (build/release/python)."""

@@ -101,7 +101,7 @@ foreign_live() {
   rm -f "$folder"/*/clip.mp4 "$folder/clip.mp4" "$folder"/*/truth_displacements.csv
   touch "$folder/done"
 }
-# foreign_verdict NAME EFFECT: taken out and nothing else (1 or 0), in force at the end, and changes, as told over LCM
+# foreign_verdict NAME EFFECT: taken out and nothing else (1 or 0), in force at the end, and changes, as reported over LCM
 foreign_verdict() {
   python3 -B tools/figures/lcm_log.py changes "$out/$1/log.lcm" build/release/python | python3 -c '
 import sys

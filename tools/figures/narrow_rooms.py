@@ -26,7 +26,8 @@ def git(*arguments, root):
 
 def room_lines(part, result, then):
     """The part's room lines as they were in `then`, a work tree of the result's commit."""
-    false = [room for room, digest in result.rooms.items() if results.room_digest(room, then) != digest]
+    digest = results.Digests(then)
+    false = [room for room, kept in result.rooms.items() if digest(room) != kept]
     if false:
         raise results.Malformed(f"{part.name}: {result.commit} does not hold what the result says of {' '.join(false)}")
     held = {name for room in result.rooms for name in results.tracked_files(room, then)}
@@ -34,7 +35,7 @@ def room_lines(part, result, then):
         added = [name for name in results.tracked_files(room, then) if name not in held]
         if added:
             raise results.Malformed(f"{part.name}: {room} holds {added[0]}, which no room of the result held: run it again")
-    return [f"# room: {room} {results.room_digest(room, then)}\n" for room in part.rooms]
+    return [f"# room: {room} {digest(room)}\n" for room in part.rooms]
 
 
 def narrow(part, root=results.ROOT):

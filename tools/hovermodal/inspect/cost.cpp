@@ -159,7 +159,7 @@ void add_inspect_cost(drivers::Command& inspect) {
   drivers::Command command = inspect.subcommand(
       "cost",
       "Run the service on its source for some seconds and show what a frame costs: processor time by stage, "
-      "instructions, energy where the board tells it, memory. Nothing is sent or written.");
+      "instructions, energy where the board measures it, memory. Nothing is sent or written.");
   const auto options = std::make_shared<Options>();
   command.option("--config", options->config, "Configuration of the service").required();
   command.option("--set", options->overrides, "Override, KEY=VALUE, as for the service").repeated();
