@@ -180,7 +180,7 @@ class DataKit(unittest.TestCase):
 
     def test_the_projects_own_table_is_complete(self):
         sets = read_table(KIT.parent / "data" / "table.toml")
-        self.assertEqual(len(sets), 13)
+        self.assertEqual(len(sets), 14)
         for s in sets.values():
             self.assertRegex(s.commit, "^[0-9a-f]{40}$")
             self.assertTrue(s.repository.startswith("https://github.com/") and s.licence and s.answer, s.name)
