@@ -1,29 +1,23 @@
 # Figure 11b of residual diagnosis: compressed clips. Sourced by closure.sh after closure_foreign_clips.sh.
 
 figure_11b() {
-  local codec bits i seed name clip effects=("readout time" "radial distortion" "camera roll") effect scene_px right
-  local false_ones=0 n=0 named=0 given_way=0 said=$out/codec_readout.txt
+  local codec bits i name kept false_ones=0 n=0 named=0 given_way=0 said=$out/codec_readout.txt adopts right away words
+  # What was found in each clip is kept: a run that was cut off goes on, a change of what is measured begins anew.
+  kept=$out/codec-$(python3 tools/figures/tables.py --rooms closure_11b | sha256sum | cut -c1-16)
+  mkdir -p "$kept"
   : >"$said"
   for codec in libx264 libx265; do
     for bits in 0.05 0.15 0.4; do
       for ((i = 0; i < coded_clips; i++)); do
-        seed=$((first_seed + i)) name=codec_${codec}_${bits}_$i effect=${effects[i % 3]} n=$((n + 1))
-        foreign_clip "$name" "$seed"
-        foreign_coded "$name" "$bits" "$codec"
-        clip=$PWD/$out/${name}_$bits.mp4
-        foreign_closed "${name}_null" "$name" "$clip"
-        [ "$(adopted "${name}_null")" = nothing ] || false_ones=$((false_ones + 1))
-        codec_readout "$name" "${name}_null_run" >>"$said"
-        foreign_run "${name}_wrong" "$name" "$clip" --set "camera.readout_ms=$(codec_wrong_readout "$name")"
-        given_way=$((given_way + $(codec_gives_way "$name" "${name}_wrong_run")))
-        scene_px=$(ask "${name}_null" '"%.4f" % (3 * c["baseline"]["residual_rms"])') # of the 1080p view that the scene describes
-        foreign_clip "${name}_with" "$seed" "$effect" "$(awk "BEGIN { print $scene_px / 0.09 }")"
-        foreign_coded "${name}_with" "$bits" "$codec"
-        foreign_closed "${name}_found" "${name}_with" "$PWD/$out/${name}_with_$bits.mp4"
-        read -r right _ < <(foreign_answer "${name}_with" "${name}_found")
-        named=$((named + right))
-        echo "# $codec $bits bits a pixel, seed $seed: without effect $(adopted "${name}_null"); $effect of $scene_px px: $(adopted "${name}_found")"
-        rm -f "$out/$name/clip.mp4" "$out/${name}_with/clip.mp4" "$clip" "$out/${name}_with_$bits.mp4"
+        name=codec_${codec}_${bits}_$i n=$((n + 1))
+        if [ ! -e "$kept/$name-$((first_seed + i))" ]; then
+          coded_pair "$name" "$((first_seed + i))" "$codec" "$bits" "$i" >"$kept/new"
+          mv "$kept/new" "$kept/$name-$((first_seed + i))"
+        fi
+        IFS=$'\t' read -r adopts right away words < <(head -n 1 "$kept/$name-$((first_seed + i))")
+        false_ones=$((false_ones + adopts)) named=$((named + right)) given_way=$((given_way + away))
+        echo "# $words"
+        tail -n +2 "$kept/$name-$((first_seed + i))" >>"$said"
       done
     done
   done
@@ -35,6 +29,30 @@ figure_11b() {
     "declared as it is" "$mean <= 0.02 && $mean >= -0.02 && $covered >= 0.9 * $values && $values > 0"
   judge 11b.declared "$given_way of $n" "a declared value contradicted by 4 sigma gives way with a word" "readout declared wrong by 0.4 of a frame; where the tracks contradict it by less, it may stay" \
     "$given_way == $n"
+}
+# coded_pair NAME SEED CODEC BITS I: the clip without an effect, and with one as strong as the residual of the former. A line: adopts
+# anything (1 or 0), the effect named and nothing else, a wrong declaration gives way, words; then the error of the readout.
+coded_pair() {
+  local name=$1 seed=$2 bits=$4 effects=("readout time" "radial distortion" "camera roll") effect clip scene_px adopts=0 away right readout
+  effect=${effects[$5 % 3]}
+  foreign_clip "$name" "$seed"
+  foreign_coded "$name" "$bits" "$3"
+  clip=$PWD/$out/${name}_$bits.mp4
+  foreign_closed "${name}_null" "$name" "$clip"
+  [ "$(adopted "${name}_null")" = nothing ] || adopts=1
+  readout=$(codec_readout "$name" "${name}_null_run")
+  foreign_run "${name}_wrong" "$name" "$clip" --set "camera.readout_ms=$(codec_wrong_readout "$name")"
+  away=$(codec_gives_way "$name" "${name}_wrong_run")
+  scene_px=$(ask "${name}_null" '"%.4f" % (3 * c["baseline"]["residual_rms"])') # of the 1080p view that the scene describes
+  foreign_clip "${name}_with" "$seed" "$effect" "$(awk "BEGIN { print $scene_px / 0.09 }")"
+  foreign_coded "${name}_with" "$bits" "$3"
+  foreign_closed "${name}_found" "${name}_with" "$PWD/$out/${name}_with_$bits.mp4"
+  read -r right _ < <(foreign_answer "${name}_with" "${name}_found")
+  rm -rf "${out:?}/$name"/clip.mp4 "${out:?}/${name}_with" "${out:?}/${name}_null_run" "${out:?}/${name}_wrong_run" "${out:?}/${name}_found_run" \
+    "$clip" "$out/${name}_with_$bits.mp4"
+  printf '%s\t%s\t%s\t%s\n' "$adopts" "$right" "$away" \
+    "$3 $bits bits a pixel, seed $seed: without effect $(adopted "${name}_null"); $effect of $scene_px px: $(adopted "${name}_found")"
+  [ -z "$readout" ] || echo "$readout"
 }
 # NAME RUN: error of the readout from tracks, in frames and in its sigmas. Prints nothing if there is none.
 codec_readout() {
