@@ -32,7 +32,7 @@ print(", ".join(shown) or "none")
 P
 }
 former_rows() {
-  local rows="$out/measured_rows.txt" n_ok n_miss reports
+  local rows="$out/measured_rows.txt" n_ok n_miss reports name unclear
   tools/figures/closure.sh 4 5 6 7 8 >"$rows" || true
   grep -q '^# whole: ' "$rows" || { line 16a MISS "closure.sh did not reach its end" "all former rows" "measured data"; return; }
   sed -n 's/^\([4-8][a-z]* \)/# \1/p' "$rows"
@@ -42,9 +42,10 @@ former_rows() {
   for name in paper shake published knex_clock knex_decay shake_input loggers phone; do
     [ ! -f "$out/$name/closure.json" ] || reports+=("$out/$name/closure.json")
   done
-  judge 16b "adopted without rivals though not distinct from zero: $(sizes "${reports[@]}"); the shake table's frame: $(sed -n 's/^stopped: //p' "$out/shake.txt" | head -n 1)" \
+  unclear=$(sizes "${reports[@]}")
+  judge 16b "adopted without rivals though not distinct from zero: $unclear; the shake table's frame: $(sed -n 's/^stopped: //p' "$out/shake.txt" | head -n 1)" \
     "the effect that cannot be told from zero is gone from the table or told so" "${#reports[@]} reports" \
-    "$([ "$(sizes "${reports[@]}")" = none ] && echo 1 || echo 0) == 1"
+    "$([ "$unclear" = none ] && echo 1 || echo 0) == 1"
 }
 
 # pictures REPORT...: how many files of these folders are pictures or pages.
@@ -63,10 +64,12 @@ recorded_hover() {
     line 16c SKIP "no data at $data/phantom4_hover" "what is found, with pictures" "$what"
     return
   fi
-  until foreign_clip measured_hover "$seed" && grep -q '^# .*recorded' "$out/measured_hover.yaml"; do
+  until "$bin/hovermodal-validate" closure-clip-foreign --first-seed "$seed" --duration "$clip_s" --flight "$data/phantom4_hover/flight_10hz.csv" |
+    grep '^# recorded hover' >/dev/null; do
     seed=$((seed + 1))
     [ "$seed" -le "$last" ] || { line 16c MISS "no drawn flight is the recorded one" "what is found, with pictures" "$what"; return; }
   done
+  foreign_clip measured_hover "$seed"
   local config=$out/measured_hover/config.yaml
   quietly "$bin/hovermodald" --config "$config" --set tracking.points_per_region=12 --set telemetry.lcm_url= --report "$out/measured_hover/run"
   rm -f "$out/measured_hover/clip.mp4"
