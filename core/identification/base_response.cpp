@@ -25,21 +25,27 @@ class BaseSpectra {
   BaseSpectra(const CpsdSums& sums, const std::vector<ChannelInfo>& channels, int base)
       : sums_(sums), channels_(channels), base_(base) {}
 
-  // Mean over three bins, because a Hann window spreads a line over three.
-  [[nodiscard]] double gain(double frequency_hz) const {
+  struct Largest {
+    double gain = 0.0, coherence = 0.0;
+  };
+  // Over the channels; sums of three bins, because a Hann window spreads a line over three.
+  [[nodiscard]] Largest largest(double frequency_hz) const {
     const int centre = std::clamp(bin_of(frequency_hz), 1, sums_.n_bins() - 2);
-    double largest = 0.0;
+    Largest out;
     for (int r = 0; r < sums_.n_channels; ++r) {
       if (!is_response(r)) continue;
       Complex cross = 0.0;
-      double power = 0.0;
+      double base = 0.0, own = 0.0;
       for (int k = centre - 1; k <= centre + 1; ++k) {
         cross += at(k, r, base_);
-        power += at(k, base_, base_).real();
+        base += at(k, base_, base_).real();
+        own += at(k, r, r).real();
       }
-      if (power > 0.0) largest = std::max(largest, std::abs(cross) / power);
+      if (!(base > 0.0 && own > 0.0)) continue;
+      out.gain = std::max(out.gain, std::abs(cross) / base);
+      out.coherence = std::max(out.coherence, std::norm(cross) / (base * own));
     }
-    return largest;
+    return out;
   }
 
   void fit_resonance(double frequency_hz, double damping_ratio, BaseResponse& out) const {
@@ -162,8 +168,11 @@ BaseResponse base_response(const CpsdSums& sums, const std::vector<ChannelInfo>&
   const auto base = std::find_if(channels.begin(), channels.end(), [](const ChannelInfo& c) { return c.is_base; });
   if (base == channels.end()) return {};
   const BaseSpectra spectra(sums, channels, static_cast<int>(base - channels.begin()));
-  BaseResponse out{spectra.gain(frequency_hz), std::max(spectra.gain(frequency_hz * (1.0 - kSideStep)),
-                                                        spectra.gain(frequency_hz * (1.0 + kSideStep)))};
+  const auto here = spectra.largest(frequency_hz);
+  BaseResponse out;
+  out.gain = here.gain, out.coherence = here.coherence;
+  out.gain_beside = std::max(spectra.largest(frequency_hz * (1.0 - kSideStep)).gain,
+                             spectra.largest(frequency_hz * (1.0 + kSideStep)).gain);
   spectra.fit_resonance(frequency_hz, damping_ratio, out);
   return out;
 }

@@ -13,6 +13,7 @@ namespace core {
 struct BaseResponse {
   double gain = 0.0;         // largest |H_r| at the frequency; 0 if no base is measured
   double gain_beside = 0.0;  // larger of the gains at one tenth of the frequency above and below
+  double coherence = 0.0;    // of the base and the channel that follows it best, at the frequency
   // Of the channel with the most significant resonance: height of the resonance curve of this pole in H_r, fitted
   // together with a straight line over six half-power widths to either side; its standard deviation; and the motion
   // relative to the base, |H_r - 1|, at the pole with that curve and without it.

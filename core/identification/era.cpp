@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/identification/given_inputs.h"
 #include "core/identification/modal_coherence.h"
 #include "core/identification/realisation_by_gram.h"
 #include "core/identification/realisation_by_svd.h"
@@ -10,7 +11,7 @@
 namespace core {
 
 EraStatus realise(const Correlations& correlations, const EraConfig& config, Realisation& out) {
-  if (correlations.max_lag() < config.first_lag + 2 * config.block_rows) return EraStatus::kTooFewLags;
+  if (correlations.max_lag() < furthest_lag(config)) return EraStatus::kTooFewLags;
   const GramStatus status = realise_by_gram(correlations, config, out);
   if (status == GramStatus::kOk) return EraStatus::kOk;
   if (status == GramStatus::kRankDeficient) return EraStatus::kRankDeficient;

@@ -17,6 +17,9 @@ struct EraConfig {
   int max_order = 60;
   int above_canonical = 0;      // > 0: largest order is canonical_order() plus this
   std::vector<int> references;  // channel indices
+  // Measured inputs, channel indices, none of them a reference: what they explain is taken out of the Hankel matrix
+  // (given_inputs.h). With canonical variates only.
+  std::vector<int> inputs;
   // Canonical-variate weighting of the Hankel matrix, G = Lf^-1 H Lp^-T with the Cholesky factors of future and past
   // covariance: variances are near the bound, weak modes are found, and the singular values are canonical correlations
   // (METHOD.md). false: the plain ERA of Juang & Pappa 1985.
@@ -33,9 +36,11 @@ struct Realisation {
   int n_steps = 0;
   // a = left_map H1 right_map with the Hankel matrix H1 of unit-variance channels (shifted by one lag); the same
   // product with the unshifted H0 is the identity. Each pole is a generalised eigenvalue of two matrices linear in R.
-  Eigen::MatrixXd left_map;   // max_order x (block rows * channels)
-  Eigen::MatrixXd right_map;  // (block columns * references) x max_order
+  Eigen::MatrixXd left_map;   // max_order x (block rows * channels), without inputs
+  Eigen::MatrixXd right_map;  // (block columns * (references and inputs)) x max_order
   Eigen::VectorXd scale;      // standard deviation per channel
+  // With inputs: their part in the outputs' future and in the past (given_inputs.h); rows of their channels in c are 0.
+  Eigen::MatrixXd by_input, of_past;
 };
 
 // A pole of the discrete system and its shape in channel units.

@@ -12,6 +12,8 @@
 #include "core/identification/mode_sigmas.h"
 #include "core/identification/model_fit.h"
 #include "core/identification/neighbour_leakage.h"
+#include "core/identification/phase_verdict.h"
+#include "core/identification/similar_modes.h"
 #include "core/identification/spectral_peaks.h"
 #include "core/identification/verdict.h"
 
@@ -96,10 +98,10 @@ struct Fitted {
 
 VerdictRules verdict_rules(const IdentifierConfig& config, const ModelFit& fit, const CpsdSums& sums) {
   VerdictRules rules;
-  rules.min_mpc = config.min_mpc;
   rules.max_damping = config.max_damping;
   rules.max_apparent_hz = config.edge_hz;
   rules.last_first_i_order = fit.last_first_i_order;
+  rules.base_is_input = !fit.era.inputs.empty();
   // After a decimation filter, the edge of the filter is the limit.
   if (!(config.edge_hz > 0.0)) rules.max_frequency_hz = config.max_frequency_hz;
   rules.record_s = sums.n_remembered() / sums.rate_hz;
@@ -225,9 +227,15 @@ ModalEstimate Identifier::identify_all(const CpsdSums& sums, const std::vector<C
   const VerdictRules rules = verdict_rules(config_, fit, sums);
   std::vector<Mode> modes = config_.as_published ? judge_published_lines(lines, channels, rules)
                                                  : judge_lines(fitted, lines, channels, rules);
-  estimate.degrees_of_freedom =
+  const Sigmas sigmas =
       state_sigmas({sums, fit, folding, camera, poles.observed, poles.unfolded, poles.leaks}, lines, modes);
-  if (!config_.as_published) reject_mixtures(modes), reject_twins(modes);
+  estimate.degrees_of_freedom = sigmas.degrees_of_freedom;
+  if (!config_.as_published) {
+    reject_out_of_phase(config_.min_mpc, sigmas, modes);
+    reject_mixtures(modes);
+    reject_twins(modes);
+    state_along_line(sigmas, modes);
+  }
   note_poles(poles.unfolded, orders, estimate);
   list_modes(std::move(modes), lines, estimate);
   return estimate;

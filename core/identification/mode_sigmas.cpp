@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/identification/block_deviations.h"
+#include "core/identification/hankel_changes.h"
 #include "core/linear/median.h"
 #include "core/types/constants.h"
 
@@ -52,22 +53,29 @@ Variances lower_bound(const Mode& mode, double duration_s) {
   return {mode.frequency_hz * mode.frequency_hz * zeta / turns, zeta / turns};
 }
 
-double raised(double sigma, double factor, double spread, double bound) {
-  return std::sqrt(std::max(factor * sigma * sigma + spread, bound));
+// By the overlap of neighbouring segments: a factor of variances.
+void raise(ModeScatter& scatter, double factor) {
+  const double root = std::sqrt(factor);
+  scatter.frequency_hz *= root, scatter.damping_ratio *= root, scatter.beside_line *= factor;
+  for (auto* sigmas : {&scatter.shape, &scatter.along}) {
+    for (double& sigma : *sigmas) sigma *= root;
+  }
 }
 
-void state(const ModeScatter& scatter, const Variances& spread, const Variances& bound, double factor, Mode& mode) {
-  mode.frequency_std_hz = raised(scatter.frequency_hz, factor, spread.frequency_hz, bound.frequency_hz);
-  mode.damping_std = raised(scatter.damping_ratio, factor, spread.damping_ratio, bound.damping_ratio);
+double raised(double sigma, double spread, double bound) { return std::sqrt(std::max(sigma * sigma + spread, bound)); }
+
+void state(const ModeScatter& scatter, const Variances& spread, const Variances& bound, Mode& mode) {
+  mode.frequency_std_hz = raised(scatter.frequency_hz, spread.frequency_hz, bound.frequency_hz);
+  mode.damping_std = raised(scatter.damping_ratio, spread.damping_ratio, bound.damping_ratio);
   mode.shape_std = scatter.shape;
-  for (double& sigma : mode.shape_std) sigma *= std::sqrt(factor);
 }
 
 }  // namespace
 
-double state_sigmas(const SigmaInputs& in, const std::vector<PoleCluster>& lines, std::vector<Mode>& modes) {
+Sigmas state_sigmas(const SigmaInputs& in, const std::vector<PoleCluster>& lines, std::vector<Mode>& modes) {
+  Sigmas out{0.0, std::vector<std::optional<ModeScatter>>(lines.size())};
   const std::size_t n_groups = std::min(kScatterBlocks, in.sums.n_blocks);
-  if (n_groups < kLeastScatterBlocks) return 0.0;
+  if (n_groups < kLeastScatterBlocks) return out;
   std::vector<PoleOfOrder> chosen;
   std::vector<std::size_t> line_of;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -75,11 +83,15 @@ double state_sigmas(const SigmaInputs& in, const std::vector<PoleCluster>& lines
     chosen.push_back(in.observed[lines[i].i_representative]);
     line_of.push_back(i);
   }
-  const DeviationLags lags{in.fit.era.first_lag, 2 * in.fit.era.block_rows, in.fit.n_differences};
-  const auto deviations = block_deviations(in.sums, in.fit.era.references, lags, n_groups);
+  const auto deviations = block_deviations(in.sums, hankel_change_references(in.fit.era),
+                                           hankel_change_lags(in.fit.era, in.fit.n_differences), n_groups);
   auto changes = pole_changes(in.fit.realisation, in.fit.era, deviations, chosen);
   const double factor = overlap_factor(in.sums, static_cast<double>(n_groups));
   const double duration_s = in.sums.n_remembered() / in.sums.rate_hz;
+  // The bound is that of an unknown force; a measured input leaves none.
+  const auto bound_of = [&](const Mode& mode) {
+    return in.fit.era.inputs.empty() ? lower_bound(mode, duration_s) : Variances{};
+  };
   for (std::size_t c = 0; c < chosen.size(); ++c) {
     const PoleCluster& line = lines[line_of[c]];
     std::vector<std::complex<double>>& shape = chosen[c].pole.shape;
@@ -87,16 +99,20 @@ double state_sigmas(const SigmaInputs& in, const std::vector<PoleCluster>& lines
     const bool leave = in.camera.examine(shape, hz).is_doubtful;
     const auto& leak = in.leaks[line.i_representative];
     const auto cleaned = [&](const std::vector<std::complex<double>>& of) {
-      const auto out = in.camera.without(of, hz, leave);
-      return leak ? leak->without(out) : out;
+      const auto kept = in.camera.without(of, hz, leave);
+      return leak ? leak->without(kept) : kept;
     };
     shape = cleaned(shape);
     for (PoleChange& change : changes[c]) change.shape = cleaned(change.shape);
-    const auto scatter = mode_scatter(chosen[c], line.representative, in.folding, changes[c]);
+    std::optional<ModeScatter>& scatter = out.scatter[line_of[c]];
+    scatter = mode_scatter(chosen[c], line.representative, in.folding, changes[c]);
+    if (!scatter) continue;
+    raise(*scatter, factor);
     Mode& mode = modes[line_of[c]];
-    if (scatter) state(*scatter, spread_over_orders(line, in.unfolded), lower_bound(mode, duration_s), factor, mode);
+    state(*scatter, spread_over_orders(line, in.unfolded), bound_of(mode), mode);
   }
-  return deviations.degrees_of_freedom;
+  out.degrees_of_freedom = deviations.degrees_of_freedom;
+  return out;
 }
 
 }  // namespace core

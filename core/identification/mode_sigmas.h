@@ -5,6 +5,7 @@
 
 #include "core/identification/camera_leakage.h"
 #include "core/identification/folding.h"
+#include "core/identification/mode_scatter.h"
 #include "core/identification/model_fit.h"
 #include "core/identification/neighbour_leakage.h"
 #include "core/identification/stabilisation.h"
@@ -27,8 +28,13 @@ struct SigmaInputs {
 
 // Standard deviations of all modes but numerical ones, for which they would be meaningless: from the blocks of the
 // record (uncertainty.h), raised by the overlap of the segments and by the spread of the line's poles over the model
-// orders, and never below the lower bound of any method. modes[i] belongs to lines[i]. Returns the degrees of freedom;
-// 0, and no sigma, for a record of one block.
-double state_sigmas(const SigmaInputs& inputs, const std::vector<PoleCluster>& lines, std::vector<Mode>& modes);
+// orders, and never below the lower bound of any method without a measured input. modes[i] and scatter[i] belong to
+// lines[i]; degrees_of_freedom is 0, and no sigma stated, for a record of one block.
+struct Sigmas {
+  double degrees_of_freedom = 0.0;
+  std::vector<std::optional<ModeScatter>> scatter;  // raised by the overlap
+};
+[[nodiscard]] Sigmas state_sigmas(const SigmaInputs& inputs, const std::vector<PoleCluster>& lines,
+                                  std::vector<Mode>& modes);
 
 }  // namespace core

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/identification/given_inputs.h"
+#include "core/identification/measured_inputs.h"
 #include "core/identification/prewhitening.h"
 #include "core/identification/uncertainty.h"
 
@@ -67,6 +69,9 @@ EraConfig era_config(const CpsdSums& sums, const IdentifierConfig& config, const
   era.block_rows = choose_block_rows(sums, config, channels.size());
   era.first_lag = 1 + n_differences;
   era.references = choose_references(config, channels);
+  if (!config.as_published) era.inputs = measured_inputs(sums, channels);
+  const auto is_input = [&](int c) { return std::find(era.inputs.begin(), era.inputs.end(), c) != era.inputs.end(); };
+  if (std::any_of(era.references.begin(), era.references.end(), is_input)) era.inputs.clear();
   era.above_canonical = 2 * (kMostOrders - 1);
   era.with_maps = sums.n_blocks >= kLeastScatterBlocks;
   return era;
@@ -133,8 +138,8 @@ std::string fit_model(const CpsdSums& sums, const IdentifierConfig& config, cons
                       : config.n_differences >= 0 ? config.n_differences
                                                   : choose_differences(sums, config.max_frequency_hz);
   out.era = era_config(sums, config, channels, out.n_differences);
-  const CorrelationStatus status = compute_correlations(sums, 2 * out.era.block_rows + out.era.first_lag,
-                                                        out.n_differences, out.correlations, {}, config.least_power);
+  const CorrelationStatus status =
+      compute_correlations(sums, furthest_lag(out.era), out.n_differences, out.correlations, {}, config.least_power);
   if (status == CorrelationStatus::kNoPower) return to_string(status) + still_channel(sums, channels);
   if (status != CorrelationStatus::kOk) return to_string(status);
   const EraStatus era_status =
@@ -142,7 +147,7 @@ std::string fit_model(const CpsdSums& sums, const IdentifierConfig& config, cons
   if (era_status != EraStatus::kOk) {
     return "the correlations carry no system: nothing moves, or the segment is too short";
   }
-  out.last_first_i_order = channels.size() < kLeastChannelsForMpc ? 0 : 1;
+  out.last_first_i_order = channels.size() - out.era.inputs.size() < kLeastChannelsForMpc ? 0 : 1;
   if (out.order == 0) out.last_first_i_order = -1;
   out.order = std::max(2, out.order);
   return "ok";

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/identification/block_hankel.h"
+#include "core/identification/given_inputs.h"
 #include "core/identification/hankel_gram.h"
 #include "core/identification/hankel_weights.h"
 #include "core/linear/dense.h"
@@ -31,7 +32,9 @@ GramStatus right_vectors(MatrixXd gram, const EraConfig& config, RightVectors& o
   const SymmetricEigen eigen(std::move(gram));
   out.s = eigen.values().cwiseMax(0.0).cwiseSqrt();
   if (!(out.s[0] > 0.0)) return GramStatus::kRankDeficient;
-  const Index order = wanted_order(config, out.s);
+  Index order = wanted_order(config, out.s);
+  // Given inputs there is no other decomposition: canonical correlations this small belong to no mode.
+  while (!config.inputs.empty() && order > 0 && out.s[order - 1] < kLeastSingularValue * out.s[0]) --order;
   if (order < 2) return GramStatus::kRankDeficient;
   if (out.s[order - 1] < kLeastSingularValue * out.s[0]) return GramStatus::kIllConditioned;
   out.v_t = eigen.leading_vectors(order).transpose();
@@ -87,24 +90,17 @@ GramStatus realise_plain(const Correlations& correlations, const EraConfig& conf
   return GramStatus::kOk;
 }
 
-GramStatus realise_weighted(const Correlations& correlations, const EraConfig& config, Realisation& out) {
-  const int p = config.block_rows;
-  const Index ny = correlations.n_channels();
-  const auto nr = static_cast<Index>(config.references.size());
-  const VectorXd scale = channel_scale(correlations);
-  // [H0, last block column of H1]: H1 is the same matrix one block column further.
-  const MatrixXd wide = block_hankel(correlations, config.references, scale, p, p + 1, config.first_lag);
-  if (!wide.allFinite()) return GramStatus::kRankDeficient;
-  MatrixXd left, right;  // [Lf; (Lf^-1 wide)^T], [Lp; G]
-  if (!factor_with_ridge(future_covariance(correlations, config, scale), wide.transpose(), left)) {
-    return GramStatus::kRankDeficient;
-  }
-  const Index n_rows = p * ny, n_columns = p * nr;
-  const MatrixXd half = left.bottomRows(n_columns + nr);
-  if (!factor_with_ridge(past_covariance(correlations, config, scale), half.topRows(n_columns).transpose(), right)) {
-    return GramStatus::kRankDeficient;
-  }
-  const MatrixXd g_t = right.bottomRows(n_rows).transpose();
+// Factored parts of a weighted Hankel matrix G = Lf^-1 H0 Lp^-T; Lp and G stacked.
+struct Weighted {
+  MatrixXd future;  // Lf
+  MatrixXd right;   // [Lp; G]
+  MatrixXd next_t;  // (Lf^-1 H1)^T
+};
+
+// ny: outputs, whose standard deviations are `scale`.
+GramStatus balance(const Weighted& by, const VectorXd& scale, const EraConfig& config, Realisation& out) {
+  const Index ny = scale.size(), n_rows = by.future.rows(), n_columns = by.right.cols();
+  const MatrixXd g_t = by.right.bottomRows(n_rows).transpose();
   RightVectors vectors;
   const GramStatus status = right_vectors(core::gram(g_t), config, vectors);
   if (status != GramStatus::kOk) return status;
@@ -115,26 +111,77 @@ GramStatus realise_weighted(const Correlations& correlations, const EraConfig& c
   const MatrixXd u_t = s.cwiseInverse().asDiagonal() * product(vectors.v_t, g_t);
   const MatrixXd by_root_u = root.cwiseInverse().asDiagonal() * u_t;
   MatrixXd right_map_t = by_root;
-  divide_by_lower(right_map_t, right.topRows(n_columns));
-  out.scale = scale;
+  divide_by_lower(right_map_t, by.right.topRows(n_columns));
   out.singular_values = vectors.s;
-  out.a = product_transposed(product_transposed(by_root_u, half.bottomRows(n_columns)), right_map_t);
-  out.c = seen(product_transposed(u_t.leftCols(ny), left.topLeftCorner(ny, ny)), scale, root);
-  out.c_last = seen(product_transposed(u_t, left.middleRows(n_rows - ny, ny)), scale, root);
-  out.n_steps = p - 1;
+  out.a = product_transposed(product_transposed(by_root_u, by.next_t), right_map_t);
+  out.c = seen(product_transposed(u_t.leftCols(ny), by.future.topLeftCorner(ny, ny)), scale, root);
+  out.c_last = seen(product_transposed(u_t, by.future.bottomRows(ny)), scale, root);
+  out.n_steps = config.block_rows - 1;
   if (config.with_maps) {
     out.left_map = by_root_u;
-    divide_by_lower(out.left_map, left.topRows(n_rows));
+    divide_by_lower(out.left_map, by.future);
     out.right_map = right_map_t.transpose();
   }
+  return GramStatus::kOk;
+}
+
+GramStatus realise_weighted(const Correlations& correlations, const EraConfig& config, Realisation& out) {
+  const int p = config.block_rows;
+  const auto nr = static_cast<Index>(config.references.size());
+  out.scale = channel_scale(correlations);
+  // [H0, last block column of H1]: H1 is the same matrix one block column further.
+  const MatrixXd wide = block_hankel(correlations, config.references, out.scale, p, p + 1, config.first_lag);
+  if (!wide.allFinite()) return GramStatus::kRankDeficient;
+  MatrixXd left;  // [Lf; (Lf^-1 wide)^T]
+  if (!factor_with_ridge(future_covariance(correlations, config, out.scale), wide.transpose(), left)) {
+    return GramStatus::kRankDeficient;
+  }
+  const Index n_rows = p * out.scale.size(), n_columns = p * nr;
+  const MatrixXd half = left.bottomRows(n_columns + nr);
+  Weighted by{left.topRows(n_rows), {}, half.bottomRows(n_columns)};
+  if (!factor_with_ridge(past_covariance(correlations, config, out.scale), half.topRows(n_columns).transpose(),
+                         by.right)) {
+    return GramStatus::kRankDeficient;
+  }
+  return balance(by, out.scale, config, out);
+}
+
+// Rows of all channels; those of inputs are zero.
+MatrixXd with_input_rows(const MatrixXd& outputs, const std::vector<int>& channels, Index n_channels) {
+  MatrixXd out = MatrixXd::Zero(n_channels, outputs.cols());
+  for (std::size_t i = 0; i < channels.size(); ++i) out.row(channels[i]) = outputs.row(static_cast<Index>(i));
+  return out;
+}
+
+GramStatus realise_given_inputs(const Correlations& correlations, const EraConfig& config, Realisation& out) {
+  out.scale = channel_scale(correlations);
+  const std::vector<int> outputs = given_inputs(config, correlations.n_channels()).future.channels;
+  VectorXd output_scale(static_cast<Index>(outputs.size()));
+  for (std::size_t i = 0; i < outputs.size(); ++i) output_scale[static_cast<Index>(i)] = out.scale[outputs[i]];
+  ConditionedHankel given;
+  if (!condition_on_inputs(correlations, config, out.scale, given)) return GramStatus::kRankDeficient;
+  const Index n_rows = given.future.rows(), n_columns = given.past.rows();
+  MatrixXd both(2 * n_columns, n_rows), left;  // [H0, H1]^T; [Lf; (Lf^-1 [H0, H1])^T]
+  both << given.hankel.topRows(n_rows).transpose(), given.hankel.bottomRows(n_rows).transpose();
+  if (!factor_with_ridge(given.future, both, left)) return GramStatus::kRankDeficient;
+  Weighted by{left.topRows(n_rows), {}, left.bottomRows(n_columns)};
+  if (!factor_with_ridge(given.past, left.middleRows(n_rows, n_columns).transpose(), by.right)) {
+    return GramStatus::kRankDeficient;
+  }
+  const GramStatus status = balance(by, output_scale, config, out);
+  if (status != GramStatus::kOk) return status;
+  for (MatrixXd* c : {&out.c, &out.c_last}) *c = with_input_rows(*c, outputs, out.scale.size());
+  out.by_input = std::move(given.by_input);
+  out.of_past = std::move(given.of_past);
   return GramStatus::kOk;
 }
 
 }  // namespace
 
 GramStatus realise_by_gram(const Correlations& correlations, const EraConfig& config, Realisation& out) {
-  return config.canonical_variates ? realise_weighted(correlations, config, out)
-                                   : realise_plain(correlations, config, out);
+  if (!config.canonical_variates) return realise_plain(correlations, config, out);
+  return config.inputs.empty() ? realise_weighted(correlations, config, out)
+                               : realise_given_inputs(correlations, config, out);
 }
 
 }  // namespace core

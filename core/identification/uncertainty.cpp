@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "core/identification/given_inputs.h"
+#include "core/identification/hankel_changes.h"
 #include "core/linear/dense.h"
 
 namespace core {
@@ -74,7 +75,9 @@ class PoleResponse {
 class PoleChanges {
  public:
   PoleChanges(const Realisation& realisation, const EraConfig& config, const std::vector<PoleOfOrder>& poles)
-      : realisation_(realisation), config_(config) {
+      : realisation_(realisation),
+        config_(config),
+        outputs_(given_inputs(config, static_cast<int>(realisation.scale.size())).future.channels) {
     directions_ = Eigen::MatrixXd::Zero(realisation.right_map.rows(), 2 * static_cast<Index>(poles.size()));
     for (std::size_t p = 0; p < poles.size(); ++p) {
       poles_.emplace_back(realisation, poles[p]);
@@ -88,8 +91,9 @@ class PoleChanges {
 
   // [pole][block]: changes of each pole caused by each block.
   [[nodiscard]] std::vector<std::vector<PoleChange>> of(const BlockDeviations& deviations) const {
-    const Index ny = realisation_.scale.size(), rows = realisation_.left_map.cols();
-    const Eigen::MatrixXd moved = hankel_times_directions(deviations);
+    const Index ny = static_cast<Index>(outputs_.size()), rows = realisation_.left_map.cols();
+    // One block row more than H0 has, because H1 is the same matrix without its first.
+    const Eigen::MatrixXd moved = hankel_changes(realisation_, config_, deviations, directions_);
     const Eigen::MatrixXd by_h0 = left_times(moved.topRows(rows)), by_h1 = left_times(moved.bottomRows(rows));
     std::vector<std::vector<PoleChange>> changes(poles_.size());
     const auto column = [](const Eigen::MatrixXd& m, Index re, Index n) {
@@ -110,27 +114,6 @@ class PoleChanges {
   }
 
  private:
-  // dH right_map psi. Rows: one block row more than H0 has, because H1 is the same matrix without its first. Columns:
-  // (block of the record, pole, real or imaginary part). A block row of the Hankel matrix is a sequence of lags.
-  [[nodiscard]] Eigen::MatrixXd hankel_times_directions(const BlockDeviations& deviations) const {
-    const Index ny = realisation_.scale.size(), nr = static_cast<Index>(config_.references.size());
-    const Index height = deviations.value.rows(), width = config_.block_rows * nr, n_columns = directions_.cols();
-    Eigen::MatrixXd of_unit_variance = deviations.value;
-    for (Index r = 0; r < height; ++r) of_unit_variance.row(r) /= realisation_.scale[r % ny];
-    for (Index c = 0; c < of_unit_variance.cols(); ++c) {
-      of_unit_variance.col(c) /= realisation_.scale[config_.references[static_cast<std::size_t>(c % nr)]];
-    }
-    Eigen::MatrixXd out((config_.block_rows + 1) * ny, deviations.n_blocks * n_columns), y(height, n_columns);
-    for (Index a = 0; a <= config_.block_rows; ++a) {
-      y.setZero();
-      add_product(y, 1.0, of_unit_variance.middleCols(a * nr, width), directions_);
-      for (Index block = 0; block < deviations.n_blocks; ++block) {
-        out.block(a * ny, block * n_columns, ny, n_columns) = y.middleRows(block * ny, ny);
-      }
-    }
-    return out;
-  }
-
   [[nodiscard]] Eigen::MatrixXd left_times(const Eigen::Ref<const Eigen::MatrixXd>& moved) const {
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(realisation_.left_map.rows(), moved.cols());
     add_product(out, 1.0, realisation_.left_map, moved);
@@ -146,45 +129,21 @@ class PoleChanges {
     const PoleResponse& pole = poles_[p];
     const Index n = pole.psi.size();
     const Eigen::VectorXcd moved = pole.to(by.by_h1 - lambda_[p] * by.by_h0);
-    const Eigen::VectorXcd top = realisation_.scale.cast<Complex>().cwiseProduct(by.top);
+    Eigen::VectorXcd top = Eigen::VectorXcd::Zero(realisation_.scale.size());
+    for (std::size_t i = 0; i < outputs_.size(); ++i) {
+      top[outputs_[i]] = realisation_.scale[outputs_[i]] * by.top[static_cast<Index>(i)];
+    }
     const Eigen::VectorXcd shape = pole.factor * (top + realisation_.c.leftCols(n) * moved.head(n));
     return {moved[n], {shape.begin(), shape.end()}};
   }
 
   const Realisation& realisation_;
   const EraConfig& config_;
+  std::vector<int> outputs_;  // all channels but the inputs
   std::vector<PoleResponse> poles_;
   std::vector<Complex> lambda_;
   Eigen::MatrixXd directions_;  // right_map psi of every pole: real and imaginary parts
 };
-
-// Change of the continuous pole and of the stated shape caused by one block.
-struct StatedChange {
-  Complex s;
-  std::vector<double> shape;
-};
-
-StatedChange stated_change(const PoleOfOrder& pole, const FoldingConfig& folding, int fold_n,
-                           const PoleChange& change) {
-  const Complex s =
-      std::log(pole.pole.lambda) * folding.rate_hz + Complex(0.0, 2.0 * std::numbers::pi * fold_n * folding.rate_hz);
-  StatedChange out{change.lambda / pole.pole.lambda * folding.rate_hz, {}};
-  const std::size_t n = pole.pole.shape.size();
-  std::vector<Complex> x(n), dx(n);
-  std::size_t m = 0;
-  for (std::size_t c = 0; c < n; ++c) {
-    const double delay_s = c < folding.delay_s.size() ? folding.delay_s[c] : 0.0;
-    const int n_integrations = c < folding.n_integrations.size() ? folding.n_integrations[c] : 0;
-    const Complex undone = std::exp(-s * delay_s) / std::pow(s, n_integrations);
-    x[c] = pole.pole.shape[c] * undone;
-    dx[c] =
-        (change.shape[c] - (delay_s + static_cast<double>(n_integrations) / s) * out.s * pole.pole.shape[c]) * undone;
-    if (std::norm(x[c]) > std::norm(x[m])) m = c;
-  }
-  for (std::size_t c = 0; c < n; ++c) out.shape.push_back(((dx[c] - x[c] / x[m] * dx[m]) / x[m]).real());
-  if (s.imag() < 0.0) out.s = std::conj(out.s);  // the real parts of a shape equal those of its conjugate
-  return out;
-}
 
 }  // namespace
 
@@ -193,31 +152,6 @@ std::vector<std::vector<PoleChange>> pole_changes(const Realisation& realisation
                                                   const std::vector<PoleOfOrder>& poles) {
   if (poles.empty() || deviations.n_blocks == 0) return std::vector<std::vector<PoleChange>>(poles.size());
   return PoleChanges(realisation, config, poles).of(deviations);
-}
-
-std::optional<ModeScatter> mode_scatter(const PoleOfOrder& pole, const UnfoldedPole& unfolded,
-                                        const FoldingConfig& folding, const std::vector<PoleChange>& changes) {
-  if (changes.size() < kLeastScatterBlocks) return std::nullopt;
-  const double size = std::abs(unfolded.s), zeta = -unfolded.s.real() / size;
-  ModeScatter sum;
-  sum.shape.assign(pole.pole.shape.size(), 0.0);
-  for (const PoleChange& change : changes) {
-    const StatedChange moved = stated_change(pole, folding, unfolded.fold_n.value_or(0), change);
-    const double d_size = (std::conj(unfolded.s) * moved.s).real() / size;
-    const double d_zeta = -(moved.s.real() + zeta * d_size) / size;
-    sum.frequency_hz += d_size * d_size;
-    sum.damping_ratio += d_zeta * d_zeta;
-    for (std::size_t c = 0; c < sum.shape.size(); ++c) sum.shape[c] += moved.shape[c] * moved.shape[c];
-  }
-  const auto k = static_cast<double>(changes.size());
-  const auto root = [k](double squares) { return std::sqrt(squares * k / (k - 1.0)); };
-  ModeScatter out{root(sum.frequency_hz) / (2.0 * std::numbers::pi), root(sum.damping_ratio), {}};
-  bool finite = std::isfinite(out.frequency_hz) && std::isfinite(out.damping_ratio);
-  for (const double squares : sum.shape) {
-    out.shape.push_back(root(squares));
-    finite = finite && std::isfinite(out.shape.back());
-  }
-  return finite ? std::optional(std::move(out)) : std::nullopt;
 }
 
 double student_95(double degrees_of_freedom) noexcept {

@@ -6,7 +6,6 @@
 
 #include "core/identification/block_deviations.h"
 #include "core/identification/era.h"
-#include "core/identification/folding.h"
 #include "core/types/modal_estimate.h"
 
 namespace core {
@@ -31,21 +30,11 @@ struct PoleOfOrder {
   DiscretePole pole;  // from poles_of_order()
 };
 
-// Indexed [pole][block]. `deviations` contain 2 block_rows lags from the realisation's first lag on. Empty for a pole
-// that is not found again.
+// Indexed [pole][block]. `deviations`: of the references and lags of hankel_changes.h. Empty for a pole that is not
+// found again.
 [[nodiscard]] std::vector<std::vector<PoleChange>> pole_changes(const Realisation& realisation, const EraConfig& config,
                                                                 const BlockDeviations& deviations,
                                                                 const std::vector<PoleOfOrder>& poles);
-
-struct ModeScatter {
-  double frequency_hz = 0.0, damping_ratio = 0.0;
-  std::vector<double> shape;  // of the components' real parts; the largest component is 1
-};
-// Propagates the changes through the logarithm, the alias order and the row delays. Empty with too few blocks, or if
-// the result is not finite.
-[[nodiscard]] std::optional<ModeScatter> mode_scatter(const PoleOfOrder& pole, const UnfoldedPole& unfolded,
-                                                      const FoldingConfig& folding,
-                                                      const std::vector<PoleChange>& changes);
 
 // Half width of the two-sided 95 % interval in standard deviations (Student's t; between integer degrees of freedom,
 // linear in their reciprocal).

@@ -13,7 +13,6 @@ namespace core {
 
 // Limits by which a cluster is classified as a mode of the structure.
 struct VerdictRules {
-  double min_mpc = 0.8;
   double max_damping = 0.15;
   double max_apparent_hz = 0.0;  // apparent frequencies above: transition band of a preceding filter; 0 = none
   double min_presence = 0.85;    // share of the orders
@@ -27,13 +26,15 @@ struct VerdictRules {
   double no_base_peak = 0.7;            // up to max_noisy_share a smooth base spectrum decides: below this height ...
   double no_peak_sigmas = 2.0;          // ... and within this many of its sigmas
   double max_noisy_share = 0.6;         // above, the base moves as the structure does
+  bool base_is_input = false;           // the base is a measured input: its component is 0 in every shape
+  double max_alike_mac = 0.9;           // MAC of the other channels with equal motion ...
+  double most_input_coherence = 0.5;    // ... and coherence with the input, without a resonance: a peak of the input
   double max_uniform_mac = 0.98;        // MAC with equal motion of all channels, i.e. camera translation
   double max_witness_share = 0.9;       // share of the shape's square that is camera motion according to static regions
   double min_camera_mac = 0.95;         // MAC with a vibrating camera, at a frequency where no mode is expected
   double max_late_damping = 0.001;      // of a steady force, over the longest lags of a segment
   double min_late_share = 0.86;         // ... and at least this share of the correlation must remain there
-  double least_certain_mpc = 0.85;      // a folded frequency is certain above this MPC ...
-  double least_fold_margin = 0.3;       // ... and with this lead over the next hypothesis
+  double least_fold_margin = 0.3;       // a folded frequency is certain with this lead over the next hypothesis
   double max_published_base_share = 0.3;
   double max_frequency_hz = 0.0;  // modes are not searched for above it; 0 = no limit
   // Record properties needed for a verdict. With too few cycles, or samples per Hankel row, a pole stays a candidate.
@@ -56,15 +57,5 @@ void reject_lone_motion(Mode& mode, const std::string& channel, double seen);
 
 // Writes mode numbers by frequency into the reasons, as in Table 1 of the paper.
 void number_by_frequency(std::vector<Mode>& modes);
-
-// Of two structural modes closer than their half-power widths the one that is less in phase is a mixture with the other
-// (a third one folds onto them) if its shape, without its projection on the other's, has an MPC below 0.7; with MAC >
-// 0.9, where only noise remains, if its own MPC is below 0.9. It becomes numerical, and its reason says so.
-void reject_mixtures(std::vector<Mode>& modes);
-
-// Of two structural modes with MAC > 0.9 within 6 % one that has less than 0.1 % of damping, and less than a third of
-// the other's, is a steady force beside it (harmonic). Else the one found in fewer orders is a twin (often an amplitude
-// dependence of the same mode): it becomes numerical, and its reason says so.
-void reject_twins(std::vector<Mode>& modes);
 
 }  // namespace core

@@ -170,6 +170,8 @@ constexpr std::array kChecks{
     Check{"geometry-pixels-drawn", "the same with camera, structure and noise drawn",
           geometry<print_geometry_pixels, true>, kFlights | kReport},
     Check{"trust-modes", "every mode of a record, and the intervals stated", geometry<print_trust_modes>, kFlights},
+    Check{"trust-camera", "the modes of a record under a shaking camera, beside those under a still one",
+          geometry<print_trust_camera>, kFlights},
     Check{"trust-losses", "the modes of a record that losses of frames hide", geometry<print_trust_losses>,
           kRecords | kDuration},
     Check{"changes-flights", "thirty flights over two years, one storey loses --strength of its stiffness; in --report",

@@ -9,6 +9,9 @@ namespace tools {
 // lines.
 void print_trust_modes(const GeometryOptions& options);
 
+// Modes found under a camera that shakes and turns, and under the hover alone, by each way of following the camera.
+void print_trust_camera(const GeometryOptions& options);
+
 // Modes of drawn storeys that are found in the full record, and of them those found after frames were lost one by one
 // or in bursts of one to ten.
 void print_trust_losses(const GeometryOptions& options);

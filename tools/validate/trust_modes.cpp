@@ -44,7 +44,7 @@ Inside shape_inside(const Mode& mode, const Shape& truth, double t_95) {
     if (std::norm(mode.shape[c]) > std::norm(mode.shape[largest])) largest = c;
   }
   for (std::size_t c = 0; c < mode.shape_std.size(); ++c) {
-    if (c == largest) continue;
+    if (c == largest || mode.shape_std[c] == 0.0) continue;  // 1, or 0 of a measured input, by definition
     ++out.of;
     const double off = mode.shape[c].real() - (truth[c] / truth[largest]).real();
     if (std::abs(off) <= t_95 * mode.shape_std[c]) ++out.n;

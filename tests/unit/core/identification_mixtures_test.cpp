@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/identification/mac.h"
-#include "core/identification/verdict.h"
+#include "core/identification/similar_modes.h"
 
 namespace core {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/identification/verdict.h"
+#include "core/identification/similar_modes.h"
 
 namespace core {
 namespace {

@@ -163,14 +163,6 @@ TEST(Verdict, APoleOfFewOrdersOrOfHighOrdersOnlyIsNumerical) {
   EXPECT_NE(mode.reason.find("order 12"), std::string::npos) << mode.reason;
 }
 
-TEST(Verdict, ComponentsOutOfPhaseAreNumerical) {
-  PoleCluster cluster = flawless();
-  cluster.representative.mpc = 0.5;
-  const Mode mode = judged(cluster);
-  EXPECT_EQ(mode.verdict, Verdict::kNumerical);
-  EXPECT_NE(mode.reason.find("MPC"), std::string::npos);
-}
-
 TEST(Verdict, AFoldWithoutAClearLeadIsAmbiguous) {
   PoleCluster cluster = flawless();
   cluster.representative.fold_n = -1;

@@ -1,0 +1,56 @@
+#include "core/identification/phase_verdict.h"
+
+#include "core/identification/phase_line.h"
+#include "core/identification/verdict_words.h"
+
+namespace core {
+
+namespace {
+
+constexpr double kChance = 2.5;  // times the expected share beside the line: 95 % of shapes in phase have less
+constexpr double kLeastCertainMpc = 0.85;  // of a folded mode
+constexpr double kLeastKnownWidth = 0.35;  // sigma of the frequency, of zeta f (half the half-power width)
+
+bool is_open(const Mode& mode) {
+  return mode.verdict == Verdict::kStructural || mode.verdict == Verdict::kAmbiguous ||
+         mode.verdict == Verdict::kCandidate;
+}
+
+bool is_within_chance(const Mode& mode, const std::optional<ModeScatter>& scatter) {
+  if (!scatter || !mode.frequency_std_hz) return false;
+  return share_beside_line(mode.mpc) <= kChance * scatter->beside_line &&
+         *mode.frequency_std_hz < kLeastKnownWidth * mode.damping_ratio * mode.frequency_hz;
+}
+
+void reject(double min_mpc, Mode& mode) {
+  set(mode, Verdict::kNumerical, in_words("components not in phase: MPC %.2f < %.2f", mode.mpc, min_mpc));
+  mode.frequency_std_hz.reset(), mode.damping_std.reset(), mode.shape_std.clear();
+}
+
+}  // namespace
+
+void reject_out_of_phase(double min_mpc, const Sigmas& sigmas, std::vector<Mode>& modes) {
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    Mode& mode = modes[i];
+    const bool is_uncertain_fold = mode.fold_n && mode.mpc < kLeastCertainMpc;
+    if (!is_open(mode) || (mode.mpc >= min_mpc && !is_uncertain_fold)) continue;
+    if (is_within_chance(mode, sigmas.scatter[i])) {
+      mode.reason += "; its phases differ no more than they scatter";
+    } else if (mode.mpc < min_mpc) {
+      reject(min_mpc, mode);
+    } else if (mode.verdict == Verdict::kStructural) {
+      set(mode, Verdict::kAmbiguous,
+          in_words("a mode, but its alias order is open: fold margin %.2f, MPC %.2f", *mode.fold_margin, mode.mpc));
+    }
+  }
+}
+
+void state_along_line(const Sigmas& sigmas, std::vector<Mode>& modes) {
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    if (!is_open(modes[i]) || !is_within_chance(modes[i], sigmas.scatter[i])) continue;
+    modes[i].shape = along_phase_line(modes[i].shape);
+    modes[i].shape_std = sigmas.scatter[i]->along;
+  }
+}
+
+}  // namespace core
